@@ -1,0 +1,3 @@
+//! Contact surfaces.
+
+pub mod settings;

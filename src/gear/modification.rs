@@ -1,0 +1,40 @@
+//! Deliberate deviations of the flank from the involute, as data.
+//!
+//! Each is an amount of material removed along the flank normal; [`super::flank`] turns them into the field that every
+//! contact model reads. Lengths are roll lengths: differences of the radius of curvature ρ of the transverse involute,
+//! which are lengths along the path of contact (ISO 21771-1, profile modifications).
+
+/// How a relief grows from its start to its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ReliefShape {
+    /// In proportion to the roll length from the start.
+    #[default]
+    Linear,
+    /// With the square of the roll length from the start: no kink where it begins.
+    Parabolic,
+}
+
+/// Tip or root relief.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Relief {
+    /// Removed at the tip circle (tip relief) or at the start of active profile (root relief), mm.
+    pub amount_mm: f64,
+    /// Roll length over which it runs out, mm.
+    pub length_mm: f64,
+    /// Its shape.
+    pub shape: ReliefShape,
+}
+
+/// All modifications of one flank; the default is the plain involute.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Modification {
+    /// Relief towards the tip.
+    pub tip_relief: Option<Relief>,
+    /// Relief towards the root.
+    pub root_relief: Option<Relief>,
+    /// Height of the profile crowning (parabola over the active profile, nothing removed at its middle), mm.
+    pub profile_crowning_mm: f64,
+    /// Radius of the rounding of the tip edge, mm.
+    pub tip_rounding_mm: f64,
+}

@@ -1,0 +1,21 @@
+//! **gearwear** predicts how the flanks of a gear pair wear, and what the wear does to pressure, load sharing and
+//! transmission error.
+//!
+//! Everything flows one way, and the modules stand in that order:
+//!
+//! ```text
+//! scene (what is asked) → plan (which stages it needs) → gear geometry → stiffness and contact
+//!       → working cycle (who carries how much, where) → wear law and stepping → results → report
+//! ```
+//!
+//! Inside the program one consistent system of units is used: mm, N, MPa, s, K; angles are in radians. Public names
+//! carry their unit (`centre_distance_mm`), and quantities of helical gears say *normal* or *transverse*.
+//!
+//! `ARCHITECTURE.md` is the map of the code, `docs/theory.md` the derivations that the modules cite.
+
+pub mod gear;
+pub mod scene;
+pub mod simulation;
+pub mod contact;
+pub mod stiffness;
+pub mod wear;

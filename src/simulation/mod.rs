@@ -1,0 +1,4 @@
+//! The wear run.
+
+pub mod record;
+pub mod settings;

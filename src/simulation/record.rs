@@ -1,0 +1,359 @@
+//! Everything a run leaves behind, as plain data in the units of the output files: what the reports read.
+//!
+//! Field names are the contract's column and key names, so that serialising a record is writing the file.
+
+use serde::Serialize;
+
+use crate::gear::PerGear;
+
+/// A finished (or interrupted) run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RunRecord {
+    /// What `summary.json` holds.
+    pub summary: Summary,
+    /// The resolved scene as TOML.
+    pub scene_toml: String,
+    /// Both flanks, point by point.
+    pub flanks: PerGear<FlankRecord>,
+    /// One row per snapshot reached.
+    pub history: Vec<HistoryRow>,
+    /// One row per loading position.
+    pub mesh_cycle: Vec<MeshCycleRow>,
+    /// The pair in mesh, to scale.
+    pub drawing: PairDrawing,
+}
+
+/// `summary.json`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    /// The scene's title.
+    pub title: String,
+    /// Version of the program.
+    pub program_version: String,
+    /// First 16 hexadecimal digits of the SHA-256 of the resolved scene.
+    pub scene_hash: String,
+    /// Why the run ended.
+    pub stopped: StopReason,
+    /// Hours reached; `None` where the scene gives no speed.
+    pub hours: Option<f64>,
+    /// Pinion revolutions reached.
+    pub revolutions: f64,
+    /// The stages carried out, in order, with their wall time.
+    pub stages: Vec<StageTime>,
+    /// The stages left out, with the reason.
+    pub left_out: Vec<StageLeftOut>,
+    /// Wall time of the whole run until the report is written, s.
+    pub wall_s: f64,
+    /// Of the pair.
+    pub geometry: GeometrySummary,
+    /// Of the contact at the pitch point with the whole load.
+    pub contact: ContactSummary,
+    /// Of the tooth pair.
+    pub stiffness: StiffnessSummary,
+    /// The working cycle of the unworn pair.
+    pub new: CycleSummary,
+    /// The working cycle of the worn pair.
+    pub worn: CycleSummary,
+    /// Wear of one pinion flank.
+    pub pinion: WearSummary,
+    /// Wear of one wheel flank.
+    pub wheel: WearSummary,
+    /// Estimated errors.
+    pub error: ErrorSummary,
+    /// Work done by the simulation.
+    pub work: WorkSummary,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// Why a wear run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum StopReason {
+    /// The whole duration was run.
+    Completed,
+    /// The user interrupted it; what was finished is kept.
+    Interrupted,
+}
+
+/// A stage and how long it took.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StageTime {
+    /// Name of the stage.
+    pub name: String,
+    /// Wall time, s.
+    pub wall_s: f64,
+}
+
+/// A stage that the scene does not need.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StageLeftOut {
+    /// Name of the stage.
+    pub name: String,
+    /// Why it is left out.
+    pub reason: String,
+}
+
+/// Geometry of the pair.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GeometrySummary {
+    /// ε_α.
+    pub transverse_contact_ratio: f64,
+    /// ε_β.
+    pub overlap_ratio: f64,
+    /// Transverse base pitch p_bt, mm.
+    pub base_pitch_mm: f64,
+    /// Transverse working pressure angle α_wt, degrees.
+    pub working_pressure_angle_deg: f64,
+    /// Radius of curvature of the pinion's flank at A–E, mm.
+    pub curvature_radius_mm: PathPoints,
+    /// Index of the pinion's pitch circle on a flank of 750 points.
+    pub pitch_point_index: f64,
+    /// Length T1T2 of the line of action between the base circles, mm.
+    pub line_of_action_mm: f64,
+    /// Circumferential backlash on the working circles, transverse, mm.
+    pub backlash_mm: f64,
+    /// Diameters and other data of each gear.
+    pub gears: PerGear<GearSummary>,
+}
+
+/// A value at each of the points A–E of the path of contact.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[allow(non_snake_case, reason = "the points' names")]
+pub struct PathPoints {
+    /// Start of contact.
+    pub A: f64,
+    /// Lower point of single-pair contact on the pinion.
+    pub B: f64,
+    /// Pitch point.
+    pub C: f64,
+    /// Upper point of single-pair contact on the pinion.
+    pub D: f64,
+    /// End of contact.
+    pub E: f64,
+}
+
+/// Diameters and other data of one gear, mm.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names of ISO 21771 say it")]
+pub struct GearSummary {
+    pub teeth: u32,
+    pub reference_diameter_mm: f64,
+    pub base_diameter_mm: f64,
+    pub working_pitch_diameter_mm: f64,
+    pub tip_diameter_mm: f64,
+    pub root_diameter_mm: f64,
+    /// Where the involute begins.
+    pub root_form_diameter_mm: f64,
+    /// Start of active profile (SAP): where contact ends towards the root.
+    pub start_of_active_profile_diameter_mm: f64,
+    /// Transverse, at the reference circle.
+    pub tooth_thickness_mm: f64,
+    /// Transverse, at the tip circle.
+    pub tip_thickness_mm: f64,
+    pub tip_clearance_mm: f64,
+    pub undercut: bool,
+}
+
+/// Contact at the pitch point with the whole load.
+#[allow(non_snake_case, reason = "the contract's key names")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ContactSummary {
+    /// Name of the surface model.
+    pub surface: String,
+    /// Whole torque over base radius and face width.
+    pub line_load_N_per_mm: f64,
+    /// K/H, where the surface has one.
+    pub foundation_MPa_per_mm: Option<f64>,
+    /// Hertz's half-width a.
+    pub hertz_half_width_mm: f64,
+    /// Hertz's greatest pressure.
+    pub hertz_peak_pressure_MPa: f64,
+}
+
+/// Stiffness of a tooth pair per mm of face width.
+#[allow(non_snake_case, reason = "the contract's key names")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StiffnessSummary {
+    /// Name of the stiffness model.
+    pub model: String,
+    /// Line load at which the spring of the teeth and the contact surface together have the model's compliance.
+    pub reference_line_load_N_per_mm: f64,
+    /// Whole pair with flattening, at C and the reference load.
+    pub pair_at_pitch_N_per_mm_um: f64,
+    /// Tooth spring alone, at C.
+    pub teeth_at_pitch_N_per_mm_um: f64,
+    /// What the split leaves over: relative difference between the surface's and the true flattening's share of the
+    /// pair's approach at C at half the reference load; `None` where the model states no flattening.
+    pub split_remainder_at_half_load: Option<f64>,
+}
+
+/// One working cycle in figures.
+#[allow(non_snake_case, reason = "the contract's key names")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CycleSummary {
+    /// Greatest pressure anywhere on the flanks.
+    pub peak_pressure_MPa: f64,
+    /// Greatest pressure with the theoretical contact point at C.
+    pub pitch_pressure_MPa: f64,
+    /// Loaded transmission error over the cycle.
+    pub transmission_error_um: RangeSummary,
+}
+
+/// Extremes and their difference.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RangeSummary {
+    /// Least value.
+    pub min: f64,
+    /// Greatest value.
+    pub max: f64,
+    /// Difference.
+    pub peak_to_peak: f64,
+}
+
+/// Wear of a gear.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WearSummary {
+    /// Greatest wear depth on the flank.
+    pub peak_wear_um: f64,
+    /// Radius where it is.
+    pub peak_wear_radius_mm: f64,
+    /// Greatest wear depth in the first 2 mm of radius above the start of active profile.
+    pub root_wear_um: f64,
+    /// Wear depth at the working pitch circle.
+    pub pitch_wear_um: f64,
+    /// Worn off the whole gear: all teeth, whole width.
+    pub worn_volume_mm3: f64,
+    /// Worn off the whole gear: all teeth, whole width.
+    pub worn_mass_mg: f64,
+}
+
+/// Relative error estimates of the pinion's peak wear; `None`: not estimated.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct ErrorSummary {
+    /// From the spacing of flank points and positions.
+    pub discretisation: Option<f64>,
+    /// From the length of the wear step.
+    pub wear_step: Option<f64>,
+    /// From the contact surface, against the finite-element reference.
+    pub surface_model: Option<f64>,
+    /// How each was obtained, or why it was not.
+    pub how: ErrorSources,
+}
+
+/// How the error estimates were obtained.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[allow(missing_docs, reason = "named as in ErrorSummary")]
+pub struct ErrorSources {
+    pub discretisation: String,
+    pub wear_step: String,
+    pub surface_model: String,
+}
+
+/// Work done by the wear simulation alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct WorkSummary {
+    /// Wear steps taken.
+    pub wear_steps: u64,
+    /// Working cycles evaluated: one per wear step, and one per observation (new, snapshots, worn).
+    pub mesh_cycles: u64,
+    /// Equilibria solved: working cycles × positions.
+    pub equilibria: u64,
+    /// Newton iterations in all equilibria together.
+    pub newton_iterations: u64,
+    /// Evaluations of a tooth pair's contact.
+    pub pair_evaluations: u64,
+}
+
+/// One flank, root to tip; all vectors have the same length.
+#[allow(non_snake_case, reason = "the contract's column names")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FlankRecord {
+    /// Distance from the gear's axis, from base circle to tip circle.
+    pub radius_mm: Vec<f64>,
+    /// Roll angle ρ/r_b of the transverse involute.
+    pub roll_angle_deg: Vec<f64>,
+    /// Place over the face width: its middle.
+    pub width_mm: f64,
+    /// Material removed by the modifications.
+    pub removed_um: Vec<f64>,
+    /// Distance the point slides against the other flank during one mesh, new.
+    pub sliding_mm_per_mesh: Vec<f64>,
+    /// Wear depth at the end of the run.
+    pub wear_um: Vec<f64>,
+    /// Greatest pressure during one mesh, new.
+    pub pressure_new_MPa: Vec<f64>,
+    /// Greatest pressure during one mesh, worn.
+    pub pressure_worn_MPa: Vec<f64>,
+    /// Wear depth at each snapshot of the history.
+    pub snapshot_wear_um: Vec<Vec<f64>>,
+    /// Radii worth marking: start of active profile (A on the pinion, E on the wheel) to tip.
+    pub path_point_radius_mm: PathPoints,
+}
+
+/// A row of `history.csv`.
+#[allow(non_snake_case, reason = "the contract's column names")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct HistoryRow {
+    pub hours: Option<f64>,
+    pub revolutions: f64,
+    pub pinion_peak_wear_um: f64,
+    pub pinion_root_wear_um: f64,
+    pub pinion_pitch_wear_um: f64,
+    pub wheel_peak_wear_um: f64,
+    pub peak_pressure_MPa: f64,
+    pub transmission_error_peak_to_peak_um: f64,
+    pub pinion_peak_wear_radius_mm: f64,
+    /// At the start of active profile.
+    pub pinion_sap_wear_um: f64,
+    /// Wear per million pinion revolutions at the start of active profile.
+    pub pinion_sap_wear_rate_um_per_Mrev: f64,
+}
+
+/// A row of `mesh_cycle.csv`: the reference pair at one loading position.
+#[allow(non_snake_case, reason = "the contract's column names")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct MeshCycleRow {
+    /// The pinion's radius of curvature at the theoretical contact point.
+    pub position_mm: f64,
+    pub load_share_new: f64,
+    pub load_share_worn: f64,
+    pub peak_pressure_new_MPa: f64,
+    pub peak_pressure_worn_MPa: f64,
+    /// Half the extent of the contact strip, new.
+    pub half_width_mm: f64,
+    pub transmission_error_new_um: f64,
+    pub transmission_error_worn_um: f64,
+    /// `None` where no temperature is computed.
+    pub temperature_rise_K: Option<f64>,
+    /// Half the extent of the contact strip, worn.
+    pub half_width_worn_mm: f64,
+}
+
+/// The pair in mesh in the transverse section, mm; the pinion's axis is the origin and the wheel's lies on +y.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PairDrawing {
+    /// Closed outline of each whole gear in its place.
+    pub outline: PerGear<Vec<[f64; 2]>>,
+    /// Axis of each gear.
+    pub axis: PerGear<[f64; 2]>,
+    /// Bore radius of each gear, where given.
+    pub bore_radius_mm: PerGear<Option<f64>>,
+    /// Base, working pitch and tip radius of each gear.
+    pub circles_mm: PerGear<GearCircles>,
+    /// Where the line of action touches the base circles: T1, T2.
+    pub line_of_action: [[f64; 2]; 2],
+    /// Points A–E with their names, in the order of contact.
+    pub path_of_contact: Vec<(String, [f64; 2])>,
+}
+
+/// Radii of the circles drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct GearCircles {
+    pub base: f64,
+    pub working_pitch: f64,
+    pub tip: f64,
+}

@@ -1,0 +1,3 @@
+//! Tooth-stiffness curves.
+
+pub mod settings;

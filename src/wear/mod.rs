@@ -1,0 +1,3 @@
+//! Wear laws and stepping.
+
+pub mod settings;
