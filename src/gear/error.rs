@@ -1,0 +1,109 @@
+//! Why a gear pair cannot exist or cannot run.
+
+use super::per_gear::Gear;
+
+/// What is wrong with the geometry of a pair; diameters and lengths in mm, transverse.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PairError {
+    /// The base circles overlap: no line of action.
+    #[error("the base circles overlap at centre distance {centre_distance_mm} mm: it must exceed {least_mm:.4} mm")]
+    NoMesh {
+        /// As given.
+        centre_distance_mm: f64,
+        /// Sum of the base radii.
+        least_mm: f64,
+    },
+    /// The teeth jam: together they are thicker than the pitch on the working circles.
+    #[error("the teeth jam: backlash is {backlash_mm:.4} mm at centre distance {centre_distance_mm} mm")]
+    NegativeBacklash {
+        /// Circumferential, on the working pitch circles.
+        backlash_mm: f64,
+        /// As given.
+        centre_distance_mm: f64,
+        /// Centre distance without backlash.
+        least_mm: f64,
+    },
+    /// A tooth leaves the mesh before the next one enters.
+    #[error("transverse contact ratio is {contact_ratio:.4}: it must be at least 1")]
+    ContactRatioBelowOne {
+        /// ε_α; 0 where the tip circles do not reach each other.
+        contact_ratio: f64,
+    },
+    /// The flanks meet before the tip circle.
+    #[error("the {} tooth is pointed: its tip thickness is {tip_thickness_mm:.4} mm", .gear.name())]
+    PointedTooth {
+        /// Which gear.
+        gear: Gear,
+        /// Transverse, at the tip circle; negative: the flanks cross below it.
+        tip_thickness_mm: f64,
+        /// Given or derived.
+        tip_diameter_mm: f64,
+        /// Where the flanks meet.
+        pointed_diameter_mm: f64,
+    },
+    /// There is no involute flank at all.
+    #[error("the {} tip circle ({tip_diameter_mm:.4} mm) lies inside the base circle ({base_diameter_mm:.4} mm)", .gear.name())]
+    TipBelowBase {
+        /// Which gear.
+        gear: Gear,
+        /// Given or derived.
+        tip_diameter_mm: f64,
+        /// d_b.
+        base_diameter_mm: f64,
+    },
+    /// Contact would have to take place where the flank is no involute.
+    #[error(
+        "interference on the {}: contact reaches down to diameter {contact_diameter_mm:.4} mm, \
+         but its involute begins at {form_diameter_mm:.4} mm", .gear.name()
+    )]
+    Interference {
+        /// Which gear.
+        gear: Gear,
+        /// Diameter the mate's tip reaches down to; NaN where it passes beyond the base tangent point.
+        contact_diameter_mm: f64,
+        /// Root form diameter d_Ff.
+        form_diameter_mm: f64,
+    },
+    /// The tip of one gear reaches into the root of the other.
+    #[error("the {} tip runs into the root of its mate: tip clearance is {clearance_mm:.4} mm", .gear.name())]
+    NoTipClearance {
+        /// Whose tip.
+        gear: Gear,
+        /// Negative.
+        clearance_mm: f64,
+    },
+    /// The generating rack has no tip left: its fillet radius is too large.
+    #[error("the rack's fillet radius factor is too large: at most {greatest:.4} fits between its flanks")]
+    RackTipPointed {
+        /// Greatest possible ρ_fP*.
+        greatest: f64,
+    },
+    /// The rack cuts away the whole flank, or the root circle falls to nothing.
+    #[error("no tooth is left on the {}: the rack reaches the axis or cuts the flank away", .gear.name())]
+    NoTooth {
+        /// Which gear.
+        gear: Gear,
+    },
+    /// The bore cuts into the teeth.
+    #[error("the {} bore ({bore_diameter_mm} mm) does not leave a body below the root circle ({root_diameter_mm:.4} mm)", .gear.name())]
+    BoreTooLarge {
+        /// Which gear.
+        gear: Gear,
+        /// As given.
+        bore_diameter_mm: f64,
+        /// d_f.
+        root_diameter_mm: f64,
+    },
+    /// A relief or rounding is longer than the flank it lies on.
+    #[error("the {} {modification} is {length_mm:.4} mm long, more than the {available_mm:.4} mm there is", .gear.name())]
+    ModificationTooLong {
+        /// Which gear.
+        gear: Gear,
+        /// `tip relief`, `root relief` or `tip rounding`.
+        modification: &'static str,
+        /// Roll length, or length along the flank for the rounding.
+        length_mm: f64,
+        /// What there is.
+        available_mm: f64,
+    },
+}
