@@ -15,6 +15,7 @@
 
 pub mod contact;
 pub mod gear;
+pub mod reference;
 pub mod scene;
 pub mod simulation;
 pub mod stiffness;

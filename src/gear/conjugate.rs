@@ -13,6 +13,9 @@ pub trait ConjugateFlanks: Sync {
     /// Coordinate of a gear's flank at the theoretical contact point.
     fn contact_coordinate_mm(&self, gear: Gear, position_mm: f64) -> f64;
 
+    /// Position at which a flank point is the theoretical contact point.
+    fn position_at_mm(&self, gear: Gear, coordinate_mm: f64) -> f64;
+
     /// Where a flank point lies in the tangent frame of `position_mm`.
     fn in_tangent_frame(&self, gear: Gear, coordinate_mm: f64, position_mm: f64) -> TangentFramePoint;
 
@@ -44,6 +47,11 @@ pub trait ConjugateFlanks: Sync {
 impl ConjugateFlanks for GearPair {
     fn contact_coordinate_mm(&self, gear: Gear, position_mm: f64) -> f64 {
         self.path.rho_mm(gear, position_mm)
+    }
+
+    fn position_at_mm(&self, gear: Gear, coordinate_mm: f64) -> f64 {
+        // ρ1 + ρ2 = T1T2 reads the same both ways.
+        self.path.rho_mm(gear, coordinate_mm)
     }
 
     fn in_tangent_frame(&self, gear: Gear, coordinate_mm: f64, position_mm: f64) -> TangentFramePoint {

@@ -52,3 +52,12 @@ pub fn fzg_a() -> PairSpec {
 pub fn pair(spec: &PairSpec) -> GearPair {
     GearPair::new(spec).expect("the pair of the test is sound")
 }
+
+/// Steel as in the scene's default.
+pub const STEEL: gearwear::contact::settings::Material =
+    gearwear::contact::settings::Material { young_modulus_mpa: 206e3, poisson_ratio: 0.3, density_kg_per_m3: 7830.0 };
+
+/// Both gears of steel.
+pub fn steel() -> PerGear<gearwear::contact::settings::Material> {
+    PerGear { pinion: STEEL, wheel: STEEL }
+}
