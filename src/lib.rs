@@ -20,3 +20,4 @@ pub mod scene;
 pub mod simulation;
 pub mod stiffness;
 pub mod wear;
+pub mod working_cycle;

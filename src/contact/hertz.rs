@@ -113,6 +113,7 @@ impl ContactSurface for Hertz {
             strip_load: 0.0,
             half_width_mm: 0.0,
             pressure: Vec::new(),
+            contact_fraction: Vec::new(),
         };
         pair.look();
         Box::new(pair)
@@ -136,6 +137,7 @@ struct HertzPair<'a> {
     /// a(w*).
     half_width_mm: f64,
     pressure: Vec<f64>,
+    contact_fraction: Vec<f64>,
 }
 
 impl PairContact for HertzPair<'_> {
@@ -167,16 +169,24 @@ impl PairContact for HertzPair<'_> {
         let points = &observed[gear];
         let (load, a) = (self.strip_load, self.half_width_mm);
         self.pressure.clear();
+        self.contact_fraction.clear();
         if load > 0.0 {
             let [lower, upper] = points.shift_to_ends_mm;
-            self.pressure.extend(points.along_mm[1..points.along_mm.len() - 1].iter().map(|along| {
+            for along in &points.along_mm[1..points.along_mm.len() - 1] {
                 let (from, to) = ((along + lower) / a, (along + upper) / a);
-                load * (carried_below(to) - carried_below(from)) / ((to - from) * a)
-            }));
+                self.pressure.push(load * (carried_below(to) - carried_below(from)) / ((to - from) * a));
+                self.contact_fraction.push((to.clamp(-1.0, 1.0) - from.clamp(-1.0, 1.0)) / (to - from));
+            }
         } else {
             self.pressure.resize(points.sliding_mm.len(), 0.0);
+            self.contact_fraction.resize(points.sliding_mm.len(), 0.0);
         }
-        Sweep { first_point: points.first_point, pressure_mpa: &self.pressure, sliding_mm: &points.sliding_mm }
+        Sweep {
+            first_point: points.first_point,
+            pressure_mpa: &self.pressure,
+            sliding_mm: &points.sliding_mm,
+            contact_fraction: &self.contact_fraction,
+        }
     }
 
     fn footprint(&self) -> Footprint {

@@ -38,6 +38,7 @@ impl ContactSurface for HertzMean {
             passed: cell.map(|cell| PerGear::from_fn(|gear| PassedPoints::new(flanks, gear, cell))),
             pressure: Vec::new(),
             sliding: Vec::new(),
+            contact_fraction: Vec::new(),
         })
     }
 
@@ -83,6 +84,7 @@ struct HertzMeanPair<'a> {
     passed: Option<PerGear<PassedPoints>>,
     pressure: Vec<f64>,
     sliding: Vec<f64>,
+    contact_fraction: Vec<f64>,
 }
 
 impl PairContact for HertzMeanPair<'_> {
@@ -106,7 +108,14 @@ impl PairContact for HertzMeanPair<'_> {
         self.sliding.extend(points.specific_sliding.iter().map(|zeta| 2.0 * half_width_mm * zeta));
         self.pressure.clear();
         self.pressure.extend(self.sliding.iter().map(|&s| if s > 0.0 { peak_pressure_mpa } else { 0.0 }));
-        Sweep { first_point: points.first_point, pressure_mpa: &self.pressure, sliding_mm: &self.sliding }
+        self.contact_fraction.clear();
+        self.contact_fraction.resize(self.sliding.len(), 1.0);
+        Sweep {
+            first_point: points.first_point,
+            pressure_mpa: &self.pressure,
+            sliding_mm: &self.sliding,
+            contact_fraction: &self.contact_fraction,
+        }
     }
 
     fn footprint(&self) -> Footprint {

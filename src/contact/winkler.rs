@@ -56,6 +56,7 @@ impl ContactSurface for Winkler {
             approach: 0.0,
             observed_gap: Vec::new(),
             pressure: Vec::new(),
+            contact_fraction: Vec::new(),
         })
     }
 
@@ -108,6 +109,7 @@ struct WinklerPair<'a> {
     observed_gap: Vec<f64>,
     /// Pressure at the observed points of one flank, MPa.
     pressure: Vec<f64>,
+    contact_fraction: Vec<f64>,
 }
 
 impl PairContact for WinklerPair<'_> {
@@ -153,14 +155,22 @@ impl PairContact for WinklerPair<'_> {
         gap.gap_mm(points, gear, removed_mm, &mut self.observed_gap);
         // The slope of the penetration per sample, from the neighbours of each point.
         let [to_lower, to_upper] = points.shift_to_ends_mm.map(|shift| 0.5 * shift / points.spacing_mm);
-        self.pressure.clear();
-        self.pressure.extend(self.observed_gap.windows(3).map(|gap| {
+        self.pressure.resize(points.sliding_mm.len(), 0.0);
+        self.contact_fraction.resize(points.sliding_mm.len(), 0.0);
+        let felt = self.pressure.iter_mut().zip(&mut self.contact_fraction);
+        for ((pressure, fraction), gap) in felt.zip(self.observed_gap.windows(3)) {
             let (u, twice_slope) = (self.approach - gap[1], gap[0] - gap[2]);
             let (u0, u1) = (u + to_lower * twice_slope, u + to_upper * twice_slope);
             let positive = u0.max(0.0) + u1.max(0.0);
-            0.5 * self.foundation * positive * positive / (u0.abs() + u1.abs() + f64::MIN_POSITIVE)
-        }));
-        Sweep { first_point: points.first_point, pressure_mpa: &self.pressure, sliding_mm: &points.sliding_mm }
+            *fraction = positive / (u0.abs() + u1.abs() + f64::MIN_POSITIVE);
+            *pressure = 0.5 * self.foundation * positive * *fraction;
+        }
+        Sweep {
+            first_point: points.first_point,
+            pressure_mpa: &self.pressure,
+            sliding_mm: &points.sliding_mm,
+            contact_fraction: &self.contact_fraction,
+        }
     }
 
     fn footprint(&self) -> Footprint {
