@@ -14,6 +14,7 @@
 //! `ARCHITECTURE.md` is the map of the code, `docs/theory.md` the derivations that the modules cite.
 
 pub mod gear;
+pub mod report;
 pub mod scene;
 pub mod simulation;
 pub mod contact;
