@@ -128,9 +128,7 @@ fn over_cycle(
         Some(top) => axis(words.y).range(from_zero(top).to_vec()),
         None => axis(words.y),
     };
-    let x = axis("radius of curvature of the pinion at the contact point, mm")
-        .range(padded(points.A, points.E))
-        .hover_format(".3f");
+    let x = axis("contact position, mm").range(padded(points.A, points.E)).hover_format(".3f");
     plot.set_layout(mark_path_points(layout(380).show_legend(true).x_axis(x).y_axis(y), points));
     Figure { id: words.id.into(), title: words.title.into(), reading, plot, wide: false }
 }

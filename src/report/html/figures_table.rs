@@ -1,7 +1,7 @@
 //! The main figures of a run as HTML tables.
 
 use super::escape;
-use super::number::{change, figure, percent, significant};
+use super::number::{change, figure, fixed, percent, significant};
 use crate::simulation::record::{ErrorSummary, GearSummary, RunRecord, Summary, WearSummary};
 
 /// A row: what it is, its unit, and one figure per column.
@@ -47,7 +47,7 @@ fn wear(s: &Summary) -> String {
         &["pinion", "wheel"],
         &[
             both("Greatest depth", "µm", |w| w.peak_wear_um),
-            both("at radius", "mm", |w| w.peak_wear_radius_mm),
+            both("Radius of the greatest depth", "mm", |w| w.peak_wear_radius_mm),
             both("Greatest over the root", "µm", |w| w.root_wear_um),
             both("At the pitch circle", "µm", |w| w.pitch_wear_um),
             both("Volume, whole gear", "mm³", |w| w.worn_volume_mm3),
@@ -58,9 +58,7 @@ fn wear(s: &Summary) -> String {
 
 fn pair(s: &Summary) -> String {
     let g = &s.geometry;
-    let one = |label, unit, value| row(label, unit, [figure(value)]);
-    // A backlash below a nanometre is the rounding of the pair's data.
-    let backlash = if g.backlash_mm.abs() < 1e-6 { 0.0 } else { g.backlash_mm };
+    let one = |label, unit, value| row(label, unit, [fixed(value, 3)]);
     let mut rows = vec![one("Transverse contact ratio", "", g.transverse_contact_ratio)];
     if g.overlap_ratio != 0.0 {
         rows.push(one("Overlap ratio", "", g.overlap_ratio));
@@ -69,15 +67,15 @@ fn pair(s: &Summary) -> String {
         one("Working pressure angle, transverse", "°", g.working_pressure_angle_deg),
         one("Base pitch, transverse", "mm", g.base_pitch_mm),
         one("Line of action T1T2", "mm", g.line_of_action_mm),
-        row("Backlash on the working circles", "mm", [significant(backlash, 3)]),
+        one("Backlash on the working circles", "mm", g.backlash_mm),
     ]);
     table("Geometry of the pair", &["value"], &rows)
 }
 
 fn gears(s: &Summary) -> String {
     let gears = &s.geometry.gears;
-    let both = |label, unit, value: fn(&GearSummary) -> f64| {
-        row(label, unit, [figure(value(&gears.pinion)), figure(value(&gears.wheel))])
+    let both = |label, value: fn(&GearSummary) -> f64| {
+        row(label, "mm", [fixed(value(&gears.pinion), 3), fixed(value(&gears.wheel), 3)])
     };
     let undercut = |gear: &GearSummary| String::from(if gear.undercut { "yes" } else { "no" });
     table(
@@ -85,14 +83,16 @@ fn gears(s: &Summary) -> String {
         &["pinion", "wheel"],
         &[
             row("Teeth", "", [gears.pinion.teeth.to_string(), gears.wheel.teeth.to_string()]),
-            both("Tip diameter", "mm", |g| g.tip_diameter_mm),
-            both("Working pitch diameter", "mm", |g| g.working_pitch_diameter_mm),
-            both("Base diameter", "mm", |g| g.base_diameter_mm),
-            both("Start of active profile, diameter", "mm", |g| g.start_of_active_profile_diameter_mm),
-            both("Root form diameter", "mm", |g| g.root_form_diameter_mm),
-            both("Root diameter", "mm", |g| g.root_diameter_mm),
-            both("Tip thickness", "mm", |g| g.tip_thickness_mm),
-            both("Tip clearance", "mm", |g| g.tip_clearance_mm),
+            both("Tip diameter", |g| g.tip_diameter_mm),
+            both("Working pitch diameter", |g| g.working_pitch_diameter_mm),
+            both("Reference diameter", |g| g.reference_diameter_mm),
+            both("Base diameter", |g| g.base_diameter_mm),
+            both("Start of active profile, diameter", |g| g.start_of_active_profile_diameter_mm),
+            both("Root form diameter", |g| g.root_form_diameter_mm),
+            both("Root diameter", |g| g.root_diameter_mm),
+            both("Tooth thickness at the reference circle", |g| g.tooth_thickness_mm),
+            both("Tooth thickness at the tip", |g| g.tip_thickness_mm),
+            both("Tip clearance", |g| g.tip_clearance_mm),
             row("Undercut", "", [undercut(&gears.pinion), undercut(&gears.wheel)]),
         ],
     )
@@ -110,7 +110,7 @@ fn contact(s: &Summary) -> String {
         row("Tooth stiffness", "", [escape(&k.model)]),
         row("Pair with flattening, at C", "N/(mm·µm)", [figure(k.pair_at_pitch_N_per_mm_um)]),
         row("Teeth alone, at C", "N/(mm·µm)", [figure(k.teeth_at_pitch_N_per_mm_um)]),
-        row("at the line load", "N/mm", [figure(k.reference_line_load_N_per_mm)]),
+        row("at a line load of", "N/mm", [figure(k.reference_line_load_N_per_mm)]),
     ];
     if let Some(remainder) = k.split_remainder_at_half_load {
         rows.push(row("Left over by the split, at half load", "", [percent(remainder)]));

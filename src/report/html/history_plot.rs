@@ -1,7 +1,7 @@
 //! Plot of wear against time.
 
 use plotly::Plot;
-use plotly::common::{DashType, Marker, Mode};
+use plotly::common::{DashType, Marker, MarkerSymbol, Mode};
 
 use super::number::{figure, significant};
 use super::reading::duration;
@@ -9,57 +9,40 @@ use super::theme::{Figure, axis, curve, from_zero, gear_colour, layout, line};
 use crate::gear::Gear;
 use crate::simulation::record::{HistoryRow, RunRecord};
 
-/// One line of the plot.
+/// One quantity of the plot.
 struct Series {
     name: &'static str,
     gear: Gear,
-    dash: DashType,
-    width_px: f64,
+    /// A line through dots; otherwise rings, which show also around dots in the same place.
+    joined: bool,
     value: fn(&HistoryRow) -> f64,
 }
 
 const SERIES: [Series; 3] = [
-    Series {
-        name: "pinion, greatest over the root",
-        gear: Gear::Pinion,
-        dash: DashType::Solid,
-        width_px: 2.4,
-        value: |row| row.pinion_root_wear_um,
-    },
-    Series {
-        name: "pinion, greatest anywhere",
-        gear: Gear::Pinion,
-        dash: DashType::Dot,
-        width_px: 2.0,
-        value: |row| row.pinion_peak_wear_um,
-    },
-    Series {
-        name: "wheel, greatest anywhere",
-        gear: Gear::Wheel,
-        dash: DashType::Solid,
-        width_px: 2.0,
-        value: |row| row.wheel_peak_wear_um,
-    },
+    Series { name: "pinion, over the root", gear: Gear::Pinion, joined: true, value: |row| row.pinion_root_wear_um },
+    Series { name: "pinion, anywhere", gear: Gear::Pinion, joined: false, value: |row| row.pinion_peak_wear_um },
+    Series { name: "wheel, anywhere", gear: Gear::Wheel, joined: true, value: |row| row.wheel_peak_wear_um },
 ];
 
 /// Greatest root wear, and peak wear of both gears, against time.
 pub fn wear_against_time(record: &RunRecord) -> Figure {
     let rows = &record.history;
     let hours: Option<Vec<f64>> = rows.iter().map(|row| row.hours).collect();
-    let (time, title, hover) = match hours {
-        Some(hours) => (hours, "running time, h", "%{y:.3f} µm"),
-        None => (rows.iter().map(|row| row.revolutions).collect(), "pinion revolutions", "%{y:.3f} µm"),
+    let (time, title) = match hours {
+        Some(hours) => (hours, "running time, h"),
+        None => (rows.iter().map(|row| row.revolutions).collect(), "pinion revolutions"),
     };
     let mut plot = Plot::new();
-    for Series { name, gear, dash, width_px, value } in SERIES {
+    for Series { name, gear, joined, value } in SERIES {
         let x = std::iter::once(0.0).chain(time.iter().copied());
         let y = std::iter::once(0.0).chain(rows.iter().map(value));
-        plot.add_trace(
-            curve(name, x, y, line(gear_colour(gear), width_px, dash))
-                .mode(Mode::LinesMarkers)
-                .marker(Marker::new().color(gear_colour(gear)).size(5))
-                .hover_template(hover),
-        );
+        let dots = Marker::new().color(gear_colour(gear));
+        let trace = curve(name, x, y, line(gear_colour(gear), 2.2, DashType::Solid)).hover_template("%{y:.3f} µm");
+        plot.add_trace(if joined {
+            trace.mode(Mode::LinesMarkers).marker(dots.size(5))
+        } else {
+            trace.mode(Mode::Markers).marker(dots.size(10).symbol(MarkerSymbol::CircleOpen))
+        });
     }
     let deepest = rows.iter().flat_map(|row| SERIES.map(|s| (s.value)(row))).fold(0.0, f64::max);
     let last = time.last().copied().unwrap_or(0.0);
@@ -67,7 +50,7 @@ pub fn wear_against_time(record: &RunRecord) -> Figure {
         layout(380)
             .show_legend(true)
             .x_axis(axis(title).range(from_zero(last).to_vec()))
-            .y_axis(axis("wear depth, µm").range(from_zero(deepest).to_vec())),
+            .y_axis(axis("greatest wear depth, µm").range(from_zero(deepest).to_vec())),
     );
     Figure {
         id: "history".into(),

@@ -45,7 +45,7 @@ pub fn page(record: &RunRecord) -> String {
         "<meta name=\"color-scheme\" content=\"light dark\">\n",
         &format!("<title>{title} – gearwear</title>\n<style>\n{}</style>\n</head>\n<body>\n", include_str!("page.css")),
         &format!("<header>\n<p class=\"kind\">Wear of a gear pair</p>\n<h1>{title}</h1>\n"),
-        &format!("<p class=\"answer\">{}</p>\n</header>\n<main>\n", escape(&reading::answer(record))),
+        &format!("<p class=\"answer\">{}</p>\n</header>\n<main>\n", escape(&reading::bound(&reading::answer(record)))),
         &notices(s),
         "<section aria-labelledby=\"figures\">\n<h2 id=\"figures\">Main figures</h2>\n<div class=\"tables\">\n",
         &figures_table::tables(record),
@@ -54,6 +54,7 @@ pub fn page(record: &RunRecord) -> String {
         "</section>\n<section aria-labelledby=\"plots\">\n<h2 id=\"plots\">Plots</h2>\n",
         "<p class=\"legend-note\">A to E are the points of the path of contact: contact begins at A and ends at E, a \
          tooth pair carries the load alone between B and D where no more than two pairs share it, and C is the pitch \
+         point. The contact position is the radius of curvature of the pinion’s flank at the theoretical contact \
          point.</p>\n",
         "<noscript><p class=\"notice\">The plots need JavaScript; all their numbers are in the data files.</p></noscript>\n",
         &format!("<div class=\"plots\">\n{shown}</div>\n</section>\n"),
@@ -92,7 +93,7 @@ fn notices(s: &Summary) -> String {
 fn figure_html(number: usize, figure: &Figure) -> String {
     let Figure { id, title, reading, plot, wide } = figure;
     let class = if *wide { " class=\"wide\"" } else { "" };
-    let (title, reading) = (escape(title), escape(reading));
+    let (title, reading) = (escape(title), escape(&reading::bound(reading)));
     format!(
         "<figure{class}>\n<h3 id=\"{id}-title\">{title}</h3>\n\
          <div class=\"plot\" id=\"{id}\" role=\"img\" aria-labelledby=\"{id}-title\" aria-describedby=\"{id}-reading\"></div>\n\

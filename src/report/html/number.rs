@@ -19,9 +19,19 @@ pub fn significant(value: f64, digits: usize) -> String {
     if value < 0.0 { format!("−{unsigned}") } else { unsigned }
 }
 
-/// Four significant digits: figures of a table.
+/// A result: four significant digits, three below one.
 pub fn figure(value: f64) -> String {
-    significant(value, 4)
+    significant(value, if value.abs() < 1.0 { 3 } else { 4 })
+}
+
+/// A length or an angle of the geometry, to so many decimals.
+pub fn fixed(value: f64, decimals: usize) -> String {
+    if !value.is_finite() {
+        return "–".into();
+    }
+    let text = format!("{:.decimals$}", value.abs());
+    let negative = value < 0.0 && text.bytes().any(|digit| (b'1'..=b'9').contains(&digit));
+    format!("{}{}", if negative { "−" } else { "" }, grouped(&text))
 }
 
 /// As many of seven significant digits as it takes: what the user gave, such as hours.
@@ -134,6 +144,14 @@ mod tests {
         assert_eq!(revolutions(1.149_75e6), "1.15 million");
         assert_eq!(revolutions(82_000.0), "82\u{202f}000");
         assert_eq!(revolutions(0.0), "0");
+    }
+
+    #[test]
+    fn fixed_decimals_know_no_negative_zero() {
+        assert_eq!(fixed(-6e-5, 3), "0.000");
+        assert_eq!(fixed(-0.0123, 3), "−0.012");
+        assert_eq!(fixed(118.36, 3), "118.360");
+        assert_eq!(fixed(f64::INFINITY, 3), "–");
     }
 
     #[test]

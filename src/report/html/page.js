@@ -1,14 +1,21 @@
-// Draws the plots in the colours of the style sheet, again when those change and when the page is printed.
+// Draws the plots in the colours of the style sheet: again when those change, when the room for a plot changes, and
+// when the page is printed.
 (() => {
   "use strict";
   const PRINT_WIDTH = 670; // px: an A4 page less its margins
   const NARROW = 480; // px: below this a plot is that of a phone
+  const BUTTONS = 26; // px: height of a plot's buttons, which show all the time where there is no mouse to hover
   const root = document.documentElement;
   const touch = matchMedia("(pointer: coarse)").matches;
+  const buttonsShown = matchMedia("(hover: none)").matches;
   const plots = [...document.querySelectorAll(".plot")].map((node) => ({
     node,
     source: JSON.parse(document.getElementById(node.id + "-data").textContent),
+    width: 0,
   }));
+
+  // Printing itself changes the preferred colours and the room for the plots: whatever redraws must ask.
+  const printing = () => "printing" in root.dataset;
 
   // A function that turns a colour token into the colour in force.
   function palette() {
@@ -33,31 +40,40 @@
     return Object.fromEntries(Object.entries(item).map(([key, x]) => [key, coloured(x, colour)]));
   }
 
-  function draw({ node, source }, colour, width) {
-    const { data, layout, config } = coloured(source, colour);
+  function draw(plot, colour) {
+    const { data, layout, config } = coloured(plot.source, colour);
+    plot.width = plot.node.clientWidth;
+    layout.width = printing() ? PRINT_WIDTH : plot.width;
+    layout.autosize = false;
+    Object.assign(layout.legend, { yref: "container", y: 0, yanchor: "bottom" }); // below the axis title, always
     layout.uirevision = "kept"; // the reader's zoom outlasts a change of theme
-    if (width) Object.assign(layout, { width, autosize: false });
-    else if (node.clientWidth < NARROW) {
-      layout.legend.font.size = 11;
-      layout.margin.l = 44;
-      layout.height = Math.min(layout.height, node.clientWidth + 60);
-    }
     if (touch) layout.dragmode = false; // a finger scrolls the page
-    // The legend stands clear of the axis title whatever the height.
-    layout.legend.y = -58 / (layout.height - layout.margin.t - layout.margin.b);
-    return Plotly.react(node, data, layout, config);
+    if (layout.width < NARROW) {
+      layout.legend.font.size = 11;
+      layout.height = Math.min(layout.height, layout.width + (plot.node.closest(".wide") ? 140 : 40));
+    }
+    if (buttonsShown && !printing()) {
+      layout.margin.t += BUTTONS;
+      layout.height += BUTTONS;
+    }
+    Plotly.react(plot.node, data, layout, config);
   }
 
-  function drawAll(width) {
+  function drawAll() {
     const colour = palette();
-    for (const plot of plots) draw(plot, colour, width);
+    for (const plot of plots) draw(plot, colour);
   }
 
   drawAll();
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => drawAll());
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawAll);
+  const room = new ResizeObserver(() => {
+    if (printing()) return;
+    for (const plot of plots) if (plot.node.clientWidth !== plot.width) draw(plot, palette());
+  });
+  for (const { node } of plots) room.observe(node);
   addEventListener("beforeprint", () => {
     root.dataset.printing = "";
-    drawAll(PRINT_WIDTH);
+    drawAll();
   });
   addEventListener("afterprint", () => {
     delete root.dataset.printing;

@@ -98,6 +98,21 @@ pub fn interruption(summary: &Summary) -> Option<String> {
     }
 }
 
+/// The text with every number bound to the unit after it, so that no line ends between them.
+pub fn bound(text: &str) -> String {
+    const UNITS: [&str; 4] = ["µm", "mm", "MPa", "h"];
+    let mut bound = String::with_capacity(text.len());
+    for word in text.split_inclusive(' ') {
+        let unit = word.trim_end_matches([' ', ',', '.', ';', ':']);
+        if UNITS.contains(&unit) && bound.ends_with(' ') && bound.trim_end().ends_with(|c: char| c.is_ascii_digit()) {
+            bound.pop();
+            bound.push('\u{a0}');
+        }
+        bound.push_str(word);
+    }
+    bound
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -107,6 +122,11 @@ mod tests {
         assert_eq!(greatest(&[f64::NAN, 1.0, 3.0, 3.0]), Some(Extreme { index: 2, value: 3.0 }));
         assert_eq!(greatest(&[]), None);
         assert_eq!(greatest(&[f64::NAN]), None);
+    }
+
+    #[test]
+    fn numbers_hold_on_to_their_units() {
+        assert_eq!(bound("up to 1.65 µm at 34 mm, or more mm"), "up to 1.65\u{a0}µm at 34\u{a0}mm, or more mm");
     }
 
     /// On an FZG type A pair C lies before B: order is by place, not by name.

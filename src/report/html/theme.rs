@@ -8,8 +8,7 @@ use plotly::color::Color;
 use plotly::common::{Anchor, DashType, Font, Label, Line, Mode, Orientation, Title};
 use plotly::configuration::{DisplayModeBar, DoubleClick, ModeBarButtonName};
 use plotly::layout::{
-    Annotation, Axis, HoverMode, ItemSizing, Legend, Margin, ModeBar, Shape, ShapeLayer, ShapeLine, ShapeType,
-    TicksDirection,
+    Annotation, Axis, HoverMode, Legend, Margin, ModeBar, Shape, ShapeLayer, ShapeLine, ShapeType, TicksDirection,
 };
 use plotly::{Configuration, Layout, Plot, Scatter};
 
@@ -58,11 +57,11 @@ pub fn gear_colour_at(gear: Gear, share: f64) -> String {
     format!("mix(--{0}-early,--{0},{share:.3})", gear.name())
 }
 
-/// A plot with these traces' common layout; `height_px` over all, axes still to be added.
+/// The common layout; `height_px` over all, axes still to be added. Width and the legend's height follow from the room
+/// there is, in the page's script.
 pub fn layout(height_px: usize) -> Layout {
     Layout::new()
         .height(height_px)
-        .auto_size(true)
         .paper_background_color(PAPER)
         .plot_background_color(PAPER)
         .font(Font::new().family("system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif").size(13).color(INK))
@@ -75,9 +74,7 @@ pub fn layout(height_px: usize) -> Layout {
                 .orientation(Orientation::Horizontal)
                 .x(0.0)
                 .x_anchor(Anchor::Left)
-                .y(-0.16)
-                .y_anchor(Anchor::Top)
-                .item_sizing(ItemSizing::Constant)
+                .item_width(34)
                 .background_color("rgba(0,0,0,0)")
                 .font(Font::new().size(12)),
         )
@@ -164,7 +161,6 @@ pub fn mark_path_points(layout: Layout, points: &PathPoints) -> Layout {
 /// How the reader may handle a plot.
 pub fn configuration() -> Configuration {
     Configuration::new()
-        .responsive(true)
         .typeset_math(false)
         .display_logo(false)
         .display_mode_bar(DisplayModeBar::Hover)
@@ -182,7 +178,7 @@ pub fn from_zero(greatest: f64) -> [f64; 2] {
     if greatest > 0.0 && greatest.is_finite() { [0.0, greatest * 1.06] } else { [0.0, 1.0] }
 }
 
-/// The range of values over a few points' width more than `low` to `high`.
+/// The range from `low` to `high` and a little more on either side.
 pub fn padded(low: f64, high: f64) -> Vec<f64> {
     let pad = 0.025 * (high - low).abs();
     vec![low - pad, high + pad]
