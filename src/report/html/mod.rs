@@ -112,7 +112,7 @@ fn plot_json(plot: &Plot) -> String {
 
 /// How the run came about: stages with their times, stages left out, work done.
 fn work(s: &Summary) -> String {
-    let seconds = |wall_s: f64| number::significant(wall_s, 3);
+    let seconds = |wall_s: f64| number::fixed(wall_s, 4);
     let stages: String = s
         .stages
         .iter()
