@@ -16,6 +16,7 @@
 pub mod contact;
 pub mod gear;
 pub mod reference;
+pub mod report;
 pub mod scene;
 pub mod simulation;
 pub mod stiffness;
