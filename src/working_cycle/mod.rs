@@ -254,3 +254,23 @@ impl<'a> Station<'a> {
         }
     }
 }
+
+impl CycleObservation {
+    /// Greatest pressure anywhere on either flank, at any position, MPa.
+    pub fn peak_pressure_mpa(&self) -> f64 {
+        self.positions.iter().map(|p| p.footprint.peak_pressure_mpa).fold(0.0, f64::max)
+    }
+
+    /// Least and greatest transmission error, mm.
+    pub fn transmission_error_mm(&self) -> (f64, f64) {
+        self.positions.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
+            (low.min(p.transmission_error_mm), high.max(p.transmission_error_mm))
+        })
+    }
+
+    /// The observation nearest to `position_mm`.
+    pub fn nearest(&self, position_mm: f64) -> Option<&PositionObservation> {
+        let distance = |p: &&PositionObservation| (p.position_mm - position_mm).abs();
+        self.positions.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+}

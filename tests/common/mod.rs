@@ -61,3 +61,116 @@ pub const STEEL: gearwear::contact::settings::Material =
 pub fn steel() -> PerGear<gearwear::contact::settings::Material> {
     PerGear { pinion: STEEL, wheel: STEEL }
 }
+
+use gearwear::contact::{
+    ContactSurface,
+    foundation::matched_mpa_per_mm,
+    hertz::{self, Hertz},
+    hertz_mean::HertzMean,
+    settings::MatchCriterion,
+    winkler::Winkler,
+};
+use gearwear::simulation::{
+    settings::{Numerics, Operation},
+    wear_run::{Outcome, Unwatched, WearRun},
+};
+use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
+use gearwear::wear::{
+    archard::Archard,
+    settings::{SevereTransition, WearSettings},
+};
+
+/// A wear run in the making; the default is the fzg-c scene.
+#[derive(Clone)]
+pub struct Scene {
+    pub pair: PairSpec,
+    pub torque_n_mm: f64,
+    pub revolutions: f64,
+    pub snapshots: Vec<f64>,
+    pub surface: &'static str,
+    pub criterion: MatchCriterion,
+    pub stiffness: StiffnessSettings,
+    pub coefficient_mm2_per_n: f64,
+    pub severe: Option<SevereTransition>,
+    pub flank_points: usize,
+    pub positions: usize,
+    pub steps: f64,
+}
+
+/// "The fzg-c scene": 302 N·m, 150 rpm, 127.75 h, Winkler matched on half-width, 20 N/(mm·µm), k 1e-17 m²/N.
+pub fn fzg_c_scene() -> Scene {
+    Scene {
+        pair: fzg_c(),
+        torque_n_mm: 302e3,
+        revolutions: 127.75 * 60.0 * 150.0,
+        snapshots: Vec::new(),
+        surface: "winkler",
+        criterion: MatchCriterion::HalfWidth,
+        stiffness: StiffnessSettings::Constant { pair_n_per_mm2: 20e3 },
+        coefficient_mm2_per_n: 1e-11,
+        severe: None,
+        flank_points: 750,
+        positions: 400,
+        steps: 150.0,
+    }
+}
+
+impl Scene {
+    /// Whole load per mm of face width.
+    pub fn line_load(&self) -> f64 {
+        let pair = pair(&self.pair);
+        self.torque_n_mm / pair.path.involute.pinion.base_radius_mm / self.pair.face_width_mm
+    }
+
+    /// K/H by the scene's criterion.
+    pub fn foundation(&self) -> f64 {
+        let pair = pair(&self.pair);
+        let at_pitch = hertz::flattening(&pair, &steel(), pair.path.pitch_point_mm);
+        matched_mpa_per_mm(self.criterion, &at_pitch, self.line_load())
+    }
+
+    /// The contact surface by name.
+    pub fn surface(&self) -> Box<dyn ContactSurface> {
+        let expected_line_load_n_per_mm = self.line_load();
+        match self.surface {
+            "winkler" => {
+                Box::new(Winkler { foundation_mpa_per_mm: self.foundation(), expected_line_load_n_per_mm })
+            }
+            "hertz" => Box::new(Hertz { material: steel(), expected_line_load_n_per_mm }),
+            "hertz-mean" => Box::new(HertzMean { material: steel() }),
+            other => panic!("no surface {other}"),
+        }
+    }
+
+    /// Runs it.
+    pub fn run(&self) -> Outcome {
+        let pair = pair(&self.pair);
+        let (surface, line_load) = (self.surface(), self.line_load());
+        let teeth = TeethSpring::new(self.stiffness, &pair, &steel(), surface.as_ref(), line_load);
+        let law = Archard::new(&WearSettings {
+            coefficient_mm2_per_n: self.coefficient_mm2_per_n,
+            severe: self.severe,
+        });
+        WearRun {
+            pair: &pair,
+            surface: surface.as_ref(),
+            teeth: &teeth,
+            law: &law,
+            line_load_n_per_mm: line_load,
+            operation: &Operation {
+                pinion_torque_n_mm: self.torque_n_mm,
+                pinion_speed_rpm: None,
+                pinion_revolutions: self.revolutions,
+                snapshots_revolutions: self.snapshots.clone(),
+            },
+            numerics: Numerics {
+                flank_points: self.flank_points,
+                positions: self.positions,
+                step_revolutions: self.revolutions / self.steps,
+                error_estimate: false,
+            },
+        }
+        .run(&Unwatched)
+        .expect("the run of the test converges")
+    }
+}
