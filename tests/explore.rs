@@ -4,7 +4,7 @@ use gearwear::gear::Gear;
 use gearwear::simulation::figures::WearFigures;
 #[test]
 fn explore() {
-    for surface in ["winkler", "hertz", "hertz-mean"] {
+    for surface in std::env::var("S").unwrap_or("winkler".into()).split(",").map(|s| &*s.to_string().leak()) {
         let mut scene = fzg_c_scene();
         scene.surface = surface;
         let p = pair(&scene.pair);

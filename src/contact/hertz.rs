@@ -172,8 +172,8 @@ impl PairContact for HertzPair<'_> {
         self.contact_fraction.clear();
         if load > 0.0 {
             let [lower, upper] = points.shift_to_ends_mm;
-            for along in &points.along_mm[1..points.along_mm.len() - 1] {
-                let (from, to) = ((along + lower) / a, (along + upper) / a);
+            for point in &points.at[1..points.at.len() - 1] {
+                let (from, to) = ((point.along_mm + lower) / a, (point.along_mm + upper) / a);
                 self.pressure.push(load * (carried_below(to) - carried_below(from)) / ((to - from) * a));
                 self.contact_fraction.push((to.clamp(-1.0, 1.0) - from.clamp(-1.0, 1.0)) / (to - from));
             }

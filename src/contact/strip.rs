@@ -8,7 +8,12 @@
 //! its tip edge (or its involute ends at the form circle), are kept exactly: no pressure acts beyond them.
 
 use super::{Flanks, PositionCell};
-use crate::gear::{Gear, PerGear, flank::FlankGrid};
+use crate::gear::{
+    Gear, PerGear,
+    conjugate::ConjugateFlanks,
+    flank::FlankGrid,
+    involute::TangentFramePoint,
+};
 
 /// Removed material of one flank at samples between its points.
 #[derive(Debug, Clone, Default)]
@@ -68,6 +73,10 @@ fn common_extent_mm(flanks: Flanks<'_>, position_mm: f64) -> (f64, f64) {
     (lower, upper)
 }
 
+/// Distance of the samples of a [`Strip`] in points of the pinion's flank. The load needs less resolution than the wear:
+/// its geometric part is exact to the gap's curvature, and the worn part is smooth over several points.
+const POINTS_PER_SAMPLE: f64 = 2.0;
+
 /// Evenly spaced samples across the candidate contact.
 #[derive(Debug, Clone)]
 pub struct Strip {
@@ -81,12 +90,12 @@ pub struct Strip {
 }
 
 impl Strip {
-    /// Samples about as far apart as the pinion's points, and at least 9 of them.
+    /// Samples about [`POINTS_PER_SAMPLE`] of the pinion's points apart, and at least 9 of them.
     pub fn new(flanks: Flanks<'_>, position_mm: f64, window: Window) -> Self {
         let grid = flanks.grid.pinion;
         let here = grid.place(flanks.geometry.contact_coordinate_mm(Gear::Pinion, position_mm)).index;
         let length = window.upper_mm - window.lower_mm;
-        let intervals = ((length / (grid.arc_mm[here + 1] - grid.arc_mm[here])).ceil() as usize).max(8);
+        let intervals = ((length / (POINTS_PER_SAMPLE * (grid.arc_mm[here + 1] - grid.arc_mm[here]))).ceil() as usize).max(8);
         let spacing_mm = length / intervals as f64;
         let mut strip = Self {
             window,
@@ -98,8 +107,8 @@ impl Strip {
             let along = window.lower_mm + k as f64 * spacing_mm;
             let mut gap = 0.0;
             for (gear, along) in [(Gear::Pinion, along), (Gear::Wheel, -along)] {
-                let coordinate = flanks.geometry.coordinate_at_mm(gear, along, position_mm);
-                gap += flanks.geometry.in_tangent_frame(gear, coordinate, position_mm).drop_mm;
+                let (coordinate, drop) = flanks.geometry.at_along(gear, along, position_mm);
+                gap += drop;
                 strip.interpolation[gear].push(flanks.grid[gear], coordinate);
             }
             strip.geometric_gap_mm.push(gap);
@@ -129,8 +138,8 @@ impl Strip {
 pub struct ObservedPoints {
     /// Index of the first point that may touch; the samples begin one before it.
     pub first_point: usize,
-    /// Where the samples lie along the tangent, towards the gear's own tip, mm.
-    pub along_mm: Vec<f64>,
+    /// Where the samples lie in the tangent frame.
+    pub at: Vec<TangentFramePoint>,
     /// Distance of the samples, mm.
     pub spacing_mm: f64,
     /// Sliding of each point (without the ends) while the contact moves through the cell, counted only while the mate
@@ -144,36 +153,50 @@ impl ObservedPoints {
     /// The points of `gear` facing `window` anywhere in `cell`.
     pub fn new(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
         let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
-        let along_at = |i: usize, position| geometry.in_tangent_frame(gear, grid.coordinate_mm[i], position).along_mm;
         let (lower, upper) = match gear {
             Gear::Pinion => (window.lower_mm, window.upper_mm),
             Gear::Wheel => (-window.upper_mm, -window.lower_mm),
         };
         // The contact moves over the flank within the cell: take in what it passes.
         let passed = geometry.rolling_ratio(gear, cell.position_mm) * (cell.upper_mm - cell.lower_mm);
-        let place = |along| grid.place(geometry.coordinate_at_mm(gear, along, cell.position_mm)).index;
+        let place = |along| grid.place(geometry.at_along(gear, along, cell.position_mm).0).index;
         let tip = grid.len() - 1;
-        let first = place(lower - passed).max(1);
-        let last = (place(upper + passed) + 1).min(tip).max(first);
+        let first_point = place(lower - passed).max(1);
+        let last = (place(upper + passed) + 1).min(tip).max(first_point);
 
-        let mut along_mm: Vec<f64> = (first - 1..=(last + 1).min(tip)).map(|i| along_at(i, cell.position_mm)).collect();
-        let spacing_mm = (along_mm[along_mm.len() - 1] - along_mm[0]) / (along_mm.len() - 1) as f64;
+        let samples = first_point - 1..=(last + 1).min(tip);
+        let mut at: Vec<TangentFramePoint> = samples
+            .map(|i| geometry.in_tangent_frame(gear, grid.coordinate_mm[i], cell.position_mm))
+            .collect();
+        let spacing_mm = (at[at.len() - 1].along_mm - at[0].along_mm) / (at.len() - 1) as f64;
         if last == tip {
-            along_mm.push(along_mm[along_mm.len() - 1] + spacing_mm);
+            let along = at[at.len() - 1].along_mm + spacing_mm;
+            at.push(TangentFramePoint { along_mm: along, drop_mm: geometry.at_along(gear, along, cell.position_mm).1 });
         }
         let sliding = geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
-        let middle = first.midpoint(last);
+        let exposure = Exposure::new(flanks, gear, cell);
+        let middle = grid.coordinate_mm[first_point.midpoint(last)];
         Self {
-            first_point: first,
-            along_mm,
+            first_point,
             spacing_mm,
-            sliding_mm: (first..=last)
-                .map(|i| sliding * exposure(flanks, gear, grid.coordinate_mm[i], cell))
+            sliding_mm: (first_point..=last)
+                .zip(&at[1..])
+                .map(|(i, point)| sliding * exposure.of(geometry, grid.coordinate_mm[i], point.along_mm))
                 .collect(),
-            shift_to_ends_mm: [cell.lower_mm, cell.upper_mm]
-                .map(|end| along_at(middle, end) - along_at(middle, cell.position_mm)),
+            at,
+            shift_to_ends_mm: shift_to_ends_mm(geometry, gear, middle, cell),
         }
     }
+}
+
+/// How far the flank point at `coordinate_mm` moves along the tangent from the cell's position to its ends: the contact
+/// moves up the pinion and down the wheel.
+fn shift_to_ends_mm(geometry: &dyn ConjugateFlanks, gear: Gear, coordinate_mm: f64, cell: PositionCell) -> [f64; 2] {
+    let rolling = geometry.rolling_ratio(gear, geometry.position_at_mm(gear, coordinate_mm));
+    [cell.lower_mm, cell.upper_mm].map(|end| match gear {
+        Gear::Pinion => rolling * (cell.position_mm - end),
+        Gear::Wheel => rolling * (end - cell.position_mm),
+    })
 }
 
 /// The gap that observed points face.
@@ -186,15 +209,10 @@ pub struct GapAtPoints {
 impl GapAtPoints {
     /// Of the samples of `points` at `position_mm`.
     pub fn new(flanks: Flanks<'_>, gear: Gear, points: &ObservedPoints, position_mm: f64) -> Self {
-        let geometry = flanks.geometry;
         let mut gap = Self { geometric_gap_mm: Vec::new(), mate: Interpolation::default() };
-        for &along in &points.along_mm {
-            let own = geometry.coordinate_at_mm(gear, along, position_mm);
-            let facing = geometry.coordinate_at_mm(gear.mate(), -along, position_mm);
-            gap.geometric_gap_mm.push(
-                geometry.in_tangent_frame(gear, own, position_mm).drop_mm
-                    + geometry.in_tangent_frame(gear.mate(), facing, position_mm).drop_mm,
-            );
+        for own in &points.at {
+            let (facing, drop) = flanks.geometry.at_along(gear.mate(), -own.along_mm, position_mm);
+            gap.geometric_gap_mm.push(own.drop_mm + drop);
             gap.mate.push(flanks.grid[gear.mate()], facing);
         }
         gap
@@ -214,22 +232,42 @@ impl GapAtPoints {
     }
 }
 
-/// Part of the cell's stretch during which the flank point at `coordinate_mm` faces a place that exists on the mate.
-fn exposure(flanks: Flanks<'_>, gear: Gear, coordinate_mm: f64, cell: PositionCell) -> f64 {
-    let own = flanks.geometry.flank_limits_mm(gear);
-    let tolerance = 1e-9 * own.1;
-    if coordinate_mm < own.0 - tolerance || coordinate_mm > own.1 + tolerance {
-        return 0.0;
+/// How long within a cell a flank point faces a place that exists on the mate.
+struct Exposure {
+    gear: Gear,
+    cell: PositionCell,
+    own_limits_mm: (f64, f64),
+    /// First and last place of the mate's flank, along the gear's own tangent direction, at both ends of the cell.
+    mate_limits_mm: [[f64; 2]; 2],
+}
+
+impl Exposure {
+    fn new(flanks: Flanks<'_>, gear: Gear, cell: PositionCell) -> Self {
+        let mate = flanks.geometry.flank_limits_mm(gear.mate());
+        let along = |limit, end| -flanks.geometry.in_tangent_frame(gear.mate(), limit, end).along_mm;
+        Self {
+            gear,
+            cell,
+            own_limits_mm: flanks.geometry.flank_limits_mm(gear),
+            mate_limits_mm: [cell.lower_mm, cell.upper_mm].map(|end| [along(mate.1, end), along(mate.0, end)]),
+        }
     }
-    let mate = flanks.geometry.flank_limits_mm(gear.mate());
-    // Distance inside each end of the mate's flank, at both ends of the cell; it changes linearly in between.
-    let inside = |at: f64| {
-        let here = -flanks.geometry.in_tangent_frame(gear, coordinate_mm, at).along_mm;
-        let end = |limit| flanks.geometry.in_tangent_frame(gear.mate(), limit, at).along_mm;
-        [here - end(mate.0), end(mate.1) - here]
-    };
-    let (before, after) = (inside(cell.lower_mm), inside(cell.upper_mm));
-    before.iter().zip(after).map(|(&b, a)| positive_part(b, a)).product()
+
+    /// Part of the cell during which the point at `coordinate_mm`, at `along_mm` from the cell's position, faces the
+    /// mate: it moves past the mate's ends in a straight line.
+    fn of(&self, geometry: &dyn ConjugateFlanks, coordinate_mm: f64, along_mm: f64) -> f64 {
+        let tolerance = 1e-9 * self.own_limits_mm.1;
+        if !(self.own_limits_mm.0 - tolerance..=self.own_limits_mm.1 + tolerance).contains(&coordinate_mm) {
+            return 0.0;
+        }
+        let shifts = shift_to_ends_mm(geometry, self.gear, coordinate_mm, self.cell);
+        let [before, after] = [0, 1].map(|end| {
+            let here = along_mm + shifts[end];
+            let [first, last] = self.mate_limits_mm[end];
+            [here - first, last - here]
+        });
+        before.iter().zip(after).map(|(&b, a)| positive_part(b, a)).product()
+    }
 }
 
 /// Fraction of the way from `before` to `after` on which the linear course between them is positive.

@@ -19,8 +19,8 @@ pub trait ConjugateFlanks: Sync {
     /// Where a flank point lies in the tangent frame of `position_mm`.
     fn in_tangent_frame(&self, gear: Gear, coordinate_mm: f64, position_mm: f64) -> TangentFramePoint;
 
-    /// Coordinate of the flank point at `along_mm` in the tangent frame of `position_mm`.
-    fn coordinate_at_mm(&self, gear: Gear, along_mm: f64, position_mm: f64) -> f64;
+    /// The flank point at `along_mm` in the tangent frame of `position_mm`: its coordinate and its drop.
+    fn at_along(&self, gear: Gear, along_mm: f64, position_mm: f64) -> (f64, f64);
 
     /// First and last coordinate of a gear's flank: beyond them there is no surface to carry pressure.
     fn flank_limits_mm(&self, gear: Gear) -> (f64, f64);
@@ -58,8 +58,9 @@ impl ConjugateFlanks for GearPair {
         self.path.involute[gear].in_tangent_frame(coordinate_mm, self.path.rho_mm(gear, position_mm))
     }
 
-    fn coordinate_at_mm(&self, gear: Gear, along_mm: f64, position_mm: f64) -> f64 {
-        self.path.involute[gear].rho_at_along_mm(along_mm, self.path.rho_mm(gear, position_mm))
+    fn at_along(&self, gear: Gear, along_mm: f64, position_mm: f64) -> (f64, f64) {
+        let point = self.path.involute[gear].at_along(along_mm, self.path.rho_mm(gear, position_mm));
+        (point.rho_mm, point.drop_mm)
     }
 
     fn flank_limits_mm(&self, gear: Gear) -> (f64, f64) {

@@ -88,26 +88,38 @@ impl Involute {
         }
     }
 
-    /// The inverse of [`Self::in_tangent_frame`] in `along`: radius of curvature of the flank point at `along_mm` from
-    /// the contact point, by Newton's method; 0 where that is at or beyond the base circle.
-    pub fn rho_at_along_mm(&self, along_mm: f64, contact_rho_mm: f64) -> f64 {
+    /// The flank point at `along_mm` from the contact point, the inverse of [`Self::in_tangent_frame`] in `along`, by
+    /// Newton's method; the base circle's own point where that lies at or beyond it.
+    pub fn at_along(&self, along_mm: f64, contact_rho_mm: f64) -> FlankPoint {
         let r_b = self.base_radius_mm;
         let square = contact_rho_mm * contact_rho_mm + 2.0 * r_b * along_mm;
-        if square <= 0.0 {
-            return 0.0;
+        let mut rho = square.max(0.0).sqrt();
+        if rho == 0.0 {
+            return FlankPoint { rho_mm: 0.0, drop_mm: self.in_tangent_frame(0.0, contact_rho_mm).drop_mm };
         }
-        let mut rho = square.sqrt();
+        let mut drop_mm = 0.0;
         for _ in 0..8 {
             let (sin, cos) = ((rho - contact_rho_mm) / r_b).sin_cos();
-            // d along / dρ = (ρ / r_b) cos Δφ
-            let step = (r_b * (cos - 1.0) + rho * sin - along_mm) * r_b / (rho * cos);
-            rho = (rho - step).max(0.5 * rho);
-            if step.abs() <= 1e-14 * rho {
+            // d along / dρ = (ρ / r_b) cos Δφ and d drop / dρ = (ρ / r_b) sin Δφ
+            let step = (along_mm - r_b * (cos - 1.0) - rho * sin) * r_b / (rho * cos);
+            drop_mm = contact_rho_mm + r_b * sin - rho * cos + step * rho / r_b * sin;
+            rho = (rho + step).max(0.5 * rho);
+            // What is left of the error goes with the square of the step.
+            if step.abs() <= 1e-7 * rho {
                 break;
             }
         }
-        rho
+        FlankPoint { rho_mm: rho, drop_mm }
     }
+}
+
+/// A flank point found at a place of the common tangent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlankPoint {
+    /// Its radius of curvature, mm.
+    pub rho_mm: f64,
+    /// Behind the tangent, into the gear, mm.
+    pub drop_mm: f64,
 }
 
 /// A flank point relative to the theoretical contact point.
@@ -142,12 +154,13 @@ mod tests {
     fn ver_tangent_frame_and_back() {
         let flank = Involute { base_radius_mm: 33.8289 };
         for along in [-0.2, -0.05, 0.0, 0.1, 0.4] {
-            let rho = flank.rho_at_along_mm(along, 4.4723);
-            let point = flank.in_tangent_frame(rho, 4.4723);
+            let found = flank.at_along(along, 4.4723);
+            let point = flank.in_tangent_frame(found.rho_mm, 4.4723);
             assert!((point.along_mm - along).abs() < 1e-13, "{along}: {point:?}");
+            assert!((point.drop_mm - found.drop_mm).abs() < 1e-14, "{along}: {point:?}");
         }
         // Curvature at the contact point is 1/ξ: drop → along²/(2 ξ).
-        let point = flank.in_tangent_frame(flank.rho_at_along_mm(1e-3, 13.97), 13.97);
+        let point = flank.in_tangent_frame(flank.at_along(1e-3, 13.97).rho_mm, 13.97);
         assert!((point.drop_mm / (1e-6 / (2.0 * 13.97)) - 1.0).abs() < 1e-3);
     }
 }
