@@ -13,9 +13,11 @@
 //!
 //! `ARCHITECTURE.md` is the map of the code, `docs/theory.md` the derivations that the modules cite.
 
+pub mod contact;
 pub mod gear;
+pub mod pipeline;
+pub mod plan;
 pub mod scene;
 pub mod simulation;
-pub mod contact;
 pub mod stiffness;
 pub mod wear;
