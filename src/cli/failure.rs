@@ -43,12 +43,12 @@ pub struct SceneProblems {
 #[derive(Debug, thiserror::Error, Diagnostic)]
 pub enum InputError {
     /// The scene file cannot be read.
-    #[error("the scene {name} cannot be read: {source}")]
+    #[error("the scene {name} cannot be read: {reason}")]
     Unreadable {
         /// Name of the file.
         name: String,
         /// The system's reason.
-        source: io::Error,
+        reason: io::Error,
     },
     /// The scene file is no text.
     #[error("the scene {name} is not UTF-8 text: byte {byte}, line {line}")]
@@ -76,13 +76,13 @@ pub enum InputError {
         path: PathBuf,
     },
     /// The output folder cannot be made or written.
-    #[error("--out {}: the folder cannot be written: {source}", .path.display())]
+    #[error("--out {}: the folder cannot be written: {reason}", .path.display())]
     #[diagnostic(help("choose a folder you may write to"))]
     OutNotWritable {
         /// As typed.
         path: PathBuf,
         /// The system's reason.
-        source: io::Error,
+        reason: io::Error,
     },
     /// The threads cannot be started.
     #[error("--threads: {0}")]
@@ -132,6 +132,7 @@ impl SceneProblems {
 fn label(problem: &Problem) -> Option<LabeledSpan> {
     let text = match problem.kind {
         ProblemKind::Missing => format!("{} is missing", problem.key),
+        ProblemKind::NotAvailable => "not available in this version".to_owned(),
         ProblemKind::Geometry(_) => "here".to_owned(),
         _ => format!("found {}", problem.found),
     };

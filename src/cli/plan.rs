@@ -33,7 +33,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let plan = Plan::of(&resolved.scene);
     stdout::print(&match args.format {
         Format::Text => text(&resolved.scene.title, &plan),
-        Format::Json => format!("{:#}\n", serde_json::json!({ "stages": plan.stages, "left_out": plan.left_out })),
+        Format::Json => serde_json::to_string_pretty(&plan).expect("a plan is names and texts") + "\n",
     })
 }
 

@@ -75,7 +75,7 @@ fn prepare(out: &Path) -> Result<(), InputError> {
     }
     fs::create_dir_all(out)
         .and_then(|()| tempfile::tempfile_in(out).map(drop))
-        .map_err(|source| InputError::OutNotWritable { path: out.to_owned(), source })
+        .map_err(|reason| InputError::OutNotWritable { path: out.to_owned(), reason })
 }
 
 /// A flag that the first Ctrl-C sets; a second one ends the program at once.

@@ -16,7 +16,7 @@ pub fn resolve(path: &Path) -> Result<Resolved, Failure> {
     } else {
         (path.display().to_string(), fs::read(path))
     };
-    let bytes = bytes.map_err(|source| InputError::Unreadable { name: name.clone(), source })?;
+    let bytes = bytes.map_err(|reason| InputError::Unreadable { name: name.clone(), reason })?;
     let text = String::from_utf8(bytes).map_err(|error| {
         let byte = error.utf8_error().valid_up_to();
         let line = error.as_bytes()[..byte].iter().filter(|&&b| b == b'\n').count() + 1;

@@ -15,6 +15,8 @@ pub struct Findings {
     pub warnings: Vec<String>,
     /// Keys already complained about: what follows from them is not reported again.
     spoiled: BTreeSet<String>,
+    /// Whether the last complaint was reported, so that help for it is wanted.
+    reported: bool,
 }
 
 impl Findings {
@@ -33,8 +35,12 @@ impl Findings {
         self.spoiled.insert(key.to_owned());
     }
 
-    /// A problem with the value of `key`.
+    /// A problem with the value of `key`, unless that key was complained about before.
     pub fn problem(&mut self, kind: ProblemKind, key: &str, found: impl Into<String>, allowed: impl Into<String>) {
+        self.reported = !self.spoiled.contains(key);
+        if !self.reported {
+            return;
+        }
         let span = match kind {
             ProblemKind::UnknownKey | ProblemKind::NotAvailable => self.locator.key(key),
             _ => None,
@@ -53,7 +59,7 @@ impl Findings {
 
     /// Adds a sentence of help to the problem just reported.
     pub fn help(&mut self, sentence: impl AsRef<str>) {
-        if let Some(problem) = self.problems.last_mut() {
+        if let Some(problem) = self.problems.last_mut().filter(|_| self.reported) {
             problem.add_help(sentence.as_ref());
         }
     }
@@ -63,7 +69,8 @@ impl Findings {
         let spoiled = |key: &&str| {
             self.spoiled.iter().any(|s| s == key || key.strip_prefix(s).is_some_and(|k| k.starts_with('.')))
         };
-        if !keys.iter().any(spoiled) {
+        self.reported = !keys.iter().any(spoiled);
+        if self.reported {
             self.problem(ProblemKind::Missing, keys[0], "nothing", allowed);
             if let [_, others @ ..] = keys
                 && !others.is_empty()

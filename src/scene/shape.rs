@@ -1,6 +1,7 @@
 //! Checks a scene file, key by key, against the schema: names, types and ranges.
 //!
-//! Nothing stops at the first problem. What is wrong is reported and taken out, so that the rest can be checked further.
+//! Nothing stops at the first problem. What is wrong is reported and taken out, or replaced where the file cannot do
+//! without it, so that the rest can be checked further; what came of such a file is never used.
 
 use toml::{Table, Value};
 
@@ -29,12 +30,27 @@ fn check_table(node: Node<'_>, table: &Table, path: &str, findings: &mut Finding
         }
     }
     for name in node.required() {
+        let Some(child) = node.child(name) else { continue };
         if !table.contains_key(name) {
-            let allowed = node.child(name).map_or_else(String::new, |child| child.allowed());
-            findings.missing(&[&join(path, name)], &allowed);
+            findings.missing(&[&join(path, name)], &child.allowed());
         }
+        // Reported; something must stand there so that the rest of the file can be checked further.
+        sound.entry(name).or_insert_with(|| stand_in(child));
     }
     sound
+}
+
+/// Any value of the right shape.
+fn stand_in(node: Node<'_>) -> Value {
+    match (node.type_name(), node.choices().first()) {
+        (_, Some(&choice)) => Value::String(choice.to_owned()),
+        ("object", _) => {
+            let of = |name: &str| node.child(name).map(|child| (name.to_owned(), stand_in(child)));
+            Value::Table(node.required().into_iter().filter_map(of).collect())
+        }
+        ("integer", _) => Value::Integer(1),
+        _ => Value::Float(1.0),
+    }
 }
 
 fn check_value(node: Node<'_>, value: &Value, key: &str, findings: &mut Findings) -> Option<Value> {
@@ -96,7 +112,7 @@ fn check_number(node: Node<'_>, x: f64, value: &Value, key: &str, findings: &mut
 
 fn unknown_key(node: Node<'_>, name: &str, key: &str, path: &str, findings: &mut Findings) {
     if let Some(later) = later::unknown_key(key) {
-        return findings.problem(ProblemKind::NotAvailable, key, name, later.instead);
+        return findings.problem(ProblemKind::NotAvailable, key, "this key", later.instead);
     }
     let known = node.keys();
     findings.problem(ProblemKind::UnknownKey, key, name, known.join(", "));

@@ -30,16 +30,10 @@ pub fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
     let resolved = match serde_path_to_error::deserialize::<_, SceneFile>(Value::Table(sound)) {
         Ok(file) => choose(file, &mut findings),
         Err(error) => {
-            // The shape was checked, so this happens only where a required key was reported already.
-            if findings.problems.is_empty() {
-                let key = error.path().to_string();
-                findings.problem(
-                    ProblemKind::WrongType,
-                    &key,
-                    error.into_inner().message().to_owned(),
-                    "see the schema",
-                );
-            }
+            // The shape was checked against the schema of this same structure; should the two differ, this tells.
+            let key = error.path().to_string();
+            let found = error.into_inner().message().to_owned();
+            findings.problem(ProblemKind::WrongType, &key, found, "what gearwear schema says");
             None
         }
     };
@@ -56,6 +50,7 @@ pub fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
         }
         _ => {
             let slips: Vec<_> = slips.collect();
+            findings.problems.sort_by_key(|problem| problem.span.as_ref().map(|span| span.start));
             for problem in &mut findings.problems {
                 let geometry = matches!(problem.kind, ProblemKind::Geometry(_));
                 for slip in &slips {
