@@ -177,7 +177,7 @@ fn numbers_that_are_none() {
 
 #[test]
 fn contact_ratio_below_one() {
-    // Tips 4 mm smaller in radius: the path of contact of 19.1 mm shrinks below the base pitch of 13.3 mm.
+    // Tips some 2 mm lower: the path of contact of 19.1 mm shrinks to 9.9 mm, below the base pitch of 13.3 mm.
     let case = Case::fzg_c().with("pair.pinion", "tip_diameter_mm", "tip_diameter_mm = 78.0").with(
         "pair.wheel",
         "tip_diameter_mm",
@@ -188,17 +188,22 @@ fn contact_ratio_below_one() {
 
 #[test]
 fn pointed_tooth() {
-    // With x = 0.1817 and 16 teeth the flanks meet well below 92 mm; the wheel is cut deeper to leave the tip room.
-    let case = Case::fzg_c().with("pair.pinion", "tip_diameter_mm", "tip_diameter_mm = 92.0");
+    // With x = 1.2 the flanks of 16 teeth meet near 91 mm; everything else of this pair is sound.
+    let case = Case::fzg_c()
+        .with("pair", "centre_distance_mm", "centre_distance_mm = 94.8")
+        .with("pair.pinion", "profile_shift", "profile_shift = 1.2")
+        .with("pair.pinion", "tip_diameter_mm", "tip_diameter_mm = 92.0")
+        .with("pair.wheel", "profile_shift", "profile_shift = 0.0")
+        .with("pair.wheel", "tip_diameter_mm", "");
     let line = case.line_of("tip_diameter_mm = 92");
     case.refused().at_line(line).says(&["pair.pinion.tip_diameter_mm", "pointed", "allowed: a tip diameter below"]);
 }
 
 #[test]
 fn interference() {
-    // Twelve teeth without shift are undercut; a standard wheel reaches below what is left of the involute.
+    // Twelve teeth without shift: a standard wheel of 50 teeth reaches beyond the point where the involute begins.
     let case = Case::of(
-        "[pair]\nnormal_module_mm = 4.5\npressure_angle_deg = 20.0\ncentre_distance_mm = 139.5\nface_width_mm = 14.0\n\
+        "[pair]\nnormal_module_mm = 4.5\npressure_angle_deg = 20.0\ncentre_distance_mm = 139.6\nface_width_mm = 14.0\n\
          [pair.pinion]\nteeth = 12\nprofile_shift = 0.0\n[pair.wheel]\nteeth = 50\nprofile_shift = 0.0\n\
          tip_diameter_mm = 234.0\n[operation]\npinion_torque_Nm = 100.0\npinion_revolutions = 1e6\n\
          [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n",
@@ -226,7 +231,7 @@ fn negative_backlash() {
     case.refused().at_line(line).says(&[
         "pair.centre_distance_mm",
         "jam",
-        "allowed: a centre distance of at least 91.5",
+        "allowed: a centre distance of at least 91.",
     ]);
 }
 

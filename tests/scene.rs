@@ -145,6 +145,7 @@ fn the_resolved_scene_says_the_same_bit_for_bit() {
         assert_eq!(again.scene_hash(), resolved.scene_hash());
         assert_eq!(resolved.scene_hash().len(), 16);
         assert!(!resolved.to_toml().contains("preset"));
+        assert!(resolved.to_toml().contains("coefficient_m2_per_N = 1e-17\n"));
     }
 }
 

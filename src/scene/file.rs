@@ -347,6 +347,13 @@ impl SceneFile {
     /// The scene as TOML text.
     pub fn to_toml(&self) -> String {
         // Plain structs with text keys: nothing in them that TOML could not express.
-        toml::to_string(self).expect("a scene file is always expressible in TOML")
+        let text = toml::to_string(self).expect("a scene file is always expressible in TOML");
+        // TOML's writer knows no exponents, and nobody reads a wear coefficient of sixteen zeros.
+        let key = "coefficient_m2_per_N = ";
+        let short = self.wear.coefficient_m2_per_N.and_then(|k| {
+            let (before, after) = text.rsplit_once(&format!("{key}{k}"))?;
+            Some(format!("{before}{key}{k:?}{after}"))
+        });
+        short.unwrap_or(text)
     }
 }

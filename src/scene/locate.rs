@@ -83,14 +83,6 @@ pub fn join(prefix: &str, key: &str) -> String {
     if prefix.is_empty() { key.to_owned() } else { format!("{prefix}.{key}") }
 }
 
-/// Line and column of a byte offset, both counted from 1, the column in characters.
-pub fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
-    let before = text.get(..offset.min(text.len())).unwrap_or(text);
-    let line = before.matches('\n').count() + 1;
-    let column = before.rsplit('\n').next().unwrap_or("").chars().count() + 1;
-    (line, column)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -104,11 +96,5 @@ mod tests {
         assert_eq!(&text[locator.nearest("pair.pinion.profile_shift")], "pinion");
         assert_eq!(&text[locator.nearest("pair.wheel.teeth")], "pair");
         assert_eq!(locator.nearest("wear.law"), text.len()..text.len());
-    }
-
-    #[test]
-    fn offsets_become_lines_and_columns() {
-        assert_eq!(line_and_column("a\nµb\n", 4), (2, 2));
-        assert_eq!(line_and_column("a\n", 99), (2, 1));
     }
 }

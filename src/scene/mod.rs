@@ -3,13 +3,13 @@
 pub mod file;
 mod findings;
 mod later;
-pub mod locate;
+mod locate;
 pub mod presets;
 pub mod problem;
 mod resolve;
 pub mod schema;
 mod shape;
-pub mod unit_slip;
+mod unit_slip;
 
 use sha2::{Digest, Sha256};
 

@@ -52,7 +52,7 @@ impl Transform for WithoutNull {
 
 /// What a key takes, read from its node of the schema.
 #[derive(Debug, Clone, Copy)]
-pub struct Node<'a>(&'a Value);
+pub(super) struct Node<'a>(&'a Value);
 
 impl<'a> Node<'a> {
     /// The whole file.

@@ -121,8 +121,8 @@ impl Search<'_> {
                     &[METRES],
                 );
             }
-            // A relief of a ten-thousandth of the module does nothing; one of the whole module leaves no tooth.
-            let (credible, usual) = ([0.1 * module, 1e3 * module], [0.1 * module, 50.0 * module]);
+            // A relief of some millionths of the module does nothing; one of the whole module leaves no tooth.
+            let (credible, usual) = ([0.02 * module, 1e3 * module], [0.1 * module, 50.0 * module]);
             for key in ["tip_relief.amount_um", "root_relief.amount_um", "profile_crowning_um"] {
                 let key = format!("pair.{gear}.{key}");
                 if self.get(&key) != Some(0.0) {
