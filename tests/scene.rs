@@ -150,6 +150,14 @@ fn the_resolved_scene_says_the_same_bit_for_bit() {
 }
 
 #[test]
+fn wear_coefficients_of_any_size_survive_the_resolved_scene() {
+    for k in ["1e-17", "1.25e-19", "0.001", "1", "1e30"] {
+        let scene = resolve(&LEAST.replace("1e-17", k));
+        assert_eq!(resolve(&scene.to_toml()).scene, scene.scene, "{k}");
+    }
+}
+
+#[test]
 fn init_prints_the_presets() {
     for preset in presets::PRESETS {
         Command::cargo_bin("gearwear").unwrap().args(["init", preset.name]).assert().success().stdout(preset.text);

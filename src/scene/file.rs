@@ -351,8 +351,8 @@ impl SceneFile {
         // TOML's writer knows no exponents, and nobody reads a wear coefficient of sixteen zeros.
         let key = "coefficient_m2_per_N = ";
         let short = self.wear.coefficient_m2_per_N.and_then(|k| {
-            let (before, after) = text.rsplit_once(&format!("{key}{k}"))?;
-            Some(format!("{before}{key}{k:?}{after}"))
+            let (before, after) = text.rsplit_once(&format!("{key}{k}\n"))?;
+            Some(format!("{before}{key}{k:?}\n{after}"))
         });
         short.unwrap_or(text)
     }

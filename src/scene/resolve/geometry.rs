@@ -123,3 +123,76 @@ fn modification_key(modification: &str) -> String {
 fn short(length_mm: f64) -> String {
     format!("{} mm", (length_mm * 1e4).round() / 1e4)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::locate::Locator;
+    use crate::scene::{Scene, presets};
+
+    /// Every geometry error lands at a key of the scene, in the preset's own text and beside a preset.
+    #[test]
+    fn every_error_has_its_key() {
+        let (gear, of_pinion) = (Gear::Pinion, |name: &str| format!("pair.pinion.{name}"));
+        let centre = "pair.centre_distance_mm".to_owned();
+        let errors = [
+            (PairError::NoMesh { centre_distance_mm: 80.0, least_mm: 84.5723 }, centre.clone()),
+            (
+                PairError::NegativeBacklash { backlash_mm: -0.4, centre_distance_mm: 91.0, least_mm: 91.5 },
+                centre.clone(),
+            ),
+            (PairError::ContactRatioBelowOne { contact_ratio: 0.75 }, centre),
+            (
+                PairError::PointedTooth {
+                    gear,
+                    tip_thickness_mm: -0.1,
+                    tip_diameter_mm: 92.0,
+                    pointed_diameter_mm: 91.0,
+                },
+                of_pinion("tip_diameter_mm"),
+            ),
+            (
+                PairError::TipBelowBase { gear, tip_diameter_mm: 67.0, base_diameter_mm: 67.6577 },
+                of_pinion("tip_diameter_mm"),
+            ),
+            (
+                PairError::Interference { gear: Gear::Wheel, contact_diameter_mm: 101.0, form_diameter_mm: 102.61 },
+                of_pinion("tip_diameter_mm"),
+            ),
+            (PairError::NoTipClearance { gear, clearance_mm: -0.5 }, of_pinion("tip_diameter_mm")),
+            (PairError::RackTipPointed { greatest: 0.47 }, "pair.basic_rack.fillet_radius_factor".to_owned()),
+            (PairError::NoTooth { gear }, of_pinion("profile_shift")),
+            (
+                PairError::BoreTooLarge { gear, bore_diameter_mm: 70.0, root_diameter_mm: 62.386 },
+                of_pinion("bore_diameter_mm"),
+            ),
+            (
+                PairError::ModificationTooLong {
+                    gear,
+                    modification: "tip relief",
+                    length_mm: 30.0,
+                    available_mm: 19.1,
+                },
+                of_pinion("tip_relief.length_mm"),
+            ),
+            (
+                PairError::ModificationTooLong {
+                    gear,
+                    modification: "tip rounding",
+                    length_mm: 30.0,
+                    available_mm: 19.1,
+                },
+                of_pinion("tip_rounding_mm"),
+            ),
+        ];
+        let text = presets::PRESETS[0].text;
+        let spec = Scene::from_toml(text).unwrap().scene.pair;
+        let findings = Findings::new(Locator::new(text).unwrap());
+        let beside_preset = Findings::new(Locator::new("pair.preset = \"fzg-c\"").unwrap());
+        for (error, key) in errors {
+            assert_eq!(place(&error, &spec, &findings).key, key);
+            let key = key.replace("pinion.tip_diameter_mm", "pinion.profile_shift");
+            assert_eq!(place(&error, &spec, &beside_preset).key, key);
+        }
+    }
+}
