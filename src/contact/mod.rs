@@ -1,3 +1,120 @@
-//! Contact surfaces.
+//! Contact surfaces: how a tooth pair answers when its flanks are pressed together.
+//!
+//! One interface for all models. A [`ContactSurface`] prepares a [`PairContact`] for each tooth pair at each loading
+//! position; the working cycle then presses it by an approach and reads load and stiffness, and the wear collects what
+//! each flank point felt ([`Sweep`]). A contact reads the flank only as *removed material*: modifications and wear alike.
+//!
+//! | surface | pressure | load against approach |
+//! |---|---|---|
+//! | [`winkler`] | independent springs K/H against the real gap | from the pressure |
+//! | [`hertz`] | Hertz's ellipse on the nominal curvature | closed-form flattening |
+//! | [`hertz_mean`] | Hertz's mean pressure, closed-form sliding | closed-form flattening |
 
+pub mod foundation;
+pub mod hertz;
+pub mod hertz_mean;
 pub mod settings;
+pub mod strip;
+pub mod winkler;
+
+use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
+
+/// Two flanks and the points on them.
+#[derive(Clone, Copy)]
+pub struct Flanks<'a> {
+    /// Their geometry.
+    pub geometry: &'a dyn ConjugateFlanks,
+    /// Their points.
+    pub grid: PerGear<&'a FlankGrid>,
+}
+
+/// A loading position and the stretch of the path of contact it stands for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PositionCell {
+    /// Theoretical contact point.
+    pub position_mm: f64,
+    /// Where the stretch begins.
+    pub lower_mm: f64,
+    /// Where it ends.
+    pub upper_mm: f64,
+}
+
+/// A tooth pair's answer to an approach.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Response {
+    /// Load it carries, N per mm of face width.
+    pub line_load_n_per_mm: f64,
+    /// Derivative of the load with respect to the approach, N/mm².
+    pub stiffness_n_per_mm2: f64,
+}
+
+/// What consecutive points of one flank feel while the contact moves through a [`PositionCell`].
+#[derive(Debug, Clone, Copy)]
+pub struct Sweep<'a> {
+    /// Index of the first of the points.
+    pub first_point: usize,
+    /// Pressure on each, averaged over the cell, MPa.
+    pub pressure_mpa: &'a [f64],
+    /// How far each slides against the other flank while it faces it, mm.
+    pub sliding_mm: &'a [f64],
+    /// Part of that during which it is in contact, 0 to 1.
+    pub contact_fraction: &'a [f64],
+}
+
+impl Sweep<'_> {
+    /// No point felt anything.
+    pub const NOTHING: Self = Self { first_point: 0, pressure_mpa: &[], sliding_mm: &[], contact_fraction: &[] };
+}
+
+/// Where the contact is and how hard it presses.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Footprint {
+    /// Greatest pressure, MPa.
+    pub peak_pressure_mpa: f64,
+    /// Half the extent of the contact strip, mm.
+    pub half_width_mm: f64,
+}
+
+/// One tooth pair at one loading position.
+///
+/// Order of use: [`read`](Self::read) the flanks, [`press`](Self::press) until the working cycle is in equilibrium, then
+/// [`sweep`](Self::sweep) and [`footprint`](Self::footprint) of the last approach pressed.
+pub trait PairContact: Send {
+    /// Takes the material removed at each flank point, mm.
+    fn read(&mut self, removed_mm: PerGear<&[f64]>);
+
+    /// Load and stiffness at `approach_mm`: zero where unworn, unmodified flanks just touch.
+    fn press(&mut self, approach_mm: f64) -> Response;
+
+    /// An approach that carries at least `line_load_n_per_mm`, to begin an iteration with.
+    fn ample_approach_mm(&self, line_load_n_per_mm: f64) -> f64;
+
+    /// Whether the stretch of flank this contact looks at holds the whole contact of the last approach pressed; if not,
+    /// [`widen`](Self::widen) it and read and press again.
+    fn holds_contact(&self) -> bool {
+        true
+    }
+
+    /// Looks at a longer stretch of flank.
+    fn widen(&mut self) {}
+
+    /// Fills in what the points of a flank felt; empty for a pair prepared without a [`PositionCell`].
+    fn sweep(&mut self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Sweep<'_>;
+
+    /// Extent and greatest pressure.
+    fn footprint(&self) -> Footprint;
+}
+
+/// A model of the surfaces in contact.
+pub trait ContactSurface: Sync {
+    /// Prepares a tooth pair with its theoretical contact point at `position_mm`; with a `cell`, its wear is collected.
+    fn pair<'a>(
+        &self,
+        flanks: Flanks<'a>,
+        position_mm: f64,
+        cell: Option<PositionCell>,
+    ) -> Box<dyn PairContact + 'a>;
+
+    /// Approach of plain involutes under a line load at `position_mm`, away from the tip edges.
+    fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64;
+}

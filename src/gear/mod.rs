@@ -1,10 +1,19 @@
-//! Geometry of cylindrical involute gears, after ISO 21771.
+//! Geometry of cylindrical involute gears, after ISO 21771: from the data of a pair to its teeth, their outline, the path
+//! of contact and the flank's field of removed material.
 
+pub mod conjugate;
 pub mod error;
+pub mod flank;
+pub mod involute;
 pub mod modification;
+pub mod outline;
 pub mod pair;
+pub mod path_of_contact;
 pub mod per_gear;
+pub mod root_trochoid;
 pub mod spec;
+pub mod tooth;
 
 pub use error::PairError;
+pub use pair::GearPair;
 pub use per_gear::{Gear, PerGear};

@@ -1,12 +1,34 @@
 //! Everything that follows from the data of a pair.
+//!
+//! The working transverse pressure angle comes from the centre distance, cos α_wt = (r_b1 + r_b2) / a; what is left of
+//! the pitch on the working circles beside both tooth thicknesses is the backlash.
+//!
+//! Source: ISO 21771, section 5.
 
-use super::{PairError, spec::PairSpec};
+use std::f64::consts::PI;
+
+use super::{Gear, PairError, PerGear, path_of_contact::PathOfContact, spec::PairSpec, tooth::Tooth};
+
+/// Rounded profile shifts and centre distances give a few tenths of a micrometre of negative backlash on paper; real
+/// teeth jam when it exceeds this part of the normal module (4.5 µm for module 4.5).
+const BACKLASH_ROUNDING_MODULES: f64 = 1e-3;
 
 /// A gear pair with all that is derived from its data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearPair {
     /// The data it was built from.
     pub spec: PairSpec,
+    /// Circles and teeth.
+    pub teeth: PerGear<Tooth>,
+    /// α_wt, rad.
+    pub working_pressure_angle_rad: f64,
+    /// Where the flanks touch.
+    pub path: PathOfContact,
+    /// Circumferential backlash on the working circles, transverse, mm; rounding of the data to just below zero counts
+    /// as zero.
+    pub backlash_mm: f64,
+    /// Distance of each gear's tip circle from its mate's root circle, mm.
+    pub tip_clearance_mm: PerGear<f64>,
 }
 
 impl GearPair {
@@ -15,6 +37,130 @@ impl GearPair {
     /// # Errors
     /// Whatever makes it impossible, see [`PairError`].
     pub fn new(spec: &PairSpec) -> Result<Self, PairError> {
-        Ok(Self { spec: spec.clone() })
+        let centre_distance_mm = spec.centre_distance_mm;
+        let base_radii = PerGear::from_fn(|g| spec.reference_radius_mm(g) * spec.transverse_pressure_angle_rad().cos());
+        let least_mm = base_radii.pinion + base_radii.wheel;
+        if centre_distance_mm <= least_mm {
+            return Err(PairError::NoMesh { centre_distance_mm, least_mm });
+        }
+        let teeth = PerGear {
+            pinion: Tooth::new(spec, Gear::Pinion, spec.tip_radius_mm(Gear::Pinion))?,
+            wheel: Tooth::new(spec, Gear::Wheel, spec.tip_radius_mm(Gear::Wheel))?,
+        };
+        let working_pressure_angle_rad = (least_mm / centre_distance_mm).acos();
+        let line_of_action_mm = ((centre_distance_mm - least_mm) * (centre_distance_mm + least_mm)).sqrt();
+        let path = PathOfContact {
+            line_of_action_mm,
+            base_pitch_mm: 2.0 * PI * base_radii.pinion / f64::from(spec.gears.pinion.teeth),
+            start_mm: line_of_action_mm - teeth.wheel.tip_rho_mm(),
+            pitch_point_mm: base_radii.pinion * working_pressure_angle_rad.tan(),
+            end_mm: teeth.pinion.tip_rho_mm(),
+            involute: teeth.as_ref().map(|tooth| tooth.involute),
+        };
+        let tip_clearance_mm =
+            PerGear::from_fn(|g| centre_distance_mm - teeth[g].tip_radius_mm - teeth[g.mate()].root_radius_mm);
+        let mut pair =
+            Self { spec: spec.clone(), teeth, working_pressure_angle_rad, path, backlash_mm: 0.0, tip_clearance_mm };
+        pair.backlash_mm = pair.checked_backlash_mm()?;
+        pair.check_contact()?;
+        pair.check_modifications()?;
+        Ok(pair)
+    }
+
+    /// Radius of the working pitch circle.
+    pub fn working_pitch_radius_mm(&self, gear: Gear) -> f64 {
+        self.path.involute[gear].base_radius_mm / self.working_pressure_angle_rad.cos()
+    }
+
+    /// Radius at which a gear's flank touches its mate at `position_mm` on the path of contact.
+    pub fn radius_at_mm(&self, gear: Gear, position_mm: f64) -> f64 {
+        self.path.involute[gear].radius_mm(self.path.rho_mm(gear, position_mm))
+    }
+
+    /// Radius of curvature of a gear's flank at the start of its active profile (SAP).
+    pub fn active_start_rho_mm(&self, gear: Gear) -> f64 {
+        match gear {
+            Gear::Pinion => self.path.start_mm,
+            Gear::Wheel => self.path.line_of_action_mm - self.path.end_mm,
+        }
+    }
+
+    /// Radius of the start of active profile (SAP), r_Nf.
+    pub fn active_start_radius_mm(&self, gear: Gear) -> f64 {
+        self.path.involute[gear].radius_mm(self.active_start_rho_mm(gear))
+    }
+
+    /// ε_β = b sin β / (π m_n).
+    pub fn overlap_ratio(&self) -> f64 {
+        self.spec.face_width_mm * self.spec.helix_angle_rad.sin() / (PI * self.spec.normal_module_mm)
+    }
+
+    /// z_driving / z_driven: turns of the wheel per turn of the pinion.
+    pub fn wheel_turns_per_pinion_turn(&self) -> f64 {
+        f64::from(self.spec.gears.pinion.teeth) / f64::from(self.spec.gears.wheel.teeth)
+    }
+
+    fn checked_backlash_mm(&self) -> Result<f64, PairError> {
+        let on_pitch_circle = |g: Gear| self.teeth[g].thickness_mm(self.working_pitch_radius_mm(g));
+        let pitch_mm = self.path.base_pitch_mm / self.working_pressure_angle_rad.cos();
+        let backlash_mm = pitch_mm - on_pitch_circle(Gear::Pinion) - on_pitch_circle(Gear::Wheel);
+        if backlash_mm < -BACKLASH_ROUNDING_MODULES * self.spec.normal_module_mm {
+            let centre_distance_mm = self.spec.centre_distance_mm;
+            // The backlash grows by 2 tan α_wt per mm of centre distance (to first order).
+            let least_mm = centre_distance_mm - backlash_mm / (2.0 * self.working_pressure_angle_rad.tan());
+            return Err(PairError::NegativeBacklash { backlash_mm, centre_distance_mm, least_mm });
+        }
+        Ok(backlash_mm.max(0.0))
+    }
+
+    fn check_contact(&self) -> Result<(), PairError> {
+        let contact_ratio = self.path.contact_ratio();
+        if contact_ratio < 1.0 {
+            return Err(PairError::ContactRatioBelowOne { contact_ratio: contact_ratio.max(0.0) });
+        }
+        for gear in Gear::BOTH {
+            let clearance_mm = self.tip_clearance_mm[gear];
+            if clearance_mm < 0.0 {
+                return Err(PairError::NoTipClearance { gear, clearance_mm });
+            }
+            let rho = self.active_start_rho_mm(gear);
+            let form_radius = self.teeth[gear].root_form_radius_mm;
+            let contact_radius = if rho > 0.0 { self.active_start_radius_mm(gear) } else { f64::NAN };
+            if contact_radius.is_nan() || contact_radius < form_radius * (1.0 - 1e-9) {
+                return Err(PairError::Interference {
+                    gear,
+                    contact_diameter_mm: 2.0 * contact_radius,
+                    form_diameter_mm: 2.0 * form_radius,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_modifications(&self) -> Result<(), PairError> {
+        for gear in Gear::BOTH {
+            let modification = &self.spec.gears[gear].modification;
+            let active_mm = self.path.end_mm - self.path.start_mm;
+            let too_long = |name, length_mm, available_mm| {
+                Err(PairError::ModificationTooLong { gear, modification: name, length_mm, available_mm })
+            };
+            for (name, relief) in [("tip relief", modification.tip_relief), ("root relief", modification.root_relief)] {
+                if let Some(relief) = relief
+                    && relief.length_mm > active_mm
+                {
+                    return too_long(name, relief.length_mm, active_mm);
+                }
+            }
+            let tooth = &self.teeth[gear];
+            let rounding_mm = modification.tip_rounding_length_mm(tooth);
+            let flank_mm =
+                tooth.involute.arc_mm(tooth.tip_rho_mm()) - tooth.involute.arc_mm(self.active_start_rho_mm(gear));
+            // The two roundings of one tooth must also leave room for each other on the tip land.
+            let available_mm = flank_mm.min(0.5 * tooth.thickness_mm(tooth.tip_radius_mm));
+            if rounding_mm > available_mm {
+                return too_long("tip rounding", rounding_mm, available_mm);
+            }
+        }
+        Ok(())
     }
 }

@@ -62,6 +62,13 @@ impl<T> PerGear<T> {
     }
 }
 
+impl<T: std::ops::Add<Output = T>> PerGear<T> {
+    /// Pinion's and wheel's together.
+    pub fn sum(self) -> T {
+        self.pinion + self.wheel
+    }
+}
+
 impl<T> Index<Gear> for PerGear<T> {
     type Output = T;
 

@@ -2,7 +2,10 @@
 //!
 //! Profile shifts and rack factors are coefficients of the *normal* module (ISO 21771).
 
-use super::{modification::Modification, per_gear::PerGear};
+use super::{
+    modification::Modification,
+    per_gear::{Gear, PerGear},
+};
 
 /// The basic rack that generates the teeth (ISO 53), as factors of the normal module.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,4 +59,34 @@ pub struct PairSpec {
     pub rack: BasicRack,
     /// The gears.
     pub gears: PerGear<GearSpec>,
+}
+
+impl PairSpec {
+    /// Transverse module m_t = m_n / cos β.
+    pub fn transverse_module_mm(&self) -> f64 {
+        self.normal_module_mm / self.helix_angle_rad.cos()
+    }
+
+    /// Transverse pressure angle: tan α_t = tan α_n / cos β.
+    pub fn transverse_pressure_angle_rad(&self) -> f64 {
+        (self.normal_pressure_angle_rad.tan() / self.helix_angle_rad.cos()).atan()
+    }
+
+    /// Radius of the reference circle, r = m_t z / 2.
+    pub fn reference_radius_mm(&self, gear: Gear) -> f64 {
+        0.5 * self.transverse_module_mm() * f64::from(self.gears[gear].teeth)
+    }
+
+    /// Tip radius as given, or from the rack with addendum shortening: the tip keeps the clearance c* = h_fP* − h_aP*
+    /// from the mate's root circle.
+    pub fn tip_radius_mm(&self, gear: Gear) -> f64 {
+        match self.gears[gear].tip_diameter_mm {
+            Some(diameter) => 0.5 * diameter,
+            None => {
+                let mate = gear.mate();
+                let mate_addendum_line = self.gears[mate].profile_shift - self.rack.addendum_factor;
+                self.centre_distance_mm - self.reference_radius_mm(mate) - mate_addendum_line * self.normal_module_mm
+            }
+        }
+    }
 }

@@ -1,4 +1,6 @@
-//! The wear run.
+//! The wear run and what it leaves behind.
 
+pub mod figures;
 pub mod record;
 pub mod settings;
+pub mod wear_run;

@@ -1,3 +1,159 @@
-//! Tooth-stiffness curves.
+//! Tooth stiffness along the path of contact.
+//!
+//! A tooth pair is a spring of the teeth (bending, shear, body) in series with its contact surface (flattening). What
+//! must be right is the compliance of the whole pair; how it is split is bookkeeping. So a model states the **whole**
+//! compliance at a reference load, and the spring of the teeth is what the chosen surface leaves of it:
+//!
+//! ```text
+//! q_teeth(ξ) = q_pair(ξ) − δ_surface(ξ, w_ref) / w_ref
+//! ```
+//!
+//! | model | what it states |
+//! |---|---|
+//! | `constant` | the spring of the teeth itself, without flattening |
+//! | [`weber_banaschek`] | teeth, bodies and flattening of the generated profile, varying along the path |
+//! | [`iso6336`] | the single stiffness c', the same along the path |
+//!
+//! Both flattening and the bed's approach are nonlinear in the load; what the split leaves over at other loads than the
+//! reference is reported ([`TeethSpring::split_remainder`]).
 
+pub mod iso6336;
 pub mod settings;
+pub mod weber_banaschek;
+
+use crate::contact::{ContactSurface, hertz, settings::Material};
+use crate::gear::{GearPair, PerGear, conjugate::ConjugateFlanks};
+use settings::StiffnessSettings;
+use weber_banaschek::ToothCompliance;
+
+/// Why a stiffness and a surface do not go together.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum StiffnessError {
+    /// The contact surface alone is softer than the whole pair is meant to be.
+    #[error(
+        "the contact surface alone yields {surface_um:.3} µm under the whole load at position {position_mm:.3} mm, \
+         more than the {pair_um:.3} µm of the whole tooth pair by the stiffness model"
+    )]
+    SurfaceTooSoft {
+        /// Radius of curvature of the pinion at the theoretical contact point.
+        position_mm: f64,
+        /// Approach of the surface.
+        surface_um: f64,
+        /// Approach of the pair.
+        pair_um: f64,
+    },
+}
+
+/// What the model states.
+enum Curve {
+    /// Spring of the teeth, N/mm².
+    Teeth(f64),
+    /// Bending, shear and bodies of each gear; flattening in closed form.
+    WeberBanaschek(PerGear<ToothCompliance>),
+    /// Compliance of the whole pair, mm²/N.
+    WholePair(f64),
+}
+
+/// The spring of the teeth of a pair, in series with its contact surface.
+pub struct TeethSpring<'a> {
+    pair: &'a GearPair,
+    material: PerGear<Material>,
+    surface: &'a dyn ContactSurface,
+    curve: Curve,
+    /// The load at which spring and surface together have the model's compliance, N/mm.
+    pub reference_line_load_n_per_mm: f64,
+}
+
+impl<'a> TeethSpring<'a> {
+    /// Prepares the model for a pair on a surface; the reference load is the whole line load.
+    pub fn new(
+        settings: StiffnessSettings,
+        pair: &'a GearPair,
+        material: &PerGear<Material>,
+        surface: &'a dyn ContactSurface,
+        line_load_n_per_mm: f64,
+    ) -> Self {
+        let curve = match settings {
+            StiffnessSettings::Constant { pair_n_per_mm2 } => Curve::Teeth(pair_n_per_mm2),
+            StiffnessSettings::WeberBanaschek => {
+                Curve::WeberBanaschek(PerGear::from_fn(|gear| ToothCompliance::new(&pair.teeth[gear], &material[gear])))
+            }
+            StiffnessSettings::Iso6336 => {
+                Curve::WholePair(1.0 / iso6336::single_stiffness_n_per_mm2(&pair.spec, material, line_load_n_per_mm))
+            }
+        };
+        Self { pair, material: *material, surface, curve, reference_line_load_n_per_mm: line_load_n_per_mm }
+    }
+
+    /// Stiffness of the spring with the theoretical contact point at `position_mm`, N per mm of approach and mm of face
+    /// width.
+    ///
+    /// # Errors
+    /// [`StiffnessError::SurfaceTooSoft`] where nothing of the pair's compliance is left for the teeth.
+    pub fn n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
+        let Some(whole) = self.stated_pair_mm2_per_n(position_mm) else {
+            let Curve::Teeth(spring) = self.curve else { unreachable!("only a given spring states no pair") };
+            return Ok(spring);
+        };
+        let surface = self.surface_mm2_per_n(position_mm);
+        if surface < whole {
+            Ok(1.0 / (whole - surface))
+        } else {
+            let um = 1e3 * self.reference_line_load_n_per_mm;
+            Err(StiffnessError::SurfaceTooSoft { position_mm, surface_um: um * surface, pair_um: um * whole })
+        }
+    }
+
+    /// Stiffness of the whole pair, flattening included, at the reference load, N/mm².
+    ///
+    /// # Errors
+    /// As [`Self::n_per_mm2`].
+    pub fn pair_n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
+        Ok(1.0 / (1.0 / self.n_per_mm2(position_mm)? + self.surface_mm2_per_n(position_mm)))
+    }
+
+    /// How far the surface's share of the approach at `load_fraction` of the reference load is from what the model's own
+    /// flattening would be there, relative to the pair's whole approach; `None` where the model states no flattening.
+    pub fn split_remainder(&self, position_mm: f64, load_fraction: f64) -> Option<f64> {
+        let Curve::WeberBanaschek(_) = self.curve else { return None };
+        let w = self.reference_line_load_n_per_mm;
+        let flattening = |load| hertz::flattening(self.pair, &self.material, position_mm).approach_mm(load);
+        let surface = |load| self.surface.plain_approach_mm(self.pair, position_mm, load);
+        // The spring is linear, so the difference of whole approaches is that of the shares once both agree at w.
+        let spring_differs_by = (flattening(w) - surface(w)) / w;
+        let part = load_fraction * w;
+        let modelled = surface(part) + spring_differs_by * part;
+        let whole = flattening(part) + part * self.teeth_mm2_per_n(position_mm);
+        Some((modelled - flattening(part)) / whole)
+    }
+
+    /// Compliance of the whole pair as the model states it.
+    fn stated_pair_mm2_per_n(&self, position_mm: f64) -> Option<f64> {
+        match &self.curve {
+            Curve::Teeth(_) => None,
+            Curve::WholePair(compliance) => Some(*compliance),
+            Curve::WeberBanaschek(_) => {
+                let w = self.reference_line_load_n_per_mm;
+                let flattening = hertz::flattening(self.pair, &self.material, position_mm).approach_mm(w) / w;
+                Some(self.teeth_mm2_per_n(position_mm) + flattening)
+            }
+        }
+    }
+
+    /// Compliance of both teeth and bodies by Weber and Banaschek; 0 for the other models.
+    fn teeth_mm2_per_n(&self, position_mm: f64) -> f64 {
+        match &self.curve {
+            Curve::WeberBanaschek(gears) => {
+                let path = &self.pair.path;
+                PerGear::from_fn(|gear| gears[gear].mm2_per_n(path.rho_mm(gear, position_mm))).sum()
+            }
+            _ => 0.0,
+        }
+    }
+
+    fn surface_mm2_per_n(&self, position_mm: f64) -> f64 {
+        let geometry: &dyn ConjugateFlanks = self.pair;
+        let w = self.reference_line_load_n_per_mm;
+        self.surface.plain_approach_mm(geometry, position_mm, w) / w
+    }
+}

@@ -1,0 +1,242 @@
+//! Hertz's elliptic pressure on the nominal curvature of the flanks.
+//!
+//! Load and approach follow the closed-form flattening, shifted by the material removed at the theoretical contact
+//! point; the pressure is Hertz's ellipse, swept over the flank points. At a tip edge only the part of the strip that
+//! lies on both flanks carries: the ellipse is that of the load w* whose carrying part is the pair's load,
+//!
+//! ```text
+//! w = w* [Φ(u₂) − Φ(u₁)]        Φ(u) = ½ + (u √(1 − u²) + asin u) / π,   u = x/a(w*)
+//! ```
+//!
+//! A flank point's pressure is averaged over the stretch the contact moves on while it stands for one loading position,
+//! by the same Φ, so that the load is conserved exactly however few the positions.
+//!
+//! Limits: the ellipse does not know that wear changes the curvature; that is what the Winkler surface adds.
+//!
+//! Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.2; the thesis, section 3.2 (papers C and E).
+
+use std::f64::consts::PI;
+
+use super::{
+    ContactSurface, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
+    settings::Material,
+    strip::{ObservedPoints, Window},
+};
+use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use crate::reference::{
+    flattening::{Body, Flattening},
+    hertz_line::HertzLine,
+};
+
+/// Hertz's distributed pressure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hertz {
+    /// Of each gear.
+    pub material: PerGear<Material>,
+    /// Load that the observed stretch of flank is cut for, N/mm.
+    pub expected_line_load_n_per_mm: f64,
+}
+
+/// Contact modulus E*: 1/E* = (1 − ν1²)/E1 + (1 − ν2²)/E2.
+pub fn contact_modulus_mpa(material: &PerGear<Material>) -> f64 {
+    let compliance = |m: &Material| (1.0 - m.poisson_ratio.powi(2)) / m.young_modulus_mpa;
+    1.0 / (compliance(&material.pinion) + compliance(&material.wheel))
+}
+
+/// The closed-form contact of two flanks at `position_mm`, flattening measured to the teeth's centre lines.
+pub fn flattening(geometry: &dyn ConjugateFlanks, material: &PerGear<Material>, position_mm: f64) -> Flattening {
+    Flattening {
+        contact: HertzLine::of_relative_radius(
+            geometry.relative_radius_mm(position_mm),
+            contact_modulus_mpa(material),
+        ),
+        bodies: Gear::BOTH.map(|gear| Body {
+            young_modulus_mpa: material[gear].young_modulus_mpa,
+            poisson_ratio: material[gear].poisson_ratio,
+            depth_mm: geometry.depth_mm(gear, position_mm),
+        }),
+    }
+}
+
+/// Load against approach of a pair in closed form; what `hertz` and `hertz-mean` share.
+pub(super) struct ClosedFormPair<'a> {
+    pub flanks: Flanks<'a>,
+    position_mm: f64,
+    pub flattening: Flattening,
+    /// Material removed at the theoretical contact point of both flanks together, mm.
+    removed_mm: f64,
+    /// The load of the last approach pressed, N/mm.
+    pub line_load: f64,
+}
+
+impl<'a> ClosedFormPair<'a> {
+    pub fn new(flanks: Flanks<'a>, material: &PerGear<Material>, position_mm: f64) -> Self {
+        let flattening = flattening(flanks.geometry, material, position_mm);
+        Self { flanks, position_mm, flattening, removed_mm: 0.0, line_load: 0.0 }
+    }
+
+    pub fn read(&mut self, removed_mm: PerGear<&[f64]>) {
+        let at_contact = |gear: Gear| {
+            let coordinate = self.flanks.geometry.contact_coordinate_mm(gear, self.position_mm);
+            self.flanks.grid[gear].value_at(removed_mm[gear], coordinate)
+        };
+        self.removed_mm = at_contact(Gear::Pinion) + at_contact(Gear::Wheel);
+    }
+
+    pub fn press(&mut self, approach_mm: f64) -> Response {
+        self.line_load = self.flattening.line_load_n_per_mm(approach_mm - self.removed_mm);
+        let (_, compliance) = self.flattening.approach_and_compliance(self.line_load);
+        Response { line_load_n_per_mm: self.line_load, stiffness_n_per_mm2: 1.0 / compliance }
+    }
+
+    pub fn ample_approach_mm(&self, line_load_n_per_mm: f64) -> f64 {
+        self.removed_mm + self.flattening.approach_mm(line_load_n_per_mm)
+    }
+}
+
+impl ContactSurface for Hertz {
+    fn pair<'a>(
+        &self,
+        flanks: Flanks<'a>,
+        position_mm: f64,
+        cell: Option<PositionCell>,
+    ) -> Box<dyn PairContact + 'a> {
+        let closed_form = ClosedFormPair::new(flanks, &self.material, position_mm);
+        let extent = Window::new(flanks, position_mm, f64::INFINITY);
+        let widest = closed_form.flattening.contact.loaded(2.0 * self.expected_line_load_n_per_mm).half_width_mm;
+        let mut pair = HertzPair {
+            closed_form,
+            extent,
+            cell,
+            half_window_mm: widest,
+            observed: None,
+            strip_load: 0.0,
+            half_width_mm: 0.0,
+            pressure: Vec::new(),
+            contact_fraction: Vec::new(),
+        };
+        pair.look();
+        Box::new(pair)
+    }
+
+    fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
+        flattening(geometry, &self.material, position_mm).approach_mm(line_load_n_per_mm)
+    }
+}
+
+/// One tooth pair with Hertz's ellipse.
+struct HertzPair<'a> {
+    closed_form: ClosedFormPair<'a>,
+    /// Where both flanks exist.
+    extent: Window,
+    cell: Option<PositionCell>,
+    half_window_mm: f64,
+    observed: Option<PerGear<ObservedPoints>>,
+    /// w*: load of the whole ellipse, N/mm.
+    strip_load: f64,
+    /// a(w*).
+    half_width_mm: f64,
+    pressure: Vec<f64>,
+    contact_fraction: Vec<f64>,
+}
+
+impl PairContact for HertzPair<'_> {
+    fn read(&mut self, removed_mm: PerGear<&[f64]>) {
+        self.closed_form.read(removed_mm);
+    }
+
+    fn press(&mut self, approach_mm: f64) -> Response {
+        let response = self.closed_form.press(approach_mm);
+        (self.strip_load, self.half_width_mm) = self.strip(response.line_load_n_per_mm);
+        response
+    }
+
+    fn ample_approach_mm(&self, line_load_n_per_mm: f64) -> f64 {
+        self.closed_form.ample_approach_mm(line_load_n_per_mm)
+    }
+
+    fn holds_contact(&self) -> bool {
+        self.half_width_mm <= self.half_window_mm
+    }
+
+    fn widen(&mut self) {
+        self.half_window_mm = 1.5 * self.half_width_mm;
+        self.look();
+    }
+
+    fn sweep(&mut self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Sweep<'_> {
+        let Some(observed) = &self.observed else { return Sweep::NOTHING };
+        let points = &observed[gear];
+        let (load, a) = (self.strip_load, self.half_width_mm);
+        self.pressure.clear();
+        self.contact_fraction.clear();
+        if load > 0.0 {
+            let [lower, upper] = points.shift_to_ends_mm;
+            for along in &points.along_mm[1..points.along_mm.len() - 1] {
+                let (from, to) = ((along + lower) / a, (along + upper) / a);
+                self.pressure.push(load * (carried_below(to) - carried_below(from)) / ((to - from) * a));
+                self.contact_fraction.push((to.clamp(-1.0, 1.0) - from.clamp(-1.0, 1.0)) / (to - from));
+            }
+        } else {
+            self.pressure.resize(points.sliding_mm.len(), 0.0);
+            self.contact_fraction.resize(points.sliding_mm.len(), 0.0);
+        }
+        Sweep {
+            first_point: points.first_point,
+            pressure_mpa: &self.pressure,
+            sliding_mm: &points.sliding_mm,
+            contact_fraction: &self.contact_fraction,
+        }
+    }
+
+    fn footprint(&self) -> Footprint {
+        let a = self.half_width_mm;
+        let extent = self.extent.upper_mm.min(a) - self.extent.lower_mm.max(-a);
+        let peak_pressure_mpa = self.closed_form.flattening.contact.loaded(self.strip_load).peak_pressure_mpa;
+        Footprint { peak_pressure_mpa, half_width_mm: 0.5 * extent }
+    }
+}
+
+impl HertzPair<'_> {
+    fn look(&mut self) {
+        let flanks = self.closed_form.flanks;
+        self.observed = self.cell.map(|cell| {
+            let window = Window::new(flanks, cell.position_mm, self.half_window_mm);
+            PerGear::from_fn(|gear| ObservedPoints::new(flanks, gear, window, cell))
+        });
+    }
+
+    /// The ellipse (load w*, half-width) whose part on both flanks carries `line_load`, by Newton's method.
+    fn strip(&self, line_load: f64) -> (f64, f64) {
+        let contact = &self.closed_form.flattening.contact;
+        let mut whole = line_load;
+        let mut a = contact.loaded(whole).half_width_mm;
+        for _ in 0..50 {
+            let (lower, upper) = (self.extent.lower_mm / a, self.extent.upper_mm / a);
+            if a == 0.0 || (lower <= -1.0 && upper >= 1.0) {
+                break;
+            }
+            let carrying = carried_below(upper) - carried_below(lower);
+            // d carrying / d ln w* = −½ [u Φ'(u)], as a ∝ √w*.
+            let slope = -0.5 * (upper * density(upper) - lower * density(lower));
+            let step = (line_load - whole * carrying) / (carrying + slope);
+            whole += step;
+            a = contact.loaded(whole).half_width_mm;
+            if step.abs() <= 1e-13 * whole {
+                break;
+            }
+        }
+        (whole, a)
+    }
+}
+
+/// Φ(u): part of an ellipse's load below u = x/a.
+fn carried_below(u: f64) -> f64 {
+    let u = u.clamp(-1.0, 1.0);
+    0.5 + (u * (1.0 - u * u).sqrt() + u.asin()) / PI
+}
+
+/// Φ'(u) = (2/π) √(1 − u²).
+fn density(u: f64) -> f64 {
+    2.0 / PI * (1.0 - u * u).max(0.0).sqrt()
+}

@@ -1,0 +1,126 @@
+//! The simplified surface: Hertz's mean pressure and sliding distances in closed form.
+//!
+//! A flank point feels the mean pressure of the strip while it slides the distance that the mate's surface gains on it
+//! over the strip's width (Andersson):
+//!
+//! ```text
+//! p_m = w / (2 a)          s = 2 a |v_s| / v          h = k p_m s = k w |ζ|
+//! ```
+//!
+//! with v the point's own surface velocity and ζ its specific sliding, all taken with the theoretical contact point at
+//! the flank point. Only points between A and E wear, and the wear jumps with the load where the number of pairs
+//! changes: that is the model's known limit, which integrating the pressure over the strip removes.
+//!
+//! Source: S. Andersson (1975) and the thesis, section 3.4 and appendix 1 (papers A's comparison and E).
+
+use super::{
+    ContactSurface, Flanks, Footprint, PairContact, PositionCell, Response, Sweep, hertz::ClosedFormPair,
+    settings::Material,
+};
+use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+
+/// Hertz's mean pressure.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HertzMean {
+    /// Of each gear.
+    pub material: PerGear<Material>,
+}
+
+impl ContactSurface for HertzMean {
+    fn pair<'a>(
+        &self,
+        flanks: Flanks<'a>,
+        position_mm: f64,
+        cell: Option<PositionCell>,
+    ) -> Box<dyn PairContact + 'a> {
+        Box::new(HertzMeanPair {
+            closed_form: ClosedFormPair::new(flanks, &self.material, position_mm),
+            passed: cell.map(|cell| PerGear::from_fn(|gear| PassedPoints::new(flanks, gear, cell))),
+            pressure: Vec::new(),
+            sliding: Vec::new(),
+            contact_fraction: Vec::new(),
+        })
+    }
+
+    fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
+        super::hertz::flattening(geometry, &self.material, position_mm).approach_mm(line_load_n_per_mm)
+    }
+}
+
+/// The points that the theoretical contact point passes while it moves through a cell.
+struct PassedPoints {
+    first_point: usize,
+    /// |ζ| of each point, times the part of its stretch of flank that is passed.
+    specific_sliding: Vec<f64>,
+}
+
+impl PassedPoints {
+    fn new(flanks: Flanks<'_>, gear: Gear, cell: PositionCell) -> Self {
+        let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
+        // A point stands for the stretch of flank halfway to its neighbours.
+        let end_of_share = |i: usize| {
+            let next = grid.coordinate_mm[(i + 1).min(grid.len() - 1)];
+            geometry.position_at_mm(gear, 0.5 * (grid.coordinate_mm[i] + next))
+        };
+        let at = |position| geometry.contact_coordinate_mm(gear, position);
+        let (a, b) = (at(cell.lower_mm), at(cell.upper_mm));
+        let first_point = grid.place(a.min(b)).index;
+        let last = (grid.place(a.max(b)).index + 1).min(grid.len() - 1);
+        let specific_sliding = (first_point..=last)
+            .map(|i| {
+                let begin = if i == 0 { geometry.position_at_mm(gear, grid.coordinate_mm[0]) } else { end_of_share(i - 1) };
+                let end = end_of_share(i);
+                let (from, to) = (begin.min(end).max(cell.lower_mm), begin.max(end).min(cell.upper_mm));
+                if from < to { geometry.sliding_mm(from, to) / grid.share_mm(i) } else { 0.0 }
+            })
+            .collect();
+        Self { first_point, specific_sliding }
+    }
+}
+
+/// One tooth pair with Hertz's mean pressure.
+struct HertzMeanPair<'a> {
+    closed_form: ClosedFormPair<'a>,
+    passed: Option<PerGear<PassedPoints>>,
+    pressure: Vec<f64>,
+    sliding: Vec<f64>,
+    contact_fraction: Vec<f64>,
+}
+
+impl PairContact for HertzMeanPair<'_> {
+    fn read(&mut self, removed_mm: PerGear<&[f64]>) {
+        self.closed_form.read(removed_mm);
+    }
+
+    fn press(&mut self, approach_mm: f64) -> Response {
+        self.closed_form.press(approach_mm)
+    }
+
+    fn ample_approach_mm(&self, line_load_n_per_mm: f64) -> f64 {
+        self.closed_form.ample_approach_mm(line_load_n_per_mm)
+    }
+
+    fn sweep(&mut self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Sweep<'_> {
+        let Some(passed) = &self.passed else { return Sweep::NOTHING };
+        let points = &passed[gear];
+        let Footprint { peak_pressure_mpa, half_width_mm } = self.footprint();
+        self.sliding.clear();
+        self.sliding.extend(points.specific_sliding.iter().map(|zeta| 2.0 * half_width_mm * zeta));
+        self.pressure.clear();
+        self.pressure.extend(self.sliding.iter().map(|&s| if s > 0.0 { peak_pressure_mpa } else { 0.0 }));
+        self.contact_fraction.clear();
+        self.contact_fraction.resize(self.sliding.len(), 1.0);
+        Sweep {
+            first_point: points.first_point,
+            pressure_mpa: &self.pressure,
+            sliding_mm: &self.sliding,
+            contact_fraction: &self.contact_fraction,
+        }
+    }
+
+    fn footprint(&self) -> Footprint {
+        let half_width_mm = self.closed_form.flattening.contact.loaded(self.closed_form.line_load).half_width_mm;
+        let mean = if half_width_mm > 0.0 { self.closed_form.line_load / (2.0 * half_width_mm) } else { 0.0 };
+        Footprint { peak_pressure_mpa: mean, half_width_mm }
+    }
+}

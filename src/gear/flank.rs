@@ -1,0 +1,84 @@
+//! The flank as a row of points: single-point observation.
+//!
+//! Points are spaced evenly in radius from the base circle (0) to the tip circle (`flank_points`), as the thesis
+//! numbers them. Whatever varies over the flank (removed material, pressure, sliding) is a slice with one value a point,
+//! linear in between.
+
+use super::{Gear, GearPair};
+
+/// The points of one flank.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlankGrid {
+    /// Coordinate of each point, increasing: the radius of curvature ρ on a gear.
+    pub coordinate_mm: Vec<f64>,
+    /// Arc length of each point along the flank.
+    pub arc_mm: Vec<f64>,
+}
+
+/// A place between two points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// The point before it.
+    pub index: usize,
+    /// Weight of the point after it, 0 to 1.
+    pub weight: f64,
+}
+
+impl FlankGrid {
+    /// `flank_points` intervals on a gear's flank: `flank_points + 1` points.
+    pub fn new(pair: &GearPair, gear: Gear, flank_points: usize) -> Self {
+        let involute = pair.teeth[gear].involute;
+        let coordinate_mm: Vec<f64> =
+            radii_mm(pair, gear, flank_points).map(|r| involute.curvature_radius_mm(r)).collect();
+        let arc_mm = coordinate_mm.iter().map(|&rho| involute.arc_mm(rho)).collect();
+        Self { coordinate_mm, arc_mm }
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.coordinate_mm.len()
+    }
+
+    /// Whether there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.coordinate_mm.is_empty()
+    }
+
+    /// Where `coordinate_mm` falls; beyond the ends, the end itself.
+    pub fn place(&self, coordinate_mm: f64) -> Place {
+        let after = self.coordinate_mm.partition_point(|&c| c <= coordinate_mm).clamp(1, self.len() - 1);
+        let (low, high) = (self.coordinate_mm[after - 1], self.coordinate_mm[after]);
+        Place { index: after - 1, weight: ((coordinate_mm - low) / (high - low)).clamp(0.0, 1.0) }
+    }
+
+    /// Value at `coordinate_mm` of something given at the points.
+    pub fn value_at(&self, values: &[f64], coordinate_mm: f64) -> f64 {
+        let Place { index, weight } = self.place(coordinate_mm);
+        values[index] + weight * (values[index + 1] - values[index])
+    }
+
+    /// Length of flank that point `i` stands for: from halfway to the point before to halfway to the point after.
+    pub fn share_mm(&self, i: usize) -> f64 {
+        let last = self.len() - 1;
+        0.5 * (self.arc_mm[(i + 1).min(last)] - self.arc_mm[i.saturating_sub(1)])
+    }
+
+    /// ∫ values ds over the flank.
+    pub fn integral(&self, values: &[f64]) -> f64 {
+        values.iter().enumerate().map(|(i, value)| value * self.share_mm(i)).sum()
+    }
+}
+
+/// Radius of each point of a flank with `flank_points` intervals.
+pub fn radii_mm(pair: &GearPair, gear: Gear, flank_points: usize) -> impl Iterator<Item = f64> {
+    let tooth = &pair.teeth[gear];
+    let (base, tip) = (tooth.involute.base_radius_mm, tooth.tip_radius_mm);
+    (0..=flank_points).map(move |i| base + (tip - base) * i as f64 / flank_points as f64)
+}
+
+/// The modifications of a gear's flank as removed material at its points, mm.
+pub fn modifications_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid) -> Vec<f64> {
+    let modification = &pair.spec.gears[gear].modification;
+    let start = pair.active_start_rho_mm(gear);
+    grid.coordinate_mm.iter().map(|&rho| modification.removed_mm(&pair.teeth[gear], start, rho)).collect()
+}

@@ -1,0 +1,225 @@
+//! One gear of the pair: the circles and the tooth that the rack generates.
+//!
+//! With the generating profile shift x_E = x + E_sn / (2 m_n tan α_n) (E_sn the tooth thickness allowance), the tooth
+//! is 2ψ(r) wide in angle at radius r:
+//!
+//! ```text
+//! ψ(r) = (π/2 + 2 x_E tan α_n) / z + inv α_t − inv α(r)
+//! ```
+//!
+//! Source: ISO 21771, sections 4 and 5; the lower end of the involute from the rack's rounding ([`RootTrochoid`]), and
+//! where the rack undercuts the flank from the intersection of trochoid and involute.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use super::{
+    Gear, PairError,
+    involute::{Involute, inv, inverse_inv},
+    root_trochoid::{RackTip, RootTrochoid},
+    spec::PairSpec,
+};
+
+/// Circles and tooth of one gear; radii in mm, transverse.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Tooth {
+    /// z.
+    pub teeth: u32,
+    /// r, reference circle.
+    pub reference_radius_mm: f64,
+    /// The flank.
+    pub involute: Involute,
+    /// r_a.
+    pub tip_radius_mm: f64,
+    /// r_f.
+    pub root_radius_mm: f64,
+    /// r_Ff: where the involute begins.
+    pub root_form_radius_mm: f64,
+    /// Whether the rack cuts into the involute.
+    pub undercut: bool,
+    /// The fillet.
+    pub trochoid: RootTrochoid,
+    /// Normal angle of the rack where the fillet meets the involute.
+    pub fillet_end_angle_rad: f64,
+    /// ψ at the base circle.
+    pub base_half_angle_rad: f64,
+}
+
+impl Tooth {
+    /// Generates the tooth of `gear`; `tip_radius_mm` as given or derived by the pair.
+    ///
+    /// # Errors
+    /// [`PairError::RackTipPointed`], [`PairError::NoTooth`], [`PairError::TipBelowBase`], [`PairError::PointedTooth`],
+    /// [`PairError::BoreTooLarge`].
+    pub fn new(spec: &PairSpec, gear: Gear, tip_radius_mm: f64) -> Result<Self, PairError> {
+        let own = &spec.gears[gear];
+        let (m_n, alpha_n) = (spec.normal_module_mm, spec.normal_pressure_angle_rad);
+        let teeth = f64::from(own.teeth);
+        let alpha_t = spec.transverse_pressure_angle_rad();
+        let reference_radius_mm = spec.reference_radius_mm(gear);
+        let involute = Involute { base_radius_mm: reference_radius_mm * alpha_t.cos() };
+
+        let rack = RackTip {
+            normal_module_mm: m_n,
+            normal_pressure_angle_rad: alpha_n,
+            helix_angle_rad: spec.helix_angle_rad,
+            dedendum_factor: spec.rack.dedendum_factor,
+            fillet_radius_factor: spec.rack.fillet_radius_factor,
+        };
+        let greatest = rack.greatest_fillet_radius_factor();
+        if rack.fillet_radius_factor > greatest {
+            return Err(PairError::RackTipPointed { greatest });
+        }
+        let generating_shift_mm = own.profile_shift * m_n + own.tooth_thickness_allowance_mm / (2.0 * alpha_n.tan());
+        let trochoid = RootTrochoid::new(&rack, reference_radius_mm, generating_shift_mm);
+        let root_radius_mm = trochoid.root_radius_mm();
+        let base_half_angle_rad = (FRAC_PI_2 + 2.0 * generating_shift_mm / m_n * alpha_n.tan()) / teeth + inv(alpha_t);
+
+        let tooth = Self {
+            teeth: own.teeth,
+            reference_radius_mm,
+            involute,
+            tip_radius_mm,
+            root_radius_mm,
+            root_form_radius_mm: 0.0,
+            undercut: false,
+            trochoid,
+            fillet_end_angle_rad: trochoid.first_angle_rad,
+            base_half_angle_rad,
+        };
+        tooth.check(gear, own.bore_diameter_mm)?;
+        tooth.with_root_form(gear, alpha_t)
+    }
+
+    /// Refuses a tooth without flank, without tip land or without body.
+    fn check(&self, gear: Gear, bore_diameter_mm: Option<f64>) -> Result<(), PairError> {
+        if self.root_radius_mm <= 0.0 || self.base_half_angle_rad <= 0.0 {
+            return Err(PairError::NoTooth { gear });
+        }
+        if self.tip_radius_mm <= self.involute.base_radius_mm {
+            return Err(PairError::TipBelowBase {
+                gear,
+                tip_diameter_mm: 2.0 * self.tip_radius_mm,
+                base_diameter_mm: 2.0 * self.involute.base_radius_mm,
+            });
+        }
+        let tip_thickness_mm = self.thickness_mm(self.tip_radius_mm);
+        if tip_thickness_mm <= 0.0 {
+            let pointed = self.involute.base_radius_mm / inverse_inv(self.base_half_angle_rad).cos();
+            return Err(PairError::PointedTooth {
+                gear,
+                tip_thickness_mm,
+                tip_diameter_mm: 2.0 * self.tip_radius_mm,
+                pointed_diameter_mm: 2.0 * pointed,
+            });
+        }
+        match bore_diameter_mm {
+            Some(bore) if bore >= 2.0 * self.root_radius_mm => Err(PairError::BoreTooLarge {
+                gear,
+                bore_diameter_mm: bore,
+                root_diameter_mm: 2.0 * self.root_radius_mm,
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    /// Finds where fillet and involute meet.
+    fn with_root_form(mut self, gear: Gear, alpha_t: f64) -> Result<Self, PairError> {
+        let rho = self.trochoid.involute_end_rho_mm(alpha_t);
+        if rho >= 0.0 {
+            self.root_form_radius_mm = self.involute.radius_mm(rho);
+        } else {
+            self.undercut = true;
+            self.fillet_end_angle_rad = self.undercut_angle_rad().ok_or(PairError::NoTooth { gear })?;
+            self.root_form_radius_mm = self.trochoid.point_mm(self.fillet_end_angle_rad).norm();
+        }
+        if self.root_form_radius_mm < self.tip_radius_mm { Ok(self) } else { Err(PairError::NoTooth { gear }) }
+    }
+
+    /// Angle by which the fillet point `t` lies inside the tooth as bounded by the involute; `None` below the base
+    /// circle, where there is no involute.
+    fn fillet_inside_rad(&self, t: f64) -> Option<f64> {
+        let point = self.trochoid.point_mm(t);
+        let radius = point.norm();
+        (radius >= self.involute.base_radius_mm).then(|| point.x.atan2(point.y) - self.space_half_angle_rad(radius))
+    }
+
+    /// Where the fillet of an undercut tooth leaves the tooth through its involute.
+    fn undercut_angle_rad(&self) -> Option<f64> {
+        const SAMPLES: usize = 2000;
+        let (first, last) = (FRAC_PI_2, self.trochoid.first_angle_rad);
+        let at = |k: usize| first + (last - first) * k as f64 / SAMPLES as f64;
+        let mut inside = None;
+        for k in 0..=SAMPLES {
+            let t = at(k);
+            match self.fillet_inside_rad(t) {
+                Some(angle) if angle > 0.0 => inside = Some(t),
+                Some(_) => {
+                    // From the last point inside the tooth to this one outside: bisect to round-off.
+                    let (mut a, mut b) = (inside.unwrap_or_else(|| at(k.saturating_sub(1))), t);
+                    for _ in 0..80 {
+                        let middle = 0.5 * (a + b);
+                        match self.fillet_inside_rad(middle) {
+                            Some(angle) if angle <= 0.0 => b = middle,
+                            _ => a = middle,
+                        }
+                    }
+                    return Some(b);
+                }
+                None => {}
+            }
+        }
+        None
+    }
+
+    /// Half the tooth's angle ψ(r) at `radius_mm` (≥ base radius), rad.
+    pub fn half_angle_rad(&self, radius_mm: f64) -> f64 {
+        let rho = self.involute.curvature_radius_mm(radius_mm);
+        self.base_half_angle_rad - inv(self.involute.pressure_angle_rad(rho))
+    }
+
+    /// Half the angle of the space between two teeth at `radius_mm`, rad.
+    pub fn space_half_angle_rad(&self, radius_mm: f64) -> f64 {
+        PI / f64::from(self.teeth) - self.half_angle_rad(radius_mm)
+    }
+
+    /// Transverse tooth thickness on the circle of `radius_mm`, mm of arc.
+    pub fn thickness_mm(&self, radius_mm: f64) -> f64 {
+        2.0 * radius_mm * self.half_angle_rad(radius_mm)
+    }
+
+    /// Radius of curvature at the tip.
+    pub fn tip_rho_mm(&self) -> f64 {
+        self.involute.curvature_radius_mm(self.tip_radius_mm)
+    }
+
+    /// Radius of curvature where the involute begins.
+    pub fn root_form_rho_mm(&self) -> f64 {
+        self.involute.curvature_radius_mm(self.root_form_radius_mm)
+    }
+}
+
+/// How the line of action passes through a loaded tooth; the tooth's centre line is the y axis, from the gear's axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadLine {
+    /// Angle of the load to the tooth's transverse, α_F = α − ψ.
+    pub load_angle_rad: f64,
+    /// Where the load crosses the centre line, from the gear's axis.
+    pub centre_line_mm: f64,
+    /// From the flank to the centre line, along the line of action.
+    pub depth_mm: f64,
+}
+
+impl Tooth {
+    /// The line of action through the flank point with radius of curvature `rho_mm`.
+    pub fn load_line(&self, rho_mm: f64) -> LoadLine {
+        let radius = self.involute.radius_mm(rho_mm);
+        let half_angle = self.half_angle_rad(radius);
+        let load_angle_rad = self.involute.pressure_angle_rad(rho_mm) - half_angle;
+        let half_chord = radius * half_angle.sin();
+        LoadLine {
+            load_angle_rad,
+            centre_line_mm: radius * half_angle.cos() - half_chord * load_angle_rad.tan(),
+            depth_mm: half_chord / load_angle_rad.cos(),
+        }
+    }
+}

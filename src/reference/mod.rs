@@ -1,0 +1,4 @@
+//! Closed forms with their sources, shared by the code, the tests and the validation.
+
+pub mod flattening;
+pub mod hertz_line;

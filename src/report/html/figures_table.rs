@@ -1,0 +1,154 @@
+//! The main figures of a run as HTML tables.
+
+use super::escape;
+use super::number::{change, figure, fixed, percent, significant};
+use crate::simulation::record::{ErrorSummary, GearSummary, RunRecord, Summary, WearSummary};
+
+/// A row: what it is, its unit, and one figure per column.
+struct Row {
+    label: &'static str,
+    unit: &'static str,
+    cells: Vec<String>,
+}
+
+fn row<const N: usize>(label: &'static str, unit: &'static str, cells: [String; N]) -> Row {
+    Row { label, unit, cells: cells.into() }
+}
+
+/// All tables, in the order of the page.
+pub fn tables(record: &RunRecord) -> String {
+    let s = &record.summary;
+    [new_and_worn(s), wear(s), pair(s), gears(s), contact(s)].concat()
+}
+
+fn new_and_worn(s: &Summary) -> String {
+    let compare = |label, unit, new: f64, worn: f64| row(label, unit, [figure(new), figure(worn), change(new, worn)]);
+    let (new, worn) = (&s.new, &s.worn);
+    let (te_new, te_worn) = (&new.transmission_error_um, &worn.transmission_error_um);
+    table(
+        "Working cycle",
+        &["new", "worn", "change"],
+        &[
+            compare("Greatest pressure", "MPa", new.peak_pressure_MPa, worn.peak_pressure_MPa),
+            compare("Pressure at the pitch point C", "MPa", new.pitch_pressure_MPa, worn.pitch_pressure_MPa),
+            compare("Transmission error, peak to peak", "µm", te_new.peak_to_peak, te_worn.peak_to_peak),
+            compare("Transmission error, least", "µm", te_new.min, te_worn.min),
+            compare("Transmission error, greatest", "µm", te_new.max, te_worn.max),
+        ],
+    )
+}
+
+fn wear(s: &Summary) -> String {
+    let both = |label, unit, value: fn(&WearSummary) -> f64| {
+        row(label, unit, [figure(value(&s.pinion)), figure(value(&s.wheel))])
+    };
+    table(
+        "Wear",
+        &["pinion", "wheel"],
+        &[
+            both("Greatest depth", "µm", |w| w.peak_wear_um),
+            both("Radius of the greatest depth", "mm", |w| w.peak_wear_radius_mm),
+            both("Greatest over the root", "µm", |w| w.root_wear_um),
+            both("At the pitch circle", "µm", |w| w.pitch_wear_um),
+            both("Volume, whole gear", "mm³", |w| w.worn_volume_mm3),
+            both("Mass, whole gear", "mg", |w| w.worn_mass_mg),
+        ],
+    )
+}
+
+fn pair(s: &Summary) -> String {
+    let g = &s.geometry;
+    let one = |label, unit, value| row(label, unit, [fixed(value, 3)]);
+    let mut rows = vec![one("Transverse contact ratio", "", g.transverse_contact_ratio)];
+    if g.overlap_ratio != 0.0 {
+        rows.push(one("Overlap ratio", "", g.overlap_ratio));
+    }
+    rows.extend([
+        one("Working pressure angle, transverse", "°", g.working_pressure_angle_deg),
+        one("Base pitch, transverse", "mm", g.base_pitch_mm),
+        one("Line of action T1T2", "mm", g.line_of_action_mm),
+        one("Backlash on the working circles", "mm", g.backlash_mm),
+    ]);
+    table("Geometry of the pair", &["value"], &rows)
+}
+
+fn gears(s: &Summary) -> String {
+    let gears = &s.geometry.gears;
+    let both = |label, value: fn(&GearSummary) -> f64| {
+        row(label, "mm", [fixed(value(&gears.pinion), 3), fixed(value(&gears.wheel), 3)])
+    };
+    let undercut = |gear: &GearSummary| String::from(if gear.undercut { "yes" } else { "no" });
+    table(
+        "Geometry of the gears",
+        &["pinion", "wheel"],
+        &[
+            row("Teeth", "", [gears.pinion.teeth.to_string(), gears.wheel.teeth.to_string()]),
+            both("Tip diameter", |g| g.tip_diameter_mm),
+            both("Working pitch diameter", |g| g.working_pitch_diameter_mm),
+            both("Reference diameter", |g| g.reference_diameter_mm),
+            both("Base diameter", |g| g.base_diameter_mm),
+            both("Start of active profile, diameter", |g| g.start_of_active_profile_diameter_mm),
+            both("Root form diameter", |g| g.root_form_diameter_mm),
+            both("Root diameter", |g| g.root_diameter_mm),
+            both("Tooth thickness at the reference circle", |g| g.tooth_thickness_mm),
+            both("Tooth thickness at the tip", |g| g.tip_thickness_mm),
+            both("Tip clearance", |g| g.tip_clearance_mm),
+            row("Undercut", "", [undercut(&gears.pinion), undercut(&gears.wheel)]),
+        ],
+    )
+}
+
+fn contact(s: &Summary) -> String {
+    let (c, k) = (&s.contact, &s.stiffness);
+    let foundation = c.foundation_MPa_per_mm.map_or_else(|| "none".into(), figure);
+    let mut rows = vec![
+        row("Contact surface", "", [escape(&c.surface)]),
+        row("Line load, whole torque", "N/mm", [figure(c.line_load_N_per_mm)]),
+        row("Foundation K/H", "MPa/mm", [foundation]),
+        row("Hertz half-width at C", "mm", [figure(c.hertz_half_width_mm)]),
+        row("Hertz pressure at C", "MPa", [figure(c.hertz_peak_pressure_MPa)]),
+        row("Tooth stiffness", "", [escape(&k.model)]),
+        row("Pair with flattening, at C", "N/(mm·µm)", [figure(k.pair_at_pitch_N_per_mm_um)]),
+        row("Teeth alone, at C", "N/(mm·µm)", [figure(k.teeth_at_pitch_N_per_mm_um)]),
+        row("at a line load of", "N/mm", [figure(k.reference_line_load_N_per_mm)]),
+    ];
+    if let Some(remainder) = k.split_remainder_at_half_load {
+        rows.push(row("Left over by the split, at half load", "", [percent(remainder)]));
+    }
+    table("Contact and stiffness", &["value"], &rows)
+}
+
+/// The error estimates, each with how it was obtained.
+pub fn errors(error: &ErrorSummary) -> String {
+    let rows: String = [
+        ("Points and positions", error.discretisation, &error.how.discretisation),
+        ("Wear step", error.wear_step, &error.how.wear_step),
+        ("Contact surface", error.surface_model, &error.how.surface_model),
+    ]
+    .into_iter()
+    .map(|(label, estimate, how)| {
+        let estimate = estimate.map_or_else(|| "not estimated".into(), |e| significant(e * 100.0, 2) + "\u{202f}%");
+        format!("<tr><th scope=\"row\">{label}</th><td>{estimate}</td><td class=\"how\">{}</td></tr>\n", escape(how))
+    })
+    .collect();
+    format!(
+        "<table class=\"errors\">\n<caption>Estimated error of the pinion’s greatest wear</caption>\n\
+         <thead><tr><td></td><th scope=\"col\">relative</th><th scope=\"col\" class=\"how\">how obtained</th></tr></thead>\n\
+         <tbody>\n{rows}</tbody>\n</table>\n"
+    )
+}
+
+fn table(caption: &str, columns: &[&str], rows: &[Row]) -> String {
+    let head: String = columns.iter().map(|name| format!("<th scope=\"col\">{name}</th>")).collect();
+    let body: String = rows
+        .iter()
+        .map(|Row { label, unit, cells }| {
+            let cells: String = cells.iter().map(|cell| format!("<td>{cell}</td>")).collect();
+            format!("<tr><th scope=\"row\">{label}</th>{cells}<td class=\"unit\">{unit}</td></tr>\n")
+        })
+        .collect();
+    format!(
+        "<table>\n<caption>{caption}</caption>\n<thead><tr><td></td>{head}<td></td></tr></thead>\n\
+         <tbody>\n{body}</tbody>\n</table>\n"
+    )
+}

@@ -1,0 +1,224 @@
+//! Plots over a flank, from root to tip: wear at every snapshot, greatest pressure, modifications.
+
+use plotly::Plot;
+use plotly::common::DashType;
+
+use super::number::{figure, given, plotted, revolutions};
+use super::reading::{Extreme, greatest, place_on_flank};
+use super::theme::{self, Figure, axis, curve, layout, line, mark_path_points, new_and_worn, padded};
+use crate::gear::Gear;
+use crate::simulation::record::{FlankRecord, HistoryRow, RunRecord};
+
+/// At most so many snapshots are drawn, evenly chosen: more curves than that cannot be told apart.
+const CURVES: usize = 12;
+
+/// Wear depth over both flanks, one curve per snapshot.
+pub fn wear(record: &RunRecord) -> Vec<Figure> {
+    let deepest = Gear::BOTH.map(|gear| greatest(&record.flanks[gear].wear_um).map_or(0.0, |e| e.value));
+    Gear::BOTH
+        .into_iter()
+        .zip(deepest)
+        .map(|(gear, own)| {
+            // The same scale for both gears, unless one would hardly show on it.
+            let both = deepest[0].max(deepest[1]);
+            wear_of(record, gear, if own > 0.2 * both { both } else { own })
+        })
+        .collect()
+}
+
+fn wear_of(record: &RunRecord, gear: Gear, depth_um: f64) -> Figure {
+    let flank = &record.flanks[gear];
+    let active = Active::of(flank);
+    let radius = active.cut(&flank.radius_mm);
+    let mut plot = Plot::new();
+    let drawn = drawn_snapshots(record.history.len());
+    for (i, &snapshot) in drawn.iter().enumerate() {
+        let last = i + 1 == drawn.len();
+        let share = if drawn.len() > 1 { i as f64 / (drawn.len() - 1) as f64 } else { 1.0 };
+        let stroke = line(theme::gear_colour_at(gear, share), if last { 2.6 } else { 1.5 }, DashType::Solid);
+        let name = moment(&record.history[snapshot]);
+        let mut trace = curve(&name, radius.iter().copied(), active.cut(&flank.snapshot_wear_um[snapshot]), stroke)
+            .hover_template("%{y:.3f} µm");
+        if last {
+            let roll: Vec<f64> = active.cut(&flank.roll_angle_deg).into_iter().map(plotted).collect();
+            trace = trace.custom_data(roll).hover_template("%{y:.3f} µm (roll angle %{customdata:.2f}°)");
+        }
+        plot.add_trace(trace);
+    }
+    let [_, bottom] = theme::from_zero(depth_um);
+    plot.set_layout(mark_path_points(
+        layout(400)
+            .show_legend(true)
+            .x_axis(radius_axis(gear, &active))
+            .y_axis(axis("wear depth, µm").range(vec![bottom, -0.02 * bottom])),
+        &flank.path_point_radius_mm,
+    ));
+    Figure {
+        id: format!("wear-{}", gear.name()),
+        title: format!("Wear of the {}’s flank, root to tip", gear.name()),
+        reading: wear_reading(record, gear, drawn.len()),
+        plot,
+        wide: false,
+    }
+}
+
+fn wear_reading(record: &RunRecord, gear: Gear, drawn: usize) -> String {
+    if record.history.is_empty() {
+        return format!("No snapshot was reached, so the {}’s flank has no curve to show.", gear.name());
+    }
+    let (flank, wear) = (&record.flanks[gear], gear_wear(record, gear));
+    if wear.peak_wear_um <= 0.0 {
+        return format!("The {}’s flank has not worn.", gear.name());
+    }
+    let mut reading = format!(
+        "The {} wears most {}: {} µm, against {} µm at the pitch circle; over the root it reaches {} µm.",
+        gear.name(),
+        place_on_flank(flank, wear.peak_wear_radius_mm),
+        figure(wear.peak_wear_um),
+        figure(wear.pitch_wear_um),
+        figure(wear.root_wear_um),
+    );
+    if drawn < record.history.len() {
+        reading.push_str(&format!(" {drawn} of {} snapshots are drawn.", record.history.len()));
+    }
+    reading
+}
+
+/// Greatest pressure that each flank point feels during one mesh, new and worn.
+pub fn pressure(record: &RunRecord) -> Vec<Figure> {
+    let both = Gear::BOTH.map(|gear| {
+        let flank = &record.flanks[gear];
+        [&flank.pressure_new_MPa, &flank.pressure_worn_MPa].map(|p| greatest(p).map_or(0.0, |e| e.value))
+    });
+    let top = both.as_flattened().iter().copied().fold(0.0, f64::max);
+    Gear::BOTH.into_iter().map(|gear| pressure_on(record, gear, top)).collect()
+}
+
+fn pressure_on(record: &RunRecord, gear: Gear, top_mpa: f64) -> Figure {
+    let flank = &record.flanks[gear];
+    let active = Active::of(flank);
+    let mut plot = Plot::new();
+    new_and_worn(
+        &mut plot,
+        &active.cut(&flank.radius_mm),
+        active.cut(&flank.pressure_new_MPa),
+        active.cut(&flank.pressure_worn_MPa),
+        "%{y:.1f} MPa",
+    );
+    plot.set_layout(mark_path_points(
+        layout(380)
+            .show_legend(true)
+            .x_axis(radius_axis(gear, &active))
+            .y_axis(axis("greatest pressure, MPa").range(theme::from_zero(top_mpa).to_vec())),
+        &flank.path_point_radius_mm,
+    ));
+    let place = |at: Extreme| place_on_flank(flank, flank.radius_mm[at.index]);
+    let reading = match (greatest(&flank.pressure_new_MPa), greatest(&flank.pressure_worn_MPa)) {
+        (Some(new), Some(worn)) => format!(
+            "During one mesh the {}’s flank feels at most {} MPa new, {}, and {} MPa worn, {}.",
+            gear.name(),
+            figure(new.value),
+            place(new),
+            figure(worn.value),
+            place(worn),
+        ),
+        _ => format!("No pressure was computed on the {}’s flank.", gear.name()),
+    };
+    Figure {
+        id: format!("pressure-{}", gear.name()),
+        title: format!("Greatest pressure on the {}’s flank", gear.name()),
+        reading,
+        plot,
+        wide: false,
+    }
+}
+
+/// Material that the modifications remove from each flank; nothing where there is none.
+pub fn modifications(record: &RunRecord) -> Vec<Figure> {
+    let modified = |gear: &Gear| record.flanks[*gear].removed_um.iter().any(|&h| h != 0.0);
+    Gear::BOTH.into_iter().filter(modified).map(|gear| modifications_of(record, gear)).collect()
+}
+
+fn modifications_of(record: &RunRecord, gear: Gear) -> Figure {
+    let flank = &record.flanks[gear];
+    let active = Active::of(flank);
+    let removed = active.cut(&flank.removed_um);
+    let radius = active.cut(&flank.radius_mm);
+    let (least, most) = removed.iter().fold((0.0_f64, 0.0_f64), |(a, b), &h| (a.min(h), b.max(h)));
+    let most_at = greatest(&removed);
+    let mut plot = Plot::new();
+    let stroke = line(theme::gear_colour(gear), 2.2, DashType::Solid);
+    plot.add_trace(curve("modifications", radius.clone(), removed, stroke).hover_template("%{y:.3f} µm"));
+    let span = if most > least { most - least } else { 1.0 };
+    plot.set_layout(mark_path_points(
+        layout(320)
+            .show_legend(false)
+            .x_axis(radius_axis(gear, &active))
+            .y_axis(axis("material removed, µm").range(vec![most + 0.06 * span, least - 0.04 * span])),
+        &flank.path_point_radius_mm,
+    ));
+    let reading = match most_at {
+        Some(at) if at.value > 0.0 => format!(
+            "The modifications take up to {} µm off the {}’s active flank, {}.",
+            figure(at.value),
+            gear.name(),
+            place_on_flank(flank, radius[at.index]),
+        ),
+        _ => format!("The modifications of the {} lie outside its active flank.", gear.name()),
+    };
+    Figure {
+        id: format!("modifications-{}", gear.name()),
+        title: format!("Modifications of the {}’s flank", gear.name()),
+        reading,
+        plot,
+        wide: false,
+    }
+}
+
+fn gear_wear(record: &RunRecord, gear: Gear) -> &crate::simulation::record::WearSummary {
+    match gear {
+        Gear::Pinion => &record.summary.pinion,
+        Gear::Wheel => &record.summary.wheel,
+    }
+}
+
+fn radius_axis(gear: Gear, active: &Active) -> plotly::layout::Axis {
+    axis(&format!("radius on the {}, mm", gear.name())).range(padded(active.from_mm, active.to_mm)).hover_format(".3f")
+}
+
+/// The part of a flank that is drawn: a little below the start of active profile up to the tip.
+struct Active {
+    first: usize,
+    from_mm: f64,
+    to_mm: f64,
+}
+
+impl Active {
+    fn of(flank: &FlankRecord) -> Self {
+        let ends = theme::named(&flank.path_point_radius_mm).map(|(_, radius)| radius);
+        let from_mm = ends.iter().copied().fold(f64::INFINITY, f64::min);
+        let to_mm = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let margin = 0.03 * (to_mm - from_mm);
+        Self { first: flank.radius_mm.partition_point(|&r| r < from_mm - margin), from_mm, to_mm }
+    }
+
+    fn cut(&self, values: &[f64]) -> Vec<f64> {
+        values.get(self.first..).unwrap_or_default().to_vec()
+    }
+}
+
+/// Indices of the snapshots drawn out of `count`: all, or evenly chosen with the last one.
+fn drawn_snapshots(count: usize) -> Vec<usize> {
+    if count <= CURVES {
+        return (0..count).collect();
+    }
+    (1..=CURVES).map(|i| (i * count).div_ceil(CURVES) - 1).collect()
+}
+
+/// "31.75 h", or revolutions where the scene gives no speed.
+fn moment(row: &HistoryRow) -> String {
+    match row.hours {
+        Some(hours) => format!("{} h", given(hours)),
+        None => format!("{} rev", revolutions(row.revolutions)),
+    }
+}

@@ -1,0 +1,82 @@
+// Draws the plots in the colours of the style sheet: again when those change, when the room for a plot changes, and
+// when the page is printed.
+(() => {
+  "use strict";
+  const PRINT_WIDTH = 670; // px: an A4 page less its margins
+  const NARROW = 480; // px: below this a plot is that of a phone
+  const BUTTONS = 26; // px: height of a plot's buttons, which show all the time where there is no mouse to hover
+  const root = document.documentElement;
+  const touch = matchMedia("(pointer: coarse)").matches;
+  const buttonsShown = matchMedia("(hover: none)").matches;
+  const plots = [...document.querySelectorAll(".plot")].map((node) => ({
+    node,
+    source: JSON.parse(document.getElementById(node.id + "-data").textContent),
+    width: 0,
+  }));
+
+  // Printing itself changes the preferred colours and the room for the plots: whatever redraws must ask.
+  const printing = () => "printing" in root.dataset;
+
+  // A function that turns a colour token into the colour in force.
+  function palette() {
+    const style = getComputedStyle(root);
+    const value = (name) => style.getPropertyValue(name).trim();
+    const channels = (hex) => [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+    return (text) => {
+      const plain = /^var\((--[\w-]+)\)$/.exec(text);
+      if (plain) return value(plain[1]);
+      const mix = /^mix\((--[\w-]+),(--[\w-]+),([\d.]+)\)$/.exec(text);
+      if (!mix) return text;
+      const [from, to] = [channels(value(mix[1])), channels(value(mix[2]))];
+      return `rgb(${from.map((c, i) => Math.round(c + (to[i] - c) * mix[3])).join(",")})`;
+    };
+  }
+
+  // A copy of a plot's description with its colours resolved; the numbers are shared.
+  function coloured(item, colour) {
+    if (typeof item === "string") return colour(item);
+    if (Array.isArray(item)) return typeof item[0] === "number" ? item : item.map((x) => coloured(x, colour));
+    if (item === null || typeof item !== "object") return item;
+    return Object.fromEntries(Object.entries(item).map(([key, x]) => [key, coloured(x, colour)]));
+  }
+
+  function draw(plot, colour) {
+    const { data, layout, config } = coloured(plot.source, colour);
+    plot.width = plot.node.clientWidth;
+    layout.width = printing() ? PRINT_WIDTH : plot.width;
+    layout.autosize = false;
+    Object.assign(layout.legend, { yref: "container", y: 0, yanchor: "bottom" }); // below the axis title, always
+    layout.uirevision = "kept"; // the reader's zoom outlasts a change of theme
+    if (touch) layout.dragmode = false; // a finger scrolls the page
+    if (layout.width < NARROW) {
+      layout.legend.font.size = 11;
+      layout.height = Math.min(layout.height, layout.width + (plot.node.closest(".wide") ? 140 : 40));
+    }
+    if (buttonsShown && !printing()) {
+      layout.margin.t += BUTTONS;
+      layout.height += BUTTONS;
+    }
+    Plotly.react(plot.node, data, layout, config);
+  }
+
+  function drawAll() {
+    const colour = palette();
+    for (const plot of plots) draw(plot, colour);
+  }
+
+  drawAll();
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawAll);
+  const room = new ResizeObserver(() => {
+    if (printing()) return;
+    for (const plot of plots) if (plot.node.clientWidth !== plot.width) draw(plot, palette());
+  });
+  for (const { node } of plots) room.observe(node);
+  addEventListener("beforeprint", () => {
+    root.dataset.printing = "";
+    drawAll();
+  });
+  addEventListener("afterprint", () => {
+    delete root.dataset.printing;
+    drawAll();
+  });
+})();

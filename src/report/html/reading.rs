@@ -1,0 +1,142 @@
+//! Words for places and moments: the sentences that say what the numbers mean.
+
+use super::number::{change, figure, given, revolutions, significant};
+use super::theme::named;
+use crate::simulation::record::RunRecord;
+use crate::simulation::record::{FlankRecord, StopReason, Summary, WearSummary};
+
+/// The greatest of some values and where it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extreme {
+    /// Its index.
+    pub index: usize,
+    /// Its value.
+    pub value: f64,
+}
+
+/// The first of the greatest finite values.
+pub fn greatest(values: &[f64]) -> Option<Extreme> {
+    values.iter().enumerate().filter(|(_, v)| v.is_finite()).fold(None, |best, (index, &value)| match best {
+        Some(Extreme { value: most, .. }) if value <= most => best,
+        _ => Some(Extreme { index, value }),
+    })
+}
+
+/// "at 34.12 mm radius, close to A", "at 37.40 mm radius, between C and D".
+pub fn place_on_flank(flank: &FlankRecord, radius_mm: f64) -> String {
+    format!("at {} mm radius, {}", significant(radius_mm, 4), among(&named(&flank.path_point_radius_mm), radius_mm))
+}
+
+/// Where `at` lies among the named places: close to one of them, between two, or outside all.
+pub fn among(places: &[(&str, f64)], at: f64) -> String {
+    let mut sorted = places.to_vec();
+    sorted.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let (Some(first), Some(last)) = (sorted.first(), sorted.last()) else { return String::new() };
+    let nearest = sorted.iter().min_by(|a, b| (a.1 - at).abs().total_cmp(&(b.1 - at).abs())).unwrap_or(first);
+    if (nearest.1 - at).abs() <= 0.03 * (last.1 - first.1) {
+        return format!("close to {}", nearest.0);
+    }
+    match sorted.windows(2).find(|pair| (pair[0].1..pair[1].1).contains(&at)) {
+        Some(pair) => format!("between {} and {}", pair[0].0, pair[1].0),
+        None => "outside the active flank".into(),
+    }
+}
+
+/// "127.75 h (1.15 million pinion revolutions)".
+pub fn duration(summary: &Summary) -> String {
+    let turns = format!("{} pinion revolutions", revolutions(summary.revolutions));
+    match summary.hours {
+        Some(hours) => format!("{} h ({turns})", given(hours)),
+        None => turns,
+    }
+}
+
+/// The run in one sentence or two: how much each gear has lost, where, and what it did to the working cycle.
+pub fn answer(record: &RunRecord) -> String {
+    let s = &record.summary;
+    let lost = match (s.pinion.peak_wear_um > 0.0, s.wheel.peak_wear_um > 0.0) {
+        (false, false) => "neither flank has worn".into(),
+        (true, false) => {
+            format!("the pinion has lost {}; the wheel has not worn", depth(&record.flanks.pinion, &s.pinion))
+        }
+        (false, true) => {
+            format!("the wheel has lost {}; the pinion has not worn", depth(&record.flanks.wheel, &s.wheel))
+        }
+        (true, true) => format!(
+            "the pinion has lost {}, and the wheel {}",
+            depth(&record.flanks.pinion, &s.pinion),
+            depth(&record.flanks.wheel, &s.wheel)
+        ),
+    };
+    let mut text = format!("After {} {lost}.", duration(s));
+    if record.history.is_empty() {
+        return text;
+    }
+    text.push_str(&format!(
+        " The greatest pressure went from {} to {} MPa ({}), the transmission error peak to peak from {} to {} µm.",
+        figure(s.new.peak_pressure_MPa),
+        figure(s.worn.peak_pressure_MPa),
+        change(s.new.peak_pressure_MPa, s.worn.peak_pressure_MPa),
+        figure(s.new.transmission_error_um.peak_to_peak),
+        figure(s.worn.transmission_error_um.peak_to_peak),
+    ));
+    text
+}
+
+fn depth(flank: &FlankRecord, wear: &WearSummary) -> String {
+    format!("up to {} µm {}", significant(wear.peak_wear_um, 3), place_on_flank(flank, wear.peak_wear_radius_mm))
+}
+
+/// What to say above everything else where the run did not reach its end.
+pub fn interruption(summary: &Summary) -> Option<String> {
+    match summary.stopped {
+        StopReason::Completed => None,
+        StopReason::Interrupted => Some(format!(
+            "The run was interrupted after {}. What was finished until then is shown; it is not the whole duration asked for.",
+            duration(summary)
+        )),
+    }
+}
+
+/// The text with every number bound to the unit after it, so that no line ends between them.
+pub fn bound(text: &str) -> String {
+    const UNITS: [&str; 4] = ["µm", "mm", "MPa", "h"];
+    let mut bound = String::with_capacity(text.len());
+    for word in text.split_inclusive(' ') {
+        let unit = word.trim_end_matches([' ', ',', '.', ';', ':']);
+        if UNITS.contains(&unit) && bound.ends_with(' ') && bound.trim_end().ends_with(|c: char| c.is_ascii_digit()) {
+            bound.pop();
+            bound.push('\u{a0}');
+        }
+        bound.push_str(word);
+    }
+    bound
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn greatest_passes_over_what_is_not_a_number() {
+        assert_eq!(greatest(&[f64::NAN, 1.0, 3.0, 3.0]), Some(Extreme { index: 2, value: 3.0 }));
+        assert_eq!(greatest(&[]), None);
+        assert_eq!(greatest(&[f64::NAN]), None);
+    }
+
+    #[test]
+    fn numbers_hold_on_to_their_units() {
+        assert_eq!(bound("up to 1.65 µm at 34 mm, or more mm"), "up to 1.65\u{a0}µm at 34\u{a0}mm, or more mm");
+    }
+
+    /// On an FZG type A pair C lies before B: order is by place, not by name.
+    #[test]
+    fn places_are_named_in_their_own_order() {
+        let places = [("A", 0.0), ("B", 4.8), ("C", 3.3), ("D", 13.0), ("E", 18.0)];
+        assert_eq!(among(&places, 0.2), "close to A");
+        assert_eq!(among(&places, 4.1), "between C and B");
+        assert_eq!(among(&places, 9.0), "between B and D");
+        assert_eq!(among(&places, 25.0), "outside the active flank");
+        assert_eq!(among(&[], 1.0), "");
+    }
+}

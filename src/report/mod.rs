@@ -1,0 +1,116 @@
+//! The files a run leaves behind, written from its [`RunRecord`] alone.
+//!
+//! | file | from |
+//! |---|---|
+//! | `summary.json` | [`summary`] |
+//! | `pinion.csv`, `wheel.csv`, `history.csv`, `profiles.csv`, `mesh_cycle.csv` | [`tables`] |
+//! | `scene.toml` | the resolved scene, byte for byte, so that its SHA-256 begins with the scene hash |
+//! | `report.html` | [`html`] |
+//!
+//! Each file is written under a temporary name in the same folder and then renamed: a reader sees the whole file or
+//! the one before it. `summary.json` comes last, so that its presence says the others are complete.
+
+pub mod html;
+pub mod summary;
+pub mod tables;
+
+use std::fs;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use crate::gear::Gear;
+use crate::simulation::record::RunRecord;
+
+/// What keeps a report from being written.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// The output folder does not exist and cannot be made.
+    #[error("cannot create the output folder {}", path.display())]
+    CreateFolder {
+        /// The folder.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// Something that is not a folder has the output folder's name.
+    #[error("{} exists and is not a folder", path.display())]
+    NotAFolder {
+        /// What is in the way.
+        path: PathBuf,
+    },
+    /// A file of the output folder cannot be written.
+    #[error("cannot write {}", path.display())]
+    WriteFile {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+}
+
+/// Writes all files of `record` into `dir`, which is made if need be; returns their paths in the order written.
+pub fn write(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+    create_folder(dir)?;
+    let provenance = tables::Provenance::of(&record.summary);
+    let flank = |gear: Gear| move |out: &mut dyn Write| tables::flank(out, provenance, &record.flanks[gear]);
+    Ok(vec![
+        place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?,
+        place(dir, "pinion.csv", flank(Gear::Pinion))?,
+        place(dir, "wheel.csv", flank(Gear::Wheel))?,
+        place(dir, "history.csv", |out| tables::history(out, provenance, &record.history))?,
+        place(dir, "profiles.csv", |out| tables::profiles(out, provenance, record))?,
+        place(dir, "mesh_cycle.csv", |out| tables::mesh_cycle(out, provenance, &record.mesh_cycle))?,
+        place(dir, "report.html", |out| out.write_all(html::page(record).as_bytes()))?,
+        place(dir, "summary.json", |out| summary::write(out, &record.summary))?,
+    ])
+}
+
+/// Checks, before work starts, that files can be written into `dir`; leaves nothing behind that was not there.
+pub fn writable(dir: &Path) -> Result<(), ReportError> {
+    let missing: Vec<&Path> = dir.ancestors().take_while(|p| !p.as_os_str().is_empty() && !p.exists()).collect();
+    let probed = create_folder(dir).and_then(|()| {
+        NamedTempFile::new_in(dir).map(drop).map_err(|source| ReportError::WriteFile { path: dir.into(), source })
+    });
+    // Deepest first. A folder that someone else has filled meanwhile is not empty, stays, and is no error of ours.
+    for made in missing {
+        let _ = fs::remove_dir(made);
+    }
+    probed
+}
+
+fn create_folder(dir: &Path) -> Result<(), ReportError> {
+    if dir.exists() && !dir.is_dir() {
+        return Err(ReportError::NotAFolder { path: dir.into() });
+    }
+    fs::create_dir_all(dir).map_err(|source| ReportError::CreateFolder { path: dir.into(), source })
+}
+
+/// Writes `dir/name` with `fill`, whole or not at all.
+fn place(dir: &Path, name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<PathBuf, ReportError> {
+    let path = dir.join(name);
+    let written = || -> io::Result<()> {
+        let mut file = temporary(dir)?;
+        let mut out = BufWriter::new(file.as_file_mut());
+        fill(&mut out)?;
+        out.flush()?;
+        drop(out);
+        file.as_file().sync_all()?;
+        file.persist(&path)?;
+        Ok(())
+    };
+    match written() {
+        Ok(()) => Ok(path),
+        Err(source) => Err(ReportError::WriteFile { path, source }),
+    }
+}
+
+/// A temporary file in `dir` with the permissions of an ordinary new file (the umask applies).
+fn temporary(dir: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".gearwear-");
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    builder.tempfile_in(dir)
+}

@@ -1,0 +1,169 @@
+//! The CSV files.
+//!
+//! Each begins with lines that start with `#`: program version and scene hash, then what every column holds. Numbers
+//! are the shortest decimals that read back as the same bits; a value that was not computed is an empty field.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+use crate::gear::Gear;
+use crate::simulation::record::{FlankRecord, HistoryRow, MeshCycleRow, RunRecord, Summary};
+
+/// Name and meaning of a column.
+pub type Column = (&'static str, &'static str);
+
+/// Columns of `pinion.csv` and `wheel.csv`; rows run from the base circle to the tip circle.
+pub const FLANK: [Column; 9] = [
+    ("radius_mm", "distance from the gear's axis, new"),
+    ("roll_angle_deg", "roll angle of the transverse involute"),
+    ("width_mm", "place over the face width"),
+    ("removed_um", "material removed by modifications, normal to the flank"),
+    ("sliding_mm_per_mesh", "distance the point slides against the other flank during one mesh, new"),
+    ("wear_um", "wear depth at the end of the run, normal to the flank"),
+    ("pressure_new_MPa", "greatest pressure during one mesh, new"),
+    ("pressure_worn_MPa", "greatest pressure during one mesh, worn"),
+    ("point", "index of the flank point, 0 at the base circle"),
+];
+
+/// Columns of `history.csv`; one row per snapshot reached.
+pub const HISTORY: [Column; 11] = [
+    ("hours", "running time; empty where the scene gives no speed"),
+    ("revolutions", "of the pinion"),
+    ("pinion_peak_wear_um", "greatest wear depth of the pinion's flank"),
+    ("pinion_root_wear_um", "greatest wear depth in the first 2 mm of radius above the start of active profile"),
+    ("pinion_pitch_wear_um", "wear depth at the working pitch circle"),
+    ("wheel_peak_wear_um", "greatest wear depth of the wheel's flank"),
+    ("peak_pressure_MPa", "greatest pressure anywhere during one mesh"),
+    ("transmission_error_peak_to_peak_um", "of the loaded pair, along the line of action"),
+    ("pinion_peak_wear_radius_mm", "radius of the greatest wear depth"),
+    ("pinion_sap_wear_um", "wear depth at the start of active profile"),
+    ("pinion_sap_wear_rate_um_per_Mrev", "growth there per million pinion revolutions"),
+];
+
+/// Columns of `profiles.csv`; both flanks at every snapshot.
+pub const PROFILES: [Column; 6] = [
+    ("hours", "running time; empty where the scene gives no speed"),
+    ("gear", "pinion or wheel"),
+    ("radius_mm", "distance from the gear's axis, new"),
+    ("width_mm", "place over the face width"),
+    ("wear_um", "wear depth, normal to the flank"),
+    ("revolutions", "of the pinion"),
+];
+
+/// Columns of `mesh_cycle.csv`; one row per loading position of the reference pair, from A to E.
+pub const MESH_CYCLE: [Column; 10] = [
+    ("position_mm", "radius of curvature of the pinion's flank at the theoretical contact point"),
+    ("load_share_new", "share of the whole load that the pair carries, new"),
+    ("load_share_worn", "the same, worn"),
+    ("peak_pressure_new_MPa", "greatest pressure of the pair, new"),
+    ("peak_pressure_worn_MPa", "the same, worn"),
+    ("half_width_mm", "half the extent of the contact strip, new"),
+    ("transmission_error_new_um", "approach along the line of action, positive under load, new"),
+    ("transmission_error_worn_um", "the same, worn"),
+    ("temperature_rise_K", "of the contact; empty where not computed"),
+    ("half_width_worn_mm", "half the extent of the contact strip, worn"),
+];
+
+/// Where the figures of a table come from.
+#[derive(Debug, Clone, Copy)]
+pub struct Provenance<'a> {
+    program_version: &'a str,
+    scene_hash: &'a str,
+}
+
+impl<'a> Provenance<'a> {
+    /// That of the run summarised in `summary`.
+    pub fn of(summary: &'a Summary) -> Self {
+        Self { program_version: &summary.program_version, scene_hash: &summary.scene_hash }
+    }
+}
+
+#[allow(non_snake_case, reason = "the contract's column names")]
+#[derive(Serialize)]
+struct FlankRow {
+    radius_mm: f64,
+    roll_angle_deg: f64,
+    width_mm: f64,
+    removed_um: f64,
+    sliding_mm_per_mesh: f64,
+    wear_um: f64,
+    pressure_new_MPa: f64,
+    pressure_worn_MPa: f64,
+    point: usize,
+}
+
+#[derive(Serialize)]
+struct ProfileRow {
+    hours: Option<f64>,
+    gear: Gear,
+    radius_mm: f64,
+    width_mm: f64,
+    wear_um: f64,
+    revolutions: f64,
+}
+
+/// Writes `pinion.csv` or `wheel.csv`.
+pub fn flank(out: &mut dyn Write, provenance: Provenance, flank: &FlankRecord) -> io::Result<()> {
+    let rows = (0..flank.radius_mm.len()).map(|point| FlankRow {
+        radius_mm: flank.radius_mm[point],
+        roll_angle_deg: flank.roll_angle_deg[point],
+        width_mm: flank.width_mm,
+        removed_um: flank.removed_um[point],
+        sliding_mm_per_mesh: flank.sliding_mm_per_mesh[point],
+        wear_um: flank.wear_um[point],
+        pressure_new_MPa: flank.pressure_new_MPa[point],
+        pressure_worn_MPa: flank.pressure_worn_MPa[point],
+        point,
+    });
+    table(out, provenance, &FLANK, rows)
+}
+
+/// Writes `history.csv`.
+pub fn history(out: &mut dyn Write, provenance: Provenance, rows: &[HistoryRow]) -> io::Result<()> {
+    table(out, provenance, &HISTORY, rows)
+}
+
+/// Writes `profiles.csv`.
+pub fn profiles(out: &mut dyn Write, provenance: Provenance, record: &RunRecord) -> io::Result<()> {
+    let rows = record.history.iter().enumerate().flat_map(|(snapshot, at)| {
+        Gear::BOTH.into_iter().flat_map(move |gear| {
+            let flank = &record.flanks[gear];
+            flank.radius_mm.iter().zip(&flank.snapshot_wear_um[snapshot]).map(move |(&radius_mm, &wear_um)| {
+                ProfileRow {
+                    hours: at.hours,
+                    gear,
+                    radius_mm,
+                    width_mm: flank.width_mm,
+                    wear_um,
+                    revolutions: at.revolutions,
+                }
+            })
+        })
+    });
+    table(out, provenance, &PROFILES, rows)
+}
+
+/// Writes `mesh_cycle.csv`.
+pub fn mesh_cycle(out: &mut dyn Write, provenance: Provenance, rows: &[MeshCycleRow]) -> io::Result<()> {
+    table(out, provenance, &MESH_CYCLE, rows)
+}
+
+/// The opening lines, the header and the rows. The header is written from `columns`, so that a table without rows has it.
+fn table<R: Serialize>(
+    out: &mut dyn Write,
+    provenance: Provenance,
+    columns: &[Column],
+    rows: impl IntoIterator<Item = R>,
+) -> io::Result<()> {
+    writeln!(out, "# gearwear {}, scene {}", provenance.program_version, provenance.scene_hash)?;
+    for (name, meaning) in columns {
+        writeln!(out, "# {name}: {meaning}")?;
+    }
+    let mut csv = csv::WriterBuilder::new().has_headers(false).from_writer(out);
+    csv.write_record(columns.iter().map(|(name, _)| name))?;
+    for row in rows {
+        csv.serialize(row)?;
+    }
+    csv.flush()
+}

@@ -1,0 +1,186 @@
+//! The wear run of a spur pair: explicit Euler over revolutions of the pinion.
+//!
+//! One evaluation of the working cycle on the flanks as they are gives the depth each point loses per mesh; it is taken
+//! to hold for the next `step_revolutions`. Each pinion tooth meshes once per pinion turn, each wheel tooth z1/z2 times:
+//!
+//! ```text
+//! h1 ← h1 + Δn · dh1          h2 ← h2 + Δn · (z1/z2) · dh2
+//! ```
+//!
+//! Steps are shortened to hit the snapshots exactly.
+//!
+//! Source: the thesis, equation 12 (single-point observation, section 3.3).
+
+use super::record::StopReason;
+use super::settings::{Numerics, Operation};
+use crate::contact::{ContactSurface, Flanks};
+use crate::gear::{
+    Gear, GearPair, PerGear,
+    flank::{FlankGrid, modifications_mm},
+};
+use crate::stiffness::{StiffnessError, TeethSpring};
+use crate::wear::WearLaw;
+use crate::working_cycle::{
+    CycleObservation, Work, WorkingCycle, load_sharing::EquilibriumError, positions::loading_positions,
+};
+
+/// Why a wear run could not go on.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SimulationError {
+    /// Stiffness model and contact surface do not go together.
+    #[error(transparent)]
+    Stiffness(#[from] StiffnessError),
+    /// The tooth pairs found no equilibrium.
+    #[error("after {revolutions:.4e} pinion revolutions: {source}")]
+    Equilibrium {
+        /// How far the run had come.
+        revolutions: f64,
+        /// What happened.
+        source: EquilibriumError,
+    },
+}
+
+/// Everything a run is made of.
+#[derive(Clone, Copy)]
+pub struct WearRun<'a> {
+    /// The gears.
+    pub pair: &'a GearPair,
+    /// How their flanks touch.
+    pub surface: &'a dyn ContactSurface,
+    /// How their teeth yield.
+    pub teeth: &'a TeethSpring<'a>,
+    /// How they wear.
+    pub law: &'a dyn WearLaw,
+    /// Whole load, N per mm of face width.
+    pub line_load_n_per_mm: f64,
+    /// How long they run.
+    pub operation: &'a Operation,
+    /// How finely.
+    pub numerics: Numerics,
+}
+
+/// State kept at a snapshot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Snapshot {
+    /// Pinion revolutions so far.
+    pub revolutions: f64,
+    /// Wear depth of each flank point.
+    pub wear_mm: PerGear<Vec<f64>>,
+    /// What each flank point loses in the next mesh.
+    pub depth_per_mesh_mm: PerGear<Vec<f64>>,
+    /// The working cycle of the flanks as they are.
+    pub cycle: CycleObservation,
+}
+
+/// What a run found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// Why it ended.
+    pub stop: StopReason,
+    /// The points of each flank.
+    pub grid: PerGear<FlankGrid>,
+    /// Material removed by the modifications.
+    pub modification_mm: PerGear<Vec<f64>>,
+    /// The unworn pair.
+    pub new: Snapshot,
+    /// The pair at each snapshot reached, in order.
+    pub snapshots: Vec<Snapshot>,
+    /// The pair when the run ended.
+    pub worn: Snapshot,
+    /// Wear steps taken.
+    pub wear_steps: u64,
+    /// Work done in all.
+    pub work: Work,
+}
+
+/// Told how far a run has come; says whether to go on.
+pub trait Progress: Sync {
+    /// `done` of `total` pinion revolutions are run.
+    fn progress(&self, done: f64, total: f64);
+
+    /// Whether the user wants it to stop.
+    fn interrupted(&self) -> bool;
+}
+
+/// Nobody watches, nobody interrupts.
+pub struct Unwatched;
+
+impl Progress for Unwatched {
+    fn progress(&self, _done: f64, _total: f64) {}
+
+    fn interrupted(&self) -> bool {
+        false
+    }
+}
+
+/// A remainder of a step shorter than this part of it is not worth a step of its own.
+const NEGLIGIBLE_STEP: f64 = 1e-9;
+
+impl WearRun<'_> {
+    /// Runs the whole duration, or until interrupted.
+    ///
+    /// # Errors
+    /// [`SimulationError`].
+    pub fn run(&self, progress: &dyn Progress) -> Result<Outcome, SimulationError> {
+        let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));
+        let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear]));
+        let positions = loading_positions(&self.pair.path, self.numerics.positions, |at| self.teeth.n_per_mm2(at))?;
+        let flanks = Flanks { geometry: self.pair, grid: grid.as_ref() };
+        let mut cycle = WorkingCycle::new(flanks, self.surface, &positions, self.line_load_n_per_mm);
+
+        let end = self.operation.pinion_revolutions;
+        let meshes_per_turn = PerGear { pinion: 1.0, wheel: self.pair.wheel_turns_per_pinion_turn() };
+        let mut due = self.operation.snapshots_revolutions.iter().copied().chain([end]).peekable();
+        let mut removed_mm = modification_mm.clone();
+        let mut wear_mm = PerGear::from_fn(|gear| vec![0.0; grid[gear].len()]);
+        let mut depth_mm = wear_mm.clone();
+        let (mut revolutions, mut wear_steps, mut work) = (0.0, 0, Work::default());
+        let (mut new, mut snapshots) = (None, Vec::new());
+
+        let worn = loop {
+            work += cycle
+                .evaluate(removed_mm.as_ref().map(Vec::as_slice), self.law, &mut depth_mm)
+                .map_err(|source| SimulationError::Equilibrium { revolutions, source })?;
+            let mut snapshot = || Snapshot {
+                revolutions,
+                wear_mm: wear_mm.clone(),
+                depth_per_mesh_mm: depth_mm.clone(),
+                cycle: cycle.observe(removed_mm.as_ref().map(Vec::as_slice)),
+            };
+            if new.is_none() {
+                new = Some(snapshot());
+            }
+            if due.peek().is_some_and(|&next| revolutions >= next) {
+                snapshots.push(snapshot());
+                while due.next_if(|&next| next <= revolutions).is_some() {}
+            }
+            progress.progress(revolutions, end);
+            let Some(&next) = due.peek() else { break snapshot() };
+            if progress.interrupted() {
+                break snapshot();
+            }
+
+            let mut step = self.numerics.step_revolutions;
+            let arrives = revolutions + step * (1.0 + NEGLIGIBLE_STEP) >= next;
+            if arrives {
+                step = next - revolutions;
+            }
+            revolutions = if arrives { next } else { revolutions + step };
+            wear_steps += 1;
+            for gear in Gear::BOTH {
+                let meshes = step * meshes_per_turn[gear];
+                let points = wear_mm[gear].iter_mut().zip(&mut removed_mm[gear]);
+                for ((wear, removed), (depth, modification)) in
+                    points.zip(depth_mm[gear].iter().zip(&modification_mm[gear]))
+                {
+                    *wear += meshes * depth;
+                    *removed = modification + *wear;
+                }
+            }
+        };
+        let stop = if revolutions >= end { StopReason::Completed } else { StopReason::Interrupted };
+        drop(cycle);
+        let new = new.unwrap_or_else(|| worn.clone());
+        Ok(Outcome { stop, grid, modification_mm, new, snapshots, worn, wear_steps, work })
+    }
+}

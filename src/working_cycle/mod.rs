@@ -1,0 +1,276 @@
+//! The working cycle: which tooth pairs carry how much, while one pair passes from A to E.
+//!
+//! The cycle is cut into loading positions. At each, all pairs in mesh share the load in equilibrium
+//! ([`load_sharing`]); then the pressure of the reference pair sweeps over its flank points and wears them. Positions
+//! are independent of each other, so they are shared out to threads; each fixed group of positions collects its wear by
+//! itself and the groups are added in order: the result does not depend on the number of threads.
+
+pub mod load_sharing;
+pub mod positions;
+
+use rayon::prelude::*;
+
+use crate::contact::{ContactSurface, Flanks, Footprint, PositionCell};
+use crate::gear::{Gear, PerGear};
+use crate::wear::WearLaw;
+use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance};
+
+/// Groups of positions that collect wear on their own; fixed, so that sums always run in the same order.
+const GROUPS: usize = 16;
+
+/// A tooth pair in mesh at some position: where it is and how stiff its teeth are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PairInMesh {
+    /// Its theoretical contact point.
+    pub position_mm: f64,
+    /// Spring of its teeth, N/mm².
+    pub teeth_n_per_mm2: f64,
+}
+
+/// One loading position: the reference pair's stretch of the path, and all pairs in mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadingPosition {
+    /// What the position stands for.
+    pub cell: PositionCell,
+    /// All pairs in mesh, the reference pair first.
+    pub pairs: Vec<PairInMesh>,
+}
+
+/// Counters of work done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Work {
+    /// Working cycles evaluated.
+    pub mesh_cycles: u64,
+    /// Equilibria solved.
+    pub equilibria: u64,
+    /// Newton iterations in them.
+    pub newton_iterations: u64,
+    /// Evaluations of a pair's contact.
+    pub pair_evaluations: u64,
+}
+
+impl std::ops::AddAssign for Work {
+    fn add_assign(&mut self, other: Self) {
+        self.mesh_cycles += other.mesh_cycles;
+        self.equilibria += other.equilibria;
+        self.newton_iterations += other.newton_iterations;
+        self.pair_evaluations += other.pair_evaluations;
+    }
+}
+
+/// The state of one position.
+struct Station<'a> {
+    cell: PositionCell,
+    /// The reference pair first.
+    pairs: Vec<MeshedPair<'a>>,
+    equilibrium: Equilibrium,
+}
+
+/// Positions that collect wear together.
+struct Group<'a> {
+    stations: Vec<Station<'a>>,
+    depth_mm: PerGear<Vec<f64>>,
+    work: Work,
+    failure: Option<EquilibriumError>,
+}
+
+/// All loading positions of a pair, ready to be evaluated on ever newly worn flanks.
+pub struct WorkingCycle<'a> {
+    groups: Vec<Group<'a>>,
+    line_load_n_per_mm: f64,
+}
+
+/// What was observed at one position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PositionObservation {
+    /// Theoretical contact point of the reference pair.
+    pub position_mm: f64,
+    /// Approach of the gears along the line of action.
+    pub transmission_error_mm: f64,
+    /// Part of the whole load that the reference pair carries.
+    pub load_share: f64,
+    /// Sum of the loads of all pairs over the load to be carried, less one.
+    pub load_imbalance: f64,
+    /// The reference pair's contact.
+    pub footprint: Footprint,
+}
+
+/// What was observed over a working cycle.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CycleObservation {
+    /// At each position, in order.
+    pub positions: Vec<PositionObservation>,
+    /// Greatest pressure that each flank point felt, MPa.
+    pub pressure_mpa: PerGear<Vec<f64>>,
+    /// How far each flank point slid while in contact, mm.
+    pub sliding_mm: PerGear<Vec<f64>>,
+}
+
+impl<'a> WorkingCycle<'a> {
+    /// Prepares every pair at every position. The wear of the reference pair, the first of each position, is collected.
+    pub fn new(
+        flanks: Flanks<'a>,
+        surface: &dyn ContactSurface,
+        positions: &[LoadingPosition],
+        line_load_n_per_mm: f64,
+    ) -> Self {
+        let size = positions.len().div_ceil(GROUPS).max(1);
+        let groups = positions
+            .par_chunks(size)
+            .map(|positions| Group {
+                stations: positions.iter().map(|p| Station::new(flanks, surface, p)).collect(),
+                depth_mm: PerGear::from_fn(|gear| vec![0.0; flanks.grid[gear].len()]),
+                work: Work::default(),
+                failure: None,
+            })
+            .collect();
+        Self { groups, line_load_n_per_mm }
+    }
+
+    /// Solves every position on flanks that have lost `removed_mm`, and puts into `depth_mm` what each point wears in
+    /// one mesh.
+    ///
+    /// # Errors
+    /// [`EquilibriumError`] of the first position without equilibrium.
+    pub fn evaluate(
+        &mut self,
+        removed_mm: PerGear<&[f64]>,
+        law: &dyn WearLaw,
+        depth_mm: &mut PerGear<Vec<f64>>,
+    ) -> Result<Work, EquilibriumError> {
+        let load = self.line_load_n_per_mm;
+        self.groups.par_iter_mut().for_each(|group| group.evaluate(removed_mm, load, law));
+        let mut work = Work { mesh_cycles: 1, ..Work::default() };
+        for gear in Gear::BOTH {
+            depth_mm[gear].fill(0.0);
+        }
+        for group in &self.groups {
+            if let Some(failure) = &group.failure {
+                return Err(failure.clone());
+            }
+            work += group.work;
+            for gear in Gear::BOTH {
+                depth_mm[gear].iter_mut().zip(&group.depth_mm[gear]).for_each(|(sum, part)| *sum += part);
+            }
+        }
+        Ok(work)
+    }
+
+    /// What the last evaluation found, on the same `removed_mm`.
+    pub fn observe(&mut self, removed_mm: PerGear<&[f64]>) -> CycleObservation {
+        let zeros = || removed_mm.map(|flank| vec![0.0; flank.len()]);
+        let mut observation = CycleObservation { positions: Vec::new(), pressure_mpa: zeros(), sliding_mm: zeros() };
+        for station in self.groups.iter_mut().flat_map(|group| &mut group.stations) {
+            observation.positions.push(station.observe(self.line_load_n_per_mm));
+            for gear in Gear::BOTH {
+                let sweep = station.pairs[0].contact.sweep(gear, removed_mm);
+                let range = sweep.first_point..sweep.first_point + sweep.pressure_mpa.len();
+                let felt = sweep.pressure_mpa.iter().zip(sweep.sliding_mm).zip(sweep.contact_fraction);
+                let points = observation.pressure_mpa[gear][range.clone()]
+                    .iter_mut()
+                    .zip(&mut observation.sliding_mm[gear][range]);
+                for ((greatest, slid), ((&pressure, &sliding), &fraction)) in points.zip(felt) {
+                    if sliding > 0.0 {
+                        *greatest = greatest.max(pressure);
+                        *slid += sliding * fraction;
+                    }
+                }
+            }
+        }
+        observation
+    }
+}
+
+impl Group<'_> {
+    fn evaluate(&mut self, removed_mm: PerGear<&[f64]>, line_load: f64, law: &dyn WearLaw) {
+        self.work = Work::default();
+        self.failure = None;
+        for gear in Gear::BOTH {
+            self.depth_mm[gear].fill(0.0);
+        }
+        for station in &mut self.stations {
+            match station.solve(removed_mm, line_load) {
+                Ok(work) => self.work += work,
+                Err(error) => {
+                    self.failure = Some(error);
+                    return;
+                }
+            }
+            for gear in Gear::BOTH {
+                let sweep = station.pairs[0].contact.sweep(gear, removed_mm);
+                let points = sweep.first_point..sweep.first_point + sweep.pressure_mpa.len();
+                law.add_depth(sweep.pressure_mpa, sweep.sliding_mm, &mut self.depth_mm[gear][points]);
+            }
+        }
+    }
+}
+
+impl<'a> Station<'a> {
+    fn new(flanks: Flanks<'a>, surface: &dyn ContactSurface, position: &LoadingPosition) -> Self {
+        let pairs = position
+            .pairs
+            .iter()
+            .enumerate()
+            .map(|(k, pair)| {
+                let cell = (k == 0).then_some(position.cell);
+                MeshedPair::new(surface.pair(flanks, pair.position_mm, cell), pair.teeth_n_per_mm2)
+            })
+            .collect();
+        Self { cell: position.cell, pairs, equilibrium: Equilibrium::default() }
+    }
+
+    /// Equilibrium on the flanks as they are now; pairs that turn out to touch beyond what they look at look wider.
+    fn solve(&mut self, removed_mm: PerGear<&[f64]>, line_load: f64) -> Result<Work, EquilibriumError> {
+        let mut work = Work { equilibria: 1, ..Work::default() };
+        for pair in &mut self.pairs {
+            pair.contact.read(removed_mm);
+        }
+        loop {
+            self.equilibrium = balance(&mut self.pairs, line_load, self.cell.position_mm)?;
+            work.newton_iterations += self.equilibrium.iterations;
+            work.pair_evaluations += self.equilibrium.pair_evaluations;
+            let mut held = true;
+            for pair in self.pairs.iter_mut().filter(|pair| !pair.contact.holds_contact()) {
+                pair.contact.widen();
+                pair.contact.read(removed_mm);
+                held = false;
+            }
+            if held {
+                self.pairs.iter_mut().for_each(MeshedPair::remember);
+                return Ok(work);
+            }
+        }
+    }
+
+    fn observe(&self, line_load: f64) -> PositionObservation {
+        let reference = &self.pairs[0];
+        let total: f64 = self.pairs.iter().map(|pair| pair.response.line_load_n_per_mm).sum();
+        PositionObservation {
+            position_mm: self.cell.position_mm,
+            transmission_error_mm: self.equilibrium.transmission_error_mm,
+            load_share: reference.response.line_load_n_per_mm / line_load,
+            load_imbalance: total / line_load - 1.0,
+            footprint: reference.contact.footprint(),
+        }
+    }
+}
+
+impl CycleObservation {
+    /// Greatest pressure anywhere on either flank, at any position, MPa.
+    pub fn peak_pressure_mpa(&self) -> f64 {
+        self.positions.iter().map(|p| p.footprint.peak_pressure_mpa).fold(0.0, f64::max)
+    }
+
+    /// Least and greatest transmission error, mm.
+    pub fn transmission_error_mm(&self) -> (f64, f64) {
+        self.positions.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
+            (low.min(p.transmission_error_mm), high.max(p.transmission_error_mm))
+        })
+    }
+
+    /// The observation nearest to `position_mm`.
+    pub fn nearest(&self, position_mm: f64) -> Option<&PositionObservation> {
+        let distance = |p: &&PositionObservation| (p.position_mm - position_mm).abs();
+        self.positions.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+}

@@ -1,0 +1,176 @@
+//! Pairs that several tests run on.
+#![allow(dead_code, reason = "each test binary uses its own part")]
+
+use gearwear::gear::{
+    GearPair, PerGear,
+    modification::Modification,
+    spec::{BasicRack, GearSpec, PairSpec},
+};
+
+/// Sum of |relative difference| check with a readable message.
+pub fn assert_close(what: &str, value: f64, expected: f64, relative: f64) {
+    let error = (value / expected - 1.0).abs();
+    assert!(error <= relative, "{what}: {value} instead of {expected} (off by {error:.2e}, allowed {relative:.0e})");
+}
+
+/// One gear by teeth, shift and tip diameter.
+pub fn gear(teeth: u32, profile_shift: f64, tip_diameter_mm: Option<f64>) -> GearSpec {
+    GearSpec {
+        teeth,
+        profile_shift,
+        tip_diameter_mm,
+        tooth_thickness_allowance_mm: 0.0,
+        bore_diameter_mm: None,
+        modification: Modification::default(),
+    }
+}
+
+/// A spur pair on the rack 20°, 1.0/1.25/0.38.
+pub fn spur(module: f64, centre_distance_mm: f64, face_width_mm: f64, pinion: GearSpec, wheel: GearSpec) -> PairSpec {
+    PairSpec {
+        normal_module_mm: module,
+        normal_pressure_angle_rad: 20f64.to_radians(),
+        helix_angle_rad: 0.0,
+        centre_distance_mm,
+        face_width_mm,
+        rack: BasicRack::default(),
+        gears: PerGear { pinion, wheel },
+    }
+}
+
+/// FZG type C: ISO 14635-1.
+pub fn fzg_c() -> PairSpec {
+    spur(4.5, 91.5, 14.0, gear(16, 0.1817, Some(82.46)), gear(24, 0.1715, Some(118.36)))
+}
+
+/// FZG type A (A20).
+pub fn fzg_a() -> PairSpec {
+    spur(4.5, 91.5, 20.0, gear(16, 0.8532, Some(88.77)), gear(24, -0.5, Some(112.5)))
+}
+
+/// A pair that can run.
+pub fn pair(spec: &PairSpec) -> GearPair {
+    GearPair::new(spec).expect("the pair of the test is sound")
+}
+
+/// Steel as in the scene's default.
+pub const STEEL: gearwear::contact::settings::Material =
+    gearwear::contact::settings::Material { young_modulus_mpa: 206e3, poisson_ratio: 0.3, density_kg_per_m3: 7830.0 };
+
+/// Both gears of steel.
+pub fn steel() -> PerGear<gearwear::contact::settings::Material> {
+    PerGear { pinion: STEEL, wheel: STEEL }
+}
+
+use gearwear::contact::{
+    ContactSurface,
+    foundation::matched_mpa_per_mm,
+    hertz::{self, Hertz},
+    hertz_mean::HertzMean,
+    settings::MatchCriterion,
+    winkler::Winkler,
+};
+use gearwear::simulation::{
+    settings::{Numerics, Operation},
+    wear_run::{Outcome, Unwatched, WearRun},
+};
+use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
+use gearwear::wear::{
+    archard::Archard,
+    settings::{SevereTransition, WearSettings},
+};
+
+/// A wear run in the making; the default is the fzg-c scene.
+#[derive(Clone)]
+pub struct Scene {
+    pub pair: PairSpec,
+    pub torque_n_mm: f64,
+    pub revolutions: f64,
+    pub snapshots: Vec<f64>,
+    pub surface: &'static str,
+    pub criterion: MatchCriterion,
+    pub stiffness: StiffnessSettings,
+    pub coefficient_mm2_per_n: f64,
+    pub severe: Option<SevereTransition>,
+    pub flank_points: usize,
+    pub positions: usize,
+    pub steps: f64,
+}
+
+/// "The fzg-c scene": 302 N·m, 150 rpm, 127.75 h, Winkler matched on half-width, 20 N/(mm·µm), k 1e-17 m²/N.
+pub fn fzg_c_scene() -> Scene {
+    Scene {
+        pair: fzg_c(),
+        torque_n_mm: 302e3,
+        revolutions: 127.75 * 60.0 * 150.0,
+        snapshots: Vec::new(),
+        surface: "winkler",
+        criterion: MatchCriterion::HalfWidth,
+        stiffness: StiffnessSettings::Constant { pair_n_per_mm2: 20e3 },
+        coefficient_mm2_per_n: 1e-11,
+        severe: None,
+        flank_points: 750,
+        positions: 400,
+        steps: 150.0,
+    }
+}
+
+impl Scene {
+    /// Whole load per mm of face width.
+    pub fn line_load(&self) -> f64 {
+        let pair = pair(&self.pair);
+        self.torque_n_mm / pair.path.involute.pinion.base_radius_mm / self.pair.face_width_mm
+    }
+
+    /// K/H by the scene's criterion.
+    pub fn foundation(&self) -> f64 {
+        let pair = pair(&self.pair);
+        let at_pitch = hertz::flattening(&pair, &steel(), pair.path.pitch_point_mm);
+        matched_mpa_per_mm(self.criterion, &at_pitch, self.line_load())
+    }
+
+    /// The contact surface by name.
+    pub fn surface(&self) -> Box<dyn ContactSurface> {
+        let expected_line_load_n_per_mm = self.line_load();
+        match self.surface {
+            "winkler" => {
+                Box::new(Winkler { foundation_mpa_per_mm: self.foundation(), expected_line_load_n_per_mm })
+            }
+            "hertz" => Box::new(Hertz { material: steel(), expected_line_load_n_per_mm }),
+            "hertz-mean" => Box::new(HertzMean { material: steel() }),
+            other => panic!("no surface {other}"),
+        }
+    }
+
+    /// Runs it.
+    pub fn run(&self) -> Outcome {
+        let pair = pair(&self.pair);
+        let (surface, line_load) = (self.surface(), self.line_load());
+        let teeth = TeethSpring::new(self.stiffness, &pair, &steel(), surface.as_ref(), line_load);
+        let law = Archard::new(&WearSettings {
+            coefficient_mm2_per_n: self.coefficient_mm2_per_n,
+            severe: self.severe,
+        });
+        WearRun {
+            pair: &pair,
+            surface: surface.as_ref(),
+            teeth: &teeth,
+            law: &law,
+            line_load_n_per_mm: line_load,
+            operation: &Operation {
+                pinion_torque_n_mm: self.torque_n_mm,
+                pinion_speed_rpm: None,
+                pinion_revolutions: self.revolutions,
+                snapshots_revolutions: self.snapshots.clone(),
+            },
+            numerics: Numerics {
+                flank_points: self.flank_points,
+                positions: self.positions,
+                step_revolutions: self.revolutions / self.steps,
+                error_estimate: false,
+            },
+        }
+        .run(&Unwatched)
+        .expect("the run of the test converges")
+    }
+}
