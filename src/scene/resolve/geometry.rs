@@ -67,8 +67,14 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Place {
             help: "check tip diameter, module and number of teeth".to_owned(),
         },
         PairError::Interference { gear, form_diameter_mm, .. } => Place {
-            key: tip_key(gear.mate()),
-            found: spec.gears[gear.mate()].tip_diameter_mm.map_or_else(|| "a tip from the rack".to_owned(), number),
+            key: match tip_key(gear.mate()) {
+                tip if tip.ends_with("tip_diameter_mm") => tip,
+                _ => key_of(gear, "profile_shift"),
+            },
+            found: match spec.gears[gear.mate()].tip_diameter_mm {
+                Some(tip_mm) => tip_found(gear.mate(), tip_mm),
+                None => format!("profile shift {}", number(spec.gears[gear].profile_shift)),
+            },
             allowed: format!(
                 "a tip of the {} that touches the {} above its form diameter {form_diameter_mm:.4} mm",
                 gear.mate().name(),
@@ -191,7 +197,8 @@ mod tests {
         let beside_preset = Findings::new(Locator::new("pair.preset = \"fzg-c\"").unwrap());
         for (error, key) in errors {
             assert_eq!(place(&error, &spec, &findings).key, key);
-            let key = key.replace("pinion.tip_diameter_mm", "pinion.profile_shift");
+            let mended = if let PairError::Interference { .. } = error { "wheel" } else { "pinion" };
+            let key = key.replace("pinion.tip_diameter_mm", &format!("{mended}.profile_shift"));
             assert_eq!(place(&error, &spec, &beside_preset).key, key);
         }
     }
