@@ -15,6 +15,8 @@
 
 pub mod contact;
 pub mod gear;
+pub mod pipeline;
+pub mod plan;
 pub mod reference;
 pub mod report;
 pub mod scene;

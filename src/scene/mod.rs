@@ -1,10 +1,26 @@
-//! The user's scene.
+//! The user's scene: the file with its checks and presets, resolved into the settings of each layer.
+
+pub mod file;
+mod findings;
+mod later;
+mod locate;
+pub mod presets;
+pub mod problem;
+mod resolve;
+pub mod schema;
+mod shape;
+mod unit_slip;
+
+use sha2::{Digest, Sha256};
 
 use crate::contact::settings::{ContactSettings, Material};
 use crate::gear::{PerGear, spec::PairSpec};
 use crate::simulation::settings::{Numerics, Operation};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::wear::settings::WearSettings;
+
+pub use file::SceneFile;
+pub use problem::{Problem, ProblemKind};
 
 /// A scene with every choice made: what the plan and the pipeline work from.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,4 +41,38 @@ pub struct Scene {
     pub wear: WearSettings,
     /// Resolution.
     pub numerics: Numerics,
+}
+
+impl Scene {
+    /// Resolves the text of a scene file: presets expanded, defaults filled in, everything checked.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the scene, not only the first thing.
+    pub fn from_toml(text: &str) -> Result<Resolved, Vec<Problem>> {
+        resolve::resolve(text)
+    }
+}
+
+/// A scene, the file that says all of it, and what the user should know about it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Resolved {
+    /// What the program works from.
+    pub scene: Scene,
+    /// The same as a file, every default filled in and without a preset. Resolving it gives the same scene, bit for bit.
+    pub file: SceneFile,
+    /// Likely slips of unit and settings that are not used.
+    pub warnings: Vec<String>,
+}
+
+impl Resolved {
+    /// The resolved scene as TOML.
+    pub fn to_toml(&self) -> String {
+        self.file.to_toml()
+    }
+
+    /// First 16 hexadecimal digits of the SHA-256 of [`Self::to_toml`].
+    pub fn scene_hash(&self) -> String {
+        let digest = Sha256::digest(self.to_toml());
+        digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+    }
 }

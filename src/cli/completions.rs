@@ -1,0 +1,19 @@
+//! `gearwear completions`: what a shell needs to complete commands and options.
+
+use clap_complete::Shell;
+
+use super::failure::Failure;
+use super::stdout;
+
+/// Arguments of `completions`.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The shell
+    shell: Shell,
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let mut script = Vec::new();
+    clap_complete::generate(args.shell, &mut super::command(), "gearwear", &mut script);
+    stdout::print(&String::from_utf8_lossy(&script))
+}

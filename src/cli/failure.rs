@@ -1,0 +1,140 @@
+//! Why a command did not do what was asked, and the exit status that says so.
+
+use std::io;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use gearwear::pipeline::RunError;
+use gearwear::scene::{Problem, ProblemKind, presets};
+use miette::{Diagnostic, LabeledSpan, MietteDiagnostic, NamedSource, Report};
+
+/// Why a command ended without its result.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// The scene file is wrong.
+    #[error("{} problems in {}", .0.problems.len(), .0.name)]
+    Scene(SceneProblems),
+    /// Something else about the command is wrong.
+    #[error(transparent)]
+    Input(#[from] InputError),
+    /// The solver failed.
+    #[error(transparent)]
+    Solver(#[from] RunError),
+    /// The user interrupted the run; it was said what is kept.
+    #[error("interrupted")]
+    Interrupted,
+    /// Nobody reads what the command prints.
+    #[error("the output was closed")]
+    Closed,
+}
+
+/// What is wrong with a scene file, with the text it stands in.
+#[derive(Debug)]
+pub struct SceneProblems {
+    /// Name of the file.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+    /// At least one.
+    pub problems: Vec<Problem>,
+}
+
+/// What can be wrong with a command beside the scene's content.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+pub enum InputError {
+    /// The scene file cannot be read.
+    #[error("the scene {name} cannot be read: {reason}")]
+    Unreadable {
+        /// Name of the file.
+        name: String,
+        /// The system's reason.
+        reason: io::Error,
+    },
+    /// The scene file is no text.
+    #[error("the scene {name} is not UTF-8 text: byte {byte}, line {line}")]
+    #[diagnostic(help("save the file as UTF-8"))]
+    NotUtf8 {
+        /// Name of the file.
+        name: String,
+        /// Offset of the first byte that is no text.
+        byte: usize,
+        /// Its line.
+        line: usize,
+    },
+    /// `init` with a name that is no preset.
+    #[error("unknown preset {name:?}; allowed: {}", presets::names().join(", "))]
+    #[diagnostic(help("{}", presets::nearest(name).map_or_else(
+        || "gearwear init prints the first of them".to_owned(), |near| format!("did you mean {near}?"))))]
+    UnknownPreset {
+        /// As typed.
+        name: String,
+    },
+    /// A file stands where the output folder should be.
+    #[error("--out {}: found a file, allowed: a folder, or a name that is still free", .path.display())]
+    OutIsAFile {
+        /// As typed.
+        path: PathBuf,
+    },
+    /// The output folder cannot be made or written.
+    #[error("--out {}: the folder cannot be written: {reason}", .path.display())]
+    #[diagnostic(help("choose a folder you may write to"))]
+    OutNotWritable {
+        /// As typed.
+        path: PathBuf,
+        /// The system's reason.
+        reason: io::Error,
+    },
+    /// The threads cannot be started.
+    #[error("--threads: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+impl Failure {
+    /// Says on standard error what is wrong.
+    pub fn print(self) {
+        match self {
+            Failure::Scene(scene) => scene.print(),
+            Failure::Input(error) => eprintln!("{:?}", Report::new(error)),
+            Failure::Solver(error) => eprintln!("{:?}", Report::msg(error)),
+            Failure::Interrupted | Failure::Closed => {}
+        }
+    }
+
+    /// The exit status of the program, as the contract fixes it.
+    pub fn exit_status(&self) -> u8 {
+        match self {
+            Failure::Scene(_) | Failure::Input(_) => 2,
+            Failure::Solver(_) => 3,
+            Failure::Interrupted => 130,
+            Failure::Closed => 0,
+        }
+    }
+}
+
+impl SceneProblems {
+    fn print(self) {
+        let Self { name, text, problems } = self;
+        let count = problems.len();
+        let source = Arc::new(NamedSource::new(&name, text));
+        for problem in problems {
+            let labels = label(&problem);
+            let mut diagnostic = MietteDiagnostic::new(problem.to_string()).with_labels(labels);
+            diagnostic.help = problem.help;
+            eprintln!("{:?}", Report::new(diagnostic).with_source_code(Arc::clone(&source)));
+        }
+        if count > 1 {
+            eprintln!("{count} problems in {name}");
+        }
+    }
+}
+
+/// The place of the problem, marked with what is found there.
+fn label(problem: &Problem) -> Option<LabeledSpan> {
+    let text = match problem.kind {
+        ProblemKind::Missing => format!("{} is missing", problem.key),
+        ProblemKind::NotAvailable => "not available in this version".to_owned(),
+        ProblemKind::Geometry(_) => "here".to_owned(),
+        _ => format!("found {}", problem.found),
+    };
+    problem.span.clone().map(|span| LabeledSpan::new_primary_with_span(Some(text), span))
+}

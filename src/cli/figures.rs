@@ -1,0 +1,67 @@
+//! The main figures of a run, as a table for the terminal.
+
+use gearwear::simulation::record::Summary;
+
+/// The table.
+pub fn table(summary: &Summary) -> String {
+    let (pinion, wheel) = (&summary.pinion, &summary.wheel);
+    let (new, worn) = (&summary.new, &summary.worn);
+    let mut text = format!("{}\n\n{}", summary.title, row("", ["pinion", "wheel"]));
+    for (name, values) in [
+        ("peak wear, µm", [pinion.peak_wear_um, wheel.peak_wear_um]),
+        ("  at radius, mm", [pinion.peak_wear_radius_mm, wheel.peak_wear_radius_mm]),
+        ("wear near the root, µm", [pinion.root_wear_um, wheel.root_wear_um]),
+        ("wear at the pitch circle, µm", [pinion.pitch_wear_um, wheel.pitch_wear_um]),
+        ("worn mass, mg", [pinion.worn_mass_mg, wheel.worn_mass_mg]),
+    ] {
+        text.push_str(&figures(name, values));
+    }
+    text.push_str(&row("", ["new", "worn"]));
+    for (name, values) in [
+        ("peak pressure, MPa", [new.peak_pressure_MPa, worn.peak_pressure_MPa]),
+        ("pressure at the pitch point, MPa", [new.pitch_pressure_MPa, worn.pitch_pressure_MPa]),
+        (
+            "transmission error, peak to peak, µm",
+            [new.transmission_error_um.peak_to_peak, worn.transmission_error_um.peak_to_peak],
+        ),
+    ] {
+        text.push_str(&figures(name, values));
+    }
+    let hours = summary.hours.map_or_else(String::new, |hours| format!(" ({} h)", digits(hours)));
+    text.push_str(&format!(
+        "\n{} pinion revolutions{hours}, computed in {:.2} s\n",
+        digits(summary.revolutions),
+        summary.wall_s
+    ));
+    text
+}
+
+fn figures(name: &str, values: [f64; 2]) -> String {
+    let [one, other] = values.map(digits);
+    row(name, [&one, &other])
+}
+
+fn row(name: &str, values: [&str; 2]) -> String {
+    format!("  {name:38}{:>12}{:>12}\n", values[0], values[1])
+}
+
+/// A figure with four significant digits, or all digits of a large whole one.
+fn digits(value: f64) -> String {
+    let magnitude = value.abs();
+    if magnitude != 0.0 && !(1e-3..1e9).contains(&magnitude) {
+        return format!("{value:.3e}");
+    }
+    let decimals = if magnitude == 0.0 { 0 } else { (3 - magnitude.log10().floor() as i32).max(0) as usize };
+    format!("{value:.decimals$}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_have_four_digits() {
+        let values = [0.0, 12.345_67, 1656.4, 1_149_750.0, 0.012_344, 1.234e-7];
+        assert_eq!(values.map(digits), ["0", "12.35", "1656", "1149750", "0.01234", "1.234e-7"]);
+    }
+}

@@ -1,0 +1,20 @@
+//! `gearwear init`: a commented scene to start from.
+
+use gearwear::scene::presets;
+
+use super::failure::{Failure, InputError};
+use super::stdout;
+
+/// Arguments of `init`.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The scene to print: fzg-c, fzg-a
+    #[arg(default_value = presets::PRESETS[0].name)]
+    preset: String,
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let name = args.preset.clone();
+    let preset = presets::find(&name).ok_or(InputError::UnknownPreset { name })?;
+    stdout::print(preset.text)
+}

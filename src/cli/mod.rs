@@ -1,0 +1,82 @@
+//! The commands, one file each, and what they share: reading scenes, saying what is wrong, exit statuses.
+
+mod completions;
+mod failure;
+mod figures;
+mod init;
+mod plan;
+mod progress;
+mod run;
+mod scene_source;
+mod schema;
+mod stdout;
+
+use std::io::IsTerminal;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Width of messages where no terminal sets one: never broken, so that scripts find what they look for.
+const UNBROKEN: usize = 10_000;
+
+/// Predicts how the flanks of spur gears wear, and the pressure, load sharing and transmission error that follow.
+///
+/// Exit status: 0 done; 2 the input is wrong; 3 the solver failed; 130 interrupted (what was finished is kept).
+#[derive(Debug, Parser)]
+#[command(name = "gearwear", version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Print a commented scene to start from
+    Init(init::Args),
+    /// Show the stages a scene needs, those left out, and why; runs nothing
+    Plan(plan::Args),
+    /// Run the wear simulation of a scene
+    Run(run::Args),
+    /// Print the JSON schema of the scene: every key with its meaning, unit, range and default
+    Schema,
+    /// Print completions for a shell
+    Completions(completions::Args),
+}
+
+/// Runs the command the user typed.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let width = (!std::io::stderr().is_terminal()).then_some(UNBROKEN);
+    let hook = miette::set_hook(Box::new(move |_| {
+        let options = miette::MietteHandlerOpts::new();
+        Box::new(width.map_or(options.clone(), |width| options.width(width)).build())
+    }));
+    debug_assert!(hook.is_ok(), "the hook is set once");
+    let done = match &cli.command {
+        Command::Init(args) => init::run(args),
+        Command::Plan(args) => plan::run(args),
+        Command::Run(args) => run::run(args),
+        Command::Schema => schema::run(),
+        Command::Completions(args) => completions::run(args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            let status = failure.exit_status();
+            failure.print();
+            ExitCode::from(status)
+        }
+    }
+}
+
+/// Prints warnings; they go where errors go, so that results can be piped.
+fn warn(warnings: &[String]) {
+    for warning in warnings {
+        eprintln!("warning: {warning}");
+    }
+}
+
+/// The command line, for completions.
+fn command() -> clap::Command {
+    <Cli as clap::CommandFactory>::command()
+}

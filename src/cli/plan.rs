@@ -1,0 +1,46 @@
+//! `gearwear plan`: what a run would do, and why.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use gearwear::plan::{Plan, Stage};
+
+use super::failure::Failure;
+use super::{scene_source, stdout, warn};
+
+/// Arguments of `plan`.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The scene file; - reads standard input
+    scene: PathBuf,
+    /// How to print the plan
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+/// How to print.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For people
+    Text,
+    /// For scripts
+    Json,
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let resolved = scene_source::resolve(&args.scene)?;
+    warn(&resolved.warnings);
+    let plan = Plan::of(&resolved.scene);
+    stdout::print(&match args.format {
+        Format::Text => text(&resolved.scene.title, &plan),
+        Format::Json => serde_json::to_string_pretty(&plan).expect("a plan is names and texts") + "\n",
+    })
+}
+
+fn text(title: &str, plan: &Plan) -> String {
+    let width = plan.stages.iter().chain(&plan.left_out).map(|stage| stage.kind.name().len()).max().unwrap_or(0);
+    let lines = |stages: &[Stage]| -> String {
+        stages.iter().map(|stage| format!("  {:width$}  {}\n", stage.kind.name(), stage.reason)).collect()
+    };
+    format!("{title}\n\nStages\n{}\nLeft out\n{}", lines(&plan.stages), lines(&plan.left_out))
+}

@@ -1,0 +1,90 @@
+//! Tells the user how far a run is: a bar with the remaining time on a terminal, one line a stage elsewhere.
+
+use std::io::IsTerminal;
+use std::sync::Arc;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use gearwear::pipeline::Observer;
+use indicatif::{ProgressBar, ProgressStyle};
+
+/// Parts of the bar.
+const PARTS: u64 = 1000;
+
+/// How progress is shown.
+enum Display {
+    Quiet,
+    Log(Mutex<Option<(String, Instant)>>),
+    Bar(ProgressBar),
+}
+
+/// Watches a run for the user, who may interrupt it.
+pub struct Progress {
+    display: Display,
+    interrupted: Arc<AtomicBool>,
+}
+
+impl Progress {
+    /// A bar on a terminal, a log elsewhere, nothing where `quiet`; `interrupted` is set when the user wants to stop.
+    pub fn new(quiet: bool, interrupted: Arc<AtomicBool>) -> Self {
+        let display = if quiet {
+            Display::Quiet
+        } else if std::io::stderr().is_terminal() {
+            Display::Bar(bar())
+        } else {
+            Display::Log(Mutex::new(None))
+        };
+        Self { display, interrupted }
+    }
+
+    /// Ends the display.
+    pub fn finish(&self) {
+        match &self.display {
+            Display::Quiet => {}
+            Display::Log(stage) => log_end(stage, None),
+            Display::Bar(bar) => bar.finish_and_clear(),
+        }
+    }
+}
+
+impl Observer for Progress {
+    fn stage(&self, name: &str) {
+        match &self.display {
+            Display::Quiet => {}
+            Display::Log(stage) => log_end(stage, Some((name.to_owned(), Instant::now()))),
+            Display::Bar(bar) => {
+                bar.reset();
+                bar.set_message(name.to_owned());
+            }
+        }
+    }
+
+    fn progress(&self, done: f64, total: f64) {
+        if let Display::Bar(bar) = &self.display
+            && total > 0.0
+        {
+            bar.set_position((done / total * PARTS as f64) as u64);
+        }
+    }
+
+    fn interrupted(&self) -> bool {
+        self.interrupted.load(Ordering::Relaxed)
+    }
+}
+
+fn bar() -> ProgressBar {
+    let bar = ProgressBar::new(PARTS);
+    let style = ProgressStyle::with_template("{msg:20} [{bar:40}] {percent:>3} %  {elapsed} so far, {eta} left");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> "));
+    bar.enable_steady_tick(Duration::from_millis(100));
+    bar
+}
+
+/// Logs the stage that ends, with its time, and remembers the next.
+fn log_end(stage: &Mutex<Option<(String, Instant)>>, next: Option<(String, Instant)>) {
+    let Ok(mut stage) = stage.lock() else { return };
+    if let Some((name, start)) = std::mem::replace(&mut *stage, next) {
+        eprintln!("{name}: {:.2} s", start.elapsed().as_secs_f64());
+    }
+}

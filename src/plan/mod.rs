@@ -1,0 +1,161 @@
+//! The stages a scene needs and those it does not, decided here alone and from the scene alone.
+
+use serde::{Serialize, Serializer};
+
+use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
+use crate::scene::Scene;
+use crate::stiffness::settings::StiffnessSettings;
+
+/// A stage of the work, in the order of the work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum StageKind {
+    /// Everything that follows from the data of the pair.
+    Geometry,
+    /// K/H and tooth stiffness from finite elements.
+    FiniteElementCalibration,
+    /// K/H from Hertz.
+    ContactMatch,
+    /// The stiffness of the teeth along the path of contact.
+    ToothStiffness,
+    /// Slices over the face width.
+    HelicalSlices,
+    /// Flash temperatures of the contact.
+    ContactTemperature,
+    /// The wear run.
+    Simulation,
+    /// Coarser companion runs.
+    ErrorEstimates,
+    /// The output folder.
+    Report,
+}
+
+impl StageKind {
+    /// All stages, in the order of the work.
+    pub const ALL: [StageKind; 9] = [
+        StageKind::Geometry,
+        StageKind::FiniteElementCalibration,
+        StageKind::ContactMatch,
+        StageKind::ToothStiffness,
+        StageKind::HelicalSlices,
+        StageKind::ContactTemperature,
+        StageKind::Simulation,
+        StageKind::ErrorEstimates,
+        StageKind::Report,
+    ];
+
+    /// Its name in `summary.json` and on the terminal.
+    pub fn name(self) -> &'static str {
+        match self {
+            StageKind::Geometry => "geometry",
+            StageKind::FiniteElementCalibration => "finite-element-calibration",
+            StageKind::ContactMatch => "contact-match",
+            StageKind::ToothStiffness => "tooth-stiffness",
+            StageKind::HelicalSlices => "helical-slices",
+            StageKind::ContactTemperature => "contact-temperature",
+            StageKind::Simulation => "simulation",
+            StageKind::ErrorEstimates => "error-estimates",
+            StageKind::Report => "report",
+        }
+    }
+}
+
+impl Serialize for StageKind {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+/// A stage with the reason why it is in the plan, or why it is not.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Stage {
+    /// Which stage.
+    #[serde(rename = "name")]
+    pub kind: StageKind,
+    /// Why.
+    pub reason: String,
+}
+
+/// What is to be done, and what is not.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Plan {
+    /// The stages the scene needs, in order.
+    pub stages: Vec<Stage>,
+    /// The stages it does not need.
+    pub left_out: Vec<Stage>,
+}
+
+impl Plan {
+    /// The plan of a scene.
+    pub fn of(scene: &Scene) -> Self {
+        let (mut stages, mut left_out) = (Vec::new(), Vec::new());
+        for kind in StageKind::ALL {
+            match decide(kind, scene) {
+                Ok(reason) => stages.push(Stage { kind, reason }),
+                Err(reason) => left_out.push(Stage { kind, reason }),
+            }
+        }
+        Self { stages, left_out }
+    }
+
+    /// Whether the plan has this stage.
+    pub fn has(&self, kind: StageKind) -> bool {
+        self.stages.iter().any(|stage| stage.kind == kind)
+    }
+}
+
+/// Why `kind` is needed (`Ok`) or left out (`Err`).
+fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
+    match kind {
+        StageKind::Geometry => Ok("everything that follows from the data of the pair".to_owned()),
+        StageKind::FiniteElementCalibration => {
+            Err("contact and tooth stiffness are given or in closed form, no calibration file is asked for".to_owned())
+        }
+        StageKind::ContactMatch => contact_match(scene),
+        StageKind::ToothStiffness => match scene.stiffness {
+            StiffnessSettings::Constant { pair_n_per_mm2 } => {
+                Err(format!("the stiffness is given: {} N/(mm·µm) for every tooth pair", pair_n_per_mm2 / 1e3))
+            }
+            StiffnessSettings::WeberBanaschek => {
+                Ok("Weber and Banaschek's terms, integrated on the generated profile".to_owned())
+            }
+            StiffnessSettings::Iso6336 => Ok("the single stiffness c' of ISO 6336-1".to_owned()),
+        },
+        StageKind::HelicalSlices => Err("a spur pair is alike over its whole face width".to_owned()),
+        StageKind::ContactTemperature => Err("the wear law archard asks for no temperature".to_owned()),
+        StageKind::Simulation => Ok(simulation(scene)),
+        StageKind::ErrorEstimates if scene.numerics.error_estimate => {
+            Ok("numerics.error_estimate: coarser companion runs".to_owned())
+        }
+        StageKind::ErrorEstimates => Err("numerics.error_estimate is false".to_owned()),
+        StageKind::Report => Ok("the output folder: data, summary, page".to_owned()),
+    }
+}
+
+fn contact_match(scene: &Scene) -> Result<String, String> {
+    match (scene.contact.surface, scene.contact.foundation) {
+        (SurfaceKind::Winkler, Foundation::Matched(criterion)) => {
+            let same = match criterion {
+                MatchCriterion::HalfWidth => "half-width",
+                MatchCriterion::PeakPressure => "peak pressure",
+                MatchCriterion::Approach => "approach",
+            };
+            Ok(format!("K/H of the foundation such that it has Hertz's {same} at the pitch point under the whole load"))
+        }
+        (SurfaceKind::Winkler, Foundation::Given { foundation_mpa_per_mm }) => {
+            Err(format!("K/H is given: {foundation_mpa_per_mm} MPa/mm"))
+        }
+        (SurfaceKind::Hertz, _) => Err("the surface hertz has no foundation K/H".to_owned()),
+        (SurfaceKind::HertzMean, _) => Err("the surface hertz-mean has no foundation K/H".to_owned()),
+    }
+}
+
+fn simulation(scene: &Scene) -> String {
+    let (operation, numerics) = (&scene.operation, &scene.numerics);
+    let steps = (operation.pinion_revolutions / numerics.step_revolutions).ceil();
+    format!(
+        "about {steps} wear steps, {} positions, {} points a flank, {} snapshots",
+        numerics.positions,
+        numerics.flank_points,
+        operation.snapshots_revolutions.len()
+    )
+}

@@ -1,0 +1,359 @@
+//! The scene file, key by key: what a user may write.
+//!
+//! These structures are the one description of the file. Their JSON schema (`gearwear schema`) carries the doc comments
+//! below and the ranges beside them, and [`super::shape`] checks a file against that same schema, so that an editor and
+//! the program say the same. Every key that has a unit ends in it; the contract's key names are kept as they are.
+
+#![allow(non_snake_case, reason = "key names end in their unit as engineers write it")]
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::presets;
+use crate::contact::settings::{MatchCriterion, SurfaceKind};
+use crate::gear::modification::ReliefShape;
+
+/// A gear pair, its load and how its wear is to be computed.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(title = "gearwear scene")]
+pub struct SceneFile {
+    /// Title of the report. Default: the numbers of teeth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// The gear pair.
+    pub pair: PairFile,
+    /// Material of both gears, or of each. Default: steel.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub material: Option<MaterialFile>,
+    /// Load, speed and duration.
+    pub operation: OperationFile,
+    /// How the flanks touch. Default: Winkler, matched on half-width.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact: Option<ContactFile>,
+    /// How far the teeth bend. Default: Weber and Banaschek.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stiffness: Option<StiffnessFile>,
+    /// The wear law.
+    pub wear: WearFile,
+    /// Resolution in space and time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub numerics: Option<NumericsFile>,
+}
+
+/// The gear pair: a preset, or module, pressure angle, centre distance, face width and both gears.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PairFile {
+    /// A pair of the library; a key given beside it overrides the preset's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("enum" = presets::names()))]
+    pub preset: Option<String>,
+    /// Normal module m_n in mm, > 0. Profile shifts and rack factors are then factors of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub normal_module_mm: Option<f64>,
+    /// Transverse module m_t in mm, > 0, instead of the normal one. Profile shifts and rack factors are then factors of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub transverse_module_mm: Option<f64>,
+    /// Normal pressure angle α_n in degrees, 5 to 45.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 5, max = 45))]
+    pub pressure_angle_deg: Option<f64>,
+    /// Transverse pressure angle α_t in degrees, 5 to 45, instead of the normal one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 5, max = 45))]
+    pub transverse_pressure_angle_deg: Option<f64>,
+    /// Helix angle β at the reference cylinder in degrees. This version runs spur gears only: 0. Default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub helix_angle_deg: Option<f64>,
+    /// Working centre distance in mm, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub centre_distance_mm: Option<f64>,
+    /// Common face width in mm, > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub face_width_mm: Option<f64>,
+    /// The rack that generates the teeth. Default: profile A of ISO 53.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub basic_rack: Option<BasicRackFile>,
+    /// The driving gear.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pinion: Option<GearFile>,
+    /// The driven gear.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wheel: Option<GearFile>,
+}
+
+/// The basic rack (ISO 53), in factors of the module that is given.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BasicRackFile {
+    /// Addendum factor h_aP*, > 0 to 3. Default 1.0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 3))]
+    pub addendum_factor: Option<f64>,
+    /// Dedendum factor h_fP*, > 0 to 3. Default 1.25.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 3))]
+    pub dedendum_factor: Option<f64>,
+    /// Root fillet radius factor ρ_fP*, 0 to 1. Default 0.38.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0, max = 1))]
+    pub fillet_radius_factor: Option<f64>,
+}
+
+/// One gear.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GearFile {
+    /// Number of teeth z, 5 to 10000.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 5, max = 10000))]
+    pub teeth: Option<u32>,
+    /// Profile shift coefficient x of the module that is given, −5 to 5.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -5, max = 5))]
+    pub profile_shift: Option<f64>,
+    /// Tip diameter d_a in mm, > 0. Default: from the rack, shortened so that the full tip clearance is kept.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub tip_diameter_mm: Option<f64>,
+    /// Tooth thickness allowance E_sn in µm in the normal section; negative thins the tooth. Default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tooth_thickness_allowance_um: Option<f64>,
+    /// Bore diameter in mm, > 0. Default: not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub bore_diameter_mm: Option<f64>,
+    /// Height of the profile crowning in µm, 0 or more: a parabola over the active profile. Default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub profile_crowning_um: Option<f64>,
+    /// Radius of the rounding of the tip edge in mm, 0 or more. Default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub tip_rounding_mm: Option<f64>,
+    /// Relief towards the tip. Default: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tip_relief: Option<ReliefFile>,
+    /// Relief towards the root. Default: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub root_relief: Option<ReliefFile>,
+}
+
+/// Tip or root relief.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ReliefFile {
+    /// Removed at the end of the flank, along its normal, in µm, 0 or more.
+    #[schemars(range(min = 0))]
+    pub amount_um: f64,
+    /// Roll length over which it runs out, along the path of contact, in mm, > 0.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub length_mm: f64,
+    /// How it grows from its start. Default: linear.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shape: Option<ReliefShape>,
+}
+
+/// Material of both gears, or `[material.pinion]` and `[material.wheel]`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialFile {
+    /// Young's modulus E of both gears in GPa, > 0. Default 206.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub young_modulus_GPa: Option<f64>,
+    /// Poisson's ratio ν of both gears, 0 to below 0.5. Default 0.3.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0), extend("exclusiveMaximum" = 0.5))]
+    pub poisson_ratio: Option<f64>,
+    /// Density of both gears in kg/m³, > 0; gives the worn mass. Default 7830.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub density_kg_per_m3: Option<f64>,
+    /// Material of the pinion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pinion: Option<GearMaterialFile>,
+    /// Material of the wheel.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wheel: Option<GearMaterialFile>,
+}
+
+/// Material of one gear.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GearMaterialFile {
+    /// Young's modulus E in GPa, > 0. Default 206.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub young_modulus_GPa: Option<f64>,
+    /// Poisson's ratio ν, 0 to below 0.5. Default 0.3.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0), extend("exclusiveMaximum" = 0.5))]
+    pub poisson_ratio: Option<f64>,
+    /// Density in kg/m³, > 0; gives the worn mass. Default 7830.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub density_kg_per_m3: Option<f64>,
+}
+
+/// Load, speed and duration; the pinion drives.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OperationFile {
+    /// Torque on the pinion in N·m, > 0.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub pinion_torque_Nm: f64,
+    /// Speed of the pinion in revolutions per minute, > 0. Needed with hours.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub pinion_speed_rpm: Option<f64>,
+    /// Duration of the run in hours, > 0; or give pinion_revolutions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub hours: Option<f64>,
+    /// Duration of the run in revolutions of the pinion, > 0; or give hours.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub pinion_revolutions: Option<f64>,
+    /// When the state is kept, in hours: increasing, up to the duration (which is added where missing).
+    /// Default: 1/64, 1/32, … 1/2 and the whole of the duration.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("items" = { "type": "number", "exclusiveMinimum": 0 }))]
+    pub snapshots_h: Option<Vec<f64>>,
+    /// The same in revolutions of the pinion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("items" = { "type": "number", "exclusiveMinimum": 0 }))]
+    pub snapshots_revolutions: Option<Vec<f64>>,
+}
+
+/// How the flanks touch.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ContactFile {
+    /// Model of the surfaces in contact. Default: winkler.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surface: Option<SurfaceKind>,
+    /// What the foundation shares with Hertz at the pitch point under the whole load; read by winkler.
+    /// Default: half-width.
+    #[serde(rename = "match", skip_serializing_if = "Option::is_none")]
+    pub match_criterion: Option<MatchCriterion>,
+    /// Stiffness K/H of the foundation by hand in MPa/mm, > 0, instead of match; read by winkler.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub foundation_MPa_per_mm: Option<f64>,
+}
+
+/// How far the teeth bend.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StiffnessFile {
+    /// Model of the stiffness of a tooth pair. Default: weber-banaschek.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub model: Option<StiffnessModel>,
+    /// Combined stiffness of a tooth pair without contact flattening in N/(mm·µm), > 0: force per mm of face width and µm
+    /// of approach. For model = "constant" only, which needs it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub pair_N_per_mm_um: Option<f64>,
+}
+
+/// Model of the stiffness of a tooth pair along the path of contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum StiffnessModel {
+    /// The value of pair_N_per_mm_um everywhere.
+    Constant,
+    /// Weber and Banaschek's tooth and body terms on the generated profile.
+    #[default]
+    WeberBanaschek,
+    /// The single stiffness c' of ISO 6336-1.
+    Iso6336,
+}
+
+/// The wear law: one of the two coefficients must be given.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WearFile {
+    /// The law.
+    pub law: WearLaw,
+    /// Wear coefficient k in m²/N, > 0: depth per pressure and sliding distance. Mild wear of steel: 1e-19 to 1e-16.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub coefficient_m2_per_N: Option<f64>,
+    /// The same in mm³/(N·m), > 0: volume per force and sliding distance. 1e-8 mm³/(N·m) is 1e-17 m²/N.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub coefficient_mm3_per_Nm: Option<f64>,
+    /// Transition from mild to severe wear. Default: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub severe: Option<SevereFile>,
+}
+
+/// Name of a wear law.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum WearLaw {
+    /// Depth in proportion to pressure and sliding distance.
+    Archard,
+}
+
+/// Transition from mild to severe wear.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SevereFile {
+    /// Local pressure in MPa above which wear is severe, > 0.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub above_MPa: f64,
+    /// Factor on the wear coefficient there, > 0.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub factor: f64,
+}
+
+/// Resolution in space and time.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NumericsFile {
+    /// Intervals of a flank from base to tip circle, 20 to 100000. Default 750.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 20, max = 100000))]
+    pub flank_points: Option<u32>,
+    /// Loading positions from A to E, 20 to 1000000. Default 400.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 20, max = 1000000))]
+    pub positions: Option<u32>,
+    /// Whether the summary estimates the errors of the answer, which costs extra runs. Default true.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub error_estimate: Option<bool>,
+    /// Length of a wear step. Default: 1/150 of the duration.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step: Option<StepFile>,
+}
+
+/// A fixed length of the wear step.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StepFile {
+    /// Revolutions of the pinion a wear step, > 0.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub revolutions: f64,
+}
+
+impl SceneFile {
+    /// The scene as TOML text.
+    pub fn to_toml(&self) -> String {
+        // Plain structs with text keys: nothing in them that TOML could not express.
+        let text = toml::to_string(self).expect("a scene file is always expressible in TOML");
+        // TOML's writer knows no exponents, and nobody reads a wear coefficient of sixteen zeros.
+        let key = "coefficient_m2_per_N = ";
+        let short = self.wear.coefficient_m2_per_N.and_then(|k| {
+            let (before, after) = text.rsplit_once(&format!("{key}{k}\n"))?;
+            Some(format!("{before}{key}{k:?}\n{after}"))
+        });
+        short.unwrap_or(text)
+    }
+}

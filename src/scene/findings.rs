@@ -1,0 +1,96 @@
+//! Collects what is wrong with a scene file, so that everything is said at once.
+
+use std::collections::BTreeSet;
+
+use super::locate::Locator;
+use super::problem::{Problem, ProblemKind};
+
+/// Problems and warnings found so far.
+#[derive(Debug, Default)]
+pub struct Findings {
+    locator: Locator,
+    /// Problems, in the order found.
+    pub problems: Vec<Problem>,
+    /// What the user should know although the scene is valid.
+    pub warnings: Vec<String>,
+    /// Keys already complained about: what follows from them is not reported again.
+    spoiled: BTreeSet<String>,
+    /// Whether the last complaint was reported, so that help for it is wanted.
+    reported: bool,
+}
+
+impl Findings {
+    /// Nothing found yet in the file that `locator` describes.
+    pub fn new(locator: Locator) -> Self {
+        Self { locator, ..Self::default() }
+    }
+
+    /// Whether the file itself holds `key` (not only the preset).
+    pub fn is_in_file(&self, key: &str) -> bool {
+        self.locator.key(key).is_some()
+    }
+
+    /// Marks `key` as complained about.
+    pub fn spoil(&mut self, key: &str) {
+        self.spoiled.insert(key.to_owned());
+    }
+
+    /// A problem with the value of `key`, unless that key was complained about before.
+    pub fn problem(&mut self, kind: ProblemKind, key: &str, found: impl Into<String>, allowed: impl Into<String>) {
+        self.reported = !self.spoiled.contains(key);
+        if !self.reported {
+            return;
+        }
+        let span = match kind {
+            ProblemKind::UnknownKey | ProblemKind::NotAvailable => self.locator.key(key),
+            _ => None,
+        };
+        let span = Some(span.unwrap_or_else(|| self.locator.nearest(key)));
+        self.spoil(key);
+        self.problems.push(Problem {
+            kind,
+            key: key.to_owned(),
+            found: found.into(),
+            allowed: allowed.into(),
+            help: None,
+            span,
+        });
+    }
+
+    /// Adds a sentence of help to the problem just reported.
+    pub fn help(&mut self, sentence: impl AsRef<str>) {
+        if let Some(problem) = self.problems.last_mut().filter(|_| self.reported) {
+            problem.add_help(sentence.as_ref());
+        }
+    }
+
+    /// One of `keys` must be given and none is.
+    pub fn missing(&mut self, keys: &[&str], allowed: &str) {
+        let spoiled = |key: &&str| {
+            self.spoiled.iter().any(|s| s == key || key.strip_prefix(s).is_some_and(|k| k.starts_with('.')))
+        };
+        self.reported = !keys.iter().any(spoiled);
+        if self.reported {
+            self.problem(ProblemKind::Missing, keys[0], "nothing", allowed);
+            if let [_, others @ ..] = keys
+                && !others.is_empty()
+            {
+                self.help(format!("or give {}", others.join(" or ")));
+            }
+        }
+    }
+
+    /// Complains if more than one of `keys` is given. Returns whether that is so.
+    pub fn said_twice(&mut self, keys: &[(&str, bool)]) -> bool {
+        let given: Vec<&str> = keys.iter().filter(|(_, given)| *given).map(|(key, _)| *key).collect();
+        if given.len() < 2 {
+            return false;
+        }
+        self.problem(ProblemKind::SaidTwice, given[given.len() - 1], given.join(" and "), "one of the two");
+        self.help(format!("leave one of {} out", given.join(" and ")));
+        for key in given {
+            self.spoil(key);
+        }
+        true
+    }
+}

@@ -1,0 +1,58 @@
+//! Parts of the scene format that this version does not have: refused by name, before any work.
+
+/// Something another version of the program understands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Later {
+    /// Path of the key.
+    pub key: &'static str,
+    /// The value that is not there yet; `None`: the key as a whole.
+    pub value: Option<&'static str>,
+    /// What can be done instead.
+    pub instead: &'static str,
+}
+
+const fn key(key: &'static str, instead: &'static str) -> Later {
+    Later { key, value: None, instead }
+}
+
+const fn choice(key: &'static str, value: &'static str, instead: &'static str) -> Later {
+    Later { key, value: Some(value), instead }
+}
+
+/// What spur gears are limited to.
+pub const SPUR_ONLY: &str = "spur gears, helix_angle_deg = 0";
+
+const SURFACES: &str = r#"contact.surface = "winkler", "hertz" or "hertz-mean""#;
+const MODELS: &str = r#"stiffness.model = "constant", "weber-banaschek" or "iso6336""#;
+const LAW: &str = r#"wear.law = "archard""#;
+const STEP: &str = "a fixed step, numerics.step = { revolutions = … }";
+const CROWNING: &str = "profile_crowning_um, tip_relief, root_relief, tip_rounding_mm";
+
+const LATER: [Later; 16] = [
+    key("helical", SPUR_ONLY),
+    key("fem", SURFACES),
+    key("mesh", "a gear pair, [pair]"),
+    key("pair.pinion.lead_crowning_um", CROWNING),
+    key("pair.wheel.lead_crowning_um", CROWNING),
+    key("contact.calibration", "contact.match or contact.foundation_MPa_per_mm"),
+    key("stiffness.calibration", MODELS),
+    key("numerics.tolerance_um", STEP),
+    choice("numerics.step", "adaptive", STEP),
+    choice("contact.surface", "half-space", SURFACES),
+    choice("contact.surface", "fem", SURFACES),
+    choice("stiffness.model", "fem", MODELS),
+    choice("stiffness.model", "simon", MODELS),
+    choice("stiffness.model", "wang-cheng", MODELS),
+    choice("wear.law", "adsorption", LAW),
+    choice("wear.law", "oxidation", LAW),
+];
+
+/// The entry for a key that no scene of this version has.
+pub fn unknown_key(key: &str) -> Option<Later> {
+    LATER.into_iter().find(|later| later.key == key && later.value.is_none())
+}
+
+/// The entry for a value that `key` does not take in this version.
+pub fn unknown_value(key: &str, value: &str) -> Option<Later> {
+    LATER.into_iter().find(|later| later.key == key && later.value == Some(value))
+}

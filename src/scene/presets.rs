@@ -1,0 +1,45 @@
+//! Gear pairs of the library: each is a whole scene file, ready to run and commented.
+//!
+//! `gearwear init NAME` prints the file; `pair.preset = "NAME"` takes its `[pair]` table. The numbers of the FZG gears
+//! are those of ISO 14635-1: their tip diameters are data of the standard, not derived.
+
+/// A scene of the library.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Preset {
+    /// Its name, as in `pair.preset`.
+    pub name: &'static str,
+    /// The commented scene file.
+    pub text: &'static str,
+}
+
+/// All presets; the first is the one `gearwear init` prints unasked.
+pub const PRESETS: [Preset; 2] = [
+    Preset { name: "fzg-c", text: include_str!("presets/fzg-c.toml") },
+    Preset { name: "fzg-a", text: include_str!("presets/fzg-a.toml") },
+];
+
+/// The names of all presets.
+pub fn names() -> [&'static str; PRESETS.len()] {
+    PRESETS.map(|preset| preset.name)
+}
+
+/// The preset called `name`.
+pub fn find(name: &str) -> Option<Preset> {
+    PRESETS.into_iter().find(|preset| preset.name == name)
+}
+
+impl Preset {
+    /// The `[pair]` table of the scene.
+    pub fn pair(&self) -> toml::Table {
+        let mut scene: toml::Table = self.text.parse().expect("the library's own scenes are TOML");
+        match scene.remove("pair") {
+            Some(toml::Value::Table(pair)) => pair,
+            _ => unreachable!("the library's own scenes have a pair"),
+        }
+    }
+}
+
+/// The name of a preset that `name` is most like, if it is like any.
+pub fn nearest(name: &str) -> Option<&'static str> {
+    super::shape::nearest(name, &names())
+}

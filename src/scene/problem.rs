@@ -1,0 +1,95 @@
+//! What is wrong with a scene file, where, and what to do about it.
+
+use std::fmt;
+use std::ops::Range;
+
+use crate::gear::PairError;
+
+/// The nature of a problem.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ProblemKind {
+    /// The text is not TOML.
+    Syntax,
+    /// A key that no scene has.
+    UnknownKey,
+    /// A value of another type than the key takes.
+    WrongType,
+    /// A value outside what the key allows.
+    NotAllowed,
+    /// A key that must be given.
+    Missing,
+    /// Two keys that say the same thing.
+    SaidTwice,
+    /// Something of the scene format that this version does not have.
+    NotAvailable,
+    /// Values that are allowed one by one, but make no gear pair.
+    Geometry(PairError),
+}
+
+/// One thing that is wrong with a scene file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Problem {
+    /// Its nature.
+    pub kind: ProblemKind,
+    /// Path of the key, such as `pair.pinion.teeth`; empty where the file as a whole is meant.
+    pub key: String,
+    /// What the file says.
+    pub found: String,
+    /// What it may say.
+    pub allowed: String,
+    /// What to do about it.
+    pub help: Option<String>,
+    /// Where it says it, in bytes from the beginning of the file.
+    pub span: Option<Range<usize>>,
+}
+
+impl Problem {
+    /// Adds a sentence to the help.
+    pub fn add_help(&mut self, sentence: &str) {
+        match &mut self.help {
+            Some(help) => {
+                help.push_str("; ");
+                help.push_str(sentence);
+            }
+            None => self.help = Some(sentence.to_owned()),
+        }
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Problem { kind, key, found, allowed, .. } = self;
+        match kind {
+            ProblemKind::Syntax => write!(f, "not TOML: {found}; allowed: {allowed}"),
+            ProblemKind::UnknownKey => write!(f, "unknown key {key}; allowed: {allowed}"),
+            ProblemKind::Missing => write!(f, "{key} is missing; allowed: {allowed}"),
+            ProblemKind::SaidTwice => write!(f, "{key}: found {found}, which say the same thing; allowed: {allowed}"),
+            ProblemKind::NotAvailable => {
+                write!(f, "{key}: {found} is not available in this version; allowed: {allowed}")
+            }
+            ProblemKind::Geometry(error) => write!(f, "{key}: {error}; found: {found}; allowed: {allowed}"),
+            ProblemKind::WrongType | ProblemKind::NotAllowed => write!(f, "{key}: found {found}; allowed: {allowed}"),
+        }
+    }
+}
+
+impl std::error::Error for Problem {}
+
+/// A number as one would write it into the file: `4`, `0.0045`, `1e-17`.
+pub fn number(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
+}
+
+/// A value of the file in an engineer's words.
+pub fn words(value: &toml::Value) -> String {
+    match value {
+        toml::Value::String(text) => format!("the text {text:?}"),
+        toml::Value::Integer(value) => value.to_string(),
+        toml::Value::Float(value) => format!("{value:?}"),
+        toml::Value::Boolean(value) => value.to_string(),
+        toml::Value::Datetime(_) => "a date".to_owned(),
+        toml::Value::Array(_) => "a list".to_owned(),
+        toml::Value::Table(_) => "a table".to_owned(),
+    }
+}

@@ -1,0 +1,205 @@
+//! Puts what is wrong with the gear pair at the key that can mend it.
+
+use crate::gear::pair::GearPair;
+use crate::gear::spec::PairSpec;
+use crate::gear::{Gear, PairError};
+use crate::scene::findings::Findings;
+use crate::scene::problem::{ProblemKind, number};
+
+/// Where a geometry error belongs, and what to do about it.
+struct Place {
+    key: String,
+    found: String,
+    allowed: String,
+    help: String,
+}
+
+/// Derives the pair and reports why that is impossible, if it is.
+pub fn check(spec: &PairSpec, findings: &mut Findings) {
+    if let Err(error) = GearPair::new(spec) {
+        let Place { key, found, allowed, help } = place(&error, spec, findings);
+        findings.problem(ProblemKind::Geometry(error), &key, found, allowed);
+        findings.help(help);
+    }
+}
+
+fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Place {
+    let key_of = |gear: Gear, name: &str| format!("pair.{}.{name}", gear.name());
+    // The tip is mended where the file gives it; otherwise the profile shift decides.
+    let tip_key = |gear: Gear| {
+        let tip = key_of(gear, "tip_diameter_mm");
+        if spec.gears[gear].tip_diameter_mm.is_some() && findings.is_in_file(&tip) {
+            tip
+        } else {
+            key_of(gear, "profile_shift")
+        }
+    };
+    let tip_found = |gear: Gear, tip_mm: f64| format!("tip diameter {} of the {}", short(tip_mm), gear.name());
+    let centre = |least_mm: f64, help: &str| Place {
+        key: "pair.centre_distance_mm".to_owned(),
+        found: number(spec.centre_distance_mm),
+        allowed: format!("a centre distance of at least {least_mm:.4} mm"),
+        help: help.to_owned(),
+    };
+    match *error {
+        PairError::NoMesh { least_mm, .. } => centre(least_mm, "check centre distance, module and numbers of teeth"),
+        PairError::NegativeBacklash { least_mm, .. } => centre(
+            least_mm,
+            "or smaller profile shifts, or thinner teeth by a negative tooth_thickness_allowance_um on a gear",
+        ),
+        PairError::ContactRatioBelowOne { contact_ratio } => Place {
+            key: "pair.centre_distance_mm".to_owned(),
+            found: format!("{}, contact ratio {contact_ratio:.4}", number(spec.centre_distance_mm)),
+            allowed: "a transverse contact ratio of at least 1".to_owned(),
+            help: "a smaller centre distance, larger tip diameters, more teeth or a smaller pressure angle raise it"
+                .to_owned(),
+        },
+        PairError::PointedTooth { gear, tip_diameter_mm, pointed_diameter_mm, .. } => Place {
+            key: tip_key(gear),
+            found: tip_found(gear, tip_diameter_mm),
+            allowed: format!("a tip diameter below {pointed_diameter_mm:.4} mm, where the flanks meet"),
+            help: format!("give {} or a smaller profile shift", key_of(gear, "tip_diameter_mm")),
+        },
+        PairError::TipBelowBase { gear, tip_diameter_mm, base_diameter_mm } => Place {
+            key: tip_key(gear),
+            found: tip_found(gear, tip_diameter_mm),
+            allowed: format!("a tip diameter above the base circle, {base_diameter_mm:.4} mm"),
+            help: "check tip diameter, module and number of teeth".to_owned(),
+        },
+        PairError::Interference { gear, form_diameter_mm, .. } => Place {
+            key: match tip_key(gear.mate()) {
+                tip if tip.ends_with("tip_diameter_mm") => tip,
+                _ => key_of(gear, "profile_shift"),
+            },
+            found: match spec.gears[gear.mate()].tip_diameter_mm {
+                Some(tip_mm) => tip_found(gear.mate(), tip_mm),
+                None => format!("profile shift {}", number(spec.gears[gear].profile_shift)),
+            },
+            allowed: format!(
+                "a tip of the {} that touches the {} above its form diameter {form_diameter_mm:.4} mm",
+                gear.mate().name(),
+                gear.name()
+            ),
+            help: format!(
+                "a smaller {}, a larger {} or more teeth on the {}",
+                key_of(gear.mate(), "tip_diameter_mm"),
+                key_of(gear, "profile_shift"),
+                gear.name()
+            ),
+        },
+        PairError::NoTipClearance { gear, clearance_mm } => Place {
+            key: tip_key(gear),
+            found: spec.gears[gear].tip_diameter_mm.map_or_else(|| "a tip from the rack".to_owned(), number),
+            allowed: format!("a tip diameter smaller by at least {:.4} mm", 2.0 * clearance_mm.abs()),
+            help: "or a larger centre distance, or a larger pair.basic_rack.dedendum_factor".to_owned(),
+        },
+        PairError::RackTipPointed { greatest } => Place {
+            key: "pair.basic_rack.fillet_radius_factor".to_owned(),
+            found: number(spec.rack.fillet_radius_factor),
+            allowed: format!("at most {greatest:.4}"),
+            help: "or a smaller pair.basic_rack.dedendum_factor".to_owned(),
+        },
+        PairError::NoTooth { gear } => Place {
+            key: key_of(gear, "profile_shift"),
+            found: number(spec.gears[gear].profile_shift),
+            allowed: "a profile shift that leaves a flank above the base circle".to_owned(),
+            help: format!("a larger profile shift or more teeth on the {}", gear.name()),
+        },
+        PairError::BoreTooLarge { gear, bore_diameter_mm, root_diameter_mm } => Place {
+            key: key_of(gear, "bore_diameter_mm"),
+            found: number(bore_diameter_mm),
+            allowed: format!("less than the root diameter, {root_diameter_mm:.4} mm"),
+            help: "leave the bore out where it does not matter".to_owned(),
+        },
+        PairError::ModificationTooLong { gear, modification, length_mm, available_mm } => Place {
+            key: key_of(gear, &modification_key(modification)),
+            found: number(length_mm),
+            allowed: format!("at most {available_mm:.4} mm"),
+            help: "lengths are roll lengths, along the path of contact".to_owned(),
+        },
+    }
+}
+
+fn modification_key(modification: &str) -> String {
+    let name = modification.replace(' ', "_");
+    if name.ends_with("relief") { format!("{name}.length_mm") } else { format!("{name}_mm") }
+}
+
+/// A derived length without the digits of its rounding.
+fn short(length_mm: f64) -> String {
+    format!("{} mm", (length_mm * 1e4).round() / 1e4)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::locate::Locator;
+    use crate::scene::{Scene, presets};
+
+    /// Every geometry error lands at a key of the scene, in the preset's own text and beside a preset.
+    #[test]
+    fn every_error_has_its_key() {
+        let (gear, of_pinion) = (Gear::Pinion, |name: &str| format!("pair.pinion.{name}"));
+        let centre = "pair.centre_distance_mm".to_owned();
+        let errors = [
+            (PairError::NoMesh { centre_distance_mm: 80.0, least_mm: 84.5723 }, centre.clone()),
+            (
+                PairError::NegativeBacklash { backlash_mm: -0.4, centre_distance_mm: 91.0, least_mm: 91.5 },
+                centre.clone(),
+            ),
+            (PairError::ContactRatioBelowOne { contact_ratio: 0.75 }, centre),
+            (
+                PairError::PointedTooth {
+                    gear,
+                    tip_thickness_mm: -0.1,
+                    tip_diameter_mm: 92.0,
+                    pointed_diameter_mm: 91.0,
+                },
+                of_pinion("tip_diameter_mm"),
+            ),
+            (
+                PairError::TipBelowBase { gear, tip_diameter_mm: 67.0, base_diameter_mm: 67.6577 },
+                of_pinion("tip_diameter_mm"),
+            ),
+            (
+                PairError::Interference { gear: Gear::Wheel, contact_diameter_mm: 101.0, form_diameter_mm: 102.61 },
+                of_pinion("tip_diameter_mm"),
+            ),
+            (PairError::NoTipClearance { gear, clearance_mm: -0.5 }, of_pinion("tip_diameter_mm")),
+            (PairError::RackTipPointed { greatest: 0.47 }, "pair.basic_rack.fillet_radius_factor".to_owned()),
+            (PairError::NoTooth { gear }, of_pinion("profile_shift")),
+            (
+                PairError::BoreTooLarge { gear, bore_diameter_mm: 70.0, root_diameter_mm: 62.386 },
+                of_pinion("bore_diameter_mm"),
+            ),
+            (
+                PairError::ModificationTooLong {
+                    gear,
+                    modification: "tip relief",
+                    length_mm: 30.0,
+                    available_mm: 19.1,
+                },
+                of_pinion("tip_relief.length_mm"),
+            ),
+            (
+                PairError::ModificationTooLong {
+                    gear,
+                    modification: "tip rounding",
+                    length_mm: 30.0,
+                    available_mm: 19.1,
+                },
+                of_pinion("tip_rounding_mm"),
+            ),
+        ];
+        let text = presets::PRESETS[0].text;
+        let spec = Scene::from_toml(text).unwrap().scene.pair;
+        let findings = Findings::new(Locator::new(text).unwrap());
+        let beside_preset = Findings::new(Locator::new("pair.preset = \"fzg-c\"").unwrap());
+        for (error, key) in errors {
+            assert_eq!(place(&error, &spec, &findings).key, key);
+            let mended = if let PairError::Interference { .. } = error { "wheel" } else { "pinion" };
+            let key = key.replace("pinion.tip_diameter_mm", &format!("{mended}.profile_shift"));
+            assert_eq!(place(&error, &spec, &beside_preset).key, key);
+        }
+    }
+}

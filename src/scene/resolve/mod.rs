@@ -1,0 +1,144 @@
+//! From the text of a scene file to a scene with every choice made.
+//!
+//! In order: TOML, shape (names, types, ranges), preset, defaults and what keys say about each other, units, and last
+//! the gear pair itself. Each step reports all it finds and passes on what is sound.
+
+mod geometry;
+mod operation;
+mod pair;
+mod settings;
+
+use toml::{Table, Value};
+
+use super::file::SceneFile;
+use super::findings::Findings;
+use super::locate::Locator;
+use super::problem::{Problem, ProblemKind};
+use super::{Resolved, Scene, presets, shape, unit_slip};
+
+/// Resolves the text of a scene file.
+///
+/// # Errors
+/// Everything that is wrong with it.
+pub fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
+    let (table, locator) = parse(text).map_err(|error| vec![syntax(&error, text)])?;
+    let mut findings = Findings::new(locator);
+    let sound = with_preset(shape::check(&table, &mut findings));
+    // A value outside its range is a suspect too, so the slips are looked for in the file as it is.
+    let slips = unit_slip::find(&with_preset(table));
+
+    let resolved = match serde_path_to_error::deserialize::<_, SceneFile>(Value::Table(sound)) {
+        Ok(file) => choose(file, &mut findings),
+        Err(error) => {
+            // The shape was checked against the schema of this same structure; should the two differ, this tells.
+            let key = error.path().to_string();
+            let found = error.into_inner().message().to_owned();
+            findings.problem(ProblemKind::WrongType, &key, found, "what gearwear schema says");
+            None
+        }
+    };
+    let resolved = resolved.filter(|_| findings.problems.is_empty());
+    if let Some((scene, _)) = &resolved {
+        geometry::check(&scene.pair, &mut findings);
+    }
+    let slips = slips.into_iter().filter(|slip| findings.is_in_file(&slip.key));
+    match resolved {
+        Some((scene, file)) if findings.problems.is_empty() => {
+            let mut warnings: Vec<String> = slips.map(|slip| slip.warning()).collect();
+            warnings.append(&mut findings.warnings);
+            Ok(Resolved { scene, file, warnings })
+        }
+        _ => {
+            let slips: Vec<_> = slips.collect();
+            findings.problems.sort_by_key(|problem| problem.span.as_ref().map(|span| span.start));
+            for problem in &mut findings.problems {
+                let geometry = matches!(problem.kind, ProblemKind::Geometry(_));
+                for slip in &slips {
+                    if slip.key == problem.key && !geometry {
+                        problem.add_help(&slip.question());
+                    } else if geometry && slip.key.starts_with("pair.") {
+                        problem.add_help(&slip.warning());
+                    }
+                }
+            }
+            Err(findings.problems)
+        }
+    }
+}
+
+fn parse(text: &str) -> Result<(Table, Locator), toml::de::Error> {
+    let locator = Locator::new(text)?;
+    Ok((text.parse()?, locator))
+}
+
+fn syntax(error: &toml::de::Error, text: &str) -> Problem {
+    Problem {
+        kind: ProblemKind::Syntax,
+        key: String::new(),
+        found: error.message().replace('\n', ", "),
+        allowed: "TOML: [table] headers and lines of key = value".to_owned(),
+        help: Some("is the file complete? texts need quotes, lists need both brackets, a key stands once".to_owned()),
+        span: Some(error.span().unwrap_or(text.len()..text.len())),
+    }
+}
+
+/// The scene with its preset, if any, put below what the file itself says.
+fn with_preset(mut scene: Table) -> Table {
+    let Some(Value::Table(pair)) = scene.get_mut("pair") else { return scene };
+    let preset = pair.get("preset").and_then(Value::as_str).and_then(presets::find);
+    if let Some(preset) = preset {
+        pair.remove("preset");
+        let mut below = preset.pair();
+        // A module or angle of the file replaces the preset's, whichever section it is given in.
+        for [one, other] in
+            [["normal_module_mm", "transverse_module_mm"], ["pressure_angle_deg", "transverse_pressure_angle_deg"]]
+        {
+            if pair.contains_key(one) || pair.contains_key(other) {
+                below.remove(one);
+                below.remove(other);
+            }
+        }
+        lay_below(pair, below);
+    }
+    scene
+}
+
+/// Adds what `above` does not say itself.
+fn lay_below(above: &mut Table, below: Table) {
+    for (key, value) in below {
+        match (above.get_mut(&key), value) {
+            (None, value) => {
+                above.insert(key, value);
+            }
+            (Some(Value::Table(above)), Value::Table(below)) => lay_below(above, below),
+            (Some(_), _) => {}
+        }
+    }
+}
+
+/// Makes every choice the file leaves open, and writes it into the file.
+fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneFile)> {
+    let pair = pair::choose(&mut file.pair, findings);
+    let material = settings::material(&mut file.material, findings);
+    let operation = operation::choose(&mut file.operation, findings);
+    let contact = settings::contact(&mut file.contact, findings);
+    let stiffness = settings::stiffness(&mut file.stiffness, findings);
+    let wear = settings::wear(&file.wear, findings);
+    let (pair, operation) = (pair?, operation?);
+    let numerics = settings::numerics(&mut file.numerics, operation.pinion_revolutions, findings);
+    let title = file.title.get_or_insert_with(|| {
+        format!("Gear pair {}/{}, module {} mm", pair.gears.pinion.teeth, pair.gears.wheel.teeth, pair.normal_module_mm)
+    });
+    let title = title.clone();
+    let scene = Scene {
+        title,
+        pair,
+        material: material?,
+        operation,
+        contact: contact?,
+        stiffness: stiffness?,
+        wear: wear?,
+        numerics: numerics?,
+    };
+    Some((scene, file))
+}

@@ -1,0 +1,118 @@
+//! The pair as given, in normal-section terms.
+//!
+//! With β at the reference cylinder: m_n = m_t cos β, tan α_n = tan α_t cos β, and every factor of the transverse module
+//! becomes x_n = x_t / cos β, because x_n m_n = x_t m_t is the same length.
+
+use crate::gear::modification::{Modification, Relief};
+use crate::gear::spec::{BasicRack, GearSpec, PairSpec};
+use crate::gear::{Gear, PerGear};
+use crate::scene::file::{BasicRackFile, GearFile, PairFile, ReliefFile};
+use crate::scene::findings::Findings;
+use crate::scene::later::SPUR_ONLY;
+use crate::scene::problem::{ProblemKind, number};
+
+const UM: f64 = 1e-3;
+const PRESET: &str = "pair.preset";
+
+/// Chooses what `[pair]` leaves open; `None` where something needed is missing or contradictory.
+pub fn choose(file: &mut PairFile, findings: &mut Findings) -> Option<PairSpec> {
+    let helix = *file.helix_angle_deg.get_or_insert(0.0);
+    if helix != 0.0 {
+        let found = format!("a helical gear ({})", number(helix));
+        findings.problem(ProblemKind::NotAvailable, "pair.helix_angle_deg", found, SPUR_ONLY);
+    }
+    let helix_angle_rad = helix.to_radians();
+    let cos_beta = helix_angle_rad.cos();
+
+    let normal_module_mm = module(file, cos_beta, findings);
+    let factor_scale = if file.transverse_module_mm.is_some() { 1.0 / cos_beta } else { 1.0 };
+    let normal_pressure_angle_rad = pressure_angle(file, cos_beta, findings);
+    let positive = "a number greater than 0";
+    let centre_distance_mm = required(file.centre_distance_mm, "pair.centre_distance_mm", positive, findings);
+    let face_width_mm = required(file.face_width_mm, "pair.face_width_mm", positive, findings);
+    let rack = rack(file.basic_rack.get_or_insert_default(), factor_scale);
+    let pinion = gear(file.pinion.get_or_insert_default(), Gear::Pinion, factor_scale, findings);
+    let wheel = gear(file.wheel.get_or_insert_default(), Gear::Wheel, factor_scale, findings);
+    Some(PairSpec {
+        normal_module_mm: normal_module_mm?,
+        normal_pressure_angle_rad: normal_pressure_angle_rad?,
+        helix_angle_rad,
+        centre_distance_mm: centre_distance_mm?,
+        face_width_mm: face_width_mm?,
+        rack,
+        gears: PerGear { pinion: pinion?, wheel: wheel? },
+    })
+}
+
+fn required<T>(value: Option<T>, key: &str, allowed: &str, findings: &mut Findings) -> Option<T> {
+    if value.is_none() {
+        findings.missing(&[key, PRESET], allowed);
+    }
+    value
+}
+
+fn module(file: &PairFile, cos_beta: f64, findings: &mut Findings) -> Option<f64> {
+    let keys = ["pair.normal_module_mm", "pair.transverse_module_mm"];
+    match (file.normal_module_mm, file.transverse_module_mm) {
+        (Some(normal), None) => Some(normal),
+        (None, Some(transverse)) => Some(transverse * cos_beta),
+        (Some(_), Some(_)) => {
+            findings.said_twice(&keys.map(|key| (key, true)));
+            None
+        }
+        (None, None) => {
+            findings.missing(&[keys[0], keys[1], PRESET], "a number greater than 0");
+            None
+        }
+    }
+}
+
+fn pressure_angle(file: &PairFile, cos_beta: f64, findings: &mut Findings) -> Option<f64> {
+    let keys = ["pair.pressure_angle_deg", "pair.transverse_pressure_angle_deg"];
+    match (file.pressure_angle_deg, file.transverse_pressure_angle_deg) {
+        (Some(normal), None) => Some(normal.to_radians()),
+        (None, Some(transverse)) if cos_beta == 1.0 => Some(transverse.to_radians()),
+        (None, Some(transverse)) => Some((transverse.to_radians().tan() * cos_beta).atan()),
+        (Some(_), Some(_)) => {
+            findings.said_twice(&keys.map(|key| (key, true)));
+            None
+        }
+        (None, None) => {
+            findings.missing(&[keys[0], keys[1], PRESET], "a number at least 5 and at most 45");
+            None
+        }
+    }
+}
+
+fn rack(file: &mut BasicRackFile, factor_scale: f64) -> BasicRack {
+    let standard = BasicRack::default();
+    BasicRack {
+        addendum_factor: factor_scale * *file.addendum_factor.get_or_insert(standard.addendum_factor),
+        dedendum_factor: factor_scale * *file.dedendum_factor.get_or_insert(standard.dedendum_factor),
+        fillet_radius_factor: factor_scale * *file.fillet_radius_factor.get_or_insert(standard.fillet_radius_factor),
+    }
+}
+
+fn gear(file: &mut GearFile, which: Gear, factor_scale: f64, findings: &mut Findings) -> Option<GearSpec> {
+    let key = |name: &str| format!("pair.{}.{name}", which.name());
+    let teeth = required(file.teeth, &key("teeth"), "a whole number at least 5 and at most 10000", findings);
+    let shift =
+        required(file.profile_shift, &key("profile_shift"), "a number at least -5 and at most 5 (0: none)", findings);
+    Some(GearSpec {
+        teeth: teeth?,
+        profile_shift: factor_scale * shift?,
+        tip_diameter_mm: file.tip_diameter_mm,
+        tooth_thickness_allowance_mm: UM * *file.tooth_thickness_allowance_um.get_or_insert(0.0),
+        bore_diameter_mm: file.bore_diameter_mm,
+        modification: Modification {
+            tip_relief: file.tip_relief.as_mut().map(relief),
+            root_relief: file.root_relief.as_mut().map(relief),
+            profile_crowning_mm: UM * *file.profile_crowning_um.get_or_insert(0.0),
+            tip_rounding_mm: *file.tip_rounding_mm.get_or_insert(0.0),
+        },
+    })
+}
+
+fn relief(file: &mut ReliefFile) -> Relief {
+    Relief { amount_mm: UM * file.amount_um, length_mm: file.length_mm, shape: *file.shape.get_or_insert_default() }
+}

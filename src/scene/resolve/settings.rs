@@ -1,0 +1,150 @@
+//! Material, contact, stiffness, wear and numerics.
+
+use crate::contact::settings::{ContactSettings, Foundation, Material, SurfaceKind};
+use crate::gear::PerGear;
+use crate::scene::file::{
+    ContactFile, GearMaterialFile, MaterialFile, NumericsFile, StepFile, StiffnessFile, StiffnessModel, WearFile,
+    WearLaw,
+};
+use crate::scene::findings::Findings;
+use crate::scene::problem::{ProblemKind, number};
+use crate::simulation::settings::Numerics;
+use crate::stiffness::settings::StiffnessSettings;
+use crate::wear::settings::{SevereTransition, WearSettings};
+
+const FLANK_POINTS: u32 = 750;
+const POSITIONS: u32 = 400;
+const STEPS: f64 = 150.0;
+/// More wear steps than this never end.
+const MOST_STEPS: f64 = 1e7;
+
+/// Case-hardened steel.
+const STEEL: GearMaterialFile =
+    GearMaterialFile { young_modulus_GPa: Some(206.0), poisson_ratio: Some(0.3), density_kg_per_m3: Some(7830.0) };
+
+/// Chooses the material of each gear.
+pub fn material(file: &mut Option<MaterialFile>, findings: &mut Findings) -> Option<PerGear<Material>> {
+    let given = file.take().unwrap_or_default();
+    let both = GearMaterialFile {
+        young_modulus_GPa: given.young_modulus_GPa,
+        poisson_ratio: given.poisson_ratio,
+        density_kg_per_m3: given.density_kg_per_m3,
+    };
+    let mut sound = true;
+    for (gear, of_gear) in [("pinion", &given.pinion), ("wheel", &given.wheel)] {
+        let Some(own) = of_gear else { continue };
+        for (name, common, own) in [
+            ("young_modulus_GPa", both.young_modulus_GPa, own.young_modulus_GPa),
+            ("poisson_ratio", both.poisson_ratio, own.poisson_ratio),
+            ("density_kg_per_m3", both.density_kg_per_m3, own.density_kg_per_m3),
+        ] {
+            let keys = [format!("material.{name}"), format!("material.{gear}.{name}")];
+            sound &= !findings.said_twice(&[(&keys[0], common.is_some()), (&keys[1], own.is_some())]);
+        }
+    }
+    let pinion = over(over(given.pinion.unwrap_or_default(), &both), &STEEL);
+    let wheel = over(over(given.wheel.unwrap_or_default(), &both), &STEEL);
+    let chosen = PerGear { pinion: properties(&pinion)?, wheel: properties(&wheel)? };
+    *file = Some(MaterialFile { pinion: Some(pinion), wheel: Some(wheel), ..MaterialFile::default() });
+    sound.then_some(chosen)
+}
+
+fn over(above: GearMaterialFile, below: &GearMaterialFile) -> GearMaterialFile {
+    GearMaterialFile {
+        young_modulus_GPa: above.young_modulus_GPa.or(below.young_modulus_GPa),
+        poisson_ratio: above.poisson_ratio.or(below.poisson_ratio),
+        density_kg_per_m3: above.density_kg_per_m3.or(below.density_kg_per_m3),
+    }
+}
+
+fn properties(file: &GearMaterialFile) -> Option<Material> {
+    Some(Material {
+        young_modulus_mpa: 1e3 * file.young_modulus_GPa?,
+        poisson_ratio: file.poisson_ratio?,
+        density_kg_per_m3: file.density_kg_per_m3?,
+    })
+}
+
+/// Chooses the contact surface.
+pub fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -> Option<ContactSettings> {
+    let file = file.get_or_insert_default();
+    let surface = *file.surface.get_or_insert_default();
+    let (given, criterion) = (file.foundation_MPa_per_mm, file.match_criterion);
+    let keys = ["contact.match", "contact.foundation_MPa_per_mm"];
+    if findings.said_twice(&[(keys[0], criterion.is_some()), (keys[1], given.is_some())]) {
+        return None;
+    }
+    if surface != SurfaceKind::Winkler {
+        for (key, given) in [(keys[0], criterion.is_some()), (keys[1], given.is_some())] {
+            if given {
+                findings.warnings.push(format!("{key} is not used: only the surface \"winkler\" has a foundation"));
+            }
+        }
+    }
+    let foundation = match given {
+        Some(foundation_mpa_per_mm) => Foundation::Given { foundation_mpa_per_mm },
+        None if surface == SurfaceKind::Winkler => Foundation::Matched(*file.match_criterion.get_or_insert_default()),
+        None => Foundation::Matched(criterion.unwrap_or_default()),
+    };
+    Some(ContactSettings { surface, foundation })
+}
+
+/// Chooses the tooth stiffness.
+pub fn stiffness(file: &mut Option<StiffnessFile>, findings: &mut Findings) -> Option<StiffnessSettings> {
+    let key = "stiffness.pair_N_per_mm_um";
+    let file = file.get_or_insert_default();
+    let model = *file.model.get_or_insert_default();
+    let settings = match model {
+        StiffnessModel::Constant => match file.pair_N_per_mm_um {
+            Some(value) => StiffnessSettings::Constant { pair_n_per_mm2: 1e3 * value },
+            None => {
+                findings.missing(&[key], "a number greater than 0");
+                findings.help("stiffness.model = \"constant\" needs it; 20 is usual for steel");
+                return None;
+            }
+        },
+        StiffnessModel::WeberBanaschek => StiffnessSettings::WeberBanaschek,
+        StiffnessModel::Iso6336 => StiffnessSettings::Iso6336,
+    };
+    if model != StiffnessModel::Constant && file.pair_N_per_mm_um.is_some() {
+        findings.warnings.push(format!("{key} is not used: only stiffness.model = \"constant\" reads it"));
+    }
+    Some(settings)
+}
+
+/// Chooses the wear law.
+pub fn wear(file: &WearFile, findings: &mut Findings) -> Option<WearSettings> {
+    let WearLaw::Archard = file.law;
+    let keys = ["wear.coefficient_m2_per_N", "wear.coefficient_mm3_per_Nm"];
+    let coefficient_mm2_per_n = match (file.coefficient_m2_per_N, file.coefficient_mm3_per_Nm) {
+        (Some(k), None) => 1e6 * k,
+        (None, Some(k)) => 1e-3 * k,
+        (Some(_), Some(_)) => {
+            findings.said_twice(&keys.map(|key| (key, true)));
+            return None;
+        }
+        (None, None) => {
+            findings.missing(&keys, "a number greater than 0");
+            return None;
+        }
+    };
+    let severe = file.severe.as_ref().map(|s| SevereTransition { above_mpa: s.above_MPa, factor: s.factor });
+    Some(WearSettings { coefficient_mm2_per_n, severe })
+}
+
+/// Chooses the resolution for a run of `duration` revolutions.
+pub fn numerics(file: &mut Option<NumericsFile>, duration: f64, findings: &mut Findings) -> Option<Numerics> {
+    let file = file.get_or_insert_default();
+    let step = file.step.get_or_insert(StepFile { revolutions: duration / STEPS }).revolutions;
+    if duration / step > MOST_STEPS {
+        let allowed = format!("at least {} (ten million steps)", number(duration / MOST_STEPS));
+        findings.problem(ProblemKind::NotAllowed, "numerics.step.revolutions", number(step), allowed);
+        return None;
+    }
+    Some(Numerics {
+        flank_points: *file.flank_points.get_or_insert(FLANK_POINTS) as usize,
+        positions: *file.positions.get_or_insert(POSITIONS) as usize,
+        step_revolutions: step,
+        error_estimate: *file.error_estimate.get_or_insert(true),
+    })
+}

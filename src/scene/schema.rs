@@ -1,0 +1,150 @@
+//! The JSON schema of the scene file, from the types of [`super::file`].
+
+use std::sync::OnceLock;
+
+use schemars::Schema;
+use schemars::generate::SchemaSettings;
+use schemars::transform::{Transform, transform_subschemas};
+use serde_json::Value;
+
+use super::file::SceneFile;
+
+/// The schema (draft 2020-12), without references: every table is described where it stands.
+pub fn schema() -> &'static Value {
+    static SCHEMA: OnceLock<Value> = OnceLock::new();
+    SCHEMA.get_or_init(|| {
+        let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true).with_transform(WithoutNull);
+        settings.into_generator().into_root_schema_for::<SceneFile>().to_value()
+    })
+}
+
+/// TOML has no null: an optional key is left out.
+#[derive(Debug, Clone)]
+struct WithoutNull;
+
+impl Transform for WithoutNull {
+    fn transform(&mut self, schema: &mut Schema) {
+        transform_subschemas(self, schema);
+        let Some(node) = schema.as_object_mut() else { return };
+        if let Some(Value::Array(types)) = node.get_mut("type") {
+            types.retain(|name| name != "null");
+            if let [only] = types.as_slice() {
+                let only = only.clone();
+                node.insert("type".to_owned(), only);
+            }
+        }
+        if let Some(Value::Array(variants)) = node.get_mut("anyOf") {
+            variants.retain(|variant| variant.get("type").is_none_or(|name| name != "null"));
+            if let [Value::Object(only)] = variants.as_slice() {
+                let only = only.clone();
+                node.remove("anyOf");
+                for (key, value) in only {
+                    // The field's own description and default come first.
+                    node.entry(key).or_insert(value);
+                }
+            }
+        }
+        if node.get("default").is_some_and(Value::is_null) {
+            node.remove("default");
+        }
+    }
+}
+
+/// What a key takes, read from its node of the schema.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Node<'a>(&'a Value);
+
+impl<'a> Node<'a> {
+    /// The whole file.
+    pub fn root() -> Node<'static> {
+        Node(schema())
+    }
+
+    /// The key `name` of this table.
+    pub fn child(&self, name: &str) -> Option<Node<'a>> {
+        self.0.get("properties")?.get(name).map(Node)
+    }
+
+    /// The names of all keys of this table, in alphabetical order.
+    pub fn keys(&self) -> Vec<&'a str> {
+        match self.0.get("properties") {
+            Some(Value::Object(properties)) => properties.keys().map(String::as_str).collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The keys this table must have.
+    pub fn required(&self) -> Vec<&'a str> {
+        strings(self.0.get("required"))
+    }
+
+    /// What each item of this list is.
+    pub fn items(&self) -> Option<Node<'a>> {
+        self.0.get("items").map(Node)
+    }
+
+    /// `object`, `array`, `number`, `integer`, `boolean` or `string`.
+    pub fn type_name(&self) -> &'a str {
+        self.0.get("type").and_then(Value::as_str).unwrap_or(if self.choices().is_empty() {
+            "object"
+        } else {
+            "string"
+        })
+    }
+
+    /// The words this key takes, if only certain ones.
+    pub fn choices(&self) -> Vec<&'a str> {
+        if let Some(Value::Array(variants)) = self.0.get("oneOf") {
+            return variants.iter().flat_map(|variant| Node(variant).choices()).collect();
+        }
+        match self.0.get("const").and_then(Value::as_str) {
+            Some(only) => vec![only],
+            None => strings(self.0.get("enum")),
+        }
+    }
+
+    /// Whether `value` lies within the bounds.
+    pub fn holds(&self, value: f64) -> bool {
+        value.is_finite()
+            && self.bound("minimum").is_none_or(|least| value >= least)
+            && self.bound("exclusiveMinimum").is_none_or(|limit| value > limit)
+            && self.bound("maximum").is_none_or(|most| value <= most)
+            && self.bound("exclusiveMaximum").is_none_or(|limit| value < limit)
+    }
+
+    /// What is allowed, in an engineer's words.
+    pub fn allowed(&self) -> String {
+        let choices = self.choices();
+        if !choices.is_empty() {
+            let quoted: Vec<String> = choices.iter().map(|word| format!("{word:?}")).collect();
+            return quoted.join(", ");
+        }
+        match self.type_name() {
+            "object" => format!("a table of {}", self.keys().join(", ")),
+            "array" => format!("a list, each {}", self.items().map_or_else(String::new, |item| item.allowed())),
+            "boolean" => "true or false".to_owned(),
+            "string" => "a text in quotes".to_owned(),
+            "integer" => format!("a whole number{}", self.bounds_in_words()),
+            _ => format!("a number{}", self.bounds_in_words()),
+        }
+    }
+
+    fn bounds_in_words(&self) -> String {
+        let mut words = Vec::new();
+        for (name, word) in [("exclusiveMinimum", "greater than"), ("minimum", "at least")] {
+            words.extend(self.bound(name).map(|bound| format!("{word} {bound}")));
+        }
+        for (name, word) in [("exclusiveMaximum", "less than"), ("maximum", "at most")] {
+            words.extend(self.bound(name).map(|bound| format!("{word} {bound}")));
+        }
+        if words.is_empty() { String::new() } else { format!(" {}", words.join(" and ")) }
+    }
+
+    fn bound(&self, name: &str) -> Option<f64> {
+        self.0.get(name).and_then(Value::as_f64)
+    }
+}
+
+fn strings(list: Option<&Value>) -> Vec<&str> {
+    list.and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str).collect()
+}

@@ -1,0 +1,153 @@
+//! Checks a scene file, key by key, against the schema: names, types and ranges.
+//!
+//! Nothing stops at the first problem. What is wrong is reported and taken out, or replaced where the file cannot do
+//! without it, so that the rest can be checked further; what came of such a file is never used.
+
+use toml::{Table, Value};
+
+use super::findings::Findings;
+use super::later;
+use super::locate::join;
+use super::problem::{ProblemKind, number, words};
+use super::schema::Node;
+
+/// The part of `table` that has the right shape; the rest is reported.
+pub fn check(table: &Table, findings: &mut Findings) -> Table {
+    check_table(Node::root(), table, "", findings)
+}
+
+fn check_table(node: Node<'_>, table: &Table, path: &str, findings: &mut Findings) -> Table {
+    let mut sound = Table::new();
+    for (name, value) in table {
+        let key = join(path, name);
+        match node.child(name) {
+            Some(child) => {
+                if let Some(value) = check_value(child, value, &key, findings) {
+                    sound.insert(name.clone(), value);
+                }
+            }
+            None => unknown_key(node, name, &key, path, findings),
+        }
+    }
+    for name in node.required() {
+        let Some(child) = node.child(name) else { continue };
+        if !table.contains_key(name) {
+            findings.missing(&[&join(path, name)], &child.allowed());
+        }
+        // Reported; something must stand there so that the rest of the file can be checked further.
+        sound.entry(name).or_insert_with(|| stand_in(child));
+    }
+    sound
+}
+
+/// Any value of the right shape.
+fn stand_in(node: Node<'_>) -> Value {
+    match (node.type_name(), node.choices().first()) {
+        (_, Some(&choice)) => Value::String(choice.to_owned()),
+        ("object", _) => {
+            let of = |name: &str| node.child(name).map(|child| (name.to_owned(), stand_in(child)));
+            Value::Table(node.required().into_iter().filter_map(of).collect())
+        }
+        ("integer", _) => Value::Integer(1),
+        _ => Value::Float(1.0),
+    }
+}
+
+fn check_value(node: Node<'_>, value: &Value, key: &str, findings: &mut Findings) -> Option<Value> {
+    if let Value::String(text) = value
+        && let Some(later) = later::unknown_value(key, text)
+    {
+        findings.problem(ProblemKind::NotAvailable, key, format!("{text:?}"), later.instead);
+        return None;
+    }
+    match (node.type_name(), value) {
+        ("object", Value::Table(table)) => Some(Value::Table(check_table(node, table, key, findings))),
+        ("array", Value::Array(items)) => check_items(node, items, key, findings),
+        ("boolean", Value::Boolean(_)) => Some(value.clone()),
+        ("string", Value::String(text)) => check_text(node, text, key, findings),
+        ("integer", Value::Integer(n)) => check_number(node, *n as f64, value, key, findings),
+        ("number", Value::Integer(n)) => check_number(node, *n as f64, value, key, findings),
+        ("number", Value::Float(x)) => check_number(node, *x, value, key, findings),
+        _ => {
+            findings.problem(ProblemKind::WrongType, key, words(value), node.allowed());
+            None
+        }
+    }
+}
+
+fn check_items(node: Node<'_>, items: &[Value], key: &str, findings: &mut Findings) -> Option<Value> {
+    let item_node = node.items()?;
+    let checked: Vec<Value> = items
+        .iter()
+        .enumerate()
+        .filter_map(|(index, item)| check_value(item_node, item, &format!("{key}[{index}]"), findings))
+        .collect();
+    if checked.len() == items.len() {
+        Some(Value::Array(checked))
+    } else {
+        findings.spoil(key);
+        None
+    }
+}
+
+fn check_text(node: Node<'_>, text: &str, key: &str, findings: &mut Findings) -> Option<Value> {
+    let choices = node.choices();
+    if choices.is_empty() || choices.contains(&text) {
+        return Some(Value::String(text.to_owned()));
+    }
+    findings.problem(ProblemKind::NotAllowed, key, format!("{text:?}"), node.allowed());
+    if let Some(near) = nearest(text, &choices) {
+        findings.help(format!("did you mean {near:?}?"));
+    }
+    None
+}
+
+fn check_number(node: Node<'_>, x: f64, value: &Value, key: &str, findings: &mut Findings) -> Option<Value> {
+    if node.holds(x) {
+        return Some(value.clone());
+    }
+    findings.problem(ProblemKind::NotAllowed, key, number(x), node.allowed());
+    None
+}
+
+fn unknown_key(node: Node<'_>, name: &str, key: &str, path: &str, findings: &mut Findings) {
+    if let Some(later) = later::unknown_key(key) {
+        return findings.problem(ProblemKind::NotAvailable, key, "this key", later.instead);
+    }
+    let known = node.keys();
+    findings.problem(ProblemKind::UnknownKey, key, name, known.join(", "));
+    let elsewhere = tables_with(Node::root(), name, "");
+    if !elsewhere.is_empty() {
+        let places: Vec<String> = elsewhere.iter().map(|table| format!("[{table}]")).collect();
+        findings.help(format!("{name} belongs in {}", places.join(" or ")));
+    } else if let Some(near) = nearest(name, &known) {
+        findings.help(format!("did you mean {near}?"));
+        findings.spoil(&join(path, near));
+    }
+}
+
+/// Paths of the tables that have a key called `name`.
+fn tables_with(node: Node<'_>, name: &str, path: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for key in node.keys() {
+        let child_path = join(path, key);
+        if let Some(child) = node.child(key) {
+            if child.child(name).is_some() {
+                found.push(child_path.clone());
+            }
+            found.extend(tables_with(child, name, &child_path));
+        }
+    }
+    found
+}
+
+/// The word of `known` that `word` is most like, if it is like any.
+pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+    let word = word.to_lowercase();
+    let likeness = |other: &str| {
+        let other = other.to_lowercase();
+        strsim::normalized_damerau_levenshtein(&word, &other).max(strsim::jaro_winkler(&word, &other) - 0.3)
+    };
+    let best = known.iter().map(|&other| (likeness(other), other)).max_by(|a, b| a.0.total_cmp(&b.0));
+    best.filter(|(likeness, _)| *likeness >= 0.4).map(|(_, other)| other)
+}

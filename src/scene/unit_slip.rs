@@ -1,0 +1,269 @@
+//! Values that were likely meant in another unit: m for mm, N·mm for N·m, MPa for GPa.
+//!
+//! A value is suspected only where it is far outside what gears have *and* a plain change of unit brings it back.
+//! Lengths are judged against the module, torque against the tooth load it makes. A suspicion is a warning, never an
+//! error: the value may be meant.
+
+use toml::{Table, Value};
+
+use super::problem::number;
+
+/// A suspected slip of unit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UnitSlip {
+    /// Path of the key.
+    pub key: String,
+    /// As given.
+    pub value: f64,
+    /// What was likely meant, in the unit of the key.
+    pub meant: f64,
+    /// Which units were likely confused.
+    pub units: &'static str,
+}
+
+impl UnitSlip {
+    /// The question alone: `did you mean 4.5? (m given for mm)`.
+    pub fn question(&self) -> String {
+        format!("did you mean {}? ({})", number(self.meant), self.units)
+    }
+
+    /// The whole warning.
+    pub fn warning(&self) -> String {
+        format!("{} = {}: {}", self.key, number(self.value), self.question())
+    }
+}
+
+/// A change of unit: what the value is multiplied by, and how to say it.
+type Conversion = (f64, &'static str);
+
+const METRES: Conversion = (1e3, "m given for mm");
+const MICROMETRES: Conversion = (1e-3, "µm given for mm");
+const MILLIMETRES: Conversion = (1e3, "mm given for µm");
+const METRES_FOR_MICROMETRES: Conversion = (1e6, "m given for µm");
+
+/// A tooth load over width and module beyond this is no load of a gear, MPa; ISO 6336 rates a few hundred at most.
+const GREATEST_TOOTH_LOAD_MPA: f64 = 5000.0;
+
+/// All suspicions in a scene, its preset expanded.
+pub fn find(scene: &Table) -> Vec<UnitSlip> {
+    let mut search = Search { scene, slips: Vec::new() };
+    search.lengths();
+    search.angles();
+    search.operation();
+    search.materials();
+    search.contact_and_wear();
+    search.slips
+}
+
+struct Search<'a> {
+    scene: &'a Table,
+    slips: Vec<UnitSlip>,
+}
+
+impl Search<'_> {
+    /// The number at `key`, if there is one.
+    fn get(&self, key: &str) -> Option<f64> {
+        let (path, last) = key.rsplit_once('.')?;
+        let table = path.split('.').try_fold(self.scene, |table, name| table.get(name)?.as_table())?;
+        match table.get(last)? {
+            Value::Integer(n) => Some(*n as f64),
+            Value::Float(x) => Some(*x),
+            _ => None,
+        }
+    }
+
+    /// Suspects `key` if its value lies outside `credible` and one of the conversions brings it into `usual`.
+    fn judge(&mut self, key: &str, credible: [f64; 2], usual: [f64; 2], conversions: &[Conversion]) {
+        let Some(value) = self.get(key) else { return };
+        if !value.is_finite() || (credible[0]..=credible[1]).contains(&value.abs()) {
+            return;
+        }
+        for &(factor, units) in conversions {
+            // Dividing by a power of ten rounds once; multiplying by its inverse would leave a trail of digits.
+            let meant = if factor < 1.0 { value / (1.0 / factor).round() } else { value * factor };
+            let meant: f64 = format!("{meant:.12e}").parse().unwrap_or(meant);
+            if (usual[0]..=usual[1]).contains(&meant.abs()) {
+                self.slips.push(UnitSlip { key: key.to_owned(), value, meant, units });
+                return;
+            }
+        }
+    }
+
+    /// The module in mm, as given or as it was likely meant.
+    fn module_mm(&self) -> Option<f64> {
+        let meant = |key: &str| self.slips.iter().find(|slip| slip.key == key).map(|slip| slip.meant);
+        let key =
+            ["pair.normal_module_mm", "pair.transverse_module_mm"].into_iter().find(|key| self.get(key).is_some())?;
+        meant(key).or(self.get(key))
+    }
+
+    fn lengths(&mut self) {
+        for key in ["pair.normal_module_mm", "pair.transverse_module_mm"] {
+            self.judge(key, [0.04, 150.0], [0.04, 150.0], &[METRES, MICROMETRES]);
+        }
+        let Some(module) = self.module_mm() else { return };
+        let teeth = [self.get("pair.pinion.teeth"), self.get("pair.wheel.teeth")];
+        if let [Some(z1), Some(z2)] = teeth {
+            let reference = module * (z1 + z2) / 2.0;
+            let close = [0.6 * reference, 1.7 * reference];
+            self.judge("pair.centre_distance_mm", [0.1 * reference, 10.0 * reference], close, &[METRES, MICROMETRES]);
+        }
+        let width = [0.05 * module, 1000.0 * module];
+        self.judge("pair.face_width_mm", width, [module, 100.0 * module], &[METRES, MICROMETRES]);
+        for (gear, teeth) in ["pinion", "wheel"].into_iter().zip(teeth) {
+            if let Some(z) = teeth {
+                let (credible, usual) = ([0.05 * z * module, 20.0 * z * module], [0.5 * z * module, 2.0 * z * module]);
+                self.judge(&format!("pair.{gear}.tip_diameter_mm"), credible, usual, &[METRES, MICROMETRES]);
+                self.judge(
+                    &format!("pair.{gear}.bore_diameter_mm"),
+                    [0.02 * module, 20.0 * z * module],
+                    usual,
+                    &[METRES],
+                );
+            }
+            // A relief of some millionths of the module does nothing; one of the whole module leaves no tooth.
+            let (credible, usual) = ([0.02 * module, 1e3 * module], [0.1 * module, 50.0 * module]);
+            for key in ["tip_relief.amount_um", "root_relief.amount_um", "profile_crowning_um"] {
+                let key = format!("pair.{gear}.{key}");
+                if self.get(&key) != Some(0.0) {
+                    self.judge(&key, credible, usual, &[MILLIMETRES, METRES_FOR_MICROMETRES]);
+                }
+            }
+            for key in ["tip_relief.length_mm", "root_relief.length_mm"] {
+                let credible = [0.01 * module, 20.0 * module];
+                self.judge(
+                    &format!("pair.{gear}.{key}"),
+                    credible,
+                    [0.05 * module, 5.0 * module],
+                    &[METRES, MICROMETRES],
+                );
+            }
+        }
+    }
+
+    fn angles(&mut self) {
+        let degrees = 1.0_f64.to_degrees();
+        for key in ["pair.pressure_angle_deg", "pair.transverse_pressure_angle_deg"] {
+            let Some(value) = self.get(key) else { continue };
+            let meant = (value * degrees * 10.0).round() / 10.0;
+            if value < 1.0 && (10.0..=45.0).contains(&meant) {
+                self.slips.push(UnitSlip { key: key.to_owned(), value, meant, units: "rad given for degrees" });
+            }
+        }
+    }
+
+    fn operation(&mut self) {
+        if let (Some(module), Some(z1), Some(width)) =
+            (self.module_mm(), self.get("pair.pinion.teeth"), self.get("pair.face_width_mm"))
+            && !self.slips.iter().any(|slip| slip.key == "pair.face_width_mm")
+        {
+            // F_t/(b m) = 2000 T/(z m² b): the torque in N·m that makes a tooth load of 1 MPa.
+            let torque_per_mpa = z1 * module * module * width / 2000.0;
+            let usual = [1e-3 * torque_per_mpa, GREATEST_TOOTH_LOAD_MPA / 5.0 * torque_per_mpa];
+            let credible = [0.0, GREATEST_TOOTH_LOAD_MPA * torque_per_mpa];
+            self.judge("operation.pinion_torque_Nm", credible, usual, &[(1e-3, "N·mm given for N·m")]);
+        }
+        let hours = [0.0, 2e5];
+        self.judge(
+            "operation.hours",
+            hours,
+            hours,
+            &[(1.0 / 3600.0, "s given for h"), (1.0 / 60.0, "min given for h")],
+        );
+    }
+
+    fn materials(&mut self) {
+        for table in ["material", "material.pinion", "material.wheel"] {
+            let (credible, usual) = ([0.0, 1500.0], [0.001, 1500.0]);
+            let conversions = [(1e-3, "MPa given for GPa"), (1e-9, "Pa given for GPa")];
+            self.judge(&format!("{table}.young_modulus_GPa"), credible, usual, &conversions);
+            let conversions = [(1e3, "g/cm³ given for kg/m³"), (1e12, "t/mm³ given for kg/m³")];
+            self.judge(&format!("{table}.density_kg_per_m3"), [50.0, 1e5], [500.0, 25e3], &conversions);
+        }
+    }
+
+    fn contact_and_wear(&mut self) {
+        let modulus_mpa = 1e3
+            * ["material.young_modulus_GPa", "material.pinion.young_modulus_GPa"]
+                .into_iter()
+                .find_map(|key| self.get(key))
+                .unwrap_or(206.0);
+        if let Some(module) = self.module_mm() {
+            // K/H is Young's modulus over a depth of some tenths of the module.
+            let foundation = modulus_mpa / module;
+            let conversions =
+                [(1e3, "GPa/mm given for MPa/mm"), (1e-3, "MPa/m given for MPa/mm"), (1e-9, "Pa/m given for MPa/mm")];
+            let (credible, usual) = ([0.05 * foundation, 5e3 * foundation], [0.5 * foundation, 5e2 * foundation]);
+            self.judge("contact.foundation_MPa_per_mm", credible, usual, &conversions);
+        }
+        let conversions = [(1e-3, "N/mm² given for N/(mm·µm)"), (1e-9, "N/m² given for N/(mm·µm)")];
+        self.judge("stiffness.pair_N_per_mm_um", [0.0, 500.0], [0.1, 100.0], &conversions);
+        let conversions = [(1e-6, "mm²/N given for m²/N"), (1e-9, "mm³/(N·m) given for m²/N")];
+        self.judge("wear.coefficient_m2_per_N", [0.0, 1e-12], [1e-22, 3e-16], &conversions);
+        let conversions = [(1e9, "m²/N given for mm³/(N·m)"), (1e3, "mm²/N given for mm³/(N·m)")];
+        self.judge("wear.coefficient_mm3_per_Nm", [1e-13, f64::MAX], [1e-13, 1e-4], &conversions);
+        let conversions = [(1e3, "GPa given for MPa"), (1e-6, "Pa given for MPa")];
+        self.judge("wear.severe.above_MPa", [5.0, 1e5], [100.0, 1e4], &conversions);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::presets;
+
+    /// The slips of the fzg-c scene with one value exchanged.
+    fn slips(key: &str, value: f64) -> Vec<UnitSlip> {
+        let mut scene: Table = presets::PRESETS[0].text.parse().unwrap();
+        let (path, last) = key.rsplit_once('.').unwrap();
+        let table = path.split('.').fold(&mut scene, |table, name| {
+            table.entry(name).or_insert_with(|| Value::Table(Table::new())).as_table_mut().unwrap()
+        });
+        table.insert(last.to_owned(), Value::Float(value));
+        find(&scene)
+    }
+
+    #[test]
+    fn usual_slips_are_named() {
+        for (key, value, meant) in [
+            ("pair.normal_module_mm", 0.0045, 4.5),
+            ("pair.centre_distance_mm", 0.0915, 91.5),
+            ("pair.face_width_mm", 0.014, 14.0),
+            ("pair.pinion.tip_diameter_mm", 0.08246, 82.46),
+            ("pair.pinion.tip_relief.amount_um", 0.02, 20.0),
+            ("pair.pressure_angle_deg", 0.349, 20.0),
+            ("operation.pinion_torque_Nm", 302_000.0, 302.0),
+            ("operation.hours", 459_900.0, 127.75),
+            ("material.young_modulus_GPa", 206_000.0, 206.0),
+            ("material.young_modulus_GPa", 2.06e11, 206.0),
+            ("material.density_kg_per_m3", 7.83, 7830.0),
+            ("contact.foundation_MPa_per_mm", 5.4e14, 5.4e5),
+            ("stiffness.pair_N_per_mm_um", 20_000.0, 20.0),
+            ("wear.coefficient_m2_per_N", 1e-11, 1e-17),
+            ("wear.coefficient_m2_per_N", 1e-8, 1e-17),
+            ("wear.coefficient_mm3_per_Nm", 1e-17, 1e-8),
+            ("wear.severe.above_MPa", 2e9, 2000.0),
+        ] {
+            let found = slips(key, value);
+            assert!(found.iter().any(|s| s.key == key && s.meant == meant), "{key} = {value:e}: {found:?}");
+            assert_eq!(found.len(), 1, "{key}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn unusual_but_credible_values_pass() {
+        for (key, value) in [
+            ("pair.face_width_mm", 0.5),
+            ("pair.centre_distance_mm", 93.0),
+            ("operation.pinion_torque_Nm", 1e-6),
+            ("operation.pinion_torque_Nm", 2000.0),
+            ("operation.hours", 1e5),
+            ("material.young_modulus_GPa", 0.001),
+            ("material.young_modulus_GPa", 1000.0),
+            ("wear.coefficient_m2_per_N", 1e-13),
+            ("stiffness.pair_N_per_mm_um", 0.2),
+        ] {
+            assert_eq!(slips(key, value), [], "{key} = {value}");
+        }
+    }
+}

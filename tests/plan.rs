@@ -1,0 +1,67 @@
+//! The plan has what the scene needs, and nothing else.
+
+use assert_cmd::Command;
+use gearwear::plan::{Plan, StageKind};
+use gearwear::scene::{Scene, presets};
+use predicates::prelude::*;
+
+/// Names of the stages of the fzg-c scene with parts of its text exchanged, and of those left out.
+fn plan(exchange: &[(&str, &str)]) -> (Vec<&'static str>, Vec<&'static str>) {
+    let mut text = presets::find("fzg-c").unwrap().text.to_owned();
+    for (old, new) in exchange {
+        assert!(text.contains(old), "{old}");
+        text = text.replacen(old, new, 1);
+    }
+    let plan = Plan::of(&Scene::from_toml(&text).unwrap().scene);
+    let names = |stages: &[gearwear::plan::Stage]| stages.iter().map(|stage| stage.kind.name()).collect();
+    assert_eq!(plan.stages.len() + plan.left_out.len(), StageKind::ALL.len());
+    assert!(plan.stages.iter().chain(&plan.left_out).all(|stage| !stage.reason.is_empty()));
+    (names(&plan.stages), names(&plan.left_out))
+}
+
+#[test]
+fn given_stiffness_needs_no_stiffness_stage() {
+    let (stages, left_out) = plan(&[]);
+    assert_eq!(stages, ["geometry", "contact-match", "simulation", "error-estimates", "report"]);
+    assert_eq!(left_out, ["finite-element-calibration", "tooth-stiffness", "helical-slices", "contact-temperature"]);
+}
+
+#[test]
+fn closed_form_stiffness_is_a_stage() {
+    for model in ["weber-banaschek", "iso6336"] {
+        let (stages, _) = plan(&[("model = \"constant\"", &format!("model = \"{model}\""))]);
+        assert!(stages.contains(&"tooth-stiffness"), "{model}");
+    }
+}
+
+#[test]
+fn given_foundation_and_hertz_surfaces_need_no_match() {
+    for exchange in [
+        ("match = \"half-width\"", "foundation_MPa_per_mm = 5.4e5"),
+        ("surface = \"winkler\"", "surface = \"hertz\""),
+        ("surface = \"winkler\"", "surface = \"hertz-mean\""),
+    ] {
+        assert!(plan(&[exchange]).1.contains(&"contact-match"), "{exchange:?}");
+    }
+}
+
+#[test]
+fn error_estimates_only_where_asked_for() {
+    let (stages, left_out) = plan(&[("error_estimate = true", "error_estimate = false")]);
+    assert!(!stages.contains(&"error-estimates") && left_out.contains(&"error-estimates"));
+}
+
+#[test]
+fn json_for_scripts_and_text_for_people() {
+    let scene = presets::find("fzg-c").unwrap().text;
+    let gearwear = |format: &str| {
+        let mut command = Command::cargo_bin("gearwear").unwrap();
+        command.args(["plan", "-", "--format", format]).write_stdin(scene);
+        command.assert().success().stderr("")
+    };
+    let json: serde_json::Value = serde_json::from_slice(&gearwear("json").get_output().stdout).unwrap();
+    assert_eq!(json["stages"][0]["name"], "geometry");
+    assert_eq!(json["left_out"][1]["name"], "tooth-stiffness");
+    assert!(json["left_out"][1]["reason"].as_str().unwrap().contains("20 N/(mm·µm)"));
+    gearwear("text").stdout(predicate::str::contains("Left out").and(predicate::str::contains("simulation")));
+}
