@@ -146,16 +146,15 @@ impl PairContact for HertzPair<'_> {
     }
 
     fn press(&mut self, approach_mm: f64) -> Response {
-        let response = self.closed_form.press(approach_mm);
-        (self.strip_load, self.half_width_mm) = self.strip(response.line_load_n_per_mm);
-        response
+        self.closed_form.press(approach_mm)
     }
 
     fn ample_approach_mm(&self, line_load_n_per_mm: f64) -> f64 {
         self.closed_form.ample_approach_mm(line_load_n_per_mm)
     }
 
-    fn holds_contact(&self) -> bool {
+    fn settle(&mut self) -> bool {
+        (self.strip_load, self.half_width_mm) = self.strip(self.closed_form.line_load);
         self.half_width_mm <= self.half_window_mm
     }
 

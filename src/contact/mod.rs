@@ -77,8 +77,8 @@ pub struct Footprint {
 
 /// One tooth pair at one loading position.
 ///
-/// Order of use: [`read`](Self::read) the flanks, [`press`](Self::press) until the working cycle is in equilibrium, then
-/// [`sweep`](Self::sweep) and [`footprint`](Self::footprint) of the last approach pressed.
+/// Order of use: [`read`](Self::read) the flanks, [`press`](Self::press) until the working cycle is in equilibrium,
+/// [`settle`](Self::settle), then [`sweep`](Self::sweep) and [`footprint`](Self::footprint) of the last approach pressed.
 pub trait PairContact: Send {
     /// Takes the material removed at each flank point, mm.
     fn read(&mut self, removed_mm: PerGear<&[f64]>);
@@ -89,9 +89,9 @@ pub trait PairContact: Send {
     /// An approach that carries at least `line_load_n_per_mm`, to begin an iteration with.
     fn ample_approach_mm(&self, line_load_n_per_mm: f64) -> f64;
 
-    /// Whether the stretch of flank this contact looks at holds the whole contact of the last approach pressed; if not,
-    /// [`widen`](Self::widen) it and read and press again.
-    fn holds_contact(&self) -> bool {
+    /// Told that the last approach pressed is the equilibrium; answers whether the stretch of flank this contact looks
+    /// at holds all that touches then. If not, [`widen`](Self::widen) it, read and press again.
+    fn settle(&mut self) -> bool {
         true
     }
 

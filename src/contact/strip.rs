@@ -7,6 +7,8 @@
 //! of one flank themselves, on which pressure and sliding are observed. Real ends of a strip, where a flank ends in
 //! its tip edge (or its involute ends at the form circle), are kept exactly: no pressure acts beyond them.
 
+use std::ops::Range;
+
 use super::{Flanks, PositionCell};
 use crate::gear::{
     Gear, PerGear,
@@ -29,12 +31,12 @@ impl Interpolation {
         self.weight.push(place.weight);
     }
 
-    fn add_to(&self, values: &[f64], out: &mut [f64]) {
-        for ((out, &i), &weight) in out.iter_mut().zip(&self.index).zip(&self.weight) {
-            let i = i as usize;
-            let (low, high) = (values[i], values[i + 1]);
-            *out += low + weight * (high - low);
-        }
+    /// The values at samples from `first` on.
+    fn of<'a>(&'a self, values: &'a [f64], first: usize) -> impl Iterator<Item = f64> + 'a {
+        self.index[first..].iter().zip(&self.weight[first..]).map(|(&i, &weight)| {
+            let ends = &values[i as usize..i as usize + 2];
+            ends[0] + weight * (ends[1] - ends[0])
+        })
     }
 }
 
@@ -118,10 +120,10 @@ impl Strip {
 
     /// The gap with `removed_mm` of material gone, into `gap_mm`.
     pub fn gap_mm(&self, removed_mm: PerGear<&[f64]>, gap_mm: &mut Vec<f64>) {
-        gap_mm.clear();
-        gap_mm.extend_from_slice(&self.geometric_gap_mm);
-        for gear in Gear::BOTH {
-            self.interpolation[gear].add_to(removed_mm[gear], gap_mm);
+        let [pinion, wheel] = Gear::BOTH.map(|gear| self.interpolation[gear].of(removed_mm[gear], 0));
+        gap_mm.resize(self.geometric_gap_mm.len(), 0.0);
+        for (((gap, geometric), pinion), wheel) in gap_mm.iter_mut().zip(&self.geometric_gap_mm).zip(pinion).zip(wheel) {
+            *gap = geometric + pinion + wheel;
         }
     }
 
@@ -189,6 +191,20 @@ impl ObservedPoints {
     }
 }
 
+impl ObservedPoints {
+    /// The samples that hold every point touching anywhere between `lower_mm` and `upper_mm` (gear's own direction) while
+    /// the contact moves through the cell, and one more at either end.
+    pub fn samples_between(&self, lower_mm: f64, upper_mm: f64) -> Range<usize> {
+        let [a, b] = self.shift_to_ends_mm;
+        let sample = |along: f64| (along - self.at[0].along_mm) / self.spacing_mm;
+        // Samples are almost evenly spaced; two more make up for the difference.
+        let first = (sample(lower_mm - a.max(b)) - 3.0).max(0.0) as usize;
+        let last = (sample(upper_mm - a.min(b)) + 4.0).max(0.0) as usize;
+        let end = (last + 1).min(self.at.len());
+        first.min(end - 3)..end.max(3)
+    }
+}
+
 /// How far the flank point at `coordinate_mm` moves along the tangent from the cell's position to its ends: the contact
 /// moves up the pinion and down the wheel.
 fn shift_to_ends_mm(geometry: &dyn ConjugateFlanks, gear: Gear, coordinate_mm: f64, cell: PositionCell) -> [f64; 2] {
@@ -218,16 +234,23 @@ impl GapAtPoints {
         gap
     }
 
-    /// The gap at each sample with `removed_mm` of material gone, into `gap_mm`; a sample beyond the tip lacks what the
-    /// tip point has lost.
-    pub fn gap_mm(&self, points: &ObservedPoints, gear: Gear, removed_mm: PerGear<&[f64]>, gap_mm: &mut Vec<f64>) {
-        gap_mm.clear();
-        gap_mm.extend_from_slice(&self.geometric_gap_mm);
-        self.mate.add_to(removed_mm[gear.mate()], gap_mm);
+    /// The gap at the samples of `range` with `removed_mm` of material gone, into `gap_mm`; a sample beyond the tip lacks
+    /// what the tip point has lost.
+    pub fn gap_mm(
+        &self,
+        points: &ObservedPoints,
+        gear: Gear,
+        removed_mm: PerGear<&[f64]>,
+        range: Range<usize>,
+        gap_mm: &mut Vec<f64>,
+    ) {
         let own = &removed_mm[gear][points.first_point - 1..];
-        let tip = own[own.len() - 1];
-        for (gap, removed) in gap_mm.iter_mut().zip(own.iter().chain(std::iter::repeat(&tip))) {
-            *gap += removed;
+        let (within, tip) = (&own[range.start.min(own.len())..], own[own.len() - 1]);
+        let own = within.iter().copied().chain(std::iter::repeat(tip));
+        let mate = self.mate.of(removed_mm[gear.mate()], range.start);
+        gap_mm.resize(range.len(), 0.0);
+        for (((gap, geometric), mate), own) in gap_mm.iter_mut().zip(&self.geometric_gap_mm[range]).zip(mate).zip(own) {
+            *gap = geometric + mate + own;
         }
     }
 }

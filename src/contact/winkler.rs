@@ -54,6 +54,7 @@ impl ContactSurface for Winkler {
             observed,
             gap: Vec::new(),
             approach: 0.0,
+            extent_mm: (0.0, 0.0),
             observed_gap: Vec::new(),
             pressure: Vec::new(),
             contact_fraction: Vec::new(),
@@ -105,6 +106,8 @@ struct WinklerPair<'a> {
     gap: Vec<f64>,
     /// The last approach pressed, mm.
     approach: f64,
+    /// Outermost places in contact at equilibrium, along the tangent.
+    extent_mm: (f64, f64),
     /// Real gap at the observed points of one flank, mm.
     observed_gap: Vec<f64>,
     /// Pressure at the observed points of one flank, MPa.
@@ -119,17 +122,28 @@ impl PairContact for WinklerPair<'_> {
 
     fn press(&mut self, approach_mm: f64) -> Response {
         self.approach = approach_mm;
-        let spacing = self.strip.spacing_mm;
-        let (penetration, contact) = self.gap.windows(2).fold((0.0, 0.0), |(penetration, contact), gap| {
-            let (u0, u1) = (approach_mm - gap[0], approach_mm - gap[1]);
-            let positive = u0.max(0.0) + u1.max(0.0);
-            let fraction = positive / (u0.abs() + u1.abs() + f64::MIN_POSITIVE);
-            (penetration + 0.5 * positive * fraction, contact + fraction)
-        });
-        let curvature = spacing * spacing / (12.0 * self.radius_mm);
+        // Sums over cells of mean penetration, fraction in contact, and how fast that fraction grows with the approach.
+        let (mut penetration, mut contact, mut growth) = (0.0, 0.0, 0.0);
+        let mut before = approach_mm - self.gap[0];
+        for gap in &self.gap[1..] {
+            let here = approach_mm - gap;
+            if before >= 0.0 && here >= 0.0 {
+                penetration += 0.5 * (before + here);
+                contact += 1.0;
+            } else if before > 0.0 || here > 0.0 {
+                let across = before.abs() + here.abs();
+                let fraction = before.max(here) / across;
+                penetration += 0.5 * fraction * before.max(here);
+                contact += fraction;
+                growth += 1.0 / across;
+            }
+            before = here;
+        }
+        let curvature = self.strip.spacing_mm * self.strip.spacing_mm / (12.0 * self.radius_mm);
+        let foundation = self.foundation * self.strip.spacing_mm;
         Response {
-            line_load_n_per_mm: self.foundation * spacing * (penetration + curvature * contact),
-            stiffness_n_per_mm2: self.foundation * spacing * contact,
+            line_load_n_per_mm: foundation * (penetration + curvature * contact),
+            stiffness_n_per_mm2: foundation * (contact + curvature * growth),
         }
     }
 
@@ -140,7 +154,8 @@ impl PairContact for WinklerPair<'_> {
         least_gap + a * a / (2.0 * self.radius_mm)
     }
 
-    fn holds_contact(&self) -> bool {
+    fn settle(&mut self) -> bool {
+        self.extent_mm = self.extent_mm();
         !self.strip.may_touch_beyond(self.approach)
     }
 
@@ -152,11 +167,17 @@ impl PairContact for WinklerPair<'_> {
     fn sweep(&mut self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Sweep<'_> {
         let Some(observed) = &self.observed else { return Sweep::NOTHING };
         let (points, gap) = &observed[gear];
-        gap.gap_mm(points, gear, removed_mm, &mut self.observed_gap);
+        let (lower, upper) = match gear {
+            Gear::Pinion => self.extent_mm,
+            Gear::Wheel => (-self.extent_mm.1, -self.extent_mm.0),
+        };
+        let samples = points.samples_between(lower, upper);
+        let inner = samples.start..samples.end - 2;
+        gap.gap_mm(points, gear, removed_mm, samples, &mut self.observed_gap);
         // The slope of the penetration per sample, from the neighbours of each point.
         let [to_lower, to_upper] = points.shift_to_ends_mm.map(|shift| 0.5 * shift / points.spacing_mm);
-        self.pressure.resize(points.sliding_mm.len(), 0.0);
-        self.contact_fraction.resize(points.sliding_mm.len(), 0.0);
+        self.pressure.resize(inner.len(), 0.0);
+        self.contact_fraction.resize(inner.len(), 0.0);
         let felt = self.pressure.iter_mut().zip(&mut self.contact_fraction);
         for ((pressure, fraction), gap) in felt.zip(self.observed_gap.windows(3)) {
             let (u, twice_slope) = (self.approach - gap[1], gap[0] - gap[2]);
@@ -166,9 +187,9 @@ impl PairContact for WinklerPair<'_> {
             *pressure = 0.5 * self.foundation * positive * *fraction;
         }
         Sweep {
-            first_point: points.first_point,
+            first_point: points.first_point + inner.start,
             pressure_mpa: &self.pressure,
-            sliding_mm: &points.sliding_mm,
+            sliding_mm: &points.sliding_mm[inner],
             contact_fraction: &self.contact_fraction,
         }
     }
@@ -176,23 +197,23 @@ impl PairContact for WinklerPair<'_> {
     fn footprint(&self) -> Footprint {
         let deepest = self.gap.iter().copied().fold(f64::INFINITY, f64::min);
         let penetration = (self.approach - deepest).max(0.0);
-        Footprint { peak_pressure_mpa: self.foundation * penetration, half_width_mm: self.half_width_mm() }
+        let half_width_mm = 0.5 * (self.extent_mm.1 - self.extent_mm.0);
+        Footprint { peak_pressure_mpa: self.foundation * penetration, half_width_mm }
     }
 }
 
 impl WinklerPair<'_> {
-    /// Half the distance between the outermost places in contact.
-    fn half_width_mm(&self) -> f64 {
-        let u: Vec<f64> = self.gap.iter().map(|gap| self.approach - gap).collect();
-        let (Some(first), Some(last)) = (u.iter().position(|&u| u > 0.0), u.iter().rposition(|&u| u > 0.0)) else {
-            return 0.0;
+    /// Outermost places in contact, found between samples; empty at 0 without contact.
+    fn extent_mm(&self) -> (f64, f64) {
+        let u = |k: usize| self.approach - self.gap[k];
+        let touches = |gap: &f64| *gap < self.approach;
+        let (Some(first), Some(last)) = (self.gap.iter().position(touches), self.gap.iter().rposition(touches)) else {
+            return (0.0, 0.0);
         };
         // The gap passes through the approach between the outermost sample in contact and the next one.
-        let beyond = |inside: usize, outside: Option<usize>| match outside.and_then(|k| u.get(k)) {
-            Some(out) => u[inside] / (u[inside] - out),
-            None => 0.0,
-        };
-        let extent = (last - first) as f64 + beyond(first, first.checked_sub(1)) + beyond(last, Some(last + 1));
-        0.5 * extent * self.strip.spacing_mm
+        let before = if first > 0 { u(first) / (u(first) - u(first - 1)) } else { 0.0 };
+        let after = if last + 1 < self.gap.len() { u(last) / (u(last) - u(last + 1)) } else { 0.0 };
+        let place = |sample: f64| self.strip.window.lower_mm + sample * self.strip.spacing_mm;
+        (place(first as f64 - before), place(last as f64 + after))
     }
 }

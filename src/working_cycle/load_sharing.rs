@@ -21,7 +21,7 @@
 use crate::contact::{PairContact, Response};
 
 /// Greatest imbalance, relative to the load, at which an equilibrium is accepted.
-pub const TOLERANCE: f64 = 1e-12;
+pub const TOLERANCE: f64 = 1e-11;
 /// Newton steps before bisection takes over; three to five are usual.
 const NEWTON_LIMIT: u64 = 40;
 

@@ -230,10 +230,12 @@ impl<'a> Station<'a> {
             work.newton_iterations += self.equilibrium.iterations;
             work.pair_evaluations += self.equilibrium.pair_evaluations;
             let mut held = true;
-            for pair in self.pairs.iter_mut().filter(|pair| !pair.contact.holds_contact()) {
-                pair.contact.widen();
-                pair.contact.read(removed_mm);
-                held = false;
+            for pair in &mut self.pairs {
+                if !pair.contact.settle() {
+                    pair.contact.widen();
+                    pair.contact.read(removed_mm);
+                    held = false;
+                }
             }
             if held {
                 self.pairs.iter_mut().for_each(MeshedPair::remember);
