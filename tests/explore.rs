@@ -18,9 +18,21 @@ fn explore() {
         println!("new peak p {} te {:?}", out.new.cycle.peak_pressure_mpa(), out.new.cycle.transmission_error_mm());
         println!("worn peak p {} te {:?}", out.worn.cycle.peak_pressure_mpa(), out.worn.cycle.transmission_error_mm());
         println!("share at A {}", out.new.cycle.positions[0].load_share);
-        let worst = out.new.cycle.positions.iter().chain(&out.worn.cycle.positions).map(|p| p.load_imbalance.abs()).fold(0.0, f64::max);
+        let worst = out
+            .new
+            .cycle
+            .positions
+            .iter()
+            .chain(&out.worn.cycle.positions)
+            .map(|p| p.load_imbalance.abs())
+            .fold(0.0, f64::max);
         println!("imbalance {worst:e}");
         let vol = |g: Gear| out.grid[g].integral(&out.new.depth_per_mesh_mm[g]);
-        println!("vol {} {} ratio-1 {:e}", vol(Gear::Pinion), vol(Gear::Wheel), vol(Gear::Pinion)/vol(Gear::Wheel)-1.0);
+        println!(
+            "vol {} {} ratio-1 {:e}",
+            vol(Gear::Pinion),
+            vol(Gear::Wheel),
+            vol(Gear::Pinion) / vol(Gear::Wheel) - 1.0
+        );
     }
 }

@@ -1,10 +1,10 @@
 //! Why a command did not do what was asked, and the exit status that says so.
 
 use std::io;
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use gearwear::pipeline::RunError;
+use gearwear::report::ReportError;
 use gearwear::scene::{Problem, ProblemKind, presets};
 use miette::{Diagnostic, LabeledSpan, MietteDiagnostic, NamedSource, Report};
 
@@ -17,9 +17,9 @@ pub enum Failure {
     /// Something else about the command is wrong.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The solver failed.
+    /// The run failed.
     #[error(transparent)]
-    Solver(#[from] RunError),
+    Run(#[from] RunError),
     /// The user interrupted the run; it was said what is kept.
     #[error("interrupted")]
     Interrupted,
@@ -69,24 +69,25 @@ pub enum InputError {
         /// As typed.
         name: String,
     },
-    /// A file stands where the output folder should be.
-    #[error("--out {}: found a file, allowed: a folder, or a name that is still free", .path.display())]
-    OutIsAFile {
-        /// As typed.
-        path: PathBuf,
-    },
     /// The output folder cannot be made or written.
-    #[error("--out {}: the folder cannot be written: {reason}", .path.display())]
-    #[diagnostic(help("choose a folder you may write to"))]
-    OutNotWritable {
-        /// As typed.
-        path: PathBuf,
-        /// The system's reason.
-        reason: io::Error,
-    },
+    #[error("--out: {}", causes(.0))]
+    #[diagnostic(help("choose a folder you may write to, or a name that is still free"))]
+    Out(#[from] ReportError),
     /// The threads cannot be started.
     #[error("--threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+impl From<ReportError> for Failure {
+    fn from(error: ReportError) -> Self {
+        Failure::Input(InputError::Out(error))
+    }
+}
+
+/// An error with everything that led to it, on one line.
+fn causes(error: &dyn std::error::Error) -> String {
+    let chain = std::iter::successors(error.source(), |cause| cause.source());
+    chain.fold(error.to_string(), |text, cause| format!("{text}: {cause}"))
 }
 
 impl Failure {
@@ -95,7 +96,7 @@ impl Failure {
         match self {
             Failure::Scene(scene) => scene.print(),
             Failure::Input(error) => eprintln!("{:?}", Report::new(error)),
-            Failure::Solver(error) => eprintln!("{:?}", Report::msg(error)),
+            Failure::Run(error) => eprintln!("{:?}", Report::msg(error)),
             Failure::Interrupted | Failure::Closed => {}
         }
     }
@@ -104,7 +105,8 @@ impl Failure {
     pub fn exit_status(&self) -> u8 {
         match self {
             Failure::Scene(_) | Failure::Input(_) => 2,
-            Failure::Solver(_) => 3,
+            Failure::Run(error) if error.is_input() => 2,
+            Failure::Run(_) => 3,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
         }

@@ -7,6 +7,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use gearwear::pipeline::Observer;
+use gearwear::plan::StageKind;
+use gearwear::simulation::wear_run;
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// Parts of the bar.
@@ -49,17 +51,20 @@ impl Progress {
 }
 
 impl Observer for Progress {
-    fn stage(&self, name: &str) {
+    fn stage(&self, kind: StageKind) {
+        let name = kind.name().to_owned();
         match &self.display {
             Display::Quiet => {}
-            Display::Log(stage) => log_end(stage, Some((name.to_owned(), Instant::now()))),
+            Display::Log(stage) => log_end(stage, Some((name, Instant::now()))),
             Display::Bar(bar) => {
                 bar.reset();
-                bar.set_message(name.to_owned());
+                bar.set_message(name);
             }
         }
     }
+}
 
+impl wear_run::Progress for Progress {
     fn progress(&self, done: f64, total: f64) {
         if let Display::Bar(bar) = &self.display
             && total > 0.0

@@ -1,14 +1,15 @@
 //! `gearwear run`: the wear simulation of a scene.
 
-use std::fs;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
 
-use gearwear::pipeline::{self, Request};
-use gearwear::plan::Plan;
-use gearwear::simulation::record::{RunRecord, StopReason};
+use gearwear::pipeline::{self, Observer};
+use gearwear::plan::{Plan, StageKind};
+use gearwear::report::{self, ReportError};
+use gearwear::simulation::record::{RunRecord, StageTime, StopReason};
 
 use super::failure::{Failure, InputError};
 use super::progress::Progress;
@@ -37,24 +38,21 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let resolved = scene_source::resolve(&args.scene)?;
     warn(&resolved.warnings);
     let plan = Plan::of(&resolved.scene);
-    prepare(&args.out)?;
+    report::writable(&args.out)?;
     // No number of threads (0) means all cores.
     let threads = args.threads.map_or(0, NonZeroUsize::get);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(InputError::from)?;
 
     let interrupted = watch_for_interrupt();
     let progress = Progress::new(args.quiet, Arc::clone(&interrupted));
-    let request = Request { resolved: &resolved, plan: &plan, out: &args.out };
-    let record = pool.install(|| pipeline::run(&request, &progress));
+    let done = pool.install(|| -> Result<RunRecord, Failure> {
+        let mut record = pipeline::run(&resolved, &plan, &progress)?;
+        write(&mut record, &args.out, &progress)?;
+        Ok(record)
+    });
     progress.finish();
-    let record = record.map_err(|error| {
-        if interrupted.load(Ordering::Relaxed) {
-            eprintln!("interrupted before anything was finished: {error}");
-            Failure::Interrupted
-        } else {
-            Failure::Solver(error)
-        }
-    })?;
+    let record = done?;
+    warn(&record.summary.warnings[resolved.warnings.len()..]);
     if !args.quiet {
         let report = args.out.join("report.html");
         stdout::print(&format!("{}report: {}\n", figures::table(&record.summary), report.display()))?;
@@ -68,14 +66,16 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-/// Makes the output folder if need be, and makes sure that it can be written, before any work starts.
-fn prepare(out: &Path) -> Result<(), InputError> {
-    if out.exists() && !out.is_dir() {
-        return Err(InputError::OutIsAFile { path: out.to_owned() });
-    }
-    fs::create_dir_all(out)
-        .and_then(|()| tempfile::tempfile_in(out).map(drop))
-        .map_err(|reason| InputError::OutNotWritable { path: out.to_owned(), reason })
+/// The last stage: the output folder. Its own time is in the summary, which is therefore written last.
+fn write(record: &mut RunRecord, out: &Path, progress: &Progress) -> Result<(), ReportError> {
+    progress.stage(StageKind::Report);
+    let start = Instant::now();
+    report::write_data_and_page(record, out)?;
+    let wall_s = start.elapsed().as_secs_f64();
+    record.summary.stages.push(StageTime { name: StageKind::Report.name().to_owned(), wall_s });
+    record.summary.wall_s += wall_s;
+    report::write_summary(&record.summary, out)?;
+    Ok(())
 }
 
 /// A flag that the first Ctrl-C sets; a second one ends the program at once.

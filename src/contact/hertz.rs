@@ -46,10 +46,7 @@ pub fn contact_modulus_mpa(material: &PerGear<Material>) -> f64 {
 /// The closed-form contact of two flanks at `position_mm`, flattening measured to the teeth's centre lines.
 pub fn flattening(geometry: &dyn ConjugateFlanks, material: &PerGear<Material>, position_mm: f64) -> Flattening {
     Flattening {
-        contact: HertzLine::of_relative_radius(
-            geometry.relative_radius_mm(position_mm),
-            contact_modulus_mpa(material),
-        ),
+        contact: HertzLine::of_relative_radius(geometry.relative_radius_mm(position_mm), contact_modulus_mpa(material)),
         bodies: Gear::BOTH.map(|gear| Body {
             young_modulus_mpa: material[gear].young_modulus_mpa,
             poisson_ratio: material[gear].poisson_ratio,
@@ -95,12 +92,7 @@ impl<'a> ClosedFormPair<'a> {
 }
 
 impl ContactSurface for Hertz {
-    fn pair<'a>(
-        &self,
-        flanks: Flanks<'a>,
-        position_mm: f64,
-        cell: Option<PositionCell>,
-    ) -> Box<dyn PairContact + 'a> {
+    fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
         let closed_form = ClosedFormPair::new(flanks, &self.material, position_mm);
         let extent = Window::new(flanks, position_mm, f64::INFINITY);
         let widest = closed_form.flattening.contact.loaded(2.0 * self.expected_line_load_n_per_mm).half_width_mm;

@@ -27,12 +27,7 @@ pub struct HertzMean {
 }
 
 impl ContactSurface for HertzMean {
-    fn pair<'a>(
-        &self,
-        flanks: Flanks<'a>,
-        position_mm: f64,
-        cell: Option<PositionCell>,
-    ) -> Box<dyn PairContact + 'a> {
+    fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
         Box::new(HertzMeanPair {
             closed_form: ClosedFormPair::new(flanks, &self.material, position_mm),
             passed: cell.map(|cell| PerGear::from_fn(|gear| PassedPoints::new(flanks, gear, cell))),
@@ -68,7 +63,8 @@ impl PassedPoints {
         let last = (grid.place(a.max(b)).index + 1).min(grid.len() - 1);
         let specific_sliding = (first_point..=last)
             .map(|i| {
-                let begin = if i == 0 { geometry.position_at_mm(gear, grid.coordinate_mm[0]) } else { end_of_share(i - 1) };
+                let begin =
+                    if i == 0 { geometry.position_at_mm(gear, grid.coordinate_mm[0]) } else { end_of_share(i - 1) };
                 let end = end_of_share(i);
                 let (from, to) = (begin.min(end).max(cell.lower_mm), begin.max(end).min(cell.upper_mm));
                 if from < to { geometry.sliding_mm(from, to) / grid.share_mm(i) } else { 0.0 }

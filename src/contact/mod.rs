@@ -108,12 +108,7 @@ pub trait PairContact: Send {
 /// A model of the surfaces in contact.
 pub trait ContactSurface: Sync {
     /// Prepares a tooth pair with its theoretical contact point at `position_mm`; with a `cell`, its wear is collected.
-    fn pair<'a>(
-        &self,
-        flanks: Flanks<'a>,
-        position_mm: f64,
-        cell: Option<PositionCell>,
-    ) -> Box<dyn PairContact + 'a>;
+    fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a>;
 
     /// Approach of plain involutes under a line load at `position_mm`, away from the tip edges.
     fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64;

@@ -10,12 +10,7 @@
 use std::ops::Range;
 
 use super::{Flanks, PositionCell};
-use crate::gear::{
-    Gear, PerGear,
-    conjugate::ConjugateFlanks,
-    flank::FlankGrid,
-    involute::TangentFramePoint,
-};
+use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid, involute::TangentFramePoint};
 
 /// Removed material of one flank at samples between its points.
 #[derive(Debug, Clone, Default)]
@@ -97,7 +92,8 @@ impl Strip {
         let grid = flanks.grid.pinion;
         let here = grid.place(flanks.geometry.contact_coordinate_mm(Gear::Pinion, position_mm)).index;
         let length = window.upper_mm - window.lower_mm;
-        let intervals = ((length / (POINTS_PER_SAMPLE * (grid.arc_mm[here + 1] - grid.arc_mm[here]))).ceil() as usize).max(8);
+        let intervals =
+            ((length / (POINTS_PER_SAMPLE * (grid.arc_mm[here + 1] - grid.arc_mm[here]))).ceil() as usize).max(8);
         let spacing_mm = length / intervals as f64;
         let mut strip = Self {
             window,
@@ -122,7 +118,8 @@ impl Strip {
     pub fn gap_mm(&self, removed_mm: PerGear<&[f64]>, gap_mm: &mut Vec<f64>) {
         let [pinion, wheel] = Gear::BOTH.map(|gear| self.interpolation[gear].of(removed_mm[gear], 0));
         gap_mm.resize(self.geometric_gap_mm.len(), 0.0);
-        for (((gap, geometric), pinion), wheel) in gap_mm.iter_mut().zip(&self.geometric_gap_mm).zip(pinion).zip(wheel) {
+        for (((gap, geometric), pinion), wheel) in gap_mm.iter_mut().zip(&self.geometric_gap_mm).zip(pinion).zip(wheel)
+        {
             *gap = geometric + pinion + wheel;
         }
     }
@@ -167,9 +164,8 @@ impl ObservedPoints {
         let last = (place(upper + passed) + 1).min(tip).max(first_point);
 
         let samples = first_point - 1..=(last + 1).min(tip);
-        let mut at: Vec<TangentFramePoint> = samples
-            .map(|i| geometry.in_tangent_frame(gear, grid.coordinate_mm[i], cell.position_mm))
-            .collect();
+        let mut at: Vec<TangentFramePoint> =
+            samples.map(|i| geometry.in_tangent_frame(gear, grid.coordinate_mm[i], cell.position_mm)).collect();
         let spacing_mm = (at[at.len() - 1].along_mm - at[0].along_mm) / (at.len() - 1) as f64;
         if last == tip {
             let along = at[at.len() - 1].along_mm + spacing_mm;

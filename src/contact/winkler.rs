@@ -35,12 +35,7 @@ pub struct Winkler {
 const FIRST_WINDOW: f64 = 1.25;
 
 impl ContactSurface for Winkler {
-    fn pair<'a>(
-        &self,
-        flanks: Flanks<'a>,
-        position_mm: f64,
-        cell: Option<PositionCell>,
-    ) -> Box<dyn PairContact + 'a> {
+    fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
         let radius_mm = flanks.geometry.relative_radius_mm(position_mm);
         let half_width =
             foundation::half_width_mm(self.foundation_mpa_per_mm, radius_mm, self.expected_line_load_n_per_mm);

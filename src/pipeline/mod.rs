@@ -1,49 +1,167 @@
-//! Carries out a plan.
+//! Carries out a plan, stage by stage, and hands back the record that reports are written from.
+//!
+//! This is the one way in which the program runs anything; the only clock it reads times the stages.
 
-use std::path::Path;
+mod drawing;
+mod error_estimates;
+mod recording;
 
-use crate::plan::Plan;
-use crate::scene::Resolved;
-use crate::simulation::record::RunRecord;
+use std::time::Instant;
 
-/// What is to be run.
-#[derive(Debug, Clone, Copy)]
-pub struct Request<'a> {
-    /// The scene.
-    pub resolved: &'a Resolved,
-    /// Its plan.
-    pub plan: &'a Plan,
-    /// The output folder.
-    pub out: &'a Path,
-}
+use crate::contact::{
+    ContactSurface,
+    foundation::matched_mpa_per_mm,
+    hertz::{self, Hertz},
+    hertz_mean::HertzMean,
+    settings::{Foundation, SurfaceKind},
+    winkler::Winkler,
+};
+use crate::gear::{GearPair, PairError};
+use crate::plan::{Plan, StageKind};
+use crate::reference::flattening::Flattening;
+use crate::scene::{Resolved, Scene};
+use crate::simulation::record::{ErrorSummary, RunRecord, StageTime, StopReason};
+use crate::simulation::wear_run::{Outcome, Progress, SimulationError, WearRun};
+use crate::stiffness::{StiffnessError, TeethSpring};
+use crate::wear::{WearLaw, archard::Archard};
 
 /// Told of progress; says whether to go on.
-pub trait Observer: Sync {
+pub trait Observer: Progress {
     /// A stage begins.
-    fn stage(&self, name: &str);
-    /// So much of the stage is done.
-    fn progress(&self, done: f64, total: f64);
-    /// Whether the user wants to stop.
-    fn interrupted(&self) -> bool;
+    fn stage(&self, kind: StageKind);
 }
 
-/// Why a run failed.
+/// Why a plan could not be carried out.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum RunError {
-    /// This stage cannot be carried out.
-    #[error("the stage {name} is not there yet")]
-    Stage {
-        /// Its name.
-        name: &'static str,
-    },
+    /// The pair cannot exist.
+    #[error(transparent)]
+    Pair(#[from] PairError),
+    /// Stiffness model and contact surface do not go together.
+    #[error(transparent)]
+    Stiffness(#[from] StiffnessError),
+    /// The solver failed.
+    #[error(transparent)]
+    Simulation(#[from] SimulationError),
 }
 
-/// Carries out the plan and writes the output folder.
+impl RunError {
+    /// Whether the scene is at fault, not the solver.
+    pub fn is_input(&self) -> bool {
+        matches!(self, RunError::Pair(_) | RunError::Stiffness(_) | RunError::Simulation(SimulationError::Stiffness(_)))
+    }
+}
+
+/// Times the stages and tells the observer of them.
+struct Stages<'a> {
+    observer: &'a dyn Observer,
+    times: Vec<StageTime>,
+}
+
+impl Stages<'_> {
+    fn run<T>(&mut self, kind: StageKind, work: impl FnOnce() -> T) -> T {
+        self.observer.stage(kind);
+        let start = Instant::now();
+        let result = work();
+        self.times.push(StageTime { name: kind.name().to_owned(), wall_s: start.elapsed().as_secs_f64() });
+        result
+    }
+}
+
+/// What a run is made of, beyond the scene's own data.
+struct Model<'a> {
+    scene: &'a Scene,
+    pair: &'a GearPair,
+    surface: &'a dyn ContactSurface,
+    teeth: &'a TeethSpring<'a>,
+    law: &'a dyn WearLaw,
+    line_load_n_per_mm: f64,
+    /// Hertz at the pitch point.
+    at_pitch: Flattening,
+    foundation_mpa_per_mm: Option<f64>,
+}
+
+impl Model<'_> {
+    /// The scene's own run.
+    fn wear_run(&self) -> WearRun<'_> {
+        WearRun {
+            pair: self.pair,
+            surface: self.surface,
+            teeth: self.teeth,
+            law: self.law,
+            line_load_n_per_mm: self.line_load_n_per_mm,
+            operation: &self.scene.operation,
+            numerics: self.scene.numerics,
+        }
+    }
+}
+
+/// Carries out `plan`, the report apart: that is left to the caller, who knows where it goes.
+///
+/// An interrupted run gives the record of what it had reached.
 ///
 /// # Errors
-/// A stage that fails.
-pub fn run(request: &Request, observer: &dyn Observer) -> Result<RunRecord, RunError> {
-    let kind = request.plan.stages[0].kind;
-    observer.stage(kind.name());
-    Err(RunError::Stage { name: kind.name() })
+/// [`RunError`].
+pub fn run(resolved: &Resolved, plan: &Plan, observer: &dyn Observer) -> Result<RunRecord, RunError> {
+    let start = Instant::now();
+    let scene = &resolved.scene;
+    let mut stages = Stages { observer, times: Vec::new() };
+
+    let pair = stages.run(StageKind::Geometry, || GearPair::new(&scene.pair))?;
+    let line_load_n_per_mm =
+        scene.operation.pinion_torque_n_mm / pair.path.involute.pinion.base_radius_mm / scene.pair.face_width_mm;
+    let at_pitch = hertz::flattening(&pair, &scene.material, pair.path.pitch_point_mm);
+    let foundation_mpa_per_mm = match (scene.contact.surface, scene.contact.foundation) {
+        (SurfaceKind::Winkler, Foundation::Given { foundation_mpa_per_mm }) => Some(foundation_mpa_per_mm),
+        (SurfaceKind::Winkler, Foundation::Matched(criterion)) => {
+            Some(stages.run(StageKind::ContactMatch, || matched_mpa_per_mm(criterion, &at_pitch, line_load_n_per_mm)))
+        }
+        (SurfaceKind::Hertz | SurfaceKind::HertzMean, _) => None,
+    };
+    let surface = surface(scene, foundation_mpa_per_mm, line_load_n_per_mm);
+    let spring = || TeethSpring::new(scene.stiffness, &pair, &scene.material, surface.as_ref(), line_load_n_per_mm);
+    let teeth =
+        if plan.has(StageKind::ToothStiffness) { stages.run(StageKind::ToothStiffness, spring) } else { spring() };
+    let law = Archard::new(&scene.wear);
+    let model = Model {
+        scene,
+        pair: &pair,
+        surface: surface.as_ref(),
+        teeth: &teeth,
+        law: &law,
+        line_load_n_per_mm,
+        at_pitch,
+        foundation_mpa_per_mm,
+    };
+
+    let outcome = stages.run(StageKind::Simulation, || model.wear_run().run(observer))?;
+    let error = if plan.has(StageKind::ErrorEstimates) && outcome.stop == StopReason::Completed {
+        stages.run(StageKind::ErrorEstimates, || error_estimates::estimate(&model, &outcome, observer))?
+    } else {
+        ErrorSummary::not_estimated(not_estimated_because(&outcome))
+    };
+
+    let mut record = recording::record(resolved, plan, &model, &outcome, error)?;
+    record.summary.stages = stages.times;
+    record.summary.wall_s = start.elapsed().as_secs_f64();
+    Ok(record)
+}
+
+fn not_estimated_because(outcome: &Outcome) -> &'static str {
+    match outcome.stop {
+        StopReason::Completed => "numerics.error_estimate is false",
+        StopReason::Interrupted => "the run was interrupted",
+    }
+}
+
+fn surface(scene: &Scene, foundation_mpa_per_mm: Option<f64>, line_load_n_per_mm: f64) -> Box<dyn ContactSurface> {
+    match (scene.contact.surface, foundation_mpa_per_mm) {
+        (SurfaceKind::Winkler, Some(foundation_mpa_per_mm)) => {
+            Box::new(Winkler { foundation_mpa_per_mm, expected_line_load_n_per_mm: line_load_n_per_mm })
+        }
+        (SurfaceKind::HertzMean, _) => Box::new(HertzMean { material: scene.material }),
+        (SurfaceKind::Hertz, _) | (SurfaceKind::Winkler, None) => {
+            Box::new(Hertz { material: scene.material, expected_line_load_n_per_mm: line_load_n_per_mm })
+        }
+    }
 }

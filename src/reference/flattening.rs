@@ -102,10 +102,7 @@ mod tests {
         // Depths of the FZG type C teeth at C along the line of action: about half the tooth thickness.
         let body = |depth_mm| Body { young_modulus_mpa: 206e3, poisson_ratio: 0.3, depth_mm };
         let modulus = 206e3 / (1.0 - 0.09) / 2.0;
-        Flattening {
-            contact: HertzLine::new([13.9701, 20.9551], modulus).unwrap(),
-            bodies: [body(3.9), body(3.9)],
-        }
+        Flattening { contact: HertzLine::new([13.9701, 20.9551], modulus).unwrap(), bodies: [body(3.9), body(3.9)] }
     }
 
     #[test]

@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 use crate::gear::Gear;
-use crate::simulation::record::RunRecord;
+use crate::simulation::record::{RunRecord, Summary};
 
 /// What keeps a report from being written.
 #[derive(Debug, thiserror::Error)]
@@ -50,8 +50,9 @@ pub enum ReportError {
     },
 }
 
-/// Writes all files of `record` into `dir`, which is made if need be; returns their paths in the order written.
-pub fn write(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+/// Writes all files of `record` but `summary.json` into `dir`, which is made if need be; returns their paths in the order
+/// written.
+pub fn write_data_and_page(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
     let provenance = tables::Provenance::of(&record.summary);
     let flank = |gear: Gear| move |out: &mut dyn Write| tables::flank(out, provenance, &record.flanks[gear]);
@@ -63,8 +64,13 @@ pub fn write(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError
         place(dir, "profiles.csv", |out| tables::profiles(out, provenance, record))?,
         place(dir, "mesh_cycle.csv", |out| tables::mesh_cycle(out, provenance, &record.mesh_cycle))?,
         place(dir, "report.html", |out| out.write_all(html::page(record).as_bytes()))?,
-        place(dir, "summary.json", |out| summary::write(out, &record.summary))?,
     ])
+}
+
+/// Writes `summary.json` into `dir`, after everything else.
+pub fn write_summary(summary: &Summary, dir: &Path) -> Result<PathBuf, ReportError> {
+    create_folder(dir)?;
+    place(dir, "summary.json", |out| summary::write(out, summary))
 }
 
 /// Checks, before work starts, that files can be written into `dir`; leaves nothing behind that was not there.

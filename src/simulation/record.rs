@@ -241,6 +241,18 @@ pub struct ErrorSummary {
     pub how: ErrorSources,
 }
 
+impl ErrorSummary {
+    /// Nothing was estimated, for this reason.
+    pub fn not_estimated(reason: &str) -> Self {
+        let how = ErrorSources {
+            discretisation: format!("not estimated: {reason}"),
+            wear_step: format!("not estimated: {reason}"),
+            surface_model: format!("not estimated: {reason}"),
+        };
+        Self { how, ..Self::default() }
+    }
+}
+
 /// How the error estimates were obtained.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 #[allow(missing_docs, reason = "named as in ErrorSummary")]

@@ -26,9 +26,8 @@ const MEASURED: f64 = 0.8;
 pub fn theoretical_single_stiffness_n_per_mm_um(spec: &PairSpec) -> f64 {
     let (x1, x2) = (spec.gears.pinion.profile_shift, spec.gears.wheel.profile_shift);
     let base_helix = (spec.helix_angle_rad.sin() * spec.normal_pressure_angle_rad.cos()).asin();
-    let virtual_teeth = |gear: Gear| {
-        f64::from(spec.gears[gear].teeth) / (base_helix.cos().powi(2) * spec.helix_angle_rad.cos())
-    };
+    let virtual_teeth =
+        |gear: Gear| f64::from(spec.gears[gear].teeth) / (base_helix.cos().powi(2) * spec.helix_angle_rad.cos());
     let (z1, z2) = (virtual_teeth(Gear::Pinion), virtual_teeth(Gear::Wheel));
     let terms = [1.0, 1.0 / z1, 1.0 / z2, x1, x1 / z1, x2, x2 / z2, x1 * x1, x2 * x2];
     1.0 / C.iter().zip(terms).map(|(c, term)| c * term).sum::<f64>()

@@ -105,10 +105,8 @@ mod tests {
                     continue;
                 }
                 assert!((reached - path.end_mm).abs() < 1e-7);
-                let pairs: f64 = positions
-                    .iter()
-                    .map(|p| p.pairs.len() as f64 * (p.cell.upper_mm - p.cell.lower_mm))
-                    .sum();
+                let pairs: f64 =
+                    positions.iter().map(|p| p.pairs.len() as f64 * (p.cell.upper_mm - p.cell.lower_mm)).sum();
                 // ∫ pairs dξ over A–E = Σ over offsets of the common length.
                 let expected: f64 = (-3..=3).map(|k: i32| (10.0 * ratio - 10.0 * f64::from(k.abs())).max(0.0)).sum();
                 // A zone shorter than the distance of positions (at ε 1.001 and 1.999) may be lost to its neighbour.

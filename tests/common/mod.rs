@@ -133,9 +133,7 @@ impl Scene {
     pub fn surface(&self) -> Box<dyn ContactSurface> {
         let expected_line_load_n_per_mm = self.line_load();
         match self.surface {
-            "winkler" => {
-                Box::new(Winkler { foundation_mpa_per_mm: self.foundation(), expected_line_load_n_per_mm })
-            }
+            "winkler" => Box::new(Winkler { foundation_mpa_per_mm: self.foundation(), expected_line_load_n_per_mm }),
             "hertz" => Box::new(Hertz { material: steel(), expected_line_load_n_per_mm }),
             "hertz-mean" => Box::new(HertzMean { material: steel() }),
             other => panic!("no surface {other}"),
@@ -147,10 +145,8 @@ impl Scene {
         let pair = pair(&self.pair);
         let (surface, line_load) = (self.surface(), self.line_load());
         let teeth = TeethSpring::new(self.stiffness, &pair, &steel(), surface.as_ref(), line_load);
-        let law = Archard::new(&WearSettings {
-            coefficient_mm2_per_n: self.coefficient_mm2_per_n,
-            severe: self.severe,
-        });
+        let law =
+            Archard::new(&WearSettings { coefficient_mm2_per_n: self.coefficient_mm2_per_n, severe: self.severe });
         WearRun {
             pair: &pair,
             surface: surface.as_ref(),

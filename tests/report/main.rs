@@ -4,7 +4,7 @@ mod plausible;
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use gearwear::report::{self, ReportError, tables};
 use gearwear::simulation::record::RunRecord;
@@ -22,7 +22,7 @@ const FILES: [&str; 8] = [
 
 fn written(record: &RunRecord) -> tempfile::TempDir {
     let dir = tempfile::tempdir().unwrap();
-    report::write(record, dir.path()).unwrap();
+    write_all(record, dir.path()).unwrap();
     dir
 }
 
@@ -33,7 +33,12 @@ fn names_in(dir: &Path) -> Vec<String> {
     names
 }
 
-/// Header and rows, the lines with `#` left out.
+/// Everything a run leaves behind.
+fn write_all(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+    let mut paths = report::write_data_and_page(record, dir)?;
+    paths.push(report::write_summary(&record.summary, dir)?);
+    Ok(paths)
+}
 fn read_csv(dir: &Path, name: &str) -> (Vec<String>, Vec<Vec<String>>) {
     let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(dir.join(name)).unwrap();
     let header = reader.headers().unwrap().iter().map(String::from).collect();
@@ -51,7 +56,7 @@ fn column(dir: &Path, name: &str, wanted: &str) -> Vec<f64> {
 fn all_files_are_there_and_nothing_else() {
     let dir = tempfile::tempdir().unwrap();
     let out = dir.path().join("new").join("folder");
-    let paths = report::write(&plausible::run(), &out).unwrap();
+    let paths = write_all(&plausible::run(), &out).unwrap();
     assert_eq!(names_in(&out), FILES);
     let told: BTreeSet<_> = paths.into_iter().collect();
     assert_eq!(told, FILES.iter().map(|name| out.join(name)).collect());
@@ -60,7 +65,7 @@ fn all_files_are_there_and_nothing_else() {
 #[test]
 fn writing_again_replaces_the_files() {
     let dir = written(&plausible::run());
-    report::write(&plausible::interrupted(), dir.path()).unwrap();
+    write_all(&plausible::interrupted(), dir.path()).unwrap();
     assert_eq!(names_in(dir.path()), FILES);
     assert!(read_csv(dir.path(), "history.csv").1.is_empty());
 }
@@ -312,5 +317,5 @@ fn a_file_in_the_way_is_named() {
     fs::write(&file, "").unwrap();
     assert!(matches!(report::writable(&file), Err(ReportError::NotAFolder { path }) if path == file));
     assert!(matches!(report::writable(&file.join("out")), Err(ReportError::CreateFolder { .. })));
-    assert!(matches!(report::write(&plausible::run(), &file), Err(ReportError::NotAFolder { .. })));
+    assert!(matches!(write_all(&plausible::run(), &file), Err(ReportError::NotAFolder { .. })));
 }

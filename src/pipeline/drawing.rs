@@ -1,0 +1,66 @@
+//! The pair in mesh, to scale, in contact at the pitch point.
+//!
+//! The pinion's axis is the origin and the wheel's lies on +y; the pinion turns anticlockwise and pushes with the
+//! anticlockwise flanks of its teeth, so that the line of action runs from T1 up to the left:
+//!
+//! ```text
+//! T1 = r_b1 (sin α_wt, cos α_wt)        direction (−cos α_wt, sin α_wt)
+//! ```
+
+use nalgebra::{Rotation2, Vector2};
+
+use crate::gear::{Gear, GearPair, PerGear, outline::polyline};
+use crate::simulation::record::{GearCircles, PairDrawing};
+
+/// Points on each fillet and flank.
+const POINTS_PER_PIECE: usize = 20;
+
+/// Draws `pair`.
+pub(super) fn draw(pair: &GearPair) -> PairDrawing {
+    let axis = PerGear { pinion: [0.0, 0.0], wheel: [0.0, pair.spec.centre_distance_mm] };
+    let (sin, cos) = pair.working_pressure_angle_rad.sin_cos();
+    let t1 = pair.path.involute.pinion.base_radius_mm * Vector2::new(sin, cos);
+    let on_line = |position_mm: f64| {
+        let point = t1 + position_mm * Vector2::new(-cos, sin);
+        [point.x, point.y]
+    };
+    PairDrawing {
+        outline: PerGear::from_fn(|gear| outline_in_place(pair, gear)),
+        axis,
+        bore_radius_mm: PerGear::from_fn(|gear| pair.spec.gears[gear].bore_diameter_mm.map(|d| 0.5 * d)),
+        circles_mm: PerGear::from_fn(|gear| GearCircles {
+            base: pair.teeth[gear].involute.base_radius_mm,
+            working_pitch: pair.working_pitch_radius_mm(gear),
+            tip: pair.teeth[gear].tip_radius_mm,
+        }),
+        line_of_action: [on_line(0.0), on_line(pair.path.line_of_action_mm)],
+        path_of_contact: in_order_of_contact(pair)
+            .into_iter()
+            .map(|(name, position_mm)| (name.to_owned(), on_line(position_mm)))
+            .collect(),
+    }
+}
+
+/// Names and positions of A–E as the contact passes them.
+fn in_order_of_contact(pair: &GearPair) -> Vec<(&'static str, f64)> {
+    let mut points: Vec<_> = ["A", "B", "C", "D", "E"].into_iter().zip(pair.path.points_mm()).collect();
+    points.sort_by(|a, b| a.1.total_cmp(&b.1));
+    points
+}
+
+/// The outline turned until a working flank crosses the line of centres on the pitch circle.
+fn outline_in_place(pair: &GearPair, gear: Gear) -> Vec<[f64; 2]> {
+    let tooth = &pair.teeth[gear];
+    let to_pitch_point = Rotation2::new(tooth.space_half_angle_rad(pair.working_pitch_radius_mm(gear)));
+    polyline(tooth, POINTS_PER_PIECE)
+        .into_iter()
+        .map(|[x, y]| {
+            let p = to_pitch_point * Vector2::new(x, y);
+            match gear {
+                Gear::Pinion => [p.x, p.y],
+                // The wheel looks down on the pinion: turned by half a turn about its own axis.
+                Gear::Wheel => [-p.x, pair.spec.centre_distance_mm - p.y],
+            }
+        })
+        .collect()
+}

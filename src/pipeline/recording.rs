@@ -1,0 +1,269 @@
+//! From what a run found, in the program's units, to the record, in those of the output files.
+
+use super::{Model, RunError, drawing};
+use crate::contact::settings::SurfaceKind;
+use crate::gear::{Gear, GearPair, PerGear};
+use crate::plan::Plan;
+use crate::scene::Resolved;
+use crate::simulation::figures::WearFigures;
+use crate::simulation::record::{
+    ContactSummary, CycleSummary, ErrorSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, MeshCycleRow,
+    PathPoints, RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearSummary, WorkSummary,
+};
+use crate::simulation::wear_run::{Outcome, Snapshot};
+use crate::stiffness::settings::StiffnessSettings;
+use crate::working_cycle::CycleObservation;
+
+const UM_PER_MM: f64 = 1e3;
+/// Pitch point index of the contract: on a flank of this many points.
+const INDEX_POINTS: f64 = 750.0;
+/// Euler's method oscillates where one step more than doubles back on a spring's wear: Δn k (K/H) s > 2.
+const STABILITY_LIMIT: f64 = 2.0;
+/// Wear beyond this part of the module is no longer small against the tooth.
+const SMALL_WEAR_MODULES: f64 = 0.05;
+
+/// The record of a run, without the times of its stages.
+pub(super) fn record(
+    resolved: &Resolved,
+    plan: &Plan,
+    model: &Model<'_>,
+    outcome: &Outcome,
+    error: ErrorSummary,
+) -> Result<RunRecord, RunError> {
+    let (scene, pair) = (model.scene, model.pair);
+    let mut warnings = resolved.warnings.clone();
+    warnings.extend(stability_warning(model, outcome));
+    warnings.extend(deep_wear_warning(pair, outcome));
+    let reached = outcome.worn.revolutions;
+    let summary = Summary {
+        title: scene.title.clone(),
+        program_version: env!("CARGO_PKG_VERSION").to_owned(),
+        scene_hash: resolved.scene_hash(),
+        stopped: outcome.stop,
+        hours: scene.operation.hours(reached),
+        revolutions: reached,
+        stages: Vec::new(),
+        left_out: plan
+            .left_out
+            .iter()
+            .map(|stage| StageLeftOut { name: stage.kind.name().to_owned(), reason: stage.reason.clone() })
+            .collect(),
+        wall_s: 0.0,
+        geometry: geometry(pair),
+        contact: contact(model),
+        stiffness: stiffness(model)?,
+        new: cycle(pair, &outcome.new.cycle),
+        worn: cycle(pair, &outcome.worn.cycle),
+        pinion: wear(model, outcome, Gear::Pinion),
+        wheel: wear(model, outcome, Gear::Wheel),
+        error,
+        work: WorkSummary {
+            wear_steps: outcome.wear_steps,
+            mesh_cycles: outcome.work.mesh_cycles,
+            equilibria: outcome.work.equilibria,
+            newton_iterations: outcome.work.newton_iterations,
+            pair_evaluations: outcome.work.pair_evaluations,
+        },
+        warnings,
+    };
+    Ok(RunRecord {
+        summary,
+        scene_toml: resolved.to_toml(),
+        flanks: PerGear::from_fn(|gear| flank(model, outcome, gear)),
+        history: outcome.snapshots.iter().map(|snapshot| history_row(model, outcome, snapshot)).collect(),
+        mesh_cycle: mesh_cycle(outcome),
+        drawing: drawing::draw(pair),
+    })
+}
+
+fn path_points(values: [f64; 5]) -> PathPoints {
+    let [a, b, c, d, e] = values;
+    PathPoints { A: a, B: b, C: c, D: d, E: e }
+}
+
+fn geometry(pair: &GearPair) -> GeometrySummary {
+    let pinion = &pair.teeth.pinion;
+    let (base, tip) = (pinion.involute.base_radius_mm, pinion.tip_radius_mm);
+    GeometrySummary {
+        transverse_contact_ratio: pair.path.contact_ratio(),
+        overlap_ratio: pair.overlap_ratio(),
+        base_pitch_mm: pair.path.base_pitch_mm,
+        working_pressure_angle_deg: pair.working_pressure_angle_rad.to_degrees(),
+        curvature_radius_mm: path_points(pair.path.points_mm()),
+        pitch_point_index: INDEX_POINTS * (pair.working_pitch_radius_mm(Gear::Pinion) - base) / (tip - base),
+        line_of_action_mm: pair.path.line_of_action_mm,
+        backlash_mm: pair.backlash_mm,
+        gears: PerGear::from_fn(|gear| {
+            let tooth = &pair.teeth[gear];
+            GearSummary {
+                teeth: tooth.teeth,
+                reference_diameter_mm: 2.0 * tooth.reference_radius_mm,
+                base_diameter_mm: 2.0 * tooth.involute.base_radius_mm,
+                working_pitch_diameter_mm: 2.0 * pair.working_pitch_radius_mm(gear),
+                tip_diameter_mm: 2.0 * tooth.tip_radius_mm,
+                root_diameter_mm: 2.0 * tooth.root_radius_mm,
+                root_form_diameter_mm: 2.0 * tooth.root_form_radius_mm,
+                start_of_active_profile_diameter_mm: 2.0 * pair.active_start_radius_mm(gear),
+                tooth_thickness_mm: tooth.thickness_mm(tooth.reference_radius_mm),
+                tip_thickness_mm: tooth.thickness_mm(tooth.tip_radius_mm),
+                tip_clearance_mm: pair.tip_clearance_mm[gear],
+                undercut: tooth.undercut,
+            }
+        }),
+    }
+}
+
+fn contact(model: &Model<'_>) -> ContactSummary {
+    let at_pitch = model.at_pitch.contact.loaded(model.line_load_n_per_mm);
+    ContactSummary {
+        surface: match model.scene.contact.surface {
+            SurfaceKind::Winkler => "winkler",
+            SurfaceKind::Hertz => "hertz",
+            SurfaceKind::HertzMean => "hertz-mean",
+        }
+        .to_owned(),
+        line_load_N_per_mm: model.line_load_n_per_mm,
+        foundation_MPa_per_mm: model.foundation_mpa_per_mm,
+        hertz_half_width_mm: at_pitch.half_width_mm,
+        hertz_peak_pressure_MPa: at_pitch.peak_pressure_mpa,
+    }
+}
+
+fn stiffness(model: &Model<'_>) -> Result<StiffnessSummary, RunError> {
+    let at = model.pair.path.pitch_point_mm;
+    Ok(StiffnessSummary {
+        model: match model.scene.stiffness {
+            StiffnessSettings::Constant { .. } => "constant",
+            StiffnessSettings::WeberBanaschek => "weber-banaschek",
+            StiffnessSettings::Iso6336 => "iso6336",
+        }
+        .to_owned(),
+        reference_line_load_N_per_mm: model.teeth.reference_line_load_n_per_mm,
+        pair_at_pitch_N_per_mm_um: model.teeth.pair_n_per_mm2(at)? / UM_PER_MM,
+        teeth_at_pitch_N_per_mm_um: model.teeth.n_per_mm2(at)? / UM_PER_MM,
+        split_remainder_at_half_load: model.teeth.split_remainder(at, 0.5),
+    })
+}
+
+fn cycle(pair: &GearPair, cycle: &CycleObservation) -> CycleSummary {
+    let (min, max) = cycle.transmission_error_mm();
+    CycleSummary {
+        peak_pressure_MPa: cycle.peak_pressure_mpa(),
+        pitch_pressure_MPa: cycle
+            .nearest(pair.path.pitch_point_mm)
+            .map_or(0.0, |position| position.footprint.peak_pressure_mpa),
+        transmission_error_um: RangeSummary {
+            min: min * UM_PER_MM,
+            max: max * UM_PER_MM,
+            peak_to_peak: (max - min) * UM_PER_MM,
+        },
+    }
+}
+
+fn wear(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> WearSummary {
+    let (scene, pair) = (model.scene, model.pair);
+    let figures = WearFigures::at(pair, gear, outcome, &outcome.worn);
+    let volume_mm3 = figures.area_mm2 * scene.pair.face_width_mm * f64::from(scene.pair.gears[gear].teeth);
+    WearSummary {
+        peak_wear_um: figures.peak_mm * UM_PER_MM,
+        peak_wear_radius_mm: figures.peak_radius_mm,
+        root_wear_um: figures.root_mm * UM_PER_MM,
+        pitch_wear_um: figures.pitch_mm * UM_PER_MM,
+        worn_volume_mm3: volume_mm3,
+        // kg/m³ are 1e-3 mg/mm³.
+        worn_mass_mg: volume_mm3 * scene.material[gear].density_kg_per_m3 * 1e-3,
+    }
+}
+
+fn flank(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> FlankRecord {
+    let pair = model.pair;
+    let involute = pair.teeth[gear].involute;
+    let um = |values: &[f64]| values.iter().map(|value| value * UM_PER_MM).collect::<Vec<_>>();
+    let rho = &outcome.grid[gear].coordinate_mm;
+    FlankRecord {
+        radius_mm: rho.iter().map(|&rho| involute.radius_mm(rho)).collect(),
+        roll_angle_deg: rho.iter().map(|&rho| involute.roll_angle_rad(rho).to_degrees()).collect(),
+        width_mm: 0.5 * model.scene.pair.face_width_mm,
+        removed_um: um(&outcome.modification_mm[gear]),
+        sliding_mm_per_mesh: outcome.new.cycle.sliding_mm[gear].clone(),
+        wear_um: um(&outcome.worn.wear_mm[gear]),
+        pressure_new_MPa: outcome.new.cycle.pressure_mpa[gear].clone(),
+        pressure_worn_MPa: outcome.worn.cycle.pressure_mpa[gear].clone(),
+        snapshot_wear_um: outcome.snapshots.iter().map(|snapshot| um(&snapshot.wear_mm[gear])).collect(),
+        path_point_radius_mm: path_points(pair.path.points_mm().map(|position| pair.radius_at_mm(gear, position))),
+    }
+}
+
+fn history_row(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> HistoryRow {
+    let pair = model.pair;
+    let pinion = WearFigures::at(pair, Gear::Pinion, outcome, snapshot);
+    let wheel = WearFigures::at(pair, Gear::Wheel, outcome, snapshot);
+    let (min, max) = snapshot.cycle.transmission_error_mm();
+    let rate = outcome.grid.pinion.value_at(&snapshot.depth_per_mesh_mm.pinion, pair.active_start_rho_mm(Gear::Pinion));
+    HistoryRow {
+        hours: model.scene.operation.hours(snapshot.revolutions),
+        revolutions: snapshot.revolutions,
+        pinion_peak_wear_um: pinion.peak_mm * UM_PER_MM,
+        pinion_root_wear_um: pinion.root_mm * UM_PER_MM,
+        pinion_pitch_wear_um: pinion.pitch_mm * UM_PER_MM,
+        wheel_peak_wear_um: wheel.peak_mm * UM_PER_MM,
+        peak_pressure_MPa: snapshot.cycle.peak_pressure_mpa(),
+        transmission_error_peak_to_peak_um: (max - min) * UM_PER_MM,
+        pinion_peak_wear_radius_mm: pinion.peak_radius_mm,
+        pinion_sap_wear_um: pinion.active_start_mm * UM_PER_MM,
+        pinion_sap_wear_rate_um_per_Mrev: rate * UM_PER_MM * 1e6,
+    }
+}
+
+fn mesh_cycle(outcome: &Outcome) -> Vec<MeshCycleRow> {
+    let positions = outcome.new.cycle.positions.iter().zip(&outcome.worn.cycle.positions);
+    positions
+        .map(|(new, worn)| MeshCycleRow {
+            position_mm: new.position_mm,
+            load_share_new: new.load_share,
+            load_share_worn: worn.load_share,
+            peak_pressure_new_MPa: new.footprint.peak_pressure_mpa,
+            peak_pressure_worn_MPa: worn.footprint.peak_pressure_mpa,
+            half_width_mm: new.footprint.half_width_mm,
+            transmission_error_new_um: new.transmission_error_mm * UM_PER_MM,
+            transmission_error_worn_um: worn.transmission_error_mm * UM_PER_MM,
+            temperature_rise_K: None,
+            half_width_worn_mm: worn.footprint.half_width_mm,
+        })
+        .collect()
+}
+
+/// Warns where the wear step is too long for Euler's method on springs, and names the longest that is not.
+fn stability_warning(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
+    let foundation = model.foundation_mpa_per_mm?;
+    let step = model.scene.numerics.step_revolutions.min(model.scene.operation.pinion_revolutions);
+    let meshes = PerGear { pinion: step, wheel: step * model.pair.wheel_turns_per_pinion_turn() };
+    let greatest = |gear: Gear| outcome.new.cycle.sliding_mm[gear].iter().copied().fold(0.0, f64::max);
+    let number = Gear::BOTH
+        .map(|gear| meshes[gear] * model.law.greatest_coefficient_mm2_per_n() * foundation * greatest(gear))
+        .into_iter()
+        .fold(0.0, f64::max);
+    (number > STABILITY_LIMIT).then(|| {
+        let severe = if model.scene.wear.severe.is_some() { " where wear is severe" } else { "" };
+        format!(
+            "numerics.step: with {step:.4} revolutions a step the wear may oscillate{severe} (Δn·k·(K/H)·s = {number:.2} > 2); \
+             the longest safe step is {:.4} revolutions",
+            step * STABILITY_LIMIT / number
+        )
+    })
+}
+
+/// Warns where so much is worn that the nominal tooth no longer stands for the worn one.
+fn deep_wear_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
+    let deepest = Gear::BOTH
+        .map(|gear| outcome.worn.wear_mm[gear].iter().copied().fold(0.0, f64::max))
+        .into_iter()
+        .fold(0.0, f64::max);
+    (deepest > SMALL_WEAR_MODULES * pair.spec.normal_module_mm).then(|| {
+        format!(
+            "the greatest wear, {:.1} µm, is more than {SMALL_WEAR_MODULES} modules: tooth stiffness and path of contact \
+             are still those of the unworn tooth, and the result is no longer reliable",
+            deepest * UM_PER_MM
+        )
+    })
+}
