@@ -105,6 +105,7 @@ impl ContactSurface for Hertz {
             strip_load: 0.0,
             half_width_mm: 0.0,
             pressure: Vec::new(),
+            greatest_pressure: Vec::new(),
             contact_fraction: Vec::new(),
         };
         pair.look();
@@ -129,6 +130,7 @@ struct HertzPair<'a> {
     /// a(w*).
     half_width_mm: f64,
     pressure: Vec<f64>,
+    greatest_pressure: Vec<f64>,
     contact_fraction: Vec<f64>,
 }
 
@@ -159,22 +161,30 @@ impl PairContact for HertzPair<'_> {
         let Some(observed) = &self.observed else { return Sweep::NOTHING };
         let points = &observed[gear];
         let (load, a) = (self.strip_load, self.half_width_mm);
-        self.pressure.clear();
-        self.contact_fraction.clear();
-        if load > 0.0 {
-            let [lower, upper] = points.shift_to_ends_mm;
-            for point in &points.at[1..points.at.len() - 1] {
-                let (from, to) = ((point.along_mm + lower) / a, (point.along_mm + upper) / a);
-                self.pressure.push(load * (carried_below(to) - carried_below(from)) / ((to - from) * a));
-                self.contact_fraction.push((to.clamp(-1.0, 1.0) - from.clamp(-1.0, 1.0)) / (to - from));
+        let ellipse = self.closed_form.flattening.contact.loaded(load);
+        // Mean and greatest pressure and part in contact while a point moves by the given shifts.
+        let felt = |along: f64, shift: [f64; 2]| {
+            let [from, to] = shift.map(|shift| (along + shift) / a);
+            if load > 0.0 && from != to {
+                let carried = load * (carried_below(to) - carried_below(from));
+                let nearest = if from * to <= 0.0 { 0.0 } else { from.abs().min(to.abs()) };
+                let in_contact = to.clamp(-1.0, 1.0) - from.clamp(-1.0, 1.0);
+                (carried / ((to - from) * a), ellipse.pressure_mpa(nearest * a), in_contact / (to - from))
+            } else {
+                (0.0, 0.0, 0.0)
             }
-        } else {
-            self.pressure.resize(points.sliding_mm.len(), 0.0);
-            self.contact_fraction.resize(points.sliding_mm.len(), 0.0);
+        };
+        let samples = &points.at[1..points.at.len() - 1];
+        self.pressure.resize(samples.len(), 0.0);
+        self.greatest_pressure.resize(samples.len(), 0.0);
+        self.contact_fraction.resize(samples.len(), 0.0);
+        for (k, (point, shift)) in samples.iter().zip(points.shifts_to_ends_mm()).enumerate() {
+            (self.pressure[k], self.greatest_pressure[k], self.contact_fraction[k]) = felt(point.along_mm, shift);
         }
         Sweep {
             first_point: points.first_point,
             pressure_mpa: &self.pressure,
+            greatest_pressure_mpa: &self.greatest_pressure,
             sliding_mm: &points.sliding_mm,
             contact_fraction: &self.contact_fraction,
         }

@@ -109,6 +109,7 @@ impl PairContact for HertzMeanPair<'_> {
         Sweep {
             first_point: points.first_point,
             pressure_mpa: &self.pressure,
+            greatest_pressure_mpa: &self.pressure,
             sliding_mm: &self.sliding,
             contact_fraction: &self.contact_fraction,
         }

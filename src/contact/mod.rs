@@ -55,6 +55,8 @@ pub struct Sweep<'a> {
     pub first_point: usize,
     /// Pressure on each, averaged over the cell, MPa.
     pub pressure_mpa: &'a [f64],
+    /// Greatest pressure on each within the cell, MPa.
+    pub greatest_pressure_mpa: &'a [f64],
     /// How far each slides against the other flank while it faces it, mm.
     pub sliding_mm: &'a [f64],
     /// Part of that during which it is in contact, 0 to 1.
@@ -63,7 +65,8 @@ pub struct Sweep<'a> {
 
 impl Sweep<'_> {
     /// No point felt anything.
-    pub const NOTHING: Self = Self { first_point: 0, pressure_mpa: &[], sliding_mm: &[], contact_fraction: &[] };
+    pub const NOTHING: Self =
+        Self { first_point: 0, pressure_mpa: &[], greatest_pressure_mpa: &[], sliding_mm: &[], contact_fraction: &[] };
 }
 
 /// Where the contact is and how hard it presses.

@@ -145,7 +145,20 @@ pub struct ObservedPoints {
     /// faces it, mm.
     pub sliding_mm: Vec<f64>,
     /// How far the points move along the tangent from the cell's position to its lower and to its upper end, mm.
-    pub shift_to_ends_mm: [f64; 2],
+    shift_to_ends_mm: [f64; 2],
+    /// The points that an end of the mate's flank passes within the cell, or that face nothing.
+    partly_exposed: Vec<PartlyExposed>,
+}
+
+/// A point that faces the mate during part of the cell only.
+#[derive(Debug, Clone, Copy)]
+struct PartlyExposed {
+    /// Which one, counted from the first point.
+    sample: usize,
+    /// When it begins to face the mate, 0 to 1.
+    from: f64,
+    /// When it ends.
+    to: f64,
 }
 
 impl ObservedPoints {
@@ -173,14 +186,20 @@ impl ObservedPoints {
         }
         let sliding = geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
         let exposure = Exposure::new(flanks, gear, cell);
+        let (mut sliding_mm, mut partly_exposed) = (Vec::with_capacity(at.len()), Vec::new());
+        for (sample, (i, point)) in (first_point..=last).zip(&at[1..]).enumerate() {
+            let (from, to) = exposure.of(geometry, grid.coordinate_mm[i], point.along_mm);
+            sliding_mm.push(sliding * (to - from));
+            if from > 0.0 || to < 1.0 {
+                partly_exposed.push(PartlyExposed { sample, from, to });
+            }
+        }
         let middle = grid.coordinate_mm[first_point.midpoint(last)];
         Self {
             first_point,
             spacing_mm,
-            sliding_mm: (first_point..=last)
-                .zip(&at[1..])
-                .map(|(i, point)| sliding * exposure.of(geometry, grid.coordinate_mm[i], point.along_mm))
-                .collect(),
+            sliding_mm,
+            partly_exposed,
             at,
             shift_to_ends_mm: shift_to_ends_mm(geometry, gear, middle, cell),
         }
@@ -188,16 +207,27 @@ impl ObservedPoints {
 }
 
 impl ObservedPoints {
-    /// The samples that hold every point touching anywhere between `lower_mm` and `upper_mm` (gear's own direction) while
-    /// the contact moves through the cell, and one more at either end.
-    pub fn samples_between(&self, lower_mm: f64, upper_mm: f64) -> Range<usize> {
+    /// How far each point moves along the tangent from the cell's position to the beginning and to the end of the part of
+    /// the cell in which it faces the mate.
+    pub fn shifts_to_ends_mm(&self) -> Vec<[f64; 2]> {
+        let [lower, upper] = self.shift_to_ends_mm;
+        let mut shifts = vec![self.shift_to_ends_mm; self.sliding_mm.len()];
+        for point in &self.partly_exposed {
+            shifts[point.sample] = [point.from, point.to].map(|t| lower + t * (upper - lower));
+        }
+        shifts
+    }
+
+    /// The points, counted from the first, that touch anywhere between `lower_mm` and `upper_mm` (gear's own direction)
+    /// while the contact moves through the cell; a few more at either end do not.
+    pub fn between(&self, lower_mm: f64, upper_mm: f64) -> Range<usize> {
         let [a, b] = self.shift_to_ends_mm;
-        let sample = |along: f64| (along - self.at[0].along_mm) / self.spacing_mm;
-        // Samples are almost evenly spaced; two more make up for the difference.
-        let first = (sample(lower_mm - a.max(b)) - 3.0).max(0.0) as usize;
-        let last = (sample(upper_mm - a.min(b)) + 4.0).max(0.0) as usize;
-        let end = (last + 1).min(self.at.len());
-        first.min(end - 3)..end.max(3)
+        let sample = |along: f64| (along - self.at[1].along_mm) / self.spacing_mm;
+        // Points are almost evenly spaced; two more make up for the difference.
+        let first = (sample(lower_mm - a.max(b)) - 2.0).max(0.0) as usize;
+        let end = (sample(upper_mm - a.min(b)) + 3.0).max(0.0) as usize;
+        let end = end.min(self.sliding_mm.len());
+        first.min(end)..end
     }
 }
 
@@ -211,27 +241,45 @@ fn shift_to_ends_mm(geometry: &dyn ConjugateFlanks, gear: Gear, coordinate_mm: f
     })
 }
 
-/// The gap that observed points face.
+/// The gap that observed points face, and how it changes under them.
 #[derive(Debug, Clone)]
 pub struct GapAtPoints {
     geometric_gap_mm: Vec<f64>,
     mate: Interpolation,
+    /// What is added to each point's gap from the cell's position to the beginning and to the end of the part of the cell
+    /// in which it faces the mate: its own wear stays with it, so the geometry alone changes. In a
+    /// straight line: the mean over the cell is then that of its middle, and the load is kept.
+    pub change_to_ends_mm: Vec<[f64; 2]>,
 }
 
 impl GapAtPoints {
-    /// Of the samples of `points` at `position_mm`.
+    /// Of `points` at `position_mm`.
     pub fn new(flanks: Flanks<'_>, gear: Gear, points: &ObservedPoints, position_mm: f64) -> Self {
-        let mut gap = Self { geometric_gap_mm: Vec::new(), mate: Interpolation::default() };
-        for own in &points.at {
+        let count = points.sliding_mm.len();
+        let mut mate = Interpolation::default();
+        let mut geometric_gap_mm: Vec<f64> = Vec::with_capacity(count + 2);
+        for (sample, own) in points.at.iter().enumerate() {
             let (facing, drop) = flanks.geometry.at_along(gear.mate(), -own.along_mm, position_mm);
-            gap.geometric_gap_mm.push(own.drop_mm + drop);
-            gap.mate.push(flanks.grid[gear.mate()], facing);
+            geometric_gap_mm.push(own.drop_mm + drop);
+            if (1..=count).contains(&sample) {
+                mate.push(flanks.grid[gear.mate()], facing);
+            }
         }
-        gap
+        let shifts = points.shifts_to_ends_mm();
+        let change_to_ends_mm = geometric_gap_mm
+            .windows(3)
+            .zip(shifts)
+            .map(|(gap, shift)| {
+                let slope = 0.5 * (gap[2] - gap[0]) / points.spacing_mm;
+                shift.map(|along| along * slope)
+            })
+            .collect();
+        geometric_gap_mm.truncate(count + 1);
+        geometric_gap_mm.remove(0);
+        Self { geometric_gap_mm, mate, change_to_ends_mm }
     }
 
-    /// The gap at the samples of `range` with `removed_mm` of material gone, into `gap_mm`; a sample beyond the tip lacks
-    /// what the tip point has lost.
+    /// The gap at the points of `range` (counted from the first) with `removed_mm` of material gone, into `gap_mm`.
     pub fn gap_mm(
         &self,
         points: &ObservedPoints,
@@ -240,9 +288,7 @@ impl GapAtPoints {
         range: Range<usize>,
         gap_mm: &mut Vec<f64>,
     ) {
-        let own = &removed_mm[gear][points.first_point - 1..];
-        let (within, tip) = (&own[range.start.min(own.len())..], own[own.len() - 1]);
-        let own = within.iter().copied().chain(std::iter::repeat(tip));
+        let own = &removed_mm[gear][points.first_point + range.start..];
         let mate = self.mate.of(removed_mm[gear.mate()], range.start);
         gap_mm.resize(range.len(), 0.0);
         for (((gap, geometric), mate), own) in gap_mm.iter_mut().zip(&self.geometric_gap_mm[range]).zip(mate).zip(own) {
@@ -272,12 +318,12 @@ impl Exposure {
         }
     }
 
-    /// Part of the cell during which the point at `coordinate_mm`, at `along_mm` from the cell's position, faces the
-    /// mate: it moves past the mate's ends in a straight line.
-    fn of(&self, geometry: &dyn ConjugateFlanks, coordinate_mm: f64, along_mm: f64) -> f64 {
+    /// The part of the cell, from and to in 0..1, during which the point at `coordinate_mm`, at `along_mm` from the cell's
+    /// position, faces the mate: it moves past the mate's ends in a straight line.
+    fn of(&self, geometry: &dyn ConjugateFlanks, coordinate_mm: f64, along_mm: f64) -> (f64, f64) {
         let tolerance = 1e-9 * self.own_limits_mm.1;
         if !(self.own_limits_mm.0 - tolerance..=self.own_limits_mm.1 + tolerance).contains(&coordinate_mm) {
-            return 0.0;
+            return (0.0, 0.0);
         }
         let shifts = shift_to_ends_mm(geometry, self.gear, coordinate_mm, self.cell);
         let [before, after] = [0, 1].map(|end| {
@@ -285,12 +331,21 @@ impl Exposure {
             let [first, last] = self.mate_limits_mm[end];
             [here - first, last - here]
         });
-        before.iter().zip(after).map(|(&b, a)| positive_part(b, a)).product()
+        let (from, to) = before
+            .iter()
+            .zip(after)
+            .map(|(&before, after)| positive_stretch(before, after))
+            .fold((0.0, 1.0), |(from, to): (f64, f64), other| (from.max(other.0), to.min(other.1)));
+        (from, to.max(from))
     }
 }
 
-/// Fraction of the way from `before` to `after` on which the linear course between them is positive.
-fn positive_part(before: f64, after: f64) -> f64 {
-    let sum = before.abs() + after.abs();
-    if sum > 0.0 { (before.max(0.0) + after.max(0.0)) / sum } else { 1.0 }
+/// The part of the way from `before` to `after` on which the straight course between them is not negative.
+fn positive_stretch(before: f64, after: f64) -> (f64, f64) {
+    match (before >= 0.0, after >= 0.0) {
+        (true, true) => (0.0, 1.0),
+        (false, true) => (before / (before - after), 1.0),
+        (true, false) => (0.0, before / (before - after)),
+        (false, false) => (0.0, 0.0),
+    }
 }

@@ -52,6 +52,7 @@ impl ContactSurface for Winkler {
             extent_mm: (0.0, 0.0),
             observed_gap: Vec::new(),
             pressure: Vec::new(),
+            greatest_pressure: Vec::new(),
             contact_fraction: Vec::new(),
         })
     }
@@ -107,6 +108,7 @@ struct WinklerPair<'a> {
     observed_gap: Vec<f64>,
     /// Pressure at the observed points of one flank, MPa.
     pressure: Vec<f64>,
+    greatest_pressure: Vec<f64>,
     contact_fraction: Vec<f64>,
 }
 
@@ -166,25 +168,26 @@ impl PairContact for WinklerPair<'_> {
             Gear::Pinion => self.extent_mm,
             Gear::Wheel => (-self.extent_mm.1, -self.extent_mm.0),
         };
-        let samples = points.samples_between(lower, upper);
-        let inner = samples.start..samples.end - 2;
-        gap.gap_mm(points, gear, removed_mm, samples, &mut self.observed_gap);
-        // The slope of the penetration per sample, from the neighbours of each point.
-        let [to_lower, to_upper] = points.shift_to_ends_mm.map(|shift| 0.5 * shift / points.spacing_mm);
-        self.pressure.resize(inner.len(), 0.0);
-        self.contact_fraction.resize(inner.len(), 0.0);
-        let felt = self.pressure.iter_mut().zip(&mut self.contact_fraction);
-        for ((pressure, fraction), gap) in felt.zip(self.observed_gap.windows(3)) {
-            let (u, twice_slope) = (self.approach - gap[1], gap[0] - gap[2]);
-            let (u0, u1) = (u + to_lower * twice_slope, u + to_upper * twice_slope);
+        let near = points.between(lower, upper);
+        gap.gap_mm(points, gear, removed_mm, near.clone(), &mut self.observed_gap);
+        for felt in [&mut self.pressure, &mut self.greatest_pressure, &mut self.contact_fraction] {
+            felt.resize(near.len(), 0.0);
+        }
+        let felt = self.pressure.iter_mut().zip(&mut self.greatest_pressure).zip(&mut self.contact_fraction);
+        let faced = self.observed_gap.iter().zip(&gap.change_to_ends_mm[near.clone()]);
+        for (((pressure, greatest), fraction), (gap, change)) in felt.zip(faced) {
+            let u = self.approach - gap;
+            let (u0, u1) = (u - change[0], u - change[1]);
             let positive = u0.max(0.0) + u1.max(0.0);
             *fraction = positive / (u0.abs() + u1.abs() + f64::MIN_POSITIVE);
             *pressure = 0.5 * self.foundation * positive * *fraction;
+            *greatest = self.foundation * u0.max(u1).max(0.0);
         }
         Sweep {
-            first_point: points.first_point + inner.start,
+            first_point: points.first_point + near.start,
             pressure_mpa: &self.pressure,
-            sliding_mm: &points.sliding_mm[inner],
+            greatest_pressure_mpa: &self.greatest_pressure,
+            sliding_mm: &points.sliding_mm[near],
             contact_fraction: &self.contact_fraction,
         }
     }

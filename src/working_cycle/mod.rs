@@ -165,7 +165,7 @@ impl<'a> WorkingCycle<'a> {
             for gear in Gear::BOTH {
                 let sweep = station.pairs[0].contact.sweep(gear, removed_mm);
                 let range = sweep.first_point..sweep.first_point + sweep.pressure_mpa.len();
-                let felt = sweep.pressure_mpa.iter().zip(sweep.sliding_mm).zip(sweep.contact_fraction);
+                let felt = sweep.greatest_pressure_mpa.iter().zip(sweep.sliding_mm).zip(sweep.contact_fraction);
                 let points = observation.pressure_mpa[gear][range.clone()]
                     .iter_mut()
                     .zip(&mut observation.sliding_mm[gear][range]);
