@@ -21,7 +21,11 @@ struct Interpolation {
 
 impl Interpolation {
     fn push(&mut self, grid: &FlankGrid, coordinate_mm: f64) {
-        let place = grid.place(coordinate_mm);
+        // Samples follow each other along the flank.
+        let place = match self.index.last() {
+            Some(&before) => grid.place_near(before as usize, coordinate_mm),
+            None => grid.place(coordinate_mm),
+        };
         self.index.push(place.index as u32);
         self.weight.push(place.weight);
     }

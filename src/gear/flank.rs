@@ -47,8 +47,23 @@ impl FlankGrid {
     /// Where `coordinate_mm` falls; beyond the ends, the end itself.
     pub fn place(&self, coordinate_mm: f64) -> Place {
         let after = self.coordinate_mm.partition_point(|&c| c <= coordinate_mm).clamp(1, self.len() - 1);
-        let (low, high) = (self.coordinate_mm[after - 1], self.coordinate_mm[after]);
-        Place { index: after - 1, weight: ((coordinate_mm - low) / (high - low)).clamp(0.0, 1.0) }
+        self.place_between(after - 1, coordinate_mm)
+    }
+
+    /// As [`Self::place`], for a coordinate not far from the point `index`.
+    pub fn place_near(&self, mut index: usize, coordinate_mm: f64) -> Place {
+        while index + 2 < self.len() && self.coordinate_mm[index + 1] <= coordinate_mm {
+            index += 1;
+        }
+        while index > 0 && self.coordinate_mm[index] > coordinate_mm {
+            index -= 1;
+        }
+        self.place_between(index, coordinate_mm)
+    }
+
+    fn place_between(&self, index: usize, coordinate_mm: f64) -> Place {
+        let (low, high) = (self.coordinate_mm[index], self.coordinate_mm[index + 1]);
+        Place { index, weight: ((coordinate_mm - low) / (high - low)).clamp(0.0, 1.0) }
     }
 
     /// Value at `coordinate_mm` of something given at the points.

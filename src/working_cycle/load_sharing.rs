@@ -57,8 +57,8 @@ pub struct MeshedPair<'a> {
     pub response: Response,
     teeth_n_per_mm2: f64,
     approach_mm: f64,
-    /// Approaches at the last two equilibria, the newest first: the next one starts from their continuation.
-    history_mm: [Option<f64>; 2],
+    /// Approaches at the last three equilibria, the newest first: the next one starts from their continuation.
+    history_mm: [Option<f64>; 3],
 }
 
 /// The solution.
@@ -75,12 +75,12 @@ pub struct Equilibrium {
 impl<'a> MeshedPair<'a> {
     /// A pair that has not carried load yet.
     pub fn new(contact: Box<dyn PairContact + 'a>, teeth_n_per_mm2: f64) -> Self {
-        Self { contact, response: Response::default(), teeth_n_per_mm2, approach_mm: 0.0, history_mm: [None; 2] }
+        Self { contact, response: Response::default(), teeth_n_per_mm2, approach_mm: 0.0, history_mm: [None; 3] }
     }
 
     /// Keeps the present approach as a start for later.
     pub fn remember(&mut self) {
-        self.history_mm = [Some(self.approach_mm), self.history_mm[0]];
+        self.history_mm = [Some(self.approach_mm), self.history_mm[0], self.history_mm[1]];
     }
 
     fn press(&mut self, approach_mm: f64) {
@@ -90,9 +90,10 @@ impl<'a> MeshedPair<'a> {
 
     fn start_mm(&self, line_load: f64) -> f64 {
         match self.history_mm {
-            [Some(last), Some(before)] => 2.0 * last - before,
-            [Some(last), None] => last,
-            _ => self.contact.ample_approach_mm(line_load),
+            [Some(last), Some(before), Some(first)] => 3.0 * (last - before) + first,
+            [Some(last), Some(before), None] => 2.0 * last - before,
+            [Some(last), ..] => last,
+            [None, ..] => self.contact.ample_approach_mm(line_load),
         }
     }
 
