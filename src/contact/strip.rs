@@ -246,10 +246,17 @@ fn shift_to_ends_mm(geometry: &dyn ConjugateFlanks, gear: Gear, coordinate_mm: f
 pub struct GapAtPoints {
     geometric_gap_mm: Vec<f64>,
     mate: Interpolation,
-    /// What is added to each point's gap from the cell's position to the beginning and to the end of the part of the cell
-    /// in which it faces the mate: its own wear stays with it, so the geometry alone changes. In a
-    /// straight line: the mean over the cell is then that of its middle, and the load is kept.
-    pub change_to_ends_mm: Vec<[f64; 2]>,
+    /// How the gap of each point changes in the part of the cell in which it faces the mate.
+    pub change: Vec<GapChange>,
+}
+
+/// How the gap of a point changes as the contact passes: its own wear stays with it, so the geometry alone does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GapChange {
+    /// Added to the gap at the beginning and at the end, along the tangent of its course at the cell's position, mm.
+    pub to_ends_mm: [f64; 2],
+    /// Added on average by the curvature of its course, mm.
+    pub sag_mm: f64,
 }
 
 impl GapAtPoints {
@@ -265,18 +272,24 @@ impl GapAtPoints {
                 mate.push(flanks.grid[gear.mate()], facing);
             }
         }
+        let curvature = 1.0 / flanks.geometry.relative_radius_mm(position_mm);
         let shifts = points.shifts_to_ends_mm();
-        let change_to_ends_mm = geometric_gap_mm
+        let change = geometric_gap_mm
             .windows(3)
             .zip(shifts)
             .map(|(gap, shift)| {
                 let slope = 0.5 * (gap[2] - gap[0]) / points.spacing_mm;
-                shift.map(|along| along * slope)
+                let [from, to] = shift;
+                GapChange {
+                    to_ends_mm: shift.map(|along| along * slope),
+                    // Mean of x²/2R from one end to the other.
+                    sag_mm: curvature * (from * from + from * to + to * to) / 6.0,
+                }
             })
             .collect();
         geometric_gap_mm.truncate(count + 1);
         geometric_gap_mm.remove(0);
-        Self { geometric_gap_mm, mate, change_to_ends_mm }
+        Self { geometric_gap_mm, mate, change }
     }
 
     /// The gap at the points of `range` (counted from the first) with `removed_mm` of material gone, into `gap_mm`.

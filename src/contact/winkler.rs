@@ -174,14 +174,14 @@ impl PairContact for WinklerPair<'_> {
             felt.resize(near.len(), 0.0);
         }
         let felt = self.pressure.iter_mut().zip(&mut self.greatest_pressure).zip(&mut self.contact_fraction);
-        let faced = self.observed_gap.iter().zip(&gap.change_to_ends_mm[near.clone()]);
+        let faced = self.observed_gap.iter().zip(&gap.change[near.clone()]);
         for (((pressure, greatest), fraction), (gap, change)) in felt.zip(faced) {
-            let u = self.approach - gap;
-            let (u0, u1) = (u - change[0], u - change[1]);
+            let [u0, u1] = change.to_ends_mm.map(|change| self.approach - gap - change);
+            *greatest = self.foundation * u0.max(u1).max(0.0);
+            let (u0, u1) = (u0 - change.sag_mm, u1 - change.sag_mm);
             let positive = u0.max(0.0) + u1.max(0.0);
             *fraction = positive / (u0.abs() + u1.abs() + f64::MIN_POSITIVE);
             *pressure = 0.5 * self.foundation * positive * *fraction;
-            *greatest = self.foundation * u0.max(u1).max(0.0);
         }
         Sweep {
             first_point: points.first_point + near.start,
