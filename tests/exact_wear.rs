@@ -141,7 +141,11 @@ fn twenty_to_forty_one() -> gearwear::gear::spec::PairSpec {
 }
 
 /// One mesh of the unworn pair.
-fn first_mesh(spec: &gearwear::gear::spec::PairSpec, torque_n_mm: f64, surface: &'static str) -> (GearPair, f64, Outcome) {
+fn first_mesh(
+    spec: &gearwear::gear::spec::PairSpec,
+    torque_n_mm: f64,
+    surface: &'static str,
+) -> (GearPair, f64, Outcome) {
     let mut scene = fzg_c_scene();
     (scene.pair, scene.torque_n_mm, scene.surface) = (spec.clone(), torque_n_mm, surface);
     (scene.revolutions, scene.steps) = (1.0, 1.0);
@@ -191,9 +195,12 @@ fn jump_share(pair: &GearPair, two: &[gearwear::working_cycle::PositionObservati
 /// half-widths of the whole load.
 #[test]
 fn val_away_from_a_to_e_each_point_wears_like_a_disc() {
-    for (torque, surface) in [(302e3, "winkler"), (302e3, "hertz"), (302e3, "hertz-mean"), (60.8e3, "winkler"), (60.8e3, "hertz")] {
+    for (torque, surface) in
+        [(302e3, "winkler"), (302e3, "hertz"), (302e3, "hertz-mean"), (60.8e3, "winkler"), (60.8e3, "hertz")]
+    {
         let (pair, line_load, outcome) = first_mesh(&fzg_c(), torque, surface);
-        let half_width = hertz::flattening(&pair, &steel(), pair.path.pitch_point_mm).contact.loaded(line_load).half_width_mm;
+        let half_width =
+            hertz::flattening(&pair, &steel(), pair.path.pitch_point_mm).contact.loaded(line_load).half_width_mm;
         let mut compared = 0;
         for gear in Gear::BOTH {
             let involute = pair.path.involute[gear];

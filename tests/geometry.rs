@@ -187,3 +187,16 @@ fn impossible_pairs_are_refused() {
         PairError::BoreTooLarge { gear: Gear::Wheel, .. }
     ));
 }
+
+/// The least centre distance named in the error is the one without backlash: one above it is accepted, one below not.
+#[test]
+fn ver_least_centre_distance_is_exact() {
+    let mut spec = fzg_c();
+    spec.centre_distance_mm = 91.0;
+    let Err(PairError::NegativeBacklash { least_mm, .. }) = gearwear::gear::GearPair::new(&spec) else {
+        panic!("91 mm is too close")
+    };
+    spec.centre_distance_mm = least_mm + 1e-6;
+    let loose = pair(&spec).backlash_mm;
+    assert!(loose > 0.0 && loose < 1e-5, "{loose}");
+}

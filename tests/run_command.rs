@@ -83,7 +83,10 @@ fn the_preset_runs_and_writes_everything_the_contract_names() {
         let text = fs::read_to_string(dir.path().join("out").join(file)).unwrap();
         text.lines().filter(|line| !line.starts_with('#')).count() - 1
     };
-    assert_eq!([rows("pinion.csv"), rows("wheel.csv"), rows("mesh_cycle.csv"), rows("history.csv")], [751, 751, 400, 9]);
+    assert_eq!(
+        [rows("pinion.csv"), rows("wheel.csv"), rows("mesh_cycle.csv"), rows("history.csv")],
+        [751, 751, 400, 9]
+    );
     assert_eq!(rows("profiles.csv"), 9 * 2 * 751);
 }
 
@@ -91,7 +94,8 @@ fn the_preset_runs_and_writes_everything_the_contract_names() {
 #[test]
 fn the_stages_run_are_those_planned() {
     let dir = tempfile::tempdir().unwrap();
-    let edits = [("surface = \"winkler\"", "surface = \"hertz\""), ("model = \"constant\"", "model = \"weber-banaschek\"")];
+    let edits =
+        [("surface = \"winkler\"", "surface = \"hertz\""), ("model = \"constant\"", "model = \"weber-banaschek\"")];
     let mut text = quick();
     for (from, to) in edits {
         text = text.replace(from, to);

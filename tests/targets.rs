@@ -105,7 +105,9 @@ fn val_s4_the_simplified_model_is_sharply_pointed() {
         [pair.path.lower_single_contact_mm(), pair.path.upper_single_contact_mm()].map(|change| {
             let radius = pair.radius_at_mm(Gear::Pinion, change);
             (1..wear.len() - 1)
-                .filter(|&i| (pair.path.involute.pinion.radius_mm(outcome.grid.pinion.coordinate_mm[i]) - radius).abs() < 0.15)
+                .filter(|&i| {
+                    (pair.path.involute.pinion.radius_mm(outcome.grid.pinion.coordinate_mm[i]) - radius).abs() < 0.15
+                })
                 .map(|i| (wear[i + 1] - 2.0 * wear[i] + wear[i - 1]).abs())
                 .fold(0.0, f64::max)
         })
@@ -160,7 +162,8 @@ fn val_s11_pinion_and_wheel_slide_different_distances() {
             assert_close(&format!("{gear:?} at {position:.2}"), slid(gear), closed_form, 0.02);
         }
         let ratio = slid(Gear::Wheel) / slid(Gear::Pinion);
-        let speeds = pair.path.rho_mm(Gear::Pinion, position) / pair.path.involute.pinion.base_radius_mm
+        let speeds = pair.path.rho_mm(Gear::Pinion, position)
+            / pair.path.involute.pinion.base_radius_mm
             / (pair.path.rho_mm(Gear::Wheel, position) / pair.path.involute.wheel.base_radius_mm);
         assert!((ratio - 1.0).abs() > 0.3, "{ratio}");
         assert_close("S2/S1 is the ratio of the surface velocities", ratio, speeds, 0.02);

@@ -63,7 +63,13 @@ fn ver_each_refinement_alone_changes_little() {
 fn high_contact_ratio() -> gearwear::gear::spec::PairSpec {
     let alpha = 20f64.to_radians();
     let working = inverse_inv(inv(alpha) + 2.0 * alpha.tan() * 0.0 / 80.0);
-    let mut spec = spur(2.5, 0.5 * 2.5 * 80.0 * alpha.cos() / working.cos() + 0.02, 20.0, gear(32, 0.0, None), gear(48, 0.0, None));
+    let mut spec = spur(
+        2.5,
+        0.5 * 2.5 * 80.0 * alpha.cos() / working.cos() + 0.02,
+        20.0,
+        gear(32, 0.0, None),
+        gear(48, 0.0, None),
+    );
     spec.rack.addendum_factor = 1.35;
     spec.rack.dedendum_factor = 1.6;
     spec.rack.fillet_radius_factor = 0.2;

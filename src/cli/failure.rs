@@ -105,7 +105,6 @@ impl Failure {
     pub fn exit_status(&self) -> u8 {
         match self {
             Failure::Scene(_) | Failure::Input(_) => 2,
-            Failure::Run(error) if error.is_input() => 2,
             Failure::Run(_) => 3,
             Failure::Interrupted => 130,
             Failure::Closed => 0,

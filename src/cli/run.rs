@@ -6,14 +6,16 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use gearwear::pipeline::{self, Observer};
+use gearwear::pipeline::{self, Observer, RunError};
 use gearwear::plan::{Plan, StageKind};
 use gearwear::report::{self, ReportError};
+use gearwear::scene::Problem;
 use gearwear::simulation::record::{RunRecord, StageTime, StopReason};
 
-use super::failure::{Failure, InputError};
+use super::failure::{Failure, InputError, SceneProblems};
 use super::progress::Progress;
-use super::{figures, scene_source, stdout, warn};
+use super::scene_source::{self, Source};
+use super::{figures, stdout, warn};
 
 /// The exit status after an interrupt: 128 and the number of the signal.
 const INTERRUPTED: i32 = 130;
@@ -35,7 +37,8 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let resolved = scene_source::resolve(&args.scene)?;
+    let source = scene_source::resolve(&args.scene)?;
+    let resolved = &source.resolved;
     warn(&resolved.warnings);
     let plan = Plan::of(&resolved.scene);
     report::writable(&args.out)?;
@@ -46,12 +49,15 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let interrupted = watch_for_interrupt();
     let progress = Progress::new(args.quiet, Arc::clone(&interrupted));
     let done = pool.install(|| -> Result<RunRecord, Failure> {
-        let mut record = pipeline::run(&resolved, &plan, &progress)?;
+        let mut record = pipeline::run(resolved, &plan, &progress)?;
         write(&mut record, &args.out, &progress)?;
         Ok(record)
     });
     progress.finish();
-    let record = done?;
+    let record = done.map_err(|failure| match failure {
+        Failure::Run(error) => in_the_scene(error, &source),
+        other => other,
+    })?;
     warn(&record.summary.warnings[resolved.warnings.len()..]);
     if !args.quiet {
         let report = args.out.join("report.html");
@@ -63,6 +69,21 @@ pub fn run(args: &Args) -> Result<(), Failure> {
             say_what_is_kept(&record, resolved.scene.operation.snapshots_revolutions.len(), &args.out);
             Err(Failure::Interrupted)
         }
+    }
+}
+
+/// Puts a failure that the scene is to blame for at its key.
+fn in_the_scene(error: RunError, source: &Source) -> Failure {
+    match error.stiffness() {
+        Some(stiffness) => {
+            let problem = Problem::of_stiffness(&source.text, stiffness);
+            Failure::Scene(SceneProblems {
+                name: source.name.clone(),
+                text: source.text.clone(),
+                problems: vec![problem],
+            })
+        }
+        None => Failure::Run(error),
     }
 }
 

@@ -8,8 +8,18 @@ use gearwear::scene::{Resolved, Scene};
 
 use super::failure::{Failure, InputError, SceneProblems};
 
+/// A scene with the file it came from.
+pub struct Source {
+    /// Name of the file.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+    /// What it says.
+    pub resolved: Resolved,
+}
+
 /// Reads the scene at `path` (`-`: standard input) and resolves it.
-pub fn resolve(path: &Path) -> Result<Resolved, Failure> {
+pub fn resolve(path: &Path) -> Result<Source, Failure> {
     let (name, bytes) = if path == Path::new("-") {
         let mut bytes = Vec::new();
         ("standard input".to_owned(), io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes))
@@ -22,5 +32,8 @@ pub fn resolve(path: &Path) -> Result<Resolved, Failure> {
         let line = error.as_bytes()[..byte].iter().filter(|&&b| b == b'\n').count() + 1;
         InputError::NotUtf8 { name: name.clone(), byte, line }
     })?;
-    Scene::from_toml(&text).map_err(|problems| Failure::Scene(SceneProblems { name, text, problems }))
+    match Scene::from_toml(&text) {
+        Ok(resolved) => Ok(Source { name, text, resolved }),
+        Err(problems) => Err(Failure::Scene(SceneProblems { name, text, problems })),
+    }
 }

@@ -124,7 +124,8 @@ struct HertzPair<'a> {
     extent: Window,
     cell: Option<PositionCell>,
     half_window_mm: f64,
-    observed: Option<PerGear<ObservedPoints>>,
+    /// The points of each flank that may touch, with their movement through the cell.
+    observed: Option<PerGear<(ObservedPoints, Vec<[f64; 2]>)>>,
     /// w*: load of the whole ellipse, N/mm.
     strip_load: f64,
     /// a(w*).
@@ -159,7 +160,7 @@ impl PairContact for HertzPair<'_> {
 
     fn sweep(&mut self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Sweep<'_> {
         let Some(observed) = &self.observed else { return Sweep::NOTHING };
-        let points = &observed[gear];
+        let (points, shifts) = &observed[gear];
         let (load, a) = (self.strip_load, self.half_width_mm);
         let ellipse = self.closed_form.flattening.contact.loaded(load);
         // Mean and greatest pressure and part in contact while a point moves by the given shifts.
@@ -178,8 +179,8 @@ impl PairContact for HertzPair<'_> {
         self.pressure.resize(samples.len(), 0.0);
         self.greatest_pressure.resize(samples.len(), 0.0);
         self.contact_fraction.resize(samples.len(), 0.0);
-        for (k, (point, shift)) in samples.iter().zip(points.shifts_to_ends_mm()).enumerate() {
-            (self.pressure[k], self.greatest_pressure[k], self.contact_fraction[k]) = felt(point.along_mm, shift);
+        for (k, (point, shift)) in samples.iter().zip(shifts).enumerate() {
+            (self.pressure[k], self.greatest_pressure[k], self.contact_fraction[k]) = felt(point.along_mm, *shift);
         }
         Sweep {
             first_point: points.first_point,
@@ -203,7 +204,11 @@ impl HertzPair<'_> {
         let flanks = self.closed_form.flanks;
         self.observed = self.cell.map(|cell| {
             let window = Window::new(flanks, cell.position_mm, self.half_window_mm);
-            PerGear::from_fn(|gear| ObservedPoints::new(flanks, gear, window, cell))
+            PerGear::from_fn(|gear| {
+                let points = ObservedPoints::new(flanks, gear, window, cell);
+                let shifts = points.shifts_to_ends_mm();
+                (points, shifts)
+            })
         });
     }
 

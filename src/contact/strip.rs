@@ -246,17 +246,12 @@ fn shift_to_ends_mm(geometry: &dyn ConjugateFlanks, gear: Gear, coordinate_mm: f
 pub struct GapAtPoints {
     geometric_gap_mm: Vec<f64>,
     mate: Interpolation,
-    /// How the gap of each point changes in the part of the cell in which it faces the mate.
-    pub change: Vec<GapChange>,
-}
-
-/// How the gap of a point changes as the contact passes: its own wear stays with it, so the geometry alone does.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GapChange {
-    /// Added to the gap at the beginning and at the end, along the tangent of its course at the cell's position, mm.
-    pub to_ends_mm: [f64; 2],
-    /// Added on average by the curvature of its course, mm.
-    pub sag_mm: f64,
+    /// What passing the contact adds to the gap of each point from the cell's position to the beginning and to the end of
+    /// the part of the cell in which it faces the mate, along the tangent of its course, mm. Its own wear stays with the
+    /// point, so the geometry alone changes.
+    pub change_to_ends_mm: [Vec<f64>; 2],
+    /// What the curvature of that course adds on average, mm.
+    pub sag_mm: Vec<f64>,
 }
 
 impl GapAtPoints {
@@ -274,22 +269,14 @@ impl GapAtPoints {
         }
         let curvature = 1.0 / flanks.geometry.relative_radius_mm(position_mm);
         let shifts = points.shifts_to_ends_mm();
-        let change = geometric_gap_mm
-            .windows(3)
-            .zip(shifts)
-            .map(|(gap, shift)| {
-                let slope = 0.5 * (gap[2] - gap[0]) / points.spacing_mm;
-                let [from, to] = shift;
-                GapChange {
-                    to_ends_mm: shift.map(|along| along * slope),
-                    // Mean of x²/2R from one end to the other.
-                    sag_mm: curvature * (from * from + from * to + to * to) / 6.0,
-                }
-            })
-            .collect();
+        let slope = |k: usize| 0.5 * (geometric_gap_mm[k + 2] - geometric_gap_mm[k]) / points.spacing_mm;
+        let change_to_ends_mm =
+            [0, 1].map(|end| shifts.iter().enumerate().map(|(k, shift)| shift[end] * slope(k)).collect());
+        // Mean of x²/2R from one end to the other.
+        let sag_mm = shifts.iter().map(|[from, to]| curvature * (from * from + from * to + to * to) / 6.0).collect();
         geometric_gap_mm.truncate(count + 1);
         geometric_gap_mm.remove(0);
-        Self { geometric_gap_mm, mate, change }
+        Self { geometric_gap_mm, mate, change_to_ends_mm, sag_mm }
     }
 
     /// The gap at the points of `range` (counted from the first) with `removed_mm` of material gone, into `gap_mm`.

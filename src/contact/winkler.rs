@@ -173,15 +173,21 @@ impl PairContact for WinklerPair<'_> {
         for felt in [&mut self.pressure, &mut self.greatest_pressure, &mut self.contact_fraction] {
             felt.resize(near.len(), 0.0);
         }
+        let (approach, foundation) = (self.approach, self.foundation);
+        let [to_begin, to_end] = &gap.change_to_ends_mm;
+        let course = to_begin[near.clone()].iter().zip(&to_end[near.clone()]).zip(&gap.sag_mm[near.clone()]);
         let felt = self.pressure.iter_mut().zip(&mut self.greatest_pressure).zip(&mut self.contact_fraction);
-        let faced = self.observed_gap.iter().zip(&gap.change[near.clone()]);
-        for (((pressure, greatest), fraction), (gap, change)) in felt.zip(faced) {
-            let [u0, u1] = change.to_ends_mm.map(|change| self.approach - gap - change);
-            *greatest = self.foundation * u0.max(u1).max(0.0);
-            let (u0, u1) = (u0 - change.sag_mm, u1 - change.sag_mm);
+        for (((pressure, greatest), fraction), (gap, ((begin, end), sag))) in
+            felt.zip(self.observed_gap.iter().zip(course))
+        {
+            // The approach is that of the loading position: there, or as near to it as the point faces the mate.
+            let nearest = begin.min(*end).max(0.0).min(begin.max(*end));
+            *greatest = foundation * (approach - gap - nearest).max(0.0);
+            let u = approach - gap - sag;
+            let (u0, u1) = (u - begin, u - end);
             let positive = u0.max(0.0) + u1.max(0.0);
             *fraction = positive / (u0.abs() + u1.abs() + f64::MIN_POSITIVE);
-            *pressure = 0.5 * self.foundation * positive * *fraction;
+            *pressure = 0.5 * foundation * positive * *fraction;
         }
         Sweep {
             first_point: points.first_point + near.start,
@@ -193,10 +199,21 @@ impl PairContact for WinklerPair<'_> {
     }
 
     fn footprint(&self) -> Footprint {
-        let deepest = self.gap.iter().copied().fold(f64::INFINITY, f64::min);
-        let penetration = (self.approach - deepest).max(0.0);
+        let penetration = (self.approach - least(&self.gap)).max(0.0);
         let half_width_mm = 0.5 * (self.extent_mm.1 - self.extent_mm.0);
         Footprint { peak_pressure_mpa: self.foundation * penetration, half_width_mm }
+    }
+}
+
+/// The least of evenly spaced samples: the bottom of the parabola through the lowest and its neighbours, or the lowest
+/// itself at an end.
+fn least(samples: &[f64]) -> f64 {
+    let Some(k) = (0..samples.len()).min_by(|&a, &b| samples[a].total_cmp(&samples[b])) else { return f64::INFINITY };
+    match samples.get(k.wrapping_sub(1)..k + 2) {
+        Some(&[before, lowest, after]) if before + after > 2.0 * lowest => {
+            lowest - (before - after).powi(2) / (8.0 * (before + after - 2.0 * lowest))
+        }
+        _ => samples[k],
     }
 }
 

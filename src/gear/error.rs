@@ -53,14 +53,16 @@ pub enum PairError {
     },
     /// Contact would have to take place where the flank is no involute.
     #[error(
-        "interference on the {}: contact reaches down to diameter {contact_diameter_mm:.4} mm, \
-         but its involute begins at {form_diameter_mm:.4} mm", .gear.name()
+        "interference on the {}: its mate's tip reaches down to {}, but its involute begins at diameter \
+         {form_diameter_mm:.4} mm",
+        .gear.name(),
+        .contact_diameter_mm.map_or("beyond the end of the line of action".to_owned(), |d| format!("diameter {d:.4} mm"))
     )]
     Interference {
         /// Which gear.
         gear: Gear,
-        /// Diameter the mate's tip reaches down to; NaN where it passes beyond the base tangent point.
-        contact_diameter_mm: f64,
+        /// Diameter the mate's tip reaches down to; `None` where it passes beyond the base tangent point.
+        contact_diameter_mm: Option<f64>,
         /// Root form diameter d_Ff.
         form_diameter_mm: f64,
     },

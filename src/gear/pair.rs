@@ -7,7 +7,9 @@
 
 use std::f64::consts::PI;
 
-use super::{Gear, PairError, PerGear, path_of_contact::PathOfContact, spec::PairSpec, tooth::Tooth};
+use super::{
+    Gear, PairError, PerGear, involute::inverse_inv, path_of_contact::PathOfContact, spec::PairSpec, tooth::Tooth,
+};
 
 /// Rounded profile shifts and centre distances give a few tenths of a micrometre of negative backlash on paper; real
 /// teeth jam when it exceeds this part of the normal module (4.5 µm for module 4.5).
@@ -106,8 +108,12 @@ impl GearPair {
         let backlash_mm = pitch_mm - on_pitch_circle(Gear::Pinion) - on_pitch_circle(Gear::Wheel);
         if backlash_mm < -BACKLASH_ROUNDING_MODULES * self.spec.normal_module_mm {
             let centre_distance_mm = self.spec.centre_distance_mm;
-            // The backlash grows by 2 tan α_wt per mm of centre distance (to first order).
-            let least_mm = centre_distance_mm - backlash_mm / (2.0 * self.working_pressure_angle_rad.tan());
+            // Both teeth fill the pitch where z1 ψ1 + z2 ψ2 − (z1 + z2) inv α_w = π, ψ taken at the base circles.
+            let teeth = self.teeth.as_ref().map(|tooth| f64::from(tooth.teeth));
+            let filled = PerGear::from_fn(|g| teeth[g] * self.teeth[g].base_half_angle_rad).sum() - PI;
+            let tight_angle = inverse_inv(filled / teeth.sum());
+            let base_radii = self.path.involute.map(|flank| flank.base_radius_mm).sum();
+            let least_mm = base_radii / tight_angle.cos();
             return Err(PairError::NegativeBacklash { backlash_mm, centre_distance_mm, least_mm });
         }
         Ok(backlash_mm.max(0.0))
@@ -125,11 +131,11 @@ impl GearPair {
             }
             let rho = self.active_start_rho_mm(gear);
             let form_radius = self.teeth[gear].root_form_radius_mm;
-            let contact_radius = if rho > 0.0 { self.active_start_radius_mm(gear) } else { f64::NAN };
-            if contact_radius.is_nan() || contact_radius < form_radius * (1.0 - 1e-9) {
+            let contact_radius = (rho > 0.0).then(|| self.active_start_radius_mm(gear));
+            if contact_radius.is_none_or(|radius| radius < form_radius * (1.0 - 1e-9)) {
                 return Err(PairError::Interference {
                     gear,
-                    contact_diameter_mm: 2.0 * contact_radius,
+                    contact_diameter_mm: contact_radius.map(|radius| 2.0 * radius),
                     form_diameter_mm: 2.0 * form_radius,
                 });
             }

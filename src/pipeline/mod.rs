@@ -46,9 +46,12 @@ pub enum RunError {
 }
 
 impl RunError {
-    /// Whether the scene is at fault, not the solver.
-    pub fn is_input(&self) -> bool {
-        matches!(self, RunError::Pair(_) | RunError::Stiffness(_) | RunError::Simulation(SimulationError::Stiffness(_)))
+    /// The scene's contradiction between stiffness model and contact surface, if that is what is wrong.
+    pub fn stiffness(&self) -> Option<&StiffnessError> {
+        match self {
+            RunError::Stiffness(error) | RunError::Simulation(SimulationError::Stiffness(error)) => Some(error),
+            _ => None,
+        }
     }
 }
 

@@ -149,9 +149,7 @@ fn cycle(pair: &GearPair, cycle: &CycleObservation) -> CycleSummary {
     let (min, max) = cycle.transmission_error_mm();
     CycleSummary {
         peak_pressure_MPa: cycle.peak_pressure_mpa(),
-        pitch_pressure_MPa: cycle
-            .nearest(pair.path.pitch_point_mm)
-            .map_or(0.0, |position| position.footprint.peak_pressure_mpa),
+        pitch_pressure_MPa: cycle.peak_pressure_at_mpa(pair.path.pitch_point_mm),
         transmission_error_um: RangeSummary {
             min: min * UM_PER_MM,
             max: max * UM_PER_MM,

@@ -3,7 +3,9 @@
 use std::fmt;
 use std::ops::Range;
 
+use super::locate::Locator;
 use crate::gear::PairError;
+use crate::stiffness::StiffnessError;
 
 /// The nature of a problem.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,6 +26,8 @@ pub enum ProblemKind {
     NotAvailable,
     /// Values that are allowed one by one, but make no gear pair.
     Geometry(PairError),
+    /// Values that are allowed one by one, but make no tooth stiffness.
+    Stiffness(StiffnessError),
 }
 
 /// One thing that is wrong with a scene file.
@@ -44,6 +48,24 @@ pub struct Problem {
 }
 
 impl Problem {
+    /// The contact surface of the scene in `text` leaves nothing for the teeth of its stiffness model.
+    pub fn of_stiffness(text: &str, error: &StiffnessError) -> Self {
+        let locator = Locator::new(text).unwrap_or_default();
+        let by_hand = "contact.foundation_MPa_per_mm";
+        let key = if locator.key(by_hand).is_some() { by_hand } else { "contact.match" };
+        let span = locator.nearest(key);
+        Self {
+            kind: ProblemKind::Stiffness(error.clone()),
+            key: key.to_owned(),
+            found: text.get(span.clone()).unwrap_or_default().to_owned(),
+            allowed: "a stiffer foundation, or another stiffness.model".to_owned(),
+            help: Some(
+                "the spring of the teeth is what the contact surface leaves of the pair's compliance".to_owned(),
+            ),
+            span: Some(span),
+        }
+    }
+
     /// Adds a sentence to the help.
     pub fn add_help(&mut self, sentence: &str) {
         match &mut self.help {
@@ -67,6 +89,7 @@ impl fmt::Display for Problem {
             ProblemKind::NotAvailable => {
                 write!(f, "{key}: {found} is not available in this version; allowed: {allowed}")
             }
+            ProblemKind::Stiffness(error) => write!(f, "{key}: {error}; found: {found}; allowed: {allowed}"),
             ProblemKind::Geometry(error) => write!(f, "{key}: {error}; found: {found}; allowed: {allowed}"),
             ProblemKind::WrongType | ProblemKind::NotAllowed => write!(f, "{key}: found {found}; allowed: {allowed}"),
         }

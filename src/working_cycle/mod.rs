@@ -16,7 +16,7 @@ use crate::wear::WearLaw;
 use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance};
 
 /// Groups of positions that collect wear on their own; fixed, so that sums always run in the same order.
-const GROUPS: usize = 16;
+const GROUPS: usize = 8;
 
 /// A tooth pair in mesh at some position: where it is and how stiff its teeth are.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -268,6 +268,15 @@ impl CycleObservation {
         self.positions.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
             (low.min(p.transmission_error_mm), high.max(p.transmission_error_mm))
         })
+    }
+
+    /// Greatest pressure with the reference pair at `position_mm`, between the observations on either side, MPa.
+    pub fn peak_pressure_at_mpa(&self, position_mm: f64) -> f64 {
+        let after = self.positions.partition_point(|p| p.position_mm <= position_mm).clamp(1, self.positions.len() - 1);
+        let (low, high) = (&self.positions[after - 1], &self.positions[after]);
+        let weight = (position_mm - low.position_mm) / (high.position_mm - low.position_mm);
+        let (low, high) = (low.footprint.peak_pressure_mpa, high.footprint.peak_pressure_mpa);
+        low + weight.clamp(0.0, 1.0) * (high - low)
     }
 
     /// The observation nearest to `position_mm`.

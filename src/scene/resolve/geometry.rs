@@ -162,7 +162,11 @@ mod tests {
                 of_pinion("tip_diameter_mm"),
             ),
             (
-                PairError::Interference { gear: Gear::Wheel, contact_diameter_mm: 101.0, form_diameter_mm: 102.61 },
+                PairError::Interference {
+                    gear: Gear::Wheel,
+                    contact_diameter_mm: Some(101.0),
+                    form_diameter_mm: 102.61,
+                },
                 of_pinion("tip_diameter_mm"),
             ),
             (PairError::NoTipClearance { gear, clearance_mm: -0.5 }, of_pinion("tip_diameter_mm")),
