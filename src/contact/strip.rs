@@ -91,7 +91,7 @@ pub struct Strip {
 }
 
 impl Strip {
-    /// Samples about [`POINTS_PER_SAMPLE`] of the pinion's points apart, and at least 9 of them.
+    /// Samples about two of the pinion's points apart, and at least 9 of them.
     pub fn new(flanks: Flanks<'_>, position_mm: f64, window: Window) -> Self {
         let grid = flanks.grid.pinion;
         let here = grid.place(flanks.geometry.contact_coordinate_mm(Gear::Pinion, position_mm)).index;

@@ -44,7 +44,7 @@ impl Flattening {
 
     /// Approach in mm and its derivative with respect to the line load, mm²/N.
     ///
-    /// As a ∝ √w, each body's share of dδ/dw is (2/π) (1 − ν²)/E · { [bracket] + ½ a d[bracket]/da }.
+    /// As a ∝ √w, each body's share of dδ/dw is (2/π) (1 − ν²)/E · (β + ½ a dβ/da), with β the bracket of δ.
     pub fn approach_and_compliance(&self, line_load_n_per_mm: f64) -> (f64, f64) {
         let w = line_load_n_per_mm;
         if w <= 0.0 {

@@ -1,7 +1,7 @@
 //! The scene file, key by key: what a user may write.
 //!
 //! These structures are the one description of the file. Their JSON schema (`gearwear schema`) carries the doc comments
-//! below and the ranges beside them, and [`super::shape`] checks a file against that same schema, so that an editor and
+//! below and the ranges beside them, and a file is checked against that same schema, so that an editor and
 //! the program say the same. Every key that has a unit ends in it; the contract's key names are kept as they are.
 
 #![allow(non_snake_case, reason = "key names end in their unit as engineers write it")]

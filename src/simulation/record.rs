@@ -267,7 +267,7 @@ pub struct ErrorSources {
 pub struct WorkSummary {
     /// Wear steps taken.
     pub wear_steps: u64,
-    /// Working cycles evaluated: one per wear step, and one per observation (new, snapshots, worn).
+    /// Working cycles evaluated: one per wear step, and one at the end.
     pub mesh_cycles: u64,
     /// Equilibria solved: working cycles × positions.
     pub equilibria: u64,
