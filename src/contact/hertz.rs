@@ -18,7 +18,7 @@
 use std::f64::consts::PI;
 
 use super::{
-    ContactSurface, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
+    ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
     settings::Material,
     strip::{ObservedPoints, Window},
 };
@@ -104,9 +104,6 @@ impl ContactSurface for Hertz {
             observed: None,
             strip_load: 0.0,
             half_width_mm: 0.0,
-            pressure: Vec::new(),
-            greatest_pressure: Vec::new(),
-            contact_fraction: Vec::new(),
         };
         pair.look();
         Box::new(pair)
@@ -130,9 +127,6 @@ struct HertzPair<'a> {
     strip_load: f64,
     /// a(w*).
     half_width_mm: f64,
-    pressure: Vec<f64>,
-    greatest_pressure: Vec<f64>,
-    contact_fraction: Vec<f64>,
 }
 
 impl PairContact for HertzPair<'_> {
@@ -158,37 +152,41 @@ impl PairContact for HertzPair<'_> {
         self.look();
     }
 
-    fn sweep(&mut self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Sweep<'_> {
-        let Some(observed) = &self.observed else { return Sweep::NOTHING };
+    fn sweep(&self, gear: Gear, _removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
+        let Some(observed) = &self.observed else { return sweep.begin(0, &[]) };
         let (points, shifts) = &observed[gear];
+        sweep.begin(points.first_point, &points.sliding_mm);
         let (load, a) = (self.strip_load, self.half_width_mm);
-        let ellipse = self.closed_form.flattening.contact.loaded(load);
-        // Mean and greatest pressure and part in contact while a point moves by the given shifts.
-        let felt = |along: f64, shift: [f64; 2]| {
-            let [from, to] = shift.map(|shift| (along + shift) / a);
-            if load > 0.0 && from != to {
-                let carried = load * (carried_below(to) - carried_below(from));
-                let nearest = if from * to <= 0.0 { 0.0 } else { from.abs().min(to.abs()) };
-                let in_contact = to.clamp(-1.0, 1.0) - from.clamp(-1.0, 1.0);
-                (carried / ((to - from) * a), ellipse.pressure_mpa(nearest * a), in_contact / (to - from))
+        let courses = points.at[1..].iter().zip(shifts);
+        for (pressure, (point, shift)) in sweep.pressure_mpa.iter_mut().zip(courses) {
+            let [from, to] = shift.map(|shift| (point.along_mm + shift) / a);
+            // Without load, or for a point that faces nothing, there is nothing to average.
+            *pressure = if load > 0.0 && from != to {
+                load * (carried_below(to) - carried_below(from)) / ((to - from) * a)
             } else {
-                (0.0, 0.0, 0.0)
-            }
-        };
-        let samples = &points.at[1..points.at.len() - 1];
-        self.pressure.resize(samples.len(), 0.0);
-        self.greatest_pressure.resize(samples.len(), 0.0);
-        self.contact_fraction.resize(samples.len(), 0.0);
-        for (k, (point, shift)) in samples.iter().zip(shifts).enumerate() {
-            (self.pressure[k], self.greatest_pressure[k], self.contact_fraction[k]) = felt(point.along_mm, *shift);
+                0.0
+            };
         }
-        Sweep {
-            first_point: points.first_point,
-            pressure_mpa: &self.pressure,
-            greatest_pressure_mpa: &self.greatest_pressure,
-            sliding_mm: &points.sliding_mm,
-            contact_fraction: &self.contact_fraction,
-        }
+    }
+
+    fn felt(&self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Vec<Felt> {
+        let Some(observed) = &self.observed else { return Vec::new() };
+        let (points, shifts) = &observed[gear];
+        let (a, ellipse) = (self.half_width_mm, self.closed_form.flattening.contact.loaded(self.strip_load));
+        let courses = points.at[1..].iter().zip(shifts);
+        courses
+            .map(|(point, shift)| {
+                let [low, high] = [shift[0].min(shift[1]), shift[0].max(shift[1])];
+                if self.strip_load <= 0.0 || low == high {
+                    return Felt::default();
+                }
+                let inside = |shift: f64| (point.along_mm + shift).clamp(-a, a);
+                Felt {
+                    pressure_mpa: ellipse.pressure_mpa(point.along_mm + low.max(0.0).min(high)),
+                    contact_fraction: (inside(high) - inside(low)) / (high - low),
+                }
+            })
+            .collect()
     }
 
     fn footprint(&self) -> Footprint {

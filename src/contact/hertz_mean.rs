@@ -14,7 +14,7 @@
 //! Source: S. Andersson (1975) and the thesis, section 3.4 and appendix 1 (papers A's comparison and E).
 
 use super::{
-    ContactSurface, Flanks, Footprint, PairContact, PositionCell, Response, Sweep, hertz::ClosedFormPair,
+    ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep, hertz::ClosedFormPair,
     settings::Material,
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
@@ -31,9 +31,6 @@ impl ContactSurface for HertzMean {
         Box::new(HertzMeanPair {
             closed_form: ClosedFormPair::new(flanks, &self.material, position_mm),
             passed: cell.map(|cell| PerGear::from_fn(|gear| PassedPoints::new(flanks, gear, cell))),
-            pressure: Vec::new(),
-            sliding: Vec::new(),
-            contact_fraction: Vec::new(),
         })
     }
 
@@ -78,9 +75,6 @@ impl PassedPoints {
 struct HertzMeanPair<'a> {
     closed_form: ClosedFormPair<'a>,
     passed: Option<PerGear<PassedPoints>>,
-    pressure: Vec<f64>,
-    sliding: Vec<f64>,
-    contact_fraction: Vec<f64>,
 }
 
 impl PairContact for HertzMeanPair<'_> {
@@ -96,23 +90,18 @@ impl PairContact for HertzMeanPair<'_> {
         self.closed_form.ample_approach_mm(line_load_n_per_mm)
     }
 
-    fn sweep(&mut self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Sweep<'_> {
-        let Some(passed) = &self.passed else { return Sweep::NOTHING };
+    fn sweep(&self, gear: Gear, _removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
+        let Some(passed) = &self.passed else { return sweep.begin(0, &[]) };
         let points = &passed[gear];
         let Footprint { peak_pressure_mpa, half_width_mm } = self.footprint();
-        self.sliding.clear();
-        self.sliding.extend(points.specific_sliding.iter().map(|zeta| 2.0 * half_width_mm * zeta));
-        self.pressure.clear();
-        self.pressure.extend(self.sliding.iter().map(|&s| if s > 0.0 { peak_pressure_mpa } else { 0.0 }));
-        self.contact_fraction.clear();
-        self.contact_fraction.resize(self.sliding.len(), 1.0);
-        Sweep {
-            first_point: points.first_point,
-            pressure_mpa: &self.pressure,
-            greatest_pressure_mpa: &self.pressure,
-            sliding_mm: &self.sliding,
-            contact_fraction: &self.contact_fraction,
-        }
+        sweep.begin(points.first_point, &points.specific_sliding);
+        sweep.sliding_mm.iter_mut().for_each(|zeta| *zeta *= 2.0 * half_width_mm);
+        sweep.pressure_mpa.fill(peak_pressure_mpa);
+    }
+
+    fn felt(&self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Vec<Felt> {
+        let points = self.passed.as_ref().map_or(0, |passed| passed[gear].specific_sliding.len());
+        vec![Felt { pressure_mpa: self.footprint().peak_pressure_mpa, contact_fraction: 1.0 }; points]
     }
 
     fn footprint(&self) -> Footprint {

@@ -48,25 +48,35 @@ pub struct Response {
     pub stiffness_n_per_mm2: f64,
 }
 
-/// What consecutive points of one flank feel while the contact moves through a [`PositionCell`].
-#[derive(Debug, Clone, Copy)]
-pub struct Sweep<'a> {
+/// What consecutive points of one flank wear by while the contact moves through a [`PositionCell`]; the vectors have the
+/// same length. Filled anew for each pair, so that one buffer serves many.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Sweep {
     /// Index of the first of the points.
     pub first_point: usize,
     /// Pressure on each, averaged over the cell, MPa.
-    pub pressure_mpa: &'a [f64],
-    /// Greatest pressure on each within the cell, MPa.
-    pub greatest_pressure_mpa: &'a [f64],
+    pub pressure_mpa: Vec<f64>,
     /// How far each slides against the other flank while it faces it, mm.
-    pub sliding_mm: &'a [f64],
-    /// Part of that during which it is in contact, 0 to 1.
-    pub contact_fraction: &'a [f64],
+    pub sliding_mm: Vec<f64>,
 }
 
-impl Sweep<'_> {
-    /// No point felt anything.
-    pub const NOTHING: Self =
-        Self { first_point: 0, pressure_mpa: &[], greatest_pressure_mpa: &[], sliding_mm: &[], contact_fraction: &[] };
+impl Sweep {
+    /// Makes room for the points that slide by `sliding_mm`, the first of them `first_point`.
+    fn begin(&mut self, first_point: usize, sliding_mm: &[f64]) {
+        self.first_point = first_point;
+        self.sliding_mm.clear();
+        self.sliding_mm.extend_from_slice(sliding_mm);
+        self.pressure_mpa.resize(sliding_mm.len(), 0.0);
+    }
+}
+
+/// What an observer sees of one point of a [`Sweep`].
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Felt {
+    /// Pressure at the loading position, or as near to it as the point faces the other flank, MPa.
+    pub pressure_mpa: f64,
+    /// Part of the cell's sliding during which the point is in contact, 0 to 1.
+    pub contact_fraction: f64,
 }
 
 /// Where the contact is and how hard it presses.
@@ -101,8 +111,11 @@ pub trait PairContact: Send {
     /// Looks at a longer stretch of flank.
     fn widen(&mut self) {}
 
-    /// Fills in what the points of a flank felt; empty for a pair prepared without a [`PositionCell`].
-    fn sweep(&mut self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Sweep<'_>;
+    /// Fills in what the points of a flank felt; nothing for a pair prepared without a [`PositionCell`].
+    fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep);
+
+    /// What each point of that [`Sweep`] felt, for an observer.
+    fn felt(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<Felt>;
 
     /// Extent and greatest pressure.
     fn footprint(&self) -> Footprint;

@@ -250,12 +250,28 @@ fn shift_to_ends_mm(geometry: &dyn ConjugateFlanks, gear: Gear, coordinate_mm: f
 pub struct GapAtPoints {
     geometric_gap_mm: Vec<f64>,
     mate: Interpolation,
-    /// What passing the contact adds to the gap of each point from the cell's position to the beginning and to the end of
-    /// the part of the cell in which it faces the mate, along the tangent of its course, mm. Its own wear stays with the
-    /// point, so the geometry alone changes.
-    pub change_to_ends_mm: [Vec<f64>; 2],
-    /// What the curvature of that course adds on average, mm.
-    pub sag_mm: Vec<f64>,
+    /// How the gap of each point changes within the cell.
+    course: Vec<Course>,
+}
+
+/// How the gap of a point changes while the contact passes: its own wear stays with it, so the geometry alone does.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Course {
+    /// Added to the gap at the beginning of the part of the cell in which the point faces the mate, along the tangent of
+    /// its course at the cell's position, mm.
+    pub to_begin: f64,
+    /// The same at the end of that part.
+    pub to_end: f64,
+    /// Added on average by the curvature of the course, mm.
+    pub sag: f64,
+}
+
+impl Course {
+    /// Change of the gap at the cell's position or, where the point does not face the mate there, at the nearer end.
+    pub fn nearest_to_position(self) -> f64 {
+        let (low, high) = (self.to_begin.min(self.to_end), self.to_begin.max(self.to_end));
+        low.max(0.0).min(high)
+    }
 }
 
 impl GapAtPoints {
@@ -274,30 +290,33 @@ impl GapAtPoints {
         let curvature = 1.0 / flanks.geometry.relative_radius_mm(position_mm);
         let shifts = points.shifts_to_ends_mm();
         let slope = |k: usize| 0.5 * (geometric_gap_mm[k + 2] - geometric_gap_mm[k]) / points.spacing_mm;
-        let change_to_ends_mm =
-            [0, 1].map(|end| shifts.iter().enumerate().map(|(k, shift)| shift[end] * slope(k)).collect());
-        // Mean of x²/2R from one end to the other.
-        let sag_mm = shifts.iter().map(|[from, to]| curvature * (from * from + from * to + to * to) / 6.0).collect();
+        let course = shifts
+            .iter()
+            .enumerate()
+            .map(|(k, [from, to])| Course {
+                to_begin: from * slope(k),
+                to_end: to * slope(k),
+                // Mean of x²/2R from one end to the other.
+                sag: curvature * (from * from + from * to + to * to) / 6.0,
+            })
+            .collect();
         geometric_gap_mm.truncate(count + 1);
         geometric_gap_mm.remove(0);
-        Self { geometric_gap_mm, mate, change_to_ends_mm, sag_mm }
+        Self { geometric_gap_mm, mate, course }
     }
 
-    /// The gap at the points of `range` (counted from the first) with `removed_mm` of material gone, into `gap_mm`.
-    pub fn gap_mm(
-        &self,
+    /// The gap at the points of `range` (counted from the first) with `removed_mm` of material gone, and its course.
+    pub fn gaps_mm<'a>(
+        &'a self,
         points: &ObservedPoints,
         gear: Gear,
-        removed_mm: PerGear<&[f64]>,
+        removed_mm: PerGear<&'a [f64]>,
         range: Range<usize>,
-        gap_mm: &mut Vec<f64>,
-    ) {
+    ) -> impl Iterator<Item = (f64, Course)> + 'a {
         let own = &removed_mm[gear][points.first_point + range.start..];
         let mate = self.mate.of(removed_mm[gear.mate()], range.start);
-        gap_mm.resize(range.len(), 0.0);
-        for (((gap, geometric), mate), own) in gap_mm.iter_mut().zip(&self.geometric_gap_mm[range]).zip(mate).zip(own) {
-            *gap = geometric + mate + own;
-        }
+        let gaps = self.geometric_gap_mm[range.clone()].iter().zip(own).zip(mate);
+        gaps.map(|((geometric, own), mate)| geometric + own + mate).zip(self.course[range].iter().copied())
     }
 }
 

@@ -16,9 +16,11 @@
 //!
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.3; the thesis, section 3.2.
 
+use std::ops::Range;
+
 use super::{
-    ContactSurface, Flanks, Footprint, PairContact, PositionCell, Response, Sweep, foundation,
-    strip::{GapAtPoints, ObservedPoints, Strip, Window},
+    ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep, foundation,
+    strip::{Course, GapAtPoints, ObservedPoints, Strip, Window},
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 
@@ -50,10 +52,6 @@ impl ContactSurface for Winkler {
             gap: Vec::new(),
             approach: 0.0,
             extent_mm: (0.0, 0.0),
-            observed_gap: Vec::new(),
-            pressure: Vec::new(),
-            greatest_pressure: Vec::new(),
-            contact_fraction: Vec::new(),
         })
     }
 
@@ -104,12 +102,6 @@ struct WinklerPair<'a> {
     approach: f64,
     /// Outermost places in contact at equilibrium, along the tangent.
     extent_mm: (f64, f64),
-    /// Real gap at the observed points of one flank, mm.
-    observed_gap: Vec<f64>,
-    /// Pressure at the observed points of one flank, MPa.
-    pressure: Vec<f64>,
-    greatest_pressure: Vec<f64>,
-    contact_fraction: Vec<f64>,
 }
 
 impl PairContact for WinklerPair<'_> {
@@ -124,15 +116,11 @@ impl PairContact for WinklerPair<'_> {
         let mut before = approach_mm - self.gap[0];
         for gap in &self.gap[1..] {
             let here = approach_mm - gap;
-            if before >= 0.0 && here >= 0.0 {
-                penetration += 0.5 * (before + here);
-                contact += 1.0;
-            } else if before > 0.0 || here > 0.0 {
-                let across = before.abs() + here.abs();
-                let fraction = before.max(here) / across;
-                penetration += 0.5 * fraction * before.max(here);
-                contact += fraction;
-                growth += 1.0 / across;
+            let (mean, fraction) = mean_positive([before, here]);
+            penetration += mean;
+            contact += fraction;
+            if fraction > 0.0 && fraction < 1.0 {
+                growth += 1.0 / (before - here).abs();
             }
             before = here;
         }
@@ -161,47 +149,46 @@ impl PairContact for WinklerPair<'_> {
         (self.strip, self.observed) = self.site.look();
     }
 
-    fn sweep(&mut self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Sweep<'_> {
-        let Some(observed) = &self.observed else { return Sweep::NOTHING };
-        let (points, gap) = &observed[gear];
-        let (lower, upper) = match gear {
-            Gear::Pinion => self.extent_mm,
-            Gear::Wheel => (-self.extent_mm.1, -self.extent_mm.0),
-        };
-        let near = points.between(lower, upper);
-        gap.gap_mm(points, gear, removed_mm, near.clone(), &mut self.observed_gap);
-        for felt in [&mut self.pressure, &mut self.greatest_pressure, &mut self.contact_fraction] {
-            felt.resize(near.len(), 0.0);
+    fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
+        let Some(observed) = &self.observed else { return sweep.begin(0, &[]) };
+        let (points, faced) = &observed[gear];
+        let near = self.touching(gear, points);
+        sweep.begin(points.first_point + near.start, &points.sliding_mm[near.clone()]);
+        let gaps = faced.gaps_mm(points, gear, removed_mm, near);
+        for (pressure, (gap, course)) in sweep.pressure_mpa.iter_mut().zip(gaps) {
+            *pressure = self.foundation * mean_positive(self.penetration(gap, course)).0;
         }
-        let (approach, foundation) = (self.approach, self.foundation);
-        let [to_begin, to_end] = &gap.change_to_ends_mm;
-        let course = to_begin[near.clone()].iter().zip(&to_end[near.clone()]).zip(&gap.sag_mm[near.clone()]);
-        let felt = self.pressure.iter_mut().zip(&mut self.greatest_pressure).zip(&mut self.contact_fraction);
-        for (((pressure, greatest), fraction), (gap, ((begin, end), sag))) in
-            felt.zip(self.observed_gap.iter().zip(course))
-        {
-            // The approach is that of the loading position: there, or as near to it as the point faces the mate.
-            let nearest = begin.min(*end).max(0.0).min(begin.max(*end));
-            *greatest = foundation * (approach - gap - nearest).max(0.0);
-            let u = approach - gap - sag;
-            let (u0, u1) = (u - begin, u - end);
-            let positive = u0.max(0.0) + u1.max(0.0);
-            *fraction = positive / (u0.abs() + u1.abs() + f64::MIN_POSITIVE);
-            *pressure = 0.5 * foundation * positive * *fraction;
-        }
-        Sweep {
-            first_point: points.first_point + near.start,
-            pressure_mpa: &self.pressure,
-            greatest_pressure_mpa: &self.greatest_pressure,
-            sliding_mm: &points.sliding_mm[near],
-            contact_fraction: &self.contact_fraction,
-        }
+    }
+
+    fn felt(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<Felt> {
+        let Some(observed) = &self.observed else { return Vec::new() };
+        let (points, faced) = &observed[gear];
+        faced
+            .gaps_mm(points, gear, removed_mm, self.touching(gear, points))
+            .map(|(gap, course)| Felt {
+                pressure_mpa: self.foundation * (self.approach - gap - course.nearest_to_position()).max(0.0),
+                contact_fraction: mean_positive(self.penetration(gap, course)).1,
+            })
+            .collect()
     }
 
     fn footprint(&self) -> Footprint {
         let penetration = (self.approach - least(&self.gap)).max(0.0);
         let half_width_mm = 0.5 * (self.extent_mm.1 - self.extent_mm.0);
         Footprint { peak_pressure_mpa: self.foundation * penetration, half_width_mm }
+    }
+}
+
+/// Mean of the positive part of the straight course from u₀ to u₁, and the fraction of the way on which it is positive.
+fn mean_positive([u0, u1]: [f64; 2]) -> (f64, f64) {
+    if u0 >= 0.0 && u1 >= 0.0 {
+        (0.5 * (u0 + u1), 1.0)
+    } else if u0 > 0.0 || u1 > 0.0 {
+        let deepest = u0.max(u1);
+        let fraction = deepest / (u0 - u1).abs();
+        (0.5 * deepest * fraction, fraction)
+    } else {
+        (0.0, 0.0)
     }
 }
 
@@ -218,6 +205,21 @@ fn least(samples: &[f64]) -> f64 {
 }
 
 impl WinklerPair<'_> {
+    /// The points of a flank that may touch at the last approach pressed.
+    fn touching(&self, gear: Gear, points: &ObservedPoints) -> Range<usize> {
+        match gear {
+            Gear::Pinion => points.between(self.extent_mm.0, self.extent_mm.1),
+            Gear::Wheel => points.between(-self.extent_mm.1, -self.extent_mm.0),
+        }
+    }
+
+    /// Penetration at the beginning and at the end of a point's course, such that the straight line between them has
+    /// the mean of the real course.
+    fn penetration(&self, gap_mm: f64, course: Course) -> [f64; 2] {
+        let u = self.approach - gap_mm - course.sag;
+        [u - course.to_begin, u - course.to_end]
+    }
+
     /// Outermost places in contact, found between samples; empty at 0 without contact.
     fn extent_mm(&self) -> (f64, f64) {
         let u = |k: usize| self.approach - self.gap[k];

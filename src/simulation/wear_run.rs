@@ -141,7 +141,7 @@ impl WearRun<'_> {
             work += cycle
                 .evaluate(removed_mm.as_ref().map(Vec::as_slice), self.law, &mut depth_mm)
                 .map_err(|source| SimulationError::Equilibrium { revolutions, source })?;
-            let mut snapshot = || Snapshot {
+            let snapshot = || Snapshot {
                 revolutions,
                 wear_mm: wear_mm.clone(),
                 depth_per_mesh_mm: depth_mm.clone(),

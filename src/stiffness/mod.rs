@@ -49,7 +49,7 @@ enum Curve {
     /// Spring of the teeth, N/mm².
     Teeth(f64),
     /// Bending, shear and bodies of each gear; flattening in closed form.
-    WeberBanaschek(PerGear<ToothCompliance>),
+    WeberBanaschek(Box<PerGear<ToothCompliance>>),
     /// Compliance of the whole pair, mm²/N.
     WholePair(f64),
 }
@@ -76,7 +76,8 @@ impl<'a> TeethSpring<'a> {
         let curve = match settings {
             StiffnessSettings::Constant { pair_n_per_mm2 } => Curve::Teeth(pair_n_per_mm2),
             StiffnessSettings::WeberBanaschek => {
-                Curve::WeberBanaschek(PerGear::from_fn(|gear| ToothCompliance::new(&pair.teeth[gear], &material[gear])))
+                let tooth = |gear| ToothCompliance::new(&pair.teeth[gear], &material[gear]);
+                Curve::WeberBanaschek(Box::new(PerGear::from_fn(tooth)))
             }
             StiffnessSettings::Iso6336 => {
                 Curve::WholePair(1.0 / iso6336::single_stiffness_n_per_mm2(&pair.spec, material, line_load_n_per_mm))

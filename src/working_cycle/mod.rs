@@ -10,7 +10,7 @@ pub mod positions;
 
 use rayon::prelude::*;
 
-use crate::contact::{ContactSurface, Flanks, Footprint, PositionCell};
+use crate::contact::{ContactSurface, Flanks, Footprint, PositionCell, Sweep};
 use crate::gear::{Gear, PerGear};
 use crate::wear::WearLaw;
 use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance};
@@ -70,6 +70,7 @@ struct Station<'a> {
 struct Group<'a> {
     stations: Vec<Station<'a>>,
     depth_mm: PerGear<Vec<f64>>,
+    sweep: Sweep,
     work: Work,
     failure: Option<EquilibriumError>,
 }
@@ -120,6 +121,7 @@ impl<'a> WorkingCycle<'a> {
             .map(|positions| Group {
                 stations: positions.iter().map(|p| Station::new(flanks, surface, p)).collect(),
                 depth_mm: PerGear::from_fn(|gear| vec![0.0; flanks.grid[gear].len()]),
+                sweep: Sweep::default(),
                 work: Work::default(),
                 failure: None,
             })
@@ -157,22 +159,23 @@ impl<'a> WorkingCycle<'a> {
     }
 
     /// What the last evaluation found, on the same `removed_mm`.
-    pub fn observe(&mut self, removed_mm: PerGear<&[f64]>) -> CycleObservation {
+    pub fn observe(&self, removed_mm: PerGear<&[f64]>) -> CycleObservation {
         let zeros = || removed_mm.map(|flank| vec![0.0; flank.len()]);
         let mut observation = CycleObservation { positions: Vec::new(), pressure_mpa: zeros(), sliding_mm: zeros() };
-        for station in self.groups.iter_mut().flat_map(|group| &mut group.stations) {
+        let mut sweep = Sweep::default();
+        for station in self.groups.iter().flat_map(|group| &group.stations) {
             observation.positions.push(station.observe(self.line_load_n_per_mm));
             for gear in Gear::BOTH {
-                let sweep = station.pairs[0].contact.sweep(gear, removed_mm);
-                let range = sweep.first_point..sweep.first_point + sweep.pressure_mpa.len();
-                let felt = sweep.greatest_pressure_mpa.iter().zip(sweep.sliding_mm).zip(sweep.contact_fraction);
+                station.pairs[0].contact.sweep(gear, removed_mm, &mut sweep);
+                let range = sweep.first_point..sweep.first_point + sweep.sliding_mm.len();
+                let felt = station.pairs[0].contact.felt(gear, removed_mm);
                 let points = observation.pressure_mpa[gear][range.clone()]
                     .iter_mut()
                     .zip(&mut observation.sliding_mm[gear][range]);
-                for ((greatest, slid), ((&pressure, &sliding), &fraction)) in points.zip(felt) {
+                for ((greatest, slid), (felt, &sliding)) in points.zip(felt.iter().zip(&sweep.sliding_mm)) {
                     if sliding > 0.0 {
-                        *greatest = greatest.max(pressure);
-                        *slid += sliding * fraction;
+                        *greatest = greatest.max(felt.pressure_mpa);
+                        *slid += sliding * felt.contact_fraction;
                     }
                 }
             }
@@ -197,9 +200,10 @@ impl Group<'_> {
                 }
             }
             for gear in Gear::BOTH {
-                let sweep = station.pairs[0].contact.sweep(gear, removed_mm);
-                let points = sweep.first_point..sweep.first_point + sweep.pressure_mpa.len();
-                law.add_depth(sweep.pressure_mpa, sweep.sliding_mm, &mut self.depth_mm[gear][points]);
+                let sweep = &mut self.sweep;
+                station.pairs[0].contact.sweep(gear, removed_mm, sweep);
+                let points = sweep.first_point..sweep.first_point + sweep.sliding_mm.len();
+                law.add_depth(&sweep.pressure_mpa, &sweep.sliding_mm, &mut self.depth_mm[gear][points]);
             }
         }
     }
