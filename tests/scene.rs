@@ -15,7 +15,7 @@ fn resolve(text: &str) -> Resolved {
     Scene::from_toml(text).unwrap_or_else(|problems| panic!("{problems:#?}"))
 }
 
-/// fzg.md, "FZG test gears": module 4.5, 20°, 16/24 teeth, centre distance 91.5, type C and type A.
+/// ISO 14635-1: module 4.5, 20°, 16/24 teeth, centre distance 91.5, type C and type A.
 #[test]
 fn val_presets_are_the_fzg_gears() {
     for (name, width, shifts, tips) in

@@ -27,9 +27,10 @@ pub struct Place {
 impl FlankGrid {
     /// `flank_points` intervals on a gear's flank: `flank_points + 1` points.
     pub fn new(pair: &GearPair, gear: Gear, flank_points: usize) -> Self {
-        let involute = pair.teeth[gear].involute;
-        let coordinate_mm: Vec<f64> =
-            radii_mm(pair, gear, flank_points).map(|r| involute.curvature_radius_mm(r)).collect();
+        let (involute, tip) = (pair.teeth[gear].involute, pair.teeth[gear].tip_radius_mm);
+        let base = involute.base_radius_mm;
+        let radius = |i: usize| base + (tip - base) * i as f64 / flank_points as f64;
+        let coordinate_mm: Vec<f64> = (0..=flank_points).map(|i| involute.curvature_radius_mm(radius(i))).collect();
         let arc_mm = coordinate_mm.iter().map(|&rho| involute.arc_mm(rho)).collect();
         Self { coordinate_mm, arc_mm }
     }
@@ -82,18 +83,4 @@ impl FlankGrid {
     pub fn integral(&self, values: &[f64]) -> f64 {
         values.iter().enumerate().map(|(i, value)| value * self.share_mm(i)).sum()
     }
-}
-
-/// Radius of each point of a flank with `flank_points` intervals.
-pub fn radii_mm(pair: &GearPair, gear: Gear, flank_points: usize) -> impl Iterator<Item = f64> {
-    let tooth = &pair.teeth[gear];
-    let (base, tip) = (tooth.involute.base_radius_mm, tooth.tip_radius_mm);
-    (0..=flank_points).map(move |i| base + (tip - base) * i as f64 / flank_points as f64)
-}
-
-/// The modifications of a gear's flank as removed material at its points, mm.
-pub fn modifications_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid) -> Vec<f64> {
-    let modification = &pair.spec.gears[gear].modification;
-    let start = pair.active_start_rho_mm(gear);
-    grid.coordinate_mm.iter().map(|&rho| modification.removed_mm(&pair.teeth[gear], start, rho)).collect()
 }

@@ -10,6 +10,7 @@ pub mod outline;
 pub mod pair;
 pub mod path_of_contact;
 pub mod per_gear;
+pub mod removed_material;
 pub mod root_trochoid;
 pub mod spec;
 pub mod tooth;

@@ -8,7 +8,8 @@
 use std::f64::consts::PI;
 
 use super::{
-    Gear, PairError, PerGear, involute::inverse_inv, path_of_contact::PathOfContact, spec::PairSpec, tooth::Tooth,
+    Gear, PairError, PerGear, involute::inverse_inv, path_of_contact::PathOfContact,
+    removed_material::tip_rounding_length_mm, spec::PairSpec, tooth::Tooth,
 };
 
 /// Rounded profile shifts and centre distances give a few tenths of a micrometre of negative backlash on paper; real
@@ -158,7 +159,7 @@ impl GearPair {
                 }
             }
             let tooth = &self.teeth[gear];
-            let rounding_mm = modification.tip_rounding_length_mm(tooth);
+            let rounding_mm = tip_rounding_length_mm(modification.tip_rounding_mm, tooth);
             let flank_mm =
                 tooth.involute.arc_mm(tooth.tip_rho_mm()) - tooth.involute.arc_mm(self.active_start_rho_mm(gear));
             // The two roundings of one tooth must also leave room for each other on the tip land.

@@ -84,7 +84,7 @@ mod tests {
     /// Steel on steel, E = 206 GPa, ν = 0.3.
     const STEEL_MPA: f64 = 206e3 / (1.0 - 0.3 * 0.3) / 2.0;
 
-    /// FZG type C at the pitch point, load stage 9: 302 N·m over 33.8289 mm and 14 mm (fzg.md: 1656 MPa).
+    /// FZG type C at the pitch point, load stage 9: 302 N·m over 33.8289 mm and 14 mm; independent calculation: 1656 MPa.
     #[test]
     fn val_fzg_type_c_load_stage_9() {
         let contact = HertzLine::new([13.9701, 20.9551], STEEL_MPA).unwrap().loaded(302e3 / 33.8289 / 14.0);

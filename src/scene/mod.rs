@@ -4,6 +4,7 @@ pub mod file;
 mod findings;
 mod later;
 mod locate;
+mod nearest;
 pub mod presets;
 pub mod problem;
 mod resolve;

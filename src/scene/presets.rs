@@ -41,5 +41,5 @@ impl Preset {
 
 /// The name of a preset that `name` is most like, if it is like any.
 pub fn nearest(name: &str) -> Option<&'static str> {
-    super::shape::nearest(name, &names())
+    super::nearest::nearest(name, &names())
 }

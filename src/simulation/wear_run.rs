@@ -14,10 +14,7 @@
 use super::record::StopReason;
 use super::settings::{Numerics, Operation};
 use crate::contact::{ContactSurface, Flanks};
-use crate::gear::{
-    Gear, GearPair, PerGear,
-    flank::{FlankGrid, modifications_mm},
-};
+use crate::gear::{Gear, GearPair, PerGear, flank::FlankGrid, removed_material::modifications_mm};
 use crate::stiffness::{StiffnessError, TeethSpring};
 use crate::wear::WearLaw;
 use crate::working_cycle::{

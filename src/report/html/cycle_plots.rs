@@ -3,7 +3,7 @@
 use plotly::Plot;
 
 use super::number::{change, figure, percent, significant};
-use super::reading::{Extreme, among, greatest};
+use super::reading::{Extreme, among, greatest, tip_edge_note};
 use super::theme::{Figure, axis, from_zero, layout, mark_path_points, named, new_and_worn, padded};
 use crate::simulation::record::{MeshCycleRow, PathPoints, RunRecord};
 
@@ -76,12 +76,13 @@ fn pressure(record: &RunRecord) -> Figure {
     };
     let reading = match (column(|r| r.peak_pressure_new_MPa), column(|r| r.peak_pressure_worn_MPa)) {
         (Some(new), Some(worn)) => format!(
-            "New, the pressure peaks {} with {} MPa; worn, {} with {} MPa ({}).",
+            "New, the pressure peaks {} with {} MPa; worn, {} with {} MPa ({}).{}",
             place(new),
             figure(new.value),
             place(worn),
             figure(worn.value),
             change(new.value, worn.value),
+            tip_edge_note(&named(&record.summary.geometry.curvature_radius_mm), rows[worn.index].position_mm),
         ),
         _ => NOT_COMPUTED.into(),
     };

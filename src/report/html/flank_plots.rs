@@ -4,7 +4,7 @@ use plotly::Plot;
 use plotly::common::DashType;
 
 use super::number::{figure, given, plotted, revolutions};
-use super::reading::{Extreme, greatest, place_on_flank};
+use super::reading::{Extreme, greatest, place_on_flank, tip_edge_note};
 use super::theme::{self, Figure, axis, curve, layout, line, mark_path_points, new_and_worn, padded};
 use crate::gear::Gear;
 use crate::simulation::record::{FlankRecord, HistoryRow, RunRecord};
@@ -115,12 +115,13 @@ fn pressure_on(record: &RunRecord, gear: Gear, top_mpa: f64) -> Figure {
     let place = |at: Extreme| place_on_flank(flank, flank.radius_mm[at.index]);
     let reading = match (greatest(&flank.pressure_new_MPa), greatest(&flank.pressure_worn_MPa)) {
         (Some(new), Some(worn)) => format!(
-            "During one mesh the {}’s flank feels at most {} MPa new, {}, and {} MPa worn, {}.",
+            "During one mesh the {}’s flank feels at most {} MPa new, {}, and {} MPa worn, {}.{}",
             gear.name(),
             figure(new.value),
             place(new),
             figure(worn.value),
             place(worn),
+            tip_edge_note(&theme::named(&flank.path_point_radius_mm), flank.radius_mm[worn.index]),
         ),
         _ => format!("No pressure was computed on the {}’s flank.", gear.name()),
     };

@@ -42,6 +42,17 @@ pub fn among(places: &[(&str, f64)], at: f64) -> String {
     }
 }
 
+/// What to say of a pressure that is greatest at A or E, where one flank ends in its tip edge; empty elsewhere.
+pub fn tip_edge_note(places: &[(&str, f64)], at: f64) -> &'static str {
+    match among(places, at).as_str() {
+        "close to A" | "close to E" | "outside the active flank" => {
+            " This is at a tip edge: where the edge is sharp, the pressure depends on the contact model and on the \
+             spacing of positions, and only a tip rounding gives it a true value."
+        }
+        _ => "",
+    }
+}
+
 /// "127.75 h (1.15 million pinion revolutions)".
 pub fn duration(summary: &Summary) -> String {
     let turns = format!("{} pinion revolutions", revolutions(summary.revolutions));
@@ -72,8 +83,11 @@ pub fn answer(record: &RunRecord) -> String {
     if record.history.is_empty() {
         return text;
     }
+    let positions = named(&s.geometry.curvature_radius_mm);
+    let worn = greatest(&record.mesh_cycle.iter().map(|row| row.peak_pressure_worn_MPa).collect::<Vec<_>>());
+    let place = worn.map_or_else(String::new, |at| among(&positions, record.mesh_cycle[at.index].position_mm));
     text.push_str(&format!(
-        " The greatest pressure went from {} to {} MPa ({}), the transmission error peak to peak from {} to {} µm.",
+        " The greatest pressure, {place}, went from {} to {} MPa ({}), the transmission error peak to peak from {} to {} µm.",
         figure(s.new.peak_pressure_MPa),
         figure(s.worn.peak_pressure_MPa),
         change(s.new.peak_pressure_MPa, s.worn.peak_pressure_MPa),

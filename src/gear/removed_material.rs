@@ -1,0 +1,63 @@
+//! The flank as nominal involute plus material removed along its normal.
+//!
+//! All modifications are entries of one field over the flank, to which wear adds; every contact model reads only that
+//! field. By radius of curvature ρ, in roll length along the path of contact:
+//!
+//! ```text
+//! relief        C (u/L)ⁿ       u: roll length from where it begins, L: its whole length, n = 1 linear, 2 parabolic
+//! crowning      C_α (2v)²      v: roll length from the middle of the active profile over its whole length
+//! tip rounding  ρ_k − √(ρ_k² − d²)   d: distance along the flank from where the rounding of radius ρ_k begins
+//! ```
+//!
+//! Source: ISO 21771-1, profile modifications; the rounding is the circle tangent to flank and tip circle.
+
+use super::{
+    Gear, GearPair,
+    flank::FlankGrid,
+    modification::{Modification, Relief, ReliefShape},
+    tooth::Tooth,
+};
+
+/// The modifications of a gear's flank as removed material at its points, mm.
+pub fn modifications_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid) -> Vec<f64> {
+    let (modification, tooth) = (&pair.spec.gears[gear].modification, &pair.teeth[gear]);
+    let start = pair.active_start_rho_mm(gear);
+    grid.coordinate_mm.iter().map(|&rho| removed_mm(modification, tooth, start, rho)).collect()
+}
+
+/// Material removed at radius of curvature `rho_mm` of `tooth`, whose active profile begins at `active_start_rho_mm`.
+pub fn removed_mm(modification: &Modification, tooth: &Tooth, active_start_rho_mm: f64, rho_mm: f64) -> f64 {
+    let tip_rho = tooth.tip_rho_mm();
+    let tip = modification.tip_relief.map_or(0.0, |r| relief_mm(r, rho_mm - (tip_rho - r.length_mm)));
+    let root = modification.root_relief.map_or(0.0, |r| relief_mm(r, active_start_rho_mm + r.length_mm - rho_mm));
+    let across = (2.0 * (rho_mm - active_start_rho_mm) / (tip_rho - active_start_rho_mm) - 1.0).clamp(-1.0, 1.0);
+    let crowning = modification.profile_crowning_mm * across * across;
+    tip + root + crowning + tip_rounding_mm(modification.tip_rounding_mm, tooth, rho_mm)
+}
+
+/// Length along the flank that a tip rounding takes: the tangent length ρ_k tan(γ/2) of the turn γ = π/2 − α_a from flank
+/// to tip circle.
+pub fn tip_rounding_length_mm(rounding_mm: f64, tooth: &Tooth) -> f64 {
+    let turn = std::f64::consts::FRAC_PI_2 - tooth.involute.pressure_angle_rad(tooth.tip_rho_mm());
+    rounding_mm * (0.5 * turn).tan()
+}
+
+/// Removed by a relief at `from_start_mm` of roll length beyond where it begins; 0 before, the amount after its end.
+fn relief_mm(relief: Relief, from_start_mm: f64) -> f64 {
+    let fraction = (from_start_mm / relief.length_mm).clamp(0.0, 1.0);
+    relief.amount_mm
+        * match relief.shape {
+            ReliefShape::Linear => fraction,
+            ReliefShape::Parabolic => fraction * fraction,
+        }
+}
+
+fn tip_rounding_mm(radius: f64, tooth: &Tooth, rho_mm: f64) -> f64 {
+    let begins = tooth.involute.arc_mm(tooth.tip_rho_mm()) - tip_rounding_length_mm(radius, tooth);
+    let into = tooth.involute.arc_mm(rho_mm) - begins;
+    if radius <= 0.0 || into <= 0.0 {
+        return 0.0;
+    }
+    // ρ − √(ρ² − d²) without cancellation.
+    into * into / (radius + ((radius - into) * (radius + into)).max(0.0).sqrt())
+}
