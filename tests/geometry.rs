@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::{assert_close, fzg_a, fzg_c, gear, pair, spur};
+use common::{assert_close, fzg_a, fzg_c, gear, pair, spur, steel};
+use gearwear::contact::hertz::flattening;
 use gearwear::gear::{
     Gear, PairError,
     outline::{Curve, outline},
@@ -199,4 +200,25 @@ fn ver_least_centre_distance_is_exact() {
     spec.centre_distance_mm = least_mm + 1e-6;
     let loose = pair(&spec).backlash_mm;
     assert!(loose > 0.0 && loose < 1e-5, "{loose}");
+}
+
+/// Hertz pressure at the pitch point with the whole load, FZG load stages 1, 4, 6, 8, 9, 10 and 12: independent
+/// calculation for the project in double precision, given to 0.1 MPa for type A (b 20) and to 1 MPa for type C (b 14).
+#[test]
+fn val_hertz_pressure_of_the_load_stages() {
+    let torques_nm = [3.3, 60.8, 135.3, 239.3, 302.0, 372.6, 534.5];
+    let type_a = [144.8, 621.5, 927.1, 1233.0, 1385.1, 1538.5, 1842.7];
+    let type_c = [173.0, 743.0, 1108.0, 1474.0, 1656.0, 1839.0, 2203.0];
+    for (spec, pressures, rounding) in [(fzg_a(), type_a, 0.05), (fzg_c(), type_c, 0.5)] {
+        let pair = pair(&spec);
+        let contact = flattening(&pair, &steel(), pair.path.pitch_point_mm).contact;
+        for (torque, expected) in torques_nm.iter().zip(pressures) {
+            let load = 1e3 * torque / pair.path.involute.pinion.base_radius_mm / spec.face_width_mm;
+            let pressure = contact.loaded(load).peak_pressure_mpa;
+            assert!(
+                (pressure - expected).abs() <= 2e-3 * expected + rounding,
+                "{torque} N·m: {pressure} MPa, {expected}"
+            );
+        }
+    }
 }
