@@ -6,7 +6,9 @@ use common::{assert_close, fzg_a, fzg_c, gear, pair, spur, steel};
 use gearwear::contact::hertz::flattening;
 use gearwear::gear::{
     Gear, PairError,
+    modification::{Modification, Relief, ReliefShape},
     outline::{Curve, outline},
+    removed_material::{removed_mm, tip_rounding_length_mm},
     tooth::Tooth,
 };
 
@@ -221,4 +223,35 @@ fn val_hertz_pressure_of_the_load_stages() {
             );
         }
     }
+}
+
+/// Reliefs, crowning and rounding as material removed along the normal: their values where the definition gives them.
+#[test]
+fn ver_modifications_remove_what_they_say() {
+    let c = pair(&fzg_c());
+    let tooth = &c.teeth.pinion;
+    let (start, tip) = (c.active_start_rho_mm(Gear::Pinion), tooth.tip_rho_mm());
+    let at = |modification: &Modification, rho: f64| removed_mm(modification, tooth, start, rho);
+
+    let relief = |shape| Relief { amount_mm: 0.02, length_mm: 4.0, shape };
+    let linear = Modification { tip_relief: Some(relief(ReliefShape::Linear)), ..Modification::default() };
+    assert_eq!([at(&linear, tip), at(&linear, tip - 4.0), at(&linear, start)], [0.02, 0.0, 0.0]);
+    assert_close("half-way", at(&linear, tip - 2.0), 0.01, 1e-12);
+    let parabolic = Modification { root_relief: Some(relief(ReliefShape::Parabolic)), ..Modification::default() };
+    assert_eq!([at(&parabolic, start), at(&parabolic, start + 4.0), at(&parabolic, start - 1.0)], [0.02, 0.0, 0.02]);
+    assert_close("half-way", at(&parabolic, start + 2.0), 0.005, 1e-12);
+
+    let crowned = Modification { profile_crowning_mm: 0.008, ..Modification::default() };
+    assert_close("ends", at(&crowned, start), 0.008, 1e-12);
+    assert_close("ends", at(&crowned, tip), 0.008, 1e-12);
+    assert!(at(&crowned, 0.5 * (start + tip)) < 1e-15);
+
+    // The rounding's circle touches the flank where it begins and the tip circle at the tip: with the turn γ between
+    // them the flank's end lies ρ − √(ρ² − d²) off the circle along its normal, with d = ρ tan(γ/2).
+    let rounded = Modification { tip_rounding_mm: 0.2, ..Modification::default() };
+    let turn = std::f64::consts::FRAC_PI_2 - tooth.involute.pressure_angle_rad(tip);
+    let length = 0.2 * (0.5 * turn).tan();
+    assert_close("length", tip_rounding_length_mm(0.2, tooth), length, 1e-12);
+    assert_close("at the tip", at(&rounded, tip), 0.2 - (0.04 - length * length).sqrt(), 1e-9);
+    assert_eq!(at(&rounded, tip - 2.0), 0.0);
 }
