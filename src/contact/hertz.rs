@@ -62,7 +62,7 @@ pub(super) struct ClosedFormPair<'a> {
     pub flattening: Flattening,
     /// Material removed at the theoretical contact point of both flanks together, mm.
     removed_mm: f64,
-    /// The load of the last approach pressed, N/mm.
+    /// The load of the last depth pressed, N/mm.
     pub line_load: f64,
 }
 
@@ -80,14 +80,18 @@ impl<'a> ClosedFormPair<'a> {
         self.removed_mm = at_contact(Gear::Pinion) + at_contact(Gear::Wheel);
     }
 
-    pub fn press(&mut self, approach_mm: f64) -> Response {
-        self.line_load = self.flattening.line_load_n_per_mm(approach_mm - self.removed_mm);
+    pub fn touch_mm(&self) -> f64 {
+        self.removed_mm
+    }
+
+    pub fn press(&mut self, depth_mm: f64) -> Response {
+        self.line_load = self.flattening.line_load_n_per_mm(depth_mm);
         let (_, compliance) = self.flattening.approach_and_compliance(self.line_load);
         Response { line_load_n_per_mm: self.line_load, stiffness_n_per_mm2: 1.0 / compliance }
     }
 
-    pub fn ample_approach_mm(&self, line_load_n_per_mm: f64) -> f64 {
-        self.removed_mm + self.flattening.approach_mm(line_load_n_per_mm)
+    pub fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64 {
+        self.flattening.approach_mm(line_load_n_per_mm)
     }
 }
 
@@ -134,12 +138,16 @@ impl PairContact for HertzPair<'_> {
         self.closed_form.read(removed_mm);
     }
 
-    fn press(&mut self, approach_mm: f64) -> Response {
-        self.closed_form.press(approach_mm)
+    fn touch_mm(&self) -> f64 {
+        self.closed_form.touch_mm()
     }
 
-    fn ample_approach_mm(&self, line_load_n_per_mm: f64) -> f64 {
-        self.closed_form.ample_approach_mm(line_load_n_per_mm)
+    fn press(&mut self, depth_mm: f64) -> Response {
+        self.closed_form.press(depth_mm)
+    }
+
+    fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64 {
+        self.closed_form.ample_depth_mm(line_load_n_per_mm)
     }
 
     fn settle(&mut self) -> bool {

@@ -82,12 +82,16 @@ impl PairContact for HertzMeanPair<'_> {
         self.closed_form.read(removed_mm);
     }
 
-    fn press(&mut self, approach_mm: f64) -> Response {
-        self.closed_form.press(approach_mm)
+    fn touch_mm(&self) -> f64 {
+        self.closed_form.touch_mm()
     }
 
-    fn ample_approach_mm(&self, line_load_n_per_mm: f64) -> f64 {
-        self.closed_form.ample_approach_mm(line_load_n_per_mm)
+    fn press(&mut self, depth_mm: f64) -> Response {
+        self.closed_form.press(depth_mm)
+    }
+
+    fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64 {
+        self.closed_form.ample_depth_mm(line_load_n_per_mm)
     }
 
     fn sweep(&self, gear: Gear, _removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {

@@ -1,7 +1,7 @@
 //! Contact surfaces: how a tooth pair answers when its flanks are pressed together.
 //!
 //! One interface for all models. A [`ContactSurface`] prepares a [`PairContact`] for each tooth pair at each loading
-//! position; the working cycle then presses it by an approach and reads load and stiffness, and the wear collects what
+//! position; the working cycle then presses it and reads load and stiffness, and the wear collects what
 //! each flank point felt ([`Sweep`]). A contact reads the flank only as *removed material*: modifications and wear alike.
 //!
 //! | surface | pressure | load against approach |
@@ -39,12 +39,12 @@ pub struct PositionCell {
     pub upper_mm: f64,
 }
 
-/// A tooth pair's answer to an approach.
+/// A tooth pair's answer to being pressed together.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Response {
     /// Load it carries, N per mm of face width.
     pub line_load_n_per_mm: f64,
-    /// Derivative of the load with respect to the approach, N/mm².
+    /// Derivative of the load with respect to the depth, N/mm².
     pub stiffness_n_per_mm2: f64,
 }
 
@@ -96,13 +96,16 @@ pub trait PairContact: Send {
     /// Takes the material removed at each flank point, mm.
     fn read(&mut self, removed_mm: PerGear<&[f64]>);
 
-    /// Load and stiffness at `approach_mm`: zero where unworn, unmodified flanks just touch.
-    fn press(&mut self, approach_mm: f64) -> Response;
+    /// Approach at which the flanks first touch: zero where they are unworn and unmodified.
+    fn touch_mm(&self) -> f64;
 
-    /// An approach that carries at least `line_load_n_per_mm`, to begin an iteration with.
-    fn ample_approach_mm(&self, line_load_n_per_mm: f64) -> f64;
+    /// Load and stiffness when the flanks are pressed together by `depth_mm` beyond their first touch.
+    fn press(&mut self, depth_mm: f64) -> Response;
 
-    /// Told that the last approach pressed is the equilibrium; answers whether the stretch of flank this contact looks
+    /// A depth that should carry at least `line_load_n_per_mm`, to begin an iteration with.
+    fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64;
+
+    /// Told that the last depth pressed is the equilibrium; answers whether the stretch of flank this contact looks
     /// at holds all that touches then. If not, [`widen`](Self::widen) it, read and press again.
     fn settle(&mut self) -> bool {
         true

@@ -118,14 +118,19 @@ impl Strip {
         strip
     }
 
-    /// The gap with `removed_mm` of material gone, into `gap_mm`.
-    pub fn gap_mm(&self, removed_mm: PerGear<&[f64]>, gap_mm: &mut Vec<f64>) {
+    /// The gap with `removed_mm` of material gone, into `gap_mm`, and its least value.
+    pub fn gap_mm(&self, removed_mm: PerGear<&[f64]>, gap_mm: &mut Vec<f64>) -> f64 {
         let [pinion, wheel] = Gear::BOTH.map(|gear| self.interpolation[gear].of(removed_mm[gear], 0));
         gap_mm.resize(self.geometric_gap_mm.len(), 0.0);
+        let mut least = f64::INFINITY;
         for (((gap, geometric), pinion), wheel) in gap_mm.iter_mut().zip(&self.geometric_gap_mm).zip(pinion).zip(wheel)
         {
             *gap = geometric + pinion + wheel;
+            if *gap < least {
+                least = *gap;
+            }
         }
+        least
     }
 
     /// Whether flanks pressed together by `approach_mm` can touch beyond an end of the window that is not real: removed
@@ -252,25 +257,104 @@ pub struct GapAtPoints {
     mate: Interpolation,
     /// How the gap of each point changes within the cell.
     course: Vec<Course>,
+    growth: Vec<Growth>,
 }
 
 /// How the gap of a point changes while the contact passes: its own wear stays with it, so the geometry alone does.
+///
+/// At `x` along the tangent from where the point is at the cell's position, its gap has grown by slope · x + x²/(2R).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Course {
-    /// Added to the gap at the beginning of the part of the cell in which the point faces the mate, along the tangent of
-    /// its course at the cell's position, mm.
-    pub to_begin: f64,
-    /// The same at the end of that part.
-    pub to_end: f64,
-    /// Added on average by the curvature of the course, mm.
-    pub sag: f64,
+struct Course {
+    /// Where the point begins to face the mate within the cell, or the cell begins; the lower of both ends, mm.
+    from_mm: f64,
+    /// Where that ends; the upper of both ends, mm.
+    to_mm: f64,
+    slope: f64,
+    /// 1/R, 1/mm.
+    curvature: f64,
+}
+
+/// What the usual cases, a point in contact over its whole [`Course`] or nowhere on it, need of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Growth {
+    /// Of the gap at both ends, mm.
+    at_ends_mm: [f64; 2],
+    /// Of the gap on average, mm.
+    mean_mm: f64,
+    /// The least growth anywhere, mm.
+    least_mm: f64,
+}
+
+/// A point's gap at the cell's position, and its course.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FacedGap<'a> {
+    /// Gap at the cell's position, mm.
+    pub gap_mm: f64,
+    growth: &'a Growth,
+    course: &'a Course,
+}
+
+impl FacedGap<'_> {
+    /// Whether the point faces the mate at the cell's position itself.
+    pub fn is_faced_at_position(&self) -> bool {
+        self.course.from_mm <= 0.0 && self.course.to_mm >= 0.0 && self.course.from_mm < self.course.to_mm
+    }
+
+    /// Mean over the course of the positive part of the penetration, for flanks that have approached each other by
+    /// `approach_mm`, and the fraction of the course on which it is positive.
+    #[inline]
+    pub fn mean_penetration(&self, approach_mm: f64) -> (f64, f64) {
+        let penetration = approach_mm - self.gap_mm;
+        let [at_from, at_to] = self.growth.at_ends_mm;
+        if penetration > at_from && penetration > at_to {
+            return (penetration - self.growth.mean_mm, 1.0);
+        }
+        if penetration <= self.growth.least_mm {
+            return (0.0, 0.0);
+        }
+        self.course.mean_positive(penetration)
+    }
 }
 
 impl Course {
-    /// Change of the gap at the cell's position or, where the point does not face the mate there, at the nearer end.
-    pub fn nearest_to_position(self) -> f64 {
-        let (low, high) = (self.to_begin.min(self.to_end), self.to_begin.max(self.to_end));
-        low.max(0.0).min(high)
+    fn growth(&self) -> Growth {
+        Growth {
+            at_ends_mm: [self.growth_at(self.from_mm), self.growth_at(self.to_mm)],
+            mean_mm: self.mean_growth(self.from_mm, self.to_mm),
+            least_mm: self.growth_at((-self.slope / self.curvature).max(self.from_mm).min(self.to_mm)),
+        }
+    }
+
+    /// Mean over the course of the positive part of the penetration that is `u_mm` at the cell's position, and the
+    /// fraction of the course on which it is positive:
+    ///
+    /// ```text
+    /// u(x) = u − slope x − x²/(2R)       positive between x± = R (−slope ± √(slope² + 2 u/R))
+    /// ```
+    fn mean_positive(&self, u_mm: f64) -> (f64, f64) {
+        let square = self.slope * self.slope + 2.0 * u_mm * self.curvature;
+        if square <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let (deepest_mm, reach_mm) = (-self.slope / self.curvature, square.sqrt() / self.curvature);
+        let from = self.from_mm.max(deepest_mm - reach_mm);
+        let to = self.to_mm.min(deepest_mm + reach_mm);
+        if from >= to {
+            return (0.0, 0.0);
+        }
+        let fraction = (to - from) / (self.to_mm - self.from_mm);
+        (fraction * (u_mm - self.mean_growth(from, to)), fraction)
+    }
+
+    /// Growth of the gap at `x_mm`.
+    fn growth_at(&self, x_mm: f64) -> f64 {
+        x_mm * (self.slope + 0.5 * self.curvature * x_mm)
+    }
+
+    /// Mean growth of the gap between two places: that at the middle and a twelfth of the square of the width over 2R.
+    fn mean_growth(&self, from_mm: f64, to_mm: f64) -> f64 {
+        let width = to_mm - from_mm;
+        self.growth_at(0.5 * (from_mm + to_mm)) + self.curvature * width * width / 24.0
     }
 }
 
@@ -290,33 +374,39 @@ impl GapAtPoints {
         let curvature = 1.0 / flanks.geometry.relative_radius_mm(position_mm);
         let shifts = points.shifts_to_ends_mm();
         let slope = |k: usize| 0.5 * (geometric_gap_mm[k + 2] - geometric_gap_mm[k]) / points.spacing_mm;
-        let course = shifts
+        let course: Vec<Course> = shifts
             .iter()
             .enumerate()
-            .map(|(k, [from, to])| Course {
-                to_begin: from * slope(k),
-                to_end: to * slope(k),
-                // Mean of x²/2R from one end to the other.
-                sag: curvature * (from * from + from * to + to * to) / 6.0,
+            .map(|(k, [begin, end])| Course {
+                from_mm: begin.min(*end),
+                to_mm: begin.max(*end),
+                slope: slope(k),
+                curvature,
             })
             .collect();
         geometric_gap_mm.truncate(count + 1);
         geometric_gap_mm.remove(0);
-        Self { geometric_gap_mm, mate, course }
+        let growth = course.iter().map(Course::growth).collect();
+        Self { geometric_gap_mm, mate, course, growth }
     }
 
-    /// The gap at the points of `range` (counted from the first) with `removed_mm` of material gone, and its course.
-    pub fn gaps_mm<'a>(
+    /// The gap at the points of `range` (counted from the first) with `removed_mm` of material gone.
+    pub fn faced<'a>(
         &'a self,
         points: &ObservedPoints,
         gear: Gear,
         removed_mm: PerGear<&'a [f64]>,
         range: Range<usize>,
-    ) -> impl Iterator<Item = (f64, Course)> + 'a {
+    ) -> impl Iterator<Item = FacedGap<'a>> + 'a {
         let own = &removed_mm[gear][points.first_point + range.start..];
         let mate = self.mate.of(removed_mm[gear.mate()], range.start);
         let gaps = self.geometric_gap_mm[range.clone()].iter().zip(own).zip(mate);
-        gaps.map(|((geometric, own), mate)| geometric + own + mate).zip(self.course[range].iter().copied())
+        let courses = self.growth[range.clone()].iter().zip(&self.course[range]);
+        gaps.zip(courses).map(|(((geometric, own), mate), (growth, course))| FacedGap {
+            gap_mm: geometric + own + mate,
+            growth,
+            course,
+        })
     }
 }
 

@@ -7,12 +7,13 @@
 //! ```
 //!
 //! The load is summed over cells of evenly spaced samples. In a cell the penetration u = δ − g is a straight line
-//! between its samples, whose positive part integrates exactly to (Δ/2) P²/U with P = max(u₀, 0) + max(u₁, 0) and
-//! U = |u₀| + |u₁|: the ends of the contact are found between samples, and the load is a smooth function of δ. The
-//! curvature of the geometric gap, which the straight line misses, is added back: Δ³/(12 R) a cell.
+//! between its samples, raised by Δ²/(12 R), the mean of what the curvature of the gap adds to it; its positive part
+//! integrates exactly. So the ends of the contact are found between samples, and the load is a smooth, ever steeper
+//! function of δ.
 //!
 //! A flank point's pressure is averaged over the stretch the contact moves on while it stands for one loading position,
-//! by the same formula: so few positions suffice, and load and wear agree.
+//! exactly for the parabola that the point's penetration follows: so few positions suffice however narrow the contact,
+//! and load and wear agree.
 //!
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.3; the thesis, section 3.2.
 
@@ -20,7 +21,7 @@ use std::ops::Range;
 
 use super::{
     ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep, foundation,
-    strip::{Course, GapAtPoints, ObservedPoints, Strip, Window},
+    strip::{GapAtPoints, ObservedPoints, Strip, Window},
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 
@@ -50,7 +51,8 @@ impl ContactSurface for Winkler {
             strip,
             observed,
             gap: Vec::new(),
-            approach: 0.0,
+            touch: 0.0,
+            depth: 0.0,
             extent_mm: (0.0, 0.0),
         })
     }
@@ -96,52 +98,55 @@ struct WinklerPair<'a> {
     site: Site<'a>,
     strip: Strip,
     observed: Option<Observed>,
-    /// Real gap at the strip's samples, mm.
+    /// Real gap at the strip's samples less the least of them, mm.
     gap: Vec<f64>,
-    /// The last approach pressed, mm.
-    approach: f64,
+    /// The least gap, mm.
+    touch: f64,
+    /// The last depth pressed, mm.
+    depth: f64,
     /// Outermost places in contact at equilibrium, along the tangent.
     extent_mm: (f64, f64),
 }
 
 impl PairContact for WinklerPair<'_> {
     fn read(&mut self, removed_mm: PerGear<&[f64]>) {
-        self.strip.gap_mm(removed_mm, &mut self.gap);
+        let touch = self.strip.gap_mm(removed_mm, &mut self.gap);
+        // From the first touch on, nothing is lost where a light load meets a deep relief.
+        self.gap.iter_mut().for_each(|gap| *gap -= touch);
+        self.touch = touch;
     }
 
-    fn press(&mut self, approach_mm: f64) -> Response {
-        self.approach = approach_mm;
-        // Sums over cells of mean penetration, fraction in contact, and how fast that fraction grows with the approach.
-        let (mut penetration, mut contact, mut growth) = (0.0, 0.0, 0.0);
-        let mut before = approach_mm - self.gap[0];
+    fn touch_mm(&self) -> f64 {
+        self.touch
+    }
+
+    fn press(&mut self, depth_mm: f64) -> Response {
+        self.depth = depth_mm;
+        // The curvature of the gap between two samples, which the straight line misses, as its mean Δ²/12R.
+        let bulge = self.strip.spacing_mm * self.strip.spacing_mm / (12.0 * self.radius_mm);
+        // Sums over cells of mean penetration and of the fraction in contact, which is how fast the former grows.
+        let (mut penetration, mut contact) = (0.0, 0.0);
+        let mut before = depth_mm + bulge - self.gap[0];
         for gap in &self.gap[1..] {
-            let here = approach_mm - gap;
+            let here = depth_mm + bulge - gap;
             let (mean, fraction) = mean_positive([before, here]);
             penetration += mean;
             contact += fraction;
-            if fraction > 0.0 && fraction < 1.0 {
-                growth += 1.0 / (before - here).abs();
-            }
             before = here;
         }
-        let curvature = self.strip.spacing_mm * self.strip.spacing_mm / (12.0 * self.radius_mm);
         let foundation = self.foundation * self.strip.spacing_mm;
-        Response {
-            line_load_n_per_mm: foundation * (penetration + curvature * contact),
-            stiffness_n_per_mm2: foundation * (contact + curvature * growth),
-        }
+        Response { line_load_n_per_mm: foundation * penetration, stiffness_n_per_mm2: foundation * contact }
     }
 
-    fn ample_approach_mm(&self, line_load_n_per_mm: f64) -> f64 {
+    fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64 {
         // At a tip edge half of the strip carries the load, as if it were twice as large.
         let a = foundation::half_width_mm(self.foundation, self.radius_mm, 2.0 * line_load_n_per_mm);
-        let least_gap = self.gap.iter().copied().fold(f64::INFINITY, f64::min);
-        least_gap + a * a / (2.0 * self.radius_mm)
+        a * a / (2.0 * self.radius_mm)
     }
 
     fn settle(&mut self) -> bool {
         self.extent_mm = self.extent_mm();
-        !self.strip.may_touch_beyond(self.approach)
+        !self.strip.may_touch_beyond(self.touch + self.depth)
     }
 
     fn widen(&mut self) {
@@ -154,26 +159,30 @@ impl PairContact for WinklerPair<'_> {
         let (points, faced) = &observed[gear];
         let near = self.touching(gear, points);
         sweep.begin(points.first_point + near.start, &points.sliding_mm[near.clone()]);
-        let gaps = faced.gaps_mm(points, gear, removed_mm, near);
-        for (pressure, (gap, course)) in sweep.pressure_mpa.iter_mut().zip(gaps) {
-            *pressure = self.foundation * mean_positive(self.penetration(gap, course)).0;
+        let approach_mm = self.touch + self.depth;
+        for (pressure, faced) in sweep.pressure_mpa.iter_mut().zip(faced.faced(points, gear, removed_mm, near)) {
+            *pressure = self.foundation * faced.mean_penetration(approach_mm).0;
         }
     }
 
     fn felt(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<Felt> {
         let Some(observed) = &self.observed else { return Vec::new() };
         let (points, faced) = &observed[gear];
+        let approach_mm = self.touch + self.depth;
         faced
-            .gaps_mm(points, gear, removed_mm, self.touching(gear, points))
-            .map(|(gap, course)| Felt {
-                pressure_mpa: self.foundation * (self.approach - gap - course.nearest_to_position()).max(0.0),
-                contact_fraction: mean_positive(self.penetration(gap, course)).1,
+            .faced(points, gear, removed_mm, self.touching(gear, points))
+            .map(|faced| {
+                let penetration = if faced.is_faced_at_position() { approach_mm - faced.gap_mm } else { 0.0 };
+                Felt {
+                    pressure_mpa: self.foundation * penetration.max(0.0),
+                    contact_fraction: faced.mean_penetration(approach_mm).1,
+                }
             })
             .collect()
     }
 
     fn footprint(&self) -> Footprint {
-        let penetration = (self.approach - least(&self.gap)).max(0.0);
+        let penetration = (self.depth - least(&self.gap)).max(0.0);
         let half_width_mm = 0.5 * (self.extent_mm.1 - self.extent_mm.0);
         Footprint { peak_pressure_mpa: self.foundation * penetration, half_width_mm }
     }
@@ -213,17 +222,10 @@ impl WinklerPair<'_> {
         }
     }
 
-    /// Penetration at the beginning and at the end of a point's course, such that the straight line between them has
-    /// the mean of the real course.
-    fn penetration(&self, gap_mm: f64, course: Course) -> [f64; 2] {
-        let u = self.approach - gap_mm - course.sag;
-        [u - course.to_begin, u - course.to_end]
-    }
-
     /// Outermost places in contact, found between samples; empty at 0 without contact.
     fn extent_mm(&self) -> (f64, f64) {
-        let u = |k: usize| self.approach - self.gap[k];
-        let touches = |gap: &f64| *gap < self.approach;
+        let u = |k: usize| self.depth - self.gap[k];
+        let touches = |gap: &f64| *gap < self.depth;
         let (Some(first), Some(last)) = (self.gap.iter().position(touches), self.gap.iter().rposition(touches)) else {
             return (0.0, 0.0);
         };

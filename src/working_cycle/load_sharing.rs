@@ -19,9 +19,12 @@
 //! which their monotony allows.
 
 use crate::contact::{PairContact, Response};
+use crate::gear::PerGear;
 
 /// Greatest imbalance, relative to the load, at which an equilibrium is accepted.
 pub const TOLERANCE: f64 = 1e-11;
+/// Greatest imbalance, relative to the load, that a result may have where rounding stands in the way of [`TOLERANCE`].
+pub const GREATEST_IMBALANCE: f64 = 1e-10;
 /// Newton steps before bisection takes over; three to five are usual.
 const NEWTON_LIMIT: u64 = 40;
 
@@ -53,11 +56,14 @@ pub enum EquilibriumError {
 pub struct MeshedPair<'a> {
     /// Its contact surface.
     pub contact: Box<dyn PairContact + 'a>,
-    /// Its answer to the last approach.
+    /// Its answer to the last depth.
     pub response: Response,
     teeth_n_per_mm2: f64,
-    approach_mm: f64,
-    /// Approaches at the last three equilibria, the newest first: the next one starts from their continuation.
+    /// Approach at which the flanks first touch, mm.
+    touch_mm: f64,
+    /// Approach of the flanks beyond their first touch, mm.
+    depth_mm: f64,
+    /// Depths at the last three equilibria, the newest first: the next one starts from their continuation.
     history_mm: [Option<f64>; 3],
 }
 
@@ -75,17 +81,30 @@ pub struct Equilibrium {
 impl<'a> MeshedPair<'a> {
     /// A pair that has not carried load yet.
     pub fn new(contact: Box<dyn PairContact + 'a>, teeth_n_per_mm2: f64) -> Self {
-        Self { contact, response: Response::default(), teeth_n_per_mm2, approach_mm: 0.0, history_mm: [None; 3] }
+        Self {
+            contact,
+            response: Response::default(),
+            teeth_n_per_mm2,
+            touch_mm: 0.0,
+            depth_mm: 0.0,
+            history_mm: [None; 3],
+        }
     }
 
-    /// Keeps the present approach as a start for later.
+    /// Takes the material removed from both flanks.
+    pub fn read(&mut self, removed_mm: PerGear<&[f64]>) {
+        self.contact.read(removed_mm);
+        self.touch_mm = self.contact.touch_mm();
+    }
+
+    /// Keeps the present depth as a start for later.
     pub fn remember(&mut self) {
-        self.history_mm = [Some(self.approach_mm), self.history_mm[0], self.history_mm[1]];
+        self.history_mm = [Some(self.depth_mm), self.history_mm[0], self.history_mm[1]];
     }
 
-    fn press(&mut self, approach_mm: f64) {
-        self.approach_mm = approach_mm;
-        self.response = self.contact.press(approach_mm);
+    fn press(&mut self, depth_mm: f64) {
+        self.depth_mm = depth_mm;
+        self.response = self.contact.press(depth_mm);
     }
 
     fn start_mm(&self, line_load: f64) -> f64 {
@@ -93,13 +112,23 @@ impl<'a> MeshedPair<'a> {
             [Some(last), Some(before), Some(first)] => 3.0 * (last - before) + first,
             [Some(last), Some(before), None] => 2.0 * last - before,
             [Some(last), ..] => last,
-            [None, ..] => self.contact.ample_approach_mm(line_load),
+            [None, ..] => self.contact.ample_depth_mm(line_load),
         }
     }
 
-    /// Approach of the whole pair, teeth included.
+    /// Approach of the whole pair beyond the first touch of its flanks, teeth included.
+    fn whole_depth_mm(&self) -> f64 {
+        self.depth_mm + self.response.line_load_n_per_mm / self.teeth_n_per_mm2
+    }
+
+    /// Approach of the whole pair.
     fn whole_approach_mm(&self) -> f64 {
-        self.approach_mm + self.response.line_load_n_per_mm / self.teeth_n_per_mm2
+        self.touch_mm + self.whole_depth_mm()
+    }
+
+    /// How much more this pair has approached than `other`; without loss where both touch at the same approach.
+    fn ahead_of(&self, other: &Self) -> f64 {
+        (self.touch_mm - other.touch_mm) + (self.whole_depth_mm() - other.whole_depth_mm())
     }
 
     /// 1 + w'/k.
@@ -108,7 +137,9 @@ impl<'a> MeshedPair<'a> {
     }
 }
 
-/// Finds the equilibrium of `pairs` under `line_load` (> 0).
+/// Finds the equilibrium of `pairs` (at least one) under `line_load` (> 0).
+///
+/// Approaches are reckoned from that of the first pair, so that nothing is lost where a light load meets a deep relief.
 ///
 /// # Errors
 /// [`EquilibriumError`].
@@ -124,12 +155,12 @@ pub fn balance(
         evaluations += 1;
     }
     for iterations in 1..=NEWTON_LIMIT {
-        let (mut load, mut stiffness, mut reached) = (0.0, 0.0, 0.0);
+        let (mut load, mut stiffness, mut ahead) = (0.0, 0.0, 0.0);
         for pair in pairs.iter() {
             let tangent = pair.response.stiffness_n_per_mm2 / pair.series();
             load += pair.response.line_load_n_per_mm;
             stiffness += tangent;
-            reached += tangent * pair.whole_approach_mm();
+            ahead += tangent * pair.ahead_of(&pairs[0]);
         }
         if !load.is_finite() {
             return Err(EquilibriumError::NotFinite { position_mm });
@@ -137,30 +168,38 @@ pub fn balance(
         if stiffness <= 0.0 {
             // No pair touches: begin again from where each would carry the load alone.
             for pair in pairs.iter_mut() {
-                let ample = pair.contact.ample_approach_mm(line_load);
+                let ample = pair.contact.ample_depth_mm(line_load);
                 pair.press(ample);
                 evaluations += 1;
             }
             continue;
         }
-        let transmission_error_mm = (line_load - load + reached) / stiffness;
-        let out_of_balance = pairs.iter().fold((load - line_load).abs(), |worst: f64, pair| {
-            let step = (transmission_error_mm - pair.whole_approach_mm()) / pair.series();
-            worst.max((step * pair.teeth_n_per_mm2.max(pair.response.stiffness_n_per_mm2)).abs())
+        // δ less the approach of the first pair, and what each pair lacks of it.
+        let beyond_first = (line_load - load + ahead) / stiffness;
+        let step =
+            |pair: &MeshedPair<'_>, first: &MeshedPair<'_>| (beyond_first - pair.ahead_of(first)) / pair.series();
+        let settled = pairs.iter().all(|pair| {
+            let step = step(pair, &pairs[0]).abs();
+            step * pair.teeth_n_per_mm2.max(pair.response.stiffness_n_per_mm2) <= TOLERANCE * line_load
+                || step <= 8.0 * f64::EPSILON * pair.whole_approach_mm().abs().max(pairs[0].whole_approach_mm().abs())
         });
-        if out_of_balance <= TOLERANCE * line_load {
+        if settled && (load - line_load).abs() <= TOLERANCE * line_load {
+            let transmission_error_mm = pairs[0].whole_approach_mm() + beyond_first;
             return Ok(Equilibrium { transmission_error_mm, iterations, pair_evaluations: evaluations });
         }
-        for pair in pairs.iter_mut() {
-            let step = (transmission_error_mm - pair.whole_approach_mm()) / pair.series();
-            pair.press(pair.approach_mm + step);
-            evaluations += 1;
+        let (first, others) = pairs.split_at_mut(1);
+        for pair in others {
+            let deeper = pair.depth_mm + step(pair, &first[0]);
+            pair.press(deeper);
         }
+        let deeper = first[0].depth_mm + beyond_first / first[0].series();
+        first[0].press(deeper);
+        evaluations += pairs.len() as u64;
     }
     bisect(pairs, line_load, position_mm, evaluations)
 }
 
-/// The equilibrium by bisection of δ, and of every s_i within it.
+/// The equilibrium by bisection of δ, and of every depth within it.
 fn bisect(
     pairs: &mut [MeshedPair<'_>],
     line_load: f64,
@@ -171,37 +210,41 @@ fn bisect(
         pairs
             .iter_mut()
             .map(|pair| {
-                // s ≤ δ, and the pair's load cannot exceed what keeps δ − s at the whole load.
-                let (mut low, mut high) = (delta - 2.0 * line_load / pair.teeth_n_per_mm2, delta);
+                // The teeth take up what the surface does not: the depth lies between none of δ and all of it.
+                let whole = delta - pair.touch_mm;
+                let (mut low, mut high) = (whole.min(0.0), whole);
                 pair.press(high);
                 evaluations += 1;
-                while high - low > 4.0 * f64::EPSILON * (high.abs() + low.abs()) && pair.whole_approach_mm() != delta {
-                    if pair.whole_approach_mm() > delta {
-                        high = pair.approach_mm;
-                    } else {
-                        low = pair.approach_mm;
-                    }
+                loop {
                     let middle = low.midpoint(high);
                     if middle <= low || middle >= high {
-                        break;
+                        break pair.response.line_load_n_per_mm;
                     }
                     pair.press(middle);
                     evaluations += 1;
+                    if pair.whole_depth_mm() > whole {
+                        high = middle;
+                    } else {
+                        low = middle;
+                    }
                 }
-                pair.response.line_load_n_per_mm
             })
             .sum()
     };
-    let ample = |pair: &MeshedPair<'_>| pair.contact.ample_approach_mm(line_load) + line_load / pair.teeth_n_per_mm2;
-    let mut high = pairs.iter().map(ample).fold(f64::NEG_INFINITY, f64::max);
-    let mut low = pairs.iter().map(|pair| pair.contact.ample_approach_mm(0.0)).fold(f64::INFINITY, f64::min);
-    let mut carried = 0.0;
-    for _ in 0..200 {
+    let ample = |pair: &MeshedPair<'_>| pair.touch_mm + pair.contact.ample_depth_mm(line_load);
+    let mut low = pairs.iter().map(|pair| pair.touch_mm).fold(f64::INFINITY, f64::min);
+    let mut high = pairs.iter().map(ample).fold(low, f64::max);
+    let mut carried = total(pairs, high);
+    while carried < line_load && high - low < f64::MAX / 4.0 {
+        high += 2.0 * (high - low) + f64::MIN_POSITIVE;
+        carried = total(pairs, high);
+    }
+    loop {
         let middle = low.midpoint(high);
-        carried = total(pairs, middle);
         if (carried - line_load).abs() <= TOLERANCE * line_load || middle <= low || middle >= high {
             break;
         }
+        carried = total(pairs, middle);
         if carried > line_load {
             high = middle;
         } else {
@@ -209,8 +252,9 @@ fn bisect(
         }
     }
     let residual = (carried / line_load - 1.0).abs();
-    // Bisection ends where neighbouring floating-point numbers do; what rounding leaves then is accepted.
-    if residual <= 100.0 * TOLERANCE {
+    // Bisection ends where neighbouring floating-point numbers do; what rounding leaves then is accepted up to the
+    // imbalance that a result may have.
+    if residual <= GREATEST_IMBALANCE {
         let transmission_error_mm = low.midpoint(high);
         return Ok(Equilibrium { transmission_error_mm, iterations: NEWTON_LIMIT, pair_evaluations: evaluations });
     }

@@ -227,7 +227,7 @@ impl<'a> Station<'a> {
     fn solve(&mut self, removed_mm: PerGear<&[f64]>, line_load: f64) -> Result<Work, EquilibriumError> {
         let mut work = Work { equilibria: 1, ..Work::default() };
         for pair in &mut self.pairs {
-            pair.contact.read(removed_mm);
+            pair.read(removed_mm);
         }
         loop {
             self.equilibrium = balance(&mut self.pairs, line_load, self.cell.position_mm)?;
@@ -237,7 +237,7 @@ impl<'a> Station<'a> {
             for pair in &mut self.pairs {
                 if !pair.contact.settle() {
                     pair.contact.widen();
-                    pair.contact.read(removed_mm);
+                    pair.read(removed_mm);
                     held = false;
                 }
             }
