@@ -37,7 +37,7 @@ fn scene(edits: &[(&str, &str)]) -> Resolved {
 }
 
 fn run(resolved: &Resolved) -> RunRecord {
-    pipeline::run(resolved, &Plan::of(&resolved.scene), &Silent).expect("the preset runs")
+    pipeline::run(resolved, &Plan::of(&resolved.scene), &Silent).expect("the preset runs").record
 }
 
 fn wear_run(criterion: &mut Criterion) {

@@ -102,7 +102,7 @@ fn disc_wear_over_exact(surface: impl Fn(f64, &TwoDiscs) -> Box<dyn ContactSurfa
     let zeros = vec![0.0; grid.len()];
     let mut depth = PerGear { pinion: zeros.clone(), wheel: zeros.clone() };
     let law = Archard::new(&WearSettings { coefficient_mm2_per_n: k, severe: None });
-    cycle.evaluate(PerGear { pinion: &zeros, wheel: &zeros }, &law, &mut depth).unwrap();
+    cycle.evaluate(PerGear { pinion: &zeros, wheel: &zeros }, &law, &mut depth, &|| false).unwrap();
     PerGear::from_fn(|gear| {
         let middle = discs.contact_coordinate_mm(gear, 1.2);
         let specific_sliding = 1.0 - discs.speed[gear.mate()] / discs.speed[gear];

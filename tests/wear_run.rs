@@ -194,3 +194,44 @@ fn ver_work_is_linear_in_positions_and_steps() {
         assert_eq!(more.equilibria, cycles);
     }
 }
+
+/// Balanced at any load, stiffness and wear, where pairs hardly touch, touch everywhere or have worn away.
+#[test]
+fn ver_loads_balance_in_stiff_and_extreme_cases() {
+    let relief = Some(Relief { amount_mm: 0.2, length_mm: 4.0, shape: ReliefShape::Linear });
+    let mut relieved = fzg_c_scene();
+    relieved.pair.gears.pinion.modification.tip_relief = relief;
+    relieved.pair.gears.wheel.modification.tip_relief = relief;
+    let scenes = [
+        ("1e-6 N·m", Scene { torque_n_mm: 1e-3, ..fzg_c_scene() }),
+        ("1e-3 N·m on deep relief", Scene { torque_n_mm: 1.0, ..relieved }),
+        ("1e7 N·m", Scene { torque_n_mm: 1e10, ..fzg_c_scene() }),
+        ("soft teeth", Scene { stiffness: StiffnessSettings::Constant { pair_n_per_mm2: 20e-3 }, ..fzg_c_scene() }),
+        ("stiff teeth", Scene { stiffness: StiffnessSettings::Constant { pair_n_per_mm2: 20e9 }, ..fzg_c_scene() }),
+        ("material gone in one step", Scene { coefficient_mm2_per_n: 1e-2, ..fzg_c_scene() }),
+        ("1e12 revolutions", Scene { revolutions: 1e12, ..fzg_c_scene() }),
+    ];
+    for (name, mut scene) in scenes {
+        scene.steps = 20.0;
+        let outcome = scene.run();
+        let worst = worst_imbalance(&outcome);
+        assert!(outcome.failure.is_none() && worst <= 1e-10, "{name}: {worst:e}, {:?}", outcome.failure);
+        let wear = outcome.worn.wear_mm.pinion.iter().chain(&outcome.worn.wear_mm.wheel);
+        assert!(wear.clone().all(|h| h.is_finite() && *h >= 0.0), "{name}");
+    }
+}
+
+/// Light loads make the contact narrower than the distance of positions; the volume stays proportional to the load.
+#[test]
+fn val_worn_volume_is_proportional_to_a_light_load() {
+    let volume = |torque_n_mm: f64| {
+        let outcome = Scene { torque_n_mm, revolutions: 1.0, steps: 1.0, ..fzg_c_scene() }.run();
+        Gear::BOTH.map(|gear| outcome.grid[gear].integral(&outcome.new.depth_per_mesh_mm[gear]) / torque_n_mm)
+    };
+    let reference = volume(302e3);
+    for torque in [3.3e3, 300.0] {
+        for (light, full) in volume(torque).iter().zip(reference) {
+            assert_close(&format!("{torque} N·mm"), *light, full, 5e-3);
+        }
+    }
+}

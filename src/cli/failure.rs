@@ -3,10 +3,14 @@
 use std::io;
 use std::sync::Arc;
 
+use super::say;
 use gearwear::pipeline::RunError;
 use gearwear::report::ReportError;
 use gearwear::scene::{Problem, ProblemKind, presets};
 use miette::{Diagnostic, LabeledSpan, MietteDiagnostic, NamedSource, Report};
+
+/// Problems of one file that are shown; the rest is counted.
+const MOST_SHOWN: usize = 20;
 
 /// Why a command ended without its result.
 #[derive(Debug, thiserror::Error)]
@@ -72,7 +76,7 @@ pub enum InputError {
     /// The output folder cannot be made or written.
     #[error("--out: {}", causes(.0))]
     #[diagnostic(help("choose a folder you may write to, or a name that is still free"))]
-    Out(#[from] ReportError),
+    Out(ReportError),
     /// The threads cannot be started.
     #[error("--threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
@@ -95,8 +99,8 @@ impl Failure {
     pub fn print(self) {
         match self {
             Failure::Scene(scene) => scene.print(),
-            Failure::Input(error) => eprintln!("{:?}", Report::new(error)),
-            Failure::Run(error) => eprintln!("{:?}", Report::msg(error)),
+            Failure::Input(error) => say(&format!("{:?}", Report::new(error))),
+            Failure::Run(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Interrupted | Failure::Closed => {}
         }
     }
@@ -117,14 +121,14 @@ impl SceneProblems {
         let Self { name, text, problems } = self;
         let count = problems.len();
         let source = Arc::new(NamedSource::new(&name, text));
-        for problem in problems {
+        for problem in problems.into_iter().take(MOST_SHOWN) {
             let labels = label(&problem);
             let mut diagnostic = MietteDiagnostic::new(problem.to_string()).with_labels(labels);
             diagnostic.help = problem.help;
-            eprintln!("{:?}", Report::new(diagnostic).with_source_code(Arc::clone(&source)));
+            say(&format!("{:?}", Report::new(diagnostic).with_source_code(Arc::clone(&source))));
         }
         if count > 1 {
-            eprintln!("{count} problems in {name}");
+            say(&format!("{count} problems in {name}"));
         }
     }
 }

@@ -11,7 +11,7 @@ mod scene_source;
 mod schema;
 mod stdout;
 
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -72,8 +72,13 @@ pub fn main() -> ExitCode {
 /// Prints warnings; they go where errors go, so that results can be piped.
 fn warn(warnings: &[String]) {
     for warning in warnings {
-        eprintln!("warning: {warning}");
+        say(&format!("warning: {warning}"));
     }
+}
+
+/// Says something on standard error; where nobody can hear it, that is no reason to fail.
+fn say(text: &str) {
+    let _ = writeln!(std::io::stderr(), "{text}");
 }
 
 /// The command line, for completions.

@@ -90,6 +90,6 @@ fn bar() -> ProgressBar {
 fn log_end(stage: &Mutex<Option<(String, Instant)>>, next: Option<(String, Instant)>) {
     let Ok(mut stage) = stage.lock() else { return };
     if let Some((name, start)) = std::mem::replace(&mut *stage, next) {
-        eprintln!("{name}: {:.2} s", start.elapsed().as_secs_f64());
+        super::say(&format!("{name}: {:.2} s", start.elapsed().as_secs_f64()));
     }
 }

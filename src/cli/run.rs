@@ -6,16 +6,17 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use gearwear::pipeline::{self, Observer, RunError};
+use gearwear::pipeline::{self, Done, Observer, RunError};
 use gearwear::plan::{Plan, StageKind};
 use gearwear::report::{self, ReportError};
 use gearwear::scene::Problem;
 use gearwear::simulation::record::{RunRecord, StageTime, StopReason};
+use gearwear::simulation::settings::Operation;
 
 use super::failure::{Failure, InputError, SceneProblems};
 use super::progress::Progress;
 use super::scene_source::{self, Source};
-use super::{figures, stdout, warn};
+use super::{figures, say, stdout, warn};
 
 /// The exit status after an interrupt: 128 and the number of the signal.
 const INTERRUPTED: i32 = 130;
@@ -42,19 +43,26 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     warn(&resolved.warnings);
     let plan = Plan::of(&resolved.scene);
     report::writable(&args.out)?;
-    // No number of threads (0) means all cores.
-    let threads = args.threads.map_or(0, NonZeroUsize::get);
+    // More threads than cores only wait for each other.
+    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let threads = args.threads.map_or(cores, NonZeroUsize::get).min(cores);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(InputError::from)?;
 
     let interrupted = watch_for_interrupt();
     let progress = Progress::new(args.quiet, Arc::clone(&interrupted));
-    let done = pool.install(|| -> Result<RunRecord, Failure> {
-        let mut record = pipeline::run(resolved, &plan, &progress)?;
-        write(&mut record, &args.out, &progress)?;
-        Ok(record)
+    // The summary's presence says that everything else in the folder is complete and of the same run.
+    report::remove_summary(&args.out)?;
+    let done = pool.install(|| -> Result<Done, Failure> {
+        let mut done = pipeline::run(resolved, &plan, &progress)?;
+        write(&mut done.record, &args.out, &progress)?;
+        Ok(done)
     });
     progress.finish();
-    let record = done.map_err(|failure| match failure {
+    if matches!(done, Err(Failure::Run(_))) && interrupted.load(Ordering::Relaxed) {
+        say("interrupted before anything was finished");
+        return Err(Failure::Interrupted);
+    }
+    let Done { record, failure } = done.map_err(|failure| match failure {
         Failure::Run(error) => in_the_scene(error, &source),
         other => other,
     })?;
@@ -63,12 +71,13 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         let report = args.out.join("report.html");
         stdout::print(&format!("{}report: {}\n", figures::table(&record.summary), report.display()))?;
     }
-    match record.summary.stopped {
-        StopReason::Completed => Ok(()),
-        StopReason::Interrupted => {
-            say_what_is_kept(&record, resolved.scene.operation.snapshots_revolutions.len(), &args.out);
-            Err(Failure::Interrupted)
-        }
+    if record.summary.stopped != StopReason::Completed {
+        say_what_is_kept(&record, &resolved.scene.operation, &args.out);
+    }
+    match failure {
+        Some(failure) => Err(Failure::Run(failure)),
+        None if record.summary.stopped == StopReason::Interrupted => Err(Failure::Interrupted),
+        None => Ok(()),
     }
 }
 
@@ -109,16 +118,22 @@ fn watch_for_interrupt() -> Arc<AtomicBool> {
         }
     });
     if let Err(error) = handler {
-        eprintln!("warning: Ctrl-C will not keep what is finished: {error}");
+        say(&format!("warning: Ctrl-C will not keep what is finished: {error}"));
     }
     flag
 }
 
-fn say_what_is_kept(record: &RunRecord, snapshots: usize, out: &Path) {
-    eprintln!(
-        "interrupted at {:.0} pinion revolutions: {} of {snapshots} snapshots were reached; what was finished is kept in {}",
+fn say_what_is_kept(record: &RunRecord, operation: &Operation, out: &Path) {
+    let planned = &operation.snapshots_revolutions;
+    let reached = record.history.iter().filter(|row| planned.contains(&row.revolutions)).count();
+    let stopped = match record.summary.stopped {
+        StopReason::NotConverged => "the last state kept is that",
+        StopReason::Interrupted | StopReason::Completed => "interrupted",
+    };
+    say(&format!(
+        "{stopped} at {:.0} pinion revolutions: {reached} of {} snapshots were reached; what was finished is kept in {}",
         record.summary.revolutions,
-        record.history.len(),
+        planned.len(),
         out.display()
-    );
+    ));
 }

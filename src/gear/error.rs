@@ -96,16 +96,38 @@ pub enum PairError {
         /// d_f.
         root_diameter_mm: f64,
     },
-    /// A relief or rounding is longer than the flank it lies on.
+    /// A relief is longer than the active profile it lies on.
     #[error("the {} {modification} is {length_mm:.4} mm long, more than the {available_mm:.4} mm there is", .gear.name())]
     ModificationTooLong {
         /// Which gear.
         gear: Gear,
-        /// `tip relief`, `root relief` or `tip rounding`.
+        /// `tip relief` or `root relief`.
         modification: &'static str,
-        /// Roll length, or length along the flank for the rounding.
+        /// Roll length.
         length_mm: f64,
         /// What there is.
         available_mm: f64,
+    },
+    /// A relief or crowning takes away so much that the flank is no flank any more.
+    #[error("the {} {modification} removes {amount_mm:.4} mm: at most {greatest_mm:.4} mm leave a flank", .gear.name())]
+    ModificationTooDeep {
+        /// Which gear.
+        gear: Gear,
+        /// `tip relief`, `root relief` or `profile crowning`.
+        modification: &'static str,
+        /// Removed along the normal.
+        amount_mm: f64,
+        /// What a flank may lose.
+        greatest_mm: f64,
+    },
+    /// The rounding of the tip edge takes more of the flank or of the tip land than there is.
+    #[error("the {} tip rounding has radius {radius_mm:.4} mm: at most {greatest_mm:.4} mm fit", .gear.name())]
+    TipRoundingTooLarge {
+        /// Which gear.
+        gear: Gear,
+        /// As given.
+        radius_mm: f64,
+        /// What fits.
+        greatest_mm: f64,
     },
 }

@@ -16,6 +16,9 @@ use super::{
 /// teeth jam when it exceeds this part of the normal module (4.5 µm for module 4.5).
 const BACKLASH_ROUNDING_MODULES: f64 = 1e-3;
 
+/// Modifications take micrometres off a flank; one that takes more than this part of the module leaves none.
+const GREATEST_REMOVAL_MODULES: f64 = 0.25;
+
 /// A gear pair with all that is derived from its data.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearPair {
@@ -145,29 +148,48 @@ impl GearPair {
     }
 
     fn check_modifications(&self) -> Result<(), PairError> {
+        let available_mm = self.path.end_mm - self.path.start_mm;
+        let greatest_mm = GREATEST_REMOVAL_MODULES * self.spec.normal_module_mm;
         for gear in Gear::BOTH {
             let modification = &self.spec.gears[gear].modification;
-            let active_mm = self.path.end_mm - self.path.start_mm;
-            let too_long = |name, length_mm, available_mm| {
-                Err(PairError::ModificationTooLong { gear, modification: name, length_mm, available_mm })
-            };
-            for (name, relief) in [("tip relief", modification.tip_relief), ("root relief", modification.root_relief)] {
-                if let Some(relief) = relief
-                    && relief.length_mm > active_mm
-                {
-                    return too_long(name, relief.length_mm, active_mm);
+            let reliefs = [("tip relief", modification.tip_relief), ("root relief", modification.root_relief)];
+            let amounts = reliefs.map(|(name, relief)| (name, relief.map_or(0.0, |relief| relief.amount_mm)));
+            for (name, relief) in reliefs {
+                match relief {
+                    Some(relief) if relief.length_mm > available_mm => {
+                        let length_mm = relief.length_mm;
+                        return Err(PairError::ModificationTooLong {
+                            gear,
+                            modification: name,
+                            length_mm,
+                            available_mm,
+                        });
+                    }
+                    _ => {}
                 }
             }
-            let tooth = &self.teeth[gear];
-            let rounding_mm = tip_rounding_length_mm(modification.tip_rounding_mm, tooth);
-            let flank_mm =
-                tooth.involute.arc_mm(tooth.tip_rho_mm()) - tooth.involute.arc_mm(self.active_start_rho_mm(gear));
-            // The two roundings of one tooth must also leave room for each other on the tip land.
-            let available_mm = flank_mm.min(0.5 * tooth.thickness_mm(tooth.tip_radius_mm));
-            if rounding_mm > available_mm {
-                return too_long("tip rounding", rounding_mm, available_mm);
+            for (name, amount_mm) in amounts.into_iter().chain([("profile crowning", modification.profile_crowning_mm)])
+            {
+                if amount_mm > greatest_mm {
+                    return Err(PairError::ModificationTooDeep { gear, modification: name, amount_mm, greatest_mm });
+                }
             }
+            self.check_tip_rounding(gear, modification.tip_rounding_mm)?;
         }
         Ok(())
+    }
+
+    /// A rounding must leave some active flank, and the two of one tooth room for each other on the tip land.
+    fn check_tip_rounding(&self, gear: Gear, radius_mm: f64) -> Result<(), PairError> {
+        let tooth = &self.teeth[gear];
+        let arc = |rho| tooth.involute.arc_mm(rho);
+        let flank_mm = arc(tooth.tip_rho_mm()) - arc(self.active_start_rho_mm(gear));
+        let room_mm = flank_mm.min(0.5 * tooth.thickness_mm(tooth.tip_radius_mm));
+        let greatest_mm = room_mm / tip_rounding_length_mm(1.0, tooth);
+        if radius_mm <= greatest_mm {
+            Ok(())
+        } else {
+            Err(PairError::TipRoundingTooLarge { gear, radius_mm, greatest_mm })
+        }
     }
 }

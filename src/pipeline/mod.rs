@@ -55,6 +55,15 @@ impl RunError {
     }
 }
 
+/// What a plan came to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Done {
+    /// Everything that was finished.
+    pub record: RunRecord,
+    /// Why that is not all.
+    pub failure: Option<RunError>,
+}
+
 /// Times the stages and tells the observer of them.
 struct Stages<'a> {
     observer: &'a dyn Observer,
@@ -101,11 +110,12 @@ impl Model<'_> {
 
 /// Carries out `plan`, the report apart: that is left to the caller, who knows where it goes.
 ///
-/// An interrupted run gives the record of what it had reached.
+/// A run that is interrupted or does not converge gives the record of what it had finished, and its failure in the latter
+/// case.
 ///
 /// # Errors
-/// [`RunError`].
-pub fn run(resolved: &Resolved, plan: &Plan, observer: &dyn Observer) -> Result<RunRecord, RunError> {
+/// [`RunError`] where nothing was finished.
+pub fn run(resolved: &Resolved, plan: &Plan, observer: &dyn Observer) -> Result<Done, RunError> {
     let start = Instant::now();
     let scene = &resolved.scene;
     let mut stages = Stages { observer, times: Vec::new() };
@@ -147,13 +157,14 @@ pub fn run(resolved: &Resolved, plan: &Plan, observer: &dyn Observer) -> Result<
     let mut record = recording::record(resolved, plan, &model, &outcome, error)?;
     record.summary.stages = stages.times;
     record.summary.wall_s = start.elapsed().as_secs_f64();
-    Ok(record)
+    Ok(Done { record, failure: outcome.failure.map(RunError::from) })
 }
 
 fn not_estimated_because(outcome: &Outcome) -> &'static str {
     match outcome.stop {
         StopReason::Completed => "numerics.error_estimate is false",
         StopReason::Interrupted => "the run was interrupted",
+        StopReason::NotConverged => "the run did not converge",
     }
 }
 

@@ -1,6 +1,6 @@
 //! From what a run found, in the program's units, to the record, in those of the output files.
 
-use super::{Model, RunError, drawing};
+use super::{Model, RunError, drawing, error_estimates};
 use crate::contact::settings::SurfaceKind;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::plan::Plan;
@@ -34,6 +34,7 @@ pub(super) fn record(
     let mut warnings = resolved.warnings.clone();
     warnings.extend(stability_warning(model, outcome));
     warnings.extend(deep_wear_warning(pair, outcome));
+    warnings.extend(error_estimates::warnings(&error));
     let reached = outcome.worn.revolutions;
     let summary = Summary {
         title: scene.title.clone(),
@@ -149,6 +150,7 @@ fn cycle(pair: &GearPair, cycle: &CycleObservation) -> CycleSummary {
     let (min, max) = cycle.transmission_error_mm();
     CycleSummary {
         peak_pressure_MPa: cycle.peak_pressure_mpa(),
+        load_imbalance: cycle.positions.iter().map(|p| p.load_imbalance.abs()).fold(0.0, f64::max),
         pitch_pressure_MPa: cycle.peak_pressure_at_mpa(pair.path.pitch_point_mm),
         transmission_error_um: RangeSummary {
             min: min * UM_PER_MM,

@@ -73,6 +73,15 @@ pub fn write_summary(summary: &Summary, dir: &Path) -> Result<PathBuf, ReportErr
     place(dir, "summary.json", |out| summary::write(out, summary))
 }
 
+/// Takes away the `summary.json` of an earlier run, if there is one: it would vouch for files about to be replaced.
+pub fn remove_summary(dir: &Path) -> Result<(), ReportError> {
+    let path = dir.join("summary.json");
+    match fs::remove_file(&path) {
+        Err(source) if source.kind() != io::ErrorKind::NotFound => Err(ReportError::WriteFile { path, source }),
+        _ => Ok(()),
+    }
+}
+
 /// Checks, before work starts, that files can be written into `dir`; leaves nothing behind that was not there.
 pub fn writable(dir: &Path) -> Result<(), ReportError> {
     let missing: Vec<&Path> = dir.ancestors().take_while(|p| !p.as_os_str().is_empty() && !p.exists()).collect();

@@ -74,6 +74,8 @@ pub enum StopReason {
     Completed,
     /// The user interrupted it; what was finished is kept.
     Interrupted,
+    /// The tooth pairs found no equilibrium; what was finished is kept.
+    NotConverged,
 }
 
 /// A stage and how long it took.
@@ -198,6 +200,8 @@ pub struct CycleSummary {
     pub pitch_pressure_MPa: f64,
     /// Loaded transmission error over the cycle.
     pub transmission_error_um: RangeSummary,
+    /// Greatest |Σ loads of the pairs / load to carry − 1| at any position.
+    pub load_imbalance: f64,
 }
 
 /// Extremes and their difference.

@@ -74,15 +74,17 @@ pub struct Snapshot {
 pub struct Outcome {
     /// Why it ended.
     pub stop: StopReason,
+    /// What went wrong where it did not converge.
+    pub failure: Option<SimulationError>,
     /// The points of each flank.
     pub grid: PerGear<FlankGrid>,
     /// Material removed by the modifications.
     pub modification_mm: PerGear<Vec<f64>>,
     /// The unworn pair.
     pub new: Snapshot,
-    /// The pair at each snapshot reached, in order.
+    /// The pair at each snapshot reached, in order; where the run was interrupted, also at that moment.
     pub snapshots: Vec<Snapshot>,
-    /// The pair when the run ended.
+    /// The pair when the run ended: the last of the snapshots.
     pub worn: Snapshot,
     /// Wear steps taken.
     pub wear_steps: u64,
@@ -123,6 +125,7 @@ impl WearRun<'_> {
         let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear]));
         let positions = loading_positions(&self.pair.path, self.numerics.positions, |at| self.teeth.n_per_mm2(at))?;
         let flanks = Flanks { geometry: self.pair, grid: grid.as_ref() };
+        let stopped: &(dyn Fn() -> bool + Sync) = &|| progress.interrupted();
         let mut cycle = WorkingCycle::new(flanks, self.surface, &positions, self.line_load_n_per_mm);
 
         let end = self.operation.pinion_revolutions;
@@ -132,29 +135,36 @@ impl WearRun<'_> {
         let mut wear_mm = PerGear::from_fn(|gear| vec![0.0; grid[gear].len()]);
         let mut depth_mm = wear_mm.clone();
         let (mut revolutions, mut wear_steps, mut work) = (0.0, 0, Work::default());
-        let (mut new, mut snapshots) = (None, Vec::new());
+        // The unworn pair first, then each snapshot.
+        let mut states: Vec<Snapshot> = Vec::new();
 
-        let worn = loop {
-            work += cycle
-                .evaluate(removed_mm.as_ref().map(Vec::as_slice), self.law, &mut depth_mm)
-                .map_err(|source| SimulationError::Equilibrium { revolutions, source })?;
-            let snapshot = || Snapshot {
-                revolutions,
-                wear_mm: wear_mm.clone(),
-                depth_per_mesh_mm: depth_mm.clone(),
-                cycle: cycle.observe(removed_mm.as_ref().map(Vec::as_slice)),
-            };
-            if new.is_none() {
-                new = Some(snapshot());
+        let mut failure = None;
+        loop {
+            match cycle.evaluate(removed_mm.as_ref().map(Vec::as_slice), self.law, &mut depth_mm, stopped) {
+                Ok(done) => work += done,
+                // Before anything is finished there is nothing to keep.
+                Err(source) if states.is_empty() => return Err(SimulationError::Equilibrium { revolutions, source }),
+                Err(EquilibriumError::Interrupted) => break,
+                Err(source) => {
+                    failure = Some(SimulationError::Equilibrium { revolutions, source });
+                    break;
+                }
             }
-            if due.peek().is_some_and(|&next| revolutions >= next) {
-                snapshots.push(snapshot());
+            let is_due = due.peek().is_some_and(|&next| revolutions >= next);
+            let interrupted = progress.interrupted();
+            if states.is_empty() || is_due || interrupted {
+                states.push(Snapshot {
+                    revolutions,
+                    wear_mm: wear_mm.clone(),
+                    depth_per_mesh_mm: depth_mm.clone(),
+                    cycle: cycle.observe(removed_mm.as_ref().map(Vec::as_slice)),
+                });
                 while due.next_if(|&next| next <= revolutions).is_some() {}
             }
             progress.progress(revolutions, end);
-            let Some(&next) = due.peek() else { break snapshot() };
-            if progress.interrupted() {
-                break snapshot();
+            let Some(&next) = due.peek() else { break };
+            if interrupted {
+                break;
             }
 
             let mut step = self.numerics.step_revolutions;
@@ -174,10 +184,15 @@ impl WearRun<'_> {
                     *removed = modification + *wear;
                 }
             }
-        };
-        let stop = if revolutions >= end { StopReason::Completed } else { StopReason::Interrupted };
+        }
         drop(cycle);
-        let new = new.unwrap_or_else(|| worn.clone());
-        Ok(Outcome { stop, grid, modification_mm, new, snapshots, worn, wear_steps, work })
+        let stop = match &failure {
+            Some(_) => StopReason::NotConverged,
+            None if due.peek().is_none() => StopReason::Completed,
+            None => StopReason::Interrupted,
+        };
+        let new = states.remove(0);
+        let worn = states.last().unwrap_or(&new).clone();
+        Ok(Outcome { stop, failure, grid, modification_mm, new, snapshots: states, worn, wear_steps, work })
     }
 }

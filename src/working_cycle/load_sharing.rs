@@ -28,6 +28,9 @@ pub const GREATEST_IMBALANCE: f64 = 1e-10;
 /// Newton steps before bisection takes over; three to five are usual.
 const NEWTON_LIMIT: u64 = 40;
 
+/// Halvings of an interval: far below any rounding of where it began.
+const BISECTION_LIMIT: usize = 100;
+
 /// Why there is no equilibrium.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum EquilibriumError {
@@ -37,6 +40,9 @@ pub enum EquilibriumError {
         /// Position of the reference pair.
         position_mm: f64,
     },
+    /// The user wants to stop.
+    #[error("interrupted")]
+    Interrupted,
     /// Neither Newton's method nor bisection met the tolerance.
     #[error(
         "the loads of the tooth pairs do not balance at position {position_mm:.4} mm: \
@@ -215,10 +221,10 @@ fn bisect(
                 let (mut low, mut high) = (whole.min(0.0), whole);
                 pair.press(high);
                 evaluations += 1;
-                loop {
+                for _ in 0..BISECTION_LIMIT {
                     let middle = low.midpoint(high);
                     if middle <= low || middle >= high {
-                        break pair.response.line_load_n_per_mm;
+                        break;
                     }
                     pair.press(middle);
                     evaluations += 1;
@@ -228,6 +234,7 @@ fn bisect(
                         low = middle;
                     }
                 }
+                pair.response.line_load_n_per_mm
             })
             .sum()
     };
@@ -235,11 +242,14 @@ fn bisect(
     let mut low = pairs.iter().map(|pair| pair.touch_mm).fold(f64::INFINITY, f64::min);
     let mut high = pairs.iter().map(ample).fold(low, f64::max);
     let mut carried = total(pairs, high);
-    while carried < line_load && high - low < f64::MAX / 4.0 {
+    for _ in 0..BISECTION_LIMIT {
+        if carried >= line_load {
+            break;
+        }
         high += 2.0 * (high - low) + f64::MIN_POSITIVE;
         carried = total(pairs, high);
     }
-    loop {
+    for _ in 0..BISECTION_LIMIT {
         let middle = low.midpoint(high);
         if (carried - line_load).abs() <= TOLERANCE * line_load || middle <= low || middle >= high {
             break;

@@ -132,6 +132,8 @@ impl<'a> WorkingCycle<'a> {
     /// Solves every position on flanks that have lost `removed_mm`, and puts into `depth_mm` what each point wears in
     /// one mesh.
     ///
+    /// `stopped` is asked at every position whether to give up.
+    ///
     /// # Errors
     /// [`EquilibriumError`] of the first position without equilibrium.
     pub fn evaluate(
@@ -139,9 +141,10 @@ impl<'a> WorkingCycle<'a> {
         removed_mm: PerGear<&[f64]>,
         law: &dyn WearLaw,
         depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
         let load = self.line_load_n_per_mm;
-        self.groups.par_iter_mut().for_each(|group| group.evaluate(removed_mm, load, law));
+        self.groups.par_iter_mut().for_each(|group| group.evaluate(removed_mm, load, law, stopped));
         let mut work = Work { mesh_cycles: 1, ..Work::default() };
         for gear in Gear::BOTH {
             depth_mm[gear].fill(0.0);
@@ -185,13 +188,23 @@ impl<'a> WorkingCycle<'a> {
 }
 
 impl Group<'_> {
-    fn evaluate(&mut self, removed_mm: PerGear<&[f64]>, line_load: f64, law: &dyn WearLaw) {
+    fn evaluate(
+        &mut self,
+        removed_mm: PerGear<&[f64]>,
+        line_load: f64,
+        law: &dyn WearLaw,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) {
         self.work = Work::default();
         self.failure = None;
         for gear in Gear::BOTH {
             self.depth_mm[gear].fill(0.0);
         }
         for station in &mut self.stations {
+            if stopped() {
+                self.failure = Some(EquilibriumError::Interrupted);
+                return;
+            }
             match station.solve(removed_mm, line_load) {
                 Ok(work) => self.work += work,
                 Err(error) => {

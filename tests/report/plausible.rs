@@ -175,6 +175,7 @@ fn summary() -> Summary {
     let cycle = |peak, te_min, te_max| CycleSummary {
         peak_pressure_MPa: peak,
         pitch_pressure_MPa: 1655.8,
+        load_imbalance: 1e-12,
         transmission_error_um: RangeSummary { min: te_min, max: te_max, peak_to_peak: te_max - te_min },
     };
     let worn = |gear, at: f64| WearSummary {

@@ -77,7 +77,7 @@ fn notices(s: &Summary) -> String {
     let mut html = String::new();
     if let Some(text) = reading::interruption(s) {
         html.push_str(&format!(
-            "<p class=\"notice interrupted\" role=\"alert\"><strong>Interrupted.</strong> {}</p>\n",
+            "<p class=\"notice interrupted\" role=\"alert\"><strong>Not the whole run.</strong> {}</p>\n",
             escape(&text)
         ));
     }

@@ -103,13 +103,15 @@ fn depth(flank: &FlankRecord, wear: &WearSummary) -> String {
 
 /// What to say above everything else where the run did not reach its end.
 pub fn interruption(summary: &Summary) -> Option<String> {
-    match summary.stopped {
-        StopReason::Completed => None,
-        StopReason::Interrupted => Some(format!(
-            "The run was interrupted after {}. What was finished until then is shown; it is not the whole duration asked for.",
-            duration(summary)
-        )),
-    }
+    let how = match summary.stopped {
+        StopReason::Completed => return None,
+        StopReason::Interrupted => "was interrupted",
+        StopReason::NotConverged => "did not converge; its last state kept is that",
+    };
+    Some(format!(
+        "The run {how} after {}. What was finished until then is shown; it is not the whole duration asked for.",
+        duration(summary)
+    ))
 }
 
 /// The text with every number bound to the unit after it, so that no line ends between them.

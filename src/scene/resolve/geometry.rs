@@ -112,17 +112,30 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Place {
             help: "leave the bore out where it does not matter".to_owned(),
         },
         PairError::ModificationTooLong { gear, modification, length_mm, available_mm } => Place {
-            key: key_of(gear, &modification_key(modification)),
+            key: key_of(gear, &format!("{}.length_mm", modification.replace(' ', "_"))),
             found: number(length_mm),
             allowed: format!("at most {available_mm:.4} mm"),
             help: "lengths are roll lengths, along the path of contact".to_owned(),
         },
+        PairError::ModificationTooDeep { gear, modification, amount_mm, greatest_mm } => Place {
+            key: key_of(
+                gear,
+                &match modification {
+                    "profile crowning" => "profile_crowning_um".to_owned(),
+                    relief => format!("{}.amount_um", relief.replace(' ', "_")),
+                },
+            ),
+            found: number(1e3 * amount_mm),
+            allowed: format!("at most {:.0} µm, a quarter of the module", 1e3 * greatest_mm),
+            help: "amounts are in µm".to_owned(),
+        },
+        PairError::TipRoundingTooLarge { gear, radius_mm, greatest_mm } => Place {
+            key: key_of(gear, "tip_rounding_mm"),
+            found: number(radius_mm),
+            allowed: format!("at most {:.4} mm", (greatest_mm * 1e4).floor() / 1e4),
+            help: "the roundings of both flanks must fit on the tip, and leave some active flank".to_owned(),
+        },
     }
-}
-
-fn modification_key(modification: &str) -> String {
-    let name = modification.replace(' ', "_");
-    if name.ends_with("relief") { format!("{name}.length_mm") } else { format!("{name}_mm") }
 }
 
 /// A derived length without the digits of its rounding.
@@ -186,14 +199,19 @@ mod tests {
                 of_pinion("tip_relief.length_mm"),
             ),
             (
-                PairError::ModificationTooLong {
+                PairError::ModificationTooDeep {
                     gear,
-                    modification: "tip rounding",
-                    length_mm: 30.0,
-                    available_mm: 19.1,
+                    modification: "profile crowning",
+                    amount_mm: 2.0,
+                    greatest_mm: 1.1,
                 },
-                of_pinion("tip_rounding_mm"),
+                of_pinion("profile_crowning_um"),
             ),
+            (
+                PairError::ModificationTooDeep { gear, modification: "tip relief", amount_mm: 2.0, greatest_mm: 1.1 },
+                of_pinion("tip_relief.amount_um"),
+            ),
+            (PairError::TipRoundingTooLarge { gear, radius_mm: 2.7, greatest_mm: 2.6 }, of_pinion("tip_rounding_mm")),
         ];
         let text = presets::PRESETS[0].text;
         let spec = Scene::from_toml(text).unwrap().scene.pair;

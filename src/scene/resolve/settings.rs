@@ -15,6 +15,8 @@ use crate::wear::settings::{SevereTransition, WearSettings};
 const FLANK_POINTS: u32 = 750;
 const POSITIONS: u32 = 400;
 const STEPS: f64 = 150.0;
+/// What the memory of a machine holds: 300 000 take about 10 MB.
+const MOST_POINTS_TIMES_POSITIONS: usize = 100_000_000;
 /// More wear steps than this never end.
 const MOST_STEPS: f64 = 1e7;
 
@@ -141,9 +143,19 @@ pub fn numerics(file: &mut Option<NumericsFile>, duration: f64, findings: &mut F
         findings.problem(ProblemKind::NotAllowed, "numerics.step.revolutions", number(step), allowed);
         return None;
     }
+    let flank_points = *file.flank_points.get_or_insert(FLANK_POINTS) as usize;
+    let positions = *file.positions.get_or_insert(POSITIONS) as usize;
+    if flank_points.saturating_mul(positions) > MOST_POINTS_TIMES_POSITIONS {
+        let allowed = format!(
+            "at most {} positions with {flank_points} flank points (about 4 GB of memory)",
+            MOST_POINTS_TIMES_POSITIONS / flank_points
+        );
+        findings.problem(ProblemKind::NotAllowed, "numerics.positions", positions.to_string(), allowed);
+        return None;
+    }
     Some(Numerics {
-        flank_points: *file.flank_points.get_or_insert(FLANK_POINTS) as usize,
-        positions: *file.positions.get_or_insert(POSITIONS) as usize,
+        flank_points,
+        positions,
         step_revolutions: step,
         error_estimate: *file.error_estimate.get_or_insert(true),
     })
