@@ -16,6 +16,10 @@ impl Progress for Silent {
     fn interrupted(&self) -> bool {
         false
     }
+
+    fn gives_up(&self) -> bool {
+        false
+    }
 }
 
 impl Observer for Silent {

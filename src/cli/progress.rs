@@ -2,14 +2,17 @@
 
 use std::io::IsTerminal;
 use std::sync::Arc;
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 use gearwear::pipeline::Observer;
 use gearwear::plan::StageKind;
 use gearwear::simulation::wear_run;
 use indicatif::{ProgressBar, ProgressStyle};
+
+/// How long an interrupted run may take to finish its wear step.
+const PATIENCE: Duration = Duration::from_millis(500);
 
 /// Parts of the bar.
 const PARTS: u64 = 1000;
@@ -25,6 +28,8 @@ enum Display {
 pub struct Progress {
     display: Display,
     interrupted: Arc<AtomicBool>,
+    /// When the interrupt was first noticed.
+    first_heard: OnceLock<Instant>,
 }
 
 impl Progress {
@@ -37,7 +42,7 @@ impl Progress {
         } else {
             Display::Log(Mutex::new(None))
         };
-        Self { display, interrupted }
+        Self { display, interrupted, first_heard: OnceLock::new() }
     }
 
     /// Ends the display.
@@ -75,6 +80,10 @@ impl wear_run::Progress for Progress {
 
     fn interrupted(&self) -> bool {
         self.interrupted.load(Ordering::Relaxed)
+    }
+
+    fn gives_up(&self) -> bool {
+        self.interrupted() && self.first_heard.get_or_init(Instant::now).elapsed() > PATIENCE
     }
 }
 

@@ -40,6 +40,10 @@ impl Progress for Companion<'_> {
     fn interrupted(&self) -> bool {
         self.observer.interrupted()
     }
+
+    fn gives_up(&self) -> bool {
+        self.observer.gives_up()
+    }
 }
 
 /// Estimates the errors of the pinion's peak wear in `outcome`.

@@ -97,8 +97,11 @@ pub trait Progress: Sync {
     /// `done` of `total` pinion revolutions are run.
     fn progress(&self, done: f64, total: f64);
 
-    /// Whether the user wants it to stop.
+    /// Whether the user wants it to stop: it does at the end of the wear step, whose state is kept.
     fn interrupted(&self) -> bool;
+
+    /// Whether the user has waited for that long enough: it then stops at once, and what is kept is the last snapshot.
+    fn gives_up(&self) -> bool;
 }
 
 /// Nobody watches, nobody interrupts.
@@ -108,6 +111,10 @@ impl Progress for Unwatched {
     fn progress(&self, _done: f64, _total: f64) {}
 
     fn interrupted(&self) -> bool {
+        false
+    }
+
+    fn gives_up(&self) -> bool {
         false
     }
 }
@@ -125,7 +132,7 @@ impl WearRun<'_> {
         let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear]));
         let positions = loading_positions(&self.pair.path, self.numerics.positions, |at| self.teeth.n_per_mm2(at))?;
         let flanks = Flanks { geometry: self.pair, grid: grid.as_ref() };
-        let stopped: &(dyn Fn() -> bool + Sync) = &|| progress.interrupted();
+        let stopped: &(dyn Fn() -> bool + Sync) = &|| progress.gives_up();
         let mut cycle = WorkingCycle::new(flanks, self.surface, &positions, self.line_load_n_per_mm);
 
         let end = self.operation.pinion_revolutions;
