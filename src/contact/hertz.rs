@@ -190,7 +190,7 @@ impl PairContact for HertzPair<'_> {
                 }
                 let inside = |shift: f64| (point.along_mm + shift).clamp(-a, a);
                 Felt {
-                    pressure_mpa: ellipse.pressure_mpa(point.along_mm + low.max(0.0).min(high)),
+                    pressure_mpa: if low <= 0.0 && high >= 0.0 { ellipse.pressure_mpa(point.along_mm) } else { 0.0 },
                     contact_fraction: (inside(high) - inside(low)) / (high - low),
                 }
             })
