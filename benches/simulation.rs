@@ -2,29 +2,11 @@
 //! how the time grows with positions and wear steps. One thread; quote ratios, machines are noisy.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use gearwear::pipeline::{self, Observer};
-use gearwear::plan::{Plan, StageKind};
+use gearwear::pipeline;
+use gearwear::plan::Plan;
 use gearwear::scene::{Resolved, Scene, presets};
 use gearwear::simulation::record::RunRecord;
-use gearwear::simulation::wear_run::Progress;
-
-struct Silent;
-
-impl Progress for Silent {
-    fn progress(&self, _done: f64, _total: f64) {}
-
-    fn interrupted(&self) -> bool {
-        false
-    }
-
-    fn gives_up(&self) -> bool {
-        false
-    }
-}
-
-impl Observer for Silent {
-    fn stage(&self, _kind: StageKind) {}
-}
+use gearwear::simulation::wear_run::Unwatched;
 
 /// The fzg-c scene without snapshots and error estimates, some keys replaced.
 fn scene(edits: &[(&str, &str)]) -> Resolved {
@@ -41,7 +23,7 @@ fn scene(edits: &[(&str, &str)]) -> Resolved {
 }
 
 fn run(resolved: &Resolved) -> RunRecord {
-    pipeline::run(resolved, &Plan::of(&resolved.scene), &Silent).expect("the preset runs").record
+    pipeline::run(resolved, &Plan::of(&resolved.scene), &Unwatched).expect("the preset runs").record
 }
 
 fn wear_run(criterion: &mut Criterion) {

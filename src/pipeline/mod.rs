@@ -21,7 +21,7 @@ use crate::plan::{Plan, StageKind};
 use crate::reference::flattening::Flattening;
 use crate::scene::{Resolved, Scene};
 use crate::simulation::record::{ErrorSummary, RunRecord, StageTime, StopReason};
-use crate::simulation::wear_run::{Outcome, Progress, SimulationError, WearRun};
+use crate::simulation::wear_run::{Outcome, Progress, SimulationError, Unwatched, WearRun};
 use crate::stiffness::{StiffnessError, TeethSpring};
 use crate::wear::{WearLaw, archard::Archard};
 
@@ -29,6 +29,10 @@ use crate::wear::{WearLaw, archard::Archard};
 pub trait Observer: Progress {
     /// A stage begins.
     fn stage(&self, kind: StageKind);
+}
+
+impl Observer for Unwatched {
+    fn stage(&self, _kind: StageKind) {}
 }
 
 /// Why a plan could not be carried out.
