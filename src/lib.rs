@@ -14,7 +14,9 @@
 //! `ARCHITECTURE.md` is the map of the code, `docs/theory.md` the derivations that the modules cite.
 
 pub mod contact;
+pub mod fem;
 pub mod gear;
+pub mod mesh;
 pub mod pipeline;
 pub mod plan;
 pub mod reference;

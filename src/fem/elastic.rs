@@ -1,0 +1,56 @@
+//! Isotropic linear elasticity in the plane.
+//!
+//! ```text
+//! plane strain   D = E/((1+ν)(1−2ν)) · [1−ν ν 0; ν 1−ν 0; 0 0 (1−2ν)/2]     σ_z = ν (σ_x + σ_y)
+//! plane stress   D = E/(1−ν²)        · [1 ν 0; ν 1 0; 0 0 (1−ν)/2]          σ_z = 0
+//! ```
+//!
+//! Source: S. P. Timoshenko and J. N. Goodier, *Theory of Elasticity* (1970), sections 8 to 11.
+
+use nalgebra::Matrix3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// What the third direction does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Analysis {
+    /// No strain across the plane: a long body, a wide gear.
+    #[default]
+    PlaneStrain,
+    /// No stress across the plane: a thin sheet.
+    PlaneStress,
+}
+
+/// An isotropic material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Elastic {
+    /// E > 0, MPa.
+    pub young_modulus_mpa: f64,
+    /// ν, −1 < ν < 0.5.
+    pub poisson_ratio: f64,
+}
+
+impl Elastic {
+    /// D with σ = D ε for σ = (σ_x, σ_y, τ_xy) and ε = (ε_x, ε_y, γ_xy), MPa.
+    pub fn stiffness_mpa(&self, analysis: Analysis) -> Matrix3<f64> {
+        let (e, nu) = (self.young_modulus_mpa, self.poisson_ratio);
+        match analysis {
+            Analysis::PlaneStrain => {
+                let scale = e / ((1.0 + nu) * (1.0 - 2.0 * nu));
+                Matrix3::new(1.0 - nu, nu, 0.0, nu, 1.0 - nu, 0.0, 0.0, 0.0, 0.5 - nu) * scale
+            }
+            Analysis::PlaneStress => {
+                Matrix3::new(1.0, nu, 0.0, nu, 1.0, 0.0, 0.0, 0.0, 0.5 * (1.0 - nu)) * (e / (1.0 - nu * nu))
+            }
+        }
+    }
+
+    /// σ_z from the stresses in the plane, MPa.
+    pub fn across_mpa(&self, analysis: Analysis, sigma_x_mpa: f64, sigma_y_mpa: f64) -> f64 {
+        match analysis {
+            Analysis::PlaneStrain => self.poisson_ratio * (sigma_x_mpa + sigma_y_mpa),
+            Analysis::PlaneStress => 0.0,
+        }
+    }
+}

@@ -1,0 +1,5 @@
+//! Plane finite elements: elements, assembly, factorisation, contact of meshes.
+
+pub mod elastic;
+pub mod problem;
+pub mod solid;
