@@ -13,6 +13,7 @@
 //! Frames: the pinion's axis is the origin and the wheel's lies on +y at the centre distance. Tooth j of the pinion stands
 //! at the angle ξ/r_b1 − ψ_b1 − α_w + 2πj/z1 from +y, anticlockwise; the wheel's at π + ρ2/r_b2 − ψ_b2 − α_w − 2πj/z2.
 
+use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 use faer::Mat;
@@ -20,7 +21,7 @@ use nalgebra::{Rotation2, Vector2};
 use sprs::CsMat;
 
 use super::flank_surface::FlankSurface;
-use super::ring::{Between, GearCompliance};
+use super::ring::{Between, GearCompliance, ToothForce};
 use crate::fem::active_set::{ActiveSetError, Condensed, Log};
 use crate::fem::contact::{mortar::Coupling, zones};
 use crate::gear::{Gear, GearPair, PerGear};
@@ -44,6 +45,8 @@ pub struct CondensedPair<'a> {
     pub gears: PerGear<GearCompliance>,
     /// Their working flanks.
     pub flanks: PerGear<FlankSurface>,
+    /// How many of each gear's probes, the first ones, lie on the working side.
+    pub working_side_probes: PerGear<usize>,
     /// Hertz half-width at the pitch point under the whole load, mm.
     pub half_width_mm: f64,
 }
@@ -67,6 +70,15 @@ pub struct ToothPairContact {
     pub pressure: Vec<(f64, f64)>,
 }
 
+/// Stress along the surface of a tooth's fillets, which is the principal stress there, MPa.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RootStress {
+    /// Greatest at the fillet below the working flank: tension.
+    pub working_side_mpa: f64,
+    /// Least at the other fillet: compression.
+    pub back_side_mpa: f64,
+}
+
 /// The pair at one position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PositionContact {
@@ -82,8 +94,10 @@ pub struct PositionContact {
     pub load_balance: f64,
     /// Largest overlap left at a multiplier, mm.
     pub max_penetration_mm: f64,
-    /// Forces on the candidates of each fine tooth, N/mm, in each tooth's frame.
-    pub forces: PerGear<Vec<Vec<f64>>>,
+    /// Forces on each fine tooth, in its own frame.
+    pub forces: PerGear<Vec<ToothForce>>,
+    /// Stresses at the fillets of the reference pair's teeth.
+    pub root: PerGear<RootStress>,
     /// Iterations of the active set.
     pub log: Log,
     /// Number of multipliers.
@@ -185,8 +199,7 @@ impl<'a> CondensedPair<'a> {
             let window = if gear == Gear::Pinion { window_mm } else { 1.3 * window_mm };
             self.flanks[gear].edges_between(expected[gear] - window, expected[gear] + window)
         });
-        let inner_ends =
-            (edges.pinion.start > 0, edges.pinion.end < self.flanks.pinion.surface.edges.len());
+        let inner_ends = (edges.pinion.start > 0, edges.pinion.end < self.flanks.pinion.surface.edges.len());
         let slave = self.flanks.pinion.surface.part(edges.pinion);
         let master = self.flanks.wheel.surface.part(edges.wheel).placed(|x| turn * x + axis, |n| turn * n);
         let coupling = Coupling::new(&slave, &master, window_mm);
@@ -261,10 +274,7 @@ impl<'a> CondensedPair<'a> {
         facings: &[Facing],
         found: crate::fem::active_set::Equilibrium,
     ) -> PositionContact {
-        let mut forces = self.gears.as_ref().map(|gear| {
-            let candidates = gear.sector.sector.candidates.len();
-            vec![vec![0.0; 2 * candidates]; gear.teeth()]
-        });
+        let mut forces = self.gears.as_ref().map(|gear| vec![ToothForce::new(); gear.teeth()]);
         let mut pairs = Vec::new();
         let mut warm = Vec::new();
         for facing in facings {
@@ -272,16 +282,20 @@ impl<'a> CondensedPair<'a> {
             if force.iter().all(|f| *f <= 0.0) {
                 continue;
             }
-            add_transposed(&mut forces.pinion[facing.tooth.pinion], &facing.coupling.slave, force);
-            add_transposed(&mut forces.wheel[facing.tooth.wheel], &facing.master, force);
+            forces.pinion[facing.tooth.pinion] = transpose_times(&facing.coupling.slave, force);
+            forces.wheel[facing.tooth.wheel] = transpose_times(&facing.master, force);
             let (contact, stretch) = self.tooth_pair(facing, force);
             warm.push((facing.pair, stretch.0 - facing.expected_mm, stretch.1 - facing.expected_mm));
             pairs.push(contact);
         }
         let torque = PerGear::from_fn(|gear| {
             let points = &self.flanks[gear].surface.points_mm;
-            let moment = |tooth: &Vec<f64>| -> f64 {
-                tooth.chunks_exact(2).zip(points).map(|(f, x)| x.x * f[1] - x.y * f[0]).sum()
+            let moment = |tooth: &ToothForce| -> f64 {
+                let arm = |column: usize| {
+                    let x = points[column / 2];
+                    if column % 2 == 0 { -x.y } else { x.x }
+                };
+                tooth.iter().map(|&(column, f)| arm(column) * f).sum()
             };
             forces[gear].iter().map(moment).sum::<f64>()
         });
@@ -294,10 +308,21 @@ impl<'a> CondensedPair<'a> {
             torque_ratio_error: (torque.wheel / torque.pinion).abs() / ratio - 1.0,
             load_balance: (total / line_load_n_per_mm - 1.0).abs(),
             max_penetration_mm: found.gap_mm.iter().fold(0.0, |most, gap| most.max(-gap)),
+            root: PerGear::from_fn(|gear| self.root_stress(gear, &forces[gear])),
             forces,
             multipliers: found.gap_mm.len(),
             log: found.log,
             warm: WarmStart(warm),
+        }
+    }
+
+    fn root_stress(&self, gear: Gear, forces: &[ToothForce]) -> RootStress {
+        let compliance = &self.gears[gear];
+        let probed = compliance.probed_mpa(compliance.teeth() / 2, forces);
+        let (working, back) = probed.split_at(self.working_side_probes[gear].min(probed.len()));
+        RootStress {
+            working_side_mpa: working.iter().copied().fold(0.0, f64::max),
+            back_side_mpa: back.iter().copied().fold(0.0, f64::min),
         }
     }
 
@@ -420,10 +445,13 @@ fn add_sandwich(
     }
 }
 
-fn add_transposed(sum: &mut [f64], operator: &CsMat<f64>, force: &[f64]) {
+/// Bᵀ f.
+fn transpose_times(operator: &CsMat<f64>, force: &[f64]) -> ToothForce {
+    let mut sums = BTreeMap::new();
     for (row, f) in operator.outer_iterator().zip(force) {
-        for (column, value) in row.iter() {
-            sum[column] += value * f;
+        for (column, value) in row.iter().filter(|_| *f != 0.0) {
+            *sums.entry(column).or_insert(0.0) += value * f;
         }
     }
+    sums.into_iter().collect()
 }
