@@ -135,11 +135,6 @@ fn val_nafems_cylinder_on_block() {
                 solution.residual,
                 solution.force_balance
             );
-            if n == 24.0 {
-                for node in c.nodes.iter().take(0) {
-                    println!("{:?}", node);
-                }
-            }
             peaks.push(c.peak_pressure_mpa);
             overlaps.push(c.max_penetration_mm);
         }
