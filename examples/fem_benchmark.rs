@@ -10,7 +10,9 @@ use gearwear::fem::{SolveError, solve};
 use grid::CylinderOnBlock;
 
 fn main() -> Result<(), SolveError> {
-    println!("| element | per half-width | unknowns | p₀ MPa | a mm | active sets | s |\n|---|---|---|---|---|---|---|");
+    println!(
+        "| element | per half-width | unknowns | p₀ MPa | a mm | active sets | s |\n|---|---|---|---|---|---|---|"
+    );
     for kind in [ElementKind::Quad4, ElementKind::Triangle6, ElementKind::Quad8] {
         for n in [6.0, 12.0, 24.0, 48.0] {
             let problem = CylinderOnBlock::nafems(kind, n).problem();
