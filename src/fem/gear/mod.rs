@@ -2,6 +2,7 @@
 
 pub mod cycle;
 pub mod flank_surface;
+pub mod model;
 pub mod position;
 pub mod ring;
 pub mod sector;
