@@ -109,16 +109,14 @@ fn contact_modulus_mpa(material: &PerGear<Elastic>) -> f64 {
 /// Hertz half-width under the whole load at `position_mm`, taken at A or E where it lies outside.
 pub fn hertz_half_width_mm(
     pair: &GearPair,
-    material: &PerGear<Elastic>,
+    contact_modulus_mpa: f64,
     line_load_n_per_mm: f64,
     position_mm: f64,
 ) -> f64 {
     let position_mm = position_mm.clamp(pair.path.start_mm, pair.path.end_mm);
     let rho = PerGear::from_fn(|gear| pair.path.rho_mm(gear, position_mm));
     let relative_radius_mm = rho.pinion * rho.wheel / rho.sum();
-    HertzLine::of_relative_radius(relative_radius_mm, contact_modulus_mpa(material))
-        .loaded(line_load_n_per_mm)
-        .half_width_mm
+    HertzLine::of_relative_radius(relative_radius_mm, contact_modulus_mpa).loaded(line_load_n_per_mm).half_width_mm
 }
 
 impl MeshedGear {
@@ -142,17 +140,14 @@ impl MeshedGear {
             }
             Body::Sector { teeth, clamped_sides } => {
                 let coarse = ((teeth - fine_teeth) / 2) as usize;
-                if clamped_sides {
-                    Surroundings::ClampedSector { coarse }
-                } else {
-                    Surroundings::FreeSector { coarse }
-                }
+                if clamped_sides { Surroundings::ClampedSector { coarse } } else { Surroundings::FreeSector { coarse } }
             }
         };
         let shape = ToothShape::of(pair, gear);
         // ρ1 + ρ2 = T1T2 reads the same both ways.
+        let contact_modulus_mpa = contact_modulus_mpa(material);
         let half_width_mm =
-            |rho: f64| hertz_half_width_mm(pair, material, line_load_n_per_mm, pair.path.rho_mm(gear, rho));
+            |rho: f64| hertz_half_width_mm(pair, contact_modulus_mpa, line_load_n_per_mm, pair.path.rho_mm(gear, rho));
         let fine = SectorSettings {
             clamp_radius_mm: settings.clamp_radius_mm[gear],
             fillet_elements: FILLET_ELEMENTS,
@@ -240,14 +235,13 @@ impl<'a> CondensedPair<'a> {
     pub fn new(
         pair: &'a GearPair,
         material: &PerGear<Elastic>,
-        line_load_n_per_mm: f64,
         gears: PerGear<(GearCompliance, FlankSurface)>,
     ) -> Self {
         let (pinion, pinion_flank) = gears.pinion;
         let (wheel, wheel_flank) = gears.wheel;
         Self {
             pair,
-            half_width_mm: hertz_half_width_mm(pair, material, line_load_n_per_mm, pair.path.pitch_point_mm),
+            contact_modulus_mpa: contact_modulus_mpa(material),
             gears: PerGear { pinion, wheel },
             flanks: PerGear { pinion: pinion_flank, wheel: wheel_flank },
             working_side_probes: PerGear { pinion: 0, wheel: 0 },
