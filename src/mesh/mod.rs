@@ -9,6 +9,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 mod cell_kind;
+pub mod quality;
+pub mod tooth;
 
 pub use cell_kind::CellKind;
 
