@@ -1,7 +1,5 @@
 //! From a gear pair to its condensed finite-element model, in two steps: mesh, condense.
 
-use nalgebra::Vector2;
-
 use super::flank_surface::FlankSurface;
 use super::position::{CondensedPair, OUTSIDE_BASE_PITCHES};
 use super::ring::{GearCompliance, Surroundings};
@@ -245,15 +243,6 @@ impl<'a> CondensedPair<'a> {
             gears: PerGear { pinion, wheel },
             flanks: PerGear { pinion: pinion_flank, wheel: wheel_flank },
             working_side_probes: PerGear { pinion: 0, wheel: 0 },
-        }
-    }
-
-    /// Global coordinates of a point of the tooth of pair `pair` at `position_mm`, given in the tooth's frame.
-    pub fn in_place_mm(&self, gear: Gear, position_mm: f64, pair: i32, point_mm: Vector2<f64>) -> Vector2<f64> {
-        let turned = nalgebra::Rotation2::new(self.tooth_angle_rad(gear, position_mm, pair)) * point_mm;
-        match gear {
-            Gear::Pinion => turned,
-            Gear::Wheel => turned + Vector2::new(0.0, self.pair.spec.centre_distance_mm),
         }
     }
 }
