@@ -23,7 +23,7 @@ fn explore() {
         Ok("clamped") => Body::Sector { teeth: 3, clamped_sides: true },
         _ => Body::Ring,
     };
-    for n in [3.0, 5.0, 7.0, 10.0] {
+    for n in [4.0, 10.0] {
         let settings = ModelSettings {
             body,
             clamp_radius_mm: PerGear { pinion: 19.943, wheel: 37.897 },
@@ -64,6 +64,26 @@ fn explore() {
                         found.load_balance,
                         found.max_penetration_mm
                     );
+                    println!("     root {:?}", found.root);
+                    if std::env::var("FULL").is_ok() {
+                        let full = gearwear::fem::gear::full::solve(&pair, &meshed, &steel(), w, &found).unwrap();
+                        println!(
+                            "     full {} TE {:.2e} loads {:?} p {:?} res {:.1e}",
+                            full.dofs,
+                            full.transmission_error_mm / found.transmission_error_mm - 1.0,
+                            full.line_load_n_per_mm
+                                .iter()
+                                .zip(&found.pairs)
+                                .map(|(a, b)| a.1 / b.line_load_n_per_mm - 1.0)
+                                .collect::<Vec<_>>(),
+                            full.peak_pressure_mpa
+                                .iter()
+                                .zip(&found.pairs)
+                                .map(|(a, b)| a.1 / b.peak_pressure_mpa - 1.0)
+                                .collect::<Vec<_>>(),
+                            full.residual
+                        );
+                    }
                     for p in &found.pairs {
                         let x = at + p.pair as f64 * pair.path.base_pitch_mm;
                         let rho = [x, pair.path.line_of_action_mm - x];

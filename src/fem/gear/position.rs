@@ -46,8 +46,6 @@ pub struct CondensedPair<'a> {
     pub gears: PerGear<GearCompliance>,
     /// Their working flanks.
     pub flanks: PerGear<FlankSurface>,
-    /// How many of each gear's probes, the first ones, lie on the working side.
-    pub working_side_probes: PerGear<usize>,
     /// E*, MPa.
     pub contact_modulus_mpa: f64,
 }
@@ -326,7 +324,7 @@ impl<'a> CondensedPair<'a> {
     fn root_stress(&self, gear: Gear, forces: &[ToothForce]) -> RootStress {
         let compliance = &self.gears[gear];
         let probed = compliance.probed_mpa(compliance.teeth() / 2, forces);
-        let (working, back) = probed.split_at(self.working_side_probes[gear].min(probed.len()));
+        let (working, back) = probed.split_at(compliance.sector.sector.working_side_probes);
         RootStress {
             working_side_mpa: working.iter().copied().fold(0.0, f64::max),
             back_side_mpa: back.iter().copied().fold(0.0, f64::min),
