@@ -7,6 +7,7 @@ pub mod factor;
 pub mod loads;
 mod nodal_triangle;
 pub mod problem;
+mod projected_volume;
 pub mod quadrature;
 pub mod shape;
 pub mod solid;
