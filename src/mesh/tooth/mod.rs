@@ -14,10 +14,12 @@
 mod assembly;
 mod cut;
 mod error;
+mod gear_mesh;
 mod interior;
 mod layer;
 mod neighbours;
 mod outline;
+mod pair_mesh;
 mod profile;
 mod size_field;
 mod spacing;
@@ -27,6 +29,8 @@ use std::ops::Range;
 use nalgebra::Vector2;
 
 pub use error::ToothMeshError;
+pub use gear_mesh::{GearMesh, ToothNodes, gear_mesh};
+pub use pair_mesh::{PairSectors, in_place, pair_mesh, pair_sectors, touching_pairs, turn_rad};
 
 use super::CellKind;
 use crate::gear::{Gear, GearPair, modification::Modification, tooth::Tooth};
@@ -140,6 +144,15 @@ impl Cell {
     fn triangle(corners: [u32; 3], middles: [u32; 3]) -> Self {
         let ([a, b, c], [ab, bc, ca]) = (corners, middles);
         Self { kind: CellKind::Triangle6, nodes: [a, b, c, ab, bc, ca, 0, 0] }
+    }
+
+    /// The same cell on nodes numbered anew.
+    fn renumbered(&self, ids: &[u32]) -> Self {
+        let mut nodes = [0; 8];
+        for (new, &old) in nodes.iter_mut().zip(self.nodes()) {
+            *new = ids[old as usize];
+        }
+        Self { kind: self.kind, nodes }
     }
 
     /// Its nodes.
