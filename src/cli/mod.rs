@@ -4,6 +4,7 @@ mod completions;
 mod failure;
 mod figures;
 mod init;
+mod mesh;
 mod plan;
 mod progress;
 mod run;
@@ -35,6 +36,8 @@ enum Command {
     Init(init::Args),
     /// Show the stages a scene needs, those left out, and why; runs nothing
     Plan(plan::Args),
+    /// Write the finite-element mesh of the tooth pair
+    Mesh(mesh::Args),
     /// Run the wear simulation of a scene
     Run(run::Args),
     /// Print the JSON schema of the scene: every key with its meaning, unit, range and default
@@ -55,6 +58,7 @@ pub fn main() -> ExitCode {
     let done = match &cli.command {
         Command::Init(args) => init::run(args),
         Command::Plan(args) => plan::run(args),
+        Command::Mesh(args) => mesh::run(args),
         Command::Run(args) => run::run(args),
         Command::Schema => schema::run(),
         Command::Completions(args) => completions::run(args),

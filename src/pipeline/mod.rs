@@ -4,6 +4,7 @@
 
 mod drawing;
 mod error_estimates;
+pub mod pair_mesh;
 mod recording;
 
 use std::time::Instant;

@@ -28,9 +28,8 @@ const LAW: &str = r#"wear.law = "archard""#;
 const STEP: &str = "a fixed step, numerics.step = { revolutions = … }";
 const CROWNING: &str = "profile_crowning_um, tip_relief, root_relief, tip_rounding_mm";
 
-const LATER: [Later; 16] = [
+const LATER: [Later; 15] = [
     key("helical", SPUR_ONLY),
-    key("fem", SURFACES),
     key("mesh", "a gear pair, [pair]"),
     key("pair.pinion.lead_crowning_um", CROWNING),
     key("pair.wheel.lead_crowning_um", CROWNING),
