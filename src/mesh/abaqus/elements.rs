@@ -26,8 +26,8 @@ const WRITTEN: [(CellKind, &str); 16] = [
 ];
 
 /// What is allowed, for messages.
-pub const ALLOWED: &str = "MASS, trusses and beams (T2D2, T3D3, B21 …), plane elements (CPE, CPS, CPEG, CAX, M3D, S with 3, 4, \
-                           6, 8 or 9 nodes) and solids (C3D4 to C3D20)";
+pub const ALLOWED: &str = "MASS, trusses and beams (T2D2, T3D3, B21 …), plane elements (CPE, CPS, CPEG, CAX, M3D, R3D, S \
+                           with 3, 4, 6, 8 or 9 nodes) and solids (C3D4 to C3D20)";
 
 /// The kind that Abaqus calls `name`, in any case; letters behind the number of nodes (reduced integration, hybrid, …) say
 /// nothing of the mesh.
@@ -36,7 +36,9 @@ pub fn kind(name: &str) -> Option<CellKind> {
     if name == "MASS" {
         return Some(CellKind::Vertex);
     }
-    const LINES: [(&str, CellKind); 10] = [
+    const LINES: [(&str, CellKind); 12] = [
+        ("R2D2", CellKind::Line),
+        ("RAX2", CellKind::Line),
         ("T2D2", CellKind::Line),
         ("T3D2", CellKind::Line),
         ("B21", CellKind::Line),
@@ -51,7 +53,7 @@ pub fn kind(name: &str) -> Option<CellKind> {
     if let Some((_, kind)) = LINES.iter().find(|(line, _)| name.strip_prefix(line).is_some_and(is_variant)) {
         return Some(*kind);
     }
-    const FAMILIES: [&str; 8] = ["CPEG", "CPE", "CPS", "CAX", "M3D", "C3D", "STRI", "S"];
+    const FAMILIES: [&str; 9] = ["CPEG", "CPE", "CPS", "CAX", "M3D", "R3D", "C3D", "STRI", "S"];
     let family = FAMILIES.into_iter().find(|family| name.starts_with(family))?;
     let rest = &name[family.len()..];
     let digits = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
