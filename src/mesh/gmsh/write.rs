@@ -124,7 +124,8 @@ fn groups(mesh: &Mesh) -> Vec<Group<'_>> {
                 continue;
             }
             let first_free = (1..).find(|&tag| !taken.contains_key(&(dimension, tag))).unwrap_or(1);
-            let tag = own.map(|own| own.tag).filter(|&tag| !taken.contains_key(&(dimension, tag))).unwrap_or(first_free);
+            let tag =
+                own.map(|own| own.tag).filter(|&tag| !taken.contains_key(&(dimension, tag))).unwrap_or(first_free);
             taken.insert((dimension, tag), ());
             groups.push(Group { name, tag: PhysicalTag { tag, dimension } });
         }
