@@ -62,6 +62,7 @@ def reference_meshes(program, meshes, folder):
                 gmsh.open(str(target))
                 names = {gmsh.model.getPhysicalName(*group) for group in gmsh.model.getPhysicalGroups()}
                 complaints = [line for line in gmsh.logger.get() if line.startswith(("Warning", "Error"))]
+                gmsh.logger.stop()
                 gmsh.finalize()
                 assert names == set(original.field_data), f"{what}: groups {names}"
                 assert not complaints, f"{what}: {complaints}"
