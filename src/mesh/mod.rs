@@ -19,6 +19,8 @@ pub mod file;
 pub mod gmsh;
 mod json;
 mod numbering;
+pub mod quality;
+pub mod tooth;
 pub mod vtu;
 
 pub use cell_kind::CellKind;

@@ -36,6 +36,14 @@ def same(a, b, what, kinds=None):
         assert np.array_equal(joined(a, kind), joined(b, kind)), f"{what}: {kind}"
 
 
+def known_to_meshio(file):
+    """meshio 5.3.5 does not know Abaqus's elements for plane strain: shells of the same nodes stand in for them."""
+    text = file.read_text()
+    for plane, shell in (("CPE3", "S3"), ("CPE4", "S4"), ("CPE6", "STRI65"), ("CPE8", "S8R")):
+        text = text.replace(f"TYPE={plane}\n", f"TYPE={shell}\n")
+    file.write_text(text)
+
+
 def sets(mesh):
     """Number of cells of each named set."""
     return {name: sum(0 if cells is None else len(cells) for cells in lists)
@@ -49,6 +57,8 @@ def reference_meshes(program, meshes, folder):
         for name, style in STYLES:
             target = folder / name
             convert(program, source, target, style)
+            if name == "a.inp":
+                known_to_meshio(target)
             ours = meshio.read(target)
             what = f"{source.name} as {style or name}"
             plane = {block.type for block in original.cells if block.type not in ("line", "line3")}

@@ -25,6 +25,9 @@ const REFUSED: [&str; 12] = [
     "SYMMETRIC MODEL GENERATION",
 ];
 
+/// A side of an element as a line: its kind and nodes.
+type Line = (CellKind, Vec<usize>);
+
 /// What has been read.
 #[derive(Debug, Default)]
 struct Content {
@@ -37,7 +40,7 @@ struct Content {
     node_sets: Sets,
     element_sets: Sets,
     /// Sides of a surface by its name: kind and nodes of the lines.
-    surfaces: Vec<(Name, Vec<(CellKind, Vec<usize>)>)>,
+    surfaces: Vec<(Name, Vec<Line>)>,
     instance: Option<String>,
 }
 
@@ -258,7 +261,7 @@ impl Content {
 
     fn into_mesh(mut self, allowance: &mut Allowance) -> Result<Mesh, Fault> {
         // Several definitions of one surface add up; each surface has blocks of its own.
-        let mut surfaces: BTreeMap<String, Vec<(CellKind, Vec<usize>)>> = BTreeMap::new();
+        let mut surfaces: BTreeMap<String, Vec<Line>> = BTreeMap::new();
         let mut names = Vec::new();
         for (name, lines) in self.surfaces {
             let key = self.element_sets.key(&name);

@@ -187,7 +187,7 @@ impl<'d, 'a> Decoder<'d, 'a> {
     ) -> Result<Values, Fault> {
         // VTK writes arrays without values without any header at times.
         if bytes.is_empty() {
-            return Ok(self.numbers(&[], scalar, array)?);
+            return self.numbers(&[], scalar, array);
         }
         let mut rest = bytes;
         let mut header = |what: &str| -> Result<usize, Fault> {
