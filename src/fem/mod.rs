@@ -2,4 +2,5 @@
 
 pub mod elastic;
 pub mod problem;
+pub mod record;
 pub mod solid;
