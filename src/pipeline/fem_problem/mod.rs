@@ -7,7 +7,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use crate::fem::{self, SolveError, record::FemRecord};
-use crate::mesh;
+use crate::mesh::Mesh;
 use crate::scene::Problem;
 use crate::scene::fem_problem::FemProblem;
 use crate::scene::short_hash;
@@ -48,10 +48,10 @@ pub fn run(problem: &FemProblem, folder: &Path, told: &dyn Fn(&str)) -> Result<F
     let start = Instant::now();
     let mut stages = Stages { told, times: Vec::new() };
     let unreadable = |reason: String| FemProblemError::Input(problem.mesh_unreadable(&reason));
-    let (mesh, mesh_hash) = stages.run("mesh", || {
+    let (mesh, mesh_hash) = stages.run("mesh", || -> Result<_, FemProblemError> {
         let path = folder.join(&problem.file.mesh.file);
-        let mesh = mesh::read(&path).map_err(|error| unreadable(with_causes(&error)))?;
         let bytes = std::fs::read(&path).map_err(|error| unreadable(error.to_string()))?;
+        let mesh: Mesh = serde_json::from_slice(&bytes).map_err(|error| unreadable(error.to_string()))?;
         Ok((mesh, short_hash(&bytes)))
     })?;
     let posed = stages.run("problem", || problem.on(&mesh)).map_err(FemProblemError::Input)?;
@@ -61,10 +61,4 @@ pub fn run(problem: &FemProblem, folder: &Path, told: &dyn Fn(&str)) -> Result<F
     record.summary.stages = stages.times;
     record.summary.wall_s = start.elapsed().as_secs_f64();
     Ok(record)
-}
-
-/// An error with everything that led to it, on one line.
-fn with_causes(error: &dyn std::error::Error) -> String {
-    let chain = std::iter::successors(error.source(), |cause| cause.source());
-    chain.fold(error.to_string(), |text, cause| format!("{text}: {cause}"))
 }

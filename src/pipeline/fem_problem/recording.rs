@@ -7,6 +7,7 @@ use crate::fem::problem::{ContactPair, ContactState, Problem, Solution};
 use crate::fem::record::{
     ContactCurve, ContactRow, ContactSummary, FemRecord, FemSummary, MeshSummary, NodalStress,
 };
+use crate::fem::shape::{Shape, reference_nodes};
 use crate::scene::fem_problem::{FemProblem, Posed};
 
 const UM_PER_MM: f64 = 1e3;
@@ -191,4 +192,39 @@ fn contact_warning(number: usize, contact: &ContactSummary) -> Option<String> {
         )),
         Some(_) => None,
     }
+}
+
+/// Stress of every node: the mean over its elements.
+pub fn nodal_stress(problem: &Problem, solution: &Solution) -> Vec<NodalStress> {
+    let mut sum = vec![[0.0; 4]; problem.solid.points_mm.len()];
+    let mut count = vec![0.0; sum.len()];
+    for element in &problem.solid.elements {
+        let nodes = element.nodes();
+        let points: Vec<Vector2<f64>> = nodes.iter().map(|&node| problem.solid.points_mm[node as usize]).collect();
+        let material = problem.materials[usize::from(element.material)];
+        let stiffness = material.stiffness_mpa(problem.analysis);
+        for (place, &node) in reference_nodes(element.kind).iter().zip(nodes) {
+            let (gradients, _) = Shape::at(element.kind, *place).gradients(&points);
+            let mut strain = nalgebra::Vector3::zeros();
+            for (gradient, &other) in gradients.iter().zip(nodes) {
+                let [u, v] = [0, 1].map(|c| solution.displacement_mm[2 * other as usize + c]);
+                strain += nalgebra::Vector3::new(gradient[0] * u, gradient[1] * v, gradient[1] * u + gradient[0] * v);
+            }
+            let stress = stiffness * strain;
+            let across = material.across_mpa(problem.analysis, stress.x, stress.y);
+            for (sum, value) in sum[node as usize].iter_mut().zip([stress.x, stress.y, across, stress.z]) {
+                *sum += value;
+            }
+            count[node as usize] += 1.0;
+        }
+    }
+    sum.into_iter()
+        .zip(count)
+        .map(|(sum, count)| {
+            let [x, y, z, xy] = sum.map(|sum| sum / count);
+            let von_mises_mpa =
+                (0.5 * ((x - y).powi(2) + (y - z).powi(2) + (z - x).powi(2)) + 3.0 * xy * xy).sqrt();
+            NodalStress { components_MPa: [x, y, z, xy], von_mises_MPa: von_mises_mpa }
+        })
+        .collect()
 }
