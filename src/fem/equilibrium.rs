@@ -22,7 +22,8 @@ use super::contact::zones;
 use super::factor::{Factor, FactorError};
 use super::problem::{ContactNode, ContactState, Problem, Solution, Stop, Work};
 use super::rigid_body::{RigidMotion, free_motions};
-use super::stiffness::{ElementError, Stiffness};
+use super::stiffness::Stiffness;
+use super::element::ElementError;
 
 /// Why a problem has no solution.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
