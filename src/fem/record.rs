@@ -139,6 +139,8 @@ pub struct ContactRow {
     pub displacement_x_mm: f64,
     /// Displacement along y, mm.
     pub displacement_y_mm: f64,
+    /// Number of the node among those of the bodies, from 0.
+    pub node: u32,
 }
 
 /// The pressure along a contact.

@@ -4,9 +4,7 @@ use nalgebra::Vector2;
 
 use super::hertz_comparison::{self, Patch};
 use crate::fem::problem::{ContactPair, ContactState, Problem, Solution};
-use crate::fem::record::{
-    ContactCurve, ContactRow, ContactSummary, FemRecord, FemSummary, MeshSummary, NodalStress,
-};
+use crate::fem::record::{ContactCurve, ContactRow, ContactSummary, FemRecord, FemSummary, MeshSummary, NodalStress};
 use crate::fem::shape::{Shape, reference_nodes};
 use crate::scene::fem_problem::{FemProblem, Posed};
 
@@ -41,7 +39,10 @@ pub fn record(
     let mut warnings: Vec<String> = problem.warnings.iter().cloned().chain(warnings).collect();
     warnings.extend(contact.iter().enumerate().filter_map(|(number, contact)| contact_warning(number, contact)));
     if !(solution.force_balance <= BALANCED) {
-        warnings.push(format!("external forces and reactions are out of balance by {:.1e}, relatively", solution.force_balance));
+        warnings.push(format!(
+            "external forces and reactions are out of balance by {:.1e}, relatively",
+            solution.force_balance
+        ));
     }
     let summary = FemSummary {
         title: problem.file.title.clone().unwrap_or_default(),
@@ -98,6 +99,7 @@ fn curve(number: usize, state: &ContactState, solution: &Solution) -> ContactCur
                 along_mm,
                 displacement_x_mm: solution.displacement_mm[dof],
                 displacement_y_mm: solution.displacement_mm[dof + 1],
+                node: node.node,
             }
         })
         .collect();
@@ -107,7 +109,8 @@ fn curve(number: usize, state: &ContactState, solution: &Solution) -> ContactCur
 
 /// Whether the zone ends on a line of symmetry.
 fn is_half(state: &ContactState) -> bool {
-    state.half_width_mm > 0.0 && (state.half_width_mm - state.contact_width_mm).abs() <= SAME_WIDTH * state.contact_width_mm
+    state.half_width_mm > 0.0
+        && (state.half_width_mm - state.contact_width_mm).abs() <= SAME_WIDTH * state.contact_width_mm
 }
 
 /// The end of the surface that carries the greater pressure: the line of symmetry.
@@ -222,8 +225,7 @@ pub fn nodal_stress(problem: &Problem, solution: &Solution) -> Vec<NodalStress> 
         .zip(count)
         .map(|(sum, count)| {
             let [x, y, z, xy] = sum.map(|sum| sum / count);
-            let von_mises_mpa =
-                (0.5 * ((x - y).powi(2) + (y - z).powi(2) + (z - x).powi(2)) + 3.0 * xy * xy).sqrt();
+            let von_mises_mpa = (0.5 * ((x - y).powi(2) + (y - z).powi(2) + (z - x).powi(2)) + 3.0 * xy * xy).sqrt();
             NodalStress { components_MPa: [x, y, z, xy], von_mises_MPa: von_mises_mpa }
         })
         .collect()
