@@ -19,11 +19,11 @@ use super::active_set::{ActiveSetError, Condensed, Equilibrium};
 use super::contact::mortar::Coupling;
 use super::contact::surface::Surface;
 use super::contact::zones;
+use super::element::ElementError;
 use super::factor::{Factor, FactorError};
 use super::problem::{ContactNode, ContactState, Problem, Solution, Stop, Work};
 use super::rigid_body::{RigidMotion, free_motions};
 use super::stiffness::Stiffness;
-use super::element::ElementError;
 
 /// Why a problem has no solution.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

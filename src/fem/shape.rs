@@ -27,17 +27,8 @@ pub struct Shape {
 }
 
 /// Nodes of the quadrilaterals on the reference cell.
-const QUAD_NODES: [[f64; 2]; 9] = [
-    [-1.0, -1.0],
-    [1.0, -1.0],
-    [1.0, 1.0],
-    [-1.0, 1.0],
-    [0.0, -1.0],
-    [1.0, 0.0],
-    [0.0, 1.0],
-    [-1.0, 0.0],
-    [0.0, 0.0],
-];
+const QUAD_NODES: [[f64; 2]; 9] =
+    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0], [0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, 0.0]];
 
 /// Nodes of the triangles on the reference cell.
 const TRIANGLE_NODES: [[f64; 2]; 6] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
@@ -174,13 +165,8 @@ pub fn along_edge(quadratic_edge: bool, s: f64) -> ([f64; 3], [f64; 3]) {
 mod tests {
     use super::*;
 
-    const KINDS: [ElementKind; 5] = [
-        ElementKind::Triangle3,
-        ElementKind::Triangle6,
-        ElementKind::Quad4,
-        ElementKind::Quad8,
-        ElementKind::Quad9,
-    ];
+    const KINDS: [ElementKind; 5] =
+        [ElementKind::Triangle3, ElementKind::Triangle6, ElementKind::Quad4, ElementKind::Quad8, ElementKind::Quad9];
 
     #[test]
     fn ver_shape_functions_are_one_at_their_node_and_sum_to_one() {

@@ -41,8 +41,7 @@ impl Stiffness {
         check_references(solid, materials)?;
         let patches = averaged_patches(solid, analysis);
         let graph = NodeGraph::new(solid, &patches);
-        let mut stiffness =
-            Self { matrix: graph.empty_matrix(), graph, analysis, parts: RigidParts::new(solid) };
+        let mut stiffness = Self { matrix: graph.empty_matrix(), graph, analysis, parts: RigidParts::new(solid) };
         stiffness.assemble(solid, materials, &patches)?;
         Ok(stiffness)
     }

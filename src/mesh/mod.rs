@@ -20,6 +20,8 @@ pub mod gmsh;
 mod json;
 mod numbering;
 pub mod vtu;
+pub mod quality;
+pub mod tooth;
 
 pub use cell_kind::CellKind;
 pub use error::MeshFileError;

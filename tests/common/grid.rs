@@ -136,9 +136,7 @@ pub fn graded(from: f64, to: f64, step: f64, even: f64, growth: f64) -> Vec<f64>
 
 /// Consistent nodal forces of a uniform traction on straight edges whose resultant is `force`.
 pub fn spread(solid: &Solid, edges: &[Edge], force: Vector2<f64>, forces: &mut [f64]) {
-    let length = |edge: &Edge| {
-        (solid.points_mm[edge.ends[0] as usize] - solid.points_mm[edge.ends[1] as usize]).norm()
-    };
+    let length = |edge: &Edge| (solid.points_mm[edge.ends[0] as usize] - solid.points_mm[edge.ends[1] as usize]).norm();
     let total: f64 = edges.iter().map(length).sum();
     for edge in edges {
         let shares: &[f64] = if edge.middle.is_some() { &[1.0 / 6.0, 1.0 / 6.0, 2.0 / 3.0] } else { &[0.5, 0.5] };

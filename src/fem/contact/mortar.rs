@@ -84,13 +84,7 @@ impl Coupling {
     }
 }
 
-fn integrate_edge(
-    slave: &Surface,
-    number: usize,
-    facing: &Facing<'_>,
-    segments: &[Segment],
-    rows: &mut [Row],
-) {
+fn integrate_edge(slave: &Surface, number: usize, facing: &Facing<'_>, segments: &[Segment], rows: &mut [Row]) {
     let edge = &slave.edges[number];
     let count = edge.nodes().len();
     let jacobian = |xi: f64| slave.point_and_tangent(edge, xi).1.norm();

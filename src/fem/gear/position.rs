@@ -13,6 +13,7 @@
 //! Frames: the pinion's axis is the origin and the wheel's lies on +y at the centre distance. Tooth j of the pinion stands
 //! at the angle ξ/r_b1 − ψ_b1 − α_w + 2πj/z1 from +y, anticlockwise; the wheel's at π + ρ2/r_b2 − ψ_b2 − α_w − 2πj/z2.
 
+use std::collections::BTreeMap;
 use std::f64::consts::{PI, TAU};
 
 use faer::Mat;
@@ -20,13 +21,17 @@ use nalgebra::{Rotation2, Vector2};
 use sprs::CsMat;
 
 use super::flank_surface::FlankSurface;
-use super::ring::{Between, GearCompliance};
+use super::model::hertz_half_width_mm;
+use super::ring::{Between, GearCompliance, ToothForce};
 use crate::fem::active_set::{ActiveSetError, Condensed, Log};
 use crate::fem::contact::{mortar::Coupling, zones};
 use crate::gear::{Gear, GearPair, PerGear};
 
+/// Distance between the flanks within which they may come to touch, in units of line load over E*: an approach is some
+/// ten of these.
+const FIRST_REACH: f64 = 25.0;
 /// Half-widths on either side of the expected contact in which multipliers are looked for first.
-const FIRST_WINDOW: f64 = 1.8;
+const FIRST_WINDOW: f64 = 1.4;
 /// How much wider each further look is.
 const WIDER: f64 = 1.6;
 /// Looks before giving up.
@@ -44,8 +49,10 @@ pub struct CondensedPair<'a> {
     pub gears: PerGear<GearCompliance>,
     /// Their working flanks.
     pub flanks: PerGear<FlankSurface>,
-    /// Hertz half-width at the pitch point under the whole load, mm.
-    pub half_width_mm: f64,
+    /// How many of each gear's probes, the first ones, lie on the working side.
+    pub working_side_probes: PerGear<usize>,
+    /// E*, MPa.
+    pub contact_modulus_mpa: f64,
 }
 
 /// One tooth pair in contact.
@@ -67,6 +74,15 @@ pub struct ToothPairContact {
     pub pressure: Vec<(f64, f64)>,
 }
 
+/// Stress along the surface of a tooth's fillets, which is the principal stress there, MPa.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RootStress {
+    /// Greatest at the fillet below the working flank: tension.
+    pub working_side_mpa: f64,
+    /// Least at the other fillet: compression.
+    pub back_side_mpa: f64,
+}
+
 /// The pair at one position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PositionContact {
@@ -82,8 +98,10 @@ pub struct PositionContact {
     pub load_balance: f64,
     /// Largest overlap left at a multiplier, mm.
     pub max_penetration_mm: f64,
-    /// Forces on the candidates of each fine tooth, N/mm, in each tooth's frame.
-    pub forces: PerGear<Vec<Vec<f64>>>,
+    /// Forces on each fine tooth, in its own frame.
+    pub forces: PerGear<Vec<ToothForce>>,
+    /// Stresses at the fillets of the reference pair's teeth.
+    pub root: PerGear<RootStress>,
     /// Iterations of the active set.
     pub log: Log,
     /// Number of multipliers.
@@ -95,6 +113,13 @@ pub struct PositionContact {
 /// Where each pair was loaded: its number and the stretch of pinion flank relative to the expected contact, mm.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct WarmStart(Vec<(i32, f64, f64)>);
+
+/// How far around the expected contact multipliers are looked for.
+struct Window {
+    line_load_n_per_mm: f64,
+    half_widths: f64,
+    reach_mm: f64,
+}
 
 /// A tooth pair prepared for contact.
 struct Facing {
@@ -122,28 +147,38 @@ impl<'a> CondensedPair<'a> {
         line_load_n_per_mm: f64,
         warm: &WarmStart,
     ) -> Result<PositionContact, ActiveSetError> {
-        let mut half_widths = FIRST_WINDOW;
-        let mut look = 1;
-        loop {
-            let facings = self.facings(position_mm, half_widths);
+        let mut window = Window {
+            line_load_n_per_mm,
+            half_widths: FIRST_WINDOW,
+            reach_mm: FIRST_REACH * line_load_n_per_mm / self.contact_modulus_mpa,
+        };
+        for _ in 1..MOST_LOOKS {
+            let facings = self.facings(position_mm, &window);
             let condensed = self.condensed(&facings, line_load_n_per_mm);
             let start = start(&facings, &self.flanks.pinion, warm);
-            let found = condensed.solve(start.as_deref())?;
-            if look < MOST_LOOKS && facings.iter().any(|facing| is_cramped(facing, &found.force, self)) {
-                half_widths *= WIDER;
-                look += 1;
-                continue;
+            match condensed.solve(start.as_deref()) {
+                Ok(found) if !facings.iter().any(|facing| is_cramped(facing, &found.force, self)) => {
+                    return Ok(self.read(position_mm, line_load_n_per_mm, &facings, found));
+                }
+                // Flanks far relieved touch elsewhere, and later.
+                Ok(_) | Err(ActiveSetError::NoContact { .. }) => {
+                    window.half_widths *= WIDER;
+                    window.reach_mm *= WIDER;
+                }
+                Err(error) => return Err(error),
             }
-            return Ok(self.read(position_mm, line_load_n_per_mm, &facings, found));
         }
+        let facings = self.facings(position_mm, &window);
+        let found = self.condensed(&facings, line_load_n_per_mm).solve(None)?;
+        Ok(self.read(position_mm, line_load_n_per_mm, &facings, found))
     }
 
-    fn facings(&self, position_mm: f64, half_widths: f64) -> Vec<Facing> {
+    fn facings(&self, position_mm: f64, window: &Window) -> Vec<Facing> {
         let reach = (self.gears.pinion.teeth() / 2) as i32;
         let mut first_row = 0;
         (-reach..=reach)
             .filter_map(|pair| {
-                let mut facing = self.facing(position_mm, pair, half_widths)?;
+                let mut facing = self.facing(position_mm, pair, window)?;
                 facing.first_row = first_row;
                 first_row += facing.coupling.len();
                 Some(facing)
@@ -170,7 +205,7 @@ impl<'a> CondensedPair<'a> {
         }
     }
 
-    fn facing(&self, position_mm: f64, pair: i32, half_widths: f64) -> Option<Facing> {
+    fn facing(&self, position_mm: f64, pair: i32, window: &Window) -> Option<Facing> {
         let path = &self.pair.path;
         let own_mm = position_mm + f64::from(pair) * path.base_pitch_mm;
         let outside_mm = OUTSIDE_BASE_PITCHES * path.base_pitch_mm;
@@ -179,17 +214,17 @@ impl<'a> CondensedPair<'a> {
         }
         let (turn, axis) = self.relative_frame(position_mm, pair);
         let expected = self.expected_from_tip_mm(own_mm, turn, axis);
-        let window_mm = half_widths * self.half_width_mm;
+        let half_width_mm = hertz_half_width_mm(self.pair, self.contact_modulus_mpa, window.line_load_n_per_mm, own_mm);
+        let window_mm = window.half_widths * half_width_mm;
         let edges = PerGear::from_fn(|gear| {
             // The master must be met over the whole of the slave's window, also where it is seen a little askew.
             let window = if gear == Gear::Pinion { window_mm } else { 1.3 * window_mm };
             self.flanks[gear].edges_between(expected[gear] - window, expected[gear] + window)
         });
-        let inner_ends =
-            (edges.pinion.start > 0, edges.pinion.end < self.flanks.pinion.surface.edges.len());
+        let inner_ends = (edges.pinion.start > 0, edges.pinion.end < self.flanks.pinion.surface.edges.len());
         let slave = self.flanks.pinion.surface.part(edges.pinion);
         let master = self.flanks.wheel.surface.part(edges.wheel).placed(|x| turn * x + axis, |n| turn * n);
-        let coupling = Coupling::new(&slave, &master, window_mm);
+        let coupling = Coupling::new(&slave, &master, window.reach_mm);
         if coupling.is_empty() {
             return None;
         }
@@ -261,10 +296,7 @@ impl<'a> CondensedPair<'a> {
         facings: &[Facing],
         found: crate::fem::active_set::Equilibrium,
     ) -> PositionContact {
-        let mut forces = self.gears.as_ref().map(|gear| {
-            let candidates = gear.sector.sector.candidates.len();
-            vec![vec![0.0; 2 * candidates]; gear.teeth()]
-        });
+        let mut forces = self.gears.as_ref().map(|gear| vec![ToothForce::new(); gear.teeth()]);
         let mut pairs = Vec::new();
         let mut warm = Vec::new();
         for facing in facings {
@@ -272,16 +304,20 @@ impl<'a> CondensedPair<'a> {
             if force.iter().all(|f| *f <= 0.0) {
                 continue;
             }
-            add_transposed(&mut forces.pinion[facing.tooth.pinion], &facing.coupling.slave, force);
-            add_transposed(&mut forces.wheel[facing.tooth.wheel], &facing.master, force);
+            forces.pinion[facing.tooth.pinion] = transpose_times(&facing.coupling.slave, force);
+            forces.wheel[facing.tooth.wheel] = transpose_times(&facing.master, force);
             let (contact, stretch) = self.tooth_pair(facing, force);
             warm.push((facing.pair, stretch.0 - facing.expected_mm, stretch.1 - facing.expected_mm));
             pairs.push(contact);
         }
         let torque = PerGear::from_fn(|gear| {
             let points = &self.flanks[gear].surface.points_mm;
-            let moment = |tooth: &Vec<f64>| -> f64 {
-                tooth.chunks_exact(2).zip(points).map(|(f, x)| x.x * f[1] - x.y * f[0]).sum()
+            let moment = |tooth: &ToothForce| -> f64 {
+                let arm = |column: usize| {
+                    let x = points[column / 2];
+                    if column % 2 == 0 { -x.y } else { x.x }
+                };
+                tooth.iter().map(|&(column, f)| arm(column) * f).sum()
             };
             forces[gear].iter().map(moment).sum::<f64>()
         });
@@ -294,10 +330,21 @@ impl<'a> CondensedPair<'a> {
             torque_ratio_error: (torque.wheel / torque.pinion).abs() / ratio - 1.0,
             load_balance: (total / line_load_n_per_mm - 1.0).abs(),
             max_penetration_mm: found.gap_mm.iter().fold(0.0, |most, gap| most.max(-gap)),
+            root: PerGear::from_fn(|gear| self.root_stress(gear, &forces[gear])),
             forces,
             multipliers: found.gap_mm.len(),
             log: found.log,
             warm: WarmStart(warm),
+        }
+    }
+
+    fn root_stress(&self, gear: Gear, forces: &[ToothForce]) -> RootStress {
+        let compliance = &self.gears[gear];
+        let probed = compliance.probed_mpa(compliance.teeth() / 2, forces);
+        let (working, back) = probed.split_at(self.working_side_probes[gear].min(probed.len()));
+        RootStress {
+            working_side_mpa: working.iter().copied().fold(0.0, f64::max),
+            back_side_mpa: back.iter().copied().fold(0.0, f64::min),
         }
     }
 
@@ -398,32 +445,47 @@ fn add_sandwich(
     compliance: Between<'_>,
     right: &CsMat<f64>,
 ) {
-    let mut columns: Vec<usize> = right.indices().to_vec();
-    columns.sort_unstable();
-    columns.dedup();
-    let mut place = vec![usize::MAX; right.cols()];
-    for (k, &column) in columns.iter().enumerate() {
-        place[column] = k;
-    }
-    let mut carried = vec![0.0; columns.len()];
+    let (left_columns, left_place) = used_columns(left);
+    let (right_columns, right_place) = used_columns(right);
+    // Each entry of C is read once, into columns that lie together.
+    let width = right_columns.len();
+    let gathered: Vec<f64> =
+        left_columns.iter().flat_map(|&k| right_columns.iter().map(move |&column| compliance.at(column, k))).collect();
+    let mut carried = vec![0.0; width];
     for (i, row) in left.outer_iterator().enumerate() {
         carried.fill(0.0);
         for (k, value) in row.iter() {
-            for (sum, &column) in carried.iter_mut().zip(&columns) {
-                *sum += value * compliance.at(column, k);
+            let column = &gathered[left_place[k] * width..][..width];
+            for (sum, c) in carried.iter_mut().zip(column) {
+                *sum += value * c;
             }
         }
         for (j, other) in right.outer_iterator().enumerate() {
-            let product: f64 = other.iter().map(|(column, value)| value * carried[place[column]]).sum();
+            let product: f64 = other.iter().map(|(column, value)| value * carried[right_place[column]]).sum();
             sum[(places.0 + i, places.1 + j)] += product;
         }
     }
 }
 
-fn add_transposed(sum: &mut [f64], operator: &CsMat<f64>, force: &[f64]) {
+/// The columns that hold anything, and the place of each among them.
+fn used_columns(operator: &CsMat<f64>) -> (Vec<usize>, Vec<usize>) {
+    let mut used = operator.indices().to_vec();
+    used.sort_unstable();
+    used.dedup();
+    let mut place = vec![usize::MAX; operator.cols()];
+    for (k, &column) in used.iter().enumerate() {
+        place[column] = k;
+    }
+    (used, place)
+}
+
+/// Bᵀ f.
+fn transpose_times(operator: &CsMat<f64>, force: &[f64]) -> ToothForce {
+    let mut sums = BTreeMap::new();
     for (row, f) in operator.outer_iterator().zip(force) {
-        for (column, value) in row.iter() {
-            sum[column] += value * f;
+        for (column, value) in row.iter().filter(|_| *f != 0.0) {
+            *sums.entry(column).or_insert(0.0) += value * f;
         }
     }
+    sums.into_iter().collect()
 }

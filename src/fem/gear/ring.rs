@@ -22,6 +22,9 @@ use faer::{Mat, Side};
 use super::sector::CondensedSector;
 use crate::fem::active_set::ActiveSetError;
 
+/// Forces on the candidates of one tooth: column and N/mm, by increasing column.
+pub type ToothForce = Vec<(usize, f64)>;
+
 /// What bounds the fine group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Surroundings {
@@ -42,6 +45,15 @@ pub enum Surroundings {
     },
 }
 
+impl Surroundings {
+    /// Number of coarse teeth in a row.
+    pub fn coarse(self) -> usize {
+        match self {
+            Self::Ring { coarse } | Self::FreeSector { coarse } | Self::ClampedSector { coarse } => coarse,
+        }
+    }
+}
+
 /// A gear as contact sees it: compliance between the candidate nodes of its fine teeth.
 pub struct GearCompliance {
     /// The fine sector; all fine teeth are alike.
@@ -54,13 +66,14 @@ pub struct GearCompliance {
 }
 
 impl GearCompliance {
-    /// Joins `teeth` fine sectors, from clockwise to anticlockwise, with what surrounds them.
+    /// Joins `teeth` fine sectors, from clockwise to anticlockwise, with what surrounds them; `coarse` is needed where that
+    /// has teeth.
     ///
     /// # Errors
     /// A body that is not held.
     pub fn new(
         fine: CondensedSector,
-        coarse: &CondensedSector,
+        coarse: Option<&CondensedSector>,
         teeth: usize,
         surroundings: Surroundings,
     ) -> Result<Self, ActiveSetError> {
@@ -74,29 +87,27 @@ impl GearCompliance {
         for tooth in 0..teeth {
             add(&fine.cut_stiffness, &[tooth, tooth + 1]);
         }
-        match surroundings {
-            Surroundings::Ring { coarse: 0 } => {}
-            // The chain's clockwise cut is the group's anticlockwise one.
-            Surroundings::Ring { coarse: count } => add(&chain(&coarse.cut_stiffness, count)?, &[teeth, 0]),
-            Surroundings::FreeSector { coarse: 0 } | Surroundings::ClampedSector { coarse: 0 } => {}
-            Surroundings::FreeSector { coarse: count } => {
-                let chain = chain(&coarse.cut_stiffness, count)?;
-                add(&eliminated(&chain, 0, n)?, &[0]);
-                add(&eliminated(&chain, n, n)?, &[teeth]);
-            }
-            Surroundings::ClampedSector { coarse: count } => {
-                let chain = chain(&coarse.cut_stiffness, count)?;
-                add(&chain.get(n.., n..).to_owned(), &[0]);
-                add(&chain.get(..n, ..n).to_owned(), &[teeth]);
+        if let (Some(coarse), count @ 1..) = (coarse, surroundings.coarse()) {
+            let chain = chain(&coarse.cut_stiffness, count)?;
+            match surroundings {
+                // The chain's clockwise cut is the group's anticlockwise one.
+                Surroundings::Ring { .. } => add(&chain, &[teeth, 0]),
+                Surroundings::FreeSector { .. } => {
+                    add(&eliminated(&chain, 0, n)?, &[0]);
+                    add(&eliminated(&chain, n, n)?, &[teeth]);
+                }
+                Surroundings::ClampedSector { .. } => {
+                    add(&chain.get(n.., n..).to_owned(), &[0]);
+                    add(&chain.get(..n, ..n).to_owned(), &[teeth]);
+                }
             }
         }
         let inverse = factor(&joined)?.inverse();
-        let cut_compliance = Mat::from_fn(n * (teeth + 1), n * (teeth + 1), |i, j| {
-            match (cuts.unknowns[i / n], cuts.unknowns[j / n]) {
+        let cut_compliance =
+            Mat::from_fn(n * (teeth + 1), n * (teeth + 1), |i, j| match (cuts.unknowns[i / n], cuts.unknowns[j / n]) {
                 (Some(row), Some(column)) => inverse[(n * row + i % n, n * column + j % n)],
                 _ => 0.0,
-            }
-        });
+            });
         let mut blocks = Vec::with_capacity(teeth * (teeth + 1) / 2);
         for p in 0..teeth {
             let carried = &fine.carried * cut_compliance.get(n * p..n * (p + 2), ..);
@@ -122,12 +133,12 @@ impl GearCompliance {
         Between { block: &self.blocks[high * (high + 1) / 2 + low], turned: q > p }
     }
 
-    /// Displacements of both cuts of tooth `p` under candidate forces on the fine teeth.
-    pub fn cut_displacement_mm(&self, p: usize, forces: &[Vec<f64>]) -> Vec<f64> {
+    /// Displacements of both cuts of tooth `p` under candidate forces on the fine teeth, mm.
+    pub fn cut_displacement_mm(&self, p: usize, forces: &[ToothForce]) -> Vec<f64> {
         let n = self.sector.sector.cut_dofs();
         let mut load = vec![0.0; n * (self.teeth + 1)];
         for (tooth, force) in forces.iter().enumerate() {
-            for (c, f) in force.iter().enumerate().filter(|(_, f)| **f != 0.0) {
+            for &(c, f) in force {
                 for b in 0..2 * n {
                     load[n * tooth + b] += self.sector.carried[(c, b)] * f;
                 }
@@ -139,12 +150,12 @@ impl GearCompliance {
     }
 
     /// Stress of each probe of tooth `p` under candidate forces on the fine teeth, MPa.
-    pub fn probed_mpa(&self, p: usize, forces: &[Vec<f64>]) -> Vec<f64> {
+    pub fn probed_mpa(&self, p: usize, forces: &[ToothForce]) -> Vec<f64> {
         let cuts = self.cut_displacement_mm(p, forces);
         let sector = &self.sector;
         (0..sector.probe_by_cut.nrows())
             .map(|k| {
-                let own: f64 = forces[p].iter().enumerate().map(|(c, f)| sector.probe_by_force[(k, c)] * f).sum();
+                let own: f64 = forces[p].iter().map(|&(c, f)| sector.probe_by_force[(k, c)] * f).sum();
                 own + cuts.iter().enumerate().map(|(b, u)| sector.probe_by_cut[(k, b)] * u).sum::<f64>()
             })
             .collect()

@@ -154,14 +154,14 @@ fn symmetric(matrix: &Mat<f64>) -> Mat<f64> {
 
 impl CondensedSector {
     /// Displacement of every node of the sector under forces on the candidates and displacements of the cuts, mm.
-    pub fn displacement_mm(&self, candidate_force: &[f64], cut_mm: &[f64]) -> Vec<f64> {
+    pub fn displacement_mm(&self, candidate_force: &[(usize, f64)], cut_mm: &[f64]) -> Vec<f64> {
         let mut field = vec![0.0; self.sector.solid.dofs()];
         let mut held = Vec::with_capacity(2 * cut_mm.len());
         for ((node, direction), u) in self.sector.cut_directions().into_iter().zip(cut_mm) {
             held.extend(given(node, direction * *u));
         }
-        for (c, force) in candidate_force.iter().enumerate() {
-            field[2 * self.sector.candidates[c / 2] as usize + c % 2] = *force;
+        for &(c, force) in candidate_force {
+            field[2 * self.sector.candidates[c / 2] as usize + c % 2] = force;
         }
         self.factor.subtract_held(&self.stiffness, &held, &mut field);
         self.factor.solve(1, &mut field);
