@@ -1,7 +1,6 @@
 //! Plane finite elements: elements, assembly, factorisation, contact of meshes.
 
 pub mod active_set;
-mod compliance_tmp;
 pub mod contact;
 pub mod elastic;
 pub mod element;

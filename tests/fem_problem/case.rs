@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use assert_cmd::Command;
 use gearwear::fem::problem::{Edge, Problem};
 use gearwear::fem::solid::{Element, ElementKind};
-use gearwear::mesh::{CellBlock, CellKind, Mesh};
+use gearwear::mesh::{CellBlock, CellKind, Format, Mesh, to_bytes};
 
 /// The half model of the NAFEMS cylinder on a block.
 pub const TEXT: &str = r#"title = "cylinder on a block"
@@ -43,17 +43,6 @@ master = "flat"
 friction = 0.0
 "#;
 
-/// The kind of cell that an element is.
-pub fn cell_kind(kind: ElementKind) -> CellKind {
-    match kind {
-        ElementKind::Triangle3 => CellKind::Triangle,
-        ElementKind::Triangle6 => CellKind::Triangle6,
-        ElementKind::Quad4 => CellKind::Quad,
-        ElementKind::Quad8 => CellKind::Quad8,
-        ElementKind::Quad9 => CellKind::Quad9,
-    }
-}
-
 fn corners(element: &Element) -> usize {
     if matches!(element.kind, ElementKind::Triangle3 | ElementKind::Triangle6) { 3 } else { 4 }
 }
@@ -73,7 +62,7 @@ pub fn mesh_of(problem: &Problem) -> Mesh {
     for (material, name) in [(0, "cylinder"), (1, "block")] {
         let own: Vec<&Element> = problem.solid.elements.iter().filter(|e| e.material == material).collect();
         let nodes = own.iter().flat_map(|e| e.nodes()).map(|&n| n as usize).collect();
-        add_block(&mut mesh, cell_kind(own[0].kind), nodes, name);
+        add_block(&mut mesh, own[0].kind.cell_kind(), nodes, name);
     }
     let loaded = |node: u32| {
         let dof = 2 * node as usize;
@@ -126,7 +115,7 @@ impl Case {
     /// `text` beside `mesh`.
     pub fn new(text: &str, mesh: &Mesh) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("mesh.json"), serde_json::to_vec(mesh).unwrap()).unwrap();
+        fs::write(folder.path().join("mesh.json"), to_bytes(mesh, Format::Json).unwrap()).unwrap();
         Self { folder, text: text.to_owned() }
     }
 
