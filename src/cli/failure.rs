@@ -78,7 +78,9 @@ pub enum InputError {
         name: String,
     },
     /// `fem` with a gear pair.
-    #[error("{name}: found [pair], and finite elements of a gear pair are not available in this version; allowed: [mesh]")]
+    #[error(
+        "{name}: found [pair], and finite elements of a gear pair are not available in this version; allowed: [mesh]"
+    )]
     #[diagnostic(help("gearwear schema --problem lists what a problem with its own mesh may say"))]
     NoFemPair {
         /// Name of the file.

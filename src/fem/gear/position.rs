@@ -36,7 +36,7 @@ const MOST_LOOKS: usize = 8;
 /// Rows at an inner end of the window that must stay without load.
 const FREE_ROWS: usize = 3;
 /// Parts of a base pitch before A and after E in which contact outside the line of action is looked for.
-pub const OUTSIDE_BASE_PITCHES: f64 = 0.3;
+const OUTSIDE_BASE_PITCHES: f64 = 0.3;
 
 /// The pair with both gears condensed.
 pub struct CondensedPair<'a> {
