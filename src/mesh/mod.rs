@@ -20,6 +20,7 @@ pub mod gmsh;
 mod json;
 mod numbering;
 pub mod quality;
+pub mod settings;
 pub mod tooth;
 pub mod vtu;
 
