@@ -22,6 +22,7 @@ use crate::mesh::{CellBlock, CellKind, Mesh};
 const EARLY_CONTACT: f64 = 0.15;
 
 /// The sectors of both gears.
+#[derive(Debug, Clone, PartialEq)]
 pub struct PairSectors {
     /// With the working flank resolved.
     pub fine: PerGear<ToothSector>,
