@@ -2,6 +2,8 @@
 
 mod completions;
 mod failure;
+mod fem;
+mod fem_scene;
 mod figures;
 mod init;
 mod mesh;
@@ -40,8 +42,10 @@ enum Command {
     Mesh(mesh::Args),
     /// Run the wear simulation of a scene
     Run(run::Args),
+    /// Solve elastic contact with finite elements, on a mesh of one's own
+    Fem(fem::Args),
     /// Print the JSON schema of the scene: every key with its meaning, unit, range and default
-    Schema,
+    Schema(schema::Args),
     /// Print completions for a shell
     Completions(completions::Args),
 }
@@ -60,7 +64,8 @@ pub fn main() -> ExitCode {
         Command::Plan(args) => plan::run(args),
         Command::Mesh(args) => mesh::run(args),
         Command::Run(args) => run::run(args),
-        Command::Schema => schema::run(),
+        Command::Fem(args) => fem::run(args),
+        Command::Schema(args) => schema::run(args),
         Command::Completions(args) => completions::run(args),
     };
     match done {

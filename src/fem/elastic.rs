@@ -46,6 +46,22 @@ impl Elastic {
         }
     }
 
+    /// κ = E/(3 (1 − 2ν)), MPa.
+    pub fn bulk_modulus_mpa(&self) -> f64 {
+        self.young_modulus_mpa / (3.0 * (1.0 - 2.0 * self.poisson_ratio))
+    }
+
+    /// μ = E/(2 (1 + ν)), MPa.
+    pub fn shear_modulus_mpa(&self) -> f64 {
+        0.5 * self.young_modulus_mpa / (1.0 + self.poisson_ratio)
+    }
+
+    /// The plane-strain D less its volumetric part κ m mᵀ, m = (1, 1, 0), MPa.
+    pub fn deviatoric_mpa(&self) -> Matrix3<f64> {
+        let mu = self.shear_modulus_mpa();
+        Matrix3::new(4.0, -2.0, 0.0, -2.0, 4.0, 0.0, 0.0, 0.0, 3.0) * (mu / 3.0)
+    }
+
     /// σ_z from the stresses in the plane, MPa.
     pub fn across_mpa(&self, analysis: Analysis, sigma_x_mpa: f64, sigma_y_mpa: f64) -> f64 {
         match analysis {

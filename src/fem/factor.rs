@@ -1,0 +1,292 @@
+//! Sparse Cholesky factorisation of a supported stiffness.
+//!
+//! With the held degrees of freedom h struck out, the free ones f obey
+//!
+//! ```text
+//! K_ff u_f = F_f − K_fh u_h          K_ff = Pᵀ L Lᵀ P
+//! ```
+//!
+//! P is the approximate-minimum-degree ordering, L is kept by faer as dense blocks of columns (supernodes). The symbolic
+//! analysis is made once for a mesh and its supports; new values go through the same blocks. Everything runs on one thread,
+//! so that the bits of a solution never depend on the machine.
+//!
+//! Nodes that no element has are struck out too: their displacement stays zero.
+//!
+//! Source: Y. Chen, T. A. Davis, W. W. Hager and S. Rajamanickam, *ACM Transactions on Mathematical Software* 35 (2008)
+//! article 22 (supernodal Cholesky); the implementation is faer's.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::solvers::LltError;
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::supernodal::{SupernodalLltRef, SymbolicSupernodalCholesky};
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering, factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, MatMut, Par, Side};
+
+use super::stiffness::Stiffness;
+use super::support::Loose;
+
+/// Right-hand sides that go through the factor together: enough to use each block of L while it is in the cache, few enough
+/// that their own rows stay there too.
+const COLUMNS_AT_ONCE: usize = 32;
+
+/// Mark of a degree of freedom that is not solved for.
+pub(super) const HELD: u32 = u32::MAX;
+
+/// Why a stiffness cannot be factorised.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum FactorError {
+    /// A body can move without strain.
+    #[error(
+        "the body with node {node} can move freely: {held} held degrees of freedom do not keep it from shifting or turning"
+    )]
+    Unsupported {
+        /// The lowest of the body's nodes.
+        node: u32,
+        /// How many of the body's degrees of freedom are held.
+        held: usize,
+    },
+    /// A pivot is not positive: the stiffness holds values that are not finite, or is far too badly scaled.
+    #[error("the stiffness is not positive definite at degree of freedom {dof} (node {})", .dof / 2)]
+    NotPositive {
+        /// The degree of freedom whose pivot fails.
+        dof: usize,
+    },
+    /// The list of held degrees of freedom is not of this mesh.
+    #[error("{given} degrees of freedom are marked as held or free, but the mesh has {dofs}")]
+    WrongLength {
+        /// Length of the list.
+        given: usize,
+        /// Degrees of freedom of the stiffness.
+        dofs: usize,
+    },
+    /// The stiffness is not of the mesh that was analysed.
+    #[error("the stiffness has another pattern than the one that was analysed")]
+    OtherPattern,
+    /// The analysis does not fit into memory.
+    #[error("the factorisation needs more memory than there is")]
+    OutOfMemory,
+}
+
+/// A factorised stiffness with its supports.
+pub struct Factor {
+    /// Number of a degree of freedom among the free ones, or [`HELD`].
+    free_of_dof: Vec<u32>,
+    /// Place of each degree of freedom in the order of elimination, or [`HELD`].
+    place_of_dof: Vec<u32>,
+    /// The degree of freedom at each place.
+    dof_of_place: Vec<u32>,
+    reduced: Reduced,
+    symbolic: SymbolicCholesky<u32>,
+    values: Vec<f64>,
+    scratch: MemBuffer,
+    analyses: usize,
+    factorisations: usize,
+}
+
+/// K_ff, lower triangle, by columns.
+struct Reduced {
+    columns: Vec<u32>,
+    rows: Vec<u32>,
+    values: Vec<f64>,
+    /// Where each value stands in the whole stiffness.
+    source: Vec<u32>,
+    /// Entries of the whole stiffness.
+    entries: usize,
+}
+
+impl Factor {
+    /// Factorises `stiffness` with the degrees of freedom struck out whose displacement is given (`held[dof]`).
+    pub fn new(stiffness: &Stiffness, held: &[bool]) -> Result<Self, FactorError> {
+        let dofs = stiffness.dofs();
+        if held.len() != dofs {
+            return Err(FactorError::WrongLength { given: held.len(), dofs });
+        }
+        let parts = stiffness.parts();
+        if let Some(Loose { node, held }) = parts.loose(held) {
+            return Err(FactorError::Unsupported { node, held });
+        }
+        let mut free_of_dof = vec![HELD; dofs];
+        let mut dof_of_free = Vec::with_capacity(dofs);
+        for dof in 0..dofs {
+            if !held[dof] && parts.has(dof / 2) {
+                free_of_dof[dof] = dof_of_free.len() as u32;
+                dof_of_free.push(dof as u32);
+            }
+        }
+        let reduced = Reduced::new(stiffness, &free_of_dof, &dof_of_free);
+        let params = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..Default::default()
+        };
+        let pattern = reduced.matrix().symbolic();
+        let symbolic = factorize_symbolic_cholesky(pattern, Side::Lower, SymmetricOrdering::Amd, params)
+            .map_err(|_| FactorError::OutOfMemory)?;
+        let needed = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
+        let scratch = MemBuffer::try_new(needed).map_err(|_| FactorError::OutOfMemory)?;
+        let mut place_of_dof = vec![HELD; dofs];
+        let dof_of_place: Vec<u32> = match symbolic.perm() {
+            Some(order) => order.arrays().0.iter().map(|free| dof_of_free[*free as usize]).collect(),
+            None => dof_of_free,
+        };
+        for (place, dof) in (0..).zip(&dof_of_place) {
+            place_of_dof[*dof as usize] = place;
+        }
+        let values = vec![0.0; symbolic.len_val()];
+        let mut factor = Self {
+            free_of_dof,
+            place_of_dof,
+            dof_of_place,
+            reduced,
+            symbolic,
+            values,
+            scratch,
+            analyses: 1,
+            factorisations: 0,
+        };
+        factor.refactor(stiffness)?;
+        Ok(factor)
+    }
+
+    /// Factorises new values of the same pattern with the same supports. After an error the factor is of no use.
+    pub fn refactor(&mut self, stiffness: &Stiffness) -> Result<(), FactorError> {
+        if stiffness.dofs() != self.free_of_dof.len() || stiffness.lower().nnz() != self.reduced.entries {
+            return Err(FactorError::OtherPattern);
+        }
+        self.reduced.gather(stiffness);
+        self.factorisations += 1;
+        let stack = MemStack::new(&mut self.scratch);
+        let matrix = self.reduced.matrix();
+        let (regularization, params) = (Default::default(), Default::default());
+        self.symbolic
+            .factorize_numeric_llt(&mut self.values, matrix, Side::Lower, regularization, Par::Seq, stack, params)
+            .map_err(|LltError::NonPositivePivot { index }| FactorError::NotPositive {
+                dof: self.dof_of_place[index] as usize,
+            })?;
+        Ok(())
+    }
+
+    /// Solves K u = F in place for `columns` right-hand sides, one after the other in `x`, each with an entry for every
+    /// degree of freedom: forces in (those on held ones are ignored), displacements out (zero on held ones).
+    ///
+    /// # Panics
+    /// Where `x` is not as long as `columns` times the degrees of freedom.
+    pub fn solve(&self, columns: usize, x: &mut [f64]) {
+        let (dofs, free) = (self.dofs(), self.dof_of_place.len());
+        assert_eq!(x.len(), columns * dofs, "one entry for each degree of freedom and column");
+        let at_once = columns.min(COLUMNS_AT_ONCE);
+        let mut block = vec![0.0; at_once * free];
+        let mut scratch = MemBuffer::new(self.supernodes().solve_in_place_scratch::<f64>(at_once, Par::Seq));
+        let llt = self.llt();
+        for given in x.chunks_mut(COLUMNS_AT_ONCE * dofs.max(1)) {
+            let columns = given.len() / dofs;
+            let block = &mut block[..columns * free];
+            for (column, own) in given.chunks(dofs).zip(block.chunks_mut(free.max(1))) {
+                for (value, dof) in own.iter_mut().zip(&self.dof_of_place) {
+                    *value = column[*dof as usize];
+                }
+            }
+            let rows = MatMut::from_column_major_slice_mut(block, free, columns);
+            llt.solve_in_place_with_conj(Conj::No, rows, Par::Seq, MemStack::new(&mut scratch));
+            given.fill(0.0);
+            for (column, own) in given.chunks_mut(dofs).zip(block.chunks(free.max(1))) {
+                for (value, dof) in own.iter().zip(&self.dof_of_place) {
+                    column[*dof as usize] = *value;
+                }
+            }
+        }
+    }
+
+    /// Subtracts K_fh u_h from the forces: what given displacements of held degrees of freedom, (dof, mm), do to the others.
+    pub fn subtract_held(&self, stiffness: &Stiffness, held_mm: &[(u32, f64)], force_n_per_mm: &mut [f64]) {
+        let mut displacement_mm = vec![0.0; self.dofs()];
+        for (dof, value) in held_mm {
+            displacement_mm[*dof as usize] = *value;
+        }
+        for (force, reaction) in force_n_per_mm.iter_mut().zip(stiffness.multiply(&displacement_mm)) {
+            *force -= reaction;
+        }
+    }
+
+    /// Number of degrees of freedom, supports included.
+    pub fn dofs(&self) -> usize {
+        self.free_of_dof.len()
+    }
+
+    /// Number of degrees of freedom that are solved for.
+    pub fn free_dofs(&self) -> usize {
+        self.dof_of_place.len()
+    }
+
+    /// Symbolic analyses made: one, however often new values came.
+    pub fn analyses(&self) -> usize {
+        self.analyses
+    }
+
+    /// Numeric factorisations made.
+    pub fn factorisations(&self) -> usize {
+        self.factorisations
+    }
+
+    /// Numbers that L keeps.
+    pub fn stored_values(&self) -> usize {
+        self.values.len()
+    }
+
+    /// L as dense blocks of columns.
+    pub(super) fn llt(&self) -> SupernodalLltRef<'_, u32, f64> {
+        SupernodalLltRef::new(self.supernodes(), &self.values)
+    }
+
+    /// Place of each degree of freedom in the order of elimination, or [`HELD`].
+    pub(super) fn place_of_dof(&self) -> &[u32] {
+        &self.place_of_dof
+    }
+
+    /// The pattern of L.
+    pub(super) fn supernodes(&self) -> &SymbolicSupernodalCholesky<u32> {
+        match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Supernodal(supernodes) => supernodes,
+            SymbolicCholeskyRaw::Simplicial(_) => unreachable!("the analysis was told to make supernodes"),
+        }
+    }
+}
+
+impl Reduced {
+    fn new(stiffness: &Stiffness, free_of_dof: &[u32], dof_of_free: &[u32]) -> Self {
+        let lower = stiffness.lower();
+        let start = lower.indptr();
+        let start = start.raw_storage();
+        let mut columns = Vec::with_capacity(dof_of_free.len() + 1);
+        columns.push(0);
+        let mut rows = Vec::with_capacity(lower.nnz());
+        let mut source = Vec::with_capacity(lower.nnz());
+        for dof in dof_of_free {
+            for entry in start[*dof as usize]..start[*dof as usize + 1] {
+                let row = free_of_dof[lower.indices()[entry as usize] as usize];
+                if row != HELD {
+                    rows.push(row);
+                    source.push(entry);
+                }
+            }
+            columns.push(rows.len() as u32);
+        }
+        let values = vec![0.0; rows.len()];
+        Self { columns, rows, values, source, entries: lower.nnz() }
+    }
+
+    fn gather(&mut self, stiffness: &Stiffness) {
+        let data = stiffness.lower().data();
+        for (value, source) in self.values.iter_mut().zip(&self.source) {
+            *value = data[*source as usize];
+        }
+    }
+
+    fn matrix(&self) -> SparseColMatRef<'_, u32, f64> {
+        let free = self.columns.len() - 1;
+        let pattern = SymbolicSparseColMatRef::new_checked(free, free, &self.columns, None, &self.rows);
+        SparseColMatRef::new(pattern, &self.values)
+    }
+}
