@@ -1,0 +1,10 @@
+//! Finite-element contact of a gear pair: each gear condensed once, every position a small contact problem.
+
+pub mod cycle;
+pub mod flank_surface;
+pub mod full;
+pub mod model;
+pub mod placement;
+pub mod position;
+pub mod ring;
+pub mod sector;

@@ -1,0 +1,474 @@
+//! The contact of the pair at one position.
+//!
+//! Every tooth pair that may touch is coupled by mortar on the true profiles in their true places; the multipliers of all
+//! pairs, and the pinion's rotation as one more unknown, form one small complementarity problem:
+//!
+//! ```text
+//! g = g⁰ + (B₁ C₁ B₁ᵀ + B₂ C₂ B₂ᵀ) f + B₁ r δ ≥ 0        (B₁ r)ᵀ f = −w        r = ẑ × x / r_b1
+//! ```
+//!
+//! C₁, C₂: compliances of the gears on their candidate nodes; δ: transmission error, the pinion's rotation times its base
+//! radius; w: torque over base radius and face width. The wheel is held at its clamp circle, the pinion turned at its own.
+
+use std::collections::BTreeMap;
+
+use faer::Mat;
+use nalgebra::{Rotation2, Vector2};
+use sprs::CsMat;
+
+use super::flank_surface::FlankSurface;
+use super::model::hertz_half_width_mm;
+use super::placement::tooth_angle_rad;
+use super::ring::{Between, GearCompliance, ToothForce};
+use crate::fem::active_set::{ActiveSetError, Condensed, Log};
+use crate::fem::contact::{mortar::Coupling, zones};
+use crate::gear::{Gear, GearPair, PerGear};
+
+/// Distance between the flanks within which they may come to touch, in units of line load over E*: an approach is some
+/// ten of these.
+const FIRST_REACH: f64 = 25.0;
+/// Half-widths on either side of the expected contact in which multipliers are looked for first.
+const FIRST_WINDOW: f64 = 1.4;
+/// How much wider each further look is.
+const WIDER: f64 = 1.6;
+/// Looks before giving up.
+const MOST_LOOKS: usize = 8;
+/// Rows at an inner end of the window that must stay without load.
+const FREE_ROWS: usize = 3;
+/// Parts of a base pitch before A and after E in which contact outside the line of action is looked for.
+pub const OUTSIDE_BASE_PITCHES: f64 = 0.3;
+
+/// The pair with both gears condensed.
+pub struct CondensedPair<'a> {
+    /// Geometry.
+    pub pair: &'a GearPair,
+    /// Both gears.
+    pub gears: PerGear<GearCompliance>,
+    /// Their working flanks.
+    pub flanks: PerGear<FlankSurface>,
+    /// E*, MPa.
+    pub contact_modulus_mpa: f64,
+}
+
+/// One tooth pair in contact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToothPairContact {
+    /// 0 the reference pair, +1 the one a base pitch ahead, −1 the one behind.
+    pub pair: i32,
+    /// Its share of the torque over base radius and face width, N/mm.
+    pub line_load_n_per_mm: f64,
+    /// Greatest pressure, MPa.
+    pub peak_pressure_mpa: f64,
+    /// Half the length of flank under pressure, mm.
+    pub half_width_mm: f64,
+    /// Radius on the pinion where the pressure's resultant acts, mm.
+    pub pinion_radius_mm: f64,
+    /// Whether a sharp tip edge carries pressure: its peak then is singular.
+    pub at_sharp_edge: bool,
+    /// Pressure along the pinion's flank: distance from the resultant towards the tip in mm, MPa.
+    pub pressure: Vec<(f64, f64)>,
+}
+
+/// Stress along the surface of a tooth's fillets, which is the principal stress there, MPa.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RootStress {
+    /// Greatest at the fillet below the working flank: tension.
+    pub working_side_mpa: f64,
+    /// Least at the other fillet: compression.
+    pub back_side_mpa: f64,
+}
+
+/// The pair at one position.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PositionContact {
+    /// ξ.
+    pub position_mm: f64,
+    /// Pairs in contact, by increasing number.
+    pub pairs: Vec<ToothPairContact>,
+    /// δ, mm.
+    pub transmission_error_mm: f64,
+    /// |T2/T1| over z2/z1, less 1.
+    pub torque_ratio_error: f64,
+    /// |Σ line loads / w − 1|.
+    pub load_balance: f64,
+    /// Largest overlap left at a multiplier, mm.
+    pub max_penetration_mm: f64,
+    /// Forces on each fine tooth, in its own frame.
+    pub forces: PerGear<Vec<ToothForce>>,
+    /// Stresses at the fillets of the reference pair's teeth.
+    pub root: PerGear<RootStress>,
+    /// Iterations of the active set.
+    pub log: Log,
+    /// Number of multipliers.
+    pub multipliers: usize,
+    /// Active parts of the flank, to start the next position from.
+    pub warm: WarmStart,
+}
+
+/// Where each pair was loaded: its number and the stretch of pinion flank relative to the expected contact, mm.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct WarmStart(Vec<(i32, f64, f64)>);
+
+/// How far around the expected contact multipliers are looked for.
+struct Window {
+    line_load_n_per_mm: f64,
+    half_widths: f64,
+    reach_mm: f64,
+}
+
+/// A tooth pair prepared for contact.
+struct Facing {
+    pair: i32,
+    /// Places of its teeth among the fine ones.
+    tooth: PerGear<usize>,
+    coupling: Coupling,
+    /// B of the master in the wheel tooth's frame.
+    master: CsMat<f64>,
+    /// Expected contact from the pinion's tip end, mm.
+    expected_mm: f64,
+    /// Whether the window's ends are inner ones: towards the tip, towards the root.
+    inner_ends: (bool, bool),
+    first_row: usize,
+}
+
+impl<'a> CondensedPair<'a> {
+    /// Solves at `position_mm` under `line_load_n_per_mm`.
+    ///
+    /// # Errors
+    /// See [`ActiveSetError`].
+    pub fn at(
+        &self,
+        position_mm: f64,
+        line_load_n_per_mm: f64,
+        warm: &WarmStart,
+    ) -> Result<PositionContact, ActiveSetError> {
+        let mut window = Window {
+            line_load_n_per_mm,
+            half_widths: FIRST_WINDOW,
+            reach_mm: FIRST_REACH * line_load_n_per_mm / self.contact_modulus_mpa,
+        };
+        for _ in 1..MOST_LOOKS {
+            let facings = self.facings(position_mm, &window);
+            let condensed = self.condensed(&facings, line_load_n_per_mm);
+            let start = start(&facings, &self.flanks.pinion, warm);
+            match condensed.solve(start.as_deref()) {
+                Ok(found) if !facings.iter().any(|facing| is_cramped(facing, &found.force, self)) => {
+                    return Ok(self.read(position_mm, line_load_n_per_mm, &facings, found));
+                }
+                // Flanks far relieved touch elsewhere, and later.
+                Ok(_) | Err(ActiveSetError::NoContact { .. }) => {
+                    window.half_widths *= WIDER;
+                    window.reach_mm *= WIDER;
+                }
+                Err(error) => return Err(error),
+            }
+        }
+        let facings = self.facings(position_mm, &window);
+        let found = self.condensed(&facings, line_load_n_per_mm).solve(None)?;
+        Ok(self.read(position_mm, line_load_n_per_mm, &facings, found))
+    }
+
+    fn facings(&self, position_mm: f64, window: &Window) -> Vec<Facing> {
+        let reach = (self.gears.pinion.teeth() / 2) as i32;
+        let mut first_row = 0;
+        (-reach..=reach)
+            .filter_map(|pair| {
+                let mut facing = self.facing(position_mm, pair, window)?;
+                facing.first_row = first_row;
+                first_row += facing.coupling.len();
+                Some(facing)
+            })
+            .collect()
+    }
+
+    /// Turn of the wheel tooth's frame against the pinion tooth's, and the wheel's axis in the latter.
+    fn relative_frame(&self, position_mm: f64, pair: i32) -> (Rotation2<f64>, Vector2<f64>) {
+        let [pinion, wheel] = Gear::BOTH.map(|gear| tooth_angle_rad(self.pair, gear, position_mm, pair));
+        let axis = Vector2::new(0.0, self.pair.spec.centre_distance_mm);
+        (Rotation2::new(wheel - pinion), Rotation2::new(-pinion) * axis)
+    }
+
+    fn facing(&self, position_mm: f64, pair: i32, window: &Window) -> Option<Facing> {
+        let path = &self.pair.path;
+        let own_mm = position_mm + f64::from(pair) * path.base_pitch_mm;
+        let outside_mm = OUTSIDE_BASE_PITCHES * path.base_pitch_mm;
+        if own_mm < path.start_mm - outside_mm || own_mm > path.end_mm + outside_mm {
+            return None;
+        }
+        let (turn, axis) = self.relative_frame(position_mm, pair);
+        let expected = self.expected_from_tip_mm(own_mm, turn, axis);
+        let half_width_mm = hertz_half_width_mm(self.pair, self.contact_modulus_mpa, window.line_load_n_per_mm, own_mm);
+        let window_mm = window.half_widths * half_width_mm;
+        let edges = PerGear::from_fn(|gear| {
+            // The master must be met over the whole of the slave's window, also where it is seen a little askew.
+            let window = if gear == Gear::Pinion { window_mm } else { 1.3 * window_mm };
+            self.flanks[gear].edges_between(expected[gear] - window, expected[gear] + window)
+        });
+        let inner_ends = (edges.pinion.start > 0, edges.pinion.end < self.flanks.pinion.surface.edges.len());
+        let slave = self.flanks.pinion.surface.part(edges.pinion);
+        let master = self.flanks.wheel.surface.part(edges.wheel).placed(|x| turn * x + axis, |n| turn * n);
+        let coupling = Coupling::new(&slave, &master, window.reach_mm);
+        if coupling.is_empty() {
+            return None;
+        }
+        let master = turned(&coupling.master, turn.inverse());
+        let middle = (self.gears.pinion.teeth() / 2) as i32;
+        // The pair ahead is the next anticlockwise tooth of the pinion, and the next clockwise one of the wheel.
+        let tooth = PerGear { pinion: (middle + pair) as usize, wheel: (middle - pair) as usize };
+        Some(Facing { pair, tooth, coupling, master, expected_mm: expected.pinion, inner_ends, first_row: 0 })
+    }
+
+    /// Where contact is expected on each flank, from its tip end: on the line of action, or before A and after E at the
+    /// mate's tip.
+    fn expected_from_tip_mm(&self, own_mm: f64, turn: Rotation2<f64>, axis: Vector2<f64>) -> PerGear<f64> {
+        let path = &self.pair.path;
+        let tip = |gear: Gear| {
+            let flank = &self.flanks[gear];
+            flank.surface.points_mm[flank.tip_node()]
+        };
+        let at_radius = |gear: Gear, radius_mm: f64| {
+            self.flanks[gear].from_tip_at_mm(path.involute[gear].curvature_radius_mm(radius_mm))
+        };
+        if own_mm < path.start_mm {
+            PerGear { pinion: at_radius(Gear::Pinion, (turn * tip(Gear::Wheel) + axis).norm()), wheel: 0.0 }
+        } else if own_mm > path.end_mm {
+            PerGear { pinion: 0.0, wheel: at_radius(Gear::Wheel, (tip(Gear::Pinion) - axis).norm()) }
+        } else {
+            PerGear::from_fn(|gear| self.flanks[gear].from_tip_at_mm(path.rho_mm(gear, own_mm)))
+        }
+    }
+
+    fn condensed(&self, facings: &[Facing], line_load_n_per_mm: f64) -> Condensed {
+        let rows = facings.iter().map(|facing| facing.coupling.len()).sum();
+        let mut compliance = Mat::zeros(rows, rows);
+        let mut rigid = Mat::zeros(rows, 1);
+        let mut gap_mm = Vec::with_capacity(rows);
+        for (a, facing) in facings.iter().enumerate() {
+            gap_mm.extend_from_slice(&facing.coupling.gap_mm);
+            for (i, row) in facing.coupling.slave.outer_iterator().enumerate() {
+                rigid[(facing.first_row + i, 0)] =
+                    row.iter().map(|(column, value)| value * self.rotation(column)).sum();
+            }
+            for other in &facings[..=a] {
+                let pinion = self.gears.pinion.between(other.tooth.pinion, facing.tooth.pinion);
+                let wheel = self.gears.wheel.between(other.tooth.wheel, facing.tooth.wheel);
+                let places = (facing.first_row, other.first_row);
+                add_sandwich(&mut compliance, places, &facing.coupling.slave, pinion, &other.coupling.slave);
+                add_sandwich(&mut compliance, places, &facing.master, wheel, &other.master);
+            }
+        }
+        for i in 0..rows {
+            for j in i + 1..rows {
+                compliance[(i, j)] = compliance[(j, i)];
+            }
+        }
+        Condensed { compliance, gap_mm, rigid, rigid_load: vec![-line_load_n_per_mm] }
+    }
+
+    /// Displacement of a candidate column of the pinion per transmission error.
+    fn rotation(&self, column: usize) -> f64 {
+        let point = self.flanks.pinion.surface.points_mm[column / 2];
+        let r_b = self.pair.path.involute.pinion.base_radius_mm;
+        if column % 2 == 0 { -point.y / r_b } else { point.x / r_b }
+    }
+
+    fn read(
+        &self,
+        position_mm: f64,
+        line_load_n_per_mm: f64,
+        facings: &[Facing],
+        found: crate::fem::active_set::Equilibrium,
+    ) -> PositionContact {
+        let mut forces = self.gears.as_ref().map(|gear| vec![ToothForce::new(); gear.teeth()]);
+        let mut pairs = Vec::new();
+        let mut warm = Vec::new();
+        for facing in facings {
+            let force = &found.force[facing.first_row..facing.first_row + facing.coupling.len()];
+            if force.iter().all(|f| *f <= 0.0) {
+                continue;
+            }
+            forces.pinion[facing.tooth.pinion] = transpose_times(&facing.coupling.slave, force);
+            forces.wheel[facing.tooth.wheel] = transpose_times(&facing.master, force);
+            let (contact, stretch) = self.tooth_pair(facing, force);
+            warm.push((facing.pair, stretch.0 - facing.expected_mm, stretch.1 - facing.expected_mm));
+            pairs.push(contact);
+        }
+        let torque = PerGear::from_fn(|gear| {
+            let points = &self.flanks[gear].surface.points_mm;
+            let moment = |tooth: &ToothForce| -> f64 {
+                let arm = |column: usize| {
+                    let x = points[column / 2];
+                    if column % 2 == 0 { -x.y } else { x.x }
+                };
+                tooth.iter().map(|&(column, f)| arm(column) * f).sum()
+            };
+            forces[gear].iter().map(moment).sum::<f64>()
+        });
+        let ratio = f64::from(self.pair.teeth.wheel.teeth) / f64::from(self.pair.teeth.pinion.teeth);
+        let total: f64 = pairs.iter().map(|pair| pair.line_load_n_per_mm).sum();
+        PositionContact {
+            position_mm,
+            pairs,
+            transmission_error_mm: found.rigid[0],
+            torque_ratio_error: (torque.wheel / torque.pinion).abs() / ratio - 1.0,
+            load_balance: (total / line_load_n_per_mm - 1.0).abs(),
+            max_penetration_mm: found.gap_mm.iter().fold(0.0, |most, gap| most.max(-gap)),
+            root: PerGear::from_fn(|gear| self.root_stress(gear, &forces[gear])),
+            forces,
+            multipliers: found.gap_mm.len(),
+            log: found.log,
+            warm: WarmStart(warm),
+        }
+    }
+
+    fn root_stress(&self, gear: Gear, forces: &[ToothForce]) -> RootStress {
+        let compliance = &self.gears[gear];
+        let probed = compliance.probed_mpa(compliance.teeth() / 2, forces);
+        let (working, back) = probed.split_at(compliance.sector.sector.working_side_probes);
+        RootStress {
+            working_side_mpa: working.iter().copied().fold(0.0, f64::max),
+            back_side_mpa: back.iter().copied().fold(0.0, f64::min),
+        }
+    }
+
+    /// One pair's figures and the loaded stretch of the pinion's flank from its tip.
+    fn tooth_pair(&self, facing: &Facing, force: &[f64]) -> (ToothPairContact, (f64, f64)) {
+        let (flank, coupling) = (&self.flanks.pinion, &facing.coupling);
+        let mut rows: Vec<usize> = (0..coupling.len()).collect();
+        rows.sort_by(|&a, &b| flank.from_tip_mm[coupling.nodes[a]].total_cmp(&flank.from_tip_mm[coupling.nodes[b]]));
+        let along: Vec<f64> = rows.iter().map(|&row| flank.from_tip_mm[coupling.nodes[row]]).collect();
+        let pressure: Vec<f64> = rows.iter().map(|&row| (force[row] / coupling.weight_mm[row]).max(0.0)).collect();
+        let zones = zones::zones(&along, &pressure);
+        let half_width_mm = zones.iter().map(|zone| 0.5 * zone.width_mm()).fold(0.0, f64::max);
+        let total: f64 = force.iter().sum();
+        let mean = |of: &dyn Fn(usize) -> f64| -> f64 {
+            force.iter().enumerate().map(|(row, f)| f * of(coupling.nodes[row])).sum::<f64>() / total
+        };
+        let centre_mm = mean(&|node| flank.from_tip_mm[node]);
+        let line_load_n_per_mm: f64 = coupling
+            .slave
+            .outer_iterator()
+            .zip(force)
+            .map(|(row, f)| -f * row.iter().map(|(column, value)| value * self.rotation(column)).sum::<f64>())
+            .sum();
+        let stretch = zones.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), zone| {
+            (low.min(zone.from_mm), high.max(zone.to_mm))
+        });
+        let contact = ToothPairContact {
+            pair: facing.pair,
+            line_load_n_per_mm,
+            peak_pressure_mpa: pressure.iter().copied().fold(0.0, f64::max),
+            half_width_mm,
+            pinion_radius_mm: mean(&|node| flank.surface.points_mm[node].norm()),
+            at_sharp_edge: self.is_at_sharp_edge(facing, force),
+            pressure: along.iter().zip(&pressure).rev().map(|(along, p)| (centre_mm - along, *p)).collect(),
+        };
+        (contact, stretch)
+    }
+
+    fn is_at_sharp_edge(&self, facing: &Facing, force: &[f64]) -> bool {
+        let loaded = |operator: &CsMat<f64>, flank: &FlankSurface| {
+            let tip = flank.tip_node();
+            flank.sharp
+                && operator
+                    .outer_iterator()
+                    .zip(force)
+                    .any(|(row, f)| *f > 0.0 && row.iter().any(|(column, value)| column / 2 == tip && *value != 0.0))
+        };
+        loaded(&facing.coupling.slave, &self.flanks.pinion) || loaded(&facing.master, &self.flanks.wheel)
+    }
+}
+
+/// Whether load comes close to an inner end of the window, so that it may have been cut off.
+fn is_cramped(facing: &Facing, force: &[f64], pair: &CondensedPair<'_>) -> bool {
+    let from_tip = |row: usize| pair.flanks.pinion.from_tip_mm[facing.coupling.nodes[row]];
+    let mut rows: Vec<usize> = (0..facing.coupling.len()).collect();
+    rows.sort_by(|&a, &b| from_tip(a).total_cmp(&from_tip(b)));
+    let loaded = |row: &usize| force[facing.first_row + row] > 0.0;
+    let cramped_at = |inner: bool, mut end: Box<dyn Iterator<Item = &usize> + '_>| inner && end.any(loaded);
+    cramped_at(facing.inner_ends.0, Box::new(rows.iter().take(FREE_ROWS)))
+        || cramped_at(facing.inner_ends.1, Box::new(rows.iter().rev().take(FREE_ROWS)))
+}
+
+/// The active set expected from the position before.
+fn start(facings: &[Facing], flank: &FlankSurface, warm: &WarmStart) -> Option<Vec<bool>> {
+    if warm.0.is_empty() {
+        return None;
+    }
+    let mut active = Vec::new();
+    for facing in facings {
+        let before = warm.0.iter().find(|(pair, ..)| *pair == facing.pair);
+        active.extend(facing.coupling.nodes.iter().map(|&node| {
+            let offset = flank.from_tip_mm[node] - facing.expected_mm;
+            before.is_some_and(|(_, low, high)| (*low..=*high).contains(&offset))
+        }));
+    }
+    Some(active)
+}
+
+/// B with each pair of columns turned into another frame.
+fn turned(operator: &CsMat<f64>, turn: Rotation2<f64>) -> CsMat<f64> {
+    let mut triplets = sprs::TriMat::new(operator.shape());
+    for (i, row) in operator.outer_iterator().enumerate() {
+        for (column, value) in row.iter() {
+            let unit = if column % 2 == 0 { Vector2::x() } else { Vector2::y() };
+            let image = turn * (*value * unit);
+            triplets.add_triplet(i, column - column % 2, image.x);
+            triplets.add_triplet(i, column - column % 2 + 1, image.y);
+        }
+    }
+    triplets.to_csr()
+}
+
+/// Adds `left · Cᵀ · rightᵀ` at `places` of `sum`; `compliance` is C, a row for a column of `right`.
+fn add_sandwich(
+    sum: &mut Mat<f64>,
+    places: (usize, usize),
+    left: &CsMat<f64>,
+    compliance: Between<'_>,
+    right: &CsMat<f64>,
+) {
+    let (left_columns, left_place) = used_columns(left);
+    let (right_columns, right_place) = used_columns(right);
+    // Each entry of C is read once, into columns that lie together.
+    let width = right_columns.len();
+    let gathered: Vec<f64> =
+        left_columns.iter().flat_map(|&k| right_columns.iter().map(move |&column| compliance.at(column, k))).collect();
+    let mut carried = vec![0.0; width];
+    for (i, row) in left.outer_iterator().enumerate() {
+        carried.fill(0.0);
+        for (k, value) in row.iter() {
+            let column = &gathered[left_place[k] * width..][..width];
+            for (sum, c) in carried.iter_mut().zip(column) {
+                *sum += value * c;
+            }
+        }
+        for (j, other) in right.outer_iterator().enumerate() {
+            let product: f64 = other.iter().map(|(column, value)| value * carried[right_place[column]]).sum();
+            sum[(places.0 + i, places.1 + j)] += product;
+        }
+    }
+}
+
+/// The columns that hold anything, and the place of each among them.
+fn used_columns(operator: &CsMat<f64>) -> (Vec<usize>, Vec<usize>) {
+    let mut used = operator.indices().to_vec();
+    used.sort_unstable();
+    used.dedup();
+    let mut place = vec![usize::MAX; operator.cols()];
+    for (k, &column) in used.iter().enumerate() {
+        place[column] = k;
+    }
+    (used, place)
+}
+
+/// Bᵀ f.
+fn transpose_times(operator: &CsMat<f64>, force: &[f64]) -> ToothForce {
+    let mut sums = BTreeMap::new();
+    for (row, f) in operator.outer_iterator().zip(force) {
+        for (column, value) in row.iter().filter(|_| *f != 0.0) {
+            *sums.entry(column).or_insert(0.0) += value * f;
+        }
+    }
+    sums.into_iter().collect()
+}
