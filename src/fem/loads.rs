@@ -82,12 +82,7 @@ pub fn add_pressure(solid: &Solid, edges: &[Edge], pressure_mpa: f64, forces_n_p
 ///
 /// # Panics
 /// Where there is not one force for each degree of freedom.
-pub fn add_spread_force(
-    solid: &Solid,
-    edges: &[Edge],
-    resultant_n_per_mm: Vector2<f64>,
-    forces_n_per_mm: &mut [f64],
-) {
+pub fn add_spread_force(solid: &Solid, edges: &[Edge], resultant_n_per_mm: Vector2<f64>, forces_n_per_mm: &mut [f64]) {
     let traction = resultant_n_per_mm / length_mm(solid, edges);
     add_traction(solid, edges, |_, _| traction, forces_n_per_mm);
 }

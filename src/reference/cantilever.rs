@@ -80,11 +80,8 @@ mod tests {
         let shear = slope(0, [0.0, H]) + slope(1, [H, 0.0]);
         let (e, nu) = (beam.young_modulus_mpa, beam.poisson_ratio);
         let scale = e / ((1.0 + nu) * (1.0 - 2.0 * nu));
-        let hooke = [
-            scale * ((1.0 - nu) * ex + nu * ey),
-            scale * (nu * ex + (1.0 - nu) * ey),
-            0.5 * e / (1.0 + nu) * shear,
-        ];
+        let hooke =
+            [scale * ((1.0 - nu) * ex + nu * ey), scale * (nu * ex + (1.0 - nu) * ey), 0.5 * e / (1.0 + nu) * shear];
         for (own, exact) in hooke.iter().zip(beam.stress_mpa([x, y])) {
             assert!((own - exact).abs() < 1e-5, "{own} {exact}");
         }

@@ -39,17 +39,12 @@ pub fn block(kind: ElementKind, nx: usize, ny: usize, place: impl Fn(f64, f64) -
                 };
                 offsets.iter().map(&mut node).collect()
             };
-            const QUAD: [(usize, usize); 9] =
-                [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1)];
+            const QUAD: [(usize, usize); 9] = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1), (1, 1)];
             // Both diagonals in turn, so that no direction is special.
-            const LEFT: [[(usize, usize); 6]; 2] = [
-                [(0, 0), (2, 0), (2, 2), (1, 0), (2, 1), (1, 1)],
-                [(0, 0), (2, 2), (0, 2), (1, 1), (1, 2), (0, 1)],
-            ];
-            const RIGHT: [[(usize, usize); 6]; 2] = [
-                [(0, 0), (2, 0), (0, 2), (1, 0), (1, 1), (0, 1)],
-                [(2, 0), (2, 2), (0, 2), (2, 1), (1, 2), (1, 1)],
-            ];
+            const LEFT: [[(usize, usize); 6]; 2] =
+                [[(0, 0), (2, 0), (2, 2), (1, 0), (2, 1), (1, 1)], [(0, 0), (2, 2), (0, 2), (1, 1), (1, 2), (0, 1)]];
+            const RIGHT: [[(usize, usize); 6]; 2] =
+                [[(0, 0), (2, 0), (0, 2), (1, 0), (1, 1), (0, 1)], [(2, 0), (2, 2), (0, 2), (2, 1), (1, 2), (1, 1)]];
             let nodes = kind.node_count();
             match kind {
                 ElementKind::Triangle3 | ElementKind::Triangle6 => {
@@ -66,19 +61,13 @@ pub fn block(kind: ElementKind, nx: usize, ny: usize, place: impl Fn(f64, f64) -
     let sides = [
         (0..nx).map(|i| Edge { ends: ends([2 * i, 2 * i + 2], [0, 0]), middle: middle(2 * i + 1, 0) }).collect(),
         (0..ny)
-            .map(|j| Edge {
-                ends: ends([across - 1; 2], [2 * j, 2 * j + 2]),
-                middle: middle(across - 1, 2 * j + 1),
-            })
+            .map(|j| Edge { ends: ends([across - 1; 2], [2 * j, 2 * j + 2]), middle: middle(across - 1, 2 * j + 1) })
             .collect(),
         (0..nx)
             .rev()
             .map(|i| Edge { ends: ends([2 * i + 2, 2 * i], [along - 1; 2]), middle: middle(2 * i + 1, along - 1) })
             .collect(),
-        (0..ny)
-            .rev()
-            .map(|j| Edge { ends: ends([0, 0], [2 * j + 2, 2 * j]), middle: middle(0, 2 * j + 1) })
-            .collect(),
+        (0..ny).rev().map(|j| Edge { ends: ends([0, 0], [2 * j + 2, 2 * j]), middle: middle(0, 2 * j + 1) }).collect(),
     ];
     Block { solid: Solid { points_mm, elements }, sides }
 }
@@ -110,11 +99,8 @@ pub fn push_corners(block: &mut Block, by_mm: f64) {
         let corners = if matches!(element.kind, ElementKind::Triangle3 | ElementKind::Triangle6) { 3 } else { 4 };
         let at: Vec<Vector2<f64>> = nodes[..corners].iter().map(|node| solid.points_mm[*node as usize]).collect();
         for (a, node) in nodes[corners..].iter().enumerate() {
-            solid.points_mm[*node as usize] = if a < corners {
-                (at[a] + at[(a + 1) % corners]) / 2.0
-            } else {
-                at.iter().sum::<Vector2<f64>>() / 4.0
-            };
+            solid.points_mm[*node as usize] =
+                if a < corners { (at[a] + at[(a + 1) % corners]) / 2.0 } else { at.iter().sum::<Vector2<f64>>() / 4.0 };
         }
     }
 }
