@@ -2,8 +2,11 @@
 
 mod completions;
 mod failure;
+mod fem;
+mod fem_scene;
 mod figures;
 mod init;
+mod mesh;
 mod plan;
 mod progress;
 mod run;
@@ -35,10 +38,14 @@ enum Command {
     Init(init::Args),
     /// Show the stages a scene needs, those left out, and why; runs nothing
     Plan(plan::Args),
+    /// Write the finite-element mesh of the tooth pair
+    Mesh(mesh::Args),
     /// Run the wear simulation of a scene
     Run(run::Args),
+    /// Solve elastic contact with finite elements, on a mesh of one's own
+    Fem(fem::Args),
     /// Print the JSON schema of the scene: every key with its meaning, unit, range and default
-    Schema,
+    Schema(schema::Args),
     /// Print completions for a shell
     Completions(completions::Args),
 }
@@ -55,8 +62,10 @@ pub fn main() -> ExitCode {
     let done = match &cli.command {
         Command::Init(args) => init::run(args),
         Command::Plan(args) => plan::run(args),
+        Command::Mesh(args) => mesh::run(args),
         Command::Run(args) => run::run(args),
-        Command::Schema => schema::run(),
+        Command::Fem(args) => fem::run(args),
+        Command::Schema(args) => schema::run(args),
         Command::Completions(args) => completions::run(args),
     };
     match done {

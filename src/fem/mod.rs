@@ -1,7 +1,6 @@
 //! Plane finite elements: elements, assembly, factorisation, contact of meshes.
 
 pub mod active_set;
-mod compliance_tmp;
 pub mod contact;
 pub mod elastic;
 pub mod element;
@@ -9,13 +8,18 @@ mod enhanced_quad;
 pub mod equilibrium;
 pub mod factor;
 pub mod gear;
+pub mod loads;
 mod nodal_triangle;
 pub mod problem;
+mod projected_volume;
 pub mod quadrature;
+pub mod record;
 pub mod rigid_body;
 pub mod shape;
 pub mod solid;
+mod sparse_solve;
 pub mod stiffness;
+pub mod stress;
 mod support;
 
 pub use equilibrium::{SolveError, solve};

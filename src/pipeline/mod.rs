@@ -4,6 +4,8 @@
 
 mod drawing;
 mod error_estimates;
+pub mod fem_problem;
+pub mod pair_mesh;
 mod recording;
 
 use std::time::Instant;

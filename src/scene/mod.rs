@@ -1,5 +1,6 @@
 //! The user's scene: the file with its checks and presets, resolved into the settings of each layer.
 
+pub mod fem_problem;
 pub mod file;
 mod findings;
 mod later;
@@ -10,12 +11,14 @@ pub mod problem;
 mod resolve;
 pub mod schema;
 mod shape;
+mod text;
 mod unit_slip;
 
 use sha2::{Digest, Sha256};
 
 use crate::contact::settings::{ContactSettings, Material};
 use crate::gear::{PerGear, spec::PairSpec};
+use crate::mesh::settings::BodySettings;
 use crate::simulation::settings::{Numerics, Operation};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::wear::settings::WearSettings;
@@ -38,6 +41,8 @@ pub struct Scene {
     pub contact: ContactSettings,
     /// Tooth stiffness.
     pub stiffness: StiffnessSettings,
+    /// Bodies of finite elements, where any are used.
+    pub fem: BodySettings,
     /// Wear law.
     pub wear: WearSettings,
     /// Resolution.
@@ -73,7 +78,11 @@ impl Resolved {
 
     /// First 16 hexadecimal digits of the SHA-256 of [`Self::to_toml`].
     pub fn scene_hash(&self) -> String {
-        let digest = Sha256::digest(self.to_toml());
-        digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+        short_hash(self.to_toml().as_bytes())
     }
+}
+
+/// First 16 hexadecimal digits of the SHA-256 of `bytes`.
+pub(crate) fn short_hash(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
 }

@@ -9,25 +9,26 @@
 //!
 //! C₁, C₂: compliances of the gears on their candidate nodes; δ: transmission error, the pinion's rotation times its base
 //! radius; w: torque over base radius and face width. The wheel is held at its clamp circle, the pinion turned at its own.
-//!
-//! Frames: the pinion's axis is the origin and the wheel's lies on +y at the centre distance. Tooth j of the pinion stands
-//! at the angle ξ/r_b1 − ψ_b1 − α_w + 2πj/z1 from +y, anticlockwise; the wheel's at π + ρ2/r_b2 − ψ_b2 − α_w − 2πj/z2.
 
 use std::collections::BTreeMap;
-use std::f64::consts::{PI, TAU};
 
 use faer::Mat;
 use nalgebra::{Rotation2, Vector2};
 use sprs::CsMat;
 
 use super::flank_surface::FlankSurface;
+use super::model::hertz_half_width_mm;
+use super::placement::tooth_angle_rad;
 use super::ring::{Between, GearCompliance, ToothForce};
 use crate::fem::active_set::{ActiveSetError, Condensed, Log};
 use crate::fem::contact::{mortar::Coupling, zones};
 use crate::gear::{Gear, GearPair, PerGear};
 
+/// Distance between the flanks within which they may come to touch, in units of line load over E*: an approach is some
+/// ten of these.
+const FIRST_REACH: f64 = 25.0;
 /// Half-widths on either side of the expected contact in which multipliers are looked for first.
-const FIRST_WINDOW: f64 = 1.8;
+const FIRST_WINDOW: f64 = 1.4;
 /// How much wider each further look is.
 const WIDER: f64 = 1.6;
 /// Looks before giving up.
@@ -35,7 +36,7 @@ const MOST_LOOKS: usize = 8;
 /// Rows at an inner end of the window that must stay without load.
 const FREE_ROWS: usize = 3;
 /// Parts of a base pitch before A and after E in which contact outside the line of action is looked for.
-pub const OUTSIDE_BASE_PITCHES: f64 = 0.3;
+const OUTSIDE_BASE_PITCHES: f64 = 0.3;
 
 /// The pair with both gears condensed.
 pub struct CondensedPair<'a> {
@@ -45,10 +46,8 @@ pub struct CondensedPair<'a> {
     pub gears: PerGear<GearCompliance>,
     /// Their working flanks.
     pub flanks: PerGear<FlankSurface>,
-    /// How many of each gear's probes, the first ones, lie on the working side.
-    pub working_side_probes: PerGear<usize>,
-    /// Hertz half-width at the pitch point under the whole load, mm.
-    pub half_width_mm: f64,
+    /// E*, MPa.
+    pub contact_modulus_mpa: f64,
 }
 
 /// One tooth pair in contact.
@@ -110,6 +109,13 @@ pub struct PositionContact {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct WarmStart(Vec<(i32, f64, f64)>);
 
+/// How far around the expected contact multipliers are looked for.
+struct Window {
+    line_load_n_per_mm: f64,
+    half_widths: f64,
+    reach_mm: f64,
+}
+
 /// A tooth pair prepared for contact.
 struct Facing {
     pair: i32,
@@ -136,28 +142,38 @@ impl<'a> CondensedPair<'a> {
         line_load_n_per_mm: f64,
         warm: &WarmStart,
     ) -> Result<PositionContact, ActiveSetError> {
-        let mut half_widths = FIRST_WINDOW;
-        let mut look = 1;
-        loop {
-            let facings = self.facings(position_mm, half_widths);
+        let mut window = Window {
+            line_load_n_per_mm,
+            half_widths: FIRST_WINDOW,
+            reach_mm: FIRST_REACH * line_load_n_per_mm / self.contact_modulus_mpa,
+        };
+        for _ in 1..MOST_LOOKS {
+            let facings = self.facings(position_mm, &window);
             let condensed = self.condensed(&facings, line_load_n_per_mm);
             let start = start(&facings, &self.flanks.pinion, warm);
-            let found = condensed.solve(start.as_deref())?;
-            if look < MOST_LOOKS && facings.iter().any(|facing| is_cramped(facing, &found.force, self)) {
-                half_widths *= WIDER;
-                look += 1;
-                continue;
+            match condensed.solve(start.as_deref()) {
+                Ok(found) if !facings.iter().any(|facing| is_cramped(facing, &found.force, self)) => {
+                    return Ok(self.read(position_mm, line_load_n_per_mm, &facings, found));
+                }
+                // Flanks far relieved touch elsewhere, and later.
+                Ok(_) | Err(ActiveSetError::NoContact { .. }) => {
+                    window.half_widths *= WIDER;
+                    window.reach_mm *= WIDER;
+                }
+                Err(error) => return Err(error),
             }
-            return Ok(self.read(position_mm, line_load_n_per_mm, &facings, found));
         }
+        let facings = self.facings(position_mm, &window);
+        let found = self.condensed(&facings, line_load_n_per_mm).solve(None)?;
+        Ok(self.read(position_mm, line_load_n_per_mm, &facings, found))
     }
 
-    fn facings(&self, position_mm: f64, half_widths: f64) -> Vec<Facing> {
+    fn facings(&self, position_mm: f64, window: &Window) -> Vec<Facing> {
         let reach = (self.gears.pinion.teeth() / 2) as i32;
         let mut first_row = 0;
         (-reach..=reach)
             .filter_map(|pair| {
-                let mut facing = self.facing(position_mm, pair, half_widths)?;
+                let mut facing = self.facing(position_mm, pair, window)?;
                 facing.first_row = first_row;
                 first_row += facing.coupling.len();
                 Some(facing)
@@ -167,24 +183,12 @@ impl<'a> CondensedPair<'a> {
 
     /// Turn of the wheel tooth's frame against the pinion tooth's, and the wheel's axis in the latter.
     fn relative_frame(&self, position_mm: f64, pair: i32) -> (Rotation2<f64>, Vector2<f64>) {
-        let [pinion, wheel] = Gear::BOTH.map(|gear| self.tooth_angle_rad(gear, position_mm, pair));
+        let [pinion, wheel] = Gear::BOTH.map(|gear| tooth_angle_rad(self.pair, gear, position_mm, pair));
         let axis = Vector2::new(0.0, self.pair.spec.centre_distance_mm);
         (Rotation2::new(wheel - pinion), Rotation2::new(-pinion) * axis)
     }
 
-    /// Angle of tooth `pair` of a gear from +y, anticlockwise.
-    pub fn tooth_angle_rad(&self, gear: Gear, position_mm: f64, pair: i32) -> f64 {
-        let tooth = &self.pair.teeth[gear];
-        let unrolled = self.pair.path.rho_mm(gear, position_mm) / tooth.involute.base_radius_mm;
-        let own = unrolled - tooth.base_half_angle_rad - self.pair.working_pressure_angle_rad;
-        let pitch = TAU / f64::from(tooth.teeth);
-        match gear {
-            Gear::Pinion => own + f64::from(pair) * pitch,
-            Gear::Wheel => PI + own - f64::from(pair) * pitch,
-        }
-    }
-
-    fn facing(&self, position_mm: f64, pair: i32, half_widths: f64) -> Option<Facing> {
+    fn facing(&self, position_mm: f64, pair: i32, window: &Window) -> Option<Facing> {
         let path = &self.pair.path;
         let own_mm = position_mm + f64::from(pair) * path.base_pitch_mm;
         let outside_mm = OUTSIDE_BASE_PITCHES * path.base_pitch_mm;
@@ -193,7 +197,8 @@ impl<'a> CondensedPair<'a> {
         }
         let (turn, axis) = self.relative_frame(position_mm, pair);
         let expected = self.expected_from_tip_mm(own_mm, turn, axis);
-        let window_mm = half_widths * self.half_width_mm;
+        let half_width_mm = hertz_half_width_mm(self.pair, self.contact_modulus_mpa, window.line_load_n_per_mm, own_mm);
+        let window_mm = window.half_widths * half_width_mm;
         let edges = PerGear::from_fn(|gear| {
             // The master must be met over the whole of the slave's window, also where it is seen a little askew.
             let window = if gear == Gear::Pinion { window_mm } else { 1.3 * window_mm };
@@ -202,7 +207,7 @@ impl<'a> CondensedPair<'a> {
         let inner_ends = (edges.pinion.start > 0, edges.pinion.end < self.flanks.pinion.surface.edges.len());
         let slave = self.flanks.pinion.surface.part(edges.pinion);
         let master = self.flanks.wheel.surface.part(edges.wheel).placed(|x| turn * x + axis, |n| turn * n);
-        let coupling = Coupling::new(&slave, &master, window_mm);
+        let coupling = Coupling::new(&slave, &master, window.reach_mm);
         if coupling.is_empty() {
             return None;
         }
@@ -319,7 +324,7 @@ impl<'a> CondensedPair<'a> {
     fn root_stress(&self, gear: Gear, forces: &[ToothForce]) -> RootStress {
         let compliance = &self.gears[gear];
         let probed = compliance.probed_mpa(compliance.teeth() / 2, forces);
-        let (working, back) = probed.split_at(self.working_side_probes[gear].min(probed.len()));
+        let (working, back) = probed.split_at(compliance.sector.sector.working_side_probes);
         RootStress {
             working_side_mpa: working.iter().copied().fold(0.0, f64::max),
             back_side_mpa: back.iter().copied().fold(0.0, f64::min),
@@ -423,26 +428,37 @@ fn add_sandwich(
     compliance: Between<'_>,
     right: &CsMat<f64>,
 ) {
-    let mut columns: Vec<usize> = right.indices().to_vec();
-    columns.sort_unstable();
-    columns.dedup();
-    let mut place = vec![usize::MAX; right.cols()];
-    for (k, &column) in columns.iter().enumerate() {
-        place[column] = k;
-    }
-    let mut carried = vec![0.0; columns.len()];
+    let (left_columns, left_place) = used_columns(left);
+    let (right_columns, right_place) = used_columns(right);
+    // Each entry of C is read once, into columns that lie together.
+    let width = right_columns.len();
+    let gathered = compliance.gathered(&right_columns, &left_columns);
+    let mut carried = vec![0.0; width];
     for (i, row) in left.outer_iterator().enumerate() {
         carried.fill(0.0);
         for (k, value) in row.iter() {
-            for (sum, &column) in carried.iter_mut().zip(&columns) {
-                *sum += value * compliance.at(column, k);
+            let column = &gathered[left_place[k] * width..][..width];
+            for (sum, c) in carried.iter_mut().zip(column) {
+                *sum += value * c;
             }
         }
         for (j, other) in right.outer_iterator().enumerate() {
-            let product: f64 = other.iter().map(|(column, value)| value * carried[place[column]]).sum();
+            let product: f64 = other.iter().map(|(column, value)| value * carried[right_place[column]]).sum();
             sum[(places.0 + i, places.1 + j)] += product;
         }
     }
+}
+
+/// The columns that hold anything, and the place of each among them.
+fn used_columns(operator: &CsMat<f64>) -> (Vec<usize>, Vec<usize>) {
+    let mut used = operator.indices().to_vec();
+    used.sort_unstable();
+    used.dedup();
+    let mut place = vec![usize::MAX; operator.cols()];
+    for (k, &column) in used.iter().enumerate() {
+        place[column] = k;
+    }
+    (used, place)
 }
 
 /// Bᵀ f.

@@ -45,6 +45,15 @@ pub enum Surroundings {
     },
 }
 
+impl Surroundings {
+    /// Number of coarse teeth in a row.
+    pub fn coarse(self) -> usize {
+        match self {
+            Self::Ring { coarse } | Self::FreeSector { coarse } | Self::ClampedSector { coarse } => coarse,
+        }
+    }
+}
+
 /// A gear as contact sees it: compliance between the candidate nodes of its fine teeth.
 pub struct GearCompliance {
     /// The fine sector; all fine teeth are alike.
@@ -57,13 +66,14 @@ pub struct GearCompliance {
 }
 
 impl GearCompliance {
-    /// Joins `teeth` fine sectors, from clockwise to anticlockwise, with what surrounds them.
+    /// Joins `teeth` fine sectors, from clockwise to anticlockwise, with what surrounds them; `coarse` is needed where that
+    /// has teeth.
     ///
     /// # Errors
     /// A body that is not held.
     pub fn new(
         fine: CondensedSector,
-        coarse: &CondensedSector,
+        coarse: Option<&CondensedSector>,
         teeth: usize,
         surroundings: Surroundings,
     ) -> Result<Self, ActiveSetError> {
@@ -77,20 +87,19 @@ impl GearCompliance {
         for tooth in 0..teeth {
             add(&fine.cut_stiffness, &[tooth, tooth + 1]);
         }
-        match surroundings {
-            Surroundings::Ring { coarse: 0 } => {}
-            // The chain's clockwise cut is the group's anticlockwise one.
-            Surroundings::Ring { coarse: count } => add(&chain(&coarse.cut_stiffness, count)?, &[teeth, 0]),
-            Surroundings::FreeSector { coarse: 0 } | Surroundings::ClampedSector { coarse: 0 } => {}
-            Surroundings::FreeSector { coarse: count } => {
-                let chain = chain(&coarse.cut_stiffness, count)?;
-                add(&eliminated(&chain, 0, n)?, &[0]);
-                add(&eliminated(&chain, n, n)?, &[teeth]);
-            }
-            Surroundings::ClampedSector { coarse: count } => {
-                let chain = chain(&coarse.cut_stiffness, count)?;
-                add(&chain.get(n.., n..).to_owned(), &[0]);
-                add(&chain.get(..n, ..n).to_owned(), &[teeth]);
+        if let (Some(coarse), count @ 1..) = (coarse, surroundings.coarse()) {
+            let chain = chain(&coarse.cut_stiffness, count)?;
+            match surroundings {
+                // The chain's clockwise cut is the group's anticlockwise one.
+                Surroundings::Ring { .. } => add(&chain, &[teeth, 0]),
+                Surroundings::FreeSector { .. } => {
+                    add(&eliminated(&chain, 0, n)?, &[0]);
+                    add(&eliminated(&chain, n, n)?, &[teeth]);
+                }
+                Surroundings::ClampedSector { .. } => {
+                    add(&chain.get(n.., n..).to_owned(), &[0]);
+                    add(&chain.get(..n, ..n).to_owned(), &[teeth]);
+                }
             }
         }
         let inverse = factor(&joined)?.inverse();
@@ -161,9 +170,27 @@ pub struct Between<'a> {
 }
 
 impl Between<'_> {
-    /// Its entry.
-    pub fn at(&self, row: usize, column: usize) -> f64 {
-        if self.turned { self.block[(column, row)] } else { self.block[(row, column)] }
+    /// The entries of `rows` × `columns`, column by column.
+    pub fn gathered(&self, rows: &[usize], columns: &[usize]) -> Vec<f64> {
+        let height = rows.len();
+        let mut entries = vec![0.0; height * columns.len()];
+        // Along the block's own columns, whichever way they run.
+        if self.turned {
+            for (i, &row) in rows.iter().enumerate() {
+                let stored = self.block.col(row);
+                for (j, &column) in columns.iter().enumerate() {
+                    entries[j * height + i] = stored[column];
+                }
+            }
+        } else {
+            for (j, &column) in columns.iter().enumerate() {
+                let stored = self.block.col(column);
+                for (i, &row) in rows.iter().enumerate() {
+                    entries[j * height + i] = stored[row];
+                }
+            }
+        }
+        entries
     }
 }
 

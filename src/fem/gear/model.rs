@@ -1,0 +1,243 @@
+//! From a gear pair to its condensed finite-element model, in two steps: mesh, condense.
+
+use super::flank_surface::FlankSurface;
+use super::position::CondensedPair;
+use super::ring::{GearCompliance, Surroundings};
+use super::sector::{CondensedSector, Functional, Sector};
+use crate::fem::active_set::ActiveSetError;
+use crate::fem::elastic::{Analysis, Elastic};
+use crate::fem::equilibrium::SolveError;
+use crate::fem::solid::{Element, ElementKind, Solid};
+use crate::fem::stress::{StressComponent, StressRecovery};
+use crate::gear::{Gear, GearPair, PerGear};
+use crate::mesh::CellKind;
+use crate::mesh::settings::{Body, BodySettings, SectorSides};
+use crate::mesh::tooth::{Cell, ToothMeshError, ToothSector, gear_sector, touching_pairs};
+use crate::reference::hertz_line::HertzLine;
+
+/// Why there is no model.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// A tooth cannot be meshed.
+    #[error("{}: {source}", gear.name())]
+    Mesh {
+        /// Whose.
+        gear: Gear,
+        /// Why.
+        source: Box<ToothMeshError>,
+    },
+    /// A gear cannot be condensed.
+    #[error("{}: {source}", gear.name())]
+    Condense {
+        /// Whose.
+        gear: Gear,
+        /// Why.
+        source: SolveError,
+    },
+    /// The sector is too small.
+    #[error("{}: {teeth} teeth are fewer than the {least} that touch over the mesh cycle", gear.name())]
+    TooFewTeeth {
+        /// Whose.
+        gear: Gear,
+        /// Given.
+        teeth: u32,
+        /// Needed.
+        least: u32,
+    },
+}
+
+/// One gear, meshed.
+#[derive(Debug, Clone)]
+pub struct MeshedGear {
+    /// Which.
+    pub gear: Gear,
+    /// A tooth that may touch.
+    pub fine: ToothSector,
+    /// Any other tooth; none where all are fine.
+    pub coarse: Option<ToothSector>,
+    /// How many teeth may touch.
+    pub fine_teeth: u32,
+    /// What surrounds them.
+    pub surroundings: Surroundings,
+    /// Whether the tip edge is sharp.
+    pub sharp: bool,
+    /// What it was meshed with.
+    pub settings: BodySettings,
+}
+
+/// Contact modulus E*, MPa.
+fn contact_modulus_mpa(material: &PerGear<Elastic>) -> f64 {
+    1.0 / material.map(|m| (1.0 - m.poisson_ratio * m.poisson_ratio) / m.young_modulus_mpa).sum()
+}
+
+/// Hertz half-width under the whole load at `position_mm`, taken at A or E where it lies outside.
+pub fn hertz_half_width_mm(
+    pair: &GearPair,
+    contact_modulus_mpa: f64,
+    line_load_n_per_mm: f64,
+    position_mm: f64,
+) -> f64 {
+    let position_mm = position_mm.clamp(pair.path.start_mm, pair.path.end_mm);
+    let rho = PerGear::from_fn(|gear| pair.path.rho_mm(gear, position_mm));
+    let relative_radius_mm = rho.pinion * rho.wheel / rho.sum();
+    HertzLine::of_relative_radius(relative_radius_mm, contact_modulus_mpa).loaded(line_load_n_per_mm).half_width_mm
+}
+
+impl MeshedGear {
+    /// Meshes a gear of `pair` for contact under `line_load_n_per_mm`.
+    ///
+    /// # Errors
+    /// [`ModelError::Mesh`], [`ModelError::TooFewTeeth`].
+    pub fn new(
+        pair: &GearPair,
+        gear: Gear,
+        material: &PerGear<Elastic>,
+        line_load_n_per_mm: f64,
+        settings: &BodySettings,
+    ) -> Result<Self, ModelError> {
+        let teeth = pair.teeth[gear].teeth;
+        let fine_teeth = (touching_pairs(pair).len() as u32).min(teeth - 1 + teeth % 2);
+        let surroundings = match settings.body {
+            Body::Ring => Surroundings::Ring { coarse: (teeth - fine_teeth) as usize },
+            // A sector of all teeth has no cut left.
+            Body::Sector { teeth: all, .. } if all == teeth => {
+                Surroundings::Ring { coarse: (teeth - fine_teeth) as usize }
+            }
+            Body::Sector { teeth, .. } if teeth < fine_teeth => {
+                return Err(ModelError::TooFewTeeth { gear, teeth, least: fine_teeth });
+            }
+            Body::Sector { teeth, sides } => {
+                let coarse = ((teeth - fine_teeth) / 2) as usize;
+                match sides {
+                    SectorSides::Free => Surroundings::FreeSector { coarse },
+                    SectorSides::Clamped => Surroundings::ClampedSector { coarse },
+                }
+            }
+        };
+        let contact_modulus_mpa = contact_modulus_mpa(material);
+        let half_width_mm =
+            |position_mm: f64| hertz_half_width_mm(pair, contact_modulus_mpa, line_load_n_per_mm, position_mm);
+        let mesh = |fine: bool| {
+            gear_sector(pair, gear, fine, settings, &half_width_mm)
+                .map_err(|source| ModelError::Mesh { gear, source: Box::new(source) })
+        };
+        Ok(Self {
+            gear,
+            fine: mesh(true)?,
+            coarse: if surroundings.coarse() > 0 { Some(mesh(false)?) } else { None },
+            fine_teeth,
+            surroundings,
+            sharp: pair.spec.gears[gear].modification.tip_rounding_mm == 0.0,
+            settings: *settings,
+        })
+    }
+
+    /// Degrees of freedom of the whole gear as modelled.
+    pub fn dofs(&self) -> usize {
+        let rows = if matches!(self.surroundings, Surroundings::Ring { .. }) { 1 } else { 2 };
+        let coarse = rows * self.surroundings.coarse();
+        let own = |sector: &ToothSector| sector.dofs() - 2 * sector.left_cut.len();
+        self.fine_teeth as usize * own(&self.fine) + coarse * self.coarse.as_ref().map_or(0, own)
+    }
+
+    /// Nodes of both fillets, the working side's first.
+    fn fillets(&self) -> [&[u32]; 2] {
+        [&self.fine.working_fillet, &self.fine.back_fillet]
+    }
+
+    /// The stress along the surface at each node of both fillets, σ_t = t · σ t.
+    fn fillet_probes(&self, solid: &Solid, material: Elastic) -> Result<Vec<Functional>, SolveError> {
+        let materials = [material];
+        let recovery = StressRecovery::new(solid, &materials, Analysis::PlaneStrain)?;
+        let mut probes = Vec::new();
+        for fillet in self.fillets() {
+            for (k, &node) in fillet.iter().enumerate() {
+                let at = |k: usize| solid.points_mm[fillet[k] as usize];
+                let t = (at((k + 1).min(fillet.len() - 1)) - at(k.saturating_sub(1))).normalize();
+                let mut probe = Functional::new();
+                for (component, factor) in [
+                    (StressComponent::X, t.x * t.x),
+                    (StressComponent::Y, t.y * t.y),
+                    (StressComponent::Xy, 2.0 * t.x * t.y),
+                ] {
+                    let row = recovery.nodal_stress_row(node, 0, component)?;
+                    probe.extend(row.into_iter().map(|(dof, value)| (dof, factor * value)));
+                }
+                probes.push(probe);
+            }
+        }
+        Ok(probes)
+    }
+
+    /// Condenses the gear onto the nodes of its working flanks.
+    ///
+    /// # Errors
+    /// [`ModelError::Condense`].
+    pub fn condense(&self, pair: &GearPair, material: Elastic) -> Result<(GearCompliance, FlankSurface), ModelError> {
+        let failed = |source: SolveError| ModelError::Condense { gear: self.gear, source };
+        let half_angle_rad = std::f64::consts::PI / f64::from(pair.teeth[self.gear].teeth);
+        let (chain, rho_mm) = self.fine.working_flank.resolved_nodes();
+        let flank = FlankSurface::new(chain, rho_mm, &self.fine.points_mm, self.sharp);
+        let mut fine = sector(&self.fine, half_angle_rad, flank.surface.mesh_nodes.clone());
+        fine.probes = self.fillet_probes(&fine.solid, material).map_err(failed)?;
+        fine.working_side_probes = self.fine.working_fillet.len();
+        let fine = condense(fine, material).map_err(failed)?;
+        let coarse = match &self.coarse {
+            Some(coarse) => Some(condense(sector(coarse, half_angle_rad, Vec::new()), material).map_err(failed)?),
+            None => None,
+        };
+        let joined = GearCompliance::new(fine, coarse.as_ref(), self.fine_teeth as usize, self.surroundings);
+        Ok((joined.map_err(|error: ActiveSetError| failed(error.into()))?, flank))
+    }
+}
+
+fn condense(sector: Sector, material: Elastic) -> Result<CondensedSector, SolveError> {
+    sector.condense(material, Analysis::PlaneStrain)
+}
+
+/// The finite-element form of a meshed sector.
+fn sector(mesh: &ToothSector, half_angle_rad: f64, candidates: Vec<u32>) -> Sector {
+    let clamped: std::collections::BTreeSet<u32> = mesh.clamp.iter().copied().collect();
+    let free = |cut: &[u32]| cut.iter().copied().filter(|node| !clamped.contains(node)).collect::<Vec<u32>>();
+    Sector {
+        solid: solid(mesh),
+        clamp: mesh.clamp.clone(),
+        cuts: [free(&mesh.right_cut), free(&mesh.left_cut)],
+        half_angle_rad,
+        candidates,
+        probes: Vec::new(),
+        working_side_probes: 0,
+    }
+}
+
+/// A sector's elements for the solver.
+pub fn solid(mesh: &ToothSector) -> Solid {
+    Solid {
+        points_mm: mesh.points_mm.clone(),
+        elements: mesh.cells.iter().map(|cell| element(cell, cell.nodes(), 0)).collect(),
+    }
+}
+
+/// The element of a mesh's cell on `nodes`.
+pub fn element(cell: &Cell, nodes: &[u32], material: u16) -> Element {
+    let kind = if cell.kind == CellKind::Quad8 { ElementKind::Quad8 } else { ElementKind::Triangle6 };
+    Element::new(kind, nodes, material)
+}
+
+impl<'a> CondensedPair<'a> {
+    /// Joins both condensed gears.
+    pub fn new(
+        pair: &'a GearPair,
+        material: &PerGear<Elastic>,
+        gears: PerGear<(GearCompliance, FlankSurface)>,
+    ) -> Self {
+        let (pinion, pinion_flank) = gears.pinion;
+        let (wheel, wheel_flank) = gears.wheel;
+        Self {
+            pair,
+            contact_modulus_mpa: contact_modulus_mpa(material),
+            gears: PerGear { pinion, wheel },
+            flanks: PerGear { pinion: pinion_flank, wheel: wheel_flank },
+        }
+    }
+}

@@ -1,0 +1,295 @@
+//! Triangles that fill a closed boundary, whose edges are kept as they are.
+//!
+//! Points are packed as a front that moves in from the boundary, smallest first: every point offers six places around
+//! itself, a wanted edge length away, and a place is taken where no point is nearer than a part of that length. Where the
+//! boundary is even this gives nearly equilateral triangles. The points are joined by the constrained Delaunay
+//! triangulation, gaps are filled at the centres of circumcircles that are too large, and points are moved to the middle
+//! of their neighbours where that improves the worst triangle around them. All of it is in a fixed order: the same
+//! boundary gives the same triangles, bit for bit.
+//!
+//! Sources: J. R. Shewchuk, *Delaunay refinement algorithms for triangular mesh generation*, Computational Geometry 22
+//! (2002); L. A. Freitag, *On combining Laplacian and optimization-based mesh smoothing techniques* (1997).
+
+use std::cmp::{Ordering, Reverse};
+use std::collections::BinaryHeap;
+use std::f64::consts::FRAC_PI_3;
+
+use nalgebra::{Rotation2, Vector2};
+use spade::handles::FixedVertexHandle;
+use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
+
+use super::{ToothMeshError, neighbours::Neighbours, size_field::SizeField};
+
+/// Nearest distance of packed points, as a part of the wanted length.
+const NEAREST: f64 = 0.75;
+/// Nearest distance of a packed point to an edge of the boundary: a little below the height of an equilateral triangle.
+const NEAREST_TO_EDGE: f64 = 0.6;
+/// Circumradius over wanted length beyond which a gap is filled; 1/√3 in an equilateral triangle.
+const GAP: f64 = 0.8;
+/// Triangulations with gaps filled and points moved.
+const ROUNDS: usize = 5;
+/// Sweeps of moving points in each.
+const SWEEPS: usize = 2;
+/// Triangles better than this need not be improved when a point moves.
+const GOOD: f64 = 0.9;
+
+/// What fills a boundary.
+#[derive(Debug)]
+pub(super) struct Filling {
+    /// The boundary's points, then the new ones.
+    pub points_mm: Vec<Vector2<f64>>,
+    /// Corners, anticlockwise.
+    pub triangles: Vec<[usize; 3]>,
+}
+
+/// Fills the closed boundary through `ring`, anticlockwise.
+pub(super) fn fill(ring: &[Vector2<f64>], growth: f64, greatest_mm: f64) -> Result<Filling, ToothMeshError> {
+    let boundary = Boundary { ring, field: SizeField::of_boundary(ring, growth, greatest_mm) };
+    let mut points_mm = boundary.pack();
+    let mut triangles = boundary.triangulate(&points_mm)?;
+    for round in 0..ROUNDS {
+        if round < ROUNDS / 2 {
+            boundary.fill_gaps(&mut points_mm, &triangles);
+            triangles = boundary.triangulate(&points_mm)?;
+        }
+        boundary.smooth(&mut points_mm, &triangles);
+        triangles = boundary.triangulate(&points_mm)?;
+    }
+    boundary.smooth(&mut points_mm, &triangles);
+    Ok(Filling { points_mm, triangles })
+}
+
+/// A point of the front; the one with the smallest length goes first, the older of two equal ones.
+#[derive(Debug, PartialEq)]
+struct Front {
+    length_mm: f64,
+    number: usize,
+    /// Where it was offered from.
+    from: Vector2<f64>,
+}
+
+impl Eq for Front {}
+
+impl PartialOrd for Front {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for Front {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.length_mm.total_cmp(&other.length_mm).then(self.number.cmp(&other.number))
+    }
+}
+
+struct Boundary<'a> {
+    ring: &'a [Vector2<f64>],
+    field: SizeField,
+}
+
+impl Boundary<'_> {
+    fn edge(&self, k: usize) -> [Vector2<f64>; 2] {
+        [self.ring[k], self.ring[(k + 1) % self.ring.len()]]
+    }
+
+    /// Whether `point` lies inside, at least `distance_mm` from every edge.
+    fn holds(&self, point: Vector2<f64>, distance_mm: f64) -> bool {
+        let least = distance_mm * distance_mm;
+        let mut inside = false;
+        for k in 0..self.ring.len() {
+            let [a, b] = self.edge(k);
+            let (along, to) = (b - a, point - a);
+            let t = (to.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+            if (to - t * along).norm_squared() < least {
+                return false;
+            }
+            if (a.y > point.y) != (b.y > point.y) && to.x < along.x * (to.y / along.y) {
+                inside = !inside;
+            }
+        }
+        inside
+    }
+
+    /// The ring's points and those packed inside.
+    fn pack(&self) -> Vec<Vector2<f64>> {
+        let mut packing = Packing {
+            boundary: self,
+            points_mm: self.ring.to_vec(),
+            taken: Neighbours::default(),
+            front: BinaryHeap::new(),
+        };
+        for &point in self.ring {
+            packing.taken.add(point, self.field.at_mm(point));
+        }
+        let mut edges: Vec<usize> = (0..self.ring.len()).collect();
+        let length = |k: &usize| (self.edge(*k)[1] - self.edge(*k)[0]).norm();
+        edges.sort_by(|a, b| length(a).total_cmp(&length(b)).then(a.cmp(b)));
+        for k in edges {
+            let [a, b] = self.edge(k);
+            let inward = Vector2::new(a.y - b.y, b.x - a.x).normalize();
+            let guess = self.field.at_mm(0.5 * (a + b));
+            packing.offer(0.5 * (a + b) + 0.75f64.sqrt() * guess * inward, a);
+        }
+        while let Some(Reverse(front)) = packing.front.pop() {
+            let at = packing.points_mm[front.number];
+            let back = (front.from - at).normalize();
+            for sixth in 0..6 {
+                let direction = Rotation2::new(f64::from(sixth) * FRAC_PI_3) * back;
+                // The mean of the lengths at both ends, to first order.
+                let near = at + front.length_mm * direction;
+                let distance = 0.5 * (front.length_mm + self.field.at_mm(near));
+                packing.offer(at + distance * direction, at);
+            }
+        }
+        packing.points_mm
+    }
+
+    /// Triangles of the constrained Delaunay triangulation that lie inside.
+    fn triangulate(&self, points_mm: &[Vector2<f64>]) -> Result<Vec<[usize; 3]>, ToothMeshError> {
+        let vertices = points_mm.iter().map(|p| Point2::new(p.x, p.y)).collect();
+        let n = self.ring.len();
+        let edges = (0..n).map(|k| [k, (k + 1) % n]).collect();
+        let crossed = |k: usize| ToothMeshError::CrossedOutline { at_mm: self.ring[k % n].into() };
+        let mut conflict = None;
+        let cdt = ConstrainedDelaunayTriangulation::<Point2<f64>>::try_bulk_load_cdt(vertices, edges, |edge| {
+            conflict = conflict.or(Some(edge[0]));
+        })
+        .map_err(|_| crossed(0))?;
+        if let Some(k) = conflict {
+            return Err(crossed(k));
+        }
+        if cdt.num_vertices() != points_mm.len() {
+            // Two points in one place: the outline touches itself.
+            let twin = (0..n).find(|&k| self.ring[..k].contains(&self.ring[k])).unwrap_or(0);
+            return Err(crossed(twin));
+        }
+        // The boundary has the body on its left; from there to every triangle not behind a boundary edge.
+        let mut inside = vec![false; cdt.num_all_faces()];
+        let mut pending = Vec::new();
+        for k in 0..n {
+            let ends = [k, (k + 1) % n].map(FixedVertexHandle::from_index);
+            let edge = cdt.get_edge_from_neighbors(ends[0], ends[1]).ok_or_else(|| crossed(k))?;
+            pending.extend(edge.face().as_inner());
+        }
+        while let Some(face) = pending.pop() {
+            if !std::mem::replace(&mut inside[face.index()], true) {
+                let open = face.adjacent_edges().into_iter().filter(|edge| !edge.is_constraint_edge());
+                pending.extend(open.filter_map(|edge| edge.rev().face().as_inner()));
+            }
+        }
+        let inner = cdt.inner_faces().filter(|face| inside[face.index()]);
+        Ok(inner.map(|face| face.vertices().map(|vertex| vertex.index())).collect())
+    }
+
+    /// Adds points where the circumcircle of a triangle leaves too much room.
+    fn fill_gaps(&self, points_mm: &mut Vec<Vector2<f64>>, triangles: &[[usize; 3]]) {
+        let mut taken = Neighbours::default();
+        for &point in points_mm.iter() {
+            taken.add(point, self.field.at_mm(point));
+        }
+        for triangle in triangles {
+            let [a, b, c] = triangle.map(|k| points_mm[k]);
+            let Some((centre, radius)) = circumcircle(a, b, c) else { continue };
+            let length_mm = self.field.at_mm(centre);
+            if radius > GAP * length_mm
+                && !taken.crowds(centre, length_mm, 0.9 * NEAREST)
+                && self.holds(centre, 0.8 * NEAREST_TO_EDGE * length_mm)
+            {
+                taken.add(centre, length_mm);
+                points_mm.push(centre);
+            }
+        }
+    }
+
+    /// Moves inner points to the middle of their neighbours where that makes the worst triangle around them better.
+    fn smooth(&self, points_mm: &mut [Vector2<f64>], triangles: &[[usize; 3]]) {
+        let around = Around::of(points_mm.len(), triangles);
+        for _ in 0..SWEEPS {
+            for point in self.ring.len()..points_mm.len() {
+                let star = around.triangles(point);
+                if star.is_empty() {
+                    continue;
+                }
+                let worst = |points: &[Vector2<f64>]| {
+                    star.iter().map(|&t| quality(triangles[t].map(|k| points[k]))).fold(f64::INFINITY, f64::min)
+                };
+                let (old, before) = (points_mm[point], worst(points_mm));
+                // Every neighbour is a corner of two triangles of the star.
+                let sum = star.iter().flat_map(|&t| triangles[t]).filter(|&k| k != point);
+                let sum: Vector2<f64> = sum.map(|k| points_mm[k]).sum();
+                points_mm[point] = sum / (2 * star.len()) as f64;
+                if worst(points_mm) < before.min(GOOD) {
+                    points_mm[point] = old;
+                }
+            }
+        }
+    }
+}
+
+/// Points packed so far.
+struct Packing<'a> {
+    boundary: &'a Boundary<'a>,
+    points_mm: Vec<Vector2<f64>>,
+    taken: Neighbours,
+    front: BinaryHeap<Reverse<Front>>,
+}
+
+impl Packing<'_> {
+    /// Takes `place`, offered by a point at `from`, if there is room.
+    fn offer(&mut self, place: Vector2<f64>, from: Vector2<f64>) {
+        let length_mm = self.boundary.field.at_mm(place);
+        if self.taken.crowds(place, length_mm, NEAREST) || !self.boundary.holds(place, NEAREST_TO_EDGE * length_mm) {
+            return;
+        }
+        self.taken.add(place, length_mm);
+        self.front.push(Reverse(Front { length_mm, number: self.points_mm.len(), from }));
+        self.points_mm.push(place);
+    }
+}
+
+/// The triangles around every point.
+struct Around {
+    starts: Vec<usize>,
+    triangles: Vec<usize>,
+}
+
+impl Around {
+    fn of(points: usize, triangles: &[[usize; 3]]) -> Self {
+        let mut starts = vec![0; points + 1];
+        for corner in triangles.iter().flatten() {
+            starts[corner + 1] += 1;
+        }
+        for k in 0..points {
+            starts[k + 1] += starts[k];
+        }
+        let mut next = starts.clone();
+        let mut around = vec![0; 3 * triangles.len()];
+        for (t, corners) in triangles.iter().enumerate() {
+            for &corner in corners {
+                around[next[corner]] = t;
+                next[corner] += 1;
+            }
+        }
+        Self { starts, triangles: around }
+    }
+
+    fn triangles(&self, point: usize) -> &[usize] {
+        &self.triangles[self.starts[point]..self.starts[point + 1]]
+    }
+}
+
+/// 4√3 area / Σ length²: 1 for the equilateral triangle, 0 for a flat one, negative for an inverted one.
+fn quality([a, b, c]: [Vector2<f64>; 3]) -> f64 {
+    let (ab, bc, ca) = (b - a, c - b, a - c);
+    let lengths = ab.norm_squared() + bc.norm_squared() + ca.norm_squared();
+    2.0 * 3f64.sqrt() * ab.perp(&(c - a)) / lengths
+}
+
+/// Centre and radius.
+fn circumcircle(a: Vector2<f64>, b: Vector2<f64>, c: Vector2<f64>) -> Option<(Vector2<f64>, f64)> {
+    let (u, v) = (b - a, c - a);
+    let twice = 2.0 * u.perp(&v);
+    let (uu, vv) = (u.norm_squared(), v.norm_squared());
+    let to_centre = Vector2::new(v.y * uu - u.y * vv, u.x * vv - v.x * uu) / twice;
+    to_centre.iter().all(|x| x.is_finite()).then(|| (a + to_centre, to_centre.norm()))
+}

@@ -1,0 +1,53 @@
+//! Points with a length each, found again by place: one grid of squares for every power of two of the lengths.
+
+use std::collections::HashMap;
+
+use nalgebra::Vector2;
+
+/// Greatest ratio of lengths of two points that can come near each other: lengths change slowly with place.
+const FACTOR_LEVELS: i32 = 2;
+
+/// The points.
+#[derive(Debug, Default)]
+pub(super) struct Neighbours {
+    /// Only ever looked up by key, so that no result depends on the order of the map.
+    squares: HashMap<(i32, i64, i64), Vec<(Vector2<f64>, f64)>>,
+}
+
+fn level(length_mm: f64) -> i32 {
+    length_mm.log2().floor() as i32
+}
+
+/// The square of `point` on a level, whose squares are as wide as its longest length.
+fn square(level: i32, coordinate: f64) -> i64 {
+    (coordinate / 2f64.powi(level + 1)).floor() as i64
+}
+
+impl Neighbours {
+    /// Adds a point.
+    pub fn add(&mut self, point: Vector2<f64>, length_mm: f64) {
+        let level = level(length_mm);
+        self.squares
+            .entry((level, square(level, point.x), square(level, point.y)))
+            .or_default()
+            .push((point, length_mm));
+    }
+
+    /// Whether a point of `length_mm` at `point` would be nearer to another than `part` (below 1) of their mean length.
+    pub fn crowds(&self, point: Vector2<f64>, length_mm: f64, part: f64) -> bool {
+        let own = level(length_mm);
+        (own - FACTOR_LEVELS..=own + FACTOR_LEVELS).any(|level| {
+            let reach = 0.5 * part * (length_mm + 2f64.powi(level + 1));
+            let columns = square(level, point.x - reach)..=square(level, point.x + reach);
+            columns.into_iter().any(|x| {
+                (square(level, point.y - reach)..=square(level, point.y + reach)).any(|y| {
+                    self.squares.get(&(level, x, y)).is_some_and(|points| {
+                        points.iter().any(|(other, length)| {
+                            (point - other).norm_squared() < (0.5 * part * (length_mm + length)).powi(2)
+                        })
+                    })
+                })
+            })
+        })
+    }
+}

@@ -1,0 +1,228 @@
+//! The outline of one tooth as exact curves, from the cut in the middle of a space to the tip.
+//!
+//! The half with x > 0, the tooth's centre line on +y; the other half is its mirror image. Angles θ run clockwise from
+//! the centre line. From root to tip the pieces are the arc of the root circle, the root trochoid, the flank and the
+//! rounding of the tip edge:
+//!
+//! ```text
+//! flank      P(ρ) = T + (ρ − c(ρ)) n       T = r_b (sin θ_T, cos θ_T),   n = (cos θ_T, −sin θ_T),   θ_T = ψ_b − ρ/r_b
+//! tip        ρ − c(ρ) = ρ_a                where the flank with its material c removed along the normal reaches r_a
+//! rounding   |P − r_k N| = r_a − r_k       N: outward normal of the relieved flank; the circle touches both
+//! ```
+//!
+//! Where material is removed down to the end of the involute the fillet follows: it is shifted along the flank's normal
+//! there, by an amount that fades to nothing, smoothly, on the root circle.
+//!
+//! Source: the string construction of the involute, ISO 21771 section 4; [`crate::gear::removed_material`].
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use nalgebra::Vector2;
+
+use super::ToothMeshError;
+use crate::gear::{modification::Modification, removed_material::removed_mm, tooth::Tooth};
+
+/// Which curve.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Piece {
+    /// Arc of the root circle, from the cut.
+    RootArc,
+    /// Root trochoid.
+    Fillet,
+    /// Involute less the removed material.
+    Flank,
+    /// Rounding of the tip edge.
+    Rounding,
+    /// Half of the tip circle's arc, to the centre line.
+    Land,
+}
+
+/// The circle tangent to flank and tip circle.
+#[derive(Debug, Clone, Copy)]
+struct Rounding {
+    centre_mm: Vector2<f64>,
+    radius_mm: f64,
+    /// Direction from the centre to where it leaves the flank, anticlockwise from +x.
+    first_rad: f64,
+    sweep_rad: f64,
+}
+
+/// The curves of one tooth.
+#[derive(Debug, Clone)]
+pub(super) struct Profile<'a> {
+    tooth: &'a Tooth,
+    modification: Modification,
+    active_start_rho_mm: f64,
+    /// ρ where the flank ends: on the tip circle or where the rounding begins.
+    flank_end_rho_mm: f64,
+    rounding: Option<Rounding>,
+    /// Half angle of the tip land.
+    land_rad: f64,
+}
+
+impl<'a> Profile<'a> {
+    /// The curves of `tooth` with `modification`, its active profile beginning at `active_start_rho_mm`.
+    pub fn new(
+        tooth: &'a Tooth,
+        modification: &Modification,
+        active_start_rho_mm: f64,
+    ) -> Result<Self, ToothMeshError> {
+        // The rounding is a circle of its own here, not material removed from the flank.
+        let modification = Modification { tip_rounding_mm: 0.0, ..*modification };
+        let mut profile =
+            Self { tooth, modification, active_start_rho_mm, flank_end_rho_mm: 0.0, rounding: None, land_rad: 0.0 };
+        // Beyond the tip circle of the plain involute the removed material stays what it is there.
+        profile.flank_end_rho_mm = tooth.tip_rho_mm() + profile.removed_mm(tooth.tip_rho_mm());
+        let (form_rho, removed) = (tooth.root_form_rho_mm(), profile.removed_mm(tooth.root_form_rho_mm()));
+        if removed > 0.5 * form_rho && removed > 0.0 {
+            return Err(ToothMeshError::ReliefBeyondCurvature { removed_mm: removed, rho_mm: form_rho });
+        }
+        let corner = profile.flank_mm(profile.flank_end_rho_mm);
+        profile.land_rad = corner.x.atan2(corner.y);
+        Ok(profile)
+    }
+
+    /// The same with its tip edge rounded.
+    pub fn rounded(mut self, radius_mm: f64) -> Result<Self, ToothMeshError> {
+        if radius_mm <= 0.0 {
+            return Ok(self);
+        }
+        let error = ToothMeshError::TipRounding { radius_mm };
+        let tip = self.tooth.tip_radius_mm;
+        let outside = |rho: f64| (self.flank_mm(rho) - radius_mm * self.normal(rho)).norm() - (tip - radius_mm);
+        let (mut low, mut high) = (self.active_start_rho_mm, self.flank_end_rho_mm);
+        if outside(low) >= 0.0 || outside(high) <= 0.0 {
+            return Err(error);
+        }
+        for _ in 0..80 {
+            let middle = 0.5 * (low + high);
+            if outside(middle) > 0.0 {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        let normal = self.normal(low);
+        let centre_mm = self.flank_mm(low) - radius_mm * normal;
+        let first_rad = normal.y.atan2(normal.x);
+        let sweep_rad = centre_mm.y.atan2(centre_mm.x) - first_rad;
+        self.land_rad = centre_mm.x.atan2(centre_mm.y);
+        if sweep_rad <= 0.0 || self.land_rad < 0.0 {
+            return Err(error);
+        }
+        self.flank_end_rho_mm = low;
+        self.rounding = Some(Rounding { centre_mm, radius_mm, first_rad, sweep_rad });
+        Ok(self)
+    }
+
+    /// The point of `piece` at `u`, from 0 at its root end to 1.
+    pub fn point_mm(&self, piece: Piece, u: f64) -> Vector2<f64> {
+        match piece {
+            Piece::RootArc => {
+                let cut = PI / f64::from(self.tooth.teeth);
+                let theta = cut - u * self.root_arc_rad();
+                self.tooth.root_radius_mm * Vector2::new(theta.sin(), theta.cos())
+            }
+            Piece::Fillet => self.fillet_mm(u),
+            Piece::Flank => self.flank_mm(self.rho_mm(u)),
+            Piece::Rounding => match self.rounding {
+                Some(rounding) => {
+                    let (sin, cos) = (rounding.first_rad + u * rounding.sweep_rad).sin_cos();
+                    rounding.centre_mm + rounding.radius_mm * Vector2::new(cos, sin)
+                }
+                None => self.flank_mm(self.flank_end_rho_mm),
+            },
+            Piece::Land => {
+                let theta = (1.0 - u) * self.land_rad;
+                self.tooth.tip_radius_mm * Vector2::new(theta.sin(), theta.cos())
+            }
+        }
+    }
+
+    /// Radius of curvature of the involute at `u` on the flank, evenly spaced in arc length.
+    pub fn rho_mm(&self, u: f64) -> f64 {
+        let (first, last) = (self.tooth.root_form_rho_mm(), self.flank_end_rho_mm);
+        (first * first + u * (last - first) * (last + first)).max(0.0).sqrt()
+    }
+
+    /// The inverse of [`Self::rho_mm`].
+    pub fn at_rho(&self, rho_mm: f64) -> f64 {
+        let (first, last) = (self.tooth.root_form_rho_mm(), self.flank_end_rho_mm);
+        ((rho_mm - first) * (rho_mm + first) / ((last - first) * (last + first))).clamp(0.0, 1.0)
+    }
+
+    /// Outward normal of the plain involute at `rho_mm`.
+    pub fn involute_normal(&self, rho_mm: f64) -> Vector2<f64> {
+        let (sin, cos) = self.string_rad(rho_mm).sin_cos();
+        Vector2::new(cos, -sin)
+    }
+
+    /// Radii of curvature between the ends of the flank where the removed material has a kink.
+    pub fn kinks_rho_mm(&self) -> Vec<f64> {
+        let Modification { tip_relief, root_relief, profile_crowning_mm, .. } = self.modification;
+        let mut kinks = Vec::new();
+        kinks.extend(tip_relief.map(|relief| self.tooth.tip_rho_mm() - relief.length_mm));
+        kinks.extend(root_relief.map(|relief| self.active_start_rho_mm + relief.length_mm));
+        if root_relief.is_some() || profile_crowning_mm > 0.0 {
+            kinks.push(self.active_start_rho_mm);
+        }
+        kinks.sort_by(f64::total_cmp);
+        kinks
+    }
+
+    /// Half angle of the root circle's arc between two fillets.
+    pub fn root_arc_rad(&self) -> f64 {
+        let foot = self.tooth.trochoid.point_mm(FRAC_PI_2);
+        foot.x.atan2(foot.y).max(0.0)
+    }
+
+    /// Half angle of the tip land.
+    pub fn land_rad(&self) -> f64 {
+        self.land_rad
+    }
+
+    /// Radius of the tip rounding; 0 where the edge is sharp.
+    pub fn rounding_mm(&self) -> f64 {
+        self.rounding.map_or(0.0, |rounding| rounding.radius_mm)
+    }
+
+    /// ρ where the flank ends.
+    pub fn flank_end_rho_mm(&self) -> f64 {
+        self.flank_end_rho_mm
+    }
+
+    fn removed_mm(&self, rho_mm: f64) -> f64 {
+        removed_mm(&self.modification, self.tooth, self.active_start_rho_mm, rho_mm)
+    }
+
+    /// θ_T: where the string leaves the base circle.
+    fn string_rad(&self, rho_mm: f64) -> f64 {
+        self.tooth.base_half_angle_rad - rho_mm / self.tooth.involute.base_radius_mm
+    }
+
+    fn flank_mm(&self, rho_mm: f64) -> Vector2<f64> {
+        let (sin, cos) = self.string_rad(rho_mm).sin_cos();
+        let free = rho_mm - self.removed_mm(rho_mm);
+        self.tooth.involute.base_radius_mm * Vector2::new(sin, cos) + free * Vector2::new(cos, -sin)
+    }
+
+    /// Outward normal of the relieved flank: dP/dρ = (ρ − c)/r_b T/r_b − c' n is its tangent.
+    fn normal(&self, rho_mm: f64) -> Vector2<f64> {
+        let step = 1e-6 * self.tooth.tip_rho_mm();
+        let slope = (self.removed_mm(rho_mm + step) - self.removed_mm(rho_mm - step)) / (2.0 * step);
+        let along = (rho_mm - self.removed_mm(rho_mm)) / self.tooth.involute.base_radius_mm;
+        let n = self.involute_normal(rho_mm);
+        (along * n + slope * Vector2::new(-n.y, n.x)).normalize()
+    }
+
+    fn fillet_mm(&self, u: f64) -> Vector2<f64> {
+        let t = FRAC_PI_2 + (self.tooth.fillet_end_angle_rad - FRAC_PI_2) * u;
+        let in_space = self.tooth.trochoid.point_mm(t);
+        // From the centre line of the space, anticlockwise to that of the tooth.
+        let theta = PI / f64::from(self.tooth.teeth) - in_space.x.atan2(in_space.y);
+        let point = in_space.norm() * Vector2::new(theta.sin(), theta.cos());
+        let form_rho = self.tooth.root_form_rho_mm();
+        let fading = u * u * (3.0 - 2.0 * u);
+        point - fading * self.removed_mm(form_rho) * self.involute_normal(form_rho)
+    }
+}

@@ -1,0 +1,75 @@
+//! Carries out a finite-element problem of one's own: mesh, problem, solution, stresses, record.
+
+mod hertz_comparison;
+mod recording;
+
+use std::path::Path;
+use std::time::Instant;
+
+use crate::fem::{self, SolveError, record::FemRecord};
+use crate::mesh::{self, Format, MeshFileError};
+use crate::scene::Problem;
+use crate::scene::fem_problem::FemProblem;
+use crate::scene::short_hash;
+use crate::simulation::record::StageTime;
+
+/// Why a problem was not solved.
+#[derive(Debug, thiserror::Error)]
+pub enum FemProblemError {
+    /// File and mesh disagree, or the mesh cannot be read.
+    #[error("{} problems, the first: {}", .0.len(), .0.first().map(ToString::to_string).unwrap_or_default())]
+    Input(Vec<Problem>),
+    /// The solver failed.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+}
+
+/// Times what is carried out, one stage after the other.
+struct Stages<'a> {
+    told: &'a dyn Fn(&str),
+    times: Vec<StageTime>,
+}
+
+impl Stages<'_> {
+    fn run<T>(&mut self, name: &str, work: impl FnOnce() -> T) -> T {
+        (self.told)(name);
+        let start = Instant::now();
+        let result = work();
+        self.times.push(StageTime { name: name.to_owned(), wall_s: start.elapsed().as_secs_f64() });
+        result
+    }
+}
+
+/// Solves `problem`, whose mesh file is named relative to `folder`; `told` hears of every stage.
+///
+/// # Errors
+/// Everything that is wrong with problem and mesh, or why the solver failed.
+pub fn run(problem: &FemProblem, folder: &Path, told: &dyn Fn(&str)) -> Result<FemRecord, FemProblemError> {
+    let start = Instant::now();
+    let mut stages = Stages { told, times: Vec::new() };
+    let unreadable = |reason: String| FemProblemError::Input(problem.mesh_unreadable(&reason));
+    let (mesh, mesh_hash) = stages.run("mesh", || -> Result<_, FemProblemError> {
+        let path = folder.join(&problem.file.mesh.file);
+        let unreadable = |error: MeshFileError| unreadable(with_causes(&error));
+        let format = Format::of_path(&path).map_err(unreadable)?;
+        let read = std::fs::read(&path).map_err(|source| MeshFileError::Read { path: path.clone(), source });
+        let bytes = read.map_err(unreadable)?;
+        let content = |fault| MeshFileError::Content { path: path.clone(), fault: Box::new(fault) };
+        let mesh = mesh::from_bytes(format, &bytes).map_err(content).map_err(unreadable)?;
+        Ok((mesh, short_hash(&bytes)))
+    })?;
+    let posed = stages.run("problem", || problem.on(&mesh)).map_err(FemProblemError::Input)?;
+    let solution = stages.run("solution", || fem::solve(&posed.problem))?;
+    let stress =
+        stages.run("stresses", || recording::nodal_stress(&posed.problem, &solution)).map_err(SolveError::from)?;
+    let mut record = recording::record(problem, posed, &solution, stress, mesh_hash);
+    record.summary.stages = stages.times;
+    record.summary.wall_s = start.elapsed().as_secs_f64();
+    Ok(record)
+}
+
+/// An error with everything that led to it, on one line.
+fn with_causes(error: &dyn std::error::Error) -> String {
+    let chain = std::iter::successors(error.source(), |cause| cause.source());
+    chain.fold(error.to_string(), |text, cause| format!("{text}: {cause}"))
+}
