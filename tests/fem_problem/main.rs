@@ -136,14 +136,9 @@ fn results_are_complete() {
     assert_eq!(summary["stopped"], "converged");
     let contact = &summary["contact"][0];
     assert_eq!((&contact["slave"], &contact["master"]), (&"round".into(), &"flat".into()));
-    for key in [
-        "peak_pressure_MPa",
-        "half_width_mm",
-        "contact_width_mm",
-        "force_N_per_mm",
-        "max_penetration_um",
-        "centre_mm",
-    ] {
+    for key in
+        ["peak_pressure_MPa", "half_width_mm", "contact_width_mm", "force_N_per_mm", "max_penetration_um", "centre_mm"]
+    {
         assert!(!contact[key].is_null(), "no {key}");
     }
     let force = contact["force_N_per_mm"][1].as_f64().unwrap();
