@@ -129,7 +129,7 @@ fn integrate_edge(slave: &Surface, number: usize, facing: &Facing<'_>, segments:
 }
 
 /// A segment cut at the middle node of its edge, where the basis of a partly faced edge has its kink.
-fn split_at_middle(segment: &Segment) -> impl Iterator<Item = (f64, f64)> {
+pub(super) fn split_at_middle(segment: &Segment) -> impl Iterator<Item = (f64, f64)> {
     let middle = 0.0_f64.clamp(segment.from, segment.to);
     [(segment.from, middle), (middle, segment.to)].into_iter().filter(|(from, to)| to > from)
 }

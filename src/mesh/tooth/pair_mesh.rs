@@ -27,6 +27,7 @@ const EARLY_CONTACT: f64 = 0.15;
 const TIP_MEETS_HALF_WIDTHS: f64 = 3.0;
 
 /// The sectors of both gears.
+#[derive(Debug, Clone, PartialEq)]
 pub struct PairSectors {
     /// With the working flank resolved.
     pub fine: PerGear<ToothSector>,
