@@ -4,6 +4,7 @@ use std::io;
 use std::sync::Arc;
 
 use super::say;
+use gearwear::fem::SolveError;
 use gearwear::pipeline::RunError;
 use gearwear::report::ReportError;
 use gearwear::scene::{Problem, ProblemKind, presets};
@@ -15,7 +16,7 @@ const MOST_SHOWN: usize = 20;
 /// Why a command ended without its result.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
-    /// The scene file is wrong.
+    /// The scene or problem file is wrong.
     #[error("{} problems in {}", .0.problems.len(), .0.name)]
     Scene(SceneProblems),
     /// Something else about the command is wrong.
@@ -24,6 +25,9 @@ pub enum Failure {
     /// The run failed.
     #[error(transparent)]
     Run(#[from] RunError),
+    /// A finite-element problem has no solution.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
     /// The user interrupted the run; it was said what is kept.
     #[error("interrupted")]
     Interrupted,
@@ -46,16 +50,16 @@ pub struct SceneProblems {
 /// What can be wrong with a command beside the scene's content.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 pub enum InputError {
-    /// The scene file cannot be read.
-    #[error("the scene {name} cannot be read: {reason}")]
+    /// The file cannot be read.
+    #[error("{name} cannot be read: {reason}")]
     Unreadable {
         /// Name of the file.
         name: String,
         /// The system's reason.
         reason: io::Error,
     },
-    /// The scene file is no text.
-    #[error("the scene {name} is not UTF-8 text: byte {byte}, line {line}")]
+    /// The file is no text.
+    #[error("{name} is not UTF-8 text: byte {byte}, line {line}")]
     #[diagnostic(help("save the file as UTF-8"))]
     NotUtf8 {
         /// Name of the file.
@@ -64,6 +68,20 @@ pub enum InputError {
         byte: usize,
         /// Its line.
         line: usize,
+    },
+    /// A file that is both a problem with its own mesh and a gear pair.
+    #[error("{name}: found both [mesh] and [pair]; allowed: one of them")]
+    #[diagnostic(help("a problem with its own mesh has [mesh], a gear pair has [pair]"))]
+    MeshAndPair {
+        /// Name of the file.
+        name: String,
+    },
+    /// `fem` with a gear pair.
+    #[error("{name}: found [pair], and finite elements of a gear pair are not available in this version; allowed: [mesh]")]
+    #[diagnostic(help("gearwear schema --problem lists what a problem with its own mesh may say"))]
+    NoFemPair {
+        /// Name of the file.
+        name: String,
     },
     /// `init` with a name that is no preset.
     #[error("unknown preset {name:?}; allowed: {}", presets::names().join(", "))]
@@ -100,6 +118,7 @@ impl Failure {
         match self {
             Failure::Scene(scene) => scene.print(),
             Failure::Input(error) => say(&format!("{:?}", Report::new(error))),
+            Failure::Solve(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Run(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Interrupted | Failure::Closed => {}
         }
@@ -109,7 +128,7 @@ impl Failure {
     pub fn exit_status(&self) -> u8 {
         match self {
             Failure::Scene(_) | Failure::Input(_) => 2,
-            Failure::Run(_) => 3,
+            Failure::Run(_) | Failure::Solve(_) => 3,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
         }

@@ -41,12 +41,13 @@ fn figures(name: &str, values: [f64; 2]) -> String {
     row(name, [&one, &other])
 }
 
-fn row(name: &str, values: [&str; 2]) -> String {
+/// A line of the table: a name and two values.
+pub fn row(name: &str, values: [&str; 2]) -> String {
     format!("  {name:38}{:>12}{:>12}\n", values[0], values[1])
 }
 
 /// A figure with four significant digits, or all digits of a large whole one.
-fn digits(value: f64) -> String {
+pub fn digits(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude != 0.0 && !(1e-3..1e9).contains(&magnitude) {
         return format!("{value:.3e}");

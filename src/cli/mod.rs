@@ -2,6 +2,8 @@
 
 mod completions;
 mod failure;
+mod fem;
+mod fem_scene;
 mod figures;
 mod init;
 mod plan;
@@ -37,8 +39,10 @@ enum Command {
     Plan(plan::Args),
     /// Run the wear simulation of a scene
     Run(run::Args),
+    /// Solve elastic contact with finite elements, on a mesh of one's own
+    Fem(fem::Args),
     /// Print the JSON schema of the scene: every key with its meaning, unit, range and default
-    Schema,
+    Schema(schema::Args),
     /// Print completions for a shell
     Completions(completions::Args),
 }
@@ -56,7 +60,8 @@ pub fn main() -> ExitCode {
         Command::Init(args) => init::run(args),
         Command::Plan(args) => plan::run(args),
         Command::Run(args) => run::run(args),
-        Command::Schema => schema::run(),
+        Command::Fem(args) => fem::run(args),
+        Command::Schema(args) => schema::run(args),
         Command::Completions(args) => completions::run(args),
     };
     match done {

@@ -1,4 +1,4 @@
-//! Reads and resolves the scene a command is given.
+//! Reads the file a command is given, and resolves the scene it holds.
 
 use std::fs;
 use std::io::{self, Read};
@@ -7,6 +7,14 @@ use std::path::Path;
 use gearwear::scene::{Resolved, Scene};
 
 use super::failure::{Failure, InputError, SceneProblems};
+
+/// The text of a file.
+pub struct Text {
+    /// Name of the file.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+}
 
 /// A scene with the file it came from.
 pub struct Source {
@@ -18,8 +26,8 @@ pub struct Source {
     pub resolved: Resolved,
 }
 
-/// Reads the scene at `path` (`-`: standard input) and resolves it.
-pub fn resolve(path: &Path) -> Result<Source, Failure> {
+/// Reads the text at `path` (`-`: standard input).
+pub fn read(path: &Path) -> Result<Text, Failure> {
     let (name, bytes) = if path == Path::new("-") {
         let mut bytes = Vec::new();
         ("standard input".to_owned(), io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes))
@@ -32,6 +40,12 @@ pub fn resolve(path: &Path) -> Result<Source, Failure> {
         let line = error.as_bytes()[..byte].iter().filter(|&&b| b == b'\n').count() + 1;
         InputError::NotUtf8 { name: name.clone(), byte, line }
     })?;
+    Ok(Text { name, text })
+}
+
+/// Reads the scene at `path` (`-`: standard input) and resolves it.
+pub fn resolve(path: &Path) -> Result<Source, Failure> {
+    let Text { name, text } = read(path)?;
     match Scene::from_toml(&text) {
         Ok(resolved) => Ok(Source { name, text, resolved }),
         Err(problems) => Err(Failure::Scene(SceneProblems { name, text, problems })),

@@ -1,10 +1,19 @@
-//! `gearwear schema`: the JSON schema of the scene, for editors.
+//! `gearwear schema`: the JSON schema of the scene, or of a finite-element problem, for editors.
 
-use gearwear::scene::schema::schema;
+use gearwear::scene::{fem_problem, schema::schema};
 
 use super::failure::Failure;
 use super::stdout;
 
-pub fn run() -> Result<(), Failure> {
-    stdout::print(&format!("{:#}\n", schema()))
+/// Arguments of `schema`.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The schema of a finite-element problem with its own mesh instead
+    #[arg(long)]
+    problem: bool,
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let schema = if args.problem { fem_problem::schema() } else { schema() };
+    stdout::print(&format!("{schema:#}\n"))
 }

@@ -12,6 +12,7 @@ pub mod gear;
 mod nodal_triangle;
 pub mod problem;
 pub mod quadrature;
+pub mod record;
 pub mod rigid_body;
 pub mod shape;
 pub mod solid;

@@ -4,6 +4,7 @@
 
 mod drawing;
 mod error_estimates;
+pub mod fem_problem;
 mod recording;
 
 use std::time::Instant;

@@ -2,10 +2,10 @@
 
 use std::io::{self, Write};
 
-use crate::simulation::record::Summary;
+use serde::Serialize;
 
 /// Writes the summary as indented JSON.
-pub fn write(out: &mut dyn Write, summary: &Summary) -> io::Result<()> {
+pub fn write(out: &mut dyn Write, summary: &impl Serialize) -> io::Result<()> {
     serde_json::to_writer_pretty(&mut *out, summary)?;
     writeln!(out)
 }

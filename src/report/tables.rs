@@ -7,6 +7,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
+use crate::fem::record::FemSummary;
 use crate::gear::Gear;
 use crate::simulation::record::{FlankRecord, HistoryRow, MeshCycleRow, RunRecord, Summary};
 
@@ -69,13 +70,20 @@ pub const MESH_CYCLE: [Column; 10] = [
 #[derive(Debug, Clone, Copy)]
 pub struct Provenance<'a> {
     program_version: &'a str,
-    scene_hash: &'a str,
+    /// What kind of input it was: `scene`, `problem`.
+    input: &'a str,
+    hash: &'a str,
 }
 
 impl<'a> Provenance<'a> {
     /// That of the run summarised in `summary`.
     pub fn of(summary: &'a Summary) -> Self {
-        Self { program_version: &summary.program_version, scene_hash: &summary.scene_hash }
+        Self { program_version: &summary.program_version, input: "scene", hash: &summary.scene_hash }
+    }
+
+    /// That of the finite-element problem summarised in `summary`.
+    pub fn of_fem(summary: &'a FemSummary) -> Self {
+        Self { program_version: &summary.program_version, input: "problem", hash: &summary.problem_hash }
     }
 }
 
@@ -150,13 +158,13 @@ pub fn mesh_cycle(out: &mut dyn Write, provenance: Provenance, rows: &[MeshCycle
 }
 
 /// The opening lines, the header and the rows. The header is written from `columns`, so that a table without rows has it.
-fn table<R: Serialize>(
+pub(super) fn table<R: Serialize>(
     out: &mut dyn Write,
     provenance: Provenance,
     columns: &[Column],
     rows: impl IntoIterator<Item = R>,
 ) -> io::Result<()> {
-    writeln!(out, "# gearwear {}, scene {}", provenance.program_version, provenance.scene_hash)?;
+    writeln!(out, "# gearwear {}, {} {}", provenance.program_version, provenance.input, provenance.hash)?;
     for (name, meaning) in columns {
         writeln!(out, "# {name}: {meaning}")?;
     }

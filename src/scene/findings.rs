@@ -25,6 +25,12 @@ impl Findings {
         Self { locator, ..Self::default() }
     }
 
+    /// The problems, in the order in which they stand in the file.
+    pub fn in_order(mut self) -> Vec<Problem> {
+        self.problems.sort_by_key(|problem| problem.span.as_ref().map(|span| span.start));
+        self.problems
+    }
+
     /// Whether the file itself holds `key` (not only the preset).
     pub fn is_in_file(&self, key: &str) -> bool {
         self.locator.key(key).is_some()

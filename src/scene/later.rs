@@ -28,10 +28,11 @@ const LAW: &str = r#"wear.law = "archard""#;
 const STEP: &str = "a fixed step, numerics.step = { revolutions = … }";
 const CROWNING: &str = "profile_crowning_um, tip_relief, root_relief, tip_rounding_mm";
 
-const LATER: [Later; 16] = [
+/// What a scene of this version lacks.
+pub const SCENE: &[Later] = &[
     key("helical", SPUR_ONLY),
     key("fem", SURFACES),
-    key("mesh", "a gear pair, [pair]"),
+    key("mesh", "a gear pair, [pair]; gearwear fem runs a problem with a mesh of its own"),
     key("pair.pinion.lead_crowning_um", CROWNING),
     key("pair.wheel.lead_crowning_um", CROWNING),
     key("contact.calibration", "contact.match or contact.foundation_MPa_per_mm"),
@@ -47,12 +48,12 @@ const LATER: [Later; 16] = [
     choice("wear.law", "oxidation", LAW),
 ];
 
-/// The entry for a key that no scene of this version has.
-pub fn unknown_key(key: &str) -> Option<Later> {
-    LATER.into_iter().find(|later| later.key == key && later.value.is_none())
+/// The entry of `later` for an unknown key.
+pub fn unknown_key(later: &[Later], key: &str) -> Option<Later> {
+    later.iter().copied().find(|later| later.key == key && later.value.is_none())
 }
 
-/// The entry for a value that `key` does not take in this version.
-pub fn unknown_value(key: &str, value: &str) -> Option<Later> {
-    LATER.into_iter().find(|later| later.key == key && later.value == Some(value))
+/// The entry of `later` for a value that `key` does not take in this version.
+pub fn unknown_value(later: &[Later], key: &str, value: &str) -> Option<Later> {
+    later.iter().copied().find(|later| later.key == key && later.value == Some(value))
 }

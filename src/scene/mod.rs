@@ -1,5 +1,6 @@
 //! The user's scene: the file with its checks and presets, resolved into the settings of each layer.
 
+pub mod fem_problem;
 pub mod file;
 mod findings;
 mod later;
@@ -10,6 +11,7 @@ pub mod problem;
 mod resolve;
 pub mod schema;
 mod shape;
+mod text;
 mod unit_slip;
 
 use sha2::{Digest, Sha256};
@@ -73,7 +75,11 @@ impl Resolved {
 
     /// First 16 hexadecimal digits of the SHA-256 of [`Self::to_toml`].
     pub fn scene_hash(&self) -> String {
-        let digest = Sha256::digest(self.to_toml());
-        digest.iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+        short_hash(self.to_toml().as_bytes())
     }
+}
+
+/// First 16 hexadecimal digits of the SHA-256 of `bytes`.
+pub(crate) fn short_hash(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
 }

@@ -1,21 +1,24 @@
-//! The JSON schema of the scene file, from the types of [`super::file`].
+//! The JSON schema of the scene file, from the types of [`super::file`], and of any other file made the same way.
 
 use std::sync::OnceLock;
 
-use schemars::Schema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
+use schemars::{JsonSchema, Schema};
 use serde_json::Value;
 
 use super::file::SceneFile;
 
-/// The schema (draft 2020-12), without references: every table is described where it stands.
+/// The schema of a scene.
 pub fn schema() -> &'static Value {
     static SCHEMA: OnceLock<Value> = OnceLock::new();
-    SCHEMA.get_or_init(|| {
-        let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true).with_transform(WithoutNull);
-        settings.into_generator().into_root_schema_for::<SceneFile>().to_value()
-    })
+    SCHEMA.get_or_init(schema_of::<SceneFile>)
+}
+
+/// The schema (draft 2020-12) of a file, without references: every table is described where it stands.
+pub(super) fn schema_of<F: JsonSchema>() -> Value {
+    let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true).with_transform(WithoutNull);
+    settings.into_generator().into_root_schema_for::<F>().to_value()
 }
 
 /// TOML has no null: an optional key is left out.
@@ -55,9 +58,9 @@ impl Transform for WithoutNull {
 pub(super) struct Node<'a>(&'a Value);
 
 impl<'a> Node<'a> {
-    /// The whole file.
-    pub fn root() -> Node<'static> {
-        Node(schema())
+    /// The whole file that `schema` describes.
+    pub fn root(schema: &'a Value) -> Self {
+        Node(schema)
     }
 
     /// The key `name` of this table.
@@ -81,6 +84,12 @@ impl<'a> Node<'a> {
     /// What each item of this list is.
     pub fn items(&self) -> Option<Node<'a>> {
         self.0.get("items").map(Node)
+    }
+
+    /// How many items this list must have, if that is fixed.
+    pub fn length(&self) -> Option<usize> {
+        let count = |name: &str| self.0.get(name).and_then(Value::as_u64).and_then(|n| usize::try_from(n).ok());
+        count("minItems").filter(|_| count("minItems") == count("maxItems"))
     }
 
     /// `object`, `array`, `number`, `integer`, `boolean` or `string`.
@@ -121,7 +130,10 @@ impl<'a> Node<'a> {
         }
         match self.type_name() {
             "object" => format!("a table of {}", self.keys().join(", ")),
-            "array" => format!("a list, each {}", self.items().map_or_else(String::new, |item| item.allowed())),
+            "array" => {
+                let count = self.length().map_or_else(String::new, |n| format!(" of {n}"));
+                format!("a list{count}, each {}", self.items().map_or_else(String::new, |item| item.allowed()))
+            }
             "boolean" => "true or false".to_owned(),
             "string" => "a text in quotes".to_owned(),
             "integer" => format!("a whole number{}", self.bounds_in_words()),

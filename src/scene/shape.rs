@@ -1,4 +1,4 @@
-//! Checks a scene file, key by key, against the schema: names, types and ranges.
+//! Checks a file, key by key, against its schema: names, types and ranges.
 //!
 //! Nothing stops at the first problem. What is wrong is reported and taken out, or replaced where the file cannot do
 //! without it, so that the rest can be checked further; what came of such a file is never used.
@@ -6,28 +6,37 @@
 use toml::{Table, Value};
 
 use super::findings::Findings;
-use super::later;
+use super::later::{self, Later};
 use super::locate::join;
 use super::nearest::nearest;
 use super::problem::{ProblemKind, number, words};
 use super::schema::Node;
 
-/// The part of `table` that has the right shape; the rest is reported.
-pub fn check(table: &Table, findings: &mut Findings) -> Table {
-    check_table(Node::root(), table, "", findings)
+/// What a file may hold.
+#[derive(Debug, Clone, Copy)]
+pub struct Format {
+    /// Its schema.
+    pub root: Node<'static>,
+    /// What of it this version lacks.
+    pub later: &'static [Later],
 }
 
-fn check_table(node: Node<'_>, table: &Table, path: &str, findings: &mut Findings) -> Table {
+/// The part of `table` that has the right shape; the rest is reported.
+pub fn check(format: Format, table: &Table, findings: &mut Findings) -> Table {
+    check_table(format, format.root, table, "", findings)
+}
+
+fn check_table(format: Format, node: Node<'_>, table: &Table, path: &str, findings: &mut Findings) -> Table {
     let mut sound = Table::new();
     for (name, value) in table {
         let key = join(path, name);
         match node.child(name) {
             Some(child) => {
-                if let Some(value) = check_value(child, value, &key, findings) {
+                if let Some(value) = check_value(format, child, value, &key, findings) {
                     sound.insert(name.clone(), value);
                 }
             }
-            None => unknown_key(node, name, &key, path, findings),
+            None => unknown_key(format, node, name, &key, path, findings),
         }
     }
     for name in node.required() {
@@ -49,21 +58,23 @@ fn stand_in(node: Node<'_>) -> Value {
             let of = |name: &str| node.child(name).map(|child| (name.to_owned(), stand_in(child)));
             Value::Table(node.required().into_iter().filter_map(of).collect())
         }
+        ("array", _) => Value::Array(Vec::new()),
+        ("string", _) => Value::String(String::new()),
         ("integer", _) => Value::Integer(1),
         _ => Value::Float(1.0),
     }
 }
 
-fn check_value(node: Node<'_>, value: &Value, key: &str, findings: &mut Findings) -> Option<Value> {
+fn check_value(format: Format, node: Node<'_>, value: &Value, key: &str, findings: &mut Findings) -> Option<Value> {
     if let Value::String(text) = value
-        && let Some(later) = later::unknown_value(key, text)
+        && let Some(later) = later::unknown_value(format.later, key, text)
     {
         findings.problem(ProblemKind::NotAvailable, key, format!("{text:?}"), later.instead);
         return None;
     }
     match (node.type_name(), value) {
-        ("object", Value::Table(table)) => Some(Value::Table(check_table(node, table, key, findings))),
-        ("array", Value::Array(items)) => check_items(node, items, key, findings),
+        ("object", Value::Table(table)) => Some(Value::Table(check_table(format, node, table, key, findings))),
+        ("array", Value::Array(items)) => check_items(format, node, items, key, findings),
         ("boolean", Value::Boolean(_)) => Some(value.clone()),
         ("string", Value::String(text)) => check_text(node, text, key, findings),
         ("integer", Value::Integer(n)) => check_number(node, *n as f64, value, key, findings),
@@ -71,17 +82,24 @@ fn check_value(node: Node<'_>, value: &Value, key: &str, findings: &mut Findings
         ("number", Value::Float(x)) => check_number(node, *x, value, key, findings),
         _ => {
             findings.problem(ProblemKind::WrongType, key, words(value), node.allowed());
+            if value.is_table() && node.items().is_some_and(|item| item.type_name() == "object") {
+                findings.help(format!("there may be several: write [[{key}]] for each"));
+            }
             None
         }
     }
 }
 
-fn check_items(node: Node<'_>, items: &[Value], key: &str, findings: &mut Findings) -> Option<Value> {
+fn check_items(format: Format, node: Node<'_>, items: &[Value], key: &str, findings: &mut Findings) -> Option<Value> {
     let item_node = node.items()?;
+    if node.length().is_some_and(|length| length != items.len()) {
+        findings.problem(ProblemKind::WrongType, key, format!("a list of {}", items.len()), node.allowed());
+        return None;
+    }
     let checked: Vec<Value> = items
         .iter()
         .enumerate()
-        .filter_map(|(index, item)| check_value(item_node, item, &format!("{key}[{index}]"), findings))
+        .filter_map(|(index, item)| check_value(format, item_node, item, &format!("{key}[{index}]"), findings))
         .collect();
     if checked.len() == items.len() {
         Some(Value::Array(checked))
@@ -111,33 +129,35 @@ fn check_number(node: Node<'_>, x: f64, value: &Value, key: &str, findings: &mut
     None
 }
 
-fn unknown_key(node: Node<'_>, name: &str, key: &str, path: &str, findings: &mut Findings) {
-    if let Some(later) = later::unknown_key(key) {
+fn unknown_key(format: Format, node: Node<'_>, name: &str, key: &str, path: &str, findings: &mut Findings) {
+    if let Some(later) = later::unknown_key(format.later, key) {
         return findings.problem(ProblemKind::NotAvailable, key, "this key", later.instead);
     }
     let known = node.keys();
     findings.problem(ProblemKind::UnknownKey, key, name, known.join(", "));
-    let elsewhere = tables_with(Node::root(), name, "");
+    let elsewhere = tables_with(format.root, name, "");
     if !elsewhere.is_empty() {
-        let places: Vec<String> = elsewhere.iter().map(|table| format!("[{table}]")).collect();
-        findings.help(format!("{name} belongs in {}", places.join(" or ")));
+        findings.help(format!("{name} belongs in {}", elsewhere.join(" or ")));
     } else if let Some(near) = nearest(name, &known) {
         findings.help(format!("did you mean {near}?"));
         findings.spoil(&join(path, near));
     }
 }
 
-/// Paths of the tables that have a key called `name`.
+/// Headers of the tables that have a key called `name`.
 fn tables_with(node: Node<'_>, name: &str, path: &str) -> Vec<String> {
     let mut found = Vec::new();
     for key in node.keys() {
-        let child_path = join(path, key);
-        if let Some(child) = node.child(key) {
-            if child.child(name).is_some() {
-                found.push(child_path.clone());
-            }
-            found.extend(tables_with(child, name, &child_path));
+        let Some(child) = node.child(key) else { continue };
+        let path = join(path, key);
+        let (table, header) = match child.items() {
+            Some(item) => (item, format!("[[{path}]]")),
+            None => (child, format!("[{path}]")),
+        };
+        if table.child(name).is_some() {
+            found.push(header);
         }
+        found.extend(tables_with(table, name, &path));
     }
     found
 }

@@ -55,6 +55,25 @@ pub fn find(scene: &Table) -> Vec<UnitSlip> {
     search.slips
 }
 
+/// Suspects Young's modulus of `key`.
+pub fn young_modulus(key: &str, modulus_gpa: f64) -> Option<UnitSlip> {
+    let conversions = [(1e-3, "MPa given for GPa"), (1e-9, "Pa given for GPa")];
+    judge(key, modulus_gpa, [0.0, 1500.0], [0.001, 1500.0], &conversions)
+}
+
+/// Suspects `value` if it lies outside `credible` and one of the conversions brings it into `usual`.
+fn judge(key: &str, value: f64, credible: [f64; 2], usual: [f64; 2], conversions: &[Conversion]) -> Option<UnitSlip> {
+    if !value.is_finite() || (credible[0]..=credible[1]).contains(&value.abs()) {
+        return None;
+    }
+    conversions.iter().find_map(|&(factor, units)| {
+        // Dividing by a power of ten rounds once; multiplying by its inverse would leave a trail of digits.
+        let meant = if factor < 1.0 { value / (1.0 / factor).round() } else { value * factor };
+        let meant: f64 = format!("{meant:.12e}").parse().unwrap_or(meant);
+        (usual[0]..=usual[1]).contains(&meant.abs()).then(|| UnitSlip { key: key.to_owned(), value, meant, units })
+    })
+}
+
 struct Search<'a> {
     scene: &'a Table,
     slips: Vec<UnitSlip>,
@@ -72,21 +91,10 @@ impl Search<'_> {
         }
     }
 
-    /// Suspects `key` if its value lies outside `credible` and one of the conversions brings it into `usual`.
+    /// Suspects the value of `key` as [`judge`] does.
     fn judge(&mut self, key: &str, credible: [f64; 2], usual: [f64; 2], conversions: &[Conversion]) {
-        let Some(value) = self.get(key) else { return };
-        if !value.is_finite() || (credible[0]..=credible[1]).contains(&value.abs()) {
-            return;
-        }
-        for &(factor, units) in conversions {
-            // Dividing by a power of ten rounds once; multiplying by its inverse would leave a trail of digits.
-            let meant = if factor < 1.0 { value / (1.0 / factor).round() } else { value * factor };
-            let meant: f64 = format!("{meant:.12e}").parse().unwrap_or(meant);
-            if (usual[0]..=usual[1]).contains(&meant.abs()) {
-                self.slips.push(UnitSlip { key: key.to_owned(), value, meant, units });
-                return;
-            }
-        }
+        let slip = self.get(key).and_then(|value| judge(key, value, credible, usual, conversions));
+        self.slips.extend(slip);
     }
 
     /// The module in mm, as given or as it was likely meant.
@@ -174,9 +182,9 @@ impl Search<'_> {
 
     fn materials(&mut self) {
         for table in ["material", "material.pinion", "material.wheel"] {
-            let (credible, usual) = ([0.0, 1500.0], [0.001, 1500.0]);
-            let conversions = [(1e-3, "MPa given for GPa"), (1e-9, "Pa given for GPa")];
-            self.judge(&format!("{table}.young_modulus_GPa"), credible, usual, &conversions);
+            let key = format!("{table}.young_modulus_GPa");
+            let slip = self.get(&key).and_then(|modulus_gpa| young_modulus(&key, modulus_gpa));
+            self.slips.extend(slip);
             let conversions = [(1e3, "g/cm³ given for kg/m³"), (1e12, "t/mm³ given for kg/m³")];
             self.judge(&format!("{table}.density_kg_per_m3"), [50.0, 1e5], [500.0, 25e3], &conversions);
         }

@@ -1,19 +1,9 @@
 //! The main figures of a run as HTML tables.
 
-use super::escape;
 use super::number::{change, figure, fixed, percent, significant};
+use super::page::escape;
+use super::table::{row, table};
 use crate::simulation::record::{ErrorSummary, GearSummary, RunRecord, Summary, WearSummary};
-
-/// A row: what it is, its unit, and one figure per column.
-struct Row {
-    label: &'static str,
-    unit: &'static str,
-    cells: Vec<String>,
-}
-
-fn row<const N: usize>(label: &'static str, unit: &'static str, cells: [String; N]) -> Row {
-    Row { label, unit, cells: cells.into() }
-}
 
 /// All tables, in the order of the page.
 pub fn tables(record: &RunRecord) -> String {
@@ -135,20 +125,5 @@ pub fn errors(error: &ErrorSummary) -> String {
         "<table class=\"errors\">\n<caption>Estimated error of the pinion’s greatest wear</caption>\n\
          <thead><tr><td></td><th scope=\"col\">relative</th><th scope=\"col\" class=\"how\">how obtained</th></tr></thead>\n\
          <tbody>\n{rows}</tbody>\n</table>\n"
-    )
-}
-
-fn table(caption: &str, columns: &[&str], rows: &[Row]) -> String {
-    let head: String = columns.iter().map(|name| format!("<th scope=\"col\">{name}</th>")).collect();
-    let body: String = rows
-        .iter()
-        .map(|Row { label, unit, cells }| {
-            let cells: String = cells.iter().map(|cell| format!("<td>{cell}</td>")).collect();
-            format!("<tr><th scope=\"row\">{label}</th>{cells}<td class=\"unit\">{unit}</td></tr>\n")
-        })
-        .collect();
-    format!(
-        "<table>\n<caption>{caption}</caption>\n<thead><tr><td></td>{head}<td></td></tr></thead>\n\
-         <tbody>\n{body}</tbody>\n</table>\n"
     )
 }

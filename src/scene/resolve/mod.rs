@@ -12,31 +12,23 @@ use toml::{Table, Value};
 
 use super::file::SceneFile;
 use super::findings::Findings;
-use super::locate::Locator;
 use super::problem::{Problem, ProblemKind};
-use super::{Resolved, Scene, presets, shape, unit_slip};
+use super::schema::{Node, schema};
+use super::shape::{self, Format};
+use super::{Resolved, Scene, later, presets, text, unit_slip};
 
 /// Resolves the text of a scene file.
 ///
 /// # Errors
 /// Everything that is wrong with it.
 pub fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
-    let (table, locator) = parse(text).map_err(|error| vec![syntax(&error, text)])?;
-    let mut findings = Findings::new(locator);
-    let sound = with_preset(shape::check(&table, &mut findings));
+    let (table, mut findings) = text::parse(text)?;
+    let format = Format { root: Node::root(schema()), later: later::SCENE };
+    let sound = with_preset(shape::check(format, &table, &mut findings));
     // A value outside its range is a suspect too, so the slips are looked for in the file as it is.
     let slips = unit_slip::find(&with_preset(table));
 
-    let resolved = match serde_path_to_error::deserialize::<_, SceneFile>(Value::Table(sound)) {
-        Ok(file) => choose(file, &mut findings),
-        Err(error) => {
-            // The shape was checked against the schema of this same structure; should the two differ, this tells.
-            let key = error.path().to_string();
-            let found = error.into_inner().message().to_owned();
-            findings.problem(ProblemKind::WrongType, &key, found, "what gearwear schema says");
-            None
-        }
-    };
+    let resolved = text::typed::<SceneFile>(sound, &mut findings).and_then(|file| choose(file, &mut findings));
     let resolved = resolved.filter(|_| findings.problems.is_empty());
     if let Some((scene, _)) = &resolved {
         geometry::check(&scene.pair, &mut findings);
@@ -50,8 +42,8 @@ pub fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
         }
         _ => {
             let slips: Vec<_> = slips.collect();
-            findings.problems.sort_by_key(|problem| problem.span.as_ref().map(|span| span.start));
-            for problem in &mut findings.problems {
+            let mut problems = findings.in_order();
+            for problem in &mut problems {
                 let geometry = matches!(problem.kind, ProblemKind::Geometry(_));
                 for slip in &slips {
                     if slip.key == problem.key && !geometry {
@@ -61,24 +53,8 @@ pub fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
                     }
                 }
             }
-            Err(findings.problems)
+            Err(problems)
         }
-    }
-}
-
-fn parse(text: &str) -> Result<(Table, Locator), toml::de::Error> {
-    let locator = Locator::new(text)?;
-    Ok((text.parse()?, locator))
-}
-
-fn syntax(error: &toml::de::Error, text: &str) -> Problem {
-    Problem {
-        kind: ProblemKind::Syntax,
-        key: String::new(),
-        found: error.message().replace('\n', ", "),
-        allowed: "TOML: [table] headers and lines of key = value".to_owned(),
-        help: Some("is the file complete? texts need quotes, lists need both brackets, a key stands once".to_owned()),
-        span: Some(error.span().unwrap_or(text.len()..text.len())),
     }
 }
 

@@ -1,0 +1,101 @@
+//! `gearwear fem`: finite-element contact, of a problem with its own mesh or of a gear pair.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use gearwear::fem::record::{FemRecord, FemSummary};
+use gearwear::pipeline::fem_problem::{self, FemProblemError};
+use gearwear::report::{self, ReportError};
+use gearwear::scene::Problem;
+use gearwear::scene::fem_problem::FemProblem;
+use gearwear::simulation::record::StageTime;
+
+use super::failure::{Failure, InputError, SceneProblems};
+use super::scene_source::{self, Text};
+use super::{fem_scene, figures, say, stdout, warn};
+
+/// Arguments of `fem`.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The file, TOML: a problem with its own [mesh], or a scene with a [pair]; - reads standard input
+    file: PathBuf,
+    /// The folder for the results; files of an earlier run are replaced
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Show neither progress nor figures, only what is wrong
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let text = scene_source::read(&args.file)?;
+    // Text that is no TOML is refused, with its place, by whoever reads it next.
+    let table: toml::Table = text.text.parse().unwrap_or_default();
+    match (table.contains_key("mesh"), table.contains_key("pair")) {
+        (true, true) => Err(InputError::MeshAndPair { name: text.name }.into()),
+        (false, true) => fem_scene::run(&text),
+        _ => problem(args, text),
+    }
+}
+
+/// A problem with its own mesh.
+fn problem(args: &Args, text: Text) -> Result<(), Failure> {
+    let refused = |problems: Vec<Problem>| {
+        Failure::Scene(SceneProblems { name: text.name.clone(), text: text.text.clone(), problems })
+    };
+    let problem = FemProblem::from_toml(&text.text).map_err(refused)?;
+    report::writable(&args.out)?;
+    report::remove_summary(&args.out)?;
+    let folder = args.file.parent().unwrap_or(Path::new(""));
+    let told = |stage: &str| {
+        if !args.quiet {
+            say(&format!("{stage} …"));
+        }
+    };
+    let mut record = fem_problem::run(&problem, folder, &told).map_err(|error| match error {
+        FemProblemError::Input(problems) => refused(problems),
+        FemProblemError::Solve(error) => Failure::Solve(error),
+    })?;
+    warn(&record.summary.warnings);
+    write(&mut record, &args.out)?;
+    if !args.quiet {
+        let page = args.out.join("report.html");
+        stdout::print(&format!("{}report: {}\n", summary(&record.summary), page.display()))?;
+    }
+    Ok(())
+}
+
+/// The last stage: the output folder. Its own time is in the summary, which is therefore written last.
+fn write(record: &mut FemRecord, out: &Path) -> Result<(), ReportError> {
+    let start = Instant::now();
+    report::fem::write_data_and_page(record, out)?;
+    let wall_s = start.elapsed().as_secs_f64();
+    record.summary.stages.push(StageTime { name: "report".to_owned(), wall_s });
+    record.summary.wall_s += wall_s;
+    report::fem::write_summary(&record.summary, out)?;
+    Ok(())
+}
+
+/// The main figures, for the terminal.
+fn summary(summary: &FemSummary) -> String {
+    let mut text = format!("{}\n\n", summary.title);
+    for contact in &summary.contact {
+        let names = format!("{} on {}", contact.slave, contact.master);
+        text.push_str(&figures::row(&names, ["computed", "Hertz"]));
+        let hertz = contact.hertz;
+        let [x, y] = contact.force_N_per_mm;
+        for (name, value, other) in [
+            ("peak pressure, MPa", contact.peak_pressure_MPa, hertz.map(|h| h.peak_pressure_MPa)),
+            ("half-width, mm", contact.half_width_mm, hertz.map(|h| h.half_width_mm)),
+            ("force, N/mm", x.hypot(y), None),
+        ] {
+            let other = other.map_or_else(String::new, figures::digits);
+            text.push_str(&figures::row(name, [&figures::digits(value), &other]));
+        }
+    }
+    text.push_str(&format!(
+        "\n{} elements, {} degrees of freedom, {} active sets, computed in {:.2} s\n",
+        summary.elements, summary.dofs, summary.iterations, summary.wall_s
+    ));
+    text
+}

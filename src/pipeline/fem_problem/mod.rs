@@ -1,0 +1,64 @@
+//! Carries out a finite-element problem of one's own: mesh, problem, solution, stresses, record.
+
+mod hertz_comparison;
+mod recording;
+
+use std::path::Path;
+use std::time::Instant;
+
+use crate::fem::{self, SolveError, record::FemRecord};
+use crate::mesh::Mesh;
+use crate::scene::Problem;
+use crate::scene::fem_problem::FemProblem;
+use crate::scene::short_hash;
+use crate::simulation::record::StageTime;
+
+/// Why a problem was not solved.
+#[derive(Debug, thiserror::Error)]
+pub enum FemProblemError {
+    /// File and mesh disagree, or the mesh cannot be read.
+    #[error("{} problems, the first: {}", .0.len(), .0.first().map(ToString::to_string).unwrap_or_default())]
+    Input(Vec<Problem>),
+    /// The solver failed.
+    #[error(transparent)]
+    Solve(#[from] SolveError),
+}
+
+/// Times what is carried out, one stage after the other.
+struct Stages<'a> {
+    told: &'a dyn Fn(&str),
+    times: Vec<StageTime>,
+}
+
+impl Stages<'_> {
+    fn run<T>(&mut self, name: &str, work: impl FnOnce() -> T) -> T {
+        (self.told)(name);
+        let start = Instant::now();
+        let result = work();
+        self.times.push(StageTime { name: name.to_owned(), wall_s: start.elapsed().as_secs_f64() });
+        result
+    }
+}
+
+/// Solves `problem`, whose mesh file is named relative to `folder`; `told` hears of every stage.
+///
+/// # Errors
+/// Everything that is wrong with problem and mesh, or why the solver failed.
+pub fn run(problem: &FemProblem, folder: &Path, told: &dyn Fn(&str)) -> Result<FemRecord, FemProblemError> {
+    let start = Instant::now();
+    let mut stages = Stages { told, times: Vec::new() };
+    let unreadable = |reason: String| FemProblemError::Input(problem.mesh_unreadable(&reason));
+    let (mesh, mesh_hash) = stages.run("mesh", || -> Result<_, FemProblemError> {
+        let path = folder.join(&problem.file.mesh.file);
+        let bytes = std::fs::read(&path).map_err(|error| unreadable(error.to_string()))?;
+        let mesh: Mesh = serde_json::from_slice(&bytes).map_err(|error| unreadable(error.to_string()))?;
+        Ok((mesh, short_hash(&bytes)))
+    })?;
+    let posed = stages.run("problem", || problem.on(&mesh)).map_err(FemProblemError::Input)?;
+    let solution = stages.run("solution", || fem::solve(&posed.problem))?;
+    let stress = stages.run("stresses", || recording::nodal_stress(&posed.problem, &solution));
+    let mut record = recording::record(problem, posed, &solution, stress, mesh_hash);
+    record.summary.stages = stages.times;
+    record.summary.wall_s = start.elapsed().as_secs_f64();
+    Ok(record)
+}

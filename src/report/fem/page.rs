@@ -1,0 +1,157 @@
+//! `report.html` of a finite-element problem.
+
+use super::{field_figures, pressure_figure};
+use crate::fem::elastic::Analysis;
+use crate::fem::problem::Stop;
+use crate::fem::record::{ContactSummary, FemRecord, FemSummary};
+use crate::report::html::number::{change, count, figure, significant};
+use crate::report::html::page::{Page, escape, plots, section, sources_list, stages_table};
+use crate::report::html::table::{Row, row, table};
+
+/// The data files named in the page, which lie beside it.
+const DATA_FILES: [(&str, &str); 4] = [
+    ("summary.json", "the main figures"),
+    ("contact.csv", "gap and pressure along the contacts"),
+    ("solution.vtu", "displacement and stress, for ParaView"),
+    ("problem.toml", "the resolved problem"),
+];
+
+/// The whole page.
+pub fn page(record: &FemRecord) -> String {
+    let s = &record.summary;
+    let mut figures = vec![field_figures::model(record)];
+    let contacts = s.contact.iter().zip(&record.contacts).enumerate();
+    figures.extend(
+        contacts.filter_map(|(index, (summary, contact))| {
+            pressure_figure::pressure(index, s.contact.len(), summary, contact)
+        }),
+    );
+    figures.extend(field_figures::von_mises(record));
+    let tables: String = s.contact.iter().map(contact_table).chain([model_table(s), solver_table(s)]).collect();
+    let sections = [
+        section("figures", "Main figures", &format!("<div class=\"tables\">\n{tables}</div>\n")),
+        section("plots", "Plots", &plots(&figures)),
+        section(
+            "work",
+            "How it was computed",
+            &format!("<div class=\"tables\">\n{}{}</div>\n", stages_table(&s.stages, s.wall_s), work_table(s)),
+        ),
+        section(
+            "sources",
+            "Data and problem",
+            &sources_list(&DATA_FILES, "The resolved problem, every default filled in", &record.problem_toml),
+        ),
+    ];
+    Page {
+        kind: "Elastic bodies in contact",
+        title: &s.title,
+        answer: &answer(s),
+        interruption: None,
+        warnings: &s.warnings,
+        main: &sections.concat(),
+        footer: &format!("gearwear {} · problem {} · mesh {}", s.program_version, s.problem_hash, s.mesh.hash),
+    }
+    .html()
+}
+
+fn answer(s: &FemSummary) -> String {
+    let touching = |contact: &&ContactSummary| contact.half_width_mm > 0.0;
+    let hardest = s.contact.iter().filter(touching).max_by(|a, b| a.peak_pressure_MPa.total_cmp(&b.peak_pressure_MPa));
+    match hardest {
+        Some(contact) => format!(
+            "{} presses on {} with up to {} MPa over a half-width of {} mm; the force is {} N per mm of thickness.",
+            contact.slave,
+            contact.master,
+            figure(contact.peak_pressure_MPa),
+            figure(contact.half_width_mm),
+            figure(contact.force_N_per_mm[0].hypot(contact.force_N_per_mm[1])),
+        ),
+        None if s.contact.is_empty() => {
+            format!("The von Mises stress reaches {} MPa.", figure(s.peak_von_mises_MPa))
+        }
+        None => format!("Nothing touches; the von Mises stress reaches {} MPa.", figure(s.peak_von_mises_MPa)),
+    }
+}
+
+fn contact_table(contact: &ContactSummary) -> String {
+    let [x, y] = contact.force_N_per_mm;
+    let hertz = contact.hertz;
+    let compare = |label, unit, found: f64, by_hertz: Option<f64>| {
+        let none = || "–".to_owned();
+        row(
+            label,
+            unit,
+            [
+                figure(found),
+                by_hertz.map_or_else(none, figure),
+                by_hertz.map_or_else(none, |hertz| change(hertz, found)),
+            ],
+        )
+    };
+    let only = |label, unit, value: f64| row(label, unit, [figure(value), String::new(), String::new()]);
+    let mut rows: Vec<Row> = vec![
+        compare("Greatest pressure", "MPa", contact.peak_pressure_MPa, hertz.map(|h| h.peak_pressure_MPa)),
+        compare("Half-width a", "mm", contact.half_width_mm, hertz.map(|h| h.half_width_mm)),
+        only("Width in contact, modelled part", "mm", contact.contact_width_mm),
+        only("Force along x, modelled part", "N/mm", x),
+        only("Force along y, modelled part", "N/mm", y),
+        only("Centre, x", "mm", contact.centre_mm[0]),
+        only("Centre, y", "mm", contact.centre_mm[1]),
+        only("Largest penetration", "µm", contact.max_penetration_um),
+    ];
+    rows.extend(contact.elements_per_half_width.map(|elements| only("Elements along a", "", elements)));
+    rows.extend(hertz.map(|hertz| only("Relative radius of curvature, fitted", "mm", hertz.relative_radius_mm)));
+    let caption = format!("{} on {}", escape(&contact.slave), escape(&contact.master));
+    table(&caption, &["finite elements", "Hertz", "difference"], &rows)
+}
+
+fn model_table(s: &FemSummary) -> String {
+    let analysis = match s.analysis {
+        Analysis::PlaneStrain => "plane strain",
+        Analysis::PlaneStress => "plane stress",
+    };
+    table(
+        "Model",
+        &["value"],
+        &[
+            row("Mesh file", "", [escape(&s.mesh.file)]),
+            row("Nodes", "", [count(s.mesh.nodes as u64)]),
+            row("Elements", "", [count(s.elements as u64)]),
+            row("Degrees of freedom, supports included", "", [count(s.dofs as u64)]),
+            row("Across the plane", "", [analysis.to_owned()]),
+            row("Greatest von Mises stress at a node", "MPa", [figure(s.peak_von_mises_MPa)]),
+        ],
+    )
+}
+
+fn solver_table(s: &FemSummary) -> String {
+    let stop = match s.stopped {
+        Stop::Converged => "converged",
+        Stop::ConvergedAfterCycle => "converged after a cycle of active sets was broken",
+    };
+    table(
+        "Solver",
+        &["value"],
+        &[
+            row("Stopped", "", [stop.to_owned()]),
+            row("Active sets tried", "", [count(s.iterations as u64)]),
+            row("Largest unbalanced nodal force, relative", "", [significant(s.residual, 2)]),
+            row("Unbalance of external forces, relative", "", [significant(s.force_balance, 2)]),
+        ],
+    )
+}
+
+fn work_table(s: &FemSummary) -> String {
+    let one = |label, value: usize| row(label, "", [count(value as u64)]);
+    table(
+        "Work of the solver",
+        &["count"],
+        &[
+            one("Active sets tried", s.work.iterations),
+            one("Nodes that entered or left them", s.work.active_set_changes),
+            one("Cycles broken", s.work.cycles_broken),
+            one("Sparse factorisations", s.work.factorisations),
+            one("Right-hand sides", s.work.right_hand_sides),
+        ],
+    )
+}

@@ -1,0 +1,325 @@
+//! A quantity over the bodies, as a picture that can be zoomed and read point by point.
+//!
+//! The values at the nodes are sampled on a raster of small squares, each element as linear triangles between its nodes.
+//! What lies outside the bodies stays empty. Over the raster lie the bodies' outlines and, where they can be told apart,
+//! the sides of the elements.
+
+use plotly::common::{ColorBar, ColorScale, ColorScalePalette, DashType, Font, HoverInfo, Mode, Title};
+use plotly::layout::{AxisConstrain, DragMode, HoverMode};
+use plotly::{HeatMap, Layout, Plot, Scatter};
+
+use super::number::plotted;
+use super::theme::{axis, layout, line};
+use crate::fem::solid::{Element, ElementKind};
+
+/// Squares of a raster.
+const SQUARES: f64 = 60_000.0;
+/// Significant digits of a value in the picture.
+const DIGITS: usize = 4;
+/// Sides of elements that a picture shows at the most: beyond, they are too fine to be seen and too many to be drawn.
+pub const MOST_SIDES: usize = 20_000;
+/// Width over height of a picture on a wide screen.
+const WIDTH_OVER_HEIGHT: f64 = 1.75;
+const HEIGHT_PX: usize = 600;
+
+/// Nodes and elements of a picture.
+#[derive(Debug, Clone, Copy)]
+pub struct Bodies<'a> {
+    /// Where the nodes are shown, mm.
+    pub points_mm: &'a [[f64; 2]],
+    /// The elements.
+    pub elements: &'a [Element],
+}
+
+/// A part of the plane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Window {
+    /// x from and to, mm.
+    pub x_mm: [f64; 2],
+    /// y from and to, mm.
+    pub y_mm: [f64; 2],
+}
+
+/// A quantity at the nodes.
+#[derive(Debug, Clone, Copy)]
+pub struct Quantity<'a> {
+    /// What stands beside its scale, unit included: `von Mises stress, MPa`.
+    pub name: &'a str,
+    /// Its unit: `MPa`.
+    pub unit: &'a str,
+    /// One value for each node.
+    pub values: &'a [f64],
+}
+
+impl Window {
+    /// Around all `points_mm`, with a little room.
+    pub fn around(points_mm: &[[f64; 2]]) -> Self {
+        let [x_mm, y_mm] = [0, 1].map(|axis| {
+            let ends = points_mm
+                .iter()
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| [low.min(p[axis]), high.max(p[axis])]);
+            let room = 0.02 * (ends[1] - ends[0]).abs();
+            [ends[0] - room, ends[1] + room]
+        });
+        Self { x_mm, y_mm }
+    }
+
+    /// `half_height_mm` above and below `centre_mm`, in the shape of a picture.
+    pub fn about(centre_mm: [f64; 2], half_height_mm: f64) -> Self {
+        let [x, y] = centre_mm;
+        let half_width_mm = WIDTH_OVER_HEIGHT * half_height_mm;
+        Self { x_mm: [x - half_width_mm, x + half_width_mm], y_mm: [y - half_height_mm, y + half_height_mm] }
+    }
+
+    fn width_mm(&self) -> f64 {
+        self.x_mm[1] - self.x_mm[0]
+    }
+
+    fn height_mm(&self) -> f64 {
+        self.y_mm[1] - self.y_mm[0]
+    }
+
+    /// Whether any part of the box around `points` lies inside.
+    fn meets(&self, points: &[[f64; 2]]) -> bool {
+        let beside = |axis: usize, [from, to]: [f64; 2]| {
+            points.iter().all(|p| p[axis] < from) || points.iter().all(|p| p[axis] > to)
+        };
+        !beside(0, self.x_mm) && !beside(1, self.y_mm)
+    }
+}
+
+/// The picture of `quantity` within `window`.
+pub fn field(bodies: Bodies<'_>, quantity: Quantity<'_>, window: Window) -> Plot {
+    let raster = Raster::sample(bodies, quantity.values, window);
+    let unit = quantity.unit;
+    let mut plot = Plot::new();
+    plot.add_trace(
+        HeatMap::new(raster.x_mm, raster.y_mm, raster.values)
+            .color_scale(ColorScale::Palette(ColorScalePalette::Viridis))
+            .color_bar(ColorBar::new().title(Title::with_text(quantity.name).font(Font::new().size(12))).thickness(14))
+            .hover_on_gaps(false)
+            .hover_template(format!("x %{{x:.5~g}} mm, y %{{y:.5~g}} mm<br>%{{z:.4~g}} {unit}<extra></extra>")),
+    );
+    let (outline, inner) = sides(bodies, window);
+    if inner.len() <= MOST_SIDES {
+        plot.add_trace(segments("elements", bodies, &inner, "rgba(255,255,255,0.28)", 0.6));
+    }
+    plot.add_trace(segments("outline", bodies, &outline, "var(--ink)", 1.2));
+    plot.set_layout(to_scale(window).drag_mode(DragMode::Zoom));
+    plot
+}
+
+/// The layout of a picture at its true proportions that shows `window` to begin with.
+pub fn to_scale(window: Window) -> Layout {
+    let pixels = HEIGHT_PX as f64 * WIDTH_OVER_HEIGHT * window.height_mm() / window.width_mm();
+    let height = (pixels.clamp(0.45 * HEIGHT_PX as f64, HEIGHT_PX as f64) + 80.0) as usize;
+    layout(height)
+        .show_legend(false)
+        .hover_mode(HoverMode::Closest)
+        .x_axis(axis("x, mm").range(window.x_mm.to_vec()).show_grid(false).constrain(AxisConstrain::Range))
+        .y_axis(
+            axis("y, mm")
+                .range(window.y_mm.to_vec())
+                .show_grid(false)
+                .scale_anchor("x")
+                .scale_ratio(1.0)
+                .constrain(AxisConstrain::Range),
+        )
+}
+
+/// Sides of elements as one line with gaps.
+pub fn segments(
+    name: &str,
+    bodies: Bodies<'_>,
+    sides: &[Vec<u32>],
+    colour: &str,
+    width_px: f64,
+) -> Box<Scatter<Option<f64>, Option<f64>>> {
+    let mut coordinates: [Vec<Option<f64>>; 2] = Default::default();
+    for side in sides {
+        for (axis, coordinates) in coordinates.iter_mut().enumerate() {
+            coordinates.extend(side.iter().map(|&node| Some(plotted(bodies.points_mm[node as usize][axis]))));
+            coordinates.push(None);
+        }
+    }
+    let [x, y] = coordinates;
+    Scatter::new(x, y)
+        .name(name)
+        .mode(Mode::Lines)
+        .line(line(colour.to_owned(), width_px, DashType::Solid))
+        .hover_info(HoverInfo::Skip)
+}
+
+/// The sides of the elements within `window`, each once: those of one element only, and all others. A side runs from one
+/// end over the middle node, if there is one, to the other.
+pub fn sides(bodies: Bodies<'_>, window: Window) -> (Vec<Vec<u32>>, Vec<Vec<u32>>) {
+    let mut all: Vec<([u32; 2], Vec<u32>)> = Vec::new();
+    for element in bodies.elements {
+        for side in ring(element) {
+            let points: Vec<[f64; 2]> = side.iter().map(|&node| bodies.points_mm[node as usize]).collect();
+            if window.meets(&points) {
+                let (first, last) = (side[0], side[side.len() - 1]);
+                all.push(([first.min(last), first.max(last)], side));
+            }
+        }
+    }
+    all.sort_by_key(|(ends, _)| *ends);
+    let (mut outline, mut inner) = (Vec::new(), Vec::new());
+    for same in all.chunk_by(|a, b| a.0 == b.0) {
+        if same.len() == 1 { &mut outline } else { &mut inner }.push(same[0].1.clone());
+    }
+    (outline, inner)
+}
+
+/// Corners of an element.
+fn corners(kind: ElementKind) -> usize {
+    match kind {
+        ElementKind::Triangle3 | ElementKind::Triangle6 => 3,
+        ElementKind::Quad4 | ElementKind::Quad8 | ElementKind::Quad9 => 4,
+    }
+}
+
+/// The sides of an element.
+fn ring(element: &Element) -> Vec<Vec<u32>> {
+    let (nodes, n) = (element.nodes(), corners(element.kind));
+    (0..n)
+        .map(|i| {
+            let middle = (nodes.len() > n).then(|| nodes[n + i]);
+            [Some(nodes[i]), middle, Some(nodes[(i + 1) % n])].into_iter().flatten().collect()
+        })
+        .collect()
+}
+
+/// The linear triangles that stand for an element, by its own node numbers.
+fn triangles(kind: ElementKind) -> &'static [[usize; 3]] {
+    match kind {
+        ElementKind::Triangle3 => &[[0, 1, 2]],
+        ElementKind::Triangle6 => &[[0, 3, 5], [3, 1, 4], [5, 4, 2], [3, 4, 5]],
+        ElementKind::Quad4 => &[[0, 1, 2], [0, 2, 3]],
+        ElementKind::Quad8 => &[[0, 4, 7], [4, 1, 5], [5, 2, 6], [6, 3, 7], [4, 5, 6], [4, 6, 7]],
+        ElementKind::Quad9 => &[[0, 4, 8], [4, 1, 8], [1, 5, 8], [5, 2, 8], [2, 6, 8], [6, 3, 8], [3, 7, 8], [7, 0, 8]],
+    }
+}
+
+/// Values on squares.
+struct Raster {
+    x_mm: Vec<f64>,
+    y_mm: Vec<f64>,
+    /// Row by row from below; none outside the bodies.
+    values: Vec<Vec<Option<f64>>>,
+}
+
+impl Raster {
+    fn sample(bodies: Bodies<'_>, nodal: &[f64], window: Window) -> Self {
+        let side_mm = (window.width_mm() * window.height_mm() / SQUARES).sqrt();
+        let centres = |[from, to]: [f64; 2]| -> Vec<f64> {
+            let count = ((to - from) / side_mm).round().max(1.0) as usize;
+            (0..count).map(|i| from + (i as f64 + 0.5) * (to - from) / count as f64).collect()
+        };
+        let (x_mm, y_mm) = (centres(window.x_mm), centres(window.y_mm));
+        let mut values = vec![vec![None; x_mm.len()]; y_mm.len()];
+        for element in bodies.elements {
+            let nodes = element.nodes();
+            for triangle in triangles(element.kind) {
+                let points = triangle.map(|i| bodies.points_mm[nodes[i] as usize]);
+                if !window.meets(&points) {
+                    continue;
+                }
+                let at_corners = triangle.map(|i| nodal[nodes[i] as usize]);
+                fill(&mut values, &x_mm, &y_mm, points, at_corners);
+            }
+        }
+        Self {
+            x_mm: x_mm.into_iter().map(plotted).collect(),
+            y_mm: y_mm.into_iter().map(plotted).collect(),
+            values: values.into_iter().map(|row| row.into_iter().map(|value| value.map(rounded)).collect()).collect(),
+        }
+    }
+}
+
+/// Writes a linear triangle's values at the centres that lie in it.
+fn fill(values: &mut [Vec<Option<f64>>], x_mm: &[f64], y_mm: &[f64], points: [[f64; 2]; 3], at_corners: [f64; 3]) {
+    let [a, b, c] = points;
+    let doubled_area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+    if doubled_area == 0.0 {
+        return;
+    }
+    let within = |centres: &[f64], axis: usize| {
+        let low = points.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
+        let high = points.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
+        centres.partition_point(|&x| x < low)..centres.partition_point(|&x| x <= high)
+    };
+    let columns = within(x_mm, 0);
+    for row in within(y_mm, 1) {
+        for column in columns.clone() {
+            let (x, y) = (x_mm[column] - a[0], y_mm[row] - a[1]);
+            let second = (x * (c[1] - a[1]) - (c[0] - a[0]) * y) / doubled_area;
+            let third = ((b[0] - a[0]) * y - x * (b[1] - a[1])) / doubled_area;
+            let share = [1.0 - second - third, second, third];
+            // A centre on a side belongs to both triangles; round-off must not leave it to neither.
+            if share.iter().all(|&share| share >= -1e-9) {
+                values[row][column] = Some(share.iter().zip(at_corners).map(|(share, value)| share * value).sum());
+            }
+        }
+    }
+}
+
+fn rounded(value: f64) -> f64 {
+    format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UNIT_NODES: [[f64; 2]; 9] =
+        [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0], [1.0, 0.0], [2.0, 1.0], [1.0, 2.0], [0.0, 1.0], [1.0, 1.0]];
+
+    fn element(kind: ElementKind) -> Element {
+        let nodes: &[u32] = match kind {
+            ElementKind::Triangle3 => &[0, 1, 2],
+            ElementKind::Triangle6 => &[0, 1, 2, 4, 5, 8],
+            ElementKind::Quad4 => &[0, 1, 2, 3],
+            ElementKind::Quad8 => &[0, 1, 2, 3, 4, 5, 6, 7],
+            ElementKind::Quad9 => &[0, 1, 2, 3, 4, 5, 6, 7, 8],
+        };
+        Element::new(kind, nodes, 0)
+    }
+
+    /// A linear function of x and y is sampled exactly (to the four digits shown) by every kind of element, everywhere
+    /// inside it and nowhere outside.
+    #[test]
+    fn ver_linear_fields_are_sampled_exactly() {
+        let nodal: Vec<f64> = UNIT_NODES.iter().map(|p| 1.0 + 3.0 * p[0] + 10.0 * p[1]).collect();
+        for kind in
+            [ElementKind::Triangle3, ElementKind::Triangle6, ElementKind::Quad4, ElementKind::Quad8, ElementKind::Quad9]
+        {
+            let elements = [element(kind)];
+            let bodies = Bodies { points_mm: &UNIT_NODES, elements: &elements };
+            let raster = Raster::sample(bodies, &nodal, Window { x_mm: [-1.0, 3.0], y_mm: [-1.0, 3.0] });
+            let triangle = matches!(kind, ElementKind::Triangle3 | ElementKind::Triangle6);
+            for (row, &y) in raster.y_mm.iter().enumerate() {
+                for (column, &x) in raster.x_mm.iter().enumerate() {
+                    let inside = (0.0..=2.0).contains(&x) && (0.0..=2.0).contains(&y) && !(triangle && y > x + 1e-9);
+                    match raster.values[row][column] {
+                        Some(value) => {
+                            let exact = 1.0 + 3.0 * x + 10.0 * y;
+                            assert!(inside && (value / exact - 1.0).abs() < 6e-4, "{kind:?} at {x} {y}: {value}");
+                        }
+                        None => assert!(!inside, "{kind:?}: nothing at {x} {y}"),
+                    }
+                }
+            }
+        }
+    }
+
+    /// Two quadrilaterals side by side: six sides outside, one between them.
+    #[test]
+    fn a_side_of_two_elements_is_drawn_once() {
+        let points = [[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [0.0, 1.0]];
+        let elements =
+            [Element::new(ElementKind::Quad4, &[0, 1, 4, 5], 0), Element::new(ElementKind::Quad4, &[1, 2, 3, 4], 1)];
+        let (outline, inner) = sides(Bodies { points_mm: &points, elements: &elements }, Window::around(&points));
+        assert_eq!((outline.len(), inner), (6, vec![vec![1, 4]]));
+    }
+}

@@ -1,0 +1,154 @@
+//! The named groups of a mesh: what cells and nodes a name stands for, and what to say where it stands for none.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::bodies::Meshed;
+use super::sides::{Side, Sides};
+use crate::mesh::{CellKind, Mesh};
+use crate::scene::findings::Findings;
+use crate::scene::nearest::nearest;
+use crate::scene::problem::ProblemKind;
+
+/// Groups named in a message; the rest is counted.
+const MOST_NAMED: usize = 20;
+
+/// A cell of the mesh: its block, and its number within the block.
+pub type CellRef = (usize, usize);
+
+/// What a name stands for.
+#[derive(Debug, Clone, Default)]
+pub struct Group {
+    /// Its cells by dimension: points, lines, surfaces, volumes.
+    pub cells: [Vec<CellRef>; 4],
+    /// Its nodes, where it is a set of nodes.
+    pub nodes: Vec<usize>,
+}
+
+/// All groups of a mesh.
+pub struct Groups<'a> {
+    mesh: &'a Mesh,
+    by_name: BTreeMap<&'a str, Group>,
+}
+
+/// Groups, bodies and the sides of their elements: where the other tables of a problem look.
+#[derive(Clone, Copy)]
+pub struct Place<'a> {
+    /// The groups.
+    pub groups: &'a Groups<'a>,
+    /// The bodies.
+    pub meshed: &'a Meshed,
+    /// The sides of their elements.
+    pub sides: &'a Sides,
+}
+
+impl<'a> Groups<'a> {
+    /// Collects the groups of `mesh`.
+    pub fn new(mesh: &'a Mesh) -> Self {
+        let mut by_name: BTreeMap<&str, Group> = BTreeMap::new();
+        for (name, blocks) in &mesh.cell_sets {
+            let group = by_name.entry(name).or_default();
+            for (block, numbers) in blocks.iter().enumerate() {
+                let Some(cells) = mesh.cells.get(block) else { continue };
+                let within = numbers.iter().copied().filter(|&cell| cell < cells.len());
+                group.cells[usize::from(cells.kind.dimension())].extend(within.map(|cell| (block, cell)));
+            }
+        }
+        for (name, nodes) in &mesh.point_sets {
+            by_name.entry(name).or_default().nodes.extend(nodes);
+        }
+        Self { mesh, by_name }
+    }
+
+    /// The group that the value of `key` names; reported where there is none.
+    pub fn find(&self, name: &str, key: &str, findings: &mut Findings) -> Option<&Group> {
+        let found = self.by_name.get(name);
+        if found.is_none() {
+            let names: Vec<&str> = self.by_name.keys().copied().collect();
+            findings.problem(
+                ProblemKind::NotAllowed,
+                key,
+                format!("{name:?}, which the mesh does not have"),
+                self.named(),
+            );
+            if let Some(near) = nearest(name, &names) {
+                findings.help(format!("did you mean {near:?}?"));
+            }
+        }
+        found
+    }
+
+    /// The mesh's groups in words: `cylinder (1200 surfaces), top (20 lines)`.
+    fn named(&self) -> String {
+        if self.by_name.is_empty() {
+            return "groups of the mesh, of which it has none: give its parts names as physical groups or sets"
+                .to_owned();
+        }
+        let shown = self.by_name.iter().take(MOST_NAMED);
+        let mut words: Vec<String> = shown.map(|(name, group)| format!("{name} ({})", group.in_words())).collect();
+        if self.by_name.len() > MOST_NAMED {
+            words.push(format!("and {} more", self.by_name.len() - MOST_NAMED));
+        }
+        words.join(", ")
+    }
+
+    /// Kind and nodes of a cell.
+    pub fn cell(&self, (block, cell): CellRef) -> (CellKind, &'a [usize]) {
+        let block = &self.mesh.cells[block];
+        let count = block.kind.node_count();
+        (block.kind, &block.nodes[cell * count..(cell + 1) * count])
+    }
+}
+
+impl Group {
+    /// What it holds: `20 lines`, `1 point and 3 nodes`.
+    pub fn in_words(&self) -> String {
+        let kinds = ["point", "line", "surface", "volume"];
+        let cells = kinds.iter().zip(&self.cells).map(|(kind, cells)| (*kind, cells.len()));
+        let counts = cells.chain([("node", self.nodes.len())]).filter(|(_, count)| *count > 0);
+        let words: Vec<String> =
+            counts.map(|(kind, count)| format!("{count} {kind}{}", if count == 1 { "" } else { "s" })).collect();
+        if words.is_empty() { "nothing".to_owned() } else { words.join(" and ") }
+    }
+}
+
+impl Place<'_> {
+    /// The nodes of bodies in the group that `key` names, in increasing order; reported where there are none, or where the
+    /// name stands for cells of several dimensions, of which one was meant.
+    pub fn nodes(&self, name: &str, key: &str, findings: &mut Findings) -> Vec<u32> {
+        let Some(group) = self.groups.find(name, key, findings) else { return Vec::new() };
+        if group.cells.iter().filter(|cells| !cells.is_empty()).count() > 1 {
+            let found = format!("{name:?}, which holds {}", group.in_words());
+            findings.problem(
+                ProblemKind::NotAllowed,
+                key,
+                found,
+                "a group of points, of lines or of surfaces, not of both",
+            );
+            return Vec::new();
+        }
+        let mut nodes: BTreeSet<u32> = group.nodes.iter().filter_map(|&node| self.meshed.node(node)).collect();
+        for &cell in group.cells.iter().flatten() {
+            let (_, own) = self.groups.cell(cell);
+            nodes.extend(own.iter().filter_map(|&node| self.meshed.node(node)));
+            // A line of two nodes along a quadratic element holds the middle node too.
+            if let Some(middle) = self.line_side(own).and_then(|side| side.edge.middle) {
+                nodes.insert(middle);
+            }
+        }
+        if nodes.is_empty() {
+            let found = format!("{name:?}, of which no node belongs to a body");
+            findings.problem(ProblemKind::NotAllowed, key, found, "a group on one of the bodies");
+        }
+        nodes.into_iter().collect()
+    }
+
+    /// The side of an element along the line on these nodes of the mesh (ends, middle).
+    pub fn line_side(&self, line: &[usize]) -> Option<&Side> {
+        let ends = [self.meshed.node(*line.first()?)?, self.meshed.node(*line.get(1)?)?];
+        let side = self.sides.find(ends)?;
+        match line.get(2) {
+            Some(&middle) => side.edge.middle.is_some_and(|own| Some(own) == self.meshed.node(middle)).then_some(side),
+            None => Some(side),
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! The two surfaces of each `[[contact]]`: edges of elements with their body on the left.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::file::FemProblemFile;
+use super::groups::Place;
+use super::sides::Side;
+use crate::fem::problem::{ContactPair, Edge};
+use crate::scene::findings::Findings;
+use crate::scene::problem::ProblemKind;
+
+/// All pairs of surfaces.
+pub fn contacts(file: &FemProblemFile, place: Place<'_>, findings: &mut Findings) -> Vec<ContactPair> {
+    let mut slaves: BTreeMap<[u32; 2], usize> = BTreeMap::new();
+    let mut pairs = Vec::new();
+    for (i, contact) in file.contact.iter().enumerate() {
+        let (slave_key, master_key) = (format!("contact[{i}].slave"), format!("contact[{i}].master"));
+        let slave = surface(&contact.slave, &slave_key, place, findings);
+        let master = surface(&contact.master, &master_key, place, findings);
+        let nodes = |edges: &[Edge]| edges.iter().flat_map(|edge| edge.ends).collect::<BTreeSet<u32>>();
+        let common = nodes(&slave).intersection(&nodes(&master)).count();
+        if common > 0 {
+            let found = format!("{:?}, which shares {common} nodes with the slave {:?}", contact.master, contact.slave);
+            let allowed = "a surface without nodes of the slave: bodies that may slide or part have nodes of their own";
+            findings.problem(ProblemKind::NotAllowed, &master_key, found, allowed);
+        }
+        if let Some(other) = slave.iter().find_map(|edge| slaves.get(&edge.ends)) {
+            let found = format!("{:?}, edges of which are the slave of contact[{other}] too", contact.slave);
+            let allowed = "edges that carry one contact pressure; they may be master several times";
+            findings.problem(ProblemKind::NotAllowed, &slave_key, found, allowed);
+        }
+        slaves.extend(slave.iter().map(|edge| (edge.ends, i)));
+        pairs.push(ContactPair { slave, master });
+    }
+    pairs
+}
+
+/// The edges of the group that `key` names: its lines, or, of a set of nodes, the sides on the surface all of whose nodes
+/// it holds.
+fn surface(name: &str, key: &str, place: Place<'_>, findings: &mut Findings) -> Vec<Edge> {
+    let Some(group) = place.groups.find(name, key, findings) else { return Vec::new() };
+    let lines = &group.cells[1];
+    if lines.is_empty() {
+        let held: BTreeSet<u32> = group.nodes.iter().filter_map(|&node| place.meshed.node(node)).collect();
+        let inside = |edge: &Edge| edge.ends.iter().chain(&edge.middle).all(|node| held.contains(node));
+        let edges: Vec<Edge> = place.sides.surface().map(|side| side.edge).filter(inside).collect();
+        if edges.is_empty() {
+            let found = format!("{name:?}, which holds {}", group.in_words());
+            let allowed = "a group of lines, or a set of nodes that holds whole edges of a surface";
+            findings.problem(ProblemKind::NotAllowed, key, found, allowed);
+        }
+        return edges;
+    }
+    let mut edges: BTreeMap<[u32; 2], Edge> = BTreeMap::new();
+    let (mut nowhere, mut inside) = (0, None);
+    for &line in lines {
+        match place.line_side(place.groups.cell(line).1) {
+            None => nowhere += 1,
+            Some(side) if !side.is_on_surface() => inside = Some((side, inside.map_or(0, |(_, count)| count) + 1)),
+            Some(side) => {
+                edges.insert(side.edge.ends, side.edge);
+            }
+        }
+    }
+    let allowed = "lines along the surface of a body";
+    if nowhere > 0 {
+        let found = format!("{name:?}, of which {nowhere} lines are the side of no element of a body");
+        findings.problem(ProblemKind::NotAllowed, key, found, allowed);
+    }
+    if let Some((side, count)) = inside {
+        let found = format!("{name:?}, of which {count} lines lie {}", where_inside(side, place));
+        findings.problem(ProblemKind::NotAllowed, key, found, allowed);
+        findings.help("bodies that may slide or part have nodes of their own along their surfaces");
+    }
+    edges.into_values().collect()
+}
+
+/// Inside which body a side lies, or between which two.
+fn where_inside(side: &Side, place: Place<'_>) -> String {
+    let body = |element: Option<usize>| element.map(|number| place.meshed.solid.elements[number].material);
+    match side.elements.map(body) {
+        [Some(one), Some(other)] if one != other => "between bodies that are joined there".to_owned(),
+        _ => "inside a body".to_owned(),
+    }
+}

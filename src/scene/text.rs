@@ -1,0 +1,43 @@
+//! From a file's text to a table with the places of its keys, and from a sound table to the file's structure.
+
+use serde::de::DeserializeOwned;
+use toml::{Table, Value};
+
+use super::findings::Findings;
+use super::locate::Locator;
+use super::problem::{Problem, ProblemKind};
+
+/// The file as a table, and findings that know where each key stands.
+///
+/// # Errors
+/// Text that is not TOML.
+pub fn parse(text: &str) -> Result<(Table, Findings), Vec<Problem>> {
+    let read = || -> Result<(Table, Locator), toml::de::Error> { Ok((text.parse()?, Locator::new(text)?)) };
+    let (table, locator) = read().map_err(|error| vec![syntax(&error, text)])?;
+    Ok((table, Findings::new(locator)))
+}
+
+fn syntax(error: &toml::de::Error, text: &str) -> Problem {
+    Problem {
+        kind: ProblemKind::Syntax,
+        key: String::new(),
+        found: error.message().replace('\n', ", "),
+        allowed: "TOML: [table] headers and lines of key = value".to_owned(),
+        help: Some("is the file complete? texts need quotes, lists need both brackets, a key stands once".to_owned()),
+        span: Some(error.span().unwrap_or(text.len()..text.len())),
+    }
+}
+
+/// A table whose shape was checked, as the structure `F` it was checked for.
+pub fn typed<F: DeserializeOwned>(sound: Table, findings: &mut Findings) -> Option<F> {
+    match serde_path_to_error::deserialize(Value::Table(sound)) {
+        Ok(file) => Some(file),
+        Err(error) => {
+            // The shape was checked against the schema of this same structure; should the two differ, this tells.
+            let key = error.path().to_string();
+            let found = error.into_inner().message().to_owned();
+            findings.problem(ProblemKind::WrongType, &key, found, "what gearwear schema says");
+            None
+        }
+    }
+}
