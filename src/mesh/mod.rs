@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 mod cell_kind;
 pub mod quality;
+pub mod settings;
 pub mod tooth;
 
 pub use cell_kind::CellKind;

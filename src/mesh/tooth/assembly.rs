@@ -10,9 +10,7 @@ use super::cut::Cut;
 use super::layer::{self, FlankNode, Layer, add};
 use super::outline::Outline;
 use super::spacing::{Part, Side};
-use super::{
-    Cell, FlankChain, GREATEST_MODULES, GROWTH, SectorSettings, ToothMeshError, ToothSector, ToothShape, interior,
-};
+use super::{Cell, FlankChain, GREATEST_MODULES, SectorSettings, ToothMeshError, ToothSector, ToothShape, interior};
 use crate::mesh::quality;
 
 /// Fewest elements on the clamp circle.
@@ -65,7 +63,7 @@ pub(super) fn assemble(
 
     let mut cells = layer.cells;
     let greatest_mm = GREATEST_MODULES * shape.normal_module_mm;
-    cells.extend(triangles(&loop_edges, greatest_mm, &mut points_mm)?);
+    cells.extend(triangles(&loop_edges, settings.growth(), greatest_mm, &mut points_mm)?);
     refuse_inverted(&points_mm, &cells)?;
 
     let chain = |side, part| outline.part(side, part).map(|k| k as u32).collect::<Vec<u32>>();
@@ -156,11 +154,12 @@ fn first_resolved(rho_mm: &[f64], from_rho_mm: f64) -> usize {
 /// Six-node triangles inside the loop; boundary edges keep their middle nodes, other middles lie halfway.
 fn triangles(
     loop_edges: &[Edge],
+    growth: f64,
     greatest_mm: f64,
     points_mm: &mut Vec<Vector2<f64>>,
 ) -> Result<Vec<Cell>, ToothMeshError> {
     let ring: Vec<Vector2<f64>> = loop_edges.iter().map(|edge| points_mm[edge[0] as usize]).collect();
-    let filling = interior::fill(&ring, GROWTH, greatest_mm)?;
+    let filling = interior::fill(&ring, growth, greatest_mm)?;
     let mut ids: Vec<u32> = loop_edges.iter().map(|edge| edge[0]).collect();
     ids.extend(filling.points_mm[ring.len()..].iter().map(|&point| add(points_mm, point)));
     let key = |a: u32, b: u32| (a.min(b), a.max(b));

@@ -8,16 +8,18 @@
 //!
 //! A **fine** sector resolves the working flank from a margin below the start of active profile to the tip with a given
 //! number of elements in the local half-width of contact: a layer of structured elements on the flank, six-node
-//! triangles below it. A **coarse** sector has the same shape without that. Both have the same nodes on both cuts,
+//! triangles below it. A **coarse** sector has the same shape without that and with sharp tip edges. Both have the same nodes on both cuts,
 //! at radii that depend on the gear alone, so that sectors turned by a pitch join exactly.
 
 mod assembly;
 mod cut;
 mod error;
+mod gear_mesh;
 mod interior;
 mod layer;
 mod neighbours;
 mod outline;
+mod pair_mesh;
 mod profile;
 mod size_field;
 mod spacing;
@@ -27,6 +29,8 @@ use std::ops::Range;
 use nalgebra::Vector2;
 
 pub use error::ToothMeshError;
+pub use gear_mesh::{GearMesh, ToothNodes, gear_mesh};
+pub use pair_mesh::{PairSectors, in_place, pair_mesh, pair_sectors, touching_pairs, turn_rad};
 
 use super::CellKind;
 use crate::gear::{Gear, GearPair, modification::Modification, tooth::Tooth};
@@ -34,8 +38,11 @@ use cut::Cut;
 use outline::Outline;
 use profile::Profile;
 
-/// Rate at which element lengths grow along the outline and into the body: neighbours differ by a factor of about 1.3.
+/// Rate at which element lengths grow along the outline and into the body of a fine sector: neighbours differ by a
+/// factor of about 1.3.
 const GROWTH: f64 = 0.25;
+/// The same for a coarse sector.
+const COARSE_GROWTH: f64 = 0.4;
 /// Longest element, in modules.
 const GREATEST_MODULES: f64 = 0.5;
 
@@ -127,10 +134,25 @@ pub struct ToothSector {
     pub clamp: Vec<u32>,
 }
 
+impl SectorSettings<'_> {
+    fn growth(&self) -> f64 {
+        if self.flank.is_some() { GROWTH } else { COARSE_GROWTH }
+    }
+}
+
 impl Cell {
     fn triangle(corners: [u32; 3], middles: [u32; 3]) -> Self {
         let ([a, b, c], [ab, bc, ca]) = (corners, middles);
         Self { kind: CellKind::Triangle6, nodes: [a, b, c, ab, bc, ca, 0, 0] }
+    }
+
+    /// The same cell on nodes numbered anew.
+    fn renumbered(&self, ids: &[u32]) -> Self {
+        let mut nodes = [0; 8];
+        for (new, &old) in nodes.iter_mut().zip(self.nodes()) {
+            *new = ids[old as usize];
+        }
+        Self { kind: self.kind, nodes }
     }
 
     /// Its nodes.
@@ -171,8 +193,9 @@ impl<'a> ToothShape<'a> {
 /// [`ToothMeshError`] where the clamp circle, the resolution or the shape of the tooth leave no mesh.
 pub fn sector(shape: &ToothShape, settings: &SectorSettings) -> Result<ToothSector, ToothMeshError> {
     check(settings)?;
-    let profile = Profile::new(shape.tooth, shape.modification, shape.active_start_rho_mm)?
-        .rounded(shape.modification.tip_rounding_mm)?;
+    // A coarse tooth touches nothing: the rounding of its tip edges would only cost nodes.
+    let rounding_mm = if settings.flank.is_some() { shape.modification.tip_rounding_mm } else { 0.0 };
+    let profile = Profile::new(shape.tooth, shape.modification, shape.active_start_rho_mm)?.rounded(rounding_mm)?;
     let outline = Outline::new(shape, settings, &profile)?;
     let cut = Cut::new(shape, settings.clamp_radius_mm, outline.at_cut_mm)?;
     assembly::assemble(shape, settings, &outline, &cut)

@@ -12,14 +12,14 @@ use super::spacing::{OutlineNode, Part, Place, Run, Side, limit_growth};
 use super::{FlankResolution, GREATEST_MODULES, GROWTH, SectorSettings, ToothMeshError, ToothShape};
 
 /// Longest element of a flank that is not resolved, in modules.
-const FLANK_MODULES: f64 = 0.25;
+const FLANK_MODULES: f64 = 0.3;
 /// Elements of a fillet that is not resolved.
-const COARSE_FILLET_ELEMENTS: f64 = 6.0;
+const COARSE_FILLET_ELEMENTS: f64 = 5.0;
 /// Longest element of a fillet over its radius of curvature; shortest in modules, at a sharp corner of the rack.
 const FILLET_OVER_CURVATURE: f64 = 0.4;
 const LEAST_FILLET_MODULES: f64 = 0.01;
-/// Longest element of a rounding over its radius.
-const ROUNDING_OVER_RADIUS: f64 = 0.25;
+/// Longest element of a rounding over its radius, where the flank is resolved and where it is not.
+const ROUNDING_OVER_RADIUS: [f64; 2] = [0.25, 0.6];
 /// Longest element over the thickness of the tooth.
 const OVER_THICKNESS: f64 = 0.5;
 /// Longest element at the cuts, in modules.
@@ -62,7 +62,7 @@ impl Outline {
         for run in &mut runs {
             wanted.apply(profile, run);
         }
-        limit_growth(&mut runs, GROWTH, wanted.at_cut_mm);
+        limit_growth(&mut runs, settings.growth(), wanted.at_cut_mm);
 
         let elements: f64 = runs.iter().map(Run::elements).sum();
         if elements.is_nan() || elements > MOST_ELEMENTS {
@@ -227,8 +227,8 @@ impl<'a> Wanted<'a> {
                     .map_or(open, |resolved| resolved.element_mm(rho).min(open))
             }),
             Part::Rounding => {
-                let on_arc = (ROUNDING_OVER_RADIUS * profile.rounding_mm()).max(least);
-                let wanted = resolved.map_or(on_arc, |resolved| on_arc.min(resolved.element_mm(resolved.tip_rho_mm)));
+                let [fine, open] = ROUNDING_OVER_RADIUS.map(|part| (part * profile.rounding_mm()).max(least));
+                let wanted = resolved.map_or(open, |resolved| fine.min(resolved.element_mm(resolved.tip_rho_mm)));
                 run.want(|_, _| wanted);
             }
             Part::Land => {
