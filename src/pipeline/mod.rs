@@ -5,6 +5,7 @@
 mod drawing;
 mod error_estimates;
 pub mod fem_problem;
+pub mod fem_scene;
 mod recording;
 
 use std::time::Instant;
