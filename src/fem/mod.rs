@@ -17,7 +17,6 @@ pub mod rigid_body;
 pub mod shape;
 pub mod solid;
 pub mod stiffness;
-pub mod stress;
 mod support;
 
 pub use equilibrium::{SolveError, solve};
