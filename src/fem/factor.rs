@@ -179,7 +179,7 @@ impl Factor {
         let at_once = columns.min(COLUMNS_AT_ONCE);
         let mut block = vec![0.0; at_once * free];
         let mut scratch = MemBuffer::new(self.supernodes().solve_in_place_scratch::<f64>(at_once, Par::Seq));
-        let llt = SupernodalLltRef::new(self.supernodes(), &self.values);
+        let llt = self.llt();
         for given in x.chunks_mut(COLUMNS_AT_ONCE * dofs.max(1)) {
             let columns = given.len() / dofs;
             let block = &mut block[..columns * free];
@@ -235,7 +235,18 @@ impl Factor {
         self.values.len()
     }
 
-    fn supernodes(&self) -> &SymbolicSupernodalCholesky<u32> {
+    /// L as dense blocks of columns.
+    pub(super) fn llt(&self) -> SupernodalLltRef<'_, u32, f64> {
+        SupernodalLltRef::new(self.supernodes(), &self.values)
+    }
+
+    /// Place of each degree of freedom in the order of elimination, or [`HELD`].
+    pub(super) fn place_of_dof(&self) -> &[u32] {
+        &self.place_of_dof
+    }
+
+    /// The pattern of L.
+    pub(super) fn supernodes(&self) -> &SymbolicSupernodalCholesky<u32> {
         match self.symbolic.raw() {
             SymbolicCholeskyRaw::Supernodal(supernodes) => supernodes,
             SymbolicCholeskyRaw::Simplicial(_) => unreachable!("the analysis was told to make supernodes"),

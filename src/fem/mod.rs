@@ -1,7 +1,6 @@
 //! Plane finite elements: elements, assembly, factorisation, contact of meshes.
 
 pub mod active_set;
-mod compliance_tmp;
 pub mod contact;
 pub mod elastic;
 pub mod element;
@@ -9,6 +8,7 @@ mod enhanced_quad;
 pub mod equilibrium;
 pub mod factor;
 pub mod gear;
+pub mod loads;
 mod nodal_triangle;
 pub mod problem;
 pub mod quadrature;
@@ -16,7 +16,9 @@ pub mod record;
 pub mod rigid_body;
 pub mod shape;
 pub mod solid;
+mod sparse_solve;
 pub mod stiffness;
+pub mod stress;
 mod support;
 
 pub use equilibrium::{SolveError, solve};

@@ -70,6 +70,17 @@ pub fn rule(kind: ElementKind) -> &'static Rule {
     }
 }
 
+/// A rule for loads, which need not be constant on an element: at least degree 5 for every kind.
+pub fn load_rule(kind: ElementKind) -> &'static Rule {
+    static TRIANGLE3: LazyLock<Rule> = LazyLock::new(|| Rule::new(ElementKind::Triangle3, &radon()));
+    static QUAD4: LazyLock<Rule> = LazyLock::new(|| Rule::new(ElementKind::Quad4, &product(&GAUSS_3)));
+    match kind {
+        ElementKind::Triangle3 => &TRIANGLE3,
+        ElementKind::Quad4 => &QUAD4,
+        ElementKind::Triangle6 | ElementKind::Quad8 | ElementKind::Quad9 => rule(kind),
+    }
+}
+
 impl Rule {
     fn new(kind: ElementKind, points: &[([f64; 2], f64)]) -> Self {
         let point = |&(at, weight): &([f64; 2], f64)| IntegrationPoint { at, weight, shape: Shape::at(kind, at) };

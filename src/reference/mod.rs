@@ -1,4 +1,6 @@
 //! Closed forms with their sources, shared by the code, the tests and the validation.
 
+pub mod cantilever;
 pub mod flattening;
 pub mod hertz_line;
+pub mod lame_cylinder;

@@ -22,12 +22,7 @@ pub struct FlankSurface {
 impl FlankSurface {
     /// The flank along `chain` (ends and middles of edges alternately, from root to tip) with ρ at each of its nodes.
     pub fn new(chain: &[u32], rho_mm: &[f64], points_mm: &[Vector2<f64>], sharp: bool) -> Self {
-        // Travelled from tip to root, the tooth of a flank at x < 0 lies on the left.
-        let edges: Vec<Edge> = (0..chain.len() / 2)
-            .rev()
-            .map(|k| Edge { ends: [chain[2 * k + 2], chain[2 * k]], middle: Some(chain[2 * k + 1]) })
-            .collect();
-        let surface = Surface::new(&edges, points_mm);
+        let surface = Surface::new(&edges(chain), points_mm);
         let place_in_chain = |node: u32| chain.iter().position(|&other| other == node);
         let rho_mm = surface
             .mesh_nodes
@@ -68,4 +63,12 @@ impl FlankSurface {
         let first = first.min(edges.len().saturating_sub(1));
         first..last.max(first + 1).min(edges.len())
     }
+}
+
+/// The edges along `chain` (from root to tip), from tip to root: the tooth of a flank at x < 0 then lies on their left.
+pub fn edges(chain: &[u32]) -> Vec<Edge> {
+    (0..chain.len() / 2)
+        .rev()
+        .map(|k| Edge { ends: [chain[2 * k + 2], chain[2 * k]], middle: Some(chain[2 * k + 1]) })
+        .collect()
 }

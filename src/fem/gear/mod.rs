@@ -2,7 +2,9 @@
 
 pub mod cycle;
 pub mod flank_surface;
+pub mod full;
 pub mod model;
+pub mod placement;
 pub mod position;
 pub mod ring;
 pub mod sector;

@@ -1,15 +1,14 @@
 //! From a gear pair to its condensed finite-element model, in two steps: mesh, condense.
 
-use nalgebra::Vector2;
-
 use super::flank_surface::FlankSurface;
 use super::position::{CondensedPair, OUTSIDE_BASE_PITCHES};
 use super::ring::{GearCompliance, Surroundings};
-use super::sector::{CondensedSector, Sector};
+use super::sector::{CondensedSector, Functional, Sector};
 use crate::fem::active_set::ActiveSetError;
 use crate::fem::elastic::{Analysis, Elastic};
 use crate::fem::equilibrium::SolveError;
 use crate::fem::solid::{Element, ElementKind, Solid};
+use crate::fem::stress::{StressComponent, StressRecovery};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::mesh::CellKind;
 use crate::mesh::tooth::{self, FlankResolution, SectorSettings, ToothMeshError, ToothSector, ToothShape};
@@ -183,6 +182,35 @@ impl MeshedGear {
         self.fine_teeth as usize * own(&self.fine) + coarse * self.coarse.as_ref().map_or(0, own)
     }
 
+    /// Nodes of both fillets, the working side's first.
+    fn fillets(&self) -> [&[u32]; 2] {
+        [&self.fine.working_fillet, &self.fine.back_fillet]
+    }
+
+    /// The stress along the surface at each node of both fillets, σ_t = t · σ t.
+    fn fillet_probes(&self, solid: &Solid, material: Elastic) -> Result<Vec<Functional>, SolveError> {
+        let materials = [material];
+        let recovery = StressRecovery::new(solid, &materials, Analysis::PlaneStrain)?;
+        let mut probes = Vec::new();
+        for fillet in self.fillets() {
+            for (k, &node) in fillet.iter().enumerate() {
+                let at = |k: usize| solid.points_mm[fillet[k] as usize];
+                let t = (at((k + 1).min(fillet.len() - 1)) - at(k.saturating_sub(1))).normalize();
+                let mut probe = Functional::new();
+                for (component, factor) in [
+                    (StressComponent::X, t.x * t.x),
+                    (StressComponent::Y, t.y * t.y),
+                    (StressComponent::Xy, 2.0 * t.x * t.y),
+                ] {
+                    let row = recovery.nodal_stress_row(node, 0, component)?;
+                    probe.extend(row.into_iter().map(|(dof, value)| (dof, factor * value)));
+                }
+                probes.push(probe);
+            }
+        }
+        Ok(probes)
+    }
+
     /// Condenses the gear onto the nodes of its working flanks.
     ///
     /// # Errors
@@ -192,7 +220,9 @@ impl MeshedGear {
         let half_angle_rad = std::f64::consts::PI / f64::from(pair.teeth[self.gear].teeth);
         let (chain, rho_mm) = self.fine.working_flank.resolved_nodes();
         let flank = FlankSurface::new(chain, rho_mm, &self.fine.points_mm, self.sharp);
-        let fine = sector(&self.fine, half_angle_rad, flank.surface.mesh_nodes.clone());
+        let mut fine = sector(&self.fine, half_angle_rad, flank.surface.mesh_nodes.clone());
+        fine.probes = self.fillet_probes(&fine.solid, material).map_err(failed)?;
+        fine.working_side_probes = self.fine.working_fillet.len();
         let fine = condense(fine, material).map_err(failed)?;
         let coarse = match &self.coarse {
             Some(coarse) => Some(condense(sector(coarse, half_angle_rad, Vec::new()), material).map_err(failed)?),
@@ -218,6 +248,7 @@ fn sector(mesh: &ToothSector, half_angle_rad: f64, candidates: Vec<u32>) -> Sect
         half_angle_rad,
         candidates,
         probes: Vec::new(),
+        working_side_probes: 0,
     }
 }
 
@@ -244,16 +275,6 @@ impl<'a> CondensedPair<'a> {
             contact_modulus_mpa: contact_modulus_mpa(material),
             gears: PerGear { pinion, wheel },
             flanks: PerGear { pinion: pinion_flank, wheel: wheel_flank },
-            working_side_probes: PerGear { pinion: 0, wheel: 0 },
-        }
-    }
-
-    /// Global coordinates of a point of the tooth of pair `pair` at `position_mm`, given in the tooth's frame.
-    pub fn in_place_mm(&self, gear: Gear, position_mm: f64, pair: i32, point_mm: Vector2<f64>) -> Vector2<f64> {
-        let turned = nalgebra::Rotation2::new(self.tooth_angle_rad(gear, position_mm, pair)) * point_mm;
-        match gear {
-            Gear::Pinion => turned,
-            Gear::Wheel => turned + Vector2::new(0.0, self.pair.spec.centre_distance_mm),
         }
     }
 }

@@ -9,12 +9,8 @@
 //!
 //! C₁, C₂: compliances of the gears on their candidate nodes; δ: transmission error, the pinion's rotation times its base
 //! radius; w: torque over base radius and face width. The wheel is held at its clamp circle, the pinion turned at its own.
-//!
-//! Frames: the pinion's axis is the origin and the wheel's lies on +y at the centre distance. Tooth j of the pinion stands
-//! at the angle ξ/r_b1 − ψ_b1 − α_w + 2πj/z1 from +y, anticlockwise; the wheel's at π + ρ2/r_b2 − ψ_b2 − α_w − 2πj/z2.
 
 use std::collections::BTreeMap;
-use std::f64::consts::{PI, TAU};
 
 use faer::Mat;
 use nalgebra::{Rotation2, Vector2};
@@ -22,6 +18,7 @@ use sprs::CsMat;
 
 use super::flank_surface::FlankSurface;
 use super::model::hertz_half_width_mm;
+use super::placement::tooth_angle_rad;
 use super::ring::{Between, GearCompliance, ToothForce};
 use crate::fem::active_set::{ActiveSetError, Condensed, Log};
 use crate::fem::contact::{mortar::Coupling, zones};
@@ -49,8 +46,6 @@ pub struct CondensedPair<'a> {
     pub gears: PerGear<GearCompliance>,
     /// Their working flanks.
     pub flanks: PerGear<FlankSurface>,
-    /// How many of each gear's probes, the first ones, lie on the working side.
-    pub working_side_probes: PerGear<usize>,
     /// E*, MPa.
     pub contact_modulus_mpa: f64,
 }
@@ -188,21 +183,9 @@ impl<'a> CondensedPair<'a> {
 
     /// Turn of the wheel tooth's frame against the pinion tooth's, and the wheel's axis in the latter.
     fn relative_frame(&self, position_mm: f64, pair: i32) -> (Rotation2<f64>, Vector2<f64>) {
-        let [pinion, wheel] = Gear::BOTH.map(|gear| self.tooth_angle_rad(gear, position_mm, pair));
+        let [pinion, wheel] = Gear::BOTH.map(|gear| tooth_angle_rad(self.pair, gear, position_mm, pair));
         let axis = Vector2::new(0.0, self.pair.spec.centre_distance_mm);
         (Rotation2::new(wheel - pinion), Rotation2::new(-pinion) * axis)
-    }
-
-    /// Angle of tooth `pair` of a gear from +y, anticlockwise.
-    pub fn tooth_angle_rad(&self, gear: Gear, position_mm: f64, pair: i32) -> f64 {
-        let tooth = &self.pair.teeth[gear];
-        let unrolled = self.pair.path.rho_mm(gear, position_mm) / tooth.involute.base_radius_mm;
-        let own = unrolled - tooth.base_half_angle_rad - self.pair.working_pressure_angle_rad;
-        let pitch = TAU / f64::from(tooth.teeth);
-        match gear {
-            Gear::Pinion => own + f64::from(pair) * pitch,
-            Gear::Wheel => PI + own - f64::from(pair) * pitch,
-        }
     }
 
     fn facing(&self, position_mm: f64, pair: i32, window: &Window) -> Option<Facing> {
@@ -341,7 +324,7 @@ impl<'a> CondensedPair<'a> {
     fn root_stress(&self, gear: Gear, forces: &[ToothForce]) -> RootStress {
         let compliance = &self.gears[gear];
         let probed = compliance.probed_mpa(compliance.teeth() / 2, forces);
-        let (working, back) = probed.split_at(self.working_side_probes[gear].min(probed.len()));
+        let (working, back) = probed.split_at(compliance.sector.sector.working_side_probes);
         RootStress {
             working_side_mpa: working.iter().copied().fold(0.0, f64::max),
             back_side_mpa: back.iter().copied().fold(0.0, f64::min),

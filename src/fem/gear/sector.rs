@@ -41,6 +41,8 @@ pub struct Sector {
     pub candidates: Vec<u32>,
     /// Stresses wanted, MPa per mm.
     pub probes: Vec<Functional>,
+    /// How many of them, the first ones, lie on the side of the working flank.
+    pub working_side_probes: usize,
 }
 
 /// A condensed sector. Candidate columns are `2 · place in candidates + component`, cut columns `2 · place + component`
