@@ -376,7 +376,6 @@ fn choices_of_a_later_version_are_refused_by_name() {
         ("pair", "face_width_mm", "face_width_mm = 14.0\nhelix_angle_deg = 10.0", "helix_angle_deg = 0"),
         ("pair.pinion", "teeth", "teeth = 16\nlead_crowning_um = 5.0", "profile_crowning_um"),
         ("numerics", "error_estimate", "[helical]\nslices = 20", "spur gears"),
-        ("numerics", "error_estimate", "[fem]\nbody = \"ring\"", "contact.surface"),
     ] {
         Case::fzg_c().with(table, key, line).refused().says(&["is not available in this version", "allowed:", allowed]);
     }

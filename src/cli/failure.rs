@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::say;
 use gearwear::fem::SolveError;
 use gearwear::pipeline::RunError;
+use gearwear::pipeline::pair_mesh::PairMeshError;
 use gearwear::report::ReportError;
 use gearwear::scene::{Problem, ProblemKind, presets};
 use miette::{Diagnostic, LabeledSpan, MietteDiagnostic, NamedSource, Report};
@@ -95,6 +96,19 @@ pub enum InputError {
     #[error("--out: {}", causes(.0))]
     #[diagnostic(help("choose a folder you may write to, or a name that is still free"))]
     Out(ReportError),
+    /// The scene's gear pair cannot be meshed as asked.
+    #[error("{}", of_mesh(.0))]
+    #[diagnostic(help("{}", mesh_help(.0)))]
+    PairMesh(#[from] PairMeshError),
+    /// The mesh file cannot be written.
+    #[error("--out: {name} cannot be written: {reason}")]
+    #[diagnostic(help("choose a folder you may write to"))]
+    MeshFile {
+        /// Name of the file.
+        name: String,
+        /// The system's reason.
+        reason: io::Error,
+    },
     /// The threads cannot be started.
     #[error("--threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
@@ -161,4 +175,20 @@ fn label(problem: &Problem) -> Option<LabeledSpan> {
         _ => format!("found {}", problem.found),
     };
     problem.span.clone().map(|span| LabeledSpan::new_primary_with_span(Some(text), span))
+}
+
+/// What is wrong with a mesh, at the option that is to blame.
+fn of_mesh(error: &PairMeshError) -> String {
+    match error {
+        PairMeshError::Position { .. } => format!("--position: {error}"),
+        _ => format!("the pair cannot be meshed: {error}"),
+    }
+}
+
+/// What to do about it.
+fn mesh_help(error: &PairMeshError) -> &'static str {
+    match error {
+        PairMeshError::Position { .. } => "positions are radii of curvature of the pinion; left out: the pitch point",
+        _ => "try other values of fem.elements_per_half_width and fem.clamp_radius_mm",
+    }
 }

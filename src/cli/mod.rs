@@ -6,6 +6,7 @@ mod fem;
 mod fem_scene;
 mod figures;
 mod init;
+mod mesh;
 mod plan;
 mod progress;
 mod run;
@@ -37,6 +38,8 @@ enum Command {
     Init(init::Args),
     /// Show the stages a scene needs, those left out, and why; runs nothing
     Plan(plan::Args),
+    /// Write the finite-element mesh of the tooth pair
+    Mesh(mesh::Args),
     /// Run the wear simulation of a scene
     Run(run::Args),
     /// Solve elastic contact with finite elements, on a mesh of one's own
@@ -59,6 +62,7 @@ pub fn main() -> ExitCode {
     let done = match &cli.command {
         Command::Init(args) => init::run(args),
         Command::Plan(args) => plan::run(args),
+        Command::Mesh(args) => mesh::run(args),
         Command::Run(args) => run::run(args),
         Command::Fem(args) => fem::run(args),
         Command::Schema(args) => schema::run(args),

@@ -77,6 +77,14 @@ impl PairSpec {
         0.5 * self.transverse_module_mm() * f64::from(self.gears[gear].teeth)
     }
 
+    /// Radius of the root circle that the rack cuts, r_f = r + x_E m_n − h_fP* m_n with the generating profile shift x_E.
+    pub fn root_radius_mm(&self, gear: Gear) -> f64 {
+        let own = &self.gears[gear];
+        let thinned_mm = own.tooth_thickness_allowance_mm / (2.0 * self.normal_pressure_angle_rad.tan());
+        let shift_mm = own.profile_shift * self.normal_module_mm + thinned_mm;
+        self.reference_radius_mm(gear) + shift_mm - self.rack.dedendum_factor * self.normal_module_mm
+    }
+
     /// Tip radius as given, or from the rack with addendum shortening: the tip keeps the clearance c* = h_fP* − h_aP*
     /// from the mate's root circle.
     pub fn tip_radius_mm(&self, gear: Gear) -> f64 {

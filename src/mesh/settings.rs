@@ -53,6 +53,14 @@ pub enum SectorSides {
     Clamped,
 }
 
+/// Body that must be left below the root circle, in normal modules.
+const LEAST_BODY_MODULES: f64 = 0.1;
+
+/// Greatest clamp radius of a gear: a tenth of a module below its root circle.
+pub fn greatest_clamp_mm(root_radius_mm: f64, normal_module_mm: f64) -> f64 {
+    root_radius_mm - LEAST_BODY_MODULES * normal_module_mm
+}
+
 /// A clamp radius chosen where none is given.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DefaultClamp {

@@ -110,7 +110,9 @@ fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
     match kind {
         StageKind::Geometry => Ok("everything that follows from the data of the pair".to_owned()),
         StageKind::FiniteElementCalibration => {
-            Err("contact and tooth stiffness are given or in closed form, no calibration file is asked for".to_owned())
+            Err("contact and tooth stiffness are given or in closed form, no calibration file is asked for; [fem] is \
+                 not used"
+                .to_owned())
         }
         StageKind::ContactMatch => contact_match(scene),
         StageKind::ToothStiffness => match scene.stiffness {

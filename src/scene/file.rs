@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::presets;
 use crate::contact::settings::{MatchCriterion, SurfaceKind};
 use crate::gear::modification::ReliefShape;
+use crate::mesh::settings::SectorSides;
 
 /// A gear pair, its load and how its wear is to be computed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -34,6 +35,9 @@ pub struct SceneFile {
     /// How far the teeth bend. Default: Weber and Banaschek.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<StiffnessFile>,
+    /// The finite-element bodies, read only where finite elements are used. Default: whole rings.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fem: Option<FemFile>,
     /// The wear law.
     pub wear: WearFile,
     /// Resolution in space and time.
@@ -273,6 +277,54 @@ pub enum StiffnessModel {
     WeberBanaschek,
     /// The single stiffness c' of ISO 6336-1.
     Iso6336,
+}
+
+/// The gear bodies as finite elements.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FemFile {
+    /// How much of each gear is meshed. Default: ring.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub body: Option<BodyKind>,
+    /// Teeth of a sector, an odd number from 1; read with body = "sector". Default 3.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 9999))]
+    pub sector_teeth: Option<u32>,
+    /// What holds the cut sides of a sector; read with body = "sector". Default: free.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sector_sides: Option<SectorSides>,
+    /// Radii in mm at which the bodies are held or turned rigidly, rim or bore.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clamp_radius_mm: Option<ClampRadiusFile>,
+    /// Elements in the half-width of contact under the whole load, 2 to 60: the resolution. Default 10.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 2, max = 60))]
+    pub elements_per_half_width: Option<f64>,
+}
+
+/// How much of a gear is meshed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum BodyKind {
+    /// All teeth; the ones that touch are resolved.
+    #[default]
+    Ring,
+    /// Some teeth, centred on the one in mesh.
+    Sector,
+}
+
+/// A clamp radius for each gear.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ClampRadiusFile {
+    /// Of the pinion in mm, > 0. Default: root radius less 2.5 normal modules, or the bore where that is larger.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub pinion: Option<f64>,
+    /// Of the wheel in mm, > 0. Default: root radius less 2.5 normal modules, or the bore where that is larger.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub wheel: Option<f64>,
 }
 
 /// The wear law: one of the two coefficients must be given.

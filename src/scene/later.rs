@@ -31,7 +31,6 @@ const CROWNING: &str = "profile_crowning_um, tip_relief, root_relief, tip_roundi
 /// What a scene of this version lacks.
 pub const SCENE: &[Later] = &[
     key("helical", SPUR_ONLY),
-    key("fem", SURFACES),
     key("mesh", "a gear pair, [pair]; gearwear fem runs a problem with a mesh of its own"),
     key("pair.pinion.lead_crowning_um", CROWNING),
     key("pair.wheel.lead_crowning_um", CROWNING),

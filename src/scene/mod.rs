@@ -18,6 +18,7 @@ use sha2::{Digest, Sha256};
 
 use crate::contact::settings::{ContactSettings, Material};
 use crate::gear::{PerGear, spec::PairSpec};
+use crate::mesh::settings::BodySettings;
 use crate::simulation::settings::{Numerics, Operation};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::wear::settings::WearSettings;
@@ -40,6 +41,8 @@ pub struct Scene {
     pub contact: ContactSettings,
     /// Tooth stiffness.
     pub stiffness: StiffnessSettings,
+    /// Bodies of finite elements, where any are used.
+    pub fem: BodySettings,
     /// Wear law.
     pub wear: WearSettings,
     /// Resolution.

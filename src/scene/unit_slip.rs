@@ -128,6 +128,8 @@ impl Search<'_> {
                     usual,
                     &[METRES],
                 );
+                let (credible, usual) = ([0.01 * z * module, 2.0 * z * module], [0.1 * z * module, 0.6 * z * module]);
+                self.judge(&format!("fem.clamp_radius_mm.{gear}"), credible, usual, &[METRES, MICROMETRES]);
             }
             // A relief of some millionths of the module does nothing; one of the whole module leaves no tooth.
             let (credible, usual) = ([0.02 * module, 1e3 * module], [0.1 * module, 50.0 * module]);
@@ -242,6 +244,7 @@ mod tests {
             ("pair.pressure_angle_deg", 0.349, 20.0),
             ("operation.pinion_torque_Nm", 302_000.0, 302.0),
             ("operation.hours", 459_900.0, 127.75),
+            ("fem.clamp_radius_mm.pinion", 0.01994, 19.94),
             ("material.young_modulus_GPa", 206_000.0, 206.0),
             ("material.young_modulus_GPa", 2.06e11, 206.0),
             ("material.density_kg_per_m3", 7.83, 7830.0),

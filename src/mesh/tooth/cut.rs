@@ -4,11 +4,10 @@
 //! are at equal shares of ∫ dr / h(r), h = min(h_0 + g (r_f − r), h_max), so that there is a whole number of elements.
 
 use super::{GREATEST_MODULES, ToothMeshError, ToothShape};
+use crate::mesh::settings::greatest_clamp_mm;
 
 /// Rate of growth along the cut.
 const GROWTH: f64 = 0.2;
-/// Body that must be left below the root circle, in modules.
-const LEAST_BODY_MODULES: f64 = 0.1;
 /// Fewest elements along the cut.
 const FEWEST: usize = 4;
 
@@ -25,7 +24,7 @@ impl Cut {
     /// The cut of a gear clamped at `clamp_radius_mm`, whose first element is to be about `first_mm` long.
     pub fn new(shape: &ToothShape, clamp_radius_mm: f64, first_mm: f64) -> Result<Self, ToothMeshError> {
         let root_mm = shape.tooth.root_radius_mm;
-        let greatest_mm = root_mm - LEAST_BODY_MODULES * shape.normal_module_mm;
+        let greatest_mm = greatest_clamp_mm(root_mm, shape.normal_module_mm);
         if !(clamp_radius_mm > 0.0 && clamp_radius_mm <= greatest_mm) {
             return Err(ToothMeshError::ClampRadius { clamp_radius_mm, greatest_mm });
         }

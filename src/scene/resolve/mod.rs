@@ -3,6 +3,7 @@
 //! In order: TOML, shape (names, types, ranges), preset, defaults and what keys say about each other, units, and last
 //! the gear pair itself. Each step reports all it finds and passes on what is sound.
 
+mod fem;
 mod geometry;
 mod operation;
 mod pair;
@@ -100,6 +101,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let contact = settings::contact(&mut file.contact, findings);
     let stiffness = settings::stiffness(&mut file.stiffness, findings);
     let wear = settings::wear(&file.wear, findings);
+    let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
     let (pair, operation) = (pair?, operation?);
     let numerics = settings::numerics(&mut file.numerics, operation.pinion_revolutions, findings);
     let title = file.title.get_or_insert_with(|| {
@@ -113,6 +115,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         operation,
         contact: contact?,
         stiffness: stiffness?,
+        fem: fem?,
         wear: wear?,
         numerics: numerics?,
     };

@@ -1,0 +1,93 @@
+//! `gearwear mesh`: the finite-element mesh of the tooth pair.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use gearwear::gear::Gear;
+use gearwear::mesh::quality::Worst;
+use gearwear::mesh::settings::{Body, SectorSides};
+use gearwear::mesh::{CellKind, Mesh};
+use gearwear::pipeline::pair_mesh::{self, PairMesh};
+use gearwear::scene::Scene;
+
+use super::failure::{Failure, InputError};
+use super::{scene_source, stdout, warn};
+
+/// Arguments of `mesh`.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The scene file; - reads standard input
+    scene: PathBuf,
+    /// The mesh file; its ending says the format
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Where the teeth touch: radius of curvature of the pinion in mm, from A to E; default: the pitch point
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    position: Option<f64>,
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let resolved = scene_source::resolve(&args.scene)?.resolved;
+    warn(&resolved.warnings);
+    let built = pair_mesh::build(&resolved.scene, args.position).map_err(InputError::from)?;
+    write(&built.mesh, &args.out)?;
+    stdout::print(&text(&resolved.scene, &built, &args.out))
+}
+
+fn write(mesh: &Mesh, path: &Path) -> Result<(), InputError> {
+    let text = serde_json::to_vec(mesh).expect("a mesh is numbers and names");
+    std::fs::write(path, text).map_err(|reason| InputError::MeshFile { name: path.display().to_string(), reason })
+}
+
+/// What was built.
+fn text(scene: &Scene, built: &PairMesh, out: &Path) -> String {
+    let mut text = format!("{}\n\n", scene.title);
+    let mut line = |name: &str, value: String| {
+        let _ = writeln!(text, "{name:18}{value}");
+    };
+    let body = match scene.fem.body {
+        Body::Ring => "whole rings".to_owned(),
+        Body::Sector { teeth, sides } => {
+            let sides = match sides {
+                SectorSides::Free => "free",
+                SectorSides::Clamped => "clamped",
+            };
+            format!("sectors of {teeth} teeth, sides {sides}")
+        }
+    };
+    let fine: Vec<String> = built.fine_teeth.iter().map(|index| index.to_string()).collect();
+    line("bodies", format!("{body}; teeth {} resolved", fine.join(", ")));
+    line("position", format!("{:.4} mm", built.position_mm));
+    for gear in Gear::BOTH {
+        let radius = scene.fem.clamp_radius_mm[gear];
+        line(&format!("{} clamp", gear.name()), format!("radius {radius:.4} mm"));
+    }
+    line(
+        "flank elements",
+        format!(
+            "{:.5} mm at the pitch point, {} in Hertz's half-width of {:.4} mm",
+            built.element_mm, scene.fem.elements_per_half_width, built.half_width_mm
+        ),
+    );
+    let nodes = built.mesh.points.len();
+    let (triangles, quads) = (built.count(CellKind::Triangle6), built.count(CellKind::Quad8));
+    line("nodes", format!("{nodes}, {} degrees of freedom", 2 * nodes));
+    line("cells", format!("{} ({triangles} six-node triangles, {quads} eight-node quadrilaterals)", triangles + quads));
+    for gear in Gear::BOTH {
+        let (fine, coarse) = (built.fine_dofs[gear], built.coarse_dofs[gear]);
+        line(&format!("{} tooth", gear.name()), format!("{fine} degrees of freedom resolved, {coarse} not"));
+    }
+    let quality = &built.quality;
+    let at = |worst: &Worst| format!("at ({:.3}, {:.3}) mm", worst.at_mm[0], worst.at_mm[1]);
+    for (name, worst, unit) in [
+        ("least angle", &quality.least_angle_deg, "°"),
+        ("greatest angle", &quality.greatest_angle_deg, "°"),
+        ("scaled Jacobian", &quality.scaled_jacobian, ""),
+        ("Jacobian ratio", &quality.jacobian_ratio, ""),
+        ("aspect ratio", &quality.aspect_ratio, ""),
+    ] {
+        line(name, format!("{:.3}{unit} {}", worst.value, at(worst)));
+    }
+    line("mesh", out.display().to_string());
+    text
+}

@@ -1,0 +1,95 @@
+//! The finite-element mesh of a scene's gear pair.
+
+use crate::contact::hertz;
+use crate::gear::{Gear, GearPair, PairError, PerGear};
+use crate::mesh::quality::{self, MeshQuality, QualityError};
+use crate::mesh::tooth::{self, ToothMeshError};
+use crate::mesh::{CellKind, Mesh};
+use crate::scene::Scene;
+
+/// A mesh and what it was made with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairMesh {
+    /// The mesh, see [`tooth::pair_mesh`].
+    pub mesh: Mesh,
+    /// How well shaped its cells are.
+    pub quality: MeshQuality,
+    /// Where the reference pair touches: radius of curvature of the pinion, mm.
+    pub position_mm: f64,
+    /// Hertz's half-width at the pitch point under the whole load, mm.
+    pub half_width_mm: f64,
+    /// Length of the flank's elements at the pitch point, mm.
+    pub element_mm: f64,
+    /// Degrees of freedom of one resolved tooth's sector.
+    pub fine_dofs: PerGear<usize>,
+    /// Degrees of freedom of a sector that is not resolved.
+    pub coarse_dofs: PerGear<usize>,
+    /// Resolved teeth.
+    pub fine_teeth: Vec<i32>,
+}
+
+/// Why there is no mesh.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PairMeshError {
+    /// The pair cannot exist.
+    #[error(transparent)]
+    Pair(#[from] PairError),
+    /// The reference pair does not touch there.
+    #[error("position {position_mm} mm is not on the path of contact: allowed are {from_mm:.4} (A) to {to_mm:.4} (E)")]
+    Position {
+        /// As given.
+        position_mm: f64,
+        /// A.
+        from_mm: f64,
+        /// E.
+        to_mm: f64,
+    },
+    /// A tooth cannot be meshed.
+    #[error(transparent)]
+    Tooth(#[from] ToothMeshError),
+    /// The mesh is no good.
+    #[error(transparent)]
+    Quality(#[from] QualityError),
+}
+
+/// Meshes the pair of `scene` in contact at `position_mm`, by default at the pitch point.
+///
+/// # Errors
+/// [`PairMeshError`]
+pub fn build(scene: &Scene, position_mm: Option<f64>) -> Result<PairMesh, PairMeshError> {
+    let pair = GearPair::new(&scene.pair)?;
+    let [from_mm, to_mm] = [pair.path.start_mm, pair.path.end_mm];
+    let position_mm = position_mm.unwrap_or_else(|| pair.path.pitch_point_mm.clamp(from_mm, to_mm));
+    // Ends are printed with four decimals and may be typed as printed.
+    let rounding_mm = 1e-4;
+    if !(position_mm >= from_mm - rounding_mm && position_mm <= to_mm + rounding_mm) {
+        return Err(PairMeshError::Position { position_mm, from_mm, to_mm });
+    }
+    let line_load_n_per_mm =
+        scene.operation.pinion_torque_n_mm / pair.path.involute.pinion.base_radius_mm / scene.pair.face_width_mm;
+    let half_width_mm = |position_mm: f64| {
+        hertz::flattening(&pair, &scene.material, position_mm).contact.loaded(line_load_n_per_mm).half_width_mm
+    };
+    let sectors = tooth::pair_sectors(&pair, &scene.fem, &half_width_mm)?;
+    let fine_teeth = tooth::touching_pairs(&pair);
+    let mesh = tooth::pair_mesh(&pair, &scene.fem, &sectors, &fine_teeth, position_mm)?;
+    let quality = quality::of_mesh(&mesh)?;
+    let at_pitch_mm = half_width_mm(pair.path.pitch_point_mm.clamp(from_mm, to_mm));
+    Ok(PairMesh {
+        mesh,
+        quality,
+        position_mm,
+        half_width_mm: at_pitch_mm,
+        element_mm: at_pitch_mm / scene.fem.elements_per_half_width,
+        fine_dofs: PerGear::from_fn(|gear: Gear| sectors.fine[gear].dofs()),
+        coarse_dofs: PerGear::from_fn(|gear: Gear| sectors.coarse[gear].dofs()),
+        fine_teeth,
+    })
+}
+
+impl PairMesh {
+    /// Cells of a kind.
+    pub fn count(&self, kind: CellKind) -> usize {
+        self.mesh.cells.iter().filter(|block| block.kind == kind).map(|block| block.len()).sum()
+    }
+}

@@ -1,0 +1,96 @@
+//! The bodies that finite elements are made of.
+
+use crate::gear::{Gear, PerGear, spec::PairSpec};
+use crate::mesh::settings::{Body, BodySettings, DefaultClamp, default_clamp, greatest_clamp_mm};
+use crate::scene::file::{BodyKind, ClampRadiusFile, FemFile};
+use crate::scene::findings::Findings;
+use crate::scene::problem::{ProblemKind, number};
+
+const ELEMENTS_PER_HALF_WIDTH: f64 = 10.0;
+/// Fewer elements in a half-width than this leave several per cent of error in the pressure.
+const FEW_ELEMENTS: f64 = 8.0;
+const SECTOR_TEETH: u32 = 3;
+
+/// Chooses what `[fem]` leaves open; a file without the table stays without it, and the bodies are the default ones.
+pub fn choose(file: &mut Option<FemFile>, pair: &PairSpec, findings: &mut Findings) -> Option<BodySettings> {
+    match file {
+        Some(file) => given(file, pair, findings),
+        None => given(&mut FemFile::default(), pair, &mut Findings::default()),
+    }
+}
+
+fn given(file: &mut FemFile, pair: &PairSpec, findings: &mut Findings) -> Option<BodySettings> {
+    let body = body(file, pair, findings);
+    let radii = file.clamp_radius_mm.get_or_insert_default();
+    let clamp_radius_mm = clamp_radii(radii, pair, findings);
+    let elements_per_half_width = *file.elements_per_half_width.get_or_insert(ELEMENTS_PER_HALF_WIDTH);
+    if elements_per_half_width < FEW_ELEMENTS {
+        findings.warnings.push(format!(
+            "fem.elements_per_half_width = {}: fewer than {FEW_ELEMENTS} elements in a half-width resolve the pressure poorly",
+            number(elements_per_half_width)
+        ));
+    }
+    Some(BodySettings { body: body?, clamp_radius_mm: clamp_radius_mm?, elements_per_half_width })
+}
+
+fn body(file: &mut FemFile, pair: &PairSpec, findings: &mut Findings) -> Option<Body> {
+    match *file.body.get_or_insert_default() {
+        BodyKind::Ring => {
+            for (key, given) in
+                [("fem.sector_teeth", file.sector_teeth.is_some()), ("fem.sector_sides", file.sector_sides.is_some())]
+            {
+                if given {
+                    findings.warnings.push(format!("{key} is not used: only fem.body = \"sector\" has cut sides"));
+                }
+            }
+            Some(Body::Ring)
+        }
+        BodyKind::Sector => {
+            let teeth = *file.sector_teeth.get_or_insert(SECTOR_TEETH);
+            let sides = *file.sector_sides.get_or_insert_default();
+            let most = Gear::BOTH.map(|gear| pair.gears[gear].teeth).into_iter().fold(u32::MAX, u32::min);
+            if teeth % 2 == 0 || teeth > most {
+                let allowed = format!("an odd number of teeth, at most {most} (those of the smaller gear)");
+                findings.problem(ProblemKind::NotAllowed, "fem.sector_teeth", teeth.to_string(), allowed);
+                return None;
+            }
+            Some(Body::Sector { teeth, sides })
+        }
+    }
+}
+
+fn clamp_radii(file: &mut ClampRadiusFile, pair: &PairSpec, findings: &mut Findings) -> Option<PerGear<f64>> {
+    let pinion = clamp_radius(&mut file.pinion, Gear::Pinion, pair, findings);
+    let wheel = clamp_radius(&mut file.wheel, Gear::Wheel, pair, findings);
+    Some(PerGear { pinion: pinion?, wheel: wheel? })
+}
+
+fn clamp_radius(given: &mut Option<f64>, gear: Gear, pair: &PairSpec, findings: &mut Findings) -> Option<f64> {
+    let key = format!("fem.clamp_radius_mm.{}", gear.name());
+    let root_mm = pair.root_radius_mm(gear);
+    let bore_mm = pair.gears[gear].bore_diameter_mm.map_or(0.0, |diameter| 0.5 * diameter);
+    let greatest_mm = greatest_clamp_mm(root_mm, pair.normal_module_mm);
+    let Some(radius_mm) = *given else {
+        let DefaultClamp { radius_mm, small_gear } = default_clamp(root_mm, pair.normal_module_mm);
+        // A body ends at its bore.
+        let radius_mm = radius_mm.max(bore_mm).min(greatest_mm);
+        if small_gear && bore_mm == 0.0 {
+            findings.warnings.push(format!(
+                "{key} = {radius_mm:.4}: the {} is too small for 2.5 modules of body below its root circle ({root_mm:.4} mm)",
+                gear.name()
+            ));
+        }
+        *given = Some(radius_mm);
+        return Some(radius_mm);
+    };
+    // A gear without root circle is refused as such.
+    if root_mm > 0.0 && (radius_mm > greatest_mm || radius_mm < bore_mm) {
+        let least =
+            if bore_mm > 0.0 { format!("at least {bore_mm:.4} (the bore)") } else { "greater than 0".to_owned() };
+        let allowed =
+            format!("a radius {least} and at most {greatest_mm:.4}, a tenth of a module below the root circle");
+        findings.problem(ProblemKind::NotAllowed, &key, number(radius_mm), allowed);
+        return None;
+    }
+    Some(radius_mm)
+}

@@ -1,0 +1,146 @@
+//! `gearwear mesh` and the scene's `[fem]` table.
+
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+use gearwear::mesh::Mesh;
+use gearwear::mesh::settings::{Body, SectorSides};
+use gearwear::scene::{Scene, presets};
+use predicates::prelude::*;
+
+/// The fzg-c scene with a `[fem]` table.
+fn scene(fem: &str) -> String {
+    format!("{}\n[fem]\n{fem}\n", presets::find("fzg-c").unwrap().text)
+}
+
+fn gearwear(folder: &Path, scene: &str, out: &str, more: &[&str]) -> assert_cmd::assert::Assert {
+    let mut command = Command::cargo_bin("gearwear").unwrap();
+    command.current_dir(folder).args(["mesh", "-", "--out", out]).args(more).write_stdin(scene.to_owned()).assert()
+}
+
+#[test]
+fn a_scene_without_fem_gets_the_default_bodies() {
+    let resolved = Scene::from_toml(presets::find("fzg-c").unwrap().text).unwrap();
+    assert_eq!(resolved.file.fem, None);
+    let fem = resolved.scene.fem;
+    assert_eq!(fem.body, Body::Ring);
+    assert_eq!(fem.elements_per_half_width, 10.0);
+    // Root radii less 2.5 modules: 36 + 0.1817·4.5 − 5.625 − 11.25 and 54 + 0.1715·4.5 − 5.625 − 11.25 mm.
+    assert!((fem.clamp_radius_mm.pinion - 19.94265).abs() < 1e-9, "{fem:?}");
+    assert!((fem.clamp_radius_mm.wheel - 37.89675).abs() < 1e-9, "{fem:?}");
+}
+
+#[test]
+fn the_table_is_resolved_and_resolves_to_itself() {
+    let text = scene(
+        "body = \"sector\"\nsector_sides = \"clamped\"\nclamp_radius_mm = { wheel = 30 }\nelements_per_half_width = 12.5",
+    );
+    let resolved = Scene::from_toml(&text).unwrap();
+    assert_eq!(resolved.warnings, [""; 0]);
+    let fem = resolved.scene.fem;
+    assert_eq!(fem.body, Body::Sector { teeth: 3, sides: SectorSides::Clamped });
+    assert_eq!((fem.clamp_radius_mm.wheel, fem.elements_per_half_width), (30.0, 12.5));
+    let again = Scene::from_toml(&resolved.to_toml()).unwrap();
+    assert_eq!((again.scene, again.file), (resolved.scene, resolved.file));
+}
+
+#[test]
+fn settings_that_change_nothing_or_little_are_warned_of() {
+    for (fem, warning) in [
+        ("elements_per_half_width = 4", "fewer than 8 elements"),
+        ("sector_teeth = 5", "fem.sector_teeth is not used"),
+        ("sector_sides = \"free\"", "fem.sector_sides is not used"),
+        ("clamp_radius_mm = { pinion = 0.01994 }", "did you mean 19.94? (m given for mm)"),
+    ] {
+        let warnings = Scene::from_toml(&scene(fem)).unwrap().warnings;
+        assert!(warnings.iter().any(|w| w.contains(warning)), "{fem}: {warnings:?}");
+    }
+}
+
+#[test]
+fn a_small_gear_gets_a_smaller_body_with_a_warning() {
+    // r_f = 0.5·6·1 + 0.8 − 1.25 = 2.55 mm: 2.5 modules less leave 0.05 mm, so 0.4 of it are taken.
+    let text = "[pair]\nnormal_module_mm = 1.0\npressure_angle_deg = 25.0\ncentre_distance_mm = 24.0\nface_width_mm = 10.0\n\
+                [pair.pinion]\nteeth = 6\nprofile_shift = 0.6\ntip_diameter_mm = 8.4\n\
+                [pair.wheel]\nteeth = 40\nprofile_shift = 0.4\n\
+                [fem]\n[operation]\npinion_torque_Nm = 1.0\npinion_revolutions = 1000\n\
+                [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n";
+    let resolved = Scene::from_toml(text).unwrap_or_else(|problems| panic!("{problems:?}"));
+    let root = 3.0 + 0.6 - 1.25;
+    assert!((resolved.scene.fem.clamp_radius_mm.pinion - 0.4 * root).abs() < 1e-12);
+    assert!(resolved.warnings.iter().any(|w| w.contains("the pinion is too small")), "{:?}", resolved.warnings);
+}
+
+#[test]
+fn what_is_wrong_with_the_table_is_said_with_what_is_allowed() {
+    for (fem, says) in [
+        ("body = \"cube\"", "\"ring\", \"sector\""),
+        ("body = \"sector\"\nsector_teeth = 4", "an odd number of teeth, at most 16"),
+        ("body = \"sector\"\nsector_teeth = 17", "an odd number of teeth, at most 16"),
+        ("elements_per_half_width = 1", "at least 2 and at most 60"),
+        ("elements_per_half_width = 61", "at least 2 and at most 60"),
+        ("clamp_radius_mm = { pinion = 31.0 }", "at most 30.7427"),
+        ("clamp_radius_mm = { pinion = 0.0 }", "greater than 0"),
+        ("clamp_radius = 20", "unknown key fem.clamp_radius"),
+    ] {
+        let problems = Scene::from_toml(&scene(fem)).unwrap_err();
+        let text: String = problems.iter().map(|problem| problem.to_string()).collect();
+        assert!(problems.len() == 1 && text.contains(says), "{fem}: {problems:?}");
+    }
+}
+
+#[test]
+fn a_run_does_not_use_the_table() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = Command::cargo_bin("gearwear").unwrap();
+    command.current_dir(folder.path()).args(["plan", "-"]).write_stdin(scene("body = \"ring\"")).assert().success();
+    let mut command = Command::cargo_bin("gearwear").unwrap();
+    let assert = command.args(["plan", "-"]).write_stdin(scene("body = \"ring\"")).assert().success();
+    assert.stdout(predicate::str::contains("[fem] is not used"));
+}
+
+#[test]
+fn the_mesh_is_written_and_described() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = scene("body = \"sector\"\nsector_teeth = 3\nelements_per_half_width = 8");
+    let assert = gearwear(folder.path(), &text, "pair.json", &["--position", "13.0"]).success().stderr("");
+    assert
+        .stdout(predicate::str::contains("sectors of 3 teeth, sides free").and(predicate::str::contains("13.0000 mm")))
+        .stdout(predicate::str::contains("least angle").and(predicate::str::contains("degrees of freedom")));
+    let mesh: Mesh = serde_json::from_slice(&fs::read(folder.path().join("pair.json")).unwrap()).unwrap();
+    for set in [
+        "pinion",
+        "wheel",
+        "pinion-flanks",
+        "wheel-fillets",
+        "pinion-tips",
+        "wheel-clamp",
+        "pinion-sides",
+        "wheel-flank-0",
+        "pinion-flank+1",
+        "pinion-flank-1",
+    ] {
+        assert!(mesh.cell_sets.contains_key(set), "{set}: {:?}", mesh.cell_sets.keys());
+    }
+}
+
+#[test]
+fn a_position_off_the_path_is_refused_with_what_is_allowed() {
+    let folder = tempfile::tempdir().unwrap();
+    for position in ["4.0", "-1", "24", "nan"] {
+        // A and E of fzg-c: 4.4723 and 23.5695 mm, ISO 21771 on the data of ISO 14635-1.
+        gearwear(folder.path(), &scene(""), "pair.json", &["--position", position])
+            .code(2)
+            .stderr(predicate::str::contains("--position").and(predicate::str::contains("(A) to")));
+    }
+    assert!(!folder.path().join("pair.json").exists());
+}
+
+#[test]
+fn a_mesh_file_that_cannot_be_written_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    gearwear(folder.path(), &scene("body = \"sector\"\nelements_per_half_width = 8"), "nowhere/pair.json", &[])
+        .code(2)
+        .stderr(predicate::str::contains("--out"));
+}
