@@ -25,4 +25,5 @@ pub mod scene;
 pub mod simulation;
 pub mod stiffness;
 pub mod wear;
+mod whole_file;
 pub mod working_cycle;

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use super::elastic::Analysis;
 use super::problem::{Problem, Stop, Work};
+use crate::mesh::quality::MeshQuality;
 use crate::simulation::record::StageTime;
 
 /// A solved problem.
@@ -24,7 +25,7 @@ pub struct FemRecord {
     pub bodies: Vec<String>,
     /// Displacement [x, y] of every node, mm.
     pub displacement_mm: Vec<[f64; 2]>,
-    /// Stress of every node, smoothed within its body.
+    /// Stress of every node: the mean over the elements of its body, and over bodies that are joined there.
     pub stress: Vec<NodalStress>,
     /// The pressure along each contact, in the order of the summary.
     pub contacts: Vec<ContactCurve>,
@@ -78,6 +79,8 @@ pub struct MeshSummary {
     pub hash: String,
     /// Nodes that belong to a body.
     pub nodes: usize,
+    /// Its worst elements.
+    pub quality: Option<MeshQuality>,
 }
 
 /// What one contact came to.

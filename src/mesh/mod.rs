@@ -2,21 +2,35 @@
 //! cells, named sets.
 //!
 //! A mesh says nothing of materials or loads. Coordinates are in mm. Node numbers count from 0. Everything is kept in the
-//! order read, names included, so that reading what was written gives the same mesh bit for bit.
+//! order read, names included, so that reading what was written gives the same mesh bit for bit. Sets are ascending and
+//! name nothing twice ([`Mesh::check`]).
+//!
+//! [`read`] and [`write`] take files of the formats that [`mod@file`] lists.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+pub mod abaqus;
 mod cell_kind;
+pub mod check;
+pub mod error;
+pub mod file;
+pub mod gmsh;
+mod json;
+mod numbering;
+pub mod vtu;
 pub mod quality;
 pub mod settings;
 pub mod tooth;
 
 pub use cell_kind::CellKind;
+pub use error::MeshFileError;
+pub use file::{Format, from_bytes, read, to_bytes, write, write_as};
 
 /// A mesh.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Mesh {
     /// Coordinates of the nodes, mm; plane meshes have z = 0.
     pub points: Vec<[f64; 3]>,
@@ -60,12 +74,12 @@ pub struct DataArray {
 
 /// Numbers with their type, so that integers stay integers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(rename_all = "lowercase")]
 pub enum Values {
     /// Integers.
     Integers(Vec<i64>),
     /// Floating-point numbers.
-    Reals(Vec<f64>),
+    Reals(#[serde(with = "json::reals")] Vec<f64>),
 }
 
 /// The tag of a physical group, unique within its dimension.

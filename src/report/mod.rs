@@ -16,13 +16,14 @@ pub mod summary;
 pub mod tables;
 
 use std::fs;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
 use crate::gear::Gear;
 use crate::simulation::record::{RunRecord, Summary};
+use crate::whole_file;
 
 /// What keeps a report from being written.
 #[derive(Debug, thiserror::Error)]
@@ -106,27 +107,8 @@ fn create_folder(dir: &Path) -> Result<(), ReportError> {
 /// Writes `dir/name` with `fill`, whole or not at all.
 fn place(dir: &Path, name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<PathBuf, ReportError> {
     let path = dir.join(name);
-    let written = || -> io::Result<()> {
-        let mut file = temporary(dir)?;
-        let mut out = BufWriter::new(file.as_file_mut());
-        fill(&mut out)?;
-        out.flush()?;
-        drop(out);
-        file.as_file().sync_all()?;
-        file.persist(&path)?;
-        Ok(())
-    };
-    match written() {
+    match whole_file::write(&path, fill) {
         Ok(()) => Ok(path),
         Err(source) => Err(ReportError::WriteFile { path, source }),
     }
-}
-
-/// A temporary file in `dir` with the permissions of an ordinary new file (the umask applies).
-fn temporary(dir: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".gearwear-");
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(dir)
 }

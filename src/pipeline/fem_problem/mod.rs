@@ -7,7 +7,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use crate::fem::{self, SolveError, record::FemRecord};
-use crate::mesh::Mesh;
+use crate::mesh::{self, Format, MeshFileError};
 use crate::scene::Problem;
 use crate::scene::fem_problem::FemProblem;
 use crate::scene::short_hash;
@@ -50,15 +50,25 @@ pub fn run(problem: &FemProblem, folder: &Path, told: &dyn Fn(&str)) -> Result<F
     let unreadable = |reason: String| FemProblemError::Input(problem.mesh_unreadable(&reason));
     let (mesh, mesh_hash) = stages.run("mesh", || -> Result<_, FemProblemError> {
         let path = folder.join(&problem.file.mesh.file);
-        let bytes = std::fs::read(&path).map_err(|error| unreadable(error.to_string()))?;
-        let mesh: Mesh = serde_json::from_slice(&bytes).map_err(|error| unreadable(error.to_string()))?;
+        let unreadable = |error: MeshFileError| unreadable(with_causes(&error));
+        let format = Format::of_path(&path).map_err(unreadable)?;
+        let read = std::fs::read(&path).map_err(|source| MeshFileError::Read { path: path.clone(), source });
+        let bytes = read.map_err(unreadable)?;
+        let content = |fault| MeshFileError::Content { path: path.clone(), fault: Box::new(fault) };
+        let mesh = mesh::from_bytes(format, &bytes).map_err(content).map_err(unreadable)?;
         Ok((mesh, short_hash(&bytes)))
     })?;
     let posed = stages.run("problem", || problem.on(&mesh)).map_err(FemProblemError::Input)?;
     let solution = stages.run("solution", || fem::solve(&posed.problem))?;
-    let stress = stages.run("stresses", || recording::nodal_stress(&posed.problem, &solution));
+    let stress = stages.run("stresses", || recording::nodal_stress(&posed.problem, &solution)).map_err(SolveError::from)?;
     let mut record = recording::record(problem, posed, &solution, stress, mesh_hash);
     record.summary.stages = stages.times;
     record.summary.wall_s = start.elapsed().as_secs_f64();
     Ok(record)
+}
+
+/// An error with everything that led to it, on one line.
+fn with_causes(error: &dyn std::error::Error) -> String {
+    let chain = std::iter::successors(error.source(), |cause| cause.source());
+    chain.fold(error.to_string(), |text, cause| format!("{text}: {cause}"))
 }

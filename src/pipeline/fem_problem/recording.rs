@@ -3,9 +3,11 @@
 use nalgebra::Vector2;
 
 use super::hertz_comparison::{self, Patch};
+use crate::fem::element::ElementError;
 use crate::fem::problem::{ContactPair, ContactState, Problem, Solution};
 use crate::fem::record::{ContactCurve, ContactRow, ContactSummary, FemRecord, FemSummary, MeshSummary, NodalStress};
-use crate::fem::shape::{Shape, reference_nodes};
+use crate::fem::stress::{self, StressRecovery};
+use crate::mesh::quality;
 use crate::scene::fem_problem::{FemProblem, Posed};
 
 const UM_PER_MM: f64 = 1e3;
@@ -52,6 +54,7 @@ pub fn record(
             file: problem.file.mesh.file.clone(),
             hash: mesh_hash,
             nodes: solved.solid.points_mm.len(),
+            quality: quality::of_mesh(&solved.solid.to_mesh()).ok(),
         },
         analysis: solved.analysis,
         stopped: solution.stop,
@@ -197,36 +200,28 @@ fn contact_warning(number: usize, contact: &ContactSummary) -> Option<String> {
     }
 }
 
-/// Stress of every node: the mean over its elements.
-pub fn nodal_stress(problem: &Problem, solution: &Solution) -> Vec<NodalStress> {
-    let mut sum = vec![[0.0; 4]; problem.solid.points_mm.len()];
-    let mut count = vec![0.0; sum.len()];
-    for element in &problem.solid.elements {
-        let nodes = element.nodes();
-        let points: Vec<Vector2<f64>> = nodes.iter().map(|&node| problem.solid.points_mm[node as usize]).collect();
-        let material = problem.materials[usize::from(element.material)];
-        let stiffness = material.stiffness_mpa(problem.analysis);
-        for (place, &node) in reference_nodes(element.kind).iter().zip(nodes) {
-            let (gradients, _) = Shape::at(element.kind, *place).gradients(&points);
-            let mut strain = nalgebra::Vector3::zeros();
-            for (gradient, &other) in gradients.iter().zip(nodes) {
-                let [u, v] = [0, 1].map(|c| solution.displacement_mm[2 * other as usize + c]);
-                strain += nalgebra::Vector3::new(gradient[0] * u, gradient[1] * v, gradient[1] * u + gradient[0] * v);
-            }
-            let stress = stiffness * strain;
-            let across = material.across_mpa(problem.analysis, stress.x, stress.y);
-            for (sum, value) in sum[node as usize].iter_mut().zip([stress.x, stress.y, across, stress.z]) {
-                *sum += value;
-            }
-            count[node as usize] += 1.0;
-        }
+/// Stress of every node: the mean over the bodies that are joined there.
+///
+/// # Errors
+/// An element that is none; the solver would have found it first.
+pub fn nodal_stress(problem: &Problem, solution: &Solution) -> Result<Vec<NodalStress>, ElementError> {
+    let recovery = StressRecovery::new(&problem.solid, &problem.materials, problem.analysis)?;
+    let found = recovery.nodal_stresses(&solution.displacement_mm)?;
+    Ok(found.chunk_by(|a, b| a.node == b.node).map(mean_stress).collect())
+}
+
+fn mean_stress(of_bodies: &[stress::NodalStress]) -> NodalStress {
+    let first = of_bodies[0];
+    let mean = |value: fn(&stress::NodalStress) -> f64| of_bodies.iter().map(value).sum::<f64>() / of_bodies.len() as f64;
+    let mean = stress::NodalStress {
+        sigma_x_mpa: mean(|s| s.sigma_x_mpa),
+        sigma_y_mpa: mean(|s| s.sigma_y_mpa),
+        tau_xy_mpa: mean(|s| s.tau_xy_mpa),
+        sigma_z_mpa: mean(|s| s.sigma_z_mpa),
+        ..first
+    };
+    NodalStress {
+        components_MPa: [mean.sigma_x_mpa, mean.sigma_y_mpa, mean.sigma_z_mpa, mean.tau_xy_mpa],
+        von_mises_MPa: mean.von_mises_mpa(),
     }
-    sum.into_iter()
-        .zip(count)
-        .map(|(sum, count)| {
-            let [x, y, z, xy] = sum.map(|sum| sum / count);
-            let von_mises_mpa = (0.5 * ((x - y).powi(2) + (y - z).powi(2) + (z - x).powi(2)) + 3.0 * xy * xy).sqrt();
-            NodalStress { components_MPa: [x, y, z, xy], von_mises_MPa: von_mises_mpa }
-        })
-        .collect()
 }

@@ -70,10 +70,8 @@ fn check_cells(mesh: &Mesh, findings: &mut Findings) {
     if !solids.is_empty() {
         findings.problem(ProblemKind::NotAllowed, "mesh.file", format!("solid cells: {}", solids.join(", ")), plane);
     }
-    let outside = mesh.cells.iter().flat_map(|block| &block.nodes).find(|&&node| node >= mesh.points.len());
-    if let Some(node) = outside {
-        let found = format!("a cell with node {}, of {} nodes", node + 1, mesh.points.len());
-        findings.problem(ProblemKind::NotAllowed, "mesh.file", found, "cells whose nodes the mesh has");
+    if let Err(inconsistency) = mesh.check() {
+        findings.problem(ProblemKind::NotAllowed, "mesh.file", inconsistency.to_string(), "a mesh without contradictions");
     }
     if u32::try_from(mesh.points.len()).is_err() {
         let found = format!("{} nodes", mesh.points.len());
@@ -123,7 +121,7 @@ fn warn_of_leftovers(mesh: &Mesh, owner: &[Vec<Option<u16>>], findings: &mut Fin
     let left = surfaces.flat_map(|(_, owner)| owner).filter(|owner| owner.is_none()).count();
     if left > 0 {
         let elements = if left == 1 { "element belongs" } else { "elements belong" };
-        findings.warnings.push(format!("{left} {elements} to no [[body]] and are left out"));
+        findings.warnings.push(format!("{left} {elements} to no [[body]]: left out"));
     }
 }
 
@@ -174,8 +172,7 @@ fn element_kind(kind: CellKind) -> Option<ElementKind> {
 fn check_plane(mesh: &Mesh, meshed: &Meshed, findings: &mut Findings) {
     let extent = meshed.solid.points_mm.iter().fold(0.0, |extent: f64, p| extent.max(p.amax()));
     let off = |(node, point): &(usize, &[f64; 3])| {
-        let finite = point.iter().all(|x| x.is_finite());
-        meshed.node(*node).is_some() && !(finite && point[2].abs() <= FLAT * extent)
+        meshed.node(*node).is_some() && point[2].abs() > FLAT * extent
     };
     if let Some((node, [x, y, z])) = mesh.points.iter().enumerate().find(off) {
         let found = format!("node {} at x = {}, y = {}, z = {}", node + 1, number(*x), number(*y), number(*z));

@@ -1,7 +1,4 @@
 //! Supports, given displacements and forces, on the nodes of their groups.
-//!
-//! A force F over lines of total length ℓ is the uniform traction F/ℓ; its share at a node is ∫ N F/ℓ ds with the side's own
-//! shape function N. Middle nodes of straight sides get 2/3 of the side's share, its ends 1/6.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,13 +6,10 @@ use nalgebra::Vector2;
 
 use super::file::{Component, FemProblemFile, LoadFile};
 use super::groups::Place;
+use crate::fem::loads::add_spread_force;
 use crate::fem::problem::{Edge, Held};
 use crate::scene::findings::Findings;
 use crate::scene::problem::{ProblemKind, number};
-
-/// Gauss points and weights on [−1, 1], exact to degree 5.
-const GAUSS: [(f64, f64); 3] =
-    [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
 
 /// Given displacements by degree of freedom, each with the table that gives it.
 struct Given<'a> {
@@ -161,49 +155,8 @@ fn shares(load: &LoadFile, key: &str, place: Place<'_>, findings: &mut Findings)
         findings.problem(ProblemKind::NotAllowed, key, found, "lines along the elements of a body");
         return None;
     };
-    let mut shares: BTreeMap<u32, f64> = BTreeMap::new();
-    for edge in sides.values() {
-        for (node, length_mm) in lengths_mm(edge, &place.meshed.solid.points_mm) {
-            *shares.entry(node).or_default() += length_mm;
-        }
-    }
-    let total: f64 = shares.values().sum();
-    shares.values_mut().for_each(|share| *share /= total);
-    Some(shares)
-}
-
-/// ∫ N ds over a side for each of its nodes: together its length.
-fn lengths_mm(edge: &Edge, points_mm: &[Vector2<f64>]) -> Vec<(u32, f64)> {
-    let at = |node: u32| points_mm[node as usize];
-    let [first, last] = edge.ends;
-    let Some(middle) = edge.middle else {
-        let half = 0.5 * (at(last) - at(first)).norm();
-        return vec![(first, half), (last, half)];
-    };
-    let mut shares = [(first, 0.0), (last, 0.0), (middle, 0.0)];
-    for (xi, weight) in GAUSS {
-        let values = [0.5 * xi * (xi - 1.0), 0.5 * xi * (xi + 1.0), 1.0 - xi * xi];
-        let slopes = [xi - 0.5, xi + 0.5, -2.0 * xi];
-        let tangent: Vector2<f64> = shares.iter().zip(slopes).map(|((node, _), slope)| at(*node) * slope).sum();
-        for ((_, share), value) in shares.iter_mut().zip(values) {
-            *share += weight * value * tangent.norm();
-        }
-    }
-    shares.to_vec()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Of a straight side of length 3: 1/6, 1/6 and 2/3 of it; of two nodes, halves. Simpson's rule.
-    #[test]
-    fn ver_shares_of_a_straight_side() {
-        let points = [(0.0, 0.0), (0.0, 3.0), (0.0, 1.5)].map(|(x, y)| Vector2::new(x, y));
-        let quadratic = lengths_mm(&Edge { ends: [0, 1], middle: Some(2) }, &points);
-        for ((_, share), expected) in quadratic.into_iter().zip([0.5, 0.5, 2.0]) {
-            assert!((share - expected).abs() < 1e-14, "{share} instead of {expected}");
-        }
-        assert_eq!(lengths_mm(&Edge { ends: [0, 1], middle: None }, &points), [(0, 1.5), (1, 1.5)]);
-    }
+    let edges: Vec<Edge> = sides.into_values().collect();
+    let mut unit = vec![0.0; place.meshed.solid.dofs()];
+    add_spread_force(&place.meshed.solid, &edges, Vector2::x(), &mut unit);
+    Some(edges.iter().flat_map(|edge| edge.nodes()).map(|node| (node, unit[2 * node as usize])).collect())
 }

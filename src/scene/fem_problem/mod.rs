@@ -94,7 +94,7 @@ impl FemProblem {
     pub fn mesh_unreadable(&self, reason: &str) -> Vec<Problem> {
         match text::parse(&self.text) {
             Ok((_, mut findings)) => {
-                let allowed = "a mesh file beside this one: Gmsh 4.1 or 2.2 (.msh), VTU or Abaqus (.inp)";
+                let allowed = "a mesh file beside this one: Gmsh 4.1 or 2.2 (.msh), VTU (.vtu) or Abaqus (.inp)";
                 findings.problem(ProblemKind::NotAllowed, "mesh.file", reason, allowed);
                 findings.in_order()
             }

@@ -1,0 +1,76 @@
+//! Values on their way into a Gmsh file, as text or as bytes.
+
+use std::io::Write;
+
+use super::GmshEncoding;
+
+/// The file so far.
+#[derive(Debug)]
+pub struct Output {
+    bytes: Vec<u8>,
+    binary: bool,
+}
+
+impl Output {
+    /// An empty file.
+    pub fn new(encoding: GmshEncoding) -> Self {
+        Self { bytes: Vec::new(), binary: encoding == GmshEncoding::Binary }
+    }
+
+    /// The content of the file.
+    pub fn into_bytes(self) -> Vec<u8> {
+        self.bytes
+    }
+
+    /// Whether numbers are bytes.
+    pub fn is_binary(&self) -> bool {
+        self.binary
+    }
+
+    /// A line of text, in binary files too.
+    pub fn line(&mut self, line: impl std::fmt::Display) {
+        // Writing into memory does not fail.
+        let _ = writeln!(self.bytes, "{line}");
+    }
+
+    fn number(&mut self, text: impl std::fmt::Display, raw: &[u8]) {
+        if self.binary {
+            self.bytes.extend_from_slice(raw);
+            return;
+        }
+        if self.bytes.last().is_some_and(|&last| last != b'\n') {
+            self.bytes.push(b' ');
+        }
+        let _ = write!(self.bytes, "{text}");
+    }
+
+    /// An `int`; the writer has checked that there are no more nodes, cells and tags than it can count.
+    pub fn int(&mut self, value: i64) {
+        self.number(value, &(value as i32).to_le_bytes());
+    }
+
+    /// A `size_t` of eight bytes.
+    pub fn size(&mut self, value: usize) {
+        self.number(value, &(value as u64).to_le_bytes());
+    }
+
+    /// A `double`; as text the shortest decimal that reads back as the same bits.
+    pub fn real(&mut self, value: f64) {
+        self.number(format_args!("{value:?}"), &value.to_le_bytes());
+    }
+
+    /// The end of a line of numbers, where they are text.
+    pub fn end_line(&mut self) {
+        if !self.binary {
+            self.bytes.push(b'\n');
+        }
+    }
+
+    /// The end of a section of numbers: in a binary file too it closes on a line of its own.
+    pub fn end_section(&mut self, section: &str) {
+        if self.binary {
+            self.bytes.push(b'\n');
+        }
+        self.line(format_args!("$End{section}"));
+    }
+}

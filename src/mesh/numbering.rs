@@ -1,0 +1,186 @@
+//! What the readers share: the numbers that files give to nodes and elements, the allowance of entries, sets under
+//! construction.
+
+use std::collections::BTreeMap;
+
+use super::error::{LARGEST_EXPANSION, Problem};
+use super::{CellBlock, CellKind, DataArray, Values};
+
+/// Numbers of a file, in any order and with any gaps, to our own that count from 0.
+#[derive(Debug, Default)]
+pub(super) struct Numbering {
+    /// (number in the file, our own), ascending.
+    pairs: Vec<(u64, usize)>,
+}
+
+impl Numbering {
+    /// From pairs in any order; no number may occur twice.
+    pub fn new(mut pairs: Vec<(u64, usize)>, what: &'static str) -> Result<Self, Problem> {
+        if !pairs.is_sorted() {
+            pairs.sort_unstable();
+        }
+        match pairs.windows(2).find(|pair| pair[0].0 == pair[1].0) {
+            Some(pair) => Err(Problem::Twice { what, number: pair[0].0 }),
+            None => Ok(Self { pairs }),
+        }
+    }
+
+    /// Our own number of what the file calls `number`.
+    pub fn index(&self, number: u64) -> Option<usize> {
+        let (first, _) = *self.pairs.first()?;
+        // Numbers without gaps are the rule: then the place is known at once.
+        let guess = usize::try_from(number.checked_sub(first)?).ok()?;
+        if let Some(&(found, index)) = self.pairs.get(guess)
+            && found == number
+        {
+            return Some(index);
+        }
+        let at = self.pairs.binary_search_by_key(&number, |pair| pair.0).ok()?;
+        Some(self.pairs[at].1)
+    }
+
+    /// Those within `first ..= last`, ascending in the file's numbers.
+    pub fn range(&self, first: u64, last: u64) -> &[(u64, usize)] {
+        let from = self.pairs.partition_point(|pair| pair.0 < first);
+        let to = self.pairs.partition_point(|pair| pair.0 <= last);
+        self.pairs.get(from..to).unwrap_or_default()
+    }
+}
+
+/// How many more entries of sets and data a file may ask for.
+#[derive(Debug)]
+pub(super) struct Allowance {
+    left: u64,
+    limit: u64,
+}
+
+impl Allowance {
+    /// For a file of `bytes`; small files get by in any case.
+    pub fn of(bytes: usize) -> Self {
+        const LEAST: u64 = 10_000;
+        let limit = (bytes as u64).saturating_mul(LARGEST_EXPANSION).max(LEAST);
+        Self { left: limit, limit }
+    }
+
+    /// Takes `entries` off, if they are still allowed.
+    pub fn take(&mut self, entries: usize) -> Result<(), Problem> {
+        self.left = self.left.checked_sub(entries as u64).ok_or(Problem::TooLarge { limit: self.limit })?;
+        Ok(())
+    }
+}
+
+/// Blocks of cells while a file is read: cells in the order of the file, a new block wherever the kind changes.
+#[derive(Debug, Default)]
+pub(super) struct CellList {
+    /// The blocks so far.
+    pub blocks: Vec<CellBlock>,
+    /// Number of the first cell of each block, counted over all blocks.
+    starts: Vec<usize>,
+    count: usize,
+}
+
+impl CellList {
+    /// Cells so far.
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Begins a new block, also where the kind stays.
+    pub fn begin(&mut self, kind: CellKind) {
+        self.starts.push(self.count);
+        self.blocks.push(CellBlock { kind, nodes: Vec::new() });
+    }
+
+    /// Adds a cell, in a new block if its kind is not that of the last; returns its number over all blocks.
+    pub fn push(&mut self, kind: CellKind, nodes: impl IntoIterator<Item = usize>) -> usize {
+        if self.blocks.last().is_none_or(|block| block.kind != kind) {
+            self.begin(kind);
+        }
+        if let Some(block) = self.blocks.last_mut() {
+            block.nodes.extend(nodes);
+        }
+        self.count += 1;
+        self.count - 1
+    }
+
+    /// Nodes of a cell by its number over all blocks.
+    pub fn cell(&self, number: usize) -> (CellKind, &[usize]) {
+        let block = self.starts.partition_point(|&start| start <= number) - 1;
+        let (kind, within) = (self.blocks[block].kind, number - self.starts[block]);
+        let per_cell = kind.node_count();
+        (kind, &self.blocks[block].nodes[within * per_cell..(within + 1) * per_cell])
+    }
+
+    /// Divides the cells into blocks of the kinds and lengths given, empty ones included; false, and nothing done, if the
+    /// cells do not come out so.
+    pub fn divide(&mut self, lengths: &[(CellKind, usize)]) -> bool {
+        let total = lengths.iter().try_fold(0_usize, |sum, &(_, length)| sum.checked_add(length));
+        if total != Some(self.count) {
+            return false;
+        }
+        let mut kinds = self.blocks.iter().flat_map(|block| std::iter::repeat_n(block.kind, block.len()));
+        if !lengths.iter().all(|&(kind, length)| kinds.by_ref().take(length).all(|own| own == kind)) {
+            return false;
+        }
+        let mut nodes = std::mem::take(&mut self.blocks).into_iter().flat_map(|block| block.nodes);
+        self.starts.clear();
+        let mut start = 0;
+        for &(kind, length) in lengths {
+            self.starts.push(start);
+            start += length;
+            self.blocks.push(CellBlock { kind, nodes: nodes.by_ref().take(length * kind.node_count()).collect() });
+        }
+        true
+    }
+
+    /// The data of all cells, block by block.
+    pub fn split(&self, array: &DataArray) -> Vec<DataArray> {
+        let components = array.components;
+        let part = |(block, &start): (&CellBlock, &usize)| {
+            let range = start * components..(start + block.len()) * components;
+            let values = match &array.values {
+                Values::Integers(values) => Values::Integers(values[range].to_vec()),
+                Values::Reals(values) => Values::Reals(values[range].to_vec()),
+            };
+            DataArray { components, values }
+        };
+        self.blocks.iter().zip(&self.starts).map(part).collect()
+    }
+
+    /// Cells numbered over all blocks, in any order, as ascending lists for each block.
+    pub fn by_block(&self, mut cells: Vec<usize>, allowance: &mut Allowance) -> Result<Vec<Vec<usize>>, Problem> {
+        allowance.take(self.blocks.len())?;
+        cells.sort_unstable();
+        cells.dedup();
+        let mut rest = cells.as_slice();
+        let mut lists = Vec::with_capacity(self.blocks.len());
+        for (block, &start) in self.blocks.iter().zip(&self.starts) {
+            let (own, after) = rest.split_at(rest.partition_point(|&cell| cell < start + block.len()));
+            lists.push(own.iter().map(|cell| cell - start).collect());
+            rest = after;
+        }
+        Ok(lists)
+    }
+}
+
+/// Sets under construction, by name, each the numbers of its nodes or cells in any order.
+pub(super) type OpenSets = BTreeMap<String, Vec<usize>>;
+
+/// Node sets in their final form: ascending, nothing twice.
+pub(super) fn close_point_sets(sets: OpenSets) -> BTreeMap<String, Vec<usize>> {
+    let close = |(name, mut set): (String, Vec<usize>)| {
+        set.sort_unstable();
+        set.dedup();
+        (name, set)
+    };
+    sets.into_iter().map(close).collect()
+}
+
+/// Cell sets in their final form.
+pub(super) fn close_cell_sets(
+    sets: OpenSets,
+    cells: &CellList,
+    allowance: &mut Allowance,
+) -> Result<BTreeMap<String, Vec<Vec<usize>>>, Problem> {
+    sets.into_iter().map(|(name, set)| Ok((name, cells.by_block(set, allowance)?))).collect()
+}
