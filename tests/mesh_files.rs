@@ -116,9 +116,12 @@ fn without_rounding(mut mesh: Mesh) -> Mesh {
 /// The mesh of `meshio_files` in `meshes/formats/make.py`.
 #[test]
 fn val_what_meshio_writes_is_read() {
-    for (file, integers) in
-        [("meshio-ascii.vtu", true), ("meshio-base64.vtu", true), ("meshio-zlib.vtu", true), ("meshio-22-binary.msh", false)]
-    {
+    for (file, integers) in [
+        ("meshio-ascii.vtu", true),
+        ("meshio-base64.vtu", true),
+        ("meshio-zlib.vtu", true),
+        ("meshio-22-binary.msh", false),
+    ] {
         let mesh = read(repository("meshes/formats").join(file)).unwrap_or_else(|error| panic!("{error}"));
         assert_eq!(mesh.points[4], [2.0, 0.5, 0.1], "{file}");
         let blocks = [
@@ -147,7 +150,9 @@ fn val_vtkio_reads_our_vtu() {
     for format in FORMATS.into_iter().filter(|format| matches!(format, Format::Vtu(_))) {
         let bytes = to_bytes(&mesh, format).expect("nothing in it that VTU cannot hold");
         let vtk = vtkio::Vtk::parse_xml(bytes.as_slice()).expect("vtkio reads it");
-        let vtkio::model::DataSet::UnstructuredGrid { pieces, .. } = vtk.data else { panic!("not an unstructured grid") };
+        let vtkio::model::DataSet::UnstructuredGrid { pieces, .. } = vtk.data else {
+            panic!("not an unstructured grid")
+        };
         let piece = pieces[0].load_piece_data(None).expect("one piece inline");
         let points: Vec<f64> = piece.points.cast_into().expect("coordinates");
         assert!(points.iter().eq(mesh.points.iter().flatten()), "{format:?}");
@@ -162,8 +167,10 @@ fn val_vtkio_reads_our_vtu() {
 fn ver_reference_meshes_have_their_groups_and_true_arcs() {
     let circles = [("cylinder-surface", [0.0, 50.0], 50.0), ("hollow", [0.0, 50.5], 50.5)];
     let mut arcs = 0;
-    let mut files: Vec<PathBuf> =
-        std::fs::read_dir(repository("meshes")).expect("a folder").map(|entry| entry.expect("readable").path()).collect();
+    let mut files: Vec<PathBuf> = std::fs::read_dir(repository("meshes"))
+        .expect("a folder")
+        .map(|entry| entry.expect("readable").path())
+        .collect();
     files.sort();
     for path in files.iter().filter(|path| path.extension().is_some_and(|ending| ending == "msh")) {
         let mesh = read(path).unwrap_or_else(|error| panic!("{error}"));
@@ -237,12 +244,18 @@ fn faults_say_where_and_what_is_allowed() {
         of("a.inp", "*NODE\n1, 0, 0\n*INCLUDE, INPUT=other.inp\n"),
         "line 3: *INCLUDE: *INCLUDE is not supported; allowed: *NODE and *ELEMENT with all their lines"
     );
-    assert_eq!(of("a.inp", "*NODE\n1, 0, x\n"), "line 2: *NODE: found \"1, 0, x\", expected a node's number and up to three coordinates");
+    assert_eq!(
+        of("a.inp", "*NODE\n1, 0, x\n"),
+        "line 2: *NODE: found \"1, 0, x\", expected a node's number and up to three coordinates"
+    );
     assert!(of("a.json", "{\"points\": [[0, 0, 0]],\n \"cellz\": []}").starts_with("line 2: JSON: "));
     assert!(of("a.json", "{\"points\": [[0, 0, null]], \"cells\": []}").starts_with("line 1: JSON: "));
     assert!(of("a.vtu", "<VTKFile type=\"PolyData\"><Piece/></VTKFile>").contains("allowed: UnstructuredGrid"));
     let unknown = read("mesh.stl").expect_err("not a mesh format");
-    assert_eq!(unknown.to_string(), "mesh.stl: a mesh file ends in .msh (Gmsh 2.2 or 4.1), .vtu (VTK), .inp (Abaqus) or .json");
+    assert_eq!(
+        unknown.to_string(),
+        "mesh.stl: a mesh file ends in .msh (Gmsh 2.2 or 4.1), .vtu (VTK), .inp (Abaqus) or .json"
+    );
 }
 
 /// Appended data, raw and base64, with a big end first and headers of 32 bits, as VTK may write them.
@@ -259,7 +272,9 @@ fn appended_arrays_are_read() {
             let with_header = [&(array.len() as u32).to_be_bytes()[..], array].concat();
             match base64 {
                 false => data.extend(with_header),
-                true => data.extend(base64::Engine::encode(&base64::prelude::BASE64_STANDARD, with_header).into_bytes()),
+                true => {
+                    data.extend(base64::Engine::encode(&base64::prelude::BASE64_STANDARD, with_header).into_bytes())
+                }
             }
         }
         let array = |kind: &str, name: &str, components: usize, number: usize| {

@@ -19,7 +19,8 @@ fn entries(mesh: &Mesh) -> u64 {
     let data: usize = arrays.map(DataArray::value_count).sum();
     let sets: usize = mesh.point_sets.values().chain(mesh.cell_sets.values().flatten()).map(Vec::len).sum();
     let nodes: usize = mesh.cells.iter().map(|block| block.nodes.len()).sum();
-    let lists: usize = mesh.cell_sets.values().map(Vec::len).sum::<usize>() + mesh.cell_data.values().map(Vec::len).sum::<usize>();
+    let lists: usize =
+        mesh.cell_sets.values().map(Vec::len).sum::<usize>() + mesh.cell_data.values().map(Vec::len).sum::<usize>();
     (3 * mesh.points.len() + data + sets + nodes + lists) as u64
 }
 
@@ -47,11 +48,36 @@ enum Harm {
 
 /// Tokens that mean something in one of the formats, and numbers that are too large for anything.
 const TOKENS: [&[u8]; 30] = [
-    b"$Nodes\n", b"$EndNodes\n", b"$Elements\n", b"$Entities\n", b"$NodeData\n", b"$PhysicalNames\n", b"$Gearwear\n{}\n", b"$",
-    b" 18446744073709551615 ", b" 9999999999 ", b" -1 ", b" 0 ", b" nan ", b" 1e999 ", b"\xff\xff\xff\xff\xff\xff\xff\x7f",
-    b"\x00\x00\x00\x00\x00\x00\x00\x00", b"<DataArray", b"</DataArray>", b"<Piece NumberOfPoints=\"99999999999\">", b"\"", b">",
-    b"<AppendedData encoding=\"raw\">_", b"format=\"appended\" offset=\"5\"", b"*NSET, NSET=x, GENERATE\n1, 4000000000\n",
-    b"*SURFACE, NAME=y\n1, S9\n", b"*ELEMENT, TYPE=CPE8\n1, 1,\n", b"*PART, NAME=a\n", b"[[", b"1e400", "é".as_bytes(),
+    b"$Nodes\n",
+    b"$EndNodes\n",
+    b"$Elements\n",
+    b"$Entities\n",
+    b"$NodeData\n",
+    b"$PhysicalNames\n",
+    b"$Gearwear\n{}\n",
+    b"$",
+    b" 18446744073709551615 ",
+    b" 9999999999 ",
+    b" -1 ",
+    b" 0 ",
+    b" nan ",
+    b" 1e999 ",
+    b"\xff\xff\xff\xff\xff\xff\xff\x7f",
+    b"\x00\x00\x00\x00\x00\x00\x00\x00",
+    b"<DataArray",
+    b"</DataArray>",
+    b"<Piece NumberOfPoints=\"99999999999\">",
+    b"\"",
+    b">",
+    b"<AppendedData encoding=\"raw\">_",
+    b"format=\"appended\" offset=\"5\"",
+    b"*NSET, NSET=x, GENERATE\n1, 4000000000\n",
+    b"*SURFACE, NAME=y\n1, S9\n",
+    b"*ELEMENT, TYPE=CPE8\n1, 1,\n",
+    b"*PART, NAME=a\n",
+    b"[[",
+    b"1e400",
+    "é".as_bytes(),
 ];
 
 fn harm() -> impl Strategy<Value = Harm> {

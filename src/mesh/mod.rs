@@ -19,10 +19,10 @@ pub mod file;
 pub mod gmsh;
 mod json;
 mod numbering;
-pub mod vtu;
 pub mod quality;
 pub mod settings;
 pub mod tooth;
+pub mod vtu;
 
 pub use cell_kind::CellKind;
 pub use error::MeshFileError;

@@ -11,8 +11,8 @@
 //! | `*SURFACE, TYPE=ELEMENT`: sides `S1` … of plane elements | a block of line cells and the set of that name |
 //! | `*SURFACE, TYPE=NODE` | `point_sets` |
 //!
-//! Keywords and unquoted names are compared without regard to case, quoted names with it. A keyword line may go on after a
-//! comma at its end, an element's nodes over several lines. One part is read, alone or with one instance that stays in its
+//! Keywords and unquoted names are compared without regard to case, quoted names with it. A keyword line and an element's
+//! nodes may go on after a comma at the end of the line. A surface and an element set of one name become one set. One part is read, alone or with one instance that stays in its
 //! place, and `INSTANCE.` in front of a name or number is dropped; a file of several parts is refused, because their node
 //! numbers overlap (Abaqus writes a flat file where the model says so). Refused are also keywords that bring or make nodes
 //! elsewhere (`*INCLUDE`, `INPUT=`, `*NGEN`, `*SYSTEM` …), surfaces of solids, and surfaces without sides. Everything else,

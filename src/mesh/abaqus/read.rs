@@ -10,8 +10,23 @@ use crate::mesh::numbering::{Allowance, CellList, Numbering, close_cell_sets, cl
 use crate::mesh::{CellKind, Mesh};
 
 /// Keywords that bring or make nodes or elements in ways that are not read: skipping them would lose part of the mesh.
-const REFUSED: [&str; 12] =
-    ["INCLUDE", "NGEN", "NFILL", "NCOPY", "NMAP", "ELGEN", "ELCOPY", "SYSTEM", "SUBMODEL", "IMPORT", "SUPER ELEMENT", "SYMMETRIC MODEL GENERATION"];
+const REFUSED: [&str; 12] = [
+    "INCLUDE",
+    "NGEN",
+    "NFILL",
+    "NCOPY",
+    "NMAP",
+    "ELGEN",
+    "ELCOPY",
+    "SYSTEM",
+    "SUBMODEL",
+    "IMPORT",
+    "SUPER ELEMENT",
+    "SYMMETRIC MODEL GENERATION",
+];
+
+/// A side of an element as a line: its kind and nodes.
+type Line = (CellKind, Vec<usize>);
 
 /// What has been read.
 #[derive(Debug, Default)]
@@ -25,7 +40,7 @@ struct Content {
     node_sets: Sets,
     element_sets: Sets,
     /// Sides of a surface by its name: kind and nodes of the lines.
-    surfaces: Vec<(Name, Vec<(CellKind, Vec<usize>)>)>,
+    surfaces: Vec<(Name, Vec<Line>)>,
     instance: Option<String>,
 }
 
@@ -97,7 +112,8 @@ impl Content {
         let first = self.points.len();
         for &(line, text) in &keyword.data {
             let fields: Vec<&str> = split(text).into_iter().map(str::trim).collect();
-            let wrong = || keyword.fault(line, Problem::unexpected(text, "a node's number and up to three coordinates"));
+            let wrong =
+                || keyword.fault(line, Problem::unexpected(text, "a node's number and up to three coordinates"));
             let number = fields[0].parse::<u64>().map_err(|_| wrong())?;
             let mut point = [0.0; 3];
             // Direction cosines of a normal may follow the coordinates.
@@ -125,11 +141,17 @@ impl Content {
         self.cells.begin(kind);
         let mut numbers: Vec<u64> = Vec::new();
         let mut nodes: Vec<usize> = Vec::new();
+        let expected =
+            format!("an element's number and its {} nodes, with a comma where a line goes on", kind.node_count());
         for &(line, text) in &keyword.data {
-            for field in split(text).into_iter().map(str::trim).filter(|field| !field.is_empty()) {
-                let expected = "an element's number and its nodes";
-                let number: u64 = field.parse().map_err(|_| keyword.fault(line, Problem::unexpected(field, expected)))?;
+            let wrong = || keyword.fault(line, Problem::unexpected(text, expected.clone()));
+            for (place, field) in split(text).into_iter().map(str::trim).filter(|field| !field.is_empty()).enumerate() {
+                let number: u64 = field.parse().map_err(|_| wrong())?;
                 if numbers.len() == self.cells.len() - first {
+                    // Each element begins on a line of its own.
+                    if place > 0 {
+                        return Err(wrong());
+                    }
                     numbers.push(number);
                     continue;
                 }
@@ -140,17 +162,11 @@ impl Content {
                     nodes.clear();
                 }
             }
-            // An element may go on over the line's end, but the next one begins on a line of its own.
-            if text.trim_end().ends_with(',') || numbers.len() == self.cells.len() - first {
-                continue;
-            }
-            if nodes.is_empty() || nodes.len() < 7 {
-                let expected = format!("{} nodes of an element {type_name}", kind.node_count());
-                return Err(keyword.fault(line, Problem::unexpected(text, expected)));
+            if numbers.len() != self.cells.len() - first && !text.ends_with(',') {
+                return Err(wrong());
             }
         }
         if numbers.len() != self.cells.len() - first {
-            let expected = format!("{} nodes of an element {type_name}", kind.node_count());
             return Err(keyword.fault(keyword.line, Problem::Ended { expected }));
         }
         if let Some(name) = keyword.value("ELSET") {
@@ -245,7 +261,7 @@ impl Content {
 
     fn into_mesh(mut self, allowance: &mut Allowance) -> Result<Mesh, Fault> {
         // Several definitions of one surface add up; each surface has blocks of its own.
-        let mut surfaces: BTreeMap<String, Vec<(CellKind, Vec<usize>)>> = BTreeMap::new();
+        let mut surfaces: BTreeMap<String, Vec<Line>> = BTreeMap::new();
         let mut names = Vec::new();
         for (name, lines) in self.surfaces {
             let key = self.element_sets.key(&name);

@@ -20,22 +20,22 @@ pub fn write(mesh: &Mesh) -> Result<Vec<u8>, Unwritable> {
     nodes(&mut text, mesh);
     let numbers = write_elements(&mut text, mesh, &surfaces);
     for (name, set) in &mesh.point_sets {
-        keyword(&mut text, "*NSET, NSET=", name, &mesh.point_sets);
+        keyword(&mut text, "*NSET, NSET=", name, mesh);
         list(&mut text, set.iter().map(|node| node + 1));
     }
     for (name, lists) in &mesh.cell_sets {
         match surfaces.sides.get(name) {
             None => {
-                keyword(&mut text, "*ELSET, ELSET=", name, &mesh.cell_sets);
+                keyword(&mut text, "*ELSET, ELSET=", name, mesh);
                 list(&mut text, over_all(mesh, lists).filter_map(|cell| numbers[cell]));
             }
             Some(sides) => {
-                keyword(&mut text, "*SURFACE, TYPE=ELEMENT, NAME=", name, &mesh.cell_sets);
+                keyword(&mut text, "*SURFACE, TYPE=ELEMENT, NAME=", name, mesh);
                 for &(cell, side) in sides {
                     line(&mut text, format_args!("{}, S{}", numbers[cell].unwrap_or(0), side + 1));
                 }
                 if !mesh.point_sets.contains_key(name) {
-                    keyword(&mut text, "*NSET, NSET=", name, &mesh.cell_sets);
+                    keyword(&mut text, "*NSET, NSET=", name, mesh);
                     let cells = mesh.cells.iter().zip(lists);
                     let mut nodes: Vec<usize> = cells
                         .flat_map(|(block, list)| {
@@ -140,11 +140,12 @@ fn line(text: &mut String, line: impl std::fmt::Display) {
     let _ = writeln!(text, "{line}");
 }
 
-/// A keyword line that ends in a name, quoted where case, blanks or signs matter.
-fn keyword<T>(text: &mut String, start: &str, name: &str, others: &BTreeMap<String, T>) {
+/// A keyword line that ends in a name of `mesh`, quoted where case, blanks or signs matter.
+fn keyword(text: &mut String, start: &str, name: &str, mesh: &Mesh) {
     let plain = name.starts_with(|c: char| c.is_ascii_alphabetic())
         && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-');
-    let alone = others.keys().filter(|other| other.eq_ignore_ascii_case(name)).count() <= 1;
+    let mut others = mesh.point_sets.keys().chain(mesh.cell_sets.keys());
+    let alone = others.all(|other| other == name || !other.eq_ignore_ascii_case(name));
     match plain && alone {
         true => line(text, format_args!("{start}{name}")),
         false => line(text, format_args!("{start}\"{name}\"")),

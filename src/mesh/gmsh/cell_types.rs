@@ -45,9 +45,9 @@ pub fn order(kind: CellKind) -> Option<&'static [usize]> {
     match kind {
         CellKind::Tetra10 => Some(&[0, 1, 2, 3, 4, 5, 6, 7, 9, 8]),
         CellKind::Hexahedron20 => Some(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15]),
-        CellKind::Hexahedron27 => Some(&[
-            0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26,
-        ]),
+        CellKind::Hexahedron27 => {
+            Some(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26])
+        }
         CellKind::Wedge15 => Some(&[0, 1, 2, 3, 4, 5, 6, 9, 7, 12, 14, 13, 8, 10, 11]),
         CellKind::Pyramid13 => Some(&[0, 1, 2, 3, 4, 5, 8, 10, 6, 7, 9, 11, 12]),
         _ => None,

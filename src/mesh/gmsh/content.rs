@@ -120,7 +120,9 @@ impl RawData {
         let kept = self.values.chunks_exact(self.components).flat_map(|values| &values[..components]).copied();
         let values = if integers {
             let integer = |value: f64| match value {
-                value if value.fract() == 0.0 && value.abs() <= super::write::LARGEST_INTEGER as f64 => Ok(value as i64),
+                value if value.fract() == 0.0 && value.abs() <= super::write::LARGEST_INTEGER as f64 => {
+                    Ok(value as i64)
+                }
                 value => Err(Problem::unexpected(&value.to_string(), "an integer")),
             };
             Values::Integers(kept.map(integer).collect::<Result<_, _>>()?)

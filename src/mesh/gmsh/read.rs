@@ -128,7 +128,8 @@ fn entities(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
             let groups = file.size("the number of groups")?;
             let groups = file.count("groups", groups, [0, 1, 0])?;
             // A negative tag says that the entity is turned round in its group.
-            let groups = (0..groups).map(|_| Ok(file.int("the tag of a group")?.abs())).collect::<Result<_, Fault>>()?;
+            let groups =
+                (0..groups).map(|_| Ok(file.int("the tag of a group")?.abs())).collect::<Result<_, Fault>>()?;
             content.entities.insert((dimension, tag), groups);
             if dimension > 0 {
                 let bounds = file.size("the number of bounding entities")?;

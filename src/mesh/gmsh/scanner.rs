@@ -41,9 +41,7 @@ impl<'a> Scanner<'a> {
     /// A fault at the value read last.
     pub fn fault(&self, problem: impl Into<Problem>) -> Fault {
         let place = match self.encoding {
-            Encoding::Ascii => {
-                Place::Line(1 + self.bytes[..self.before].iter().filter(|&&byte| byte == b'\n').count())
-            }
+            Encoding::Ascii => Place::Line(1 + self.bytes[..self.before].iter().filter(|&&byte| byte == b'\n').count()),
             Encoding::Binary { .. } => Place::Byte(self.before),
         };
         Fault { place: Some(place), section: self.section.clone(), problem: problem.into() }

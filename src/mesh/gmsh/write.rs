@@ -86,9 +86,8 @@ fn check(mesh: &Mesh) -> Result<(), Unwritable> {
             return cannot("tag of", name, "tags are from 1 to 2147483647");
         }
     }
-    let point_arrays = mesh.point_data.iter().map(|(name, array)| (name, array));
     let cell_arrays = mesh.cell_data.iter().flat_map(|(name, arrays)| arrays.iter().map(move |array| (name, array)));
-    for (name, array) in point_arrays.chain(cell_arrays) {
+    for (name, array) in mesh.point_data.iter().chain(cell_arrays) {
         if array.components > 9 {
             return cannot("data", name, "at most nine components");
         }
@@ -124,7 +123,8 @@ fn groups(mesh: &Mesh) -> Vec<Group<'_>> {
                 continue;
             }
             let first_free = (1..).find(|&tag| !taken.contains_key(&(dimension, tag))).unwrap_or(1);
-            let tag = own.map(|own| own.tag).filter(|&tag| !taken.contains_key(&(dimension, tag))).unwrap_or(first_free);
+            let tag =
+                own.map(|own| own.tag).filter(|&tag| !taken.contains_key(&(dimension, tag))).unwrap_or(first_free);
             taken.insert((dimension, tag), ());
             groups.push(Group { name, tag: PhysicalTag { tag, dimension } });
         }

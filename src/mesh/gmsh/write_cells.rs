@@ -93,7 +93,8 @@ pub fn write_entities(out: &mut Output, mesh: &Mesh, groups: &[Group], entities:
 
 /// The least box round the nodes of each entity.
 fn boxes(mesh: &Mesh, entities: &Entities) -> [Vec<[[f64; 3]; 2]>; 4] {
-    let mut boxes = entities.by_dimension.each_ref().map(|own| vec![[[f64::INFINITY; 3], [-f64::INFINITY; 3]]; own.len()]);
+    let mut boxes =
+        entities.by_dimension.each_ref().map(|own| vec![[[f64::INFINITY; 3], [-f64::INFINITY; 3]]; own.len()]);
     let cells = mesh.cells.iter().flat_map(|block| block.iter());
     for ((nodes, &dimension), &entity) in cells.zip(&entities.dimensions).zip(&entities.of_cell) {
         let [low, high] = &mut boxes[usize::from(dimension)][entity];

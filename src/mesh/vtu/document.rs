@@ -158,10 +158,8 @@ fn appended(bytes: &[u8], at: usize) -> Result<Appended<'_>, Fault> {
             Some("raw") => false,
             Some("base64") | None => true,
             Some(other) => {
-                let problem = Problem::Unsupported {
-                    what: format!("encoding {other:?}"),
-                    allowed: "raw and base64".into(),
-                };
+                let problem =
+                    Problem::Unsupported { what: format!("encoding {other:?}"), allowed: "raw and base64".into() };
                 return Err(fault(at, "AppendedData", problem));
             }
         },
@@ -179,7 +177,8 @@ fn appended(bytes: &[u8], at: usize) -> Result<Appended<'_>, Fault> {
 fn attributes(tag: &BytesStart, byte: usize) -> Result<BTreeMap<String, String>, Fault> {
     let wrong = |error: String| fault(byte, "", Problem::unexpected(&error, "attributes `name=\"value\"`"));
     let read = |attribute: Result<quick_xml::events::attributes::Attribute, _>| {
-        let attribute = attribute.map_err(|error: quick_xml::events::attributes::AttrError| wrong(error.to_string()))?;
+        let attribute =
+            attribute.map_err(|error: quick_xml::events::attributes::AttrError| wrong(error.to_string()))?;
         let value = attribute.normalized_value(XmlVersion::Implicit1_0).map_err(|error| wrong(error.to_string()))?;
         Ok((attribute.key.as_ref().to_owned(), value.into_owned()))
     };

@@ -35,7 +35,8 @@ pub fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
     }
     let (point_data, point_sets) = data(&decoder, &document.point_data, point_count, &mut allowance)?;
     let (all_cell_data, cell_sets) = data(&decoder, &document.cell_data, cell_count, &mut allowance)?;
-    let cell_sets = close_cell_sets(cell_sets, &cells, &mut allowance).map_err(|limit| Fault::anywhere("CellData", limit))?;
+    let cell_sets =
+        close_cell_sets(cell_sets, &cells, &mut allowance).map_err(|limit| Fault::anywhere("CellData", limit))?;
     let mut cell_data = BTreeMap::new();
     for (name, array) in all_cell_data {
         allowance.take(cells.blocks.len()).map_err(|limit| Fault::anywhere("CellData", limit))?;
@@ -106,7 +107,8 @@ fn cells(
         };
         let own = usize::try_from(end).ok().and_then(|end| nodes.get(start..end));
         let Some(own) = own.filter(|own| own.len() == kind.node_count()) else {
-            let expected = format!("{}: a cell of type {number} has {} nodes", start + kind.node_count(), kind.node_count());
+            let expected =
+                format!("{}: a cell of type {number} has {} nodes", start + kind.node_count(), kind.node_count());
             return Err(offsets.fault(Problem::unexpected(&end.to_string(), expected)));
         };
         start += own.len();

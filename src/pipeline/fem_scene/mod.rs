@@ -127,8 +127,7 @@ pub fn run(resolved: &Resolved, position_mm: Option<f64>, observer: &dyn Observe
     let material = scene
         .material
         .map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio });
-    let bodies = bodies(&pair);
-    let settings = model_settings(&bodies);
+    let settings = model_settings(&scene.fem);
     let meshed = stages.run(FemPairStage::Meshing, || {
         let mesh = |gear| MeshedGear::new(&pair, gear, &material, line_load_n_per_mm, &settings);
         both(mesh)
@@ -172,7 +171,7 @@ pub fn run(resolved: &Resolved, position_mm: Option<f64>, observer: &dyn Observe
     };
     let solved = Solved { positions, points, stop };
     let parts =
-        recording::Parts { resolved, bodies: &bodies, model: &model, meshed: &meshed, line_load_n_per_mm, position_mm };
+        recording::Parts { resolved, bodies: &scene.fem, model: &model, meshed: &meshed, line_load_n_per_mm, position_mm };
     let mut record = recording::record(parts, &solved, solution)?;
     record.summary.wall_per_position_s = stages
         .times
@@ -183,14 +182,6 @@ pub fn run(resolved: &Resolved, position_mm: Option<f64>, observer: &dyn Observe
     record.summary.stages = stages.times;
     record.summary.wall_s = start.elapsed().as_secs_f64();
     Ok(Done { record, failure })
-}
-
-/// Whole rings, held at the default radius.
-fn bodies(pair: &GearPair) -> BodySettings {
-    let clamp = |gear: Gear| {
-        crate::mesh::settings::default_clamp(pair.teeth[gear].root_radius_mm, pair.spec.normal_module_mm).radius_mm
-    };
-    BodySettings { body: Body::Ring, clamp_radius_mm: PerGear::from_fn(clamp), elements_per_half_width: 10.0 }
 }
 
 /// The settings of a scene as the finite-element layer takes them.
