@@ -65,7 +65,7 @@ pub struct FemPairSummary {
     pub new: FemCycleSummary,
     /// The reference pair at the points A–E; `None` where one position was asked for.
     pub points: Option<PathPointsSummary>,
-    /// Stress at the roots of the reference pair's teeth; `None` where the model has no probes there.
+    /// Stress at the roots of the reference pair's teeth; `None` where no position was solved.
     pub root: PerGear<Option<RootSummary>>,
     /// How well equilibrium was met.
     pub checks: ChecksSummary,
@@ -205,13 +205,13 @@ pub struct FemCycleRow {
     /// Whether a sharp tip edge carries pressure.
     pub at_sharp_edge: bool,
     /// Greatest stress at the pinion's fillet below the working flank, reference pair.
-    pub pinion_root_tension_MPa: Option<f64>,
+    pub pinion_root_tension_MPa: f64,
     /// Least stress at the pinion's other fillet, reference pair.
-    pub pinion_root_compression_MPa: Option<f64>,
+    pub pinion_root_compression_MPa: f64,
     /// Greatest stress at the wheel's fillet below the working flank, reference pair.
-    pub wheel_root_tension_MPa: Option<f64>,
+    pub wheel_root_tension_MPa: f64,
     /// Least stress at the wheel's other fillet, reference pair.
-    pub wheel_root_compression_MPa: Option<f64>,
+    pub wheel_root_compression_MPa: f64,
     /// |T2/T1| at this position.
     pub torque_ratio: f64,
     /// Iterations of the active set at this position.

@@ -8,6 +8,7 @@ use nalgebra::{Rotation2, Vector2};
 use crate::fem::elastic::{Analysis, Elastic};
 use crate::fem::element::ElementError;
 use crate::fem::gear::model::{MeshedGear, solid};
+use crate::fem::gear::placement::{in_place_mm, tooth_angle_rad};
 use crate::fem::gear::position::{CondensedPair, PositionContact};
 use crate::fem::record::NodalStress;
 use crate::fem::solid::{Element, Solid};
@@ -74,7 +75,7 @@ impl Teeth {
         let mut numbers: Vec<Vec<u32>> = Vec::new();
         for tooth in 0..compliance.teeth() {
             let pair = pair_of_tooth(gear, tooth, compliance.teeth());
-            let turn = Rotation2::new(model.tooth_angle_rad(gear, found.position_mm, pair));
+            let turn = Rotation2::new(tooth_angle_rad(model.pair, gear, found.position_mm, pair));
             let cuts = compliance.cut_displacement_mm(tooth, forces);
             let moved = compliance.sector.displacement_mm(&forces[tooth], &cuts);
             let mut own: Vec<Option<u32>> = vec![None; sector.points_mm.len()];
@@ -88,7 +89,7 @@ impl Teeth {
                 .enumerate()
                 .map(|(node, number)| {
                     number.unwrap_or_else(|| {
-                        let point = model.in_place_mm(gear, found.position_mm, pair, sector.points_mm[node]);
+                        let point = in_place_mm(model.pair, gear, found.position_mm, pair, sector.points_mm[node]);
                         let elastic = turn * Vector2::new(moved[2 * node], moved[2 * node + 1]);
                         self.push(point, elastic + rigid(model, gear, point, found.transmission_error_mm))
                     })

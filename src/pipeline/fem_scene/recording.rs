@@ -7,7 +7,7 @@ use crate::fem::gear::position::{CondensedPair, PositionContact, ToothPairContac
 use crate::fem::gear::ring::Surroundings;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::mesh::quality::{self, MeshQuality};
-use crate::mesh::settings::{Body, BodySettings, SectorSides};
+use crate::mesh::settings::{Body, BodySettings, SectorSides, default_clamp};
 use crate::mesh::tooth::ToothSector;
 use crate::mesh::{CellBlock, CellKind, Mesh};
 use crate::pipeline::recording::{geometry, path_points};
@@ -20,8 +20,6 @@ use crate::simulation::fem_pair_record::{
 use crate::simulation::record::{ContactSummary, PathPoints, RangeSummary};
 
 const UM_PER_MM: f64 = 1e3;
-/// Elements along the half-width from which on pressures are trusted.
-const ENOUGH_ELEMENTS: f64 = 8.0;
 /// What the torque ratio says.
 const TORQUE_RATIO: &str = "forces act along the line of action where involute flanks touch, and |T2/T1| is then z2/z1 to \
      round-off; where a pair touches off that line (before A, after E, at a tip edge, on a modified flank) its force has \
@@ -99,7 +97,7 @@ pub(super) fn record(
         },
         new,
         points: solved.points.as_ref().map(|points| parts.points(points)),
-        root: PerGear::from_fn(|gear| parts.root(gear, &solved.positions)),
+        root: PerGear::from_fn(|gear| Parts::root(gear, &solved.positions)),
         checks: parts.checks(&solved.positions),
         warnings,
     };
@@ -128,9 +126,6 @@ impl Parts<'_> {
     fn row(&self, at: &PositionContact, contact: &ToothPairContact) -> FemCycleRow {
         let own_mm = at.position_mm + f64::from(contact.pair) * self.model.pair.path.base_pitch_mm;
         let hertz = self.hertz(own_mm, contact.line_load_n_per_mm);
-        let root = |gear: Gear, of: fn(&crate::fem::gear::position::RootStress) -> f64| {
-            self.has_probes(gear).then(|| of(&at.root[gear]))
-        };
         FemCycleRow {
             position_mm: at.position_mm,
             pair: contact.pair,
@@ -143,18 +138,13 @@ impl Parts<'_> {
             hertz_half_width_mm: hertz.half_width_mm,
             pinion_radius_mm: contact.pinion_radius_mm,
             at_sharp_edge: contact.at_sharp_edge,
-            pinion_root_tension_MPa: root(Gear::Pinion, |root| root.working_side_mpa),
-            pinion_root_compression_MPa: root(Gear::Pinion, |root| root.back_side_mpa),
-            wheel_root_tension_MPa: root(Gear::Wheel, |root| root.working_side_mpa),
-            wheel_root_compression_MPa: root(Gear::Wheel, |root| root.back_side_mpa),
+            pinion_root_tension_MPa: at.root.pinion.working_side_mpa,
+            pinion_root_compression_MPa: at.root.pinion.back_side_mpa,
+            wheel_root_tension_MPa: at.root.wheel.working_side_mpa,
+            wheel_root_compression_MPa: at.root.wheel.back_side_mpa,
             torque_ratio: (1.0 + at.torque_ratio_error) * self.tooth_ratio(),
             iterations: at.log.steps.len(),
         }
-    }
-
-    /// Whether the model says anything of the stress at a gear's roots.
-    fn has_probes(&self, gear: Gear) -> bool {
-        !self.model.gears[gear].sector.sector.probes.is_empty()
     }
 
     fn curves(&self, point: Option<&'static str>, at: &PositionContact) -> Vec<PressureCurve> {
@@ -226,8 +216,8 @@ impl Parts<'_> {
         }
     }
 
-    fn root(&self, gear: Gear, positions: &[PositionContact]) -> Option<RootSummary> {
-        let first = positions.first().filter(|_| self.has_probes(gear))?;
+    fn root(gear: Gear, positions: &[PositionContact]) -> Option<RootSummary> {
+        let first = positions.first()?;
         let (mut tension, mut compression) = (first, first);
         for at in positions {
             if at.root[gear].working_side_mpa > tension.root[gear].working_side_mpa {
@@ -285,10 +275,16 @@ impl Parts<'_> {
                 sharp.join(" and ")
             ));
         }
-        if self.bodies.elements_per_half_width < ENOUGH_ELEMENTS {
+        let is_default = |gear: Gear| {
+            let root_mm = self.model.pair.teeth[gear].root_radius_mm;
+            default_clamp(root_mm, self.model.pair.spec.normal_module_mm).radius_mm == self.bodies.clamp_radius_mm[gear]
+        };
+        if Gear::BOTH.into_iter().any(is_default) {
+            let radii = self.bodies.clamp_radius_mm;
             warnings.push(format!(
-                "fem.elements_per_half_width is {}: peak pressures need at least {ENOUGH_ELEMENTS}",
-                self.bodies.elements_per_half_width
+                "the bodies are held at {:.2} mm (pinion) and {:.2} mm (wheel), by default 2.5 modules below the root circle: \
+                 transmission error and root stress depend on it; fem.clamp_radius_mm says where rim or bore are",
+                radii.pinion, radii.wheel
             ));
         }
         warnings
