@@ -1,4 +1,4 @@
-//! The stages of finite-element contact of a gear pair: all of them, in this order, for every scene.
+//! The stages of finite-element contact of a gear pair: in this order for every scene.
 
 /// A stage of `gearwear fem` with a gear pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -13,6 +13,8 @@ pub enum FemPairStage {
     Cycle,
     /// Contact at the points A–E, of a mesh cycle alone.
     PathPoints,
+    /// The whole model without condensation, where asked for.
+    FullModel,
     /// Displacement and stress of the teeth at one position.
     Stresses,
     /// The output folder.
@@ -28,6 +30,7 @@ impl FemPairStage {
             FemPairStage::Condensation => "condensation",
             FemPairStage::Cycle => "cycle",
             FemPairStage::PathPoints => "path-points",
+            FemPairStage::FullModel => "full-model",
             FemPairStage::Stresses => "stresses",
             FemPairStage::Report => "report",
         }

@@ -69,6 +69,8 @@ pub struct FemPairSummary {
     pub root: PerGear<Option<RootSummary>>,
     /// How well equilibrium was met.
     pub checks: ChecksSummary,
+    /// The whole model without condensation against the condensed one, position by position; `None` where not asked for.
+    pub full: Option<Vec<FullModelSummary>>,
     /// What the user should know.
     pub warnings: Vec<String>,
 }
@@ -177,6 +179,29 @@ pub struct ChecksSummary {
     pub most_iterations: usize,
     /// Cycles of the active set that were broken.
     pub cycles_broken: usize,
+}
+
+/// The whole model without condensation at one position, and how far it is from the condensed one.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FullModelSummary {
+    /// The position.
+    pub position_mm: f64,
+    /// Degrees of freedom of both gears in one model.
+    pub dofs: usize,
+    /// Loaded transmission error.
+    pub transmission_error_um: f64,
+    /// Its difference to the condensed model, relative.
+    pub transmission_error_difference: f64,
+    /// Greatest difference of a pair's line load, over that of the whole torque.
+    pub line_load_difference: f64,
+    /// Greatest difference of a pair's peak pressure, relative.
+    pub peak_pressure_difference: f64,
+    /// Largest unbalanced nodal force over the largest nodal force.
+    pub residual: f64,
+    /// Active sets tried.
+    pub iterations: usize,
+    /// Wall time, s.
+    pub wall_s: f64,
 }
 
 /// A row of `mesh_cycle.csv`: one tooth pair in contact at one position.

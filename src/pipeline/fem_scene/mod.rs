@@ -6,20 +6,25 @@
 
 mod field;
 mod recording;
+mod whole;
 
 use std::time::Instant;
 
+use self::whole::WholeModel;
+
 use crate::fem::elastic::Elastic;
 use crate::fem::element::ElementError;
+use crate::fem::equilibrium::SolveError;
 use crate::fem::gear::cycle::{CycleError, cycle};
 use crate::fem::gear::model::{self, MeshedGear, ModelError, ModelSettings};
 use crate::fem::gear::position::{CondensedPair, PositionContact};
+use crate::gear::path_of_contact::PathOfContact;
 use crate::gear::{Gear, GearPair, PairError, PerGear};
 use crate::mesh::quality::QualityError;
 use crate::mesh::settings::{Body, BodySettings, SectorSides};
 use crate::plan::fem_pair::FemPairStage;
 use crate::scene::Resolved;
-use crate::simulation::fem_pair_record::FemPairRecord;
+use crate::simulation::fem_pair_record::{FemPairRecord, FullModelSummary};
 use crate::simulation::record::{StageTime, StopReason};
 use crate::simulation::wear_run::{Progress, Unwatched};
 
@@ -66,6 +71,14 @@ pub enum FemPairError {
     /// The contact at a position was not found.
     #[error(transparent)]
     Contact(#[from] CycleError),
+    /// The whole model has no solution.
+    #[error("whole model at position {position_mm:.4} mm: {source}")]
+    Full {
+        /// Where.
+        position_mm: f64,
+        /// Why.
+        source: SolveError,
+    },
     /// Stresses cannot be computed.
     #[error(transparent)]
     Stress(#[from] ElementError),
@@ -96,32 +109,40 @@ impl Stages<'_> {
     }
 }
 
+/// What is asked beside the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Asked {
+    /// The one position to solve; `None`: the mesh cycle.
+    pub position_mm: Option<f64>,
+    /// Whether to solve the whole model without condensation too, at that position or at A–E.
+    pub full: bool,
+}
+
 /// What was solved.
 struct Solved {
     /// The positions, in order.
     positions: Vec<PositionContact>,
     /// A–E; none where one position was asked for.
     points: Option<[PositionContact; 5]>,
+    full: Option<Vec<FullModelSummary>>,
     stop: StopReason,
 }
 
-/// Solves at `position_mm`, or over the mesh cycle where that is none. The report is left to the caller, who knows where
+/// Solves what is asked. The report is left to the caller, who knows where
 /// it goes.
 ///
 /// What is interrupted or does not converge gives the record of what was finished, and the failure in the latter case.
 ///
 /// # Errors
 /// [`FemPairError`] where nothing was finished.
-pub fn run(resolved: &Resolved, position_mm: Option<f64>, observer: &dyn Observer) -> Result<Done, FemPairError> {
+pub fn run(resolved: &Resolved, asked: Asked, observer: &dyn Observer) -> Result<Done, FemPairError> {
     let start = Instant::now();
     let scene = &resolved.scene;
     let mut stages = Stages { observer, times: Vec::new() };
 
     let pair = stages.run(FemPairStage::Geometry, || GearPair::new(&scene.pair))?;
     let path = &pair.path;
-    if let Some(given_mm) = position_mm.filter(|at| !(path.start_mm..=path.end_mm).contains(at)) {
-        return Err(FemPairError::Position { given_mm, from_mm: path.start_mm, to_mm: path.end_mm });
-    }
+    let position_mm = asked.position_mm.map(|given_mm| on_path(path, given_mm)).transpose()?;
     let line_load_n_per_mm =
         scene.operation.pinion_torque_n_mm / path.involute.pinion.base_radius_mm / scene.pair.face_width_mm;
     let material = scene
@@ -159,6 +180,14 @@ pub fn run(resolved: &Resolved, position_mm: Option<f64>, observer: &dyn Observe
             }
         }
     }
+    let mut full = None;
+    if asked.full && stop == StopReason::Completed {
+        let at: &[PositionContact] = points.as_ref().map_or(&positions, |points| points);
+        let whole = WholeModel { pair: &pair, meshed: &meshed, material: &material, line_load_n_per_mm };
+        full = Some(stages.run(FemPairStage::FullModel, || {
+            at.iter().map(|condensed| whole.against(condensed)).collect::<Result<Vec<_>, _>>()
+        })?);
+    }
     let shown = match &points {
         Some([_, _, at_c, ..]) => Some(at_c),
         None => positions.first().filter(|_| position_mm.is_some()),
@@ -169,7 +198,7 @@ pub fn run(resolved: &Resolved, position_mm: Option<f64>, observer: &dyn Observe
         }
         None => None,
     };
-    let solved = Solved { positions, points, stop };
+    let solved = Solved { positions, points, full, stop };
     let parts =
         recording::Parts { resolved, bodies: &scene.fem, model: &model, meshed: &meshed, line_load_n_per_mm, position_mm };
     let mut record = recording::record(parts, &solved, solution)?;
@@ -182,6 +211,17 @@ pub fn run(resolved: &Resolved, position_mm: Option<f64>, observer: &dyn Observe
     record.summary.stages = stages.times;
     record.summary.wall_s = start.elapsed().as_secs_f64();
     Ok(Done { record, failure })
+}
+
+/// A position on the path of contact. Its ends are printed with four decimals and may be given as printed.
+fn on_path(path: &PathOfContact, given_mm: f64) -> Result<f64, FemPairError> {
+    const ROUNDING_MM: f64 = 1e-4;
+    let (from_mm, to_mm) = (path.start_mm, path.end_mm);
+    if (from_mm - ROUNDING_MM..=to_mm + ROUNDING_MM).contains(&given_mm) {
+        Ok(given_mm.clamp(from_mm, to_mm))
+    } else {
+        Err(FemPairError::Position { given_mm, from_mm, to_mm })
+    }
 }
 
 /// The settings of a scene as the finite-element layer takes them.

@@ -21,7 +21,7 @@ use crate::simulation::record::{ContactSummary, PathPoints, RangeSummary};
 
 const UM_PER_MM: f64 = 1e3;
 /// What the torque ratio says.
-const TORQUE_RATIO: &str = "forces act along the line of action where involute flanks touch, and |T2/T1| is then z2/z1 to \
+const TORQUE_RATIO: &str = "Forces act along the line of action where involute flanks touch, and |T2/T1| is then z2/z1 to \
      round-off; where a pair touches off that line (before A, after E, at a tip edge, on a modified flank) its force has \
      another arm on each gear, and |T2/T1| differs from z2/z1 as the loaded transmission error changes with rotation: the \
      mean over a mesh cycle is z2/z1";
@@ -99,6 +99,7 @@ pub(super) fn record(
         points: solved.points.as_ref().map(|points| parts.points(points)),
         root: PerGear::from_fn(|gear| Parts::root(gear, &solved.positions)),
         checks: parts.checks(&solved.positions),
+        full: solved.full.clone(),
         warnings,
     };
     Ok(FemPairRecord { summary, scene_toml: parts.resolved.to_toml(), mesh_cycle, pressure, solution })
