@@ -28,7 +28,6 @@ pub fn run(args: &Args, text: Text) -> Result<(), Failure> {
     let pool = pool(args.threads)?;
     let interrupted = watch_for_interrupt();
     let progress = Progress::new(args.quiet, Arc::clone(&interrupted));
-    report::remove_summary(&args.out)?;
     let asked = Asked { position_mm: args.position, full: args.full };
     let done = pool.install(|| -> Result<Done, Failure> {
         let mut done = fem_scene::run(resolved, asked, &progress).map_err(|error| refused(error, &source))?;
@@ -81,6 +80,8 @@ fn refused(error: FemPairError, source: &Source) -> Failure {
 fn write(record: &mut FemPairRecord, out: &Path, progress: &Progress) -> Result<(), ReportError> {
     Observer::stage(progress, FemPairStage::Report);
     let start = Instant::now();
+    // Files of an earlier run are about to be replaced; its summary must not vouch for a mixture.
+    report::remove_summary(out)?;
     report::fem_pair::write_data_and_page(record, out)?;
     let wall_s = start.elapsed().as_secs_f64();
     record.summary.stages.push(StageTime { name: FemPairStage::Report.name().to_owned(), wall_s });
@@ -96,9 +97,13 @@ fn table(summary: &FemPairSummary) -> String {
     let mut text = format!("{}\n\n", summary.title);
     let mut one = |name: &str, value: &str| text.push_str(&figures::row(name, [value, ""]));
     one("peak pressure, MPa", &or_none(new.peak_pressure_MPa));
-    one("  at position, mm", &or_none(new.peak_pressure_position_mm));
-    one("transmission error, least, µm", &figures::digits(te.min));
-    one("transmission error, greatest, µm", &figures::digits(te.max));
+    if summary.position_mm.is_some() {
+        one("transmission error, µm", &figures::digits(te.max));
+    } else {
+        one("  at position, mm", &or_none(new.peak_pressure_position_mm));
+        one("transmission error, least, µm", &figures::digits(te.min));
+        one("transmission error, greatest, µm", &figures::digits(te.max));
+    }
     text.push_str(&figures::row("", ["pinion", "wheel"]));
     if let (Some(pinion), Some(wheel)) = (&summary.root.pinion, &summary.root.wheel) {
         for (name, values) in [

@@ -21,10 +21,11 @@ use crate::simulation::record::{ContactSummary, PathPoints, RangeSummary};
 
 const UM_PER_MM: f64 = 1e3;
 /// What the torque ratio says.
-const TORQUE_RATIO: &str = "Forces act along the line of action where involute flanks touch, and |T2/T1| is then z2/z1 to \
-     round-off; where a pair touches off that line (before A, after E, at a tip edge, on a modified flank) its force has \
-     another arm on each gear, and |T2/T1| differs from z2/z1 as the loaded transmission error changes with rotation: the \
-     mean over a mesh cycle is z2/z1";
+const TORQUE_RATIO: &str = "|T2/T1| is z2/z1 where all force acts along the line of action. Forces act on the flanks as they \
+     are before deformation, along the pinion's normals: with the resultant a distance s beside the theoretical contact \
+     point, its arm at the wheel differs by s T1T2/ρ1. Under load s is some hundredths of a millimetre between A and E, \
+     about a thousandth of the ratio; where a pair touches before A or after E, at a tip edge, it is more, and there the \
+     instantaneous ratio does differ, as the transmission error changes with rotation";
 
 /// What a record is made from, the solution apart.
 pub(super) struct Parts<'a> {
