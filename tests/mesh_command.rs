@@ -60,15 +60,15 @@ fn settings_that_change_nothing_or_little_are_warned_of() {
 
 #[test]
 fn a_small_gear_gets_a_smaller_body_with_a_warning() {
-    // r_f = 0.5·6·1 + 0.8 − 1.25 = 2.55 mm: 2.5 modules less leave 0.05 mm, so 0.4 of it are taken.
-    let text = "[pair]\nnormal_module_mm = 1.0\npressure_angle_deg = 25.0\ncentre_distance_mm = 24.0\nface_width_mm = 10.0\n\
-                [pair.pinion]\nteeth = 6\nprofile_shift = 0.6\ntip_diameter_mm = 8.4\n\
-                [pair.wheel]\nteeth = 40\nprofile_shift = 0.4\n\
+    // r_f = 3.5 + 0.65 − 1.25 = 2.9 mm: 2.5 mm less leave 0.4 mm, less than a fifth of it, so two fifths are taken.
+    let text = "[pair]\nnormal_module_mm = 1.0\npressure_angle_deg = 20.0\ncentre_distance_mm = 24.45\n\
+                face_width_mm = 10.0\n\
+                [pair.pinion]\nteeth = 7\nprofile_shift = 0.65\ntip_diameter_mm = 9.6\n\
+                [pair.wheel]\nteeth = 40\nprofile_shift = 0.35\n\
                 [fem]\n[operation]\npinion_torque_Nm = 1.0\npinion_revolutions = 1000\n\
                 [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n";
     let resolved = Scene::from_toml(text).unwrap_or_else(|problems| panic!("{problems:?}"));
-    let root = 3.0 + 0.6 - 1.25;
-    assert!((resolved.scene.fem.clamp_radius_mm.pinion - 0.4 * root).abs() < 1e-12);
+    assert!((resolved.scene.fem.clamp_radius_mm.pinion - 0.4 * 2.9).abs() < 1e-12);
     assert!(resolved.warnings.iter().any(|w| w.contains("the pinion is too small")), "{:?}", resolved.warnings);
 }
 

@@ -80,9 +80,9 @@ fn pairs() -> Vec<(&'static str, PairSpec)> {
         ("relieved, sharp", modified(fzg_c(), 0.0)),
         ("full fillet", full_fillet),
         ("sharp rack", sharp_rack),
-        ("eight teeth", spur(2.0, 57.1, 14.0, gear(8, 0.55, Some(20.8)), gear(48, 0.0, Some(99.3)))),
+        ("eight teeth", spur(2.0, 57.1, 14.0, gear(8, 0.55, Some(21.6)), gear(48, 0.0, Some(99.6)))),
         ("many teeth", spur(1.0, 120.0, 14.0, gear(40, 0.0, None), gear(200, 0.0, None))),
-        ("undercut", spur(2.0, 60.0, 14.0, gear(12, 0.0, Some(28.0)), gear(48, 0.0, Some(98.0)))),
+        ("undercut", spur(2.0, 60.05, 14.0, gear(12, 0.0, Some(28.0)), gear(48, 0.0, Some(98.0)))),
     ]
 }
 
@@ -249,7 +249,9 @@ fn ver_fillet_nodes_lie_on_the_root_trochoid() {
             .collect();
         let to_space = Rotation2::new(-PI / f64::from(tooth.teeth));
         let sector = &sectors.fine[g];
-        assert_eq!(sector.working_fillet.len() / 2, 24, "elements along a fillet");
+        assert_eq!(sector.back_fillet.len() / 2, 24, "elements along a fillet");
+        // The fine flank above makes them smaller at its end.
+        assert!((24..40).contains(&(sector.working_fillet.len() / 2)));
         for &node in &sector.working_fillet {
             let point = to_space * sector.points_mm[node as usize];
             let nearest = curve.iter().map(|c| (c - point).norm()).fold(f64::INFINITY, f64::min);
@@ -298,9 +300,13 @@ fn flank_elements_have_the_length_asked_for() {
             let position = pair.path.rho_mm(g, middle);
             let a = hertz::flattening(&pair, &steel(), position).contact.loaded(LINE_LOAD).half_width_mm;
             let length = (rho[k + 2].powi(2) - rho[k].powi(2)) / (2.0 * base);
-            assert!(length <= 1.005 * a / 10.0, "{}: {length} at ρ = {middle}", g.name());
+            assert!(length <= 1.005 * a / 10.0, "{}: {length} at ρ = {middle}, a = {a}", g.name());
             // Below, only where the length may not grow as fast as the half-width does.
-            assert!(length >= 0.9 * a / 10.0 || middle < start + 1.0, "{}: {length} at ρ = {middle}", g.name());
+            assert!(
+                length >= 0.9 * a / 10.0 || middle < start + 1.0,
+                "{}: {length} at ρ = {middle}, a = {a}",
+                g.name()
+            );
         }
     }
 }
@@ -337,7 +343,8 @@ fn the_same_tooth_gives_the_same_bits() {
     let pair = pair(&modified(fzg_c(), 0.3));
     let settings = settings(&pair, 10.0);
     let [one, other] = [sectors(&pair, &settings), sectors(&pair, &settings)];
-    assert!(one.fine == other.fine && one.coarse == other.coarse);
+    // Debug text shows every bit of a number, and NaN as NaN.
+    assert!(format!("{one:?}") == format!("{other:?}"));
 }
 
 fn pair_mesh(pair: &GearPair, body: Body, position_mm: f64) -> Mesh {

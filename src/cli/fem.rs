@@ -113,7 +113,8 @@ fn summary(summary: &FemSummary) -> String {
         for (name, value, other) in [
             ("peak pressure, MPa", contact.peak_pressure_MPa, hertz.map(|h| h.peak_pressure_MPa)),
             ("half-width, mm", contact.half_width_mm, hertz.map(|h| h.half_width_mm)),
-            ("force, N/mm", x.hypot(y), None),
+            ("force along x, N/mm", x, None),
+            ("force along y, N/mm", y, None),
         ] {
             let other = other.map_or_else(String::new, figures::digits);
             text.push_str(&figures::row(name, [&figures::digits(value), &other]));

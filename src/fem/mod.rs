@@ -11,6 +11,7 @@ pub mod gear;
 pub mod loads;
 mod nodal_triangle;
 pub mod problem;
+mod projected_volume;
 pub mod quadrature;
 pub mod record;
 pub mod rigid_body;

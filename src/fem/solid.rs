@@ -86,7 +86,8 @@ impl Solid {
     /// material as cell data `body`.
     pub fn to_mesh(&self) -> Mesh {
         let blocks = || self.elements.chunk_by(|a, b| (a.kind, a.material) == (b.kind, b.material));
-        let nodes = |block: &[Element]| block.iter().flat_map(|e| e.nodes().iter().map(|&node| node as usize)).collect();
+        let nodes =
+            |block: &[Element]| block.iter().flat_map(|e| e.nodes().iter().map(|&node| node as usize)).collect();
         let body = |block: &[Element]| Values::Integers(vec![i64::from(block[0].material); block.len()]);
         Mesh {
             points: self.points_mm.iter().map(|p| [p.x, p.y, 0.0]).collect(),

@@ -15,6 +15,7 @@ use super::elastic::{Analysis, Elastic};
 use super::element::{ElementError, ElementMatrix, Fold, MOST_DOFS, check_nodes, stiffness_n_per_mm2};
 use super::enhanced_quad::EnhancedQuad;
 use super::nodal_triangle::{Patch, patches};
+use super::projected_volume::ProjectedVolume;
 use super::shape::MOST_NODES;
 use super::solid::{ElementKind, Solid};
 use super::support::RigidParts;
@@ -107,7 +108,7 @@ impl Stiffness {
 
     fn assemble(&mut self, solid: &Solid, materials: &[Elastic], patches: &[Patch]) -> Result<(), ElementError> {
         let d_mpa: Vec<_> = materials.iter().map(|material| material.stiffness_mpa(self.analysis)).collect();
-        let averaged = self.analysis == Analysis::PlaneStrain;
+        let plane_strain = self.analysis == Analysis::PlaneStrain;
         let mut entries: ElementMatrix = [[0.0; MOST_DOFS]; MOST_DOFS];
         let mut nodes_mm = [Vector2::zeros(); MOST_NODES];
         for (number, element) in solid.elements.iter().enumerate() {
@@ -117,11 +118,16 @@ impl Stiffness {
             }
             let nodes_mm = &nodes_mm[..nodes.len()];
             let d = &d_mpa[usize::from(element.material)];
+            let material = &materials[usize::from(element.material)];
             let made = check_nodes(element.kind, nodes_mm).and_then(|()| match element.kind {
                 ElementKind::Quad4 => EnhancedQuad::new(nodes_mm, d).map(|quad| quad.write_stiffness(&mut entries)),
-                ElementKind::Triangle3 if averaged => {
-                    let deviatoric = materials[usize::from(element.material)].deviatoric_mpa();
-                    stiffness_n_per_mm2(element.kind, nodes_mm, &deviatoric, &mut entries)
+                kind if plane_strain => {
+                    stiffness_n_per_mm2(kind, nodes_mm, &material.deviatoric_mpa(), &mut entries)?;
+                    if ProjectedVolume::serves(kind) {
+                        let volume = ProjectedVolume::new(kind, nodes_mm)?;
+                        volume.add_stiffness(material.bulk_modulus_mpa(), 2 * nodes.len(), &mut entries);
+                    }
+                    Ok(())
                 }
                 kind => stiffness_n_per_mm2(kind, nodes_mm, d, &mut entries),
             });
@@ -254,8 +260,9 @@ fn averaged_patches(solid: &Solid, analysis: Analysis) -> Vec<Patch> {
 pub(super) fn check_references(solid: &Solid, materials: &[Elastic]) -> Result<(), ElementError> {
     for (number, material) in materials.iter().enumerate() {
         let Elastic { young_modulus_mpa, poisson_ratio } = *material;
-        let stable = young_modulus_mpa > 0.0 && young_modulus_mpa.is_finite();
-        if !stable || !(poisson_ratio > -1.0 && poisson_ratio < 0.5) {
+        let stiff = young_modulus_mpa > 0.0 && young_modulus_mpa.is_finite();
+        let compressible = poisson_ratio > -1.0 && poisson_ratio < 0.5;
+        if !stiff || !compressible {
             return Err(ElementError::Material { material: number, young_modulus_mpa, poisson_ratio });
         }
     }

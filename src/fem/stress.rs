@@ -6,23 +6,26 @@
 //! interface stresses may jump.
 //!
 //! ```text
-//! σ(node) = 1/n Σₑ D Σ_g w_g(node) ε_g        ε_g = B_g uₑ
+//! σ(node) = 1/n Σₑ Σ_g w_g(node) σ_g        σ_g = D B_g uₑ
 //! ```
 //!
-//! Strains of the bilinear quadrilateral hold their enhanced part ([`super::enhanced_quad`]); linear triangles in plane
-//! strain take the volumetric part from the mean around the node ([`super::nodal_triangle`]). All of this is linear in the
+//! The stress is the one that the elements work with: of the bilinear quadrilateral with its enhanced strain
+//! ([`super::enhanced_quad`]); in plane strain of the quadratic elements with their projected volume strain
+//! ([`super::projected_volume`]), of linear triangles with the mean volume strain around the node
+//! ([`super::nodal_triangle`]). All of this is linear in the
 //! displacements, so that a stress is also a row of coefficients: solving for that row as a load (K λ = row) gives the
 //! stress under every load F as λ · F, without solving for the load.
 //!
 //! Source: J. Barlow, *International Journal for Numerical Methods in Engineering* 10 (1976) 243–251 (optimal points);
 //! E. Hinton and J. S. Campbell, same journal 8 (1974) 461–480 (extrapolation and averaging).
 
-use nalgebra::{Matrix4x3, SMatrix, Vector2, Vector3, Vector4};
+use nalgebra::{Matrix3, Matrix4x3, SMatrix, Vector2, Vector4};
 
 use super::elastic::{Analysis, Elastic};
 use super::element::{ElementError, Fold, MOST_DOFS};
 use super::enhanced_quad::EnhancedQuad;
 use super::nodal_triangle::{Patch, patches};
+use super::projected_volume::ProjectedVolume;
 use super::shape::Shape;
 use super::solid::{ElementKind, Solid};
 use super::stiffness::check_references;
@@ -84,8 +87,8 @@ pub struct StressRecovery<'a> {
     patches: Vec<Patch>,
 }
 
-/// ε = B u at one point of an element.
-type StrainMatrix = SMatrix<f64, 3, MOST_DOFS>;
+/// (σ_x, σ_y, τ_xy, σ_z) at one point of an element from the displacements of its nodes, MPa/mm.
+type StressMatrix = SMatrix<f64, 4, MOST_DOFS>;
 
 impl<'a> StressRecovery<'a> {
     /// For the elements of `solid`, which name `materials` by their place.
@@ -106,7 +109,7 @@ impl<'a> StressRecovery<'a> {
     /// Where there is not one displacement for each degree of freedom.
     pub fn nodal_stresses(&self, displacement_mm: &[f64]) -> Result<Vec<NodalStress>, ElementError> {
         assert_eq!(displacement_mm.len(), self.solid.dofs(), "one displacement for each degree of freedom");
-        // Per element and node: the extrapolated strain times D.
+        // Per element and node: the extrapolated stress.
         let mut of_elements: Vec<[Vector4<f64>; 9]> = Vec::with_capacity(self.solid.elements.len());
         for (number, element) in self.solid.elements.iter().enumerate() {
             let mut u = SMatrix::<f64, MOST_DOFS, 1>::zeros();
@@ -114,13 +117,11 @@ impl<'a> StressRecovery<'a> {
                 u[2 * a] = displacement_mm[2 * *node as usize];
                 u[2 * a + 1] = displacement_mm[2 * *node as usize + 1];
             }
-            let samples = self.sample_strains(number)?;
-            let strains: Vec<Vector3<f64>> = samples.iter().map(|b| b * u).collect();
-            let d = self.element_law(number);
+            let samples: Vec<Vector4<f64>> = self.sample_stresses(number)?.iter().map(|s| s * u).collect();
             let mut stresses = [Vector4::zeros(); 9];
             for (a, stress) in stresses.iter_mut().enumerate().take(element.nodes().len()) {
                 let weights = to_node(element.kind, a);
-                *stress = d * strains.iter().zip(weights).map(|(e, w)| e * w).sum::<Vector3<f64>>();
+                *stress = samples.iter().zip(weights).map(|(s, w)| s * w).sum();
             }
             of_elements.push(stresses);
         }
@@ -132,7 +133,7 @@ impl<'a> StressRecovery<'a> {
             let mut mean = sum / group.len() as f64;
             if let Some((row, weight_mpa)) = self.volume_row(group) {
                 let theta: f64 = row.iter().map(|(dof, c)| c * displacement_mm[*dof as usize]).sum();
-                mean += Vector4::new(1.0, 1.0, 0.0, 1.0) * (weight_mpa * theta);
+                mean += VOLUME * (weight_mpa * theta);
             }
             let [sigma_x_mpa, sigma_y_mpa, tau_xy_mpa, sigma_z_mpa] = mean.into();
             stresses.push(NodalStress { node, material, sigma_x_mpa, sigma_y_mpa, tau_xy_mpa, sigma_z_mpa });
@@ -154,10 +155,10 @@ impl<'a> StressRecovery<'a> {
         let mut row: Vec<(u32, f64)> = Vec::new();
         for (_, _, number, a) in group {
             let element = &self.solid.elements[*number as usize];
-            let samples = self.sample_strains(*number as usize)?;
+            let samples = self.sample_stresses(*number as usize)?;
             let weights = to_node(element.kind, usize::from(*a));
-            let strain: StrainMatrix = samples.iter().zip(weights).map(|(b, w)| b * w).sum();
-            let coefficients = self.element_law(*number as usize).row(component as usize) * strain;
+            let stress: StressMatrix = samples.iter().zip(weights).map(|(s, w)| s * w).sum();
+            let coefficients = stress.row(component as usize);
             let dofs = element.nodes().iter().flat_map(|node| [2 * node, 2 * node + 1]);
             row.extend(dofs.zip(coefficients.iter()).map(|(dof, c)| (dof, c / group.len() as f64)));
         }
@@ -184,63 +185,70 @@ impl<'a> StressRecovery<'a> {
         Some((dofs.zip(row.into_iter().flatten()).collect(), weight_mpa))
     }
 
-    /// (σ_x, σ_y, τ_xy, σ_z) from (ε_x, ε_y, γ_xy) of an element, MPa; of averaged triangles the deviatoric part only.
-    fn element_law(&self, number: usize) -> Matrix4x3<f64> {
+    /// The stress at the sample points of an element; of averaged triangles its deviatoric part.
+    fn sample_stresses(&self, number: usize) -> Result<Vec<StressMatrix>, ElementError> {
         let element = &self.solid.elements[number];
-        let material = &self.materials[usize::from(element.material)];
-        let d = if element.kind == ElementKind::Triangle3 && self.analysis == Analysis::PlaneStrain {
-            material.deviatoric_mpa()
-        } else {
-            material.stiffness_mpa(self.analysis)
-        };
-        // Plane strain: σ_z = λ (ε_x + ε_y), and λ = D₁₂; its deviatoric part likewise with −2μ/3.
-        let across = if self.analysis == Analysis::PlaneStrain { d.m12 } else { 0.0 };
-        let mut law = Matrix4x3::zeros();
-        law.fixed_view_mut::<3, 3>(0, 0).copy_from(&d);
-        law[(3, 0)] = across;
-        law[(3, 1)] = across;
-        law
-    }
-
-    /// B at the sample points of an element.
-    fn sample_strains(&self, number: usize) -> Result<Vec<StrainMatrix>, ElementError> {
-        let element = &self.solid.elements[number];
+        let kind = element.kind;
         let nodes_mm: Vec<Vector2<f64>> =
             element.nodes().iter().map(|node| self.solid.points_mm[*node as usize]).collect();
-        let distorted = |fold: Fold| ElementError::Distorted {
-            element: number,
-            kind: element.kind,
-            at_mm: fold.at_mm,
-            determinant_mm2: fold.determinant_mm2,
-        };
-        let points = sample_points(element.kind);
-        if element.kind == ElementKind::Quad4 {
-            let d = self.materials[usize::from(element.material)].stiffness_mpa(self.analysis);
+        let distorted =
+            |Fold { at_mm, determinant_mm2 }| ElementError::Distorted { element: number, kind, at_mm, determinant_mm2 };
+        let material = &self.materials[usize::from(element.material)];
+        let points = sample_points(kind);
+        if kind == ElementKind::Quad4 {
+            let d = material.stiffness_mpa(self.analysis);
             let quad = EnhancedQuad::new(&nodes_mm, &d).map_err(distorted)?;
-            let padded = |at: &[f64; 2]| {
-                let mut b = StrainMatrix::zeros();
-                b.fixed_view_mut::<3, 8>(0, 0).copy_from(&quad.strain_matrix(*at));
-                b
+            let law = law(&d, self.analysis);
+            let stress = |at: &[f64; 2]| {
+                let mut stress = StressMatrix::zeros();
+                stress.fixed_view_mut::<4, 8>(0, 0).copy_from(&(law * quad.strain_matrix(*at)));
+                stress
             };
-            return Ok(points.iter().map(padded).collect());
+            return Ok(points.iter().map(stress).collect());
         }
-        let strain = |at: &[f64; 2]| {
-            let shape = Shape::at(element.kind, *at);
+        let plane_strain = self.analysis == Analysis::PlaneStrain;
+        let volume = if plane_strain && ProjectedVolume::serves(kind) {
+            Some(ProjectedVolume::new(kind, &nodes_mm).map_err(distorted)?)
+        } else {
+            None
+        };
+        let d = if plane_strain { material.deviatoric_mpa() } else { material.stiffness_mpa(self.analysis) };
+        let law = law(&d, self.analysis);
+        let stress = |at: &[f64; 2]| {
+            let shape = Shape::at(kind, *at);
             let (gradients, determinant_mm2) = shape.gradients(&nodes_mm);
+            let at_mm = shape.point(&nodes_mm);
             if determinant_mm2.is_nan() || determinant_mm2 <= 0.0 {
-                return Err(distorted(Fold { at_mm: shape.point(&nodes_mm), determinant_mm2 }));
+                return Err(distorted(Fold { at_mm, determinant_mm2 }));
             }
-            let mut b = StrainMatrix::zeros();
+            let mut b = SMatrix::<f64, 3, MOST_DOFS>::zeros();
             for (a, [gx, gy]) in gradients.iter().enumerate() {
                 b[(0, 2 * a)] = *gx;
                 b[(1, 2 * a + 1)] = *gy;
                 b[(2, 2 * a)] = *gy;
                 b[(2, 2 * a + 1)] = *gx;
             }
-            Ok(b)
+            let mut stress = law * b;
+            if let Some(volume) = &volume {
+                stress += VOLUME * volume.row(at_mm).transpose() * material.bulk_modulus_mpa();
+            }
+            Ok(stress)
         };
-        points.iter().map(strain).collect()
+        points.iter().map(stress).collect()
     }
+}
+
+/// Where a volume strain acts: σ_x, σ_y and σ_z.
+const VOLUME: Vector4<f64> = Vector4::new(1.0, 1.0, 0.0, 1.0);
+
+/// D with a row for σ_z. Plane strain: σ_z = λ (ε_x + ε_y), where λ = D₁₂, of a deviatoric D too.
+fn law(d_mpa: &Matrix3<f64>, analysis: Analysis) -> Matrix4x3<f64> {
+    let across = if analysis == Analysis::PlaneStrain { d_mpa.m12 } else { 0.0 };
+    let mut law = Matrix4x3::zeros();
+    law.fixed_view_mut::<3, 3>(0, 0).copy_from(d_mpa);
+    law[(3, 0)] = across;
+    law[(3, 1)] = across;
+    law
 }
 
 /// 1/√3.

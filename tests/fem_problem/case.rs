@@ -55,10 +55,8 @@ fn sides(element: &Element) -> impl Iterator<Item = Edge> + '_ {
 
 /// The mesh of a problem with two bodies, its surfaces, supports and load named as [`TEXT`] names them.
 pub fn mesh_of(problem: &Problem) -> Mesh {
-    let mut mesh = Mesh {
-        points: problem.solid.points_mm.iter().map(|p| [p.x, p.y, 0.0]).collect(),
-        ..Mesh::default()
-    };
+    let mut mesh =
+        Mesh { points: problem.solid.points_mm.iter().map(|p| [p.x, p.y, 0.0]).collect(), ..Mesh::default() };
     for (material, name) in [(0, "cylinder"), (1, "block")] {
         let own: Vec<&Element> = problem.solid.elements.iter().filter(|e| e.material == material).collect();
         let nodes = own.iter().flat_map(|e| e.nodes()).map(|&n| n as usize).collect();
@@ -70,9 +68,7 @@ pub fn mesh_of(problem: &Problem) -> Mesh {
     };
     let top: Vec<Edge> =
         problem.solid.elements.iter().flat_map(sides).filter(|side| side.nodes().all(&loaded)).collect();
-    for (edges, name) in
-        [(&problem.contacts[0].slave, "round"), (&problem.contacts[0].master, "flat"), (&top, "top")]
-    {
+    for (edges, name) in [(&problem.contacts[0].slave, "round"), (&problem.contacts[0].master, "flat"), (&top, "top")] {
         // Every second line the other way round: a mesh does not say on which side its body lies.
         let nodes = edges.iter().enumerate().flat_map(|(i, edge)| {
             let [a, b] = edge.ends;

@@ -38,12 +38,7 @@ fn keys_and_values_that_no_problem_has() {
             "displacement_mm",
             "a displacement beside force_N_per_mm",
         ),
-        (
-            "group = \"top\"",
-            "group = \"top\"\ncomponents = [\"y\"]",
-            "components = [\"y\"]",
-            "components of a force",
-        ),
+        ("group = \"top\"", "group = \"top\"\ncomponents = [ \"y\" ]", "components = [ ", "components of a force"),
     ] {
         let case = case().with(old, new);
         // The line may stand in the file before, in another table; the one exchanged is meant.
@@ -55,7 +50,9 @@ fn keys_and_values_that_no_problem_has() {
 #[test]
 fn what_is_missing_is_named() {
     case().with("young_modulus_GPa = 70.0\n", "").says(&["body[1].young_modulus_GPa is missing", "greater than 0"]);
-    case().with("force_N_per_mm = [0.0, -17500.0]\n", "").says(&["load[0].force_N_per_mm is missing", "displacement_mm"]);
+    case()
+        .with("force_N_per_mm = [0.0, -17500.0]\n", "")
+        .says(&["load[0].force_N_per_mm is missing", "displacement_mm"]);
     case().with("[mesh]\nfile = \"mesh.json\"", "").says(&["mesh is missing"]);
     case().with("[mesh]", "[pair]\nface_width_mm = 14.0\n[mesh]").says(&["both [mesh] and [pair]"]);
     case().with("[[body]]\ngroup = \"cylinder\"", "[body]\ngroup = \"cylinder\"").says(&["problem.toml:"]);
@@ -80,7 +77,9 @@ fn groups_that_are_not_there_or_of_the_wrong_dimension() {
 
 #[test]
 fn cells_that_are_in_two_bodies_or_in_none() {
-    case().with("group = \"block\"", "group = \"cylinder\"").says(&["body[1].group", "belong to the body \"cylinder\" too"]);
+    case()
+        .with("group = \"block\"", "group = \"cylinder\"")
+        .says(&["body[1].group", "belong to the body \"cylinder\" too"]);
     let case = spoiled(|mesh| {
         let from = mesh.points.len();
         mesh.points.extend([[500.0, 0.0, 0.0], [501.0, 0.0, 0.0], [500.0, 1.0, 0.0]]);
@@ -127,12 +126,12 @@ fn contact_lines_off_the_surface() {
 
 #[test]
 fn supports_and_loads_that_contradict() {
-    case()
-        .with("[[contact]]", "[[load]]\ngroup = \"base\"\ndisplacement_mm = [0.0, -0.1]\n\n[[contact]]")
-        .says(&["load[1]: found the displacement -0.1 mm along y", "to which fixed[1] gives 0 mm", "one displacement"]);
-    case()
-        .with("group = \"top\"", "group = \"base\"")
-        .says(&["load[0]"]);
+    case().with("[[contact]]", "[[load]]\ngroup = \"base\"\ndisplacement_mm = [0.0, -0.1]\n\n[[contact]]").says(&[
+        "load[1]: found the displacement -0.1 mm along y",
+        "to which fixed[1] gives 0 mm",
+        "one displacement",
+    ]);
+    case().with("group = \"top\"", "group = \"base\"").says(&["load[0]"]);
     case()
         .with("[[contact]]", "[[fixed]]\ngroup = \"top\"\n\n[[contact]]")
         .refused("force_N_per_mm", &["a force along y on \"top\", every node of which is held along y"]);
@@ -141,11 +140,14 @@ fn supports_and_loads_that_contradict() {
 /// Each body that nothing can hold: without its line of symmetry the block slides, and the cylinder rolls as well.
 #[test]
 fn bodies_that_nothing_holds() {
-    case()
-        .with("group = \"symmetry\"\ncomponents = [\"x\"]", "group = \"base\"\ncomponents = [\"y\"]")
-        .says(&["a body that can move in", "ways that nothing resists", "hold it in one more direction"]);
+    case().with("group = \"symmetry\"\ncomponents = [\"x\"]", "group = \"base\"\ncomponents = [\"y\"]").says(&[
+        "a body that can move in",
+        "ways that nothing resists",
+        "hold it in one more direction",
+    ]);
     let without_contact = TEXT.split("[[contact]]").next().unwrap();
-    Case::new(without_contact, &mesh()).refused("[[body]]", &["body[0]: found a body that can move along y", "supports"]);
+    Case::new(without_contact, &mesh())
+        .refused("[[body]]", &["body[0]: found a body that can move along y", "supports"]);
 }
 
 impl Case {

@@ -117,6 +117,11 @@ impl Run {
                 self.samples[k].point_mm - self.samples[k - 1].point_mm,
                 self.samples[k + 1].point_mm - self.samples[k].point_mm,
             );
+            let (short, long) = (before.norm().min(after.norm()), before.norm().max(after.norm()));
+            if short < 0.1 * long {
+                // Two samples at the joint of two curves.
+                continue;
+            }
             let turn = before.perp(&after).atan2(before.dot(&after)).abs();
             if turn > 0.0 {
                 let radius = 0.5 * (before.norm() + after.norm()) / turn;
@@ -126,13 +131,15 @@ impl Run {
         }
     }
 
-    /// ∫ ds/h up to each sample, by the trapezium rule.
+    /// ∫ ds/h up to each sample, exact for a length that is linear in between: Δs ln(h_b/h_a) / (h_b − h_a).
     fn integrated(&self) -> Vec<f64> {
         let mut sum = 0.0;
         let mut elements = vec![0.0];
         for pair in self.samples.windows(2) {
             let (a, b) = (&pair[0], &pair[1]);
-            sum += 0.5 * (b.s_mm - a.s_mm) * (1.0 / a.length_mm + 1.0 / b.length_mm);
+            let growth = (b.length_mm - a.length_mm) / a.length_mm;
+            let mean = if growth.abs() < 1e-6 { 1.0 - 0.5 * growth } else { growth.ln_1p() / growth };
+            sum += (b.s_mm - a.s_mm) / a.length_mm * mean;
             elements.push(sum);
         }
         elements
@@ -156,8 +163,11 @@ impl Run {
                 k += 1;
             }
             let step = elements[k + 1] - elements[k];
-            let weight = if step > 0.0 { ((target - elements[k]) / step).clamp(0.0, 1.0) } else { 0.0 };
+            let part = if step > 0.0 { ((target - elements[k]) / step).clamp(0.0, 1.0) } else { 0.0 };
             let (a, b) = (&self.samples[k], &self.samples[k + 1]);
+            // The inverse of the integral: h grows by the same factor over equal parts of the elements.
+            let growth = (b.length_mm - a.length_mm) / a.length_mm;
+            let weight = if growth.abs() < 1e-6 { part } else { (part * growth.ln_1p()).exp_m1() / growth };
             ends.push(a.s_mm + weight * (b.s_mm - a.s_mm));
         }
         if let Some(last) = ends.last_mut() {

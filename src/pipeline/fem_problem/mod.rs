@@ -60,7 +60,8 @@ pub fn run(problem: &FemProblem, folder: &Path, told: &dyn Fn(&str)) -> Result<F
     })?;
     let posed = stages.run("problem", || problem.on(&mesh)).map_err(FemProblemError::Input)?;
     let solution = stages.run("solution", || fem::solve(&posed.problem))?;
-    let stress = stages.run("stresses", || recording::nodal_stress(&posed.problem, &solution)).map_err(SolveError::from)?;
+    let stress =
+        stages.run("stresses", || recording::nodal_stress(&posed.problem, &solution)).map_err(SolveError::from)?;
     let mut record = recording::record(problem, posed, &solution, stress, mesh_hash);
     record.summary.stages = stages.times;
     record.summary.wall_s = start.elapsed().as_secs_f64();

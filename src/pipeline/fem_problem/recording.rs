@@ -212,7 +212,8 @@ pub fn nodal_stress(problem: &Problem, solution: &Solution) -> Result<Vec<NodalS
 
 fn mean_stress(of_bodies: &[stress::NodalStress]) -> NodalStress {
     let first = of_bodies[0];
-    let mean = |value: fn(&stress::NodalStress) -> f64| of_bodies.iter().map(value).sum::<f64>() / of_bodies.len() as f64;
+    let mean =
+        |value: fn(&stress::NodalStress) -> f64| of_bodies.iter().map(value).sum::<f64>() / of_bodies.len() as f64;
     let mean = stress::NodalStress {
         sigma_x_mpa: mean(|s| s.sigma_x_mpa),
         sigma_y_mpa: mean(|s| s.sigma_y_mpa),

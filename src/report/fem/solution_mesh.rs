@@ -28,7 +28,6 @@ fn mesh(record: &FemRecord) -> Mesh {
     for row in record.contacts.iter().flat_map(|contact| &contact.rows) {
         pressure_mpa[row.node as usize] = row.pressure_MPa;
     }
-    mesh.point_data
-        .insert("pressure_MPa".to_owned(), DataArray { components: 1, values: Values::Reals(pressure_mpa) });
+    mesh.point_data.insert("pressure_MPa".to_owned(), DataArray { components: 1, values: Values::Reals(pressure_mpa) });
     mesh
 }

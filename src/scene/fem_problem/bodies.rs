@@ -71,7 +71,12 @@ fn check_cells(mesh: &Mesh, findings: &mut Findings) {
         findings.problem(ProblemKind::NotAllowed, "mesh.file", format!("solid cells: {}", solids.join(", ")), plane);
     }
     if let Err(inconsistency) = mesh.check() {
-        findings.problem(ProblemKind::NotAllowed, "mesh.file", inconsistency.to_string(), "a mesh without contradictions");
+        findings.problem(
+            ProblemKind::NotAllowed,
+            "mesh.file",
+            inconsistency.to_string(),
+            "a mesh without contradictions",
+        );
     }
     if u32::try_from(mesh.points.len()).is_err() {
         let found = format!("{} nodes", mesh.points.len());
@@ -171,9 +176,7 @@ fn element_kind(kind: CellKind) -> Option<ElementKind> {
 
 fn check_plane(mesh: &Mesh, meshed: &Meshed, findings: &mut Findings) {
     let extent = meshed.solid.points_mm.iter().fold(0.0, |extent: f64, p| extent.max(p.amax()));
-    let off = |(node, point): &(usize, &[f64; 3])| {
-        meshed.node(*node).is_some() && point[2].abs() > FLAT * extent
-    };
+    let off = |(node, point): &(usize, &[f64; 3])| meshed.node(*node).is_some() && point[2].abs() > FLAT * extent;
     if let Some((node, [x, y, z])) = mesh.points.iter().enumerate().find(off) {
         let found = format!("node {} at x = {}, y = {}, z = {}", node + 1, number(*x), number(*y), number(*z));
         findings.problem(ProblemKind::NotAllowed, "mesh.file", found, "a mesh in the plane z = 0");

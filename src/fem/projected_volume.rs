@@ -1,0 +1,93 @@
+//! Projected volume strain: the cure of the quadratic elements for locking in plane strain.
+//!
+//! Integrated in full, a quadratic element asks for more incompressibility than its displacements can give once its sides
+//! are curved or it is a quadrilateral: at ν = 0.4999 coarse meshes are an order too stiff. Its volume strain θ = tr B u is
+//! therefore replaced, inside the element, by the linear function of x and y nearest to it,
+//!
+//! ```text
+//! θ̄ = pᵀ M⁻¹ Q u        p = (1, x, y)        M = ∫ p pᵀ dA        Q = ∫ p tr B dA
+//! K = ∫ Bᵀ D_dev B dA + κ Qᵀ M⁻¹ Q
+//! ```
+//!
+//! with κ = λ + 2μ/3, which is the mixed element with a linear pressure of its own (Q2/P1), pressure eliminated. Linear in
+//! x and y, not in ξ and η: only so does it keep its order on distorted quadrilaterals. A straight triangle has a linear θ
+//! anyhow and stays as it is.
+//!
+//! Source: J. C. Nagtegaal, D. M. Parks and J. R. Rice, *Computer Methods in Applied Mechanics and Engineering* 4 (1974)
+//! 153–177 (the cause); T. J. R. Hughes, *International Journal for Numerical Methods in Engineering* 15 (1980) 1413–1418
+//! (B-bar); D. N. Arnold, D. Boffi and R. S. Falk, *Mathematics of Computation* 71 (2002) 909–922 (why x and y).
+
+use nalgebra::{Matrix3, SMatrix, SVector, Vector2, Vector3};
+
+use super::element::{ElementMatrix, Fold, MOST_DOFS, least_determinant_mm2};
+use super::quadrature::rule;
+use super::solid::ElementKind;
+
+/// θ̄ of one element as a function of the displacements of its nodes.
+#[derive(Debug, Clone)]
+pub(super) struct ProjectedVolume {
+    /// Origin and size of the coordinates in p, which are made dimensionless.
+    centre_mm: Vector2<f64>,
+    size_mm: f64,
+    /// Q, 1/mm times mm².
+    moments: SMatrix<f64, 3, MOST_DOFS>,
+    /// M⁻¹ Q.
+    projected: SMatrix<f64, 3, MOST_DOFS>,
+}
+
+impl ProjectedVolume {
+    /// Whether a kind of element takes this cure in plane strain.
+    pub fn serves(kind: ElementKind) -> bool {
+        matches!(kind, ElementKind::Triangle6 | ElementKind::Quad8 | ElementKind::Quad9)
+    }
+
+    /// Projects the volume strain of the element on `nodes_mm`.
+    pub fn new(kind: ElementKind, nodes_mm: &[Vector2<f64>]) -> Result<Self, Fold> {
+        let least_mm2 = least_determinant_mm2(nodes_mm);
+        let centre_mm = nodes_mm.iter().sum::<Vector2<f64>>() / nodes_mm.len() as f64;
+        let size_mm = (nodes_mm[0] - centre_mm).norm();
+        let mut volume = Self { centre_mm, size_mm, moments: SMatrix::zeros(), projected: SMatrix::zeros() };
+        let mut mass = Matrix3::zeros();
+        for point in &rule(kind).points {
+            let (gradients, determinant_mm2) = point.shape.gradients(nodes_mm);
+            let at_mm = point.shape.point(nodes_mm);
+            if determinant_mm2.is_nan() || determinant_mm2 <= least_mm2 {
+                return Err(Fold { at_mm, determinant_mm2 });
+            }
+            let area = point.weight * determinant_mm2;
+            let p = volume.basis(at_mm);
+            mass += p * p.transpose() * area;
+            for (a, [gx, gy]) in gradients.iter().enumerate() {
+                for i in 0..3 {
+                    volume.moments[(i, 2 * a)] += p[i] * gx * area;
+                    volume.moments[(i, 2 * a + 1)] += p[i] * gy * area;
+                }
+            }
+        }
+        // M is positive definite: its points do not lie on one line where J > 0 at all of them.
+        let factor = mass.cholesky().ok_or(Fold { at_mm: centre_mm, determinant_mm2: 0.0 })?;
+        volume.projected = factor.solve(&volume.moments);
+        Ok(volume)
+    }
+
+    /// Adds κ Qᵀ M⁻¹ Q to the stiffness of the element.
+    pub fn add_stiffness(&self, bulk_modulus_mpa: f64, dofs: usize, out: &mut ElementMatrix) {
+        // Qᵀ M⁻¹ Q is symmetric but for rounding: the lower half counts.
+        for (i, row) in out.iter_mut().enumerate().take(dofs) {
+            for (k, value) in row.iter_mut().enumerate().take(dofs) {
+                let (low, high) = (i.min(k), i.max(k));
+                *value += bulk_modulus_mpa * self.moments.column(high).dot(&self.projected.column(low));
+            }
+        }
+    }
+
+    /// θ̄ at a point of the element as a row over the displacements of its nodes, 1/mm.
+    pub fn row(&self, at_mm: Vector2<f64>) -> SVector<f64, MOST_DOFS> {
+        self.projected.transpose() * self.basis(at_mm)
+    }
+
+    fn basis(&self, at_mm: Vector2<f64>) -> Vector3<f64> {
+        let arm = (at_mm - self.centre_mm) / self.size_mm;
+        Vector3::new(1.0, arm.x, arm.y)
+    }
+}
