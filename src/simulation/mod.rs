@@ -1,5 +1,6 @@
 //! The wear run and what it leaves behind.
 
+pub mod fem_pair_record;
 pub mod figures;
 pub mod record;
 pub mod settings;
