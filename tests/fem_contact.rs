@@ -37,7 +37,8 @@ impl Patch {
         // Lines that divide neither evenly nor alike.
         let lower_lines = [0.0, 0.23, 0.51, 0.78, 1.0];
         let upper_lines = [0.0, 0.36, 0.69, 1.0].map(|u| u * self.upper_width);
-        let lower = Grid::add(&mut solid, self.kinds[0], 0, (&lower_lines, &[0.0, 0.4, 0.7]), |u, v| turn * Vector2::new(u, v));
+        let lower =
+            Grid::add(&mut solid, self.kinds[0], 0, (&lower_lines, &[0.0, 0.4, 0.7]), |u, v| turn * Vector2::new(u, v));
         let first_upper = solid.points_mm.len() as u32;
         let upper =
             Grid::add(&mut solid, self.kinds[1], 1, (&upper_lines, &[0.7, 1.1, 1.3]), |u, v| turn * Vector2::new(u, v));
@@ -115,7 +116,10 @@ fn richardson([coarse, middle, fine]: [f64; 3]) -> (f64, f64) {
 /// 3585.4 MPa and a half-width of 6.215 mm.
 #[test]
 fn val_nafems_cylinder_on_block() {
-    println!("{:10} {:>6} {:>7} {:>9} {:>8} {:>8} {:>8} {:>9} {:>4} {:>9} {:>9}", "kind", "n", "dofs", "p MPa", "%", "a mm", "%", "overlap", "its", "residual", "balance");
+    println!(
+        "{:10} {:>6} {:>7} {:>9} {:>8} {:>8} {:>8} {:>9} {:>4} {:>9} {:>9}",
+        "kind", "n", "dofs", "p MPa", "%", "a mm", "%", "overlap", "its", "residual", "balance"
+    );
     for kind in KINDS {
         let mut peaks = Vec::new();
         let mut overlaps = Vec::new();
@@ -151,12 +155,17 @@ fn val_nafems_cylinder_on_block() {
 /// At a hundredth of the load the half-width is a tenth, and linear kinematics agree with Hertz.
 fn light(kind: ElementKind, n: f64) -> CylinderOnBlock {
     let nafems = CylinderOnBlock::nafems(kind, n);
-    CylinderOnBlock { force_n_per_mm: 0.01 * nafems.force_n_per_mm, half_width_mm: 0.1 * nafems.half_width_mm, ..nafems }
+    CylinderOnBlock {
+        force_n_per_mm: 0.01 * nafems.force_n_per_mm,
+        half_width_mm: 0.1 * nafems.half_width_mm,
+        ..nafems
+    }
 }
 
 /// ‖p_h − p‖/‖p‖ in L2 along the surface, the pressure drawn straight between the nodes.
 fn pressure_error(case: &CylinderOnBlock, solution: &Solution) -> f64 {
-    let contact_modulus = 1.0 / case.young_modulus_mpa.iter().map(|e| (1.0 - case.poisson_ratio.powi(2)) / e).sum::<f64>();
+    let contact_modulus =
+        1.0 / case.young_modulus_mpa.iter().map(|e| (1.0 - case.poisson_ratio.powi(2)) / e).sum::<f64>();
     let hertz = HertzLine::of_relative_radius(case.radius_mm, contact_modulus).loaded(2.0 * case.force_n_per_mm);
     let (mut error, mut size) = (0.0, 0.0);
     for pair in solution.contacts[0].nodes.windows(2) {

@@ -136,7 +136,11 @@ fn ver_units() {
                 worst = worst.max((a.pressure_mpa / stress - b.pressure_mpa).abs() / wanted.peak_pressure_mpa);
             }
             worst = worst.max((found.half_width_mm / length / wanted.half_width_mm - 1.0).abs());
-            row(&format!("{kind:?} lengths x {length:e}, stress x {stress:e}"), &scaled, &format!("change {worst:.0e}"));
+            row(
+                &format!("{kind:?} lengths x {length:e}, stress x {stress:e}"),
+                &scaled,
+                &format!("change {worst:.0e}"),
+            );
             assert!(worst < 1e-9, "{kind:?} {length} {stress}: {worst}");
         }
     }
@@ -148,7 +152,9 @@ fn ver_units() {
 fn half_disc(solid: &mut Solid, kind: ElementKind, material: u16, centre: f64, angles: &[f64], step: f64) -> Grid {
     const R: f64 = 50.0;
     let radii: Vec<f64> = graded(R, 0.02 * R, step, 4.0 * step, 1.3).into_iter().rev().collect();
-    Grid::add(solid, kind, material, (&radii, angles), |r, angle| Vector2::new(r * angle.cos(), centre + r * angle.sin()))
+    Grid::add(solid, kind, material, (&radii, angles), |r, angle| {
+        Vector2::new(r * angle.cos(), centre + r * angle.sin())
+    })
 }
 
 /// Persson's contact of a disc in a hole of nearly the same radius, both of one material: b = tan(ε/2) with ε the half-angle
@@ -279,7 +285,10 @@ fn val_flat_punch() {
                 row(
                     &name,
                     &solution,
-                    &format!("p(0) {:+.2} %, p(a/2) {:+.2} %, a {:.4}, edge singular", errors[0], errors[1], contact.half_width_mm),
+                    &format!(
+                        "p(0) {:+.2} %, p(a/2) {:+.2} %, a {:.4}, edge singular",
+                        errors[0], errors[1], contact.half_width_mm
+                    ),
                 );
                 assert_sound(&name, &solution, 1e-7);
             }
@@ -405,7 +414,11 @@ fn val_disc_floats_between_blocks() {
             row(&name, &solution, &format!("Hertz: p {:+.2} %, {:+.2} %", errors[0], errors[1]));
             assert_sound(&name, &solution, 1e-8);
             for contact in &solution.contacts {
-                assert!((contact.force_n_per_mm.y.abs() / 500.0 - 1.0).abs() < 1e-7, "{name}: {:?}", contact.force_n_per_mm);
+                assert!(
+                    (contact.force_n_per_mm.y.abs() / 500.0 - 1.0).abs() < 1e-7,
+                    "{name}: {:?}",
+                    contact.force_n_per_mm
+                );
             }
             peaks.push(solution.contacts[0].peak_pressure_mpa);
         }
@@ -418,8 +431,7 @@ fn groove(solid: &mut Solid, kind: ElementKind, held: &mut Vec<u32>) -> [Vec<gea
         let turn = Rotation2::new(angle);
         // Along the face, away from the origin on either side, and the depth below it.
         let lines = graded_around(0.01, 100.0, 50.0, 0.2, 3.0);
-        let lines: Vec<f64> =
-            if angle < 0.0 { lines.iter().rev().map(|u| -u).collect() } else { lines };
+        let lines: Vec<f64> = if angle < 0.0 { lines.iter().rev().map(|u| -u).collect() } else { lines };
         let down: Vec<f64> = graded(0.0, -40.0, 0.2, 1.0, 1.3).into_iter().rev().collect();
         let grid = Grid::add(solid, kind, 0, (&lines, &down), |u, v| turn * Vector2::new(u, v));
         held.extend(grid.bottom_nodes());
@@ -462,9 +474,8 @@ fn val_square_in_a_groove() {
 /// A whole disc around (0, `centre`), fine at the bottom between the angles ± `fine`; its outside edges.
 fn disc(solid: &mut Solid, kind: ElementKind, centre: f64, fine: &[f64]) -> Vec<gearwear::fem::problem::Edge> {
     let radii: Vec<f64> = graded(50.0, 5.0, 0.2, 1.0, 1.3).into_iter().rev().collect();
-    let grid = Grid::add(solid, kind, 0, (&radii, fine), |r, angle| {
-        Vector2::new(r * angle.sin(), centre - r * angle.cos())
-    });
+    let grid =
+        Grid::add(solid, kind, 0, (&radii, fine), |r, angle| Vector2::new(r * angle.sin(), centre - r * angle.cos()));
     let edges = grid.right();
     let number = weld(solid, 1e-9);
     renumbered(&edges, &number)

@@ -301,7 +301,12 @@ fn state(
 fn overlap_mm(interface: &Interface, displacement_mm: &[f64]) -> f64 {
     let of = |surface: &Surface| -> Vec<nalgebra::Vector2<f64>> {
         let at = |&node: &u32| 2 * node as usize;
-        surface.mesh_nodes.iter().map(at).map(|x| nalgebra::Vector2::from_column_slice(&displacement_mm[x..x + 2])).collect()
+        surface
+            .mesh_nodes
+            .iter()
+            .map(at)
+            .map(|x| nalgebra::Vector2::from_column_slice(&displacement_mm[x..x + 2]))
+            .collect()
     };
     let (slave, master) = (&interface.slave, &interface.master);
     largest_overlap_mm(

@@ -34,7 +34,6 @@ impl RigidMotion {
         let arm = (point_mm - self.centre_mm) / self.size_mm;
         Vector2::new(self.amplitude.x - self.amplitude.z * arm.y, self.amplitude.y + self.amplitude.z * arm.x)
     }
-
 }
 
 /// In words: which body moves how with these amplitudes of the `motions`; of several bodies, the one that moves most.

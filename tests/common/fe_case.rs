@@ -8,7 +8,8 @@ use gearwear::fem::solid::Solid;
 use nalgebra::{Matrix2, Matrix3, Vector2};
 
 /// Points and weights of Gauss's rule over −1 to 1, exact to degree 5.
-const GAUSS: [(f64, f64); 3] = [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
+const GAUSS: [(f64, f64); 3] =
+    [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
 
 /// A plane-strain problem of `solid` without supports, loads and contacts.
 pub fn problem(solid: Solid, materials: &[(f64, f64)]) -> Problem {
@@ -95,7 +96,8 @@ pub fn linear_fit(solid: &Solid, displacement: &[f64], nodes: std::ops::Range<u3
     let gram: Matrix3<f64> = nodes.clone().map(|node| row(node) * row(node).transpose()).sum();
     let inverse = gram.try_inverse().expect("nodes span the plane");
     let fit = [0, 1].map(|component| {
-        inverse * nodes.clone().map(|node| row(node) * moved(displacement, node)[component]).sum::<nalgebra::Vector3<f64>>()
+        inverse
+            * nodes.clone().map(|node| row(node) * moved(displacement, node)[component]).sum::<nalgebra::Vector3<f64>>()
     });
     let deviation = |node: u32| {
         let fitted = Vector2::new(fit[0].dot(&row(node)), fit[1].dot(&row(node)));

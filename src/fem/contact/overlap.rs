@@ -15,7 +15,6 @@ use nalgebra::Vector2;
 use super::dual_basis::gauss_points;
 use super::edge::{interpolate, shape};
 use super::facing::Facing;
-use super::mortar::split_at_middle;
 use super::surface::Surface;
 
 /// A surface with the displacements of its local nodes, mm.
@@ -45,7 +44,7 @@ pub fn largest_overlap_mm(slave: Moved<'_>, master: Moved<'_>, reach_mm: f64) ->
     for (number, edge) in slave.surface.edges.iter().enumerate() {
         for segment in facing.segments(slave.surface, number, reach_mm) {
             let mate = master.surface.edges[segment.master];
-            for (xi, _) in split_at_middle(&segment).flat_map(|(from, to)| gauss_points(from, to)) {
+            for (xi, _) in gauss_points(segment.from, segment.to) {
                 let Some(meeting) = facing.meet(slave.surface, edge, xi, segment.master) else { continue };
                 let Some(normal) = slave.surface.normal_and_derivative(edge, xi).0.try_normalize(0.0) else { continue };
                 let relative = master.at(mate.nodes(), meeting.eta) - slave.at(edge.nodes(), xi);

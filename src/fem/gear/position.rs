@@ -432,8 +432,7 @@ fn add_sandwich(
     let (right_columns, right_place) = used_columns(right);
     // Each entry of C is read once, into columns that lie together.
     let width = right_columns.len();
-    let gathered: Vec<f64> =
-        left_columns.iter().flat_map(|&k| right_columns.iter().map(move |&column| compliance.at(column, k))).collect();
+    let gathered = compliance.gathered(&right_columns, &left_columns);
     let mut carried = vec![0.0; width];
     for (i, row) in left.outer_iterator().enumerate() {
         carried.fill(0.0);
