@@ -7,9 +7,10 @@ use std::time::Instant;
 
 use gearwear::fem::elastic::Elastic;
 use gearwear::fem::gear::cycle::cycle;
-use gearwear::fem::gear::model::{Body, MeshedGear, ModelSettings};
+use gearwear::fem::gear::model::MeshedGear;
 use gearwear::fem::gear::position::CondensedPair;
 use gearwear::gear::{Gear, GearPair, PerGear};
+use gearwear::mesh::settings::{Body, BodySettings};
 use gearwear::scene::{Scene, presets};
 
 const POSITIONS: usize = 400;
@@ -42,7 +43,7 @@ fn table() {
     );
     let mut costs = Vec::new();
     for elements_per_half_width in [4.0, 6.0, 8.0, 10.0, 14.0] {
-        let settings = ModelSettings {
+        let settings = BodySettings {
             body: Body::Ring,
             clamp_radius_mm: PerGear { pinion: 19.943, wheel: 37.897 },
             elements_per_half_width,

@@ -6,10 +6,11 @@ use common::{assert_close, fzg_c};
 use gearwear::fem::elastic::Elastic;
 use gearwear::fem::gear::cycle::cycle;
 use gearwear::fem::gear::full;
-use gearwear::fem::gear::model::{Body, MeshedGear, ModelSettings};
+use gearwear::fem::gear::model::MeshedGear;
 use gearwear::fem::gear::position::{CondensedPair, PositionContact, ToothPairContact, WarmStart};
 use gearwear::gear::spec::PairSpec;
 use gearwear::gear::{GearPair, PerGear};
+use gearwear::mesh::settings::{Body, BodySettings, SectorSides};
 use gearwear::reference::hertz_line::HertzLine;
 
 /// Steel; contact modulus of two such bodies.
@@ -22,8 +23,8 @@ fn steel() -> PerGear<Elastic> {
     PerGear::from_fn(|_| Elastic { young_modulus_mpa: YOUNG_MODULUS_MPA, poisson_ratio: 0.3 })
 }
 
-fn settings(body: Body, elements_per_half_width: f64) -> ModelSettings {
-    ModelSettings { body, clamp_radius_mm: CLAMP_RADIUS_MM, elements_per_half_width }
+fn settings(body: Body, elements_per_half_width: f64) -> BodySettings {
+    BodySettings { body, clamp_radius_mm: CLAMP_RADIUS_MM, elements_per_half_width }
 }
 
 /// 302 N·m over base radius and face width.
@@ -31,7 +32,7 @@ fn line_load(pair: &GearPair) -> f64 {
     302e3 / pair.path.involute.pinion.base_radius_mm / pair.spec.face_width_mm
 }
 
-fn meshed(pair: &GearPair, settings: &ModelSettings) -> PerGear<MeshedGear> {
+fn meshed(pair: &GearPair, settings: &BodySettings) -> PerGear<MeshedGear> {
     PerGear::from_fn(|gear| MeshedGear::new(pair, gear, &steel(), line_load(pair), settings).unwrap())
 }
 
@@ -40,7 +41,7 @@ fn condensed<'a>(pair: &'a GearPair, meshed: &PerGear<MeshedGear>) -> CondensedP
     CondensedPair::new(pair, &steel(), gears)
 }
 
-fn model(pair: &GearPair, settings: ModelSettings) -> CondensedPair<'_> {
+fn model(pair: &GearPair, settings: BodySettings) -> CondensedPair<'_> {
     condensed(pair, &meshed(pair, &settings))
 }
 
@@ -77,7 +78,7 @@ fn is_regular(pair: &GearPair, at: &PositionContact, contact: &ToothPairContact)
 #[test]
 fn val_transmission_error_at_the_pitch_point() {
     let pair = GearPair::new(&fzg_c()).unwrap();
-    let free = Body::Sector { teeth: 3, clamped_sides: false };
+    let free = Body::Sector { teeth: 3, sides: SectorSides::Free };
     for (body, expected_um) in [(Body::Ring, 37.52), (free, 41.88)] {
         let model = model(&pair, settings(body, 6.0));
         let found = model.at(pair.path.pitch_point_mm, line_load(&pair), &WarmStart::default()).unwrap();
@@ -116,14 +117,15 @@ fn ver_forces_balance() {
         assert!(at.max_penetration_mm < 1e-12, "{at:?}");
         assert!(at.pairs.iter().all(|contact| contact.line_load_n_per_mm > 0.0));
     }
-    // T2/T1 = (z2/z1)(1 + dδ/dξ): the work of the torques goes into the elastic energy, here by central differences.
+    // T1 dφ1 = T2 dφ2 + dU with U = ½ w δ (nearly: flattening is not quite proportional to load) gives
+    // T2/T1 = (z2/z1)(1 + ½ dδ/dξ); the slope by central differences.
     for three in solved.windows(3) {
         let numbers = |k: usize| three[k].pairs.iter().map(|p| (p.pair, p.at_sharp_edge)).collect::<Vec<_>>();
         let smooth = numbers(0) == numbers(1) && numbers(1) == numbers(2) && numbers(1).iter().all(|p| !p.1);
         if smooth {
             let run = three[2].position_mm - three[0].position_mm;
-            let slope = (three[2].transmission_error_mm - three[0].transmission_error_mm) / run;
-            assert!((three[1].torque_ratio_error - slope).abs() < 3e-4, "{slope} {:?}", three[1].torque_ratio_error);
+            let slope = 0.5 * (three[2].transmission_error_mm - three[0].transmission_error_mm) / run;
+            assert!((three[1].torque_ratio_error - slope).abs() < 1e-4, "{slope} {:?}", three[1].torque_ratio_error);
         }
     }
 }
@@ -185,8 +187,11 @@ fn ver_pressure_at_a_rounded_tip_converges() {
 #[test]
 fn ver_condensed_is_the_whole_model() {
     let pair = GearPair::new(&fzg_c()).unwrap();
-    let bodies =
-        [Body::Ring, Body::Sector { teeth: 5, clamped_sides: true }, Body::Sector { teeth: 3, clamped_sides: false }];
+    let bodies = [
+        Body::Ring,
+        Body::Sector { teeth: 5, sides: SectorSides::Clamped },
+        Body::Sector { teeth: 3, sides: SectorSides::Free },
+    ];
     for body in bodies {
         let meshed = meshed(&pair, &settings(body, 3.0));
         let model = condensed(&pair, &meshed);
@@ -245,7 +250,7 @@ fn ver_same_in_mm_and_in_m() {
         let pair = GearPair::new(&spec).unwrap();
         let material =
             PerGear::from_fn(|_| Elastic { young_modulus_mpa: YOUNG_MODULUS_MPA / s / s, poisson_ratio: 0.3 });
-        let settings = ModelSettings {
+        let settings = BodySettings {
             body: Body::Ring,
             clamp_radius_mm: CLAMP_RADIUS_MM.map(|r| r * s),
             elements_per_half_width: 3.0,

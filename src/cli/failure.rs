@@ -7,6 +7,7 @@ use super::say;
 use gearwear::fem::SolveError;
 use gearwear::mesh::MeshFileError;
 use gearwear::pipeline::RunError;
+use gearwear::pipeline::fem_scene::FemPairError;
 use gearwear::pipeline::pair_mesh::PairMeshError;
 use gearwear::report::ReportError;
 use gearwear::scene::{Problem, ProblemKind, presets};
@@ -30,6 +31,9 @@ pub enum Failure {
     /// A finite-element problem has no solution.
     #[error(transparent)]
     Solve(#[from] SolveError),
+    /// The finite-element contact of a gear pair failed.
+    #[error(transparent)]
+    FemPair(FemPairError),
     /// The user interrupted the run; it was said what is kept.
     #[error("interrupted")]
     Interrupted,
@@ -78,15 +82,18 @@ pub enum InputError {
         /// Name of the file.
         name: String,
     },
-    /// `fem` with a gear pair.
-    #[error(
-        "{name}: found [pair], and finite elements of a gear pair are not available in this version; allowed: [mesh]"
-    )]
-    #[diagnostic(help("gearwear schema --problem lists what a problem with its own mesh may say"))]
-    NoFemPair {
+    /// `fem` of a problem with an option that only a gear pair has.
+    #[error("{name}: found {option}, which a problem with its own mesh does not have; allowed with a gear pair, [pair]")]
+    #[diagnostic(help("leave {option} out"))]
+    OnlyForPair {
         /// Name of the file.
         name: String,
+        /// The option.
+        option: &'static str,
     },
+    /// `fem` of a gear pair that cannot be modelled as asked.
+    #[error("{}", fem_pair(.0))]
+    FemPair(FemPairError),
     /// `init` with a name that is no preset.
     #[error("unknown preset {name:?}; allowed: {}", presets::names().join(", "))]
     #[diagnostic(help("{}", presets::nearest(name).map_or_else(
@@ -118,6 +125,16 @@ impl From<ReportError> for Failure {
     }
 }
 
+/// A finite-element pair's error with the option it belongs to.
+fn fem_pair(error: &FemPairError) -> String {
+    match error {
+        FemPairError::Position { given_mm, from_mm, to_mm } => {
+            format!("--position: found {given_mm}; allowed: {from_mm:.4} (A) to {to_mm:.4} (E), in mm")
+        }
+        other => other.to_string(),
+    }
+}
+
 /// An error with everything that led to it, on one line.
 fn causes(error: &dyn std::error::Error) -> String {
     let chain = std::iter::successors(error.source(), |cause| cause.source());
@@ -131,6 +148,7 @@ impl Failure {
             Failure::Scene(scene) => scene.print(),
             Failure::Input(error) => say(&format!("{:?}", Report::new(error))),
             Failure::Solve(error) => say(&format!("{:?}", Report::msg(error))),
+            Failure::FemPair(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Run(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Interrupted | Failure::Closed => {}
         }
@@ -140,7 +158,7 @@ impl Failure {
     pub fn exit_status(&self) -> u8 {
         match self {
             Failure::Scene(_) | Failure::Input(_) => 2,
-            Failure::Run(_) | Failure::Solve(_) => 3,
+            Failure::Run(_) | Failure::Solve(_) | Failure::FemPair(_) => 3,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
         }

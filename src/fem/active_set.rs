@@ -30,8 +30,11 @@ const PATIENCE: usize = 8;
 const MOST_ITERATIONS: usize = 2000;
 /// Signs within this part of the greatest force or gap are round-off.
 const ROUND_OFF: f64 = 1e-12;
-/// Below this part of its scale a pivot of S says that the active set does not hold the bodies.
-const SINGULAR: f64 = 1e-12;
+/// Motions that the contact resists by less than this part of what it can resist at most are not held. Contact on curved
+/// surfaces of elements resists turning about their centre by 1e-10 or so, which is no resistance.
+const SINGULAR: f64 = 1e-9;
+/// Stiffness of the ground that stands in for what is not held while the active set is still wrong, of the same measure.
+const SOFT_GROUND: f64 = 1e-6;
 
 /// The condensed problem.
 #[derive(Debug, Clone)]
@@ -82,10 +85,10 @@ pub enum ActiveSetError {
         least_gap_mm: f64,
     },
     /// Contact does not hold the bodies against a rigid motion.
-    #[error("neither supports nor contact hold the bodies against {motions} rigid motion(s): a body floats for ever")]
+    #[error("neither supports nor contact hold the bodies against a rigid motion: a body floats for ever")]
     Floating {
-        /// How many motions are free.
-        motions: usize,
+        /// One such motion: the amplitude of each free rigid motion of the problem.
+        amplitudes: Vec<f64>,
     },
     /// The multipliers are not independent.
     #[error("the contact compliance is not positive definite at multiplier {index}")]
@@ -110,8 +113,8 @@ struct Trial {
     force: Vec<f64>,
     gap_mm: Vec<f64>,
     rigid: Vec<f64>,
-    /// Whether the active set holds every rigid motion.
-    holds: bool,
+    /// A motion that the active set does not hold.
+    loose: Option<Vec<f64>>,
 }
 
 impl Condensed {
@@ -124,6 +127,10 @@ impl Condensed {
         if !self.is_finite() {
             return Err(ActiveSetError::NotFinite);
         }
+        let resistance = self.greatest_resistance();
+        if let Some(amplitudes) = self.never_held(&resistance) {
+            return Err(ActiveSetError::Floating { amplitudes });
+        }
         let mut active = match start {
             Some(start) if start.len() == n && start.contains(&true) => start.to_vec(),
             _ => self.first_touch()?,
@@ -131,7 +138,7 @@ impl Condensed {
         let mut log = Log::default();
         let (mut fewest, mut patience, mut one_by_one) = (usize::MAX, PATIENCE, false);
         for _ in 0..MOST_ITERATIONS {
-            let trial = self.trial(&active)?;
+            let trial = self.trial(&active, &resistance)?;
             let wrong = self.wrong(&trial, &active);
             log.steps.push((active.iter().filter(|a| **a).count(), wrong.len()));
             if wrong.is_empty() {
@@ -160,10 +167,31 @@ impl Condensed {
             let least_gap_mm = trial.gap_mm.iter().copied().fold(f64::INFINITY, f64::min);
             return Err(ActiveSetError::NoContact { least_gap_mm });
         }
-        if !trial.holds {
-            return Err(ActiveSetError::Floating { motions: self.rigid_load.len() });
+        if let Some(amplitudes) = trial.loose {
+            return Err(ActiveSetError::Floating { amplitudes });
         }
         Ok(Equilibrium { force: trial.force, gap_mm: trial.gap_mm, rigid: trial.rigid, active, log })
+    }
+
+    /// For each rigid motion Σ G_i²/C_ii over all multipliers: the resistance of independent springs, the measure of S.
+    fn greatest_resistance(&self) -> Vec<f64> {
+        let spring = |i: usize, a: usize| self.rigid[(i, a)].powi(2) / self.compliance[(i, i)];
+        (0..self.rigid_load.len()).map(|a| (0..self.gap_mm.len()).map(|i| spring(i, a)).sum()).collect()
+    }
+
+    /// A combination of rigid motions that changes no gap.
+    fn never_held(&self, resistance: &[f64]) -> Option<Vec<f64>> {
+        let m = resistance.len();
+        let greatest = resistance.iter().copied().fold(0.0, f64::max);
+        if let Some(a) = (0..m).find(|&a| resistance[a] <= SINGULAR * SINGULAR * greatest) {
+            return Some((0..m).map(|b| if a == b { 1.0 } else { 0.0 }).collect());
+        }
+        let springs = |a: usize, b: usize| -> f64 {
+            let product = |i| self.rigid[(i, a)] * self.rigid[(i, b)] / self.compliance[(i, i)];
+            (0..self.gap_mm.len()).map(product).sum()
+        };
+        let s = nalgebra::DMatrix::from_fn(m, m, springs);
+        held_motion(&s, &nalgebra::DVector::zeros(m), resistance).1
     }
 
     fn is_finite(&self) -> bool {
@@ -182,17 +210,17 @@ impl Condensed {
             (0..n).map(|i| self.rigid_load.iter().enumerate().map(|(k, q)| self.rigid[(i, k)] * q).sum()).collect();
         let path = |i: usize| self.gap_mm[i].max(0.0) / closing[i];
         let first = (0..n).filter(|&i| closing[i] > 0.0).map(path).fold(f64::INFINITY, f64::min);
-        let moved: Vec<f64> = match (first.is_finite(), self.rigid_load.is_empty()) {
-            (true, _) => (0..n).map(|i| self.gap_mm[i] - first * closing[i]).collect(),
-            (false, true) => self.gap_mm.clone(),
-            (false, false) => return Err(ActiveSetError::NoContact { least_gap_mm }),
+        let moved: Vec<f64> = match first.is_finite() {
+            true => (0..n).map(|i| self.gap_mm[i] - first * closing[i]).collect(),
+            false => self.gap_mm.clone(),
         };
-        let touching: Vec<bool> = (0..n).map(|i| moved[i] <= ROUND_OFF * (1.0 + self.gap_mm[i].abs())).collect();
+        let scale = moved.iter().chain(&self.gap_mm).fold(0.0_f64, |most, gap| most.max(gap.abs()));
+        let touching: Vec<bool> = moved.iter().map(|gap| *gap <= ROUND_OFF * scale).collect();
         if touching.contains(&true) { Ok(touching) } else { Err(ActiveSetError::NoContact { least_gap_mm }) }
     }
 
     /// Forces and gaps if exactly the `active` multipliers carry load.
-    fn trial(&self, active: &[bool]) -> Result<Trial, ActiveSetError> {
+    fn trial(&self, active: &[bool], resistance: &[f64]) -> Result<Trial, ActiveSetError> {
         let members: Vec<usize> = (0..active.len()).filter(|&i| active[i]).collect();
         let (k, m) = (members.len(), self.rigid_load.len());
         let c = Mat::from_fn(k, k, |i, j| self.compliance[(members[i], members[j])]);
@@ -209,7 +237,7 @@ impl Condensed {
         let product = |j: usize, a: usize| -> f64 { (0..k).map(|i| self.rigid[(members[i], a)] * sides[(i, j)]).sum() };
         let s = nalgebra::DMatrix::from_fn(m, m, |a, b| product(b + 1, a));
         let load = nalgebra::DVector::from_fn(m, |a, _| product(0, a) - self.rigid_load[a]);
-        let (alpha, holds) = held_motion(&s, &load);
+        let (alpha, loose) = held_motion(&s, &load, resistance);
         let mut force = vec![0.0; active.len()];
         for (i, &member) in members.iter().enumerate() {
             force[member] = sides[(i, 0)] - (0..m).map(|a| sides[(i, a + 1)] * alpha[a]).sum::<f64>();
@@ -229,7 +257,7 @@ impl Condensed {
         for &member in &members {
             gap_mm[member] = 0.0;
         }
-        Ok(Trial { force, gap_mm, rigid: alpha.iter().copied().collect(), holds })
+        Ok(Trial { force, gap_mm, rigid: alpha.iter().copied().collect(), loose })
     }
 
     /// Active multipliers that pull and others that overlap.
@@ -245,19 +273,27 @@ impl Condensed {
     }
 }
 
-/// Solves S α = load by eigenvectors; motions that S does not hold get a soft ground instead, and `false` is told.
-fn held_motion(s: &nalgebra::DMatrix<f64>, load: &nalgebra::DVector<f64>) -> (nalgebra::DVector<f64>, bool) {
+/// Solves S α = load by eigenvectors, S and α scaled by the greatest `resistance` to each motion; what S does not hold gets
+/// a soft ground instead, and is told.
+fn held_motion(
+    s: &nalgebra::DMatrix<f64>,
+    load: &nalgebra::DVector<f64>,
+    resistance: &[f64],
+) -> (nalgebra::DVector<f64>, Option<Vec<f64>>) {
+    let unit = nalgebra::DVector::from_iterator(load.len(), resistance.iter().map(|r| 1.0 / r.sqrt()));
     if load.is_empty() {
-        return (load.clone(), true);
+        return (unit, None);
     }
-    let eigen = s.clone().symmetric_eigen();
-    let greatest = eigen.eigenvalues.amax();
-    let soft = SINGULAR * greatest;
-    let holds = eigen.eigenvalues.iter().all(|value| *value > soft);
-    let ground = if holds { 0.0 } else { 1e-6 * greatest };
-    let mut alpha = eigen.eigenvectors.tr_mul(load);
+    let scaled = nalgebra::DMatrix::from_fn(load.len(), load.len(), |a, b| s[(a, b)] * unit[a] * unit[b]);
+    let eigen = scaled.symmetric_eigen();
+    let weakest = eigen.eigenvalues.imin();
+    let holds = eigen.eigenvalues[weakest] > SINGULAR;
+    let ground = if holds { 0.0 } else { SOFT_GROUND };
+    let mut alpha = eigen.eigenvectors.tr_mul(&load.component_mul(&unit));
     for (a, value) in alpha.iter_mut().zip(eigen.eigenvalues.iter()) {
-        *a /= value + ground;
+        *a /= value.max(0.0) + ground;
     }
-    (&eigen.eigenvectors * alpha, holds)
+    let alpha = (&eigen.eigenvectors * alpha).component_mul(&unit);
+    let loose = || eigen.eigenvectors.column(weakest).component_mul(&unit).iter().copied().collect();
+    (alpha, (!holds).then(loose))
 }

@@ -70,3 +70,21 @@ impl Elastic {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// D = D_dev + κ m mᵀ in plane strain, and D_dev gives no mean stress: σ_x + σ_y + σ_z = 0 with σ_z = −2μ/3 (ε_x + ε_y).
+    #[test]
+    fn ver_deviatoric_and_volumetric_parts_make_the_whole() {
+        let material = Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 };
+        let volume = Matrix3::new(1.0, 1.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0);
+        let deviatoric = material.deviatoric_mpa();
+        let whole = deviatoric + volume * material.bulk_modulus_mpa();
+        let difference = whole - material.stiffness_mpa(Analysis::PlaneStrain);
+        assert!(difference.amax() < 1e-15 * whole.amax() * 4.0, "{difference}");
+        let across = -2.0 / 3.0 * material.shear_modulus_mpa();
+        assert!((deviatoric.m11 + deviatoric.m21 + across).abs() < 1e-10, "{deviatoric}");
+    }
+}

@@ -77,11 +77,10 @@ impl EnhancedQuad {
 
     /// Writes the condensed stiffness.
     pub fn write_stiffness(&self, out: &mut ElementMatrix) {
-        for i in 0..8 {
-            for k in 0..=i {
-                // Condensation is symmetric but for rounding: the lower half counts.
-                out[i][k] = self.stiffness[(i, k)];
-                out[k][i] = self.stiffness[(i, k)];
+        // Condensation is symmetric but for rounding: the lower half counts.
+        for (i, row) in out.iter_mut().enumerate().take(8) {
+            for (k, value) in row.iter_mut().enumerate().take(8) {
+                *value = self.stiffness[(i.max(k), i.min(k))];
             }
         }
     }

@@ -17,12 +17,13 @@ use sprs::{CsMat, TriMat};
 
 use super::active_set::{ActiveSetError, Condensed, Equilibrium};
 use super::contact::mortar::Coupling;
+use super::contact::overlap::{Moved, largest_overlap_mm};
 use super::contact::surface::Surface;
 use super::contact::zones;
 use super::element::ElementError;
 use super::factor::{Factor, FactorError};
 use super::problem::{ContactNode, ContactState, Problem, Solution, Stop, Work};
-use super::rigid_body::{RigidMotion, free_motions};
+use super::rigid_body::{RigidMotion, describe, free_motions};
 use super::stiffness::Stiffness;
 
 /// Why a problem has no solution.
@@ -50,6 +51,8 @@ struct Interface {
     slave: Surface,
     master: Surface,
     coupling: Coupling,
+    /// How far apart they may lie, mm.
+    reach_mm: f64,
     /// Rows of this contact among all multipliers.
     first_row: usize,
 }
@@ -65,8 +68,8 @@ pub fn solve(problem: &Problem) -> Result<Solution, SolveError> {
         held[support.dof as usize] = true;
     }
     let motions = free_motions(solid, &held);
-    if let (Some(motion), true) = (motions.first(), problem.contacts.is_empty()) {
-        return Err(SolveError::Floating { motion: motion.describe() });
+    if !motions.is_empty() && problem.contacts.is_empty() {
+        return Err(SolveError::Floating { motion: describe(&motions, &[1.0]) });
     }
     let mut anchored = held.clone();
     for motion in &motions {
@@ -117,9 +120,9 @@ pub fn solve(problem: &Problem) -> Result<Solution, SolveError> {
 }
 
 fn name_the_motion(error: ActiveSetError, motions: &[RigidMotion]) -> SolveError {
-    match (error, motions) {
-        (ActiveSetError::Floating { .. }, [motion, ..]) => SolveError::Floating { motion: motion.describe() },
-        (error, _) => error.into(),
+    match error {
+        ActiveSetError::Floating { amplitudes } => SolveError::Floating { motion: describe(motions, &amplitudes) },
+        error => error.into(),
     }
 }
 
@@ -133,7 +136,7 @@ fn interfaces(problem: &Problem) -> Vec<Interface> {
             let master = Surface::new(&pair.master, &problem.solid.points_mm);
             let reach_mm = slave.extent_mm() + master.extent_mm();
             let coupling = Coupling::new(&slave, &master, reach_mm);
-            let interface = Interface { slave, master, coupling, first_row };
+            let interface = Interface { slave, master, coupling, reach_mm, first_row };
             first_row += interface.coupling.len();
             interface
         })
@@ -290,9 +293,27 @@ fn state(
         contact_width_mm,
         half_width_mm,
         centre_mm: resultant.centre_mm,
-        max_penetration_mm: gap.iter().copied().filter(|gap| *gap < 0.0).fold(0.0, |most, gap| most.max(-gap)),
+        max_penetration_mm: overlap_mm(interface, displacement_mm),
         nodes,
     }
+}
+
+fn overlap_mm(interface: &Interface, displacement_mm: &[f64]) -> f64 {
+    let of = |surface: &Surface| -> Vec<nalgebra::Vector2<f64>> {
+        let at = |&node: &u32| 2 * node as usize;
+        surface
+            .mesh_nodes
+            .iter()
+            .map(at)
+            .map(|x| nalgebra::Vector2::from_column_slice(&displacement_mm[x..x + 2]))
+            .collect()
+    };
+    let (slave, master) = (&interface.slave, &interface.master);
+    largest_overlap_mm(
+        Moved { surface: slave, displacement_mm: &of(slave) },
+        Moved { surface: master, displacement_mm: &of(master) },
+        interface.reach_mm,
+    )
 }
 
 /// Whether supports hold a surface's end along the surface: it lies on a line of symmetry.

@@ -78,7 +78,7 @@ pub struct ContactState {
     pub half_width_mm: f64,
     /// Where the resultant acts on the surface, mm.
     pub centre_mm: Vector2<f64>,
-    /// Largest penetration that is left, mm.
+    /// Largest overlap of the deformed surfaces at an integration point, mm: it falls with the size of the elements.
     pub max_penetration_mm: f64,
 }
 

@@ -72,14 +72,11 @@ impl ProjectedVolume {
 
     /// Adds κ Qᵀ M⁻¹ Q to the stiffness of the element.
     pub fn add_stiffness(&self, bulk_modulus_mpa: f64, dofs: usize, out: &mut ElementMatrix) {
-        for i in 0..dofs {
-            let own = self.moments.column(i) * bulk_modulus_mpa;
-            for k in 0..=i {
-                let value = own.dot(&self.projected.column(k));
-                out[i][k] += value;
-                if k < i {
-                    out[k][i] += value;
-                }
+        // Qᵀ M⁻¹ Q is symmetric but for rounding: the lower half counts.
+        for (i, row) in out.iter_mut().enumerate().take(dofs) {
+            for (k, value) in row.iter_mut().enumerate().take(dofs) {
+                let (low, high) = (i.min(k), i.max(k));
+                *value += bulk_modulus_mpa * self.moments.column(high).dot(&self.projected.column(low));
             }
         }
     }

@@ -34,12 +34,27 @@ impl RigidMotion {
         let arm = (point_mm - self.centre_mm) / self.size_mm;
         Vector2::new(self.amplitude.x - self.amplitude.z * arm.y, self.amplitude.y + self.amplitude.z * arm.x)
     }
+}
 
-    /// In words: what moves how.
-    pub fn describe(&self) -> String {
-        let [x, y, turn] = [0, 1, 2].map(|k| self.amplitude[k].abs());
-        let kind = if turn > 1e-6 * (x + y) { "turns" } else { "moves" };
-        format!("the body around ({:.4}, {:.4}) mm {kind} freely", self.centre_mm.x, self.centre_mm.y)
+/// In words: which body moves how with these amplitudes of the `motions`; of several bodies, the one that moves most.
+pub fn describe(motions: &[RigidMotion], amplitudes: &[f64]) -> String {
+    let sum_of = |body: &[u32]| -> Vector3<f64> {
+        let own = motions.iter().zip(amplitudes).filter(|(motion, _)| motion.nodes == body);
+        own.map(|(motion, amplitude)| *amplitude * motion.amplitude).sum()
+    };
+    let moving = motions.iter().map(|motion| (motion, sum_of(&motion.nodes)));
+    let Some((body, amplitude)) = moving.max_by(|a, b| a.1.norm().total_cmp(&b.1.norm())) else {
+        return "nothing moves freely".to_owned();
+    };
+    let (x, y) = (body.centre_mm.x, body.centre_mm.y);
+    let shift = Vector2::new(amplitude.x, amplitude.y);
+    // A motion t + ω ẑ × r/L turns about the point r = L ẑ × t/ω, and is a shift where that is far away.
+    let arm = body.size_mm * Vector2::new(-shift.y, shift.x) / amplitude.z;
+    if amplitude.z.abs() > 1e-3 * shift.norm() {
+        format!("the body around ({x:.4}, {y:.4}) mm turns freely about ({:.4}, {:.4}) mm", x + arm.x, y + arm.y)
+    } else {
+        let along = shift / shift.norm();
+        format!("the body around ({x:.4}, {y:.4}) mm moves freely along ({:.3}, {:.3})", along.x, along.y)
     }
 }
 

@@ -76,8 +76,8 @@ impl Factor {
             let mut rows = 0;
             for s in (0..supernodes).filter(|s| is_loaded[*s] || is_wanted[*s]) {
                 let node = llt.supernode(s);
-                for place in node.start()..node.start() + node.val().ncols() {
-                    row_of_place[place] = rows;
+                for row in &mut row_of_place[node.start()..node.start() + node.val().ncols()] {
+                    *row = rows;
                     rows += 1;
                 }
             }

@@ -260,8 +260,9 @@ fn averaged_patches(solid: &Solid, analysis: Analysis) -> Vec<Patch> {
 pub(super) fn check_references(solid: &Solid, materials: &[Elastic]) -> Result<(), ElementError> {
     for (number, material) in materials.iter().enumerate() {
         let Elastic { young_modulus_mpa, poisson_ratio } = *material;
-        let stable = young_modulus_mpa > 0.0 && young_modulus_mpa.is_finite();
-        if !stable || !(poisson_ratio > -1.0 && poisson_ratio < 0.5) {
+        let stiff = young_modulus_mpa > 0.0 && young_modulus_mpa.is_finite();
+        let compressible = poisson_ratio > -1.0 && poisson_ratio < 0.5;
+        if !stiff || !compressible {
             return Err(ElementError::Material { material: number, young_modulus_mpa, poisson_ratio });
         }
     }

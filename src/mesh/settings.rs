@@ -11,6 +11,9 @@ pub const MARGIN_HALF_WIDTHS: f64 = 3.0;
 /// Depth of the structured layer under a flank, in half-widths of contact.
 pub const DEPTH_HALF_WIDTHS: f64 = 1.0;
 
+/// Half-width of contact on a rounded tip edge over its radius, for the length of elements there.
+pub const ROUNDING_HALF_WIDTH: f64 = 0.3;
+
 /// Depth of the body below the root circle, in normal modules, where nothing else is given.
 const BODY_MODULES: f64 = 2.5;
 /// Least clamp radius that leaves, over the root radius; what is taken where it leaves less.

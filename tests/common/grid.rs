@@ -97,6 +97,16 @@ impl Grid {
         (0..self.rows).map(|k| self.edge((i, 2 * k), (i, 2 * k + 2))).collect()
     }
 
+    /// Edges of the line u = first, body on their left.
+    pub fn left(&self) -> Vec<Edge> {
+        (0..self.rows).rev().map(|k| self.edge((0, 2 * k + 2), (0, 2 * k))).collect()
+    }
+
+    /// Nodes with u = last.
+    pub fn right_nodes(&self) -> Vec<u32> {
+        self.nodes_where(|i, _| i == 2 * self.columns)
+    }
+
     /// Nodes with u = first.
     pub fn left_nodes(&self) -> Vec<u32> {
         self.nodes_where(|i, _| i == 0)

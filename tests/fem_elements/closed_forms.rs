@@ -13,6 +13,8 @@ use nalgebra::Vector2;
 use crate::common::{STEEL, field, figures, hold, l2_error, largest, nodes_of, order, solve};
 use crate::meshes::{Block, KINDS, block, is_quadratic};
 
+const COARSE: [usize; 4] = [4, 8, 16, 32];
+
 fn tube(nu: f64) -> LameCylinder {
     LameCylinder {
         inner_radius_mm: 10.0,
@@ -48,20 +50,20 @@ fn solve_tube(tube: &LameCylinder, mesh: &Block) -> Vec<f64> {
     solve(solid, material, Analysis::PlaneStrain, &given, forces)
 }
 
-fn tube_errors(kind: ElementKind, nu: f64) -> Vec<f64> {
+fn tube_errors(kind: ElementKind, nu: f64, cells: [usize; 4]) -> Vec<f64> {
     let tube = tube(nu);
     let error = |n| {
         let mesh = quarter(kind, n);
         l2_error(&mesh.solid, &solve_tube(&tube, &mesh), |x| tube_displacement(&tube, x))
     };
-    [4, 8, 16, 32].into_iter().map(error).collect()
+    cells.into_iter().map(error).collect()
 }
 
 #[test]
 fn ver_lame_tube_with_curved_edges() {
     let mut failures = Vec::new();
     for kind in KINDS {
-        let errors = tube_errors(kind, 0.3);
+        let errors = tube_errors(kind, 0.3, [8, 16, 32, 64]);
         let order = order(&errors);
         println!("{kind:?} tube nu 0.3: order {order:.3}, errors {}", figures(&errors));
         if order < if is_quadratic(kind) { 2.9 } else { 1.9 } {
@@ -71,18 +73,19 @@ fn ver_lame_tube_with_curved_edges() {
     assert!(failures.is_empty(), "{failures:?}");
 }
 
-/// Locking would multiply the error by about λ/μ = 500 and 5000 on coarse meshes; elements free of it keep it of the same
-/// size. The bound of 4 is between, well away from both.
+/// Locking shows on coarse meshes: quadratic elements integrated in full are 49 and 357 times as far off on 4 × 4 cells at
+/// ν = 0.499 and 0.4999 as at ν = 0.3 (measured with this test before their volume strain was projected). Elements free of
+/// it keep the size of their error.
 #[test]
 fn ver_no_locking_as_the_tube_becomes_incompressible() {
     let mut failures = Vec::new();
     for kind in KINDS {
-        let compressible = tube_errors(kind, 0.3);
+        let compressible = tube_errors(kind, 0.3, COARSE);
         for nu in [0.499, 0.4999] {
-            let errors = tube_errors(kind, nu);
+            let errors = tube_errors(kind, nu, COARSE);
             println!("{kind:?} tube nu {nu}: order {:.3}, errors {}", order(&errors), figures(&errors));
-            for (n, (error, reference)) in [4, 8, 16, 32].into_iter().zip(errors.iter().zip(&compressible)) {
-                if *error > 4.0 * reference {
+            for (n, (error, reference)) in COARSE.into_iter().zip(errors.iter().zip(&compressible)) {
+                if *error > 1.5 * reference {
                     failures.push(format!("{kind:?} nu {nu} n {n}: {error:.3e} against {reference:.3e}"));
                 }
             }

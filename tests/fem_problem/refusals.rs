@@ -38,7 +38,7 @@ fn keys_and_values_that_no_problem_has() {
             "displacement_mm",
             "a displacement beside force_N_per_mm",
         ),
-        ("group = \"top\"", "group = \"top\"\ncomponents = [\"y\"]", "components = [\"y\"]", "components of a force"),
+        ("group = \"top\"", "group = \"top\"\ncomponents = [ \"y\" ]", "components = [ ", "components of a force"),
     ] {
         let case = case().with(old, new);
         // The line may stand in the file before, in another table; the one exchanged is meant.

@@ -19,5 +19,6 @@ pub mod dual_basis;
 pub mod edge;
 pub mod facing;
 pub mod mortar;
+pub mod overlap;
 pub mod surface;
 pub mod zones;

@@ -103,7 +103,7 @@ fn integrate_edge(slave: &Surface, number: usize, facing: &Facing<'_>, segments:
         (from, to) => DualBasis::new(count, (from, to.min(1.0 - 2e-9).max(from)), jacobian),
     };
     for segment in segments {
-        for (from, to) in split_at_middle(segment) {
+        for (from, to) in smooth_stretches(segment, &basis) {
             for (xi, weight) in gauss_points(from, to) {
                 let Some(meeting) = facing.meet(slave, edge, xi, segment.master) else { continue };
                 let (normal, _) = slave.normal_and_derivative(edge, xi);
@@ -128,10 +128,13 @@ fn integrate_edge(slave: &Surface, number: usize, facing: &Facing<'_>, segments:
     }
 }
 
-/// A segment cut at the middle node of its edge, where the basis of a partly faced edge has its kink.
-fn split_at_middle(segment: &Segment) -> impl Iterator<Item = (f64, f64)> {
-    let middle = 0.0_f64.clamp(segment.from, segment.to);
-    [(segment.from, middle), (middle, segment.to)].into_iter().filter(|(from, to)| to > from)
+/// The stretches of a segment over which `basis` is smooth: that of a partly faced edge has a kink at the middle node.
+fn smooth_stretches(segment: &Segment, basis: &DualBasis) -> impl Iterator<Item = (f64, f64)> + use<> {
+    let cut = match basis {
+        DualBasis::Whole { .. } => segment.to,
+        DualBasis::Parts { .. } => 0.0_f64.clamp(segment.from, segment.to),
+    };
+    [(segment.from, cut), (cut, segment.to)].into_iter().filter(|(from, to)| to > from)
 }
 
 fn operator(rows: &[(usize, Row)], nodes: usize, entries: impl Fn(&Row) -> &Vec<(usize, Vector2<f64>)>) -> CsMat<f64> {

@@ -4,26 +4,46 @@
 //! common frame. Nothing is shared with the condensed solution but elements, mortar and active set; both must agree to
 //! round-off.
 
+use std::collections::BTreeMap;
+
 use faer::Mat;
 use nalgebra::Vector2;
 
-use super::model::{MeshedGear, solid};
+use super::flank_surface::edges;
+use super::model::{MeshedGear, element};
 use super::placement::{axis_mm, in_place_mm};
 use super::position::PositionContact;
 use super::ring::Surroundings;
-use crate::fem::active_set::Condensed;
+use crate::fem::active_set::{ActiveSetError, Condensed};
 use crate::fem::contact::{mortar::Coupling, surface::Surface};
 use crate::fem::elastic::{Analysis, Elastic};
-use crate::fem::equilibrium::SolveError;
-use crate::fem::factor::Factor;
+use crate::fem::element::ElementError;
+use crate::fem::factor::{Factor, FactorError};
 use crate::fem::problem::Edge;
-use crate::fem::solid::{Element, Solid};
+use crate::fem::solid::Solid;
 use crate::fem::stiffness::Stiffness;
 use crate::gear::{Gear, GearPair, PerGear};
-use crate::mesh::tooth::ToothSector;
+use crate::mesh::tooth::{ToothMeshError, gear_mesh};
 
 /// How far from the places loaded in the condensed solution multipliers are put, in units of the loaded half-width.
 const WINDOW: f64 = 3.0;
+
+/// Why the whole model has no answer.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FullError {
+    /// The sectors do not make a gear.
+    #[error(transparent)]
+    Mesh(#[from] ToothMeshError),
+    /// An element is no element.
+    #[error(transparent)]
+    Element(#[from] ElementError),
+    /// The stiffness matrix cannot be factorised.
+    #[error(transparent)]
+    Factor(#[from] FactorError),
+    /// The contact has no equilibrium.
+    #[error(transparent)]
+    Contact(#[from] ActiveSetError),
+}
 
 /// The whole model's answer.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,96 +66,59 @@ pub struct FullContact {
 struct Whole {
     solid: Solid,
     held: Vec<bool>,
-    /// Edges of the fine teeth's working flanks, from the tip, by gear and place among the fine teeth.
-    flanks: PerGear<Vec<Vec<Edge>>>,
+    /// Edges of the fine teeth's working flanks, from the tip, by the number of the tooth pair.
+    flanks: PerGear<BTreeMap<i32, Vec<Edge>>>,
     /// The pinion's nodes come before it.
     first_wheel_node: u32,
 }
 
 impl Whole {
-    fn new(pair: &GearPair, meshed: &PerGear<MeshedGear>, position_mm: f64) -> Self {
+    fn new(pair: &GearPair, meshed: &PerGear<MeshedGear>, position_mm: f64) -> Result<Self, ToothMeshError> {
         let mut whole =
             Self { solid: Solid::default(), held: Vec::new(), flanks: PerGear::default(), first_wheel_node: 0 };
         for (gear, material) in Gear::BOTH.into_iter().zip(0..) {
             if gear == Gear::Wheel {
                 whole.first_wheel_node = whole.solid.points_mm.len() as u32;
             }
-            whole.add(pair, &meshed[gear], material, position_mm);
+            whole.add(pair, &meshed[gear], material, position_mm)?;
         }
-        whole
+        Ok(whole)
     }
 
-    fn add(&mut self, pair: &GearPair, gear: &MeshedGear, material: u16, position_mm: f64) {
-        let middle = gear.fine_teeth as i32 / 2;
-        // Places in anticlockwise order, from the most clockwise tooth of the model.
-        let (first, count) = match gear.surroundings {
-            Surroundings::Ring { coarse } => (0, gear.fine_teeth as i32 + coarse as i32),
-            Surroundings::FreeSector { coarse } | Surroundings::ClampedSector { coarse } => {
-                (-(coarse as i32), gear.fine_teeth as i32 + 2 * coarse as i32)
-            }
-        };
-        let mut first_cut = Vec::new();
-        let mut last_cut: Vec<u32> = Vec::new();
-        for place in first..first + count {
-            let fine = (0..gear.fine_teeth as i32).contains(&place);
-            let Some(mesh) = (if fine { Some(&gear.fine) } else { gear.coarse.as_ref() }) else { continue };
-            let closes = matches!(gear.surroundings, Surroundings::Ring { .. }) && place + 1 == first + count;
-            // The wheel's pairs are numbered clockwise.
-            let tooth = if gear.gear == Gear::Pinion { place - middle } else { middle - place };
-            let put = |point| in_place_mm(pair, gear.gear, position_mm, tooth, point);
-            let closing: &[u32] = if closes { &first_cut } else { &[] };
-            let joined = [(&mesh.right_cut[..], &last_cut[..]), (&mesh.left_cut[..], closing)];
-            let numbers = self.add_sector(mesh, material, joined, put);
-            let of = |nodes: &[u32]| nodes.iter().map(|&node| numbers[node as usize]).collect::<Vec<u32>>();
-            if fine {
-                let chain = of(mesh.working_flank.resolved_nodes().0);
-                self.flanks[gear.gear].push(super::flank_surface::edges(&chain));
-            }
-            let clamped = matches!(gear.surroundings, Surroundings::ClampedSector { .. });
-            if place == first {
-                first_cut = of(&mesh.right_cut);
-            }
-            last_cut = of(&mesh.left_cut);
-            let mut hold = of(&mesh.clamp);
-            if clamped && place == first {
-                hold.extend_from_slice(&first_cut);
-            }
-            if clamped && place + 1 == first + count {
-                hold.extend_from_slice(&last_cut);
-            }
-            self.held.resize(self.solid.dofs(), false);
-            for node in hold {
-                self.held[2 * node as usize] = true;
-                self.held[2 * node as usize + 1] = true;
-            }
-        }
-    }
-
-    /// Adds a sector whose cuts lie on nodes that are there already; returns the number of each of its nodes.
-    fn add_sector(
+    fn add(
         &mut self,
-        mesh: &ToothSector,
+        pair: &GearPair,
+        meshed: &MeshedGear,
         material: u16,
-        joined: [(&[u32], &[u32]); 2],
-        put: impl Fn(Vector2<f64>) -> Vector2<f64>,
-    ) -> Vec<u32> {
-        let mut numbers = vec![u32::MAX; mesh.points_mm.len()];
-        for (cut, there) in joined {
-            for (own, other) in cut.iter().zip(there) {
-                numbers[*own as usize] = *other;
-            }
+        position_mm: f64,
+    ) -> Result<(), ToothMeshError> {
+        let gear = meshed.gear;
+        let reach = meshed.fine_teeth as i32 / 2;
+        let fine: Vec<i32> = (-reach..=reach).collect();
+        let sectors = [&meshed.fine, meshed.coarse.as_ref().unwrap_or(&meshed.fine)];
+        let mesh = gear_mesh(gear, pair.teeth[gear].teeth, meshed.settings.body, &fine, sectors)?;
+        let offset = self.solid.points_mm.len() as u32;
+        let shifted = |nodes: &[u32]| nodes.iter().map(|node| node + offset).collect::<Vec<u32>>();
+        let placed = mesh.points_mm.iter().map(|&point| in_place_mm(pair, gear, position_mm, 0, point));
+        self.solid.points_mm.extend(placed);
+        let elements = mesh.cells.iter().map(|cell| element(cell, &shifted(cell.nodes()), material));
+        self.solid.elements.extend(elements);
+
+        self.held.resize(self.solid.dofs(), false);
+        let clamped_sides = match meshed.surroundings {
+            Surroundings::ClampedSector { .. } => &mesh.sides[..],
+            _ => &[],
+        };
+        for node in mesh.teeth.iter().map(|tooth| &tooth.clamp).chain(clamped_sides).flatten() {
+            let dof = 2 * (node + offset) as usize;
+            self.held[dof] = true;
+            self.held[dof + 1] = true;
         }
-        for (number, point) in numbers.iter_mut().zip(&mesh.points_mm) {
-            if *number == u32::MAX {
-                *number = self.solid.points_mm.len() as u32;
-                self.solid.points_mm.push(put(*point));
-            }
+        for tooth in mesh.teeth.iter().filter(|tooth| tooth.fine) {
+            let chain = shifted(tooth.working_flank.resolved_nodes().0);
+            self.flanks[gear].insert(tooth.index, edges(&chain));
         }
-        for element in &solid(mesh).elements {
-            let nodes: Vec<u32> = element.nodes().iter().map(|&node| numbers[node as usize]).collect();
-            self.solid.elements.push(Element::new(element.kind, &nodes, material));
-        }
-        numbers
+        Ok(())
     }
 }
 
@@ -149,12 +132,12 @@ pub fn solve(
     material: &PerGear<Elastic>,
     line_load_n_per_mm: f64,
     condensed: &PositionContact,
-) -> Result<FullContact, SolveError> {
-    let whole = Whole::new(pair, meshed, condensed.position_mm);
+) -> Result<FullContact, FullError> {
+    let whole = Whole::new(pair, meshed, condensed.position_mm)?;
     let materials = [material.pinion, material.wheel];
     let stiffness = Stiffness::new(&whole.solid, &materials, Analysis::PlaneStrain)?;
     let factor = Factor::new(&stiffness, &whole.held)?;
-    let interfaces = whole.interfaces(pair, meshed, condensed);
+    let interfaces = whole.interfaces(pair, condensed);
 
     let columns: Vec<Vec<(u32, f64)>> = interfaces.iter().flat_map(Interface::columns).collect();
     let rotation = |dof: u32| whole.rotation(pair, dof);
@@ -211,17 +194,12 @@ struct Interface {
 
 impl Whole {
     /// The pairs in contact in the condensed solution, coupled around the places loaded there.
-    fn interfaces(&self, pair: &GearPair, meshed: &PerGear<MeshedGear>, condensed: &PositionContact) -> Vec<Interface> {
-        let middle = meshed.pinion.fine_teeth as i32 / 2;
+    fn interfaces(&self, pair: &GearPair, condensed: &PositionContact) -> Vec<Interface> {
         condensed
             .pairs
             .iter()
             .map(|contact| {
-                let edges = PerGear {
-                    pinion: &self.flanks.pinion[(middle + contact.pair) as usize],
-                    wheel: &self.flanks.wheel[(middle - contact.pair) as usize],
-                };
-                let surface = |gear: Gear| Surface::new(edges[gear], &self.solid.points_mm);
+                let surface = |gear: Gear| Surface::new(&self.flanks[gear][&contact.pair], &self.solid.points_mm);
                 let (slave, master) = (surface(Gear::Pinion), surface(Gear::Wheel));
                 let radius = |point: &Vector2<f64>| (point - axis_mm(pair, Gear::Pinion)).norm();
                 let reach_mm = WINDOW * contact.half_width_mm;

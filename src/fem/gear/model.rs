@@ -1,7 +1,7 @@
 //! From a gear pair to its condensed finite-element model, in two steps: mesh, condense.
 
 use super::flank_surface::FlankSurface;
-use super::position::{CondensedPair, OUTSIDE_BASE_PITCHES};
+use super::position::CondensedPair;
 use super::ring::{GearCompliance, Surroundings};
 use super::sector::{CondensedSector, Functional, Sector};
 use crate::fem::active_set::ActiveSetError;
@@ -11,40 +11,9 @@ use crate::fem::solid::{Element, ElementKind, Solid};
 use crate::fem::stress::{StressComponent, StressRecovery};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::mesh::CellKind;
-use crate::mesh::tooth::{self, FlankResolution, SectorSettings, ToothMeshError, ToothSector, ToothShape};
+use crate::mesh::settings::{Body, BodySettings, SectorSides};
+use crate::mesh::tooth::{Cell, ToothMeshError, ToothSector, gear_sector, touching_pairs};
 use crate::reference::hertz_line::HertzLine;
-
-/// Elements along each fillet of a fine tooth.
-const FILLET_ELEMENTS: u32 = 24;
-/// Half-widths of flank resolved below the start of active profile.
-const MARGIN_HALF_WIDTHS: f64 = 3.0;
-/// Depth of the structured elements below the flank, in half-widths.
-const DEPTH_HALF_WIDTHS: f64 = 1.0;
-
-/// How much of each gear is modelled, and how finely.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ModelSettings {
-    /// Which teeth beside those that touch.
-    pub body: Body,
-    /// Where each body is held or turned rigidly, mm.
-    pub clamp_radius_mm: PerGear<f64>,
-    /// Elements per Hertz half-width of the whole load at each place of the flank.
-    pub elements_per_half_width: f64,
-}
-
-/// Which part of each gear is modelled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Body {
-    /// The whole gear.
-    Ring,
-    /// This many teeth.
-    Sector {
-        /// Odd number, at least those that touch.
-        teeth: u32,
-        /// Whether the sides are held.
-        clamped_sides: bool,
-    },
-}
 
 /// Why there is no model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -55,7 +24,7 @@ pub enum ModelError {
         /// Whose.
         gear: Gear,
         /// Why.
-        source: ToothMeshError,
+        source: Box<ToothMeshError>,
     },
     /// A gear cannot be condensed.
     #[error("{}: {source}", gear.name())]
@@ -92,12 +61,8 @@ pub struct MeshedGear {
     pub surroundings: Surroundings,
     /// Whether the tip edge is sharp.
     pub sharp: bool,
-}
-
-/// Teeth of each gear that touch at some position from A to E: the reference one and as many on either side as the
-/// contact ratio and contact outside the line of action ask for.
-pub fn touching_teeth(pair: &GearPair) -> u32 {
-    1 + 2 * (pair.path.contact_ratio() + OUTSIDE_BASE_PITCHES).floor() as u32
+    /// What it was meshed with.
+    pub settings: BodySettings,
 }
 
 /// Contact modulus E*, MPa.
@@ -128,49 +93,42 @@ impl MeshedGear {
         gear: Gear,
         material: &PerGear<Elastic>,
         line_load_n_per_mm: f64,
-        settings: &ModelSettings,
+        settings: &BodySettings,
     ) -> Result<Self, ModelError> {
         let teeth = pair.teeth[gear].teeth;
-        let fine_teeth = touching_teeth(pair).min(teeth - 1 + teeth % 2);
+        let fine_teeth = (touching_pairs(pair).len() as u32).min(teeth - 1 + teeth % 2);
         let surroundings = match settings.body {
             Body::Ring => Surroundings::Ring { coarse: (teeth - fine_teeth) as usize },
+            // A sector of all teeth has no cut left.
+            Body::Sector { teeth: all, .. } if all == teeth => {
+                Surroundings::Ring { coarse: (teeth - fine_teeth) as usize }
+            }
             Body::Sector { teeth, .. } if teeth < fine_teeth => {
                 return Err(ModelError::TooFewTeeth { gear, teeth, least: fine_teeth });
             }
-            Body::Sector { teeth, clamped_sides } => {
+            Body::Sector { teeth, sides } => {
                 let coarse = ((teeth - fine_teeth) / 2) as usize;
-                if clamped_sides { Surroundings::ClampedSector { coarse } } else { Surroundings::FreeSector { coarse } }
+                match sides {
+                    SectorSides::Free => Surroundings::FreeSector { coarse },
+                    SectorSides::Clamped => Surroundings::ClampedSector { coarse },
+                }
             }
         };
-        let shape = ToothShape::of(pair, gear);
-        // ρ1 + ρ2 = T1T2 reads the same both ways.
         let contact_modulus_mpa = contact_modulus_mpa(material);
         let half_width_mm =
-            |rho: f64| hertz_half_width_mm(pair, contact_modulus_mpa, line_load_n_per_mm, pair.path.rho_mm(gear, rho));
-        let fine = SectorSettings {
-            clamp_radius_mm: settings.clamp_radius_mm[gear],
-            fillet_elements: FILLET_ELEMENTS,
-            flank: Some(FlankResolution {
-                half_width_mm: &half_width_mm,
-                elements_per_half_width: settings.elements_per_half_width,
-                margin_half_widths: MARGIN_HALF_WIDTHS,
-                depth_half_widths: DEPTH_HALF_WIDTHS,
-            }),
-        };
-        let mesh = |settings: &SectorSettings<'_>| {
-            tooth::sector(&shape, settings).map_err(|source| ModelError::Mesh { gear, source })
-        };
-        let coarse = match surroundings.coarse() {
-            0 => None,
-            _ => Some(mesh(&SectorSettings { flank: None, ..fine })?),
+            |position_mm: f64| hertz_half_width_mm(pair, contact_modulus_mpa, line_load_n_per_mm, position_mm);
+        let mesh = |fine: bool| {
+            gear_sector(pair, gear, fine, settings, &half_width_mm)
+                .map_err(|source| ModelError::Mesh { gear, source: Box::new(source) })
         };
         Ok(Self {
             gear,
-            fine: mesh(&fine)?,
-            coarse,
+            fine: mesh(true)?,
+            coarse: if surroundings.coarse() > 0 { Some(mesh(false)?) } else { None },
             fine_teeth,
             surroundings,
             sharp: pair.spec.gears[gear].modification.tip_rounding_mm == 0.0,
+            settings: *settings,
         })
     }
 
@@ -254,11 +212,16 @@ fn sector(mesh: &ToothSector, half_angle_rad: f64, candidates: Vec<u32>) -> Sect
 
 /// A sector's elements for the solver.
 pub fn solid(mesh: &ToothSector) -> Solid {
-    let kind = |kind: CellKind| if kind == CellKind::Quad8 { ElementKind::Quad8 } else { ElementKind::Triangle6 };
     Solid {
         points_mm: mesh.points_mm.clone(),
-        elements: mesh.cells.iter().map(|cell| Element::new(kind(cell.kind), cell.nodes(), 0)).collect(),
+        elements: mesh.cells.iter().map(|cell| element(cell, cell.nodes(), 0)).collect(),
     }
+}
+
+/// The element of a mesh's cell on `nodes`.
+pub fn element(cell: &Cell, nodes: &[u32], material: u16) -> Element {
+    let kind = if cell.kind == CellKind::Quad8 { ElementKind::Quad8 } else { ElementKind::Triangle6 };
+    Element::new(kind, nodes, material)
 }
 
 impl<'a> CondensedPair<'a> {

@@ -14,16 +14,15 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{Rotation2, Vector2};
 
 use crate::gear::{Gear, GearPair};
+use crate::mesh::tooth::turn_rad;
 
-/// Angle of the centre line of tooth `pair` of a gear from +y, anticlockwise.
+/// Angle of the centre line of tooth `tooth` of a gear from +y, anticlockwise.
 pub fn tooth_angle_rad(pair: &GearPair, gear: Gear, position_mm: f64, tooth: i32) -> f64 {
-    let own = &pair.teeth[gear];
-    let unrolled = pair.path.rho_mm(gear, position_mm) / own.involute.base_radius_mm;
-    let angle = unrolled - own.base_half_angle_rad - pair.working_pressure_angle_rad;
-    let pitch = TAU / f64::from(own.teeth);
+    let pitches = TAU * f64::from(tooth) / f64::from(pair.teeth[gear].teeth);
+    let angle = turn_rad(pair, gear, position_mm);
     match gear {
-        Gear::Pinion => angle + f64::from(tooth) * pitch,
-        Gear::Wheel => PI + angle - f64::from(tooth) * pitch,
+        Gear::Pinion => angle + pitches,
+        Gear::Wheel => PI + angle - pitches,
     }
 }
 

@@ -36,7 +36,7 @@ const MOST_LOOKS: usize = 8;
 /// Rows at an inner end of the window that must stay without load.
 const FREE_ROWS: usize = 3;
 /// Parts of a base pitch before A and after E in which contact outside the line of action is looked for.
-pub const OUTSIDE_BASE_PITCHES: f64 = 0.3;
+const OUTSIDE_BASE_PITCHES: f64 = 0.3;
 
 /// The pair with both gears condensed.
 pub struct CondensedPair<'a> {
@@ -432,8 +432,7 @@ fn add_sandwich(
     let (right_columns, right_place) = used_columns(right);
     // Each entry of C is read once, into columns that lie together.
     let width = right_columns.len();
-    let gathered: Vec<f64> =
-        left_columns.iter().flat_map(|&k| right_columns.iter().map(move |&column| compliance.at(column, k))).collect();
+    let gathered = compliance.gathered(&right_columns, &left_columns);
     let mut carried = vec![0.0; width];
     for (i, row) in left.outer_iterator().enumerate() {
         carried.fill(0.0);

@@ -170,9 +170,27 @@ pub struct Between<'a> {
 }
 
 impl Between<'_> {
-    /// Its entry.
-    pub fn at(&self, row: usize, column: usize) -> f64 {
-        if self.turned { self.block[(column, row)] } else { self.block[(row, column)] }
+    /// The entries of `rows` × `columns`, column by column.
+    pub fn gathered(&self, rows: &[usize], columns: &[usize]) -> Vec<f64> {
+        let height = rows.len();
+        let mut entries = vec![0.0; height * columns.len()];
+        // Along the block's own columns, whichever way they run.
+        if self.turned {
+            for (i, &row) in rows.iter().enumerate() {
+                let stored = self.block.col(row);
+                for (j, &column) in columns.iter().enumerate() {
+                    entries[j * height + i] = stored[column];
+                }
+            }
+        } else {
+            for (j, &column) in columns.iter().enumerate() {
+                let stored = self.block.col(column);
+                for (i, &row) in rows.iter().enumerate() {
+                    entries[j * height + i] = stored[row];
+                }
+            }
+        }
+        entries
     }
 }
 

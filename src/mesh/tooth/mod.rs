@@ -30,7 +30,7 @@ use nalgebra::Vector2;
 
 pub use error::ToothMeshError;
 pub use gear_mesh::{GearMesh, ToothNodes, gear_mesh};
-pub use pair_mesh::{PairSectors, in_place, pair_mesh, pair_sectors, touching_pairs, turn_rad};
+pub use pair_mesh::{PairSectors, gear_sector, in_place, pair_mesh, pair_sectors, touching_pairs, turn_rad};
 
 use super::CellKind;
 use crate::gear::{Gear, GearPair, modification::Modification, tooth::Tooth};

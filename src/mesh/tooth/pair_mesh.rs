@@ -15,11 +15,16 @@ use nalgebra::{Rotation2, Vector2};
 use super::gear_mesh::{GearMesh, ToothNodes, gear_mesh};
 use super::{FlankResolution, SectorSettings, ToothMeshError, ToothSector, ToothShape, sector};
 use crate::gear::{Gear, GearPair, PerGear};
-use crate::mesh::settings::{BodySettings, DEPTH_HALF_WIDTHS, FILLET_ELEMENTS, MARGIN_HALF_WIDTHS};
+use crate::mesh::settings::{
+    BodySettings, DEPTH_HALF_WIDTHS, FILLET_ELEMENTS, MARGIN_HALF_WIDTHS, ROUNDING_HALF_WIDTH,
+};
 use crate::mesh::{CellBlock, CellKind, Mesh};
 
 /// Contact ratio by which load makes teeth touch beyond the theoretical path, at most.
 const EARLY_CONTACT: f64 = 0.15;
+
+/// Half-widths of flank above the start of active profile that the mate's tip edge touches, early contact included.
+const TIP_MEETS_HALF_WIDTHS: f64 = 3.0;
 
 /// The sectors of both gears.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,29 +44,52 @@ pub fn pair_sectors(
     settings: &BodySettings,
     half_width_mm: &dyn Fn(f64) -> f64,
 ) -> Result<PairSectors, ToothMeshError> {
-    let of = |gear: Gear, fine: bool| {
-        let by_rho = |rho_mm: f64| {
-            // The other gear's radius of curvature gives the position, and the other way round.
-            let position_mm = pair.path.rho_mm(gear, rho_mm);
-            half_width_mm(position_mm.clamp(pair.path.start_mm, pair.path.end_mm))
-        };
-        let flank = FlankResolution {
-            half_width_mm: &by_rho,
-            elements_per_half_width: settings.elements_per_half_width,
-            margin_half_widths: MARGIN_HALF_WIDTHS,
-            depth_half_widths: DEPTH_HALF_WIDTHS,
-        };
-        let settings = SectorSettings {
-            clamp_radius_mm: settings.clamp_radius_mm[gear],
-            fillet_elements: FILLET_ELEMENTS,
-            flank: fine.then_some(flank),
-        };
-        sector(&ToothShape::of(pair, gear), &settings)
-    };
     let both = |fine| -> Result<PerGear<ToothSector>, ToothMeshError> {
-        Ok(PerGear { pinion: of(Gear::Pinion, fine)?, wheel: of(Gear::Wheel, fine)? })
+        Ok(PerGear {
+            pinion: gear_sector(pair, Gear::Pinion, fine, settings, half_width_mm)?,
+            wheel: gear_sector(pair, Gear::Wheel, fine, settings, half_width_mm)?,
+        })
     };
     Ok(PairSectors { fine: both(true)?, coarse: both(false)? })
+}
+
+/// Meshes one tooth of `gear`, fine or coarse, as [`pair_sectors`] does. Where the mate's rounded tip edge touches a fine
+/// one, above the start of active profile, elements are as short as on that rounding.
+///
+/// # Errors
+/// [`ToothMeshError`]
+pub fn gear_sector(
+    pair: &GearPair,
+    gear: Gear,
+    fine: bool,
+    settings: &BodySettings,
+    half_width_mm: &dyn Fn(f64) -> f64,
+) -> Result<ToothSector, ToothMeshError> {
+    let involute = pair.path.involute[gear];
+    let start_rho = pair.active_start_rho_mm(gear);
+    let on_flank = |rho_mm: f64| {
+        // The other gear's radius of curvature gives the position, and the other way round.
+        let position_mm = pair.path.rho_mm(gear, rho_mm);
+        half_width_mm(position_mm.clamp(pair.path.start_mm, pair.path.end_mm))
+    };
+    let met_by_tip_mm = involute.arc_mm(start_rho) + TIP_MEETS_HALF_WIDTHS * on_flank(start_rho);
+    let rounding_mm = pair.spec.gears[gear.mate()].modification.tip_rounding_mm;
+    let by_rho = |rho_mm: f64| match rounding_mm > 0.0 && involute.arc_mm(rho_mm) < met_by_tip_mm {
+        true => on_flank(rho_mm).min(ROUNDING_HALF_WIDTH * rounding_mm),
+        false => on_flank(rho_mm),
+    };
+    let flank = FlankResolution {
+        half_width_mm: &by_rho,
+        elements_per_half_width: settings.elements_per_half_width,
+        margin_half_widths: MARGIN_HALF_WIDTHS,
+        depth_half_widths: DEPTH_HALF_WIDTHS,
+    };
+    let settings = SectorSettings {
+        clamp_radius_mm: settings.clamp_radius_mm[gear],
+        fillet_elements: FILLET_ELEMENTS,
+        flank: fine.then_some(flank),
+    };
+    sector(&ToothShape::of(pair, gear), &settings)
 }
 
 /// Numbers of the tooth pairs that may touch while the reference pair runs from A to E: 0 that pair itself, +1 the one a

@@ -154,10 +154,13 @@ impl Output {
     ) {
         let name = escape(name).replace('\n', "&#10;").replace('\r', "&#13;").replace('\t', "&#9;");
         let tuples = tuples.map_or_else(String::new, |tuples| format!(" NumberOfTuples=\"{tuples}\""));
+        // One component goes without saying; meshio makes columns of scalars that say it.
+        let together = match components {
+            1 => String::new(),
+            components => format!(" NumberOfComponents=\"{components}\""),
+        };
         let format = if self.encoding == VtuEncoding::Ascii { "ascii" } else { "binary" };
-        self.line(format_args!(
-            "<DataArray type=\"{scalar}\" Name=\"{name}\" NumberOfComponents=\"{components}\"{tuples} format=\"{format}\">"
-        ));
+        self.line(format_args!("<DataArray type=\"{scalar}\" Name=\"{name}\"{together}{tuples} format=\"{format}\">"));
         self.numbers(components, numbers);
         self.line("\n</DataArray>");
     }

@@ -120,12 +120,12 @@ pub fn von_mises(record: &FemRecord) -> Vec<Figure> {
     let mut figures = vec![picture("stress".into(), "Von Mises stress".into(), whole, Window::around(&deformed))];
     for (index, (summary, contact)) in record.summary.contact.iter().zip(&record.contacts).enumerate() {
         let Some(middle) = middle(contact) else { continue };
-        if !(summary.half_width_mm > 0.0) {
+        if summary.half_width_mm <= 0.0 {
             continue;
         }
         let (surface, below) = (summary.peak_pressure_MPa, peak_within(&deformed, &values, middle, summary));
         let reading = format!(
-            "{} half-widths on either side of the contact, deformed as computed. The stress is greatest with {} MPa, {} of \
+            "{} half-widths on either side of the middle of the contact, deformed as computed. The stress is greatest with {} MPa, {} of \
              the greatest pressure{}.",
             significant(AROUND * 1.75, 2),
             figure(below),
@@ -140,7 +140,7 @@ pub fn von_mises(record: &FemRecord) -> Vec<Figure> {
             format!("stress-{index}"),
             format!("Von Mises stress at {} on {}", summary.slave, summary.master),
             reading,
-            Window::about(middle, AROUND * summary.half_width_mm),
+            Window::about(middle, AROUND * summary.half_width_mm).within(Window::around(&deformed)),
         ));
     }
     figures

@@ -59,12 +59,14 @@ fn answer(s: &FemSummary) -> String {
     let hardest = s.contact.iter().filter(touching).max_by(|a, b| a.peak_pressure_MPa.total_cmp(&b.peak_pressure_MPa));
     match hardest {
         Some(contact) => format!(
-            "{} presses on {} with up to {} MPa over a half-width of {} mm; the force is {} N per mm of thickness.",
+            "{} presses on {} with up to {} MPa over a half-width of {} mm; {} the force along x and y is {} and {} N per mm of thickness.",
             contact.slave,
             contact.master,
             figure(contact.peak_pressure_MPa),
             figure(contact.half_width_mm),
-            figure(contact.force_N_per_mm[0].hypot(contact.force_N_per_mm[1])),
+            if contact.half_model { "in the modelled half" } else { "altogether" },
+            figure(contact.force_N_per_mm[0]),
+            figure(contact.force_N_per_mm[1]),
         ),
         None if s.contact.is_empty() => {
             format!("The von Mises stress reaches {} MPa.", figure(s.peak_von_mises_MPa))

@@ -71,6 +71,13 @@ impl Window {
         Self { x_mm: [x - half_width_mm, x + half_width_mm], y_mm: [y - half_height_mm, y + half_height_mm] }
     }
 
+    /// The part of it that lies within `other`; itself where that is nothing.
+    pub fn within(self, other: Self) -> Self {
+        let common =
+            |[a, b]: [f64; 2], [c, d]: [f64; 2]| if a.max(c) < b.min(d) { [a.max(c), b.min(d)] } else { [a, b] };
+        Self { x_mm: common(self.x_mm, other.x_mm), y_mm: common(self.y_mm, other.y_mm) }
+    }
+
     fn width_mm(&self) -> f64 {
         self.x_mm[1] - self.x_mm[0]
     }
