@@ -83,7 +83,9 @@ pub enum InputError {
         name: String,
     },
     /// `fem` of a problem with an option that only a gear pair has.
-    #[error("{name}: found {option}, which a problem with its own mesh does not have; allowed with a gear pair, [pair]")]
+    #[error(
+        "{name}: found {option}, which a problem with its own mesh does not have; allowed with a gear pair, [pair]"
+    )]
     #[diagnostic(help("leave {option} out"))]
     OnlyForPair {
         /// Name of the file.

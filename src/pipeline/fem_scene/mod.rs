@@ -14,14 +14,13 @@ use self::whole::WholeModel;
 
 use crate::fem::elastic::Elastic;
 use crate::fem::element::ElementError;
-use crate::fem::equilibrium::SolveError;
 use crate::fem::gear::cycle::{CycleError, cycle};
-use crate::fem::gear::model::{self, MeshedGear, ModelError, ModelSettings};
+use crate::fem::gear::full::FullError;
+use crate::fem::gear::model::{MeshedGear, ModelError};
 use crate::fem::gear::position::{CondensedPair, PositionContact};
 use crate::gear::path_of_contact::PathOfContact;
 use crate::gear::{Gear, GearPair, PairError, PerGear};
 use crate::mesh::quality::QualityError;
-use crate::mesh::settings::{Body, BodySettings, SectorSides};
 use crate::plan::fem_pair::FemPairStage;
 use crate::scene::Resolved;
 use crate::simulation::fem_pair_record::{FemPairRecord, FullModelSummary};
@@ -77,7 +76,7 @@ pub enum FemPairError {
         /// Where.
         position_mm: f64,
         /// Why.
-        source: SolveError,
+        source: Box<FullError>,
     },
     /// Stresses cannot be computed.
     #[error(transparent)]
@@ -148,9 +147,8 @@ pub fn run(resolved: &Resolved, asked: Asked, observer: &dyn Observer) -> Result
     let material = scene
         .material
         .map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio });
-    let settings = model_settings(&scene.fem);
     let meshed = stages.run(FemPairStage::Meshing, || {
-        let mesh = |gear| MeshedGear::new(&pair, gear, &material, line_load_n_per_mm, &settings);
+        let mesh = |gear| MeshedGear::new(&pair, gear, &material, line_load_n_per_mm, &scene.fem);
         both(mesh)
     })?;
     let gears = stages.run(FemPairStage::Condensation, || both(|gear| meshed[gear].condense(&pair, material[gear])))?;
@@ -193,14 +191,18 @@ pub fn run(resolved: &Resolved, asked: Asked, observer: &dyn Observer) -> Result
         None => positions.first().filter(|_| position_mm.is_some()),
     };
     let solution = match shown {
-        Some(found) => {
-            Some(stages.run(FemPairStage::Stresses, || field::solution(&model, &meshed, &material, found))?)
-        }
+        Some(found) => Some(stages.run(FemPairStage::Stresses, || field::solution(&model, &meshed, &material, found))?),
         None => None,
     };
     let solved = Solved { positions, points, full, stop };
-    let parts =
-        recording::Parts { resolved, bodies: &scene.fem, model: &model, meshed: &meshed, line_load_n_per_mm, position_mm };
+    let parts = recording::Parts {
+        resolved,
+        bodies: &scene.fem,
+        model: &model,
+        meshed: &meshed,
+        line_load_n_per_mm,
+        position_mm,
+    };
     let mut record = recording::record(parts, &solved, solution)?;
     record.summary.wall_per_position_s = stages
         .times
@@ -221,20 +223,6 @@ fn on_path(path: &PathOfContact, given_mm: f64) -> Result<f64, FemPairError> {
         Ok(given_mm.clamp(from_mm, to_mm))
     } else {
         Err(FemPairError::Position { given_mm, from_mm, to_mm })
-    }
-}
-
-/// The settings of a scene as the finite-element layer takes them.
-fn model_settings(settings: &BodySettings) -> ModelSettings {
-    ModelSettings {
-        body: match settings.body {
-            Body::Ring => model::Body::Ring,
-            Body::Sector { teeth, sides } => {
-                model::Body::Sector { teeth, clamped_sides: sides == SectorSides::Clamped }
-            }
-        },
-        clamp_radius_mm: settings.clamp_radius_mm,
-        elements_per_half_width: settings.elements_per_half_width,
     }
 }
 

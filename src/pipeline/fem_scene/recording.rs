@@ -54,10 +54,7 @@ pub(super) fn record(
         None => Vec::new(),
     };
     let at_pitch = parts.hertz(pair.path.pitch_point_mm, parts.line_load_n_per_mm);
-    let gears = PerGear {
-        pinion: parts.gear_model(Gear::Pinion)?,
-        wheel: parts.gear_model(Gear::Wheel)?,
-    };
+    let gears = PerGear { pinion: parts.gear_model(Gear::Pinion)?, wheel: parts.gear_model(Gear::Wheel)? };
     let (sector_teeth, sector_sides) = match parts.bodies.body {
         Body::Ring => (None, None),
         Body::Sector { teeth, sides } => {
@@ -169,7 +166,8 @@ impl Parts<'_> {
         Ok(GearModelSummary {
             clamp_radius_mm: self.bodies.clamp_radius_mm[gear],
             dofs: meshed.dofs(),
-            elements: meshed.fine_teeth as usize * cells(&meshed.fine) + coarse * meshed.coarse.as_ref().map_or(0, cells),
+            elements: meshed.fine_teeth as usize * cells(&meshed.fine)
+                + coarse * meshed.coarse.as_ref().map_or(0, cells),
             resolved_teeth: meshed.fine_teeth,
             resolved_tooth_dofs: meshed.fine.dofs(),
             candidates: self.model.flanks[gear].surface.points_mm.len(),
@@ -187,10 +185,10 @@ impl Parts<'_> {
             let contact = at_c.pairs.iter().find(|contact| contact.pair == 0)?;
             Some(self.row(at_c, contact))
         });
-        let [min, max] = rows.iter().map(|row| row.transmission_error_um).fold(
-            [f64::INFINITY, f64::NEG_INFINITY],
-            |[min, max], te| [min.min(te), max.max(te)],
-        );
+        let [min, max] = rows
+            .iter()
+            .map(|row| row.transmission_error_um)
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[min, max], te| [min.min(te), max.max(te)]);
         FemCycleSummary {
             peak_pressure_MPa: peak.map(|row| row.peak_pressure_MPa),
             peak_pressure_position_mm: peak.map(|row| row.position_mm),

@@ -26,7 +26,7 @@ impl WholeModel<'_> {
         let start = Instant::now();
         let position_mm = condensed.position_mm;
         let found = full::solve(self.pair, self.meshed, self.material, self.line_load_n_per_mm, condensed)
-            .map_err(|source| FemPairError::Full { position_mm, source })?;
+            .map_err(|source| FemPairError::Full { position_mm, source: Box::new(source) })?;
         // Pairs that the whole model does not load count as such: there is one entry for each pair of the condensed one.
         let of = |values: &[(i32, f64)], pair: i32| {
             values.iter().find(|(number, _)| *number == pair).map_or(0.0, |(_, value)| *value)

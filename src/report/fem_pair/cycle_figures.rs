@@ -67,16 +67,17 @@ fn finish(
 }
 
 /// Values over positions with a gap wherever the pair does not touch.
-fn with_gaps(
-    record: &FemPairRecord,
-    pair: i32,
-    value: impl Fn(&FemCycleRow) -> f64,
-) -> (Vec<f64>, Vec<Option<f64>>) {
+fn with_gaps(record: &FemPairRecord, pair: i32, value: impl Fn(&FemCycleRow) -> f64) -> (Vec<f64>, Vec<Option<f64>>) {
     let own = of_pair(record, pair);
     let mut own = own.into_iter().peekable();
     positions(record)
         .into_iter()
-        .map(|at| (plotted(at.position_mm), own.next_if(|row| row.position_mm == at.position_mm).map(|row| plotted(value(row)))))
+        .map(|at| {
+            (
+                plotted(at.position_mm),
+                own.next_if(|row| row.position_mm == at.position_mm).map(|row| plotted(value(row))),
+            )
+        })
         .unzip()
 }
 
@@ -134,10 +135,16 @@ fn pressure(record: &FemPairRecord) -> Figure {
         )
         .hover_template("%{y:.1f} MPa"),
     );
-    let top = rows
-        .iter()
-        .map(|row| if row.at_sharp_edge { row.hertz_pressure_MPa } else { row.peak_pressure_MPa.max(row.hertz_pressure_MPa) })
-        .fold(0.0, f64::max);
+    let top =
+        rows.iter()
+            .map(|row| {
+                if row.at_sharp_edge {
+                    row.hertz_pressure_MPa
+                } else {
+                    row.peak_pressure_MPa.max(row.hertz_pressure_MPa)
+                }
+            })
+            .fold(0.0, f64::max);
     // Singular peaks may be many times as high: those above the frame are drawn at its edge.
     let sharp: Vec<&&FemCycleRow> = rows.iter().filter(|row| row.at_sharp_edge).collect();
     let [_, frame] = from_zero(1.25 * top);
@@ -150,7 +157,9 @@ fn pressure(record: &FemPairRecord) -> Figure {
             .name("at a sharp tip edge")
             .mode(Mode::Markers)
             .marker(Marker::new().symbol(MarkerSymbol::TriangleUpOpen).size(6).color(WORN))
-            .text_array(sharp.iter().map(|row| format!("{} MPa, singular", figure(row.peak_pressure_MPa))).collect::<Vec<_>>())
+            .text_array(
+                sharp.iter().map(|row| format!("{} MPa, singular", figure(row.peak_pressure_MPa))).collect::<Vec<_>>(),
+            )
             .hover_template("%{text}"),
         );
     }
@@ -219,7 +228,8 @@ fn root_stress(record: &FemPairRecord) -> Figure {
         (Gear::Wheel, |row| row.wheel_root_tension_MPa, |row| row.wheel_root_compression_MPa),
     ];
     for (gear, tension, compression) in sides {
-        for (side, value, dash) in [("tension", tension, DashType::Solid), ("compression", compression, DashType::Dash)] {
+        for (side, value, dash) in [("tension", tension, DashType::Solid), ("compression", compression, DashType::Dash)]
+        {
             plot.add_trace(
                 curve(
                     &format!("{}, {side}", gear.name()),

@@ -68,8 +68,7 @@ pub fn von_mises(solution: &PairSolution) -> Vec<Figure> {
         significant(solution.position_mm, 5),
         if solution.contacts.len() == 1 { "" } else { "s" },
     );
-    let mut figures =
-        vec![picture("stress".into(), "Von Mises stress".into(), whole, Window::around(&deformed))];
+    let mut figures = vec![picture("stress".into(), "Von Mises stress".into(), whole, Window::around(&deformed))];
     figures.extend(solution.contacts.iter().map(|contact| {
         picture(
             format!("stress-contact-{}", contact.pair).replace("--", "-behind-"),

@@ -18,7 +18,9 @@ fn cycle(s: &FemPairSummary) -> String {
     let one = |label, unit, value: f64| row(label, unit, [figure(value)]);
     let mut rows: Vec<Row> = Vec::new();
     rows.extend(new.peak_pressure_MPa.map(|p| one("Greatest pressure away from sharp edges", "MPa", p)));
-    rows.extend(new.peak_pressure_position_mm.filter(|_| s.position_mm.is_none()).map(|at| one("at position", "mm", at)));
+    rows.extend(
+        new.peak_pressure_position_mm.filter(|_| s.position_mm.is_none()).map(|at| one("at position", "mm", at)),
+    );
     rows.extend(new.peak_pressure_pinion_radius_mm.map(|r| one("at radius on the pinion", "mm", r)));
     rows.extend(new.sharp_edge_pressure_MPa.map(|p| one("At a sharp tip edge, singular", "MPa", p)));
     if let (Some(found), Some(hertz)) = (new.pitch_pressure_MPa, new.pitch_hertz_pressure_MPa) {
@@ -41,7 +43,8 @@ fn cycle(s: &FemPairSummary) -> String {
 
 fn roots(s: &FemPairSummary) -> String {
     let PerGear { pinion: Some(pinion), wheel: Some(wheel) } = &s.root else { return String::new() };
-    let both = |label, unit, value: fn(&RootSummary) -> f64| row(label, unit, [pinion, wheel].map(|r| figure(value(r))));
+    let both =
+        |label, unit, value: fn(&RootSummary) -> f64| row(label, unit, [pinion, wheel].map(|r| figure(value(r))));
     table(
         "Stress at the fillets of the reference pair",
         &["pinion", "wheel"],
@@ -119,7 +122,8 @@ pub fn checks(s: &FemPairSummary) -> String {
         row("at position", "mm", [figure(c.torque_ratio_error_position_mm)]),
     ];
     rows.extend(
-        c.torque_ratio_error_on_line.map(|error| row("the same with all contact on the line of action", "", [percent(error)])),
+        c.torque_ratio_error_on_line
+            .map(|error| row("the same with all contact on the line of action", "", [percent(error)])),
     );
     rows.extend([
         row("Load not balanced, relative", "", [significant(c.load_imbalance, 2)]),
@@ -143,9 +147,17 @@ fn full(s: &FemPairSummary) -> String {
                 &[
                     row("Degrees of freedom", "", [count(at.dofs as u64)]),
                     row("Transmission error", "µm", [figure(at.transmission_error_um)]),
-                    row("Transmission error, difference, relative", "", [significant(at.transmission_error_difference, 2)]),
+                    row(
+                        "Transmission error, difference, relative",
+                        "",
+                        [significant(at.transmission_error_difference, 2)],
+                    ),
                     row("Line load of a pair, difference, relative", "", [significant(at.line_load_difference, 2)]),
-                    row("Peak pressure of a pair, difference, relative", "", [significant(at.peak_pressure_difference, 2)]),
+                    row(
+                        "Peak pressure of a pair, difference, relative",
+                        "",
+                        [significant(at.peak_pressure_difference, 2)],
+                    ),
                     row("Time", "s", [fixed(at.wall_s, 2)]),
                 ],
             )

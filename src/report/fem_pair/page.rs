@@ -50,7 +50,10 @@ pub fn page(record: &FemPairRecord) -> String {
             "sources",
             "Data and scene",
             &sources_list(
-                &DATA_FILES.into_iter().filter(|(name, _)| *name != "solution.vtu" || record.solution.is_some()).collect::<Vec<_>>(),
+                &DATA_FILES
+                    .into_iter()
+                    .filter(|(name, _)| *name != "solution.vtu" || record.solution.is_some())
+                    .collect::<Vec<_>>(),
                 "The resolved scene, every default filled in",
                 &record.scene_toml,
             ),

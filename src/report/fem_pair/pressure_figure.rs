@@ -60,11 +60,8 @@ fn pressure(of: &PressureCurve) -> Figure {
 
 fn reading(of: &PressureCurve) -> String {
     let row = &of.row;
-    let loaded = format!(
-        "At {} mm the pair carries {} of the load",
-        significant(row.position_mm, 4),
-        percent(row.load_share)
-    );
+    let loaded =
+        format!("At {} mm the pair carries {} of the load", significant(row.position_mm, 4), percent(row.load_share));
     if row.at_sharp_edge {
         return format!(
             "{loaded}; a sharp tip edge takes part of it. The peak of {} MPa there is singular: it grows with every \
