@@ -5,7 +5,9 @@ use std::sync::Arc;
 
 use super::say;
 use gearwear::fem::SolveError;
+use gearwear::mesh::MeshFileError;
 use gearwear::pipeline::RunError;
+use gearwear::pipeline::fem_scene::FemPairError;
 use gearwear::pipeline::pair_mesh::PairMeshError;
 use gearwear::report::ReportError;
 use gearwear::scene::{Problem, ProblemKind, presets};
@@ -29,6 +31,9 @@ pub enum Failure {
     /// A finite-element problem has no solution.
     #[error(transparent)]
     Solve(#[from] SolveError),
+    /// The finite-element contact of a gear pair failed.
+    #[error(transparent)]
+    FemPair(FemPairError),
     /// The user interrupted the run; it was said what is kept.
     #[error("interrupted")]
     Interrupted,
@@ -77,15 +82,20 @@ pub enum InputError {
         /// Name of the file.
         name: String,
     },
-    /// `fem` with a gear pair.
+    /// `fem` of a problem with an option that only a gear pair has.
     #[error(
-        "{name}: found [pair], and finite elements of a gear pair are not available in this version; allowed: [mesh]"
+        "{name}: found {option}, which a problem with its own mesh does not have; allowed with a gear pair, [pair]"
     )]
-    #[diagnostic(help("gearwear schema --problem lists what a problem with its own mesh may say"))]
-    NoFemPair {
+    #[diagnostic(help("leave {option} out"))]
+    OnlyForPair {
         /// Name of the file.
         name: String,
+        /// The option.
+        option: &'static str,
     },
+    /// `fem` of a gear pair that cannot be modelled as asked.
+    #[error("{}", fem_pair(.0))]
+    FemPair(FemPairError),
     /// `init` with a name that is no preset.
     #[error("unknown preset {name:?}; allowed: {}", presets::names().join(", "))]
     #[diagnostic(help("{}", presets::nearest(name).map_or_else(
@@ -103,14 +113,9 @@ pub enum InputError {
     #[diagnostic(help("{}", mesh_help(.0)))]
     PairMesh(#[from] PairMeshError),
     /// The mesh file cannot be written.
-    #[error("--out: {name} cannot be written: {reason}")]
-    #[diagnostic(help("choose a folder you may write to"))]
-    MeshFile {
-        /// Name of the file.
-        name: String,
-        /// The system's reason.
-        reason: io::Error,
-    },
+    #[error("--out: {}", causes(.0))]
+    #[diagnostic(help("a folder you may write to, and a name that ends in .msh, .vtu, .inp or .json"))]
+    MeshFile(MeshFileError),
     /// The threads cannot be started.
     #[error("--threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
@@ -119,6 +124,16 @@ pub enum InputError {
 impl From<ReportError> for Failure {
     fn from(error: ReportError) -> Self {
         Failure::Input(InputError::Out(error))
+    }
+}
+
+/// A finite-element pair's error with the option it belongs to.
+fn fem_pair(error: &FemPairError) -> String {
+    match error {
+        FemPairError::Position { given_mm, from_mm, to_mm } => {
+            format!("--position: found {given_mm}; allowed: {from_mm:.4} (A) to {to_mm:.4} (E), in mm")
+        }
+        other => other.to_string(),
     }
 }
 
@@ -135,6 +150,7 @@ impl Failure {
             Failure::Scene(scene) => scene.print(),
             Failure::Input(error) => say(&format!("{:?}", Report::new(error))),
             Failure::Solve(error) => say(&format!("{:?}", Report::msg(error))),
+            Failure::FemPair(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Run(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Interrupted | Failure::Closed => {}
         }
@@ -144,7 +160,7 @@ impl Failure {
     pub fn exit_status(&self) -> u8 {
         match self {
             Failure::Scene(_) | Failure::Input(_) => 2,
-            Failure::Run(_) | Failure::Solve(_) => 3,
+            Failure::Run(_) | Failure::Solve(_) | Failure::FemPair(_) => 3,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
         }

@@ -1,5 +1,6 @@
 //! `gearwear fem`: finite-element contact, of a problem with its own mesh or of a gear pair.
 
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -21,10 +22,32 @@ pub struct Args {
     file: PathBuf,
     /// The folder for the results; files of an earlier run are replaced
     #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    pub out: PathBuf,
+    /// Of a gear pair: the one position to solve, radius of curvature of the pinion in mm, from A to E; default: the mesh
+    /// cycle
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    pub position: Option<f64>,
+    /// Of a gear pair: solve the whole model without condensation too, at --position or at A to E, and compare
+    #[arg(long)]
+    pub full: bool,
+    /// Of a gear pair: number of threads; default: all cores. Never changes the results
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
     /// Show neither progress nor figures, only what is wrong
     #[arg(long, short)]
-    quiet: bool,
+    pub quiet: bool,
+}
+
+impl Args {
+    /// An option given that only a gear pair has.
+    fn of_a_pair(&self) -> Option<&'static str> {
+        match self {
+            Self { position: Some(_), .. } => Some("--position"),
+            Self { full: true, .. } => Some("--full"),
+            Self { threads: Some(_), .. } => Some("--threads"),
+            _ => None,
+        }
+    }
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
@@ -33,8 +56,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let table: toml::Table = text.text.parse().unwrap_or_default();
     match (table.contains_key("mesh"), table.contains_key("pair")) {
         (true, true) => Err(InputError::MeshAndPair { name: text.name }.into()),
-        (false, true) => fem_scene::run(&text),
-        _ => problem(args, text),
+        (false, true) => fem_scene::run(args, text),
+        _ => match args.of_a_pair() {
+            Some(option) => Err(InputError::OnlyForPair { name: text.name, option }.into()),
+            None => problem(args, text),
+        },
     }
 }
 

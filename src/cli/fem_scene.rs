@@ -1,9 +1,122 @@
-//! `gearwear fem` of a gear pair.
+//! `gearwear fem` of a gear pair: finite-element contact over the mesh cycle, or at one position.
 
-use super::failure::{Failure, InputError};
-use super::scene_source::Text;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Instant;
 
-/// Refuses the scene: this version has no finite-element pair.
-pub fn run(text: &Text) -> Result<(), Failure> {
-    Err(InputError::NoFemPair { name: text.name.clone() }.into())
+use gearwear::fem::gear::model::ModelError;
+use gearwear::pipeline::fem_scene::{self, Asked, Done, FemPairError, Observer};
+use gearwear::plan::fem_pair::FemPairStage;
+use gearwear::report::{self, ReportError};
+use gearwear::scene::Problem;
+use gearwear::simulation::fem_pair_record::{FemPairRecord, FemPairSummary};
+use gearwear::simulation::record::{StageTime, StopReason};
+
+use super::failure::{Failure, InputError, SceneProblems};
+use super::fem::Args;
+use super::progress::Progress;
+use super::run::{pool, watch_for_interrupt};
+use super::scene_source::{self, Source, Text};
+use super::{figures, say, stdout, warn};
+
+pub fn run(args: &Args, text: Text) -> Result<(), Failure> {
+    let source = scene_source::resolve_text(text)?;
+    let resolved = &source.resolved;
+    warn(&resolved.warnings);
+    report::writable(&args.out)?;
+    let pool = pool(args.threads)?;
+    let interrupted = watch_for_interrupt();
+    let progress = Progress::new(args.quiet, Arc::clone(&interrupted));
+    let asked = Asked { position_mm: args.position, full: args.full };
+    let done = pool.install(|| -> Result<Done, Failure> {
+        let mut done = fem_scene::run(resolved, asked, &progress).map_err(|error| refused(error, &source))?;
+        if done.record.summary.positions > 0 {
+            write(&mut done.record, &args.out, &progress)?;
+        }
+        Ok(done)
+    });
+    progress.finish();
+    let Done { record, failure } = done?;
+    if record.summary.positions == 0 {
+        say("interrupted before anything was finished");
+        return Err(Failure::Interrupted);
+    }
+    let summary = &record.summary;
+    warn(&summary.warnings[resolved.warnings.len()..]);
+    if !args.quiet {
+        let report = args.out.join("report.html");
+        stdout::print(&format!("{}report: {}\n", table(summary), report.display()))?;
+    }
+    if summary.stopped != StopReason::Completed {
+        say(&format!("{} positions were finished and are kept in {}", summary.positions, args.out.display()));
+    }
+    match failure {
+        Some(failure) => Err(Failure::FemPair(failure)),
+        None if summary.stopped == StopReason::Interrupted || interrupted.load(Ordering::Relaxed) => {
+            Err(Failure::Interrupted)
+        }
+        None => Ok(()),
+    }
+}
+
+/// A failure, told apart by who is to blame: the input, with its place where it has one, or the solver.
+fn refused(error: FemPairError, source: &Source) -> Failure {
+    match error {
+        FemPairError::Model(ModelError::TooFewTeeth { teeth, least, .. }) => Failure::Scene(SceneProblems {
+            name: source.name.clone(),
+            text: source.text.clone(),
+            problems: vec![Problem::of_sector_teeth(&source.text, teeth, least)],
+        }),
+        FemPairError::Position { .. }
+        | FemPairError::Pair(_)
+        | FemPairError::Quality { .. }
+        | FemPairError::Model(ModelError::Mesh { .. }) => InputError::FemPair(error).into(),
+        other => Failure::FemPair(other),
+    }
+}
+
+/// The last stage: the output folder. Its own time is in the summary, which is therefore written last.
+fn write(record: &mut FemPairRecord, out: &Path, progress: &Progress) -> Result<(), ReportError> {
+    Observer::stage(progress, FemPairStage::Report);
+    let start = Instant::now();
+    // Files of an earlier run are about to be replaced; its summary must not vouch for a mixture.
+    report::remove_summary(out)?;
+    report::fem_pair::write_data_and_page(record, out)?;
+    let wall_s = start.elapsed().as_secs_f64();
+    record.summary.stages.push(StageTime { name: FemPairStage::Report.name().to_owned(), wall_s });
+    record.summary.wall_s += wall_s;
+    report::fem_pair::write_summary(&record.summary, out)?;
+    Ok(())
+}
+
+/// The main figures, for the terminal.
+fn table(summary: &FemPairSummary) -> String {
+    let (new, te) = (&summary.new, &summary.new.transmission_error_um);
+    let or_none = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), figures::digits);
+    let mut text = format!("{}\n\n", summary.title);
+    let mut one = |name: &str, value: &str| text.push_str(&figures::row(name, [value, ""]));
+    one("peak pressure, MPa", &or_none(new.peak_pressure_MPa));
+    if summary.position_mm.is_some() {
+        one("transmission error, µm", &figures::digits(te.max));
+    } else {
+        one("  at position, mm", &or_none(new.peak_pressure_position_mm));
+        one("transmission error, least, µm", &figures::digits(te.min));
+        one("transmission error, greatest, µm", &figures::digits(te.max));
+    }
+    text.push_str(&figures::row("", ["pinion", "wheel"]));
+    if let (Some(pinion), Some(wheel)) = (&summary.root.pinion, &summary.root.wheel) {
+        for (name, values) in [
+            ("root stress, tension side, MPa", [pinion.tension_MPa, wheel.tension_MPa]),
+            ("root stress, other side, MPa", [pinion.compression_MPa, wheel.compression_MPa]),
+        ] {
+            let [one, other] = values.map(figures::digits);
+            text.push_str(&figures::row(name, [&one, &other]));
+        }
+    }
+    text.push_str(&format!(
+        "\n{} positions, {} degrees of freedom, {:.1} active sets a position, computed in {:.2} s\n",
+        summary.positions, summary.dofs, summary.checks.iterations_per_position, summary.wall_s
+    ));
+    text
 }

@@ -42,7 +42,7 @@ enum Command {
     Mesh(mesh::Args),
     /// Run the wear simulation of a scene
     Run(run::Args),
-    /// Solve elastic contact with finite elements, on a mesh of one's own
+    /// Solve elastic contact with finite elements: of a gear pair, or on a mesh of one's own
     Fem(fem::Args),
     /// Print the JSON schema of the scene: every key with its meaning, unit, range and default
     Schema(schema::Args),

@@ -6,8 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
-use gearwear::pipeline::Observer;
+use gearwear::pipeline::{Observer, fem_scene};
 use gearwear::plan::StageKind;
+use gearwear::plan::fem_pair::FemPairStage;
 use gearwear::simulation::wear_run;
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -57,7 +58,20 @@ impl Progress {
 
 impl Observer for Progress {
     fn stage(&self, kind: StageKind) {
-        let name = kind.name().to_owned();
+        self.begin(kind.name());
+    }
+}
+
+impl fem_scene::Observer for Progress {
+    fn stage(&self, stage: FemPairStage) {
+        self.begin(stage.name());
+    }
+}
+
+impl Progress {
+    /// A stage begins.
+    fn begin(&self, name: &str) {
+        let name = name.to_owned();
         match &self.display {
             Display::Quiet => {}
             Display::Log(stage) => log_end(stage, Some((name, Instant::now()))),

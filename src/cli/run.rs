@@ -43,10 +43,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     warn(&resolved.warnings);
     let plan = Plan::of(&resolved.scene);
     report::writable(&args.out)?;
-    // More threads than cores only wait for each other.
-    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    let threads = args.threads.map_or(cores, NonZeroUsize::get).min(cores);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(InputError::from)?;
+    let pool = pool(args.threads)?;
 
     let interrupted = watch_for_interrupt();
     let progress = Progress::new(args.quiet, Arc::clone(&interrupted));
@@ -108,8 +105,15 @@ fn write(record: &mut RunRecord, out: &Path, progress: &Progress) -> Result<(), 
     Ok(())
 }
 
+/// As many threads as asked for. More than cores only wait for each other.
+pub(super) fn pool(threads: Option<NonZeroUsize>) -> Result<rayon::ThreadPool, InputError> {
+    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    let threads = threads.map_or(cores, NonZeroUsize::get).min(cores);
+    Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?)
+}
+
 /// A flag that the first Ctrl-C sets; a second one ends the program at once.
-fn watch_for_interrupt() -> Arc<AtomicBool> {
+pub(super) fn watch_for_interrupt() -> Arc<AtomicBool> {
     let flag = Arc::new(AtomicBool::new(false));
     let seen = Arc::clone(&flag);
     let handler = ctrlc::set_handler(move || {

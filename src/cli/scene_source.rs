@@ -45,7 +45,12 @@ pub fn read(path: &Path) -> Result<Text, Failure> {
 
 /// Reads the scene at `path` (`-`: standard input) and resolves it.
 pub fn resolve(path: &Path) -> Result<Source, Failure> {
-    let Text { name, text } = read(path)?;
+    resolve_text(read(path)?)
+}
+
+/// Resolves the scene in a text.
+pub fn resolve_text(text: Text) -> Result<Source, Failure> {
+    let Text { name, text } = text;
     match Scene::from_toml(&text) {
         Ok(resolved) => Ok(Source { name, text, resolved }),
         Err(problems) => Err(Failure::Scene(SceneProblems { name, text, problems })),

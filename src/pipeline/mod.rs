@@ -5,6 +5,7 @@
 mod drawing;
 mod error_estimates;
 pub mod fem_problem;
+pub mod fem_scene;
 pub mod pair_mesh;
 mod recording;
 

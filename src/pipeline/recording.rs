@@ -77,12 +77,12 @@ pub(super) fn record(
     })
 }
 
-fn path_points(values: [f64; 5]) -> PathPoints {
+pub(super) fn path_points(values: [f64; 5]) -> PathPoints {
     let [a, b, c, d, e] = values;
     PathPoints { A: a, B: b, C: c, D: d, E: e }
 }
 
-fn geometry(pair: &GearPair) -> GeometrySummary {
+pub(super) fn geometry(pair: &GearPair) -> GeometrySummary {
     let pinion = &pair.teeth.pinion;
     let (base, tip) = (pinion.involute.base_radius_mm, pinion.tip_radius_mm);
     GeometrySummary {

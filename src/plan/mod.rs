@@ -1,5 +1,7 @@
 //! The stages a scene needs and those it does not, decided here alone and from the scene alone.
 
+pub mod fem_pair;
+
 use serde::{Serialize, Serializer};
 
 use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};

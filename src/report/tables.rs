@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::fem::record::FemSummary;
 use crate::gear::Gear;
+use crate::simulation::fem_pair_record::FemPairSummary;
 use crate::simulation::record::{FlankRecord, HistoryRow, MeshCycleRow, RunRecord, Summary};
 
 /// Name and meaning of a column.
@@ -78,6 +79,11 @@ pub struct Provenance<'a> {
 impl<'a> Provenance<'a> {
     /// That of the run summarised in `summary`.
     pub fn of(summary: &'a Summary) -> Self {
+        Self { program_version: &summary.program_version, input: "scene", hash: &summary.scene_hash }
+    }
+
+    /// That of the finite-element pair summarised in `summary`.
+    pub fn of_fem_pair(summary: &'a FemPairSummary) -> Self {
         Self { program_version: &summary.program_version, input: "scene", hash: &summary.scene_hash }
     }
 

@@ -66,6 +66,20 @@ impl Problem {
         }
     }
 
+    /// The sectors of the scene in `text` have fewer than the `least` teeth that touch.
+    pub fn of_sector_teeth(text: &str, teeth: u32, least: u32) -> Self {
+        let key = "fem.sector_teeth";
+        let span = Locator::new(text).unwrap_or_default().nearest(key);
+        Self {
+            kind: ProblemKind::NotAllowed,
+            key: key.to_owned(),
+            found: teeth.to_string(),
+            allowed: format!("an odd number, at least {least}: so many teeth touch over the mesh cycle"),
+            help: Some("body = \"ring\" has all teeth".to_owned()),
+            span: Some(span),
+        }
+    }
+
     /// Adds a sentence to the help.
     pub fn add_help(&mut self, sentence: &str) {
         match &mut self.help {

@@ -1,5 +1,6 @@
-//! The wear run and what it leaves behind.
+//! The wear run, and the plain records that runs leave behind.
 
+pub mod fem_pair_record;
 pub mod figures;
 pub mod record;
 pub mod settings;

@@ -1,0 +1,259 @@
+//! Carries out finite-element contact of a scene's gear pair: mesh, condense, solve the positions, record.
+//!
+//! Each gear is factorised and condensed once; a position then is a small contact problem ([`crate::fem::gear`]). The
+//! positions are solved in batches of fixed size, so that progress is told and an interrupt heard between them without
+//! any effect on the results.
+
+mod field;
+mod recording;
+mod whole;
+
+use std::time::Instant;
+
+use self::whole::WholeModel;
+
+use crate::fem::elastic::Elastic;
+use crate::fem::element::ElementError;
+use crate::fem::gear::cycle::{CycleError, cycle};
+use crate::fem::gear::full::FullError;
+use crate::fem::gear::model::{MeshedGear, ModelError};
+use crate::fem::gear::position::{CondensedPair, PositionContact};
+use crate::gear::path_of_contact::PathOfContact;
+use crate::gear::{Gear, GearPair, PairError, PerGear};
+use crate::mesh::quality::QualityError;
+use crate::plan::fem_pair::FemPairStage;
+use crate::scene::Resolved;
+use crate::simulation::fem_pair_record::{FemPairRecord, FullModelSummary};
+use crate::simulation::record::{StageTime, StopReason};
+use crate::simulation::wear_run::{Progress, Unwatched};
+
+/// Positions solved between two looks at the observer.
+const BATCH: usize = 64;
+
+/// Told of progress, in positions; says whether to go on.
+pub trait Observer: Progress {
+    /// A stage begins.
+    fn stage(&self, stage: FemPairStage);
+}
+
+impl Observer for Unwatched {
+    fn stage(&self, _stage: FemPairStage) {}
+}
+
+/// Why there is no result, or not the whole.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum FemPairError {
+    /// The pair cannot exist.
+    #[error(transparent)]
+    Pair(#[from] PairError),
+    /// The position asked for lies outside the path of contact.
+    #[error("position {given_mm} mm lies outside the path of contact, from A at {from_mm:.4} to E at {to_mm:.4} mm")]
+    Position {
+        /// As asked for.
+        given_mm: f64,
+        /// A.
+        from_mm: f64,
+        /// E.
+        to_mm: f64,
+    },
+    /// A gear cannot be modelled.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// A mesh came out unfit.
+    #[error("{}: {source}", gear.name())]
+    Quality {
+        /// Whose.
+        gear: Gear,
+        /// Why.
+        source: QualityError,
+    },
+    /// The contact at a position was not found.
+    #[error(transparent)]
+    Contact(#[from] CycleError),
+    /// The whole model has no solution.
+    #[error("whole model at position {position_mm:.4} mm: {source}")]
+    Full {
+        /// Where.
+        position_mm: f64,
+        /// Why.
+        source: Box<FullError>,
+    },
+    /// Stresses cannot be computed.
+    #[error(transparent)]
+    Stress(#[from] ElementError),
+}
+
+/// What a computation came to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Done {
+    /// Everything that was finished.
+    pub record: FemPairRecord,
+    /// Why that is not all.
+    pub failure: Option<FemPairError>,
+}
+
+/// Times the stages and tells the observer of them.
+struct Stages<'a> {
+    observer: &'a dyn Observer,
+    times: Vec<StageTime>,
+}
+
+impl Stages<'_> {
+    fn run<T>(&mut self, stage: FemPairStage, work: impl FnOnce() -> T) -> T {
+        self.observer.stage(stage);
+        let start = Instant::now();
+        let result = work();
+        self.times.push(StageTime { name: stage.name().to_owned(), wall_s: start.elapsed().as_secs_f64() });
+        result
+    }
+}
+
+/// What is asked beside the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Asked {
+    /// The one position to solve; `None`: the mesh cycle.
+    pub position_mm: Option<f64>,
+    /// Whether to solve the whole model without condensation too, at that position or at A–E.
+    pub full: bool,
+}
+
+/// What was solved.
+struct Solved {
+    /// The positions, in order.
+    positions: Vec<PositionContact>,
+    /// A–E; none where one position was asked for.
+    points: Option<[PositionContact; 5]>,
+    full: Option<Vec<FullModelSummary>>,
+    stop: StopReason,
+}
+
+/// Solves what is asked. The report is left to the caller, who knows where
+/// it goes.
+///
+/// What is interrupted or does not converge gives the record of what was finished, and the failure in the latter case.
+///
+/// # Errors
+/// [`FemPairError`] where nothing was finished.
+pub fn run(resolved: &Resolved, asked: Asked, observer: &dyn Observer) -> Result<Done, FemPairError> {
+    let start = Instant::now();
+    let scene = &resolved.scene;
+    let mut stages = Stages { observer, times: Vec::new() };
+
+    let pair = stages.run(FemPairStage::Geometry, || GearPair::new(&scene.pair))?;
+    let path = &pair.path;
+    let position_mm = asked.position_mm.map(|given_mm| on_path(path, given_mm)).transpose()?;
+    let line_load_n_per_mm =
+        scene.operation.pinion_torque_n_mm / path.involute.pinion.base_radius_mm / scene.pair.face_width_mm;
+    let material = scene
+        .material
+        .map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio });
+    let meshed = stages.run(FemPairStage::Meshing, || {
+        let mesh = |gear| MeshedGear::new(&pair, gear, &material, line_load_n_per_mm, &scene.fem);
+        both(mesh)
+    })?;
+    let gears = stages.run(FemPairStage::Condensation, || both(|gear| meshed[gear].condense(&pair, material[gear])))?;
+    let model = CondensedPair::new(&pair, &material, gears);
+
+    let positions_mm = match position_mm {
+        Some(position_mm) => vec![position_mm],
+        None => evenly(path.start_mm, path.end_mm, scene.numerics.positions),
+    };
+    let (positions, mut failure) =
+        stages.run(FemPairStage::Cycle, || solve(&model, &positions_mm, line_load_n_per_mm, observer));
+    let mut stop = match (&failure, positions.len() == positions_mm.len()) {
+        (Some(_), _) => StopReason::NotConverged,
+        (None, true) => StopReason::Completed,
+        (None, false) => StopReason::Interrupted,
+    };
+    if let (Some(error), true) = (&failure, positions.is_empty()) {
+        return Err(error.clone());
+    }
+    let mut points = None;
+    if stop == StopReason::Completed && position_mm.is_none() {
+        match stages.run(FemPairStage::PathPoints, || cycle(&model, &path.points_mm(), line_load_n_per_mm)) {
+            Ok(found) => points = <[PositionContact; 5]>::try_from(found).ok(),
+            Err(error) => {
+                failure = Some(error.into());
+                stop = StopReason::NotConverged;
+            }
+        }
+    }
+    let mut full = None;
+    if asked.full && stop == StopReason::Completed {
+        let at: &[PositionContact] = points.as_ref().map_or(&positions, |points| points);
+        let whole = WholeModel { pair: &pair, meshed: &meshed, material: &material, line_load_n_per_mm };
+        full = Some(stages.run(FemPairStage::FullModel, || {
+            at.iter().map(|condensed| whole.against(condensed)).collect::<Result<Vec<_>, _>>()
+        })?);
+    }
+    let shown = match &points {
+        Some([_, _, at_c, ..]) => Some(at_c),
+        None => positions.first().filter(|_| position_mm.is_some()),
+    };
+    let solution = match shown {
+        Some(found) => Some(stages.run(FemPairStage::Stresses, || field::solution(&model, &meshed, &material, found))?),
+        None => None,
+    };
+    let solved = Solved { positions, points, full, stop };
+    let parts = recording::Parts {
+        resolved,
+        bodies: &scene.fem,
+        model: &model,
+        meshed: &meshed,
+        line_load_n_per_mm,
+        position_mm,
+    };
+    let mut record = recording::record(parts, &solved, solution)?;
+    record.summary.wall_per_position_s = stages
+        .times
+        .iter()
+        .find(|stage| stage.name == FemPairStage::Cycle.name())
+        .filter(|_| !solved.positions.is_empty())
+        .map(|stage| stage.wall_s / solved.positions.len() as f64);
+    record.summary.stages = stages.times;
+    record.summary.wall_s = start.elapsed().as_secs_f64();
+    Ok(Done { record, failure })
+}
+
+/// A position on the path of contact. Its ends are printed with four decimals and may be given as printed.
+fn on_path(path: &PathOfContact, given_mm: f64) -> Result<f64, FemPairError> {
+    const ROUNDING_MM: f64 = 1e-4;
+    let (from_mm, to_mm) = (path.start_mm, path.end_mm);
+    if (from_mm - ROUNDING_MM..=to_mm + ROUNDING_MM).contains(&given_mm) {
+        Ok(given_mm.clamp(from_mm, to_mm))
+    } else {
+        Err(FemPairError::Position { given_mm, from_mm, to_mm })
+    }
+}
+
+/// Both gears, at the same time where there are threads for it.
+fn both<T: Send, E: Send>(of: impl Fn(Gear) -> Result<T, E> + Sync) -> Result<PerGear<T>, E> {
+    let (pinion, wheel) = rayon::join(|| of(Gear::Pinion), || of(Gear::Wheel));
+    Ok(PerGear { pinion: pinion?, wheel: wheel? })
+}
+
+/// `count` (≥ 2) places from `from` to `to`, both included, as the working cycle's loading positions.
+fn evenly(from: f64, to: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|j| from + (to - from) * j as f64 / (count - 1) as f64).collect()
+}
+
+/// The positions batch by batch, until one fails or the user interrupts.
+fn solve(
+    model: &CondensedPair<'_>,
+    positions_mm: &[f64],
+    line_load_n_per_mm: f64,
+    observer: &dyn Observer,
+) -> (Vec<PositionContact>, Option<FemPairError>) {
+    let mut solved = Vec::with_capacity(positions_mm.len());
+    for batch in positions_mm.chunks(BATCH) {
+        if observer.interrupted() {
+            break;
+        }
+        match cycle(model, batch, line_load_n_per_mm) {
+            Ok(found) => solved.extend(found),
+            Err(error) => return (solved, Some(error.into())),
+        }
+        observer.progress(solved.len() as f64, positions_mm.len() as f64);
+    }
+    (solved, None)
+}

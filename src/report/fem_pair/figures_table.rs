@@ -1,0 +1,166 @@
+//! The main figures of finite-element contact of a gear pair as HTML tables.
+
+use crate::gear::PerGear;
+use crate::report::html::number::{change, count, figure, fixed, percent, significant};
+use crate::report::html::page::escape;
+use crate::report::html::table::{Row, row, table};
+use crate::simulation::fem_pair_record::{FemPairSummary, GearModelSummary, PathPointsSummary, RootSummary};
+use crate::simulation::record::PathPoints;
+
+/// All tables of figures, in the order of the page.
+pub fn tables(s: &FemPairSummary) -> String {
+    let points = s.points.as_ref().map_or_else(String::new, points);
+    [cycle(s), roots(s), points, model(s), gears(s)].concat()
+}
+
+fn cycle(s: &FemPairSummary) -> String {
+    let (new, te) = (&s.new, &s.new.transmission_error_um);
+    let one = |label, unit, value: f64| row(label, unit, [figure(value)]);
+    let mut rows: Vec<Row> = Vec::new();
+    rows.extend(new.peak_pressure_MPa.map(|p| one("Greatest pressure away from sharp edges", "MPa", p)));
+    rows.extend(
+        new.peak_pressure_position_mm.filter(|_| s.position_mm.is_none()).map(|at| one("at position", "mm", at)),
+    );
+    rows.extend(new.peak_pressure_pinion_radius_mm.map(|r| one("at radius on the pinion", "mm", r)));
+    rows.extend(new.sharp_edge_pressure_MPa.map(|p| one("At a sharp tip edge, singular", "MPa", p)));
+    if let (Some(found), Some(hertz)) = (new.pitch_pressure_MPa, new.pitch_hertz_pressure_MPa) {
+        rows.push(one("Pressure at the pitch point C", "MPa", found));
+        rows.push(one("Hertz there", "MPa", hertz));
+        rows.push(row("Finite elements against Hertz", "", [change(hertz, found)]));
+    }
+    if s.position_mm.is_some() {
+        rows.push(one("Transmission error", "µm", te.max));
+    } else {
+        rows.extend([
+            one("Transmission error, least", "µm", te.min),
+            one("Transmission error, greatest", "µm", te.max),
+            one("Transmission error, peak to peak", "µm", te.peak_to_peak),
+        ]);
+    }
+    rows.push(one("Line load, whole torque", "N/mm", s.contact.line_load_N_per_mm));
+    table(if s.position_mm.is_some() { "Contact" } else { "Working cycle" }, &["value"], &rows)
+}
+
+fn roots(s: &FemPairSummary) -> String {
+    let PerGear { pinion: Some(pinion), wheel: Some(wheel) } = &s.root else { return String::new() };
+    let both =
+        |label, unit, value: fn(&RootSummary) -> f64| row(label, unit, [pinion, wheel].map(|r| figure(value(r))));
+    table(
+        "Stress at the fillets of the reference pair",
+        &["pinion", "wheel"],
+        &[
+            both("Greatest, below the working flank", "MPa", |r| r.tension_MPa),
+            both("at position", "mm", |r| r.tension_position_mm),
+            both("Least, on the other side", "MPa", |r| r.compression_MPa),
+            both("at position", "mm", |r| r.compression_position_mm),
+        ],
+    )
+}
+
+fn points(points: &PathPointsSummary) -> String {
+    let five = |label, unit, values: &PathPoints| {
+        let PathPoints { A, B, C, D, E } = *values;
+        row(label, unit, [A, B, C, D, E].map(figure))
+    };
+    table(
+        "The reference pair at A to E",
+        &["A", "B", "C", "D", "E"],
+        &[
+            five("Share of the load", "", &points.load_share),
+            five("Greatest pressure", "MPa", &points.peak_pressure_MPa),
+            five("Hertz, same load", "MPa", &points.hertz_pressure_MPa),
+            five("Transmission error", "µm", &points.transmission_error_um),
+        ],
+    )
+}
+
+fn model(s: &FemPairSummary) -> String {
+    let m = &s.model;
+    let body = match (m.sector_teeth, &m.sector_sides) {
+        (Some(teeth), Some(sides)) => format!("sector of {teeth} teeth, sides {}", escape(sides)),
+        _ => "whole ring".to_owned(),
+    };
+    table(
+        "Model",
+        &["value"],
+        &[
+            row("Body", "", [body]),
+            row("Across the plane", "", ["plane strain".to_owned()]),
+            row("Elements along Hertz’s half-width", "", [significant(m.elements_per_half_width, 3)]),
+            row("Degrees of freedom, supports included", "", [count(s.dofs as u64)]),
+            row("Elements", "", [count(s.elements as u64)]),
+        ],
+    )
+}
+
+fn gears(s: &FemPairSummary) -> String {
+    let gears = &s.model.gears;
+    let both = |label, unit, value: &dyn Fn(&GearModelSummary) -> String| {
+        row(label, unit, [value(&gears.pinion), value(&gears.wheel)])
+    };
+    table(
+        "Finite elements of the gears",
+        &["pinion", "wheel"],
+        &[
+            both("Held or turned at radius", "mm", &|g| fixed(g.clamp_radius_mm, 3)),
+            both("Degrees of freedom", "", &|g| count(g.dofs as u64)),
+            both("Elements", "", &|g| count(g.elements as u64)),
+            both("Teeth with a resolved flank", "", &|g| g.resolved_teeth.to_string()),
+            both("Nodes of a flank that may carry load", "", &|g| count(g.candidates as u64)),
+            both("Least angle of an element", "°", &|g| fixed(g.quality.least_angle_deg.value, 1)),
+            both("Least Jacobian ratio", "", &|g| fixed(g.quality.jacobian_ratio.value, 3)),
+            both("Greatest aspect ratio", "", &|g| fixed(g.quality.aspect_ratio.value, 2)),
+        ],
+    )
+}
+
+/// How well equilibrium was met, and the whole model where it was solved.
+pub fn checks(s: &FemPairSummary) -> String {
+    let c = &s.checks;
+    let mut rows = vec![
+        row("|T2/T1| against z2/z1, worst", "", [percent(c.torque_ratio_error)]),
+        row("at position", "mm", [figure(c.torque_ratio_error_position_mm)]),
+    ];
+    rows.extend(
+        c.torque_ratio_error_on_line
+            .map(|error| row("the same with all contact on the line of action", "", [percent(error)])),
+    );
+    rows.extend([
+        row("Load not balanced, relative", "", [significant(c.load_imbalance, 2)]),
+        row("Largest penetration", "µm", [significant(c.max_penetration_um, 2)]),
+        row("Active sets a position, mean", "", [significant(c.iterations_per_position, 3)]),
+        row("Active sets a position, most", "", [count(c.most_iterations as u64)]),
+        row("Cycles of active sets broken", "", [count(c.cycles_broken as u64)]),
+    ]);
+    rows.extend(s.wall_per_position_s.map(|wall_s| row("Time a position", "ms", [significant(1e3 * wall_s, 3)])));
+    let note = format!("<p class=\"legend-note\">{}.</p>\n", escape(&c.torque_ratio));
+    [table("Checks", &["value"], &rows), note, full(s)].concat()
+}
+
+fn full(s: &FemPairSummary) -> String {
+    let Some(full) = &s.full else { return String::new() };
+    full.iter()
+        .map(|at| {
+            table(
+                &format!("Whole model without condensation, at {} mm", significant(at.position_mm, 5)),
+                &["value"],
+                &[
+                    row("Degrees of freedom", "", [count(at.dofs as u64)]),
+                    row("Transmission error", "µm", [figure(at.transmission_error_um)]),
+                    row(
+                        "Transmission error, difference, relative",
+                        "",
+                        [significant(at.transmission_error_difference, 2)],
+                    ),
+                    row("Line load of a pair, difference, relative", "", [significant(at.line_load_difference, 2)]),
+                    row(
+                        "Peak pressure of a pair, difference, relative",
+                        "",
+                        [significant(at.peak_pressure_difference, 2)],
+                    ),
+                    row("Time", "s", [fixed(at.wall_s, 2)]),
+                ],
+            )
+        })
+        .collect()
+}

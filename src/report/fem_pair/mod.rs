@@ -1,0 +1,46 @@
+//! The files of finite-element contact of a gear pair, written from its [`FemPairRecord`] alone.
+//!
+//! | file | from |
+//! |---|---|
+//! | `summary.json` | [`crate::simulation::fem_pair_record::FemPairSummary`] |
+//! | `mesh_cycle.csv`, `pressure.csv` | [`tables`] |
+//! | `solution.vtu` | [`solution_mesh`]: displacement and stress of the teeth in contact, for ParaView |
+//! | `scene.toml` | the resolved scene |
+//! | `report.html` | [`page`] |
+
+mod cycle_figures;
+mod field_figures;
+mod figures_table;
+mod page;
+mod pressure_figure;
+mod solution_mesh;
+pub mod tables;
+
+use std::path::{Path, PathBuf};
+
+use super::tables::Provenance;
+use super::{ReportError, create_folder, place, summary};
+use crate::simulation::fem_pair_record::{FemPairRecord, FemPairSummary};
+
+/// Writes all files of `record` but `summary.json` into `dir`, which is made if need be; returns their paths in the order
+/// written.
+pub fn write_data_and_page(record: &FemPairRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+    create_folder(dir)?;
+    let provenance = Provenance::of_fem_pair(&record.summary);
+    let mut written = vec![
+        place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?,
+        place(dir, "mesh_cycle.csv", |out| tables::mesh_cycle(out, provenance, &record.mesh_cycle))?,
+        place(dir, "pressure.csv", |out| tables::pressure(out, provenance, &record.pressure))?,
+    ];
+    if let Some(solution) = &record.solution {
+        written.push(place(dir, "solution.vtu", |out| solution_mesh::write(out, solution))?);
+    }
+    written.push(place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?);
+    Ok(written)
+}
+
+/// Writes `summary.json` into `dir`, after everything else.
+pub fn write_summary(summary: &FemPairSummary, dir: &Path) -> Result<PathBuf, ReportError> {
+    create_folder(dir)?;
+    place(dir, "summary.json", |out| summary::write(out, summary))
+}

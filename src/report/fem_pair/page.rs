@@ -1,0 +1,113 @@
+//! `report.html` of finite-element contact of a gear pair.
+
+use super::{cycle_figures, field_figures, figures_table, pressure_figure};
+use crate::report::html::number::{figure, significant};
+use crate::report::html::page::{Page, plots, section, sources_list, stages_table};
+use crate::report::html::reading::among;
+use crate::report::html::theme::named;
+use crate::simulation::fem_pair_record::{FemPairRecord, FemPairSummary};
+use crate::simulation::record::StopReason;
+
+/// The data files named in the page, which lie beside it.
+const DATA_FILES: [(&str, &str); 5] = [
+    ("summary.json", "the main figures"),
+    ("mesh_cycle.csv", "load, pressure, transmission error and root stress, position by position"),
+    ("pressure.csv", "pressure along the flank, beside Hertz’s"),
+    ("solution.vtu", "displacement and stress of the teeth in contact, for ParaView"),
+    ("scene.toml", "the resolved scene"),
+];
+
+const LEGEND: &str = "<p class=\"legend-note\">A to E are the points of the path of contact: theoretical contact begins at A \
+     and ends at E, a tooth pair carries the load alone between B and D where no more than two pairs share it, and C is the \
+     pitch point. The contact position is the radius of curvature of the pinion’s flank at the theoretical contact point of \
+     the reference pair. Under load teeth bend, and pairs touch a little before A and after E as well, at a tip edge.</p>\n";
+
+/// The whole page.
+pub fn page(record: &FemPairRecord) -> String {
+    let s = &record.summary;
+    let mut figures = Vec::new();
+    figures.extend(record.solution.as_ref().map(|solution| field_figures::mesh(s, solution)));
+    if s.position_mm.is_none() {
+        figures.extend(cycle_figures::all(record));
+    }
+    figures.extend(pressure_figure::all(record));
+    if let Some(solution) = &record.solution {
+        figures.extend(field_figures::von_mises(solution));
+    }
+    let sections = [
+        section("figures", "Main figures", &format!("<div class=\"tables\">\n{}</div>\n", figures_table::tables(s))),
+        section("plots", "Plots", &[LEGEND, &plots(&figures)].concat()),
+        section(
+            "work",
+            "How it was computed",
+            &format!(
+                "<div class=\"tables\">\n{}{}</div>\n",
+                stages_table(&s.stages, s.wall_s),
+                figures_table::checks(s)
+            ),
+        ),
+        section(
+            "sources",
+            "Data and scene",
+            &sources_list(
+                &DATA_FILES
+                    .into_iter()
+                    .filter(|(name, _)| *name != "solution.vtu" || record.solution.is_some())
+                    .collect::<Vec<_>>(),
+                "The resolved scene, every default filled in",
+                &record.scene_toml,
+            ),
+        ),
+    ];
+    Page {
+        kind: "Finite-element contact of a gear pair",
+        title: &s.title,
+        answer: &answer(s),
+        interruption: interruption(s).as_deref(),
+        warnings: &s.warnings,
+        main: &sections.concat(),
+        footer: &format!("gearwear {} · scene {}", s.program_version, s.scene_hash),
+    }
+    .html()
+}
+
+fn answer(s: &FemPairSummary) -> String {
+    let (new, te) = (&s.new, &s.new.transmission_error_um);
+    let mut text = match (new.peak_pressure_MPa, new.peak_pressure_position_mm) {
+        (Some(peak), Some(at)) if s.position_mm.is_none() => format!(
+            "Away from sharp tip edges the pressure reaches {} MPa at {} mm, {}.",
+            figure(peak),
+            significant(at, 4),
+            among(&named(&s.geometry.curvature_radius_mm), at)
+        ),
+        (Some(peak), _) => format!("Away from sharp tip edges the pressure reaches {} MPa.", figure(peak)),
+        (None, _) => "Every contact touches a sharp tip edge, where pressure has no finite value.".to_owned(),
+    };
+    text.push_str(&if s.position_mm.is_some() {
+        format!(" The loaded transmission error is {} µm.", figure(te.max))
+    } else {
+        format!(
+            " The loaded transmission error runs from {} to {} µm, {} µm peak to peak.",
+            figure(te.min),
+            figure(te.max),
+            figure(te.peak_to_peak)
+        )
+    });
+    if let (Some(pinion), Some(wheel)) = (&s.root.pinion, &s.root.wheel) {
+        text.push_str(&format!(
+            " At the fillets the stress reaches {} MPa on the pinion and {} MPa on the wheel.",
+            figure(pinion.tension_MPa),
+            figure(wheel.tension_MPa)
+        ));
+    }
+    text
+}
+
+fn interruption(s: &FemPairSummary) -> Option<String> {
+    let how = match s.stopped {
+        StopReason::Completed => return None,
+        StopReason::Interrupted => "The run was interrupted",
+        StopReason::NotConverged => "The contact at the next position was not found",
+    };
+    Some(format!("{how} after {} positions; those are shown, and nothing is said of the rest.", s.positions))
+}
