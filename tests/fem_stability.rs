@@ -13,6 +13,7 @@ use gearwear::fem::problem::{Problem, Solution};
 use gearwear::fem::solid::{ElementKind, Solid};
 use gearwear::fem::{SolveError, solve};
 use gearwear::reference::hertz_line::{HertzLine, LineContact};
+use gearwear::reference::persson::Persson;
 use grid::{CylinderOnBlock, Grid, graded};
 use nalgebra::{Rotation2, Vector2};
 
@@ -181,61 +182,13 @@ fn half_disc(solid: &mut Solid, kind: ElementKind, material: u16, centre: f64, a
     })
 }
 
-/// Persson's contact of a disc in a hole of nearly the same radius, both of one material: b = tan(ε/2) with ε the half-angle
-/// of contact,
-///
-/// ```text
-/// E* ΔR/Q = (2 − ln(b² + 1) − 2 b⁴)/(π b² (b² + 1))          E* = E/(1 − ν²)
-/// p(0) R/Q = 2 b/(π √(b² + 1)) + ln((√(b² + 1) + b)/(√(b² + 1) − b))/(2 π b² (1 + b²))
-/// ```
-///
-/// A. Persson, *On the stress distribution of cylindrical elastic bodies in contact* (1964); in this form M. Ciavarella and
-/// P. Decuzzi, *Int. J. Solids Structures* 38 (2001) 4507–4523. For small b they are Hertz's.
-struct Persson {
-    b: f64,
-}
-
-impl Persson {
-    fn stiffness_ratio(&self) -> f64 {
-        let s = self.b * self.b;
-        (2.0 - (s + 1.0).ln() - 2.0 * s * s) / (PI * s * (s + 1.0))
-    }
-
-    /// p(θ) R/Q at y = tan(θ/2).
-    fn pressure(&self, y: f64) -> f64 {
-        let s = self.b * self.b;
-        let (root, half_chord) = ((s + 1.0).sqrt(), (s - y * y).max(0.0).sqrt());
-        2.0 / (PI * root) * half_chord / (1.0 + y * y)
-            + ((root + half_chord) / (root - half_chord)).ln() / (2.0 * PI * s * (1.0 + s))
-    }
-}
-
-/// The formulas carry the load they say: ∫ p cos θ R dθ = Q.
-#[test]
-fn ver_persson_balances() {
-    for b in [0.05, 0.2, 0.5] {
-        let persson = Persson { b };
-        const STEPS: usize = 20_000;
-        let sum: f64 = (0..STEPS)
-            .map(|k| {
-                // y = b sin t takes the root out of the end.
-                let t = (k as f64 + 0.5) / STEPS as f64 * PI - FRAC_PI_2;
-                let y = b * t.sin();
-                let theta = 2.0 * y.atan();
-                persson.pressure(y) * theta.cos() * 2.0 / (1.0 + y * y) * b * t.cos() * PI / STEPS as f64
-            })
-            .sum();
-        assert!((sum - 1.0).abs() < 1e-6, "{b}: {sum}");
-    }
-}
-
 /// A disc of 50 mm in a hole of 50.5 and of 50.05 mm.
 #[test]
 fn val_nearly_conforming() {
     const E: f64 = 210e3;
     const NU: f64 = 0.3;
     for (clearance, half_angle) in [(0.5, 10.0_f64), (0.5, 30.0), (0.05, 30.0)] {
-        let persson = Persson { b: (0.5 * half_angle.to_radians()).tan() };
+        let persson = Persson::of_half_angle(half_angle.to_radians());
         let load = E / (1.0 - NU * NU) * clearance / persson.stiffness_ratio();
         for kind in [ElementKind::Quad4, ElementKind::Quad8] {
             for n in [6.0, 12.0, 24.0] {
@@ -264,7 +217,7 @@ fn val_nearly_conforming() {
                 problem.contacts = vec![pair(&disc.right(), &plate.left())];
                 let solution = solve(&problem).expect("the disc lies in the hole");
                 let contact = &solution.contacts[0];
-                let p = contact.peak_pressure_mpa / (persson.pressure(0.0) * load / 50.0) - 1.0;
+                let p = contact.peak_pressure_mpa / (persson.pressure_ratio(0.0) * load / 50.0) - 1.0;
                 let a = contact.half_width_mm / (50.0 * epsilon) - 1.0;
                 let name = format!("{kind:?} hollow {r}, {half_angle} deg, {n} elements");
                 row(&name, &solution, &format!("Persson: p {:+.2} %, a {:+.2} %", 100.0 * p, 100.0 * a));

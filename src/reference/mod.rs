@@ -4,3 +4,4 @@ pub mod cantilever;
 pub mod flattening;
 pub mod hertz_line;
 pub mod lame_cylinder;
+pub mod persson;
