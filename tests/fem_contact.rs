@@ -139,16 +139,24 @@ fn val_nafems_cylinder_on_block() {
                 solution.residual,
                 solution.force_balance
             );
-            if n == 24.0 {
-                for node in c.nodes.iter().take(0) {
-                    println!("{:?}", node);
-                }
+            assert!(solution.residual < 1e-9 && solution.force_balance < 1e-10, "{kind:?} {n}");
+            if n >= 8.0 {
+                assert!((c.half_width_mm / 6.215 - 1.0).abs() < 0.01, "{kind:?} {n}: {}", c.half_width_mm);
+                // The linear triangle's end node on the symmetry line is too stiff: see docs/fem-verification.md.
+                let close = (c.peak_pressure_mpa / 3585.4 - 1.0).abs() < 0.003;
+                assert!(close || kind == ElementKind::Triangle3, "{kind:?} {n}: {}", c.peak_pressure_mpa);
             }
             peaks.push(c.peak_pressure_mpa);
             overlaps.push(c.max_penetration_mm);
         }
         let (order, limit) = richardson([peaks[0], peaks[1], peaks[2]]);
         println!("{:10} order {order:.2}, limit {limit:.2} MPa", format!("{kind:?}"));
+        assert!(overlaps[3] < overlaps[0], "{kind:?}: {overlaps:?}");
+        if kind == ElementKind::Triangle3 {
+            assert!(peaks.windows(2).all(|pair| pair[1] < pair[0]) && peaks[3] > limit, "{peaks:?}");
+        } else {
+            assert!(order > 1.8, "{kind:?}: {order}");
+        }
     }
 }
 
@@ -199,6 +207,15 @@ fn ver_hertz_at_a_hundredth_of_the_load() {
                 100.0 * errors[errors.len() - 1],
                 c.max_penetration_mm / case.half_width_mm,
             );
+            if n == 24.0 {
+                assert!((c.half_width_mm / 0.6215 - 1.0).abs() < 0.003, "{kind:?}: {}", c.half_width_mm);
+                let close = (c.peak_pressure_mpa / 358.54 - 1.0).abs() < 0.002;
+                assert!(close || kind == ElementKind::Triangle3, "{kind:?}: {}", c.peak_pressure_mpa);
+            }
         }
+        // p has a square root at its end, which is in H^(1−ε): first order is the best there is.
+        let order = (errors[1] / errors[2]).log2();
+        println!("{:10} order of the pressure in L2 {order:.2}", format!("{kind:?}"));
+        assert!(order > 0.95, "{kind:?}: {order}");
     }
 }

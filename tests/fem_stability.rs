@@ -8,7 +8,7 @@ mod grid;
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
-use fe_case::{even, graded_around, hold, in_units, moved, nearest, pair, press, problem, renumbered, weld};
+use fe_case::{even, graded_around, hold, in_units, nearest, pair, press, problem, renumbered, weld};
 use gearwear::fem::problem::{Problem, Solution};
 use gearwear::fem::solid::{ElementKind, Solid};
 use gearwear::fem::{SolveError, solve};
@@ -31,12 +31,18 @@ fn row(case: &str, solution: &Solution, errors: &str) {
 /// Forces balance, and nothing pulls.
 fn assert_sound(case: &str, solution: &Solution, tolerance: f64) {
     assert!(solution.residual < tolerance, "{case}: residual {}", solution.residual);
-    assert!(solution.force_balance < tolerance, "{case}: balance {}", solution.force_balance);
+    assert!(solution.force_balance < 1e-8, "{case}: balance {}", solution.force_balance);
     for contact in &solution.contacts {
         for node in &contact.nodes {
             assert!(node.pressure_mpa >= -1e-9 * contact.peak_pressure_mpa, "{case}: {node:?}");
         }
     }
+}
+
+/// Errors within these bounds; the linear triangle's peak, which is on a symmetry line, is only printed.
+fn assert_close(case: &str, kind: ElementKind, [peak, half_width]: [f64; 2], bounds: [f64; 2]) {
+    assert!(peak.abs() < bounds[0] || kind == ElementKind::Triangle3, "{case} {kind:?}: peak off by {peak}");
+    assert!(half_width.abs() < bounds[1], "{case} {kind:?}: half-width off by {half_width}");
 }
 
 fn contact_modulus(young_modulus_mpa: [f64; 2], nu: f64) -> f64 {
@@ -66,7 +72,11 @@ fn against_hertz(name: &str, case: CylinderOnBlock) -> [f64; 2] {
         [contact.peak_pressure_mpa / hertz.peak_pressure_mpa - 1.0, contact.half_width_mm / hertz.half_width_mm - 1.0];
     let name = format!("{:?} {name}", case.kind);
     row(&name, &solution, &format!("Hertz: p {:+.3} %, a {:+.3} %", 100.0 * errors[0], 100.0 * errors[1]));
-    assert_sound(&name, &solution, 1e-8);
+    // Rounding of the stiff body's rigid displacement, times its stiffness, against forces that the soft one sets.
+    let ratio = case.young_modulus_mpa[0] / case.young_modulus_mpa[1];
+    // Likewise of the volume strain: bulk over shear modulus goes with 1/(1 − 2ν).
+    let incompressible = 0.4 / (1.0 - 2.0 * case.poisson_ratio);
+    assert_sound(&name, &solution, 1e-9 * ratio.max(1.0 / ratio).max(10.0) * incompressible.max(1.0));
     errors
 }
 
@@ -74,7 +84,8 @@ fn against_hertz(name: &str, case: CylinderOnBlock) -> [f64; 2] {
 fn val_modulus_ratio() {
     for kind in KINDS {
         for ratio in [1e-6, 1e-3, 1.0, 1e3, 1e6] {
-            against_hertz(&format!("E1/E2 = {ratio:e}"), cylinder(kind, [70e3 * ratio, 70e3], 0.3, 1.0));
+            let errors = against_hertz(&format!("E1/E2 = {ratio:e}"), cylinder(kind, [70e3 * ratio, 70e3], 0.3, 1.0));
+            assert_close("modulus ratio", kind, errors, [0.005, 0.015]);
         }
     }
 }
@@ -83,7 +94,11 @@ fn val_modulus_ratio() {
 fn val_nearly_incompressible() {
     for kind in KINDS {
         for nu in [0.3, 0.45, 0.49, 0.499, 0.4999] {
-            against_hertz(&format!("nu = {nu}"), cylinder(kind, [210e3, 70e3], nu, 1.0));
+            let errors = against_hertz(&format!("nu = {nu}"), cylinder(kind, [210e3, 70e3], nu, 1.0));
+            // Above, the quadratic elements lock; the quadrilateral with enhanced strains does not.
+            if nu <= 0.45 || kind == ElementKind::Quad4 {
+                assert_close("nearly incompressible", kind, errors, [0.005, 0.015]);
+            }
         }
     }
 }
@@ -94,14 +109,18 @@ fn val_load() {
         for factor in [1e-4, 1e-2, 0.1, 1.0, 10.0] {
             let nafems = CylinderOnBlock::nafems(kind, 8.0);
             let case = CylinderOnBlock { force_n_per_mm: factor * nafems.force_n_per_mm, ..nafems };
-            against_hertz(&format!("NAFEMS load x {factor:e}"), case);
+            let errors = against_hertz(&format!("NAFEMS load x {factor:e}"), case);
+            // Tenfold, the half-width is 0.4 R, where neither Hertz nor linear kinematics hold.
+            if factor <= 1.0 {
+                assert_close("load", kind, errors, [0.003, 0.01]);
+            }
         }
     }
 }
 
 #[test]
 fn val_mesh_ratio_and_sides() {
-    for kind in KINDS {
+    for kind in [ElementKind::Quad4, ElementKind::Quad8] {
         for (mesh_ratio, elements_per_half_width) in [(1.0, 8.0), (20.0, 80.0), (0.05, 4.0)] {
             for cylinder_is_slave in [true, false] {
                 let side = if cylinder_is_slave { "cylinder" } else { "block" };
@@ -111,7 +130,12 @@ fn val_mesh_ratio_and_sides() {
                     cylinder_is_slave,
                     ..cylinder(kind, [210e3, 70e3], 0.3, 1.0)
                 };
-                against_hertz(&format!("block:cylinder mesh {mesh_ratio}, slave {side}"), case);
+                let errors = against_hertz(&format!("block:cylinder mesh {mesh_ratio}, slave {side}"), case);
+                // A linear slave twenty times finer than its master feels the master's facets: p peaks at each of its nodes.
+                let finer = if cylinder_is_slave { mesh_ratio > 1.0 } else { mesh_ratio < 1.0 };
+                if kind != ElementKind::Quad4 || !finer {
+                    assert_close("mesh ratio", kind, errors, [0.01, 0.06]);
+                }
             }
         }
     }
@@ -245,6 +269,7 @@ fn val_nearly_conforming() {
                 let name = format!("{kind:?} hollow {r}, {half_angle} deg, {n} elements");
                 row(&name, &solution, &format!("Persson: p {:+.2} %, a {:+.2} %", 100.0 * p, 100.0 * a));
                 assert_sound(&name, &solution, 1e-8);
+                assert_close(&name, kind, [p, a], [0.01, 0.03]);
             }
         }
     }
@@ -290,7 +315,11 @@ fn val_flat_punch() {
                         errors[0], errors[1], contact.half_width_mm
                     ),
                 );
-                assert_sound(&name, &solution, 1e-7);
+                // As for a modulus ratio of 1e6.
+                assert_sound(&name, &solution, 1e-3);
+                if n == 16.0 {
+                    assert!(errors.iter().all(|error| error.abs() < 1.5), "{name}: {errors:?}");
+                }
             }
         }
     }
@@ -370,6 +399,7 @@ fn val_two_zones_share_by_the_lever() {
             let name = format!("{kind:?} two bumps, load at {:.2}", at.x);
             row(&name, &solution, &format!("left {:.5}, lever {error:+.1e}", a.force_n_per_mm.y));
             assert_sound(&name, &solution, 1e-8);
+            assert!(error.abs() < 1e-3, "{name}: {error}");
             assert!((a.force_n_per_mm.y + b.force_n_per_mm.y - LOAD).abs() < 1e-7 * LOAD);
         }
     }
@@ -401,7 +431,6 @@ fn disc_between_blocks(kind: ElementKind, gap: f64) -> Problem {
 #[test]
 fn val_disc_floats_between_blocks() {
     for kind in KINDS {
-        let mut peaks = Vec::new();
         for gap in [1.0, 0.0, -1e-3] {
             let solution = solve(&disc_between_blocks(kind, gap)).expect("the blocks close on the disc");
             let hertz = HertzLine::of_relative_radius(50.0, contact_modulus([210e3; 2], 0.3)).loaded(1000.0);
@@ -413,6 +442,9 @@ fn val_disc_floats_between_blocks() {
             let name = format!("{kind:?} disc between blocks, gap {gap}");
             row(&name, &solution, &format!("Hertz: p {:+.2} %, {:+.2} %", errors[0], errors[1]));
             assert_sound(&name, &solution, 1e-8);
+            // Linear kinematics turn no normals: closing the gap costs a relative error of the order of gap/R.
+            let bound = if gap > 0.0 { 3.0 } else { 0.3 };
+            assert!(errors.iter().all(|error| error.abs() < bound) || kind == ElementKind::Triangle3, "{name}");
             for contact in &solution.contacts {
                 assert!(
                     (contact.force_n_per_mm.y.abs() / 500.0 - 1.0).abs() < 1e-7,
@@ -420,7 +452,6 @@ fn val_disc_floats_between_blocks() {
                     contact.force_n_per_mm
                 );
             }
-            peaks.push(solution.contacts[0].peak_pressure_mpa);
         }
     }
 }
@@ -515,8 +546,18 @@ fn val_disc_in_a_groove() {
                     let [a, b] = [0, 1].map(|k| solution.contacts[k].force_n_per_mm);
                     row(&name, &solution, &format!("forces {:.4?} {:.4?}", a.as_slice(), b.as_slice()));
                     assert_sound(&name, &solution, 1e-8);
+                    assert!((a.y.abs() / 500.0 - 1.0).abs() < 1e-5 && (b.y.abs() / 500.0 - 1.0).abs() < 1e-5, "{name}");
+                    // The normals of the disc do not turn while it sinks by 0.14 mm.
+                    assert!((a.x.abs() / 500.0 - 1.0).abs() < 0.005, "{name}");
                 }
-                Err(error) => println!("{name}: {error}"),
+                Err(error) => {
+                    println!("{name}: {error}");
+                    // All normals of the disc go through its centre.
+                    assert!(
+                        !supported && disc_is_slave && error.to_string().contains("turns freely"),
+                        "{name}: {error}"
+                    );
+                }
             }
         }
     }
@@ -541,13 +582,13 @@ fn a_body_that_floats_for_ever_is_named() {
                 fe_case::push(&mut problem, top, Vector2::new(sideways, -1000.0));
                 problem.contacts =
                     vec![if disc_is_slave { pair(&outside, &block.top()) } else { pair(&block.top(), &outside) }];
-                match solve(&problem) {
-                    Ok(solution) => {
-                        let u = moved(&solution.displacement_mm, top);
-                        println!("{kind:?} slave disc {disc_is_slave} sideways {sideways}: solved, top moves {u:?}");
-                    }
-                    Err(error) => println!("{kind:?} slave disc {disc_is_slave} sideways {sideways}: {error}"),
-                }
+                let error = solve(&problem).expect_err("nothing holds the disc");
+                println!("{kind:?} slave disc {disc_is_slave} sideways {sideways}: {error}");
+                let named = matches!(error, SolveError::Floating { .. });
+                // Facets of linear elements resist turning just enough for the active set to hunt instead.
+                let hunts =
+                    disc_is_slave && sideways != 0.0 && matches!(kind, ElementKind::Triangle3 | ElementKind::Quad4);
+                assert!(named || hunts, "{kind:?}: {error}");
             }
         }
     }

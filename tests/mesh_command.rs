@@ -1,10 +1,9 @@
 //! `gearwear mesh` and the scene's `[fem]` table.
 
-use std::fs;
 use std::path::Path;
 
 use assert_cmd::Command;
-use gearwear::mesh::Mesh;
+use gearwear::mesh;
 use gearwear::mesh::settings::{Body, SectorSides};
 use gearwear::scene::{Scene, presets};
 use predicates::prelude::*;
@@ -108,7 +107,7 @@ fn the_mesh_is_written_and_described() {
     assert
         .stdout(predicate::str::contains("sectors of 3 teeth, sides free").and(predicate::str::contains("13.0000 mm")))
         .stdout(predicate::str::contains("least angle").and(predicate::str::contains("degrees of freedom")));
-    let mesh: Mesh = serde_json::from_slice(&fs::read(folder.path().join("pair.json")).unwrap()).unwrap();
+    let mesh = mesh::read(folder.path().join("pair.json")).unwrap();
     for set in [
         "pinion",
         "wheel",
@@ -123,6 +122,22 @@ fn the_mesh_is_written_and_described() {
     ] {
         assert!(mesh.cell_sets.contains_key(set), "{set}: {:?}", mesh.cell_sets.keys());
     }
+}
+
+/// The formats that other programs read hold the same mesh, sets included.
+#[test]
+fn every_format_holds_the_mesh() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = scene("body = \"sector\"\nelements_per_half_width = 2");
+    let read = |name: &str| {
+        gearwear(folder.path(), &text, name, &[]).success();
+        mesh::read(folder.path().join(name)).unwrap()
+    };
+    let [json, msh, vtu] = ["pair.json", "pair.msh", "pair.vtu"].map(read);
+    assert_eq!(json.points, vtu.points);
+    assert_eq!(json.points.len(), msh.points.len());
+    assert!(json.cell_sets.keys().eq(msh.cell_sets.keys()), "{:?}", msh.cell_sets.keys());
+    assert!(json.cell_sets.keys().eq(vtu.cell_sets.keys()), "{:?}", vtu.cell_sets.keys());
 }
 
 #[test]
@@ -143,4 +158,7 @@ fn a_mesh_file_that_cannot_be_written_is_said() {
     gearwear(folder.path(), &scene("body = \"sector\"\nelements_per_half_width = 8"), "nowhere/pair.json", &[])
         .code(2)
         .stderr(predicate::str::contains("--out"));
+    gearwear(folder.path(), &scene(""), "pair.obj", &[])
+        .code(2)
+        .stderr(predicate::str::contains("--out").and(predicate::str::contains(".msh")));
 }

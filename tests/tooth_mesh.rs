@@ -100,7 +100,9 @@ fn assert_well_shaped(what: &str, quality: &MeshQuality) {
 fn cells_are_well_shaped_on_teeth_of_every_kind() {
     for (name, spec) in pairs() {
         let pair = pair(&spec);
-        for elements in [2.0, 10.0, 40.0] {
+        // The finest costs most and differs least.
+        let elements: &[f64] = if name == "relieved, rounded" { &[2.0, 10.0, 40.0] } else { &[2.0, 10.0] };
+        for &elements in elements {
             let sectors = sectors(&pair, &settings(&pair, elements));
             for g in Gear::BOTH {
                 for (kind, sector) in [("fine", &sectors.fine[g]), ("coarse", &sectors.coarse[g])] {
@@ -254,9 +256,14 @@ fn ver_fillet_nodes_lie_on_the_root_trochoid() {
         assert!((24..40).contains(&(sector.working_fillet.len() / 2)));
         for &node in &sector.working_fillet {
             let point = to_space * sector.points_mm[node as usize];
-            let nearest = curve.iter().map(|c| (c - point).norm()).fold(f64::INFINITY, f64::min);
-            // Half a polyline interval of 3.5 mm/20 000, at most.
-            assert!(nearest < 2e-4, "{}: {nearest:e}", g.name());
+            let to_chord = |chord: &[Vector2<f64>]| {
+                let (along, to) = (chord[1] - chord[0], point - chord[0]);
+                let t = (to.dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
+                (to - t * along).norm()
+            };
+            let nearest = curve.windows(2).map(to_chord).fold(f64::INFINITY, f64::min);
+            // Height of the arc over a chord of some 3 mm/20 000, radius of curvature above 1 mm.
+            assert!(nearest < 1e-7, "{}: {nearest:e}", g.name());
         }
     }
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::say;
 use gearwear::fem::SolveError;
+use gearwear::mesh::MeshFileError;
 use gearwear::pipeline::RunError;
 use gearwear::pipeline::fem_scene::FemPairError;
 use gearwear::pipeline::pair_mesh::PairMeshError;
@@ -112,14 +113,9 @@ pub enum InputError {
     #[diagnostic(help("{}", mesh_help(.0)))]
     PairMesh(#[from] PairMeshError),
     /// The mesh file cannot be written.
-    #[error("--out: {name} cannot be written: {reason}")]
-    #[diagnostic(help("choose a folder you may write to"))]
-    MeshFile {
-        /// Name of the file.
-        name: String,
-        /// The system's reason.
-        reason: io::Error,
-    },
+    #[error("--out: {}", causes(.0))]
+    #[diagnostic(help("a folder you may write to, and a name that ends in .msh, .vtu, .inp or .json"))]
+    MeshFile(MeshFileError),
     /// The threads cannot be started.
     #[error("--threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use gearwear::gear::Gear;
 use gearwear::mesh::quality::Worst;
 use gearwear::mesh::settings::{Body, SectorSides};
-use gearwear::mesh::{CellKind, Mesh};
+use gearwear::mesh::{self, CellKind, Format};
 use gearwear::pipeline::pair_mesh::{self, PairMesh};
 use gearwear::scene::Scene;
 
@@ -29,14 +29,11 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let resolved = scene_source::resolve(&args.scene)?.resolved;
     warn(&resolved.warnings);
+    // Whether the ending is one of a mesh file is known before the work.
+    let format = Format::of_path(&args.out).map_err(InputError::MeshFile)?;
     let built = pair_mesh::build(&resolved.scene, args.position).map_err(InputError::from)?;
-    write(&built.mesh, &args.out)?;
+    mesh::write_as(&built.mesh, &args.out, format).map_err(InputError::MeshFile)?;
     stdout::print(&text(&resolved.scene, &built, &args.out))
-}
-
-fn write(mesh: &Mesh, path: &Path) -> Result<(), InputError> {
-    let text = serde_json::to_vec(mesh).expect("a mesh is numbers and names");
-    std::fs::write(path, text).map_err(|reason| InputError::MeshFile { name: path.display().to_string(), reason })
 }
 
 /// What was built.

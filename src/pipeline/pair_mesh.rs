@@ -3,6 +3,7 @@
 use crate::contact::hertz;
 use crate::gear::{Gear, GearPair, PairError, PerGear};
 use crate::mesh::quality::{self, MeshQuality, QualityError};
+use crate::mesh::settings::Body;
 use crate::mesh::tooth::{self, ToothMeshError};
 use crate::mesh::{CellKind, Mesh};
 use crate::scene::Scene;
@@ -71,7 +72,10 @@ pub fn build(scene: &Scene, position_mm: Option<f64>) -> Result<PairMesh, PairMe
         hertz::flattening(&pair, &scene.material, position_mm).contact.loaded(line_load_n_per_mm).half_width_mm
     };
     let sectors = tooth::pair_sectors(&pair, &scene.fem, &half_width_mm)?;
-    let fine_teeth = tooth::touching_pairs(&pair);
+    let mut fine_teeth = tooth::touching_pairs(&pair);
+    if let Body::Sector { teeth, .. } = scene.fem.body {
+        fine_teeth.retain(|index| 2 * index.unsigned_abs() < teeth);
+    }
     let mesh = tooth::pair_mesh(&pair, &scene.fem, &sectors, &fine_teeth, position_mm)?;
     let quality = quality::of_mesh(&mesh)?;
     let at_pitch_mm = half_width_mm(pair.path.pitch_point_mm.clamp(from_mm, to_mm));

@@ -2,10 +2,15 @@
 //!
 //! Along the nodes of a surface a zone is a run of nodes under pressure. Its end lies between the last node under pressure
 //! and the first without, where p² falls to zero: against a smooth edge of contact the pressure goes with the square root
-//! of the distance, so p² is smooth there and a parabola in Hertz's contact. It is drawn through the three nodes next to
-//! the last, whose own multiplier stands for a partly loaded stretch, and is exact for Hertz's ellipse. Against a sharp edge,
+//! of the distance, so p² is smooth there and a parabola in Hertz's contact. It is fitted to the nodes next to the last
+//! (whose own multiplier stands for a partly loaded stretch), and is exact for Hertz's ellipse. Against a sharp edge,
 //! where p² rises outwards, the zone reaches to the first node without pressure. Where the zone reaches the end of the
 //! surface, that is its end.
+
+use nalgebra::{Matrix3, Vector3};
+
+/// Nodes that the parabola is fitted to at most: enough to even out the middle and end nodes of quadratic edges.
+const MOST_SAMPLES: usize = 6;
 
 /// One run of nodes under pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,7 +73,12 @@ fn edge_mm(along_mm: &[f64], pressure: &[f64], end: usize, other: usize, step: i
     let root = match inside {
         1 => line_root([sample(0), sample(1)]),
         2 => line_root([sample(1), sample(2)]),
-        _ => parabola_root([sample(1), sample(2), sample(3)]).or_else(|| line_root([sample(1), sample(2)])),
+        _ => {
+            // In units of the distance to the next node, for the sake of the fit.
+            let unit = (along_mm[origin] - along_mm[inward(2)]).abs();
+            let samples = (1..=inside.min(MOST_SAMPLES)).map(|k| (sample(k).0 / unit, sample(k).1));
+            parabola_root(samples).map(|t| t * unit).or_else(|| line_root([sample(1), sample(2)]))
+        }
     };
     // The last node's own share begins halfway to the node before it.
     let nearest = if inside == 1 { along_mm[end] } else { 0.5 * (along_mm[end] + along_mm[inward(1)]) };
@@ -82,15 +92,20 @@ fn line_root([(_, q0), (t1, q1)]: [(f64, f64); 2]) -> Option<f64> {
     (slope < 0.0).then(|| -q0 / slope)
 }
 
-/// Where the parabola through three samples (t, q), the first at t = 0 with q > 0, first falls to zero for t > 0.
-fn parabola_root([(_, q0), (t1, q1), (t2, q2)]: [(f64, f64); 3]) -> Option<f64> {
-    let (first, second) = ((q1 - q0) / t1, (q2 - q0) / t2);
-    let c = (second - first) / (t2 - t1);
-    let b = first - c * t1;
-    // q₀ + b t + c t² = 0, written so that nothing cancels.
-    let discriminant = b * b - 4.0 * c * q0;
+/// Where the parabola that fits the samples (t, q) best falls to zero beyond t = 0.
+fn parabola_root(samples: impl Iterator<Item = (f64, f64)>) -> Option<f64> {
+    let (mut gram, mut side) = (Matrix3::zeros(), Vector3::zeros());
+    for (t, q) in samples {
+        let row = Vector3::new(1.0, t, t * t);
+        gram += row * row.transpose();
+        side += q * row;
+    }
+    let fit = gram.cholesky()?.solve(&side);
+    let (a, b, c) = (fit.x, fit.y, fit.z);
+    // a + b t + c t² = 0, written so that nothing cancels.
+    let discriminant = b * b - 4.0 * a * c;
     let below = discriminant.max(0.0).sqrt() - b;
-    (discriminant >= 0.0 && below > 0.0).then(|| 2.0 * q0 / below)
+    (a > 0.0 && discriminant >= 0.0 && below > 0.0).then(|| 2.0 * a / below)
 }
 
 #[cfg(test)]
@@ -104,7 +119,7 @@ mod tests {
         let pressure: Vec<f64> = along.iter().map(|s| (1.0 - (s - 0.03_f64).powi(2)).max(0.0).sqrt()).collect();
         let found = zones(&along, &pressure);
         assert_eq!(found.len(), 1);
-        assert!((found[0].from_mm + 0.97).abs() < 1e-13 && (found[0].to_mm - 1.03).abs() < 1e-13, "{found:?}");
+        assert!((found[0].from_mm + 0.97).abs() < 1e-12 && (found[0].to_mm - 1.03).abs() < 1e-12, "{found:?}");
         assert_eq!(found[0].at_end, (false, false));
     }
 

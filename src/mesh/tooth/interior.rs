@@ -20,6 +20,8 @@ use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
 use super::{ToothMeshError, neighbours::Neighbours, size_field::SizeField};
 
+/// Places per unit that points of the boundary are rounded to: 2³².
+const PLACES: f64 = 4_294_967_296.0;
 /// Nearest distance of packed points, as a part of the wanted length.
 const NEAREST: f64 = 0.75;
 /// Nearest distance of a packed point to an edge of the boundary: a little below the height of an equilateral triangle.
@@ -42,9 +44,25 @@ pub(super) struct Filling {
     pub triangles: Vec<[usize; 3]>,
 }
 
-/// Fills the closed boundary through `ring`, anticlockwise.
+/// Fills the closed boundary through `ring`, anticlockwise, with lengths up to `greatest_mm`.
 pub(super) fn fill(ring: &[Vector2<f64>], growth: f64, greatest_mm: f64) -> Result<Filling, ToothMeshError> {
-    let boundary = Boundary { ring, field: SizeField::of_boundary(ring, growth, greatest_mm) };
+    // In units of the greatest length and without the last digits, so that ties fall alike in any system of units.
+    let place = |x: f64| (x / greatest_mm * PLACES).round() / PLACES;
+    let dimensionless: Vec<Vector2<f64>> = ring.iter().map(|point| point.map(place)).collect();
+    let mut filling = fill_dimensionless(&dimensionless, growth).map_err(|error| match error {
+        ToothMeshError::CrossedOutline { at_mm: at } => {
+            ToothMeshError::CrossedOutline { at_mm: at.map(|x| x * greatest_mm) }
+        }
+        other => other,
+    })?;
+    for (point, given) in filling.points_mm.iter_mut().zip(ring.iter().map(Some).chain(std::iter::repeat(None))) {
+        *point = given.copied().unwrap_or(*point * greatest_mm);
+    }
+    Ok(filling)
+}
+
+fn fill_dimensionless(ring: &[Vector2<f64>], growth: f64) -> Result<Filling, ToothMeshError> {
+    let boundary = Boundary { ring, field: SizeField::of_boundary(ring, growth, 1.0) };
     let mut points_mm = boundary.pack();
     let mut triangles = boundary.triangulate(&points_mm)?;
     for round in 0..ROUNDS {

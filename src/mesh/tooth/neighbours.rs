@@ -14,8 +14,11 @@ pub(super) struct Neighbours {
     squares: HashMap<(i32, i64, i64), Vec<(Vector2<f64>, f64)>>,
 }
 
+/// Powers of two far beyond any length of a mesh, so that arithmetic with levels cannot overflow.
+const LEVELS: std::ops::RangeInclusive<f64> = -100.0..=100.0;
+
 fn level(length_mm: f64) -> i32 {
-    length_mm.log2().floor() as i32
+    length_mm.log2().floor().clamp(*LEVELS.start(), *LEVELS.end()) as i32
 }
 
 /// The square of `point` on a level, whose squares are as wide as its longest length.

@@ -32,7 +32,7 @@ const LEAST_MODULES: f64 = 2e-4;
 /// Most elements of an outline.
 const MOST_ELEMENTS: f64 = 20_000.0;
 /// Sampling intervals of a run.
-const SAMPLES: usize = 100;
+const SAMPLES: usize = 300;
 
 /// Nodes of the outline from the right cut over the tip to the left cut, the body on their left.
 pub(super) struct Outline {

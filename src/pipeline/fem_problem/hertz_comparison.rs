@@ -56,7 +56,8 @@ pub fn hertz(problem: &Problem, pair: &ContactPair, patch: Patch) -> Option<Hert
     let curvature_per_mm = slave.curvature_per_mm - master.curvature_per_mm;
     let reach_mm = REACH * patch.half_width_mm;
     let height_mm = 0.5 * curvature_per_mm * reach_mm * reach_mm;
-    if !(slave.deviation_mm.max(master.deviation_mm) <= ROUND * height_mm) {
+    let round = slave.deviation_mm.max(master.deviation_mm) <= ROUND * height_mm;
+    if !round {
         return None;
     }
     let modulus_mpa = contact_modulus_mpa(problem, pair, patch)?;

@@ -40,7 +40,8 @@ pub fn record(
         .unzip();
     let mut warnings: Vec<String> = problem.warnings.iter().cloned().chain(warnings).collect();
     warnings.extend(contact.iter().enumerate().filter_map(|(number, contact)| contact_warning(number, contact)));
-    if !(solution.force_balance <= BALANCED) {
+    let balanced = solution.force_balance <= BALANCED;
+    if !balanced {
         warnings.push(format!(
             "external forces and reactions are out of balance by {:.1e}, relatively",
             solution.force_balance

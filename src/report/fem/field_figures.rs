@@ -120,7 +120,7 @@ pub fn von_mises(record: &FemRecord) -> Vec<Figure> {
     let mut figures = vec![picture("stress".into(), "Von Mises stress".into(), whole, Window::around(&deformed))];
     for (index, (summary, contact)) in record.summary.contact.iter().zip(&record.contacts).enumerate() {
         let Some(middle) = middle(contact) else { continue };
-        if !(summary.half_width_mm > 0.0) {
+        if summary.half_width_mm <= 0.0 {
             continue;
         }
         let (surface, below) = (summary.peak_pressure_MPa, peak_within(&deformed, &values, middle, summary));

@@ -15,7 +15,7 @@ const ELLIPSE_POINTS: usize = 200;
 
 /// The pressure along one contact, number `index` of `count`; none where nothing touches.
 pub fn pressure(index: usize, count: usize, summary: &ContactSummary, contact: &ContactCurve) -> Option<Figure> {
-    if !(summary.half_width_mm > 0.0) {
+    if summary.half_width_mm <= 0.0 {
         return None;
     }
     let reach_mm = SHOWN * summary.half_width_mm.max(summary.hertz.map_or(0.0, |hertz| hertz.half_width_mm));
