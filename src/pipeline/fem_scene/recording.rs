@@ -241,7 +241,7 @@ impl Parts<'_> {
         let mut on_line: Option<f64> = None;
         for at in positions {
             let error = at.torque_ratio_error.abs();
-            if !(error <= worst.0) || worst.1.is_nan() {
+            if error > worst.0 || worst.1.is_nan() {
                 worst = (error, at.position_mm);
             }
             if at.pairs.iter().all(|contact| is_on_line(self.model.pair, at, contact)) {
