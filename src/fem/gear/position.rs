@@ -298,7 +298,7 @@ impl<'a> CondensedPair<'a> {
     fn rotation(&self, column: usize) -> f64 {
         let point = self.flanks.pinion.surface.points_mm[column / 2];
         let r_b = self.pair.path.involute.pinion.base_radius_mm;
-        if column % 2 == 0 { -point.y / r_b } else { point.x / r_b }
+        if column.is_multiple_of(2) { -point.y / r_b } else { point.x / r_b }
     }
 
     fn read(
@@ -328,7 +328,7 @@ impl<'a> CondensedPair<'a> {
             let moment = |tooth: &ToothForce| -> f64 {
                 let arm = |column: usize| {
                     let x = points[column / 2];
-                    if column % 2 == 0 { -x.y } else { x.x }
+                    if column.is_multiple_of(2) { -x.y } else { x.x }
                 };
                 tooth.iter().map(|&(column, f)| arm(column) * f).sum()
             };
@@ -443,7 +443,7 @@ fn turned(operator: &CsMat<f64>, turn: Rotation2<f64>) -> CsMat<f64> {
     let mut triplets = sprs::TriMat::new(operator.shape());
     for (i, row) in operator.outer_iterator().enumerate() {
         for (column, value) in row.iter() {
-            let unit = if column % 2 == 0 { Vector2::x() } else { Vector2::y() };
+            let unit = if column.is_multiple_of(2) { Vector2::x() } else { Vector2::y() };
             let image = turn * (*value * unit);
             triplets.add_triplet(i, column - column % 2, image.x);
             triplets.add_triplet(i, column - column % 2 + 1, image.y);
