@@ -6,11 +6,11 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 
-/// A scene that is quickly solved: FZG type C, four elements along Hertz's half-width, nine positions.
+/// A scene that is quickly solved: FZG type C, four elements along Hertz's half-width, twenty positions.
 fn coarse() -> String {
     let output = gearwear().args(["init", "fzg-c"]).output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
-    let text = exchanged(&text, "positions = 400 ", "positions = 9 ");
+    let text = exchanged(&text, "positions = 400 ", "positions = 20 ");
     text + "\n[fem]\nelements_per_half_width = 4\n"
 }
 
@@ -67,9 +67,9 @@ fn a_mesh_cycle_leaves_what_the_contract_names() {
     let whole = number(&summary["contact"]["line_load_N_per_mm"]);
     let mut positions: Vec<f64> = rows.iter().map(|row| value(row, "position_mm")).collect();
     positions.dedup();
-    assert_eq!(positions.len(), 9);
+    assert_eq!(positions.len(), 20);
     let points = &summary["geometry"]["curvature_radius_mm"];
-    assert_eq!([positions[0], positions[8]], [number(&points["A"]), number(&points["E"])]);
+    assert_eq!([positions[0], positions[19]], [number(&points["A"]), number(&points["E"])]);
     for position in positions {
         let here: Vec<&Vec<String>> = rows.iter().filter(|row| value(row, "position_mm") == position).collect();
         let carried: f64 = here.iter().map(|row| value(row, "line_load_N_per_mm")).sum();
@@ -81,7 +81,7 @@ fn a_mesh_cycle_leaves_what_the_contract_names() {
         summary["stages"].as_array().unwrap().iter().map(|stage| stage["name"].as_str().unwrap()).collect();
     assert_eq!(stages, ["geometry", "meshing", "condensation", "cycle", "path-points", "stresses", "report"]);
     assert_eq!(summary["stopped"], "completed");
-    assert_eq!(summary["positions"], 9);
+    assert_eq!(summary["positions"], 20);
     let share = &summary["points"]["load_share"];
     // Alone at C, together with a neighbour at A and E.
     assert!((number(&share["C"]) - 1.0).abs() < 1e-9);
@@ -155,7 +155,7 @@ fn threads_change_no_bit() {
 #[test]
 fn refusals() {
     let dir = tempfile::tempdir().unwrap();
-    let sector = exchanged(&coarse(), "[fem]", "[fem]\nbody = \"sector\"\nsector_teeth = 1");
+    let sector = exchanged(&coarse(), "\n[fem]\n", "\n[fem]\nbody = \"sector\"\nsector_teeth = 1\n");
     let cases: [(&str, String, &[&str], &[&str]); 6] = [
         ("position before A", coarse(), &["--position", "1"], &["--position: found 1", "allowed: ", "(A)"]),
         ("position after E", coarse(), &["--position", "99"], &["--position: found 99", "(E)"]),

@@ -86,14 +86,40 @@ fn pairs() -> Vec<(&'static str, PairSpec)> {
     ]
 }
 
-/// Bars for the mesh of any tooth. Measured over the pairs below at 2, 10 and 40 elements in a half-width: see the figures
-/// that each case prints on failure; the bars leave room for about a quarter more.
-fn assert_well_shaped(what: &str, quality: &MeshQuality) {
-    assert!(quality.least_angle_deg.value >= 18.0, "{what}: {quality:?}");
-    assert!(quality.greatest_angle_deg.value <= 140.0, "{what}: {quality:?}");
-    assert!(quality.scaled_jacobian.value >= 0.35, "{what}: {quality:?}");
-    assert!(quality.jacobian_ratio.value >= 0.5, "{what}: {quality:?}");
-    assert!(quality.aspect_ratio.value <= 5.0, "{what}: {quality:?}");
+/// Worst values a mesh may have.
+struct Bars {
+    least_angle_deg: f64,
+    greatest_angle_deg: f64,
+    scaled_jacobian: f64,
+    jacobian_ratio: f64,
+    aspect_ratio: f64,
+}
+
+/// For the pairs below; measured at 2 to 40 elements in a half-width: 26°, 119°, 0.51, 0.70, 2.9.
+const USUAL: Bars = Bars {
+    least_angle_deg: 22.0,
+    greatest_angle_deg: 130.0,
+    scaled_jacobian: 0.42,
+    jacobian_ratio: 0.6,
+    aspect_ratio: 3.5,
+};
+
+/// For whatever pair there is; measured over 460 random ones under 10 to 3000 N/mm at module 4.5: 19.6°, 119°, 0.39,
+/// 0.36 (where the half-width is that of half a tooth; 0.5 elsewhere), 2.9.
+const ANY: Bars = Bars {
+    least_angle_deg: 17.0,
+    greatest_angle_deg: 140.0,
+    scaled_jacobian: 0.33,
+    jacobian_ratio: 0.3,
+    aspect_ratio: 4.5,
+};
+
+fn assert_well_shaped(what: &str, quality: &MeshQuality, bars: &Bars) {
+    assert!(quality.least_angle_deg.value >= bars.least_angle_deg, "{what}: {quality:?}");
+    assert!(quality.greatest_angle_deg.value <= bars.greatest_angle_deg, "{what}: {quality:?}");
+    assert!(quality.scaled_jacobian.value >= bars.scaled_jacobian, "{what}: {quality:?}");
+    assert!(quality.jacobian_ratio.value >= bars.jacobian_ratio, "{what}: {quality:?}");
+    assert!(quality.aspect_ratio.value <= bars.aspect_ratio, "{what}: {quality:?}");
 }
 
 #[test]
@@ -108,7 +134,7 @@ fn cells_are_well_shaped_on_teeth_of_every_kind() {
                 for (kind, sector) in [("fine", &sectors.fine[g]), ("coarse", &sectors.coarse[g])] {
                     let what = format!("{name}, {} {kind}, {elements} elements", g.name());
                     let quality = quality::of_mesh(&as_mesh(sector)).unwrap_or_else(|e| panic!("{what}: {e}"));
-                    assert_well_shaped(&what, &quality);
+                    assert_well_shaped(&what, &quality, &USUAL);
                 }
             }
         }
@@ -158,8 +184,7 @@ fn ver_cells_tile_the_sector() {
     }
 }
 
-/// Distance of a point from the line through the axis at polar angle `psi` to the left of the centre line, and so on:
-/// every node of the flank lies where the string construction puts it, P = T + (ρ − c) n.
+/// Every node of the flank lies where the string construction puts it, P = T + (ρ − c) n.
 #[test]
 fn ver_flank_nodes_lie_on_the_relieved_involute() {
     for (name, spec) in pairs() {
@@ -418,7 +443,7 @@ fn a_ring_is_closed_and_a_sector_has_sides() {
     assert!(!ring.cell_sets.contains_key("pinion-sides") && sector.cell_sets.contains_key("pinion-sides"));
     for (mesh, teeth) in [(&ring, [16, 24]), (&sector, [3, 3])] {
         let quality = quality::of_mesh(mesh).unwrap();
-        assert_well_shaped("pair", &quality);
+        assert_well_shaped("pair", &quality, &USUAL);
         for (name, teeth) in ["pinion", "wheel"].into_iter().zip(teeth) {
             // Three resolved teeth; one land per tooth, on the tip circle.
             assert!(
@@ -496,7 +521,7 @@ fn any_load_gives_a_mesh() {
             let settings = SectorSettings { clamp_radius_mm, fillet_elements: 24, flank: Some(flank) };
             let sector = tooth::sector(&ToothShape::of(&pair, g), &settings).unwrap();
             let quality = quality::of_mesh(&as_mesh(&sector)).unwrap();
-            assert_well_shaped(&format!("{} a = {half_width_mm}", g.name()), &quality);
+            assert_well_shaped(&format!("{} a = {half_width_mm}", g.name()), &quality, &ANY);
         }
     }
 }
@@ -532,12 +557,12 @@ proptest! {
                 for g in Gear::BOTH {
                     for sector in [&sectors.fine[g], &sectors.coarse[g]] {
                         let quality = quality::of_mesh(&as_mesh(sector)).unwrap();
-                        assert_well_shaped("pair", &quality);
+                        assert_well_shaped("pair", &quality, &ANY);
                     }
                 }
             }
-            // Relieved teeth are thinner than the pair's own check of the rounding takes them for.
-            Err(ToothMeshError::TipRounding { .. }) => {}
+            // Relieved teeth are thinner than the pair's own checks take them for.
+            Err(ToothMeshError::TipRounding { .. } | ToothMeshError::PointedTip { .. }) => {}
             Err(error) => prop_assert!(false, "{error}"),
         }
     }

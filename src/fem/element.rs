@@ -16,7 +16,7 @@
 use nalgebra::{Matrix3, Vector2};
 
 use super::quadrature::{Rule, rule};
-use super::shape::MOST_NODES;
+use super::shape::{MOST_NODES, Shape};
 use super::solid::ElementKind;
 
 /// Most degrees of freedom that an element has.
@@ -179,6 +179,13 @@ pub(super) fn check_nodes(kind: ElementKind, nodes_mm: &[Vector2<f64>]) -> Resul
         }
     }
     Ok(())
+}
+
+/// Whether an element with these nodes has a stiffness: an area at every integration point, and no fold at its nodes.
+pub(crate) fn is_sound(kind: ElementKind, nodes_mm: &[Vector2<f64>]) -> bool {
+    let least_mm2 = least_determinant_mm2(nodes_mm);
+    let has_area = |shape: &Shape| shape.jacobian(nodes_mm).determinant() > least_mm2;
+    check_nodes(kind, nodes_mm).is_ok() && rule(kind).points.iter().all(|point| has_area(&point.shape))
 }
 
 /// The least determinant that counts as an area for an element of this size.

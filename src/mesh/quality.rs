@@ -291,3 +291,88 @@ fn quad_aspect(nodes: &[Vector2<f64>]) -> f64 {
     let across = [(middle(0, 1) - middle(2, 3)).norm(), (middle(1, 2) - middle(3, 0)).norm()];
     across[0].max(across[1]) / across[0].min(across[1])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(nodes: &[[f64; 2]]) -> Vec<Vector2<f64>> {
+        nodes.iter().map(|&node| node.into()).collect()
+    }
+
+    /// Straight-sided nodes of a cell of `kind` through its corners.
+    fn with_middles(kind: CellKind, corners: &[[f64; 2]]) -> Vec<Vector2<f64>> {
+        let mut nodes = points(corners);
+        let n = corners.len();
+        if kind.node_count() > n {
+            nodes.extend((0..n).map(|k| 0.5 * (nodes[k] + nodes[(k + 1) % n])).collect::<Vec<_>>());
+        }
+        if kind == CellKind::Quad9 {
+            nodes.push(nodes[..4].iter().sum::<Vector2<f64>>() / 4.0);
+        }
+        nodes
+    }
+
+    #[test]
+    fn ver_ideal_cells_are_ideal() {
+        let triangle = [[0.0, 0.0], [2.0, 0.0], [1.0, 3f64.sqrt()]];
+        let square = [[1.0, 1.0], [4.0, 1.0], [4.0, 4.0], [1.0, 4.0]];
+        for (kind, corners, angle) in [
+            (CellKind::Triangle, &triangle[..], 60.0),
+            (CellKind::Triangle6, &triangle[..], 60.0),
+            (CellKind::Quad, &square[..], 90.0),
+            (CellKind::Quad8, &square[..], 90.0),
+            (CellKind::Quad9, &square[..], 90.0),
+        ] {
+            let quality = of_cell(kind, &with_middles(kind, corners)).unwrap();
+            for (value, ideal) in [
+                (quality.jacobian_ratio, 1.0),
+                (quality.scaled_jacobian, 1.0),
+                (quality.aspect_ratio, 1.0),
+                (quality.least_angle_deg / angle, 1.0),
+                (quality.greatest_angle_deg / angle, 1.0),
+            ] {
+                assert!((value - ideal).abs() < 1e-12, "{kind:?}: {quality:?}");
+            }
+        }
+        assert_eq!(of_cell(CellKind::Line3, &points(&[[0.0, 0.0], [1.0, 0.0], [0.5, 0.0]])), None);
+    }
+
+    /// A trapezium's Jacobian varies linearly with its width: J ∝ 2 at the long side, 1 at the short one.
+    #[test]
+    fn ver_a_trapezium_and_a_right_triangle() {
+        let trapezium = with_middles(CellKind::Quad8, &[[0.0, 0.0], [2.0, 0.0], [1.5, 1.0], [0.5, 1.0]]);
+        let quality = of_cell(CellKind::Quad8, &trapezium).unwrap();
+        assert!((quality.jacobian_ratio - 0.5).abs() < 1e-12, "{quality:?}");
+        assert!((quality.least_angle_deg - 2f64.atan().to_degrees()).abs() < 1e-10, "{quality:?}");
+        // Legs 3 and 4: heights 4·3/5 on the longest side; angles atan 3/4 and 90°.
+        let right = with_middles(CellKind::Triangle6, &[[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]]);
+        let quality = of_cell(CellKind::Triangle6, &right).unwrap();
+        assert!((quality.aspect_ratio - 5.0 / 2.4 * 0.75f64.sqrt()).abs() < 1e-12, "{quality:?}");
+        assert!((quality.least_angle_deg - 0.75f64.atan().to_degrees()).abs() < 1e-10, "{quality:?}");
+        assert!((quality.greatest_angle_deg - 90.0).abs() < 1e-10, "{quality:?}");
+    }
+
+    #[test]
+    fn inverted_cells_are_named_with_their_place() {
+        let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
+        let clockwise: Vec<_> = square.iter().rev().copied().collect();
+        assert!(of_cell(CellKind::Quad, &points(&clockwise)).unwrap().jacobian_ratio < 0.0);
+        // A middle node dragged beyond a quarter of the side folds the corner over.
+        let mut folded = with_middles(CellKind::Triangle6, &[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+        folded[3] = Vector2::new(0.2, 0.0);
+        assert!(of_cell(CellKind::Triangle6, &folded).unwrap().jacobian_ratio < 0.0);
+
+        let mut mesh = Mesh {
+            points: square.iter().chain(&[[2.0, 0.0], [2.0, 1.0]]).map(|p| [p[0], p[1], 0.0]).collect(),
+            cells: vec![super::super::CellBlock { kind: CellKind::Quad, nodes: vec![0, 1, 2, 3, 1, 2, 5, 4] }],
+            ..Mesh::default()
+        };
+        match of_mesh(&mesh) {
+            Err(QualityError::Inverted(worst)) => assert_eq!((worst.cell, worst.at_mm), ([0, 1], [1.5, 0.5])),
+            other => panic!("{other:?}"),
+        }
+        mesh.cells.clear();
+        assert_eq!(of_mesh(&mesh), Err(QualityError::NoPlaneCells));
+    }
+}

@@ -16,7 +16,7 @@ use super::facing::{Facing, Segment};
 use super::surface::Surface;
 
 /// Multipliers with less than this part of the weight of a fully faced node are left out.
-const LEAST_WEIGHT: f64 = 1e-3;
+const LEAST_WEIGHT: f64 = 0.05;
 
 /// The coupling of a slave surface with a master surface; a row for every slave node that faces the master.
 ///

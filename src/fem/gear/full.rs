@@ -200,7 +200,7 @@ impl Whole {
             .iter()
             .map(|contact| {
                 let surface = |gear: Gear| Surface::new(&self.flanks[gear][&contact.pair], &self.solid.points_mm);
-                let (slave, master) = (surface(Gear::Pinion), surface(Gear::Wheel));
+                let (slave, master) = (surface(contact.slave), surface(contact.slave.mate()));
                 let radius = |point: &Vector2<f64>| (point - axis_mm(pair, Gear::Pinion)).norm();
                 let reach_mm = WINDOW * contact.half_width_mm;
                 let near = |edge: usize| {

@@ -7,6 +7,10 @@
 //! g = g⁰ + (B₁ C₁ B₁ᵀ + B₂ C₂ B₂ᵀ) f + B₁ r δ ≥ 0        (B₁ r)ᵀ f = −w        r = ẑ × x / r_b1
 //! ```
 //!
+//! The pressure lives on the dedendum flank, the pinion's below the pitch point and the wheel's above it: normals are those
+//! of the smoother surface, never those of a rounded tip edge. Normals that turn within the contact would mix the sliding
+//! of the surfaces on each other into the gap.
+//!
 //! C₁, C₂: compliances of the gears on their candidate nodes; δ: transmission error, the pinion's rotation times its base
 //! radius; w: torque over base radius and face width. The wheel is held at its clamp circle, the pinion turned at its own.
 
@@ -18,7 +22,7 @@ use sprs::CsMat;
 
 use super::flank_surface::FlankSurface;
 use super::model::hertz_half_width_mm;
-use super::placement::tooth_angle_rad;
+use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
 use super::ring::{Between, GearCompliance, ToothForce};
 use crate::fem::active_set::{ActiveSetError, Condensed, Log};
 use crate::fem::contact::{mortar::Coupling, zones};
@@ -63,9 +67,11 @@ pub struct ToothPairContact {
     pub half_width_mm: f64,
     /// Radius on the pinion where the pressure's resultant acts, mm.
     pub pinion_radius_mm: f64,
+    /// The gear whose flank carries the multipliers.
+    pub slave: Gear,
     /// Whether a sharp tip edge carries pressure: its peak then is singular.
     pub at_sharp_edge: bool,
-    /// Pressure along the pinion's flank: distance from the resultant towards the tip in mm, MPa.
+    /// Pressure along the flank: distance from the resultant towards the pinion's tip in mm, MPa.
     pub pressure: Vec<(f64, f64)>,
 }
 
@@ -105,7 +111,7 @@ pub struct PositionContact {
     pub warm: WarmStart,
 }
 
-/// Where each pair was loaded: its number and the stretch of pinion flank relative to the expected contact, mm.
+/// Where each pair was loaded: its number and the stretch from the expected contact towards the pinion's tip, mm.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct WarmStart(Vec<(i32, f64, f64)>);
 
@@ -119,13 +125,16 @@ struct Window {
 /// A tooth pair prepared for contact.
 struct Facing {
     pair: i32,
+    slave: Gear,
     /// Places of its teeth among the fine ones.
     tooth: PerGear<usize>,
     coupling: Coupling,
-    /// B of the master in the wheel tooth's frame.
-    master: CsMat<f64>,
-    /// Expected contact from the pinion's tip end, mm.
+    /// B for each gear, in its own tooth's frame.
+    operator: PerGear<CsMat<f64>>,
+    /// Expected contact from the slave's tip end, mm.
     expected_mm: f64,
+    /// The pinion's axis in the frame of the slave's tooth.
+    pinion_axis_mm: Vector2<f64>,
     /// Whether the window's ends are inner ones: towards the tip, towards the root.
     inner_ends: (bool, bool),
     first_row: usize,
@@ -150,7 +159,7 @@ impl<'a> CondensedPair<'a> {
         for _ in 1..MOST_LOOKS {
             let facings = self.facings(position_mm, &window);
             let condensed = self.condensed(&facings, line_load_n_per_mm);
-            let start = start(&facings, &self.flanks.pinion, warm);
+            let start = start(&facings, &self.flanks, warm);
             match condensed.solve(start.as_deref()) {
                 Ok(found) if !facings.iter().any(|facing| is_cramped(facing, &found.force, self)) => {
                     return Ok(self.read(position_mm, line_load_n_per_mm, &facings, found));
@@ -181,13 +190,6 @@ impl<'a> CondensedPair<'a> {
             .collect()
     }
 
-    /// Turn of the wheel tooth's frame against the pinion tooth's, and the wheel's axis in the latter.
-    fn relative_frame(&self, position_mm: f64, pair: i32) -> (Rotation2<f64>, Vector2<f64>) {
-        let [pinion, wheel] = Gear::BOTH.map(|gear| tooth_angle_rad(self.pair, gear, position_mm, pair));
-        let axis = Vector2::new(0.0, self.pair.spec.centre_distance_mm);
-        (Rotation2::new(wheel - pinion), Rotation2::new(-pinion) * axis)
-    }
-
     fn facing(&self, position_mm: f64, pair: i32, window: &Window) -> Option<Facing> {
         let path = &self.pair.path;
         let own_mm = position_mm + f64::from(pair) * path.base_pitch_mm;
@@ -195,44 +197,66 @@ impl<'a> CondensedPair<'a> {
         if own_mm < path.start_mm - outside_mm || own_mm > path.end_mm + outside_mm {
             return None;
         }
-        let (turn, axis) = self.relative_frame(position_mm, pair);
-        let expected = self.expected_from_tip_mm(own_mm, turn, axis);
+        let slave = if own_mm <= path.pitch_point_mm { Gear::Pinion } else { Gear::Wheel };
+        let master = slave.mate();
+        let expected = self.expected_from_tip_mm(position_mm, pair, own_mm);
         let half_width_mm = hertz_half_width_mm(self.pair, self.contact_modulus_mpa, window.line_load_n_per_mm, own_mm);
         let window_mm = window.half_widths * half_width_mm;
         let edges = PerGear::from_fn(|gear| {
             // The master must be met over the whole of the slave's window, also where it is seen a little askew.
-            let window = if gear == Gear::Pinion { window_mm } else { 1.3 * window_mm };
+            let window = if gear == slave { window_mm } else { 1.3 * window_mm };
             self.flanks[gear].edges_between(expected[gear] - window, expected[gear] + window)
         });
-        let inner_ends = (edges.pinion.start > 0, edges.pinion.end < self.flanks.pinion.surface.edges.len());
-        let slave = self.flanks.pinion.surface.part(edges.pinion);
-        let master = self.flanks.wheel.surface.part(edges.wheel).placed(|x| turn * x + axis, |n| turn * n);
-        let coupling = Coupling::new(&slave, &master, window.reach_mm);
+        let inner_ends = (edges[slave].start > 0, edges[slave].end < self.flanks[slave].surface.edges.len());
+        // Both in the frame of the slave's tooth.
+        let angle_rad = |gear| tooth_angle_rad(self.pair, gear, position_mm, pair);
+        let from_slave = |point: Vector2<f64>| Rotation2::new(-angle_rad(slave)) * (point - axis_mm(self.pair, slave));
+        let turn = Rotation2::new(angle_rad(master) - angle_rad(slave));
+        let master_axis_mm = from_slave(axis_mm(self.pair, master));
+        let slave_part = self.flanks[slave].surface.part(edges[slave].clone());
+        let master_part =
+            self.flanks[master].surface.part(edges[master].clone()).placed(|x| turn * x + master_axis_mm, |n| turn * n);
+        let coupling = Coupling::new(&slave_part, &master_part, window.reach_mm);
         if coupling.is_empty() {
             return None;
         }
-        let master = turned(&coupling.master, turn.inverse());
+        let of_master = turned(&coupling.master, turn.inverse());
+        let operator = match slave {
+            Gear::Pinion => PerGear { pinion: coupling.slave.clone(), wheel: of_master },
+            Gear::Wheel => PerGear { pinion: of_master, wheel: coupling.slave.clone() },
+        };
         let middle = (self.gears.pinion.teeth() / 2) as i32;
         // The pair ahead is the next anticlockwise tooth of the pinion, and the next clockwise one of the wheel.
         let tooth = PerGear { pinion: (middle + pair) as usize, wheel: (middle - pair) as usize };
-        Some(Facing { pair, tooth, coupling, master, expected_mm: expected.pinion, inner_ends, first_row: 0 })
+        Some(Facing {
+            pair,
+            slave,
+            tooth,
+            coupling,
+            operator,
+            expected_mm: expected[slave],
+            pinion_axis_mm: from_slave(axis_mm(self.pair, Gear::Pinion)),
+            inner_ends,
+            first_row: 0,
+        })
     }
 
     /// Where contact is expected on each flank, from its tip end: on the line of action, or before A and after E at the
     /// mate's tip.
-    fn expected_from_tip_mm(&self, own_mm: f64, turn: Rotation2<f64>, axis: Vector2<f64>) -> PerGear<f64> {
+    fn expected_from_tip_mm(&self, position_mm: f64, pair: i32, own_mm: f64) -> PerGear<f64> {
         let path = &self.pair.path;
-        let tip = |gear: Gear| {
-            let flank = &self.flanks[gear];
-            flank.surface.points_mm[flank.tip_node()]
-        };
-        let at_radius = |gear: Gear, radius_mm: f64| {
+        // The flank of `gear` at the radius that the mate's tip end has from its axis.
+        let at_mates_tip = |gear: Gear| {
+            let mate = &self.flanks[gear.mate()];
+            let tip = mate.surface.points_mm[mate.tip_node()];
+            let tip = in_place_mm(self.pair, gear.mate(), position_mm, pair, tip);
+            let radius_mm = (tip - axis_mm(self.pair, gear)).norm();
             self.flanks[gear].from_tip_at_mm(path.involute[gear].curvature_radius_mm(radius_mm))
         };
         if own_mm < path.start_mm {
-            PerGear { pinion: at_radius(Gear::Pinion, (turn * tip(Gear::Wheel) + axis).norm()), wheel: 0.0 }
+            PerGear { pinion: at_mates_tip(Gear::Pinion), wheel: 0.0 }
         } else if own_mm > path.end_mm {
-            PerGear { pinion: 0.0, wheel: at_radius(Gear::Wheel, (tip(Gear::Pinion) - axis).norm()) }
+            PerGear { pinion: 0.0, wheel: at_mates_tip(Gear::Wheel) }
         } else {
             PerGear::from_fn(|gear| self.flanks[gear].from_tip_at_mm(path.rho_mm(gear, own_mm)))
         }
@@ -245,16 +269,15 @@ impl<'a> CondensedPair<'a> {
         let mut gap_mm = Vec::with_capacity(rows);
         for (a, facing) in facings.iter().enumerate() {
             gap_mm.extend_from_slice(&facing.coupling.gap_mm);
-            for (i, row) in facing.coupling.slave.outer_iterator().enumerate() {
-                rigid[(facing.first_row + i, 0)] =
-                    row.iter().map(|(column, value)| value * self.rotation(column)).sum();
+            for (i, change) in self.by_rotation(facing).enumerate() {
+                rigid[(facing.first_row + i, 0)] = change;
             }
             for other in &facings[..=a] {
-                let pinion = self.gears.pinion.between(other.tooth.pinion, facing.tooth.pinion);
-                let wheel = self.gears.wheel.between(other.tooth.wheel, facing.tooth.wheel);
                 let places = (facing.first_row, other.first_row);
-                add_sandwich(&mut compliance, places, &facing.coupling.slave, pinion, &other.coupling.slave);
-                add_sandwich(&mut compliance, places, &facing.master, wheel, &other.master);
+                for gear in Gear::BOTH {
+                    let between = self.gears[gear].between(other.tooth[gear], facing.tooth[gear]);
+                    add_sandwich(&mut compliance, places, &facing.operator[gear], between, &other.operator[gear]);
+                }
             }
         }
         for i in 0..rows {
@@ -265,11 +288,17 @@ impl<'a> CondensedPair<'a> {
         Condensed { compliance, gap_mm, rigid, rigid_load: vec![-line_load_n_per_mm] }
     }
 
+    /// Change of each gap of a pair per transmission error.
+    fn by_rotation<'b>(&'b self, facing: &'b Facing) -> impl Iterator<Item = f64> + 'b {
+        let turned = |row: sprs::CsVecView<'_, f64>| row.iter().map(|(column, b)| b * self.rotation(column)).sum();
+        facing.operator.pinion.outer_iterator().map(turned)
+    }
+
     /// Displacement of a candidate column of the pinion per transmission error.
     fn rotation(&self, column: usize) -> f64 {
         let point = self.flanks.pinion.surface.points_mm[column / 2];
         let r_b = self.pair.path.involute.pinion.base_radius_mm;
-        if column % 2 == 0 { -point.y / r_b } else { point.x / r_b }
+        if column.is_multiple_of(2) { -point.y / r_b } else { point.x / r_b }
     }
 
     fn read(
@@ -287,10 +316,11 @@ impl<'a> CondensedPair<'a> {
             if force.iter().all(|f| *f <= 0.0) {
                 continue;
             }
-            forces.pinion[facing.tooth.pinion] = transpose_times(&facing.coupling.slave, force);
-            forces.wheel[facing.tooth.wheel] = transpose_times(&facing.master, force);
+            for gear in Gear::BOTH {
+                forces[gear][facing.tooth[gear]] = transpose_times(&facing.operator[gear], force);
+            }
             let (contact, stretch) = self.tooth_pair(facing, force);
-            warm.push((facing.pair, stretch.0 - facing.expected_mm, stretch.1 - facing.expected_mm));
+            warm.push((facing.pair, stretch.0, stretch.1));
             pairs.push(contact);
         }
         let torque = PerGear::from_fn(|gear| {
@@ -298,7 +328,7 @@ impl<'a> CondensedPair<'a> {
             let moment = |tooth: &ToothForce| -> f64 {
                 let arm = |column: usize| {
                     let x = points[column / 2];
-                    if column % 2 == 0 { -x.y } else { x.x }
+                    if column.is_multiple_of(2) { -x.y } else { x.x }
                 };
                 tooth.iter().map(|&(column, f)| arm(column) * f).sum()
             };
@@ -331,57 +361,59 @@ impl<'a> CondensedPair<'a> {
         }
     }
 
-    /// One pair's figures and the loaded stretch of the pinion's flank from its tip.
+    /// One pair's figures and the loaded stretch, from the expected contact towards the pinion's tip.
     fn tooth_pair(&self, facing: &Facing, force: &[f64]) -> (ToothPairContact, (f64, f64)) {
-        let (flank, coupling) = (&self.flanks.pinion, &facing.coupling);
+        let (flank, coupling) = (&self.flanks[facing.slave], &facing.coupling);
         let mut rows: Vec<usize> = (0..coupling.len()).collect();
-        rows.sort_by(|&a, &b| flank.from_tip_mm[coupling.nodes[a]].total_cmp(&flank.from_tip_mm[coupling.nodes[b]]));
-        let along: Vec<f64> = rows.iter().map(|&row| flank.from_tip_mm[coupling.nodes[row]]).collect();
+        let place = |row: usize| facing.towards_pinion_tip_mm(flank, coupling.nodes[row]);
+        rows.sort_by(|&a, &b| place(a).total_cmp(&place(b)));
+        let along: Vec<f64> = rows.iter().map(|&row| place(row)).collect();
         let pressure: Vec<f64> = rows.iter().map(|&row| (force[row] / coupling.weight_mm[row]).max(0.0)).collect();
         let zones = zones::zones(&along, &pressure);
         let half_width_mm = zones.iter().map(|zone| 0.5 * zone.width_mm()).fold(0.0, f64::max);
         let total: f64 = force.iter().sum();
         let mean = |of: &dyn Fn(usize) -> f64| -> f64 {
-            force.iter().enumerate().map(|(row, f)| f * of(coupling.nodes[row])).sum::<f64>() / total
+            force.iter().enumerate().map(|(row, f)| f * of(row)).sum::<f64>() / total
         };
-        let centre_mm = mean(&|node| flank.from_tip_mm[node]);
-        let line_load_n_per_mm: f64 = coupling
-            .slave
-            .outer_iterator()
-            .zip(force)
-            .map(|(row, f)| -f * row.iter().map(|(column, value)| value * self.rotation(column)).sum::<f64>())
-            .sum();
+        let centre_mm = mean(&place);
+        let radius = |row: usize| (flank.surface.points_mm[coupling.nodes[row]] - facing.pinion_axis_mm).norm();
         let stretch = zones.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), zone| {
             (low.min(zone.from_mm), high.max(zone.to_mm))
         });
         let contact = ToothPairContact {
             pair: facing.pair,
-            line_load_n_per_mm,
+            line_load_n_per_mm: self.by_rotation(facing).zip(force).map(|(change, f)| -f * change).sum(),
             peak_pressure_mpa: pressure.iter().copied().fold(0.0, f64::max),
             half_width_mm,
-            pinion_radius_mm: mean(&|node| flank.surface.points_mm[node].norm()),
+            pinion_radius_mm: mean(&radius),
+            slave: facing.slave,
             at_sharp_edge: self.is_at_sharp_edge(facing, force),
-            pressure: along.iter().zip(&pressure).rev().map(|(along, p)| (centre_mm - along, *p)).collect(),
+            pressure: along.iter().zip(&pressure).map(|(along, p)| (along - centre_mm, *p)).collect(),
         };
         (contact, stretch)
     }
 
     fn is_at_sharp_edge(&self, facing: &Facing, force: &[f64]) -> bool {
-        let loaded = |operator: &CsMat<f64>, flank: &FlankSurface| {
+        Gear::BOTH.into_iter().any(|gear| {
+            let (operator, flank) = (&facing.operator[gear], &self.flanks[gear]);
             let tip = flank.tip_node();
-            flank.sharp
-                && operator
-                    .outer_iterator()
-                    .zip(force)
-                    .any(|(row, f)| *f > 0.0 && row.iter().any(|(column, value)| column / 2 == tip && *value != 0.0))
-        };
-        loaded(&facing.coupling.slave, &self.flanks.pinion) || loaded(&facing.master, &self.flanks.wheel)
+            let at_tip = |row: sprs::CsVecView<'_, f64>| row.iter().any(|(column, b)| column / 2 == tip && *b != 0.0);
+            flank.sharp && operator.outer_iterator().zip(force).any(|(row, f)| *f > 0.0 && at_tip(row))
+        })
+    }
+}
+
+impl Facing {
+    /// Distance of a node of the slave from the expected contact, towards the pinion's tip.
+    fn towards_pinion_tip_mm(&self, slave: &FlankSurface, node: usize) -> f64 {
+        let from_tip_mm = slave.from_tip_mm[node] - self.expected_mm;
+        if self.slave == Gear::Pinion { -from_tip_mm } else { from_tip_mm }
     }
 }
 
 /// Whether load comes close to an inner end of the window, so that it may have been cut off.
 fn is_cramped(facing: &Facing, force: &[f64], pair: &CondensedPair<'_>) -> bool {
-    let from_tip = |row: usize| pair.flanks.pinion.from_tip_mm[facing.coupling.nodes[row]];
+    let from_tip = |row: usize| pair.flanks[facing.slave].from_tip_mm[facing.coupling.nodes[row]];
     let mut rows: Vec<usize> = (0..facing.coupling.len()).collect();
     rows.sort_by(|&a, &b| from_tip(a).total_cmp(&from_tip(b)));
     let loaded = |row: &usize| force[facing.first_row + row] > 0.0;
@@ -391,7 +423,7 @@ fn is_cramped(facing: &Facing, force: &[f64], pair: &CondensedPair<'_>) -> bool 
 }
 
 /// The active set expected from the position before.
-fn start(facings: &[Facing], flank: &FlankSurface, warm: &WarmStart) -> Option<Vec<bool>> {
+fn start(facings: &[Facing], flanks: &PerGear<FlankSurface>, warm: &WarmStart) -> Option<Vec<bool>> {
     if warm.0.is_empty() {
         return None;
     }
@@ -399,7 +431,7 @@ fn start(facings: &[Facing], flank: &FlankSurface, warm: &WarmStart) -> Option<V
     for facing in facings {
         let before = warm.0.iter().find(|(pair, ..)| *pair == facing.pair);
         active.extend(facing.coupling.nodes.iter().map(|&node| {
-            let offset = flank.from_tip_mm[node] - facing.expected_mm;
+            let offset = facing.towards_pinion_tip_mm(&flanks[facing.slave], node);
             before.is_some_and(|(_, low, high)| (*low..=*high).contains(&offset))
         }));
     }
@@ -411,7 +443,7 @@ fn turned(operator: &CsMat<f64>, turn: Rotation2<f64>) -> CsMat<f64> {
     let mut triplets = sprs::TriMat::new(operator.shape());
     for (i, row) in operator.outer_iterator().enumerate() {
         for (column, value) in row.iter() {
-            let unit = if column % 2 == 0 { Vector2::x() } else { Vector2::y() };
+            let unit = if column.is_multiple_of(2) { Vector2::x() } else { Vector2::y() };
             let image = turn * (*value * unit);
             triplets.add_triplet(i, column - column % 2, image.x);
             triplets.add_triplet(i, column - column % 2 + 1, image.y);

@@ -49,6 +49,12 @@ pub enum ToothMeshError {
         /// ρ of the root form circle.
         rho_mm: f64,
     },
+    /// Relieved flanks leave no tip land.
+    #[error("the relieved flanks meet below the tip circle of radius {tip_radius_mm:.4} mm")]
+    PointedTip {
+        /// r_a.
+        tip_radius_mm: f64,
+    },
     /// No circle of the rounding's radius fits between flank and tip circle, or the roundings of both sides overlap.
     #[error("a tip rounding of radius {radius_mm:.4} mm does not fit between the relieved flanks and the tip circle")]
     TipRounding {

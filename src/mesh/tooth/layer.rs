@@ -29,7 +29,9 @@ const PART_OF_THICKNESS: f64 = 0.3;
 /// Most of the flank's radius of curvature, at whose centre the normals meet.
 const PART_OF_CURVATURE: f64 = 0.4;
 /// Steepest slant of the lowest row against the flank.
-const STEEPEST: f64 = 0.5;
+const STEEPEST: f64 = 0.3;
+/// Passes of the running mean over element lengths.
+const SMOOTHINGS: usize = 8;
 /// Elements at the ends of the fine flank left to triangles, which fit the corners.
 const LEFT_TO_CORNERS: usize = 5;
 
@@ -91,7 +93,8 @@ pub(super) fn build(flank: &[FlankNode], depth_elements: f64, points_mm: &mut Ve
     }
     // What the trimming takes is taken at the root, where the flank is least loaded.
     let first = last - columns;
-    let mut grid = Grid { flank: &flank[2 * first..=2 * last], nodes: BTreeMap::new(), points_mm };
+    let flank = &flank[2 * first..=2 * last];
+    let mut grid = Grid { flank, length_mm: smoothed_lengths_mm(flank), nodes: BTreeMap::new(), points_mm };
     let mut cells = Vec::new();
     for (number, row) in rows.iter().enumerate() {
         let step = row.width * if row.joins { 2 } else { 1 };
@@ -105,6 +108,19 @@ pub(super) fn build(flank: &[FlankNode], depth_elements: f64, points_mm: &mut Ve
     }
     let border = grid.border(&rows, columns, joined);
     Layer { cells, covers: 2 * first..2 * last + 1, border }
+}
+
+/// Element lengths at the nodes of the flank without kinks, which would bend the rows: a running mean over the ends of
+/// elements, and halfway between them in the middles.
+fn smoothed_lengths_mm(flank: &[FlankNode]) -> Vec<f64> {
+    let mut ends: Vec<f64> = flank.iter().step_by(2).map(|at| at.node.length_mm).collect();
+    for _ in 0..SMOOTHINGS {
+        let before = ends.clone();
+        for (k, around) in before.windows(3).enumerate() {
+            ends[k + 1] = 0.25 * (around[0] + 2.0 * around[1] + around[2]);
+        }
+    }
+    (0..flank.len()).map(|i| 0.5 * (ends[i / 2] + ends[i.div_ceil(2)])).collect()
 }
 
 /// First and last end of a flank element between which the layer fits.
@@ -138,6 +154,8 @@ fn where_it_fits(flank: &[FlankNode], depth: f64) -> (usize, usize) {
 /// Nodes of the layer by place: half columns along the flank, half rows into the depth.
 struct Grid<'a> {
     flank: &'a [FlankNode],
+    /// Unit of the depths at each of its nodes.
+    length_mm: Vec<f64>,
     nodes: BTreeMap<(usize, usize), u32>,
     points_mm: &'a mut Vec<Vector2<f64>>,
 }
@@ -149,11 +167,11 @@ impl Grid<'_> {
         if j == 0 {
             return at.id;
         }
-        let points_mm = &mut *self.points_mm;
+        let (points_mm, length_mm) = (&mut *self.points_mm, self.length_mm[i]);
         *self.nodes.entry((i, j)).or_insert_with(|| {
             let [top, bottom] = rows[(j - 1) / 2].depth;
-            let depth = if j % 2 == 0 { bottom } else { 0.5 * (top + bottom) };
-            add(points_mm, at.node.point_mm + depth * at.node.length_mm * at.inward)
+            let depth = if j.is_multiple_of(2) { bottom } else { 0.5 * (top + bottom) };
+            add(points_mm, at.node.point_mm + depth * length_mm * at.inward)
         })
     }
 

@@ -11,8 +11,11 @@ const FACTOR_LEVELS: i32 = 2;
 #[derive(Debug, Default)]
 pub(super) struct Neighbours {
     /// Only ever looked up by key, so that no result depends on the order of the map.
-    squares: HashMap<(i32, i64, i64), Vec<(Vector2<f64>, f64)>>,
+    squares: HashMap<Square, Vec<(Vector2<f64>, f64)>>,
 }
+
+/// Level of its size, then its place.
+type Square = (i32, i64, i64);
 
 /// Powers of two far beyond any length of a mesh, so that arithmetic with levels cannot overflow.
 const LEVELS: std::ops::RangeInclusive<f64> = -100.0..=100.0;

@@ -79,6 +79,9 @@ impl<'a> Profile<'a> {
         }
         let corner = profile.flank_mm(profile.flank_end_rho_mm);
         profile.land_rad = corner.x.atan2(corner.y);
+        if profile.land_rad <= 0.0 {
+            return Err(ToothMeshError::PointedTip { tip_radius_mm: tooth.tip_radius_mm });
+        }
         Ok(profile)
     }
 

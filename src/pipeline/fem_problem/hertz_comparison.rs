@@ -155,8 +155,8 @@ mod tests {
             edges.extend((start..start + 20).map(|a| Edge { ends: [a, a + 1], middle: None }));
         }
         let elements = vec![
-            Element::new(ElementKind::Triangle3, &[10, 11, 12], 0),
-            Element::new(ElementKind::Triangle3, &[31, 32, 33], 1),
+            Element::new(ElementKind::Triangle3, &[9, 10, 11], 0),
+            Element::new(ElementKind::Triangle3, &[30, 31, 32], 1),
             Element::new(ElementKind::Triangle3, &[0, 1, 2], 0),
             Element::new(ElementKind::Triangle3, &[21, 22, 23], 1),
         ];

@@ -241,7 +241,7 @@ impl Parts<'_> {
         let mut on_line: Option<f64> = None;
         for at in positions {
             let error = at.torque_ratio_error.abs();
-            if !(error <= worst.0) || worst.1.is_nan() {
+            if error > worst.0 || worst.1.is_nan() {
                 worst = (error, at.position_mm);
             }
             if at.pairs.iter().all(|contact| is_on_line(self.model.pair, at, contact)) {
@@ -265,12 +265,12 @@ impl Parts<'_> {
 
     fn warnings(&self, new: &FemCycleSummary) -> Vec<String> {
         let mut warnings = Vec::new();
-        if let Some(pressure) = new.sharp_edge_pressure_MPa {
+        if new.sharp_edge_pressure_MPa.is_some() {
             let sharp: Vec<&str> =
                 Gear::BOTH.into_iter().filter(|&gear| self.meshed[gear].sharp).map(Gear::name).collect();
             warnings.push(format!(
-                "the tip edge of {} is sharp: where it carries load the elastic pressure is singular, and {pressure:.0} MPa, \
-                 found there, grows with every refinement; such contacts are marked at_sharp_edge and left out of \
+                "the tip edge of {} is sharp: where it carries load the elastic pressure is singular, and what is found \
+                 there grows with every refinement; such contacts are marked at_sharp_edge and left out of \
                  peak_pressure_MPa (a tip_rounding_mm makes the pressure finite)",
                 sharp.join(" and ")
             ));

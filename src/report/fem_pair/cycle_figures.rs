@@ -248,9 +248,9 @@ fn root_stress(record: &FemPairRecord) -> Figure {
     let reading = match (&root.pinion, &root.wheel) {
         (Some(pinion), Some(wheel)) => format!(
             "Along the fillets of the reference pair’s teeth the greatest stress is {} on the pinion and {} on the wheel. The \
-             pinion’s tooth bends most with the load near its tip, towards E, the wheel’s towards A; the fillet on the side \
-             of the other flank is compressed harder than the loaded one is stretched, for the radial part of the force \
-             presses on both.",
+             pinion’s tooth is bent most where it still carries the whole load far out on its flank, towards D, the wheel’s \
+             likewise towards B; the other fillet is compressed harder than the loaded one is stretched, for the radial part \
+             of the force presses on both.",
             of(pinion),
             of(wheel)
         ),

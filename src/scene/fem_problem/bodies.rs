@@ -6,6 +6,7 @@ use super::file::FemProblemFile;
 use super::groups::{CellRef, Groups};
 use super::sides::corners;
 use crate::fem::elastic::Elastic;
+use crate::fem::element;
 use crate::fem::solid::{Element, ElementKind, Solid};
 use crate::mesh::{CellKind, Mesh};
 use crate::scene::findings::Findings;
@@ -14,8 +15,6 @@ use crate::scene::problem::{ProblemKind, number};
 const MPA_PER_GPA: f64 = 1e3;
 /// A node may lie this far from the plane z = 0, relative to the mesh's extent: what writing decimals leaves.
 const FLAT: f64 = 1e-9;
-/// Twice the area of an element that is none, relative to the square of its longest side.
-const NO_AREA: f64 = 1e-10;
 
 /// The bodies with the way back to the mesh.
 #[derive(Debug)]
@@ -243,21 +242,10 @@ fn reversed(element: &Element) -> Element {
     Element::new(element.kind, &turned, element.material)
 }
 
-/// Whether the element has an area and at each corner its sides open to the left: on a side of three nodes the tangent at
-/// the end vᵢ is (4 m − 3 vᵢ − vⱼ)/2, so that a middle node too far off its place is found too.
+/// Whether the solver can integrate the element.
 fn is_sound(points_mm: &[Vector2<f64>], element: &Element) -> bool {
-    let nodes = element.nodes();
-    let n = corners(element.kind);
-    let at = |i: usize| points_mm[nodes[i] as usize];
-    let tangent = |from: usize, to: usize, side: usize| {
-        if nodes.len() > n { (4.0 * at(n + side) - 3.0 * at(from) - at(to)) / 2.0 } else { at(to) - at(from) }
-    };
-    let longest = (0..n).map(|i| (at((i + 1) % n) - at(i)).norm_squared()).fold(0.0, f64::max);
-    let opens = |i: usize| {
-        let (next, previous) = ((i + 1) % n, (i + n - 1) % n);
-        tangent(i, next, i).perp(&tangent(i, previous, previous)) >= -NO_AREA * longest
-    };
-    doubled_area_mm2(points_mm, element) > NO_AREA * longest && (0..n).all(opens)
+    let nodes: Vec<Vector2<f64>> = element.nodes().iter().map(|&node| points_mm[node as usize]).collect();
+    element::is_sound(element.kind, &nodes)
 }
 
 #[cfg(test)]
