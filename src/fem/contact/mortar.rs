@@ -15,7 +15,8 @@ use super::edge::shape;
 use super::facing::{Facing, Segment};
 use super::surface::Surface;
 
-/// Multipliers with less than this part of the weight of a fully faced node are left out.
+/// Multipliers with less than this part of the weight of a fully faced node are slivers: their share of the pressure goes to
+/// a neighbour, so that a constant pressure is still kept, and what is left over without a neighbour is left out.
 const LEAST_WEIGHT: f64 = 0.05;
 
 /// The coupling of a slave surface with a master surface; a row for every slave node that faces the master.
@@ -46,6 +47,43 @@ struct Row {
     master: Vec<(usize, Vector2<f64>)>,
 }
 
+impl Row {
+    fn is_sliver(&self) -> bool {
+        self.weight_mm <= LEAST_WEIGHT * self.whole_mm
+    }
+
+    fn take(&mut self, other: &Row) {
+        self.weight_mm += other.weight_mm;
+        self.gap_mm2 += other.gap_mm2;
+        for &(node, value) in &other.slave {
+            add(&mut self.slave, node, value);
+        }
+        for &(node, value) in &other.master {
+            add(&mut self.master, node, value);
+        }
+    }
+}
+
+/// Adds the basis function of each sliver to that of the neighbour on its edges with the greatest weight: ψ_k + ψ_sliver.
+fn hand_over_slivers(slave: &Surface, rows: &mut [Row]) {
+    let mut neighbour: Vec<Option<usize>> = vec![None; rows.len()];
+    for edge in &slave.edges {
+        for &node in edge.nodes().iter().filter(|&&node| rows[node].is_sliver() && rows[node].weight_mm > 0.0) {
+            for &other in edge.nodes().iter().filter(|&&other| !rows[other].is_sliver()) {
+                if neighbour[node].is_none_or(|best: usize| rows[other].weight_mm > rows[best].weight_mm) {
+                    neighbour[node] = Some(other);
+                }
+            }
+        }
+    }
+    for (node, neighbour) in neighbour.into_iter().enumerate() {
+        if let Some(neighbour) = neighbour {
+            let sliver = std::mem::take(&mut rows[node]);
+            rows[neighbour].take(&sliver);
+        }
+    }
+}
+
 fn add(entries: &mut Vec<(usize, Vector2<f64>)>, node: usize, value: Vector2<f64>) {
     match entries.iter_mut().find(|(other, _)| *other == node) {
         Some((_, sum)) => *sum += value,
@@ -62,8 +100,8 @@ impl Coupling {
             let segments = facing.segments(slave, number, reach_mm);
             integrate_edge(slave, number, &facing, &segments, &mut rows);
         }
-        let kept: Vec<(usize, Row)> =
-            rows.into_iter().enumerate().filter(|(_, row)| row.weight_mm > LEAST_WEIGHT * row.whole_mm).collect();
+        hand_over_slivers(slave, &mut rows);
+        let kept: Vec<(usize, Row)> = rows.into_iter().enumerate().filter(|(_, row)| !row.is_sliver()).collect();
         Self {
             nodes: kept.iter().map(|(node, _)| *node).collect(),
             weight_mm: kept.iter().map(|(_, row)| row.weight_mm).collect(),
