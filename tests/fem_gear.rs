@@ -210,6 +210,31 @@ fn ver_condensed_is_the_whole_model() {
     }
 }
 
+/// The field recovered inside a tooth is the one that its condensed form speaks of.
+#[test]
+fn ver_recovered_field_is_that_of_the_condensed_tooth() {
+    let pair = GearPair::new(&fzg_c()).unwrap();
+    let model = model(&pair, settings(Body::Ring, 3.0));
+    let found = model.at(pair.path.pitch_point_mm, line_load(&pair), &WarmStart::default()).unwrap();
+    for gear in gearwear::gear::Gear::BOTH {
+        let (body, forces) = (&model.gears[gear], &found.forces[gear]);
+        let condensed = &body.sector;
+        for tooth in 0..body.teeth() {
+            let cuts = body.cut_displacement_mm(tooth, forces);
+            let field = condensed.displacement_mm(&forces[tooth], &cuts);
+            for (k, &node) in condensed.sector.candidates.iter().enumerate() {
+                for component in 0..2 {
+                    let row = 2 * k + component;
+                    let by_force: f64 = forces[tooth].iter().map(|&(c, f)| condensed.compliance[(row, c)] * f).sum();
+                    let by_cut: f64 = cuts.iter().enumerate().map(|(b, u)| condensed.carried[(row, b)] * u).sum();
+                    let difference = field[2 * node as usize + component] - (by_force + by_cut);
+                    assert!(difference.abs() < 1e-9 * found.transmission_error_mm, "{} {tooth} {k}", gear.name());
+                }
+            }
+        }
+    }
+}
+
 /// A cold start and a warm one end in the same state, and so does any number of threads.
 #[test]
 fn ver_same_bits_from_any_start_and_on_any_number_of_threads() {
