@@ -14,7 +14,7 @@ fn main() -> Result<(), SolveError> {
         "| element | per half-width | unknowns | p₀ MPa | a mm | active sets | s |\n|---|---|---|---|---|---|---|"
     );
     for kind in [ElementKind::Quad4, ElementKind::Triangle6, ElementKind::Quad8] {
-        for n in [6.0, 12.0, 24.0, 48.0] {
+        for n in [8.0, 16.0, 32.0, 64.0] {
             let problem = CylinderOnBlock::nafems(kind, n).problem();
             let start = Instant::now();
             let solution = solve(&problem)?;
