@@ -7,9 +7,10 @@
 //! g = g⁰ + (B₁ C₁ B₁ᵀ + B₂ C₂ B₂ᵀ) f + B₁ r δ ≥ 0        (B₁ r)ᵀ f = −w        r = ẑ × x / r_b1
 //! ```
 //!
-//! The pressure lives on the dedendum flank, the pinion's below the pitch point and the wheel's above it: normals are those
-//! of the smoother surface, never those of a rounded tip edge. Normals that turn within the contact would mix the sliding
-//! of the surfaces on each other into the gap.
+//! Of the two flanks, one is in contact with its addendum: the wheel's below the pitch point, the pinion's above it. Where its
+//! tip edge is sharp, the pressure lives on it, so that multipliers end where the flank ends. Where it is rounded, the
+//! pressure lives on the mate, so that normals are those of the smoother surface: normals that turn within the contact
+//! would mix the sliding of the surfaces on each other into the gap.
 //!
 //! C₁, C₂: compliances of the gears on their candidate nodes; δ: transmission error, the pinion's rotation times its base
 //! radius; w: torque over base radius and face width. The wheel is held at its clamp circle, the pinion turned at its own.
@@ -197,7 +198,8 @@ impl<'a> CondensedPair<'a> {
         if own_mm < path.start_mm - outside_mm || own_mm > path.end_mm + outside_mm {
             return None;
         }
-        let slave = if own_mm <= path.pitch_point_mm { Gear::Pinion } else { Gear::Wheel };
+        let addendum = if own_mm <= path.pitch_point_mm { Gear::Wheel } else { Gear::Pinion };
+        let slave = if self.flanks[addendum].sharp { addendum } else { addendum.mate() };
         let master = slave.mate();
         let expected = self.expected_from_tip_mm(position_mm, pair, own_mm);
         let half_width_mm = hertz_half_width_mm(self.pair, self.contact_modulus_mpa, window.line_load_n_per_mm, own_mm);

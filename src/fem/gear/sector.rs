@@ -158,10 +158,14 @@ impl CondensedSector {
     /// Displacement of every node of the sector under forces on the candidates and displacements of the cuts, mm.
     pub fn displacement_mm(&self, candidate_force: &[(usize, f64)], cut_mm: &[f64]) -> Vec<f64> {
         let mut field = vec![0.0; self.sector.solid.dofs()];
-        let mut held = Vec::with_capacity(2 * cut_mm.len());
-        for ((node, direction), u) in self.sector.cut_directions().into_iter().zip(cut_mm) {
-            held.extend(given(node, direction * *u));
-        }
+        // Directions come in pairs, radial and circumferential, of one node each.
+        let held: Vec<(u32, f64)> = self
+            .sector
+            .cut_directions()
+            .chunks_exact(2)
+            .zip(cut_mm.chunks_exact(2))
+            .flat_map(|(pair, u)| given(pair[0].0, pair[0].1 * u[0] + pair[1].1 * u[1]))
+            .collect();
         for &(c, force) in candidate_force {
             field[2 * self.sector.candidates[c / 2] as usize + c % 2] = force;
         }
