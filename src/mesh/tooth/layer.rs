@@ -170,7 +170,7 @@ impl Grid<'_> {
         let (points_mm, length_mm) = (&mut *self.points_mm, self.length_mm[i]);
         *self.nodes.entry((i, j)).or_insert_with(|| {
             let [top, bottom] = rows[(j - 1) / 2].depth;
-            let depth = if j % 2 == 0 { bottom } else { 0.5 * (top + bottom) };
+            let depth = if j.is_multiple_of(2) { bottom } else { 0.5 * (top + bottom) };
             add(points_mm, at.node.point_mm + depth * length_mm * at.inward)
         })
     }

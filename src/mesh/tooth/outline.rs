@@ -101,7 +101,7 @@ impl Outline {
     pub fn part(&self, side: Side, part: Part) -> Range<usize> {
         let mut of_part = self.runs.iter().filter(|run| run.0 == side && run.1 == part).map(|run| run.2.clone());
         match of_part.next() {
-            Some(first) => first.start..of_part.last().map_or(first.end, |last| last.end),
+            Some(first) => first.start..of_part.next_back().map_or(first.end, |last| last.end),
             None => 0..0,
         }
     }

@@ -49,7 +49,7 @@ fn body(file: &mut FemFile, pair: &PairSpec, findings: &mut Findings) -> Option<
             let teeth = *file.sector_teeth.get_or_insert(SECTOR_TEETH);
             let sides = *file.sector_sides.get_or_insert_default();
             let most = Gear::BOTH.map(|gear| pair.gears[gear].teeth).into_iter().fold(u32::MAX, u32::min);
-            if teeth % 2 == 0 || teeth > most {
+            if teeth.is_multiple_of(2) || teeth > most {
                 let allowed = format!("an odd number of teeth, at most {most} (those of the smaller gear)");
                 findings.problem(ProblemKind::NotAllowed, "fem.sector_teeth", teeth.to_string(), allowed);
                 return None;
