@@ -7,15 +7,17 @@ use nalgebra::Vector2;
 /// Greatest ratio of lengths of two points that can come near each other: lengths change slowly with place.
 const FACTOR_LEVELS: i32 = 2;
 
+/// Level, column and row of a square.
+type Square = (i32, i64, i64);
+/// A point and its length.
+type Placed = (Vector2<f64>, f64);
+
 /// The points.
 #[derive(Debug, Default)]
 pub(super) struct Neighbours {
     /// Only ever looked up by key, so that no result depends on the order of the map.
-    squares: HashMap<Square, Vec<(Vector2<f64>, f64)>>,
+    squares: HashMap<Square, Vec<Placed>>,
 }
-
-/// Level of its size, then its place.
-type Square = (i32, i64, i64);
 
 /// Powers of two far beyond any length of a mesh, so that arithmetic with levels cannot overflow.
 const LEVELS: std::ops::RangeInclusive<f64> = -100.0..=100.0;
