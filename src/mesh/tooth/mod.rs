@@ -46,6 +46,8 @@ const COARSE_GROWTH: f64 = 0.4;
 /// Longest element, in modules.
 const GREATEST_MODULES: f64 = 0.5;
 
+/// Shortest element, in modules.
+const LEAST_MODULES: f64 = 2e-4;
 /// A tip rounding smaller than this is left out, in modules: some micrometres.
 const NEGLIGIBLE_ROUNDING_MODULES: f64 = 1e-3;
 

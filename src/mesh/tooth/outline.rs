@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use super::profile::{Piece, Profile};
 use super::spacing::{OutlineNode, Part, Place, Run, Side, limit_growth};
-use super::{FlankResolution, GREATEST_MODULES, GROWTH, SectorSettings, ToothMeshError, ToothShape};
+use super::{FlankResolution, GREATEST_MODULES, GROWTH, LEAST_MODULES, SectorSettings, ToothMeshError, ToothShape};
 use crate::mesh::settings::ROUNDING_HALF_WIDTH;
 
 /// Longest element of a flank that is not resolved, in modules.
@@ -27,8 +27,6 @@ const OVER_THICKNESS: f64 = 0.5;
 const AT_CUT_MODULES: f64 = 0.12;
 /// A root arc shorter than this part of a fillet's element is meshed together with it; so are kinks near other nodes.
 const NEGLIGIBLE: f64 = 0.4;
-/// Shortest element, in modules.
-const LEAST_MODULES: f64 = 2e-4;
 /// Most elements of an outline.
 const MOST_ELEMENTS: f64 = 20_000.0;
 /// Sampling intervals of a run.

@@ -13,7 +13,7 @@
 use nalgebra::{Rotation2, Vector2};
 
 use super::gear_mesh::{GearMesh, ToothNodes, gear_mesh};
-use super::{FlankResolution, SectorSettings, ToothMeshError, ToothSector, ToothShape, sector};
+use super::{FlankResolution, LEAST_MODULES, SectorSettings, ToothMeshError, ToothSector, ToothShape, sector};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::mesh::settings::{
     BodySettings, DEPTH_HALF_WIDTHS, FILLET_ELEMENTS, MARGIN_HALF_WIDTHS, ROUNDING_HALF_WIDTH,
@@ -74,8 +74,11 @@ pub fn gear_sector(
     };
     let met_by_tip_mm = involute.arc_mm(start_rho) + TIP_MEETS_HALF_WIDTHS * on_flank(start_rho);
     let rounding_mm = pair.spec.gears[gear.mate()].modification.tip_rounding_mm;
+    // Elements on a very small rounding would be shorter than any may be.
+    let least_mm = 2.0 * LEAST_MODULES * pair.spec.normal_module_mm * settings.elements_per_half_width;
+    let at_tip_mm = (ROUNDING_HALF_WIDTH * rounding_mm).max(least_mm);
     let by_rho = |rho_mm: f64| match rounding_mm > 0.0 && involute.arc_mm(rho_mm) < met_by_tip_mm {
-        true => on_flank(rho_mm).min(ROUNDING_HALF_WIDTH * rounding_mm),
+        true => on_flank(rho_mm).min(at_tip_mm),
         false => on_flank(rho_mm),
     };
     let flank = FlankResolution {
