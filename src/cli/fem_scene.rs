@@ -115,8 +115,12 @@ fn table(summary: &FemPairSummary) -> String {
         }
     }
     text.push_str(&format!(
-        "\n{} positions, {} degrees of freedom, {:.1} active sets a position, computed in {:.2} s\n",
-        summary.positions, summary.dofs, summary.checks.iterations_per_position, summary.wall_s
+        "\n{} position{}, {} degrees of freedom, {:.1} active sets a position, computed in {:.2} s\n",
+        summary.positions,
+        if summary.positions == 1 { "" } else { "s" },
+        summary.dofs,
+        summary.checks.iterations_per_position,
+        summary.wall_s
     ));
     text
 }

@@ -2,7 +2,7 @@
 //!
 //! K is symmetric; its **lower triangle** is kept, diagonal included, column by column (CSC, rows rising, 32-bit indices).
 //! The pattern comes from the graph of the nodes: node i couples with node j where they share an element (or, for linear
-//! triangles in plane strain, a patch of [`super::nodal_triangle`]), and each coupling is a block of 2 × 2. The columns
+//! triangles in plane strain, a patch of `nodal_triangle`), and each coupling is a block of 2 × 2. The columns
 //! `2j` and `2j + 1` of a node therefore have the same nodes below them, and the place of a block follows from the place of
 //! node i in the list of node j; no triplets are sorted. New values (other nodes, other materials) go into the same pattern.
 //!

@@ -10,9 +10,9 @@
 //! ```
 //!
 //! The stress is the one that the elements work with: of the bilinear quadrilateral with its enhanced strain
-//! ([`super::enhanced_quad`]); in plane strain of the quadratic elements with their projected volume strain
-//! ([`super::projected_volume`]), of linear triangles with the mean volume strain around the node
-//! ([`super::nodal_triangle`]). All of this is linear in the
+//! (`enhanced_quad`); in plane strain of the quadratic elements with their projected volume strain
+//! (`projected_volume`), of linear triangles with the mean volume strain around the node
+//! (`nodal_triangle`). All of this is linear in the
 //! displacements, so that a stress is also a row of coefficients: solving for that row as a load (K λ = row) gives the
 //! stress under every load F as λ · F, without solving for the load.
 //!

@@ -5,7 +5,7 @@
 //! | `.msh` | Gmsh 2.2 and 4.1, ASCII and binary | [`super::gmsh`] |
 //! | `.vtu` | VTK unstructured grid | [`super::vtu`] |
 //! | `.inp` | Abaqus (CalculiX) input | [`super::abaqus`] |
-//! | `.json` | the mesh itself | [`super::json`] |
+//! | `.json` | the mesh itself | `json` |
 //!
 //! What is read passes [`Mesh::check`]. Files come from anywhere: no content makes a reader panic, no count in a file is
 //! believed before it is checked against the bytes that are left, and sets and data, which can be given in a few bytes for a

@@ -5,7 +5,7 @@
 //! order read, names included, so that reading what was written gives the same mesh bit for bit. Sets are ascending and
 //! name nothing twice ([`Mesh::check`]).
 //!
-//! [`read`] and [`write`] take files of the formats that [`mod@file`] lists.
+//! [`read`] and [`write()`] take files of the formats that [`mod@file`] lists.
 
 use std::collections::BTreeMap;
 

@@ -16,7 +16,7 @@
 //! `$Periodic` and all sections unknown; `$PartitionedEntities` is refused.
 //!
 //! Gmsh knows neither node sets, nor integers in data, nor blocks of cells, and ignores sections it does not know. So
-//! `$Gearwear`, one line of JSON ([`keep::Keep`]), holds what is left of a mesh; it is written only where something is.
+//! `$Gearwear`, one line of JSON (`keep::Keep`), holds what is left of a mesh; it is written only where something is.
 //! Names with quotes or control characters cannot be written, nor data of more than nine components, nor integers beyond 2⁵³.
 
 mod cell_types;

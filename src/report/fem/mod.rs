@@ -3,10 +3,10 @@
 //! | file | from |
 //! |---|---|
 //! | `summary.json` | [`crate::fem::record::FemSummary`] |
-//! | `contact.csv` | [`contact_table`] |
-//! | `solution.vtu` | [`solution_mesh`]: displacements and stresses, for ParaView |
+//! | `contact.csv` | `contact_table` |
+//! | `solution.vtu` | `solution_mesh`: displacements and stresses, for ParaView |
 //! | `problem.toml` | the resolved problem |
-//! | `report.html` | [`page`] |
+//! | `report.html` | `page` |
 
 mod contact_table;
 mod field_figures;

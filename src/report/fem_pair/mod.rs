@@ -4,9 +4,9 @@
 //! |---|---|
 //! | `summary.json` | [`crate::simulation::fem_pair_record::FemPairSummary`] |
 //! | `mesh_cycle.csv`, `pressure.csv` | [`tables`] |
-//! | `solution.vtu` | [`solution_mesh`]: displacement and stress of the teeth in contact, for ParaView |
+//! | `solution.vtu` | `solution_mesh`: displacement and stress of the teeth in contact, for ParaView |
 //! | `scene.toml` | the resolved scene |
-//! | `report.html` | [`page`] |
+//! | `report.html` | `page` |
 
 mod cycle_figures;
 mod field_figures;
