@@ -243,7 +243,7 @@ pub struct FemCycleRow {
     pub iterations: usize,
 }
 
-/// Pressure of one tooth pair along the pinion's flank.
+/// Pressure of one tooth pair along the flank that carries the multipliers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PressureCurve {
     /// `A` to `E`; `None` where the position was asked for.

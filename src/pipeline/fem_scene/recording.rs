@@ -22,10 +22,10 @@ use crate::simulation::record::{ContactSummary, PathPoints, RangeSummary};
 const UM_PER_MM: f64 = 1e3;
 /// What the torque ratio says.
 const TORQUE_RATIO: &str = "|T2/T1| is z2/z1 where all force acts along the line of action. Forces act on the flanks as they \
-     are before deformation, along the pinion's normals: with the resultant a distance s beside the theoretical contact \
-     point, its arm at the wheel differs by s T1T2/ρ1. Under load s is some hundredths of a millimetre between A and E, \
-     about a thousandth of the ratio; where a pair touches before A or after E, at a tip edge, it is more, and there the \
-     instantaneous ratio does differ, as the transmission error changes with rotation";
+     are before deformation, along the normals of one of them: under load the resultant lies some hundredths of a millimetre \
+     beside the theoretical contact point, and its arm differs by less than a thousandth; where a pair touches before A or \
+     after E, at a tip edge, it is more, and there the instantaneous ratio does differ, as the transmission error changes \
+     with rotation";
 
 /// What a record is made from, the solution apart.
 pub(super) struct Parts<'a> {

@@ -37,11 +37,11 @@ pub const MESH_CYCLE: [Column; 17] = [
     ("iterations", "active sets tried at this position"),
 ];
 
-/// Columns of `pressure.csv`; one row per node of the pinion's flank around each contact, root to tip.
+/// Columns of `pressure.csv`; one row per node of the flank with the multipliers around each contact, towards the pinion's tip.
 pub const PRESSURE: [Column; 6] = [
     ("position_mm", "of the reference pair"),
     ("pair", "tooth pair: 0 the reference pair, 1 the one a base pitch ahead, -1 the one behind"),
-    ("along_mm", "distance from the resultant of the pressure along the pinion's flank, towards the tip"),
+    ("along_mm", "distance from the resultant of the pressure along the flank, towards the pinion's tip"),
     ("pressure_MPa", "contact pressure"),
     ("hertz_pressure_MPa", "Hertz's pressure of the pair's line load at this distance from its middle"),
     ("point", "A to E, where the position is one of them"),
