@@ -4,11 +4,11 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use gearwear::fem::record::{FemRecord, FemSummary};
 use gearwear::pipeline::fem_problem::{self, FemProblemError};
 use gearwear::report::{self, ReportError};
 use gearwear::scene::Problem;
 use gearwear::scene::fem_problem::FemProblem;
+use gearwear::simulation::fem_problem_record::{FemRecord, FemSummary};
 use gearwear::simulation::record::StageTime;
 
 use super::failure::{Failure, InputError, SceneProblems};

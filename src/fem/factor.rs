@@ -230,11 +230,6 @@ impl Factor {
         self.factorisations
     }
 
-    /// Numbers that L keeps.
-    pub fn stored_values(&self) -> usize {
-        self.values.len()
-    }
-
     /// L as dense blocks of columns.
     pub(super) fn llt(&self) -> SupernodalLltRef<'_, u32, f64> {
         SupernodalLltRef::new(self.supernodes(), &self.values)

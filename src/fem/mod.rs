@@ -13,7 +13,6 @@ mod nodal_triangle;
 pub mod problem;
 mod projected_volume;
 pub mod quadrature;
-pub mod record;
 pub mod rigid_body;
 pub mod shape;
 pub mod solid;

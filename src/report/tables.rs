@@ -7,9 +7,9 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use crate::fem::record::FemSummary;
 use crate::gear::Gear;
 use crate::simulation::fem_pair_record::FemPairSummary;
+use crate::simulation::fem_problem_record::FemSummary;
 use crate::simulation::record::{FlankRecord, HistoryRow, MeshCycleRow, RunRecord, Summary};
 
 /// Name and meaning of a column.

@@ -7,8 +7,8 @@
 
 use serde::Serialize;
 
+use super::fem_problem_record::NodalStress;
 use super::record::{ContactSummary, GeometrySummary, PathPoints, RangeSummary, StageTime, StopReason};
-use crate::fem::record::NodalStress;
 use crate::fem::solid::Element;
 use crate::gear::PerGear;
 use crate::mesh::quality::MeshQuality;

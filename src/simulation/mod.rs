@@ -1,6 +1,7 @@
 //! The wear run, and the plain records that runs leave behind.
 
 pub mod fem_pair_record;
+pub mod fem_problem_record;
 pub mod figures;
 pub mod record;
 pub mod settings;

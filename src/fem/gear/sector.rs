@@ -62,8 +62,6 @@ pub struct CondensedSector {
     pub probe_by_force: Mat<f64>,
     /// Stress of each probe per displacement of the cuts.
     pub probe_by_cut: Mat<f64>,
-    /// Sparse right-hand sides solved for.
-    pub right_hand_sides: usize,
 }
 
 impl Sector {
@@ -138,7 +136,6 @@ impl Sector {
             cut_stiffness: symmetric(&cut_stiffness),
             probe_by_force,
             probe_by_cut,
-            right_hand_sides: cuts + columns.len(),
             sector: self,
         })
     }

@@ -6,11 +6,12 @@ mod recording;
 use std::path::Path;
 use std::time::Instant;
 
-use crate::fem::{self, SolveError, record::FemRecord};
+use crate::fem::{self, SolveError};
 use crate::mesh::{self, Format, MeshFileError};
 use crate::scene::Problem;
 use crate::scene::fem_problem::FemProblem;
 use crate::scene::short_hash;
+use crate::simulation::fem_problem_record::FemRecord;
 use crate::simulation::record::StageTime;
 
 /// Why a problem was not solved.

@@ -5,10 +5,12 @@ use nalgebra::Vector2;
 use super::hertz_comparison::{self, Patch};
 use crate::fem::element::ElementError;
 use crate::fem::problem::{ContactPair, ContactState, Problem, Solution};
-use crate::fem::record::{ContactCurve, ContactRow, ContactSummary, FemRecord, FemSummary, MeshSummary, NodalStress};
 use crate::fem::stress::{self, StressRecovery};
 use crate::mesh::quality;
 use crate::scene::fem_problem::{FemProblem, Posed};
+use crate::simulation::fem_problem_record::{
+    ContactCurve, ContactRow, ContactSummary, FemRecord, FemSummary, MeshSummary, NodalStress,
+};
 
 const UM_PER_MM: f64 = 1e3;
 /// Elements along the half-width from which on pressures are trusted.

@@ -10,11 +10,11 @@ use crate::fem::element::ElementError;
 use crate::fem::gear::model::{MeshedGear, solid};
 use crate::fem::gear::placement::{in_place_mm, tooth_angle_rad};
 use crate::fem::gear::position::{CondensedPair, PositionContact};
-use crate::fem::record::NodalStress;
 use crate::fem::solid::{Element, Solid};
 use crate::fem::stress::StressRecovery;
 use crate::gear::{Gear, PerGear};
 use crate::simulation::fem_pair_record::{ContactPlace, PairSolution};
+use crate::simulation::fem_problem_record::NodalStress;
 
 /// Nodes and elements of both gears' teeth as they gather, with the displacement of each node.
 #[derive(Default)]

@@ -2,8 +2,8 @@
 
 use std::io::{self, Write};
 
-use crate::fem::record::ContactCurve;
 use crate::report::tables::{self, Column, Provenance};
+use crate::simulation::fem_problem_record::ContactCurve;
 
 /// Columns of `contact.csv`; one row per node of a slave surface, in the order of the surface.
 pub const CONTACT: [Column; 10] = [

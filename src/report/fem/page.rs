@@ -3,10 +3,10 @@
 use super::{field_figures, pressure_figure};
 use crate::fem::elastic::Analysis;
 use crate::fem::problem::Stop;
-use crate::fem::record::{ContactSummary, FemRecord, FemSummary};
 use crate::report::html::number::{change, count, figure, significant};
 use crate::report::html::page::{Page, escape, plots, section, sources_list, stages_table};
 use crate::report::html::table::{Row, row, table};
+use crate::simulation::fem_problem_record::{ContactSummary, FemRecord, FemSummary};
 
 /// The data files named in the page, which lie beside it.
 const DATA_FILES: [(&str, &str); 4] = [

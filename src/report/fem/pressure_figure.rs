@@ -3,10 +3,10 @@
 use plotly::Plot;
 use plotly::common::{DashType, Marker, Mode};
 
-use crate::fem::record::{ContactCurve, ContactRow, ContactSummary};
 use crate::reference::hertz_line::LineContact;
 use crate::report::html::number::{change, figure, significant};
 use crate::report::html::theme::{Figure, MUTED, PATH, axis, curve, from_zero, layout, line};
+use crate::simulation::fem_problem_record::{ContactCurve, ContactRow, ContactSummary};
 
 /// Half-widths shown on either side.
 const SHOWN: f64 = 1.8;

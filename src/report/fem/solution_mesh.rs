@@ -2,9 +2,9 @@
 
 use std::io::{self, Write};
 
-use crate::fem::record::FemRecord;
 use crate::mesh::vtu::VtuEncoding;
 use crate::mesh::{DataArray, Format, Mesh, Values, to_bytes};
+use crate::simulation::fem_problem_record::FemRecord;
 
 /// Writes the mesh in the form ParaView reads.
 pub fn write(out: &mut dyn Write, record: &FemRecord) -> io::Result<()> {

@@ -7,10 +7,10 @@
 
 use serde::Serialize;
 
-use super::elastic::Analysis;
-use super::problem::{Problem, Stop, Work};
+use super::record::StageTime;
+use crate::fem::elastic::Analysis;
+use crate::fem::problem::{Problem, Stop, Work};
 use crate::mesh::quality::MeshQuality;
-use crate::simulation::record::StageTime;
 
 /// A solved problem.
 #[derive(Debug, Clone, PartialEq)]
