@@ -14,11 +14,11 @@ use super::model::{MeshedGear, element};
 use super::placement::{axis_mm, in_place_mm};
 use super::position::PositionContact;
 use super::ring::Surroundings;
-use crate::fem::active_set::{ActiveSetError, Condensed};
+use crate::fem::active_set::Condensed;
 use crate::fem::contact::{mortar::Coupling, surface::Surface};
 use crate::fem::elastic::{Analysis, Elastic};
-use crate::fem::element::ElementError;
-use crate::fem::factor::{Factor, FactorError};
+use crate::fem::equilibrium::SolveError;
+use crate::fem::factor::Factor;
 use crate::fem::problem::Edge;
 use crate::fem::solid::Solid;
 use crate::fem::stiffness::Stiffness;
@@ -34,15 +34,9 @@ pub enum FullError {
     /// The sectors do not make a gear.
     #[error(transparent)]
     Mesh(#[from] ToothMeshError),
-    /// An element is no element.
+    /// The whole model has no equilibrium.
     #[error(transparent)]
-    Element(#[from] ElementError),
-    /// The stiffness matrix cannot be factorised.
-    #[error(transparent)]
-    Factor(#[from] FactorError),
-    /// The contact has no equilibrium.
-    #[error(transparent)]
-    Contact(#[from] ActiveSetError),
+    Solve(#[from] SolveError),
 }
 
 /// The whole model's answer.
@@ -134,6 +128,16 @@ pub fn solve(
     condensed: &PositionContact,
 ) -> Result<FullContact, FullError> {
     let whole = Whole::new(pair, meshed, condensed.position_mm)?;
+    Ok(equilibrium(&whole, pair, material, line_load_n_per_mm, condensed)?)
+}
+
+fn equilibrium(
+    whole: &Whole,
+    pair: &GearPair,
+    material: &PerGear<Elastic>,
+    line_load_n_per_mm: f64,
+    condensed: &PositionContact,
+) -> Result<FullContact, SolveError> {
     let materials = [material.pinion, material.wheel];
     let stiffness = Stiffness::new(&whole.solid, &materials, Analysis::PlaneStrain)?;
     let factor = Factor::new(&stiffness, &whole.held)?;
