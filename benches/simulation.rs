@@ -3,6 +3,7 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use gearwear::pipeline;
+use gearwear::pipeline::inputs::Inputs;
 use gearwear::plan::Plan;
 use gearwear::scene::{Resolved, Scene, presets};
 use gearwear::simulation::record::RunRecord;
@@ -23,7 +24,7 @@ fn scene(edits: &[(&str, &str)]) -> Resolved {
 }
 
 fn run(resolved: &Resolved) -> RunRecord {
-    pipeline::run(resolved, &Plan::of(&resolved.scene), &Unwatched).expect("the preset runs").record
+    pipeline::run(resolved, &Plan::of(&resolved.scene), &Inputs::default(), &Unwatched).expect("the preset runs").record
 }
 
 fn wear_run(criterion: &mut Criterion) {

@@ -16,7 +16,7 @@ use gearwear::gear::{
 };
 use gearwear::simulation::wear_run::Outcome;
 use gearwear::wear::{archard::Archard, settings::WearSettings};
-use gearwear::working_cycle::{LoadingPosition, PairInMesh, WorkingCycle};
+use gearwear::working_cycle::{LoadingPosition, LostMaterial, MeshCycle, PairInMesh, WorkingCycle};
 
 /// Two discs rolling and sliding on each other: coordinates are arc lengths, the position is the time.
 struct TwoDiscs {
@@ -102,7 +102,9 @@ fn disc_wear_over_exact(surface: impl Fn(f64, &TwoDiscs) -> Box<dyn ContactSurfa
     let zeros = vec![0.0; grid.len()];
     let mut depth = PerGear { pinion: zeros.clone(), wheel: zeros.clone() };
     let law = Archard::new(&WearSettings { coefficient_mm2_per_n: k, severe: None });
-    cycle.evaluate(PerGear { pinion: &zeros, wheel: &zeros }, &law, &mut depth, &|| false).unwrap();
+    let nothing = PerGear { pinion: zeros.as_slice(), wheel: zeros.as_slice() };
+    let lost = LostMaterial { removed_mm: nothing, wear_mm: nothing };
+    cycle.evaluate(lost, &law, &mut depth, &|| false).unwrap();
     PerGear::from_fn(|gear| {
         let middle = discs.contact_coordinate_mm(gear, 1.2);
         let specific_sliding = 1.0 - discs.speed[gear.mate()] / discs.speed[gear];

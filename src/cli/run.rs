@@ -50,7 +50,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     // The summary's presence says that everything else in the folder is complete and of the same run.
     report::remove_summary(&args.out)?;
     let done = pool.install(|| -> Result<Done, Failure> {
-        let mut done = pipeline::run(resolved, &plan, &progress)?;
+        let mut done = pipeline::run(resolved, &plan, &source.inputs, &progress)?;
         write(&mut done.record, &args.out, &progress)?;
         Ok(done)
     });

@@ -4,6 +4,7 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
 
+use gearwear::pipeline::inputs::Inputs;
 use gearwear::scene::{Resolved, Scene};
 
 use super::failure::{Failure, InputError, SceneProblems};
@@ -24,6 +25,8 @@ pub struct Source {
     pub text: String,
     /// What it says.
     pub resolved: Resolved,
+    /// The files it names.
+    pub inputs: Inputs,
 }
 
 /// Reads the text at `path` (`-`: standard input).
@@ -52,7 +55,7 @@ pub fn resolve(path: &Path) -> Result<Source, Failure> {
 pub fn resolve_text(text: Text) -> Result<Source, Failure> {
     let Text { name, text } = text;
     match Scene::from_toml(&text) {
-        Ok(resolved) => Ok(Source { name, text, resolved }),
+        Ok(resolved) => Ok(Source { name, text, resolved, inputs: Inputs::default() }),
         Err(problems) => Err(Failure::Scene(SceneProblems { name, text, problems })),
     }
 }

@@ -18,6 +18,8 @@
 
 use std::f64::consts::PI;
 
+use serde::{Deserialize, Serialize};
+
 use super::settings::MatchCriterion;
 use crate::reference::flattening::Flattening;
 
@@ -36,6 +38,26 @@ pub fn matched_mpa_per_mm(criterion: MatchCriterion, hertz: &Flattening, line_lo
 /// Half-width of a bed of stiffness `foundation_mpa_per_mm` against a parabolic gap of radius `radius_mm`.
 pub fn half_width_mm(foundation_mpa_per_mm: f64, radius_mm: f64, line_load_n_per_mm: f64) -> f64 {
     (1.5 * line_load_n_per_mm * radius_mm / foundation_mpa_per_mm).cbrt()
+}
+
+/// K/H along the path of contact and against load: at each position a power of the line load,
+///
+/// ```text
+/// K/H (ξ, w) = K(ξ) (w/w_ref)^(−m(ξ))
+/// ```
+///
+/// in straight lines of ln K and m between positions, and constant beyond the ends. Hertz's contact has m = ½.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FoundationCurve {
+    /// Radius of curvature of the pinion at the theoretical contact point, increasing, mm.
+    pub position_mm: Vec<f64>,
+    /// K/H at the reference load, MPa/mm.
+    pub mpa_per_mm: Vec<f64>,
+    /// m at each position, 0 to below 1.
+    pub load_exponent: Vec<f64>,
+    /// w_ref, N/mm.
+    pub reference_line_load_n_per_mm: f64,
 }
 
 #[cfg(test)]

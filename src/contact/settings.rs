@@ -13,10 +13,32 @@ pub enum SurfaceKind {
     Hertz,
     /// Hertz's mean pressure with closed-form sliding distances.
     HertzMean,
+    /// Two elastic half-planes against the worn gap.
+    HalfSpace,
+    /// Both gears as finite elements, condensed onto their flanks, against the worn gap; contact is found from the true
+    /// profiles, also outside the line of action.
+    Fem,
 }
 
-/// What a Winkler bed shares with Hertz at the pitch point under the whole load.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, schemars::JsonSchema)]
+impl SurfaceKind {
+    /// All surfaces, from cheap to true.
+    pub const ALL: [Self; 5] = [Self::HertzMean, Self::Hertz, Self::Winkler, Self::HalfSpace, Self::Fem];
+
+    /// Its name in scenes and results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Winkler => "winkler",
+            Self::Hertz => "hertz",
+            Self::HertzMean => "hertz-mean",
+            Self::HalfSpace => "half-space",
+            Self::Fem => "fem",
+        }
+    }
+}
+
+/// What a Winkler bed shares with Hertz at the pitch point under the whole load, or, calibrated, with the finite-element
+/// contact everywhere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MatchCriterion {
     /// The half-width of the contact strip.
@@ -26,6 +48,20 @@ pub enum MatchCriterion {
     PeakPressure,
     /// The approach of the two bodies.
     Approach,
+}
+
+impl MatchCriterion {
+    /// All criteria.
+    pub const ALL: [Self; 3] = [Self::HalfWidth, Self::PeakPressure, Self::Approach];
+
+    /// Its name in scenes and results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::HalfWidth => "half-width",
+            Self::PeakPressure => "peak-pressure",
+            Self::Approach => "approach",
+        }
+    }
 }
 
 /// Where the stiffness K/H of the elastic foundation comes from.
@@ -38,6 +74,8 @@ pub enum Foundation {
     },
     /// Matched to Hertz at the pitch point.
     Matched(MatchCriterion),
+    /// Matched to the finite-element contact at every position and load, from a calibration.
+    Calibrated(MatchCriterion),
 }
 
 /// The contact settings of a scene.
@@ -47,6 +85,9 @@ pub struct ContactSettings {
     pub surface: SurfaceKind,
     /// K/H; read by `winkler` alone.
     pub foundation: Foundation,
+    /// Whether a tip edge is followed into contact before A and after E by the surfaces that know the real gap
+    /// (`winkler`, `half-space`); `fem` always does.
+    pub tip_contact: bool,
 }
 
 /// Linear elastic, isotropic material of one gear.

@@ -6,6 +6,7 @@ mod drawing;
 mod error_estimates;
 pub mod fem_problem;
 pub mod fem_scene;
+pub mod inputs;
 pub mod pair_mesh;
 mod recording;
 
@@ -24,9 +25,10 @@ use crate::plan::{Plan, StageKind};
 use crate::reference::flattening::Flattening;
 use crate::scene::{Resolved, Scene};
 use crate::simulation::record::{ErrorSummary, RunRecord, StageTime, StopReason};
-use crate::simulation::wear_run::{Outcome, Progress, SimulationError, Unwatched, WearRun};
-use crate::stiffness::{StiffnessError, TeethSpring};
+use crate::simulation::wear_run::{MeshContact, Outcome, Progress, SimulationError, Unwatched, WearRun};
+use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
 use crate::wear::{WearLaw, archard::Archard};
+use inputs::Inputs;
 
 /// Told of progress; says whether to go on.
 pub trait Observer: Progress {
@@ -91,7 +93,7 @@ impl Stages<'_> {
 struct Model<'a> {
     scene: &'a Scene,
     pair: &'a GearPair,
-    surface: &'a dyn ContactSurface,
+    contact: MeshContact<'a>,
     teeth: &'a TeethSpring<'a>,
     law: &'a dyn WearLaw,
     line_load_n_per_mm: f64,
@@ -105,8 +107,7 @@ impl Model<'_> {
     fn wear_run(&self) -> WearRun<'_> {
         WearRun {
             pair: self.pair,
-            surface: self.surface,
-            teeth: self.teeth,
+            contact: self.contact,
             law: self.law,
             line_load_n_per_mm: self.line_load_n_per_mm,
             operation: &self.scene.operation,
@@ -122,7 +123,7 @@ impl Model<'_> {
 ///
 /// # Errors
 /// [`RunError`] where nothing was finished.
-pub fn run(resolved: &Resolved, plan: &Plan, observer: &dyn Observer) -> Result<Done, RunError> {
+pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Observer) -> Result<Done, RunError> {
     let start = Instant::now();
     let scene = &resolved.scene;
     let mut stages = Stages { observer, times: Vec::new() };
@@ -136,17 +137,26 @@ pub fn run(resolved: &Resolved, plan: &Plan, observer: &dyn Observer) -> Result<
         (SurfaceKind::Winkler, Foundation::Matched(criterion)) => {
             Some(stages.run(StageKind::ContactMatch, || matched_mpa_per_mm(criterion, &at_pitch, line_load_n_per_mm)))
         }
-        (SurfaceKind::Hertz | SurfaceKind::HertzMean, _) => None,
+        _ => None,
     };
     let surface = surface(scene, foundation_mpa_per_mm, line_load_n_per_mm);
-    let spring = || TeethSpring::new(scene.stiffness, &pair, &scene.material, surface.as_ref(), line_load_n_per_mm);
+    let curve = match scene.stiffness {
+        StiffnessSettings::Fem => inputs.calibration.as_ref().map(|calibration| &calibration.pair_compliance),
+        _ => inputs.stiffness_curve.as_ref(),
+    };
+    let spring =
+        || TeethSpring::new(scene.stiffness, curve, &pair, &scene.material, surface.as_ref(), line_load_n_per_mm);
     let teeth =
         if plan.has(StageKind::ToothStiffness) { stages.run(StageKind::ToothStiffness, spring) } else { spring() };
     let law = Archard::new(&scene.wear);
     let model = Model {
         scene,
         pair: &pair,
-        surface: surface.as_ref(),
+        contact: MeshContact::LineOfAction {
+            surface: surface.as_ref(),
+            teeth: &teeth,
+            tip_contact: scene.contact.tip_contact,
+        },
         teeth: &teeth,
         law: &law,
         line_load_n_per_mm,
@@ -181,6 +191,7 @@ fn surface(scene: &Scene, foundation_mpa_per_mm: Option<f64>, line_load_n_per_mm
             Box::new(Winkler { foundation_mpa_per_mm, expected_line_load_n_per_mm: line_load_n_per_mm })
         }
         (SurfaceKind::HertzMean, _) => Box::new(HertzMean { material: scene.material }),
+        (SurfaceKind::HalfSpace | SurfaceKind::Fem, _) => todo!(),
         (SurfaceKind::Hertz, _) | (SurfaceKind::Winkler, None) => {
             Box::new(Hertz { material: scene.material, expected_line_load_n_per_mm: line_load_n_per_mm })
         }

@@ -1,7 +1,6 @@
 //! From what a run found, in the program's units, to the record, in those of the output files.
 
 use super::{Model, RunError, drawing, error_estimates};
-use crate::contact::settings::SurfaceKind;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::plan::Plan;
 use crate::scene::Resolved;
@@ -11,7 +10,6 @@ use crate::simulation::record::{
     PathPoints, RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearSummary, WorkSummary,
 };
 use crate::simulation::wear_run::{Outcome, Snapshot};
-use crate::stiffness::settings::StiffnessSettings;
 use crate::working_cycle::CycleObservation;
 
 const UM_PER_MM: f64 = 1e3;
@@ -117,12 +115,7 @@ pub(super) fn geometry(pair: &GearPair) -> GeometrySummary {
 fn contact(model: &Model<'_>) -> ContactSummary {
     let at_pitch = model.at_pitch.contact.loaded(model.line_load_n_per_mm);
     ContactSummary {
-        surface: match model.scene.contact.surface {
-            SurfaceKind::Winkler => "winkler",
-            SurfaceKind::Hertz => "hertz",
-            SurfaceKind::HertzMean => "hertz-mean",
-        }
-        .to_owned(),
+        surface: model.scene.contact.surface.name().to_owned(),
         line_load_N_per_mm: model.line_load_n_per_mm,
         foundation_MPa_per_mm: model.foundation_mpa_per_mm,
         hertz_half_width_mm: at_pitch.half_width_mm,
@@ -133,12 +126,7 @@ fn contact(model: &Model<'_>) -> ContactSummary {
 fn stiffness(model: &Model<'_>) -> Result<StiffnessSummary, RunError> {
     let at = model.pair.path.pitch_point_mm;
     Ok(StiffnessSummary {
-        model: match model.scene.stiffness {
-            StiffnessSettings::Constant { .. } => "constant",
-            StiffnessSettings::WeberBanaschek => "weber-banaschek",
-            StiffnessSettings::Iso6336 => "iso6336",
-        }
-        .to_owned(),
+        model: model.scene.stiffness.name().to_owned(),
         reference_line_load_N_per_mm: model.teeth.reference_line_load_n_per_mm,
         pair_at_pitch_N_per_mm_um: model.teeth.pair_n_per_mm2(at)? / UM_PER_MM,
         teeth_at_pitch_N_per_mm_um: model.teeth.n_per_mm2(at)? / UM_PER_MM,

@@ -4,7 +4,7 @@ pub mod fem_pair;
 
 use serde::{Serialize, Serializer};
 
-use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
+use crate::contact::settings::{Foundation, SurfaceKind};
 use crate::scene::Scene;
 use crate::stiffness::settings::StiffnessSettings;
 
@@ -109,11 +109,7 @@ impl Plan {
 fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
     match kind {
         StageKind::Geometry => Ok("everything that follows from the data of the pair".to_owned()),
-        StageKind::FiniteElementCalibration => {
-            Err("contact and tooth stiffness are given or in closed form, no calibration file is asked for; [fem] is \
-                 not used"
-                .to_owned())
-        }
+        StageKind::FiniteElementCalibration => finite_elements(scene),
         StageKind::ContactMatch => contact_match(scene),
         StageKind::ToothStiffness => match scene.stiffness {
             StiffnessSettings::Constant { pair_n_per_mm2 } => {
@@ -123,6 +119,10 @@ fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
                 Ok("Weber and Banaschek's terms, integrated on the generated profile".to_owned())
             }
             StiffnessSettings::Iso6336 => Ok("the single stiffness c' of ISO 6336-1".to_owned()),
+            StiffnessSettings::Fem => Ok("the curve of the finite-element calibration".to_owned()),
+            StiffnessSettings::Simon | StiffnessSettings::WangCheng => {
+                Ok(format!("the curve of {}", scene.stiffness_curve_file.as_deref().unwrap_or_default()))
+            }
         },
         StageKind::HelicalSlices => Err("a spur pair is alike over its whole face width".to_owned()),
         StageKind::ContactTemperature => Err("the wear law archard asks for no temperature".to_owned()),
@@ -135,21 +135,34 @@ fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
     }
 }
 
+fn finite_elements(scene: &Scene) -> Result<String, String> {
+    match (&scene.calibration_file, scene.contact.surface, scene.stiffness) {
+        (_, SurfaceKind::Fem, _) => Ok("the surface fem: both gears meshed and condensed onto their flanks".to_owned()),
+        (Some(file), ..) => Err(format!("{file} is given")),
+        (None, _, StiffnessSettings::Fem) => {
+            Ok("the tooth stiffness of finite elements, no calibration is given".to_owned())
+        }
+        (None, ..) => {
+            Err("contact and tooth stiffness are given or in closed form, no calibration file is asked for; \
+                           [fem] is not used"
+                .to_owned())
+        }
+    }
+}
+
 fn contact_match(scene: &Scene) -> Result<String, String> {
     match (scene.contact.surface, scene.contact.foundation) {
         (SurfaceKind::Winkler, Foundation::Matched(criterion)) => {
-            let same = match criterion {
-                MatchCriterion::HalfWidth => "half-width",
-                MatchCriterion::PeakPressure => "peak pressure",
-                MatchCriterion::Approach => "approach",
-            };
+            let same = criterion.name();
             Ok(format!("K/H of the foundation such that it has Hertz's {same} at the pitch point under the whole load"))
         }
         (SurfaceKind::Winkler, Foundation::Given { foundation_mpa_per_mm }) => {
             Err(format!("K/H is given: {foundation_mpa_per_mm} MPa/mm"))
         }
-        (SurfaceKind::Hertz, _) => Err("the surface hertz has no foundation K/H".to_owned()),
-        (SurfaceKind::HertzMean, _) => Err("the surface hertz-mean has no foundation K/H".to_owned()),
+        (SurfaceKind::Winkler, Foundation::Calibrated(criterion)) => {
+            Err(format!("K/H for every position and load is in the calibration, matched on {}", criterion.name()))
+        }
+        (surface, _) => Err(format!("the surface {} has no foundation K/H", surface.name())),
     }
 }
 

@@ -250,13 +250,22 @@ pub struct ContactFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub foundation_MPa_per_mm: Option<f64>,
+    /// File of gearwear calibrate, beside the scene: gives winkler its K/H for every position and load, and the tooth
+    /// stiffness of finite elements. It must belong to this pair.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub calibration: Option<String>,
+    /// Whether a tip edge is followed into contact before A and after E; read by winkler and half-space, always so with
+    /// fem. Default: true where a calibration is given, false otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tip_contact: Option<bool>,
 }
 
 /// How far the teeth bend.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessFile {
-    /// Model of the stiffness of a tooth pair. Default: weber-banaschek.
+    /// Model of the stiffness of a tooth pair. Default: weber-banaschek; fem where a calibration is given. Not read with
+    /// contact.surface = "fem".
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<StiffnessModel>,
     /// Combined stiffness of a tooth pair without contact flattening in N/(mm·µm), > 0: force per mm of face width and µm
@@ -264,6 +273,10 @@ pub struct StiffnessFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pair_N_per_mm_um: Option<f64>,
+    /// Data file (CSV) of the stiffness along the path of contact, beside the scene. For model = "simon" and "wang-cheng" only,
+    /// which need it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub curve: Option<String>,
 }
 
 /// Model of the stiffness of a tooth pair along the path of contact.
@@ -277,6 +290,12 @@ pub enum StiffnessModel {
     WeberBanaschek,
     /// The single stiffness c' of ISO 6336-1.
     Iso6336,
+    /// From finite elements: the calibration's, or computed where none is given.
+    Fem,
+    /// The user's data of stiffness.curve, after Simon.
+    Simon,
+    /// The user's data of stiffness.curve, after Wang and Cheng.
+    WangCheng,
 }
 
 /// The gear bodies as finite elements.

@@ -34,8 +34,6 @@ pub const SCENE: &[Later] = &[
     key("mesh", "a gear pair, [pair]; gearwear fem runs a problem with a mesh of its own"),
     key("pair.pinion.lead_crowning_um", CROWNING),
     key("pair.wheel.lead_crowning_um", CROWNING),
-    key("contact.calibration", "contact.match or contact.foundation_MPa_per_mm"),
-    key("stiffness.calibration", MODELS),
     key("numerics.tolerance_um", STEP),
     choice("numerics.step", "adaptive", STEP),
     choice("contact.surface", "half-space", SURFACES),

@@ -39,8 +39,12 @@ pub struct Scene {
     pub operation: Operation,
     /// Contact surface.
     pub contact: ContactSettings,
+    /// Calibration file, as named by the scene.
+    pub calibration_file: Option<String>,
     /// Tooth stiffness.
     pub stiffness: StiffnessSettings,
+    /// Data file of the stiffness, as named by the scene.
+    pub stiffness_curve_file: Option<String>,
     /// Bodies of finite elements, where any are used.
     pub fem: BodySettings,
     /// Wear law.

@@ -18,7 +18,8 @@ use crate::gear::{Gear, GearPair, PerGear, flank::FlankGrid, removed_material::m
 use crate::stiffness::{StiffnessError, TeethSpring};
 use crate::wear::WearLaw;
 use crate::working_cycle::{
-    CycleObservation, Work, WorkingCycle, load_sharing::EquilibriumError, positions::loading_positions,
+    CycleObservation, LostMaterial, MeshCycle, Work, WorkingCycle, load_sharing::EquilibriumError,
+    positions::loading_positions,
 };
 
 /// Why a wear run could not go on.
@@ -42,10 +43,8 @@ pub enum SimulationError {
 pub struct WearRun<'a> {
     /// The gears.
     pub pair: &'a GearPair,
-    /// How their flanks touch.
-    pub surface: &'a dyn ContactSurface,
-    /// How their teeth yield.
-    pub teeth: &'a TeethSpring<'a>,
+    /// How they touch and yield.
+    pub contact: MeshContact<'a>,
     /// How they wear.
     pub law: &'a dyn WearLaw,
     /// Whole load, N per mm of face width.
@@ -54,6 +53,20 @@ pub struct WearRun<'a> {
     pub operation: &'a Operation,
     /// How finely.
     pub numerics: Numerics,
+}
+
+/// The elastic model of the pair in mesh.
+#[derive(Clone, Copy)]
+pub enum MeshContact<'a> {
+    /// Each tooth pair a spring of its teeth in series with its contact surface, on the theoretical line of action.
+    LineOfAction {
+        /// How the flanks touch.
+        surface: &'a dyn ContactSurface,
+        /// How the teeth yield.
+        teeth: &'a TeethSpring<'a>,
+        /// Whether tip edges are followed into contact before A and after E.
+        tip_contact: bool,
+    },
 }
 
 /// State kept at a snapshot.
@@ -130,10 +143,9 @@ impl WearRun<'_> {
     pub fn run(&self, progress: &dyn Progress) -> Result<Outcome, SimulationError> {
         let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));
         let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear]));
-        let positions = loading_positions(&self.pair.path, self.numerics.positions, |at| self.teeth.n_per_mm2(at))?;
         let flanks = Flanks { geometry: self.pair, grid: grid.as_ref() };
         let stopped: &(dyn Fn() -> bool + Sync) = &|| progress.gives_up();
-        let mut cycle = WorkingCycle::new(flanks, self.surface, &positions, self.line_load_n_per_mm);
+        let mut cycle = self.mesh_cycle(flanks)?;
 
         let end = self.operation.pinion_revolutions;
         let meshes_per_turn = PerGear { pinion: 1.0, wheel: self.pair.wheel_turns_per_pinion_turn() };
@@ -147,7 +159,11 @@ impl WearRun<'_> {
 
         let mut failure = None;
         loop {
-            match cycle.evaluate(removed_mm.as_ref().map(Vec::as_slice), self.law, &mut depth_mm, stopped) {
+            let lost = LostMaterial {
+                removed_mm: removed_mm.as_ref().map(Vec::as_slice),
+                wear_mm: wear_mm.as_ref().map(Vec::as_slice),
+            };
+            match cycle.evaluate(lost, self.law, &mut depth_mm, stopped) {
                 Ok(done) => work += done,
                 // Before anything is finished there is nothing to keep.
                 Err(source) if states.is_empty() => return Err(SimulationError::Equilibrium { revolutions, source }),
@@ -164,7 +180,7 @@ impl WearRun<'_> {
                     revolutions,
                     wear_mm: wear_mm.clone(),
                     depth_per_mesh_mm: depth_mm.clone(),
-                    cycle: cycle.observe(removed_mm.as_ref().map(Vec::as_slice)),
+                    cycle: cycle.observe(lost),
                 });
                 while due.next_if(|&next| next <= revolutions).is_some() {}
             }
@@ -201,5 +217,15 @@ impl WearRun<'_> {
         let new = states.remove(0);
         let worn = states.last().unwrap_or(&new).clone();
         Ok(Outcome { stop, failure, grid, modification_mm, new, snapshots: states, worn, wear_steps, work })
+    }
+
+    /// The pair in mesh at every loading position.
+    fn mesh_cycle<'b>(&'b self, flanks: Flanks<'b>) -> Result<Box<dyn MeshCycle + 'b>, SimulationError> {
+        match self.contact {
+            MeshContact::LineOfAction { surface, teeth, tip_contact: _ } => {
+                let positions = loading_positions(&self.pair.path, self.numerics.positions, |at| teeth.n_per_mm2(at))?;
+                Ok(Box::new(WorkingCycle::new(flanks, surface, &positions, self.line_load_n_per_mm)))
+            }
+        }
     }
 }

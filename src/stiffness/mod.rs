@@ -13,16 +13,19 @@
 //! | `constant` | the spring of the teeth itself, without flattening |
 //! | [`weber_banaschek`] | teeth, bodies and flattening of the generated profile, varying along the path |
 //! | [`iso6336`] | the single stiffness c', the same along the path |
+//! | `fem`, `simon`, `wang-cheng` | a [`curve`]: from finite elements, or the user's data |
 //!
 //! Both flattening and the bed's approach are nonlinear in the load; what the split leaves over at other loads than the
 //! reference is reported ([`TeethSpring::split_remainder`]).
 
+pub mod curve;
 pub mod iso6336;
 pub mod settings;
 pub mod weber_banaschek;
 
 use crate::contact::{ContactSurface, hertz, settings::Material};
 use crate::gear::{GearPair, PerGear, conjugate::ConjugateFlanks};
+use curve::{PairCompliance, StandsFor};
 use settings::StiffnessSettings;
 use weber_banaschek::ToothCompliance;
 
@@ -45,13 +48,15 @@ pub enum StiffnessError {
 }
 
 /// What the model states.
-enum Curve {
+enum Curve<'a> {
     /// Spring of the teeth, N/mm².
     Teeth(f64),
     /// Bending, shear and bodies of each gear; flattening in closed form.
     WeberBanaschek(Box<PerGear<ToothCompliance>>),
     /// Compliance of the whole pair, mm²/N.
     WholePair(f64),
+    /// From finite elements or the user.
+    Given(&'a PairCompliance),
 }
 
 /// The spring of the teeth of a pair, in series with its contact surface.
@@ -59,27 +64,33 @@ pub struct TeethSpring<'a> {
     pair: &'a GearPair,
     material: PerGear<Material>,
     surface: &'a dyn ContactSurface,
-    curve: Curve,
+    curve: Curve<'a>,
     /// The load at which spring and surface together have the model's compliance, N/mm.
     pub reference_line_load_n_per_mm: f64,
 }
 
 impl<'a> TeethSpring<'a> {
-    /// Prepares the model for a pair on a surface; the reference load is the whole line load.
+    /// Prepares the model for a pair on a surface; the reference load is the whole line load. `given` is the curve of the
+    /// models that have one.
     pub fn new(
         settings: StiffnessSettings,
+        given: Option<&'a PairCompliance>,
         pair: &'a GearPair,
         material: &PerGear<Material>,
         surface: &'a dyn ContactSurface,
         line_load_n_per_mm: f64,
     ) -> Self {
-        let curve = match settings {
-            StiffnessSettings::Constant { pair_n_per_mm2 } => Curve::Teeth(pair_n_per_mm2),
-            StiffnessSettings::WeberBanaschek => {
+        let curve = match (settings, given) {
+            (StiffnessSettings::Constant { pair_n_per_mm2 }, _) => Curve::Teeth(pair_n_per_mm2),
+            (StiffnessSettings::Fem | StiffnessSettings::Simon | StiffnessSettings::WangCheng, Some(curve)) => {
+                Curve::Given(curve)
+            }
+            (StiffnessSettings::WeberBanaschek, _)
+            | (StiffnessSettings::Fem | StiffnessSettings::Simon | StiffnessSettings::WangCheng, None) => {
                 let tooth = |gear| ToothCompliance::new(&pair.teeth[gear], &material[gear]);
                 Curve::WeberBanaschek(Box::new(PerGear::from_fn(tooth)))
             }
-            StiffnessSettings::Iso6336 => {
+            (StiffnessSettings::Iso6336, _) => {
                 Curve::WholePair(1.0 / iso6336::single_stiffness_n_per_mm2(&pair.spec, material, line_load_n_per_mm))
             }
         };
@@ -116,7 +127,7 @@ impl<'a> TeethSpring<'a> {
     /// How far the surface's share of the approach at `load_fraction` of the reference load is from what the model's own
     /// flattening would be there, relative to the pair's whole approach; `None` where the model states no flattening.
     pub fn split_remainder(&self, position_mm: f64, load_fraction: f64) -> Option<f64> {
-        let Curve::WeberBanaschek(_) = self.curve else { return None };
+        let (Curve::WeberBanaschek(_) | Curve::Given(_)) = self.curve else { return None };
         let w = self.reference_line_load_n_per_mm;
         let flattening = |load| hertz::flattening(self.pair, &self.material, position_mm).approach_mm(load);
         let surface = |load| self.surface.plain_approach_mm(self.pair, position_mm, load);
@@ -133,22 +144,33 @@ impl<'a> TeethSpring<'a> {
         match &self.curve {
             Curve::Teeth(_) => None,
             Curve::WholePair(compliance) => Some(*compliance),
-            Curve::WeberBanaschek(_) => {
+            Curve::WeberBanaschek(_) | Curve::Given(_) => {
                 let w = self.reference_line_load_n_per_mm;
-                let flattening = hertz::flattening(self.pair, &self.material, position_mm).approach_mm(w) / w;
-                Some(self.teeth_mm2_per_n(position_mm) + flattening)
+                Some(self.teeth_mm2_per_n(position_mm) + self.flattening_mm2_per_n(position_mm, w))
             }
         }
     }
 
-    /// Compliance of both teeth and bodies by Weber and Banaschek; 0 for the other models.
+    /// Flattening in closed form over line load.
+    fn flattening_mm2_per_n(&self, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
+        let flattening = hertz::flattening(self.pair, &self.material, position_mm);
+        flattening.approach_mm(line_load_n_per_mm) / line_load_n_per_mm
+    }
+
+    /// Compliance of both teeth and bodies; 0 for the models that do not tell it from flattening.
     fn teeth_mm2_per_n(&self, position_mm: f64) -> f64 {
         match &self.curve {
             Curve::WeberBanaschek(gears) => {
                 let path = &self.pair.path;
                 PerGear::from_fn(|gear| gears[gear].mm2_per_n(path.rho_mm(gear, position_mm))).sum()
             }
-            _ => 0.0,
+            Curve::Given(curve) => match curve.stands_for {
+                StandsFor::Teeth => curve.at(position_mm),
+                StandsFor::WholePair { line_load_n_per_mm } => {
+                    curve.at(position_mm) - self.flattening_mm2_per_n(position_mm, line_load_n_per_mm)
+                }
+            },
+            Curve::Teeth(_) | Curve::WholePair(_) => 0.0,
         }
     }
 

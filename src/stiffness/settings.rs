@@ -12,4 +12,24 @@ pub enum StiffnessSettings {
     WeberBanaschek,
     /// The single stiffness c' of ISO 6336-1.
     Iso6336,
+    /// From finite elements: a calibration's curve.
+    Fem,
+    /// A curve that the user supplies, after Simon.
+    Simon,
+    /// A curve that the user supplies, after Wang and Cheng.
+    WangCheng,
+}
+
+impl StiffnessSettings {
+    /// Its name in scenes and results.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Constant { .. } => "constant",
+            Self::WeberBanaschek => "weber-banaschek",
+            Self::Iso6336 => "iso6336",
+            Self::Fem => "fem",
+            Self::Simon => "simon",
+            Self::WangCheng => "wang-cheng",
+        }
+    }
 }

@@ -107,6 +107,35 @@ pub struct CycleObservation {
     pub sliding_mm: PerGear<Vec<f64>>,
 }
 
+/// What flanks have lost so far, at their points.
+#[derive(Debug, Clone, Copy)]
+pub struct LostMaterial<'a> {
+    /// By modifications and wear together, mm.
+    pub removed_mm: PerGear<&'a [f64]>,
+    /// By wear alone, mm.
+    pub wear_mm: PerGear<&'a [f64]>,
+}
+
+/// A pair in mesh, evaluated over a whole working cycle on ever newly worn flanks.
+pub trait MeshCycle {
+    /// Solves every position on flanks that have lost `lost`, and puts into `depth_mm` what each point wears in one mesh.
+    ///
+    /// `stopped` is asked at every position whether to give up.
+    ///
+    /// # Errors
+    /// [`EquilibriumError`] of the first position without equilibrium.
+    fn evaluate(
+        &mut self,
+        lost: LostMaterial<'_>,
+        law: &dyn WearLaw,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError>;
+
+    /// What the last evaluation found, on the same `lost`.
+    fn observe(&self, lost: LostMaterial<'_>) -> CycleObservation;
+}
+
 impl<'a> WorkingCycle<'a> {
     /// Prepares every pair at every position. The wear of the reference pair, the first of each position, is collected.
     pub fn new(
@@ -128,23 +157,18 @@ impl<'a> WorkingCycle<'a> {
             .collect();
         Self { groups, line_load_n_per_mm }
     }
+}
 
-    /// Solves every position on flanks that have lost `removed_mm`, and puts into `depth_mm` what each point wears in
-    /// one mesh.
-    ///
-    /// `stopped` is asked at every position whether to give up.
-    ///
-    /// # Errors
-    /// [`EquilibriumError`] of the first position without equilibrium.
-    pub fn evaluate(
+impl MeshCycle for WorkingCycle<'_> {
+    fn evaluate(
         &mut self,
-        removed_mm: PerGear<&[f64]>,
+        lost: LostMaterial<'_>,
         law: &dyn WearLaw,
         depth_mm: &mut PerGear<Vec<f64>>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
         let load = self.line_load_n_per_mm;
-        self.groups.par_iter_mut().for_each(|group| group.evaluate(removed_mm, load, law, stopped));
+        self.groups.par_iter_mut().for_each(|group| group.evaluate(lost.removed_mm, load, law, stopped));
         let mut work = Work { mesh_cycles: 1, ..Work::default() };
         for gear in Gear::BOTH {
             depth_mm[gear].fill(0.0);
@@ -161,8 +185,8 @@ impl<'a> WorkingCycle<'a> {
         Ok(work)
     }
 
-    /// What the last evaluation found, on the same `removed_mm`.
-    pub fn observe(&self, removed_mm: PerGear<&[f64]>) -> CycleObservation {
+    fn observe(&self, lost: LostMaterial<'_>) -> CycleObservation {
+        let removed_mm = lost.removed_mm;
         let zeros = || removed_mm.map(|flank| vec![0.0; flank.len()]);
         let mut observation = CycleObservation { positions: Vec::new(), pressure_mpa: zeros(), sliding_mm: zeros() };
         let mut sweep = Sweep::default();

@@ -72,7 +72,7 @@ use gearwear::contact::{
 };
 use gearwear::simulation::{
     settings::{Numerics, Operation},
-    wear_run::{Outcome, Unwatched, WearRun},
+    wear_run::{MeshContact, Outcome, Unwatched, WearRun},
 };
 use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
 use gearwear::wear::{
@@ -144,13 +144,12 @@ impl Scene {
     pub fn run(&self) -> Outcome {
         let pair = pair(&self.pair);
         let (surface, line_load) = (self.surface(), self.line_load());
-        let teeth = TeethSpring::new(self.stiffness, &pair, &steel(), surface.as_ref(), line_load);
+        let teeth = TeethSpring::new(self.stiffness, None, &pair, &steel(), surface.as_ref(), line_load);
         let law =
             Archard::new(&WearSettings { coefficient_mm2_per_n: self.coefficient_mm2_per_n, severe: self.severe });
         WearRun {
             pair: &pair,
-            surface: surface.as_ref(),
-            teeth: &teeth,
+            contact: MeshContact::LineOfAction { surface: surface.as_ref(), teeth: &teeth, tip_contact: false },
             law: &law,
             line_load_n_per_mm: line_load,
             operation: &Operation {

@@ -99,7 +99,9 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let material = settings::material(&mut file.material, findings);
     let operation = operation::choose(&mut file.operation, findings);
     let contact = settings::contact(&mut file.contact, findings);
-    let stiffness = settings::stiffness(&mut file.stiffness, findings);
+    let calibration_file = file.contact.as_ref().and_then(|contact| contact.calibration.clone());
+    let stiffness = settings::stiffness(&mut file.stiffness, calibration_file.is_some(), findings);
+    let stiffness_curve_file = file.stiffness.as_ref().and_then(|stiffness| stiffness.curve.clone());
     let wear = settings::wear(&file.wear, findings);
     let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
     let (pair, operation) = (pair?, operation?);
@@ -114,7 +116,9 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         material: material?,
         operation,
         contact: contact?,
+        calibration_file,
         stiffness: stiffness?,
+        stiffness_curve_file,
         fem: fem?,
         wear: wear?,
         numerics: numerics?,

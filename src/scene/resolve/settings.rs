@@ -76,6 +76,19 @@ pub fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -> Optio
     if findings.said_twice(&[(keys[0], criterion.is_some()), (keys[1], given.is_some())]) {
         return None;
     }
+    let calibrated = file.calibration.is_some();
+    let knows_the_gap = matches!(surface, SurfaceKind::Winkler | SurfaceKind::HalfSpace);
+    if !knows_the_gap && file.tip_contact.is_some() {
+        findings.warnings.push(
+            "contact.tip_contact is not used: only the surfaces \"winkler\" and \"half-space\" read it".to_owned(),
+        );
+    }
+    if surface == SurfaceKind::Fem && calibrated {
+        findings
+            .warnings
+            .push("contact.calibration is not used: the surface \"fem\" is what it was made from".to_owned());
+    }
+    let tip_contact = knows_the_gap && *file.tip_contact.get_or_insert(calibrated);
     if surface != SurfaceKind::Winkler {
         for (key, given) in [(keys[0], criterion.is_some()), (keys[1], given.is_some())] {
             if given {
@@ -85,17 +98,35 @@ pub fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -> Optio
     }
     let foundation = match given {
         Some(foundation_mpa_per_mm) => Foundation::Given { foundation_mpa_per_mm },
-        None if surface == SurfaceKind::Winkler => Foundation::Matched(*file.match_criterion.get_or_insert_default()),
+        None if surface == SurfaceKind::Winkler => {
+            let criterion = *file.match_criterion.get_or_insert_default();
+            if calibrated { Foundation::Calibrated(criterion) } else { Foundation::Matched(criterion) }
+        }
         None => Foundation::Matched(criterion.unwrap_or_default()),
     };
-    Some(ContactSettings { surface, foundation })
+    Some(ContactSettings { surface, foundation, tip_contact })
 }
 
-/// Chooses the tooth stiffness.
-pub fn stiffness(file: &mut Option<StiffnessFile>, findings: &mut Findings) -> Option<StiffnessSettings> {
+/// Chooses the tooth stiffness; `calibrated` says whether a calibration is given.
+pub fn stiffness(
+    file: &mut Option<StiffnessFile>,
+    calibrated: bool,
+    findings: &mut Findings,
+) -> Option<StiffnessSettings> {
     let key = "stiffness.pair_N_per_mm_um";
     let file = file.get_or_insert_default();
-    let model = *file.model.get_or_insert_default();
+    let default = if calibrated { StiffnessModel::Fem } else { StiffnessModel::default() };
+    let model = *file.model.get_or_insert(default);
+    let of_curve = matches!(model, StiffnessModel::Simon | StiffnessModel::WangCheng);
+    if of_curve && file.curve.is_none() {
+        findings.missing(&["stiffness.curve"], "the name of a data file");
+        return None;
+    }
+    if !of_curve && file.curve.is_some() {
+        findings.warnings.push(
+            "stiffness.curve is not used: only stiffness.model = \"simon\" and \"wang-cheng\" read it".to_owned(),
+        );
+    }
     let settings = match model {
         StiffnessModel::Constant => match file.pair_N_per_mm_um {
             Some(value) => StiffnessSettings::Constant { pair_n_per_mm2: 1e3 * value },
@@ -107,6 +138,9 @@ pub fn stiffness(file: &mut Option<StiffnessFile>, findings: &mut Findings) -> O
         },
         StiffnessModel::WeberBanaschek => StiffnessSettings::WeberBanaschek,
         StiffnessModel::Iso6336 => StiffnessSettings::Iso6336,
+        StiffnessModel::Fem => StiffnessSettings::Fem,
+        StiffnessModel::Simon => StiffnessSettings::Simon,
+        StiffnessModel::WangCheng => StiffnessSettings::WangCheng,
     };
     if model != StiffnessModel::Constant && file.pair_N_per_mm_um.is_some() {
         findings.warnings.push(format!("{key} is not used: only stiffness.model = \"constant\" reads it"));
