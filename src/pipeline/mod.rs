@@ -15,6 +15,7 @@ use std::time::Instant;
 use crate::contact::{
     ContactSurface,
     foundation::matched_mpa_per_mm,
+    half_space::HalfSpace,
     hertz::{self, Hertz},
     hertz_mean::HertzMean,
     settings::{Foundation, SurfaceKind},
@@ -191,7 +192,10 @@ fn surface(scene: &Scene, foundation_mpa_per_mm: Option<f64>, line_load_n_per_mm
             Box::new(Winkler { foundation_mpa_per_mm, expected_line_load_n_per_mm: line_load_n_per_mm })
         }
         (SurfaceKind::HertzMean, _) => Box::new(HertzMean { material: scene.material }),
-        (SurfaceKind::HalfSpace | SurfaceKind::Fem, _) => todo!(),
+        (SurfaceKind::HalfSpace, _) => {
+            Box::new(HalfSpace { material: scene.material, expected_line_load_n_per_mm: line_load_n_per_mm })
+        }
+        (SurfaceKind::Fem, _) => todo!(),
         (SurfaceKind::Hertz, _) | (SurfaceKind::Winkler, None) => {
             Box::new(Hertz { material: scene.material, expected_line_load_n_per_mm: line_load_n_per_mm })
         }
