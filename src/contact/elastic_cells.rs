@@ -206,7 +206,7 @@ mod tests {
         worst
     }
 
-    /// Hertz's contact in closed form, of second order in the cells, and within 0.5 % from ten cells in the half-width on.
+    /// Hertz's contact in closed form, of second order in the cells, and within 0.5 % from twelve cells in the half-width on.
     #[test]
     fn ver_hertzs_contact_is_met_with_second_order() {
         // t = 400 mm: at finite depth the surfaces flatten less than half-planes do by parts of (a/t)².
@@ -217,7 +217,7 @@ mod tests {
             assert!(medium < 5e-3 && fine < medium && medium < coarse, "{name}");
             assert!((coarse / fine).log2() / 2.0 > 1.2, "{name}: {coarse:.2e} {medium:.2e} {fine:.2e}");
         }
-        assert!(errors(400.0, 10.0).iter().all(|error| *error < 5e-3));
+        assert!(errors(400.0, 12.0).iter().all(|error| *error < 5e-3));
         // A tooth's depth, 3.9 mm.
         assert!(errors(3.9, 16.0).iter().all(|error| *error < 5e-3));
     }
@@ -230,13 +230,15 @@ mod tests {
         let compliance = cell_compliance_mm_per_mpa(&flattening.bodies, width, 40);
         let depth = flattening.approach_mm(load);
         // A parabola, worn hollow in its middle, with a scratch.
-        let gap: Vec<f64> = (0..40)
+        let worn: Vec<f64> = (0..40)
             .map(|k| {
                 let x = (f64::from(k) - 17.3) * width;
                 let hollow = 2e-3 * (1.0 - (x / 0.15).powi(2)).max(0.0);
                 x * x / 16.8 + hollow + if k == 9 { 5e-3 } else { 0.0 }
             })
             .collect();
+        let touch = worn.iter().copied().fold(f64::INFINITY, f64::min);
+        let gap: Vec<f64> = worn.iter().map(|gap| gap - touch).collect();
         let mut travelled = ElasticCells::new(width, compliance.clone());
         travelled.read(&vec![0.0; 40]);
         travelled.press(depth);

@@ -6,10 +6,15 @@
 //! along the line of action ([`half_plane`](crate::reference::half_plane)), so that the load follows from the approach by
 //! itself, and agrees with the closed-form flattening of plain flanks.
 //!
-//! The pressure is uniform on evenly spaced cells ([`ElasticCells`]); their gap is that of their centre. There are about
-//! [`CELLS_PER_HALF_WIDTH`] of them in the half-width of the whole load: the peak pressure of a parabolic gap is then within 0.1
-//! % of Hertz's and the half-width within 0.5 % at a third of the load. A flank point's pressure is the mean of the field
+//! The pressure is uniform on evenly spaced cells ([`ElasticCells`]). There are at least [`CELLS_PER_HALF_WIDTH`] of them in
+//! the half-width of the plain contact under the whole load: the peak pressure of a parabolic gap is then within 0.1 % of
+//! Hertz's and the half-width within 0.5 % from a half of the load on. A flank point's pressure is the mean of the field
 //! ([`PressureField`]) over the stretch that the point moves while the contact stands for one loading position.
+//!
+//! Cells do not see waves of wear shorter than twice their width for what they are. So that such waves are never driven up,
+//! material removed counts in the gap of a cell with the same weights with which the pressure of the cell counts at flank
+//! points: the tent of straight lines to its neighbours, here ¼, ½, ¼ at the cell's ends and centre. Whatever the wave, what
+//! stands up then never wears less than what lies low.
 //!
 //! Limits: the half-planes go on beyond a tip edge, as if the tooth did not end there. Towards a sharp edge the pressure grows
 //! without bound, and what is given there is the mean of the outermost cell.
@@ -46,6 +51,8 @@ const POINTS_PER_CELL: f64 = 2.0;
 const FIRST_WINDOW: f64 = 1.25;
 /// Cells at an end of the window that is not real which must stay without pressure.
 const FREE_CELLS: usize = 2;
+/// Fewest cells in a window.
+const LEAST_CELLS: usize = 4;
 /// Most cells in a window: those of a window that has grown beyond are wider.
 const MOST_CELLS: f64 = 320.0;
 
@@ -61,7 +68,7 @@ impl ContactSurface for HalfSpace {
             cell_mm: self.cell_width_mm(flanks, position_mm),
             half_window_mm: FIRST_WINDOW * half_width,
         };
-        Box::new(HalfSpacePair { look: site.look(), site, gap: Vec::new(), touch: 0.0 })
+        Box::new(HalfSpacePair { look: site.look(), site, samples: Vec::new(), gap: Vec::new(), touch: 0.0 })
     }
 
     fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
@@ -103,9 +110,10 @@ struct Look {
 impl Site<'_> {
     fn look(&self) -> Look {
         let window = Window::new(self.flanks, self.position_mm, self.half_window_mm);
-        let length = window.upper_mm - window.lower_mm;
-        let strip = Strip::new(self.flanks, self.position_mm, window, self.cell_mm.max(length / MOST_CELLS));
-        let (width, count) = (strip.spacing_mm, strip.geometric_gap_mm.len() - 1);
+        let widest = self.cell_mm.max(window.length_mm() / MOST_CELLS);
+        let count = ((window.length_mm() / widest).ceil() as usize).max(LEAST_CELLS);
+        let strip = Strip::new(self.flanks, self.position_mm, window, 2 * count);
+        let width = 2.0 * strip.spacing_mm;
         let compliance = cell_compliance_mm_per_mpa(&self.flattening.bodies, width, count);
         let observed = self.cell.map(|cell| {
             PerGear::from_fn(|gear| {
@@ -127,7 +135,9 @@ impl Site<'_> {
 struct HalfSpacePair<'a> {
     site: Site<'a>,
     look: Look,
-    /// Real gap at the cells' boundaries, then at their centres less the least of them, mm.
+    /// Real gap at the cells' boundaries and centres, mm.
+    samples: Vec<f64>,
+    /// Real gap of each cell less the least of them, mm.
     gap: Vec<f64>,
     /// The least gap, mm.
     touch: f64,
@@ -135,19 +145,18 @@ struct HalfSpacePair<'a> {
 
 impl PairContact for HalfSpacePair<'_> {
     fn read(&mut self, removed_mm: PerGear<&[f64]>) {
-        self.look.strip.gap_mm(removed_mm, &mut self.gap);
-        // A centre lies below the straight line between the boundaries by Δ²/8R of the geometry.
-        let sag = self.look.strip.spacing_mm.powi(2) / (8.0 * self.site.flattening.contact.relative_radius_mm());
-        let mut touch = f64::INFINITY;
-        for k in 0..self.gap.len() - 1 {
-            self.gap[k] = self.gap[k].midpoint(self.gap[k + 1]) - sag;
-            touch = touch.min(self.gap[k]);
-        }
-        self.gap.pop();
+        let Look { strip, cells, .. } = &mut self.look;
+        strip.gap_mm(removed_mm, &mut self.samples);
+        // What the weights add to the parabola at the centre: Δ²/16R.
+        let rise = strip.spacing_mm.powi(2) / (4.0 * self.site.flattening.contact.relative_radius_mm());
+        let of_cell = |ends: &[f64]| 0.25 * (ends[0] + ends[2]) + 0.5 * ends[1] - rise;
+        self.gap.clear();
+        self.gap.extend(self.samples.windows(3).step_by(2).map(of_cell));
+        let touch = self.gap.iter().copied().fold(f64::INFINITY, f64::min);
         // From the first touch on, nothing is lost where a light load meets a deep relief.
         self.gap.iter_mut().for_each(|gap| *gap -= touch);
         self.touch = touch;
-        self.look.cells.read(&self.gap);
+        cells.read(&self.gap);
     }
 
     fn touch_mm(&self) -> f64 {
@@ -226,7 +235,7 @@ impl HalfSpacePair<'_> {
     /// The points of a flank that may touch: pressure goes half a cell beyond the cells in contact.
     fn touching(&self, gear: Gear, points: &ObservedPoints) -> std::ops::Range<usize> {
         let (lower, upper) = self.look.field.extent_mm();
-        let more = 2.0 * self.look.strip.spacing_mm;
+        let more = 4.0 * self.look.strip.spacing_mm;
         match gear {
             Gear::Pinion => points.between(lower - more, upper + more),
             Gear::Wheel => points.between(-upper - more, more - lower),

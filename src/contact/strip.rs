@@ -60,6 +60,11 @@ impl Window {
         let (from, to) = (centre - half_length_mm, centre + half_length_mm);
         Self { lower_mm: lower.max(from), upper_mm: upper.min(to), ends_are_real: [lower >= from, upper <= to] }
     }
+
+    /// Its length.
+    pub fn length_mm(&self) -> f64 {
+        self.upper_mm - self.lower_mm
+    }
 }
 
 /// Parts of the flank's length by which a limit may miss the theoretical contact point at A or E.
@@ -97,11 +102,9 @@ pub struct Strip {
 }
 
 impl Strip {
-    /// Samples at most `distance_mm` apart, and at least 9 of them.
-    pub fn new(flanks: Flanks<'_>, position_mm: f64, window: Window, distance_mm: f64) -> Self {
-        let length = window.upper_mm - window.lower_mm;
-        let intervals = ((length / distance_mm).ceil() as usize).max(8);
-        let spacing_mm = length / intervals as f64;
+    /// Samples at both ends of `window` and between `intervals` even parts of it.
+    pub fn new(flanks: Flanks<'_>, position_mm: f64, window: Window, intervals: usize) -> Self {
+        let spacing_mm = window.length_mm() / intervals as f64;
         let mut strip = Self {
             window,
             spacing_mm,

@@ -39,6 +39,8 @@ const FIRST_WINDOW: f64 = 1.25;
 /// Distance of the samples in points of the pinion's flank. The load needs less resolution than the wear: its geometric
 /// part is exact to the gap's curvature, and the worn part is smooth over several points.
 const POINTS_PER_SAMPLE: f64 = 2.0;
+/// Fewest intervals between samples.
+const LEAST_INTERVALS: usize = 8;
 
 impl ContactSurface for Winkler {
     fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
@@ -83,7 +85,8 @@ impl Site<'_> {
     fn look(&self) -> (Strip, Option<Observed>) {
         let window = Window::new(self.flanks, self.position_mm, self.half_window_mm);
         let distance_mm = POINTS_PER_SAMPLE * point_distance_mm(self.flanks, self.position_mm);
-        let strip = Strip::new(self.flanks, self.position_mm, window, distance_mm);
+        let intervals = ((window.length_mm() / distance_mm).ceil() as usize).max(LEAST_INTERVALS);
+        let strip = Strip::new(self.flanks, self.position_mm, window, intervals);
         let observed = self.cell.map(|cell| {
             PerGear::from_fn(|gear| {
                 let points = ObservedPoints::new(self.flanks, gear, window, cell);
