@@ -122,10 +122,13 @@ impl Site<'_> {
                 (points, shifts)
             })
         });
+        // A cell that an edge only moves away from during it lies to one side of its position.
+        let two_sided = |cell: PositionCell| cell.lower_mm < cell.position_mm && cell.position_mm < cell.upper_mm;
+        let mirrored = self.cell.is_some_and(two_sided);
         Look {
             strip,
             cells: ElasticCells::new(width, compliance),
-            field: PressureField::new(window.lower_mm, width),
+            field: PressureField::new(window.lower_mm, width, mirrored),
             observed,
         }
     }
