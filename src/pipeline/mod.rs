@@ -14,7 +14,7 @@ use std::time::Instant;
 
 use crate::contact::{
     ContactSurface,
-    foundation::matched_mpa_per_mm,
+    foundation::{Bed, matched_mpa_per_mm},
     half_space::HalfSpace,
     hertz::{self, Hertz},
     hertz_mean::HertzMean,
@@ -133,14 +133,24 @@ pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Obs
     let line_load_n_per_mm =
         scene.operation.pinion_torque_n_mm / pair.path.involute.pinion.base_radius_mm / scene.pair.face_width_mm;
     let at_pitch = hertz::flattening(&pair, &scene.material, pair.path.pitch_point_mm);
-    let foundation_mpa_per_mm = match (scene.contact.surface, scene.contact.foundation) {
-        (SurfaceKind::Winkler, Foundation::Given { foundation_mpa_per_mm }) => Some(foundation_mpa_per_mm),
-        (SurfaceKind::Winkler, Foundation::Matched(criterion)) => {
-            Some(stages.run(StageKind::ContactMatch, || matched_mpa_per_mm(criterion, &at_pitch, line_load_n_per_mm)))
+    let bed = match (scene.contact.surface, scene.contact.foundation, &inputs.calibration) {
+        (SurfaceKind::Winkler, Foundation::Given { foundation_mpa_per_mm }, _) => {
+            Some(Bed::Uniform { mpa_per_mm: foundation_mpa_per_mm })
+        }
+        (SurfaceKind::Winkler, Foundation::Calibrated(criterion), Some(calibration))
+            if calibration.foundation.contains_key(&criterion) =>
+        {
+            Some(Bed::Curve(calibration.foundation[&criterion].clone()))
+        }
+        (SurfaceKind::Winkler, Foundation::Matched(criterion) | Foundation::Calibrated(criterion), _) => {
+            let matched = || matched_mpa_per_mm(criterion, &at_pitch, line_load_n_per_mm);
+            Some(Bed::Uniform { mpa_per_mm: stages.run(StageKind::ContactMatch, matched) })
         }
         _ => None,
     };
-    let surface = surface(scene, foundation_mpa_per_mm, line_load_n_per_mm);
+    let springs_at_pitch = bed.as_ref().map(|bed| bed.at(pair.path.pitch_point_mm));
+    let foundation_mpa_per_mm = springs_at_pitch.map(|springs| springs.mpa_per_mm(line_load_n_per_mm));
+    let surface = surface(scene, bed, line_load_n_per_mm);
     let curve = match scene.stiffness {
         StiffnessSettings::Fem => inputs.calibration.as_ref().map(|calibration| &calibration.pair_compliance),
         _ => inputs.stiffness_curve.as_ref(),
@@ -186,18 +196,15 @@ fn not_estimated_because(outcome: &Outcome) -> &'static str {
     }
 }
 
-fn surface(scene: &Scene, foundation_mpa_per_mm: Option<f64>, line_load_n_per_mm: f64) -> Box<dyn ContactSurface> {
-    match (scene.contact.surface, foundation_mpa_per_mm) {
-        (SurfaceKind::Winkler, Some(foundation_mpa_per_mm)) => {
-            Box::new(Winkler { foundation_mpa_per_mm, expected_line_load_n_per_mm: line_load_n_per_mm })
-        }
-        (SurfaceKind::HertzMean, _) => Box::new(HertzMean { material: scene.material }),
-        (SurfaceKind::HalfSpace, _) => {
-            Box::new(HalfSpace { material: scene.material, expected_line_load_n_per_mm: line_load_n_per_mm })
-        }
+fn surface(scene: &Scene, bed: Option<Bed>, expected_line_load_n_per_mm: f64) -> Box<dyn ContactSurface> {
+    let material = scene.material;
+    match (scene.contact.surface, bed) {
+        (SurfaceKind::Winkler, Some(bed)) => Box::new(Winkler { bed, expected_line_load_n_per_mm }),
+        (SurfaceKind::HalfSpace, _) => Box::new(HalfSpace { material, expected_line_load_n_per_mm }),
+        (SurfaceKind::HertzMean, _) => Box::new(HertzMean { material }),
         (SurfaceKind::Fem, _) => todo!(),
         (SurfaceKind::Hertz, _) | (SurfaceKind::Winkler, None) => {
-            Box::new(Hertz { material: scene.material, expected_line_load_n_per_mm: line_load_n_per_mm })
+            Box::new(Hertz { material, expected_line_load_n_per_mm })
         }
     }
 }
