@@ -5,6 +5,8 @@
 //! pressure lives on the mate, so that normals are those of the smoother surface: normals that turn within the contact
 //! would mix the sliding of the surfaces on each other into the gap.
 
+use std::ops::Range;
+
 use nalgebra::{Rotation2, Vector2};
 use sprs::CsMat;
 
@@ -38,6 +40,8 @@ pub(super) struct Facing {
     /// Places of its teeth among the fine ones.
     pub tooth: PerGear<usize>,
     pub coupling: Coupling,
+    /// Edges of each flank that are looked at.
+    pub edges: PerGear<Range<usize>>,
     /// B for each gear, in its own tooth's frame.
     pub operator: PerGear<CsMat<f64>>,
     /// Expected contact from the slave's tip end, mm.
@@ -108,6 +112,7 @@ impl CondensedPair<'_> {
             slave,
             tooth,
             coupling,
+            edges,
             operator,
             expected_mm: expected[slave],
             pinion_axis_mm: from_slave(axis_mm(self.pair, Gear::Pinion)),
@@ -152,6 +157,15 @@ impl CondensedPair<'_> {
 }
 
 impl Facing {
+    /// The position's row of each local node of the slave, of which there are `nodes`.
+    pub fn rows_of_nodes(&self, nodes: usize) -> Vec<Option<usize>> {
+        let mut rows = vec![None; nodes];
+        for (row, &node) in self.coupling.nodes.iter().enumerate() {
+            rows[node] = Some(self.first_row + row);
+        }
+        rows
+    }
+
     /// Distance of a node of the slave from the expected contact, towards the pinion's tip.
     pub fn towards_pinion_tip_mm(&self, slave: &FlankSurface, node: usize) -> f64 {
         let from_tip_mm = slave.from_tip_mm[node] - self.expected_mm;

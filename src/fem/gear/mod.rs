@@ -5,6 +5,7 @@ mod facing;
 pub mod flank_surface;
 pub mod full;
 pub mod model;
+pub mod observed_flank;
 pub mod placement;
 pub mod position;
 pub mod prepared;

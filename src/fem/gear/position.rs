@@ -16,6 +16,7 @@ use sprs::CsMat;
 
 use super::facing::Facing;
 use super::flank_surface::FlankSurface;
+use super::observed_flank::ObservedFlank;
 use super::prepared::Prepared;
 use super::ring::{GearCompliance, ToothForce};
 use crate::fem::active_set::{ActiveSetError, Equilibrium, Log};
@@ -110,6 +111,20 @@ impl<'a> CondensedPair<'a> {
         prepared.active = start(&prepared.facings, &self.flanks, warm);
         let found = self.solve(&mut prepared, None)?;
         Ok(self.read(&prepared, found))
+    }
+
+    /// Each tooth pair in contact.
+    pub fn tooth_pairs(&self, prepared: &Prepared, found: &Equilibrium) -> Vec<ToothPairContact> {
+        let loaded = prepared.facings.iter().filter_map(|facing| {
+            let force = &found.force[facing.first_row..facing.first_row + facing.coupling.len()];
+            force.iter().any(|f| *f > 0.0).then(|| self.tooth_pair(facing, force).0)
+        });
+        loaded.collect()
+    }
+
+    /// How the points of both flanks at `radius_mm` (increasing) read the pressure of each tooth pair that may touch.
+    pub fn observed_pairs(&self, prepared: &Prepared, radius_mm: PerGear<&[f64]>) -> Vec<PerGear<ObservedFlank>> {
+        prepared.facings.iter().map(|facing| self.observed(prepared.position_mm, facing, radius_mm)).collect()
     }
 
     /// The figures of a solution.

@@ -43,6 +43,8 @@ pub struct Prepared {
     unworn_gap_mm: Vec<f64>,
     /// Where the next solution starts.
     pub(super) active: Option<Vec<bool>>,
+    /// How often it had to be looked wider.
+    looks: usize,
 }
 
 /// Wear depth along the normal at the nodes of each gear's flank, mm.
@@ -70,6 +72,7 @@ impl<'a> CondensedPair<'a> {
             facings,
             condensed,
             active: None,
+            looks: 1,
         }
     }
 
@@ -100,6 +103,7 @@ impl<'a> CondensedPair<'a> {
         let wider = Window { line_load_n_per_mm, half_widths: WIDER * half_widths, reach_mm: WIDER * reach_mm };
         let mut next = self.look(prepared.position_mm, wider);
         next.active = prepared.active.as_ref().map(|active| carried_over(&prepared.facings, active, &next.facings));
+        next.looks = prepared.looks + 1;
         *prepared = next;
     }
 
@@ -131,6 +135,23 @@ impl<'a> CondensedPair<'a> {
 }
 
 impl Prepared {
+    /// How often the flanks around the contact had to be looked at, wider each time.
+    pub fn looks(&self) -> usize {
+        self.looks
+    }
+
+    /// Number of tooth pairs that may touch.
+    pub fn tooth_pairs(&self) -> usize {
+        self.facings.len()
+    }
+
+    /// Pressure at each multiplier's node under their forces, MPa.
+    pub fn nodal_pressure_mpa(&self, force: &[f64], pressure_mpa: &mut Vec<f64>) {
+        pressure_mpa.clear();
+        let weights = self.facings.iter().flat_map(|facing| &facing.coupling.weight_mm);
+        pressure_mpa.extend(force.iter().zip(weights).map(|(force, weight)| force / weight));
+    }
+
     /// The gaps of flanks that have lost `wear`.
     fn open_gaps(&mut self, flanks: &PerGear<FlankSurface>, wear: Option<&NodalWear>) {
         self.condensed.gap_mm.copy_from_slice(&self.unworn_gap_mm);
