@@ -152,13 +152,37 @@ impl<'a> CondensedPair<'a> {
         line_load_n_per_mm: f64,
         warm: &WarmStart,
     ) -> Result<PositionContact, ActiveSetError> {
+        self.among((self.gears.pinion.teeth() / 2) as i32, position_mm, line_load_n_per_mm, warm)
+    }
+
+    /// Solves as [`Self::at`] does, but with the reference pair alone in contact: it carries the whole load.
+    ///
+    /// # Errors
+    /// See [`ActiveSetError`].
+    pub fn at_alone(
+        &self,
+        position_mm: f64,
+        line_load_n_per_mm: f64,
+        warm: &WarmStart,
+    ) -> Result<PositionContact, ActiveSetError> {
+        self.among(0, position_mm, line_load_n_per_mm, warm)
+    }
+
+    /// Solves with the reference pair and `beside` pairs on either side of it.
+    fn among(
+        &self,
+        beside: i32,
+        position_mm: f64,
+        line_load_n_per_mm: f64,
+        warm: &WarmStart,
+    ) -> Result<PositionContact, ActiveSetError> {
         let mut window = Window {
             line_load_n_per_mm,
             half_widths: FIRST_WINDOW,
             reach_mm: FIRST_REACH * line_load_n_per_mm / self.contact_modulus_mpa,
         };
         for _ in 1..MOST_LOOKS {
-            let facings = self.facings(position_mm, &window);
+            let facings = self.facings(beside, position_mm, &window);
             let condensed = self.condensed(&facings, line_load_n_per_mm);
             let start = start(&facings, &self.flanks, warm);
             match condensed.solve(start.as_deref()) {
@@ -173,15 +197,14 @@ impl<'a> CondensedPair<'a> {
                 Err(error) => return Err(error),
             }
         }
-        let facings = self.facings(position_mm, &window);
+        let facings = self.facings(beside, position_mm, &window);
         let found = self.condensed(&facings, line_load_n_per_mm).solve(None)?;
         Ok(self.read(position_mm, line_load_n_per_mm, &facings, found))
     }
 
-    fn facings(&self, position_mm: f64, window: &Window) -> Vec<Facing> {
-        let reach = (self.gears.pinion.teeth() / 2) as i32;
+    fn facings(&self, beside: i32, position_mm: f64, window: &Window) -> Vec<Facing> {
         let mut first_row = 0;
-        (-reach..=reach)
+        (-beside..=beside)
             .filter_map(|pair| {
                 let mut facing = self.facing(position_mm, pair, window)?;
                 facing.first_row = first_row;
