@@ -97,6 +97,32 @@ impl MeshedGear {
     ) -> Result<Self, ModelError> {
         let teeth = pair.teeth[gear].teeth;
         let fine_teeth = (touching_pairs(pair).len() as u32).min(teeth - 1 + teeth % 2);
+        Self::with_fine_teeth(fine_teeth, pair, gear, material, line_load_n_per_mm, settings)
+    }
+
+    /// Meshes a gear of which the tooth in the middle alone is loaded.
+    ///
+    /// # Errors
+    /// [`ModelError::Mesh`]
+    pub fn with_one_fine_tooth(
+        pair: &GearPair,
+        gear: Gear,
+        material: &PerGear<Elastic>,
+        line_load_n_per_mm: f64,
+        settings: &BodySettings,
+    ) -> Result<Self, ModelError> {
+        Self::with_fine_teeth(1, pair, gear, material, line_load_n_per_mm, settings)
+    }
+
+    fn with_fine_teeth(
+        fine_teeth: u32,
+        pair: &GearPair,
+        gear: Gear,
+        material: &PerGear<Elastic>,
+        line_load_n_per_mm: f64,
+        settings: &BodySettings,
+    ) -> Result<Self, ModelError> {
+        let teeth = pair.teeth[gear].teeth;
         let surroundings = match settings.body {
             Body::Ring => Surroundings::Ring { coarse: (teeth - fine_teeth) as usize },
             // A sector of all teeth has no cut left.

@@ -1,0 +1,30 @@
+#![allow(missing_docs)]
+use gearwear::calibration::{bodies::Setup, tooth_stiffness::LoadedPair};
+use gearwear::scene::Scene;
+use gearwear::gear::GearPair;
+use std::time::Instant;
+fn main() {
+    let text = std::fs::read_to_string("src/scene/presets/fzg-c.toml").unwrap();
+    let scene = Scene::from_toml(&text).unwrap().scene;
+    let pair = GearPair::new(&scene.pair).unwrap();
+    let w = scene.operation.pinion_torque_n_mm / pair.path.involute.pinion.base_radius_mm / scene.pair.face_width_mm;
+    let setup = Setup { pair: &pair, material: scene.material, bodies: scene.fem, line_load_n_per_mm: w };
+    let t = Instant::now();
+    let meshed = setup.meshed().unwrap();
+    let cond = setup.condensed(&meshed).unwrap();
+    println!("condensed {:?}", t.elapsed());
+    let loaded = LoadedPair::new(&cond, &scene.material);
+    let rows = loaded.along_the_path(41, w).unwrap();
+    println!("path {:?}", t.elapsed());
+    for r in &rows {
+        println!("{:.3} pair {:.3} WB {:.3} | p whole {:.4} bend {:.4} WB {:.4} flat {:.4} cf {:.4} | w bend {:.4} WB {:.4} flat {:.4} cf {:.4} | {:?} {:?}", r.position_mm, r.pair_n_per_mm_um(), r.weber_banaschek_n_per_mm_um(),
+         206e3*r.pinion.whole_mm2_per_n, 206e3*r.pinion.bending_mm2_per_n, 206e3*r.pinion.weber_banaschek_bending_mm2_per_n, 206e3*r.pinion.flattening_mm2_per_n(), 206e3*r.pinion.closed_form_flattening_mm2_per_n,
+         206e3*r.wheel.bending_mm2_per_n, 206e3*r.wheel.weber_banaschek_bending_mm2_per_n, 206e3*r.wheel.flattening_mm2_per_n(), 206e3*r.wheel.closed_form_flattening_mm2_per_n, r.ahead_mm2_per_n.map(|q| q*206e3), r.behind_mm2_per_n.map(|q|q*206e3));
+    }
+    let c = loaded.deflection(pair.path.pitch_point_mm, w).unwrap();
+    println!("C {:.4}", c.pair_n_per_mm_um());
+    let t = Instant::now();
+    println!("{:#?}", setup.convergence().unwrap()); println!("{:?}", t.elapsed());
+    println!("{:#?}", setup.rim_depths().unwrap()); println!("{:?}", t.elapsed());
+    println!("{:#?}", setup.neighbours().unwrap()); println!("{:?}", t.elapsed());
+}
