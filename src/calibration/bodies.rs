@@ -19,8 +19,8 @@ use crate::mesh::settings::{Body, BodySettings, SectorSides, greatest_clamp_mm};
 
 /// Elements in a half-width that the tables of rim and neighbours are made with; the convergence table shows that it is
 /// enough.
-pub const TABLE_ELEMENTS_PER_HALF_WIDTH: f64 = 6.0;
-const RESOLUTIONS: [f64; 6] = [4.0, 6.0, 8.0, 10.0, 14.0, 20.0];
+pub const TABLE_ELEMENTS_PER_HALF_WIDTH: f64 = 4.0;
+const RESOLUTIONS: [f64; 5] = [4.0, 6.0, 8.0, 10.0, 14.0];
 const RIM_MODULES: [f64; 7] = [0.5, 1.0, 1.5, 2.0, 2.5, 4.0, 5.5];
 const SECTORS: [u32; 3] = [1, 3, 5];
 /// A body must leave something to hold it at.
