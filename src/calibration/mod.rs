@@ -1,7 +1,9 @@
 //! What the finite-element model teaches the fast one: tooth stiffness and K/H along the path of contact.
 
 pub mod bodies;
+pub mod foundation_fit;
 pub mod loaded_tooth;
+pub mod single_contact;
 pub mod tooth_stiffness;
 
 use std::collections::BTreeMap;
