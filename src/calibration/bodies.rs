@@ -107,7 +107,7 @@ impl<'a> Setup<'a> {
 
     /// Compliance of one gear's tooth at the pitch point, flattening included, mm²/N, and the gear's degrees of freedom.
     fn pitch_compliance(&self, gear: Gear, bodies: BodySettings) -> Result<(f64, usize), CalibrationError> {
-                let w = self.line_load_n_per_mm;
+        let w = self.line_load_n_per_mm;
         let meshed = MeshedGear::with_one_fine_tooth(self.pair, gear, &self.elastic(), w, &bodies)?;
         let tooth = &self.pair.teeth[gear];
         let position_mm = self.pair.path.pitch_point_mm;
@@ -127,7 +127,8 @@ impl<'a> Setup<'a> {
 
     /// Stiffness of the pair at the pitch point with `bodies`, N/(mm·µm), and the degrees of freedom of both gears.
     fn pitch_stiffness(&self, bodies: BodySettings) -> Result<(f64, usize), CalibrationError> {
-        let (pinion, wheel) = (self.pitch_compliance(Gear::Pinion, bodies)?, self.pitch_compliance(Gear::Wheel, bodies)?);
+        let (pinion, wheel) =
+            (self.pitch_compliance(Gear::Pinion, bodies)?, self.pitch_compliance(Gear::Wheel, bodies)?);
         Ok((1e-3 / (pinion.0 + wheel.0), pinion.1 + wheel.1))
     }
 
@@ -170,8 +171,7 @@ impl<'a> Setup<'a> {
         let rims: Vec<(f64, PerGear<f64>)> = RIM_MODULES.into_iter().filter_map(held).collect();
         rims.par_iter()
             .map(|&(depth_modules, clamp_radius_mm)| {
-                let (pair_n_per_mm_um, _) =
-                    self.pitch_stiffness(BodySettings { clamp_radius_mm, ..self.coarse() })?;
+                let (pair_n_per_mm_um, _) = self.pitch_stiffness(BodySettings { clamp_radius_mm, ..self.coarse() })?;
                 Ok(RimRow { depth_modules, clamp_radius_mm, pair_n_per_mm_um })
             })
             .collect()

@@ -81,8 +81,13 @@ impl FitRow {
     }
 }
 
-/// Fits the curve of `criterion` to the fitted points.
-pub fn fit(criterion: MatchCriterion, contacts: &[SingleContact], reference_n_per_mm: f64) -> FoundationCurve {
+/// Fits the curve of `criterion` to the fitted points, and continues it to the ends of the path, A and E.
+pub fn fit(
+    criterion: MatchCriterion,
+    contacts: &[SingleContact],
+    reference_n_per_mm: f64,
+    ends_mm: (f64, f64),
+) -> FoundationCurve {
     let mut curve = FoundationCurve {
         position_mm: Vec::new(),
         mpa_per_mm: Vec::new(),
@@ -102,16 +107,43 @@ pub fn fit(criterion: MatchCriterion, contacts: &[SingleContact], reference_n_pe
             curve.load_exponent.push(-slope);
         }
     }
+    continue_to(&mut curve, ends_mm);
     curve
+}
+
+/// Continues the curve to A and E in straight lines of ln K.
+fn continue_to(curve: &mut FoundationCurve, (start_mm, end_mm): (f64, f64)) {
+    let n = curve.position_mm.len();
+    if n < 2 {
+        return;
+    }
+    let ln_k = |at: f64, k: usize, j: usize| {
+        let (from, slope) = (
+            curve.mpa_per_mm[k].ln(),
+            (curve.mpa_per_mm[j] / curve.mpa_per_mm[k]).ln() / (curve.position_mm[j] - curve.position_mm[k]),
+        );
+        (from + slope * (at - curve.position_mm[k])).exp()
+    };
+    let (first, last) = (ln_k(start_mm, 0, 1), ln_k(end_mm, n - 1, n - 2));
+    if start_mm < curve.position_mm[0] {
+        curve.position_mm.insert(0, start_mm);
+        curve.mpa_per_mm.insert(0, first);
+        curve.load_exponent.insert(0, curve.load_exponent[0]);
+    }
+    if end_mm > curve.position_mm[curve.position_mm.len() - 1] {
+        curve.position_mm.push(end_mm);
+        curve.mpa_per_mm.push(last);
+        curve.load_exponent.push(curve.load_exponent[curve.load_exponent.len() - 1]);
+    }
 }
 
 /// Intercept and slope of the line that fits best.
 fn line(points: &[(f64, f64)]) -> (f64, f64) {
     let n = points.len() as f64;
     let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / n, y + point.1 / n));
-    let (xx, xy) = points.iter().fold((0.0, 0.0), |(xx, xy), point| {
-        (xx + (point.0 - x).powi(2), xy + (point.0 - x) * (point.1 - y))
-    });
+    let (xx, xy) = points
+        .iter()
+        .fold((0.0, 0.0), |(xx, xy), point| (xx + (point.0 - x).powi(2), xy + (point.0 - x) * (point.1 - y)));
     let slope = xy / xx;
     (y - slope * x, slope)
 }
@@ -128,9 +160,10 @@ pub fn compare(criterion: MatchCriterion, curve: &FoundationCurve, contacts: &[S
 pub fn all(
     contacts: &[SingleContact],
     reference_n_per_mm: f64,
+    ends_mm: (f64, f64),
 ) -> (BTreeMap<MatchCriterion, FoundationCurve>, BTreeMap<MatchCriterion, FoundationFit>) {
     let curves: BTreeMap<_, _> =
-        MatchCriterion::ALL.into_iter().map(|c| (c, fit(c, contacts, reference_n_per_mm))).collect();
+        MatchCriterion::ALL.into_iter().map(|c| (c, fit(c, contacts, reference_n_per_mm, ends_mm))).collect();
     let fits = curves.iter().map(|(&criterion, curve)| (criterion, compare(criterion, curve, contacts))).collect();
     (curves, fits)
 }

@@ -83,9 +83,10 @@ impl<'a> LoadedTooth<'a> {
         let (rows, weights): (Vec<usize>, Vec<f64>) = point.into_iter().unzip();
         let (columns, forces): (Vec<usize>, Vec<f64>) = force.iter().copied().unzip();
         let entries = self.body.between(p, q).gathered(&rows, &columns);
-        let moved = entries.chunks_exact(rows.len()).zip(forces).map(|(column, f)| {
-            f * column.iter().zip(&weights).map(|(c, weight)| c * weight).sum::<f64>()
-        });
+        let moved = entries
+            .chunks_exact(rows.len())
+            .zip(forces)
+            .map(|(column, f)| f * column.iter().zip(&weights).map(|(c, weight)| c * weight).sum::<f64>());
         Some(moved.sum())
     }
 
@@ -181,7 +182,10 @@ fn stretches(tooth: &Tooth, flank: &FlankSurface) -> Vec<Stretch> {
             let &[tip, root, middle] = edge.nodes() else { return None };
             let nodes = [root, middle, tip];
             // ρ is no number on a tip rounding.
-            nodes.iter().all(|&node| flank.rho_mm[node].is_finite()).then(|| Stretch { arc_mm: nodes.map(arc_mm), nodes })
+            nodes
+                .iter()
+                .all(|&node| flank.rho_mm[node].is_finite())
+                .then(|| Stretch { arc_mm: nodes.map(arc_mm), nodes })
         })
         .collect()
 }

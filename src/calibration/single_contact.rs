@@ -8,6 +8,15 @@
 //! δ = δ_TE − δ_i1 − δ_i2
 //! ```
 //!
+//! The half-width is that of the ellipse with the same second moment of the pressure,
+//!
+//! ```text
+//! a² = 4 (Σ f x² / Σ f − (Σ f x / Σ f)²)
+//! ```
+//!
+//! with the nodal forces f of the contact at places x along the flank: the ends of the strip itself are known to a part of
+//! an element only, the moments of the forces far better, and for Hertz's pressure both are the same.
+//!
 //! Where a tip edge, sharp or rounded, carries pressure, the contact has neither Hertz's curvature nor, if sharp, a finite
 //! peak; such points are kept and marked, and no K/H is made from them.
 
@@ -18,7 +27,9 @@ use super::CalibrationError;
 use super::loaded_tooth::Inside;
 use super::tooth_stiffness::{LoadedPair, evenly};
 use crate::contact::settings::MatchCriterion;
+use crate::fem::gear::flank_surface::FlankSurface;
 use crate::fem::gear::position::{CondensedPair, PositionContact, WarmStart};
+use crate::fem::gear::ring::ToothForce;
 use crate::gear::conjugate::ConjugateFlanks;
 use crate::gear::{Gear, PerGear};
 
@@ -180,13 +191,30 @@ fn at_all_loads(
             (false, true) => Purpose::Fitted,
             (false, false) => Purpose::HeldOut,
         };
-        solved.push(read(loaded, &inside, &found, line_load_n_per_mm, purpose));
+        solved.push(read(condensed, loaded, &inside, &found, line_load_n_per_mm, purpose));
         warm = found.warm;
     }
     Ok(solved)
 }
 
+/// Half-width of the ellipse with the second moment of the forces on a flank.
+fn half_width_mm(flank: &FlankSurface, force: &ToothForce) -> f64 {
+    let (mut sum, mut first, mut second) = (0.0, 0.0, 0.0);
+    let origin_mm = force.first().map_or(0.0, |(column, _)| flank.from_tip_mm[column / 2]);
+    for node in force.chunk_by(|a, b| a.0 / 2 == b.0 / 2) {
+        let place = node[0].0 / 2;
+        let normal = flank.surface.normals[place];
+        let pressing: f64 = -node.iter().map(|&(column, f)| f * normal[column % 2]).sum::<f64>();
+        let x = flank.from_tip_mm[place] - origin_mm;
+        sum += pressing;
+        first += pressing * x;
+        second += pressing * x * x;
+    }
+    2.0 * (second / sum - (first / sum).powi(2)).max(0.0).sqrt()
+}
+
 fn read(
+    condensed: &CondensedPair<'_>,
     loaded: &LoadedPair<'_>,
     inside: &[Inside],
     found: &PositionContact,
@@ -203,18 +231,17 @@ fn read(
         })
         .sum();
     let hertz = loaded.hertz(position_mm);
+    let slave = found.pairs.first().map_or(Gear::Pinion, |pair| pair.slave);
+    let force = &found.forces[slave][loaded.teeth[slave].middle()];
     let strip = hertz.contact.loaded(line_load_n_per_mm);
-    let greatest = |of: fn(&crate::fem::gear::position::ToothPairContact) -> f64| {
-        found.pairs.iter().map(of).fold(0.0, f64::max)
-    };
     SingleContact {
         position_mm,
         line_load_n_per_mm,
         relative_radius_mm: loaded.pair.relative_radius_mm(position_mm),
         purpose,
         fem: Touch {
-            half_width_mm: greatest(|pair| pair.half_width_mm),
-            peak_pressure_mpa: greatest(|pair| pair.peak_pressure_mpa),
+            half_width_mm: half_width_mm(&condensed.flanks[slave], force),
+            peak_pressure_mpa: found.pairs.iter().map(|pair| pair.peak_pressure_mpa).fold(0.0, f64::max),
             approach_mm: found.transmission_error_mm - bent_mm,
         },
         hertz: Touch {

@@ -141,8 +141,20 @@ impl<'a> LoadedPair<'a> {
         for _ in 0..TURNS {
             let (at_low, at_high) = (half_width_mm(low), half_width_mm(high));
             let wheel = |half_width_mm: f64| self.teeth.wheel.limits_mm(half_width_mm);
-            low = self.teeth.pinion.limits_mm(at_low)?.0.max(path.line_of_action_mm - wheel(at_low)?.1).max(path.start_mm);
-            high = self.teeth.pinion.limits_mm(at_high)?.1.min(path.line_of_action_mm - wheel(at_high)?.0).min(path.end_mm);
+            low = self
+                .teeth
+                .pinion
+                .limits_mm(at_low)?
+                .0
+                .max(path.line_of_action_mm - wheel(at_low)?.1)
+                .max(path.start_mm);
+            high = self
+                .teeth
+                .pinion
+                .limits_mm(at_high)?
+                .1
+                .min(path.line_of_action_mm - wheel(at_high)?.0)
+                .min(path.end_mm);
         }
         (low < high).then_some((low, high))
     }
