@@ -19,6 +19,7 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::CalibrationError;
 use super::loaded_tooth::LoadedTooth;
 use crate::contact::{hertz, settings::Material};
 use crate::fem::gear::position::CondensedPair;
@@ -211,10 +212,19 @@ impl<'a> LoadedPair<'a> {
     }
 
     /// The deflection at `count` positions (at least two) evenly over the stretch that is clear of the edges.
-    pub fn along_the_path(&self, count: usize, line_load_n_per_mm: f64) -> Option<Vec<PairDeflection>> {
-        let (low, high) = self.clear_of_the_edges_mm(line_load_n_per_mm, CLEAR)?;
+    ///
+    /// # Errors
+    /// [`CalibrationError::NoClearPosition`]
+    pub fn along_the_path(
+        &self,
+        count: usize,
+        line_load_n_per_mm: f64,
+    ) -> Result<Vec<PairDeflection>, CalibrationError> {
+        let none = CalibrationError::NoClearPosition { line_load_n_per_mm };
+        let Some((low, high)) = self.clear_of_the_edges_mm(line_load_n_per_mm, CLEAR) else { return Err(none) };
         let positions: Vec<f64> = evenly(low, high, count.max(2));
-        positions.par_iter().map(|&position_mm| self.deflection(position_mm, line_load_n_per_mm)).collect()
+        let read = |&position_mm: &f64| self.deflection(position_mm, line_load_n_per_mm).ok_or_else(|| none.clone());
+        positions.par_iter().map(read).collect()
     }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! This is the one way in which the program runs anything; the only clock it reads times the stages.
 
+pub mod calibrate;
 mod drawing;
 mod error_estimates;
 pub mod fem_problem;
