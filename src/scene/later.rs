@@ -23,7 +23,7 @@ const fn choice(key: &'static str, value: &'static str, instead: &'static str) -
 pub const SPUR_ONLY: &str = "spur gears, helix_angle_deg = 0";
 
 const SURFACES: &str = r#"contact.surface = "winkler", "hertz", "hertz-mean" or "fem""#;
-const MODELS: &str = r#"stiffness.model = "constant", "weber-banaschek" or "iso6336""#;
+const MODELS: &str = r#"stiffness.model = "constant", "fem", "weber-banaschek" or "iso6336""#;
 const LAW: &str = r#"wear.law = "archard""#;
 const STEP: &str = "a fixed step, numerics.step = { revolutions = … }";
 const CROWNING: &str = "profile_crowning_um, tip_relief, root_relief, tip_rounding_mm";
@@ -37,7 +37,6 @@ pub const SCENE: &[Later] = &[
     key("numerics.tolerance_um", STEP),
     choice("numerics.step", "adaptive", STEP),
     choice("contact.surface", "half-space", SURFACES),
-    choice("stiffness.model", "fem", MODELS),
     choice("stiffness.model", "simon", MODELS),
     choice("stiffness.model", "wang-cheng", MODELS),
     choice("wear.law", "adsorption", LAW),
