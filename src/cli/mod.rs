@@ -1,5 +1,7 @@
 //! The commands, one file each, and what they share: reading scenes, saying what is wrong, exit statuses.
 
+mod calibrate;
+mod calibration_source;
 mod completions;
 mod failure;
 mod fem;
@@ -44,6 +46,8 @@ enum Command {
     Run(run::Args),
     /// Solve elastic contact with finite elements: of a gear pair, or on a mesh of one's own
     Fem(fem::Args),
+    /// Calibrate the fast model: tooth stiffness and K/H from finite elements, against Hertz
+    Calibrate(calibrate::Args),
     /// Print the JSON schema of the scene: every key with its meaning, unit, range and default
     Schema(schema::Args),
     /// Print completions for a shell
@@ -65,6 +69,7 @@ pub fn main() -> ExitCode {
         Command::Mesh(args) => mesh::run(args),
         Command::Run(args) => run::run(args),
         Command::Fem(args) => fem::run(args),
+        Command::Calibrate(args) => calibrate::run(args),
         Command::Schema(args) => schema::run(args),
         Command::Completions(args) => completions::run(args),
     };

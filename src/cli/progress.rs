@@ -6,8 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
-use gearwear::pipeline::{Observer, fem_scene};
+use gearwear::pipeline::{Observer, calibrate, fem_scene};
 use gearwear::plan::StageKind;
+use gearwear::plan::calibration::CalibrationStage;
 use gearwear::plan::fem_pair::FemPairStage;
 use gearwear::simulation::wear_run;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -64,6 +65,12 @@ impl Observer for Progress {
 
 impl fem_scene::Observer for Progress {
     fn stage(&self, stage: FemPairStage) {
+        self.begin(stage.name());
+    }
+}
+
+impl calibrate::Observer for Progress {
+    fn stage(&self, stage: CalibrationStage) {
         self.begin(stage.name());
     }
 }

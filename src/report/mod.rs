@@ -10,6 +10,7 @@
 //! Each file is written under a temporary name in the same folder and then renamed: a reader sees the whole file or
 //! the one before it. `summary.json` comes last, so that its presence says the others are complete.
 
+pub mod calibration;
 pub mod fem;
 pub mod fem_pair;
 pub mod html;
