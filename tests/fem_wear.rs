@@ -144,8 +144,8 @@ fn val_wear_opens_the_gap_as_a_relief_does() {
         assert!((worn.transmission_error_mm - meshed.transmission_error_mm).abs() < 0.12e-3, "{what}");
         // The same 0.12 µm times the stiffness of a pair, 15 N/(mm·µm), over 638 N/mm.
         assert!((worn.load_share - meshed.load_share).abs() < 3e-3, "{what}: {worn:?} {meshed:?}");
-        if meshed.load_share > 0.25 {
-            assert_close(&what, worn.footprint.half_width_mm, meshed.footprint.half_width_mm, 0.02);
+        if meshed.load_share > 0.99 {
+            assert_close(&what, worn.footprint.half_width_mm, meshed.footprint.half_width_mm, 5e-3);
         }
     }
 }

@@ -143,7 +143,7 @@ fn mesh(shape: &ToothShape<'_>, fine: bool) -> Result<ToothSector, tooth_mesh::T
     let flank = FlankResolution {
         half_width_mm: &length_mm,
         elements_per_half_width: ELEMENTS_IN_LENGTH,
-        margin_half_widths: MARGIN,
+        margin_mm: MARGIN * LENGTH_MODULES * shape.normal_module_mm,
         depth_half_widths: DEPTH,
     };
     let settings = SectorSettings {
