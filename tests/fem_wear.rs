@@ -148,8 +148,9 @@ fn val_wear_opens_the_gap_as_a_relief_does() {
         let what = format!("at {:.3}", worn.position_mm);
         assert_close(&what, worn.transmission_error_mm, meshed.transmission_error_mm, 1e-3);
         assert!((worn.load_share - meshed.load_share).abs() < 1e-3, "{what}: {worn:?} {meshed:?}");
+        // The ends of a contact are found between nodes a/12 apart.
         if meshed.load_share > 0.99 {
-            assert_close(&what, worn.footprint.half_width_mm, meshed.footprint.half_width_mm, 5e-3);
+            assert_close(&what, worn.footprint.half_width_mm, meshed.footprint.half_width_mm, 1e-2);
         }
     }
 }
