@@ -72,6 +72,15 @@ impl ContactSurface for Winkler {
         let a = self.bed.at(position_mm).half_width_mm(radius, line_load_n_per_mm);
         a * a / (2.0 * radius)
     }
+
+    fn stiffness_of_short_waves_mpa_per_mm(
+        &self,
+        _flanks: Flanks<'_>,
+        position_mm: f64,
+        line_load_n_per_mm: f64,
+    ) -> Option<f64> {
+        Some(self.bed.at(position_mm).mpa_per_mm(line_load_n_per_mm))
+    }
 }
 
 /// The points of each flank that may touch, with the gap they face.
