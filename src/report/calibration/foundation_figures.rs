@@ -55,18 +55,13 @@ fn against_curvature(calibration: &Calibration, criterion: MatchCriterion) -> Fi
         let colour = format!("mix(--pinion,--wheel,{:.3})", k as f64 / count as f64);
         let own = || away.iter().filter(|contact| is_load(contact, load));
         let group = format!("{} N/mm", figure(load));
-        let mut hertz: Vec<(f64, f64)> = own().map(|c| (c.relative_radius_mm, c.hertz_mpa_per_mm(criterion))).collect();
-        if criterion == MatchCriterion::Approach {
-            // The depth of the closed form is another on either side: a line along the path, not along R.
-            hertz = own().map(|c| (c.relative_radius_mm, c.hertz_mpa_per_mm(criterion))).collect();
-        } else {
-            hertz.sort_by(|a, b| a.0.total_cmp(&b.0));
-        }
+        // Along the path: the depth of the closed form is another towards A than towards E.
+        let hertz = || own().map(|c| (c.relative_radius_mm, c.hertz_mpa_per_mm(criterion)));
         plot.add_trace(
             curve(
                 &format!("Hertz, {group}"),
-                hertz.iter().map(|point| point.0),
-                hertz.iter().map(|point| point.1),
+                hertz().map(|point| point.0),
+                hertz().map(|point| point.1),
                 line(colour.clone(), 1.4, DashType::Dash),
             )
             .legend_group(&group)

@@ -145,8 +145,8 @@ fn flattening(calibration: &Calibration) -> Figure {
         id: "flattening".into(),
         title: "Flattening: the tooth against the half-plane".into(),
         reading: format!(
-            "From the flank to the centre line a tooth yields {} to {} more than the half-plane of the closed form, both gears \
-             together: half of what a half-plane would lean on is not there.",
+            "From the flank to the centre line the teeth yield {} to {} more than half-planes would, both together: a tooth ends \
+             on its far side, where a half-plane goes on.",
             percent(least),
             percent(most)
         ),

@@ -5,7 +5,7 @@ use crate::calibration::foundation_fit::FitErrors;
 use crate::calibration::tooth_stiffness::{PairDeflection, ToothDeflection};
 use crate::contact::settings::MatchCriterion;
 use crate::gear::Gear;
-use crate::report::html::number::{change, count, figure, percent, significant};
+use crate::report::html::number::{change, count, figure, fixed, percent, significant};
 use crate::report::html::table::{Row, row, table};
 
 /// All of them, in the order of the page.
@@ -70,19 +70,14 @@ fn fits(calibration: &Calibration) -> String {
     for criterion in MatchCriterion::ALL {
         let Some(fit) = calibration.foundation_fit.get(&criterion) else { continue };
         let cells = |e: &FitErrors| {
-            [
-                percent(e.worst_matched),
-                percent(e.rms_matched),
-                percent(e.mean_half_width),
-                percent(e.mean_peak_pressure),
-                percent(e.mean_approach),
-            ]
+            [e.worst_matched, e.mean_half_width, e.mean_peak_pressure, e.mean_approach]
+                .map(|share| fixed(100.0 * share, 2))
         };
-        rows.push(row(format!("{}, fitted", criterion.name()), "", cells(&fit.fitted)));
-        rows.push(row(format!("{}, held out", criterion.name()), "", cells(&fit.held_out)));
+        rows.push(row(format!("{}, fitted", criterion.name()), "%", cells(&fit.fitted)));
+        rows.push(row(format!("{}, held out", criterion.name()), "%", cells(&fit.held_out)));
     }
-    let columns = ["worst", "r.m.s.", "mean, half-width", "mean, peak pressure", "mean, approach"];
-    table("A Winkler bed with the fitted K/H against finite elements", &columns, &rows)
+    let columns = ["greatest", "half-width", "pressure", "approach"];
+    table("Winkler’s bed against finite elements: greatest error of what is matched, mean errors", &columns, &rows)
 }
 
 fn convergence(calibration: &Calibration) -> String {
@@ -91,7 +86,7 @@ fn convergence(calibration: &Calibration) -> String {
         .convergence
         .iter()
         .map(|at| {
-            let off = percent(at.pair_n_per_mm_um / finest - 1.0);
+            let off = fixed(100.0 * (at.pair_n_per_mm_um / finest - 1.0), 3);
             row(
                 significant(at.elements_per_half_width, 3),
                 "",
@@ -99,7 +94,7 @@ fn convergence(calibration: &Calibration) -> String {
             )
         })
         .collect();
-    table("Elements in a half-width", &["unknowns", "stiffness at C, N/(mm·µm)", "off the finest"], &rows)
+    table("Elements in a half-width", &["unknowns", "stiffness at C, N/(mm·µm)", "off the finest, %"], &rows)
 }
 
 fn rims(calibration: &Calibration) -> String {
@@ -114,8 +109,8 @@ fn rims(calibration: &Calibration) -> String {
             )
         })
         .collect();
-    let columns = ["pinion held at, mm", "wheel, mm", "stiffness at C, N/(mm·µm)"];
-    table("Depth of the body", &columns, &rows)
+    let columns = ["pinion held at, mm", "wheel, mm", "at C, N/(mm·µm)"];
+    table("Depth of the body below the root circle", &columns, &rows)
 }
 
 fn neighbours(calibration: &Calibration) -> String {
@@ -136,6 +131,6 @@ fn courses(calibration: &Calibration) -> String {
             )
         })
         .collect();
-    let columns = ["mean, N/(mm·µm)", "greatest over least", "greatest at, from A to E"];
-    table("Course over the path", &columns, &rows)
+    let columns = ["mean, N/(mm·µm)", "greatest/least", "greatest at"];
+    table("Stiffness over the path, from A (0 %) to E (100 %)", &columns, &rows)
 }
