@@ -17,6 +17,7 @@ use crate::calibration::{self, CalibrationError};
 use crate::contact::{
     ContactSurface,
     foundation::matched_mpa_per_mm,
+    half_space::HalfSpace,
     hertz::{self, Hertz},
     hertz_mean::HertzMean,
     settings::{Foundation, Material, SurfaceKind},
@@ -70,6 +71,14 @@ impl RunError {
     pub fn stiffness(&self) -> Option<&StiffnessError> {
         match self {
             RunError::Stiffness(error) | RunError::Simulation(SimulationError::Stiffness(error)) => Some(error),
+            _ => None,
+        }
+    }
+
+    /// The finite-element model that could not be made, if that is what is wrong.
+    pub fn model(&self) -> Option<&ModelError> {
+        match self {
+            RunError::FiniteElements(error) | RunError::Calibration(CalibrationError::Model(error)) => Some(error),
             _ => None,
         }
     }
@@ -235,7 +244,9 @@ fn surface(
             Some(Box::new(Winkler { foundation_mpa_per_mm, expected_line_load_n_per_mm: line_load_n_per_mm }))
         }
         (SurfaceKind::HertzMean, _) => Some(Box::new(HertzMean { material: scene.material })),
-        (SurfaceKind::HalfSpace, _) => todo!(),
+        (SurfaceKind::HalfSpace, _) => {
+            Some(Box::new(HalfSpace { material: scene.material, expected_line_load_n_per_mm: line_load_n_per_mm }))
+        }
         (SurfaceKind::Hertz, _) | (SurfaceKind::Winkler, None) => {
             Some(Box::new(Hertz { material: scene.material, expected_line_load_n_per_mm: line_load_n_per_mm }))
         }
