@@ -319,11 +319,14 @@ fn differences_are_told_by_the_keys_of_the_scene() {
     let mut other = fzg_c();
     other.gears.wheel.profile_shift = 0.17;
     other.gears.pinion.modification.tip_rounding_mm = 0.1;
-    assert_eq!(own.differences(&identity(&other, 19.0), true), [
-        "pair.pinion.tip_rounding_mm: calibration 0, scene 0.1",
-        "pair.wheel.profile_shift: calibration 0.1715, scene 0.17",
-        "fem.clamp_radius_mm.pinion: calibration 20, scene 19",
-    ]);
+    assert_eq!(
+        own.differences(&identity(&other, 19.0), true),
+        [
+            "pair.pinion.tip_rounding_mm: calibration 0, scene 0.1",
+            "pair.wheel.profile_shift: calibration 0.1715, scene 0.17",
+            "fem.clamp_radius_mm.pinion: calibration 20, scene 19",
+        ]
+    );
     assert_eq!(own.differences(&identity(&other, 19.0), false).len(), 2);
     assert!(own.differences(&identity(&fzg_a(), 20.0), false).len() >= 4);
 }

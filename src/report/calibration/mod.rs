@@ -4,6 +4,7 @@ mod foundation_figures;
 mod page;
 mod stiffness_figures;
 mod tables;
+mod wear_figure;
 
 use std::path::{Path, PathBuf};
 

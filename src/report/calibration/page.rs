@@ -1,6 +1,6 @@
 //! The page beside a calibration file.
 
-use super::{foundation_figures, stiffness_figures, tables};
+use super::{foundation_figures, stiffness_figures, tables, wear_figure};
 use crate::calibration::Calibration;
 use crate::contact::settings::MatchCriterion;
 use crate::report::html::number::{figure, percent};
@@ -15,6 +15,7 @@ const LEGEND: &str = "<p class=\"legend-note\">A to E are the points of the path
 pub fn page(calibration: &Calibration, stages: &[StageTime], title: &str, file: &str) -> String {
     let mut figures = stiffness_figures::all(calibration);
     figures.extend(foundation_figures::all(calibration));
+    figures.extend(wear_figure::all(calibration));
     let wall_s = stages.iter().map(|stage| stage.wall_s).sum();
     let belongs_to = serde_json::to_string_pretty(&calibration.belongs_to).unwrap_or_default();
     let sections = [
