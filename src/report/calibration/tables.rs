@@ -103,7 +103,7 @@ fn rims(calibration: &Calibration) -> String {
         .iter()
         .map(|at| {
             row(
-                format!("{} modules below the root", significant(at.depth_modules, 2)),
+                format!("{} modules", significant(at.depth_modules, 2)),
                 "",
                 [figure(at.clamp_radius_mm.pinion), figure(at.clamp_radius_mm.wheel), figure(at.pair_n_per_mm_um)],
             )
