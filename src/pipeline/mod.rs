@@ -17,10 +17,13 @@ use crate::contact::{
     foundation::matched_mpa_per_mm,
     hertz::{self, Hertz},
     hertz_mean::HertzMean,
-    settings::{Foundation, SurfaceKind},
+    settings::{Foundation, Material, SurfaceKind},
     winkler::Winkler,
 };
-use crate::gear::{GearPair, PairError};
+use crate::fem::elastic::Elastic;
+use crate::fem::gear::model::ModelError;
+use crate::fem::gear::position::CondensedPair;
+use crate::gear::{GearPair, PairError, PerGear};
 use crate::plan::{Plan, StageKind};
 use crate::reference::flattening::Flattening;
 use crate::scene::{Resolved, Scene};
@@ -49,6 +52,9 @@ pub enum RunError {
     /// Stiffness model and contact surface do not go together.
     #[error(transparent)]
     Stiffness(#[from] StiffnessError),
+    /// The finite-element model cannot be made.
+    #[error(transparent)]
+    FiniteElements(#[from] ModelError),
     /// The solver failed.
     #[error(transparent)]
     Simulation(#[from] SimulationError),
@@ -94,7 +100,8 @@ struct Model<'a> {
     scene: &'a Scene,
     pair: &'a GearPair,
     contact: MeshContact<'a>,
-    teeth: &'a TeethSpring<'a>,
+    /// Springs of the teeth; none with finite elements.
+    teeth: Option<&'a TeethSpring<'a>>,
     law: &'a dyn WearLaw,
     line_load_n_per_mm: f64,
     /// Hertz at the pitch point.
@@ -139,25 +146,39 @@ pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Obs
         }
         _ => None,
     };
+    let finite_elements = match scene.contact.surface {
+        SurfaceKind::Fem => Some(stages.run(StageKind::FiniteElementModel, || {
+            CondensedPair::build(&pair, &elastic(&scene.material), line_load_n_per_mm, &scene.fem)
+        })?),
+        _ => None,
+    };
     let surface = surface(scene, foundation_mpa_per_mm, line_load_n_per_mm);
     let curve = match scene.stiffness {
         StiffnessSettings::Fem => inputs.calibration.as_ref().map(|calibration| &calibration.pair_compliance),
         _ => inputs.stiffness_curve.as_ref(),
     };
     let spring =
-        || TeethSpring::new(scene.stiffness, curve, &pair, &scene.material, surface.as_ref(), line_load_n_per_mm);
-    let teeth =
-        if plan.has(StageKind::ToothStiffness) { stages.run(StageKind::ToothStiffness, spring) } else { spring() };
+        |surface| TeethSpring::new(scene.stiffness, curve, &pair, &scene.material, surface, line_load_n_per_mm);
+    let teeth = surface.as_deref().map(|surface| {
+        if plan.has(StageKind::ToothStiffness) {
+            stages.run(StageKind::ToothStiffness, || spring(surface))
+        } else {
+            spring(surface)
+        }
+    });
     let law = Archard::new(&scene.wear);
+    let contact = match (&finite_elements, surface.as_deref(), &teeth) {
+        (Some(model), ..) => MeshContact::FiniteElements(model),
+        (None, Some(surface), Some(teeth)) => {
+            MeshContact::LineOfAction { surface, teeth, tip_contact: scene.contact.tip_contact }
+        }
+        (None, ..) => unreachable!("every surface but fem has springs"),
+    };
     let model = Model {
         scene,
         pair: &pair,
-        contact: MeshContact::LineOfAction {
-            surface: surface.as_ref(),
-            teeth: &teeth,
-            tip_contact: scene.contact.tip_contact,
-        },
-        teeth: &teeth,
+        contact,
+        teeth: teeth.as_ref(),
         law: &law,
         line_load_n_per_mm,
         at_pitch,
@@ -185,15 +206,26 @@ fn not_estimated_because(outcome: &Outcome) -> &'static str {
     }
 }
 
-fn surface(scene: &Scene, foundation_mpa_per_mm: Option<f64>, line_load_n_per_mm: f64) -> Box<dyn ContactSurface> {
+/// Elastic constants alone.
+fn elastic(material: &PerGear<Material>) -> PerGear<Elastic> {
+    material.map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio })
+}
+
+/// The surface of the springs on the line of action; none with finite elements, which are no springs.
+fn surface(
+    scene: &Scene,
+    foundation_mpa_per_mm: Option<f64>,
+    line_load_n_per_mm: f64,
+) -> Option<Box<dyn ContactSurface>> {
     match (scene.contact.surface, foundation_mpa_per_mm) {
+        (SurfaceKind::Fem, _) => None,
         (SurfaceKind::Winkler, Some(foundation_mpa_per_mm)) => {
-            Box::new(Winkler { foundation_mpa_per_mm, expected_line_load_n_per_mm: line_load_n_per_mm })
+            Some(Box::new(Winkler { foundation_mpa_per_mm, expected_line_load_n_per_mm: line_load_n_per_mm }))
         }
-        (SurfaceKind::HertzMean, _) => Box::new(HertzMean { material: scene.material }),
-        (SurfaceKind::HalfSpace | SurfaceKind::Fem, _) => todo!(),
+        (SurfaceKind::HertzMean, _) => Some(Box::new(HertzMean { material: scene.material })),
+        (SurfaceKind::HalfSpace, _) => todo!(),
         (SurfaceKind::Hertz, _) | (SurfaceKind::Winkler, None) => {
-            Box::new(Hertz { material: scene.material, expected_line_load_n_per_mm: line_load_n_per_mm })
+            Some(Box::new(Hertz { material: scene.material, expected_line_load_n_per_mm: line_load_n_per_mm }))
         }
     }
 }

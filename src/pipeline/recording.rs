@@ -123,15 +123,17 @@ fn contact(model: &Model<'_>) -> ContactSummary {
     }
 }
 
-fn stiffness(model: &Model<'_>) -> Result<StiffnessSummary, RunError> {
+/// Of the springs of the teeth, where there are any.
+fn stiffness(model: &Model<'_>) -> Result<Option<StiffnessSummary>, RunError> {
+    let Some(teeth) = model.teeth else { return Ok(None) };
     let at = model.pair.path.pitch_point_mm;
-    Ok(StiffnessSummary {
+    Ok(Some(StiffnessSummary {
         model: model.scene.stiffness.name().to_owned(),
-        reference_line_load_N_per_mm: model.teeth.reference_line_load_n_per_mm,
-        pair_at_pitch_N_per_mm_um: model.teeth.pair_n_per_mm2(at)? / UM_PER_MM,
-        teeth_at_pitch_N_per_mm_um: model.teeth.n_per_mm2(at)? / UM_PER_MM,
-        split_remainder_at_half_load: model.teeth.split_remainder(at, 0.5),
-    })
+        reference_line_load_N_per_mm: teeth.reference_line_load_n_per_mm,
+        pair_at_pitch_N_per_mm_um: teeth.pair_n_per_mm2(at)? / UM_PER_MM,
+        teeth_at_pitch_N_per_mm_um: teeth.n_per_mm2(at)? / UM_PER_MM,
+        split_remainder_at_half_load: teeth.split_remainder(at, 0.5),
+    }))
 }
 
 fn cycle(pair: &GearPair, cycle: &CycleObservation) -> CycleSummary {

@@ -15,6 +15,8 @@ pub enum StageKind {
     Geometry,
     /// K/H and tooth stiffness from finite elements.
     FiniteElementCalibration,
+    /// Both gears meshed, and condensed onto their flanks.
+    FiniteElementModel,
     /// K/H from Hertz.
     ContactMatch,
     /// The stiffness of the teeth along the path of contact.
@@ -33,9 +35,10 @@ pub enum StageKind {
 
 impl StageKind {
     /// All stages, in the order of the work.
-    pub const ALL: [StageKind; 9] = [
+    pub const ALL: [StageKind; 10] = [
         StageKind::Geometry,
         StageKind::FiniteElementCalibration,
+        StageKind::FiniteElementModel,
         StageKind::ContactMatch,
         StageKind::ToothStiffness,
         StageKind::HelicalSlices,
@@ -50,6 +53,7 @@ impl StageKind {
         match self {
             StageKind::Geometry => "geometry",
             StageKind::FiniteElementCalibration => "finite-element-calibration",
+            StageKind::FiniteElementModel => "finite-element-model",
             StageKind::ContactMatch => "contact-match",
             StageKind::ToothStiffness => "tooth-stiffness",
             StageKind::HelicalSlices => "helical-slices",
@@ -109,21 +113,10 @@ impl Plan {
 fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
     match kind {
         StageKind::Geometry => Ok("everything that follows from the data of the pair".to_owned()),
-        StageKind::FiniteElementCalibration => finite_elements(scene),
+        StageKind::FiniteElementCalibration => calibration(scene),
+        StageKind::FiniteElementModel => finite_element_model(scene),
         StageKind::ContactMatch => contact_match(scene),
-        StageKind::ToothStiffness => match scene.stiffness {
-            StiffnessSettings::Constant { pair_n_per_mm2 } => {
-                Err(format!("the stiffness is given: {} N/(mm·µm) for every tooth pair", pair_n_per_mm2 / 1e3))
-            }
-            StiffnessSettings::WeberBanaschek => {
-                Ok("Weber and Banaschek's terms, integrated on the generated profile".to_owned())
-            }
-            StiffnessSettings::Iso6336 => Ok("the single stiffness c' of ISO 6336-1".to_owned()),
-            StiffnessSettings::Fem => Ok("the curve of the finite-element calibration".to_owned()),
-            StiffnessSettings::Simon | StiffnessSettings::WangCheng => {
-                Ok(format!("the curve of {}", scene.stiffness_curve_file.as_deref().unwrap_or_default()))
-            }
-        },
+        StageKind::ToothStiffness => tooth_stiffness(scene),
         StageKind::HelicalSlices => Err("a spur pair is alike over its whole face width".to_owned()),
         StageKind::ContactTemperature => Err("the wear law archard asks for no temperature".to_owned()),
         StageKind::Simulation => Ok(simulation(scene)),
@@ -135,17 +128,42 @@ fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
     }
 }
 
-fn finite_elements(scene: &Scene) -> Result<String, String> {
+fn calibration(scene: &Scene) -> Result<String, String> {
     match (&scene.calibration_file, scene.contact.surface, scene.stiffness) {
-        (_, SurfaceKind::Fem, _) => Ok("the surface fem: both gears meshed and condensed onto their flanks".to_owned()),
+        (_, SurfaceKind::Fem, _) => Err("the surface fem is the finite-element model itself".to_owned()),
         (Some(file), ..) => Err(format!("{file} is given")),
         (None, _, StiffnessSettings::Fem) => {
-            Ok("the tooth stiffness of finite elements, no calibration is given".to_owned())
+            Ok("the tooth stiffness of finite elements, as no calibration is given".to_owned())
         }
         (None, ..) => {
-            Err("contact and tooth stiffness are given or in closed form, no calibration file is asked for; \
-                           [fem] is not used"
-                .to_owned())
+            Err("contact and tooth stiffness are given or in closed form, no calibration file is asked for".to_owned())
+        }
+    }
+}
+
+fn finite_element_model(scene: &Scene) -> Result<String, String> {
+    match scene.contact.surface {
+        SurfaceKind::Fem => Ok("the surface fem: both gears meshed, and condensed onto their flanks".to_owned()),
+        surface => Err(format!("the surface {} has none; [fem] is not used by it", surface.name())),
+    }
+}
+
+/// Stiffness of the teeth as springs.
+fn tooth_stiffness(scene: &Scene) -> Result<String, String> {
+    if scene.contact.surface == SurfaceKind::Fem {
+        return Err("the finite-element model bends its own teeth".to_owned());
+    }
+    match scene.stiffness {
+        StiffnessSettings::Constant { pair_n_per_mm2 } => {
+            Err(format!("the stiffness is given: {} N/(mm·µm) for every tooth pair", pair_n_per_mm2 / 1e3))
+        }
+        StiffnessSettings::WeberBanaschek => {
+            Ok("Weber and Banaschek's terms, integrated on the generated profile".to_owned())
+        }
+        StiffnessSettings::Iso6336 => Ok("the single stiffness c' of ISO 6336-1".to_owned()),
+        StiffnessSettings::Fem => Ok("the curve of the finite-element calibration".to_owned()),
+        StiffnessSettings::Simon | StiffnessSettings::WangCheng => {
+            Ok(format!("the curve of {}", scene.stiffness_curve_file.as_deref().unwrap_or_default()))
         }
     }
 }

@@ -22,7 +22,7 @@ const fn choice(key: &'static str, value: &'static str, instead: &'static str) -
 /// What spur gears are limited to.
 pub const SPUR_ONLY: &str = "spur gears, helix_angle_deg = 0";
 
-const SURFACES: &str = r#"contact.surface = "winkler", "hertz" or "hertz-mean""#;
+const SURFACES: &str = r#"contact.surface = "winkler", "hertz", "hertz-mean" or "fem""#;
 const MODELS: &str = r#"stiffness.model = "constant", "weber-banaschek" or "iso6336""#;
 const LAW: &str = r#"wear.law = "archard""#;
 const STEP: &str = "a fixed step, numerics.step = { revolutions = … }";
@@ -37,7 +37,6 @@ pub const SCENE: &[Later] = &[
     key("numerics.tolerance_um", STEP),
     choice("numerics.step", "adaptive", STEP),
     choice("contact.surface", "half-space", SURFACES),
-    choice("contact.surface", "fem", SURFACES),
     choice("stiffness.model", "fem", MODELS),
     choice("stiffness.model", "simon", MODELS),
     choice("stiffness.model", "wang-cheng", MODELS),

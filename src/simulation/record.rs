@@ -48,8 +48,8 @@ pub struct Summary {
     pub geometry: GeometrySummary,
     /// Of the contact at the pitch point with the whole load.
     pub contact: ContactSummary,
-    /// Of the tooth pair.
-    pub stiffness: StiffnessSummary,
+    /// Of the tooth pair as a spring; `None` with finite elements, whose teeth are no springs.
+    pub stiffness: Option<StiffnessSummary>,
     /// The working cycle of the unworn pair.
     pub new: CycleSummary,
     /// The working cycle of the worn pair.

@@ -14,12 +14,13 @@
 use super::record::StopReason;
 use super::settings::{Numerics, Operation};
 use crate::contact::{ContactSurface, Flanks};
+use crate::fem::gear::position::CondensedPair;
 use crate::gear::{Gear, GearPair, PerGear, flank::FlankGrid, removed_material::modifications_mm};
 use crate::stiffness::{StiffnessError, TeethSpring};
 use crate::wear::WearLaw;
 use crate::working_cycle::{
-    CycleObservation, LostMaterial, MeshCycle, Work, WorkingCycle, load_sharing::EquilibriumError,
-    positions::loading_positions,
+    CycleObservation, LostMaterial, MeshCycle, Work, WorkingCycle, condensed::CondensedCycle,
+    load_sharing::EquilibriumError, positions::loading_positions,
 };
 
 /// Why a wear run could not go on.
@@ -67,6 +68,8 @@ pub enum MeshContact<'a> {
         /// Whether tip edges are followed into contact before A and after E.
         tip_contact: bool,
     },
+    /// Both gears as finite elements, condensed onto their flanks.
+    FiniteElements(&'a CondensedPair<'a>),
 }
 
 /// State kept at a snapshot.
@@ -176,11 +179,21 @@ impl WearRun<'_> {
             let is_due = due.peek().is_some_and(|&next| revolutions >= next);
             let interrupted = progress.interrupted();
             if states.is_empty() || is_due || interrupted {
+                let cycle = match cycle.observe(lost) {
+                    Ok(cycle) => cycle,
+                    Err(source) if states.is_empty() => {
+                        return Err(SimulationError::Equilibrium { revolutions, source });
+                    }
+                    Err(source) => {
+                        failure = Some(SimulationError::Equilibrium { revolutions, source });
+                        break;
+                    }
+                };
                 states.push(Snapshot {
                     revolutions,
                     wear_mm: wear_mm.clone(),
                     depth_per_mesh_mm: depth_mm.clone(),
-                    cycle: cycle.observe(lost),
+                    cycle,
                 });
                 while due.next_if(|&next| next <= revolutions).is_some() {}
             }
@@ -225,6 +238,10 @@ impl WearRun<'_> {
             MeshContact::LineOfAction { surface, teeth, tip_contact: _ } => {
                 let positions = loading_positions(&self.pair.path, self.numerics.positions, |at| teeth.n_per_mm2(at))?;
                 Ok(Box::new(WorkingCycle::new(flanks, surface, &positions, self.line_load_n_per_mm)))
+            }
+            MeshContact::FiniteElements(model) => {
+                let positions = self.numerics.positions;
+                Ok(Box::new(CondensedCycle::new(model, flanks, positions, self.line_load_n_per_mm)))
             }
         }
     }

@@ -19,6 +19,7 @@
 //! which their monotony allows.
 
 use crate::contact::{PairContact, Response};
+use crate::fem::active_set::ActiveSetError;
 use crate::gear::PerGear;
 
 /// Greatest imbalance, relative to the load, at which an equilibrium is accepted.
@@ -39,6 +40,14 @@ pub enum EquilibriumError {
     NotFinite {
         /// Position of the reference pair.
         position_mm: f64,
+    },
+    /// The finite-element contact at a position was not found.
+    #[error("at position {position_mm:.4} mm: {source}")]
+    Contact {
+        /// Position of the reference pair.
+        position_mm: f64,
+        /// Why.
+        source: ActiveSetError,
     },
     /// The user wants to stop.
     #[error("interrupted")]

@@ -5,6 +5,7 @@
 //! are independent of each other, so they are shared out to threads; each fixed group of positions collects its wear by
 //! itself and the groups are added in order: the result does not depend on the number of threads.
 
+pub mod condensed;
 pub mod load_sharing;
 pub mod positions;
 
@@ -133,7 +134,10 @@ pub trait MeshCycle {
     ) -> Result<Work, EquilibriumError>;
 
     /// What the last evaluation found, on the same `lost`.
-    fn observe(&self, lost: LostMaterial<'_>) -> CycleObservation;
+    ///
+    /// # Errors
+    /// [`EquilibriumError`] of the first position without equilibrium.
+    fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError>;
 }
 
 impl<'a> WorkingCycle<'a> {
@@ -185,7 +189,7 @@ impl MeshCycle for WorkingCycle<'_> {
         Ok(work)
     }
 
-    fn observe(&self, lost: LostMaterial<'_>) -> CycleObservation {
+    fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
         let removed_mm = lost.removed_mm;
         let zeros = || removed_mm.map(|flank| vec![0.0; flank.len()]);
         let mut observation = CycleObservation { positions: Vec::new(), pressure_mpa: zeros(), sliding_mm: zeros() };
@@ -207,7 +211,7 @@ impl MeshCycle for WorkingCycle<'_> {
                 }
             }
         }
-        observation
+        Ok(observation)
     }
 }
 

@@ -1,10 +1,13 @@
 //! Finite-element contact of a gear pair: each gear condensed once, every position a small contact problem.
 
 pub mod cycle;
+mod facing;
 pub mod flank_surface;
 pub mod full;
 pub mod model;
+pub mod observed_flank;
 pub mod placement;
 pub mod position;
+pub mod prepared;
 pub mod ring;
 pub mod sector;

@@ -225,6 +225,23 @@ pub fn element(cell: &Cell, nodes: &[u32], material: u16) -> Element {
 }
 
 impl<'a> CondensedPair<'a> {
+    /// Meshes and condenses both gears of `pair` for contact under `line_load_n_per_mm`, at the same time where there are
+    /// threads for it.
+    ///
+    /// # Errors
+    /// [`ModelError`].
+    pub fn build(
+        pair: &'a GearPair,
+        material: &PerGear<Elastic>,
+        line_load_n_per_mm: f64,
+        settings: &BodySettings,
+    ) -> Result<Self, ModelError> {
+        let condensed =
+            |gear| MeshedGear::new(pair, gear, material, line_load_n_per_mm, settings)?.condense(pair, material[gear]);
+        let (pinion, wheel) = rayon::join(|| condensed(Gear::Pinion), || condensed(Gear::Wheel));
+        Ok(Self::new(pair, material, PerGear { pinion: pinion?, wheel: wheel? }))
+    }
+
     /// Joins both condensed gears.
     pub fn new(
         pair: &'a GearPair,

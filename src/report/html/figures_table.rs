@@ -89,7 +89,7 @@ fn gears(s: &Summary) -> String {
 }
 
 fn contact(s: &Summary) -> String {
-    let (c, k) = (&s.contact, &s.stiffness);
+    let c = &s.contact;
     let foundation = c.foundation_MPa_per_mm.map_or_else(|| "none".into(), figure);
     let mut rows = vec![
         row("Contact surface", "", [escape(&c.surface)]),
@@ -97,12 +97,16 @@ fn contact(s: &Summary) -> String {
         row("Foundation K/H", "MPa/mm", [foundation]),
         row("Hertz half-width at C", "mm", [figure(c.hertz_half_width_mm)]),
         row("Hertz pressure at C", "MPa", [figure(c.hertz_peak_pressure_MPa)]),
-        row("Tooth stiffness", "", [escape(&k.model)]),
-        row("Pair with flattening, at C", "N/(mm·µm)", [figure(k.pair_at_pitch_N_per_mm_um)]),
-        row("Teeth alone, at C", "N/(mm·µm)", [figure(k.teeth_at_pitch_N_per_mm_um)]),
-        row("at a line load of", "N/mm", [figure(k.reference_line_load_N_per_mm)]),
     ];
-    if let Some(remainder) = k.split_remainder_at_half_load {
+    if let Some(k) = &s.stiffness {
+        rows.extend([
+            row("Tooth stiffness", "", [escape(&k.model)]),
+            row("Pair with flattening, at C", "N/(mm·µm)", [figure(k.pair_at_pitch_N_per_mm_um)]),
+            row("Teeth alone, at C", "N/(mm·µm)", [figure(k.teeth_at_pitch_N_per_mm_um)]),
+            row("at a line load of", "N/mm", [figure(k.reference_line_load_N_per_mm)]),
+        ]);
+    }
+    if let Some(remainder) = s.stiffness.as_ref().and_then(|k| k.split_remainder_at_half_load) {
         rows.push(row("Left over by the split, at half load", "", [percent(remainder)]));
     }
     table("Contact and stiffness", &["value"], &rows)

@@ -1,0 +1,198 @@
+//! Two teeth that may touch: coupled by mortar on their true profiles in their true places.
+//!
+//! Of the two flanks, one is in contact with its addendum: the wheel's below the pitch point, the pinion's above it. Where its
+//! tip edge is sharp, the pressure lives on it, so that multipliers end where the flank ends. Where it is rounded, the
+//! pressure lives on the mate, so that normals are those of the smoother surface: normals that turn within the contact
+//! would mix the sliding of the surfaces on each other into the gap.
+
+use std::ops::Range;
+
+use nalgebra::{Rotation2, Vector2};
+use sprs::CsMat;
+
+use super::flank_surface::FlankSurface;
+use super::model::hertz_half_width_mm;
+use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
+use super::position::CondensedPair;
+use crate::fem::contact::mortar::Coupling;
+use crate::gear::{Gear, PerGear};
+
+/// Rows at an inner end of the window that must stay without load.
+const FREE_ROWS: usize = 3;
+/// Parts of a base pitch before A and after E in which contact outside the line of action is looked for.
+pub const OUTSIDE_BASE_PITCHES: f64 = 0.3;
+
+/// How far around the expected contact multipliers are looked for.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Window {
+    /// Load that sets the half-width, N/mm.
+    pub line_load_n_per_mm: f64,
+    /// To either side of the expected contact.
+    pub half_widths: f64,
+    /// Distance between the flanks within which they may come to touch, mm.
+    pub reach_mm: f64,
+}
+
+/// A tooth pair prepared for contact.
+pub(super) struct Facing {
+    pub pair: i32,
+    pub slave: Gear,
+    /// Places of its teeth among the fine ones.
+    pub tooth: PerGear<usize>,
+    pub coupling: Coupling,
+    /// Edges of each flank that are looked at.
+    pub edges: PerGear<Range<usize>>,
+    /// B for each gear, in its own tooth's frame.
+    pub operator: PerGear<CsMat<f64>>,
+    /// Expected contact from the slave's tip end, mm.
+    pub expected_mm: f64,
+    /// The pinion's axis in the frame of the slave's tooth.
+    pub pinion_axis_mm: Vector2<f64>,
+    /// Whether the window's ends are inner ones: towards the tip, towards the root.
+    pub inner_ends: (bool, bool),
+    pub first_row: usize,
+}
+
+impl CondensedPair<'_> {
+    /// All tooth pairs that may touch with the reference pair at `position_mm`, rows numbered through.
+    pub(super) fn facings(&self, position_mm: f64, window: &Window) -> Vec<Facing> {
+        let reach = (self.gears.pinion.teeth() / 2) as i32;
+        let mut first_row = 0;
+        (-reach..=reach)
+            .filter_map(|pair| {
+                let mut facing = self.facing(position_mm, pair, window)?;
+                facing.first_row = first_row;
+                first_row += facing.coupling.len();
+                Some(facing)
+            })
+            .collect()
+    }
+
+    fn facing(&self, position_mm: f64, pair: i32, window: &Window) -> Option<Facing> {
+        let path = &self.pair.path;
+        let own_mm = position_mm + f64::from(pair) * path.base_pitch_mm;
+        let outside_mm = OUTSIDE_BASE_PITCHES * path.base_pitch_mm;
+        if own_mm < path.start_mm - outside_mm || own_mm > path.end_mm + outside_mm {
+            return None;
+        }
+        let addendum = if own_mm <= path.pitch_point_mm { Gear::Wheel } else { Gear::Pinion };
+        let slave = if self.flanks[addendum].sharp { addendum } else { addendum.mate() };
+        let master = slave.mate();
+        let expected = self.expected_from_tip_mm(position_mm, pair, own_mm);
+        let half_width_mm = hertz_half_width_mm(self.pair, self.contact_modulus_mpa, window.line_load_n_per_mm, own_mm);
+        let window_mm = window.half_widths * half_width_mm;
+        let edges = PerGear::from_fn(|gear| {
+            // The master must be met over the whole of the slave's window, also where it is seen a little askew.
+            let window = if gear == slave { window_mm } else { 1.3 * window_mm };
+            self.flanks[gear].edges_between(expected[gear] - window, expected[gear] + window)
+        });
+        let inner_ends = (edges[slave].start > 0, edges[slave].end < self.flanks[slave].surface.edges.len());
+        // Both in the frame of the slave's tooth.
+        let angle_rad = |gear| tooth_angle_rad(self.pair, gear, position_mm, pair);
+        let from_slave = |point: Vector2<f64>| Rotation2::new(-angle_rad(slave)) * (point - axis_mm(self.pair, slave));
+        let turn = Rotation2::new(angle_rad(master) - angle_rad(slave));
+        let master_axis_mm = from_slave(axis_mm(self.pair, master));
+        let slave_part = self.flanks[slave].surface.part(edges[slave].clone());
+        let master_part =
+            self.flanks[master].surface.part(edges[master].clone()).placed(|x| turn * x + master_axis_mm, |n| turn * n);
+        let coupling = Coupling::new(&slave_part, &master_part, window.reach_mm);
+        if coupling.is_empty() {
+            return None;
+        }
+        let of_master = turned(&coupling.master, turn.inverse());
+        let operator = match slave {
+            Gear::Pinion => PerGear { pinion: coupling.slave.clone(), wheel: of_master },
+            Gear::Wheel => PerGear { pinion: of_master, wheel: coupling.slave.clone() },
+        };
+        let middle = (self.gears.pinion.teeth() / 2) as i32;
+        // The pair ahead is the next anticlockwise tooth of the pinion, and the next clockwise one of the wheel.
+        let tooth = PerGear { pinion: (middle + pair) as usize, wheel: (middle - pair) as usize };
+        Some(Facing {
+            pair,
+            slave,
+            tooth,
+            coupling,
+            edges,
+            operator,
+            expected_mm: expected[slave],
+            pinion_axis_mm: from_slave(axis_mm(self.pair, Gear::Pinion)),
+            inner_ends,
+            first_row: 0,
+        })
+    }
+
+    /// Where contact is expected on each flank, from its tip end: on the line of action, or before A and after E at the
+    /// mate's tip.
+    fn expected_from_tip_mm(&self, position_mm: f64, pair: i32, own_mm: f64) -> PerGear<f64> {
+        let path = &self.pair.path;
+        // The flank of `gear` at the radius that the mate's tip end has from its axis.
+        let at_mates_tip = |gear: Gear| {
+            let mate = &self.flanks[gear.mate()];
+            let tip = mate.surface.points_mm[mate.tip_node()];
+            let tip = in_place_mm(self.pair, gear.mate(), position_mm, pair, tip);
+            let radius_mm = (tip - axis_mm(self.pair, gear)).norm();
+            self.flanks[gear].from_tip_at_mm(path.involute[gear].curvature_radius_mm(radius_mm))
+        };
+        if own_mm < path.start_mm {
+            PerGear { pinion: at_mates_tip(Gear::Pinion), wheel: 0.0 }
+        } else if own_mm > path.end_mm {
+            PerGear { pinion: 0.0, wheel: at_mates_tip(Gear::Wheel) }
+        } else {
+            PerGear::from_fn(|gear| self.flanks[gear].from_tip_at_mm(path.rho_mm(gear, own_mm)))
+        }
+    }
+
+    /// Change of each gap of a pair per transmission error.
+    pub(super) fn by_rotation<'b>(&'b self, facing: &'b Facing) -> impl Iterator<Item = f64> + 'b {
+        let turned = |row: sprs::CsVecView<'_, f64>| row.iter().map(|(column, b)| b * self.rotation(column)).sum();
+        facing.operator.pinion.outer_iterator().map(turned)
+    }
+
+    /// Displacement of a candidate column of the pinion per transmission error.
+    fn rotation(&self, column: usize) -> f64 {
+        let point = self.flanks.pinion.surface.points_mm[column / 2];
+        let r_b = self.pair.path.involute.pinion.base_radius_mm;
+        if column.is_multiple_of(2) { -point.y / r_b } else { point.x / r_b }
+    }
+}
+
+impl Facing {
+    /// The position's row of each local node of the slave, of which there are `nodes`.
+    pub fn rows_of_nodes(&self, nodes: usize) -> Vec<Option<usize>> {
+        let mut rows = vec![None; nodes];
+        for (row, &node) in self.coupling.nodes.iter().enumerate() {
+            rows[node] = Some(self.first_row + row);
+        }
+        rows
+    }
+
+    /// Distance of a node of the slave from the expected contact, towards the pinion's tip.
+    pub fn towards_pinion_tip_mm(&self, slave: &FlankSurface, node: usize) -> f64 {
+        let from_tip_mm = slave.from_tip_mm[node] - self.expected_mm;
+        if self.slave == Gear::Pinion { -from_tip_mm } else { from_tip_mm }
+    }
+
+    /// Whether load comes close to an inner end of the window, so that it may have been cut off.
+    pub fn is_cramped(&self, force: &[f64], slave: &FlankSurface) -> bool {
+        let from_tip = |row: usize| slave.from_tip_mm[self.coupling.nodes[row]];
+        let mut rows: Vec<usize> = (0..self.coupling.len()).collect();
+        rows.sort_by(|&a, &b| from_tip(a).total_cmp(&from_tip(b)));
+        let loaded = |row: &usize| force[self.first_row + row] > 0.0;
+        let (first, last) = (rows.iter().take(FREE_ROWS), rows.iter().rev().take(FREE_ROWS));
+        (self.inner_ends.0 && first.clone().any(loaded)) || (self.inner_ends.1 && last.clone().any(loaded))
+    }
+}
+
+/// B with each pair of columns turned into another frame.
+fn turned(operator: &CsMat<f64>, turn: Rotation2<f64>) -> CsMat<f64> {
+    let mut triplets = sprs::TriMat::new(operator.shape());
+    for (i, row) in operator.outer_iterator().enumerate() {
+        for (column, value) in row.iter() {
+            let unit = if column.is_multiple_of(2) { Vector2::x() } else { Vector2::y() };
+            let image = turn * (*value * unit);
+            triplets.add_triplet(i, column - column % 2, image.x);
+            triplets.add_triplet(i, column - column % 2 + 1, image.y);
+        }
+    }
+    triplets.to_csr()
+}

@@ -1,0 +1,230 @@
+//! A position ready to be solved on ever newly worn flanks.
+//!
+//! The couplings and the compliance between all multipliers depend on where the gears stand and not on what their flanks have
+//! lost: wear h along the normals of both flanks' nodes only opens the gaps,
+//!
+//! ```text
+//! g⁰(h) = g⁰ − B₁ (n₁ h₁) − B₂ (n₂ h₂)
+//! ```
+//!
+//! as a displacement of the nodes into their bodies would. So a position is prepared once and solved many times.
+
+use faer::Mat;
+use sprs::CsMat;
+
+use super::facing::{Facing, Window};
+use super::flank_surface::FlankSurface;
+use super::position::CondensedPair;
+use super::ring::Between;
+use crate::fem::active_set::{ActiveSetError, Condensed, Equilibrium};
+use crate::gear::{Gear, PerGear};
+
+/// Distance between the flanks within which they may come to touch, in units of line load over E*: an approach is some
+/// ten of these.
+const FIRST_REACH: f64 = 25.0;
+/// Part of the reach that the approach may use up: what lies farther apart may touch then.
+const REACH_USED: f64 = 0.8;
+/// Half-widths on either side of the expected contact in which multipliers are looked for first.
+const FIRST_WINDOW: f64 = 1.4;
+/// How much wider each further look is.
+const WIDER: f64 = 1.6;
+/// Looks before giving up.
+const MOST_LOOKS: usize = 8;
+
+/// A position with its couplings and compliance.
+pub struct Prepared {
+    /// ξ.
+    pub position_mm: f64,
+    /// w.
+    pub line_load_n_per_mm: f64,
+    window: Window,
+    pub(super) facings: Vec<Facing>,
+    condensed: Condensed,
+    unworn_gap_mm: Vec<f64>,
+    /// Where the next solution starts.
+    pub(super) active: Option<Vec<bool>>,
+    /// How often it had to be looked wider.
+    looks: usize,
+}
+
+/// Wear depth along the normal at the nodes of each gear's flank, mm.
+pub type NodalWear = PerGear<Vec<f64>>;
+
+impl<'a> CondensedPair<'a> {
+    /// Prepares the contact at `position_mm` under `line_load_n_per_mm`.
+    pub fn prepare(&self, position_mm: f64, line_load_n_per_mm: f64) -> Prepared {
+        let window = Window {
+            line_load_n_per_mm,
+            half_widths: FIRST_WINDOW,
+            reach_mm: FIRST_REACH * line_load_n_per_mm / self.contact_modulus_mpa,
+        };
+        self.look(position_mm, window)
+    }
+
+    fn look(&self, position_mm: f64, window: Window) -> Prepared {
+        let facings = self.facings(position_mm, &window);
+        let condensed = self.condensed(&facings, window.line_load_n_per_mm);
+        Prepared {
+            position_mm,
+            line_load_n_per_mm: window.line_load_n_per_mm,
+            window,
+            unworn_gap_mm: condensed.gap_mm.clone(),
+            facings,
+            condensed,
+            active: None,
+            looks: 1,
+        }
+    }
+
+    /// Solves a prepared position on flanks that have lost `wear`; looks wider where contact comes close to the end of what is
+    /// looked at.
+    ///
+    /// # Errors
+    /// See [`ActiveSetError`].
+    pub fn solve(&self, prepared: &mut Prepared, wear: Option<&NodalWear>) -> Result<Equilibrium, ActiveSetError> {
+        for look in 1..=MOST_LOOKS {
+            prepared.open_gaps(&self.flanks, wear);
+            let last = look == MOST_LOOKS;
+            match prepared.condensed.solve(prepared.active.as_deref()) {
+                Ok(found) if last || !prepared.is_cramped(&found, &self.flanks) => {
+                    prepared.active = Some(found.active.clone());
+                    return Ok(found);
+                }
+                Err(error) if last || !matches!(error, ActiveSetError::NoContact { .. }) => return Err(error),
+                // Flanks far relieved or worn touch elsewhere, and later.
+                Ok(_) | Err(_) => self.widen(prepared),
+            }
+        }
+        unreachable!("the last look returns")
+    }
+
+    fn widen(&self, prepared: &mut Prepared) {
+        let Window { line_load_n_per_mm, half_widths, reach_mm } = prepared.window;
+        let wider = Window { line_load_n_per_mm, half_widths: WIDER * half_widths, reach_mm: WIDER * reach_mm };
+        let mut next = self.look(prepared.position_mm, wider);
+        next.active = prepared.active.as_ref().map(|active| carried_over(&prepared.facings, active, &next.facings));
+        next.looks = prepared.looks + 1;
+        *prepared = next;
+    }
+
+    fn condensed(&self, facings: &[Facing], line_load_n_per_mm: f64) -> Condensed {
+        let rows = facings.iter().map(|facing| facing.coupling.len()).sum();
+        let mut compliance = Mat::zeros(rows, rows);
+        let mut rigid = Mat::zeros(rows, 1);
+        let mut gap_mm = Vec::with_capacity(rows);
+        for (a, facing) in facings.iter().enumerate() {
+            gap_mm.extend_from_slice(&facing.coupling.gap_mm);
+            for (i, change) in self.by_rotation(facing).enumerate() {
+                rigid[(facing.first_row + i, 0)] = change;
+            }
+            for other in &facings[..=a] {
+                let places = (facing.first_row, other.first_row);
+                for gear in Gear::BOTH {
+                    let between = self.gears[gear].between(other.tooth[gear], facing.tooth[gear]);
+                    add_sandwich(&mut compliance, places, &facing.operator[gear], between, &other.operator[gear]);
+                }
+            }
+        }
+        for i in 0..rows {
+            for j in i + 1..rows {
+                compliance[(i, j)] = compliance[(j, i)];
+            }
+        }
+        Condensed { compliance, gap_mm, rigid, rigid_load: vec![-line_load_n_per_mm] }
+    }
+}
+
+impl Prepared {
+    /// How often the flanks around the contact had to be looked at, wider each time.
+    pub fn looks(&self) -> usize {
+        self.looks
+    }
+
+    /// Number of tooth pairs that may touch.
+    pub fn tooth_pairs(&self) -> usize {
+        self.facings.len()
+    }
+
+    /// Pressure at each multiplier's node under their forces, MPa.
+    pub fn nodal_pressure_mpa(&self, force: &[f64], pressure_mpa: &mut Vec<f64>) {
+        pressure_mpa.clear();
+        let weights = self.facings.iter().flat_map(|facing| &facing.coupling.weight_mm);
+        pressure_mpa.extend(force.iter().zip(weights).map(|(force, weight)| force / weight));
+    }
+
+    /// The gaps of flanks that have lost `wear`.
+    fn open_gaps(&mut self, flanks: &PerGear<FlankSurface>, wear: Option<&NodalWear>) {
+        self.condensed.gap_mm.copy_from_slice(&self.unworn_gap_mm);
+        let Some(wear) = wear else { return };
+        for facing in &self.facings {
+            let gaps = &mut self.condensed.gap_mm[facing.first_row..facing.first_row + facing.coupling.len()];
+            for gear in Gear::BOTH {
+                let (normals, wear) = (&flanks[gear].surface.normals, &wear[gear]);
+                for (gap, row) in gaps.iter_mut().zip(facing.operator[gear].outer_iterator()) {
+                    for (column, b) in row.iter() {
+                        *gap -= b * normals[column / 2][column % 2] * wear[column / 2];
+                    }
+                }
+            }
+        }
+    }
+
+    /// Whether contact may reach beyond what is looked at.
+    fn is_cramped(&self, found: &Equilibrium, flanks: &PerGear<FlankSurface>) -> bool {
+        found.rigid[0] > REACH_USED * self.window.reach_mm
+            || self.facings.iter().any(|facing| facing.is_cramped(&found.force, &flanks[facing.slave]))
+    }
+}
+
+/// The active set of `before` on the rows of `after`.
+fn carried_over(before: &[Facing], active: &[bool], after: &[Facing]) -> Vec<bool> {
+    let was_active = |pair: i32, node: usize| {
+        before.iter().filter(|facing| facing.pair == pair).any(|facing| {
+            let row = facing.coupling.nodes.iter().position(|&other| other == node);
+            row.is_some_and(|row| active[facing.first_row + row])
+        })
+    };
+    let rows = after.iter().flat_map(|facing| facing.coupling.nodes.iter().map(|&node| (facing.pair, node)));
+    rows.map(|(pair, node)| was_active(pair, node)).collect()
+}
+
+/// Adds `left · Cᵀ · rightᵀ` at `places` of `sum`; `compliance` is C, a row for a column of `right`.
+fn add_sandwich(
+    sum: &mut Mat<f64>,
+    places: (usize, usize),
+    left: &CsMat<f64>,
+    compliance: Between<'_>,
+    right: &CsMat<f64>,
+) {
+    let (left_columns, left_place) = used_columns(left);
+    let (right_columns, right_place) = used_columns(right);
+    // Each entry of C is read once, into columns that lie together.
+    let width = right_columns.len();
+    let gathered = compliance.gathered(&right_columns, &left_columns);
+    let mut carried = vec![0.0; width];
+    for (i, row) in left.outer_iterator().enumerate() {
+        carried.fill(0.0);
+        for (k, value) in row.iter() {
+            let column = &gathered[left_place[k] * width..][..width];
+            for (sum, c) in carried.iter_mut().zip(column) {
+                *sum += value * c;
+            }
+        }
+        for (j, other) in right.outer_iterator().enumerate() {
+            let product: f64 = other.iter().map(|(column, value)| value * carried[right_place[column]]).sum();
+            sum[(places.0 + i, places.1 + j)] += product;
+        }
+    }
+}
+
+/// The columns that hold anything, and the place of each among them.
+fn used_columns(operator: &CsMat<f64>) -> (Vec<usize>, Vec<usize>) {
+    let mut used = operator.indices().to_vec();
+    used.sort_unstable();
+    used.dedup();
+    let mut place = vec![usize::MAX; operator.cols()];
+    for (k, &column) in used.iter().enumerate() {
+        place[column] = k;
+    }
+    (used, place)
+}

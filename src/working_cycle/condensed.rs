@@ -1,0 +1,279 @@
+//! The working cycle on the finite-element model: both gears condensed onto their flanks, contact found from their true,
+//! worn profiles.
+//!
+//! All tooth pairs at a position are in one complementarity problem, coupled through the gear bodies ([`crate::fem::gear`]),
+//! and touch wherever their profiles do, also before A and after E, where a tip edge meets its mate outside the line of
+//! action. As every tooth of a gear wears alike, the positions of one base pitch tell all: the pairs found there, each at its
+//! own place of the path, together are one tooth pair over its whole mesh. Positions are as far apart as those that divide
+//! A–E evenly, rounded to a whole number in a base pitch, and the sum over them is that of a periodic function.
+//!
+//! The couplings of a position are prepared once; from one wear step to the next only the gaps change, and the active set
+//! hardly at all.
+
+use rayon::prelude::*;
+
+use super::load_sharing::EquilibriumError;
+use super::{CycleObservation, GROUPS, LostMaterial, MeshCycle, PositionObservation, Work};
+use crate::contact::{Flanks, Footprint};
+use crate::fem::active_set::Equilibrium;
+use crate::fem::gear::observed_flank::ObservedFlank;
+use crate::fem::gear::position::CondensedPair;
+use crate::fem::gear::prepared::{NodalWear, Prepared};
+use crate::gear::{Gear, PerGear};
+use crate::wear::WearLaw;
+
+/// A flank point above this pressure is in contact, MPa.
+const IN_CONTACT_MPA: f64 = 0.0;
+
+/// One position and how the flank points read it.
+struct Station {
+    prepared: Prepared,
+    /// Of each tooth pair that may touch, with the sliding of its points.
+    observed: Vec<PerGear<(ObservedFlank, Vec<f64>)>>,
+    /// For how many looks that holds.
+    looks: usize,
+    nodal_mpa: Vec<f64>,
+    found: Option<Equilibrium>,
+}
+
+/// Positions that collect wear together.
+struct Group {
+    stations: Vec<Station>,
+    depth_mm: PerGear<Vec<f64>>,
+    pressure_mpa: Vec<f64>,
+    work: Work,
+    failure: Option<EquilibriumError>,
+}
+
+/// All positions of one base pitch, ready to be evaluated on ever newly worn flanks.
+pub struct CondensedCycle<'a> {
+    model: &'a CondensedPair<'a>,
+    line_load_n_per_mm: f64,
+    /// Radii of the flank points.
+    radius_mm: PerGear<Vec<f64>>,
+    groups: Vec<Group>,
+    /// Positions from A to E at which the cycle is observed; prepared when first asked for.
+    observation_mm: Vec<f64>,
+    observation: Vec<Prepared>,
+}
+
+impl<'a> CondensedCycle<'a> {
+    /// Prepares positions as far apart as `positions` from A to E.
+    pub fn new(model: &'a CondensedPair<'a>, flanks: Flanks<'_>, positions: usize, line_load_n_per_mm: f64) -> Self {
+        let path = &model.pair.path;
+        let radius_mm = PerGear::from_fn(|gear| {
+            let involute = model.pair.teeth[gear].involute;
+            flanks.grid[gear].coordinate_mm.iter().map(|&rho| involute.radius_mm(rho)).collect::<Vec<f64>>()
+        });
+        let spacing = (path.end_mm - path.start_mm) / (positions - 1) as f64;
+        let in_a_pitch = (path.base_pitch_mm / spacing).round().max(1.0) as usize;
+        let length_mm = path.base_pitch_mm / in_a_pitch as f64;
+        let pitch_mm: Vec<f64> = (0..in_a_pitch).map(|j| path.start_mm + j as f64 * length_mm).collect();
+        let radii = radius_mm.as_ref().map(Vec::as_slice);
+        let groups = pitch_mm
+            .par_chunks(in_a_pitch.div_ceil(GROUPS))
+            .map(|positions| Group {
+                stations: positions
+                    .iter()
+                    .map(|&at| Station::new(model, model.prepare(at, line_load_n_per_mm), radii, length_mm))
+                    .collect(),
+                depth_mm: PerGear::from_fn(|gear| vec![0.0; radii[gear].len()]),
+                pressure_mpa: Vec::new(),
+                work: Work::default(),
+                failure: None,
+            })
+            .collect();
+        let observation_mm = (0..positions).map(|j| path.start_mm + j as f64 * spacing).collect();
+        Self { model, line_load_n_per_mm, radius_mm, groups, observation_mm, observation: Vec::new() }
+    }
+
+    /// Stretch of the path that each position stands for.
+    fn length_mm(&self) -> f64 {
+        let positions: usize = self.groups.iter().map(|group| group.stations.len()).sum();
+        self.model.pair.path.base_pitch_mm / positions as f64
+    }
+
+    /// Wear at the nodes of both flanks.
+    fn nodal_wear(&self, wear_mm: PerGear<&[f64]>) -> NodalWear {
+        PerGear::from_fn(|gear| {
+            let (radius, wear) = (&self.radius_mm[gear], wear_mm[gear]);
+            let points = self.model.flanks[gear].surface.points_mm.iter();
+            points.map(|point| interpolated(radius, wear, point.norm())).collect()
+        })
+    }
+}
+
+/// Value at `x` of what is given at the increasing `places`; beyond their ends, the value there.
+fn interpolated(places: &[f64], values: &[f64], x: f64) -> f64 {
+    let after = places.partition_point(|&place| place <= x).clamp(1, places.len() - 1);
+    let weight = ((x - places[after - 1]) / (places[after] - places[after - 1])).clamp(0.0, 1.0);
+    values[after - 1] + weight * (values[after] - values[after - 1])
+}
+
+impl MeshCycle for CondensedCycle<'_> {
+    fn evaluate(
+        &mut self,
+        lost: LostMaterial<'_>,
+        law: &dyn WearLaw,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        let wear = self.nodal_wear(lost.wear_mm);
+        let length_mm = self.length_mm();
+        let (model, radii) = (self.model, self.radius_mm.as_ref().map(Vec::as_slice));
+        let step = Step { model, wear: &wear, radii, length_mm, law, stopped };
+        self.groups.par_iter_mut().for_each(|group| group.evaluate(&step));
+        let mut work = Work { mesh_cycles: 1, ..Work::default() };
+        for gear in Gear::BOTH {
+            depth_mm[gear].fill(0.0);
+        }
+        for group in &self.groups {
+            if let Some(failure) = &group.failure {
+                return Err(failure.clone());
+            }
+            work += group.work;
+            for gear in Gear::BOTH {
+                depth_mm[gear].iter_mut().zip(&group.depth_mm[gear]).for_each(|(sum, part)| *sum += part);
+            }
+        }
+        Ok(work)
+    }
+
+    fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
+        let wear = self.nodal_wear(lost.wear_mm);
+        let (model, load) = (self.model, self.line_load_n_per_mm);
+        if self.observation.is_empty() {
+            self.observation = self.observation_mm.par_iter().map(|&at| model.prepare(at, load)).collect();
+        }
+        let positions =
+            self.observation.par_iter_mut().map(|at| observe_position(model, at, &wear)).collect::<Vec<_>>();
+        let zeros = || PerGear::from_fn(|gear| vec![0.0; self.radius_mm[gear].len()]);
+        let mut observation = CycleObservation {
+            positions: positions.into_iter().collect::<Result<_, _>>()?,
+            pressure_mpa: zeros(),
+            sliding_mm: zeros(),
+        };
+        for station in self.groups.iter().flat_map(|group| &group.stations) {
+            for pair in &station.observed {
+                for gear in Gear::BOTH {
+                    let (points, sliding) = &pair[gear];
+                    let first = points.first_point;
+                    for (k, pressure) in points.pressure_mpa(&station.nodal_mpa).enumerate() {
+                        if pressure > IN_CONTACT_MPA {
+                            let greatest = &mut observation.pressure_mpa[gear][first + k];
+                            *greatest = greatest.max(pressure);
+                            observation.sliding_mm[gear][first + k] += sliding[k];
+                        }
+                    }
+                }
+            }
+        }
+        Ok(observation)
+    }
+}
+
+/// What the evaluation of a wear step is made of.
+struct Step<'a> {
+    model: &'a CondensedPair<'a>,
+    wear: &'a NodalWear,
+    radii: PerGear<&'a [f64]>,
+    length_mm: f64,
+    law: &'a dyn WearLaw,
+    stopped: &'a (dyn Fn() -> bool + Sync),
+}
+
+impl Group {
+    fn evaluate(&mut self, step: &Step<'_>) {
+        self.work = Work::default();
+        self.failure = None;
+        for gear in Gear::BOTH {
+            self.depth_mm[gear].fill(0.0);
+        }
+        for station in &mut self.stations {
+            if (step.stopped)() {
+                self.failure = Some(EquilibriumError::Interrupted);
+                return;
+            }
+            match station.solve(step) {
+                Ok(work) => self.work += work,
+                Err(error) => {
+                    self.failure = Some(error);
+                    return;
+                }
+            }
+            for pair in &station.observed {
+                for gear in Gear::BOTH {
+                    let (points, sliding) = &pair[gear];
+                    self.pressure_mpa.clear();
+                    self.pressure_mpa.extend(points.pressure_mpa(&station.nodal_mpa));
+                    let range = points.first_point..points.first_point + sliding.len();
+                    step.law.add_depth(&self.pressure_mpa, sliding, &mut self.depth_mm[gear][range]);
+                }
+            }
+        }
+    }
+}
+
+impl Station {
+    fn new(model: &CondensedPair<'_>, prepared: Prepared, radii: PerGear<&[f64]>, length_mm: f64) -> Self {
+        let mut station = Self { prepared, observed: Vec::new(), looks: 0, nodal_mpa: Vec::new(), found: None };
+        station.look(model, radii, length_mm);
+        station
+    }
+
+    /// Reads anew which points are near the contact.
+    fn look(&mut self, model: &CondensedPair<'_>, radii: PerGear<&[f64]>, length_mm: f64) {
+        let curvatures = model.pair.path.involute.map(|involute| 1.0 / involute.base_radius_mm).sum();
+        let with_sliding = |flank: ObservedFlank| {
+            let sliding = flank.sliding_mm(curvatures, length_mm);
+            (flank, sliding)
+        };
+        let pairs = model.observed_pairs(&self.prepared, radii);
+        self.observed = pairs.into_iter().map(|pair| pair.map(with_sliding)).collect();
+        self.looks = self.prepared.looks();
+    }
+
+    fn solve(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
+        let position_mm = self.prepared.position_mm;
+        let found = step
+            .model
+            .solve(&mut self.prepared, Some(step.wear))
+            .map_err(|source| EquilibriumError::Contact { position_mm, source })?;
+        if self.looks != self.prepared.looks() {
+            self.look(step.model, step.radii, step.length_mm);
+        }
+        self.prepared.nodal_pressure_mpa(&found.force, &mut self.nodal_mpa);
+        let iterations = found.log.steps.len() as u64;
+        self.found = Some(found);
+        Ok(Work {
+            mesh_cycles: 0,
+            equilibria: 1,
+            newton_iterations: iterations,
+            pair_evaluations: iterations * self.prepared.tooth_pairs() as u64,
+        })
+    }
+}
+
+/// The reference pair at one position of the path.
+fn observe_position(
+    model: &CondensedPair<'_>,
+    prepared: &mut Prepared,
+    wear: &NodalWear,
+) -> Result<PositionObservation, EquilibriumError> {
+    let (position_mm, load) = (prepared.position_mm, prepared.line_load_n_per_mm);
+    let found =
+        model.solve(prepared, Some(wear)).map_err(|source| EquilibriumError::Contact { position_mm, source })?;
+    let pairs = model.tooth_pairs(prepared, &found);
+    let total: f64 = pairs.iter().map(|pair| pair.line_load_n_per_mm).sum();
+    let reference = pairs.iter().find(|pair| pair.pair == 0);
+    Ok(PositionObservation {
+        position_mm,
+        transmission_error_mm: found.rigid[0],
+        load_share: reference.map_or(0.0, |pair| pair.line_load_n_per_mm / load),
+        load_imbalance: total / load - 1.0,
+        footprint: reference.map_or_else(Footprint::default, |pair| Footprint {
+            peak_pressure_mpa: pair.peak_pressure_mpa,
+            half_width_mm: pair.half_width_mm,
+        }),
+    })
+}
