@@ -4,6 +4,7 @@ use std::io;
 use std::sync::Arc;
 
 use super::say;
+use gearwear::accuracy::study::AccuracyError;
 use gearwear::fem::SolveError;
 use gearwear::mesh::MeshFileError;
 use gearwear::pipeline::RunError;
@@ -34,6 +35,9 @@ pub enum Failure {
     /// The finite-element contact of a gear pair failed.
     #[error(transparent)]
     FemPair(FemPairError),
+    /// There is no reference to compare models with.
+    #[error(transparent)]
+    Accuracy(AccuracyError),
     /// The user interrupted the run; it was said what is kept.
     #[error("interrupted")]
     Interrupted,
@@ -151,6 +155,7 @@ impl Failure {
             Failure::Input(error) => say(&format!("{:?}", Report::new(error))),
             Failure::Solve(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::FemPair(error) => say(&format!("{:?}", Report::msg(error))),
+            Failure::Accuracy(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Run(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Interrupted | Failure::Closed => {}
         }
@@ -160,7 +165,7 @@ impl Failure {
     pub fn exit_status(&self) -> u8 {
         match self {
             Failure::Scene(_) | Failure::Input(_) => 2,
-            Failure::Run(_) | Failure::Solve(_) | Failure::FemPair(_) => 3,
+            Failure::Run(_) | Failure::Solve(_) | Failure::FemPair(_) | Failure::Accuracy(_) => 3,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
         }

@@ -1,0 +1,37 @@
+//! The files of a comparison of models by error and run time, written from its [`AccuracyRecord`] alone.
+//!
+//! | file | from |
+//! |---|---|
+//! | `accuracy.json` | [`AccuracyRecord`] |
+//! | `accuracy.csv`, `wear_profiles.csv` | [`tables`] |
+//! | `scene.toml` | the resolved scene |
+//! | `report.html` | `page` |
+
+mod front_figures;
+mod page;
+mod profile_figures;
+mod run_tables;
+pub mod tables;
+
+use std::path::{Path, PathBuf};
+
+use super::tables::Provenance;
+use super::{ReportError, create_folder, place, remove, summary};
+use crate::simulation::accuracy_record::AccuracyRecord;
+
+/// The file that is written last: its presence says that the others are complete.
+const LAST: &str = "accuracy.json";
+
+/// Writes all files of `record` into `dir`, which is made if need be; returns their paths in the order written.
+pub fn write(record: &AccuracyRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+    create_folder(dir)?;
+    remove(dir, LAST)?;
+    let provenance = Provenance::of_accuracy(record);
+    Ok(vec![
+        place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?,
+        place(dir, "accuracy.csv", |out| tables::runs(out, provenance, record))?,
+        place(dir, "wear_profiles.csv", |out| tables::profiles(out, provenance, record))?,
+        place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?,
+        place(dir, LAST, |out| summary::write(out, record))?,
+    ])
+}
