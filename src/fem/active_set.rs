@@ -73,6 +73,8 @@ pub struct Log {
     pub changes: usize,
     /// Times that single exchanges had to take over.
     pub cycles_broken: usize,
+    /// Active sets factorised.
+    pub factorisations: usize,
 }
 
 /// Why there is no equilibrium.
@@ -109,6 +111,14 @@ pub enum ActiveSetError {
     NotFinite,
 }
 
+/// An active set and the Cholesky factor of its compliance.
+#[derive(Debug, Clone)]
+pub struct FactoredSet {
+    active: Vec<bool>,
+    members: Vec<usize>,
+    factor: Llt<f64>,
+}
+
 struct Trial {
     force: Vec<f64>,
     gap_mm: Vec<f64>,
@@ -123,6 +133,19 @@ impl Condensed {
     /// # Errors
     /// See [`ActiveSetError`].
     pub fn solve(&self, start: Option<&[bool]>) -> Result<Equilibrium, ActiveSetError> {
+        self.solve_with(start, &mut None)
+    }
+
+    /// As [`Self::solve`], with the factor of an earlier solution with the same compliance: where the active set is still the
+    /// same, nothing is factorised. The factor of this solution is left there.
+    ///
+    /// # Errors
+    /// See [`ActiveSetError`].
+    pub fn solve_with(
+        &self,
+        start: Option<&[bool]>,
+        factored: &mut Option<FactoredSet>,
+    ) -> Result<Equilibrium, ActiveSetError> {
         let n = self.gap_mm.len();
         if !self.is_finite() {
             return Err(ActiveSetError::NotFinite);
@@ -138,7 +161,7 @@ impl Condensed {
         let mut log = Log::default();
         let (mut fewest, mut patience, mut one_by_one) = (usize::MAX, PATIENCE, false);
         for _ in 0..MOST_ITERATIONS {
-            let trial = self.trial(&active, &resistance)?;
+            let trial = self.trial(&active, &resistance, factored, &mut log)?;
             let wrong = self.wrong(&trial, &active);
             log.steps.push((active.iter().filter(|a| **a).count(), wrong.len()));
             if wrong.is_empty() {
@@ -195,7 +218,7 @@ impl Condensed {
     }
 
     fn is_finite(&self) -> bool {
-        let finite = |matrix: &Mat<f64>| matrix.col_iter().all(|column| column.iter().all(|v| v.is_finite()));
+        let finite = |matrix: &Mat<f64>| (0..matrix.ncols()).all(|j| column(matrix, j).iter().all(|v| v.is_finite()));
         finite(&self.compliance)
             && finite(&self.rigid)
             && self.gap_mm.iter().chain(&self.rigid_load).all(|value| value.is_finite())
@@ -220,14 +243,23 @@ impl Condensed {
     }
 
     /// Forces and gaps if exactly the `active` multipliers carry load.
-    fn trial(&self, active: &[bool], resistance: &[f64]) -> Result<Trial, ActiveSetError> {
-        let members: Vec<usize> = (0..active.len()).filter(|&i| active[i]).collect();
+    fn trial(
+        &self,
+        active: &[bool],
+        resistance: &[f64],
+        factored: &mut Option<FactoredSet>,
+        log: &mut Log,
+    ) -> Result<Trial, ActiveSetError> {
+        let kept = factored.take().filter(|kept| kept.active == active);
+        let set = match kept {
+            Some(kept) => kept,
+            None => {
+                log.factorisations += 1;
+                self.factored(active)?
+            }
+        };
+        let FactoredSet { members, factor, .. } = &*factored.insert(set);
         let (k, m) = (members.len(), self.rigid_load.len());
-        let c = Mat::from_fn(k, k, |i, j| self.compliance[(members[i], members[j])]);
-        let factor = Llt::new(c.as_ref(), Side::Lower).map_err(|error| {
-            let faer::linalg::solvers::LltError::NonPositivePivot { index } = error;
-            ActiveSetError::NotPositiveDefinite { index: members[index.min(k - 1)] }
-        })?;
         // C⁻¹ applied to −g⁰ and to the columns of G.
         let mut sides = Mat::from_fn(k, m + 1, |i, j| match j {
             0 => -self.gap_mm[members[i]],
@@ -243,21 +275,35 @@ impl Condensed {
             force[member] = sides[(i, 0)] - (0..m).map(|a| sides[(i, a + 1)] * alpha[a]).sum::<f64>();
         }
         let mut gap_mm = self.gap_mm.clone();
-        for &member in &members {
-            let f = force[member];
-            for (gap, c) in gap_mm.iter_mut().zip(self.compliance.col(member).iter()) {
-                *gap += c * f;
-            }
+        for &member in members {
+            add_scaled(&mut gap_mm, column(&self.compliance, member), force[member]);
         }
         for (a, alpha) in alpha.iter().enumerate() {
-            for (gap, g) in gap_mm.iter_mut().zip(self.rigid.col(a).iter()) {
-                *gap += g * alpha;
-            }
+            add_scaled(&mut gap_mm, column(&self.rigid, a), *alpha);
         }
-        for &member in &members {
+        for &member in members {
             gap_mm[member] = 0.0;
         }
         Ok(Trial { force, gap_mm, rigid: alpha.iter().copied().collect(), loose })
+    }
+
+    /// The compliance of the `active` multipliers, factorised.
+    fn factored(&self, active: &[bool]) -> Result<FactoredSet, ActiveSetError> {
+        let members: Vec<usize> = (0..active.len()).filter(|&i| active[i]).collect();
+        let k = members.len();
+        let mut c = Mat::<f64>::zeros(k, k);
+        for (j, &member) in members.iter().enumerate() {
+            let whole = column(&self.compliance, member);
+            // The factor reads the lower triangle alone.
+            for (entry, &i) in column_mut(&mut c, j)[j..].iter_mut().zip(&members[j..]) {
+                *entry = whole[i];
+            }
+        }
+        let factor = Llt::new(c.as_ref(), Side::Lower).map_err(|error| {
+            let faer::linalg::solvers::LltError::NonPositivePivot { index } = error;
+            ActiveSetError::NotPositiveDefinite { index: members[index.min(k - 1)] }
+        })?;
+        Ok(FactoredSet { active: active.to_vec(), members, factor })
     }
 
     /// Active multipliers that pull and others that overlap.
@@ -270,6 +316,22 @@ impl Condensed {
                 false => trial.gap_mm[i] < -ROUND_OFF * greatest_gap,
             })
             .collect()
+    }
+}
+
+/// A column of a matrix that is stored column by column, as all here are.
+fn column(matrix: &Mat<f64>, j: usize) -> &[f64] {
+    matrix.col(j).try_as_col_major().map_or(&[], |column| column.as_slice())
+}
+
+fn column_mut(matrix: &mut Mat<f64>, j: usize) -> &mut [f64] {
+    matrix.col_mut(j).try_as_col_major_mut().map_or(&mut [], |column| column.as_slice_mut())
+}
+
+/// sum ← sum + factor · values
+fn add_scaled(sum: &mut [f64], values: &[f64], factor: f64) {
+    for (sum, value) in sum.iter_mut().zip(values) {
+        *sum += value * factor;
     }
 }
 

@@ -121,18 +121,20 @@ impl CondensedPair<'_> {
         })
     }
 
+    /// ρ of the flank of `gear` at the radius that its mate's tip end has from its axis.
+    pub(super) fn rho_at_mates_tip_mm(&self, gear: Gear, position_mm: f64, pair: i32) -> f64 {
+        let mate = &self.flanks[gear.mate()];
+        let tip = mate.surface.points_mm[mate.tip_node()];
+        let tip = in_place_mm(self.pair, gear.mate(), position_mm, pair, tip);
+        self.pair.path.involute[gear].curvature_radius_mm((tip - axis_mm(self.pair, gear)).norm())
+    }
+
     /// Where contact is expected on each flank, from its tip end: on the line of action, or before A and after E at the
     /// mate's tip.
     fn expected_from_tip_mm(&self, position_mm: f64, pair: i32, own_mm: f64) -> PerGear<f64> {
         let path = &self.pair.path;
-        // The flank of `gear` at the radius that the mate's tip end has from its axis.
-        let at_mates_tip = |gear: Gear| {
-            let mate = &self.flanks[gear.mate()];
-            let tip = mate.surface.points_mm[mate.tip_node()];
-            let tip = in_place_mm(self.pair, gear.mate(), position_mm, pair, tip);
-            let radius_mm = (tip - axis_mm(self.pair, gear)).norm();
-            self.flanks[gear].from_tip_at_mm(path.involute[gear].curvature_radius_mm(radius_mm))
-        };
+        let at_mates_tip =
+            |gear: Gear| self.flanks[gear].from_tip_at_mm(self.rho_at_mates_tip_mm(gear, position_mm, pair));
         if own_mm < path.start_mm {
             PerGear { pinion: at_mates_tip(Gear::Pinion), wheel: 0.0 }
         } else if own_mm > path.end_mm {

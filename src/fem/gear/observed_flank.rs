@@ -14,38 +14,39 @@
 use nalgebra::{Rotation2, Vector2};
 
 use super::facing::Facing;
+use super::flank_surface::Place;
 use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
 use super::position::CondensedPair;
-use crate::fem::contact::edge::{MOST_NODES, interpolate, shape};
+use crate::fem::contact::edge::{interpolate, shape};
 use crate::fem::contact::surface::{Surface, SurfaceEdge};
-use crate::gear::{Gear, PerGear};
+use crate::gear::Gear;
 
 /// Consecutive points of one flank, from root to tip, and how each reads the pressure.
 #[derive(Debug, Clone, Default)]
 pub struct ObservedFlank {
     /// Number of the first of them on the flank.
     pub first_point: usize,
-    /// For each point: rows of the position's multipliers and their weights; weight 0 where there is none.
-    pressure: Vec<[(usize, f64); MOST_NODES]>,
+    /// Rows of the position's multipliers that points read, with their weights; one point after the other.
+    reads: Vec<(usize, f64)>,
+    /// Where the reads of each point end.
+    ends: Vec<usize>,
     /// (x − C)·n of each point at the position, mm; NaN where it faces nothing.
     lever_mm: Vec<f64>,
 }
 
-/// Where a point lies on a surface.
-#[derive(Debug, Clone, Copy)]
-struct Place {
-    edge: usize,
-    xi: f64,
-}
+/// Most places at which one point's pressure is sampled within a position's stretch.
+const MOST_SAMPLES: usize = 32;
 
 impl ObservedFlank {
-    /// Pressure of each point under the forces of the position's multipliers, MPa.
+    /// Pressure of each point for the pressures `nodal_mpa` at the position's multipliers, MPa.
     pub fn pressure_mpa<'a>(&'a self, nodal_mpa: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
-        let at = |weights: &[(usize, f64); MOST_NODES]| -> f64 {
-            let sum: f64 = weights.iter().map(|&(row, weight)| weight * nodal_mpa[row]).sum();
+        let mut start = 0;
+        self.ends.iter().map(move |&end| {
+            let sum: f64 = self.reads[start..end].iter().map(|&(row, weight)| weight * nodal_mpa[row]).sum();
+            start = end;
+            // Parabolas dip below zero beside the end of contact.
             sum.max(0.0)
-        };
-        self.pressure.iter().map(at)
+        })
     }
 
     /// How far each point slides while the theoretical contact point passes `length_mm` around the position, mm: the mean of
@@ -57,63 +58,102 @@ impl ObservedFlank {
         let slid = |&lever: &f64| if lever.is_nan() { 0.0 } else { curvature_sum_per_mm * length_mm * mean(lever) };
         self.lever_mm.iter().map(slid).collect()
     }
+
+    /// Adds a point that reads `reads` evenly `samples` times.
+    fn push(&mut self, mut reads: Vec<(usize, f64)>, samples: usize, lever_mm: f64) {
+        reads.sort_unstable_by_key(|(row, _)| *row);
+        let first = self.reads.len();
+        for (row, weight) in reads {
+            match self.reads[first..].last_mut() {
+                Some((last, sum)) if *last == row => *sum += weight / samples as f64,
+                _ => self.reads.push((row, weight / samples as f64)),
+            }
+        }
+        self.ends.push(self.reads.len());
+        self.lever_mm.push(lever_mm);
+    }
 }
 
 impl CondensedPair<'_> {
-    /// How the points of both flanks at `radius_mm` (increasing) read the pressure of a tooth pair at `position_mm`.
-    pub(super) fn observed(
+    /// How the points of `gear`'s flank at `radius_mm` (increasing) read the pressure of a tooth pair at `position_mm`, which
+    /// stands for `length_mm` of the path.
+    pub(super) fn observed_flank(
         &self,
         position_mm: f64,
+        length_mm: f64,
         facing: &Facing,
-        radius_mm: PerGear<&[f64]>,
-    ) -> PerGear<ObservedFlank> {
-        PerGear::from_fn(|gear| self.observed_flank(position_mm, facing, gear, radius_mm[gear]))
-    }
-
-    fn observed_flank(&self, position_mm: f64, facing: &Facing, gear: Gear, radius_mm: &[f64]) -> ObservedFlank {
+        gear: Gear,
+        radius_mm: &[f64],
+    ) -> ObservedFlank {
         let slave = facing.slave;
-        let (own, on) = (&self.flanks[gear].surface, &self.flanks[slave].surface);
-        let own_edges = &own.edges[facing.edges[gear].clone()];
+        let (own, on) = (&self.flanks[gear], &self.flanks[slave]);
+        let own_edges = &own.surface.edges[facing.edges[gear].clone()];
         // Edges run from tip to root: radii fall along them.
-        let radius_at = |node: usize| own.points_mm[node].norm();
+        let radius_at = |node: usize| own.surface.points_mm[node].norm();
         let (Some(first), Some(last)) = (own_edges.first(), own_edges.last()) else { return ObservedFlank::default() };
         let (highest, lowest) = (radius_at(first.nodes()[0]), radius_at(last.nodes()[1]));
         let round_off = 1e-9 * highest;
         let first_point = radius_mm.partition_point(|&r| r < lowest - round_off);
         let end = radius_mm.partition_point(|&r| r <= highest + round_off);
-        let row_of = facing.rows_of_nodes(on.points_mm.len());
+        let row_of = facing.rows_of_nodes(on.surface.points_mm.len());
         let angle = |g| tooth_angle_rad(self.pair, g, position_mm, facing.pair);
         let pitch_point = Vector2::new(0.0, self.pair.working_pitch_radius_mm(Gear::Pinion));
+        let moves_mm = self.contact_moves_mm(position_mm, length_mm, facing.pair, gear);
         let mut observed = ObservedFlank { first_point, ..ObservedFlank::default() };
         for &radius in &radius_mm[first_point..end.max(first_point)] {
-            let own_place = place_at_radius(own, facing.edges[gear].clone(), radius);
-            let point = point_at(own, own_place);
+            let own_place = place_at_radius(&own.surface, facing.edges[gear].clone(), radius);
+            let point = point_at(&own.surface, own_place);
             let in_place = in_place_mm(self.pair, gear, position_mm, facing.pair, point);
             let place = if gear == slave {
                 Some(own_place)
             } else {
                 let in_slave = Rotation2::new(-angle(slave)) * (in_place - axis_mm(self.pair, slave));
-                place_facing(on, facing.edges[slave].clone(), in_slave)
+                place_facing(&on.surface, facing.edges[slave].clone(), in_slave)
             };
             let Some(place) = place else {
-                observed.pressure.push([(0, 0.0); MOST_NODES]);
-                observed.lever_mm.push(f64::NAN);
+                observed.push(Vec::new(), 1, f64::NAN);
                 continue;
             };
-            let edge = &on.edges[place.edge];
-            let weights = shape(edge.nodes().len(), place.xi);
-            let mut read = [(0, 0.0); MOST_NODES];
-            for ((entry, weight), &node) in read.iter_mut().zip(weights).zip(edge.nodes()) {
-                if let Some(row) = row_of[node] {
-                    *entry = (row, weight);
+            let edge = &on.surface.edges[place.edge];
+            let (normal, _) = on.surface.normal_and_derivative(edge, place.xi);
+            let normal = Rotation2::new(angle(slave)) * normal.normalize();
+            let lever_mm = (in_place - pitch_point).dot(&normal);
+            let samples = ((2.0 * moves_mm / on.node_distance_mm(place.edge)).ceil() as usize).clamp(1, MOST_SAMPLES);
+            let here = on.from_tip_of_mm(place);
+            let mut reads = Vec::new();
+            for k in 0..samples {
+                let along = here + moves_mm * ((k as f64 + 0.5) / samples as f64 - 0.5);
+                let Some(place) = on.place_from_tip(facing.edges[slave].clone(), along) else { continue };
+                let nodes = on.surface.edges[place.edge].nodes();
+                for (weight, &node) in shape(nodes.len(), place.xi).into_iter().zip(nodes) {
+                    reads.extend(row_of[node].map(|row| (row, weight)));
                 }
             }
-            observed.pressure.push(read);
-            let (normal, _) = on.normal_and_derivative(edge, place.xi);
-            let normal = Rotation2::new(angle(slave)) * normal.normalize();
-            observed.lever_mm.push((in_place - pitch_point).dot(&normal));
+            observed.push(reads, samples, lever_mm);
         }
         observed
+    }
+
+    /// How far the contact of a tooth pair moves along `gear`'s flank while the theoretical contact point passes `length_mm`
+    /// around `position_mm`, mm.
+    fn contact_moves_mm(&self, position_mm: f64, length_mm: f64, pair: i32, gear: Gear) -> f64 {
+        let path = &self.pair.path;
+        let involute = path.involute[gear];
+        let arc = |position_mm: f64| {
+            let own_mm = position_mm + f64::from(pair) * path.base_pitch_mm;
+            let (at_tip, at_mates_tip) = match gear {
+                Gear::Pinion => (own_mm > path.end_mm, own_mm < path.start_mm),
+                Gear::Wheel => (own_mm < path.start_mm, own_mm > path.end_mm),
+            };
+            if at_tip {
+                involute.arc_mm(self.pair.teeth[gear].tip_rho_mm())
+            } else if at_mates_tip {
+                involute.arc_mm(self.rho_at_mates_tip_mm(gear, position_mm, pair))
+            } else {
+                involute.arc_mm(path.rho_mm(gear, own_mm))
+            }
+        };
+        (arc(position_mm + 0.5 * length_mm) - arc(position_mm - 0.5 * length_mm)).abs()
     }
 }
 

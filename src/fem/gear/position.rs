@@ -122,9 +122,18 @@ impl<'a> CondensedPair<'a> {
         loaded.collect()
     }
 
-    /// How the points of both flanks at `radius_mm` (increasing) read the pressure of each tooth pair that may touch.
-    pub fn observed_pairs(&self, prepared: &Prepared, radius_mm: PerGear<&[f64]>) -> Vec<PerGear<ObservedFlank>> {
-        prepared.facings.iter().map(|facing| self.observed(prepared.position_mm, facing, radius_mm)).collect()
+    /// How the points of both flanks at `radius_mm` (increasing) read the pressure of each tooth pair that may touch, with the
+    /// position standing for `length_mm` of the path.
+    pub fn observed_pairs(
+        &self,
+        prepared: &Prepared,
+        length_mm: f64,
+        radius_mm: PerGear<&[f64]>,
+    ) -> Vec<PerGear<ObservedFlank>> {
+        let at = prepared.position_mm;
+        let observed =
+            |facing| PerGear::from_fn(|gear| self.observed_flank(at, length_mm, facing, gear, radius_mm[gear]));
+        prepared.facings.iter().map(observed).collect()
     }
 
     /// The figures of a solution.

@@ -16,7 +16,7 @@ use super::facing::{Facing, Window};
 use super::flank_surface::FlankSurface;
 use super::position::CondensedPair;
 use super::ring::Between;
-use crate::fem::active_set::{ActiveSetError, Condensed, Equilibrium};
+use crate::fem::active_set::{ActiveSetError, Condensed, Equilibrium, FactoredSet};
 use crate::gear::{Gear, PerGear};
 
 /// Distance between the flanks within which they may come to touch, in units of line load over E*: an approach is some
@@ -43,6 +43,7 @@ pub struct Prepared {
     unworn_gap_mm: Vec<f64>,
     /// Where the next solution starts.
     pub(super) active: Option<Vec<bool>>,
+    factored: Option<FactoredSet>,
     /// How often it had to be looked wider.
     looks: usize,
 }
@@ -72,6 +73,7 @@ impl<'a> CondensedPair<'a> {
             facings,
             condensed,
             active: None,
+            factored: None,
             looks: 1,
         }
     }
@@ -85,7 +87,7 @@ impl<'a> CondensedPair<'a> {
         for look in 1..=MOST_LOOKS {
             prepared.open_gaps(&self.flanks, wear);
             let last = look == MOST_LOOKS;
-            match prepared.condensed.solve(prepared.active.as_deref()) {
+            match prepared.condensed.solve_with(prepared.active.as_deref(), &mut prepared.factored) {
                 Ok(found) if last || !prepared.is_cramped(&found, &self.flanks) => {
                     prepared.active = Some(found.active.clone());
                     return Ok(found);
