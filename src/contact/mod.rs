@@ -7,12 +7,16 @@
 //! | surface | pressure | load against approach |
 //! |---|---|---|
 //! | [`winkler`] | independent springs K/H against the real gap | from the pressure |
+//! | [`half_space`] | elastic half-planes against the real gap | from the pressure |
 //! | [`hertz`] | Hertz's ellipse on the nominal curvature | closed-form flattening |
 //! | [`hertz_mean`] | Hertz's mean pressure, closed-form sliding | closed-form flattening |
 
+mod elastic_cells;
 pub mod foundation;
+pub mod half_space;
 pub mod hertz;
 pub mod hertz_mean;
+mod pressure_field;
 pub mod settings;
 pub mod strip;
 pub mod winkler;

@@ -52,31 +52,42 @@ pub struct Window {
 }
 
 impl Window {
-    /// `half_length_mm` to either side of the theoretical contact point, cut where a flank ends.
+    /// `half_length_mm` to either side of the theoretical contact point, or of the tip edge next to it where the one flank
+    /// ends before it, cut where a flank ends.
     pub fn new(flanks: Flanks<'_>, position_mm: f64, half_length_mm: f64) -> Self {
         let (lower, upper) = common_extent_mm(flanks, position_mm);
-        Self {
-            lower_mm: lower.max(-half_length_mm),
-            upper_mm: upper.min(half_length_mm),
-            ends_are_real: [lower >= -half_length_mm, upper <= half_length_mm],
-        }
+        let centre = 0.0_f64.min(upper).max(lower);
+        let (from, to) = (centre - half_length_mm, centre + half_length_mm);
+        Self { lower_mm: lower.max(from), upper_mm: upper.min(to), ends_are_real: [lower >= from, upper <= to] }
+    }
+
+    /// Its length.
+    pub fn length_mm(&self) -> f64 {
+        self.upper_mm - self.lower_mm
     }
 }
 
-/// Where along the tangent both flanks exist.
+/// Parts of the flank's length by which a limit may miss the theoretical contact point at A or E.
+const ROUND_OFF: f64 = 1e-9;
+
+/// Where along the tangent both flanks exist: before A and after E beside the theoretical contact point.
 fn common_extent_mm(flanks: Flanks<'_>, position_mm: f64) -> (f64, f64) {
     let along = |gear: Gear, coordinate| flanks.geometry.in_tangent_frame(gear, coordinate, position_mm).along_mm;
     let (p, w) = (flanks.geometry.flank_limits_mm(Gear::Pinion), flanks.geometry.flank_limits_mm(Gear::Wheel));
     // The wheel's tangent coordinate runs the other way. At A and E, where one limit is the contact point itself,
-    // round-off must not leave an empty window.
-    let lower = along(Gear::Pinion, p.0).max(-along(Gear::Wheel, w.1)).min(0.0);
-    let upper = along(Gear::Pinion, p.1).min(-along(Gear::Wheel, w.0)).max(0.0);
-    (lower, upper)
+    // round-off must not put it outside.
+    let round_off = ROUND_OFF * p.1.max(w.1);
+    let lower = along(Gear::Pinion, p.0).max(-along(Gear::Wheel, w.1));
+    let upper = along(Gear::Pinion, p.1).min(-along(Gear::Wheel, w.0));
+    (if lower < round_off { lower.min(0.0) } else { lower }, if upper > -round_off { upper.max(0.0) } else { upper })
 }
 
-/// Distance of the samples of a [`Strip`] in points of the pinion's flank. The load needs less resolution than the wear:
-/// its geometric part is exact to the gap's curvature, and the worn part is smooth over several points.
-const POINTS_PER_SAMPLE: f64 = 2.0;
+/// Distance of the pinion's points at the theoretical contact point.
+pub fn point_distance_mm(flanks: Flanks<'_>, position_mm: f64) -> f64 {
+    let grid = flanks.grid.pinion;
+    let here = grid.place(flanks.geometry.contact_coordinate_mm(Gear::Pinion, position_mm)).index;
+    grid.arc_mm[here + 1] - grid.arc_mm[here]
+}
 
 /// Evenly spaced samples across the candidate contact.
 #[derive(Debug, Clone)]
@@ -91,14 +102,9 @@ pub struct Strip {
 }
 
 impl Strip {
-    /// Samples about two of the pinion's points apart, and at least 9 of them.
-    pub fn new(flanks: Flanks<'_>, position_mm: f64, window: Window) -> Self {
-        let grid = flanks.grid.pinion;
-        let here = grid.place(flanks.geometry.contact_coordinate_mm(Gear::Pinion, position_mm)).index;
-        let length = window.upper_mm - window.lower_mm;
-        let intervals =
-            ((length / (POINTS_PER_SAMPLE * (grid.arc_mm[here + 1] - grid.arc_mm[here]))).ceil() as usize).max(8);
-        let spacing_mm = length / intervals as f64;
+    /// Samples at both ends of `window` and between `intervals` even parts of it.
+    pub fn new(flanks: Flanks<'_>, position_mm: f64, window: Window, intervals: usize) -> Self {
+        let spacing_mm = window.length_mm() / intervals as f64;
         let mut strip = Self {
             window,
             spacing_mm,

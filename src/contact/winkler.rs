@@ -21,7 +21,7 @@ use std::ops::Range;
 
 use super::{
     ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep, foundation,
-    strip::{GapAtPoints, ObservedPoints, Strip, Window},
+    strip::{GapAtPoints, ObservedPoints, Strip, Window, point_distance_mm},
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 
@@ -36,6 +36,11 @@ pub struct Winkler {
 
 /// Half-length of the first window over the half-width of the unworn contact.
 const FIRST_WINDOW: f64 = 1.25;
+/// Distance of the samples in points of the pinion's flank. The load needs less resolution than the wear: its geometric
+/// part is exact to the gap's curvature, and the worn part is smooth over several points.
+const POINTS_PER_SAMPLE: f64 = 2.0;
+/// Fewest intervals between samples.
+const LEAST_INTERVALS: usize = 8;
 
 impl ContactSurface for Winkler {
     fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
@@ -79,7 +84,9 @@ impl Site<'_> {
     /// Samples the flanks over the window.
     fn look(&self) -> (Strip, Option<Observed>) {
         let window = Window::new(self.flanks, self.position_mm, self.half_window_mm);
-        let strip = Strip::new(self.flanks, self.position_mm, window);
+        let distance_mm = POINTS_PER_SAMPLE * point_distance_mm(self.flanks, self.position_mm);
+        let intervals = ((window.length_mm() / distance_mm).ceil() as usize).max(LEAST_INTERVALS);
+        let strip = Strip::new(self.flanks, self.position_mm, window, intervals);
         let observed = self.cell.map(|cell| {
             PerGear::from_fn(|gear| {
                 let points = ObservedPoints::new(self.flanks, gear, window, cell);

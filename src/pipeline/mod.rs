@@ -15,6 +15,7 @@ use std::time::Instant;
 use crate::contact::{
     ContactSurface,
     foundation::matched_mpa_per_mm,
+    half_space::HalfSpace,
     hertz::{self, Hertz},
     hertz_mean::HertzMean,
     settings::{Foundation, Material, SurfaceKind},
@@ -223,7 +224,9 @@ fn surface(
             Some(Box::new(Winkler { foundation_mpa_per_mm, expected_line_load_n_per_mm: line_load_n_per_mm }))
         }
         (SurfaceKind::HertzMean, _) => Some(Box::new(HertzMean { material: scene.material })),
-        (SurfaceKind::HalfSpace, _) => todo!(),
+        (SurfaceKind::HalfSpace, _) => {
+            Some(Box::new(HalfSpace { material: scene.material, expected_line_load_n_per_mm: line_load_n_per_mm }))
+        }
         (SurfaceKind::Hertz, _) | (SurfaceKind::Winkler, None) => {
             Some(Box::new(Hertz { material: scene.material, expected_line_load_n_per_mm: line_load_n_per_mm }))
         }

@@ -2,6 +2,7 @@
 
 pub mod cantilever;
 pub mod flattening;
+pub mod half_plane;
 pub mod hertz_line;
 pub mod lame_cylinder;
 pub mod persson;

@@ -22,7 +22,6 @@ const fn choice(key: &'static str, value: &'static str, instead: &'static str) -
 /// What spur gears are limited to.
 pub const SPUR_ONLY: &str = "spur gears, helix_angle_deg = 0";
 
-const SURFACES: &str = r#"contact.surface = "winkler", "hertz", "hertz-mean" or "fem""#;
 const MODELS: &str = r#"stiffness.model = "constant", "weber-banaschek" or "iso6336""#;
 const LAW: &str = r#"wear.law = "archard""#;
 const STEP: &str = "a fixed step, numerics.step = { revolutions = … }";
@@ -36,7 +35,6 @@ pub const SCENE: &[Later] = &[
     key("pair.wheel.lead_crowning_um", CROWNING),
     key("numerics.tolerance_um", STEP),
     choice("numerics.step", "adaptive", STEP),
-    choice("contact.surface", "half-space", SURFACES),
     choice("stiffness.model", "fem", MODELS),
     choice("stiffness.model", "simon", MODELS),
     choice("stiffness.model", "wang-cheng", MODELS),

@@ -65,6 +65,7 @@ pub fn steel() -> PerGear<gearwear::contact::settings::Material> {
 use gearwear::contact::{
     ContactSurface,
     foundation::matched_mpa_per_mm,
+    half_space::HalfSpace,
     hertz::{self, Hertz},
     hertz_mean::HertzMean,
     settings::MatchCriterion,
@@ -134,6 +135,7 @@ impl Scene {
         let expected_line_load_n_per_mm = self.line_load();
         match self.surface {
             "winkler" => Box::new(Winkler { foundation_mpa_per_mm: self.foundation(), expected_line_load_n_per_mm }),
+            "half-space" => Box::new(HalfSpace { material: steel(), expected_line_load_n_per_mm }),
             "hertz" => Box::new(Hertz { material: steel(), expected_line_load_n_per_mm }),
             "hertz-mean" => Box::new(HertzMean { material: steel() }),
             other => panic!("no surface {other}"),

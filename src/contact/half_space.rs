@@ -1,0 +1,252 @@
+//! Elastic half-planes against the real, modified and worn gap.
+//!
+//! Each body is an elastic half-plane where it touches: pressure at one place lowers the surface everywhere. On plain
+//! involutes this is Hertz's contact; on worn ones it is what Hertz's theory cannot know, with the elasticity that the
+//! independent springs of [`winkler`](super::winkler) lack. Displacements are measured relative to the tooth's centre line
+//! along the line of action ([`half_plane`](crate::reference::half_plane)), so that the load follows from the approach by
+//! itself, and agrees with the closed-form flattening of plain flanks.
+//!
+//! The pressure is uniform on evenly spaced cells ([`ElasticCells`]). There are at least [`CELLS_PER_HALF_WIDTH`] of them in
+//! the half-width of the plain contact under the whole load: the peak pressure of a parabolic gap is then within 0.1 % of
+//! Hertz's and the half-width within 0.5 % from a half of the load on. A flank point's pressure is the mean of the field
+//! ([`PressureField`]) over the stretch that the point moves while the contact stands for one loading position.
+//!
+//! Cells do not see waves of wear shorter than twice their width for what they are. So that such waves are never driven up,
+//! material removed counts in the gap of a cell with the same weights with which the pressure of the cell counts at flank
+//! points: the tent of straight lines to its neighbours, here ¼, ½, ¼ at the cell's ends and centre. Whatever the wave, what
+//! stands up then never wears less than what lies low.
+//!
+//! Limits: the half-planes go on beyond a tip edge, as if the tooth did not end there. Towards a sharp edge the pressure grows
+//! without bound, and what is given there is the mean of the outermost cell.
+//!
+//! Source: K. L. Johnson, *Contact Mechanics* (1985), sections 2.5 and 5.9.
+
+use super::{
+    ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
+    elastic_cells::ElasticCells,
+    hertz,
+    pressure_field::PressureField,
+    settings::Material,
+    strip::{ObservedPoints, Strip, Window, point_distance_mm},
+};
+use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use crate::reference::{flattening::Flattening, half_plane::cell_compliance_mm_per_mpa};
+
+/// The surface: elastic constants and the load that contacts are expected to carry.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HalfSpace {
+    /// Of each gear.
+    pub material: PerGear<Material>,
+    /// Load that the first window and the cells are cut for, N/mm.
+    pub expected_line_load_n_per_mm: f64,
+}
+
+/// Fewest cells in the half-width of the plain contact under the expected load.
+pub const CELLS_PER_HALF_WIDTH: f64 = 16.0;
+/// As many at most, where the flank points are finer.
+const FINEST_CELLS_PER_HALF_WIDTH: f64 = 40.0;
+/// Cells are no wider than this many flank points, within those limits.
+const POINTS_PER_CELL: f64 = 2.0;
+/// Half-length of the first window over the half-width of the plain contact under the expected load.
+const FIRST_WINDOW: f64 = 1.25;
+/// Cells at an end of the window that is not real which must stay without pressure.
+const FREE_CELLS: usize = 2;
+/// Fewest cells in a window.
+const LEAST_CELLS: usize = 4;
+/// Most cells in a window: those of a window that has grown beyond are wider.
+const MOST_CELLS: f64 = 320.0;
+
+impl ContactSurface for HalfSpace {
+    fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
+        let flattening = hertz::flattening(flanks.geometry, &self.material, position_mm);
+        let half_width = flattening.contact.loaded(self.expected_line_load_n_per_mm).half_width_mm;
+        let site = Site {
+            flanks,
+            position_mm,
+            cell,
+            flattening,
+            cell_mm: self.cell_width_mm(flanks, position_mm),
+            half_window_mm: FIRST_WINDOW * half_width,
+        };
+        Box::new(HalfSpacePair { look: site.look(), site, samples: Vec::new(), gap: Vec::new(), touch: 0.0 })
+    }
+
+    fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
+        hertz::flattening(geometry, &self.material, position_mm).approach_mm(line_load_n_per_mm)
+    }
+}
+
+impl HalfSpace {
+    /// About two flank points, within what the contact needs.
+    fn cell_width_mm(&self, flanks: Flanks<'_>, position_mm: f64) -> f64 {
+        let contact = hertz::flattening(flanks.geometry, &self.material, position_mm).contact;
+        let half_width = contact.loaded(self.expected_line_load_n_per_mm).half_width_mm;
+        (POINTS_PER_CELL * point_distance_mm(flanks, position_mm))
+            .clamp(half_width / FINEST_CELLS_PER_HALF_WIDTH, half_width / CELLS_PER_HALF_WIDTH)
+    }
+}
+
+/// Where a pair is, and how much of its flanks it looks at.
+struct Site<'a> {
+    flanks: Flanks<'a>,
+    position_mm: f64,
+    cell: Option<PositionCell>,
+    flattening: Flattening,
+    cell_mm: f64,
+    half_window_mm: f64,
+}
+
+/// The points of each flank that may touch, with their movement through the cell.
+type Observed = PerGear<(ObservedPoints, Vec<[f64; 2]>)>;
+
+/// What is seen through a window.
+struct Look {
+    strip: Strip,
+    cells: ElasticCells,
+    field: PressureField,
+    observed: Option<Observed>,
+}
+
+impl Site<'_> {
+    fn look(&self) -> Look {
+        let window = Window::new(self.flanks, self.position_mm, self.half_window_mm);
+        let widest = self.cell_mm.max(window.length_mm() / MOST_CELLS);
+        let count = ((window.length_mm() / widest).ceil() as usize).max(LEAST_CELLS);
+        let strip = Strip::new(self.flanks, self.position_mm, window, 2 * count);
+        let width = 2.0 * strip.spacing_mm;
+        let compliance = cell_compliance_mm_per_mpa(&self.flattening.bodies, width, count);
+        let observed = self.cell.map(|cell| {
+            PerGear::from_fn(|gear| {
+                let points = ObservedPoints::new(self.flanks, gear, window, cell);
+                let shifts = points.shifts_to_ends_mm();
+                (points, shifts)
+            })
+        });
+        Look {
+            strip,
+            cells: ElasticCells::new(width, compliance),
+            field: PressureField::new(window.lower_mm, width),
+            observed,
+        }
+    }
+}
+
+/// One tooth pair on half-planes.
+struct HalfSpacePair<'a> {
+    site: Site<'a>,
+    look: Look,
+    /// Real gap at the cells' boundaries and centres, mm.
+    samples: Vec<f64>,
+    /// Real gap of each cell less the least of them, mm.
+    gap: Vec<f64>,
+    /// The least gap, mm.
+    touch: f64,
+}
+
+impl PairContact for HalfSpacePair<'_> {
+    fn read(&mut self, removed_mm: PerGear<&[f64]>) {
+        let Look { strip, cells, .. } = &mut self.look;
+        strip.gap_mm(removed_mm, &mut self.samples);
+        // What the weights add to the parabola at the centre: Δ²/16R.
+        let rise = strip.spacing_mm.powi(2) / (4.0 * self.site.flattening.contact.relative_radius_mm());
+        let of_cell = |ends: &[f64]| 0.25 * (ends[0] + ends[2]) + 0.5 * ends[1] - rise;
+        self.gap.clear();
+        self.gap.extend(self.samples.windows(3).step_by(2).map(of_cell));
+        let touch = self.gap.iter().copied().fold(f64::INFINITY, f64::min);
+        // From the first touch on, nothing is lost where a light load meets a deep relief.
+        self.gap.iter_mut().for_each(|gap| *gap -= touch);
+        self.touch = touch;
+        cells.read(&self.gap);
+    }
+
+    fn touch_mm(&self) -> f64 {
+        self.touch
+    }
+
+    fn press(&mut self, depth_mm: f64) -> Response {
+        self.look.cells.press(depth_mm)
+    }
+
+    fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64 {
+        // At a tip edge half of the strip carries the load, as if it were twice as large.
+        self.site.flattening.approach_mm(2.0 * line_load_n_per_mm)
+    }
+
+    fn settle(&mut self) -> bool {
+        let Look { strip, cells, field, .. } = &mut self.look;
+        field.fill(|pressure| cells.pressure_mpa(pressure));
+        let pressure = field.cells_mpa();
+        let free = |end: &[f64]| end.iter().all(|p| *p == 0.0);
+        let cells = FREE_CELLS.min(pressure.len());
+        let [real_below, real_above] = strip.window.ends_are_real;
+        (real_below || free(&pressure[..cells])) && (real_above || free(&pressure[pressure.len() - cells..]))
+    }
+
+    fn widen(&mut self) {
+        self.site.half_window_mm *= 1.5;
+        self.look = self.site.look();
+    }
+
+    fn sweep(&self, gear: Gear, _removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
+        let Some(observed) = &self.look.observed else { return sweep.begin(0, &[]) };
+        let (points, shifts) = &observed[gear];
+        let near = self.touching(gear, points);
+        sweep.begin(points.first_point + near.start, &points.sliding_mm[near.clone()]);
+        let courses = points.at[1..][near.clone()].iter().zip(&shifts[near]);
+        for (pressure, (point, shift)) in sweep.pressure_mpa.iter_mut().zip(courses) {
+            // A point that faces nothing has no course.
+            *pressure = if shift[0] == shift[1] {
+                0.0
+            } else {
+                self.look.field.mean_mpa(shift.map(|shift| on_tangent(gear, point.along_mm + shift)))
+            };
+        }
+    }
+
+    fn felt(&self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Vec<Felt> {
+        let Some(observed) = &self.look.observed else { return Vec::new() };
+        let (points, shifts) = &observed[gear];
+        let near = self.touching(gear, points);
+        let (lower, upper) = self.look.field.extent_mm();
+        let courses = points.at[1..][near.clone()].iter().zip(&shifts[near]);
+        courses
+            .map(|(point, shift)| {
+                let [low, high] = [shift[0].min(shift[1]), shift[0].max(shift[1])];
+                if low == high {
+                    return Felt::default();
+                }
+                let at = |shift: f64| on_tangent(gear, point.along_mm + shift);
+                let inside = |shift: f64| at(shift).clamp(lower, upper);
+                let faced = low <= 0.0 && high >= 0.0;
+                Felt {
+                    pressure_mpa: if faced { self.look.field.at_mpa(at(0.0)) } else { 0.0 },
+                    contact_fraction: (inside(high) - inside(low)).abs() / (high - low),
+                }
+            })
+            .collect()
+    }
+
+    fn footprint(&self) -> Footprint {
+        self.look.field.footprint()
+    }
+}
+
+impl HalfSpacePair<'_> {
+    /// The points of a flank that may touch: pressure goes half a cell beyond the cells in contact.
+    fn touching(&self, gear: Gear, points: &ObservedPoints) -> std::ops::Range<usize> {
+        let (lower, upper) = self.look.field.extent_mm();
+        let more = 4.0 * self.look.strip.spacing_mm;
+        match gear {
+            Gear::Pinion => points.between(lower - more, upper + more),
+            Gear::Wheel => points.between(-upper - more, more - lower),
+        }
+    }
+}
+
+/// Place on the common tangent, towards the pinion's tip, of a place in a gear's own direction.
+fn on_tangent(gear: Gear, along_mm: f64) -> f64 {
+    match gear {
+        Gear::Pinion => along_mm,
+        Gear::Wheel => -along_mm,
+    }
+}
