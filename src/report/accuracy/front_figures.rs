@@ -11,6 +11,22 @@ use crate::simulation::accuracy_record::{AccuracyRecord, Quantity, VariantRecord
 /// Errors below this are drawn at it: a logarithmic axis knows no zero.
 const LEAST_SHOWN: f64 = 1e-5;
 
+/// Marks of the error axis: a whole decade and its third, as in engineering plots.
+const TICKS: [(f64, &str); 12] = [
+    (1e-5, "0.001 %"),
+    (3e-5, "0.003 %"),
+    (1e-4, "0.01 %"),
+    (3e-4, "0.03 %"),
+    (1e-3, "0.1 %"),
+    (3e-3, "0.3 %"),
+    (0.01, "1 %"),
+    (0.03, "3 %"),
+    (0.1, "10 %"),
+    (0.3, "30 %"),
+    (1.0, "100 %"),
+    (3.0, "300 %"),
+];
+
 /// A kind of run as the plots tell them apart.
 struct Kind {
     name: &'static str,
@@ -123,7 +139,11 @@ fn front(record: &AccuracyRecord, quantity: Quantity) -> Figure {
             .show_legend(true)
             .hover_mode(HoverMode::Closest)
             .x_axis(logarithmic("wall time of the wear run, s"))
-            .y_axis(logarithmic("relative error").tick_format("~%")),
+            .y_axis(
+                logarithmic("relative error")
+                    .tick_values(TICKS.map(|(level, _)| level).into())
+                    .tick_text(TICKS.map(|(_, text)| text).into()),
+            ),
     );
     Figure {
         id: format!("front-{}", quantity.name().replace('_', "-")),
