@@ -482,7 +482,7 @@ fn what_cannot_be_meshed_is_refused() {
         let flank = FlankResolution {
             half_width_mm: &half_width,
             elements_per_half_width,
-            margin_half_widths: 3.0,
+            margin_mm: 3.0 * half_width_mm,
             depth_half_widths: 1.0,
         };
         tooth::sector(&shape, &SectorSettings { clamp_radius_mm, fillet_elements: 24, flank: Some(flank) })
@@ -514,7 +514,7 @@ fn any_load_gives_a_mesh() {
             let flank = FlankResolution {
                 half_width_mm: &half_width,
                 elements_per_half_width: 8.0,
-                margin_half_widths: 3.0,
+                margin_mm: 3.0 * half_width_mm,
                 depth_half_widths: 1.0,
             };
             let clamp_radius_mm = pair.teeth[g].root_radius_mm - 11.25;

@@ -1,18 +1,136 @@
 //! What the finite-element model teaches the fast one: tooth stiffness and K/H along the path of contact.
+//!
+//! | module | what it finds |
+//! |---|---|
+//! | [`tooth_stiffness`] | how far the teeth yield under a known load anywhere on the path, bending and flattening apart |
+//! | [`bodies`] | the pair's stiffness at C as resolution, rim and neighbours change |
+//! | [`tooth_family`], [`course`] | the same as families of curves: by number of teeth, and over the path |
+//! | [`single_contact`] | the pair alone in contact: half-width, peak pressure, approach by position and load |
+//! | [`foundation_fit`] | K/H as a curve that a Winkler bed can use, with its error where it was not fitted |
+//! | [`identity`], [`file`] | what the calibration belongs to, and the file it is kept in |
+//!
+//! Everything is per mm of face width, elastic, without friction, in plane strain.
+
+pub mod bodies;
+pub mod course;
+pub mod file;
+pub mod foundation_fit;
+pub mod identity;
+pub mod loaded_tooth;
+pub mod single_contact;
+pub mod tooth_family;
+pub mod tooth_stiffness;
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use self::bodies::{NeighbourRow, ResolutionRow, RimRow, Setup};
+use self::course::Course;
+use self::foundation_fit::FoundationFit;
+use self::identity::Identity;
+use self::single_contact::SingleContact;
+use self::tooth_family::FamilyMember;
+use self::tooth_stiffness::{LoadedPair, PairDeflection};
 use crate::contact::{foundation::FoundationCurve, settings::MatchCriterion};
+use crate::fem::active_set::ActiveSetError;
+use crate::fem::gear::model::ModelError;
+use crate::gear::Gear;
 use crate::stiffness::curve::PairCompliance;
+
+/// Positions of the stiffness curve.
+pub const STIFFNESS_POSITIONS: usize = 61;
+
+/// Why there is no calibration.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CalibrationError {
+    /// A gear cannot be modelled.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The contact of the pair alone was not found.
+    #[error("contact at position {position_mm:.4} mm under {line_load_n_per_mm:.2} N/mm: {source}")]
+    Contact {
+        /// ξ.
+        position_mm: f64,
+        /// w.
+        line_load_n_per_mm: f64,
+        /// Why.
+        source: ActiveSetError,
+    },
+    /// The strip of contact is wider than the flank.
+    #[error("{}: the contact strip at position {position_mm:.4} mm does not fit on the flank", gear.name())]
+    OffTheFlank {
+        /// Whose.
+        gear: Gear,
+        /// ξ.
+        position_mm: f64,
+    },
+    /// The strip of contact is as wide as the whole path.
+    #[error("under {line_load_n_per_mm:.2} N/mm no contact strip keeps clear of the tip edges")]
+    NoClearPosition {
+        /// w.
+        line_load_n_per_mm: f64,
+    },
+}
 
 /// A calibration of one gear pair.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Calibration {
-    /// Compliance of a tooth pair, flattening included.
+    /// Program that made it.
+    pub program_version: String,
+    /// SHA-256 of everything else ([`file`]).
+    pub hash: String,
+    /// What it belongs to.
+    pub belongs_to: Identity,
+    /// Elements in a half-width of contact of the mesh it was made with.
+    pub elements_per_half_width: f64,
+    /// The scene's whole line load: that of the stiffness curve, and the unit of the loads of K/H, N/mm.
+    pub line_load_n_per_mm: f64,
+    /// Points A to E of the path of contact, mm.
+    pub path_points_mm: [f64; 5],
+    /// Compliance of a tooth pair for the fast model: the whole one by finite elements less the closed-form flattening
+    /// that the fast model adds again.
     pub pair_compliance: PairCompliance,
     /// K/H for each criterion.
     pub foundation: BTreeMap<MatchCriterion, FoundationCurve>,
+    /// How well the curves of K/H meet finite elements, where fitted and where held out.
+    pub foundation_fit: BTreeMap<MatchCriterion, FoundationFit>,
+    /// Deflection of both teeth along the path.
+    pub deflection: Vec<PairDeflection>,
+    /// The same at A to E, as far as the load keeps clear of the tip edges.
+    pub deflection_at_points: [Option<PairDeflection>; 5],
+    /// The single stiffness c' of ISO 6336-1, N/(mm·µm).
+    pub iso6336_n_per_mm_um: f64,
+    /// The pair alone in contact.
+    pub single_contact: Vec<SingleContact>,
+    /// The stiffness at C on finer and finer meshes.
+    pub convergence: Vec<ResolutionRow>,
+    /// The stiffness at C with the bodies held at other depths.
+    pub rim_depth: Vec<RimRow>,
+    /// The stiffness at C with more or fewer neighbouring teeth.
+    pub neighbours: Vec<NeighbourRow>,
+    /// Deflection by number of teeth and height of the load.
+    pub family: Vec<FamilyMember>,
+    /// How the stiffness varies over the path.
+    pub courses: Vec<Course>,
+}
+
+impl Calibration {
+    /// Least and greatest line load that K/H was fitted on, N/mm.
+    pub fn fitted_loads_n_per_mm(&self) -> (f64, f64) {
+        let loads = single_contact::FITTED_LOADS.map(|load| load * self.line_load_n_per_mm);
+        (loads.iter().copied().fold(f64::INFINITY, f64::min), loads.iter().copied().fold(0.0, f64::max))
+    }
+}
+
+/// The stiffness curve alone, for a scene that asks for it without a calibration file.
+///
+/// # Errors
+/// [`CalibrationError`]
+pub fn pair_compliance(setup: &Setup<'_>) -> Result<PairCompliance, CalibrationError> {
+    let condensed = setup.condensed(&setup.meshed()?)?;
+    let loaded = LoadedPair::new(&condensed, &setup.material);
+    let deflection = loaded.along_the_path(STIFFNESS_POSITIONS, setup.line_load_n_per_mm)?;
+    Ok(tooth_stiffness::curve(setup.pair, &deflection))
 }

@@ -8,6 +8,7 @@ use gearwear::accuracy::study::AccuracyError;
 use gearwear::fem::SolveError;
 use gearwear::mesh::MeshFileError;
 use gearwear::pipeline::RunError;
+use gearwear::pipeline::calibrate::CalibrateError;
 use gearwear::pipeline::fem_scene::FemPairError;
 use gearwear::pipeline::pair_mesh::PairMeshError;
 use gearwear::report::ReportError;
@@ -38,6 +39,9 @@ pub enum Failure {
     /// There is no reference to compare models with.
     #[error(transparent)]
     Accuracy(AccuracyError),
+    /// The calibration failed.
+    #[error(transparent)]
+    Calibrate(CalibrateError),
     /// The user interrupted the run; it was said what is kept.
     #[error("interrupted")]
     Interrupted,
@@ -100,6 +104,18 @@ pub enum InputError {
     /// `fem` of a gear pair that cannot be modelled as asked.
     #[error("{}", fem_pair(.0))]
     FemPair(FemPairError),
+    /// `calibrate` of a gear pair that cannot be modelled as asked.
+    #[error("the pair cannot be calibrated: {0}")]
+    #[diagnostic(help("try other values of fem.elements_per_half_width and fem.clamp_radius_mm"))]
+    Calibrate(CalibrateError),
+    /// `calibrate` with an output file that cannot be one.
+    #[error("--out: found {name}, {what}; allowed: a file name such as pair.calibration.json")]
+    CalibrationOut {
+        /// As typed.
+        name: String,
+        /// What is wrong with it.
+        what: &'static str,
+    },
     /// `init` with a name that is no preset.
     #[error("unknown preset {name:?}; allowed: {}", presets::names().join(", "))]
     #[diagnostic(help("{}", presets::nearest(name).map_or_else(
@@ -156,6 +172,7 @@ impl Failure {
             Failure::Solve(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::FemPair(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Accuracy(error) => say(&format!("{:?}", Report::msg(error))),
+            Failure::Calibrate(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Run(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Interrupted | Failure::Closed => {}
         }
@@ -165,7 +182,7 @@ impl Failure {
     pub fn exit_status(&self) -> u8 {
         match self {
             Failure::Scene(_) | Failure::Input(_) => 2,
-            Failure::Run(_) | Failure::Solve(_) | Failure::FemPair(_) | Failure::Accuracy(_) => 3,
+            Failure::Run(_) | Failure::Solve(_) | Failure::FemPair(_) | Failure::Calibrate(_) | Failure::Accuracy(_) => 3,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
         }

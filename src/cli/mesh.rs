@@ -27,7 +27,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let resolved = scene_source::resolve(&args.scene)?.resolved;
+    let resolved = scene_source::resolve_alone(&args.scene)?.resolved;
     warn(&resolved.warnings);
     // Whether the ending is one of a mesh file is known before the work.
     let format = Format::of_path(&args.out).map_err(InputError::MeshFile)?;

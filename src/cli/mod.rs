@@ -1,6 +1,8 @@
 //! The commands, one file each, and what they share: reading scenes, saying what is wrong, exit statuses.
 
 mod accuracy;
+mod calibrate;
+mod calibration_source;
 mod completions;
 mod failure;
 mod fem;
@@ -47,6 +49,8 @@ enum Command {
     Fem(fem::Args),
     /// Draw error against run time of every model that fits a scene, and recommend the cheapest below a wanted error
     Accuracy(accuracy::Args),
+    /// Calibrate the fast model: tooth stiffness and K/H from finite elements, against Hertz
+    Calibrate(calibrate::Args),
     /// Print the JSON schema of the scene: every key with its meaning, unit, range and default
     Schema(schema::Args),
     /// Print completions for a shell
@@ -69,6 +73,7 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(args),
         Command::Fem(args) => fem::run(args),
         Command::Accuracy(args) => accuracy::run(args),
+        Command::Calibrate(args) => calibrate::run(args),
         Command::Schema(args) => schema::run(args),
         Command::Completions(args) => completions::run(args),
     };

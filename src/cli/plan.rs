@@ -28,7 +28,7 @@ enum Format {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let resolved = scene_source::resolve(&args.scene)?.resolved;
+    let resolved = scene_source::resolve_alone(&args.scene)?.resolved;
     warn(&resolved.warnings);
     let plan = Plan::of(&resolved.scene);
     stdout::print(&match args.format {

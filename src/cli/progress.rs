@@ -7,8 +7,9 @@ use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 use gearwear::accuracy::study;
-use gearwear::pipeline::{Observer, fem_scene};
+use gearwear::pipeline::{Observer, calibrate, fem_scene};
 use gearwear::plan::StageKind;
+use gearwear::plan::calibration::CalibrationStage;
 use gearwear::plan::fem_pair::FemPairStage;
 use gearwear::simulation::wear_run;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -76,6 +77,12 @@ impl study::Observer for Progress {
             Display::Log(_) => self.begin(&format!("{} of {count}: {name}", number + 1)),
             Display::Bar(bar) => bar.set_message(format!("{} of {count}", number + 1)),
         }
+    }
+}
+
+impl calibrate::Observer for Progress {
+    fn stage(&self, stage: CalibrationStage) {
+        self.begin(stage.name());
     }
 }
 

@@ -7,6 +7,7 @@ use std::path::Path;
 use gearwear::pipeline::inputs::Inputs;
 use gearwear::scene::{Resolved, Scene};
 
+use super::calibration_source;
 use super::failure::{Failure, InputError, SceneProblems};
 
 /// The text of a file.
@@ -46,8 +47,17 @@ pub fn read(path: &Path) -> Result<Text, Failure> {
     Ok(Text { name, text })
 }
 
-/// Reads the scene at `path` (`-`: standard input) and resolves it.
+/// Reads the scene at `path` (`-`: standard input), resolves it, and reads the files it names: relative ones lie beside
+/// the scene, those of standard input in the current folder.
 pub fn resolve(path: &Path) -> Result<Source, Failure> {
+    let mut source = resolve_alone(path)?;
+    let folder = if path == Path::new("-") { Path::new("") } else { path.parent().unwrap_or(Path::new("")) };
+    source.inputs.calibration = calibration_source::read(folder, &mut source)?;
+    Ok(source)
+}
+
+/// The same without the files the scene names.
+pub fn resolve_alone(path: &Path) -> Result<Source, Failure> {
     resolve_text(read(path)?)
 }
 

@@ -60,6 +60,20 @@ pub struct FoundationCurve {
     pub reference_line_load_n_per_mm: f64,
 }
 
+impl FoundationCurve {
+    /// K/H at a position and load, MPa/mm.
+    pub fn at_mpa_per_mm(&self, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
+        let places = &self.position_mm;
+        let after = places.partition_point(|&place| place <= position_mm).clamp(1, places.len() - 1);
+        let (low, high) = (after - 1, after);
+        let weight = ((position_mm - places[low]) / (places[high] - places[low])).clamp(0.0, 1.0);
+        let between = |a: f64, b: f64| a + weight * (b - a);
+        let reference = between(self.mpa_per_mm[low].ln(), self.mpa_per_mm[high].ln()).exp();
+        let exponent = between(self.load_exponent[low], self.load_exponent[high]);
+        reference * (line_load_n_per_mm / self.reference_line_load_n_per_mm).powf(-exponent)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

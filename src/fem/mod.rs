@@ -9,6 +9,7 @@ pub mod equilibrium;
 pub mod factor;
 pub mod gear;
 pub mod loads;
+pub mod locate;
 mod nodal_triangle;
 pub mod problem;
 mod projected_volume;

@@ -2,6 +2,7 @@
 //!
 //! This is the one way in which the program runs anything; the only clock it reads times the stages.
 
+pub mod calibrate;
 mod drawing;
 mod error_estimates;
 pub mod fem_problem;
@@ -12,6 +13,7 @@ mod recording;
 
 use std::time::Instant;
 
+use crate::calibration::{self, CalibrationError};
 use crate::contact::{
     ContactSurface,
     foundation::matched_mpa_per_mm,
@@ -57,6 +59,9 @@ pub enum RunError {
     /// The finite-element model cannot be made.
     #[error(transparent)]
     FiniteElements(#[from] ModelError),
+    /// The tooth stiffness of finite elements cannot be computed.
+    #[error(transparent)]
+    Calibration(#[from] CalibrationError),
     /// The solver failed.
     #[error(transparent)]
     Simulation(#[from] SimulationError),
@@ -157,8 +162,15 @@ pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Obs
         _ => None,
     };
     let surface = surface(scene, foundation_mpa_per_mm, line_load_n_per_mm);
-    let curve = match scene.stiffness {
-        StiffnessSettings::Fem => inputs.calibration.as_ref().map(|calibration| &calibration.pair_compliance),
+    let computed = match plan.has(StageKind::FiniteElementCalibration) {
+        true => Some(stages.run(StageKind::FiniteElementCalibration, || {
+            calibration::pair_compliance(&calibrate::setup(scene, &pair))
+        })?),
+        false => None,
+    };
+    let curve = match (scene.stiffness, &inputs.calibration) {
+        (StiffnessSettings::Fem, Some(calibration)) => Some(&calibration.pair_compliance),
+        (StiffnessSettings::Fem, None) => computed.as_ref(),
         _ => inputs.stiffness_curve.as_ref(),
     };
     let spring =

@@ -1,5 +1,6 @@
 //! The stages a scene needs and those it does not, decided here alone and from the scene alone.
 
+pub mod calibration;
 pub mod fem_pair;
 
 use serde::{Serialize, Serializer};

@@ -11,6 +11,7 @@
 //! the one before it. `summary.json` comes last, so that its presence says the others are complete.
 
 pub mod accuracy;
+pub mod calibration;
 pub mod fem;
 pub mod fem_pair;
 pub mod html;

@@ -80,6 +80,18 @@ impl Problem {
         }
     }
 
+    /// The file that `key` of the scene in `text` names is not what it should be: `found` says how, after its name.
+    pub fn of_named_file(text: &str, key: &str, found: String, allowed: &str, help: &str) -> Self {
+        Self {
+            kind: ProblemKind::NotAllowed,
+            key: key.to_owned(),
+            found,
+            allowed: allowed.to_owned(),
+            help: Some(help.to_owned()),
+            span: Some(Locator::new(text).unwrap_or_default().nearest(key)),
+        }
+    }
+
     /// Adds a sentence to the help.
     pub fn add_help(&mut self, sentence: &str) {
         match &mut self.help {

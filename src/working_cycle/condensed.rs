@@ -15,15 +15,11 @@ use rayon::prelude::*;
 use super::load_sharing::EquilibriumError;
 use super::{CycleObservation, GROUPS, LostMaterial, MeshCycle, PositionObservation, Work};
 use crate::contact::{Flanks, Footprint};
-use crate::fem::active_set::Equilibrium;
 use crate::fem::gear::observed_flank::ObservedFlank;
 use crate::fem::gear::position::CondensedPair;
 use crate::fem::gear::prepared::{NodalWear, Prepared};
 use crate::gear::{Gear, PerGear};
 use crate::wear::WearLaw;
-
-/// A flank point above this pressure is in contact, MPa.
-const IN_CONTACT_MPA: f64 = 0.0;
 
 /// One position and how the flank points read it.
 struct Station {
@@ -32,8 +28,8 @@ struct Station {
     observed: Vec<PerGear<(ObservedFlank, Vec<f64>)>>,
     /// For how many looks that holds.
     looks: usize,
+    /// Pressures at the multipliers in the last equilibrium.
     nodal_mpa: Vec<f64>,
-    found: Option<Equilibrium>,
 }
 
 /// Positions that collect wear together.
@@ -175,8 +171,8 @@ impl MeshCycle for CondensedCycle<'_> {
                 for gear in Gear::BOTH {
                     let (points, sliding) = &pair[gear];
                     let first = points.first_point;
-                    for (k, pressure) in points.pressure_mpa(&station.nodal_mpa).enumerate() {
-                        if pressure > IN_CONTACT_MPA {
+                    for (k, pressure) in points.greatest_mpa(&station.nodal_mpa).enumerate() {
+                        if pressure > 0.0 {
                             let greatest = &mut observation.pressure_mpa[gear][first + k];
                             *greatest = greatest.max(pressure);
                             observation.sliding_mm[gear][first + k] += sliding[k];
@@ -233,7 +229,7 @@ impl Group {
 
 impl Station {
     fn new(model: &CondensedPair<'_>, prepared: Prepared, radii: PerGear<&[f64]>, length_mm: f64) -> Self {
-        let mut station = Self { prepared, observed: Vec::new(), looks: 0, nodal_mpa: Vec::new(), found: None };
+        let mut station = Self { prepared, observed: Vec::new(), looks: 0, nodal_mpa: Vec::new() };
         station.look(model, radii, length_mm);
         station
     }
@@ -261,7 +257,6 @@ impl Station {
         }
         self.prepared.nodal_pressure_mpa(&found.force, &mut self.nodal_mpa);
         let iterations = found.log.steps.len() as u64;
-        self.found = Some(found);
         Ok(Work {
             mesh_cycles: 0,
             equilibria: 1,

@@ -25,6 +25,8 @@ pub const OUTSIDE_BASE_PITCHES: f64 = 0.3;
 /// How far around the expected contact multipliers are looked for.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Window {
+    /// Tooth pairs on either side of the reference pair.
+    pub beside: i32,
     /// Load that sets the half-width, N/mm.
     pub line_load_n_per_mm: f64,
     /// To either side of the expected contact.
@@ -56,9 +58,8 @@ pub(super) struct Facing {
 impl CondensedPair<'_> {
     /// All tooth pairs that may touch with the reference pair at `position_mm`, rows numbered through.
     pub(super) fn facings(&self, position_mm: f64, window: &Window) -> Vec<Facing> {
-        let reach = (self.gears.pinion.teeth() / 2) as i32;
         let mut first_row = 0;
-        (-reach..=reach)
+        (-window.beside..=window.beside)
             .filter_map(|pair| {
                 let mut facing = self.facing(position_mm, pair, window)?;
                 facing.first_row = first_row;

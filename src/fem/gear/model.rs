@@ -97,6 +97,32 @@ impl MeshedGear {
     ) -> Result<Self, ModelError> {
         let teeth = pair.teeth[gear].teeth;
         let fine_teeth = (touching_pairs(pair).len() as u32).min(teeth - 1 + teeth % 2);
+        Self::with_fine_teeth(fine_teeth, pair, gear, material, line_load_n_per_mm, settings)
+    }
+
+    /// Meshes a gear of which the tooth in the middle alone is loaded.
+    ///
+    /// # Errors
+    /// [`ModelError::Mesh`]
+    pub fn with_one_fine_tooth(
+        pair: &GearPair,
+        gear: Gear,
+        material: &PerGear<Elastic>,
+        line_load_n_per_mm: f64,
+        settings: &BodySettings,
+    ) -> Result<Self, ModelError> {
+        Self::with_fine_teeth(1, pair, gear, material, line_load_n_per_mm, settings)
+    }
+
+    fn with_fine_teeth(
+        fine_teeth: u32,
+        pair: &GearPair,
+        gear: Gear,
+        material: &PerGear<Elastic>,
+        line_load_n_per_mm: f64,
+        settings: &BodySettings,
+    ) -> Result<Self, ModelError> {
+        let teeth = pair.teeth[gear].teeth;
         let surroundings = match settings.body {
             Body::Ring => Surroundings::Ring { coarse: (teeth - fine_teeth) as usize },
             // A sector of all teeth has no cut left.
@@ -174,29 +200,62 @@ impl MeshedGear {
     /// # Errors
     /// [`ModelError::Condense`].
     pub fn condense(&self, pair: &GearPair, material: Elastic) -> Result<(GearCompliance, FlankSurface), ModelError> {
-        let failed = |source: SolveError| ModelError::Condense { gear: self.gear, source };
-        let half_angle_rad = std::f64::consts::PI / f64::from(pair.teeth[self.gear].teeth);
-        let (chain, rho_mm) = self.fine.working_flank.resolved_nodes();
-        let flank = FlankSurface::new(chain, rho_mm, &self.fine.points_mm, self.sharp);
-        let mut fine = sector(&self.fine, half_angle_rad, flank.surface.mesh_nodes.clone());
-        fine.probes = self.fillet_probes(&fine.solid, material).map_err(failed)?;
+        let flank = self.flank();
+        let mut fine = sector(&self.fine, half_angle_rad(pair, self.gear), flank.surface.mesh_nodes.clone());
+        fine.probes = self.fillet_probes(&fine.solid, material).map_err(|source| self.failed(source))?;
         fine.working_side_probes = self.fine.working_fillet.len();
+        Ok((self.joined(pair, fine, material)?, flank))
+    }
+
+    /// Condenses the gear onto `nodes` of its working flank alone, without stresses: for loads that are known.
+    ///
+    /// # Errors
+    /// [`ModelError::Condense`].
+    pub fn condense_onto(
+        &self,
+        pair: &GearPair,
+        material: Elastic,
+        nodes: Vec<u32>,
+    ) -> Result<GearCompliance, ModelError> {
+        self.joined(pair, sector(&self.fine, half_angle_rad(pair, self.gear), nodes), material)
+    }
+
+    /// The working flank as a contact surface.
+    pub fn flank(&self) -> FlankSurface {
+        let (chain, rho_mm) = self.fine.working_flank.resolved_nodes();
+        FlankSurface::new(chain, rho_mm, &self.fine.points_mm, self.sharp)
+    }
+
+    fn joined(&self, pair: &GearPair, fine: Sector, material: Elastic) -> Result<GearCompliance, ModelError> {
+        let failed = |source: SolveError| self.failed(source);
         let fine = condense(fine, material).map_err(failed)?;
         let coarse = match &self.coarse {
-            Some(coarse) => Some(condense(sector(coarse, half_angle_rad, Vec::new()), material).map_err(failed)?),
+            Some(coarse) => {
+                let coarse = sector(coarse, half_angle_rad(pair, self.gear), Vec::new());
+                Some(condense(coarse, material).map_err(failed)?)
+            }
             None => None,
         };
         let joined = GearCompliance::new(fine, coarse.as_ref(), self.fine_teeth as usize, self.surroundings);
-        Ok((joined.map_err(|error: ActiveSetError| failed(error.into()))?, flank))
+        joined.map_err(|error: ActiveSetError| failed(error.into()))
     }
+
+    fn failed(&self, source: SolveError) -> ModelError {
+        ModelError::Condense { gear: self.gear, source }
+    }
+}
+
+/// Half a pitch of a gear.
+fn half_angle_rad(pair: &GearPair, gear: Gear) -> f64 {
+    std::f64::consts::PI / f64::from(pair.teeth[gear].teeth)
 }
 
 fn condense(sector: Sector, material: Elastic) -> Result<CondensedSector, SolveError> {
     sector.condense(material, Analysis::PlaneStrain)
 }
 
-/// The finite-element form of a meshed sector.
-fn sector(mesh: &ToothSector, half_angle_rad: f64, candidates: Vec<u32>) -> Sector {
+/// The finite-element form of a meshed sector; forces may act on the nodes `candidates`.
+pub fn sector(mesh: &ToothSector, half_angle_rad: f64, candidates: Vec<u32>) -> Sector {
     let clamped: std::collections::BTreeSet<u32> = mesh.clamp.iter().copied().collect();
     let free = |cut: &[u32]| cut.iter().copied().filter(|node| !clamped.contains(node)).collect::<Vec<u32>>();
     Sector {

@@ -38,14 +38,23 @@ pub struct ObservedFlank {
 const MOST_SAMPLES: usize = 32;
 
 impl ObservedFlank {
-    /// Pressure of each point for the pressures `nodal_mpa` at the position's multipliers, MPa.
+    /// Mean pressure of each point over the stretch for the pressures `nodal_mpa` at the position's multipliers, MPa.
     pub fn pressure_mpa<'a>(&'a self, nodal_mpa: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
         let mut start = 0;
         self.ends.iter().map(move |&end| {
-            let sum: f64 = self.reads[start..end].iter().map(|&(row, weight)| weight * nodal_mpa[row]).sum();
-            start = end;
+            let reads = &self.reads[std::mem::replace(&mut start, end)..end];
+            let sum: f64 = reads.iter().map(|&(row, weight)| weight * nodal_mpa[row]).sum();
             // Parabolas dip below zero beside the end of contact.
             sum.max(0.0)
+        })
+    }
+
+    /// Greatest pressure that each point feels within the stretch, MPa: that of the nodes it reads.
+    pub fn greatest_mpa<'a>(&'a self, nodal_mpa: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        let mut start = 0;
+        self.ends.iter().map(move |&end| {
+            let reads = &self.reads[std::mem::replace(&mut start, end)..end];
+            reads.iter().map(|&(row, _)| nodal_mpa[row]).fold(0.0, f64::max)
         })
     }
 

@@ -107,7 +107,23 @@ impl<'a> CondensedPair<'a> {
         line_load_n_per_mm: f64,
         warm: &WarmStart,
     ) -> Result<PositionContact, ActiveSetError> {
-        let mut prepared = self.prepare(position_mm, line_load_n_per_mm);
+        self.solve_from(self.prepare(position_mm, line_load_n_per_mm), warm)
+    }
+
+    /// Solves as [`Self::at`] does, but with the reference pair alone in contact: it carries the whole load.
+    ///
+    /// # Errors
+    /// See [`ActiveSetError`].
+    pub fn at_alone(
+        &self,
+        position_mm: f64,
+        line_load_n_per_mm: f64,
+        warm: &WarmStart,
+    ) -> Result<PositionContact, ActiveSetError> {
+        self.solve_from(self.prepare_alone(position_mm, line_load_n_per_mm), warm)
+    }
+
+    fn solve_from(&self, mut prepared: Prepared, warm: &WarmStart) -> Result<PositionContact, ActiveSetError> {
         prepared.active = start(&prepared.facings, &self.flanks, warm);
         let found = self.solve(&mut prepared, None)?;
         Ok(self.read(&prepared, found))

@@ -54,7 +54,17 @@ pub type NodalWear = PerGear<Vec<f64>>;
 impl<'a> CondensedPair<'a> {
     /// Prepares the contact at `position_mm` under `line_load_n_per_mm`.
     pub fn prepare(&self, position_mm: f64, line_load_n_per_mm: f64) -> Prepared {
+        self.prepare_among((self.gears.pinion.teeth() / 2) as i32, position_mm, line_load_n_per_mm)
+    }
+
+    /// The same with the reference pair alone.
+    pub fn prepare_alone(&self, position_mm: f64, line_load_n_per_mm: f64) -> Prepared {
+        self.prepare_among(0, position_mm, line_load_n_per_mm)
+    }
+
+    fn prepare_among(&self, beside: i32, position_mm: f64, line_load_n_per_mm: f64) -> Prepared {
         let window = Window {
+            beside,
             line_load_n_per_mm,
             half_widths: FIRST_WINDOW,
             reach_mm: FIRST_REACH * line_load_n_per_mm / self.contact_modulus_mpa,
@@ -101,8 +111,8 @@ impl<'a> CondensedPair<'a> {
     }
 
     fn widen(&self, prepared: &mut Prepared) {
-        let Window { line_load_n_per_mm, half_widths, reach_mm } = prepared.window;
-        let wider = Window { line_load_n_per_mm, half_widths: WIDER * half_widths, reach_mm: WIDER * reach_mm };
+        let Window { half_widths, reach_mm, .. } = prepared.window;
+        let wider = Window { half_widths: WIDER * half_widths, reach_mm: WIDER * reach_mm, ..prepared.window };
         let mut next = self.look(prepared.position_mm, wider);
         next.active = prepared.active.as_ref().map(|active| carried_over(&prepared.facings, active, &next.facings));
         next.looks = prepared.looks + 1;

@@ -23,6 +23,15 @@ use crate::fem::factor::Factor;
 use crate::fem::solid::Solid;
 use crate::fem::stiffness::Stiffness;
 
+/// What a functional of the displacements of a condensed sector comes to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answer {
+    /// Per force on each candidate column.
+    pub by_force: Vec<f64>,
+    /// Per displacement of each cut column.
+    pub by_cut: Vec<f64>,
+}
+
 /// A sparse linear functional of the displacements: degrees of freedom with their coefficients.
 pub type Functional = Vec<(u32, f64)>;
 
@@ -172,6 +181,30 @@ impl CondensedSector {
             field[dof as usize] += value;
         }
         field
+    }
+
+    /// How a functional p of the displacements answers to forces on the candidates and displacements of the cuts. With
+    /// λ = K_ii⁻¹ p_i it is λ_c and p_b − K_bi λ: one solution, whatever the number of forces.
+    pub fn answer(&self, functional: &Functional) -> Answer {
+        let mut lambda = vec![0.0; self.sector.solid.dofs()];
+        for &(dof, value) in functional {
+            lambda[dof as usize] += value;
+        }
+        let own = lambda.clone();
+        self.factor.solve(1, &mut lambda);
+        let reaction = self.stiffness.multiply(&lambda);
+        let by_cut = self
+            .sector
+            .cut_directions()
+            .iter()
+            .map(|&(node, direction)| {
+                let dof = 2 * node as usize;
+                direction.x * (own[dof] - reaction[dof]) + direction.y * (own[dof + 1] - reaction[dof + 1])
+            })
+            .collect();
+        let by_force =
+            self.sector.candidates.iter().flat_map(|&node| [0, 1].map(|i| lambda[2 * node as usize + i])).collect();
+        Answer { by_force, by_cut }
     }
 
     /// Degrees of freedom of the sector.

@@ -82,8 +82,8 @@ pub struct FlankResolution<'a> {
     pub half_width_mm: &'a dyn Fn(f64) -> f64,
     /// Elements in a half-width.
     pub elements_per_half_width: f64,
-    /// Half-widths by which the resolved part begins below the start of active profile.
-    pub margin_half_widths: f64,
+    /// Length of flank by which the resolved part begins below the start of active profile, mm.
+    pub margin_mm: f64,
     /// Depth of the structured layer in half-widths.
     pub depth_half_widths: f64,
 }

@@ -141,7 +141,7 @@ impl<'a> Wanted<'a> {
             return Ok(wanted);
         };
         let start = shape.active_start_rho_mm;
-        let margin_mm = flank.margin_half_widths.max(0.0) * (flank.half_width_mm)(start);
+        let margin_mm = flank.margin_mm.max(0.0);
         // In arc length s = ρ²/(2 r_b) below the start of active profile.
         let square = start * start - 2.0 * tooth.involute.base_radius_mm * margin_mm;
         let from_rho_mm = square.max(0.0).sqrt().max(tooth.root_form_rho_mm());

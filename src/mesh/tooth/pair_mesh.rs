@@ -54,7 +54,7 @@ pub fn pair_sectors(
 }
 
 /// Meshes one tooth of `gear`, fine or coarse, as [`pair_sectors`] does. Where the mate's rounded tip edge touches a fine
-/// one, above the start of active profile, elements are as short as on that rounding.
+/// one, about the start of active profile, elements are as short as on that rounding.
 ///
 /// # Errors
 /// [`ToothMeshError`]
@@ -77,14 +77,15 @@ pub fn gear_sector(
     // Elements on a very small rounding would be shorter than any may be.
     let least_mm = 2.0 * LEAST_MODULES * pair.spec.normal_module_mm * settings.elements_per_half_width;
     let at_tip_mm = (ROUNDING_HALF_WIDTH * rounding_mm).max(least_mm);
-    let by_rho = |rho_mm: f64| match rounding_mm > 0.0 && involute.arc_mm(rho_mm) < met_by_tip_mm {
-        true => on_flank(rho_mm).min(at_tip_mm),
-        false => on_flank(rho_mm),
+    let met_from_mm = involute.arc_mm(start_rho) - MARGIN_HALF_WIDTHS * at_tip_mm;
+    let by_rho = |rho_mm: f64| match (met_from_mm..met_by_tip_mm).contains(&involute.arc_mm(rho_mm)) {
+        true if rounding_mm > 0.0 => on_flank(rho_mm).min(at_tip_mm),
+        _ => on_flank(rho_mm),
     };
     let flank = FlankResolution {
         half_width_mm: &by_rho,
         elements_per_half_width: settings.elements_per_half_width,
-        margin_half_widths: MARGIN_HALF_WIDTHS,
+        margin_mm: MARGIN_HALF_WIDTHS * on_flank(start_rho),
         depth_half_widths: DEPTH_HALF_WIDTHS,
     };
     let settings = SectorSettings {

@@ -1,0 +1,220 @@
+//! What a calibration belongs to: every number that shapes the pair in its section, its material, and where its bodies
+//! are held.
+//!
+//! Names and units are those of the scene's keys, so that a difference can be told in the user's words. The face width is
+//! not among them: everything is per mm of it.
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use crate::contact::settings::Material;
+use crate::gear::modification::{Relief, ReliefShape};
+use crate::gear::{Gear, GearPair, PerGear};
+use crate::mesh::settings::{Body, BodySettings, SectorSides};
+
+/// Relative difference of two numbers below which they are the same: round-off of units.
+const SAME: f64 = 1e-9;
+
+/// What a calibration belongs to.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Identity {
+    /// The pair.
+    pub pair: PairIdentity,
+    /// Its material.
+    pub material: PerGear<MaterialIdentity>,
+    /// Its bodies.
+    pub fem: BodyIdentity,
+}
+
+/// What shapes the pair.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PairIdentity {
+    /// m_n.
+    pub normal_module_mm: f64,
+    /// α_n.
+    pub pressure_angle_deg: f64,
+    /// β.
+    pub helix_angle_deg: f64,
+    /// a.
+    pub centre_distance_mm: f64,
+    /// The rack.
+    pub basic_rack: RackIdentity,
+    /// The pinion.
+    pub pinion: GearIdentity,
+    /// The wheel.
+    pub wheel: GearIdentity,
+}
+
+/// Factors of the basic rack.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RackIdentity {
+    /// h_aP*.
+    pub addendum_factor: f64,
+    /// h_fP*.
+    pub dedendum_factor: f64,
+    /// ρ_fP*.
+    pub fillet_radius_factor: f64,
+}
+
+/// What shapes one gear.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GearIdentity {
+    /// z.
+    pub teeth: u32,
+    /// x.
+    pub profile_shift: f64,
+    /// d_a, given or derived.
+    pub tip_diameter_mm: f64,
+    /// E_sn, µm.
+    pub tooth_thickness_allowance_um: f64,
+    /// Crowning, µm.
+    pub profile_crowning_um: f64,
+    /// Tip rounding.
+    pub tip_rounding_mm: f64,
+    /// Tip relief.
+    pub tip_relief: Option<ReliefIdentity>,
+    /// Root relief.
+    pub root_relief: Option<ReliefIdentity>,
+}
+
+/// A relief.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReliefIdentity {
+    /// Amount, µm.
+    pub amount_um: f64,
+    /// Length.
+    pub length_mm: f64,
+    /// Shape.
+    pub shape: ReliefShape,
+}
+
+/// Elastic constants of one gear.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialIdentity {
+    /// E, GPa.
+    #[serde(rename = "young_modulus_GPa")]
+    pub young_modulus_gpa: f64,
+    /// ν.
+    pub poisson_ratio: f64,
+}
+
+/// How much of each gear is modelled, and where it is held.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BodyIdentity {
+    /// `ring` or `sector`.
+    pub body: String,
+    /// Of a sector.
+    pub sector_teeth: Option<u32>,
+    /// Of a sector.
+    pub sector_sides: Option<SectorSides>,
+    /// Rim or bore.
+    pub clamp_radius_mm: PerGear<f64>,
+}
+
+impl Identity {
+    /// Of a pair.
+    pub fn of(pair: &GearPair, material: &PerGear<Material>, bodies: &BodySettings) -> Self {
+        let spec = &pair.spec;
+        let gear = |gear: Gear| GearIdentity {
+            teeth: spec.gears[gear].teeth,
+            profile_shift: spec.gears[gear].profile_shift,
+            tip_diameter_mm: 2.0 * pair.teeth[gear].tip_radius_mm,
+            tooth_thickness_allowance_um: 1e3 * spec.gears[gear].tooth_thickness_allowance_mm,
+            profile_crowning_um: 1e3 * spec.gears[gear].modification.profile_crowning_mm,
+            tip_rounding_mm: spec.gears[gear].modification.tip_rounding_mm,
+            tip_relief: spec.gears[gear].modification.tip_relief.map(ReliefIdentity::of),
+            root_relief: spec.gears[gear].modification.root_relief.map(ReliefIdentity::of),
+        };
+        let (body, sector_teeth, sector_sides) = match bodies.body {
+            Body::Ring => ("ring", None, None),
+            Body::Sector { teeth, sides } => ("sector", Some(teeth), Some(sides)),
+        };
+        Self {
+            pair: PairIdentity {
+                normal_module_mm: spec.normal_module_mm,
+                pressure_angle_deg: spec.normal_pressure_angle_rad.to_degrees(),
+                helix_angle_deg: spec.helix_angle_rad.to_degrees(),
+                centre_distance_mm: spec.centre_distance_mm,
+                basic_rack: RackIdentity {
+                    addendum_factor: spec.rack.addendum_factor,
+                    dedendum_factor: spec.rack.dedendum_factor,
+                    fillet_radius_factor: spec.rack.fillet_radius_factor,
+                },
+                pinion: gear(Gear::Pinion),
+                wheel: gear(Gear::Wheel),
+            },
+            material: material.map(|own| MaterialIdentity {
+                young_modulus_gpa: 1e-3 * own.young_modulus_mpa,
+                poisson_ratio: own.poisson_ratio,
+            }),
+            fem: BodyIdentity {
+                body: body.to_owned(),
+                sector_teeth,
+                sector_sides,
+                clamp_radius_mm: bodies.clamp_radius_mm,
+            },
+        }
+    }
+
+    /// What `scene` has otherwise, as `key: calibration …, scene …`; the bodies are compared where `bodies_too`.
+    pub fn differences(&self, scene: &Identity, bodies_too: bool) -> Vec<String> {
+        let mut found = Vec::new();
+        compare("pair", &json(&self.pair), &json(&scene.pair), &mut found);
+        compare("material", &json(&self.material), &json(&scene.material), &mut found);
+        if bodies_too {
+            compare("fem", &json(&self.fem), &json(&scene.fem), &mut found);
+        }
+        found
+    }
+}
+
+impl ReliefIdentity {
+    fn of(relief: Relief) -> Self {
+        Self { amount_um: 1e3 * relief.amount_mm, length_mm: relief.length_mm, shape: relief.shape }
+    }
+}
+
+fn json(part: &impl Serialize) -> Value {
+    // Plain structures with text keys: always expressible; were they not, they would differ from anything.
+    serde_json::to_value(part).unwrap_or_default()
+}
+
+fn compare(key: &str, calibration: &Value, scene: &Value, found: &mut Vec<String>) {
+    match (calibration, scene) {
+        (Value::Object(own), Value::Object(other)) => {
+            // Both are of the same structure, so that they have the same keys.
+            for (name, value) in own {
+                compare(&format!("{key}.{name}"), value, other.get(name).unwrap_or(&Value::Null), found);
+            }
+        }
+        (Value::Number(own), Value::Number(other)) => {
+            let (own, other) = (own.as_f64().unwrap_or(f64::NAN), other.as_f64().unwrap_or(f64::NAN));
+            let same = (own - other).abs() <= SAME * own.abs().max(other.abs());
+            if !same {
+                found.push(format!("{key}: calibration {own}, scene {other}"));
+            }
+        }
+        _ if calibration == scene => {}
+        _ => found.push(format!("{key}: calibration {}, scene {}", words(calibration), words(scene))),
+    }
+}
+
+/// A value in an engineer's words.
+fn words(value: &Value) -> String {
+    match value {
+        Value::Null => "none".to_owned(),
+        Value::Object(parts) => {
+            let parts: Vec<String> = parts.iter().map(|(name, value)| format!("{name} {}", words(value))).collect();
+            parts.join(", ")
+        }
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
+    }
+}

@@ -1,0 +1,126 @@
+//! `gearwear calibrate`: tooth stiffness and K/H from finite elements.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use gearwear::calibration::CalibrationError;
+use gearwear::contact::settings::MatchCriterion;
+use gearwear::fem::gear::model::ModelError;
+use gearwear::pipeline::calibrate::{self, CalibrateError, Done, Observer};
+use gearwear::plan::calibration::CalibrationStage;
+use gearwear::report;
+use gearwear::scene::Problem;
+
+use super::failure::{Failure, InputError, SceneProblems};
+use super::progress::Progress;
+use super::run::{pool, watch_for_interrupt};
+use super::scene_source::{self, Source};
+use super::{figures, say, stdout, warn};
+
+/// Arguments of `calibrate`.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The scene file; - reads standard input
+    scene: PathBuf,
+    /// The calibration file, JSON; a page of the same name with the ending .html is written beside it
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Number of threads; default: all cores. Never changes the results
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// Show neither progress nor figures, only what is wrong
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    // A calibration that the scene names may not be there yet: it is about to be made.
+    let source = scene_source::resolve_alone(&args.scene)?;
+    let resolved = &source.resolved;
+    warn(&resolved.warnings);
+    check_out(&args.out)?;
+    let pool = pool(args.threads)?;
+    let progress = Progress::new(args.quiet, watch_for_interrupt());
+    let done = pool.install(|| -> Result<Done, Failure> {
+        let done = calibrate::run(&resolved.scene, &progress).map_err(|error| refused(error, &source))?;
+        progress.stage(CalibrationStage::Report);
+        report::calibration::write(&done.calibration, &done.stages, &resolved.scene.title, &args.out)?;
+        Ok(done)
+    });
+    progress.finish();
+    let done = match done {
+        Err(Failure::Interrupted) => {
+            say("interrupted; nothing was written");
+            return Err(Failure::Interrupted);
+        }
+        other => other?,
+    };
+    if !args.quiet {
+        stdout::print(&table(&resolved.scene.title, &done, &args.out))?;
+    }
+    Ok(())
+}
+
+/// Whether the files can be written, before any work.
+fn check_out(out: &Path) -> Result<(), Failure> {
+    let refused = |what| InputError::CalibrationOut { name: out.display().to_string(), what };
+    if out.is_dir() {
+        return Err(refused("which is a folder").into());
+    }
+    if out.file_name().is_none() {
+        return Err(refused("which names no file").into());
+    }
+    if out == report::calibration::page_beside(out) {
+        return Err(refused("whose ending is that of the page beside it").into());
+    }
+    report::writable(report::calibration::folder(out))?;
+    Ok(())
+}
+
+/// A failure, told apart by who is to blame: the input, with its place where it has one, or the solver.
+fn refused(error: CalibrateError, source: &Source) -> Failure {
+    match error {
+        CalibrateError::Interrupted => Failure::Interrupted,
+        CalibrateError::Calibration(CalibrationError::Model(ModelError::TooFewTeeth { teeth, least, .. })) => {
+            Failure::Scene(SceneProblems {
+                name: source.name.clone(),
+                text: source.text.clone(),
+                problems: vec![Problem::of_sector_teeth(&source.text, teeth, least)],
+            })
+        }
+        CalibrateError::Pair(_)
+        | CalibrateError::Calibration(
+            CalibrationError::Model(ModelError::Mesh { .. })
+            | CalibrationError::NoClearPosition { .. }
+            | CalibrationError::OffTheFlank { .. },
+        ) => InputError::Calibrate(error).into(),
+        CalibrateError::Calibration(_) => Failure::Calibrate(error),
+    }
+}
+
+/// The main figures, for the terminal.
+fn table(title: &str, done: &Done, out: &Path) -> String {
+    let calibration = &done.calibration;
+    let mut text = format!("{title}\n\n{}", figures::row("stiffness of the pair, N/(mm·µm)", ["fem", "W.-B."]));
+    for (name, at) in ["A", "B", "C", "D", "E"].iter().zip(&calibration.deflection_at_points) {
+        if let Some(at) = at {
+            let values = [at.pair_n_per_mm_um(), at.weber_banaschek_n_per_mm_um()].map(figures::digits);
+            text.push_str(&figures::row(&format!("  at {name}"), [&values[0], &values[1]]));
+        }
+    }
+    text.push_str(&figures::row("greatest error of K/H, %", ["fitted", "held out"]));
+    for criterion in MatchCriterion::ALL {
+        if let Some(fit) = calibration.foundation_fit.get(&criterion) {
+            let values = [&fit.fitted, &fit.held_out].map(|errors| figures::digits(100.0 * errors.worst_matched));
+            text.push_str(&figures::row(&format!("  in the {}", criterion.name()), [&values[0], &values[1]]));
+        }
+    }
+    let page = report::calibration::page_beside(out);
+    text.push_str(&format!(
+        "\ncomputed in {:.2} s\ncalibration: {}\nreport: {}\n",
+        done.wall_s,
+        out.display(),
+        page.display()
+    ));
+    text
+}

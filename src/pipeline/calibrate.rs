@@ -1,0 +1,129 @@
+//! Carries out a calibration: finite elements of the scene's pair, and all that the fast model and the reader take from
+//! them ([`crate::calibration`]).
+
+use std::time::Instant;
+
+use crate::calibration::bodies::Setup;
+use crate::calibration::identity::Identity;
+use crate::calibration::tooth_stiffness::{LoadedPair, curve};
+use crate::calibration::{
+    Calibration, CalibrationError, STIFFNESS_POSITIONS, course, foundation_fit, single_contact, tooth_family,
+};
+use crate::gear::{GearPair, PairError};
+use crate::plan::calibration::CalibrationStage;
+use crate::scene::Scene;
+use crate::simulation::record::StageTime;
+use crate::simulation::wear_run::{Progress, Unwatched};
+use crate::stiffness::iso6336;
+
+/// Told of progress; says whether to go on.
+pub trait Observer: Progress {
+    /// A stage begins.
+    fn stage(&self, stage: CalibrationStage);
+}
+
+impl Observer for Unwatched {
+    fn stage(&self, _stage: CalibrationStage) {}
+}
+
+/// Why there is no calibration.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CalibrateError {
+    /// The pair cannot exist.
+    #[error(transparent)]
+    Pair(#[from] PairError),
+    /// Finite elements gave none.
+    #[error(transparent)]
+    Calibration(#[from] CalibrationError),
+    /// The user stopped it.
+    #[error("interrupted")]
+    Interrupted,
+}
+
+/// A calibration and how it came about.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Done {
+    /// The calibration, hash filled in.
+    pub calibration: Calibration,
+    /// Stages with their times.
+    pub stages: Vec<StageTime>,
+    /// All of them together, s.
+    pub wall_s: f64,
+}
+
+/// Times the stages, tells the observer of them and listens to it between them.
+struct Stages<'a> {
+    observer: &'a dyn Observer,
+    times: Vec<StageTime>,
+}
+
+impl Stages<'_> {
+    fn run<T, E: Into<CalibrateError>>(
+        &mut self,
+        stage: CalibrationStage,
+        work: impl FnOnce() -> Result<T, E>,
+    ) -> Result<T, CalibrateError> {
+        if self.observer.interrupted() {
+            return Err(CalibrateError::Interrupted);
+        }
+        self.observer.stage(stage);
+        let start = Instant::now();
+        let result = work().map_err(Into::into);
+        self.times.push(StageTime { name: stage.name().to_owned(), wall_s: start.elapsed().as_secs_f64() });
+        result
+    }
+}
+
+/// Calibrates the pair of `scene`. The files are left to the caller.
+///
+/// # Errors
+/// [`CalibrateError`]
+pub fn run(scene: &Scene, observer: &dyn Observer) -> Result<Done, CalibrateError> {
+    use CalibrationStage as Stage;
+    let start = Instant::now();
+    let mut stages = Stages { observer, times: Vec::new() };
+    let pair = stages.run(Stage::Geometry, || GearPair::new(&scene.pair))?;
+    let setup = setup(scene, &pair);
+    let w = setup.line_load_n_per_mm;
+    let meshed = stages.run(Stage::Meshing, || setup.meshed())?;
+    let condensed = stages.run(Stage::Condensation, || setup.condensed(&meshed))?;
+    let loaded = LoadedPair::new(&condensed, &scene.material);
+    let deflection = stages.run(Stage::ToothStiffness, || loaded.along_the_path(STIFFNESS_POSITIONS, w))?;
+    let path_points_mm = pair.path.points_mm();
+    let single_contact = stages.run(Stage::Foundation, || single_contact::solve(&condensed, &loaded, w))?;
+    let ends_mm = (pair.path.start_mm, pair.path.end_mm);
+    let (foundation, foundation_fit) = foundation_fit::all(&single_contact, w, ends_mm);
+    let (convergence, rim_depth, neighbours) = stages.run(Stage::Bodies, || -> Result<_, CalibrationError> {
+        Ok((setup.convergence()?, setup.rim_depths()?, setup.neighbours()?))
+    })?;
+    let family = stages.run(Stage::ToothFamily, || tooth_family::family(&setup))?;
+    let mut calibration = Calibration {
+        program_version: env!("CARGO_PKG_VERSION").to_owned(),
+        hash: String::new(),
+        belongs_to: Identity::of(&pair, &scene.material, &scene.fem),
+        elements_per_half_width: scene.fem.elements_per_half_width,
+        line_load_n_per_mm: w,
+        path_points_mm,
+        pair_compliance: curve(&pair, &deflection),
+        foundation,
+        foundation_fit,
+        deflection_at_points: path_points_mm.map(|position_mm| loaded.deflection(position_mm, w)),
+        iso6336_n_per_mm_um: 1e-3 * iso6336::single_stiffness_n_per_mm2(&scene.pair, &scene.material, w),
+        courses: course::courses(&pair, &deflection),
+        deflection,
+        single_contact,
+        convergence,
+        rim_depth,
+        neighbours,
+        family,
+    };
+    calibration.hash = calibration.content_hash();
+    Ok(Done { calibration, stages: stages.times, wall_s: start.elapsed().as_secs_f64() })
+}
+
+/// The scene's pair with what finite elements need to know of it.
+pub(super) fn setup<'a>(scene: &Scene, pair: &'a GearPair) -> Setup<'a> {
+    let line_load_n_per_mm =
+        scene.operation.pinion_torque_n_mm / pair.path.involute.pinion.base_radius_mm / scene.pair.face_width_mm;
+    Setup { pair, material: scene.material, bodies: scene.fem, line_load_n_per_mm }
+}

