@@ -9,13 +9,16 @@ use super::observed::Observed;
 use super::reference::{Correction, Reference};
 use super::selection::{Asked, Companions, Selection, Spacing};
 use super::settings::Setting;
+use crate::calibration::Calibration;
 use crate::contact::settings::MatchCriterion;
 use crate::gear::{Gear, PerGear};
+use crate::pipeline::calibrate::{self, CalibrateError, Extent};
 use crate::pipeline::{self, Done, RunError, inputs::Inputs};
+use crate::plan::calibration::CalibrationStage;
 use crate::plan::{Plan, StageKind};
 use crate::scene::Resolved;
 use crate::simulation::accuracy_record::{
-    AccuracyRecord, MeasuredError, Quantity, Recommendation, ReferenceFlank, ReferenceRecord, VariantRecord,
+    AccuracyRecord, CALIBRATION_FILE, MeasuredError, Quantity, Recommendation, ReferenceFlank, ReferenceRecord, VariantRecord,
 };
 use crate::simulation::record::{RunRecord, StopReason};
 use crate::simulation::wear_run::Progress;
@@ -26,11 +29,12 @@ const LONG_ENOUGH_S: f64 = 0.2;
 const MOST_REPEATS: u32 = 20;
 /// Least ratio of the wear steps taken of which anything is learned.
 const LEAST_STEP_RATIO: f64 = 1.2;
-/// Name of the calibration beside the results.
-pub const CALIBRATION_FILE: &str = "calibration.json";
 
 /// Told what is run; says whether to go on.
 pub trait Observer: Progress {
+    /// The calibration begins.
+    fn calibration(&self);
+
     /// The run `number` of `count` begins.
     fn variant(&self, number: usize, count: usize, name: &str);
 }
@@ -78,6 +82,10 @@ impl Progress for Within<'_> {
     }
 }
 
+impl calibrate::Observer for Within<'_> {
+    fn stage(&self, _stage: CalibrationStage) {}
+}
+
 impl pipeline::Observer for Within<'_> {
     fn stage(&self, _kind: StageKind) {}
 }
@@ -95,9 +103,11 @@ pub fn run(
     observer: &dyn Observer,
 ) -> Result<AccuracyRecord, AccuracyError> {
     let start = Instant::now();
+    let calibration = calibration(resolved, inputs, observer)?;
+    let inputs = &Inputs { calibration: calibration.made, ..inputs.clone() };
     let calibrated: Vec<MatchCriterion> =
-        inputs.calibration.as_ref().map_or_else(Vec::new, |calibration| calibration.foundation.keys().copied().collect());
-    let selection = Selection::new(resolved, asked, &calibrated, "no calibration is given");
+        inputs.calibration.as_ref().map_or_else(Vec::new, |made| made.foundation.keys().copied().collect());
+    let selection = Selection::new(resolved, asked, &calibrated, &calibration.why_none);
     let count = selection.settings.len();
     let mut measured: Vec<Measured> = Vec::with_capacity(count);
     for (number, setting) in selection.settings.iter().enumerate() {
@@ -134,14 +144,18 @@ pub fn run(
             Some(Run { setting, observed: observed.as_ref()?, simulation_s: variant.simulation_s? })
         })
         .collect();
+    let recommendations = recommendations(&variants, asked.within);
     Ok(AccuracyRecord {
+        recommended_toml: recommended_toml(&recommendations, &selection.settings, resolved),
+        calibration_json: inputs.calibration.as_ref().map(Calibration::to_json),
+        calibration_s: calibration.wall_s,
         title: resolved.scene.title.clone(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_hash: resolved.scene_hash(),
         stopped,
         threads: rayon::current_num_threads(),
         within: asked.within,
-        recommendations: recommendations(&variants, asked.within),
+        recommendations,
         comparisons: comparison::comparisons(resolved, &compared),
         reference: reference_record(&selection, &measured, reference, runs, &windows),
         variants,
@@ -150,6 +164,37 @@ pub fn run(
         scene_toml: resolved.to_toml(),
         wall_s: start.elapsed().as_secs_f64(),
     })
+}
+
+/// The calibration that the runs read.
+struct Calibrated {
+    made: Option<Calibration>,
+    wall_s: Option<f64>,
+    /// Why there is none.
+    why_none: String,
+}
+
+/// The scene's own, or one made now.
+fn calibration(resolved: &Resolved, inputs: &Inputs, observer: &dyn Observer) -> Result<Calibrated, AccuracyError> {
+    if let Some(given) = &inputs.calibration {
+        return Ok(Calibrated { made: Some(given.clone()), wall_s: None, why_none: String::new() });
+    }
+    observer.calibration();
+    match calibrate::run(&resolved.scene, Extent::FastModel, &Within { observer, number: 0, count: usize::MAX }) {
+        Ok(done) => {
+            Ok(Calibrated { made: Some(done.calibration), wall_s: Some(done.wall_s), why_none: String::new() })
+        }
+        Err(CalibrateError::Interrupted) => Err(AccuracyError::Interrupted),
+        Err(error) => Ok(Calibrated { made: None, wall_s: None, why_none: format!("no calibration: {error}") }),
+    }
+}
+
+/// The scene of the recommended run of the wear profile, with errors estimated again.
+fn recommended_toml(recommendations: &[Recommendation], settings: &[Setting], resolved: &Resolved) -> Option<String> {
+    let chosen = recommendations.iter().find(|r| r.quantity == Quantity::WearProfile)?;
+    let mut file = settings.get(chosen.variant)?.scene(resolved, Some(CALIBRATION_FILE)).ok()?.file;
+    file.numerics.get_or_insert_default().error_estimate = Some(true);
+    Some(file.to_toml())
 }
 
 /// Runs one setting, a short one several times; `None` where the user interrupted it.

@@ -71,6 +71,10 @@ impl fem_scene::Observer for Progress {
 }
 
 impl study::Observer for Progress {
+    fn calibration(&self) {
+        self.begin("calibration");
+    }
+
     fn variant(&self, number: usize, count: usize, name: &str) {
         match &self.display {
             Display::Quiet => {}

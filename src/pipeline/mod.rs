@@ -162,7 +162,7 @@ pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Obs
         _ => None,
     };
     let surface = surface(scene, foundation_mpa_per_mm, line_load_n_per_mm);
-    let computed = match plan.has(StageKind::FiniteElementCalibration) {
+    let computed = match plan.has(StageKind::FiniteElementCalibration) && inputs.calibration.is_none() {
         true => Some(stages.run(StageKind::FiniteElementCalibration, || {
             calibration::pair_compliance(&calibrate::setup(scene, &pair))
         })?),

@@ -9,6 +9,9 @@ use serde::Serialize;
 use super::record::{PathPoints, StopReason, WorkSummary};
 use crate::gear::PerGear;
 
+/// Name of the calibration beside the results.
+pub const CALIBRATION_FILE: &str = "calibration.json";
+
 /// A finished (or interrupted) comparison.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct AccuracyRecord {
@@ -22,6 +25,8 @@ pub struct AccuracyRecord {
     pub stopped: StopReason,
     /// Wall time of everything until the report is written, s.
     pub wall_s: f64,
+    /// Wall time of the calibration, s; `None` where the scene brings one, or none could be made.
+    pub calibration_s: Option<f64>,
     /// Threads that every run could use.
     pub threads: usize,
     /// The relative error that the recommendations ask for.
@@ -41,6 +46,12 @@ pub struct AccuracyRecord {
     /// The resolved scene as TOML.
     #[serde(skip)]
     pub scene_toml: String,
+    /// The scene of the recommended run of the wear profile, with errors estimated again.
+    #[serde(skip)]
+    pub recommended_toml: Option<String>,
+    /// The calibration that the runs were made with, as its file.
+    #[serde(skip)]
+    pub calibration_json: Option<String>,
 }
 
 /// What errors are measured of.

@@ -226,13 +226,13 @@ fn summary() -> Summary {
             hertz_half_width_mm: 0.2452,
             hertz_peak_pressure_MPa: 1655.8,
         },
-        stiffness: StiffnessSummary {
+        stiffness: Some(StiffnessSummary {
             model: "constant".into(),
             reference_line_load_N_per_mm: 637.66,
             pair_at_pitch_N_per_mm_um: 15.2,
             teeth_at_pitch_N_per_mm_um: 20.0,
             split_remainder_at_half_load: Some(0.012),
-        },
+        }),
         new: cycle(1880.0, 24.0, 38.4),
         worn: cycle(1702.0, 26.5, 38.9),
         pinion: worn(Gear::Pinion, CURVATURE.A),

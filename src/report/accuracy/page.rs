@@ -3,15 +3,17 @@
 use super::{front_figures, profile_figures, run_tables};
 use crate::report::html::number::{percent, significant};
 use crate::report::html::page::{Page, escape, plots, section, sources_list};
-use crate::simulation::accuracy_record::{AccuracyRecord, Quantity};
+use crate::simulation::accuracy_record::{AccuracyRecord, CALIBRATION_FILE, Quantity};
 use crate::simulation::record::StopReason;
 
 /// The data files named in the page, which lie beside it.
-const DATA_FILES: [(&str, &str); 4] = [
+const DATA_FILES: [(&str, &str); 6] = [
     ("accuracy.json", "everything: the reference, every run with its errors, the recommendations"),
     ("accuracy.csv", "one row per run: settings, times, work, errors, fronts"),
     ("wear_profiles.csv", "wear over both flanks, reference and runs of the finest resolution"),
     ("scene.toml", "the resolved scene"),
+    ("recommended.toml", "the scene of the recommended run of the wear profile"),
+    ("calibration.json", "the calibration that the runs read"),
 ];
 
 /// The whole page.
@@ -36,7 +38,7 @@ pub fn page(record: &AccuracyRecord) -> String {
         section(
             "sources",
             "Data and scene",
-            &sources_list(&DATA_FILES, "The resolved scene, every default filled in", &record.scene_toml),
+            &sources_list(&data_files(record), "The resolved scene, every default filled in", &record.scene_toml),
         ),
     ];
     Page {
@@ -51,6 +53,15 @@ pub fn page(record: &AccuracyRecord) -> String {
         footer: &format!("gearwear {} · scene {}", record.program_version, record.scene_hash),
     }
     .html()
+}
+
+/// The files that are there.
+fn data_files(record: &AccuracyRecord) -> Vec<(&'static str, &'static str)> {
+    let missing = |name: &str| {
+        name == CALIBRATION_FILE && record.calibration_json.is_none()
+            || name == "recommended.toml" && record.recommended_toml.is_none()
+    };
+    DATA_FILES.into_iter().filter(|(name, _)| !missing(name)).collect()
 }
 
 /// What to use, in a sentence or two.
