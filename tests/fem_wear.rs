@@ -128,24 +128,29 @@ fn val_away_from_a_to_e_each_point_wears_like_a_disc() {
     assert!(compared > 120, "{compared} points compared");
 }
 
-/// Flanks that have lost the shape of a tip relief touch as flanks that were meshed with it: load shares, half-widths and
-/// transmission error.
+/// Flanks that have lost the shape of a root relief touch as flanks that were meshed with it. (A tip relief would not do:
+/// wear takes the tip edge with it, a mesh has it at the
+/// tip circle.) Both flanks of a meshed tooth are relieved, so that it is thinner at its root by twice the relief, and softer:
+/// three times 10 µm over some 9 mm of the part of the deflection that is bending, or 5e-4 of all.
 #[test]
 fn val_wear_opens_the_gap_as_a_relief_does() {
-    let (plain, modified) = (pair(&fzg_c()), pair(&relieved(fzg_c(), 0.020, 6.0)));
+    let mut spec = fzg_c();
+    for gear in Gear::BOTH {
+        let relief = Relief { amount_mm: 0.005, length_mm: 6.0, shape: ReliefShape::Parabolic };
+        spec.gears[gear].modification.root_relief = Some(relief);
+    }
+    let (plain, modified) = (pair(&fzg_c()), pair(&spec));
     let grid = grid(&plain, 750);
     let worn = PerGear::from_fn(|gear| modifications_mm(&modified, gear, &grid[gear]));
     let (_, by_wear, _) = mesh_once(&condensed(&plain, 6.0), &grid, 60, &worn);
     let (_, by_mesh, _) = mesh_once(&condensed(&modified, 6.0), &grid, 60, &none(&grid));
     for (worn, meshed) in by_wear.positions.iter().zip(&by_mesh.positions) {
         let what = format!("at {:.3}", worn.position_mm);
-        // Relief along the normal takes the tip of the mesh 10 µm inwards, where the relief changes by 12 nm a µm of radius
-        // (2 · 20 µm / 6 mm of roll, 1.75 mm of roll a mm of radius).
-        assert!((worn.transmission_error_mm - meshed.transmission_error_mm).abs() < 0.12e-3, "{what}");
-        // The same 0.12 µm times the stiffness of a pair, 15 N/(mm·µm), over 638 N/mm.
-        assert!((worn.load_share - meshed.load_share).abs() < 3e-3, "{what}: {worn:?} {meshed:?}");
-        if meshed.load_share > 0.25 {
-            assert_close(&what, worn.footprint.half_width_mm, meshed.footprint.half_width_mm, 0.02);
+        assert_close(&what, worn.transmission_error_mm, meshed.transmission_error_mm, 1e-3);
+        assert!((worn.load_share - meshed.load_share).abs() < 1e-3, "{what}: {worn:?} {meshed:?}");
+        // The ends of a contact are found between nodes a/12 apart.
+        if meshed.load_share > 0.99 {
+            assert_close(&what, worn.footprint.half_width_mm, meshed.footprint.half_width_mm, 1e-2);
         }
     }
 }

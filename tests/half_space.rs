@@ -33,7 +33,9 @@ fn val_unworn_flanks_touch_as_hertz_says() {
             at.transmission_error_mm / other.transmission_error_mm,
             at.load_share / other.load_share,
         ];
-        if ratios.iter().any(|r| (r-1.0).abs()>4e-3) {println!("{:.3} {ratios:?}", at.position_mm);}
+        if ratios.iter().any(|r| (r - 1.0).abs() > 4e-3) {
+            println!("{:.3} {ratios:?}", at.position_mm);
+        }
         worst.iter_mut().zip(ratios).for_each(|(worst, ratio)| *worst = worst.max((ratio - 1.0).abs()));
     }
     println!("{worst:?}");
@@ -59,7 +61,16 @@ fn ver_peak_wear_converges() {
         })
     };
     let [coarse, standard, fine] = [1, 2, 4].map(at);
-    let r = [1,2,4,8].map(|r: usize| {let mut s=Scene { flank_points: 375 * r, positions: 200 * r, steps: 75.0 * r as f64, ..half_space() }; s.pair.gears.pinion.modification.tip_rounding_mm=0.1; s.pair.gears.wheel.modification.tip_rounding_mm=0.1; (peak(&s), {s.surface="winkler"; peak(&s)})}); println!("rounded {r:?}");
+    let r = [1, 2, 4, 8].map(|r: usize| {
+        let mut s = Scene { flank_points: 375 * r, positions: 200 * r, steps: 75.0 * r as f64, ..half_space() };
+        s.pair.gears.pinion.modification.tip_rounding_mm = 0.1;
+        s.pair.gears.wheel.modification.tip_rounding_mm = 0.1;
+        (peak(&s), {
+            s.surface = "winkler";
+            peak(&s)
+        })
+    });
+    println!("rounded {r:?}");
     println!("{coarse:.6e} {standard:.6e} {fine:.6e}, winkler {:.6e}", peak(&fzg_c_scene()));
     assert_close("standard against fine", standard, fine, 5e-3);
 }
