@@ -75,7 +75,8 @@ impl Selection {
         let mut levels = vec![finest];
         let mut selection = Self { settings: Vec::new(), companions: Vec::new(), left_out: Vec::new() };
         if asked.quick {
-            selection.leave_out("the scene's own resolution", "--quick: half of its points, positions and steps at most");
+            selection
+                .leave_out("the scene's own resolution", "--quick: half of its points, positions and steps at most");
         }
         for by in [2 * finest, 4 * finest] {
             if Setting::fits(Coarsening::even(by), scene) {

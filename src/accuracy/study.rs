@@ -18,7 +18,8 @@ use crate::plan::calibration::CalibrationStage;
 use crate::plan::{Plan, StageKind};
 use crate::scene::Resolved;
 use crate::simulation::accuracy_record::{
-    AccuracyRecord, CALIBRATION_FILE, MeasuredError, Quantity, Recommendation, ReferenceFlank, ReferenceRecord, VariantRecord,
+    AccuracyRecord, CALIBRATION_FILE, MeasuredError, Quantity, Recommendation, ReferenceFlank, ReferenceRecord,
+    VariantRecord,
 };
 use crate::simulation::record::{RunRecord, StopReason};
 use crate::simulation::wear_run::Progress;
@@ -181,9 +182,7 @@ fn calibration(resolved: &Resolved, inputs: &Inputs, observer: &dyn Observer) ->
     }
     observer.calibration();
     match calibrate::run(&resolved.scene, Extent::FastModel, &Within { observer, number: 0, count: usize::MAX }) {
-        Ok(done) => {
-            Ok(Calibrated { made: Some(done.calibration), wall_s: Some(done.wall_s), why_none: String::new() })
-        }
+        Ok(done) => Ok(Calibrated { made: Some(done.calibration), wall_s: Some(done.wall_s), why_none: String::new() }),
         Err(CalibrateError::Interrupted) => Err(AccuracyError::Interrupted),
         Err(error) => Ok(Calibrated { made: None, wall_s: None, why_none: format!("no calibration: {error}") }),
     }
@@ -366,9 +365,8 @@ fn reference_record(
         measured[0].record.name,
         if parts.is_empty() { "nothing".to_owned() } else { parts.join("; ") }
     );
-    let points = PerGear::from_fn(|gear| {
-        measured[0].run.as_ref().map(|(record, _)| record.flanks[gear].path_point_radius_mm)
-    });
+    let points =
+        PerGear::from_fn(|gear| measured[0].run.as_ref().map(|(record, _)| record.flanks[gear].path_point_radius_mm));
     let Reference { observed, uncertainty } = reference;
     ReferenceRecord {
         how,

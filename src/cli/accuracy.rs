@@ -102,7 +102,11 @@ fn table(record: &AccuracyRecord) -> String {
     }
     let failed: Vec<&VariantRecord> = record.variants.iter().filter(|v| v.failure.is_some()).collect();
     if !failed.is_empty() {
-        text.push_str(&format!("\n{} of {} runs have no result; report.html says why\n", failed.len(), record.variants.len()));
+        text.push_str(&format!(
+            "\n{} of {} runs have no result; report.html says why\n",
+            failed.len(),
+            record.variants.len()
+        ));
     }
     text.push_str(&format!("\n{} runs in {} s\n", record.variants.len(), digits(record.wall_s)));
     text

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use gearwear::calibration::CalibrationError;
 use gearwear::contact::settings::MatchCriterion;
 use gearwear::fem::gear::model::ModelError;
-use gearwear::pipeline::calibrate::{self, Extent, CalibrateError, Done, Observer};
+use gearwear::pipeline::calibrate::{self, CalibrateError, Done, Extent, Observer};
 use gearwear::plan::calibration::CalibrationStage;
 use gearwear::report;
 use gearwear::scene::Problem;
@@ -42,7 +42,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let pool = pool(args.threads)?;
     let progress = Progress::new(args.quiet, watch_for_interrupt());
     let done = pool.install(|| -> Result<Done, Failure> {
-        let done = calibrate::run(&resolved.scene, Extent::Whole, &progress).map_err(|error| refused(error, &source))?;
+        let done =
+            calibrate::run(&resolved.scene, Extent::Whole, &progress).map_err(|error| refused(error, &source))?;
         progress.stage(CalibrationStage::Report);
         report::calibration::write(&done.calibration, &done.stages, &resolved.scene.title, &args.out)?;
         Ok(done)

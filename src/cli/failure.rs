@@ -182,7 +182,11 @@ impl Failure {
     pub fn exit_status(&self) -> u8 {
         match self {
             Failure::Scene(_) | Failure::Input(_) => 2,
-            Failure::Run(_) | Failure::Solve(_) | Failure::FemPair(_) | Failure::Calibrate(_) | Failure::Accuracy(_) => 3,
+            Failure::Run(_)
+            | Failure::Solve(_)
+            | Failure::FemPair(_)
+            | Failure::Calibrate(_)
+            | Failure::Accuracy(_) => 3,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
         }

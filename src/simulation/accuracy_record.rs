@@ -135,7 +135,9 @@ impl Quantity {
     /// How its error is measured.
     pub fn measure(self) -> &'static str {
         match self {
-            Self::WearProfile => "the larger of both gears' relative L2 errors of the depth over the flank's arc length",
+            Self::WearProfile => {
+                "the larger of both gears' relative L2 errors of the depth over the flank's arc length"
+            }
             Self::PinionWearProfile | Self::WheelWearProfile => {
                 "relative L2 error of the depth over the flank's arc length, √(∫(h − h_ref)² ds / ∫h_ref² ds)"
             }

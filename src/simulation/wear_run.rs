@@ -232,35 +232,6 @@ impl WearRun<'_> {
         Ok(Outcome { stop, failure, grid, modification_mm, new, snapshots: states, worn, wear_steps, work })
     }
 
-    /// What each flank point loses in the one mesh after `revolutions`, which have worn `wear_mm` off this run's flank points.
-    ///
-    /// `stopped` is asked at every position whether to give up.
-    ///
-    /// # Errors
-    /// [`SimulationError`].
-    pub fn one_mesh(
-        &self,
-        revolutions: f64,
-        wear_mm: &PerGear<Vec<f64>>,
-        stopped: &(dyn Fn() -> bool + Sync),
-    ) -> Result<(PerGear<Vec<f64>>, Work), SimulationError> {
-        let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));
-        let removed_mm = PerGear::from_fn(|gear| {
-            let modification_mm = modifications_mm(self.pair, gear, &grid[gear]);
-            modification_mm.iter().zip(&wear_mm[gear]).map(|(modification, wear)| modification + wear).collect()
-        });
-        let lost = LostMaterial {
-            removed_mm: removed_mm.as_ref().map(Vec::as_slice),
-            wear_mm: wear_mm.as_ref().map(Vec::as_slice),
-        };
-        let mut depth_mm = PerGear::from_fn(|gear| vec![0.0; grid[gear].len()]);
-        let work = self
-            .mesh_cycle(Flanks { geometry: self.pair, grid: grid.as_ref() })?
-            .evaluate(lost, self.law, &mut depth_mm, stopped)
-            .map_err(|source| SimulationError::Equilibrium { revolutions, source })?;
-        Ok((depth_mm, work))
-    }
-
     /// The pair in mesh at every loading position.
     fn mesh_cycle<'b>(&'b self, flanks: Flanks<'b>) -> Result<Box<dyn MeshCycle + 'b>, SimulationError> {
         match self.contact {

@@ -2,8 +2,8 @@
 //!
 //! | estimate | companions | module |
 //! |---|---|---|
-//! | wear step, discretisation | coarser wear runs | [`wear_runs`] |
-//! | surface model | one mesh on a truer surface, on the unworn and on the worn flanks | [`surface_model`] |
+//! | wear step, discretisation; on finite elements the size of the elements | coarser wear runs | [`wear_runs`] |
+//! | surface model | short wear runs on a truer surface and on the run's own | [`surface_model`] |
 //!
 //! Cost is counted in equilibria of the run's own surface at its own resolution: an equilibrium on another surface counts as
 //! many as it takes the time of ([`relative_cost`]).
@@ -72,19 +72,25 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, observer: &dyn Prog
     let coarse = coarse_elements(model);
     let coarse = coarse.as_ref();
     let runs = wear_runs::estimate(model, outcome, coarse, observer);
-    let surface = surface_model::estimate(model, outcome, coarse, BUDGET - runs.cost, observer);
+    let (surface_model, surface_cost) = match (runs.surface_model, model.contact) {
+        (None, MeshContact::LineOfAction { tip_contact, .. }) => {
+            let short = surface_model::estimate(model, outcome, tip_contact, BUDGET - runs.cost, observer);
+            (short.estimate, short.cost)
+        }
+        (elements, _) => (elements.unwrap_or_else(|| Estimate::none("the companions say nothing of it")), 0.0),
+    };
     if observer.interrupted() {
         return ErrorSummary::not_estimated("the estimates were interrupted");
     }
     ErrorSummary {
         discretisation: runs.discretisation.relative,
         wear_step: runs.wear_step.relative,
-        surface_model: surface.estimate.relative,
-        companions_cost: Some(runs.cost + surface.cost),
+        surface_model: surface_model.relative,
+        companions_cost: Some(runs.cost + surface_cost),
         how: ErrorSources {
             discretisation: runs.discretisation.how,
             wear_step: runs.wear_step.how,
-            surface_model: surface.estimate.how,
+            surface_model: surface_model.how,
         },
     }
 }
@@ -128,7 +134,7 @@ pub(super) fn warnings(error: &ErrorSummary) -> Vec<String> {
     });
     let model = error.surface_model.filter(|e| *e > ALARMING_MODEL).map(|estimate| {
         format!(
-            "contact.surface: by one mesh on a truer surface the peak wear may be off by about {:.0} %; gearwear accuracy \
+            "contact.surface: by a short run on a truer surface the peak wear may be off by about {:.0} %; gearwear accuracy \
              compares all surfaces",
             100.0 * estimate
         )

@@ -66,12 +66,7 @@ const KINDS: [Kind; 6] = [
         symbol: || MarkerSymbol::TriangleUp,
         holds: |v| v.settings.surface == "half-space",
     },
-    Kind {
-        name: "fem",
-        colour: "var(--worn)",
-        symbol: || MarkerSymbol::Cross,
-        holds: |v| v.settings.surface == "fem",
-    },
+    Kind { name: "fem", colour: "var(--worn)", symbol: || MarkerSymbol::Cross, holds: |v| v.settings.surface == "fem" },
 ];
 
 /// One plot for each quantity.
@@ -126,14 +121,16 @@ fn front(record: &AccuracyRecord, quantity: Quantity) -> Figure {
     let times: Vec<f64> = runs(|_| true).map(|run| run.1).collect();
     let ends = [times.iter().copied().fold(f64::INFINITY, f64::min), times.iter().copied().fold(0.0, f64::max)];
     let uncertainty = record.reference.uncertainty.get(&quantity).copied().unwrap_or(0.0);
-    for (name, level, dash) in
-        [("error wanted", record.within, DashType::Dash), ("the reference’s own uncertainty", uncertainty, DashType::Dot)]
-    {
+    for (name, level, dash) in [
+        ("error wanted", record.within, DashType::Dash),
+        ("the reference’s own uncertainty", uncertainty, DashType::Dot),
+    ] {
         if ends[0] < ends[1] && level > 0.0 {
             plot.add_trace(curve(name, ends, [shown(level); 2], line(MUTED, 1.4, dash)).hover_template("%{y:.3~%}"));
         }
     }
-    let logarithmic = |title: &str| axis(title).type_(AxisType::Log).exponent_format(plotly::common::ExponentFormat::Power);
+    let logarithmic =
+        |title: &str| axis(title).type_(AxisType::Log).exponent_format(plotly::common::ExponentFormat::Power);
     plot.set_layout(
         layout(430)
             .show_legend(true)
@@ -191,5 +188,8 @@ fn reading(record: &AccuracyRecord, quantity: Quantity, uncertainty: f64) -> Str
         ),
         None => String::new(),
     };
-    format!("{measured}{found} Below {} errors are not told apart. Smaller marks are coarser runs.", percent(uncertainty))
+    format!(
+        "{measured}{found} Below {} errors are not told apart. Smaller marks are coarser runs.",
+        percent(uncertainty)
+    )
 }
