@@ -5,17 +5,15 @@ use std::path::{Path, PathBuf};
 
 use gearwear::calibration::CalibrationError;
 use gearwear::contact::settings::MatchCriterion;
-use gearwear::fem::gear::model::ModelError;
 use gearwear::pipeline::calibrate::{self, CalibrateError, Done, Extent, Observer};
 use gearwear::plan::calibration::CalibrationStage;
 use gearwear::report;
-use gearwear::scene::Problem;
 
-use super::failure::{Failure, InputError, SceneProblems};
+use super::failure::{Failure, InputError};
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
 use super::scene_source::{self, Source};
-use super::{figures, say, stdout, warn};
+use super::{figures, model_failure, say, stdout, warn};
 
 /// Arguments of `calibrate`.
 #[derive(Debug, clap::Args)]
@@ -80,20 +78,16 @@ fn check_out(out: &Path) -> Result<(), Failure> {
 
 /// A failure, told apart by who is to blame: the input, with its place where it has one, or the solver.
 fn refused(error: CalibrateError, source: &Source) -> Failure {
+    if let CalibrateError::Calibration(CalibrationError::Model(model)) = &error
+        && let Some(failure) = model_failure::in_the_scene(model, source)
+    {
+        return failure;
+    }
     match error {
         CalibrateError::Interrupted => Failure::Interrupted,
-        CalibrateError::Calibration(CalibrationError::Model(ModelError::TooFewTeeth { teeth, least, .. })) => {
-            Failure::Scene(SceneProblems {
-                name: source.name.clone(),
-                text: source.text.clone(),
-                problems: vec![Problem::of_sector_teeth(&source.text, teeth, least)],
-            })
-        }
         CalibrateError::Pair(_)
         | CalibrateError::Calibration(
-            CalibrationError::Model(ModelError::Mesh { .. })
-            | CalibrationError::NoClearPosition { .. }
-            | CalibrationError::OffTheFlank { .. },
+            CalibrationError::NoClearPosition { .. } | CalibrationError::OffTheFlank { .. },
         ) => InputError::Calibrate(error).into(),
         CalibrateError::Calibration(_) => Failure::Calibrate(error),
     }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::say;
 use gearwear::accuracy::study::AccuracyError;
 use gearwear::fem::SolveError;
+use gearwear::fem::gear::model::ModelError;
 use gearwear::mesh::MeshFileError;
 use gearwear::pipeline::RunError;
 use gearwear::pipeline::calibrate::CalibrateError;
@@ -116,6 +117,12 @@ pub enum InputError {
         /// What is wrong with it.
         what: &'static str,
     },
+    /// A gear that cannot be modelled with finite elements.
+    #[error(transparent)]
+    #[diagnostic(help(
+        "try another fem.elements_per_half_width: elements grow with the load and shrink with this number"
+    ))]
+    Model(ModelError),
     /// `init` with a name that is no preset.
     #[error("unknown preset {name:?}; allowed: {}", presets::names().join(", "))]
     #[diagnostic(help("{}", presets::nearest(name).map_or_else(

@@ -5,20 +5,18 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use gearwear::fem::gear::model::ModelError;
 use gearwear::pipeline::fem_scene::{self, Asked, Done, FemPairError, Observer};
 use gearwear::plan::fem_pair::FemPairStage;
 use gearwear::report::{self, ReportError};
-use gearwear::scene::Problem;
 use gearwear::simulation::fem_pair_record::{FemPairRecord, FemPairSummary};
 use gearwear::simulation::record::{StageTime, StopReason};
 
-use super::failure::{Failure, InputError, SceneProblems};
+use super::failure::{Failure, InputError};
 use super::fem::Args;
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
 use super::scene_source::{self, Source, Text};
-use super::{figures, say, stdout, warn};
+use super::{figures, model_failure, say, stdout, warn};
 
 pub fn run(args: &Args, text: Text) -> Result<(), Failure> {
     let source = scene_source::resolve_text(text)?;
@@ -62,18 +60,16 @@ pub fn run(args: &Args, text: Text) -> Result<(), Failure> {
 
 /// A failure, told apart by who is to blame: the input, with its place where it has one, or the solver.
 fn refused(error: FemPairError, source: &Source) -> Failure {
-    match error {
-        FemPairError::Model(ModelError::TooFewTeeth { teeth, least, .. }) => Failure::Scene(SceneProblems {
-            name: source.name.clone(),
-            text: source.text.clone(),
-            problems: vec![Problem::of_sector_teeth(&source.text, teeth, least)],
-        }),
-        FemPairError::Position { .. }
-        | FemPairError::Pair(_)
-        | FemPairError::Quality { .. }
-        | FemPairError::Model(ModelError::Mesh { .. }) => InputError::FemPair(error).into(),
+    let of_model = match &error {
+        FemPairError::Model(model) => model_failure::in_the_scene(model, source),
+        _ => None,
+    };
+    of_model.unwrap_or_else(|| match error {
+        FemPairError::Position { .. } | FemPairError::Pair(_) | FemPairError::Quality { .. } => {
+            InputError::FemPair(error).into()
+        }
         other => Failure::FemPair(other),
-    }
+    })
 }
 
 /// The last stage: the output folder. Its own time is in the summary, which is therefore written last.

@@ -10,6 +10,7 @@ mod fem_scene;
 mod figures;
 mod init;
 mod mesh;
+mod model_failure;
 mod plan;
 mod progress;
 mod run;

@@ -16,7 +16,7 @@ use gearwear::simulation::settings::Operation;
 use super::failure::{Failure, InputError, SceneProblems};
 use super::progress::Progress;
 use super::scene_source::{self, Source};
-use super::{figures, say, stdout, warn};
+use super::{figures, model_failure, say, stdout, warn};
 
 /// The exit status after an interrupt: 128 and the number of the signal.
 const INTERRUPTED: i32 = 130;
@@ -80,17 +80,16 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 
 /// Puts a failure that the scene is to blame for at its key.
 fn in_the_scene(error: RunError, source: &Source) -> Failure {
-    match error.stiffness() {
-        Some(stiffness) => {
-            let problem = Problem::of_stiffness(&source.text, stiffness);
-            Failure::Scene(SceneProblems {
-                name: source.name.clone(),
-                text: source.text.clone(),
-                problems: vec![problem],
-            })
-        }
-        None => Failure::Run(error),
+    if let Some(stiffness) = error.stiffness() {
+        let problem = Problem::of_stiffness(&source.text, stiffness);
+        return Failure::Scene(SceneProblems {
+            name: source.name.clone(),
+            text: source.text.clone(),
+            problems: vec![problem],
+        });
     }
+    let of_model = error.model().and_then(|model| model_failure::in_the_scene(model, source));
+    of_model.unwrap_or(Failure::Run(error))
 }
 
 /// The last stage: the output folder. Its own time is in the summary, which is therefore written last.

@@ -75,6 +75,14 @@ impl RunError {
             _ => None,
         }
     }
+
+    /// The finite-element model that could not be made, if that is what is wrong.
+    pub fn model(&self) -> Option<&ModelError> {
+        match self {
+            RunError::FiniteElements(error) | RunError::Calibration(CalibrationError::Model(error)) => Some(error),
+            _ => None,
+        }
+    }
 }
 
 /// What a plan came to.

@@ -26,8 +26,10 @@ const FIRST_REACH: f64 = 25.0;
 const REACH_USED: f64 = 0.8;
 /// Half-widths on either side of the expected contact in which multipliers are looked for first.
 const FIRST_WINDOW: f64 = 1.4;
-/// How much wider each further look is.
+/// How much wider each further look along the flanks is.
 const WIDER: f64 = 1.6;
+/// How much farther each further look across the gap is.
+const FARTHER: f64 = 3.0;
 /// Looks before giving up.
 const MOST_LOOKS: usize = 8;
 
@@ -102,7 +104,7 @@ impl<'a> CondensedPair<'a> {
                     prepared.active = Some(found.active.clone());
                     return Ok(found);
                 }
-                Err(error) if last || !matches!(error, ActiveSetError::NoContact { .. }) => return Err(error),
+                Err(error) if last || !prepared.misses_contact(&error) => return Err(error),
                 // Flanks far relieved or worn touch elsewhere, and later.
                 Ok(_) | Err(_) => self.widen(prepared),
             }
@@ -112,7 +114,7 @@ impl<'a> CondensedPair<'a> {
 
     fn widen(&self, prepared: &mut Prepared) {
         let Window { half_widths, reach_mm, .. } = prepared.window;
-        let wider = Window { half_widths: WIDER * half_widths, reach_mm: WIDER * reach_mm, ..prepared.window };
+        let wider = Window { half_widths: WIDER * half_widths, reach_mm: FARTHER * reach_mm, ..prepared.window };
         let mut next = self.look(prepared.position_mm, wider);
         next.active = prepared.active.as_ref().map(|active| carried_over(&prepared.facings, active, &next.facings));
         next.looks = prepared.looks + 1;
@@ -179,6 +181,11 @@ impl Prepared {
                 }
             }
         }
+    }
+
+    /// Whether contact failed for want of anything near enough to touch.
+    fn misses_contact(&self, error: &ActiveSetError) -> bool {
+        matches!(error, ActiveSetError::NoContact { .. }) || self.unworn_gap_mm.is_empty()
     }
 
     /// Whether contact may reach beyond what is looked at.
