@@ -4,6 +4,7 @@ mod accuracy;
 mod calibrate;
 mod calibration_source;
 mod completions;
+mod curve_source;
 mod failure;
 mod fem;
 mod fem_scene;
