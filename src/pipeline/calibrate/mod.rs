@@ -1,6 +1,8 @@
 //! Carries out a calibration: finite elements of the scene's pair, and all that the fast model and the reader take from
 //! them ([`crate::calibration`]).
 
+mod wear_reference;
+
 use std::time::Instant;
 
 use crate::calibration::bodies::Setup;
@@ -15,6 +17,7 @@ use crate::scene::Scene;
 use crate::simulation::record::StageTime;
 use crate::simulation::wear_run::{Progress, Unwatched};
 use crate::stiffness::iso6336;
+use crate::working_cycle::load_sharing::EquilibriumError;
 
 /// Told of progress; says whether to go on.
 pub trait Observer: Progress {
@@ -35,6 +38,14 @@ pub enum CalibrateError {
     /// Finite elements gave none.
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
+    /// The mesh cycle of unworn flanks has no equilibrium.
+    #[error("mesh cycle under {line_load_n_per_mm:.2} N/mm: {source}")]
+    Cycle {
+        /// w.
+        line_load_n_per_mm: f64,
+        /// Why.
+        source: EquilibriumError,
+    },
     /// The user stopped it.
     #[error("interrupted")]
     Interrupted,
@@ -74,11 +85,20 @@ impl Stages<'_> {
     }
 }
 
+/// How much of a calibration is wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// All of it.
+    Whole,
+    /// What the fast model reads; the tables of other bodies and other teeth stay empty.
+    FastModel,
+}
+
 /// Calibrates the pair of `scene`. The files are left to the caller.
 ///
 /// # Errors
 /// [`CalibrateError`]
-pub fn run(scene: &Scene, observer: &dyn Observer) -> Result<Done, CalibrateError> {
+pub fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Done, CalibrateError> {
     use CalibrationStage as Stage;
     let start = Instant::now();
     let mut stages = Stages { observer, times: Vec::new() };
@@ -93,10 +113,15 @@ pub fn run(scene: &Scene, observer: &dyn Observer) -> Result<Done, CalibrateErro
     let single_contact = stages.run(Stage::Foundation, || single_contact::solve(&condensed, &loaded, w))?;
     let ends_mm = (pair.path.start_mm, pair.path.end_mm);
     let (foundation, foundation_fit) = foundation_fit::all(&single_contact, w, ends_mm);
-    let (convergence, rim_depth, neighbours) = stages.run(Stage::Bodies, || -> Result<_, CalibrationError> {
-        Ok((setup.convergence()?, setup.rim_depths()?, setup.neighbours()?))
-    })?;
-    let family = stages.run(Stage::ToothFamily, || tooth_family::family(&setup))?;
+    let (mut convergence, mut rim_depth, mut neighbours, mut family) = Default::default();
+    if extent == Extent::Whole {
+        (convergence, rim_depth, neighbours) = stages.run(Stage::Bodies, || -> Result<_, CalibrationError> {
+            Ok((setup.convergence()?, setup.rim_depths()?, setup.neighbours()?))
+        })?;
+        family = stages.run(Stage::ToothFamily, || tooth_family::family(&setup))?;
+    }
+    let stopped = || observer.interrupted();
+    let wear_reference = stages.run(Stage::WearReference, || wear_reference::references(&condensed, w, &stopped))?;
     let mut calibration = Calibration {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         hash: String::new(),
@@ -116,6 +141,7 @@ pub fn run(scene: &Scene, observer: &dyn Observer) -> Result<Done, CalibrateErro
         rim_depth,
         neighbours,
         family,
+        wear_reference,
     };
     calibration.hash = calibration.content_hash();
     Ok(Done { calibration, stages: stages.times, wall_s: start.elapsed().as_secs_f64() })
