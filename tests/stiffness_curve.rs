@@ -71,7 +71,7 @@ fn ver_shared_bodies_yield_under_the_load_of_every_pair() {
     let ((alone, _), (together, load)) = (run(0.0), run(shared_mm2_per_n));
     for (alone, together) in alone.positions.iter().zip(&together.positions) {
         let more = together.transmission_error_mm - alone.transmission_error_mm;
-        if alone.load_share == 1.0 {
+        if alone.load_share > 1.0 - 1e-9 {
             assert!(more.abs() < 1e-12, "{alone:?}");
         } else {
             // Exact for equal shares; the less compliant share is loaded a little more.

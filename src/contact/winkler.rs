@@ -7,8 +7,8 @@
 //! ```
 //!
 //! The load is summed over cells of evenly spaced samples. In a cell the penetration u = δ − g is a straight line
-//! between its samples, raised by g''Δ²/12, the mean of what the curvature g'' of the gap (1/R on plain flanks, more on a
-//! tip rounding) adds to it; its positive part integrates exactly. So the ends of the contact are found between samples, and the load is a smooth, ever steeper
+//! between its samples, raised by Δ²/(12 R), the mean of what the curvature of the gap adds to it; its positive part
+//! integrates exactly. So the ends of the contact are found between samples, and the load is a smooth, ever steeper
 //! function of δ.
 //!
 //! A flank point's pressure is averaged over the stretch the contact moves on while it stands for one loading position,
@@ -61,7 +61,6 @@ impl ContactSurface for Winkler {
             strip,
             observed,
             gap: Vec::new(),
-            bulge: Vec::new(),
             touch: 0.0,
             depth: 0.0,
             extent_mm: (0.0, 0.0),
@@ -124,8 +123,6 @@ struct WinklerPair<'a> {
     observed: Option<Observed>,
     /// Real gap at the strip's samples less the least of them, mm.
     gap: Vec<f64>,
-    /// Mean of what the curvature of the gap adds to the penetration in each cell between samples, mm.
-    bulge: Vec<f64>,
     /// The least gap, mm.
     touch: f64,
     /// The last depth pressed, mm.
@@ -140,11 +137,6 @@ impl PairContact for WinklerPair<'_> {
         // From the first touch on, nothing is lost where a light load meets a deep relief.
         self.gap.iter_mut().for_each(|gap| *gap -= touch);
         self.touch = touch;
-        self.bulge.clear();
-        // At the ends, as in the cell next to them.
-        let last = self.gap.len() - 3;
-        let second = |k: usize| self.gap[k] - 2.0 * self.gap[k + 1] + self.gap[k + 2];
-        self.bulge.extend((0..last + 2).map(|k| (second(k.saturating_sub(1).min(last)) + second(k.min(last))) / 24.0));
     }
 
     fn touch_mm(&self) -> f64 {
@@ -153,13 +145,17 @@ impl PairContact for WinklerPair<'_> {
 
     fn press(&mut self, depth_mm: f64) -> Response {
         self.depth = depth_mm;
+        // The curvature of the gap between two samples, which the straight line misses, as its mean Δ²/12R.
+        let bulge = self.strip.spacing_mm * self.strip.spacing_mm / (12.0 * self.radius_mm);
         // Sums over cells of mean penetration and of the fraction in contact, which is how fast the former grows.
         let (mut penetration, mut contact) = (0.0, 0.0);
-        for (ends, bulge) in self.gap.windows(2).zip(&self.bulge) {
-            let raised = depth_mm + bulge;
-            let (mean, fraction) = mean_positive([raised - ends[0], raised - ends[1]]);
+        let mut before = depth_mm + bulge - self.gap[0];
+        for gap in &self.gap[1..] {
+            let here = depth_mm + bulge - gap;
+            let (mean, fraction) = mean_positive([before, here]);
             penetration += mean;
             contact += fraction;
+            before = here;
         }
         let spacing = self.strip.spacing_mm;
         let (load, stiffness) = self.springs.load_and_stiffness(spacing * penetration, spacing * contact);
