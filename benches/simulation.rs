@@ -31,7 +31,7 @@ fn wear_run(criterion: &mut Criterion) {
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("the pool is not built yet");
     let mut group = criterion.benchmark_group("fzg-c");
     group.sample_size(20);
-    for surface in ["winkler", "hertz", "hertz-mean"] {
+    for surface in ["winkler", "half-space", "hertz", "hertz-mean"] {
         let scene = scene(&[("surface = \"winkler\"", &format!("surface = \"{surface}\""))]);
         println!("{surface}: {:?}", run(&scene).summary.work);
         group.bench_function(BenchmarkId::new("surface", surface), |bencher| bencher.iter(|| run(&scene)));

@@ -5,7 +5,7 @@ mod common;
 
 use common::{assert_close, fzg_c, fzg_c_scene, gear, pair, spur, steel};
 use gearwear::contact::{
-    ContactSurface, Flanks, PositionCell, foundation::matched_mpa_per_mm, hertz, hertz::Hertz, hertz_mean::HertzMean,
+    ContactSurface, Flanks, PositionCell, foundation::{Bed, matched_mpa_per_mm}, half_space::HalfSpace, hertz, hertz::Hertz, hertz_mean::HertzMean,
     settings::MatchCriterion, winkler::Winkler,
 };
 use gearwear::gear::{
@@ -94,6 +94,7 @@ fn disc_wear_over_exact(surface: impl Fn(f64, &TwoDiscs) -> Box<dyn ContactSurfa
             LoadingPosition {
                 cell: PositionCell { position_mm: at, lower_mm: at - 0.5 * step, upper_mm: at + 0.5 * step },
                 pairs: vec![PairInMesh { position_mm: at, teeth_n_per_mm2: 20e3 }],
+                on_line_of_action: true,
             }
         })
         .collect();
@@ -116,8 +117,11 @@ fn disc_wear_over_exact(surface: impl Fn(f64, &TwoDiscs) -> Box<dyn ContactSurfa
 fn val_two_discs_wear_the_load_times_the_specific_sliding() {
     let winkler = |w: f64, discs: &TwoDiscs| -> Box<dyn ContactSurface> {
         let at = hertz::flattening(discs, &steel(), 1.0);
-        let foundation_mpa_per_mm = matched_mpa_per_mm(MatchCriterion::HalfWidth, &at, w);
-        Box::new(Winkler { foundation_mpa_per_mm, expected_line_load_n_per_mm: w })
+        let mpa_per_mm = matched_mpa_per_mm(MatchCriterion::HalfWidth, &at, w);
+        Box::new(Winkler { bed: Bed::Uniform { mpa_per_mm }, expected_line_load_n_per_mm: w })
+    };
+    let half_space = |w: f64, _: &TwoDiscs| -> Box<dyn ContactSurface> {
+        Box::new(HalfSpace { material: steel(), expected_line_load_n_per_mm: w })
     };
     let hertz = |w: f64, _: &TwoDiscs| -> Box<dyn ContactSurface> {
         Box::new(Hertz { material: steel(), expected_line_load_n_per_mm: w })
@@ -125,6 +129,7 @@ fn val_two_discs_wear_the_load_times_the_specific_sliding() {
     let hertz_mean = |_: f64, _: &TwoDiscs| -> Box<dyn ContactSurface> { Box::new(HertzMean { material: steel() }) };
     for (name, ratio) in [
         ("winkler", disc_wear_over_exact(winkler)),
+        ("half-space", disc_wear_over_exact(half_space)),
         ("hertz", disc_wear_over_exact(hertz)),
         ("hertz-mean", disc_wear_over_exact(hertz_mean)),
     ] {
@@ -160,7 +165,7 @@ fn val_each_flank_loses_what_load_and_sliding_ask_for() {
     for (name, spec, torque) in
         [("fzg-c", fzg_c(), 302e3), ("fzg-c light", fzg_c(), 60.8e3), ("20/41", twenty_to_forty_one(), 150e3)]
     {
-        for surface in ["winkler", "hertz", "hertz-mean"] {
+        for surface in ["winkler", "half-space", "hertz", "hertz-mean"] {
             let (pair, line_load, outcome) = first_mesh(&spec, torque, surface);
             let positions = &outcome.new.cycle.positions;
             // ∫ w v_s dt by the trapezoidal rule within each stretch of constant number of pairs: the load jumps between.
@@ -197,9 +202,15 @@ fn jump_share(pair: &GearPair, two: &[gearwear::working_cycle::PositionObservati
 /// half-widths of the whole load.
 #[test]
 fn val_away_from_a_to_e_each_point_wears_like_a_disc() {
-    for (torque, surface) in
-        [(302e3, "winkler"), (302e3, "hertz"), (302e3, "hertz-mean"), (60.8e3, "winkler"), (60.8e3, "hertz")]
-    {
+    for (torque, surface) in [
+        (302e3, "winkler"),
+        (302e3, "half-space"),
+        (302e3, "hertz"),
+        (302e3, "hertz-mean"),
+        (60.8e3, "winkler"),
+        (60.8e3, "half-space"),
+        (60.8e3, "hertz"),
+    ] {
         let (pair, line_load, outcome) = first_mesh(&fzg_c(), torque, surface);
         let half_width =
             hertz::flattening(&pair, &steel(), pair.path.pitch_point_mm).contact.loaded(line_load).half_width_mm;

@@ -12,36 +12,29 @@ fn half_space() -> Scene {
     Scene { surface: "half-space", ..fzg_c_scene() }
 }
 
-/// Away from the tip edges, pressure, half-width and transmission error of unworn flanks are those of Hertz under the same
-/// load.
+/// Away from the tip edges, pressure and half-width of unworn flanks are those of Hertz under the same load; while one pair
+/// carries it, so is the transmission error.
 #[test]
 fn val_unworn_flanks_touch_as_hertz_says() {
     let at_first = Scene { revolutions: 1.0, steps: 1.0, ..half_space() };
     let found = at_first.run().new.cycle;
-    let hertz_found = Scene { surface: "hertz", ..at_first.clone() }.run().new.cycle;
+    let of_hertz = Scene { surface: "hertz", ..at_first.clone() }.run().new.cycle;
     let gears = pair(&at_first.pair);
-    let mut worst = [0.0_f64; 4];
-    for (at, other) in found.positions.iter().zip(&hertz_found.positions) {
-        if at.position_mm < gears.path.start_mm + 0.5 || at.position_mm > gears.path.end_mm - 0.5 {
+    let path = &gears.path;
+    for (at, other) in found.positions.iter().zip(&of_hertz.positions) {
+        if at.position_mm < path.start_mm + 1.0 || at.position_mm > path.end_mm - 0.5 {
             continue;
         }
         let load = at.load_share * at_first.line_load();
         let strip = hertz::flattening(&gears, &steel(), at.position_mm).contact.loaded(load);
-        let ratios = [
-            at.footprint.peak_pressure_mpa / strip.peak_pressure_mpa,
-            at.footprint.half_width_mm / strip.half_width_mm,
-            at.transmission_error_mm / other.transmission_error_mm,
-            at.load_share / other.load_share,
-        ];
-        if ratios.iter().any(|r| (r - 1.0).abs() > 4e-3) {
-            println!("{:.3} {ratios:?}", at.position_mm);
+        let what = |quantity| format!("{quantity} at {:.3}", at.position_mm);
+        // At a depth t of the teeth half-planes flatten by parts of (a/t)² less than Hertz's ellipse says: 0.4 %.
+        assert_close(&what("peak"), at.footprint.peak_pressure_mpa, strip.peak_pressure_mpa, 5e-3);
+        assert_close(&what("half-width"), at.footprint.half_width_mm, strip.half_width_mm, 1e-2);
+        if at.load_share > 0.999 {
+            assert_close(&what("error"), at.transmission_error_mm, other.transmission_error_mm, 1e-3);
         }
-        worst.iter_mut().zip(ratios).for_each(|(worst, ratio)| *worst = worst.max((ratio - 1.0).abs()));
     }
-    println!("{worst:?}");
-    // Half-planes flatten to parts of (a/t)² less than Hertz's, 0.4 %; the involute is no parabola.
-    let [peak, half_width, transmission_error, share] = worst;
-    assert!(peak < 5e-3 && half_width < 1e-2 && transmission_error < 2e-3 && share < 2e-3, "{worst:?}");
 }
 
 /// 128 h: peak wear converges with the resolution, and is within the range of the other surfaces.
@@ -61,16 +54,6 @@ fn ver_peak_wear_converges() {
         })
     };
     let [coarse, standard, fine] = [1, 2, 4].map(at);
-    let r = [1, 2, 4, 8].map(|r: usize| {
-        let mut s = Scene { flank_points: 375 * r, positions: 200 * r, steps: 75.0 * r as f64, ..half_space() };
-        s.pair.gears.pinion.modification.tip_rounding_mm = 0.1;
-        s.pair.gears.wheel.modification.tip_rounding_mm = 0.1;
-        (peak(&s), {
-            s.surface = "winkler";
-            peak(&s)
-        })
-    });
-    println!("rounded {r:?}");
     println!("{coarse:.6e} {standard:.6e} {fine:.6e}, winkler {:.6e}", peak(&fzg_c_scene()));
     assert_close("standard against fine", standard, fine, 5e-3);
 }

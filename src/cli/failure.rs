@@ -13,6 +13,7 @@ use gearwear::pipeline::fem_scene::FemPairError;
 use gearwear::pipeline::pair_mesh::PairMeshError;
 use gearwear::report::ReportError;
 use gearwear::scene::{Problem, ProblemKind, presets};
+use gearwear::stiffness::curve_file::CurveFileError;
 use miette::{Diagnostic, LabeledSpan, MietteDiagnostic, NamedSource, Report};
 
 /// Problems of one file that are shown; the rest is counted.
@@ -112,6 +113,15 @@ pub enum InputError {
         name: String,
         /// What is wrong with it.
         what: &'static str,
+    },
+    /// A curve of tooth stiffness that cannot be read as one.
+    #[error("{name}: {error}")]
+    #[diagnostic(help("the file that stiffness.curve of the scene names; gearwear schema says what stands in it"))]
+    Curve {
+        /// Name of the file.
+        name: String,
+        /// What is wrong with it.
+        error: CurveFileError,
     },
     /// A gear that cannot be modelled with finite elements.
     #[error(transparent)]

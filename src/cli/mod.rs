@@ -3,6 +3,7 @@
 mod calibrate;
 mod calibration_source;
 mod completions;
+mod curve_source;
 mod failure;
 mod fem;
 mod fem_scene;

@@ -7,7 +7,7 @@ use std::path::Path;
 use gearwear::pipeline::inputs::Inputs;
 use gearwear::scene::{Resolved, Scene};
 
-use super::calibration_source;
+use super::{calibration_source, curve_source};
 use super::failure::{Failure, InputError, SceneProblems};
 
 /// The text of a file.
@@ -53,6 +53,7 @@ pub fn resolve(path: &Path) -> Result<Source, Failure> {
     let mut source = resolve_alone(path)?;
     let folder = if path == Path::new("-") { Path::new("") } else { path.parent().unwrap_or(Path::new("")) };
     source.inputs.calibration = calibration_source::read(folder, &mut source)?;
+    source.inputs.stiffness_curve = curve_source::read(folder, &source)?;
     Ok(source)
 }
 

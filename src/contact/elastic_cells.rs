@@ -193,7 +193,7 @@ mod tests {
             let gap: Vec<f64> = centres.map(|x| x * x / (2.0 * radius)).collect();
             cells.read(&gap);
             let response = cells.press(flattening.approach_mm(load));
-            let mut field = PressureField::new(lower, width);
+            let mut field = PressureField::new(lower, width, false);
             field.fill(|pressure| cells.pressure_mpa(pressure));
             let found = field.footprint();
             let ratios = [

@@ -35,6 +35,72 @@ pub fn matched_mpa_per_mm(criterion: MatchCriterion, hertz: &Flattening, line_lo
     1.5 * w * radius / a_bed.powi(3)
 }
 
+/// The springs of a bed: one K/H everywhere, or a curve of it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Bed {
+    /// The same K/H at every position and load.
+    Uniform {
+        /// K/H, MPa/mm.
+        mpa_per_mm: f64,
+    },
+    /// K/H by position and load.
+    Curve(FoundationCurve),
+}
+
+impl Bed {
+    /// The springs at one position.
+    pub fn at(&self, position_mm: f64) -> Springs {
+        match self {
+            Self::Uniform { mpa_per_mm } => Springs { mpa_per_mm: *mpa_per_mm, load_exponent: 0.0, reference: 1.0 },
+            Self::Curve(curve) => curve.springs_at(position_mm),
+        }
+    }
+}
+
+/// The springs at one position: K/H = K (w/w_ref)^(−m), all alike, softer under more load where m > 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Springs {
+    /// K, MPa/mm.
+    mpa_per_mm: f64,
+    /// m.
+    load_exponent: f64,
+    /// w_ref, N/mm.
+    reference: f64,
+}
+
+impl Springs {
+    /// K/H under a line load (> 0 where it depends on it), MPa/mm.
+    pub fn mpa_per_mm(&self, line_load_n_per_mm: f64) -> f64 {
+        if self.load_exponent == 0.0 {
+            return self.mpa_per_mm;
+        }
+        self.mpa_per_mm * (line_load_n_per_mm / self.reference).powf(-self.load_exponent)
+    }
+
+    /// The line load w and its derivative by depth, from the integral U of the penetration over the contact and its
+    /// derivative U' (the length in contact). From w = K (w/w_ref)^(−m) U follows without iteration
+    ///
+    /// ```text
+    /// w = w_ref (K U/w_ref)^{1/(1+m)}        w' = w/(1+m) · U'/U
+    /// ```
+    pub fn load_and_stiffness(&self, penetration_mm2: f64, contact_mm: f64) -> (f64, f64) {
+        if self.load_exponent == 0.0 {
+            return (self.mpa_per_mm * penetration_mm2, self.mpa_per_mm * contact_mm);
+        }
+        if penetration_mm2 <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let power = 1.0 / (1.0 + self.load_exponent);
+        let load = self.reference * (self.mpa_per_mm * penetration_mm2 / self.reference).powf(power);
+        (load, power * load * contact_mm / penetration_mm2)
+    }
+
+    /// Half-width against a parabolic gap of radius `radius_mm`.
+    pub fn half_width_mm(&self, radius_mm: f64, line_load_n_per_mm: f64) -> f64 {
+        half_width_mm(self.mpa_per_mm(line_load_n_per_mm), radius_mm, line_load_n_per_mm)
+    }
+}
+
 /// Half-width of a bed of stiffness `foundation_mpa_per_mm` against a parabolic gap of radius `radius_mm`.
 pub fn half_width_mm(foundation_mpa_per_mm: f64, radius_mm: f64, line_load_n_per_mm: f64) -> f64 {
     (1.5 * line_load_n_per_mm * radius_mm / foundation_mpa_per_mm).cbrt()
@@ -61,16 +127,24 @@ pub struct FoundationCurve {
 }
 
 impl FoundationCurve {
-    /// K/H at a position and load, MPa/mm.
+    /// K/H at a position under a line load (> 0), MPa/mm.
     pub fn at_mpa_per_mm(&self, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
-        let places = &self.position_mm;
-        let after = places.partition_point(|&place| place <= position_mm).clamp(1, places.len() - 1);
-        let (low, high) = (after - 1, after);
-        let weight = ((position_mm - places[low]) / (places[high] - places[low])).clamp(0.0, 1.0);
-        let between = |a: f64, b: f64| a + weight * (b - a);
-        let reference = between(self.mpa_per_mm[low].ln(), self.mpa_per_mm[high].ln()).exp();
-        let exponent = between(self.load_exponent[low], self.load_exponent[high]);
-        reference * (line_load_n_per_mm / self.reference_line_load_n_per_mm).powf(-exponent)
+        self.springs_at(position_mm).mpa_per_mm(line_load_n_per_mm)
+    }
+
+    /// The springs at one position.
+    fn springs_at(&self, position_mm: f64) -> Springs {
+        let count = self.position_mm.len();
+        let after = self.position_mm.partition_point(|&p| p <= position_mm).min(count - 1);
+        let before = after.saturating_sub(1);
+        let (low, high) = (self.position_mm[before], self.position_mm[after]);
+        let weight = if high > low { ((position_mm - low) / (high - low)).clamp(0.0, 1.0) } else { 0.0 };
+        let between = |low: f64, high: f64| low + weight * (high - low);
+        Springs {
+            mpa_per_mm: between(self.mpa_per_mm[before].ln(), self.mpa_per_mm[after].ln()).exp(),
+            load_exponent: between(self.load_exponent[before], self.load_exponent[after]),
+            reference: self.reference_line_load_n_per_mm,
+        }
     }
 }
 
@@ -102,5 +176,46 @@ mod tests {
         assert!((k * strip.half_width_mm / modulus - 0.7205).abs() < 1e-4);
         let (_, _, _, approach) = bed(MatchCriterion::Approach);
         assert!((approach / hertz.approach_mm(w) - 1.0).abs() < 1e-12);
+    }
+
+    fn curve() -> FoundationCurve {
+        FoundationCurve {
+            position_mm: vec![4.0, 14.0, 24.0],
+            mpa_per_mm: vec![9e5, 5e5, 6e5],
+            load_exponent: vec![0.5, 0.4, 0.0],
+            reference_line_load_n_per_mm: 600.0,
+        }
+    }
+
+    /// K/H between the points of a curve and beyond its ends; at its points and reference load the values themselves.
+    #[test]
+    fn ver_a_curve_passes_through_its_points() {
+        let curve = curve();
+        for (position, k) in [(4.0, 9e5), (14.0, 5e5), (24.0, 6e5), (1.0, 9e5), (30.0, 6e5)] {
+            assert!((curve.at_mpa_per_mm(position, 600.0) / k - 1.0).abs() < 1e-12, "{position}");
+        }
+        assert!((curve.at_mpa_per_mm(9.0, 600.0) / (9e5 * 5e5_f64).sqrt() - 1.0).abs() < 1e-12);
+        // m = 0.45 halfway: a quarter of the load, stiffer by 4^0.45.
+        assert!((curve.at_mpa_per_mm(9.0, 150.0) / (9e5 * 5e5_f64).sqrt() / 4f64.powf(0.45) - 1.0).abs() < 1e-12);
+        assert!((curve.at_mpa_per_mm(24.0, 1.0) / 6e5 - 1.0).abs() < 1e-12);
+    }
+
+    /// The closed form of the load is what K/H at that load gives, and its stiffness the derivative.
+    #[test]
+    fn ver_the_load_of_softening_springs_needs_no_iteration() {
+        for position in [4.0, 9.0, 20.0, 24.0] {
+            let springs = Bed::Curve(curve()).at(position);
+            // A parabola of radius R penetrated by δ: U = (4/3) δ √(2Rδ), U' = 2 √(2Rδ).
+            let of_depth = |depth: f64| {
+                let half_width = (2.0 * 8.4 * depth).sqrt();
+                (springs.load_and_stiffness(4.0 / 3.0 * depth * half_width, 2.0 * half_width), half_width)
+            };
+            let ((load, stiffness), half_width) = of_depth(4e-3);
+            let k = springs.mpa_per_mm(load);
+            assert!((load / (k * 4.0 / 3.0 * 4e-3 * half_width) - 1.0).abs() < 1e-12);
+            assert!((springs.half_width_mm(8.4, load) / half_width - 1.0).abs() < 1e-12);
+            let slope = (of_depth(4e-3 + 1e-8).0.0 - of_depth(4e-3 - 1e-8).0.0) / 2e-8;
+            assert!((stiffness / slope - 1.0).abs() < 1e-6);
+        }
     }
 }

@@ -21,6 +21,8 @@
 //!
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), sections 2.5 and 5.9.
 
+use std::f64::consts::PI;
+
 use super::{
     ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
     elastic_cells::ElasticCells,
@@ -74,6 +76,17 @@ impl ContactSurface for HalfSpace {
     fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
         hertz::flattening(geometry, &self.material, position_mm).approach_mm(line_load_n_per_mm)
     }
+
+    /// A wave of length λ on a half-plane: π E*/λ, and no wave is shorter than two cells.
+    fn stiffness_of_short_waves_mpa_per_mm(
+        &self,
+        flanks: Flanks<'_>,
+        position_mm: f64,
+        _line_load_n_per_mm: f64,
+    ) -> Option<f64> {
+        let modulus = hertz::contact_modulus_mpa(&self.material);
+        Some(PI * modulus / (2.0 * self.cell_width_mm(flanks, position_mm)))
+    }
 }
 
 impl HalfSpace {
@@ -122,10 +135,13 @@ impl Site<'_> {
                 (points, shifts)
             })
         });
+        // A cell that an edge only moves away from during it lies to one side of its position.
+        let two_sided = |cell: PositionCell| cell.lower_mm < cell.position_mm && cell.position_mm < cell.upper_mm;
+        let mirrored = self.cell.is_some_and(two_sided);
         Look {
             strip,
             cells: ElasticCells::new(width, compliance),
-            field: PressureField::new(window.lower_mm, width),
+            field: PressureField::new(window.lower_mm, width, mirrored),
             observed,
         }
     }

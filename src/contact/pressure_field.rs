@@ -4,6 +4,10 @@
 //! cells. Each cell then counts with its whole width, so that the field carries the load of the cells exactly. Its integral
 //! P(x) is kept at the centres; a flank point that moves from x₁ to x₂ feels (P(x₂) − P(x₁))/(x₂ − x₁) on average.
 //!
+//! Beyond a tip edge under pressure the field is its own mirror image. While the contact stands for one position the edge
+//! moves to either side of where it is there: what it uncovers on the one side is then what it covers on the other, and the
+//! flank feels the load of the cells on average. At A and E, where the edge only moves away, there is nothing beyond it.
+//!
 //! Where a contact ends by itself, pressure begins as √s with the distance s from its end, and the load within s as s^{3/2}.
 //! So P^{2/3} is a straight line there, and its zero, from the loads of the two and of the three outermost cells, is the end
 //! of the contact: to second order in the width of the cells, though the cells themselves know it to half a width only.
@@ -19,18 +23,20 @@ pub struct PressureField {
     /// Where the first cell begins, mm.
     lower_mm: f64,
     width_mm: f64,
+    /// Whether the field is its own mirror image beyond an edge.
+    mirrored: bool,
     pressure_mpa: Vec<f64>,
     /// Load from the beginning to the centre of each cell, N/mm.
     load_below: Vec<f64>,
 }
 
 impl PressureField {
-    /// Cells of `width_mm` from `lower_mm` on, without pressure so far.
-    pub fn new(lower_mm: f64, width_mm: f64) -> Self {
-        Self { lower_mm, width_mm, ..Self::default() }
+    /// Cells of `width_mm` from `lower_mm` on, without pressure so far; `mirrored` beyond an edge under pressure or not.
+    pub fn new(lower_mm: f64, width_mm: f64, mirrored: bool) -> Self {
+        Self { lower_mm, width_mm, mirrored, ..Self::default() }
     }
 
-    /// Exchanges the pressures, through a vector that is filled with one of each cell.
+    /// Exchanges the pressures, through a vector that is filled with one of each cell, two at least.
     pub fn fill(&mut self, pressure_mpa: impl FnOnce(&mut Vec<f64>)) {
         pressure_mpa(&mut self.pressure_mpa);
         self.load_below.clear();
@@ -51,13 +57,10 @@ impl PressureField {
         &self.pressure_mpa
     }
 
-    /// Pressure at `x_mm`; none beyond the cells.
+    /// Pressure at `x_mm`.
     pub fn at_mpa(&self, x_mm: f64) -> f64 {
-        let place = (x_mm - self.lower_mm) / self.width_mm;
-        if self.pressure_mpa.is_empty() || !(0.0..=self.pressure_mpa.len() as f64).contains(&place) {
-            return 0.0;
-        }
-        let (k, weight) = self.between(place);
+        let (k, weight) = self.place(x_mm);
+        let weight = weight.clamp(0.0, 1.0);
         self.pressure_mpa[k] + weight * (self.pressure_mpa[k + 1] - self.pressure_mpa[k])
     }
 
@@ -72,25 +75,35 @@ impl PressureField {
 
     /// P(x), N/mm.
     fn load_below(&self, x_mm: f64) -> f64 {
-        let count = self.pressure_mpa.len();
-        let place = ((x_mm - self.lower_mm) / self.width_mm).clamp(0.0, count as f64);
-        if place <= 0.5 {
-            return self.pressure_mpa[0] * place * self.width_mm;
+        let upper_mm = self.lower_mm + self.pressure_mpa.len() as f64 * self.width_mm;
+        let edge_mm = x_mm.clamp(self.lower_mm, upper_mm);
+        let at_edge = self.load_within(edge_mm);
+        if x_mm == edge_mm || !self.mirrored || self.at_mpa(edge_mm) <= 0.0 {
+            return at_edge;
         }
-        if place >= count as f64 - 0.5 {
-            let beyond = place - (count as f64 - 0.5);
-            return self.load_below[count - 1] + self.pressure_mpa[count - 1] * beyond * self.width_mm;
-        }
-        let (k, weight) = self.between(place);
-        let rise = self.pressure_mpa[k + 1] - self.pressure_mpa[k];
-        self.load_below[k] + self.width_mm * weight * (self.pressure_mpa[k] + 0.5 * weight * rise)
+        2.0 * at_edge - self.load_within(2.0 * edge_mm - x_mm)
     }
 
-    /// The cell centre before a place counted in cells, and the weight of the one after it.
-    fn between(&self, place: f64) -> (usize, f64) {
-        let from_first = (place - 0.5).max(0.0);
-        let k = (from_first as usize).min(self.pressure_mpa.len() - 2);
-        (k, (from_first - k as f64).min(1.0))
+    /// P(x) within the cells, N/mm.
+    fn load_within(&self, x_mm: f64) -> f64 {
+        let (k, weight) = self.place(x_mm);
+        let (here, next) = (self.pressure_mpa[k], self.pressure_mpa[k + 1]);
+        let mean_times_weight = if weight < 0.0 {
+            weight * here
+        } else if weight > 1.0 {
+            0.5 * (here + next) + (weight - 1.0) * next
+        } else {
+            weight * (here + 0.5 * weight * (next - here))
+        };
+        self.load_below[k] + self.width_mm * mean_times_weight
+    }
+
+    /// The centre before `x_mm`, and how far beyond it, in cells: 0 to 1, but below 0 before the first and above 1 after the
+    /// last centre.
+    fn place(&self, x_mm: f64) -> (usize, f64) {
+        let from_first = (x_mm - self.lower_mm) / self.width_mm - 0.5;
+        let k = (from_first.max(0.0) as usize).min(self.pressure_mpa.len() - 2);
+        (k, from_first - k as f64)
     }
 
     /// Outermost places under pressure; both 0 without pressure.
@@ -148,7 +161,7 @@ mod tests {
     use super::*;
 
     fn field(pressures: &[f64]) -> PressureField {
-        let mut field = PressureField::new(-0.3, 0.1);
+        let mut field = PressureField::new(-0.3, 0.1, true);
         field.fill(|cells| cells.extend_from_slice(pressures));
         field
     }
@@ -158,13 +171,18 @@ mod tests {
     fn ver_the_field_carries_the_load_of_the_cells() {
         for pressures in [[0.0, 3.0, 5.0, 4.0, 0.0, 0.0], [7.0, 3.0, 0.0, 0.0, 2.0, 9.0]] {
             let field = field(&pressures);
-            let load = field.mean_mpa([-1.0, 2.0]) * 3.0;
+            let load = field.mean_mpa([-0.3, 0.3]) * 0.6;
             assert!((load / (0.1 * pressures.iter().sum::<f64>()) - 1.0).abs() < 1e-14);
             // The mean over a stretch by the midpoint rule.
-            let (from, to, parts) = (-0.27, 0.21, 1 << 14);
+            let (from, to, parts) = (-0.29, 0.28, 1 << 14);
             let step = (to - from) / f64::from(parts);
             let sum: f64 = (0..parts).map(|i| field.at_mpa(from + (f64::from(i) + 0.5) * step)).sum();
             assert!((field.mean_mpa([from, to]) / (sum / f64::from(parts)) - 1.0).abs() < 1e-6);
+            // The mirror image beyond the ends.
+            for [within, beyond] in [[[-0.3, -0.18], [-0.42, -0.3]], [[0.17, 0.3], [0.3, 0.43]]] {
+                let [within, beyond] = [within, beyond].map(|stretch| field.mean_mpa(stretch));
+                assert!((within - beyond).abs() < 1e-13);
+            }
         }
     }
 

@@ -15,21 +15,25 @@
 //! exactly for the parabola that the point's penetration follows: so few positions suffice however narrow the contact,
 //! and load and wear agree.
 //!
+//! K/H is one constant, or a curve by position and load ([`Bed`]): it then is the same for all springs of a contact, and
+//! follows the load of the contact by a power law, which the load of the contact still solves in closed form.
+//!
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.3; the thesis, section 3.2.
 
 use std::ops::Range;
 
 use super::{
-    ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep, foundation,
+    ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
+    foundation::{Bed, Springs},
     strip::{GapAtPoints, ObservedPoints, Strip, Window, point_distance_mm},
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 
 /// The surface: K/H and the load that contacts are expected to carry.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Winkler {
-    /// K/H, MPa/mm.
-    pub foundation_mpa_per_mm: f64,
+    /// K/H.
+    pub bed: Bed,
     /// Load that the first window is cut for; a greater one only costs a widening, N/mm.
     pub expected_line_load_n_per_mm: f64,
 }
@@ -45,12 +49,13 @@ const LEAST_INTERVALS: usize = 8;
 impl ContactSurface for Winkler {
     fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
         let radius_mm = flanks.geometry.relative_radius_mm(position_mm);
-        let half_width =
-            foundation::half_width_mm(self.foundation_mpa_per_mm, radius_mm, self.expected_line_load_n_per_mm);
+        let springs = self.bed.at(position_mm);
+        let half_width = springs.half_width_mm(radius_mm, self.expected_line_load_n_per_mm);
         let site = Site { flanks, position_mm, cell, half_window_mm: FIRST_WINDOW * half_width };
         let (strip, observed) = site.look();
         Box::new(WinklerPair {
-            foundation: self.foundation_mpa_per_mm,
+            springs,
+            foundation: springs.mpa_per_mm(self.expected_line_load_n_per_mm),
             radius_mm,
             site,
             strip,
@@ -64,8 +69,17 @@ impl ContactSurface for Winkler {
 
     fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
         let radius = geometry.relative_radius_mm(position_mm);
-        let a = foundation::half_width_mm(self.foundation_mpa_per_mm, radius, line_load_n_per_mm);
+        let a = self.bed.at(position_mm).half_width_mm(radius, line_load_n_per_mm);
         a * a / (2.0 * radius)
+    }
+
+    fn stiffness_of_short_waves_mpa_per_mm(
+        &self,
+        _flanks: Flanks<'_>,
+        position_mm: f64,
+        line_load_n_per_mm: f64,
+    ) -> Option<f64> {
+        Some(self.bed.at(position_mm).mpa_per_mm(line_load_n_per_mm))
     }
 }
 
@@ -100,6 +114,8 @@ impl Site<'_> {
 
 /// One tooth pair on the foundation.
 struct WinklerPair<'a> {
+    springs: Springs,
+    /// K/H under the last load, MPa/mm.
     foundation: f64,
     radius_mm: f64,
     site: Site<'a>,
@@ -141,13 +157,17 @@ impl PairContact for WinklerPair<'_> {
             contact += fraction;
             before = here;
         }
-        let foundation = self.foundation * self.strip.spacing_mm;
-        Response { line_load_n_per_mm: foundation * penetration, stiffness_n_per_mm2: foundation * contact }
+        let spacing = self.strip.spacing_mm;
+        let (load, stiffness) = self.springs.load_and_stiffness(spacing * penetration, spacing * contact);
+        if load > 0.0 {
+            self.foundation = self.springs.mpa_per_mm(load);
+        }
+        Response { line_load_n_per_mm: load, stiffness_n_per_mm2: stiffness }
     }
 
     fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64 {
         // At a tip edge half of the strip carries the load, as if it were twice as large.
-        let a = foundation::half_width_mm(self.foundation, self.radius_mm, 2.0 * line_load_n_per_mm);
+        let a = self.springs.half_width_mm(self.radius_mm, 2.0 * line_load_n_per_mm);
         a * a / (2.0 * self.radius_mm)
     }
 

@@ -16,7 +16,7 @@ use std::time::Instant;
 use crate::calibration::{self, CalibrationError};
 use crate::contact::{
     ContactSurface,
-    foundation::matched_mpa_per_mm,
+    foundation::{Bed, matched_mpa_per_mm},
     half_space::HalfSpace,
     hertz::{self, Hertz},
     hertz_mean::HertzMean,
@@ -153,20 +153,30 @@ pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Obs
     let line_load_n_per_mm =
         scene.operation.pinion_torque_n_mm / pair.path.involute.pinion.base_radius_mm / scene.pair.face_width_mm;
     let at_pitch = hertz::flattening(&pair, &scene.material, pair.path.pitch_point_mm);
-    let foundation_mpa_per_mm = match (scene.contact.surface, scene.contact.foundation) {
-        (SurfaceKind::Winkler, Foundation::Given { foundation_mpa_per_mm }) => Some(foundation_mpa_per_mm),
-        (SurfaceKind::Winkler, Foundation::Matched(criterion)) => {
-            Some(stages.run(StageKind::ContactMatch, || matched_mpa_per_mm(criterion, &at_pitch, line_load_n_per_mm)))
+    let bed = match (scene.contact.surface, scene.contact.foundation, &inputs.calibration) {
+        (SurfaceKind::Winkler, Foundation::Given { foundation_mpa_per_mm }, _) => {
+            Some(Bed::Uniform { mpa_per_mm: foundation_mpa_per_mm })
+        }
+        (SurfaceKind::Winkler, Foundation::Calibrated(criterion), Some(calibration))
+            if calibration.foundation.contains_key(&criterion) =>
+        {
+            Some(Bed::Curve(calibration.foundation[&criterion].clone()))
+        }
+        (SurfaceKind::Winkler, Foundation::Matched(criterion) | Foundation::Calibrated(criterion), _) => {
+            let matched = || matched_mpa_per_mm(criterion, &at_pitch, line_load_n_per_mm);
+            Some(Bed::Uniform { mpa_per_mm: stages.run(StageKind::ContactMatch, matched) })
         }
         _ => None,
     };
+    let springs_at_pitch = bed.as_ref().map(|bed| bed.at(pair.path.pitch_point_mm));
+    let foundation_mpa_per_mm = springs_at_pitch.map(|springs| springs.mpa_per_mm(line_load_n_per_mm));
     let finite_elements = match scene.contact.surface {
         SurfaceKind::Fem => Some(stages.run(StageKind::FiniteElementModel, || {
             CondensedPair::build(&pair, &elastic(&scene.material), line_load_n_per_mm, &scene.fem)
         })?),
         _ => None,
     };
-    let surface = surface(scene, foundation_mpa_per_mm, line_load_n_per_mm);
+    let surface = surface(scene, bed, line_load_n_per_mm);
     let computed = match plan.has(StageKind::FiniteElementCalibration) {
         true => Some(stages.run(StageKind::FiniteElementCalibration, || {
             calibration::pair_compliance(&calibrate::setup(scene, &pair))
@@ -235,20 +245,17 @@ fn elastic(material: &PerGear<Material>) -> PerGear<Elastic> {
 /// The surface of the springs on the line of action; none with finite elements, which are no springs.
 fn surface(
     scene: &Scene,
-    foundation_mpa_per_mm: Option<f64>,
-    line_load_n_per_mm: f64,
+    bed: Option<Bed>,
+    expected_line_load_n_per_mm: f64,
 ) -> Option<Box<dyn ContactSurface>> {
-    match (scene.contact.surface, foundation_mpa_per_mm) {
+    let material = scene.material;
+    match (scene.contact.surface, bed) {
         (SurfaceKind::Fem, _) => None,
-        (SurfaceKind::Winkler, Some(foundation_mpa_per_mm)) => {
-            Some(Box::new(Winkler { foundation_mpa_per_mm, expected_line_load_n_per_mm: line_load_n_per_mm }))
-        }
-        (SurfaceKind::HertzMean, _) => Some(Box::new(HertzMean { material: scene.material })),
-        (SurfaceKind::HalfSpace, _) => {
-            Some(Box::new(HalfSpace { material: scene.material, expected_line_load_n_per_mm: line_load_n_per_mm }))
-        }
+        (SurfaceKind::Winkler, Some(bed)) => Some(Box::new(Winkler { bed, expected_line_load_n_per_mm })),
+        (SurfaceKind::HertzMean, _) => Some(Box::new(HertzMean { material })),
+        (SurfaceKind::HalfSpace, _) => Some(Box::new(HalfSpace { material, expected_line_load_n_per_mm })),
         (SurfaceKind::Hertz, _) | (SurfaceKind::Winkler, None) => {
-            Some(Box::new(Hertz { material: scene.material, expected_line_load_n_per_mm: line_load_n_per_mm }))
+            Some(Box::new(Hertz { material, expected_line_load_n_per_mm }))
         }
     }
 }

@@ -1,6 +1,7 @@
 //! From what a run found, in the program's units, to the record, in those of the output files.
 
 use super::{Model, RunError, drawing, error_estimates};
+use crate::contact::Flanks;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::plan::Plan;
 use crate::scene::Resolved;
@@ -9,13 +10,13 @@ use crate::simulation::record::{
     ContactSummary, CycleSummary, ErrorSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, MeshCycleRow,
     PathPoints, RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearSummary, WorkSummary,
 };
-use crate::simulation::wear_run::{Outcome, Snapshot};
+use crate::simulation::wear_run::{MeshContact, Outcome, Snapshot};
 use crate::working_cycle::CycleObservation;
 
 const UM_PER_MM: f64 = 1e3;
 /// Pitch point index of the contract: on a flank of this many points.
 const INDEX_POINTS: f64 = 750.0;
-/// Euler's method oscillates where one step more than doubles back on a spring's wear: Δn k (K/H) s > 2.
+/// Euler's method oscillates where one step more than doubles back on a wave of wear: Δn k K s > 2.
 const STABILITY_LIMIT: f64 = 2.0;
 /// Wear beyond this part of the module is no longer small against the tooth.
 const SMALL_WEAR_MODULES: f64 = 0.05;
@@ -223,21 +224,29 @@ fn mesh_cycle(outcome: &Outcome) -> Vec<MeshCycleRow> {
         .collect()
 }
 
-/// Warns where the wear step is too long for Euler's method on springs, and names the longest that is not.
+/// Warns where the wear step is too long for Euler's method, and names the longest that is not.
 fn stability_warning(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
-    let foundation = model.foundation_mpa_per_mm?;
+    let MeshContact::LineOfAction { surface, .. } = model.contact else { return None };
+    let flanks = Flanks { geometry: model.pair, grid: outcome.grid.as_ref() };
+    let loaded = outcome.new.cycle.positions.iter().filter(|at| at.load_share > 0.0);
+    let stiffest = loaded
+        .filter_map(|at| {
+            let load = at.load_share * model.line_load_n_per_mm;
+            surface.stiffness_of_short_waves_mpa_per_mm(flanks, at.position_mm, load)
+        })
+        .reduce(f64::max)?;
     let step = model.scene.numerics.step_revolutions.min(model.scene.operation.pinion_revolutions);
     let meshes = PerGear { pinion: step, wheel: step * model.pair.wheel_turns_per_pinion_turn() };
     let greatest = |gear: Gear| outcome.new.cycle.sliding_mm[gear].iter().copied().fold(0.0, f64::max);
     let number = Gear::BOTH
-        .map(|gear| meshes[gear] * model.law.greatest_coefficient_mm2_per_n() * foundation * greatest(gear))
+        .map(|gear| meshes[gear] * model.law.greatest_coefficient_mm2_per_n() * stiffest * greatest(gear))
         .into_iter()
         .fold(0.0, f64::max);
     (number > STABILITY_LIMIT).then(|| {
         let severe = if model.scene.wear.severe.is_some() { " where wear is severe" } else { "" };
         format!(
-            "numerics.step: with {step:.4} revolutions a step the wear may oscillate{severe} (Δn·k·(K/H)·s = {number:.2} > 2); \
-             the longest safe step is {:.4} revolutions",
+            "numerics.step: with {step:.4} revolutions a step the wear may oscillate{severe} (Δn·k·K·s = {number:.2} > 2, \
+             K = {stiffest:.3e} MPa/mm); the longest safe step is {:.4} revolutions",
             step * STABILITY_LIMIT / number
         )
     })

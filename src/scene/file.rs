@@ -274,7 +274,10 @@ pub struct StiffnessFile {
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pair_N_per_mm_um: Option<f64>,
     /// Data file (CSV) of the stiffness along the path of contact, beside the scene. For model = "simon" and "wang-cheng" only,
-    /// which need it.
+    /// which need it. Columns position_mm (radius of curvature of the pinion at the theoretical contact point, increasing,
+    /// from A to E) and stiffness_N_per_mm_um (of the pair) or deflection_um (under the line load); above them lines
+    /// "# flattening = included" or "# flattening = excluded" and, for deflections and where flattening is included,
+    /// "# line_load_N_per_mm = …".
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curve: Option<String>,
 }

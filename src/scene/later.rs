@@ -22,7 +22,6 @@ const fn choice(key: &'static str, value: &'static str, instead: &'static str) -
 /// What spur gears are limited to.
 pub const SPUR_ONLY: &str = "spur gears, helix_angle_deg = 0";
 
-const MODELS: &str = r#"stiffness.model = "constant", "fem", "weber-banaschek" or "iso6336""#;
 const LAW: &str = r#"wear.law = "archard""#;
 const STEP: &str = "a fixed step, numerics.step = { revolutions = … }";
 const CROWNING: &str = "profile_crowning_um, tip_relief, root_relief, tip_rounding_mm";
@@ -35,8 +34,6 @@ pub const SCENE: &[Later] = &[
     key("pair.wheel.lead_crowning_um", CROWNING),
     key("numerics.tolerance_um", STEP),
     choice("numerics.step", "adaptive", STEP),
-    choice("stiffness.model", "simon", MODELS),
-    choice("stiffness.model", "wang-cheng", MODELS),
     choice("wear.law", "adsorption", LAW),
     choice("wear.law", "oxidation", LAW),
 ];

@@ -20,7 +20,7 @@ use crate::stiffness::{StiffnessError, TeethSpring};
 use crate::wear::WearLaw;
 use crate::working_cycle::{
     CycleObservation, LostMaterial, MeshCycle, Work, WorkingCycle, condensed::CondensedCycle,
-    load_sharing::EquilibriumError, positions::loading_positions,
+    load_sharing::EquilibriumError, positions::{loading_positions, positions_with_tip_contact}, tip_contact,
 };
 
 /// Why a wear run could not go on.
@@ -138,6 +138,10 @@ impl Progress for Unwatched {
 /// A remainder of a step shorter than this part of it is not worth a step of its own.
 const NEGLIGIBLE_STEP: f64 = 1e-9;
 
+/// Tip edges are looked at within this many times the approach at the pitch point under the whole load: off it the teeth
+/// are softer, and wear adds to it.
+const AMPLE_APPROACH: f64 = 2.0;
+
 impl WearRun<'_> {
     /// Runs the whole duration, or until interrupted.
     ///
@@ -235,8 +239,18 @@ impl WearRun<'_> {
     /// The pair in mesh at every loading position.
     fn mesh_cycle<'b>(&'b self, flanks: Flanks<'b>) -> Result<Box<dyn MeshCycle + 'b>, SimulationError> {
         match self.contact {
-            MeshContact::LineOfAction { surface, teeth, tip_contact: _ } => {
-                let positions = loading_positions(&self.pair.path, self.numerics.positions, |at| teeth.n_per_mm2(at))?;
+            MeshContact::LineOfAction { surface, teeth, tip_contact } => {
+                let (path, count) = (&self.pair.path, self.numerics.positions);
+                let spring = |at| teeth.n_per_mm2(at);
+                let positions = if tip_contact {
+                    let pitch_point = path.pitch_point_mm;
+                    let surfaces = surface.plain_approach_mm(self.pair, pitch_point, self.line_load_n_per_mm);
+                    let approach = surfaces + self.line_load_n_per_mm / spring(pitch_point)?;
+                    let beyond = tip_contact::reach_mm(self.pair, AMPLE_APPROACH * approach);
+                    positions_with_tip_contact(path, count, beyond, spring)?
+                } else {
+                    loading_positions(path, count, spring)?
+                };
                 Ok(Box::new(WorkingCycle::new(flanks, surface, &positions, self.line_load_n_per_mm)))
             }
             MeshContact::FiniteElements(model) => {

@@ -19,6 +19,7 @@
 //! reference is reported ([`TeethSpring::split_remainder`]).
 
 pub mod curve;
+pub mod curve_file;
 pub mod iso6336;
 pub mod settings;
 pub mod weber_banaschek;

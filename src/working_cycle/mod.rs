@@ -8,6 +8,7 @@
 pub mod condensed;
 pub mod load_sharing;
 pub mod positions;
+pub mod tip_contact;
 
 use rayon::prelude::*;
 
@@ -35,6 +36,8 @@ pub struct LoadingPosition {
     pub cell: PositionCell,
     /// All pairs in mesh, the reference pair first.
     pub pairs: Vec<PairInMesh>,
+    /// Whether it lies between A and E: only then it is a row of what is observed.
+    pub on_line_of_action: bool,
 }
 
 /// Counters of work done.
@@ -62,6 +65,7 @@ impl std::ops::AddAssign for Work {
 /// The state of one position.
 struct Station<'a> {
     cell: PositionCell,
+    on_line_of_action: bool,
     /// The reference pair first.
     pairs: Vec<MeshedPair<'a>>,
     equilibrium: Equilibrium,
@@ -195,7 +199,9 @@ impl MeshCycle for WorkingCycle<'_> {
         let mut observation = CycleObservation { positions: Vec::new(), pressure_mpa: zeros(), sliding_mm: zeros() };
         let mut sweep = Sweep::default();
         for station in self.groups.iter().flat_map(|group| &group.stations) {
-            observation.positions.push(station.observe(self.line_load_n_per_mm));
+            if station.on_line_of_action {
+                observation.positions.push(station.observe(self.line_load_n_per_mm));
+            }
             for gear in Gear::BOTH {
                 station.pairs[0].contact.sweep(gear, removed_mm, &mut sweep);
                 let range = sweep.first_point..sweep.first_point + sweep.sliding_mm.len();
@@ -261,7 +267,8 @@ impl<'a> Station<'a> {
                 MeshedPair::new(surface.pair(flanks, pair.position_mm, cell), pair.teeth_n_per_mm2)
             })
             .collect();
-        Self { cell: position.cell, pairs, equilibrium: Equilibrium::default() }
+        let on_line_of_action = position.on_line_of_action;
+        Self { cell: position.cell, on_line_of_action, pairs, equilibrium: Equilibrium::default() }
     }
 
     /// Equilibrium on the flanks as they are now; pairs that turn out to touch beyond what they look at look wider.
@@ -303,9 +310,11 @@ impl<'a> Station<'a> {
 }
 
 impl CycleObservation {
-    /// Greatest pressure anywhere on either flank, at any position, MPa.
+    /// Greatest pressure anywhere on either flank, at any position, also before A and after E, MPa.
     pub fn peak_pressure_mpa(&self) -> f64 {
-        self.positions.iter().map(|p| p.footprint.peak_pressure_mpa).fold(0.0, f64::max)
+        let at_positions = self.positions.iter().map(|p| p.footprint.peak_pressure_mpa);
+        let on_flanks = Gear::BOTH.into_iter().flat_map(|gear| self.pressure_mpa[gear].iter().copied());
+        at_positions.chain(on_flanks).fold(0.0, f64::max)
     }
 
     /// Least and greatest transmission error, mm.

@@ -3,6 +3,9 @@
 //! Positions divide A–E evenly, both ends included. Each stands for the stretch of the path halfway to its neighbours,
 //! cut where a pair enters or leaves the mesh, so that no stretch spans a jump of the load: the sum over positions is
 //! then of second order in their distance in spite of the jumps.
+//!
+//! Where tip edges are followed into contact, positions go on before A and after E as far as pairs may touch there
+//! ([`super::tip_contact`]), every pair within those bounds may carry load, and none does so suddenly: stretches need no cut.
 
 use super::{LoadingPosition, PairInMesh};
 use crate::contact::PositionCell;
@@ -44,10 +47,45 @@ pub fn loading_positions<E>(
             let position_mm = position_mm + f64::from(offset) * pitch;
             pairs.push(PairInMesh { position_mm, teeth_n_per_mm2: teeth_n_per_mm2(position_mm)? });
         }
-        positions.push(LoadingPosition { cell: PositionCell { position_mm, lower_mm, upper_mm }, pairs });
+        let cell = PositionCell { position_mm, lower_mm, upper_mm };
+        positions.push(LoadingPosition { cell, pairs, on_line_of_action: true });
         lower_mm = upper_mm;
     }
     Ok(positions)
+}
+
+/// Positions as far apart as `count` (≥ 2) from A to E, these included, but beginning `beyond_mm` before A and ending as far
+/// after E; the spring of the teeth there is that at A and E.
+///
+/// # Errors
+/// The first error of `teeth_n_per_mm2`.
+pub fn positions_with_tip_contact<E>(
+    path: &PathOfContact,
+    count: usize,
+    beyond_mm: [f64; 2],
+    mut teeth_n_per_mm2: impl FnMut(f64) -> Result<f64, E>,
+) -> Result<Vec<LoadingPosition>, E> {
+    let (start, end, pitch) = (path.start_mm, path.end_mm, path.base_pitch_mm);
+    let spacing = (end - start) / (count - 1) as f64;
+    let [before, after] = beyond_mm.map(|beyond| (beyond / spacing).ceil() as usize);
+    let (first, last) = (start - beyond_mm[0].max(SAME_PLACE * pitch), end + beyond_mm[1].max(SAME_PLACE * pitch));
+    (0..before + count + after)
+        .map(|j| {
+            let position_mm = start + spacing * (j as f64 - before as f64);
+            let ahead = ((last - position_mm) / pitch).floor() as i32;
+            let behind = ((position_mm - first) / pitch).floor() as i32;
+            let pairs = std::iter::once(0).chain((-behind..=ahead).filter(|&offset| offset != 0)).map(|offset| {
+                let position_mm = position_mm + f64::from(offset) * pitch;
+                Ok(PairInMesh { position_mm, teeth_n_per_mm2: teeth_n_per_mm2(position_mm.clamp(start, end))? })
+            });
+            let (lower_mm, upper_mm) = (position_mm - 0.5 * spacing, position_mm + 0.5 * spacing);
+            Ok(LoadingPosition {
+                cell: PositionCell { position_mm, lower_mm, upper_mm },
+                pairs: pairs.collect::<Result<_, E>>()?,
+                on_line_of_action: (before..before + count).contains(&j),
+            })
+        })
+        .collect()
 }
 
 /// A, E and every place between them where another pair enters or leaves, in order.
@@ -85,6 +123,42 @@ mod tests {
             pitch_point_mm: 20.0,
             end_mm: 5.0 + 10.0 * contact_ratio,
             involute: PerGear { pinion: involute, wheel: involute },
+        }
+    }
+
+    /// With tip contact: the rows from A to E are the same places, stretches follow each other without gap, and every pair
+    /// within the bounds is there.
+    #[test]
+    fn ver_positions_with_tip_contact_go_beyond_the_path() {
+        for ratio in [1.0, 1.4375, 2.3] {
+            let path = path(ratio);
+            let plain = loading_positions(&path, 50, |_| Ok::<_, ()>(1.0)).unwrap();
+            let beyond = positions_with_tip_contact(&path, 50, [0.9, 1.3], |at| {
+                assert!(at >= path.start_mm && at <= path.end_mm);
+                Ok::<_, ()>(1.0)
+            })
+            .unwrap();
+            let rows: Vec<_> = beyond.iter().filter(|p| p.on_line_of_action).collect();
+            assert_eq!(rows.len(), plain.len());
+            for (row, plain) in rows.iter().zip(&plain) {
+                assert!((row.cell.position_mm - plain.cell.position_mm).abs() < 1e-12);
+                assert!(row.pairs.len() >= plain.pairs.len());
+            }
+            assert!(beyond[0].cell.position_mm <= path.start_mm - 0.9);
+            assert!(beyond[beyond.len() - 1].cell.position_mm >= path.end_mm + 1.3);
+            for two in beyond.windows(2) {
+                assert!((two[0].cell.upper_mm - two[1].cell.lower_mm).abs() < 1e-12);
+            }
+            // ∫ pairs dξ over A–E: each of them is there for ε p_bt + 0.9 + 1.3.
+            let length = 10.0 * ratio;
+            let spacing = length / 49.0;
+            let pairs: f64 = rows.iter().map(|p| p.pairs.len() as f64 * spacing).sum();
+            let common = |k: i32| {
+                let from = (path.start_mm - 0.9 + 10.0 * f64::from(k)).max(path.start_mm);
+                ((path.end_mm + 1.3 + 10.0 * f64::from(k)).min(path.end_mm) - from).max(0.0)
+            };
+            let expected: f64 = (-4..=4).map(common).sum();
+            assert!((pairs / expected - 1.0).abs() < 0.06, "{ratio}: {pairs} {expected}");
         }
     }
 

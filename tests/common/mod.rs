@@ -64,7 +64,7 @@ pub fn steel() -> PerGear<gearwear::contact::settings::Material> {
 
 use gearwear::contact::{
     ContactSurface,
-    foundation::matched_mpa_per_mm,
+    foundation::{Bed, matched_mpa_per_mm},
     half_space::HalfSpace,
     hertz::{self, Hertz},
     hertz_mean::HertzMean,
@@ -96,6 +96,7 @@ pub struct Scene {
     pub flank_points: usize,
     pub positions: usize,
     pub steps: f64,
+    pub tip_contact: bool,
 }
 
 /// "The fzg-c scene": 302 N·m, 150 rpm, 127.75 h, Winkler matched on half-width, 20 N/(mm·µm), k 1e-17 m²/N.
@@ -113,6 +114,7 @@ pub fn fzg_c_scene() -> Scene {
         flank_points: 750,
         positions: 400,
         steps: 150.0,
+        tip_contact: false,
     }
 }
 
@@ -134,7 +136,7 @@ impl Scene {
     pub fn surface(&self) -> Box<dyn ContactSurface> {
         let expected_line_load_n_per_mm = self.line_load();
         match self.surface {
-            "winkler" => Box::new(Winkler { foundation_mpa_per_mm: self.foundation(), expected_line_load_n_per_mm }),
+            "winkler" => Box::new(Winkler { bed: Bed::Uniform { mpa_per_mm: self.foundation() }, expected_line_load_n_per_mm }),
             "half-space" => Box::new(HalfSpace { material: steel(), expected_line_load_n_per_mm }),
             "hertz" => Box::new(Hertz { material: steel(), expected_line_load_n_per_mm }),
             "hertz-mean" => Box::new(HertzMean { material: steel() }),
@@ -151,7 +153,7 @@ impl Scene {
             Archard::new(&WearSettings { coefficient_mm2_per_n: self.coefficient_mm2_per_n, severe: self.severe });
         WearRun {
             pair: &pair,
-            contact: MeshContact::LineOfAction { surface: surface.as_ref(), teeth: &teeth, tip_contact: false },
+            contact: MeshContact::LineOfAction { surface: surface.as_ref(), teeth: &teeth, tip_contact: self.tip_contact },
             law: &law,
             line_load_n_per_mm: line_load,
             operation: &Operation {

@@ -1,0 +1,133 @@
+//! Curves of tooth stiffness that a user supplies: what they mean, and what is refused.
+
+mod common;
+
+use std::fs;
+
+use assert_cmd::Command;
+use common::{assert_close, fzg_c, pair, steel};
+use gearwear::contact::{hertz, hertz::Hertz};
+use gearwear::gear::PerGear;
+use gearwear::stiffness::{
+    TeethSpring,
+    curve::{PairCompliance, StandsFor},
+    curve_file::{self, CurveFileError},
+    settings::StiffnessSettings,
+    weber_banaschek::ToothCompliance,
+};
+
+fn parse(text: &str) -> Result<PairCompliance, CurveFileError> {
+    curve_file::parse(text, &pair(&fzg_c()).path)
+}
+
+/// The same pair in three ways: its stiffness, its deflection under 400 N/mm, and Weber and Banaschek's terms themselves.
+#[test]
+fn ver_stiffness_and_deflection_say_the_same() {
+    let pair = pair(&fzg_c());
+    let tooth = PerGear::from_fn(|gear| ToothCompliance::new(&pair.teeth[gear], &steel()[gear]));
+    let teeth = |at| PerGear::from_fn(|gear| tooth[gear].mm2_per_n(pair.path.rho_mm(gear, at))).sum();
+    let flattening = |at| hertz::flattening(&pair, &steel(), at).approach_mm(400.0) / 400.0;
+    let mut stiffness = String::from("# a remark\n#line_load_N_per_mm=400\n# flattening = included\n");
+    let mut deflection = String::from("# line_load_N_per_mm = 400\n# flattening = excluded\n");
+    stiffness += "position_mm,stiffness_N_per_mm_um\n";
+    deflection += "gear, deflection_um , position_mm\n";
+    for at in pair.path.points_mm() {
+        stiffness += &format!("{at:?},{:?}\n", 1e-3 / (teeth(at) + flattening(at)));
+        deflection += &format!("x, {:?}, {at:?}\r\n", 400e3 * teeth(at));
+    }
+    let [stiffness, deflection] = [stiffness, deflection].map(|text| parse(&text).unwrap());
+    assert_eq!(stiffness.stands_for, StandsFor::WholePair { line_load_n_per_mm: 400.0 });
+    assert_eq!(deflection.stands_for, StandsFor::Teeth);
+    let surface = Hertz { material: steel(), expected_line_load_n_per_mm: 637.66 };
+    let spring = |model, curve| TeethSpring::new(model, curve, &pair, &steel(), &surface, 637.66);
+    let own = spring(StiffnessSettings::WeberBanaschek, None);
+    for at in pair.path.points_mm() {
+        let expected = own.n_per_mm2(at).unwrap();
+        for (model, curve) in [(StiffnessSettings::Simon, &stiffness), (StiffnessSettings::WangCheng, &deflection)] {
+            assert_close(model.name(), spring(model, Some(curve)).n_per_mm2(at).unwrap(), expected, 1e-10);
+        }
+    }
+    // Between A and B the compliance is a straight line.
+    let (a, b) = (pair.path.start_mm, pair.path.lower_single_contact_mm());
+    assert_close("halfway", deflection.at(a.midpoint(b)), 0.5 * (teeth(a) + teeth(b)), 1e-12);
+}
+
+#[test]
+fn what_is_no_curve_is_refused_with_its_place() {
+    let good = "# flattening = excluded\nposition_mm,stiffness_N_per_mm_um\n4.4,10\n14,15\n23.6,11\n";
+    assert!(parse(good).is_ok());
+    assert!(parse(&format!("\u{feff}{good}")).is_ok());
+    let cases: [(&str, &str, &[&str]); 16] = [
+        ("# flattening = excluded\n", "", &["flattening of the flanks", "included", "excluded"]),
+        ("excluded", "maybe", &["line 1", "flattening", "found maybe", "included or excluded"]),
+        ("excluded", "included", &["line load of the flattening", "line_load_N_per_mm"]),
+        ("stiffness_N_per_mm_um", "deflection_um", &["line load of the deflections", "line_load_N_per_mm"]),
+        ("excluded", "included\n# line_load_N_per_mm = -3", &["line 2", "line_load_N_per_mm", "found -3"]),
+        ("position_mm", "place", &["line 2", "column names", "found place,", "position_mm"]),
+        ("stiffness_N_per_mm_um", "stiffness", &["line 2", "found position_mm,stiffness", "deflection_um"]),
+        ("14,15", "14,abc", &["line 4", "stiffness_N_per_mm_um", "found abc", "a number greater than 0"]),
+        ("14,15", "14", &["line 4", "stiffness_N_per_mm_um", "found nothing"]),
+        ("14,15", "14,0", &["line 4", "found 0"]),
+        ("14,15", "14,inf", &["line 4", "found inf"]),
+        ("14,15", "NaN,15", &["line 4", "position_mm", "found NaN"]),
+        ("14,15", "4.4,15", &["line 4", "position_mm", "found 4.4", "more than 4.4, the row before"]),
+        ("4.4,10\n14,15\n23.6,11\n", "4.4,10\n", &["rows is missing", "at least two"]),
+        ("23.6,11\n", "", &["found 4.4000 to 14.0000", "4.4723 (A)", "23.5694 (E)"]),
+        (good, "", &["column names is missing"]),
+    ];
+    for (from, to, parts) in cases {
+        let message = parse(&good.replace(from, to)).unwrap_err().to_string();
+        for part in parts {
+            assert!(message.contains(part), "no {part:?} in {message:?} ({from:?} -> {to:?})");
+        }
+    }
+}
+
+/// The program runs a scene with a curve beside it, and refuses one it cannot read: exit status 2, nothing left behind.
+#[test]
+fn the_program_reads_the_curve_beside_the_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let preset = gearwear::scene::presets::find("fzg-c").unwrap().text;
+    let scene: String = preset
+        .lines()
+        .map(|line| match line.split('=').next().unwrap().trim() {
+            "pair_N_per_mm_um" => "curve = \"teeth.csv\"\n".to_owned(),
+            "model" => "model = \"simon\"\n".to_owned(),
+            "positions" => "positions = 40\nstep = { revolutions = 200000 }\n".to_owned(),
+            "error_estimate" => "error_estimate = false\n".to_owned(),
+            _ => format!("{line}\n"),
+        })
+        .collect();
+    assert!(scene.contains("teeth.csv") && scene.contains("simon"), "{scene}");
+    let (path, out) = (folder.path().join("scene.toml"), folder.path().join("out"));
+    fs::write(&path, scene).unwrap();
+    let run = || {
+        let mut command = Command::cargo_bin("gearwear").unwrap();
+        let output = command.args(["run", "--quiet", "--out"]).arg(&out).arg(&path).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (status, message) = run();
+    assert_eq!(status, Some(2), "{message}");
+    assert!(message.contains("stiffness.curve") && message.contains("cannot be read"), "{message}");
+
+    let curve = folder.path().join("teeth.csv");
+    fs::write(&curve, "# flattening = excluded\nposition_mm,stiffness_N_per_mm_um\n4.4,10\n14,x\n23.6,11\n").unwrap();
+    let (status, message) = run();
+    assert_eq!(status, Some(2), "{message}");
+    assert!(message.contains("teeth.csv") && message.contains("line 4") && message.contains("found x"), "{message}");
+    assert!(!out.exists());
+
+    fs::write(&curve, "# flattening = excluded\nposition_mm,stiffness_N_per_mm_um\n4.4,10\n14,20\n23.6,11\n").unwrap();
+    let (status, message) = run();
+    assert_eq!(status, Some(0), "{message}");
+    let summary: serde_json::Value =
+        serde_json::from_str(&fs::read_to_string(out.join("summary.json")).unwrap()).unwrap();
+    assert_eq!(summary["stiffness"]["model"], "simon");
+    let whole = summary["stiffness"]["pair_at_pitch_N_per_mm_um"].as_f64().unwrap();
+    // C at 13.9701, between 4.4 and 14: the compliance is a straight line from 1/10 to 1/20, to which the flattening adds.
+    let gears = pair(&fzg_c());
+    let load = summary["contact"]["line_load_N_per_mm"].as_f64().unwrap();
+    let flattening_um = 1e3 * hertz::flattening(&gears, &steel(), gears.path.pitch_point_mm).approach_mm(load);
+    let teeth = 0.1 + (13.9701 - 4.4) / 9.6 * (0.05 - 0.1);
+    assert_close("pair", whole, 1.0 / (teeth + flattening_um / load), 1e-5);
+}
