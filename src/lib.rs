@@ -13,6 +13,7 @@
 //!
 //! `ARCHITECTURE.md` is the map of the code, `docs/theory.md` the derivations that the modules cite.
 
+pub mod accuracy;
 pub mod calibration;
 pub mod contact;
 pub mod fem;

@@ -23,7 +23,7 @@ use gearwear::gear::conjugate::ConjugateFlanks;
 use gearwear::gear::spec::PairSpec;
 use gearwear::gear::{Gear, GearPair, PerGear, flank::FlankGrid};
 use gearwear::mesh::settings::{Body, BodySettings, SectorSides};
-use gearwear::pipeline::calibrate;
+use gearwear::pipeline::calibrate::{self, Extent};
 use gearwear::scene::Scene;
 use gearwear::simulation::wear_run::Unwatched;
 use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
@@ -51,7 +51,7 @@ fn fzg_c_scene(elements_per_half_width: f64) -> Scene {
 /// The whole calibration of the preset, made once for all tests.
 fn calibration() -> &'static Calibration {
     static CALIBRATION: OnceLock<Calibration> = OnceLock::new();
-    CALIBRATION.get_or_init(|| calibrate::run(&fzg_c_scene(8.0), &Unwatched).unwrap().calibration)
+    CALIBRATION.get_or_init(|| calibrate::run(&fzg_c_scene(8.0), Extent::Whole, &Unwatched).unwrap().calibration)
 }
 
 /// Independent quadratic finite elements (fzg.md): whole ring 16.99, three teeth with free sides 15.22, with clamped sides

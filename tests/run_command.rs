@@ -70,7 +70,8 @@ fn the_preset_runs_and_writes_everything_the_contract_names() {
     assert!((number("/pinion/peak_wear_um") / 7.3 - 1.0).abs() < 0.05);
     assert!((number("/pinion/worn_mass_mg") / number("/wheel/worn_mass_mg") - 1.0).abs() < 1e-3);
     assert!(number("/error/discretisation") < 5e-3 && number("/error/wear_step") < 5e-3);
-    assert_eq!(summary["error"]["surface_model"], Value::Null);
+    // The pinion's greatest wear, by one mesh, is a few per cent off that on an elastic half-plane.
+    assert!(number("/error/surface_model") < 0.1 && number("/error/companions_cost") <= 0.5);
     assert_eq!(summary["stopped"], "completed");
     let names = |list: &Value| -> Vec<String> {
         list.as_array().unwrap().iter().map(|stage| stage["name"].as_str().unwrap().to_owned()).collect()

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use gearwear::calibration::CalibrationError;
 use gearwear::contact::settings::MatchCriterion;
-use gearwear::pipeline::calibrate::{self, CalibrateError, Done, Observer};
+use gearwear::pipeline::calibrate::{self, CalibrateError, Done, Extent, Observer};
 use gearwear::plan::calibration::CalibrationStage;
 use gearwear::report;
 
@@ -40,7 +40,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let pool = pool(args.threads)?;
     let progress = Progress::new(args.quiet, watch_for_interrupt());
     let done = pool.install(|| -> Result<Done, Failure> {
-        let done = calibrate::run(&resolved.scene, &progress).map_err(|error| refused(error, &source))?;
+        let done =
+            calibrate::run(&resolved.scene, Extent::Whole, &progress).map_err(|error| refused(error, &source))?;
         progress.stage(CalibrationStage::Report);
         report::calibration::write(&done.calibration, &done.stages, &resolved.scene.title, &args.out)?;
         Ok(done)

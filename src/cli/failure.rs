@@ -4,6 +4,7 @@ use std::io;
 use std::sync::Arc;
 
 use super::say;
+use gearwear::accuracy::study::AccuracyError;
 use gearwear::fem::SolveError;
 use gearwear::fem::gear::model::ModelError;
 use gearwear::mesh::MeshFileError;
@@ -37,6 +38,9 @@ pub enum Failure {
     /// The finite-element contact of a gear pair failed.
     #[error(transparent)]
     FemPair(FemPairError),
+    /// There is no reference to compare models with.
+    #[error(transparent)]
+    Accuracy(AccuracyError),
     /// The calibration failed.
     #[error(transparent)]
     Calibrate(CalibrateError),
@@ -184,6 +188,7 @@ impl Failure {
             Failure::Input(error) => say(&format!("{:?}", Report::new(error))),
             Failure::Solve(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::FemPair(error) => say(&format!("{:?}", Report::msg(error))),
+            Failure::Accuracy(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Calibrate(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Run(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Interrupted | Failure::Closed => {}
@@ -194,7 +199,11 @@ impl Failure {
     pub fn exit_status(&self) -> u8 {
         match self {
             Failure::Scene(_) | Failure::Input(_) => 2,
-            Failure::Run(_) | Failure::Solve(_) | Failure::FemPair(_) | Failure::Calibrate(_) => 3,
+            Failure::Run(_)
+            | Failure::Solve(_)
+            | Failure::FemPair(_)
+            | Failure::Calibrate(_)
+            | Failure::Accuracy(_) => 3,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
         }

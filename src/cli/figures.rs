@@ -1,6 +1,6 @@
 //! The main figures of a run, as a table for the terminal.
 
-use gearwear::simulation::record::Summary;
+use gearwear::simulation::record::{ErrorSummary, Summary};
 
 /// The table.
 pub fn table(summary: &Summary) -> String {
@@ -27,6 +27,7 @@ pub fn table(summary: &Summary) -> String {
     ] {
         text.push_str(&figures(name, values));
     }
+    text.push_str(&estimated_errors(&summary.error));
     let hours = summary.hours.map_or_else(String::new, |hours| format!(" ({} h)", digits(hours)));
     text.push_str(&format!(
         "\n{} pinion revolutions{hours}, computed in {:.2} s\n",
@@ -34,6 +35,29 @@ pub fn table(summary: &Summary) -> String {
         summary.wall_s
     ));
     text
+}
+
+/// The error estimates of the pinion's peak wear; nothing where none was made.
+fn estimated_errors(error: &ErrorSummary) -> String {
+    let parts: Vec<String> = [
+        ("points and positions", error.discretisation),
+        ("wear step", error.wear_step),
+        ("contact surface", error.surface_model),
+    ]
+    .into_iter()
+    .filter_map(|(name, estimate)| Some(format!("{name} {} %", two_digits(100.0 * estimate?))))
+    .collect();
+    if parts.is_empty() {
+        return String::new();
+    }
+    format!("\n  estimated error of the pinion's peak wear: {}\n", parts.join(", "))
+}
+
+/// An estimate with two significant digits: more it does not have.
+fn two_digits(value: f64) -> String {
+    let magnitude = value.abs();
+    let decimals = if magnitude > 0.0 { (1 - magnitude.log10().floor() as i32).clamp(0, 4) as usize } else { 0 };
+    format!("{value:.decimals$}")
 }
 
 fn figures(name: &str, values: [f64; 2]) -> String {
@@ -59,6 +83,11 @@ pub fn digits(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn estimates_have_two_digits() {
+        assert_eq!([0.0, 0.0557, 0.3154, 6.975, 69.75].map(two_digits), ["0", "0.056", "0.32", "7.0", "70"]);
+    }
 
     #[test]
     fn figures_have_four_digits() {

@@ -1,5 +1,6 @@
 //! The commands, one file each, and what they share: reading scenes, saying what is wrong, exit statuses.
 
+mod accuracy;
 mod calibrate;
 mod calibration_source;
 mod completions;
@@ -48,6 +49,8 @@ enum Command {
     Run(run::Args),
     /// Solve elastic contact with finite elements: of a gear pair, or on a mesh of one's own
     Fem(fem::Args),
+    /// Draw error against run time of every model that fits a scene, and recommend the cheapest below a wanted error
+    Accuracy(accuracy::Args),
     /// Calibrate the fast model: tooth stiffness and K/H from finite elements, against Hertz
     Calibrate(calibrate::Args),
     /// Print the JSON schema of the scene: every key with its meaning, unit, range and default
@@ -71,6 +74,7 @@ pub fn main() -> ExitCode {
         Command::Mesh(args) => mesh::run(args),
         Command::Run(args) => run::run(args),
         Command::Fem(args) => fem::run(args),
+        Command::Accuracy(args) => accuracy::run(args),
         Command::Calibrate(args) => calibrate::run(args),
         Command::Schema(args) => schema::run(args),
         Command::Completions(args) => completions::run(args),

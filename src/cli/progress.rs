@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
+use gearwear::accuracy::study;
 use gearwear::pipeline::{Observer, calibrate, fem_scene};
 use gearwear::plan::StageKind;
 use gearwear::plan::calibration::CalibrationStage;
@@ -66,6 +67,20 @@ impl Observer for Progress {
 impl fem_scene::Observer for Progress {
     fn stage(&self, stage: FemPairStage) {
         self.begin(stage.name());
+    }
+}
+
+impl study::Observer for Progress {
+    fn calibration(&self) {
+        self.begin("calibration");
+    }
+
+    fn variant(&self, number: usize, count: usize, name: &str) {
+        match &self.display {
+            Display::Quiet => {}
+            Display::Log(_) => self.begin(&format!("{} of {count}: {name}", number + 1)),
+            Display::Bar(bar) => bar.set_message(format!("{} of {count}", number + 1)),
+        }
     }
 }
 

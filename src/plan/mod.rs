@@ -28,7 +28,7 @@ pub enum StageKind {
     ContactTemperature,
     /// The wear run.
     Simulation,
-    /// Coarser companion runs.
+    /// Coarser companion runs, and short ones on a truer surface.
     ErrorEstimates,
     /// The output folder.
     Report,
@@ -122,7 +122,8 @@ fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
         StageKind::ContactTemperature => Err("the wear law archard asks for no temperature".to_owned()),
         StageKind::Simulation => Ok(simulation(scene)),
         StageKind::ErrorEstimates if scene.numerics.error_estimate => {
-            Ok("numerics.error_estimate: coarser companion runs".to_owned())
+            Ok("numerics.error_estimate: coarser companion runs, and short ones on a truer surface; at most half of the run's work"
+                .to_owned())
         }
         StageKind::ErrorEstimates => Err("numerics.error_estimate is false".to_owned()),
         StageKind::Report => Ok("the output folder: data, summary, page".to_owned()),

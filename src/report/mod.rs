@@ -10,6 +10,7 @@
 //! Each file is written under a temporary name in the same folder and then renamed: a reader sees the whole file or
 //! the one before it. `summary.json` comes last, so that its presence says the others are complete.
 
+pub mod accuracy;
 pub mod calibration;
 pub mod fem;
 pub mod fem_pair;
@@ -79,7 +80,12 @@ pub fn write_summary(summary: &Summary, dir: &Path) -> Result<PathBuf, ReportErr
 
 /// Takes away the `summary.json` of an earlier run, if there is one: it would vouch for files about to be replaced.
 pub fn remove_summary(dir: &Path) -> Result<(), ReportError> {
-    let path = dir.join("summary.json");
+    remove(dir, "summary.json")
+}
+
+/// Takes away `dir/name`, if it is there.
+fn remove(dir: &Path, name: &str) -> Result<(), ReportError> {
+    let path = dir.join(name);
     match fs::remove_file(&path) {
         Err(source) if source.kind() != io::ErrorKind::NotFound => Err(ReportError::WriteFile { path, source }),
         _ => Ok(()),

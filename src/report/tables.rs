@@ -8,6 +8,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use crate::gear::Gear;
+use crate::simulation::accuracy_record::AccuracyRecord;
 use crate::simulation::fem_pair_record::FemPairSummary;
 use crate::simulation::fem_problem_record::FemSummary;
 use crate::simulation::record::{FlankRecord, HistoryRow, MeshCycleRow, RunRecord, Summary};
@@ -85,6 +86,11 @@ impl<'a> Provenance<'a> {
     /// That of the finite-element pair summarised in `summary`.
     pub fn of_fem_pair(summary: &'a FemPairSummary) -> Self {
         Self { program_version: &summary.program_version, input: "scene", hash: &summary.scene_hash }
+    }
+
+    /// That of a comparison of models.
+    pub fn of_accuracy(record: &'a AccuracyRecord) -> Self {
+        Self { program_version: &record.program_version, input: "scene", hash: &record.scene_hash }
     }
 
     /// That of the finite-element problem summarised in `summary`.

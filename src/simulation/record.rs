@@ -241,6 +241,8 @@ pub struct ErrorSummary {
     pub wear_step: Option<f64>,
     /// From the contact surface, against the finite-element reference.
     pub surface_model: Option<f64>,
+    /// What the estimates cost over what the run itself did, counted in equilibria weighted by their time.
+    pub companions_cost: Option<f64>,
     /// How each was obtained, or why it was not.
     pub how: ErrorSources,
 }

@@ -238,6 +238,7 @@ fn summary() -> Summary {
         pinion: worn(Gear::Pinion, CURVATURE.A),
         wheel: worn(Gear::Wheel, CURVATURE.E),
         error: ErrorSummary {
+            companions_cost: Some(0.31),
             discretisation: Some(0.0021),
             wear_step: Some(0.0008),
             surface_model: None,

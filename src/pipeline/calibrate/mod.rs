@@ -85,11 +85,20 @@ impl Stages<'_> {
     }
 }
 
+/// How much of a calibration is wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Extent {
+    /// All of it.
+    Whole,
+    /// What the fast model reads; the tables of other bodies and other teeth stay empty.
+    FastModel,
+}
+
 /// Calibrates the pair of `scene`. The files are left to the caller.
 ///
 /// # Errors
 /// [`CalibrateError`]
-pub fn run(scene: &Scene, observer: &dyn Observer) -> Result<Done, CalibrateError> {
+pub fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Done, CalibrateError> {
     use CalibrationStage as Stage;
     let start = Instant::now();
     let mut stages = Stages { observer, times: Vec::new() };
@@ -104,10 +113,13 @@ pub fn run(scene: &Scene, observer: &dyn Observer) -> Result<Done, CalibrateErro
     let single_contact = stages.run(Stage::Foundation, || single_contact::solve(&condensed, &loaded, w))?;
     let ends_mm = (pair.path.start_mm, pair.path.end_mm);
     let (foundation, foundation_fit) = foundation_fit::all(&single_contact, w, ends_mm);
-    let (convergence, rim_depth, neighbours) = stages.run(Stage::Bodies, || -> Result<_, CalibrationError> {
-        Ok((setup.convergence()?, setup.rim_depths()?, setup.neighbours()?))
-    })?;
-    let family = stages.run(Stage::ToothFamily, || tooth_family::family(&setup))?;
+    let (mut convergence, mut rim_depth, mut neighbours, mut family) = Default::default();
+    if extent == Extent::Whole {
+        (convergence, rim_depth, neighbours) = stages.run(Stage::Bodies, || -> Result<_, CalibrationError> {
+            Ok((setup.convergence()?, setup.rim_depths()?, setup.neighbours()?))
+        })?;
+        family = stages.run(Stage::ToothFamily, || tooth_family::family(&setup))?;
+    }
     let stopped = || observer.interrupted();
     let wear_reference = stages.run(Stage::WearReference, || wear_reference::references(&condensed, w, &stopped))?;
     let mut calibration = Calibration {

@@ -125,9 +125,12 @@ pub fn errors(error: &ErrorSummary) -> String {
         format!("<tr><th scope=\"row\">{label}</th><td>{estimate}</td><td class=\"how\">{}</td></tr>\n", escape(how))
     })
     .collect();
+    let cost = error.companions_cost.map_or_else(String::new, |cost| {
+        format!("<p class=\"legend-note\">The estimates took {} of the work of the run itself.</p>\n", percent(cost))
+    });
     format!(
         "<table class=\"errors\">\n<caption>Estimated error of the pinion’s greatest wear</caption>\n\
          <thead><tr><td></td><th scope=\"col\">relative</th><th scope=\"col\" class=\"how\">how obtained</th></tr></thead>\n\
-         <tbody>\n{rows}</tbody>\n</table>\n"
+         <tbody>\n{rows}</tbody>\n</table>\n{cost}"
     )
 }

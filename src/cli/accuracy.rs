@@ -1,0 +1,113 @@
+//! `gearwear accuracy`: error against run time of every model that fits a scene.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use gearwear::accuracy::selection::Asked;
+use gearwear::accuracy::study::{self, AccuracyError};
+use gearwear::report;
+use gearwear::simulation::accuracy_record::{AccuracyRecord, Quantity, VariantRecord};
+use gearwear::simulation::record::StopReason;
+
+use super::failure::Failure;
+use super::figures::digits;
+use super::progress::Progress;
+use super::run::{pool, watch_for_interrupt};
+use super::{say, scene_source, stdout, warn};
+
+/// Arguments of `accuracy`.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// The scene file; - reads standard input
+    scene: PathBuf,
+    /// The folder for the results; files of an earlier comparison are replaced
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// The error to stay within, in per cent: the cheapest setting below it is recommended
+    #[arg(long, value_name = "PERCENT", default_value_t = 5.0, value_parser = per_cent)]
+    within: f64,
+    /// Number of threads; default: all cores. Never changes the results, but the times
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// Leave the scene's own resolution out: half of its points, positions and steps at most
+    #[arg(long)]
+    quick: bool,
+    /// Show neither progress nor figures, only what is wrong
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+fn per_cent(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value <= 100.0 => Ok(value),
+        _ => Err("allowed: a number above 0 and at most 100".to_owned()),
+    }
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let source = scene_source::resolve(&args.scene)?;
+    let resolved = &source.resolved;
+    warn(&resolved.warnings);
+    report::writable(&args.out)?;
+    let pool = pool(args.threads)?;
+    let progress = Progress::new(args.quiet, Arc::clone(&watch_for_interrupt()));
+    let asked = Asked { within: args.within / 100.0, quick: args.quick };
+    let done = pool.install(|| study::run(resolved, &source.inputs, asked, &progress));
+    progress.finish();
+    let record = done.map_err(|error| match error {
+        AccuracyError::Interrupted => {
+            say("interrupted before the reference was finished: nothing to compare");
+            Failure::Interrupted
+        }
+        failed => Failure::Accuracy(failed),
+    })?;
+    report::accuracy::write(&record, &args.out)?;
+    if !args.quiet {
+        let report = args.out.join("report.html");
+        stdout::print(&format!("{}report: {}\n", table(&record), report.display()))?;
+    }
+    if record.stopped == StopReason::Completed {
+        return Ok(());
+    }
+    say(&format!("interrupted: {} runs were finished and are kept in {}", record.variants.len(), args.out.display()));
+    Err(Failure::Interrupted)
+}
+
+/// The front of the wear profile and the recommendations, for the terminal.
+fn table(record: &AccuracyRecord) -> String {
+    let per_cent = |error: f64| format!("{} %", digits(100.0 * error));
+    let mut text = format!("{}\n\nreference: {}\n\n", record.title, record.reference.how);
+    let line = |name: &str, cells: [&str; 4]| {
+        format!("  {name:52}{:>10}{:>11}{:>11}{:>11}\n", cells[0], cells[1], cells[2], cells[3])
+    };
+    text.push_str(&line("on the front of the wear profile", ["time, s", "profile", "pressure", "trans. err."]));
+    let error = |v: &VariantRecord, quantity| v.errors.get(&quantity).map(|error| error.relative);
+    let mut front: Vec<&VariantRecord> =
+        record.variants.iter().filter(|v| v.errors.get(&Quantity::WearProfile).is_some_and(|e| e.on_front)).collect();
+    front.sort_by(|a, b| a.simulation_s.unwrap_or(0.0).total_cmp(&b.simulation_s.unwrap_or(0.0)));
+    for variant in front {
+        let cells = [Quantity::WearProfile, Quantity::PeakPressure, Quantity::TransmissionError]
+            .map(|quantity| error(variant, quantity).map_or_else(|| "–".to_owned(), per_cent));
+        let wall_s = variant.simulation_s.map_or_else(|| "–".to_owned(), digits);
+        text.push_str(&line(&variant.name, [&wall_s, &cells[0], &cells[1], &cells[2]]));
+    }
+    text.push_str(&format!("\ncheapest within {}\n", per_cent(record.within)));
+    for r in &record.recommendations {
+        let Some(variant) = record.variants.get(r.variant) else { continue };
+        let found = error(variant, r.quantity).map_or_else(String::new, per_cent);
+        let none = if r.is_within { "" } else { "none; closest: " };
+        let wall_s = variant.simulation_s.map_or_else(String::new, |s| format!(", {} s", digits(s)));
+        text.push_str(&format!("  {:38}{none}{} ({found}{wall_s})\n", r.quantity.title(), variant.name));
+    }
+    let failed: Vec<&VariantRecord> = record.variants.iter().filter(|v| v.failure.is_some()).collect();
+    if !failed.is_empty() {
+        text.push_str(&format!(
+            "\n{} of {} runs have no result; report.html says why\n",
+            failed.len(),
+            record.variants.len()
+        ));
+    }
+    text.push_str(&format!("\n{} runs in {} s\n", record.variants.len(), digits(record.wall_s)));
+    text
+}

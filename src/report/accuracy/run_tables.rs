@@ -1,0 +1,134 @@
+//! The tables of the page: recommendations, all runs, runs that differ in one respect, what was left out.
+
+use crate::gear::PerGear;
+use crate::report::html::number::{count, percent, significant};
+use crate::report::html::page::escape;
+use crate::simulation::accuracy_record::{AccuracyRecord, Comparison, Quantity, VariantRecord};
+
+/// The quantities with a column of their own in the table of all runs.
+const SHOWN: [(Quantity, &str); 6] = [
+    (Quantity::WearProfile, "wear profile"),
+    (Quantity::PinionPeakWear, "pinion’s peak wear"),
+    (Quantity::PeakPressure, "peak pressure"),
+    (Quantity::HalfWidth, "half-width"),
+    (Quantity::TransmissionError, "transmission error"),
+    (Quantity::WornTransmissionError, "the same, worn"),
+];
+
+/// A table of text cells; the first column names the row.
+fn table(caption: &str, columns: &[&str], rows: impl IntoIterator<Item = Vec<String>>) -> String {
+    let head: String = columns.iter().map(|name| format!("<th scope=\"col\">{}</th>", escape(name))).collect();
+    let body: String = rows
+        .into_iter()
+        .map(|cells| {
+            let mut cells = cells.iter().map(|cell| escape(cell));
+            let name = cells.next().unwrap_or_default();
+            let rest: String = cells.map(|cell| format!("<td>{cell}</td>")).collect();
+            format!("<tr><th scope=\"row\">{name}</th>{rest}</tr>\n")
+        })
+        .collect();
+    format!(
+        "<table>\n<caption>{}</caption>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{body}</tbody>\n</table>\n",
+        escape(caption)
+    )
+}
+
+/// The cheapest setting for each quantity.
+pub fn recommendations(record: &AccuracyRecord) -> String {
+    let rows = record.recommendations.iter().filter_map(|r| {
+        let variant = record.variants.get(r.variant)?;
+        let error = variant.errors.get(&r.quantity)?.relative;
+        let uncertainty = record.reference.uncertainty.get(&r.quantity).copied().unwrap_or(0.0);
+        Some(vec![
+            r.quantity.title().to_owned(),
+            if r.is_within { variant.name.clone() } else { format!("none; closest {}", variant.name) },
+            percent(error),
+            seconds(variant.simulation_s),
+            percent(uncertainty),
+        ])
+    });
+    table(
+        &format!("Cheapest run within {}", percent(record.within)),
+        &["quantity", "run", "error", "time, s", "reference’s uncertainty"],
+        rows,
+    )
+}
+
+/// Every run, the most accurate wear profile first, those without a result last.
+pub fn runs(record: &AccuracyRecord) -> String {
+    let mut sorted: Vec<&VariantRecord> = record.variants.iter().collect();
+    let error = |v: &VariantRecord| v.errors.get(&Quantity::WearProfile).map_or(f64::INFINITY, |e| e.relative);
+    sorted.sort_by(|a, b| error(a).total_cmp(&error(b)));
+    let mut columns = vec!["run", "time, s", "set-up, s", "equilibria"];
+    columns.extend(SHOWN.map(|(_, name)| name));
+    let rows = sorted.into_iter().map(|v| {
+        let mut cells = vec![
+            match &v.failure {
+                Some(failure) => format!("{}: {failure}", v.name),
+                None => v.name.clone(),
+            },
+            seconds(v.simulation_s),
+            seconds(v.setup_s),
+            v.work.map_or_else(dash, |work| count(work.equilibria)),
+        ];
+        cells.extend(SHOWN.map(|(quantity, _)| {
+            v.errors.get(&quantity).map_or_else(dash, |error| {
+                format!("{}{}", percent(error.relative), if error.on_front { " ●" } else { "" })
+            })
+        }));
+        cells
+    });
+    let caption = "All runs, the best wear profile first; ● on the Pareto front of the quantity";
+    format!("<div class=\"wide-table\">{}</div>\n", table(caption, &columns, rows))
+}
+
+/// Runs that differ in one respect only.
+pub fn comparisons(record: &AccuracyRecord) -> String {
+    record.comparisons.iter().map(comparison).collect()
+}
+
+fn comparison(of: &Comparison) -> String {
+    let PerGear { pinion, wheel } = PerGear { pinion: "pinion", wheel: "wheel" };
+    let columns = [
+        of.title.to_lowercase(),
+        format!("profile, {pinion}"),
+        format!("profile, {wheel}"),
+        format!("peak wear, {pinion}"),
+        format!("peak wear, {wheel}"),
+        "time, s".to_owned(),
+    ];
+    let rows = of.rows.iter().map(|row| {
+        vec![
+            row.name.clone(),
+            percent(row.wear_profile.pinion),
+            percent(row.wear_profile.wheel),
+            signed(row.peak_wear.pinion),
+            signed(row.peak_wear.wheel),
+            significant(row.simulation_s, 3),
+        ]
+    });
+    let caption = format!("{}: differences from {}, {}", of.title, of.baseline, of.common);
+    table(&caption, &columns.each_ref().map(String::as_str), rows)
+}
+
+/// What was not run, and why.
+pub fn left_out(record: &AccuracyRecord) -> String {
+    let rows: String = record
+        .left_out
+        .iter()
+        .map(|left| format!("<dt>{}</dt><dd>{}</dd>\n", escape(&left.what), escape(&left.reason)))
+        .collect();
+    if rows.is_empty() { rows } else { format!("<h3>Not run</h3>\n<dl>\n{rows}</dl>\n") }
+}
+
+fn signed(share: f64) -> String {
+    format!("{}{}", if share > 0.0 { "+" } else { "" }, percent(share))
+}
+
+fn seconds(wall_s: Option<f64>) -> String {
+    wall_s.map_or_else(dash, |wall_s| significant(wall_s, 3))
+}
+
+fn dash() -> String {
+    "–".to_owned()
+}

@@ -1,0 +1,144 @@
+//! The error estimates of a run, against the true errors that finer runs and truer surfaces show, and what they cost.
+
+use gearwear::pipeline::{self, inputs::Inputs};
+use gearwear::plan::Plan;
+use gearwear::scene::{Scene, presets};
+use gearwear::simulation::record::Summary;
+use gearwear::simulation::wear_run::Unwatched;
+
+/// The fzg-c scene with other lines.
+fn scene(edits: &[(&str, &str)]) -> String {
+    let mut text = presets::find("fzg-c").unwrap().text.to_owned();
+    for (from, to) in edits {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    text
+}
+
+fn run(text: &str) -> Summary {
+    let resolved = Scene::from_toml(text).unwrap_or_else(|problems| panic!("{problems:?}"));
+    let done = pipeline::run(&resolved, &Plan::of(&resolved.scene), &Inputs::default(), &Unwatched).unwrap();
+    assert!(done.failure.is_none());
+    done.record.summary
+}
+
+const POINTS: &str = "flank_points = 750 ";
+const POSITIONS: &str = "positions = 400 ";
+const STEP: &str = "# step = { revolutions = 1000.0 }";
+const SURFACE: &str = "surface = \"winkler\"";
+const MATCH: &str = "match = \"half-width\"";
+
+/// Steps of this many revolutions, points and positions of the fzg-c scene over `by`.
+fn resolution(by: usize, step_revolutions: f64) -> [(&'static str, String); 3] {
+    [
+        (POINTS, format!("flank_points = {} ", 750 / by)),
+        (POSITIONS, format!("positions = {} ", 400 / by)),
+        (STEP, format!("step = {{ revolutions = {step_revolutions:.1} }}")),
+    ]
+}
+
+fn with(surface: &str, by: usize, step_revolutions: f64) -> String {
+    let of_resolution = resolution(by, step_revolutions);
+    let surface = format!("surface = \"{surface}\"");
+    let mut edits: Vec<(&str, &str)> = of_resolution.iter().map(|(from, to)| (*from, to.as_str())).collect();
+    edits.push((SURFACE, &surface));
+    if !surface.contains("winkler") {
+        edits.push((MATCH, "# match = \"half-width\""));
+    }
+    scene(&edits)
+}
+
+/// Whether an estimate is within a factor of three of the true value, or both are below what the truth itself is known to.
+fn assert_tells(what: &str, estimate: Option<f64>, truth: f64, negligible: f64) {
+    let estimate = estimate.unwrap_or_else(|| panic!("{what}: not estimated"));
+    let fits = estimate <= 3.0 * truth && truth <= 3.0 * estimate;
+    assert!(fits || estimate.max(truth) < negligible, "{what}: estimated {estimate:.5}, true {truth:.5}");
+}
+
+/// The true error of the wear step is what a run with an eighth of the step shows, that of the spacing what four times the
+/// points and positions show; both keep 1/8 and 1/16 of the error themselves, far below the factor allowed.
+#[test]
+fn val_estimates_tell_the_errors_that_finer_runs_show() {
+    let long_step = 40_000.0;
+    for surface in ["winkler", "hertz"] {
+        let coarse = run(&with(surface, 2, long_step));
+        let fine_step = run(&with(surface, 2, long_step / 8.0));
+        let fine_spacing =
+            run(&with(surface, 1, long_step).replace("points = 750", "points = 1500").replace("= 400", "= 800"));
+        let peak = coarse.pinion.peak_wear_um;
+        let truth = |finer: &Summary| (finer.pinion.peak_wear_um - peak).abs() / peak;
+        assert_tells(&format!("{surface}, wear step"), coarse.error.wear_step, truth(&fine_step), 1e-3);
+        assert_tells(&format!("{surface}, spacing"), coarse.error.discretisation, truth(&fine_spacing), 1e-3);
+    }
+}
+
+/// Short runs tell what the whole run on the truer surface shows: Hertz's ellipse, which knows no worn gap, and the Winkler
+/// bed, against the elastic half-plane at the same resolution.
+#[test]
+fn val_the_surface_model_tells_the_difference_of_whole_runs() {
+    let half_plane = run(&with("half-space", 2, 7_665.0).replace("error_estimate = true", "error_estimate = false"));
+    for surface in ["hertz", "hertz-mean", "winkler"] {
+        let own = run(&with(surface, 2, 7_665.0));
+        let truth = (own.pinion.peak_wear_um / half_plane.pinion.peak_wear_um - 1.0).abs();
+        assert_tells(surface, own.error.surface_model, truth, 0.02);
+    }
+}
+
+/// Companions cost at most half of the run, counted in equilibria weighted by their time; where that leaves no room for an
+/// estimate, the summary says so.
+#[test]
+fn companions_cost_at_most_half_of_the_run() {
+    for surface in ["winkler", "hertz", "hertz-mean", "half-space"] {
+        for (by, step) in [(2, 20_000.0), (4, 100_000.0)] {
+            let error = run(&with(surface, by, step)).error;
+            let cost = error.companions_cost.expect("estimates were made");
+            assert!(cost > 0.0 && cost <= 0.5, "{surface}: {cost}");
+            if error.surface_model.is_none() {
+                assert!(error.how.surface_model.starts_with("not estimated: "), "{}", error.how.surface_model);
+            }
+        }
+    }
+}
+
+/// On finite elements all three are estimated, on elements twice as long.
+#[test]
+fn finite_elements_are_judged_by_longer_elements() {
+    let edits = resolution(4, 40_000.0);
+    let mut edits: Vec<(&str, &str)> = edits.iter().map(|(from, to)| (*from, to.as_str())).collect();
+    edits.extend([
+        (SURFACE, "surface = \"fem\""),
+        (MATCH, "# match = \"half-width\""),
+        ("# tip_rounding_mm = 0.2", "tip_rounding_mm = 0.1"),
+        ("[pair.wheel]", "[pair.wheel]\ntip_rounding_mm = 0.1"),
+        ("# [fem] ", "[fem] # "),
+        ("# elements_per_half_width = 10 ", "elements_per_half_width = 4 "),
+    ]);
+    let text = scene(&edits);
+    let error = run(&text).error;
+    let cost = error.companions_cost.expect("estimates were made");
+    assert!(cost > 0.0 && cost <= 0.5, "{cost}");
+    let estimates = [error.discretisation, error.wear_step, error.surface_model];
+    assert!(estimates.iter().all(|e| e.is_some_and(|e| e.is_finite() && e < 0.5)), "{error:?}");
+}
+
+/// Left out where the scene says so, with the reason.
+#[test]
+fn no_estimates_where_the_scene_wants_none() {
+    let text = with("winkler", 4, 100_000.0).replace("error_estimate = true", "error_estimate = false");
+    let error = run(&text).error;
+    assert_eq!([error.discretisation, error.wear_step, error.surface_model, error.companions_cost], [None; 4]);
+    assert_eq!(error.how.surface_model, "not estimated: numerics.error_estimate is false");
+    assert!(
+        Plan::of(&Scene::from_toml(&text).unwrap().scene).left_out.iter().any(|s| s.kind.name() == "error-estimates")
+    );
+}
+
+/// An estimate is a matter of the run, not of threads.
+#[test]
+fn estimates_are_the_same_on_any_number_of_threads() {
+    let text = with("winkler", 2, 20_000.0);
+    let on =
+        |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| run(&text).error);
+    assert_eq!(on(1), on(2));
+}
