@@ -198,12 +198,9 @@ impl PairContact for WinklerPair<'_> {
         let approach_mm = self.touch + self.depth;
         faced
             .faced(points, gear, removed_mm, self.touching(gear, points))
-            .map(|faced| {
-                let penetration = if faced.is_faced_at_position() { approach_mm - faced.gap_mm } else { 0.0 };
-                Felt {
-                    pressure_mpa: self.foundation * penetration.max(0.0),
-                    contact_fraction: faced.mean_penetration(approach_mm).1,
-                }
+            .map(|faced| Felt {
+                pressure_mpa: self.foundation * faced.greatest_penetration_mm(approach_mm).max(0.0),
+                contact_fraction: faced.mean_penetration(approach_mm).1,
             })
             .collect()
     }
