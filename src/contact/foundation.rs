@@ -44,15 +44,28 @@ pub enum Bed {
         mpa_per_mm: f64,
     },
     /// K/H by position and load.
-    Curve(FoundationCurve),
+    Curve {
+        /// What the pressure spreads by.
+        pressure: FoundationCurve,
+        /// The bed with the approach of the elastic bodies.
+        approach: FoundationCurve,
+    },
 }
 
 impl Bed {
+    /// The springs at one position that have the approach of the elastic bodies, where the bed knows them.
+    pub fn approach_at(&self, position_mm: f64) -> Option<Springs> {
+        match self {
+            Self::Uniform { .. } => None,
+            Self::Curve { approach, .. } => Some(approach.springs_at(position_mm)),
+        }
+    }
+
     /// The springs at one position.
     pub fn at(&self, position_mm: f64) -> Springs {
         match self {
             Self::Uniform { mpa_per_mm } => Springs { mpa_per_mm: *mpa_per_mm, load_exponent: 0.0, reference: 1.0 },
-            Self::Curve(curve) => curve.springs_at(position_mm),
+            Self::Curve { pressure, .. } => pressure.springs_at(position_mm),
         }
     }
 }
@@ -93,6 +106,16 @@ impl Springs {
         let power = 1.0 / (1.0 + self.load_exponent);
         let load = self.reference * (self.mpa_per_mm * penetration_mm2 / self.reference).powf(power);
         (load, power * load * contact_mm / penetration_mm2)
+    }
+
+    /// Approach δ = a²/2R against a parabolic gap of radius R = `radius_mm`, and its derivative by the load, of which it is the
+    /// power 2 (1 + m)/3.
+    pub fn approach_and_compliance(&self, radius_mm: f64, line_load_n_per_mm: f64) -> (f64, f64) {
+        if line_load_n_per_mm <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let approach = self.half_width_mm(radius_mm, line_load_n_per_mm).powi(2) / (2.0 * radius_mm);
+        (approach, 2.0 / 3.0 * (1.0 + self.load_exponent) * approach / line_load_n_per_mm)
     }
 
     /// Half-width against a parabolic gap of radius `radius_mm`.
@@ -204,7 +227,7 @@ mod tests {
     #[test]
     fn ver_the_load_of_softening_springs_needs_no_iteration() {
         for position in [4.0, 9.0, 20.0, 24.0] {
-            let springs = Bed::Curve(curve()).at(position);
+            let springs = Bed::Curve { pressure: curve(), approach: curve() }.at(position);
             // A parabola of radius R penetrated by δ: U = (4/3) δ √(2Rδ), U' = 2 √(2Rδ).
             let of_depth = |depth: f64| {
                 let half_width = (2.0 * 8.4 * depth).sqrt();

@@ -106,6 +106,12 @@ pub trait PairContact: Send {
     /// Load and stiffness when the flanks are pressed together by `depth_mm` beyond their first touch.
     fn press(&mut self, depth_mm: f64) -> Response;
 
+    /// Approach of the bodies under a line load beside the depth that is pressed, and its derivative by the load: what a model
+    /// whose surface yields too little leaves out.
+    fn further_approach_mm(&self, _line_load_n_per_mm: f64) -> (f64, f64) {
+        (0.0, 0.0)
+    }
+
     /// A depth that should carry at least `line_load_n_per_mm`, to begin an iteration with.
     fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64;
 
