@@ -73,6 +73,8 @@ pub struct MeshedPair<'a> {
     pub contact: Box<dyn PairContact + 'a>,
     /// Its answer to the last depth.
     pub response: Response,
+    /// What its bodies approach beside that depth, and the derivative by the load.
+    further: (f64, f64),
     teeth_n_per_mm2: f64,
     /// Approach at which the flanks first touch, mm.
     touch_mm: f64,
@@ -99,6 +101,7 @@ impl<'a> MeshedPair<'a> {
         Self {
             contact,
             response: Response::default(),
+            further: (0.0, 0.0),
             teeth_n_per_mm2,
             touch_mm: 0.0,
             depth_mm: 0.0,
@@ -120,6 +123,7 @@ impl<'a> MeshedPair<'a> {
     fn press(&mut self, depth_mm: f64) {
         self.depth_mm = depth_mm;
         self.response = self.contact.press(depth_mm);
+        self.further = self.contact.further_approach_mm(self.response.line_load_n_per_mm);
     }
 
     fn start_mm(&self, line_load: f64) -> f64 {
@@ -133,8 +137,7 @@ impl<'a> MeshedPair<'a> {
 
     /// Approach of the whole pair beyond the first touch of its flanks, teeth included.
     fn whole_depth_mm(&self) -> f64 {
-        let load = self.response.line_load_n_per_mm;
-        self.depth_mm + load / self.teeth_n_per_mm2 + self.contact.further_approach_mm(load).0
+        self.depth_mm + self.response.line_load_n_per_mm / self.teeth_n_per_mm2 + self.further.0
     }
 
     /// Approach of the whole pair.
@@ -149,9 +152,7 @@ impl<'a> MeshedPair<'a> {
 
     /// 1 + w'/k.
     fn series(&self) -> f64 {
-        let Response { line_load_n_per_mm, stiffness_n_per_mm2 } = self.response;
-        let (_, further) = self.contact.further_approach_mm(line_load_n_per_mm);
-        1.0 + stiffness_n_per_mm2 * (1.0 / self.teeth_n_per_mm2 + further)
+        1.0 + self.response.stiffness_n_per_mm2 * (1.0 / self.teeth_n_per_mm2 + self.further.1)
     }
 }
 
