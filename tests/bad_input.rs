@@ -385,7 +385,7 @@ fn all_problems_are_reported_at_once() {
         .with("material", "poisson_ratio", "poisson_ratio = 0.5")
         .with("operation", "pinion_torque_Nm", "")
         .with("operation", "hours", "hours = 1.0\npinion_revolutions = 1.0")
-        .with("contact", "surface", "surface = \"fems\"")
+        .with("contact", "surface", "surface = \"rubber\"")
         .with("wear", "law", "law = 1");
     let refusal = case.refused();
     refusal.says(&[
