@@ -77,7 +77,7 @@ impl Sweep {
 /// What an observer sees of one point of a [`Sweep`].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Felt {
-    /// Pressure at the loading position, MPa; 0 where the point does not face the other flank there.
+    /// Greatest pressure while the contact moves through the cell and the point faces the other flank, MPa.
     pub pressure_mpa: f64,
     /// Part of the cell's sliding during which the point is in contact, 0 to 1.
     pub contact_fraction: f64,

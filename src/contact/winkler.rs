@@ -16,7 +16,7 @@
 //! and load and wear agree.
 //!
 //! K/H is one constant, or a curve by position and load ([`Bed`]): it then is the same for all springs of a contact, and
-//! follows load and width of the contact as an elastic surface does, still in closed form ([`Springs`]).
+//! follows the load of the contact by a power law, which the load of the contact still solves in closed form.
 //!
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.3; the thesis, section 3.2.
 
@@ -24,7 +24,7 @@ use std::ops::Range;
 
 use super::{
     ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
-    foundation::{Bed, Penetration, Springs},
+    foundation::{Bed, Springs},
     strip::{GapAtPoints, ObservedPoints, Strip, Window, point_distance_mm},
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
@@ -158,15 +158,9 @@ impl PairContact for WinklerPair<'_> {
             before = here;
         }
         let spacing = self.strip.spacing_mm;
-        let integral_mm2 = spacing * penetration;
-        let (load, stiffness) = self.springs.load_and_stiffness(Penetration {
-            radius_mm: self.radius_mm,
-            depth_mm,
-            integral_mm2,
-            contact_mm: spacing * contact,
-        });
+        let (load, stiffness) = self.springs.load_and_stiffness(spacing * penetration, spacing * contact);
         if load > 0.0 {
-            self.foundation = load / integral_mm2;
+            self.foundation = self.springs.mpa_per_mm(load);
         }
         Response { line_load_n_per_mm: load, stiffness_n_per_mm2: stiffness }
     }
@@ -204,12 +198,9 @@ impl PairContact for WinklerPair<'_> {
         let approach_mm = self.touch + self.depth;
         faced
             .faced(points, gear, removed_mm, self.touching(gear, points))
-            .map(|faced| {
-                let penetration = if faced.is_faced_at_position() { approach_mm - faced.gap_mm } else { 0.0 };
-                Felt {
-                    pressure_mpa: self.foundation * penetration.max(0.0),
-                    contact_fraction: faced.mean_penetration(approach_mm).1,
-                }
+            .map(|faced| Felt {
+                pressure_mpa: self.foundation * faced.greatest_penetration_mm(approach_mm).max(0.0),
+                contact_fraction: faced.mean_penetration(approach_mm).1,
             })
             .collect()
     }
