@@ -5,8 +5,14 @@ mod common;
 
 use common::{assert_close, fzg_c, fzg_c_scene, gear, pair, spur, steel};
 use gearwear::contact::{
-    ContactSurface, Flanks, PositionCell, foundation::{Bed, matched_mpa_per_mm}, half_space::HalfSpace, hertz, hertz::Hertz, hertz_mean::HertzMean,
-    settings::MatchCriterion, winkler::Winkler,
+    ContactSurface, Flanks, PositionCell,
+    foundation::{Bed, matched_mpa_per_mm},
+    half_space::HalfSpace,
+    hertz,
+    hertz::Hertz,
+    hertz_mean::HertzMean,
+    settings::MatchCriterion,
+    winkler::Winkler,
 };
 use gearwear::gear::{
     Gear, GearPair, PerGear,

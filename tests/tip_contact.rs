@@ -41,7 +41,10 @@ fn ver_tip_edges_leave_with_the_square_of_the_path() {
     assert_eq!(reach_mm(&pair, -1.0), [0.0; 2]);
     // At most 0.3 base pitches, and never beyond T1 or T2.
     let most = reach_mm(&pair, 1e3);
-    assert!(most.iter().all(|reach| (0.29 * path.base_pitch_mm..=0.3 * path.base_pitch_mm).contains(reach)), "{most:?}");
+    assert!(
+        most.iter().all(|reach| (0.29 * path.base_pitch_mm..=0.3 * path.base_pitch_mm).contains(reach)),
+        "{most:?}"
+    );
 }
 
 fn share_at(positions: &[PositionObservation], at_mm: f64) -> f64 {

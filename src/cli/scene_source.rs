@@ -7,8 +7,8 @@ use std::path::Path;
 use gearwear::pipeline::inputs::Inputs;
 use gearwear::scene::{Resolved, Scene};
 
-use super::{calibration_source, curve_source};
 use super::failure::{Failure, InputError, SceneProblems};
+use super::{calibration_source, curve_source};
 
 /// The text of a file.
 pub struct Text {

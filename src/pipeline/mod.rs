@@ -247,11 +247,7 @@ fn elastic(material: &PerGear<Material>) -> PerGear<Elastic> {
 }
 
 /// The surface of the springs on the line of action; none with finite elements, which are no springs.
-fn surface(
-    scene: &Scene,
-    bed: Option<Bed>,
-    expected_line_load_n_per_mm: f64,
-) -> Option<Box<dyn ContactSurface>> {
+fn surface(scene: &Scene, bed: Option<Bed>, expected_line_load_n_per_mm: f64) -> Option<Box<dyn ContactSurface>> {
     let material = scene.material;
     match (scene.contact.surface, bed) {
         (SurfaceKind::Fem, _) => None,

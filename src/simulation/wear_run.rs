@@ -19,8 +19,11 @@ use crate::gear::{Gear, GearPair, PerGear, flank::FlankGrid, removed_material::m
 use crate::stiffness::{StiffnessError, TeethSpring};
 use crate::wear::WearLaw;
 use crate::working_cycle::{
-    CycleObservation, LostMaterial, MeshCycle, Work, WorkingCycle, condensed::CondensedCycle,
-    load_sharing::EquilibriumError, positions::{loading_positions, positions_with_tip_contact}, tip_contact,
+    CycleObservation, LostMaterial, MeshCycle, Work, WorkingCycle,
+    condensed::CondensedCycle,
+    load_sharing::EquilibriumError,
+    positions::{loading_positions, positions_with_tip_contact},
+    tip_contact,
 };
 
 /// Why a wear run could not go on.

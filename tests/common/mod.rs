@@ -136,7 +136,9 @@ impl Scene {
     pub fn surface(&self) -> Box<dyn ContactSurface> {
         let expected_line_load_n_per_mm = self.line_load();
         match self.surface {
-            "winkler" => Box::new(Winkler { bed: Bed::Uniform { mpa_per_mm: self.foundation() }, expected_line_load_n_per_mm }),
+            "winkler" => {
+                Box::new(Winkler { bed: Bed::Uniform { mpa_per_mm: self.foundation() }, expected_line_load_n_per_mm })
+            }
             "half-space" => Box::new(HalfSpace { material: steel(), expected_line_load_n_per_mm }),
             "hertz" => Box::new(Hertz { material: steel(), expected_line_load_n_per_mm }),
             "hertz-mean" => Box::new(HertzMean { material: steel() }),
@@ -153,7 +155,11 @@ impl Scene {
             Archard::new(&WearSettings { coefficient_mm2_per_n: self.coefficient_mm2_per_n, severe: self.severe });
         WearRun {
             pair: &pair,
-            contact: MeshContact::LineOfAction { surface: surface.as_ref(), teeth: &teeth, tip_contact: self.tip_contact },
+            contact: MeshContact::LineOfAction {
+                surface: surface.as_ref(),
+                teeth: &teeth,
+                tip_contact: self.tip_contact,
+            },
             law: &law,
             line_load_n_per_mm: line_load,
             operation: &Operation {
