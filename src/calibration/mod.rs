@@ -7,6 +7,7 @@
 //! | [`tooth_family`], [`course`] | the same as families of curves: by number of teeth, and over the path |
 //! | [`single_contact`] | the pair alone in contact: half-width, peak pressure, approach by position and load |
 //! | [`foundation_fit`] | K/H as a curve that a Winkler bed can use, with its error where it was not fitted |
+//! | [`wear_reference`] | what one mesh of unworn flanks wears |
 //! | [`identity`], [`file`] | what the calibration belongs to, and the file it is kept in |
 //!
 //! Everything is per mm of face width, elastic, without friction, in plane strain.
@@ -20,6 +21,7 @@ pub mod loaded_tooth;
 pub mod single_contact;
 pub mod tooth_family;
 pub mod tooth_stiffness;
+pub mod wear_reference;
 
 use std::collections::BTreeMap;
 
@@ -32,6 +34,7 @@ use self::identity::Identity;
 use self::single_contact::SingleContact;
 use self::tooth_family::FamilyMember;
 use self::tooth_stiffness::{LoadedPair, PairDeflection};
+use self::wear_reference::WearReference;
 use crate::contact::{foundation::FoundationCurve, settings::MatchCriterion};
 use crate::fem::active_set::ActiveSetError;
 use crate::fem::gear::model::ModelError;
@@ -114,6 +117,8 @@ pub struct Calibration {
     pub family: Vec<FamilyMember>,
     /// How the stiffness varies over the path.
     pub courses: Vec<Course>,
+    /// What one mesh of unworn flanks wears.
+    pub wear_reference: Vec<WearReference>,
 }
 
 impl Calibration {

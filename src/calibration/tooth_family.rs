@@ -139,11 +139,11 @@ fn member(setup: &Setup<'_>, teeth: u32) -> Result<Option<FamilyMember>, Calibra
 
 fn mesh(shape: &ToothShape<'_>, fine: bool) -> Result<ToothSector, tooth_mesh::ToothMeshError> {
     let length_mm = LENGTH_MODULES * shape.normal_module_mm;
-    let length_mm = |_rho_mm: f64| length_mm;
+    let everywhere = |_rho_mm: f64| length_mm;
     let flank = FlankResolution {
-        half_width_mm: &length_mm,
+        half_width_mm: &everywhere,
         elements_per_half_width: ELEMENTS_IN_LENGTH,
-        margin_mm: MARGIN * LENGTH_MODULES * shape.normal_module_mm,
+        margin_mm: MARGIN * length_mm,
         depth_half_widths: DEPTH,
     };
     let settings = SectorSettings {

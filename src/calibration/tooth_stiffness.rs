@@ -256,5 +256,10 @@ pub fn curve(pair: &GearPair, deflections: &[PairDeflection]) -> PairCompliance 
         position_mm.push(last.0);
         mm2_per_n.push(last.1);
     }
-    PairCompliance { position_mm, mm2_per_n, stands_for: StandsFor::Teeth }
+    // The coupling hardly depends on the position: the whole bodies yield.
+    let couplings: Vec<f64> =
+        deflections.iter().flat_map(|at| [at.ahead_mm2_per_n, at.behind_mm2_per_n]).flatten().collect();
+    let shared_mm2_per_n =
+        if couplings.is_empty() { 0.0 } else { couplings.iter().sum::<f64>() / couplings.len() as f64 };
+    PairCompliance { position_mm, mm2_per_n, stands_for: StandsFor::Teeth, shared_mm2_per_n }
 }

@@ -89,7 +89,7 @@ fn refused(error: CalibrateError, source: &Source) -> Failure {
         | CalibrateError::Calibration(
             CalibrationError::NoClearPosition { .. } | CalibrationError::OffTheFlank { .. },
         ) => InputError::Calibrate(error).into(),
-        CalibrateError::Calibration(_) => Failure::Calibrate(error),
+        CalibrateError::Calibration(_) | CalibrateError::Cycle { .. } => Failure::Calibrate(error),
     }
 }
 

@@ -17,6 +17,8 @@ pub enum CalibrationStage {
     Bodies,
     /// Gears of other numbers of teeth.
     ToothFamily,
+    /// One mesh of unworn flanks.
+    WearReference,
     /// The files.
     Report,
 }
@@ -32,6 +34,7 @@ impl CalibrationStage {
             Self::Foundation => "foundation",
             Self::Bodies => "bodies",
             Self::ToothFamily => "tooth-family",
+            Self::WearReference => "wear-reference",
             Self::Report => "report",
         }
     }

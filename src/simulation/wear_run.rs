@@ -244,17 +244,19 @@ impl WearRun<'_> {
         match self.contact {
             MeshContact::LineOfAction { surface, teeth, tip_contact } => {
                 let (path, count) = (&self.pair.path, self.numerics.positions);
-                let spring = |at| teeth.n_per_mm2(at);
+                let spring = |at| teeth.own_n_per_mm2(at);
+                let bodies = teeth.shared_mm2_per_n() * self.line_load_n_per_mm;
                 let positions = if tip_contact {
                     let pitch_point = path.pitch_point_mm;
                     let surfaces = surface.plain_approach_mm(self.pair, pitch_point, self.line_load_n_per_mm);
-                    let approach = surfaces + self.line_load_n_per_mm / spring(pitch_point)?;
+                    let approach = bodies + surfaces + self.line_load_n_per_mm / spring(pitch_point)?;
                     let beyond = tip_contact::reach_mm(self.pair, AMPLE_APPROACH * approach);
                     positions_with_tip_contact(path, count, beyond, spring)?
                 } else {
                     loading_positions(path, count, spring)?
                 };
-                Ok(Box::new(WorkingCycle::new(flanks, surface, &positions, self.line_load_n_per_mm)))
+                let cycle = WorkingCycle::new(flanks, surface, &positions, self.line_load_n_per_mm);
+                Ok(Box::new(cycle.on_bodies_that_yield_by(bodies)))
             }
             MeshContact::FiniteElements(model) => {
                 let positions = self.numerics.positions;

@@ -15,6 +15,10 @@ pub struct PairCompliance {
     pub mm2_per_n: Vec<f64>,
     /// What the values stand for.
     pub stands_for: StandsFor,
+    /// The part of it that the pair shares with the other pairs in mesh, mm²/N: what it yields by under the load of one of
+    /// them, because the gear bodies below both yield.
+    #[serde(default)]
+    pub shared_mm2_per_n: f64,
 }
 
 /// What a compliance stands for.

@@ -94,7 +94,8 @@ pub fn parse(text: &str, path: &PathOfContact) -> Result<PairCompliance, CurveFi
     };
     let columns = Columns::find(line, &names)?;
     let stands_for = header.stands_for(columns.are_deflections)?;
-    let mut curve = PairCompliance { position_mm: Vec::new(), mm2_per_n: Vec::new(), stands_for };
+    let mut curve =
+        PairCompliance { position_mm: Vec::new(), mm2_per_n: Vec::new(), stands_for, shared_mm2_per_n: 0.0 };
     for (line, values) in rows {
         let position = positive(line, POSITION, values.get(columns.position).copied())?;
         if let Some(&before) = curve.position_mm.last().filter(|&&before| position <= before) {

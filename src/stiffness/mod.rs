@@ -15,6 +15,10 @@
 //! | [`iso6336`] | the single stiffness c', the same along the path |
 //! | `fem`, `simon`, `wang-cheng` | a [`curve`]: from finite elements, or the user's data |
 //!
+//! A curve may also say which part of it all pairs in mesh share: the gear bodies yield under the load of every pair, and take
+//! all teeth with them. That part, q_b, is taken out of the springs of the single pairs and put in series with all of them
+//! together: the gears approach each other by q_b F more, whoever carries F.
+//!
 //! Both flattening and the bed's approach are nonlinear in the load; what the split leaves over at other loads than the
 //! reference is reported ([`TeethSpring::split_remainder`]).
 
@@ -114,6 +118,31 @@ impl<'a> TeethSpring<'a> {
         } else {
             let um = 1e3 * self.reference_line_load_n_per_mm;
             Err(StiffnessError::SurfaceTooSoft { position_mm, surface_um: um * surface, pair_um: um * whole })
+        }
+    }
+
+    /// Compliance of the bodies that all pairs in mesh share, a part of each pair's spring, mm²/N; 0 where the model does not
+    /// tell it.
+    pub fn shared_mm2_per_n(&self) -> f64 {
+        match &self.curve {
+            Curve::Given(curve) => curve.shared_mm2_per_n,
+            Curve::Teeth(_) | Curve::WeberBanaschek(_) | Curve::WholePair(_) => 0.0,
+        }
+    }
+
+    /// Stiffness of what a pair has to itself of the spring, beside the shared bodies, N/mm².
+    ///
+    /// # Errors
+    /// As [`Self::n_per_mm2`].
+    pub fn own_n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
+        let (whole, shared) = (1.0 / self.n_per_mm2(position_mm)?, self.shared_mm2_per_n());
+        if shared < whole {
+            Ok(1.0 / (whole - shared))
+        } else {
+            let um = 1e3 * self.reference_line_load_n_per_mm;
+            let surface = self.surface_mm2_per_n(position_mm);
+            let (surface_um, pair_um) = (um * (surface + shared), um * (surface + whole));
+            Err(StiffnessError::SurfaceTooSoft { position_mm, surface_um, pair_um })
         }
     }
 

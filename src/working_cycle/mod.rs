@@ -84,6 +84,8 @@ struct Group<'a> {
 pub struct WorkingCycle<'a> {
     groups: Vec<Group<'a>>,
     line_load_n_per_mm: f64,
+    /// How far the bodies that all pairs share yield under the whole load, mm.
+    bodies_mm: f64,
 }
 
 /// What was observed at one position.
@@ -163,7 +165,12 @@ impl<'a> WorkingCycle<'a> {
                 failure: None,
             })
             .collect();
-        Self { groups, line_load_n_per_mm }
+        Self { groups, line_load_n_per_mm, bodies_mm: 0.0 }
+    }
+
+    /// The same with all pairs on gear bodies that yield by `bodies_mm` under the whole load.
+    pub fn on_bodies_that_yield_by(self, bodies_mm: f64) -> Self {
+        Self { bodies_mm, ..self }
     }
 }
 
@@ -200,7 +207,7 @@ impl MeshCycle for WorkingCycle<'_> {
         let mut sweep = Sweep::default();
         for station in self.groups.iter().flat_map(|group| &group.stations) {
             if station.on_line_of_action {
-                observation.positions.push(station.observe(self.line_load_n_per_mm));
+                observation.positions.push(station.observe(self.line_load_n_per_mm, self.bodies_mm));
             }
             for gear in Gear::BOTH {
                 station.pairs[0].contact.sweep(gear, removed_mm, &mut sweep);
@@ -296,12 +303,12 @@ impl<'a> Station<'a> {
         }
     }
 
-    fn observe(&self, line_load: f64) -> PositionObservation {
+    fn observe(&self, line_load: f64, bodies_mm: f64) -> PositionObservation {
         let reference = &self.pairs[0];
         let total: f64 = self.pairs.iter().map(|pair| pair.response.line_load_n_per_mm).sum();
         PositionObservation {
             position_mm: self.cell.position_mm,
-            transmission_error_mm: self.equilibrium.transmission_error_mm,
+            transmission_error_mm: self.equilibrium.transmission_error_mm + bodies_mm,
             load_share: reference.response.line_load_n_per_mm / line_load,
             load_imbalance: total / line_load - 1.0,
             footprint: reference.contact.footprint(),

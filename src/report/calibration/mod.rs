@@ -1,10 +1,16 @@
 //! The files of a calibration: the JSON that scenes name, and a page beside it for the reader.
 
+mod foundation_figures;
+mod page;
+mod stiffness_figures;
+mod tables;
+mod wear_figure;
+
 use std::path::{Path, PathBuf};
 
 use super::{ReportError, create_folder};
 use crate::calibration::Calibration;
-use crate::simulation::record::StageTime;
+use crate::simulation::record::{PathPoints, StageTime};
 use crate::whole_file;
 
 /// The folder of a file.
@@ -23,8 +29,15 @@ pub fn page_beside(file: &Path) -> PathBuf {
 /// What the system says.
 pub fn write(calibration: &Calibration, stages: &[StageTime], title: &str, file: &Path) -> Result<(), ReportError> {
     create_folder(folder(file))?;
-    let _ = (stages, title);
+    let name = file.file_name().unwrap_or_default().to_string_lossy();
+    place(&page_beside(file), &page::page(calibration, stages, title, &name))?;
     place(file, &calibration.to_json())
+}
+
+/// A to E by name.
+fn path_points(calibration: &Calibration) -> PathPoints {
+    let [a, b, c, d, e] = calibration.path_points_mm;
+    PathPoints { A: a, B: b, C: c, D: d, E: e }
 }
 
 fn place(path: &Path, text: &str) -> Result<(), ReportError> {

@@ -2,14 +2,14 @@
 
 /// A row: what it is, its unit, and one figure per column.
 pub struct Row {
-    label: &'static str,
+    label: String,
     unit: &'static str,
     cells: Vec<String>,
 }
 
 /// A row of `N` figures.
-pub fn row<const N: usize>(label: &'static str, unit: &'static str, cells: [String; N]) -> Row {
-    Row { label, unit, cells: cells.into() }
+pub fn row<const N: usize>(label: impl Into<String>, unit: &'static str, cells: [String; N]) -> Row {
+    Row { label: label.into(), unit, cells: cells.into() }
 }
 
 /// A table with its caption and the heads of its columns of figures.

@@ -1,6 +1,8 @@
 //! Carries out a calibration: finite elements of the scene's pair, and all that the fast model and the reader take from
 //! them ([`crate::calibration`]).
 
+mod wear_reference;
+
 use std::time::Instant;
 
 use crate::calibration::bodies::Setup;
@@ -15,6 +17,7 @@ use crate::scene::Scene;
 use crate::simulation::record::StageTime;
 use crate::simulation::wear_run::{Progress, Unwatched};
 use crate::stiffness::iso6336;
+use crate::working_cycle::load_sharing::EquilibriumError;
 
 /// Told of progress; says whether to go on.
 pub trait Observer: Progress {
@@ -35,6 +38,14 @@ pub enum CalibrateError {
     /// Finite elements gave none.
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
+    /// The mesh cycle of unworn flanks has no equilibrium.
+    #[error("mesh cycle under {line_load_n_per_mm:.2} N/mm: {source}")]
+    Cycle {
+        /// w.
+        line_load_n_per_mm: f64,
+        /// Why.
+        source: EquilibriumError,
+    },
     /// The user stopped it.
     #[error("interrupted")]
     Interrupted,
@@ -109,6 +120,8 @@ pub fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Don
         })?;
         family = stages.run(Stage::ToothFamily, || tooth_family::family(&setup))?;
     }
+    let stopped = || observer.interrupted();
+    let wear_reference = stages.run(Stage::WearReference, || wear_reference::references(&condensed, w, &stopped))?;
     let mut calibration = Calibration {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         hash: String::new(),
@@ -128,6 +141,7 @@ pub fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Don
         rim_depth,
         neighbours,
         family,
+        wear_reference,
     };
     calibration.hash = calibration.content_hash();
     Ok(Done { calibration, stages: stages.times, wall_s: start.elapsed().as_secs_f64() })

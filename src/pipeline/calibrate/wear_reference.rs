@@ -1,0 +1,45 @@
+//! One mesh of unworn flanks on the finite-element contact.
+
+use super::CalibrateError;
+use crate::calibration::wear_reference::{FLANK_POINTS, FlankWear, LOADS, POSITIONS, WearReference};
+use crate::contact::Flanks;
+use crate::fem::gear::position::CondensedPair;
+use crate::gear::{Gear, PerGear, flank::FlankGrid};
+use crate::wear::{archard::Archard, settings::WearSettings};
+use crate::working_cycle::condensed::CondensedCycle;
+use crate::working_cycle::load_sharing::EquilibriumError;
+use crate::working_cycle::{LostMaterial, MeshCycle};
+
+/// Wear per coefficient: that of the coefficient 1.
+const UNIT: WearSettings = WearSettings { coefficient_mm2_per_n: 1.0, severe: None };
+
+/// The references of all loads, each a multiple of `line_load_n_per_mm`.
+pub(super) fn references(
+    condensed: &CondensedPair<'_>,
+    line_load_n_per_mm: f64,
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Result<Vec<WearReference>, CalibrateError> {
+    let pair = condensed.pair;
+    let grids = PerGear::from_fn(|gear| FlankGrid::new(pair, gear, FLANK_POINTS));
+    let unworn = PerGear::from_fn(|gear| vec![0.0; grids[gear].len()]);
+    let zeros = unworn.as_ref().map(Vec::as_slice);
+    let law = Archard::new(&UNIT);
+    let one = |load: f64| {
+        let load = load * line_load_n_per_mm;
+        let mut cycle =
+            CondensedCycle::new(condensed, Flanks { geometry: pair, grid: grids.as_ref() }, POSITIONS, load);
+        let mut depth = unworn.clone();
+        let lost = LostMaterial { removed_mm: zeros, wear_mm: zeros };
+        match cycle.evaluate(lost, &law, &mut depth, stopped) {
+            Ok(_) => {}
+            Err(EquilibriumError::Interrupted) => return Err(CalibrateError::Interrupted),
+            Err(source) => return Err(CalibrateError::Cycle { line_load_n_per_mm: load, source }),
+        }
+        let flanks = PerGear::from_fn(|gear: Gear| FlankWear {
+            radius_mm: grids[gear].coordinate_mm.iter().map(|&rho| pair.teeth[gear].involute.radius_mm(rho)).collect(),
+            depth_per_coefficient_n_per_mm: std::mem::take(&mut depth[gear]),
+        });
+        Ok(WearReference { line_load_n_per_mm: load, flanks })
+    };
+    LOADS.into_iter().map(one).collect()
+}

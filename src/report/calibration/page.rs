@@ -1,0 +1,69 @@
+//! The page beside a calibration file.
+
+use super::{foundation_figures, stiffness_figures, tables, wear_figure};
+use crate::calibration::Calibration;
+use crate::contact::settings::MatchCriterion;
+use crate::report::html::number::{figure, percent};
+use crate::report::html::page::{Page, plots, section, sources_list, stages_table};
+use crate::simulation::record::StageTime;
+
+const LEGEND: &str = "<p class=\"legend-note\">A to E are the points of the path of contact: contact begins at A and ends at E, \
+     a tooth pair carries the load alone between B and D where no more than two pairs share it, and C is the pitch point. The \
+     contact position is the radius of curvature of the pinion’s flank at the theoretical contact point.</p>\n";
+
+/// The whole page; `file` is the name of the calibration file.
+pub fn page(calibration: &Calibration, stages: &[StageTime], title: &str, file: &str) -> String {
+    let mut figures = stiffness_figures::all(calibration);
+    figures.extend(foundation_figures::all(calibration));
+    figures.extend(wear_figure::all(calibration));
+    let wall_s = stages.iter().map(|stage| stage.wall_s).sum();
+    let belongs_to = serde_json::to_string_pretty(&calibration.belongs_to).unwrap_or_default();
+    let sections = [
+        section("figures", "Main figures", &format!("<div class=\"tables\">\n{}</div>\n", tables::tables(calibration))),
+        section("plots", "Plots", &[LEGEND, &plots(&figures)].concat()),
+        section(
+            "work",
+            "How it was computed",
+            &format!("<div class=\"tables\">\n{}</div>\n", stages_table(stages, wall_s)),
+        ),
+        section(
+            "sources",
+            "Data",
+            &sources_list(&[(file, "all numbers, as scenes read them")], "What it belongs to", &belongs_to),
+        ),
+    ];
+    Page {
+        kind: "Calibration of a gear pair by finite elements",
+        title,
+        answer: &answer(calibration),
+        interruption: None,
+        warnings: &[],
+        main: &sections.concat(),
+        footer: &format!("gearwear {} · calibration {}", calibration.program_version, short(&calibration.hash)),
+    }
+    .html()
+}
+
+/// As many digits of a hash as one compares by eye.
+fn short(hash: &str) -> &str {
+    hash.get(..16).unwrap_or(hash)
+}
+
+fn answer(calibration: &Calibration) -> String {
+    let mut text = calibration.deflection_at_points[2].as_ref().map_or_else(String::new, |at| {
+        format!(
+            "At the pitch point the tooth pair has a stiffness of {} N/(mm·µm) under {} N/mm, flattening included. ",
+            figure(at.pair_n_per_mm_um()),
+            figure(calibration.line_load_n_per_mm)
+        )
+    });
+    if let Some(fit) = calibration.foundation_fit.get(&MatchCriterion::HalfWidth) {
+        text.push_str(&format!(
+            "A Winkler bed calibrated on the half-width meets that of finite elements within {} at positions and loads that \
+             were held out, and its peak pressure is {} too high.",
+            percent(fit.held_out.worst_matched),
+            percent(fit.held_out.mean_peak_pressure)
+        ));
+    }
+    text
+}
