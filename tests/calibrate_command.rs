@@ -1,8 +1,9 @@
 //! `gearwear calibrate` from the outside, and scenes that name its files.
 
 use std::fs;
+use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::{Command, Output, Stdio};
 
 use serde_json::Value;
 
@@ -155,6 +156,34 @@ fn output_files_that_cannot_be_are_refused_before_any_work() {
     let output = gearwear().current_dir(dir).args(["calibrate", "scene.toml", "--out", "c.json"]).output().unwrap();
     assert_eq!(output.status.code(), Some(2), "{}", stderr(&output));
     assert!(stderr(&output).contains("fem.sector_teeth"), "{}", stderr(&output));
+    assert!(!dir.join("c.json").exists() && !dir.join("c.html").exists());
+}
+
+/// Between its stages a calibration hears Ctrl-C; then there is no file, for half a calibration is none.
+#[cfg(unix)]
+#[test]
+fn an_interrupted_calibration_leaves_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let dir = folder.path();
+    fs::write(dir.join("scene.toml"), scene("surface = \"winkler\"", COARSE)).unwrap();
+    let mut child = gearwear()
+        .current_dir(dir)
+        .args(["calibrate", "scene.toml", "--out", "c.json"])
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // The first line says that a stage is done: the signal is watched by then.
+    let mut said = BufReader::new(child.stderr.take().unwrap());
+    let mut line = String::new();
+    while !line.starts_with("geometry") {
+        line.clear();
+        assert!(said.read_line(&mut line).unwrap() > 0, "it ended before its first stage");
+    }
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    let mut rest = String::new();
+    said.read_to_string(&mut rest).unwrap();
+    assert_eq!(child.wait().unwrap().code(), Some(130), "{rest}");
+    assert!(rest.contains("nothing was written"), "{rest}");
     assert!(!dir.join("c.json").exists() && !dir.join("c.html").exists());
 }
 

@@ -12,13 +12,16 @@ use gearwear::calibration::identity::Identity;
 use gearwear::calibration::single_contact::{Purpose, SingleContact, Touch};
 use gearwear::calibration::tooth_stiffness::{LoadedPair, curve};
 use gearwear::calibration::{Calibration, file::CalibrationFileError, foundation_fit, single_contact};
+use gearwear::contact::foundation::Bed;
 use gearwear::contact::hertz::{self, Hertz};
 use gearwear::contact::settings::MatchCriterion;
+use gearwear::contact::winkler::Winkler;
+use gearwear::contact::{ContactSurface, Flanks};
 use gearwear::fem::gear::position::WarmStart;
 use gearwear::fem::locate::locate;
 use gearwear::gear::conjugate::ConjugateFlanks;
 use gearwear::gear::spec::PairSpec;
-use gearwear::gear::{Gear, GearPair, PerGear};
+use gearwear::gear::{Gear, GearPair, PerGear, flank::FlankGrid};
 use gearwear::mesh::settings::{Body, BodySettings, SectorSides};
 use gearwear::pipeline::calibrate::{self, Extent};
 use gearwear::scene::Scene;
@@ -250,6 +253,45 @@ fn val_calibrated_bed_where_it_was_held_out() {
         calibration.single_contact.iter().filter(|c| c.position_mm == position).all(|c| c.purpose == Purpose::AtEdge)
     };
     assert!(at_edge(calibration.path_points_mm[0]) && at_edge(calibration.path_points_mm[4]));
+}
+
+/// The same by the surface that wear runs use, on the true involutes instead of a parabola: the pair alone under the load,
+/// at every position and load that was held out.
+#[test]
+fn val_calibrated_winkler_surface_in_single_contact() {
+    let calibration = calibration();
+    let pair = GearPair::new(&fzg_c()).unwrap();
+    let grids = PerGear::from_fn(|gear| FlankGrid::new(&pair, gear, 750));
+    let unworn = PerGear::from_fn(|gear| vec![0.0; grids[gear].len()]);
+    let flanks = Flanks { geometry: &pair, grid: grids.as_ref() };
+    let mut compared = 0;
+    for criterion in [MatchCriterion::HalfWidth, MatchCriterion::PeakPressure] {
+        let surface = Winkler {
+            bed: Bed::Curve(calibration.foundation[&criterion].clone()),
+            expected_line_load_n_per_mm: calibration.line_load_n_per_mm,
+        };
+        for contact in calibration.single_contact.iter().filter(|c| c.purpose == Purpose::HeldOut) {
+            let mut alone = surface.pair(flanks, contact.position_mm, None);
+            alone.read(unworn.as_ref().map(Vec::as_slice));
+            let load = contact.line_load_n_per_mm;
+            let (mut low, mut high) = (0.0, alone.ample_depth_mm(load));
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                if alone.press(middle).line_load_n_per_mm < load { low = middle } else { high = middle }
+            }
+            assert_close("load", alone.press(high).line_load_n_per_mm, load, 1e-9);
+            alone.settle();
+            let found = alone.footprint();
+            match criterion {
+                MatchCriterion::HalfWidth => {
+                    assert_close("half-width", found.half_width_mm, contact.fem.half_width_mm, 0.02);
+                }
+                _ => assert_close("peak", found.peak_pressure_mpa, contact.fem.peak_pressure_mpa, 0.02),
+            }
+            compared += 1;
+        }
+    }
+    assert!(compared > 200, "{compared}");
 }
 
 /// The tooth is Hertz's half-plane for pressure (1 %), and not for the approach down to its centre line.

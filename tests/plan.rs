@@ -23,7 +23,8 @@ fn plan(exchange: &[(&str, &str)]) -> (Vec<&'static str>, Vec<&'static str>) {
 fn given_stiffness_needs_no_stiffness_stage() {
     let (stages, left_out) = plan(&[]);
     assert_eq!(stages, ["geometry", "contact-match", "simulation", "error-estimates", "report"]);
-    assert_eq!(left_out, ["finite-element-calibration", "tooth-stiffness", "helical-slices", "contact-temperature"]);
+    let fem = ["finite-element-calibration", "finite-element-model"];
+    assert_eq!(left_out, [fem.as_slice(), &["tooth-stiffness", "helical-slices", "contact-temperature"]].concat());
 }
 
 #[test]
@@ -32,6 +33,18 @@ fn closed_form_stiffness_is_a_stage() {
         let (stages, _) = plan(&[("model = \"constant\"", &format!("model = \"{model}\""))]);
         assert!(stages.contains(&"tooth-stiffness"), "{model}");
     }
+}
+
+#[test]
+fn a_stiffness_of_finite_elements_is_computed_unless_a_calibration_is_given() {
+    let model = ("model = \"constant\"", "model = \"fem\"");
+    assert!(plan(&[model]).0.contains(&"finite-element-calibration"));
+    let given = ("match = \"half-width\"", "match = \"half-width\"\ncalibration = \"fzg-c.json\"");
+    let (stages, left_out) = plan(&[model, given]);
+    assert!(stages.contains(&"tooth-stiffness") && left_out.contains(&"finite-element-calibration"), "{stages:?}");
+    // The surface fem bends its own teeth.
+    let (stages, _) = plan(&[model, ("surface = \"winkler\"", "surface = \"fem\"")]);
+    assert!(stages.contains(&"finite-element-model") && !stages.contains(&"finite-element-calibration"), "{stages:?}");
 }
 
 #[test]
@@ -61,7 +74,7 @@ fn json_for_scripts_and_text_for_people() {
     };
     let json: serde_json::Value = serde_json::from_slice(&gearwear("json").get_output().stdout).unwrap();
     assert_eq!(json["stages"][0]["name"], "geometry");
-    assert_eq!(json["left_out"][1]["name"], "tooth-stiffness");
-    assert!(json["left_out"][1]["reason"].as_str().unwrap().contains("20 N/(mm·µm)"));
+    assert_eq!(json["left_out"][2]["name"], "tooth-stiffness");
+    assert!(json["left_out"][2]["reason"].as_str().unwrap().contains("20 N/(mm·µm)"));
     gearwear("text").stdout(predicate::str::contains("Left out").and(predicate::str::contains("simulation")));
 }

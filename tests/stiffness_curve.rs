@@ -5,7 +5,7 @@ mod common;
 use std::fs;
 
 use assert_cmd::Command;
-use common::{assert_close, fzg_c, pair, steel};
+use common::{Scene, assert_close, fzg_c, fzg_c_scene, pair, steel};
 use gearwear::contact::{hertz, hertz::Hertz};
 use gearwear::gear::PerGear;
 use gearwear::stiffness::{
@@ -50,6 +50,35 @@ fn ver_stiffness_and_deflection_say_the_same() {
     // Between A and B the compliance is a straight line.
     let (a, b) = (pair.path.start_mm, pair.path.lower_single_contact_mm());
     assert_close("halfway", deflection.at(a.midpoint(b)), 0.5 * (teeth(a) + teeth(b)), 1e-12);
+}
+
+/// Bodies that all pairs share, q_b of each pair's compliance, change nothing while one pair carries all; while two do, each
+/// of them yields by q_b times the load of the other more.
+#[test]
+fn ver_shared_bodies_yield_under_the_load_of_every_pair() {
+    let shared_mm2_per_n = 6.4e-6;
+    let run = |shared_mm2_per_n| {
+        let curve = PairCompliance {
+            position_mm: vec![4.0, 24.0],
+            mm2_per_n: vec![5e-5; 2],
+            stands_for: StandsFor::Teeth,
+            shared_mm2_per_n,
+        };
+        let scene = Scene { surface: "hertz", stiffness: StiffnessSettings::Fem, curve: Some(curve), ..fzg_c_scene() };
+        let found = Scene { revolutions: 1.0, steps: 1.0, ..scene.clone() }.run().new.cycle;
+        (found, scene.line_load())
+    };
+    let ((alone, _), (together, load)) = (run(0.0), run(shared_mm2_per_n));
+    for (alone, together) in alone.positions.iter().zip(&together.positions) {
+        let more = together.transmission_error_mm - alone.transmission_error_mm;
+        if alone.load_share > 1.0 - 1e-9 {
+            assert!(more.abs() < 1e-12, "{alone:?}");
+        } else {
+            // Exact for equal shares; the less compliant share is loaded a little more.
+            let of_the_other = shared_mm2_per_n * load * 0.5;
+            assert!((more / of_the_other - 1.0).abs() < 0.05, "{} {more}", alone.position_mm);
+        }
+    }
 }
 
 #[test]

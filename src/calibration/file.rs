@@ -84,6 +84,9 @@ impl Calibration {
         if n < 2 || values.len() != n || !increasing(&compliance.position_mm) || values.iter().any(|q| *q <= 0.0) {
             return Some("pair_compliance: at least two increasing positions with a positive value each".to_owned());
         }
+        if compliance.shared_mm2_per_n < 0.0 || values.iter().any(|q| *q <= compliance.shared_mm2_per_n) {
+            return Some("pair_compliance: what pairs share is not negative, and less than what each has".to_owned());
+        }
         for (criterion, curve) in &self.foundation {
             let n = curve.position_mm.len();
             let lengths = [curve.mpa_per_mm.len(), curve.load_exponent.len()];

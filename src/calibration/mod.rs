@@ -8,7 +8,7 @@
 //! | [`single_contact`] | the pair alone in contact: half-width, peak pressure, approach by position and load |
 //! | [`foundation_fit`] | K/H as a curve that a Winkler bed can use, with its error where it was not fitted |
 //! | [`wear_reference`] | what one mesh of unworn flanks wears |
-//! | [`identity`], [`file`] | what the calibration belongs to, and the file it is kept in |
+//! | [`identity`], [`mod@file`] | what the calibration belongs to, and the file it is kept in |
 //!
 //! Everything is per mm of face width, elastic, without friction, in plane strain.
 
@@ -82,7 +82,7 @@ pub enum CalibrationError {
 pub struct Calibration {
     /// Program that made it.
     pub program_version: String,
-    /// SHA-256 of everything else ([`file`]).
+    /// SHA-256 of everything else ([`mod@file`]).
     pub hash: String,
     /// What it belongs to.
     pub belongs_to: Identity,

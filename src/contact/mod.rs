@@ -11,12 +11,12 @@
 //! | [`hertz`] | Hertz's ellipse on the nominal curvature | closed-form flattening |
 //! | [`hertz_mean`] | Hertz's mean pressure, closed-form sliding | closed-form flattening |
 
-mod elastic_cells;
+pub mod elastic_cells;
 pub mod foundation;
 pub mod half_space;
 pub mod hertz;
 pub mod hertz_mean;
-mod pressure_field;
+pub mod pressure_field;
 pub mod settings;
 pub mod strip;
 pub mod winkler;

@@ -12,6 +12,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use nalgebra::Vector2;
+
 use super::{
     Gear, PairError,
     involute::{Involute, inv, inverse_inv},
@@ -210,6 +212,17 @@ pub struct LoadLine {
 }
 
 impl Tooth {
+    /// Radius of the nominal flank point whose normal passes through `point_mm`, in the tooth's own frame with its centre
+    /// line on +y and the flank at x < 0: where on the flank a point of the modified profile counts, mm. The normals of an
+    /// involute are the tangents of the base circle: that through the point touches it at the roll angle of the flank point.
+    pub fn nominal_radius_mm(&self, point_mm: Vector2<f64>) -> f64 {
+        let base = self.involute.base_radius_mm;
+        let beyond_base = (base / point_mm.norm()).min(1.0).acos();
+        let from_centre_line = (-point_mm.x).atan2(point_mm.y);
+        let roll_angle = self.base_half_angle_rad - from_centre_line + beyond_base;
+        self.involute.radius_mm(base * roll_angle.max(0.0))
+    }
+
     /// The line of action through the flank point with radius of curvature `rho_mm`.
     pub fn load_line(&self, rho_mm: f64) -> LoadLine {
         let radius = self.involute.radius_mm(rho_mm);

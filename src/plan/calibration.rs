@@ -13,8 +13,12 @@ pub enum CalibrationStage {
     ToothStiffness,
     /// The pair alone in contact, and K/H fitted to it.
     Foundation,
-    /// Other resolutions, rims and neighbours.
-    Bodies,
+    /// The stiffness at C at other resolutions.
+    Convergence,
+    /// The stiffness at C with the bodies held elsewhere.
+    RimDepth,
+    /// The stiffness at C with other neighbours.
+    Neighbours,
     /// Gears of other numbers of teeth.
     ToothFamily,
     /// One mesh of unworn flanks.
@@ -32,7 +36,9 @@ impl CalibrationStage {
             Self::Condensation => "condensation",
             Self::ToothStiffness => "tooth-stiffness",
             Self::Foundation => "foundation",
-            Self::Bodies => "bodies",
+            Self::Convergence => "convergence",
+            Self::RimDepth => "rim-depth",
+            Self::Neighbours => "neighbours",
             Self::ToothFamily => "tooth-family",
             Self::WearReference => "wear-reference",
             Self::Report => "report",

@@ -189,8 +189,9 @@ fn contact_match(scene: &Scene) -> Result<String, String> {
 fn simulation(scene: &Scene) -> String {
     let (operation, numerics) = (&scene.operation, &scene.numerics);
     let steps = (operation.pinion_revolutions / numerics.step_revolutions).ceil();
+    let tip_edges = if scene.contact.tip_contact { ", contact at tip edges before A and after E" } else { "" };
     format!(
-        "about {steps} wear steps, {} positions, {} points a flank, {} snapshots",
+        "about {steps} wear steps, {} positions, {} points a flank, {} snapshots{tip_edges}",
         numerics.positions,
         numerics.flank_points,
         operation.snapshots_revolutions.len()

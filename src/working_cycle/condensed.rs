@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use super::load_sharing::EquilibriumError;
 use super::{CycleObservation, GROUPS, LostMaterial, MeshCycle, PositionObservation, Work};
 use crate::contact::{Flanks, Footprint};
-use crate::fem::gear::observed_flank::ObservedFlank;
+use crate::fem::gear::observed_flank::{FlankPoints, ObservedFlank};
 use crate::fem::gear::position::CondensedPair;
 use crate::fem::gear::prepared::{NodalWear, Prepared};
 use crate::gear::{Gear, PerGear};
@@ -45,8 +45,10 @@ struct Group {
 pub struct CondensedCycle<'a> {
     model: &'a CondensedPair<'a>,
     line_load_n_per_mm: f64,
-    /// Radii of the flank points.
+    /// Nominal radii of the flank points.
     radius_mm: PerGear<Vec<f64>>,
+    /// Nominal radii of the flanks' nodes.
+    node_radius_mm: PerGear<Vec<f64>>,
     groups: Vec<Group>,
     /// Positions from A to E at which the cycle is observed; prepared when first asked for.
     observation_mm: Vec<f64>,
@@ -65,22 +67,23 @@ impl<'a> CondensedCycle<'a> {
         let in_a_pitch = (path.base_pitch_mm / spacing).round().max(1.0) as usize;
         let length_mm = path.base_pitch_mm / in_a_pitch as f64;
         let pitch_mm: Vec<f64> = (0..in_a_pitch).map(|j| path.start_mm + j as f64 * length_mm).collect();
-        let radii = radius_mm.as_ref().map(Vec::as_slice);
+        let node_radius_mm = PerGear::from_fn(|gear| model.nominal_radius_mm(gear));
+        let points = flank_points(&radius_mm, &node_radius_mm);
         let groups = pitch_mm
             .par_chunks(in_a_pitch.div_ceil(GROUPS))
             .map(|positions| Group {
                 stations: positions
                     .iter()
-                    .map(|&at| Station::new(model, model.prepare(at, line_load_n_per_mm), radii, length_mm))
+                    .map(|&at| Station::new(model, model.prepare(at, line_load_n_per_mm), points, length_mm))
                     .collect(),
-                depth_mm: PerGear::from_fn(|gear| vec![0.0; radii[gear].len()]),
+                depth_mm: PerGear::from_fn(|gear| vec![0.0; radius_mm[gear].len()]),
                 pressure_mpa: Vec::new(),
                 work: Work::default(),
                 failure: None,
             })
             .collect();
         let observation_mm = (0..positions).map(|j| path.start_mm + j as f64 * spacing).collect();
-        Self { model, line_load_n_per_mm, radius_mm, groups, observation_mm, observation: Vec::new() }
+        Self { model, line_load_n_per_mm, radius_mm, node_radius_mm, groups, observation_mm, observation: Vec::new() }
     }
 
     /// Stretch of the path that each position stands for.
@@ -93,10 +96,17 @@ impl<'a> CondensedCycle<'a> {
     fn nodal_wear(&self, wear_mm: PerGear<&[f64]>) -> NodalWear {
         PerGear::from_fn(|gear| {
             let (radius, wear) = (&self.radius_mm[gear], wear_mm[gear]);
-            let points = self.model.flanks[gear].surface.points_mm.iter();
-            points.map(|point| interpolated(radius, wear, point.norm())).collect()
+            self.node_radius_mm[gear].iter().map(|&node| interpolated(radius, wear, node)).collect()
         })
     }
+}
+
+/// The points of both flanks.
+fn flank_points<'a>(
+    radius_mm: &'a PerGear<Vec<f64>>,
+    node_radius_mm: &'a PerGear<Vec<f64>>,
+) -> PerGear<FlankPoints<'a>> {
+    PerGear::from_fn(|gear| FlankPoints { radius_mm: &radius_mm[gear], node_radius_mm: &node_radius_mm[gear] })
 }
 
 /// Value at `x` of what is given at the evenly spaced, increasing `places`; beyond their ends, the value there.
@@ -133,8 +143,8 @@ impl MeshCycle for CondensedCycle<'_> {
     ) -> Result<Work, EquilibriumError> {
         let wear = self.nodal_wear(lost.wear_mm);
         let length_mm = self.length_mm();
-        let (model, radii) = (self.model, self.radius_mm.as_ref().map(Vec::as_slice));
-        let step = Step { model, wear: &wear, radii, length_mm, law, stopped };
+        let points = flank_points(&self.radius_mm, &self.node_radius_mm);
+        let step = Step { model: self.model, wear: &wear, points, length_mm, law, stopped };
         self.groups.par_iter_mut().for_each(|group| group.evaluate(&step));
         let mut work = Work { mesh_cycles: 1, ..Work::default() };
         for gear in Gear::BOTH {
@@ -189,7 +199,7 @@ impl MeshCycle for CondensedCycle<'_> {
 struct Step<'a> {
     model: &'a CondensedPair<'a>,
     wear: &'a NodalWear,
-    radii: PerGear<&'a [f64]>,
+    points: PerGear<FlankPoints<'a>>,
     length_mm: f64,
     law: &'a dyn WearLaw,
     stopped: &'a (dyn Fn() -> bool + Sync),
@@ -228,20 +238,20 @@ impl Group {
 }
 
 impl Station {
-    fn new(model: &CondensedPair<'_>, prepared: Prepared, radii: PerGear<&[f64]>, length_mm: f64) -> Self {
+    fn new(model: &CondensedPair<'_>, prepared: Prepared, points: PerGear<FlankPoints<'_>>, length_mm: f64) -> Self {
         let mut station = Self { prepared, observed: Vec::new(), looks: 0, nodal_mpa: Vec::new() };
-        station.look(model, radii, length_mm);
+        station.look(model, points, length_mm);
         station
     }
 
     /// Reads anew which points are near the contact.
-    fn look(&mut self, model: &CondensedPair<'_>, radii: PerGear<&[f64]>, length_mm: f64) {
+    fn look(&mut self, model: &CondensedPair<'_>, points: PerGear<FlankPoints<'_>>, length_mm: f64) {
         let curvatures = model.pair.path.involute.map(|involute| 1.0 / involute.base_radius_mm).sum();
         let with_sliding = |flank: ObservedFlank| {
             let sliding = flank.sliding_mm(curvatures, length_mm);
             (flank, sliding)
         };
-        let pairs = model.observed_pairs(&self.prepared, length_mm, radii);
+        let pairs = model.observed_pairs(&self.prepared, length_mm, points);
         self.observed = pairs.into_iter().map(|pair| pair.map(with_sliding)).collect();
         self.looks = self.prepared.looks();
     }
@@ -253,7 +263,7 @@ impl Station {
             .solve(&mut self.prepared, Some(step.wear))
             .map_err(|source| EquilibriumError::Contact { position_mm, source })?;
         if self.looks != self.prepared.looks() {
-            self.look(step.model, step.radii, step.length_mm);
+            self.look(step.model, step.points, step.length_mm);
         }
         self.prepared.nodal_pressure_mpa(&found.force, &mut self.nodal_mpa);
         let iterations = found.log.steps.len() as u64;

@@ -75,7 +75,7 @@ use gearwear::simulation::{
     settings::{Numerics, Operation},
     wear_run::{MeshContact, Outcome, Unwatched, WearRun},
 };
-use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
+use gearwear::stiffness::{TeethSpring, curve::PairCompliance, settings::StiffnessSettings};
 use gearwear::wear::{
     archard::Archard,
     settings::{SevereTransition, WearSettings},
@@ -97,6 +97,7 @@ pub struct Scene {
     pub positions: usize,
     pub steps: f64,
     pub tip_contact: bool,
+    pub curve: Option<PairCompliance>,
 }
 
 /// "The fzg-c scene": 302 N·m, 150 rpm, 127.75 h, Winkler matched on half-width, 20 N/(mm·µm), k 1e-17 m²/N.
@@ -115,6 +116,7 @@ pub fn fzg_c_scene() -> Scene {
         positions: 400,
         steps: 150.0,
         tip_contact: false,
+        curve: None,
     }
 }
 
@@ -150,7 +152,7 @@ impl Scene {
     pub fn run(&self) -> Outcome {
         let pair = pair(&self.pair);
         let (surface, line_load) = (self.surface(), self.line_load());
-        let teeth = TeethSpring::new(self.stiffness, None, &pair, &steel(), surface.as_ref(), line_load);
+        let teeth = TeethSpring::new(self.stiffness, self.curve.as_ref(), &pair, &steel(), surface.as_ref(), line_load);
         let law =
             Archard::new(&WearSettings { coefficient_mm2_per_n: self.coefficient_mm2_per_n, severe: self.severe });
         WearRun {

@@ -34,6 +34,15 @@ pub struct ObservedFlank {
     lever_mm: Vec<f64>,
 }
 
+/// Where the points of a flank are, and where its nodes are among them.
+#[derive(Debug, Clone, Copy)]
+pub struct FlankPoints<'a> {
+    /// Radius of each point on the nominal flank, increasing, mm.
+    pub radius_mm: &'a [f64],
+    /// The same of each local node ([`CondensedPair::nominal_radius_mm`]).
+    pub node_radius_mm: &'a [f64],
+}
+
 /// Most places at which one point's pressure is sampled within a position's stretch.
 const MOST_SAMPLES: usize = 32;
 
@@ -84,7 +93,13 @@ impl ObservedFlank {
 }
 
 impl CondensedPair<'_> {
-    /// How the points of `gear`'s flank at `radius_mm` (increasing) read the pressure of a tooth pair at `position_mm`, which
+    /// Radius of the nominal flank point that each local node of a gear's flank stands for, mm.
+    pub fn nominal_radius_mm(&self, gear: Gear) -> Vec<f64> {
+        let points = self.flanks[gear].surface.points_mm.iter();
+        points.map(|&point| self.pair.teeth[gear].nominal_radius_mm(point)).collect()
+    }
+
+    /// How the points of `gear`'s flank at `points.radius_mm` read the pressure of a tooth pair at `position_mm`, which
     /// stands for `length_mm` of the path.
     pub(super) fn observed_flank(
         &self,
@@ -92,13 +107,14 @@ impl CondensedPair<'_> {
         length_mm: f64,
         facing: &Facing,
         gear: Gear,
-        radius_mm: &[f64],
+        points: FlankPoints<'_>,
     ) -> ObservedFlank {
+        let radius_mm = points.radius_mm;
         let slave = facing.slave;
         let (own, on) = (&self.flanks[gear], &self.flanks[slave]);
         let own_edges = &own.surface.edges[facing.edges[gear].clone()];
         // Edges run from tip to root: radii fall along them.
-        let radius_at = |node: usize| own.surface.points_mm[node].norm();
+        let radius_at = |node: usize| points.node_radius_mm[node];
         let (Some(first), Some(last)) = (own_edges.first(), own_edges.last()) else { return ObservedFlank::default() };
         let (highest, lowest) = (radius_at(first.nodes()[0]), radius_at(last.nodes()[1]));
         let round_off = 1e-9 * highest;
@@ -110,7 +126,7 @@ impl CondensedPair<'_> {
         let moves_mm = self.contact_moves_mm(position_mm, length_mm, facing.pair, gear);
         let mut observed = ObservedFlank { first_point, ..ObservedFlank::default() };
         for &radius in &radius_mm[first_point..end.max(first_point)] {
-            let own_place = place_at_radius(&own.surface, facing.edges[gear].clone(), radius);
+            let own_place = place_at_radius(&own.surface, points.node_radius_mm, facing.edges[gear].clone(), radius);
             let point = point_at(&own.surface, own_place);
             let in_place = in_place_mm(self.pair, gear, position_mm, facing.pair, point);
             let place = if gear == slave {
@@ -173,9 +189,9 @@ fn point_at(surface: &Surface, place: Place) -> Vector2<f64> {
     interpolate(&shape(count, place.xi), &corners[..count])
 }
 
-/// Where a flank has the distance `radius_mm` from the gear's axis, among `edges`.
-fn place_at_radius(surface: &Surface, edges: std::ops::Range<usize>, radius_mm: f64) -> Place {
-    let radius = |node: usize| surface.points_mm[node].norm();
+/// Where among `edges` the nodes' radii `node_radius_mm` pass `radius_mm`.
+fn place_at_radius(surface: &Surface, node_radius_mm: &[f64], edges: std::ops::Range<usize>, radius_mm: f64) -> Place {
+    let radius = |node: usize| node_radius_mm[node];
     let ends = |edge: &SurfaceEdge| [radius(edge.nodes()[0]), radius(edge.nodes()[1])];
     let within = &surface.edges[edges.clone()];
     let number = within.partition_point(|edge| ends(edge)[1] > radius_mm).min(within.len() - 1);

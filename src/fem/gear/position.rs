@@ -16,7 +16,7 @@ use sprs::CsMat;
 
 use super::facing::Facing;
 use super::flank_surface::FlankSurface;
-use super::observed_flank::ObservedFlank;
+use super::observed_flank::{FlankPoints, ObservedFlank};
 use super::prepared::Prepared;
 use super::ring::{GearCompliance, ToothForce};
 use crate::fem::active_set::{ActiveSetError, Equilibrium, Log};
@@ -138,17 +138,16 @@ impl<'a> CondensedPair<'a> {
         loaded.collect()
     }
 
-    /// How the points of both flanks at `radius_mm` (increasing) read the pressure of each tooth pair that may touch, with the
+    /// How the points of both flanks read the pressure of each tooth pair that may touch, with the
     /// position standing for `length_mm` of the path.
     pub fn observed_pairs(
         &self,
         prepared: &Prepared,
         length_mm: f64,
-        radius_mm: PerGear<&[f64]>,
+        points: PerGear<FlankPoints<'_>>,
     ) -> Vec<PerGear<ObservedFlank>> {
         let at = prepared.position_mm;
-        let observed =
-            |facing| PerGear::from_fn(|gear| self.observed_flank(at, length_mm, facing, gear, radius_mm[gear]));
+        let observed = |facing| PerGear::from_fn(|gear| self.observed_flank(at, length_mm, facing, gear, points[gear]));
         prepared.facings.iter().map(observed).collect()
     }
 

@@ -115,9 +115,9 @@ pub fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Don
     let (foundation, foundation_fit) = foundation_fit::all(&single_contact, w, ends_mm);
     let (mut convergence, mut rim_depth, mut neighbours, mut family) = Default::default();
     if extent == Extent::Whole {
-        (convergence, rim_depth, neighbours) = stages.run(Stage::Bodies, || -> Result<_, CalibrationError> {
-            Ok((setup.convergence()?, setup.rim_depths()?, setup.neighbours()?))
-        })?;
+        convergence = stages.run(Stage::Convergence, || setup.convergence())?;
+        rim_depth = stages.run(Stage::RimDepth, || setup.rim_depths())?;
+        neighbours = stages.run(Stage::Neighbours, || setup.neighbours())?;
         family = stages.run(Stage::ToothFamily, || tooth_family::family(&setup))?;
     }
     let stopped = || observer.interrupted();

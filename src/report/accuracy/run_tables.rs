@@ -6,10 +6,11 @@ use crate::report::html::page::escape;
 use crate::simulation::accuracy_record::{AccuracyRecord, Comparison, Quantity, VariantRecord};
 
 /// The quantities with a column of their own in the table of all runs.
-const SHOWN: [(Quantity, &str); 6] = [
+const SHOWN: [(Quantity, &str); 7] = [
     (Quantity::WearProfile, "wear profile"),
     (Quantity::PinionPeakWear, "pinion’s peak wear"),
     (Quantity::PeakPressure, "peak pressure"),
+    (Quantity::FlankPressure, "off the tips"),
     (Quantity::HalfWidth, "half-width"),
     (Quantity::TransmissionError, "transmission error"),
     (Quantity::WornTransmissionError, "the same, worn"),

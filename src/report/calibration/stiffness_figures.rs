@@ -184,8 +184,13 @@ fn coupling(calibration: &Calibration) -> Figure {
         id: "coupling".into(),
         title: "Coupling of neighbouring teeth".into(),
         reading: format!(
-            "{at_b_and_d}A load on one pair opens the gap of its neighbour through the common bodies. Springs in parallel, as \
-             the fast model has them, leave this out; the surface fem has it."
+            "{at_b_and_d}A load on one pair moves its neighbour as well, through the bodies that both share, and by much the same \
+             wherever it stands: the fast model has the mean, {} of E·δ/w, in series with all pairs together.",
+            figure(
+                calibration.pair_compliance.shared_mm2_per_n
+                    * 1e3
+                    * calibration.belongs_to.material.pinion.young_modulus_gpa
+            )
         ),
         plot,
         wide: false,
