@@ -99,7 +99,7 @@ fn disc_wear_over_exact(surface: impl Fn(f64, &TwoDiscs) -> Box<dyn ContactSurfa
             let at = begin + f64::from(j) * step;
             LoadingPosition {
                 cell: PositionCell { position_mm: at, lower_mm: at - 0.5 * step, upper_mm: at + 0.5 * step },
-                pairs: vec![PairInMesh { position_mm: at, teeth_n_per_mm2: 20e3 }],
+                pairs: vec![PairInMesh { position_mm: at, teeth_n_per_mm2: 20e3, lever_ratio: 1.0 }],
                 on_line_of_action: true,
             }
         })

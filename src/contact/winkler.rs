@@ -16,7 +16,7 @@
 //! and load and wear agree.
 //!
 //! K/H is one constant, or a curve by position and load ([`Bed`]): it then is the same for all springs of a contact, and
-//! follows the load of the contact by a power law, which the load of the contact still solves in closed form.
+//! follows load and width of the contact as an elastic surface does, still in closed form ([`Springs`]).
 //!
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.3; the thesis, section 3.2.
 
@@ -24,7 +24,7 @@ use std::ops::Range;
 
 use super::{
     ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
-    foundation::{Bed, Springs},
+    foundation::{Bed, Penetration, Springs},
     strip::{GapAtPoints, ObservedPoints, Strip, Window, point_distance_mm},
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
@@ -158,9 +158,15 @@ impl PairContact for WinklerPair<'_> {
             before = here;
         }
         let spacing = self.strip.spacing_mm;
-        let (load, stiffness) = self.springs.load_and_stiffness(spacing * penetration, spacing * contact);
+        let integral_mm2 = spacing * penetration;
+        let (load, stiffness) = self.springs.load_and_stiffness(Penetration {
+            radius_mm: self.radius_mm,
+            depth_mm,
+            integral_mm2,
+            contact_mm: spacing * contact,
+        });
         if load > 0.0 {
-            self.foundation = self.springs.mpa_per_mm(load);
+            self.foundation = load / integral_mm2;
         }
         Response { line_load_n_per_mm: load, stiffness_n_per_mm2: stiffness }
     }

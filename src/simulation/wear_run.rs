@@ -251,7 +251,8 @@ impl WearRun<'_> {
                     let surfaces = surface.plain_approach_mm(self.pair, pitch_point, self.line_load_n_per_mm);
                     let approach = bodies + surfaces + self.line_load_n_per_mm / spring(pitch_point)?;
                     let beyond = tip_contact::reach_mm(self.pair, AMPLE_APPROACH * approach);
-                    positions_with_tip_contact(path, count, beyond, spring)?
+                    let lever_ratio = |at| tip_contact::lever_ratio(self.pair, at);
+                    positions_with_tip_contact(path, count, beyond, lever_ratio, spring)?
                 } else {
                     loading_positions(path, count, spring)?
                 };

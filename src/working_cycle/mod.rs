@@ -16,6 +16,7 @@ use crate::contact::{ContactSurface, Flanks, Footprint, PositionCell, Sweep};
 use crate::gear::{Gear, PerGear};
 use crate::wear::WearLaw;
 use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance};
+use tip_contact::OnLever;
 
 /// Groups of positions that collect wear on their own; fixed, so that sums always run in the same order.
 const GROUPS: usize = 8;
@@ -27,6 +28,8 @@ pub struct PairInMesh {
     pub position_mm: f64,
     /// Spring of its teeth, N/mm².
     pub teeth_n_per_mm2: f64,
+    /// Lever of its load on the pinion over the base radius: 1 on the line of action.
+    pub lever_ratio: f64,
 }
 
 /// One loading position: the reference pair's stretch of the path, and all pairs in mesh.
@@ -271,7 +274,14 @@ impl<'a> Station<'a> {
             .enumerate()
             .map(|(k, pair)| {
                 let cell = (k == 0).then_some(position.cell);
-                MeshedPair::new(surface.pair(flanks, pair.position_mm, cell), pair.teeth_n_per_mm2)
+                let (contact, ratio) = (surface.pair(flanks, pair.position_mm, cell), pair.lever_ratio);
+                if ratio == 1.0 {
+                    MeshedPair::new(contact, pair.teeth_n_per_mm2)
+                } else {
+                    // The spring of the teeth is pressed along the same normal.
+                    let teeth = ratio * ratio * pair.teeth_n_per_mm2;
+                    MeshedPair::new(Box::new(OnLever { contact, ratio }), teeth)
+                }
             })
             .collect();
         let on_line_of_action = position.on_line_of_action;

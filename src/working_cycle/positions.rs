@@ -45,7 +45,8 @@ pub fn loading_positions<E>(
         let mut pairs = Vec::new();
         for offset in pairs_in_mesh(path, middle_of_zone) {
             let position_mm = position_mm + f64::from(offset) * pitch;
-            pairs.push(PairInMesh { position_mm, teeth_n_per_mm2: teeth_n_per_mm2(position_mm)? });
+            let teeth_n_per_mm2 = teeth_n_per_mm2(position_mm)?;
+            pairs.push(PairInMesh { position_mm, teeth_n_per_mm2, lever_ratio: 1.0 });
         }
         let cell = PositionCell { position_mm, lower_mm, upper_mm };
         positions.push(LoadingPosition { cell, pairs, on_line_of_action: true });
@@ -55,7 +56,7 @@ pub fn loading_positions<E>(
 }
 
 /// Positions as far apart as `count` (≥ 2) from A to E, these included, but beginning `beyond_mm` before A and ending as far
-/// after E; the spring of the teeth there is that at A and E.
+/// after E; the spring of the teeth there is that at A and E, and `lever_ratio` gives the lever of the load on the pinion.
 ///
 /// # Errors
 /// The first error of `teeth_n_per_mm2`.
@@ -63,6 +64,7 @@ pub fn positions_with_tip_contact<E>(
     path: &PathOfContact,
     count: usize,
     beyond_mm: [f64; 2],
+    lever_ratio: impl Fn(f64) -> f64,
     mut teeth_n_per_mm2: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<Vec<LoadingPosition>, E> {
     let (start, end, pitch) = (path.start_mm, path.end_mm, path.base_pitch_mm);
@@ -76,7 +78,8 @@ pub fn positions_with_tip_contact<E>(
             let behind = ((position_mm - first) / pitch).floor() as i32;
             let pairs = std::iter::once(0).chain((-behind..=ahead).filter(|&offset| offset != 0)).map(|offset| {
                 let position_mm = position_mm + f64::from(offset) * pitch;
-                Ok(PairInMesh { position_mm, teeth_n_per_mm2: teeth_n_per_mm2(position_mm.clamp(start, end))? })
+                let teeth_n_per_mm2 = teeth_n_per_mm2(position_mm.clamp(start, end))?;
+                Ok(PairInMesh { position_mm, teeth_n_per_mm2, lever_ratio: lever_ratio(position_mm) })
             });
             let (lower_mm, upper_mm) = (position_mm - 0.5 * spacing, position_mm + 0.5 * spacing);
             Ok(LoadingPosition {
@@ -133,10 +136,16 @@ mod tests {
         for ratio in [1.0, 1.4375, 2.3] {
             let path = path(ratio);
             let plain = loading_positions(&path, 50, |_| Ok::<_, ()>(1.0)).unwrap();
-            let beyond = positions_with_tip_contact(&path, 50, [0.9, 1.3], |at| {
-                assert!(at >= path.start_mm && at <= path.end_mm);
-                Ok::<_, ()>(1.0)
-            })
+            let beyond = positions_with_tip_contact(
+                &path,
+                50,
+                [0.9, 1.3],
+                |_| 1.0,
+                |at| {
+                    assert!(at >= path.start_mm && at <= path.end_mm);
+                    Ok::<_, ()>(1.0)
+                },
+            )
             .unwrap();
             let rows: Vec<_> = beyond.iter().filter(|p| p.on_line_of_action).collect();
             assert_eq!(rows.len(), plain.len());

@@ -10,16 +10,25 @@
 //! ```
 //!
 //! so that contact at a tip edge needs no model of its own: it is contact at the end of the strip, with the true gap, tip
-//! rounding, relief and wear included. The contact's normal is taken to be the line of action, which it leaves by the angle
-//! along/ρ (0.1 rad at 1 mm of path before A of an FZG pair). For the load that counts with the cosine and with the lever
-//! r_b + along instead of r_b, some hundredths at most; for sliding, the component along the tangent is (ω₁ + ω₂)(C − ξ) at
-//! every place of the frame, and that along the turned flank differs from it by along²/(ρ (C − ξ)) − ½ (along/ρ)², less than
-//! one hundredth.
+//! rounding, relief and wear included.
+//!
+//! The contact's normal is that of the mate's flank where the edge touches it. Before A that is a tangent of the pinion's base
+//! circle like any other, and the load's lever on the pinion is r_b1. After E it is a tangent of the wheel's base circle, turned
+//! from the line of action by ε = Δρ₂/r_b2, and its lever on the pinion is
+//!
+//! ```text
+//! l = r_b1 cos ε − ρ₁ sin ε          δ = (approach along the normal) r_b1/l          torque = F l
+//! ```
+//!
+//! some hundredths less than r_b1 ([`lever_ratio`], [`OnLever`]). For sliding, the component along the tangent is (ω₁ + ω₂)(C − ξ)
+//! at every place of the frame, and that along the turned flank differs from it by along²/(ρ (C − ξ)) − ½ (along/ρ)², less than one
+//! hundredth.
 //!
 //! Source: R. G. Munro, L. Morrish and D. Palmer, "Gear transmission error outside the normal path of contact due to corner
 //! and top contact", *Proc. Inst. Mech. Eng. C* 213 (1999) 389–400, for the phenomenon.
 
-use crate::gear::{Gear, GearPair, conjugate::ConjugateFlanks};
+use crate::contact::{Felt, Footprint, PairContact, Response, Sweep};
+use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks};
 
 /// Greatest part of a base pitch looked at on either side.
 const MOST_BASE_PITCHES: f64 = 0.3;
@@ -49,4 +58,68 @@ fn tip_gap_mm(pair: &GearPair, tip_of: Gear, position_mm: f64) -> f64 {
     let (_, tip_rho) = pair.flank_limits_mm(tip_of);
     let edge = pair.in_tangent_frame(tip_of, tip_rho, position_mm);
     edge.drop_mm + pair.at_along(tip_of.mate(), -edge.along_mm, position_mm).1
+}
+
+/// l/r_b1: lever on the pinion of the contact with the theoretical contact point at `position_mm`, 1 from the first touch to E.
+pub fn lever_ratio(pair: &GearPair, position_mm: f64) -> f64 {
+    if position_mm <= pair.path.end_mm {
+        return 1.0;
+    }
+    let (_, tip_rho) = pair.flank_limits_mm(Gear::Pinion);
+    let edge = pair.in_tangent_frame(Gear::Pinion, tip_rho, position_mm);
+    let (touched_rho, _) = pair.at_along(Gear::Wheel, -edge.along_mm, position_mm);
+    let base = pair.path.involute.map(|involute| involute.base_radius_mm);
+    let turned = (touched_rho - pair.path.rho_mm(Gear::Wheel, position_mm)).abs() / base.wheel;
+    turned.cos() - position_mm / base.pinion * turned.sin()
+}
+
+/// A contact whose load has another lever on the pinion than r_b1: approach and load are reckoned as the transmission error and
+/// the load along the line of action that go with them.
+pub struct OnLever<'a> {
+    /// The contact along its own normal.
+    pub contact: Box<dyn PairContact + 'a>,
+    /// l/r_b1.
+    pub ratio: f64,
+}
+
+impl PairContact for OnLever<'_> {
+    fn read(&mut self, removed_mm: PerGear<&[f64]>) {
+        self.contact.read(removed_mm);
+    }
+
+    fn touch_mm(&self) -> f64 {
+        self.contact.touch_mm() / self.ratio
+    }
+
+    fn press(&mut self, depth_mm: f64) -> Response {
+        let along_normal = self.contact.press(self.ratio * depth_mm);
+        Response {
+            line_load_n_per_mm: self.ratio * along_normal.line_load_n_per_mm,
+            stiffness_n_per_mm2: self.ratio * self.ratio * along_normal.stiffness_n_per_mm2,
+        }
+    }
+
+    fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64 {
+        self.contact.ample_depth_mm(line_load_n_per_mm / self.ratio) / self.ratio
+    }
+
+    fn settle(&mut self) -> bool {
+        self.contact.settle()
+    }
+
+    fn widen(&mut self) {
+        self.contact.widen();
+    }
+
+    fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
+        self.contact.sweep(gear, removed_mm, sweep);
+    }
+
+    fn felt(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<Felt> {
+        self.contact.felt(gear, removed_mm)
+    }
+
+    fn footprint(&self) -> Footprint {
+        self.contact.footprint()
+    }
 }
