@@ -267,7 +267,10 @@ fn val_calibrated_winkler_surface_in_single_contact() {
     let mut compared = 0;
     for criterion in [MatchCriterion::HalfWidth, MatchCriterion::PeakPressure] {
         let surface = Winkler {
-            bed: Bed::Curve(calibration.foundation[&criterion].clone()),
+            bed: Bed::Curve {
+                pressure: calibration.foundation[&criterion].clone(),
+                approach: calibration.foundation[&MatchCriterion::Approach].clone(),
+            },
             expected_line_load_n_per_mm: calibration.line_load_n_per_mm,
         };
         for contact in calibration.single_contact.iter().filter(|c| c.purpose == Purpose::HeldOut) {

@@ -44,90 +44,78 @@ pub enum Bed {
         mpa_per_mm: f64,
     },
     /// K/H by position and load.
-    Curve(FoundationCurve),
+    Curve {
+        /// What the pressure spreads by.
+        pressure: FoundationCurve,
+        /// The bed with the approach of the elastic bodies.
+        approach: FoundationCurve,
+    },
 }
 
 impl Bed {
+    /// The springs at one position that have the approach of the elastic bodies, where the bed knows them.
+    pub fn approach_at(&self, position_mm: f64) -> Option<Springs> {
+        match self {
+            Self::Uniform { .. } => None,
+            Self::Curve { approach, .. } => Some(approach.springs_at(position_mm)),
+        }
+    }
+
     /// The springs at one position.
     pub fn at(&self, position_mm: f64) -> Springs {
         match self {
-            Self::Uniform { mpa_per_mm } => Springs { mpa_per_mm: *mpa_per_mm, of_curve: None },
-            Self::Curve(curve) => curve.springs_at(position_mm),
+            Self::Uniform { mpa_per_mm } => Springs { mpa_per_mm: *mpa_per_mm, load_exponent: 0.0, reference: 1.0 },
+            Self::Curve { pressure, .. } => pressure.springs_at(position_mm),
         }
     }
 }
 
-/// The springs at one position, all alike.
-///
-/// Those of a uniform bed are what they are. Those of a curve stand for an elastic surface: on a parabolic gap their K/H is the
-/// curve's, K (w/w_ref)^(−m), and on any other gap (worn, relieved, at a tip edge) it goes as that of an elastic surface does
-/// with the width of the contact, K/H ∝ 1/ℓ. As half-width ℓ of a contact with greatest penetration δ and integral of the
-/// penetration U counts that of the parabola with the same two, ℓ = 3U/(4δ), which no ripple of the gap makes jump. Then
-///
-/// ```text
-/// K/H = κ/ℓ,   κ = K a (at the same load)        w = (K/H) U = (4/3) κ(w) δ
-/// ```
-///
-/// the load follows from the approach alone, as that of plane elastic contact does but for a logarithm, and the shape of the gap
-/// decides how it spreads.
+/// The springs at one position: K/H = K (w/w_ref)^(−m), all alike, softer under more load where m > 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Springs {
     /// K, MPa/mm.
     mpa_per_mm: f64,
-    /// What makes them follow load and width; none for a uniform bed.
-    of_curve: Option<OfCurve>,
-}
-
-/// How the springs of a curve depend on the load.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct OfCurve {
     /// m.
     load_exponent: f64,
     /// w_ref, N/mm.
     reference: f64,
 }
 
-/// What a contact's springs are pressed by.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Penetration {
-    /// Relative radius of curvature of the plain gap, mm.
-    pub radius_mm: f64,
-    /// Greatest penetration δ, mm.
-    pub depth_mm: f64,
-    /// Integral U of the penetration over the contact, mm².
-    pub integral_mm2: f64,
-    /// Length in contact, U', mm.
-    pub contact_mm: f64,
-}
-
 impl Springs {
-    /// K/H on a parabolic gap under a line load (> 0 where it depends on it), MPa/mm.
+    /// K/H under a line load (> 0 where it depends on it), MPa/mm.
     pub fn mpa_per_mm(&self, line_load_n_per_mm: f64) -> f64 {
-        match self.of_curve {
-            None => self.mpa_per_mm,
-            Some(OfCurve { load_exponent, reference }) => {
-                self.mpa_per_mm * (line_load_n_per_mm / reference).powf(-load_exponent)
-            }
+        if self.load_exponent == 0.0 {
+            return self.mpa_per_mm;
         }
+        self.mpa_per_mm * (line_load_n_per_mm / self.reference).powf(-self.load_exponent)
     }
 
-    /// The line load w and its derivative by depth. On a parabolic gap a ∝ w^((1+m)/3), so κ ∝ w^p with p = (1 − 2m)/3, and from
-    /// w = (4/3) κ_ref (w/w_ref)^p δ follows without iteration
+    /// The line load w and its derivative by depth, from the integral U of the penetration over the contact and its
+    /// derivative U' (the length in contact). From w = K (w/w_ref)^(−m) U follows without iteration
     ///
     /// ```text
-    /// w = w_ref ((4/3) κ_ref δ/w_ref)^{1/(1−p)}        w' = w/((1 − p) δ)
+    /// w = w_ref (K U/w_ref)^{1/(1+m)}        w' = w/(1+m) · U'/U
     /// ```
-    pub fn load_and_stiffness(&self, pressed: Penetration) -> (f64, f64) {
-        let Some(OfCurve { load_exponent, reference }) = self.of_curve else {
-            return (self.mpa_per_mm * pressed.integral_mm2, self.mpa_per_mm * pressed.contact_mm);
-        };
-        if pressed.integral_mm2 <= 0.0 || pressed.depth_mm <= 0.0 {
+    pub fn load_and_stiffness(&self, penetration_mm2: f64, contact_mm: f64) -> (f64, f64) {
+        if self.load_exponent == 0.0 {
+            return (self.mpa_per_mm * penetration_mm2, self.mpa_per_mm * contact_mm);
+        }
+        if penetration_mm2 <= 0.0 {
             return (0.0, 0.0);
         }
-        let at_reference = self.mpa_per_mm * half_width_mm(self.mpa_per_mm, pressed.radius_mm, reference);
-        let power = 1.0 / (1.0 - (1.0 - 2.0 * load_exponent) / 3.0);
-        let load = reference * (4.0 / 3.0 * at_reference * pressed.depth_mm / reference).powf(power);
-        (load, power * load / pressed.depth_mm)
+        let power = 1.0 / (1.0 + self.load_exponent);
+        let load = self.reference * (self.mpa_per_mm * penetration_mm2 / self.reference).powf(power);
+        (load, power * load * contact_mm / penetration_mm2)
+    }
+
+    /// Approach δ = a²/2R against a parabolic gap of radius R = `radius_mm`, and its derivative by the load, of which it is the
+    /// power 2 (1 + m)/3.
+    pub fn approach_and_compliance(&self, radius_mm: f64, line_load_n_per_mm: f64) -> (f64, f64) {
+        if line_load_n_per_mm <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let approach = self.half_width_mm(radius_mm, line_load_n_per_mm).powi(2) / (2.0 * radius_mm);
+        (approach, 2.0 / 3.0 * (1.0 + self.load_exponent) * approach / line_load_n_per_mm)
     }
 
     /// Half-width against a parabolic gap of radius `radius_mm`.
@@ -177,10 +165,8 @@ impl FoundationCurve {
         let between = |low: f64, high: f64| low + weight * (high - low);
         Springs {
             mpa_per_mm: between(self.mpa_per_mm[before].ln(), self.mpa_per_mm[after].ln()).exp(),
-            of_curve: Some(OfCurve {
-                load_exponent: between(self.load_exponent[before], self.load_exponent[after]),
-                reference: self.reference_line_load_n_per_mm,
-            }),
+            load_exponent: between(self.load_exponent[before], self.load_exponent[after]),
+            reference: self.reference_line_load_n_per_mm,
         }
     }
 }
@@ -241,17 +227,11 @@ mod tests {
     #[test]
     fn ver_the_load_of_softening_springs_needs_no_iteration() {
         for position in [4.0, 9.0, 20.0, 24.0] {
-            let springs = Bed::Curve(curve()).at(position);
+            let springs = Bed::Curve { pressure: curve(), approach: curve() }.at(position);
             // A parabola of radius R penetrated by δ: U = (4/3) δ √(2Rδ), U' = 2 √(2Rδ).
             let of_depth = |depth: f64| {
                 let half_width = (2.0 * 8.4 * depth).sqrt();
-                let pressed = Penetration {
-                    radius_mm: 8.4,
-                    depth_mm: depth,
-                    integral_mm2: 4.0 / 3.0 * depth * half_width,
-                    contact_mm: 2.0 * half_width,
-                };
-                (springs.load_and_stiffness(pressed), half_width)
+                (springs.load_and_stiffness(4.0 / 3.0 * depth * half_width, 2.0 * half_width), half_width)
             };
             let ((load, stiffness), half_width) = of_depth(4e-3);
             let k = springs.mpa_per_mm(load);

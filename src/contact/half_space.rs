@@ -233,9 +233,8 @@ impl PairContact for HalfSpacePair<'_> {
                 }
                 let at = |shift: f64| on_tangent(gear, point.along_mm + shift);
                 let inside = |shift: f64| at(shift).clamp(lower, upper);
-                let faced = low <= 0.0 && high >= 0.0;
                 Felt {
-                    pressure_mpa: if faced { self.look.field.at_mpa(at(0.0)) } else { 0.0 },
+                    pressure_mpa: self.look.field.greatest_mpa([at(low), at(high)]),
                     contact_fraction: (inside(high) - inside(low)).abs() / (high - low),
                 }
             })

@@ -189,8 +189,9 @@ impl PairContact for HertzPair<'_> {
                     return Felt::default();
                 }
                 let inside = |shift: f64| (point.along_mm + shift).clamp(-a, a);
+                let nearest_to_centre = 0.0_f64.clamp(point.along_mm + low, point.along_mm + high);
                 Felt {
-                    pressure_mpa: if low <= 0.0 && high >= 0.0 { ellipse.pressure_mpa(point.along_mm) } else { 0.0 },
+                    pressure_mpa: ellipse.pressure_mpa(nearest_to_centre),
                     contact_fraction: (inside(high) - inside(low)) / (high - low),
                 }
             })

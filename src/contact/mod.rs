@@ -77,7 +77,7 @@ impl Sweep {
 /// What an observer sees of one point of a [`Sweep`].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Felt {
-    /// Pressure at the loading position, MPa; 0 where the point does not face the other flank there.
+    /// Greatest pressure while the contact moves through the cell and the point faces the other flank, MPa.
     pub pressure_mpa: f64,
     /// Part of the cell's sliding during which the point is in contact, 0 to 1.
     pub contact_fraction: f64,
@@ -105,6 +105,12 @@ pub trait PairContact: Send {
 
     /// Load and stiffness when the flanks are pressed together by `depth_mm` beyond their first touch.
     fn press(&mut self, depth_mm: f64) -> Response;
+
+    /// Approach of the bodies under a line load beside the depth that is pressed, and its derivative by the load: what a model
+    /// whose surface yields too little leaves out.
+    fn further_approach_mm(&self, _line_load_n_per_mm: f64) -> (f64, f64) {
+        (0.0, 0.0)
+    }
 
     /// A depth that should carry at least `line_load_n_per_mm`, to begin an iteration with.
     fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64;

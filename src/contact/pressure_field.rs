@@ -73,6 +73,14 @@ impl PressureField {
         (self.load_below(to_mm) - self.load_below(from_mm)) / length
     }
 
+    /// Greatest pressure from one place to another.
+    pub fn greatest_mpa(&self, [from_mm, to_mm]: [f64; 2]) -> f64 {
+        let cells = |x_mm: f64| ((x_mm - self.lower_mm) / self.width_mm - 0.5).max(0.0);
+        let (low, high) = (cells(from_mm.min(to_mm)).ceil() as usize, cells(from_mm.max(to_mm)) as usize);
+        let centres = self.pressure_mpa.iter().take(high + 1).skip(low).copied();
+        centres.fold(self.at_mpa(from_mm).max(self.at_mpa(to_mm)), f64::max)
+    }
+
     /// P(x), N/mm.
     fn load_below(&self, x_mm: f64) -> f64 {
         let upper_mm = self.lower_mm + self.pressure_mpa.len() as f64 * self.width_mm;
@@ -178,6 +186,8 @@ mod tests {
             let step = (to - from) / f64::from(parts);
             let sum: f64 = (0..parts).map(|i| field.at_mpa(from + (f64::from(i) + 0.5) * step)).sum();
             assert!((field.mean_mpa([from, to]) / (sum / f64::from(parts)) - 1.0).abs() < 1e-6);
+            let greatest = (0..parts).map(|i| field.at_mpa(from + (f64::from(i) + 0.5) * step)).fold(0.0, f64::max);
+            assert!((field.greatest_mpa([to, from]) / greatest - 1.0).abs() < 1e-3);
             // The mirror image beyond ends under pressure, nothing beyond others.
             for [within, beyond] in [[[-0.3, -0.18], [-0.42, -0.3]], [[0.17, 0.3], [0.3, 0.43]]] {
                 let loaded = field.at_mpa(if within[0] < 0.0 { -0.3 } else { 0.3 }) > 0.0;

@@ -301,9 +301,10 @@ pub struct FacedGap<'a> {
 }
 
 impl FacedGap<'_> {
-    /// Whether the point faces the mate at the cell's position itself.
-    pub fn is_faced_at_position(&self) -> bool {
-        self.course.from_mm <= 0.0 && self.course.to_mm >= 0.0 && self.course.from_mm < self.course.to_mm
+    /// The greatest penetration on the course, for flanks that have approached each other by `approach_mm`; not positive
+    /// where the point never touches.
+    pub fn greatest_penetration_mm(&self, approach_mm: f64) -> f64 {
+        if self.course.from_mm < self.course.to_mm { approach_mm - self.gap_mm - self.growth.least_mm } else { 0.0 }
     }
 
     /// Mean over the course of the positive part of the penetration, for flanks that have approached each other by

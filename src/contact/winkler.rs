@@ -16,7 +16,10 @@
 //! and load and wear agree.
 //!
 //! K/H is one constant, or a curve by position and load ([`Bed`]): it then is the same for all springs of a contact, and
-//! follows load and width of the contact as an elastic surface does, still in closed form ([`Springs`]).
+//! follows the load of the contact by a power law, which the load of the contact still solves in closed form. A bed with the
+//! half-width or the peak pressure of elastic bodies yields by a third or half as much as they do; a calibration knows the bed with
+//! their approach too, and what the one lacks of the other under a contact's load is added to the approach of the gears: flattening
+//! is softer under light load, where a tip edge begins to touch, and no spring of the teeth can stand for that.
 //!
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.3; the thesis, section 3.2.
 
@@ -24,7 +27,7 @@ use std::ops::Range;
 
 use super::{
     ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
-    foundation::{Bed, Penetration, Springs},
+    foundation::{Bed, Springs},
     strip::{GapAtPoints, ObservedPoints, Strip, Window, point_distance_mm},
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
@@ -55,6 +58,7 @@ impl ContactSurface for Winkler {
         let (strip, observed) = site.look();
         Box::new(WinklerPair {
             springs,
+            bodies: self.bed.approach_at(position_mm),
             foundation: springs.mpa_per_mm(self.expected_line_load_n_per_mm),
             radius_mm,
             site,
@@ -69,8 +73,8 @@ impl ContactSurface for Winkler {
 
     fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
         let radius = geometry.relative_radius_mm(position_mm);
-        let a = self.bed.at(position_mm).half_width_mm(radius, line_load_n_per_mm);
-        a * a / (2.0 * radius)
+        let springs = self.bed.approach_at(position_mm).unwrap_or_else(|| self.bed.at(position_mm));
+        springs.approach_and_compliance(radius, line_load_n_per_mm).0
     }
 
     fn stiffness_of_short_waves_mpa_per_mm(
@@ -115,6 +119,8 @@ impl Site<'_> {
 /// One tooth pair on the foundation.
 struct WinklerPair<'a> {
     springs: Springs,
+    /// The springs with the approach of the elastic bodies, where they are known.
+    bodies: Option<Springs>,
     /// K/H under the last load, MPa/mm.
     foundation: f64,
     radius_mm: f64,
@@ -158,17 +164,18 @@ impl PairContact for WinklerPair<'_> {
             before = here;
         }
         let spacing = self.strip.spacing_mm;
-        let integral_mm2 = spacing * penetration;
-        let (load, stiffness) = self.springs.load_and_stiffness(Penetration {
-            radius_mm: self.radius_mm,
-            depth_mm,
-            integral_mm2,
-            contact_mm: spacing * contact,
-        });
+        let (load, stiffness) = self.springs.load_and_stiffness(spacing * penetration, spacing * contact);
         if load > 0.0 {
-            self.foundation = load / integral_mm2;
+            self.foundation = self.springs.mpa_per_mm(load);
         }
         Response { line_load_n_per_mm: load, stiffness_n_per_mm2: stiffness }
+    }
+
+    fn further_approach_mm(&self, line_load_n_per_mm: f64) -> (f64, f64) {
+        let Some(bodies) = self.bodies else { return (0.0, 0.0) };
+        let [whole, own] =
+            [bodies, self.springs].map(|springs| springs.approach_and_compliance(self.radius_mm, line_load_n_per_mm));
+        (whole.0 - own.0, whole.1 - own.1)
     }
 
     fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64 {
@@ -204,12 +211,9 @@ impl PairContact for WinklerPair<'_> {
         let approach_mm = self.touch + self.depth;
         faced
             .faced(points, gear, removed_mm, self.touching(gear, points))
-            .map(|faced| {
-                let penetration = if faced.is_faced_at_position() { approach_mm - faced.gap_mm } else { 0.0 };
-                Felt {
-                    pressure_mpa: self.foundation * penetration.max(0.0),
-                    contact_fraction: faced.mean_penetration(approach_mm).1,
-                }
+            .map(|faced| Felt {
+                pressure_mpa: self.foundation * faced.greatest_penetration_mm(approach_mm).max(0.0),
+                contact_fraction: faced.mean_penetration(approach_mm).1,
             })
             .collect()
     }

@@ -20,7 +20,7 @@ use crate::contact::{
     half_space::HalfSpace,
     hertz::{self, Hertz},
     hertz_mean::HertzMean,
-    settings::{Foundation, Material, SurfaceKind},
+    settings::{Foundation, MatchCriterion, Material, SurfaceKind},
     winkler::Winkler,
 };
 use crate::fem::elastic::Elastic;
@@ -161,9 +161,13 @@ pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Obs
             Some(Bed::Uniform { mpa_per_mm: foundation_mpa_per_mm })
         }
         (SurfaceKind::Winkler, Foundation::Calibrated(criterion), Some(calibration))
-            if calibration.foundation.contains_key(&criterion) =>
+            if calibration.foundation.contains_key(&criterion)
+                && calibration.foundation.contains_key(&MatchCriterion::Approach) =>
         {
-            Some(Bed::Curve(calibration.foundation[&criterion].clone()))
+            Some(Bed::Curve {
+                pressure: calibration.foundation[&criterion].clone(),
+                approach: calibration.foundation[&MatchCriterion::Approach].clone(),
+            })
         }
         (SurfaceKind::Winkler, Foundation::Matched(criterion) | Foundation::Calibrated(criterion), _) => {
             let matched = || matched_mpa_per_mm(criterion, &at_pitch, line_load_n_per_mm);

@@ -133,7 +133,8 @@ impl<'a> MeshedPair<'a> {
 
     /// Approach of the whole pair beyond the first touch of its flanks, teeth included.
     fn whole_depth_mm(&self) -> f64 {
-        self.depth_mm + self.response.line_load_n_per_mm / self.teeth_n_per_mm2
+        let load = self.response.line_load_n_per_mm;
+        self.depth_mm + load / self.teeth_n_per_mm2 + self.contact.further_approach_mm(load).0
     }
 
     /// Approach of the whole pair.
@@ -148,7 +149,9 @@ impl<'a> MeshedPair<'a> {
 
     /// 1 + w'/k.
     fn series(&self) -> f64 {
-        1.0 + self.response.stiffness_n_per_mm2 / self.teeth_n_per_mm2
+        let Response { line_load_n_per_mm, stiffness_n_per_mm2 } = self.response;
+        let (_, further) = self.contact.further_approach_mm(line_load_n_per_mm);
+        1.0 + stiffness_n_per_mm2 * (1.0 / self.teeth_n_per_mm2 + further)
     }
 }
 

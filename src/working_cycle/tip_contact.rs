@@ -99,6 +99,11 @@ impl PairContact for OnLever<'_> {
         }
     }
 
+    fn further_approach_mm(&self, line_load_n_per_mm: f64) -> (f64, f64) {
+        let (approach, compliance) = self.contact.further_approach_mm(line_load_n_per_mm / self.ratio);
+        (approach / self.ratio, compliance / (self.ratio * self.ratio))
+    }
+
     fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64 {
         self.contact.ample_depth_mm(line_load_n_per_mm / self.ratio) / self.ratio
     }
