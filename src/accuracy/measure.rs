@@ -11,7 +11,7 @@
 //!
 //! The pressure at a sharp tip edge is singular: its peak grows with every refinement and has no value that a model
 //! could meet. Positions within [`EDGE_HALF_WIDTHS`] Hertz half-widths of A or E are left out of the comparison of peak
-//! pressures where the tip edge that ends contact there is sharp.
+//! pressures where the tip edge that ends contact there is sharp, and out of that of pressures away from tip edges always.
 
 use std::collections::BTreeMap;
 
@@ -29,6 +29,8 @@ pub const EDGE_HALF_WIDTHS: f64 = 3.0;
 pub struct Windows {
     /// From A to E less what a sharp tip edge spoils.
     pub pressure_mm: [f64; 2],
+    /// From A to E less what any tip edge takes part in.
+    pub flank_mm: [f64; 2],
     /// Where one pair carries the load alone.
     pub single_contact_mm: [f64; 2],
 }
@@ -41,6 +43,7 @@ impl Windows {
         Self {
             // At A the wheel's tip is in contact, at E the pinion's.
             pressure_mm: [points.A + spoilt(sharp.wheel), points.E - spoilt(sharp.pinion)],
+            flank_mm: [points.A + spoilt(true), points.E - spoilt(true)],
             single_contact_mm: single,
         }
     }
@@ -77,6 +80,13 @@ pub fn errors(observed: &Observed, reference: &Observed, windows: &Windows) -> B
                 peak_pressure_mpa(&reference.cycle, windows),
             ),
         ),
+        (
+            Quantity::FlankPressure,
+            relative_difference(
+                greatest_within(&observed.cycle, windows.flank_mm),
+                greatest_within(&reference.cycle, windows.flank_mm),
+            ),
+        ),
         (Quantity::HalfWidth, half_width),
         (Quantity::TransmissionError, over_path(|c| &c.transmission_error_um)),
         (Quantity::TransmissionErrorPeakToPeak, between(|c| &c.transmission_error_um)),
@@ -92,7 +102,11 @@ pub fn profile_error(observed: &ObservedFlank, reference: &ObservedFlank) -> f64
 
 /// Greatest pressure away from sharp tip edges.
 pub fn peak_pressure_mpa(cycle: &ObservedCycle, windows: &Windows) -> f64 {
-    greatest(&within(&cycle.position_mm, &cycle.peak_pressure_mpa, windows.pressure_mm))
+    greatest_within(cycle, windows.pressure_mm)
+}
+
+fn greatest_within(cycle: &ObservedCycle, window_mm: [f64; 2]) -> f64 {
+    greatest(&within(&cycle.position_mm, &cycle.peak_pressure_mpa, window_mm))
 }
 
 /// Greatest less least value.
@@ -165,6 +179,7 @@ mod tests {
         let windows = Windows::new(&points, PerGear { pinion: false, wheel: true }, 0.2);
         assert_eq!(windows.pressure_mm, [4.0 + 3.0 * 0.2, 24.0]);
         assert_eq!(windows.single_contact_mm, [10.0, 18.0]);
+        assert_eq!(windows.flank_mm, [4.0 + 3.0 * 0.2, 24.0 - 3.0 * 0.2]);
         let cycle = ObservedCycle {
             position_mm: vec![4.0, 5.0, 24.0],
             peak_pressure_mpa: vec![9000.0, 1500.0, 2000.0],

@@ -264,7 +264,7 @@ fn times(run: &RunRecord) -> (f64, f64) {
 }
 
 /// A run of the reference, which must be there.
-fn finished<'a>(measured: &'a [Measured], index: usize) -> Result<&'a (RunRecord, Observed), AccuracyError> {
+fn finished(measured: &[Measured], index: usize) -> Result<&(RunRecord, Observed), AccuracyError> {
     let one = measured.get(index).ok_or(AccuracyError::Interrupted)?;
     one.run.as_ref().ok_or_else(|| AccuracyError::Reference {
         name: one.record.name.clone(),

@@ -79,15 +79,15 @@ fn table(record: &AccuracyRecord) -> String {
     let per_cent = |error: f64| format!("{} %", digits(100.0 * error));
     let mut text = format!("{}\n\nreference: {}\n\n", record.title, record.reference.how);
     let line = |name: &str, cells: [&str; 4]| {
-        format!("  {name:52}{:>10}{:>11}{:>11}{:>11}\n", cells[0], cells[1], cells[2], cells[3])
+        format!("  {name:60}{:>10}{:>12}{:>12}{:>12}\n", cells[0], cells[1], cells[2], cells[3])
     };
-    text.push_str(&line("on the front of the wear profile", ["time, s", "profile", "pressure", "trans. err."]));
+    text.push_str(&line("on the front of the wear profile", ["time, s", "profile", "pressure", "trans. err"]));
     let error = |v: &VariantRecord, quantity| v.errors.get(&quantity).map(|error| error.relative);
     let mut front: Vec<&VariantRecord> =
         record.variants.iter().filter(|v| v.errors.get(&Quantity::WearProfile).is_some_and(|e| e.on_front)).collect();
     front.sort_by(|a, b| a.simulation_s.unwrap_or(0.0).total_cmp(&b.simulation_s.unwrap_or(0.0)));
     for variant in front {
-        let cells = [Quantity::WearProfile, Quantity::PeakPressure, Quantity::TransmissionError]
+        let cells = [Quantity::WearProfile, Quantity::FlankPressure, Quantity::TransmissionError]
             .map(|quantity| error(variant, quantity).map_or_else(|| "–".to_owned(), per_cent));
         let wall_s = variant.simulation_s.map_or_else(|| "–".to_owned(), digits);
         text.push_str(&line(&variant.name, [&wall_s, &cells[0], &cells[1], &cells[2]]));
@@ -98,7 +98,7 @@ fn table(record: &AccuracyRecord) -> String {
         let found = error(variant, r.quantity).map_or_else(String::new, per_cent);
         let none = if r.is_within { "" } else { "none; closest: " };
         let wall_s = variant.simulation_s.map_or_else(String::new, |s| format!(", {} s", digits(s)));
-        text.push_str(&format!("  {:38}{none}{} ({found}{wall_s})\n", r.quantity.title(), variant.name));
+        text.push_str(&format!("  {:44}{none}{} ({found}{wall_s})\n", r.quantity.title(), variant.name));
     }
     let failed: Vec<&VariantRecord> = record.variants.iter().filter(|v| v.failure.is_some()).collect();
     if !failed.is_empty() {

@@ -68,8 +68,10 @@ pub enum Quantity {
     PinionPeakWear,
     /// Greatest depth on the wheel.
     WheelPeakWear,
-    /// Greatest pressure of the unworn pair.
+    /// Greatest pressure of the unworn pair, at rounded tip edges too.
     PeakPressure,
+    /// Greatest pressure of the unworn pair away from tip edges.
+    FlankPressure,
     /// Half-width of the unworn contact where one pair carries the load alone.
     HalfWidth,
     /// Loaded transmission error of the unworn pair over the path of contact.
@@ -84,13 +86,14 @@ pub enum Quantity {
 
 impl Quantity {
     /// All of them, in the order of the tables.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::WearProfile,
         Self::PinionWearProfile,
         Self::WheelWearProfile,
         Self::PinionPeakWear,
         Self::WheelPeakWear,
         Self::PeakPressure,
+        Self::FlankPressure,
         Self::HalfWidth,
         Self::TransmissionError,
         Self::TransmissionErrorPeakToPeak,
@@ -107,6 +110,7 @@ impl Quantity {
             Self::PinionPeakWear => "pinion_peak_wear",
             Self::WheelPeakWear => "wheel_peak_wear",
             Self::PeakPressure => "peak_pressure",
+            Self::FlankPressure => "flank_pressure",
             Self::HalfWidth => "half_width",
             Self::TransmissionError => "transmission_error",
             Self::TransmissionErrorPeakToPeak => "transmission_error_peak_to_peak",
@@ -124,6 +128,7 @@ impl Quantity {
             Self::PinionPeakWear => "Greatest wear, pinion",
             Self::WheelPeakWear => "Greatest wear, wheel",
             Self::PeakPressure => "Greatest pressure, new",
+            Self::FlankPressure => "Greatest pressure away from tip edges, new",
             Self::HalfWidth => "Half-width in single contact, new",
             Self::TransmissionError => "Transmission error, new",
             Self::TransmissionErrorPeakToPeak => "Transmission error peak to peak, new",
@@ -145,6 +150,10 @@ impl Quantity {
             Self::PeakPressure => {
                 "relative difference of the greatest pressure over the path of contact, without the \
                                    positions at a sharp tip edge"
+            }
+            Self::FlankPressure => {
+                "relative difference of the greatest pressure over the path of contact, without the positions at a tip edge, \
+                 sharp or rounded"
             }
             Self::HalfWidth => "relative L2 error of the half-width over the path from B to D",
             Self::TransmissionError | Self::WornTransmissionError => {

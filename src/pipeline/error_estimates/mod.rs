@@ -14,7 +14,7 @@ mod wear_runs;
 use super::{Model, elastic};
 use crate::contact::settings::SurfaceKind;
 use crate::fem::gear::position::CondensedPair;
-use crate::gear::Gear;
+use crate::gear::PerGear;
 use crate::mesh::settings::BodySettings;
 use crate::simulation::{
     figures::WearFigures,
@@ -119,9 +119,9 @@ fn relative_cost(surface: SurfaceKind) -> f64 {
     }
 }
 
-/// Greatest wear depth of the pinion's flank.
-fn peak_wear_mm(model: &Model<'_>, outcome: &Outcome) -> f64 {
-    WearFigures::at(model.pair, Gear::Pinion, outcome, &outcome.worn).peak_mm
+/// Greatest wear depth of each gear's flank.
+fn peak_wear_of_both_mm(model: &Model<'_>, outcome: &Outcome) -> PerGear<f64> {
+    PerGear::from_fn(|gear| WearFigures::at(model.pair, gear, outcome, &outcome.worn).peak_mm)
 }
 
 /// Warns where an estimate says that the peak wear is far from converged, or the surface far from true.

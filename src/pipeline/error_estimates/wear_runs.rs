@@ -1,13 +1,17 @@
 //! Discretisation and wear step, from coarser wear runs.
 //!
-//! On the line of action two companions take a quarter of the wear steps S; one of them also half of the flank points and
-//! positions N. With the orders that the methods have (Euler: first in the step; flank and path of contact: second in their
-//! spacing, first with the discontinuous pressure of `hertz-mean`),
+//! On the line of action two companions take an eighth of the wear steps S (on elastic half-planes, where short waves of wear
+//! bound the step, a quarter); one of them also half of the flank points and positions N. With the orders that the methods
+//! have (Euler: first in the step; flank and path of contact: second in their spacing, first with the discontinuous pressure
+//! of `hertz-mean`),
 //!
 //! ```text
-//! wear step        |h(N, S) − h(N, S/4)| / (4 − 1) / h
-//! discretisation   |h(N, S/4) − h(N/2, S/4)| / (2ᵖ − 1) / h
+//! wear step        |h(N, S) − h(N, S/8)| / (8 − 1) / h
+//! discretisation   |h(N, S/8) − h(N/2, S/8)| / (2ᵖ − 1) / h
 //! ```
+//!
+//! The greatest depth lies on a curve that coarse points cut now here, now there. So that an estimate does not vanish where one
+//! difference happens to change its sign, it is the larger of the pinion's and the wheel's.
 //!
 //! On finite elements short waves of wear bound Euler's steps, and a companion on the same mesh M with four times the step
 //! may swing. Most companions are therefore on a mesh with elements twice as long, on which an equilibrium takes about half
@@ -22,15 +26,19 @@
 //!
 //! Source: L. F. Richardson (1911); P. J. Roache, *Verification and Validation in Computational Science* (1998).
 
-use super::{Companion, Estimate, LEAST_POINTS, peak_wear_mm};
+use super::{Companion, Estimate, LEAST_POINTS, peak_wear_of_both_mm};
 use crate::contact::settings::SurfaceKind;
 use crate::fem::gear::position::CondensedPair;
+use crate::gear::{Gear, PerGear};
 use crate::pipeline::Model;
 use crate::simulation::settings::{Numerics, Operation};
 use crate::simulation::wear_run::{MeshContact, Outcome, Progress, SimulationError, WearRun};
 
 /// Cost of an equilibrium on finite elements twice as long.
 const COST_ON_COARSE_MESH: f64 = 0.5;
+
+/// Least ratio of two wear steps of which anything is learned.
+const LEAST_STEP_RATIO: f64 = 1.5;
 
 /// What the wear runs say, and their cost over that of the run.
 pub(super) struct FromRuns {
@@ -55,11 +63,13 @@ struct Companions<'a> {
     model: &'a Model<'a>,
     operation: Operation,
     observer: &'a dyn Progress,
+    /// Of the run itself.
+    peaks_mm: PerGear<f64>,
     /// Cost so far, in equilibria of the run itself.
     cost: f64,
 }
 
-/// Error of the peak wear in mm with how it was obtained, or why it was not.
+/// Relative error of the peak wear with how it was obtained, or why it was not.
 type Difference = Result<(f64, String), String>;
 
 impl<'a> Companions<'a> {
@@ -88,14 +98,24 @@ impl<'a> Companions<'a> {
         )
     }
 
-    /// The pinion's peak wear by a coarser run on `contact`, an equilibrium of which costs `weight`; where it does not come to
+    /// The larger of both gears' differences of the peak wear, over that of the run.
+    fn relative(&self, one: PerGear<f64>, other: PerGear<f64>) -> f64 {
+        let of = |gear: Gear| {
+            let difference = (one[gear] - other[gear]).abs();
+            // Where nothing wears there is nothing to be wrong about.
+            if self.peaks_mm[gear] > 0.0 { difference / self.peaks_mm[gear] } else { 0.0 }
+        };
+        of(Gear::Pinion).max(of(Gear::Wheel))
+    }
+
+    /// The peak wear of both gears by a coarser run on `contact`, an equilibrium of which costs `weight`; where it does not come to
     /// its end, why. Companions from `begin` on are still to come, as a share of all their work.
-    fn peak_mm(
+    fn peaks_mm(
         &mut self,
         coarser: Coarser,
         (contact, weight): (MeshContact<'a>, f64),
         (begin, end): (f64, f64),
-    ) -> Result<f64, String> {
+    ) -> Result<PerGear<f64>, String> {
         if !self.allow(coarser.spacing) {
             return Err("too few flank points or positions to leave some out".to_owned());
         }
@@ -107,7 +127,7 @@ impl<'a> Companions<'a> {
         self.cost += weight * outcome.work.equilibria as f64;
         match outcome.failure.clone() {
             Some(error) => Err(failed(error)),
-            None => Ok(peak_wear_mm(self.model, &outcome)),
+            None => Ok(peak_wear_of_both_mm(self.model, &outcome)),
         }
     }
 }
@@ -120,16 +140,14 @@ pub(super) fn estimate<'a>(
     observer: &'a dyn Progress,
 ) -> FromRuns {
     let operation = Operation { snapshots_revolutions: Vec::new(), ..model.scene.operation.clone() };
-    let mut companions = Companions { model, operation, observer, cost: 0.0 };
-    let reference_mm = peak_wear_mm(model, outcome);
-    // Where nothing wears there is nothing to be wrong about.
-    let relative = |difference: f64| if reference_mm > 0.0 { difference.abs() / reference_mm } else { 0.0 };
+    let peaks_mm = peak_wear_of_both_mm(model, outcome);
+    let mut companions = Companions { model, operation, observer, peaks_mm, cost: 0.0 };
     let estimate = |difference: Difference| match difference {
-        Ok((difference_mm, how)) => Estimate { relative: Some(relative(difference_mm)), how },
+        Ok((relative, how)) => Estimate { relative: Some(relative), how },
         Err(reason) => Estimate::none(&reason),
     };
     let ([discretisation, wear_step], surface_model) = match (model.contact, coarse_elements) {
-        (MeshContact::LineOfAction { .. }, _) => (on_the_line_of_action(&mut companions, reference_mm), None),
+        (MeshContact::LineOfAction { .. }, _) => (on_the_line_of_action(&mut companions, peaks_mm), None),
         (MeshContact::FiniteElements(_), Some(coarse)) => {
             let [discretisation, wear_step, elements] = on_finite_elements(&mut companions, coarse);
             ([discretisation, wear_step], Some(elements))
@@ -148,20 +166,27 @@ pub(super) fn estimate<'a>(
 }
 
 /// Discretisation and wear step.
-fn on_the_line_of_action(companions: &mut Companions<'_>, reference_mm: f64) -> [Difference; 2] {
+fn on_the_line_of_action(companions: &mut Companions<'_>, reference: PerGear<f64>) -> [Difference; 2] {
+    let surface = companions.model.scene.contact.surface;
+    let step = if surface == SurfaceKind::HalfSpace { 4.0 } else { 8.0 };
     let own = (companions.model.contact, 1.0);
-    let stepped = companions.peak_mm(Coarser { spacing: 1, step: 4.0 }, own, (0.0, 0.6));
+    let stepped = companions.peaks_mm(Coarser { spacing: 1, step }, own, (0.0, 0.5));
     let discretisation = stepped.clone().and_then(|stepped| {
-        let spaced = companions.peak_mm(Coarser { spacing: 2, step: 4.0 }, own, (0.6, 0.9))?;
-        let (order, divisor) = match companions.model.scene.contact.surface {
-            SurfaceKind::HertzMean => ("first", 1.0),
-            _ => ("second", 3.0),
-        };
+        let half = companions.peaks_mm(Coarser { spacing: 2, step }, own, (0.5, 0.75))?;
+        let (order, divisor) = if surface == SurfaceKind::HertzMean { ("first", 1.0) } else { ("second", 3.0) };
         let how = format!("Richardson, {order} order, from companion runs with {}", companions.spacings());
-        Ok(((stepped - spaced) / divisor, how))
+        Ok((companions.relative(stepped, half) / divisor, how))
     });
-    let how = "Richardson, first order, from a companion run with wear steps four times as long";
-    [discretisation, stepped.map(|stepped| ((reference_mm - stepped) / 3.0, how.to_owned()))]
+    let duration = companions.operation.pinion_revolutions;
+    let ratio = step.min(duration / companions.model.scene.numerics.step_revolutions);
+    let wear_step = stepped.and_then(|stepped| {
+        if ratio < LEAST_STEP_RATIO {
+            return Err("the run is hardly longer than one wear step".to_owned());
+        }
+        let how = format!("Richardson, first order, from a companion run with wear steps {step} times as long");
+        Ok((companions.relative(reference, stepped) / (ratio - 1.0), how))
+    });
+    [discretisation, wear_step]
 }
 
 /// Discretisation, wear step, and size of the elements.
@@ -171,26 +196,27 @@ fn on_finite_elements<'a>(companions: &mut Companions<'a>, coarse: &'a Condensed
     let few = if companions.allow(4) { 4 } else { 2 };
     let points = format!("one in {few} of the points and positions");
 
-    let short = companions.peak_mm(Coarser { spacing: few, step: 2.0 }, coarse, (0.0, 0.15));
+    let short = companions.peaks_mm(Coarser { spacing: few, step: 2.0 }, coarse, (0.0, 0.15));
     let wear_step = short.clone().and_then(|short| {
-        let long = companions.peak_mm(Coarser { spacing: few, step: 4.0 }, coarse, (0.15, 0.22))?;
+        let long = companions.peaks_mm(Coarser { spacing: few, step: 4.0 }, coarse, (0.15, 0.22))?;
         let how = format!(
             "Richardson, first order, from companion runs with wear steps twice and four times as long, {points}, {on_mesh}"
         );
-        Ok(((short - long) / 2.0, how))
+        Ok((companions.relative(short, long) / 2.0, how))
     });
     let elements = short.and_then(|short| {
-        let fine = companions.peak_mm(Coarser { spacing: few, step: 2.0 }, own, (0.22, 0.55))?;
+        let fine = companions.peaks_mm(Coarser { spacing: few, step: 2.0 }, own, (0.22, 0.55))?;
         let how = format!(
             "the surface is the finite-element one, whose error is the size of its elements: Richardson, second order, from \
              companion runs with {points} and wear steps twice as long, on this mesh and {on_mesh}"
         );
-        Ok(((fine - short) / 3.0, how))
+        Ok((companions.relative(fine, short) / 3.0, how))
     });
-    let discretisation = companions.peak_mm(Coarser { spacing: 1, step: 4.0 }, coarse, (0.55, 0.85)).and_then(|fine| {
-        let half = companions.peak_mm(Coarser { spacing: 2, step: 4.0 }, coarse, (0.85, 1.0))?;
-        let how = format!("Richardson, second order, from companion runs with {} {on_mesh}", companions.spacings());
-        Ok(((fine - half) / 3.0, how))
-    });
+    let discretisation =
+        companions.peaks_mm(Coarser { spacing: 1, step: 4.0 }, coarse, (0.55, 0.85)).and_then(|fine| {
+            let half = companions.peaks_mm(Coarser { spacing: 2, step: 4.0 }, coarse, (0.85, 1.0))?;
+            let how = format!("Richardson, second order, from companion runs with {} {on_mesh}", companions.spacings());
+            Ok((companions.relative(fine, half) / 3.0, how))
+        });
     [discretisation, wear_step, elements]
 }

@@ -50,7 +50,8 @@ fn stroke(variant: &VariantRecord) -> Stroke {
     match s.surface.as_str() {
         "hertz-mean" => Stroke { colour: "var(--new)", dash: DashType::Dot, at_once: true },
         "hertz" => Stroke { colour: "var(--wheel)", dash: DashType::Solid, at_once: true },
-        "half-space" => Stroke { colour: "var(--path)", dash: DashType::Solid, at_once: true },
+        "half-space" if s.tip_contact => Stroke { colour: "var(--path)", dash: DashType::Solid, at_once: true },
+        "half-space" => Stroke { colour: "var(--path)", dash: DashType::Dash, at_once: false },
         "fem" => Stroke { colour: "var(--worn)", dash: DashType::Dash, at_once: variant.part_of_reference },
         _ if s.calibrated => {
             Stroke { colour: "var(--pinion)", dash: DashType::Solid, at_once: !other_criterion && s.tip_contact }
@@ -96,7 +97,7 @@ fn profiles(record: &AccuracyRecord, shown: &[&VariantRecord], gear: Gear) -> Fi
             figure(record.reference.peak_wear_um[gear])
         ),
         plot,
-        wide: false,
+        wide: true,
     }
 }
 
@@ -126,7 +127,7 @@ fn differences(record: &AccuracyRecord, shown: &[&VariantRecord], gear: Gear) ->
         title: format!("Where on the {}’s flank each surface is off", gear.name()),
         reading: format!("Furthest from the reference: {}.", at_once.join("; ")),
         plot,
-        wide: false,
+        wide: true,
     }
 }
 
@@ -162,7 +163,7 @@ fn finish(plot: &mut Plot, reference: &ReferenceFlank, gear: Gear, y_title: &str
         let deepest = 1.25 * crate::report::html::reading::greatest(&reference.wear_um).map_or(1.0, |e| e.value);
         y = y.range(vec![deepest, -0.02 * deepest]);
     }
-    plot.set_layout(mark_path_points(layout(460).show_legend(true).x_axis(x).y_axis(y), points));
+    plot.set_layout(mark_path_points(layout(640).show_legend(true).x_axis(x).y_axis(y), points));
 }
 
 fn profile_of(gear: Gear) -> Quantity {

@@ -1,15 +1,15 @@
 //! The tables of the page: recommendations, all runs, runs that differ in one respect, what was left out.
 
-use crate::gear::PerGear;
-use crate::report::html::number::{count, percent, significant};
+use crate::report::html::number::{count, fixed, percent, significant};
 use crate::report::html::page::escape;
 use crate::simulation::accuracy_record::{AccuracyRecord, Comparison, Quantity, VariantRecord};
 
 /// The quantities with a column of their own in the table of all runs.
-const SHOWN: [(Quantity, &str); 6] = [
+const SHOWN: [(Quantity, &str); 7] = [
     (Quantity::WearProfile, "wear profile"),
     (Quantity::PinionPeakWear, "pinion’s peak wear"),
     (Quantity::PeakPressure, "peak pressure"),
+    (Quantity::FlankPressure, "off the tips"),
     (Quantity::HalfWidth, "half-width"),
     (Quantity::TransmissionError, "transmission error"),
     (Quantity::WornTransmissionError, "the same, worn"),
@@ -68,7 +68,7 @@ pub fn runs(record: &AccuracyRecord) -> String {
                 None => v.name.clone(),
             },
             seconds(v.simulation_s),
-            seconds(v.setup_s),
+            v.setup_s.map_or_else(dash, |wall_s| fixed(wall_s, 2)),
             v.work.map_or_else(dash, |work| count(work.equilibria)),
         ];
         cells.extend(SHOWN.map(|(quantity, _)| {
@@ -79,7 +79,7 @@ pub fn runs(record: &AccuracyRecord) -> String {
         cells
     });
     let caption = "All runs, the best wear profile first; ● on the Pareto front of the quantity";
-    format!("<div class=\"wide-table\">{}</div>\n", table(caption, &columns, rows))
+    table(caption, &columns, rows)
 }
 
 /// Runs that differ in one respect only.
@@ -88,15 +88,9 @@ pub fn comparisons(record: &AccuracyRecord) -> String {
 }
 
 fn comparison(of: &Comparison) -> String {
-    let PerGear { pinion, wheel } = PerGear { pinion: "pinion", wheel: "wheel" };
-    let columns = [
-        of.title.to_lowercase(),
-        format!("profile, {pinion}"),
-        format!("profile, {wheel}"),
-        format!("peak wear, {pinion}"),
-        format!("peak wear, {wheel}"),
-        "time, s".to_owned(),
-    ];
+    let heading = of.title.to_lowercase();
+    let columns =
+        [heading.as_str(), "profile, pinion", "profile, wheel", "peak wear, pinion", "peak wear, wheel", "time, s"];
     let rows = of.rows.iter().map(|row| {
         vec![
             row.name.clone(),
@@ -108,7 +102,7 @@ fn comparison(of: &Comparison) -> String {
         ]
     });
     let caption = format!("{}: differences from {}, {}", of.title, of.baseline, of.common);
-    table(&caption, &columns.each_ref().map(String::as_str), rows)
+    table(&caption, &columns, rows)
 }
 
 /// What was not run, and why.

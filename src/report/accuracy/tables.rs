@@ -11,7 +11,7 @@ use crate::report::tables::{Column, Provenance, table};
 use crate::simulation::accuracy_record::{AccuracyRecord, Quantity, VariantRecord};
 
 /// Columns of `accuracy.csv`; one row per run. Every quantity has its error and whether the run is on its Pareto front.
-pub const RUNS: [Column; 43] = [
+pub const RUNS: [Column; 45] = [
     ("name", "of the run: surface · stiffness · resolution"),
     ("surface", "contact surface"),
     ("match", "what K/H shares with Hertz or the calibration; empty where the surface has no K/H"),
@@ -45,6 +45,8 @@ pub const RUNS: [Column; 43] = [
     ("wheel_peak_wear_on_front", "whether no faster run has a smaller one"),
     ("peak_pressure_error", "relative difference of the greatest pressure, new, away from sharp tip edges"),
     ("peak_pressure_on_front", "whether no faster run has a smaller one"),
+    ("flank_pressure_error", "relative difference of the greatest pressure, new, away from all tip edges"),
+    ("flank_pressure_on_front", "whether no faster run has a smaller one"),
     ("half_width_error", "relative L2 error of the half-width in single contact, new"),
     ("half_width_on_front", "whether no faster run has a smaller one"),
     ("transmission_error_error", "relative L2 error of the transmission error, new"),
