@@ -13,7 +13,7 @@ mod recording;
 
 use std::time::Instant;
 
-use crate::calibration::{self, CalibrationError};
+use crate::calibration::{self, Calibration, CalibrationError};
 use crate::contact::{
     ContactSurface,
     foundation::{Bed, matched_mpa_per_mm},
@@ -119,6 +119,8 @@ struct Model<'a> {
     teeth: Option<&'a TeethSpring<'a>>,
     /// The curve that they are made from, of the models that have one.
     stiffness_curve: Option<&'a PairCompliance>,
+    /// The calibration that the scene names.
+    calibration: Option<&'a Calibration>,
     law: &'a dyn WearLaw,
     line_load_n_per_mm: f64,
     /// Hertz at the pitch point.
@@ -218,6 +220,7 @@ pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Obs
         contact,
         teeth: teeth.as_ref(),
         stiffness_curve: curve,
+        calibration: inputs.calibration.as_ref(),
         law: &law,
         line_load_n_per_mm,
         at_pitch,

@@ -3,11 +3,13 @@
 //! | estimate | companions | module |
 //! |---|---|---|
 //! | wear step, discretisation; on finite elements the size of the elements | coarser wear runs | [`wear_runs`] |
-//! | surface model | short wear runs on a truer surface and on the run's own | [`surface_model`] |
+//! | surface model, with a calibration | none: the calibration holds a mesh of finite elements | [`reference_mesh`] |
+//! | surface model, without | short wear runs on a truer surface and on the run's own | [`surface_model`] |
 //!
 //! Cost is counted in equilibria of the run's own surface at its own resolution: an equilibrium on another surface counts as
 //! many as it takes the time of ([`relative_cost`]).
 
+mod reference_mesh;
 mod surface_model;
 mod wear_runs;
 
@@ -74,8 +76,12 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, observer: &dyn Prog
     let runs = wear_runs::estimate(model, outcome, coarse, observer);
     let (surface_model, surface_cost) = match (runs.surface_model, model.contact) {
         (None, MeshContact::LineOfAction { tip_contact, .. }) => {
-            let short = surface_model::estimate(model, outcome, tip_contact, BUDGET - runs.cost, observer);
-            (short.estimate, short.cost)
+            if let Some(against_reference) = reference_mesh::estimate(model, outcome) {
+                (against_reference, 0.0)
+            } else {
+                let short = surface_model::estimate(model, outcome, tip_contact, BUDGET - runs.cost, observer);
+                (short.estimate, short.cost)
+            }
         }
         (elements, _) => (elements.unwrap_or_else(|| Estimate::none("the companions say nothing of it")), 0.0),
     };
@@ -134,8 +140,8 @@ pub(super) fn warnings(error: &ErrorSummary) -> Vec<String> {
     });
     let model = error.surface_model.filter(|e| *e > ALARMING_MODEL).map(|estimate| {
         format!(
-            "contact.surface: by a short run on a truer surface the peak wear may be off by about {:.0} %; gearwear accuracy \
-             compares all surfaces",
+            "contact.surface: against a truer surface the peak wear may be off by about {:.0} %; gearwear accuracy compares \
+             all surfaces",
             100.0 * estimate
         )
     });
