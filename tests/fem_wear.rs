@@ -87,16 +87,29 @@ fn val_each_flank_loses_what_load_and_sliding_ask_for() {
         for contact in &at.pairs {
             let own = at.position_mm + f64::from(contact.pair) * path.base_pitch_mm;
             assert!(own > path.start_mm && own < path.end_mm, "contact at {own} is outside the line of action");
-            asked += contact.line_load_n_per_mm * curvatures * (own - path.pitch_point_mm).abs() * step;
+            // The force itself, not its part in the torque: the normals of a relieved flank have another lever.
+            let tooth = (model.gears.pinion.teeth() / 2) as i32 + contact.pair;
+            let force = at.forces.pinion[tooth as usize].iter().fold([0.0; 2], |mut sum, &(column, f)| {
+                sum[column % 2] += f;
+                sum
+            });
+            asked += force[0].hypot(force[1]) * curvatures * (own - path.pitch_point_mm).abs() * step;
         }
         warm = at.warm.clone();
     }
     asked *= COEFFICIENT;
+    // A flank that lies m behind the nominal one, along normals that meet at its centre of curvature, is shorter by m/ρ.
+    let lost = PerGear::from_fn(|gear| {
+        let removed = modifications_mm(&pair, gear, &grid[gear]);
+        let shortened: Vec<f64> = (0..grid[gear].len())
+            .map(|i| depth[gear][i] * (1.0 - removed[i] / grid[gear].coordinate_mm[i].max(1.0)))
+            .collect();
+        grid[gear].integral(&shortened)
+    });
     for gear in Gear::BOTH {
-        assert_close(&format!("{gear:?}"), grid[gear].integral(&depth[gear]), asked, 1e-3);
+        assert_close(&format!("{gear:?}"), lost[gear], asked, 1e-3);
     }
-    let [p, w] = Gear::BOTH.map(|gear| grid[gear].integral(&depth[gear]));
-    assert_close("pinion against wheel", p, w, 1e-3);
+    assert_close("pinion against wheel", lost.pinion, lost.wheel, 1e-3);
 }
 
 /// Away from A–E, where load and speed change, each point wears like a disc: k w |ζ| within 1 %.
@@ -147,10 +160,11 @@ fn val_wear_opens_the_gap_as_a_relief_does() {
     for (worn, meshed) in by_wear.positions.iter().zip(&by_mesh.positions) {
         let what = format!("at {:.3}", worn.position_mm);
         assert_close(&what, worn.transmission_error_mm, meshed.transmission_error_mm, 1e-3);
-        assert!((worn.load_share - meshed.load_share).abs() < 1e-3, "{what}: {worn:?} {meshed:?}");
-        // The ends of a contact are found between nodes a/12 apart.
+        // Where pairs take over from each other, 0.02 µm of that softness are 1e-3 of the load.
+        assert!((worn.load_share - meshed.load_share).abs() < 2e-3, "{what}: {worn:?} {meshed:?}");
+        // The pressure is resolved to a per cent by 6 elements in a half-width; the mesh of the relieved tooth is another one.
         if meshed.load_share > 0.99 {
-            assert_close(&what, worn.footprint.half_width_mm, meshed.footprint.half_width_mm, 1e-2);
+            assert_close(&what, worn.footprint.peak_pressure_mpa, meshed.footprint.peak_pressure_mpa, 0.02);
         }
     }
 }
@@ -206,4 +220,17 @@ fn ver_work_and_bits() {
     }
     // Four warm evaluations of 27 positions: hardly more than one trial each.
     assert!(later <= 2 * 4 * 27, "{later} trials");
+}
+
+/// A node of an unmodified flank stands for the flank point at its own radius.
+#[test]
+fn ver_nodes_of_the_nominal_flank_stand_for_themselves() {
+    let pair = pair(&fzg_c());
+    let model = condensed(&pair, 4.0);
+    for gear in Gear::BOTH {
+        let nominal = model.nominal_radius_mm(gear);
+        for (point, radius) in model.flanks[gear].surface.points_mm.iter().zip(nominal) {
+            assert!((point.norm() - radius).abs() < 1e-9, "{gear:?} {point} {radius}");
+        }
+    }
 }
