@@ -2,11 +2,16 @@
 
 mod common;
 
-use common::{Scene, assert_close, fzg_c_scene, pair};
+use common::{Scene, assert_close, fzg_c, fzg_c_scene, pair};
+use gearwear::fem::gear::placement::{axis_mm, tooth_angle_rad};
 use gearwear::gear::{Gear, GearPair, conjugate::ConjugateFlanks};
 use gearwear::simulation::wear_run::Outcome;
 use gearwear::stiffness::settings::StiffnessSettings;
-use gearwear::working_cycle::{PositionObservation, tip_contact::reach_mm};
+use gearwear::working_cycle::{
+    PositionObservation,
+    tip_contact::{lever_ratio, reach_mm},
+};
+use nalgebra::{Rotation2, Vector2};
 
 /// fzg-c at 302 N·m with tip roundings of 0.1 mm and Weber and Banaschek's teeth; one mesh.
 fn rounded(surface: &'static str) -> Scene {
@@ -120,7 +125,9 @@ fn asked_mm2(pair: &GearPair, scene: &Scene, outcome: &Outcome) -> f64 {
     let step = (to - from) / f64::from(parts);
     let part = |k: i32| {
         let lower = from + f64::from(k) * step;
-        share(lower + 0.5 * step) * pair.sliding_mm(lower, lower + step)
+        let middle = lower + 0.5 * step;
+        // The share is that of the torque; after E the force has a shorter lever.
+        share(middle) / lever_ratio(pair, middle) * pair.sliding_mm(lower, lower + step)
     };
     (0..parts).map(part).sum::<f64>() * scene.line_load() * scene.coefficient_mm2_per_n
 }
@@ -161,4 +168,46 @@ fn tip_edges_wear_their_mates_roots() {
     println!("{winkler:.5} {half_space:.5} mm");
     assert_close("surfaces", half_space, winkler, 0.02);
     assert!(winkler > 1.2 * peak("winkler", false));
+}
+
+/// The turn of the pinion, times its base radius, after which its sharp tip edge touches the wheel's involute, on the true profiles:
+/// the edge at P is ρ − L behind the flank along the normal through it, with L the tangent from P to the wheel's base circle and
+/// ρ the radius of curvature where that normal leaves the flank.
+fn exact_touch_mm(pair: &GearPair, position_mm: f64) -> f64 {
+    let (pinion, wheel) = (&pair.teeth.pinion, &pair.teeth.wheel);
+    let half_angle = pinion.half_angle_rad(pinion.tip_radius_mm);
+    let edge = pinion.tip_radius_mm * Vector2::new(-half_angle.sin(), half_angle.cos());
+    let turned = |gear| tooth_angle_rad(pair, gear, position_mm, 0);
+    let behind = |approach_mm: f64| {
+        let further = approach_mm / pinion.involute.base_radius_mm;
+        let in_place = Rotation2::new(turned(Gear::Pinion) + further) * edge - axis_mm(pair, Gear::Wheel);
+        let in_wheel = Rotation2::new(-turned(Gear::Wheel)) * in_place;
+        let rho = wheel.involute.curvature_radius_mm(wheel.nominal_radius_mm(in_wheel));
+        rho - wheel.involute.curvature_radius_mm(in_wheel.norm())
+    };
+    let (mut low, mut high) = (0.0, 0.1);
+    let apart = behind(low);
+    assert!(apart * behind(high) < 0.0, "{apart} {}", behind(high));
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if apart * behind(middle) > 0.0 { low = middle } else { high = middle }
+    }
+    low
+}
+
+/// Gap along the normal and lever together give the approach at which a tip edge touches after E.
+#[test]
+fn val_lever_after_the_end_of_contact() {
+    let pair = pair(&fzg_c());
+    assert_eq!(lever_ratio(&pair, pair.path.end_mm), 1.0);
+    assert_eq!(lever_ratio(&pair, pair.path.start_mm - 0.5), 1.0);
+    for beyond in [0.4, 0.8, 1.0] {
+        let position = pair.path.end_mm + beyond;
+        let edge = pair.in_tangent_frame(Gear::Pinion, pair.teeth.pinion.tip_rho_mm(), position);
+        let gap = edge.drop_mm + pair.at_along(Gear::Wheel, -edge.along_mm, position).1;
+        let exact = exact_touch_mm(&pair, position);
+        // The edge moves on along the flank while it closes: 0.8, 1.7 and 2.1 % are left, 2.6, 5.2 and 6.6 % without the lever.
+        assert_close(&format!("{beyond} mm after E"), gap / lever_ratio(&pair, position), exact, 0.025 * beyond);
+        assert!((gap / exact - 1.0).abs() > 0.05 * beyond, "the lever matters: {gap} {exact}");
+    }
 }
