@@ -12,6 +12,7 @@
 
 use rayon::prelude::*;
 
+use super::collected::Collected;
 use super::load_sharing::EquilibriumError;
 use super::{CycleObservation, GROUPS, LostMaterial, MeshCycle, PositionObservation, Work};
 use crate::contact::{Flanks, Footprint};
@@ -35,10 +36,8 @@ struct Station {
 /// Positions that collect wear together.
 struct Group {
     stations: Vec<Station>,
-    depth_mm: PerGear<Vec<f64>>,
+    collected: Collected,
     pressure_mpa: Vec<f64>,
-    work: Work,
-    failure: Option<EquilibriumError>,
 }
 
 /// All positions of one base pitch, ready to be evaluated on ever newly worn flanks.
@@ -76,10 +75,8 @@ impl<'a> CondensedCycle<'a> {
                     .iter()
                     .map(|&at| Station::new(model, model.prepare(at, line_load_n_per_mm), points, length_mm))
                     .collect(),
-                depth_mm: PerGear::from_fn(|gear| vec![0.0; radius_mm[gear].len()]),
+                collected: Collected::new(radius_mm.as_ref().map(Vec::len)),
                 pressure_mpa: Vec::new(),
-                work: Work::default(),
-                failure: None,
             })
             .collect();
         let observation_mm = (0..positions).map(|j| path.start_mm + j as f64 * spacing).collect();
@@ -146,20 +143,7 @@ impl MeshCycle for CondensedCycle<'_> {
         let points = flank_points(&self.radius_mm, &self.node_radius_mm);
         let step = Step { model: self.model, wear: &wear, points, length_mm, law, stopped };
         self.groups.par_iter_mut().for_each(|group| group.evaluate(&step));
-        let mut work = Work { mesh_cycles: 1, ..Work::default() };
-        for gear in Gear::BOTH {
-            depth_mm[gear].fill(0.0);
-        }
-        for group in &self.groups {
-            if let Some(failure) = &group.failure {
-                return Err(failure.clone());
-            }
-            work += group.work;
-            for gear in Gear::BOTH {
-                depth_mm[gear].iter_mut().zip(&group.depth_mm[gear]).for_each(|(sum, part)| *sum += part);
-            }
-        }
-        Ok(work)
+        Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
 
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
@@ -207,22 +191,11 @@ struct Step<'a> {
 
 impl Group {
     fn evaluate(&mut self, step: &Step<'_>) {
-        self.work = Work::default();
-        self.failure = None;
-        for gear in Gear::BOTH {
-            self.depth_mm[gear].fill(0.0);
-        }
+        self.collected.clear();
         for station in &mut self.stations {
-            if (step.stopped)() {
-                self.failure = Some(EquilibriumError::Interrupted);
+            let solved = if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { station.solve(step) };
+            if !self.collected.take(solved) {
                 return;
-            }
-            match station.solve(step) {
-                Ok(work) => self.work += work,
-                Err(error) => {
-                    self.failure = Some(error);
-                    return;
-                }
             }
             for pair in &station.observed {
                 for gear in Gear::BOTH {
@@ -230,7 +203,7 @@ impl Group {
                     self.pressure_mpa.clear();
                     self.pressure_mpa.extend(points.pressure_mpa(&station.nodal_mpa));
                     let range = points.first_point..points.first_point + sliding.len();
-                    step.law.add_depth(&self.pressure_mpa, sliding, &mut self.depth_mm[gear][range]);
+                    step.law.add_depth(&self.pressure_mpa, sliding, &mut self.collected.depth_mm[gear][range]);
                 }
             }
         }

@@ -5,6 +5,7 @@
 //! are independent of each other, so they are shared out to threads; each fixed group of positions collects its wear by
 //! itself and the groups are added in order: the result does not depend on the number of threads.
 
+mod collected;
 pub mod condensed;
 pub mod load_sharing;
 pub mod positions;
@@ -15,6 +16,7 @@ use rayon::prelude::*;
 use crate::contact::{ContactSurface, Flanks, Footprint, PositionCell, Sweep};
 use crate::gear::{Gear, PerGear};
 use crate::wear::WearLaw;
+use collected::Collected;
 use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance};
 use tip_contact::OnLever;
 
@@ -77,10 +79,8 @@ struct Station<'a> {
 /// Positions that collect wear together.
 struct Group<'a> {
     stations: Vec<Station<'a>>,
-    depth_mm: PerGear<Vec<f64>>,
+    collected: Collected,
     sweep: Sweep,
-    work: Work,
-    failure: Option<EquilibriumError>,
 }
 
 /// All loading positions of a pair, ready to be evaluated on ever newly worn flanks.
@@ -162,10 +162,8 @@ impl<'a> WorkingCycle<'a> {
             .par_chunks(size)
             .map(|positions| Group {
                 stations: positions.iter().map(|p| Station::new(flanks, surface, p)).collect(),
-                depth_mm: PerGear::from_fn(|gear| vec![0.0; flanks.grid[gear].len()]),
+                collected: Collected::new(flanks.grid.map(|grid| grid.len())),
                 sweep: Sweep::default(),
-                work: Work::default(),
-                failure: None,
             })
             .collect();
         Self { groups, line_load_n_per_mm, bodies_mm: 0.0 }
@@ -187,20 +185,7 @@ impl MeshCycle for WorkingCycle<'_> {
     ) -> Result<Work, EquilibriumError> {
         let load = self.line_load_n_per_mm;
         self.groups.par_iter_mut().for_each(|group| group.evaluate(lost.removed_mm, load, law, stopped));
-        let mut work = Work { mesh_cycles: 1, ..Work::default() };
-        for gear in Gear::BOTH {
-            depth_mm[gear].fill(0.0);
-        }
-        for group in &self.groups {
-            if let Some(failure) = &group.failure {
-                return Err(failure.clone());
-            }
-            work += group.work;
-            for gear in Gear::BOTH {
-                depth_mm[gear].iter_mut().zip(&group.depth_mm[gear]).for_each(|(sum, part)| *sum += part);
-            }
-        }
-        Ok(work)
+        Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
 
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
@@ -239,28 +224,18 @@ impl Group<'_> {
         law: &dyn WearLaw,
         stopped: &(dyn Fn() -> bool + Sync),
     ) {
-        self.work = Work::default();
-        self.failure = None;
-        for gear in Gear::BOTH {
-            self.depth_mm[gear].fill(0.0);
-        }
+        self.collected.clear();
         for station in &mut self.stations {
-            if stopped() {
-                self.failure = Some(EquilibriumError::Interrupted);
+            let solved =
+                if stopped() { Err(EquilibriumError::Interrupted) } else { station.solve(removed_mm, line_load) };
+            if !self.collected.take(solved) {
                 return;
-            }
-            match station.solve(removed_mm, line_load) {
-                Ok(work) => self.work += work,
-                Err(error) => {
-                    self.failure = Some(error);
-                    return;
-                }
             }
             for gear in Gear::BOTH {
                 let sweep = &mut self.sweep;
                 station.pairs[0].contact.sweep(gear, removed_mm, sweep);
                 let points = sweep.first_point..sweep.first_point + sweep.sliding_mm.len();
-                law.add_depth(&sweep.pressure_mpa, &sweep.sliding_mm, &mut self.depth_mm[gear][points]);
+                law.add_depth(&sweep.pressure_mpa, &sweep.sliding_mm, &mut self.collected.depth_mm[gear][points]);
             }
         }
     }
