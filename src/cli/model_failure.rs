@@ -14,7 +14,7 @@ pub fn in_the_scene(error: &ModelError, source: &Source) -> Option<Failure> {
             text: source.text.clone(),
             problems: vec![Problem::of_sector_teeth(&source.text, teeth, least)],
         })),
-        ModelError::Mesh { .. } => Some(InputError::Model(error.clone()).into()),
+        ModelError::Mesh { .. } | ModelError::TooFine { .. } => Some(InputError::Model(error.clone()).into()),
         ModelError::Condense { .. } => None,
     }
 }

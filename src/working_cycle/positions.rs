@@ -69,7 +69,8 @@ pub fn positions_with_tip_contact<E>(
 ) -> Result<Vec<LoadingPosition>, E> {
     let (start, end, pitch) = (path.start_mm, path.end_mm, path.base_pitch_mm);
     let spacing = (end - start) / (count - 1) as f64;
-    let [before, after] = beyond_mm.map(|beyond| (beyond / spacing).ceil() as usize);
+    // Never beyond the bounds: the tangent frame ends with the base circles.
+    let [before, after] = beyond_mm.map(|beyond| (beyond / spacing).floor() as usize);
     let (first, last) = (start - beyond_mm[0].max(SAME_PLACE * pitch), end + beyond_mm[1].max(SAME_PLACE * pitch));
     (0..before + count + after)
         .map(|j| {

@@ -15,6 +15,9 @@ use crate::mesh::settings::{Body, BodySettings, SectorSides};
 use crate::mesh::tooth::{Cell, ToothMeshError, ToothSector, gear_sector, touching_pairs};
 use crate::reference::hertz_line::HertzLine;
 
+/// Nodes of one flank whose compliance among three teeth takes some 4 GB.
+const MOST_FLANK_NODES: usize = 4000;
+
 /// Why there is no model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ModelError {
@@ -33,6 +36,16 @@ pub enum ModelError {
         gear: Gear,
         /// Why.
         source: SolveError,
+    },
+    /// The compliance of its flanks would fill the memory.
+    #[error("{}: the resolved flank has {nodes} nodes, more than the {most} whose compliance a computer holds", gear.name())]
+    TooFine {
+        /// Whose.
+        gear: Gear,
+        /// Nodes of one flank.
+        nodes: usize,
+        /// So many are possible.
+        most: usize,
     },
     /// The sector is too small.
     #[error("{}: {teeth} teeth are fewer than the {least} that touch over the mesh cycle", gear.name())]
@@ -201,6 +214,10 @@ impl MeshedGear {
     /// [`ModelError::Condense`].
     pub fn condense(&self, pair: &GearPair, material: Elastic) -> Result<(GearCompliance, FlankSurface), ModelError> {
         let flank = self.flank();
+        let nodes = flank.surface.mesh_nodes.len();
+        if nodes > MOST_FLANK_NODES {
+            return Err(ModelError::TooFine { gear: self.gear, nodes, most: MOST_FLANK_NODES });
+        }
         let mut fine = sector(&self.fine, half_angle_rad(pair, self.gear), flank.surface.mesh_nodes.clone());
         fine.probes = self.fillet_probes(&fine.solid, material).map_err(|source| self.failed(source))?;
         fine.working_side_probes = self.fine.working_fillet.len();

@@ -7,11 +7,14 @@ use std::time::Instant;
 
 use crate::calibration::bodies::Setup;
 use crate::calibration::identity::Identity;
+use crate::calibration::single_contact::SingleContact;
 use crate::calibration::tooth_stiffness::{LoadedPair, curve};
 use crate::calibration::{
     Calibration, CalibrationError, STIFFNESS_POSITIONS, course, foundation_fit, single_contact, tooth_family,
 };
-use crate::gear::{GearPair, PairError};
+use crate::fem::gear::position::CondensedPair;
+use crate::gear::modification::Modification;
+use crate::gear::{Gear, GearPair, PairError};
 use crate::plan::calibration::CalibrationStage;
 use crate::scene::Scene;
 use crate::simulation::record::StageTime;
@@ -110,7 +113,7 @@ pub fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Don
     let loaded = LoadedPair::new(&condensed, &scene.material);
     let deflection = stages.run(Stage::ToothStiffness, || loaded.along_the_path(STIFFNESS_POSITIONS, w))?;
     let path_points_mm = pair.path.points_mm();
-    let single_contact = stages.run(Stage::Foundation, || single_contact::solve(&condensed, &loaded, w))?;
+    let single_contact = stages.run(Stage::Foundation, || on_plain_flanks(&setup, &condensed, &loaded))?;
     let ends_mm = (pair.path.start_mm, pair.path.end_mm);
     let (foundation, foundation_fit) = foundation_fit::all(&single_contact, w, ends_mm);
     let (mut convergence, mut rim_depth, mut neighbours, mut family) = Default::default();
@@ -145,6 +148,28 @@ pub fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Don
     };
     calibration.hash = calibration.content_hash();
     Ok(Done { calibration, stages: stages.times, wall_s: start.elapsed().as_secs_f64() })
+}
+
+/// The pair alone in contact, without relief and crowning: K/H belongs to the curvature of the involute, and a relief changes
+/// that where it begins. Tip roundings stay: they end the flank.
+fn on_plain_flanks(
+    setup: &Setup<'_>,
+    condensed: &CondensedPair<'_>,
+    loaded: &LoadedPair<'_>,
+) -> Result<Vec<SingleContact>, CalibrateError> {
+    let w = setup.line_load_n_per_mm;
+    let mut spec = setup.pair.spec.clone();
+    for gear in Gear::BOTH {
+        let own = &mut spec.gears[gear].modification;
+        *own = Modification { tip_rounding_mm: own.tip_rounding_mm, ..Modification::default() };
+    }
+    if spec == setup.pair.spec {
+        return Ok(single_contact::solve(condensed, loaded, w)?);
+    }
+    let pair = GearPair::new(&spec)?;
+    let plain = Setup { pair: &pair, ..*setup };
+    let condensed = plain.condensed(&plain.meshed()?)?;
+    Ok(single_contact::solve(&condensed, &LoadedPair::new(&condensed, &setup.material), w)?)
 }
 
 /// The scene's pair with what finite elements need to know of it.

@@ -100,7 +100,8 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let operation = operation::choose(&mut file.operation, findings);
     let contact = settings::contact(&mut file.contact, findings);
     let calibration_file = file.contact.as_ref().and_then(|contact| contact.calibration.clone());
-    let stiffness = settings::stiffness(&mut file.stiffness, calibration_file.is_some(), findings);
+    let surface = contact.map(|contact| contact.surface);
+    let stiffness = settings::stiffness(&mut file.stiffness, surface, calibration_file.is_some(), findings);
     let stiffness_curve_file = file.stiffness.as_ref().and_then(|stiffness| stiffness.curve.clone());
     let wear = settings::wear(&file.wear, findings);
     let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));

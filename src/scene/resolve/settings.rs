@@ -88,6 +88,11 @@ pub fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -> Optio
             .warnings
             .push("contact.calibration is not used: the surface \"fem\" is what it was made from".to_owned());
     }
+    if calibrated && given.is_some() && surface == SurfaceKind::Winkler {
+        findings
+            .warnings
+            .push("the K/H of contact.calibration is not used: contact.foundation_MPa_per_mm gives one".to_owned());
+    }
     let tip_contact = knows_the_gap && *file.tip_contact.get_or_insert(calibrated);
     if surface != SurfaceKind::Winkler {
         for (key, given) in [(keys[0], criterion.is_some()), (keys[1], given.is_some())] {
@@ -107,16 +112,26 @@ pub fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -> Optio
     Some(ContactSettings { surface, foundation, tip_contact })
 }
 
-/// Chooses the tooth stiffness; `calibrated` says whether a calibration is given.
+/// Chooses the tooth stiffness on a surface; `calibrated` says whether a calibration is given.
 pub fn stiffness(
     file: &mut Option<StiffnessFile>,
+    surface: Option<SurfaceKind>,
     calibrated: bool,
     findings: &mut Findings,
 ) -> Option<StiffnessSettings> {
     let key = "stiffness.pair_N_per_mm_um";
     let file = file.get_or_insert_default();
+    if surface == Some(SurfaceKind::Fem) && file.model.is_some() {
+        findings.warnings.push(
+            "stiffness.model is not used: the finite elements of the surface \"fem\" bend their own teeth".to_owned(),
+        );
+    }
     let default = if calibrated { StiffnessModel::Fem } else { StiffnessModel::default() };
-    let model = *file.model.get_or_insert(default);
+    let model = match surface {
+        // Nothing reads it: what the user leaves out stays out.
+        Some(SurfaceKind::Fem) => file.model.unwrap_or(default),
+        _ => *file.model.get_or_insert(default),
+    };
     let of_curve = matches!(model, StiffnessModel::Simon | StiffnessModel::WangCheng);
     if of_curve && file.curve.is_none() {
         findings.missing(&["stiffness.curve"], "the name of a data file");
