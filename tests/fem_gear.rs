@@ -73,7 +73,8 @@ fn is_regular(pair: &GearPair, at: &PositionContact, contact: &ToothPairContact)
     !contact.at_sharp_edge && own > path.start_mm + from_start && own < path.end_mm - to_end
 }
 
-/// Independent quadratic finite elements (fzg.md): 37.52 µm on the whole ring, 41.88 µm on three teeth with free sides,
+/// Independent quadratic finite elements (another program, converged to 0.02 %): 37.52 µm on the whole ring, 41.88 µm on
+/// three teeth with free sides,
 /// both to 0.1 %.
 #[test]
 fn val_transmission_error_at_the_pitch_point() {

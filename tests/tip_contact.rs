@@ -9,6 +9,7 @@ use gearwear::simulation::wear_run::Outcome;
 use gearwear::stiffness::settings::StiffnessSettings;
 use gearwear::working_cycle::{
     PositionObservation,
+    positions::positions_with_tip_contact,
     tip_contact::{lever_ratio, reach_mm},
 };
 use nalgebra::{Rotation2, Vector2};
@@ -209,5 +210,19 @@ fn val_lever_after_the_end_of_contact() {
         // The edge moves on along the flank while it closes: 0.8, 1.7 and 2.1 % are left, 2.6, 5.2 and 6.6 % without the lever.
         assert_close(&format!("{beyond} mm after E"), gap / lever_ratio(&pair, position), exact, 0.025 * beyond);
         assert!((gap / exact - 1.0).abs() > 0.05 * beyond, "the lever matters: {gap} {exact}");
+    }
+}
+
+/// However far apart the positions are and however far the teeth yield, none lies beyond the base circles.
+#[test]
+fn positions_stay_between_the_base_circles() {
+    let pair = pair(&fzg_c());
+    let path = &pair.path;
+    for count in [20, 33, 60, 400] {
+        let beyond = reach_mm(&pair, 10.0);
+        let positions = positions_with_tip_contact(path, count, beyond, |_| 1.0, |_| Ok::<_, ()>(1.0)).unwrap();
+        for position in positions.iter().flat_map(|position| &position.pairs) {
+            assert!(position.position_mm > 0.0 && position.position_mm < path.line_of_action_mm, "{position:?}");
+        }
     }
 }
