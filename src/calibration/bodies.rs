@@ -92,7 +92,7 @@ impl<'a> Setup<'a> {
     /// # Errors
     /// [`CalibrationError::Model`]
     pub fn meshed(&self) -> Result<PerGear<MeshedGear>, CalibrationError> {
-        both(|gear| self.mesh(gear))
+        PerGear::try_in_parallel(|gear| self.mesh(gear))
     }
 
     /// Both gears, condensed onto their whole flanks.
@@ -101,7 +101,7 @@ impl<'a> Setup<'a> {
     /// [`CalibrationError::Model`]
     pub fn condensed(&self, meshed: &PerGear<MeshedGear>) -> Result<CondensedPair<'a>, CalibrationError> {
         let elastic = self.elastic();
-        let gears = both(|gear| Ok(meshed[gear].condense(self.pair, elastic[gear])?))?;
+        let gears = PerGear::try_in_parallel(|gear| meshed[gear].condense(self.pair, elastic[gear]))?;
         Ok(CondensedPair::new(self.pair, &elastic, gears))
     }
 
@@ -199,10 +199,4 @@ impl<'a> Setup<'a> {
             })
             .collect()
     }
-}
-
-/// Both gears, at the same time where there are threads for it.
-fn both<T: Send>(of: impl Fn(Gear) -> Result<T, CalibrationError> + Sync) -> Result<PerGear<T>, CalibrationError> {
-    let (pinion, wheel) = rayon::join(|| of(Gear::Pinion), || of(Gear::Wheel));
-    Ok(PerGear { pinion: pinion?, wheel: wheel? })
 }

@@ -54,6 +54,12 @@ impl PathOfContact {
         ]
     }
 
+    /// `count` (≥ 2) places that divide A–E evenly, both included.
+    pub fn evenly_mm(&self, count: usize) -> Vec<f64> {
+        let at = |j: usize| self.start_mm + (self.end_mm - self.start_mm) * j as f64 / (count - 1) as f64;
+        (0..count).map(at).collect()
+    }
+
     /// ε_α.
     pub fn contact_ratio(&self) -> f64 {
         (self.end_mm - self.start_mm) / self.base_pitch_mm
@@ -67,11 +73,15 @@ impl PathOfContact {
         }
     }
 
+    /// 1/r_b1 + 1/r_b2: angle by which the gears turn against each other while the contact point moves by a unit of length.
+    pub fn relative_turn_per_mm(&self) -> f64 {
+        self.involute.map(|flank| 1.0 / flank.base_radius_mm).sum()
+    }
+
     /// Sliding velocity over the speed dξ/dt of the contact point along the line of action:
     /// |ξ − C| (1 + r_b1/r_b2) / r_b1.
     pub fn sliding_ratio(&self, position_mm: f64) -> f64 {
-        let r_b = self.involute.map(|flank| flank.base_radius_mm);
-        (position_mm - self.pitch_point_mm).abs() * (1.0 / r_b.pinion + 1.0 / r_b.wheel)
+        (position_mm - self.pitch_point_mm).abs() * self.relative_turn_per_mm()
     }
 
     /// Specific sliding ζ = 1 − v_mate / v_own of a gear's flank at `position_mm`, v the surface velocities along the

@@ -62,6 +62,17 @@ impl<T> PerGear<T> {
     }
 }
 
+impl<T: Send> PerGear<T> {
+    /// What `of` makes of each gear, of both at the same time where there are threads for it.
+    ///
+    /// # Errors
+    /// That of the pinion, or else that of the wheel.
+    pub fn try_in_parallel<E: Send>(of: impl Fn(Gear) -> Result<T, E> + Sync) -> Result<Self, E> {
+        let (pinion, wheel) = rayon::join(|| of(Gear::Pinion), || of(Gear::Wheel));
+        Ok(Self { pinion: pinion?, wheel: wheel? })
+    }
+}
+
 impl<T: std::ops::Add<Output = T>> PerGear<T> {
     /// Pinion's and wheel's together.
     pub fn sum(self) -> T {

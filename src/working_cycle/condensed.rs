@@ -79,7 +79,7 @@ impl<'a> CondensedCycle<'a> {
                 pressure_mpa: Vec::new(),
             })
             .collect();
-        let observation_mm = (0..positions).map(|j| path.start_mm + j as f64 * spacing).collect();
+        let observation_mm = path.evenly_mm(positions);
         Self { model, line_load_n_per_mm, radius_mm, node_radius_mm, groups, observation_mm, observation: Vec::new() }
     }
 
@@ -219,9 +219,9 @@ impl Station {
 
     /// Reads anew which points are near the contact.
     fn look(&mut self, model: &CondensedPair<'_>, points: PerGear<FlankPoints<'_>>, length_mm: f64) {
-        let curvatures = model.pair.path.involute.map(|involute| 1.0 / involute.base_radius_mm).sum();
+        let turn = model.pair.path.relative_turn_per_mm();
         let with_sliding = |flank: ObservedFlank| {
-            let sliding = flank.sliding_mm(curvatures, length_mm);
+            let sliding = flank.sliding_mm(turn, length_mm);
             (flank, sliding)
         };
         let pairs = model.observed_pairs(&self.prepared, length_mm, points);
@@ -255,7 +255,7 @@ fn observe_position(
     prepared: &mut Prepared,
     wear: &NodalWear,
 ) -> Result<PositionObservation, EquilibriumError> {
-    let (position_mm, load) = (prepared.position_mm, prepared.line_load_n_per_mm);
+    let (position_mm, load) = (prepared.position_mm, prepared.line_load_n_per_mm());
     let found =
         model.solve(prepared, Some(wear)).map_err(|source| EquilibriumError::Contact { position_mm, source })?;
     let pairs = model.tooth_pairs(prepared, &found);

@@ -314,8 +314,7 @@ impl<'a> CondensedPair<'a> {
     ) -> Result<Self, ModelError> {
         let condensed =
             |gear| MeshedGear::new(pair, gear, material, line_load_n_per_mm, settings)?.condense(pair, material[gear]);
-        let (pinion, wheel) = rayon::join(|| condensed(Gear::Pinion), || condensed(Gear::Wheel));
-        Ok(Self::new(pair, material, PerGear { pinion: pinion?, wheel: wheel? }))
+        Ok(Self::new(pair, material, PerGear::try_in_parallel(condensed)?))
     }
 
     /// Joins both condensed gears.

@@ -69,11 +69,11 @@ impl ObservedFlank {
 
     /// How far each point slides while the theoretical contact point passes `length_mm` around the position, mm: the mean of
     /// |(x − C)·n| over the stretch, on which it changes as ξ does.
-    pub fn sliding_mm(&self, curvature_sum_per_mm: f64, length_mm: f64) -> Vec<f64> {
+    pub fn sliding_mm(&self, relative_turn_per_mm: f64, length_mm: f64) -> Vec<f64> {
         let half = 0.5 * length_mm;
         let mean =
             |lever: f64| if lever.abs() >= half { lever.abs() } else { (lever * lever + half * half) / length_mm };
-        let slid = |&lever: &f64| if lever.is_nan() { 0.0 } else { curvature_sum_per_mm * length_mm * mean(lever) };
+        let slid = |&lever: &f64| if lever.is_nan() { 0.0 } else { relative_turn_per_mm * length_mm * mean(lever) };
         self.lever_mm.iter().map(slid).collect()
     }
 

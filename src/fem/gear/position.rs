@@ -153,7 +153,8 @@ impl<'a> CondensedPair<'a> {
 
     /// The figures of a solution.
     pub fn read(&self, prepared: &Prepared, found: Equilibrium) -> PositionContact {
-        let Prepared { position_mm, line_load_n_per_mm, ref facings, .. } = *prepared;
+        let Prepared { position_mm, ref facings, .. } = *prepared;
+        let line_load_n_per_mm = prepared.line_load_n_per_mm();
         let mut forces = self.gears.as_ref().map(|gear| vec![ToothForce::new(); gear.teeth()]);
         let mut pairs = Vec::new();
         let mut warm = Vec::new();

@@ -37,8 +37,6 @@ const MOST_LOOKS: usize = 8;
 pub struct Prepared {
     /// ξ.
     pub position_mm: f64,
-    /// w.
-    pub line_load_n_per_mm: f64,
     window: Window,
     pub(super) facings: Vec<Facing>,
     condensed: Condensed,
@@ -79,7 +77,6 @@ impl<'a> CondensedPair<'a> {
         let condensed = self.condensed(&facings, window.line_load_n_per_mm);
         Prepared {
             position_mm,
-            line_load_n_per_mm: window.line_load_n_per_mm,
             window,
             unworn_gap_mm: condensed.gap_mm.clone(),
             facings,
@@ -149,6 +146,11 @@ impl<'a> CondensedPair<'a> {
 }
 
 impl Prepared {
+    /// w.
+    pub fn line_load_n_per_mm(&self) -> f64 {
+        self.window.line_load_n_per_mm
+    }
+
     /// How often the flanks around the contact had to be looked at, wider each time.
     pub fn looks(&self) -> usize {
         self.looks

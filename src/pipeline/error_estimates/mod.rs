@@ -74,16 +74,16 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, observer: &dyn Prog
     let coarse = coarse_elements(model);
     let coarse = coarse.as_ref();
     let runs = wear_runs::estimate(model, outcome, coarse, observer);
-    let (surface_model, surface_cost) = match (runs.surface_model, model.contact) {
-        (None, MeshContact::LineOfAction { tip_contact, .. }) => {
-            if let Some(against_reference) = reference_mesh::estimate(model, outcome) {
-                (against_reference, 0.0)
-            } else {
-                let short = surface_model::estimate(model, outcome, tip_contact, BUDGET - runs.cost, observer);
-                (short.estimate, short.cost)
-            }
+    let against_reference = || reference_mesh::estimate(model, outcome).map(|estimate| (estimate, 0.0));
+    let from_elements = runs.surface_model.map(|estimate| (estimate, 0.0));
+    let (surface_model, surface_cost) = match model.contact {
+        MeshContact::LineOfAction { tip_contact, .. } => against_reference().unwrap_or_else(|| {
+            let short = surface_model::estimate(model, outcome, tip_contact, BUDGET - runs.cost, observer);
+            (short.estimate, short.cost)
+        }),
+        MeshContact::FiniteElements(_) => {
+            from_elements.unwrap_or_else(|| (Estimate::none("the companions say nothing of it"), 0.0))
         }
-        (elements, _) => (elements.unwrap_or_else(|| Estimate::none("the companions say nothing of it")), 0.0),
     };
     if observer.interrupted() {
         return ErrorSummary::not_estimated("the estimates were interrupted");

@@ -149,14 +149,16 @@ pub fn run(resolved: &Resolved, asked: Asked, observer: &dyn Observer) -> Result
         .map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio });
     let meshed = stages.run(FemPairStage::Meshing, || {
         let mesh = |gear| MeshedGear::new(&pair, gear, &material, line_load_n_per_mm, &scene.fem);
-        both(mesh)
+        PerGear::try_in_parallel(mesh)
     })?;
-    let gears = stages.run(FemPairStage::Condensation, || both(|gear| meshed[gear].condense(&pair, material[gear])))?;
+    let gears = stages.run(FemPairStage::Condensation, || {
+        PerGear::try_in_parallel(|gear| meshed[gear].condense(&pair, material[gear]))
+    })?;
     let model = CondensedPair::new(&pair, &material, gears);
 
     let positions_mm = match position_mm {
         Some(position_mm) => vec![position_mm],
-        None => evenly(path.start_mm, path.end_mm, scene.numerics.positions),
+        None => path.evenly_mm(scene.numerics.positions),
     };
     let (positions, mut failure) =
         stages.run(FemPairStage::Cycle, || solve(&model, &positions_mm, line_load_n_per_mm, observer));
@@ -224,17 +226,6 @@ fn on_path(path: &PathOfContact, given_mm: f64) -> Result<f64, FemPairError> {
     } else {
         Err(FemPairError::Position { given_mm, from_mm, to_mm })
     }
-}
-
-/// Both gears, at the same time where there are threads for it.
-fn both<T: Send, E: Send>(of: impl Fn(Gear) -> Result<T, E> + Sync) -> Result<PerGear<T>, E> {
-    let (pinion, wheel) = rayon::join(|| of(Gear::Pinion), || of(Gear::Wheel));
-    Ok(PerGear { pinion: pinion?, wheel: wheel? })
-}
-
-/// `count` (≥ 2) places from `from` to `to`, both included, as the working cycle's loading positions.
-fn evenly(from: f64, to: f64, count: usize) -> Vec<f64> {
-    (0..count).map(|j| from + (to - from) * j as f64 / (count - 1) as f64).collect()
 }
 
 /// The positions batch by batch, until one fails or the user interrupts.
