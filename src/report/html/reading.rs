@@ -46,8 +46,8 @@ pub fn among(places: &[(&str, f64)], at: f64) -> String {
 pub fn tip_edge_note(places: &[(&str, f64)], at: f64) -> &'static str {
     match among(places, at).as_str() {
         "close to A" | "close to E" | "outside the active flank" => {
-            " This is at a tip edge: where the edge is sharp, the pressure depends on the contact model and on the \
-             spacing of positions, and only a tip rounding gives it a true value."
+            " This is at a tip edge: where the edge is sharp, or has worn to an edge again, the pressure depends on the \
+             contact model and on the spacing of points and positions, and only an unworn tip rounding gives it a true value."
         }
         _ => "",
     }
