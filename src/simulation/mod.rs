@@ -7,3 +7,4 @@ pub mod figures;
 pub mod record;
 pub mod settings;
 pub mod wear_run;
+pub mod wearing_pair;
