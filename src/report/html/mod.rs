@@ -19,6 +19,7 @@ pub(super) mod theme;
 
 use self::page::{Page, escape, plots, section, sources_list, stages_table};
 use self::sliced::SlicedRun;
+use self::sliced::raster::{MOST_ACROSS, MOST_ALONG};
 use self::theme::Figure;
 use crate::simulation::record::{RunRecord, Summary};
 
@@ -42,11 +43,15 @@ const NOTE: &str = "A to E are the points of the path of contact: contact begins
      point.";
 
 /// The same where the sections differ.
-const SLICED_NOTE: &str = "A to E are the points of the path of contact in a transverse section: contact of a slice begins at A and ends at E, and C is the \
-     pitch point. The contact position is the radius of curvature of the pinion’s flank at the theoretical contact point; where slices \
-     are at different ones, that in the middle of the face width. Width 0 is where a tooth with a positive helix angle enters the mesh. \
-     Maps and surfaces show at most 200 cells from root to tip and 60 over the face width, each with the greatest of its values; the \
-     data files hold every point.";
+fn sliced_note() -> String {
+    format!(
+        "A to E are the points of the path of contact in a transverse section: contact of a slice begins at A and ends at E, and C is \
+         the pitch point. The contact position is the radius of curvature of the pinion’s flank at the theoretical contact point; \
+         where that differs between slices, it is the one in the middle of the face width. With a positive helix angle a tooth enters \
+         the mesh at width 0. Maps and surfaces show at most {MOST_ALONG} cells from root to tip and {MOST_ACROSS} over the face \
+         width, each with the greatest of its values; the data files hold every point."
+    )
+}
 
 /// The whole page.
 pub fn page(record: &RunRecord) -> String {
@@ -55,7 +60,7 @@ pub fn page(record: &RunRecord) -> String {
         Some(run) => sliced::figures(run),
         None => figures_of_equal_sections(record),
     };
-    let note = if record.slices.is_some() { SLICED_NOTE } else { NOTE };
+    let note = if record.slices.is_some() { sliced_note() } else { NOTE.to_owned() };
     let sections = [
         section(
             "figures",

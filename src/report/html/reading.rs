@@ -1,6 +1,6 @@
 //! Words for places and moments: the sentences that say what the numbers mean.
 
-use super::number::{change, figure, given, revolutions, significant};
+use super::number::{change, figure, given, percent, revolutions, significant};
 use super::theme::named;
 use crate::simulation::record::RunRecord;
 use crate::simulation::record::{FlankRecord, StopReason, Summary, WearSummary};
@@ -94,6 +94,17 @@ pub fn answer(record: &RunRecord) -> String {
         figure(s.new.transmission_error_um.peak_to_peak),
         figure(s.worn.transmission_error_um.peak_to_peak),
     ));
+    if let Some(helical) = &s.helical {
+        let wear = &helical.wear.pinion;
+        text.push_str(&format!(
+            " Over the face width the pinion’s root wear varies by {} of its mean and its tip wear by {}; the face load factor went \
+             from {} to {}.",
+            percent(wear.root_variation),
+            percent(wear.tip_variation),
+            figure(helical.K_Hbeta_new),
+            figure(helical.K_Hbeta_worn),
+        ));
+    }
     text
 }
 

@@ -7,8 +7,8 @@ use plotly::common::{Anchor, ColorBar, ColorScale, ColorScalePalette, DashType, 
 use plotly::layout::{Annotation, HoverMode};
 use plotly::{HeatMap, Plot, Scatter};
 
-use super::SlicedRun;
 use super::raster::SlicedRaster;
+use super::{SlicedRun, slice_name};
 use crate::gear::Gear;
 use crate::report::html::number::{figure, plotted, significant};
 use crate::report::html::reading::{greatest, place_on_flank};
@@ -189,23 +189,18 @@ fn touches(run: SlicedRun<'_>, gear: Gear, rho_mm: f64) -> bool {
     (path.A..=path.E).contains(&position)
 }
 
-/// "3.21 µm, at 1.5 mm width and at 34.12 mm radius, close to A".
+/// "3.21 µm at 34.12 mm radius, close to A, in slice 2 (1.5 mm)".
 fn peak_of(flank: &FlankRecord, field: &[f64], unit: &str) -> String {
     let Some(peak) = greatest(field) else { return format!("nothing in {unit}") };
     let points = flank.radius_mm.len();
     let (slice, point) = (peak.index / points, peak.index % points);
     format!(
-        "{} {unit} {} in slice {} of {} ({} mm width)",
+        "{} {unit} {}, in {}",
         figure(peak.value),
         place_on_flank(flank, flank.radius_mm[point]),
-        slice + 1,
-        flank.width_mm.len(),
-        significant(flank.width_mm[slice], 3),
+        slice_name(flank, slice),
     )
 }
-
-const WHITE_LINES: &str =
-    " White: lines of contact at seven positions of the tooth, evenly spaced between its first and its last touch.";
 
 fn wear_reading(run: SlicedRun<'_>, gear: Gear) -> String {
     let flank = &run.record.flanks[gear];
@@ -220,7 +215,9 @@ fn wear_reading(run: SlicedRun<'_>, gear: Gear) -> String {
         ),
         _ => format!("The {}’s flank has not worn.", gear.name()),
     };
-    reading.push_str(WHITE_LINES);
+    reading.push_str(&format!(
+        " White: lines of contact at {LINES_OF_CONTACT} positions of the tooth, evenly spaced from its first to its last touch."
+    ));
     reading
 }
 
@@ -248,8 +245,8 @@ fn pressure_reading(run: SlicedRun<'_>, gear: Gear, field: &[f64], when: &str) -
         };
         if let Some(pressure) = field.get(entering.index * points + nearest) {
             reading.push_str(&format!(
-                " Where the tooth first touches, at A in slice {}, it is {} MPa.",
-                entering.index + 1,
+                " Where the tooth first touches, at A in {}, it is {} MPa.",
+                slice_name(flank, entering.index),
                 figure(*pressure)
             ));
         }

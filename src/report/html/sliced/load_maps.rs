@@ -4,8 +4,8 @@ use plotly::common::{ColorBar, ColorScale, ColorScalePalette, Font, Title};
 use plotly::layout::HoverMode;
 use plotly::{HeatMap, Plot};
 
-use super::SlicedRun;
 use super::raster::SlicedRaster;
+use super::{SlicedRun, slice_name};
 use crate::report::html::number::{figure, plotted, significant};
 use crate::report::html::reading::greatest;
 use crate::report::html::theme::{Figure, axis, layout, mark_path_points};
@@ -42,10 +42,10 @@ fn map(run: SlicedRun<'_>, when: &str, loads: &[f64], top: f64) -> Figure {
     ));
     let reading = match greatest(loads) {
         Some(peak) => format!(
-            "A slice carries at most {} N per mm of face width {when}, slice {} with the tooth at {} mm; the whole torque over \
+            "A slice carries at most {} N per mm of face width {when}, {} with the tooth at {} mm; the whole torque over \
              the face width is {} N/mm. Contact crosses the map obliquely: slices enter and leave one after the other.",
             figure(peak.value),
-            peak.index % count + 1,
+            slice_name(&run.record.flanks.pinion, peak.index % count),
             significant(slices.position_mm[peak.index / count], 4),
             figure(run.record.summary.contact.line_load_N_per_mm),
         ),

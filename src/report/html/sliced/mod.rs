@@ -5,14 +5,15 @@ mod load_maps;
 mod mesh_orders;
 mod over_width;
 mod profiles;
-mod raster;
+pub mod raster;
 mod surfaces;
 pub mod tables;
 
+use super::number::given;
 use super::theme::Figure;
 use super::{cycle_plots, drawing_plot, history_plot};
 use crate::gear::Gear;
-use crate::simulation::record::{HelicalSummary, RunRecord, SliceRecord};
+use crate::simulation::record::{FlankRecord, HelicalSummary, RunRecord, SliceRecord};
 
 /// A run with slices: the whole record, and the parts of it that are there.
 #[derive(Clone, Copy)]
@@ -48,4 +49,9 @@ pub fn figures(run: SlicedRun<'_>) -> Vec<Figure> {
     figures.push(mesh_orders::new_and_worn(run));
     figures.push(history_plot::wear_against_time(run.record));
     figures
+}
+
+/// "slice 3 (2.5 mm)": its number from 1 on and its place over the face width.
+fn slice_name(flank: &FlankRecord, slice: usize) -> String {
+    format!("slice {} ({} mm)", slice + 1, given((flank.width_mm[slice] * 1e3).round() / 1e3))
 }

@@ -3,7 +3,7 @@
 use plotly::Plot;
 use plotly::common::DashType;
 
-use super::SlicedRun;
+use super::{SlicedRun, slice_name};
 use crate::gear::Gear;
 use crate::report::html::active_flank::ActiveFlank;
 use crate::report::html::number::{figure, significant};
@@ -27,11 +27,6 @@ fn of_slice<'a>(flank: &FlankRecord, field: &'a [f64], slice: usize) -> &'a [f64
     field.get(slice * points..(slice + 1) * points).unwrap_or_default()
 }
 
-/// "slice 3 (2.5 mm)".
-fn name_of(flank: &FlankRecord, slice: usize) -> String {
-    format!("slice {} ({} mm)", slice + 1, significant(flank.width_mm[slice], 3))
-}
-
 /// A quantity of a figure: its name, colour and values.
 struct Series<'a> {
     name: &'static str,
@@ -45,7 +40,7 @@ fn plot(flank: &FlankRecord, gear: Gear, series: &[Series<'_>], y: plotly::layou
     let mut plot = Plot::new();
     for Series { name, colour, values } in series {
         for (slice, dash) in shown(flank.width_mm.len()).into_iter().zip(DASHES) {
-            let place = name_of(flank, slice);
+            let place = slice_name(flank, slice);
             let name = if name.is_empty() { place } else { format!("{name}, {place}") };
             let values = active.cut(of_slice(flank, values, slice));
             let stroke = line((*colour).to_owned(), 2.0, dash);
@@ -59,17 +54,11 @@ fn plot(flank: &FlankRecord, gear: Gear, series: &[Series<'_>], y: plotly::layou
     plot
 }
 
-/// The greatest value of each slice shown, as words.
-fn of_each(flank: &FlankRecord, field: &[f64], unit: &str) -> String {
-    let peaks: Vec<String> = shown(flank.width_mm.len())
-        .into_iter()
-        .filter_map(|slice| {
-            let peak = greatest(of_slice(flank, field, slice))?;
-            let radius = significant(flank.radius_mm[peak.index], 4);
-            Some(format!("{} {unit} at {radius} mm radius in {}", figure(peak.value), name_of(flank, slice)))
-        })
-        .collect();
-    peaks.join(", ")
+/// What `words` says of each slice shown, one after the other.
+fn of_each(flank: &FlankRecord, words: impl Fn(usize) -> Option<String>) -> String {
+    let said = shown(flank.width_mm.len()).into_iter().filter_map(|slice| Some((slice, words(slice)?)));
+    let said: Vec<String> = said.map(|(slice, words)| format!("{words} in {}", slice_name(flank, slice))).collect();
+    if said.is_empty() { "nothing".into() } else { said.join(", ") }
 }
 
 /// Wear depth at the end of the run.
@@ -79,12 +68,17 @@ pub fn wear(run: SlicedRun<'_>) -> Vec<Figure> {
             let flank = &run.record.flanks[gear];
             let deepest = greatest(&flank.wear_um).map_or(0.0, |peak| peak.value);
             let [_, bottom] = from_zero(deepest);
+            let deepest_in = |slice: usize| {
+                let peak = greatest(of_slice(flank, &flank.wear_um, slice))?;
+                let radius = significant(flank.radius_mm[peak.index], 4);
+                Some(format!("{} µm at {radius} mm radius", figure(peak.value)))
+            };
             let y = theme::axis("wear depth, µm").range(vec![bottom, -0.02 * bottom]);
             let series = [Series { name: "", colour: theme::gear_colour(gear), values: &flank.wear_um }];
             Figure {
                 id: format!("wear-{}", gear.name()),
                 title: format!("Wear of the {}’s flank in three slices, root to tip", gear.name()),
-                reading: format!("The {} has lost up to {}.", gear.name(), of_each(flank, &flank.wear_um, "µm")),
+                reading: format!("The {} has lost up to {}.", gear.name(), of_each(flank, deepest_in)),
                 plot: plot(flank, gear, &series, y, "%{y:.3f} µm"),
                 wide: false,
             }
@@ -99,6 +93,10 @@ pub fn pressure(run: SlicedRun<'_>) -> Vec<Figure> {
             let flank = &run.record.flanks[gear];
             let fields = [&flank.pressure_new_MPa, &flank.pressure_worn_MPa];
             let top = fields.map(|field| greatest(field).map_or(0.0, |peak| peak.value));
+            let from_new_to_worn = |slice: usize| {
+                let [new, worn] = fields.map(|field| greatest(of_slice(flank, field, slice)));
+                Some(format!("from {} to {} MPa", figure(new?.value), figure(worn?.value)))
+            };
             let series = [("new", theme::NEW, fields[0]), ("worn", theme::WORN, fields[1])]
                 .map(|(name, colour, values)| Series { name, colour, values });
             let y = theme::axis("greatest pressure, MPa").range(from_zero(top[0].max(top[1])).to_vec());
@@ -106,10 +104,9 @@ pub fn pressure(run: SlicedRun<'_>) -> Vec<Figure> {
                 id: format!("pressure-{}", gear.name()),
                 title: format!("Greatest pressure on the {}’s flank in three slices", gear.name()),
                 reading: format!(
-                    "During one mesh the {}’s flank feels at most, new: {}; worn: {}.",
+                    "The greatest pressure on the {} goes {}.",
                     gear.name(),
-                    of_each(flank, fields[0], "MPa"),
-                    of_each(flank, fields[1], "MPa"),
+                    of_each(flank, from_new_to_worn)
                 ),
                 plot: plot(flank, gear, &series, y, "%{y:.1f} MPa"),
                 wide: false,

@@ -2,7 +2,7 @@
 
 use plotly::common::{Anchor, ColorBar, ColorScale, ColorScalePalette, Font, Pad, Title, Visible};
 use plotly::layout::update_menu::{Button, ButtonMethod, UpdateMenu, UpdateMenuDirection, UpdateMenuType};
-use plotly::layout::{AspectMode, AspectRatio, Axis, Camera, DragMode3D, Eye, LayoutScene};
+use plotly::layout::{AspectMode, AspectRatio, Axis, Camera, CameraCenter, DragMode3D, Eye, LayoutScene};
 use plotly::{Plot, Surface};
 use serde_json::{Value, json};
 
@@ -50,8 +50,8 @@ pub fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Figure {
         .y_axis(scene_axis("radius, mm"))
         .z_axis(scene_axis(shown[0].axis).range(vec![0.0, shown[0].top]))
         .aspect_mode(AspectMode::Manual)
-        .aspect_ratio(AspectRatio::from((1.5, 1.1, 0.6)))
-        .camera(Camera::new().eye(Eye::from((-1.3, -1.5, 0.95))))
+        .aspect_ratio(AspectRatio::from((1.7, 1.15, 0.55)))
+        .camera(Camera::new().center(CameraCenter::from((0.05, 0.0, -0.12))).eye(Eye::from((-0.75, -1.25, 1.3))))
         .drag_mode(DragMode3D::Turntable);
     plot.set_layout(layout(560).show_legend(false).scene(scene).update_menus(vec![buttons(&shown)]));
     Figure {
