@@ -2,14 +2,14 @@
 
 mod common;
 
-use common::{fzg_c, gear, pair, spur};
+use common::{fzg_c, pair};
 use gearwear::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface, spec::PairSpec};
 use proptest::prelude::*;
 
-/// FEUP's H501 with a helix angle of choice.
+/// FZG type C as a helical pair of the same transverse module.
 fn helical(helix_angle_deg: f64) -> GearPair {
-    let upright = spur(3.5, 91.5, 23.0, gear(20, 0.1809, None), gear(30, 0.0891, None));
-    pair(&PairSpec { helix_angle_rad: helix_angle_deg.to_radians(), ..upright })
+    let helix_angle_rad = helix_angle_deg.to_radians();
+    pair(&PairSpec { helix_angle_rad, normal_module_mm: 4.5 * helix_angle_rad.cos(), ..fzg_c() })
 }
 
 fn surfaces(pair: &GearPair) -> PerGear<FlankSurface> {
@@ -41,7 +41,7 @@ fn ver_flanks_touch_along_the_line_of_contact() {
         for phase in 0..9 {
             let position = path.start_mm - 3.0 + (path.end_mm - path.start_mm + 6.0) * f64::from(phase) / 8.0;
             for station in 0..=10 {
-                let width = 23.0 * f64::from(station) / 10.0;
+                let width = pair.spec.face_width_mm * f64::from(station) / 10.0;
                 let rho = surfaces.as_ref().map(|surface| surface.contact_rho_mm(position, width));
                 if (path.start_mm..=path.end_mm).contains(&rho.pinion) {
                     touched += 1;
@@ -83,8 +83,8 @@ proptest! {
     /// Turning the pinion by δ against the clock and the wheel by δ z1/z2 with it moves every flank point to where it is with the
     /// tooth r_b1 δ farther on its path.
     #[test]
-    fn prop_gears_turn_as_the_tooth_moves(helix in -40.0..40.0_f64, turn in -0.3..0.3_f64, at in 0.0..1.0_f64, width in 0.0..23.0_f64) {
-        let pair = pair(&PairSpec { helix_angle_rad: f64::to_radians(helix), normal_module_mm: 4.5 * f64::to_radians(helix).cos(), ..fzg_c() });
+    fn prop_gears_turn_as_the_tooth_moves(helix in -30.0..30.0_f64, turn in -0.3..0.3_f64, at in 0.0..1.0_f64, width in 0.0..14.0_f64) {
+        let pair = helical(helix);
         let surfaces = surfaces(&pair);
         let position = pair.path.pitch_point_mm;
         for gear in Gear::BOTH {

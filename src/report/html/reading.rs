@@ -83,11 +83,9 @@ pub fn answer(record: &RunRecord) -> String {
     if record.history.is_empty() {
         return text;
     }
-    let positions = named(&s.geometry.curvature_radius_mm);
-    let worn = greatest(&record.mesh_cycle.iter().map(|row| row.peak_pressure_worn_MPa).collect::<Vec<_>>());
-    let place = worn.map_or_else(String::new, |at| among(&positions, record.mesh_cycle[at.index].position_mm));
     text.push_str(&format!(
-        " The greatest pressure, {place}, went from {} to {} MPa ({}), the transmission error peak to peak from {} to {} µm.",
+        " The greatest pressure, {}, went from {} to {} MPa ({}), the transmission error peak to peak from {} to {} µm.",
+        place_of_pressure(record),
         figure(s.new.peak_pressure_MPa),
         figure(s.worn.peak_pressure_MPa),
         change(s.new.peak_pressure_MPa, s.worn.peak_pressure_MPa),
@@ -97,8 +95,8 @@ pub fn answer(record: &RunRecord) -> String {
     if let Some(helical) = &s.helical {
         let wear = &helical.wear.pinion;
         text.push_str(&format!(
-            " Over the face width the pinion’s root wear varies by {} of its mean and its tip wear by {}; the face load factor went \
-             from {} to {}.",
+            " Over the face width the pinion’s root wear varies by {} of its mean and its tip wear by {}; the face load factor \
+             went from {} to {}.",
             percent(wear.root_variation),
             percent(wear.tip_variation),
             figure(helical.K_Hbeta_new),
@@ -106,6 +104,19 @@ pub fn answer(record: &RunRecord) -> String {
         ));
     }
     text
+}
+
+/// Where the pressure of the worn pair is greatest: on the pinion's flank where slices are at different places of the path.
+fn place_of_pressure(record: &RunRecord) -> String {
+    if record.slices.is_some() {
+        let flank = &record.flanks.pinion;
+        let at = greatest(&flank.pressure_worn_MPa);
+        return at
+            .map_or_else(String::new, |at| place_on_flank(flank, flank.radius_mm[at.index % flank.radius_mm.len()]));
+    }
+    let positions = named(&record.summary.geometry.curvature_radius_mm);
+    let worn = greatest(&record.mesh_cycle.iter().map(|row| row.peak_pressure_worn_MPa).collect::<Vec<_>>());
+    worn.map_or_else(String::new, |at| among(&positions, record.mesh_cycle[at.index].position_mm))
 }
 
 fn depth(flank: &FlankRecord, wear: &WearSummary) -> String {

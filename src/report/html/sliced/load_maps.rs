@@ -36,7 +36,7 @@ fn map(run: SlicedRun<'_>, when: &str, loads: &[f64], top: f64) -> Figure {
         layout(360)
             .show_legend(false)
             .hover_mode(HoverMode::Closest)
-            .x_axis(axis("position of the tooth in the middle of the face width, mm").show_grid(false))
+            .x_axis(axis("position of the tooth, mm").show_grid(false))
             .y_axis(axis("face width, mm").show_grid(false)),
         &run.record.summary.geometry.curvature_radius_mm,
     ));

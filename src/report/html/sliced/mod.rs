@@ -8,6 +8,7 @@ mod profiles;
 pub mod raster;
 mod surfaces;
 pub mod tables;
+mod tooth_cycle;
 
 use super::number::given;
 use super::theme::Figure;
@@ -45,8 +46,8 @@ pub fn figures(run: SlicedRun<'_>) -> Vec<Figure> {
     figures.extend(profiles::wear(run));
     figures.extend(profiles::pressure(run));
     figures.extend(load_maps::new_and_worn(run));
-    figures.extend(cycle_plots::all(run.record));
-    figures.push(mesh_orders::new_and_worn(run));
+    figures.extend([tooth_cycle::load_share(run), tooth_cycle::pressure(run)]);
+    figures.extend([cycle_plots::transmission_error(run.record), mesh_orders::new_and_worn(run)]);
     figures.push(history_plot::wear_against_time(run.record));
     figures
 }

@@ -50,8 +50,8 @@ pub fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Figure {
         .y_axis(scene_axis("radius, mm"))
         .z_axis(scene_axis(shown[0].axis).range(vec![0.0, shown[0].top]))
         .aspect_mode(AspectMode::Manual)
-        .aspect_ratio(AspectRatio::from((1.7, 1.15, 0.55)))
-        .camera(Camera::new().center(CameraCenter::from((0.05, 0.0, -0.12))).eye(Eye::from((-0.75, -1.25, 1.3))))
+        .aspect_ratio(AspectRatio::from((1.7, 1.2, 0.55)))
+        .camera(Camera::new().center(CameraCenter::from((0.0, 0.0, -0.15))).eye(Eye::from((-0.95, -1.55, 1.5))))
         .drag_mode(DragMode3D::Turntable);
     plot.set_layout(layout(560).show_legend(false).scene(scene).update_menus(vec![buttons(&shown)]));
     Figure {
