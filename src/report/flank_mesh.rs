@@ -57,7 +57,8 @@ fn mesh(record: &RunRecord, slices: &SliceRecord) -> Mesh {
             for point in 0..along.saturating_sub(1) {
                 let near = start + across * along + point;
                 let far = near + along;
-                quads.extend([near, near + 1, far + 1, far]);
+                // Anticlockwise as seen from outside the tooth.
+                quads.extend([near, far, far + 1, near + 1]);
                 gear_of_quad.push(gear as i64);
             }
         }
