@@ -8,7 +8,7 @@ use super::theme::{Figure, axis, from_zero, layout, mark_path_points, named, new
 use crate::simulation::record::{MeshCycleRow, PathPoints, RunRecord};
 
 /// A pair that carries at least this share of the load counts as carrying it alone.
-const ALONE: f64 = 0.9995;
+pub const ALONE: f64 = 0.9995;
 
 /// Load share, transmission error and greatest pressure over the cycle, new and worn.
 pub fn all(record: &RunRecord) -> Vec<Figure> {

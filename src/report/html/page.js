@@ -4,7 +4,7 @@
   "use strict";
   const PRINT_WIDTH = 670; // px: an A4 page less its margins
   const NARROW = 480; // px: below this a plot is that of a phone
-  const FARTHER = 1.5; // how much farther away a phone looks at a scene in space, which is wider than its screen
+  const FARTHER = 1.8; // how much farther away a phone looks at a scene in space, which is wider than its screen
   const BUTTONS = 26; // px: height of a plot's buttons, which show all the time where there is no mouse to hover
   const root = document.documentElement;
   const touch = matchMedia("(pointer: coarse)").matches;

@@ -5,7 +5,7 @@ use plotly::Plot;
 use plotly::layout::Axis;
 
 use super::{SlicedRun, slice_name};
-use crate::report::html::cycle_plots::NOT_COMPUTED;
+use crate::report::html::cycle_plots::{ALONE, NOT_COMPUTED};
 use crate::report::html::number::{change, figure, percent, significant};
 use crate::report::html::reading::{Extreme, greatest};
 use crate::report::html::theme::{Figure, axis, from_zero, layout, mark_path_points, new_and_worn, padded};
@@ -36,13 +36,9 @@ pub fn load_share(run: SlicedRun<'_>) -> Figure {
     let mean: fn(&[f64]) -> f64 = |slices| slices.iter().sum::<f64>() / slices.len() as f64;
     let shares = [&run.slices.line_load_new_N_per_mm, &run.slices.line_load_worn_N_per_mm]
         .map(|loads| at_each_position(run, loads, mean).into_iter().map(|load| load / whole).collect::<Vec<f64>>());
-    let reading = match [greatest(&shares[0]), greatest(&shares[1])] {
+    let reading = match [most_of_the_load(run, &shares[0]), most_of_the_load(run, &shares[1])] {
         [Some(new), Some(worn)] => format!(
-            "A tooth carries at most {} of the load new, at {} mm, and {} worn, at {} mm; it takes over and gives away slice by slice.",
-            percent(new.value),
-            significant(run.slices.position_mm[new.index], 4),
-            percent(worn.value),
-            significant(run.slices.position_mm[worn.index], 4),
+            "New, a tooth carries {new}; worn, {worn}. Each step of the curves is a slice that enters or leaves, on this tooth or a neighbour."
         ),
         _ => NOT_COMPUTED.into(),
     };
@@ -54,6 +50,17 @@ pub fn load_share(run: SlicedRun<'_>) -> Figure {
         plot: figure_over_mesh(run, [&shares[0], &shares[1]], y, "%{y:.3f}"),
         wide: false,
     }
+}
+
+/// "the whole load from 12.7 to 15.3 mm", or how much of it at the most.
+fn most_of_the_load(run: SlicedRun<'_>, shares: &[f64]) -> Option<String> {
+    let place = |index: usize| significant(run.slices.position_mm[index], 4);
+    let most = greatest(shares)?;
+    let alone = |share: &f64| *share >= ALONE;
+    Some(match (shares.iter().position(alone), shares.iter().rposition(alone)) {
+        (Some(first), Some(last)) => format!("the whole load from {} to {} mm", place(first), place(last)),
+        _ => format!("at most {} of the load, at {} mm", percent(most.value), place(most.index)),
+    })
 }
 
 /// The greatest pressure of all slices.
@@ -68,7 +75,8 @@ pub fn pressure(run: SlicedRun<'_>) -> Figure {
     };
     let reading = match fields.map(|field| greatest(field)) {
         [Some(new), Some(worn)] => format!(
-            "New, the pressure peaks {} with {} MPa; worn, {} with {} MPa ({}).",
+            "New, the pressure peaks {} with {} MPa; worn, {} with {} MPa ({}). Spikes are slices that have just entered or are about to \
+             leave.",
             place(new),
             figure(new.value),
             place(worn),
