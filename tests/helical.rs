@@ -194,7 +194,7 @@ fn sliding_work(pair: &GearPair, outcome: &Outcome, positions: usize, slice: usi
         .filter(|(_, contact)| contact.slice == slice)
         .map(|(phase_mm, contact)| {
             let at = phase_mm + f64::from(contact.tooth) * mesh.base_pitch_mm;
-            assert!((at + ahead - contact.cell.position_mm).abs() < 1e-6);
+            assert!((at + ahead - contact.cell.position_mm).abs() <= spacing);
             let row = ((at - mesh.position_mm[0]) / spacing).round() as usize;
             let load = mesh.line_load_n_per_mm[row * mesh.slices + slice];
             load * pair.sliding_mm(contact.cell.lower_mm, contact.cell.upper_mm)
