@@ -4,7 +4,7 @@ mod common;
 
 use std::f64::consts::PI;
 
-use common::{Scene, assert_close, fzg_c, fzg_c_scene, pair};
+use common::{Scene, assert_close, fzg_c, fzg_c_scene, pair, preset};
 use gearwear::gear::{
     Gear, GearPair, PairError,
     conjugate::ConjugateFlanks,
@@ -19,12 +19,6 @@ use gearwear::working_cycle::{
     phases::phases,
     settings::{Coupling, SliceSettings},
 };
-
-/// The pair of a preset.
-fn preset(name: &str) -> PairSpec {
-    let text = gearwear::scene::presets::find(name).expect("a preset").text;
-    gearwear::scene::Scene::from_toml(text).expect("presets are sound").scene.pair
-}
 
 fn slices(count: usize, coupling: Coupling) -> Option<SliceSettings> {
     Some(SliceSettings { count, coupling })
