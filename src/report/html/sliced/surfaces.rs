@@ -2,7 +2,7 @@
 
 use plotly::common::{Anchor, ColorBar, ColorScale, ColorScalePalette, Font, Pad, Title, Visible};
 use plotly::layout::update_menu::{Button, ButtonMethod, UpdateMenu, UpdateMenuDirection, UpdateMenuType};
-use plotly::layout::{AspectMode, AspectRatio, Axis, Camera, CameraCenter, DragMode3D, Eye, LayoutScene};
+use plotly::layout::{AspectMode, AspectRatio, Axis, Camera, CameraCenter, DragMode3D, Eye, LayoutScene, Margin};
 use plotly::{Plot, Surface};
 use serde_json::{Value, json};
 
@@ -53,7 +53,13 @@ pub fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Figure {
         .aspect_ratio(AspectRatio::from((1.7, 1.2, 0.55)))
         .camera(Camera::new().center(CameraCenter::from((0.0, 0.0, -0.15))).eye(Eye::from((-0.95, -1.55, 1.5))))
         .drag_mode(DragMode3D::Turntable);
-    plot.set_layout(layout(560).show_legend(false).scene(scene).update_menus(vec![buttons(&shown)]));
+    plot.set_layout(
+        layout(560)
+            .margin(Margin::new().left(4).right(4).top(36).bottom(8))
+            .show_legend(false)
+            .scene(scene)
+            .update_menus(vec![buttons(&shown)]),
+    );
     Figure {
         id: format!("surface-{}", gear.name()),
         title: format!("Wear and pressure over the {}’s flank", gear.name()),
