@@ -18,7 +18,7 @@
 //!
 //! with e_r, e_t the radial and the tangential unit vector at θ, and ξ the position of the tooth in the middle of the face
 //! width. e_t is the section's normal out of the tooth. For a positive helix angle sections at larger z follow behind those at
-//! z = 0 (see [`super::slices`]): with z towards the viewer the pinion's teeth are left-handed and the wheel's right-handed.
+//! z = 0 (see [`super::slices`]): the pinion's teeth are left-handed and the wheel's right-handed.
 //!
 //! Source: ISO 21771, sections 4.3 and 5.5.
 
@@ -28,7 +28,7 @@ use serde::Serialize;
 
 use super::{Gear, GearPair};
 
-/// Both gears' flanks of one tooth pair are told by two of these.
+/// The working flank of one gear's tooth.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct FlankSurface {
     /// Which gear's.
