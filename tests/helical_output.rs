@@ -118,22 +118,21 @@ fn ver_slices_csv_carries_the_whole_load_at_every_place() {
     let pitch = number(&summary, "/geometry/base_pitch_mm");
     let whole = number(&summary, "/contact/line_load_N_per_mm");
     let tan_beta_b = number(&summary, "/helical/base_helix_angle_deg").to_radians().tan();
-    let rows = table["position_mm"].len();
-    let mut loads: BTreeMap<i64, f64> = BTreeMap::new();
     let distinct = table["position_mm"].windows(2).map(|pair| pair[1] - pair[0]).filter(|step| *step > 0.0);
     let spacing = distinct.fold(f64::INFINITY, f64::min);
-    for row in 0..rows {
-        let (position, at) = (table["position_mm"][row], table["slice_position_mm"][row]);
+    let column = |name: &str| table[name].iter().copied();
+    for ((position, at), width) in column("position_mm").zip(column("slice_position_mm")).zip(column("width_mm")) {
         // A slice that enters or leaves within a position's stretch carries load there though its point is just outside A–E.
         assert!((a - spacing..e + spacing).contains(&at), "{at}");
-        let ahead = (10.0 - table["width_mm"][row]) * tan_beta_b;
-        assert!((at - position - ahead).abs() < 1e-12, "row {row}");
+        let ahead = (10.0 - width) * tan_beta_b;
+        assert!((at - position - ahead).abs() < 1e-12, "{at} at {position}, {width}");
     }
-    for row in 0..rows {
+    let mut loads: BTreeMap<i64, f64> = BTreeMap::new();
+    let first = table["position_mm"][0];
+    for (position, load) in column("position_mm").zip(column("line_load_worn_N_per_mm")) {
         // The same place of the gears a base pitch later is the next tooth's.
-        let phases = (pitch / spacing).round();
-        let phase = ((table["position_mm"][row] - table["position_mm"][0]) / spacing).round().rem_euclid(phases);
-        *loads.entry(phase as i64).or_default() += table["line_load_worn_N_per_mm"][row] / SLICES as f64;
+        let phase = ((position - first) / spacing).round().rem_euclid((pitch / spacing).round());
+        *loads.entry(phase as i64).or_default() += load / SLICES as f64;
     }
     assert_eq!(loads.len(), (pitch / spacing).round() as usize);
     for load in loads.values() {
