@@ -312,15 +312,21 @@ fn a_spur_run_in_the_same_folder_takes_the_files_away() {
     assert!(!page.contains("slices.csv") && !page.contains("map-wear") && !printed.contains("K_Hbeta"));
 }
 
-/// Sections that differ by crowning alone have slices too: lines of contact parallel to the axis, and a map of the modifications.
+/// Sections that differ by crowning alone have slices too, and a map of the modifications; a single slice, in the middle, shows
+/// none of it and is no trouble.
 #[test]
 fn a_crowned_spur_pair_is_shown_slice_by_slice() {
-    let folder = tempfile::tempdir().unwrap();
-    let scene = quick_helical()
-        .replace("helix_angle_deg = 15.0", "helix_angle_deg = 0.0")
-        .replace("# lead_crowning_um", "lead_crowning_um")
-        .replace("slices = 5 ", "slices = 1 ");
-    run(folder.path(), &scene);
-    let page = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
-    assert!(page.contains("id=\"map-wear-pinion\"") && folder.path().join("out/flank.vtu").is_file());
+    for (slices, shown) in [(5, true), (1, false)] {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = quick_helical()
+            .replace("helix_angle_deg = 15.0", "helix_angle_deg = 0.0")
+            .replace("# lead_crowning_um", "lead_crowning_um")
+            .replace("slices = 5 ", &format!("slices = {slices} "));
+        run(folder.path(), &scene);
+        let page = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
+        assert!(page.contains("id=\"map-wear-pinion\"") && folder.path().join("out/flank.vtu").is_file());
+        assert_eq!(page.contains("id=\"map-modifications-pinion\""), shown, "{slices} slices");
+        // Crowning of 10 µm is parabolic over the half-width: 10 · 0.8² at the middle of the first of five slices.
+        assert_eq!(page.contains("The modifications take up to 6.400 µm"), shown, "{slices} slices");
+    }
 }

@@ -10,6 +10,7 @@ use plotly::{HeatMap, Plot, Scatter};
 use super::raster::SlicedRaster;
 use super::{SlicedRun, slice_name};
 use crate::gear::Gear;
+use crate::report::html::active_flank::ActiveFlank;
 use crate::report::html::number::{figure, plotted, significant};
 use crate::report::html::reading::{greatest, place_on_flank};
 use crate::report::html::theme::{self, Figure, MUTED, axis, layout, line};
@@ -72,16 +73,24 @@ pub fn all(run: SlicedRun<'_>, gear: Gear) -> Vec<Figure> {
         },
     ];
     if flank.removed_um.iter().any(|&removed| removed != 0.0) {
+        let shown = on_active_flank(flank, &flank.removed_um);
         quantities.push(Quantity {
             id: "modifications",
             title: format!("Modifications of the {name}’s flank"),
             unit: "µm",
             values: &flank.removed_um,
-            top: top(&flank.removed_um),
-            reading: format!("The modifications take up to {}.", peak_of(flank, &flank.removed_um, "µm")),
+            top: top(&shown),
+            reading: format!("The modifications take up to {}.", peak_of(flank, &shown, "µm")),
         });
     }
     quantities.into_iter().map(|quantity| map(run, gear, quantity)).collect()
+}
+
+/// The `field` with no value where it is not shown.
+fn on_active_flank(flank: &FlankRecord, field: &[f64]) -> Vec<f64> {
+    let (first, points) = (ActiveFlank::of(flank).first, flank.radius_mm.len());
+    let shown = |place: usize| place % points >= first;
+    field.iter().enumerate().map(|(place, &value)| if shown(place) { value } else { f64::NAN }).collect()
 }
 
 fn map(run: SlicedRun<'_>, gear: Gear, quantity: Quantity<'_>) -> Figure {
