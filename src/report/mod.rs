@@ -16,6 +16,7 @@ pub mod fem;
 pub mod fem_pair;
 pub mod html;
 pub mod summary;
+pub mod sweep;
 pub mod tables;
 
 use std::fs;

@@ -57,9 +57,13 @@ pub const FIGURES: &[SweepFigure] = &[
         "whole torque over the pinion's base radius and the face width",
         |s| Some(s.contact.line_load_N_per_mm),
     ),
-    wants_less("pinion_peak_wear_um", "peak wear of the pinion", "µm", "greatest wear depth of the pinion's flank", |s| {
-        Some(s.pinion.peak_wear_um)
-    }),
+    wants_less(
+        "pinion_peak_wear_um",
+        "peak wear of the pinion",
+        "µm",
+        "greatest wear depth of the pinion's flank",
+        |s| Some(s.pinion.peak_wear_um),
+    ),
     wants_less(
         "pinion_root_wear_um",
         "wear near the pinion’s root",
@@ -81,9 +85,13 @@ pub const FIGURES: &[SweepFigure] = &[
         "worn off the whole pinion: all teeth, whole width",
         |s| Some(s.pinion.worn_volume_mm3),
     ),
-    wants_less("wheel_peak_wear_um", "peak wear of the wheel", "µm", "greatest wear depth of the wheel's flank", |s| {
-        Some(s.wheel.peak_wear_um)
-    }),
+    wants_less(
+        "wheel_peak_wear_um",
+        "peak wear of the wheel",
+        "µm",
+        "greatest wear depth of the wheel's flank",
+        |s| Some(s.wheel.peak_wear_um),
+    ),
     wants_less(
         "wheel_root_wear_um",
         "wear near the wheel’s root",
