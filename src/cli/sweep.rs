@@ -11,13 +11,13 @@ use gearwear::scene::draft::Draft;
 use gearwear::simulation::sweep_record::{Shard, SweepRecord};
 use gearwear::sweep::axis::{self, AxisError};
 use gearwear::sweep::combination::Sweep;
-use gearwear::sweep::journal::{self, Contents, Journal};
+use gearwear::sweep::journal::{self, Contents, Journal, JournalError};
 use gearwear::sweep::merge::merge;
 use gearwear::sweep::study::{self, Ended};
 
 use super::failure::{Failure, InputError, SceneProblems};
 use super::figures::digits;
-use super::run::{pool, watch_for_interrupt};
+use super::run::{thread_count, watch_for_interrupt};
 use super::sweep_progress::SweepProgress;
 use super::{say, scene_source, stdout, warn};
 
@@ -106,7 +106,7 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
         Failure::Scene(SceneProblems { name: source.name.clone(), text: source.text.clone(), problems })
     })?;
     report::writable(&args.out)?;
-    let threads = pool(args.threads)?.current_num_threads();
+    let threads = thread_count(args.threads);
 
     let start = Instant::now();
     let interrupted = watch_for_interrupt();
@@ -160,8 +160,9 @@ fn merge_shards(args: &MergeArgs) -> Result<(), Failure> {
     let whole = merge(&args.folders).map_err(InputError::Merge)?;
     let scene_toml = scene_of(&whole, &args.folders)?;
     report::writable(&args.out)?;
+    not_another_sweep(&whole, &args.out).map_err(InputError::Journal)?;
     journal::write(&args.out, &whole).map_err(|source| {
-        InputError::Journal(journal::JournalError::Open { path: args.out.join(journal::FILE_NAME), source })
+        InputError::Journal(JournalError::Open { path: args.out.join(journal::FILE_NAME), source })
     })?;
     let record = SweepRecord {
         identity: whole.identity,
@@ -172,6 +173,19 @@ fn merge_shards(args: &MergeArgs) -> Result<(), Failure> {
         wall_s: start.elapsed().as_secs_f64(),
     };
     finish(&record, &args.out, args.quiet)
+}
+
+/// Rows that stand in `out` already must be those of this sweep: they are about to be replaced.
+fn not_another_sweep(whole: &Contents, out: &Path) -> Result<(), JournalError> {
+    let differences = match journal::read(out) {
+        Ok(found) => found.identity.differences(&whole.identity),
+        Err(JournalError::NoSweep { .. }) => Vec::new(),
+        Err(error) => return Err(error),
+    };
+    if differences.is_empty() {
+        return Ok(());
+    }
+    Err(JournalError::OtherSweep { path: out.join(journal::FILE_NAME), differences })
 }
 
 /// The scene of the sweep, from the first folder that has it.

@@ -4,6 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::sweep_figures::{FIGURES, SweepFigure};
 
+/// Digits of a value between the ends of a range.
+const DIGITS: i32 = 12;
+
 /// A key of the scene with the values it takes, evenly spaced, both ends included.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SweepAxis {
@@ -26,7 +29,7 @@ impl SweepAxis {
     /// x_i = ((n − 1 − i) from + i to) / (n − 1)
     /// ```
     ///
-    /// Values between the ends are rounded to twelve significant digits, so that they read as one would write them.
+    /// Values between the ends are rounded to twelve digits of the larger end, so that they read as one would write them.
     pub fn value(&self, index: usize) -> f64 {
         let last = self.count.saturating_sub(1);
         if index == 0 {
@@ -35,7 +38,10 @@ impl SweepAxis {
             self.to
         } else {
             let between = ((last - index) as f64 * self.from + index as f64 * self.to) / last as f64;
-            format!("{between:.11e}").parse().unwrap_or(between)
+            let largest = self.from.abs().max(self.to.abs());
+            let decimals = (DIGITS - 1 - largest.log10().floor() as i32).max(0) as usize;
+            // Adding zero takes the sign of a negative zero away.
+            format!("{between:.decimals$}").parse().unwrap_or(between) + 0.0
         }
     }
 
@@ -43,6 +49,12 @@ impl SweepAxis {
     pub fn values(&self) -> Vec<f64> {
         (0..self.count).map(|index| self.value(index)).collect()
     }
+}
+
+/// A number as one would write it: `10`, `0.5`, `1e-17`.
+pub fn plain(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
 }
 
 /// A part of a sweep that is run by itself: every `of`-th combination, beginning with `number`.
@@ -102,7 +114,7 @@ impl SweepIdentity {
     pub fn in_words(&self, index: usize) -> String {
         let values = self.values(index);
         let said: Vec<String> =
-            self.axes.iter().zip(values).map(|(axis, value)| format!("{} = {value}", axis.key)).collect();
+            self.axes.iter().zip(values).map(|(axis, value)| format!("{} = {}", axis.key, plain(value))).collect();
         said.join(", ")
     }
 
@@ -110,7 +122,7 @@ impl SweepIdentity {
     pub fn differences(&self, other: &Self) -> Vec<String> {
         let axes = |of: &Self| {
             let said: Vec<String> =
-                of.axes.iter().map(|a| format!("{}={}:{}:{}", a.key, a.from, a.to, a.count)).collect();
+                of.axes.iter().map(|a| format!("{}={}:{}:{}", a.key, plain(a.from), plain(a.to), a.count)).collect();
             said.join(" ")
         };
         let yes = |is: bool| if is { "yes" } else { "no" }.to_owned();
@@ -278,6 +290,9 @@ mod tests {
         assert_eq!(axis("k", -1.0, 1.0, 3).values(), [-1.0, 0.0, 1.0]);
         assert_eq!(axis("k", 14.0, 14.0, 1).values(), [14.0]);
         assert_eq!(axis("k", 0.0, 1.0, 4).values()[1], 0.333_333_333_333);
+        assert_eq!(axis("k", -0.1, 0.6, 15).values()[1..4], [-0.05, 0.0, 0.05]);
+        assert_eq!(axis("k", 1e-18, 3e-18, 3).values(), [1e-18, 2e-18, 3e-18]);
+        assert_eq!(axis("k", 0.0, 3e15, 4).values(), [0.0, 1e15, 2e15, 3e15]);
     }
 
     /// The first key changes slowest.
@@ -297,5 +312,6 @@ mod tests {
         let all: Vec<Vec<f64>> = (0..6).map(|index| identity.values(index)).collect();
         assert_eq!(all, [[0.0, 5.0], [0.0, 6.0], [0.0, 7.0], [1.0, 5.0], [1.0, 6.0], [1.0, 7.0]]);
         assert_eq!(identity.in_words(4), "a = 1, b = 6");
+        assert_eq!([10.0, -0.25, 1e-17].map(plain), ["10", "-0.25", "1e-17"]);
     }
 }

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use crate::scene::draft::other_way_to_say;
 use crate::scene::key::{KeyError, NumberKey};
-use crate::simulation::sweep_record::SweepAxis;
+use crate::simulation::sweep_record::{SweepAxis, plain};
 
 /// Values of one key.
 pub const MOST_VALUES: usize = 100_000;
@@ -44,7 +44,7 @@ pub enum AxisError {
         found: String,
     },
     /// The range runs downwards.
-    #[error("{key}: found the range {from}:{to}, which is reversed; allowed: FROM below TO, here {to}:{from}")]
+    #[error("{key}: found the range {from}:{to}, which is reversed; allowed: FROM below TO", from = plain(*.from), to = plain(*.to))]
     Reversed {
         /// The key.
         key: String,
@@ -54,7 +54,7 @@ pub enum AxisError {
         to: f64,
     },
     /// One value, but two ends.
-    #[error("{key}: found 1 value for the range {from}:{to}; allowed: a COUNT of at least 2, or {from}:{from}:1")]
+    #[error("{key}: found 1 value for the range {from}:{to}; allowed: a COUNT of at least 2, or {from}:{from}:1", from = plain(*.from), to = plain(*.to))]
     OneValue {
         /// The key.
         key: String,
@@ -64,7 +64,7 @@ pub enum AxisError {
         to: f64,
     },
     /// Several values, but one end.
-    #[error("{key}: found {count} values for the range {from}:{from}; allowed: {from}:{from}:1, or FROM below TO")]
+    #[error("{key}: found {count} values for the range {from}:{from}; allowed: {from}:{from}:1, or FROM below TO", from = plain(*.from))]
     SameEnds {
         /// The key.
         key: String,
@@ -82,7 +82,7 @@ pub enum AxisError {
         value: f64,
     },
     /// No value is one that the key takes.
-    #[error("{key}: found {from} to {to}; allowed: {allowed}")]
+    #[error("{key}: found {from} to {to}; allowed: {allowed}", from = plain(*.from), to = plain(*.to))]
     NotAllowed {
         /// The key.
         key: String,
@@ -235,7 +235,7 @@ mod tests {
             (&["pair.face_width_mm=10:30:0"], &["\"0\" as COUNT", "from 1 to 100000"]),
             (&["pair.face_width_mm=10:30:2.5"], &["\"2.5\" as COUNT"]),
             (&["pair.face_width_mm=10:30:-1"], &["\"-1\" as COUNT"]),
-            (&["pair.face_width_mm=30:10:21"], &["reversed", "10:30"]),
+            (&["pair.face_width_mm=30:10:21"], &["30:10, which is reversed", "FROM below TO"]),
             (&["pair.face_width_mm=10:30:1"], &["found 1 value", "10:10:1"]),
             (&["pair.face_width_mm=10:10:5"], &["found 5 values"]),
             (&["pair.pinion.teeth=16:20:4"], &["pair.pinion.teeth: found the value 17.33"]),

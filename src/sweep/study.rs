@@ -89,6 +89,10 @@ pub fn run(
             // A thread that panicked with the lock held would have left a whole journal behind: it only appends.
             let mut kept = kept.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
             let (journal, failed, error) = &mut *kept;
+            if error.is_some() {
+                // What follows a line that was not written whole could not be read again.
+                break;
+            }
             *failed += usize::from(row.error.is_some());
             match journal.append(row) {
                 Ok(()) => observer.row(journal.rows.len(), all.len(), *failed),

@@ -9,14 +9,19 @@ use crate::simulation::sweep_record::{SweepRecord, SweepRow};
 
 /// Combinations without a result that the page lists; all are in the table.
 const MOST_LISTED: usize = 20;
+/// The column of sentences.
+const ERROR: &str = "error";
 
+/// A table of text cells; the first column names the row, and a column called `error` holds sentences.
 fn table(caption: &str, columns: &[String], rows: impl Iterator<Item = Vec<String>>) -> String {
-    let head: String = columns.iter().map(|name| format!("<th scope=\"col\">{}</th>", escape(name))).collect();
+    let class = |name: &String| if name == ERROR { " class=\"how\"" } else { "" };
+    let head: String =
+        columns.iter().map(|name| format!("<th scope=\"col\"{}>{}</th>", class(name), escape(name))).collect();
     let body: String = rows
         .map(|cells| {
-            let mut cells = cells.iter().map(|cell| escape(cell));
-            let name = cells.next().unwrap_or_default();
-            let rest: String = cells.map(|cell| format!("<td>{cell}</td>")).collect();
+            let mut cells = cells.iter().map(|cell| escape(cell)).zip(columns);
+            let name = cells.next().map(|(cell, _)| cell).unwrap_or_default();
+            let rest: String = cells.map(|(cell, column)| format!("<td{}>{cell}</td>", class(column))).collect();
             format!("<tr><th scope=\"row\">{name}</th>{rest}</tr>\n")
         })
         .collect();
@@ -59,7 +64,7 @@ pub fn failed(record: &SweepRecord) -> String {
         return String::new();
     }
     let columns: Vec<String> =
-        ["combination".to_owned()].into_iter().chain(keys(record)).chain(["error".to_owned()]).collect();
+        ["combination".to_owned()].into_iter().chain(keys(record)).chain([ERROR.to_owned()]).collect();
     let rows = failed.iter().take(MOST_LISTED).map(|row| {
         let error = row.error.clone().unwrap_or_default();
         [row.index.to_string()].into_iter().chain(values(row)).chain([error]).collect()

@@ -7,7 +7,7 @@ use plotly::{Contour, Plot};
 
 use super::section_plane::{self, ShownAxis, range};
 use crate::report::html::number::{figure as shown_number, given, plotted};
-use crate::report::html::theme::{Figure, axis, curve, layout, line};
+use crate::report::html::theme::{Figure, axis, curve, layout, line, padded};
 use crate::simulation::sweep_figures::SweepFigure;
 use crate::simulation::sweep_record::{SweepRecord, SweepRow};
 
@@ -66,8 +66,8 @@ pub fn contour(record: &SweepRecord, figure: &SweepFigure, x: &ShownAxis<'_>, y:
         layout(460)
             .show_legend(true)
             .hover_mode(HoverMode::Closest)
-            .x_axis(axis(&x.axis.key).show_grid(false))
-            .y_axis(axis(&y.axis.key).show_grid(false)),
+            .x_axis(axis(&x.axis.key).show_grid(false).range(padded(x.axis.from, x.axis.to)))
+            .y_axis(axis(&y.axis.key).show_grid(false).range(padded(y.axis.from, y.axis.to))),
     );
     Some(Figure {
         id: format!("contour-{}", figure.name.to_lowercase().replace('_', "-")),

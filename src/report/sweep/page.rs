@@ -74,12 +74,18 @@ fn answer(record: &SweepRecord) -> String {
     if let Some(figure) = shown(record).next()
         && let Some((row, least)) = record.least(figure)
     {
+        let place: Vec<String> = identity
+            .axes
+            .iter()
+            .zip(&row.values)
+            .map(|(axis, &value)| format!("{} = {}", axis.key, given(value)))
+            .collect();
         text.push_str(&format!(
             " The {} is least, {} {}, at {}.",
             figure.title,
             shown_number(least),
             figure.unit,
-            identity.in_words(row.index)
+            place.join(" and ")
         ));
     }
     text

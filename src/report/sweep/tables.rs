@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::report::tables::{Provenance, table};
 use crate::simulation::sweep_figures::FIGURES;
-use crate::simulation::sweep_record::{SweepRecord, SweepRow};
+use crate::simulation::sweep_record::{SweepRecord, SweepRow, plain};
 
 /// A cell of the table; empty where there is nothing to say.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -49,7 +49,7 @@ pub fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
     let whole = |count: usize| Cell::Whole(i64::try_from(count).ok());
     let mut columns = vec![SweepColumn::new("index", "number of the combination, from 0", move |row| whole(row.index))];
     for (at, axis) in record.identity.axes.iter().enumerate() {
-        let meaning = format!("varied from {} to {} in {} values", axis.from, axis.to, axis.count);
+        let meaning = format!("varied from {} to {} in {} values", plain(axis.from), plain(axis.to), axis.count);
         let is_whole = axis.whole;
         columns.push(SweepColumn::new(&axis.key, meaning, move |row| {
             let value = row.values.get(at).copied();
