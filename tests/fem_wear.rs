@@ -12,6 +12,7 @@ use gearwear::gear::{
     flank::FlankGrid,
     modification::{Relief, ReliefShape},
     removed_material::modifications_mm,
+    slices::Slices,
     spec::PairSpec,
 };
 use gearwear::mesh::settings::{Body, BodySettings, default_clamp};
@@ -100,7 +101,7 @@ fn val_each_flank_loses_what_load_and_sliding_ask_for() {
     asked *= COEFFICIENT;
     // A flank that lies m behind the nominal one, along normals that meet at its centre of curvature, is shorter by m/ρ.
     let lost = PerGear::from_fn(|gear| {
-        let removed = modifications_mm(&pair, gear, &grid[gear]);
+        let removed = modifications_mm(&pair, gear, &grid[gear], &Slices::new(&pair, 1));
         let shortened: Vec<f64> = (0..grid[gear].len())
             .map(|i| depth[gear][i] * (1.0 - removed[i] / grid[gear].coordinate_mm[i].max(1.0)))
             .collect();
@@ -154,7 +155,7 @@ fn val_wear_opens_the_gap_as_a_relief_does() {
     }
     let (plain, modified) = (pair(&fzg_c()), pair(&spec));
     let grid = grid(&plain, 750);
-    let worn = PerGear::from_fn(|gear| modifications_mm(&modified, gear, &grid[gear]));
+    let worn = PerGear::from_fn(|gear| modifications_mm(&modified, gear, &grid[gear], &Slices::new(&modified, 1)));
     let (_, by_wear, _) = mesh_once(&condensed(&plain, 6.0), &grid, 60, &worn);
     let (_, by_mesh, _) = mesh_once(&condensed(&modified, 6.0), &grid, 60, &none(&grid));
     for (worn, meshed) in by_wear.positions.iter().zip(&by_mesh.positions) {

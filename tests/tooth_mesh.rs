@@ -60,6 +60,7 @@ fn modified(mut spec: PairSpec, tip_rounding_mm: f64) -> PairSpec {
             root_relief: Some(Relief { amount_mm: 0.015, length_mm: 1.5, shape: ReliefShape::Parabolic }),
             profile_crowning_mm: 0.005,
             tip_rounding_mm,
+            ..Modification::default()
         };
     }
     spec

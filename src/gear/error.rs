@@ -96,14 +96,14 @@ pub enum PairError {
         /// d_f.
         root_diameter_mm: f64,
     },
-    /// A relief is longer than the active profile it lies on.
+    /// A relief is longer than the active profile, or the half of the face width, that it lies on.
     #[error("the {} {modification} is {length_mm:.4} mm long, more than the {available_mm:.4} mm there is", .gear.name())]
     ModificationTooLong {
         /// Which gear.
         gear: Gear,
-        /// `tip relief` or `root relief`.
+        /// `tip relief`, `root relief` or `end relief`.
         modification: &'static str,
-        /// Roll length.
+        /// Roll length, or length over the face width.
         length_mm: f64,
         /// What there is.
         available_mm: f64,
@@ -113,7 +113,7 @@ pub enum PairError {
     ModificationTooDeep {
         /// Which gear.
         gear: Gear,
-        /// `tip relief`, `root relief` or `profile crowning`.
+        /// Its key in words, without the unit.
         modification: &'static str,
         /// Removed along the normal.
         amount_mm: f64,

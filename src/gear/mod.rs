@@ -4,6 +4,7 @@
 pub mod conjugate;
 pub mod error;
 pub mod flank;
+pub mod half_profile;
 pub mod involute;
 pub mod modification;
 pub mod outline;
@@ -12,6 +13,7 @@ pub mod path_of_contact;
 pub mod per_gear;
 pub mod removed_material;
 pub mod root_trochoid;
+pub mod slices;
 pub mod spec;
 pub mod tooth;
 

@@ -2,7 +2,8 @@
 //!
 //! Each is an amount of material removed along the flank normal; [`super::removed_material`] turns them into the field
 //! that every contact model reads. Lengths are roll lengths: differences of the radius of curvature ρ of the transverse
-//! involute, which are lengths along the path of contact (ISO 21771-1, profile modifications).
+//! involute, which are lengths along the path of contact (ISO 21771-1, profile modifications). What varies over the face width
+//! does so by the axial coordinate z from 0 to b (ISO 21771-1, helix modifications), and is the same from root to tip.
 
 /// How a relief grows from its start to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
@@ -26,6 +27,17 @@ pub struct Relief {
     pub shape: ReliefShape,
 }
 
+/// Relief towards both ends of the face width.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EndRelief {
+    /// Removed at the end faces, mm.
+    pub amount_mm: f64,
+    /// Part of the face width over which it runs out at either end, mm.
+    pub length_mm: f64,
+    /// Its shape.
+    pub shape: ReliefShape,
+}
+
 /// All modifications of one flank; the default is the plain involute.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Modification {
@@ -37,4 +49,17 @@ pub struct Modification {
     pub profile_crowning_mm: f64,
     /// Radius of the rounding of the tip edge, mm.
     pub tip_rounding_mm: f64,
+    /// Height of the lead crowning (parabola over the face width, nothing removed at its middle), mm.
+    pub lead_crowning_mm: f64,
+    /// Relief towards both ends of the face width.
+    pub end_relief: Option<EndRelief>,
+    /// Helix-slope deviation over the face width, mm: positive, material is missing at width b; negative, at width 0.
+    pub helix_slope_mm: f64,
+}
+
+impl Modification {
+    /// Whether it differs from one transverse section to another.
+    pub fn varies_over_width(&self) -> bool {
+        self.lead_crowning_mm != 0.0 || self.end_relief.is_some() || self.helix_slope_mm != 0.0
+    }
 }

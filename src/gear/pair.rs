@@ -96,9 +96,14 @@ impl GearPair {
         self.path.involute[gear].radius_mm(self.active_start_rho_mm(gear))
     }
 
-    /// ε_β = b sin β / (π m_n).
+    /// ε_β = b |sin β| / (π m_n).
     pub fn overlap_ratio(&self) -> f64 {
-        self.spec.face_width_mm * self.spec.helix_angle_rad.sin() / (PI * self.spec.normal_module_mm)
+        self.spec.face_width_mm * self.spec.helix_angle_rad.sin().abs() / (PI * self.spec.normal_module_mm)
+    }
+
+    /// β_b, helix angle at the base cylinders: tan β_b = tan β cos α_t.
+    pub fn base_helix_angle_rad(&self) -> f64 {
+        (self.spec.helix_angle_rad.tan() * self.spec.transverse_pressure_angle_rad().cos()).atan()
     }
 
     /// z_driving / z_driven: turns of the wheel per turn of the pinion.
@@ -168,11 +173,27 @@ impl GearPair {
                     _ => {}
                 }
             }
-            for (name, amount_mm) in amounts.into_iter().chain([("profile crowning", modification.profile_crowning_mm)])
-            {
+            let over_width = [
+                ("lead crowning", modification.lead_crowning_mm),
+                ("end relief", modification.end_relief.map_or(0.0, |relief| relief.amount_mm)),
+                ("helix slope deviation", modification.helix_slope_mm.abs()),
+            ];
+            let crowning = [("profile crowning", modification.profile_crowning_mm)];
+            for (name, amount_mm) in amounts.into_iter().chain(crowning).chain(over_width) {
                 if amount_mm > greatest_mm {
                     return Err(PairError::ModificationTooDeep { gear, modification: name, amount_mm, greatest_mm });
                 }
+            }
+            let half_width_mm = 0.5 * self.spec.face_width_mm;
+            if let Some(end) = modification.end_relief
+                && end.length_mm > half_width_mm
+            {
+                return Err(PairError::ModificationTooLong {
+                    gear,
+                    modification: "end relief",
+                    length_mm: end.length_mm,
+                    available_mm: half_width_mm,
+                });
             }
             self.check_tip_rounding(gear, modification.tip_rounding_mm)?;
         }

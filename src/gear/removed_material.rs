@@ -9,23 +9,48 @@
 //! tip rounding  ρ_k − √(ρ_k² − d²)   d: distance along the flank from where the rounding of radius ρ_k begins
 //! ```
 //!
-//! Source: ISO 21771-1, profile modifications; the rounding is the circle tangent to flank and tip circle.
+//! and by the place z over the face width b:
+//!
+//! ```text
+//! lead crowning  C_β (2z/b − 1)²
+//! end relief     C (u/L)ⁿ         u: distance beyond where it begins, towards either end face
+//! helix slope    f z/b            f > 0; |f| (1 − z/b) where f < 0: a flank only ever lacks material
+//! ```
+//!
+//! Source: ISO 21771-1, profile and helix modifications; the rounding is the circle tangent to flank and tip circle.
 
 use super::{
     Gear, GearPair,
     flank::FlankGrid,
     modification::{Modification, Relief, ReliefShape},
+    slices::Slices,
     tooth::Tooth,
 };
 
-/// The modifications of a gear's flank as removed material at its points, mm.
-pub fn modifications_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid) -> Vec<f64> {
+/// The modifications of a gear's flank as removed material at its points, slice after slice, mm.
+pub fn modifications_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid, slices: &Slices) -> Vec<f64> {
     let (modification, tooth) = (&pair.spec.gears[gear].modification, &pair.teeth[gear]);
     let start = pair.active_start_rho_mm(gear);
-    grid.coordinate_mm.iter().map(|&rho| removed_mm(modification, tooth, start, rho)).collect()
+    let profile: Vec<f64> = grid.coordinate_mm.iter().map(|&rho| removed_mm(modification, tooth, start, rho)).collect();
+    let over_width = slices.width_mm.iter().map(|&z| lead_removed_mm(modification, pair.spec.face_width_mm, z));
+    over_width.flat_map(|lead| profile.iter().map(move |removed| removed + lead)).collect()
 }
 
-/// Material removed at radius of curvature `rho_mm` of `tooth`, whose active profile begins at `active_start_rho_mm`.
+/// Material removed at `width_mm` of a face of width `face_width_mm` by what varies over it alone.
+pub fn lead_removed_mm(modification: &Modification, face_width_mm: f64, width_mm: f64) -> f64 {
+    let along = width_mm / face_width_mm;
+    let crowning = modification.lead_crowning_mm * (2.0 * along - 1.0).powi(2);
+    let end = modification.end_relief.map_or(0.0, |end| {
+        let from_end_mm = width_mm.min(face_width_mm - width_mm);
+        let relief = Relief { amount_mm: end.amount_mm, length_mm: end.length_mm, shape: end.shape };
+        relief_mm(relief, end.length_mm - from_end_mm)
+    });
+    let slope = modification.helix_slope_mm;
+    crowning + end + if slope >= 0.0 { slope * along } else { -slope * (1.0 - along) }
+}
+
+/// Material removed at radius of curvature `rho_mm` of `tooth`, whose active profile begins at `active_start_rho_mm`, by
+/// what is alike in every transverse section.
 pub fn removed_mm(modification: &Modification, tooth: &Tooth, active_start_rho_mm: f64, rho_mm: f64) -> f64 {
     let tip_rho = tooth.tip_rho_mm();
     let tip = modification.tip_relief.map_or(0.0, |r| relief_mm(r, rho_mm - (tip_rho - r.length_mm)));

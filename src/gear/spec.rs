@@ -72,6 +72,11 @@ impl PairSpec {
         (self.normal_pressure_angle_rad.tan() / self.helix_angle_rad.cos()).atan()
     }
 
+    /// Whether every transverse section of the pair is alike: no helix, and no modification over the face width.
+    pub fn is_alike_over_width(&self) -> bool {
+        self.helix_angle_rad == 0.0 && Gear::BOTH.iter().all(|&gear| !self.gears[gear].modification.varies_over_width())
+    }
+
     /// Radius of the reference circle, r = m_t z / 2.
     pub fn reference_radius_mm(&self, gear: Gear) -> f64 {
         0.5 * self.transverse_module_mm() * f64::from(self.gears[gear].teeth)

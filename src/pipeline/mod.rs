@@ -10,6 +10,7 @@ pub mod fem_scene;
 pub mod inputs;
 pub mod pair_mesh;
 mod recording;
+mod slices;
 
 use std::time::Instant;
 
@@ -35,6 +36,7 @@ use crate::simulation::wear_run::{MeshContact, Outcome, Progress, SimulationErro
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
 use crate::wear::{WearLaw, archard::Archard};
+use crate::working_cycle::sliced_teeth::SlicedTeeth;
 use inputs::Inputs;
 
 /// Told of progress; says whether to go on.
@@ -115,6 +117,8 @@ struct Model<'a> {
     scene: &'a Scene,
     pair: &'a GearPair,
     contact: MeshContact<'a>,
+    /// The slices over the face width; none where all sections are alike.
+    sliced: Option<&'a SlicedTeeth>,
     /// Springs of the teeth; none with finite elements.
     teeth: Option<&'a TeethSpring<'a>>,
     /// The curve that they are made from, of the models that have one.
@@ -206,11 +210,15 @@ pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Obs
             spring(surface)
         }
     });
+    let sliced = scene
+        .slices
+        .map(|settings| stages.run(StageKind::HelicalSlices, || SlicedTeeth::new(&pair, &scene.material, settings)));
     let law = Archard::new(&scene.wear);
     let contact = match (&finite_elements, surface.as_deref(), &teeth) {
         (Some(model), ..) => MeshContact::FiniteElements(model),
         (None, Some(surface), Some(teeth)) => {
-            MeshContact::LineOfAction { surface, teeth, tip_contact: scene.contact.tip_contact }
+            let (tip_contact, sliced) = (scene.contact.tip_contact, sliced.as_ref());
+            MeshContact::LineOfAction { surface, teeth, tip_contact, sliced }
         }
         (None, ..) => unreachable!("every surface but fem has springs"),
     };
@@ -218,6 +226,7 @@ pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Obs
         scene,
         pair: &pair,
         contact,
+        sliced: sliced.as_ref(),
         teeth: teeth.as_ref(),
         stiffness_curve: curve,
         calibration: inputs.calibration.as_ref(),

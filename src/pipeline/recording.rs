@@ -1,6 +1,6 @@
 //! From what a run found, in the program's units, to the record, in those of the output files.
 
-use super::{Model, RunError, drawing, error_estimates};
+use super::{Model, RunError, drawing, error_estimates, slices};
 use crate::contact::Flanks;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::plan::Plan;
@@ -13,7 +13,7 @@ use crate::simulation::record::{
 use crate::simulation::wear_run::{MeshContact, Outcome, Snapshot};
 use crate::working_cycle::CycleObservation;
 
-const UM_PER_MM: f64 = 1e3;
+pub(super) const UM_PER_MM: f64 = 1e3;
 /// Pitch point index of the contract: on a flank of this many points.
 const INDEX_POINTS: f64 = 750.0;
 /// Euler's method oscillates where one step more than doubles back on a wave of wear: Δn k K s > 2.
@@ -50,6 +50,7 @@ pub(super) fn record(
             .collect(),
         wall_s: 0.0,
         geometry: geometry(pair),
+        helical: slices::summary(model, outcome),
         contact: contact(model),
         stiffness: stiffness(model)?,
         new: cycle(pair, &outcome.new.cycle),
@@ -72,6 +73,7 @@ pub(super) fn record(
         flanks: PerGear::from_fn(|gear| flank(model, outcome, gear)),
         history: outcome.snapshots.iter().map(|snapshot| history_row(model, outcome, snapshot)).collect(),
         mesh_cycle: mesh_cycle(outcome),
+        slices: slices::record(model, outcome),
         drawing: drawing::draw(pair),
     })
 }
@@ -174,7 +176,7 @@ fn flank(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> FlankRecord {
     FlankRecord {
         radius_mm: rho.iter().map(|&rho| involute.radius_mm(rho)).collect(),
         roll_angle_deg: rho.iter().map(|&rho| involute.roll_angle_rad(rho).to_degrees()).collect(),
-        width_mm: 0.5 * model.scene.pair.face_width_mm,
+        width_mm: outcome.slices.width_mm.clone(),
         removed_um: um(&outcome.modification_mm[gear]),
         sliding_mm_per_mesh: outcome.new.cycle.sliding_mm[gear].clone(),
         wear_um: um(&outcome.worn.wear_mm[gear]),

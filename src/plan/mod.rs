@@ -8,6 +8,7 @@ use serde::{Serialize, Serializer};
 use crate::contact::settings::{Foundation, SurfaceKind};
 use crate::scene::Scene;
 use crate::stiffness::settings::StiffnessSettings;
+use crate::working_cycle::settings::Coupling;
 
 /// A stage of the work, in the order of the work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -118,7 +119,7 @@ fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
         StageKind::FiniteElementModel => finite_element_model(scene),
         StageKind::ContactMatch => contact_match(scene),
         StageKind::ToothStiffness => tooth_stiffness(scene),
-        StageKind::HelicalSlices => Err("a spur pair is alike over its whole face width".to_owned()),
+        StageKind::HelicalSlices => helical_slices(scene),
         StageKind::ContactTemperature => Err("the wear law archard asks for no temperature".to_owned()),
         StageKind::Simulation => Ok(simulation(scene)),
         StageKind::ErrorEstimates if scene.numerics.error_estimate => {
@@ -168,6 +169,17 @@ fn tooth_stiffness(scene: &Scene) -> Result<String, String> {
             Ok(format!("the curve of {}", scene.stiffness_curve_file.as_deref().unwrap_or_default()))
         }
     }
+}
+
+fn helical_slices(scene: &Scene) -> Result<String, String> {
+    let Some(slices) = scene.slices else {
+        return Err("no helix angle and no modification over the face width: all sections are alike".to_owned());
+    };
+    let coupling = match slices.coupling {
+        Coupling::None => "thin independent teeth on one hub",
+        Coupling::Slicing => "coupled through the bending of the tooth",
+    };
+    Ok(format!("{} slices over the face width, {coupling}", slices.count))
 }
 
 fn contact_match(scene: &Scene) -> Result<String, String> {

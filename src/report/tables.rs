@@ -132,16 +132,22 @@ struct ProfileRow {
 
 /// Writes `pinion.csv` or `wheel.csv`.
 pub fn flank(out: &mut dyn Write, provenance: Provenance, flank: &FlankRecord) -> io::Result<()> {
-    let rows = (0..flank.radius_mm.len()).map(|point| FlankRow {
-        radius_mm: flank.radius_mm[point],
-        roll_angle_deg: flank.roll_angle_deg[point],
-        width_mm: flank.width_mm,
-        removed_um: flank.removed_um[point],
-        sliding_mm_per_mesh: flank.sliding_mm_per_mesh[point],
-        wear_um: flank.wear_um[point],
-        pressure_new_MPa: flank.pressure_new_MPa[point],
-        pressure_worn_MPa: flank.pressure_worn_MPa[point],
-        point,
+    let points = flank.radius_mm.len();
+    let rows = flank.width_mm.iter().enumerate().flat_map(|(slice, &width_mm)| {
+        (0..points).map(move |point| {
+            let place = slice * points + point;
+            FlankRow {
+                radius_mm: flank.radius_mm[point],
+                roll_angle_deg: flank.roll_angle_deg[point],
+                width_mm,
+                removed_um: flank.removed_um[place],
+                sliding_mm_per_mesh: flank.sliding_mm_per_mesh[place],
+                wear_um: flank.wear_um[place],
+                pressure_new_MPa: flank.pressure_new_MPa[place],
+                pressure_worn_MPa: flank.pressure_worn_MPa[place],
+                point,
+            }
+        })
     });
     table(out, provenance, &FLANK, rows)
 }
@@ -156,15 +162,16 @@ pub fn profiles(out: &mut dyn Write, provenance: Provenance, record: &RunRecord)
     let rows = record.history.iter().enumerate().flat_map(|(snapshot, at)| {
         Gear::BOTH.into_iter().flat_map(move |gear| {
             let flank = &record.flanks[gear];
-            flank.radius_mm.iter().zip(&flank.snapshot_wear_um[snapshot]).map(move |(&radius_mm, &wear_um)| {
-                ProfileRow {
+            let slices = flank.snapshot_wear_um[snapshot].chunks_exact(flank.radius_mm.len());
+            flank.width_mm.iter().zip(slices).flat_map(move |(&width_mm, wear_um)| {
+                flank.radius_mm.iter().zip(wear_um).map(move |(&radius_mm, &wear_um)| ProfileRow {
                     hours: at.hours,
                     gear,
                     radius_mm,
-                    width_mm: flank.width_mm,
+                    width_mm,
                     wear_um,
                     revolutions: at.revolutions,
-                }
+                })
             })
         })
     });

@@ -13,6 +13,7 @@ use super::presets;
 use crate::contact::settings::{MatchCriterion, SurfaceKind};
 use crate::gear::modification::ReliefShape;
 use crate::mesh::settings::SectorSides;
+use crate::working_cycle::settings::Coupling;
 
 /// A gear pair, its load and how its wear is to be computed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -40,6 +41,9 @@ pub struct SceneFile {
     pub fem: Option<FemFile>,
     /// The wear law.
     pub wear: WearFile,
+    /// Slices over the face width, read only where sections differ: with a helix angle, or a modification over the face width.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub helical: Option<HelicalFile>,
     /// Resolution in space and time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub numerics: Option<NumericsFile>,
@@ -69,8 +73,10 @@ pub struct PairFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 5, max = 45))]
     pub transverse_pressure_angle_deg: Option<f64>,
-    /// Helix angle β at the reference cylinder in degrees. This version runs spur gears only: 0. Default 0.
+    /// Helix angle β at the reference cylinder in degrees, −45 to 45. Positive: the slice at width 0 enters the mesh first.
+    /// Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = -45, max = 45))]
     pub helix_angle_deg: Option<f64>,
     /// Working centre distance in mm, > 0.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -136,6 +142,14 @@ pub struct GearFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub profile_crowning_um: Option<f64>,
+    /// Height of the lead crowning in µm, 0 or more: a parabola over the face width. Default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub lead_crowning_um: Option<f64>,
+    /// Helix-slope deviation over the face width in µm, misalignment included: positive, material is missing at the full
+    /// width; negative, at width 0. Default 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub helix_slope_deviation_um: Option<f64>,
     /// Radius of the rounding of the tip edge in mm, 0 or more. Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
@@ -146,16 +160,20 @@ pub struct GearFile {
     /// Relief towards the root. Default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub root_relief: Option<ReliefFile>,
+    /// Relief towards both ends of the face width. Default: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub end_relief: Option<ReliefFile>,
 }
 
-/// Tip or root relief.
+/// Tip, root or end relief.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReliefFile {
     /// Removed at the end of the flank, along its normal, in µm, 0 or more.
     #[schemars(range(min = 0))]
     pub amount_um: f64,
-    /// Roll length over which it runs out, along the path of contact, in mm, > 0.
+    /// Length over which it runs out in mm, > 0: roll length, along the path of contact, of tip and root relief; along the face
+    /// width of an end relief.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub length_mm: f64,
     /// How it grows from its start. Default: linear.
@@ -386,6 +404,19 @@ pub struct SevereFile {
     /// Factor on the wear coefficient there, > 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub factor: f64,
+}
+
+/// Slices over the face width.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HelicalFile {
+    /// Slices over the face width, 1 to 2000. Default 20.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 1, max = 2000))]
+    pub slices: Option<u32>,
+    /// How neighbouring slices of a tooth hold each other. Default: none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coupling: Option<Coupling>,
 }
 
 /// Resolution in space and time.

@@ -19,19 +19,12 @@ const fn choice(key: &'static str, value: &'static str, instead: &'static str) -
     Later { key, value: Some(value), instead }
 }
 
-/// What spur gears are limited to.
-pub const SPUR_ONLY: &str = "spur gears, helix_angle_deg = 0";
-
 const LAW: &str = r#"wear.law = "archard""#;
 const STEP: &str = "a fixed step, numerics.step = { revolutions = … }";
-const CROWNING: &str = "profile_crowning_um, tip_relief, root_relief, tip_rounding_mm";
 
 /// What a scene of this version lacks.
 pub const SCENE: &[Later] = &[
-    key("helical", SPUR_ONLY),
     key("mesh", "a gear pair, [pair]; gearwear fem runs a problem with a mesh of its own"),
-    key("pair.pinion.lead_crowning_um", CROWNING),
-    key("pair.wheel.lead_crowning_um", CROWNING),
     key("numerics.tolerance_um", STEP),
     choice("numerics.step", "adaptive", STEP),
     choice("wear.law", "adsorption", LAW),

@@ -24,6 +24,7 @@ use crate::mesh::settings::BodySettings;
 use crate::simulation::settings::{Numerics, Operation};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::wear::settings::WearSettings;
+use crate::working_cycle::settings::SliceSettings;
 
 pub use file::SceneFile;
 pub use problem::{Problem, ProblemKind};
@@ -49,6 +50,8 @@ pub struct Scene {
     pub stiffness_curve_file: Option<String>,
     /// Bodies of finite elements, where any are used.
     pub fem: BodySettings,
+    /// Slices over the face width; none where all sections are alike.
+    pub slices: Option<SliceSettings>,
     /// Wear law.
     pub wear: WearSettings,
     /// Resolution.

@@ -133,7 +133,13 @@ impl Search<'_> {
             }
             // A relief of some millionths of the module does nothing; one of the whole module leaves no tooth.
             let (credible, usual) = ([0.02 * module, 1e3 * module], [0.1 * module, 50.0 * module]);
-            for key in ["tip_relief.amount_um", "root_relief.amount_um", "profile_crowning_um"] {
+            for key in [
+                "tip_relief.amount_um",
+                "root_relief.amount_um",
+                "end_relief.amount_um",
+                "profile_crowning_um",
+                "lead_crowning_um",
+            ] {
                 let key = format!("pair.{gear}.{key}");
                 if self.get(&key) != Some(0.0) {
                     self.judge(&key, credible, usual, &[MILLIMETRES, METRES_FOR_MICROMETRES]);

@@ -9,3 +9,4 @@ pub mod settings;
 pub mod sweep_figures;
 pub mod sweep_record;
 pub mod wear_run;
+pub mod wearing_pair;

@@ -19,6 +19,8 @@ pub struct RunRecord {
     pub history: Vec<HistoryRow>,
     /// One row per loading position.
     pub mesh_cycle: Vec<MeshCycleRow>,
+    /// The mesh of one tooth slice by slice; `None` where all sections are alike.
+    pub slices: Option<SliceRecord>,
     /// The pair in mesh, to scale.
     pub drawing: PairDrawing,
 }
@@ -46,6 +48,8 @@ pub struct Summary {
     pub wall_s: f64,
     /// Of the pair.
     pub geometry: GeometrySummary,
+    /// Of the slices over the face width; `None` where all sections are alike.
+    pub helical: Option<HelicalSummary>,
     /// Of the contact at the pitch point with the whole load.
     pub contact: ContactSummary,
     /// Of the tooth pair as a spring; `None` with finite elements, whose teeth are no springs.
@@ -155,6 +159,72 @@ pub struct GearSummary {
     pub tip_thickness_mm: f64,
     pub tip_clearance_mm: f64,
     pub undercut: bool,
+}
+
+/// The pair slice by slice.
+#[allow(non_snake_case, reason = "names that end in their unit, and symbols of the standards")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct HelicalSummary {
+    /// Slices over the face width.
+    pub slices: usize,
+    /// Name of their coupling.
+    pub coupling: String,
+    /// ℓ₁ and ℓ₂ of the coupling: how far a deflection reaches along a tooth; `None` without coupling.
+    pub coupling_reach_mm: Option<[f64; 2]>,
+    /// β at the reference cylinder.
+    pub helix_angle_deg: f64,
+    /// β_b.
+    pub base_helix_angle_deg: f64,
+    /// ε_γ = ε_α + ε_β.
+    pub total_contact_ratio: f64,
+    /// Place of each slice over the face width.
+    pub width_mm: Vec<f64>,
+    /// Least, greatest and mean length of all lines of contact together.
+    pub line_of_contact_mm: LineOfContactSummary,
+    /// Face load factor K_Hβ: greatest over mean of the slices' loads, averaged over the mesh; new.
+    pub K_Hbeta_new: f64,
+    /// The same, worn.
+    pub K_Hbeta_worn: f64,
+    /// The first five mesh orders of the transmission error: amplitudes, new.
+    pub mesh_orders_new_um: Vec<f64>,
+    /// The same, worn.
+    pub mesh_orders_worn_um: Vec<f64>,
+    /// Wear over the face width of each gear.
+    pub wear: PerGear<OverWidthSummary>,
+}
+
+/// All lines of contact together over a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LineOfContactSummary {
+    /// Least length.
+    pub min: f64,
+    /// Greatest length.
+    pub max: f64,
+    /// Mean length, ε_α b / cos β_b.
+    pub mean: f64,
+}
+
+/// How wear varies over the face width of a flank.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OverWidthSummary {
+    /// Greatest depth in the root zone of each slice.
+    pub root_wear_um: Vec<f64>,
+    /// Greatest depth in the tip zone (the last 2 mm of radius) of each slice.
+    pub tip_wear_um: Vec<f64>,
+    /// Depth lost at the root by each slice in the first mesh of the unworn pair.
+    pub root_wear_first_mesh_um: Vec<f64>,
+    /// The same at the tip.
+    pub tip_wear_first_mesh_um: Vec<f64>,
+    /// Greatest less least root wear, over its mean.
+    pub root_variation: f64,
+    /// The same at the tip.
+    pub tip_variation: f64,
+    /// Of root and tip together: greatest less least over the mean of both zones of all slices.
+    pub root_tip_variation: f64,
+    /// (first slice − last slice) / (first + last) of the root wear, after the first mesh.
+    pub root_asymmetry_first_mesh: f64,
+    /// The same at the end of the run.
+    pub root_asymmetry: f64,
 }
 
 /// Contact at the pitch point with the whole load.
@@ -283,7 +353,9 @@ pub struct WorkSummary {
     pub pair_evaluations: u64,
 }
 
-/// One flank, root to tip; all vectors have the same length.
+/// One flank: slices one after the other over the face width (one where all sections are alike), each from root to tip.
+///
+/// Radius and roll angle have one value a point; the other fields of the flank one a point and slice, slice after slice.
 #[allow(non_snake_case, reason = "the contract's column names")]
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FlankRecord {
@@ -291,8 +363,8 @@ pub struct FlankRecord {
     pub radius_mm: Vec<f64>,
     /// Roll angle ρ/r_b of the transverse involute.
     pub roll_angle_deg: Vec<f64>,
-    /// Place over the face width: its middle.
-    pub width_mm: f64,
+    /// Place of each slice over the face width: its middle.
+    pub width_mm: Vec<f64>,
     /// Material removed by the modifications.
     pub removed_um: Vec<f64>,
     /// Distance the point slides against the other flank during one mesh, new.
@@ -348,6 +420,30 @@ pub struct MeshCycleRow {
     pub temperature_rise_K: Option<f64>,
     /// Half the extent of the contact strip, worn.
     pub half_width_worn_mm: f64,
+}
+
+/// The mesh of one tooth slice by slice, from its first touch to its last.
+#[allow(non_snake_case, reason = "names that end in their unit")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SliceRecord {
+    /// Place of each slice over the face width.
+    pub width_mm: Vec<f64>,
+    /// How far the theoretical contact point of each slice is ahead of that in the middle of the face width.
+    pub ahead_mm: Vec<f64>,
+    /// tan β at radius 1 mm of each gear: a flank point at radius r and width z lies turned by z · this from width 0, rad/mm.
+    pub twist_rad_per_mm: PerGear<f64>,
+    /// Half the tooth's angle at the base circle, rad: with the involute of the roll angle, the place of a flank point.
+    pub base_half_angle_rad: PerGear<f64>,
+    /// Position of the tooth in the middle of the face width: the pinion's radius of curvature, also before A and after E.
+    pub position_mm: Vec<f64>,
+    /// Load of each slice at each position, position after position, N per mm of face width; new.
+    pub line_load_new_N_per_mm: Vec<f64>,
+    /// The same, worn.
+    pub line_load_worn_N_per_mm: Vec<f64>,
+    /// Greatest pressure of each slice at each position, new.
+    pub peak_pressure_new_MPa: Vec<f64>,
+    /// The same, worn.
+    pub peak_pressure_worn_MPa: Vec<f64>,
 }
 
 /// The pair in mesh in the transverse section, mm; the pinion's axis is the origin and the wheel's lies on +y.

@@ -1,4 +1,4 @@
-//! The wear run of a spur pair: explicit Euler over revolutions of the pinion.
+//! The wear run: explicit Euler over revolutions of the pinion.
 //!
 //! One evaluation of the working cycle on the flanks as they are gives the depth each point loses per mesh; it is taken
 //! to hold for the next `step_revolutions`. Each pinion tooth meshes once per pinion turn, each wheel tooth z1/z2 times:
@@ -13,16 +13,20 @@
 
 use super::record::StopReason;
 use super::settings::{Numerics, Operation};
+use super::wearing_pair::{OnFlankPoints, WearingPair};
 use crate::contact::{ContactSurface, Flanks};
 use crate::fem::gear::position::CondensedPair;
-use crate::gear::{Gear, GearPair, PerGear, flank::FlankGrid, removed_material::modifications_mm};
+use crate::gear::{GearPair, PerGear, flank::FlankGrid, removed_material::modifications_mm, slices::Slices};
 use crate::stiffness::{StiffnessError, TeethSpring};
 use crate::wear::WearLaw;
 use crate::working_cycle::{
-    CycleObservation, LostMaterial, MeshCycle, Work, WorkingCycle,
+    CycleObservation, MeshCycle, Work, WorkingCycle,
     condensed::CondensedCycle,
     load_sharing::EquilibriumError,
+    phases::phases,
     positions::{loading_positions, positions_with_tip_contact},
+    sliced::{SliceSprings, SlicedCycle, SpringAlongPath},
+    sliced_teeth::SlicedTeeth,
     tip_contact,
 };
 
@@ -70,6 +74,8 @@ pub enum MeshContact<'a> {
         teeth: &'a TeethSpring<'a>,
         /// Whether tip edges are followed into contact before A and after E.
         tip_contact: bool,
+        /// The slices over the face width; none where all sections are alike.
+        sliced: Option<&'a SlicedTeeth>,
     },
     /// Both gears as finite elements, condensed onto their flanks.
     FiniteElements(&'a CondensedPair<'a>),
@@ -80,7 +86,7 @@ pub enum MeshContact<'a> {
 pub struct Snapshot {
     /// Pinion revolutions so far.
     pub revolutions: f64,
-    /// Wear depth of each flank point.
+    /// Wear depth of each flank point, slice after slice.
     pub wear_mm: PerGear<Vec<f64>>,
     /// What each flank point loses in the next mesh.
     pub depth_per_mesh_mm: PerGear<Vec<f64>>,
@@ -95,9 +101,11 @@ pub struct Outcome {
     pub stop: StopReason,
     /// What went wrong where it did not converge.
     pub failure: Option<SimulationError>,
-    /// The points of each flank.
+    /// The points of each flank, the same in every slice.
     pub grid: PerGear<FlankGrid>,
-    /// Material removed by the modifications.
+    /// The slices over the face width: one where all sections are alike.
+    pub slices: Slices,
+    /// Material removed by the modifications, slice after slice as all fields of a flank.
     pub modification_mm: PerGear<Vec<f64>>,
     /// The unworn pair.
     pub new: Snapshot,
@@ -151,30 +159,35 @@ impl WearRun<'_> {
     /// # Errors
     /// [`SimulationError`].
     pub fn run(&self, progress: &dyn Progress) -> Result<Outcome, SimulationError> {
+        let slices = match self.contact {
+            MeshContact::LineOfAction { sliced: Some(teeth), .. } => teeth.slices.clone(),
+            _ => Slices::new(self.pair, 1),
+        };
         let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));
-        let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear]));
+        let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear], &slices));
         let flanks = Flanks { geometry: self.pair, grid: grid.as_ref() };
         let stopped: &(dyn Fn() -> bool + Sync) = &|| progress.gives_up();
-        let mut cycle = self.mesh_cycle(flanks)?;
+        let mut pair = self.wearing_pair(flanks, &modification_mm)?;
 
         let end = self.operation.pinion_revolutions;
-        let meshes_per_turn = PerGear { pinion: 1.0, wheel: self.pair.wheel_turns_per_pinion_turn() };
+        let wheel_meshes = self.pair.wheel_turns_per_pinion_turn();
         let mut due = self.operation.snapshots_revolutions.iter().copied().chain([end]).peekable();
-        let mut removed_mm = modification_mm.clone();
-        let mut wear_mm = PerGear::from_fn(|gear| vec![0.0; grid[gear].len()]);
-        let mut depth_mm = wear_mm.clone();
         let (mut revolutions, mut wear_steps, mut work) = (0.0, 0, Work::default());
         // The unworn pair first, then each snapshot.
         let mut states: Vec<Snapshot> = Vec::new();
 
         let mut failure = None;
         loop {
-            let lost = LostMaterial {
-                removed_mm: removed_mm.as_ref().map(Vec::as_slice),
-                wear_mm: wear_mm.as_ref().map(Vec::as_slice),
-            };
-            match cycle.evaluate(lost, self.law, &mut depth_mm, stopped) {
-                Ok(done) => work += done,
+            let evaluated = pair.evaluate(self.law, stopped);
+            let is_due = due.peek().is_some_and(|&next| revolutions >= next);
+            let interrupted = progress.interrupted();
+            let keep = states.is_empty() || is_due || interrupted;
+            let state = evaluated.and_then(|done| {
+                work += done;
+                keep.then(|| pair.snapshot(revolutions)).transpose()
+            });
+            match state {
+                Ok(state) => states.extend(state),
                 // Before anything is finished there is nothing to keep.
                 Err(source) if states.is_empty() => return Err(SimulationError::Equilibrium { revolutions, source }),
                 Err(EquilibriumError::Interrupted) => break,
@@ -183,25 +196,7 @@ impl WearRun<'_> {
                     break;
                 }
             }
-            let is_due = due.peek().is_some_and(|&next| revolutions >= next);
-            let interrupted = progress.interrupted();
-            if states.is_empty() || is_due || interrupted {
-                let cycle = match cycle.observe(lost) {
-                    Ok(cycle) => cycle,
-                    Err(source) if states.is_empty() => {
-                        return Err(SimulationError::Equilibrium { revolutions, source });
-                    }
-                    Err(source) => {
-                        failure = Some(SimulationError::Equilibrium { revolutions, source });
-                        break;
-                    }
-                };
-                states.push(Snapshot {
-                    revolutions,
-                    wear_mm: wear_mm.clone(),
-                    depth_per_mesh_mm: depth_mm.clone(),
-                    cycle,
-                });
+            if keep {
                 while due.next_if(|&next| next <= revolutions).is_some() {}
             }
             progress.progress(revolutions, end);
@@ -217,18 +212,9 @@ impl WearRun<'_> {
             }
             revolutions = if arrives { next } else { revolutions + step };
             wear_steps += 1;
-            for gear in Gear::BOTH {
-                let meshes = step * meshes_per_turn[gear];
-                let points = wear_mm[gear].iter_mut().zip(&mut removed_mm[gear]);
-                for ((wear, removed), (depth, modification)) in
-                    points.zip(depth_mm[gear].iter().zip(&modification_mm[gear]))
-                {
-                    *wear += meshes * depth;
-                    *removed = modification + *wear;
-                }
-            }
+            pair.wear_for(PerGear { pinion: step, wheel: step * wheel_meshes });
         }
-        drop(cycle);
+        drop(pair);
         let stop = match &failure {
             Some(_) => StopReason::NotConverged,
             None if due.peek().is_none() => StopReason::Completed,
@@ -236,33 +222,50 @@ impl WearRun<'_> {
         };
         let new = states.remove(0);
         let worn = states.last().unwrap_or(&new).clone();
-        Ok(Outcome { stop, failure, grid, modification_mm, new, snapshots: states, worn, wear_steps, work })
+        Ok(Outcome { stop, failure, grid, slices, modification_mm, new, snapshots: states, worn, wear_steps, work })
+    }
+
+    /// The pair, ready to wear.
+    fn wearing_pair<'b>(
+        &'b self,
+        flanks: Flanks<'b>,
+        modification_mm: &'b PerGear<Vec<f64>>,
+    ) -> Result<Box<dyn WearingPair + 'b>, SimulationError> {
+        Ok(Box::new(OnFlankPoints::new(self.mesh_cycle(flanks)?, modification_mm)))
     }
 
     /// The pair in mesh at every loading position.
     fn mesh_cycle<'b>(&'b self, flanks: Flanks<'b>) -> Result<Box<dyn MeshCycle + 'b>, SimulationError> {
+        let line_load = self.line_load_n_per_mm;
+        let (path, count) = (&self.pair.path, self.numerics.positions);
         match self.contact {
-            MeshContact::LineOfAction { surface, teeth, tip_contact } => {
-                let (path, count) = (&self.pair.path, self.numerics.positions);
+            MeshContact::LineOfAction { surface, teeth, tip_contact, sliced } => {
                 let spring = |at| teeth.own_n_per_mm2(at);
-                let bodies = teeth.shared_mm2_per_n() * self.line_load_n_per_mm;
-                let positions = if tip_contact {
+                let bodies = teeth.shared_mm2_per_n() * line_load;
+                let lever_ratio = |at| tip_contact::lever_ratio(self.pair, at);
+                let beyond = if tip_contact {
                     let pitch_point = path.pitch_point_mm;
-                    let surfaces = surface.plain_approach_mm(self.pair, pitch_point, self.line_load_n_per_mm);
-                    let approach = bodies + surfaces + self.line_load_n_per_mm / spring(pitch_point)?;
-                    let beyond = tip_contact::reach_mm(self.pair, AMPLE_APPROACH * approach);
-                    let lever_ratio = |at| tip_contact::lever_ratio(self.pair, at);
-                    positions_with_tip_contact(path, count, beyond, lever_ratio, spring)?
+                    let surfaces = surface.plain_approach_mm(self.pair, pitch_point, line_load);
+                    let approach = bodies + surfaces + line_load / spring(pitch_point)?;
+                    Some(tip_contact::reach_mm(self.pair, AMPLE_APPROACH * approach))
                 } else {
-                    loading_positions(path, count, spring)?
+                    None
                 };
-                let cycle = WorkingCycle::new(flanks, surface, &positions, self.line_load_n_per_mm);
+                if let Some(sliced) = sliced {
+                    let along = SpringAlongPath::new(path, count, spring)?;
+                    let phases = phases(path, &sliced.slices, count, beyond);
+                    let springs = SliceSprings { along_path: &along, lever_ratio: &lever_ratio };
+                    let cycle = SlicedCycle::new(flanks, surface, sliced, &phases, &springs, path, count, line_load);
+                    return Ok(Box::new(cycle.on_bodies_that_yield_by(bodies)));
+                }
+                let positions = match beyond {
+                    Some(beyond) => positions_with_tip_contact(path, count, beyond, lever_ratio, spring)?,
+                    None => loading_positions(path, count, spring)?,
+                };
+                let cycle = WorkingCycle::new(flanks, surface, &positions, line_load);
                 Ok(Box::new(cycle.on_bodies_that_yield_by(bodies)))
             }
-            MeshContact::FiniteElements(model) => {
-                let positions = self.numerics.positions;
-                Ok(Box::new(CondensedCycle::new(model, flanks, positions, self.line_load_n_per_mm)))
-            }
+            MeshContact::FiniteElements(model) => Ok(Box::new(CondensedCycle::new(model, flanks, count, line_load))),
         }
     }
 }

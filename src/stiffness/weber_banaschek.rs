@@ -19,6 +19,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use nalgebra::{Rotation2, Vector2};
 
 use crate::contact::settings::Material;
+use crate::gear::half_profile::{half_profile, in_tooth_frame};
 use crate::gear::tooth::Tooth;
 
 /// Samples of the profile on fillet and flank each; the trapezoidal rule is then exact to about 1e-6.
@@ -44,7 +45,7 @@ pub struct ToothCompliance {
 impl ToothCompliance {
     /// Integrates over the profile of `tooth`.
     pub fn new(tooth: &Tooth, material: &Material) -> Self {
-        let profile = half_profile(tooth);
+        let profile = half_profile(tooth, SAMPLES);
         let mut height_mm = Vec::with_capacity(profile.len());
         let mut integrals = Vec::with_capacity(profile.len());
         let mut total = [0.0; 4];
@@ -106,33 +107,6 @@ impl ToothCompliance {
             a + weight * (b - a)
         })
     }
-}
-
-/// A point of the space's frame (space centre line +y, clockwise side) in the tooth's: (half-thickness, height from axis).
-fn in_tooth_frame(tooth: &Tooth, point: Vector2<f64>) -> Vector2<f64> {
-    let turned = Rotation2::new(PI / f64::from(tooth.teeth)) * point;
-    Vector2::new(-turned.x, turned.y)
-}
-
-/// Half-thickness and height of the profile from where the fillet leaves the root circle to the tip, heights increasing.
-fn half_profile(tooth: &Tooth) -> Vec<Vector2<f64>> {
-    let fillet = (0..=SAMPLES).map(|k| {
-        let t = FRAC_PI_2 + (tooth.fillet_end_angle_rad - FRAC_PI_2) * k as f64 / SAMPLES as f64;
-        in_tooth_frame(tooth, tooth.trochoid.point_mm(t))
-    });
-    let (form, tip) = (tooth.root_form_radius_mm, tooth.tip_radius_mm);
-    let flank = (1..=SAMPLES).map(|k| {
-        let radius = form + (tip - form) * k as f64 / SAMPLES as f64;
-        let half_angle = tooth.half_angle_rad(radius);
-        Vector2::new(radius * half_angle.sin(), radius * half_angle.cos())
-    });
-    let mut profile: Vec<Vector2<f64>> = Vec::with_capacity(2 * SAMPLES + 1);
-    for point in fillet.chain(flank) {
-        if profile.last().is_none_or(|before| point.y > before.y) {
-            profile.push(point);
-        }
-    }
-    profile
 }
 
 /// Where the fillet's tangent makes 30° with the tooth's centre line, in the tooth's frame; the end of the fillet where

@@ -159,6 +159,7 @@ impl MeshCycle for CondensedCycle<'_> {
             positions: positions.into_iter().collect::<Result<_, _>>()?,
             pressure_mpa: zeros(),
             sliding_mm: zeros(),
+            slices: None,
         };
         for station in self.groups.iter().flat_map(|group| &group.stations) {
             for pair in &station.observed {

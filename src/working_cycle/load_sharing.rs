@@ -18,6 +18,7 @@
 //! Where Newton does not settle (a gap so rough that rounding decides), both equations are solved by bisection instead,
 //! which their monotony allows.
 
+use super::tip_contact::OnLever;
 use crate::contact::{PairContact, Response};
 use crate::fem::active_set::ActiveSetError;
 use crate::gear::PerGear;
@@ -77,9 +78,9 @@ pub struct MeshedPair<'a> {
     further: (f64, f64),
     teeth_n_per_mm2: f64,
     /// Approach at which the flanks first touch, mm.
-    touch_mm: f64,
+    pub(super) touch_mm: f64,
     /// Approach of the flanks beyond their first touch, mm.
-    depth_mm: f64,
+    pub(super) depth_mm: f64,
     /// Depths at the last three equilibria, the newest first: the next one starts from their continuation.
     history_mm: [Option<f64>; 3],
 }
@@ -109,6 +110,15 @@ impl<'a> MeshedPair<'a> {
         }
     }
 
+    /// The same where the load has a lever on the pinion of `ratio` base radii: 1 on the line of action.
+    pub fn on_lever(contact: Box<dyn PairContact + 'a>, teeth_n_per_mm2: f64, ratio: f64) -> Self {
+        if ratio == 1.0 {
+            return Self::new(contact, teeth_n_per_mm2);
+        }
+        // The spring of the teeth is pressed along the same normal.
+        Self::new(Box::new(OnLever { contact, ratio }), ratio * ratio * teeth_n_per_mm2)
+    }
+
     /// Takes the material removed from both flanks.
     pub fn read(&mut self, removed_mm: PerGear<&[f64]>) {
         self.contact.read(removed_mm);
@@ -120,13 +130,13 @@ impl<'a> MeshedPair<'a> {
         self.history_mm = [Some(self.depth_mm), self.history_mm[0], self.history_mm[1]];
     }
 
-    fn press(&mut self, depth_mm: f64) {
+    pub(super) fn press(&mut self, depth_mm: f64) {
         self.depth_mm = depth_mm;
         self.response = self.contact.press(depth_mm);
         self.further = self.contact.further_approach_mm(self.response.line_load_n_per_mm);
     }
 
-    fn start_mm(&self, line_load: f64) -> f64 {
+    pub(super) fn start_mm(&self, line_load: f64) -> f64 {
         match self.history_mm {
             [Some(last), Some(before), Some(first)] => 3.0 * (last - before) + first,
             [Some(last), Some(before), None] => 2.0 * last - before,
@@ -141,7 +151,7 @@ impl<'a> MeshedPair<'a> {
     }
 
     /// Approach of the whole pair.
-    fn whole_approach_mm(&self) -> f64 {
+    pub(super) fn whole_approach_mm(&self) -> f64 {
         self.touch_mm + self.whole_depth_mm()
     }
 
@@ -151,7 +161,7 @@ impl<'a> MeshedPair<'a> {
     }
 
     /// 1 + w'/k.
-    fn series(&self) -> f64 {
+    pub(super) fn series(&self) -> f64 {
         1.0 + self.response.stiffness_n_per_mm2 * (1.0 / self.teeth_n_per_mm2 + self.further.1)
     }
 }

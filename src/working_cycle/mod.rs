@@ -8,17 +8,24 @@
 mod collected;
 pub mod condensed;
 pub mod load_sharing;
+pub mod phases;
 pub mod positions;
+pub mod settings;
+pub mod slice_coupling;
+pub mod sliced;
+pub mod sliced_mesh;
+pub mod sliced_sharing;
+pub mod sliced_teeth;
 pub mod tip_contact;
 
 use rayon::prelude::*;
 
-use crate::contact::{ContactSurface, Flanks, Footprint, PositionCell, Sweep};
+use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCell, Sweep};
 use crate::gear::{Gear, PerGear};
 use crate::wear::WearLaw;
 use collected::Collected;
 use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance};
-use tip_contact::OnLever;
+use sliced_mesh::SlicedMesh;
 
 /// Groups of positions that collect wear on their own; fixed, so that sums always run in the same order.
 const GROUPS: usize = 8;
@@ -115,6 +122,8 @@ pub struct CycleObservation {
     pub pressure_mpa: PerGear<Vec<f64>>,
     /// How far each flank point slid while in contact, mm.
     pub sliding_mm: PerGear<Vec<f64>>,
+    /// The mesh of one tooth slice by slice, where there are slices.
+    pub slices: Option<SlicedMesh>,
 }
 
 /// What flanks have lost so far, at their points.
@@ -191,28 +200,40 @@ impl MeshCycle for WorkingCycle<'_> {
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
         let removed_mm = lost.removed_mm;
         let zeros = || removed_mm.map(|flank| vec![0.0; flank.len()]);
-        let mut observation = CycleObservation { positions: Vec::new(), pressure_mpa: zeros(), sliding_mm: zeros() };
+        let mut observation =
+            CycleObservation { positions: Vec::new(), pressure_mpa: zeros(), sliding_mm: zeros(), slices: None };
         let mut sweep = Sweep::default();
         for station in self.groups.iter().flat_map(|group| &group.stations) {
             if station.on_line_of_action {
                 observation.positions.push(station.observe(self.line_load_n_per_mm, self.bodies_mm));
             }
             for gear in Gear::BOTH {
-                station.pairs[0].contact.sweep(gear, removed_mm, &mut sweep);
-                let range = sweep.first_point..sweep.first_point + sweep.sliding_mm.len();
-                let felt = station.pairs[0].contact.felt(gear, removed_mm);
-                let points = observation.pressure_mpa[gear][range.clone()]
-                    .iter_mut()
-                    .zip(&mut observation.sliding_mm[gear][range]);
-                for ((greatest, slid), (felt, &sliding)) in points.zip(felt.iter().zip(&sweep.sliding_mm)) {
-                    if sliding > 0.0 {
-                        *greatest = greatest.max(felt.pressure_mpa);
-                        *slid += sliding * felt.contact_fraction;
-                    }
-                }
+                let (pressure, sliding) = (&mut observation.pressure_mpa[gear], &mut observation.sliding_mm[gear]);
+                note_what_points_felt(&*station.pairs[0].contact, gear, removed_mm, &mut sweep, pressure, sliding);
             }
         }
         Ok(observation)
+    }
+}
+
+/// Raises `pressure_mpa` at the points of a flank to what they felt of `contact`, and adds to `sliding_mm` how far they slid in it.
+fn note_what_points_felt(
+    contact: &dyn PairContact,
+    gear: Gear,
+    removed_mm: PerGear<&[f64]>,
+    sweep: &mut Sweep,
+    pressure_mpa: &mut [f64],
+    sliding_mm: &mut [f64],
+) {
+    contact.sweep(gear, removed_mm, sweep);
+    let range = sweep.first_point..sweep.first_point + sweep.sliding_mm.len();
+    let felt = contact.felt(gear, removed_mm);
+    let points = pressure_mpa[range.clone()].iter_mut().zip(&mut sliding_mm[range]);
+    for ((greatest, slid), (felt, &sliding)) in points.zip(felt.iter().zip(&sweep.sliding_mm)) {
+        if sliding > 0.0 {
+            *greatest = greatest.max(felt.pressure_mpa);
+            *slid += sliding * felt.contact_fraction;
+        }
     }
 }
 
@@ -249,14 +270,8 @@ impl<'a> Station<'a> {
             .enumerate()
             .map(|(k, pair)| {
                 let cell = (k == 0).then_some(position.cell);
-                let (contact, ratio) = (surface.pair(flanks, pair.position_mm, cell), pair.lever_ratio);
-                if ratio == 1.0 {
-                    MeshedPair::new(contact, pair.teeth_n_per_mm2)
-                } else {
-                    // The spring of the teeth is pressed along the same normal.
-                    let teeth = ratio * ratio * pair.teeth_n_per_mm2;
-                    MeshedPair::new(Box::new(OnLever { contact, ratio }), teeth)
-                }
+                let contact = surface.pair(flanks, pair.position_mm, cell);
+                MeshedPair::on_lever(contact, pair.teeth_n_per_mm2, pair.lever_ratio)
             })
             .collect();
         let on_line_of_action = position.on_line_of_action;

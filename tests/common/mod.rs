@@ -80,6 +80,7 @@ use gearwear::wear::{
     archard::Archard,
     settings::{SevereTransition, WearSettings},
 };
+use gearwear::working_cycle::{settings::SliceSettings, sliced_teeth::SlicedTeeth};
 
 /// A wear run in the making; the default is the fzg-c scene.
 #[derive(Clone)]
@@ -97,6 +98,7 @@ pub struct Scene {
     pub positions: usize,
     pub steps: f64,
     pub tip_contact: bool,
+    pub slices: Option<SliceSettings>,
     pub curve: Option<PairCompliance>,
 }
 
@@ -116,6 +118,7 @@ pub fn fzg_c_scene() -> Scene {
         positions: 400,
         steps: 150.0,
         tip_contact: false,
+        slices: None,
         curve: None,
     }
 }
@@ -155,12 +158,14 @@ impl Scene {
         let teeth = TeethSpring::new(self.stiffness, self.curve.as_ref(), &pair, &steel(), surface.as_ref(), line_load);
         let law =
             Archard::new(&WearSettings { coefficient_mm2_per_n: self.coefficient_mm2_per_n, severe: self.severe });
+        let sliced = self.slices.map(|settings| SlicedTeeth::new(&pair, &steel(), settings));
         WearRun {
             pair: &pair,
             contact: MeshContact::LineOfAction {
                 surface: surface.as_ref(),
                 teeth: &teeth,
                 tip_contact: self.tip_contact,
+                sliced: sliced.as_ref(),
             },
             law: &law,
             line_load_n_per_mm: line_load,

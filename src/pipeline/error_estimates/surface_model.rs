@@ -75,7 +75,9 @@ pub(super) fn estimate(
     let surface = HalfSpace { material: model.scene.material, expected_line_load_n_per_mm: line_load };
     let stiffness = (model.scene.stiffness, model.stiffness_curve);
     let teeth = TeethSpring::new(stiffness.0, stiffness.1, model.pair, &model.scene.material, &surface, line_load);
-    let truer = WearRun { contact: MeshContact::LineOfAction { surface: &surface, teeth: &teeth, tip_contact }, ..own };
+    let sliced = model.sliced;
+    let contact = MeshContact::LineOfAction { surface: &surface, teeth: &teeth, tip_contact, sliced };
+    let truer = WearRun { contact, ..own };
 
     let mut equilibria = [0; 2];
     let mut peak_mm = |k: usize, run: &WearRun<'_>| -> Result<f64, SimulationError> {

@@ -115,13 +115,19 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Place {
             key: key_of(gear, &format!("{}.length_mm", modification.replace(' ', "_"))),
             found: number(length_mm),
             allowed: format!("at most {available_mm:.4} mm"),
-            help: "lengths are roll lengths, along the path of contact".to_owned(),
+            help: match modification {
+                "end relief" => "it begins at either end of the face width, and ends before its middle",
+                _ => "lengths are roll lengths, along the path of contact",
+            }
+            .to_owned(),
         },
         PairError::ModificationTooDeep { gear, modification, amount_mm, greatest_mm } => Place {
             key: key_of(
                 gear,
                 &match modification {
-                    "profile crowning" => "profile_crowning_um".to_owned(),
+                    crowning @ ("profile crowning" | "lead crowning" | "helix slope deviation") => {
+                        format!("{}_um", crowning.replace(' ', "_"))
+                    }
                     relief => format!("{}.amount_um", relief.replace(' ', "_")),
                 },
             ),

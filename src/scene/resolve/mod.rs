@@ -8,6 +8,7 @@ mod geometry;
 mod operation;
 mod pair;
 mod settings;
+mod slices;
 
 use toml::{Table, Value};
 
@@ -114,7 +115,11 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let wear = settings::wear(&file.wear, findings);
     let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
     let (pair, operation) = (pair?, operation?);
+    let slices = slices::choose(&mut file.helical, &pair, surface, findings);
     let numerics = settings::numerics(&mut file.numerics, operation.pinion_revolutions, findings);
+    if let (Some(numerics), Some(surface)) = (&numerics, surface) {
+        settings::memory(numerics, surface, slices.map_or(1, |slices| slices.count), findings);
+    }
     let title = file.title.get_or_insert_with(|| {
         format!("Gear pair {}/{}, module {} mm", pair.gears.pinion.teeth, pair.gears.wheel.teeth, pair.normal_module_mm)
     });
@@ -129,6 +134,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         stiffness: stiffness?,
         stiffness_curve_file,
         fem: fem?,
+        slices,
         wear: wear?,
         numerics: numerics?,
     };

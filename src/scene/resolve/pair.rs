@@ -3,25 +3,18 @@
 //! With β at the reference cylinder: m_n = m_t cos β, tan α_n = tan α_t cos β, and every factor of the transverse module
 //! becomes x_n = x_t / cos β, because x_n m_n = x_t m_t is the same length.
 
-use crate::gear::modification::{Modification, Relief};
+use crate::gear::modification::{EndRelief, Modification, Relief};
 use crate::gear::spec::{BasicRack, GearSpec, PairSpec};
 use crate::gear::{Gear, PerGear};
 use crate::scene::file::{BasicRackFile, GearFile, PairFile, ReliefFile};
 use crate::scene::findings::Findings;
-use crate::scene::later::SPUR_ONLY;
-use crate::scene::problem::{ProblemKind, number};
 
 const UM: f64 = 1e-3;
 const PRESET: &str = "pair.preset";
 
 /// Chooses what `[pair]` leaves open; `None` where something needed is missing or contradictory.
 pub fn choose(file: &mut PairFile, findings: &mut Findings) -> Option<PairSpec> {
-    let helix = *file.helix_angle_deg.get_or_insert(0.0);
-    if helix != 0.0 {
-        let found = format!("a helical gear ({})", number(helix));
-        findings.problem(ProblemKind::NotAvailable, "pair.helix_angle_deg", found, SPUR_ONLY);
-    }
-    let helix_angle_rad = helix.to_radians();
+    let helix_angle_rad = file.helix_angle_deg.get_or_insert(0.0).to_radians();
     let cos_beta = helix_angle_rad.cos();
 
     let normal_module_mm = module(file, cos_beta, findings);
@@ -109,6 +102,13 @@ fn gear(file: &mut GearFile, which: Gear, factor_scale: f64, findings: &mut Find
             root_relief: file.root_relief.as_mut().map(relief),
             profile_crowning_mm: UM * *file.profile_crowning_um.get_or_insert(0.0),
             tip_rounding_mm: *file.tip_rounding_mm.get_or_insert(0.0),
+            lead_crowning_mm: UM * *file.lead_crowning_um.get_or_insert(0.0),
+            end_relief: file.end_relief.as_mut().map(relief).map(|relief| EndRelief {
+                amount_mm: relief.amount_mm,
+                length_mm: relief.length_mm,
+                shape: relief.shape,
+            }),
+            helix_slope_mm: UM * *file.helix_slope_deviation_um.get_or_insert(0.0),
         },
     })
 }

@@ -194,18 +194,25 @@ pub fn numerics(file: &mut Option<NumericsFile>, duration: f64, findings: &mut F
     }
     let flank_points = *file.flank_points.get_or_insert(FLANK_POINTS) as usize;
     let positions = *file.positions.get_or_insert(POSITIONS) as usize;
-    if flank_points.saturating_mul(positions) > MOST_POINTS_TIMES_POSITIONS {
-        let allowed = format!(
-            "at most {} positions with {flank_points} flank points (about 4 GB of memory)",
-            MOST_POINTS_TIMES_POSITIONS / flank_points
-        );
-        findings.problem(ProblemKind::NotAllowed, "numerics.positions", positions.to_string(), allowed);
-        return None;
-    }
     Some(Numerics {
         flank_points,
         positions,
         step_revolutions: step,
         error_estimate: *file.error_estimate.get_or_insert(true),
     })
+}
+
+/// Refuses a resolution that no memory holds. The simplified surface keeps a place and not a strip of flank at each contact.
+pub fn memory(numerics: &Numerics, surface: SurfaceKind, slices: usize, findings: &mut Findings) {
+    let (points, positions) = (numerics.flank_points, numerics.positions);
+    let a_position =
+        if surface == SurfaceKind::HertzMean && slices > 1 { slices } else { points.saturating_mul(slices) };
+    if a_position.saturating_mul(positions) > MOST_POINTS_TIMES_POSITIONS {
+        let of_slices = if slices > 1 { format!(" and {slices} slices") } else { String::new() };
+        let allowed = format!(
+            "at most {} positions with {points} flank points{of_slices} (about 4 GB of memory)",
+            MOST_POINTS_TIMES_POSITIONS / a_position
+        );
+        findings.problem(ProblemKind::NotAllowed, "numerics.positions", positions.to_string(), allowed);
+    }
 }

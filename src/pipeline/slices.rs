@@ -1,0 +1,98 @@
+//! The record of a pair slice by slice.
+
+use super::Model;
+use super::recording::UM_PER_MM;
+use crate::gear::{Gear, PerGear};
+use crate::simulation::figures::{SliceFigures, WearFigures, variation};
+use crate::simulation::record::{HelicalSummary, LineOfContactSummary, OverWidthSummary, SliceRecord};
+use crate::simulation::wear_run::Outcome;
+use crate::working_cycle::sliced_mesh::SlicedMesh;
+
+/// Mesh orders that are kept.
+const MESH_ORDERS: usize = 5;
+
+/// New and worn mesh of a pair with slices.
+fn meshes(outcome: &Outcome) -> Option<[&SlicedMesh; 2]> {
+    Some([outcome.new.cycle.slices.as_ref()?, outcome.worn.cycle.slices.as_ref()?])
+}
+
+/// The pair slice by slice in figures; none where all sections are alike.
+pub(super) fn summary(model: &Model<'_>, outcome: &Outcome) -> Option<HelicalSummary> {
+    let [new, worn] = meshes(outcome)?;
+    let sliced = model.sliced?;
+    let um = |mm: Vec<f64>| mm.into_iter().map(|value| value * UM_PER_MM).collect();
+    Some(HelicalSummary {
+        slices: sliced.settings.count,
+        coupling: sliced.settings.coupling.name().to_owned(),
+        coupling_reach_mm: sliced
+            .coupling
+            .as_ref()
+            .map(|coupling| [coupling.reach.twist_mm2.sqrt(), coupling.reach.bending_mm4.sqrt().sqrt()]),
+        helix_angle_deg: model.pair.spec.helix_angle_rad.to_degrees(),
+        base_helix_angle_deg: model.pair.base_helix_angle_rad().to_degrees(),
+        total_contact_ratio: model.pair.path.contact_ratio() + model.pair.overlap_ratio(),
+        width_mm: outcome.slices.width_mm.clone(),
+        line_of_contact_mm: line_of_contact(model, outcome, new),
+        K_Hbeta_new: new.face_load_factor(),
+        K_Hbeta_worn: worn.face_load_factor(),
+        mesh_orders_new_um: um(new.mesh_orders_mm(MESH_ORDERS)),
+        mesh_orders_worn_um: um(worn.mesh_orders_mm(MESH_ORDERS)),
+        wear: PerGear::from_fn(|gear| over_width(model, outcome, gear)),
+    })
+}
+
+fn line_of_contact(model: &Model<'_>, outcome: &Outcome, mesh: &SlicedMesh) -> LineOfContactSummary {
+    let in_contact = &mesh.contacts_at_phases;
+    let length =
+        |contacts: usize| contacts as f64 * outcome.slices.slice_width_mm / model.pair.base_helix_angle_rad().cos();
+    let pair = model.pair;
+    LineOfContactSummary {
+        min: length(in_contact.iter().copied().min().unwrap_or(0)),
+        max: length(in_contact.iter().copied().max().unwrap_or(0)),
+        mean: pair.path.contact_ratio() * pair.spec.face_width_mm / pair.base_helix_angle_rad().cos(),
+    }
+}
+
+fn over_width(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> OverWidthSummary {
+    let worn = WearFigures::at(model.pair, gear, outcome, &outcome.worn).slices;
+    let first = WearFigures::new(model.pair, gear, &outcome.grid[gear], &outcome.new.depth_per_mesh_mm[gear]).slices;
+    let um = |slices: &[SliceFigures], of: fn(&SliceFigures) -> f64| -> Vec<f64> {
+        slices.iter().map(|slice| of(slice) * UM_PER_MM).collect()
+    };
+    let asymmetry = |slices: &[SliceFigures]| {
+        let (first, last) = (slices[0].root_mm, slices[slices.len() - 1].root_mm);
+        if first + last > 0.0 { (first - last) / (first + last) } else { 0.0 }
+    };
+    let (root, tip) = (worn.iter().map(|slice| slice.root_mm), worn.iter().map(|slice| slice.tip_mm));
+    OverWidthSummary {
+        root_wear_um: um(&worn, |slice| slice.root_mm),
+        tip_wear_um: um(&worn, |slice| slice.tip_mm),
+        root_wear_first_mesh_um: um(&first, |slice| slice.root_mm),
+        tip_wear_first_mesh_um: um(&first, |slice| slice.tip_mm),
+        root_variation: variation(root.clone()),
+        tip_variation: variation(tip.clone()),
+        root_tip_variation: variation(root.chain(tip)),
+        root_asymmetry_first_mesh: asymmetry(&first),
+        root_asymmetry: asymmetry(&worn),
+    }
+}
+
+/// The mesh of one tooth; none where all sections are alike.
+pub(super) fn record(model: &Model<'_>, outcome: &Outcome) -> Option<SliceRecord> {
+    let [new, worn] = meshes(outcome)?;
+    let pair = model.pair;
+    Some(SliceRecord {
+        width_mm: outcome.slices.width_mm.clone(),
+        ahead_mm: outcome.slices.ahead_mm.clone(),
+        twist_rad_per_mm: PerGear {
+            pinion: pair.spec.helix_angle_rad.tan() / pair.teeth.pinion.reference_radius_mm,
+            wheel: -pair.spec.helix_angle_rad.tan() / pair.teeth.wheel.reference_radius_mm,
+        },
+        base_half_angle_rad: pair.teeth.as_ref().map(|tooth| tooth.base_half_angle_rad),
+        position_mm: new.position_mm.clone(),
+        line_load_new_N_per_mm: new.line_load_n_per_mm.clone(),
+        line_load_worn_N_per_mm: worn.line_load_n_per_mm.clone(),
+        peak_pressure_new_MPa: new.peak_pressure_mpa.clone(),
+        peak_pressure_worn_MPa: worn.peak_pressure_mpa.clone(),
+    })
+}

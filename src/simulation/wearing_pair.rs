@@ -1,0 +1,72 @@
+//! A pair with the wear it has so far: what the steps of a wear run work on.
+//!
+//! Most models keep what each flank point has lost ([`OnFlankPoints`]); the simplified model of helical gears keeps it at the
+//! contact points themselves ([`super::simplified`]).
+
+use super::wear_run::Snapshot;
+use crate::gear::{Gear, PerGear};
+use crate::wear::WearLaw;
+use crate::working_cycle::{LostMaterial, MeshCycle, Work, load_sharing::EquilibriumError};
+
+/// A pair that wears.
+pub trait WearingPair {
+    /// Solves one working cycle on the flanks as they are, and keeps what they lose in one mesh by `law`. `stopped` is asked now
+    /// and then whether to give up.
+    ///
+    /// # Errors
+    /// [`EquilibriumError`] of the first position without equilibrium.
+    fn evaluate(&mut self, law: &dyn WearLaw, stopped: &(dyn Fn() -> bool + Sync)) -> Result<Work, EquilibriumError>;
+
+    /// Lets the flanks lose that in so many meshes of each gear's teeth.
+    fn wear_for(&mut self, meshes: PerGear<f64>);
+
+    /// The state that the last evaluation found.
+    ///
+    /// # Errors
+    /// [`EquilibriumError`] of the first position without equilibrium.
+    fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError>;
+}
+
+/// Flanks as rows of points, slice after slice, that a working cycle wears.
+pub struct OnFlankPoints<'a> {
+    cycle: Box<dyn MeshCycle + 'a>,
+    modification_mm: &'a PerGear<Vec<f64>>,
+    removed_mm: PerGear<Vec<f64>>,
+    wear_mm: PerGear<Vec<f64>>,
+    depth_mm: PerGear<Vec<f64>>,
+}
+
+impl<'a> OnFlankPoints<'a> {
+    /// Unworn flanks with their modifications.
+    pub fn new(cycle: Box<dyn MeshCycle + 'a>, modification_mm: &'a PerGear<Vec<f64>>) -> Self {
+        let zeros = || modification_mm.as_ref().map(|flank| vec![0.0; flank.len()]);
+        Self { cycle, modification_mm, removed_mm: modification_mm.clone(), wear_mm: zeros(), depth_mm: zeros() }
+    }
+}
+
+/// Both fields of what flanks have lost, borrowed.
+fn lost<'a>(removed_mm: &'a PerGear<Vec<f64>>, wear_mm: &'a PerGear<Vec<f64>>) -> LostMaterial<'a> {
+    LostMaterial { removed_mm: removed_mm.as_ref().map(Vec::as_slice), wear_mm: wear_mm.as_ref().map(Vec::as_slice) }
+}
+
+impl WearingPair for OnFlankPoints<'_> {
+    fn evaluate(&mut self, law: &dyn WearLaw, stopped: &(dyn Fn() -> bool + Sync)) -> Result<Work, EquilibriumError> {
+        self.cycle.evaluate(lost(&self.removed_mm, &self.wear_mm), law, &mut self.depth_mm, stopped)
+    }
+
+    fn wear_for(&mut self, meshes: PerGear<f64>) {
+        for gear in Gear::BOTH {
+            let points = self.wear_mm[gear].iter_mut().zip(&mut self.removed_mm[gear]);
+            let rates = self.depth_mm[gear].iter().zip(&self.modification_mm[gear]);
+            for ((wear, removed), (depth, modification)) in points.zip(rates) {
+                *wear += meshes[gear] * depth;
+                *removed = modification + *wear;
+            }
+        }
+    }
+
+    fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {
+        let cycle = self.cycle.observe(lost(&self.removed_mm, &self.wear_mm))?;
+        Ok(Snapshot { revolutions, wear_mm: self.wear_mm.clone(), depth_per_mesh_mm: self.depth_mm.clone(), cycle })
+    }
+}

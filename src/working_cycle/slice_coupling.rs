@@ -1,0 +1,213 @@
+//! How the slices of a tooth hold each other: a tooth as a plate that is clamped at its root.
+//!
+//! Haines and Ollerton cut a contact into strips and treat each as a plane contact of its own. Here the strips are the slices of
+//! a tooth: contact is plane in each, but they belong to one tooth, and a loaded slice takes its neighbours along. The tooth is
+//! a plate of thickness t(y) over the height y above its root and of infinite stiffness only there. With the shape f(y) that a
+//! slice by itself bends to under a load at the height y_p, f(y_p) = 1, and the deflection u(z) of the loaded line as the
+//! unknown (Kantorovich), the plate's energy becomes that of a beam on an elastic foundation that resists shear,
+//!
+//! ```text
+//! ½ ∫ [k u² + T u'² + B u''²] dz − ∫ w u dz        D = E t³ / (12 (1 − ν²))
+//! k = ∫ D f''² dy      T = 2 (1 − ν) ∫ D f'² dy − 2 ν ∫ D f f'' dy      B = ∫ D f² dy
+//! k u − T u'' + B u'''' = w
+//! ```
+//!
+//! with free ends. 1/k is the bending of a slice by itself; the other two say how far a deflection reaches along the tooth: ℓ₁² =
+//! T/k, ℓ₂⁴ = B/k. Of the pair, both teeth's are averaged by their bending. The compliance itself stays that of the stiffness
+//! model, q along the line of contact: with v = u/√q,
+//!
+//! ```text
+//! v − ℓ₁² v'' + ℓ₂⁴ v'''' = √q w
+//! ```
+//!
+//! which is symmetric, as Maxwell's theorem wants it, and for a load and a stiffness alike over the whole width gives u = q w, as if
+//! there were no coupling. Over the slices the derivatives are differences, v + ℓ₁²/Δz² D₁ᵀD₁ v + ℓ₂⁴/Δz⁴ D₂ᵀD₂ v, with free ends.
+//!
+//! Limits: a thin plate, so that a point load on a tooth as thick as high is spread a little too little; body and hub are taken
+//! to spread a load as the tooth does. Against the exact plate of even thickness, a point load at the free edge deflects it by
+//! 0.163 instead of 0.168 P l²/D.
+//!
+//! Source: D. J. Haines and E. Ollerton, *Proc. Inst. Mech. Eng.* 177 (1963) 95–114, for the strips; L. V. Kantorovich and V. I. Krylov,
+//! *Approximate Methods of Higher Analysis* (1958), chapter IV; V. Z. Vlasov and N. N. Leont'ev, *Beams, Plates and Shells on
+//! Elastic Foundations* (1966); T. J. Jaramillo, *J. Appl. Mech.* 17 (1950) 67–72, for the plate under a point load.
+
+use crate::contact::settings::Material;
+use crate::gear::{Gear, GearPair, PerGear, half_profile::half_profile, slices::Slices, tooth::Tooth};
+
+/// Samples of the profile on fillet and flank each.
+const SAMPLES: usize = 400;
+
+/// How far a deflection reaches along a tooth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reach {
+    /// ℓ₁², mm²: from twisting.
+    pub twist_mm2: f64,
+    /// ℓ₂⁴, mm⁴: from bending along the tooth.
+    pub bending_mm4: f64,
+}
+
+impl Reach {
+    /// Of a plate of thickness `thickness_mm` at increasing heights `height_mm` above its clamped edge (both have the same
+    /// length), loaded at the height `load_height_mm`; and 1/k of a unit of E: the bending of a slice, dimensionless.
+    pub fn of_plate(height_mm: &[f64], thickness_mm: &[f64], load_height_mm: f64, poisson_ratio: f64) -> (Self, f64) {
+        // f'' = (y_p − y)/t³ up to the load, zero above; not yet divided by its value at the load.
+        let plate = |t: f64| t.powi(3) / (12.0 * (1.0 - poisson_ratio * poisson_ratio));
+        let curvature = |y: f64, t: f64| (load_height_mm - y).max(0.0) / t.powi(3);
+        let (mut slope, mut deflection) = (0.0, 0.0);
+        let mut at_load = 0.0;
+        let [mut k, mut twist, mut mixed, mut along] = [0.0; 4];
+        for (y, t) in height_mm.windows(2).zip(thickness_mm.windows(2)) {
+            let dy = y[1] - y[0];
+            let middle = [0.5 * (y[0] + y[1]), 0.5 * (t[0] + t[1])];
+            let bend = curvature(middle[0], middle[1]);
+            let (slope_here, deflection_here) = (slope + 0.5 * dy * bend, deflection + 0.5 * dy * slope);
+            let stiffness = plate(middle[1]);
+            k += stiffness * bend * bend * dy;
+            twist += stiffness * slope_here * slope_here * dy;
+            mixed += stiffness * deflection_here * bend * dy;
+            along += stiffness * deflection_here * deflection_here * dy;
+            if (y[0]..=y[1]).contains(&load_height_mm) {
+                at_load = deflection + (load_height_mm - y[0]) * slope_here;
+            }
+            deflection += dy * slope_here;
+            slope += dy * bend;
+        }
+        let reach = Self {
+            twist_mm2: (2.0 * (1.0 - poisson_ratio) * twist - 2.0 * poisson_ratio * mixed) / k,
+            bending_mm4: along / k,
+        };
+        (reach, at_load * at_load / k)
+    }
+
+    /// Of a tooth loaded where it touches at `rho_mm`, and its bending over line load, 1/MPa.
+    fn of_tooth(tooth: &Tooth, material: &Material, rho_mm: f64) -> (Self, f64) {
+        let profile = half_profile(tooth, SAMPLES);
+        let height: Vec<f64> = profile.iter().map(|point| point.y - profile[0].y).collect();
+        let thickness: Vec<f64> = profile.iter().map(|point| 2.0 * point.x).collect();
+        let load_height = tooth.load_line(rho_mm).centre_line_mm - profile[0].y;
+        let (reach, bending) = Self::of_plate(&height, &thickness, load_height, material.poisson_ratio);
+        (reach, bending / material.young_modulus_mpa)
+    }
+
+    /// Of a pair whose teeth touch in the middle of the path of contact: both teeth's, weighted by their bending.
+    pub fn of_pair(pair: &GearPair, material: &PerGear<Material>) -> Self {
+        let middle = pair.path.start_mm.midpoint(pair.path.end_mm);
+        let [(pinion, a), (wheel, b)] =
+            Gear::BOTH.map(|gear| Self::of_tooth(&pair.teeth[gear], &material[gear], pair.path.rho_mm(gear, middle)));
+        let mean = |of_pinion: f64, of_wheel: f64| (a * of_pinion + b * of_wheel) / (a + b);
+        Self {
+            twist_mm2: mean(pinion.twist_mm2, wheel.twist_mm2),
+            bending_mm4: mean(pinion.bending_mm4, wheel.bending_mm4),
+        }
+    }
+}
+
+/// The operator on the slices of one tooth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SliceCoupling {
+    /// How far a deflection reaches.
+    pub reach: Reach,
+    count: usize,
+    /// ℓ₁²/Δz².
+    twist: f64,
+    /// ℓ₂⁴/Δz⁴.
+    bending: f64,
+}
+
+impl SliceCoupling {
+    /// Of slices `slice_width_mm` wide, `count` in number.
+    pub fn new(reach: Reach, count: usize, slice_width_mm: f64) -> Self {
+        let square = slice_width_mm * slice_width_mm;
+        Self { reach, count, twist: reach.twist_mm2 / square, bending: reach.bending_mm4 / (square * square) }
+    }
+
+    /// Of the slices of a pair.
+    pub fn of_pair(pair: &GearPair, material: &PerGear<Material>, slices: &Slices) -> Self {
+        Self::new(Reach::of_pair(pair, material), slices.count(), slices.slice_width_mm)
+    }
+
+    /// The operator on `v`, into `result`; by differences of differences, so that little is lost to rounding where slices are
+    /// thin.
+    pub fn apply(&self, v: &[f64], result: &mut [f64]) {
+        result.copy_from_slice(v);
+        for i in 1..self.count {
+            let difference = self.twist * (v[i] - v[i - 1]);
+            result[i] += difference;
+            result[i - 1] -= difference;
+        }
+        for i in 1..self.count.saturating_sub(1) {
+            let bend = self.bending * ((v[i + 1] - v[i]) - (v[i] - v[i - 1]));
+            result[i - 1] += bend;
+            result[i] -= 2.0 * bend;
+            result[i + 1] += bend;
+        }
+    }
+
+    /// The factors of the operator with `diagonal` (≥ 0) added.
+    pub fn factorise(&self, diagonal: &[f64]) -> Factors {
+        let n = self.count;
+        let mut bands = Factors { pivot: diagonal.to_vec(), first: vec![0.0; n], second: vec![0.0; n] };
+        for pivot in &mut bands.pivot {
+            *pivot += 1.0;
+        }
+        for i in 1..n {
+            bands.pivot[i] += self.twist;
+            bands.pivot[i - 1] += self.twist;
+            bands.first[i] -= self.twist;
+        }
+        for i in 1..n.saturating_sub(1) {
+            bands.pivot[i - 1] += self.bending;
+            bands.pivot[i] += 4.0 * self.bending;
+            bands.pivot[i + 1] += self.bending;
+            bands.first[i] -= 2.0 * self.bending;
+            bands.first[i + 1] -= 2.0 * self.bending;
+            bands.second[i + 1] += self.bending;
+        }
+        // L D Lᵀ in place: first[i] and second[i] become L[i][i−1] and L[i][i−2].
+        for i in 1..n {
+            if i >= 2 {
+                bands.second[i] /= bands.pivot[i - 2];
+                bands.first[i] -= bands.second[i] * bands.pivot[i - 2] * bands.first[i - 1];
+            }
+            bands.first[i] /= bands.pivot[i - 1];
+            let mut taken = bands.first[i] * bands.first[i] * bands.pivot[i - 1];
+            if i >= 2 {
+                taken += bands.second[i] * bands.second[i] * bands.pivot[i - 2];
+            }
+            bands.pivot[i] -= taken;
+        }
+        bands
+    }
+}
+
+/// L D Lᵀ of a symmetric matrix with two bands beside the diagonal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Factors {
+    pivot: Vec<f64>,
+    first: Vec<f64>,
+    second: Vec<f64>,
+}
+
+impl Factors {
+    /// Solves in place.
+    pub fn solve(&self, x: &mut [f64]) {
+        let n = self.pivot.len();
+        for i in 1..n {
+            x[i] -= self.first[i] * x[i - 1];
+            if i >= 2 {
+                x[i] -= self.second[i] * x[i - 2];
+            }
+        }
+        for (x, pivot) in x.iter_mut().zip(&self.pivot) {
+            *x /= pivot;
+        }
+        for i in (0..n).rev() {
+            if i + 1 < n {
+                x[i] -= self.first[i + 1] * x[i + 1];
+            }
+            if i + 2 < n {
+                x[i] -= self.second[i + 2] * x[i + 2];
+            }
+        }
+    }
+}
