@@ -141,6 +141,86 @@ pub const FIGURES: &[SweepFigure] = &[
         "of the loaded pair over the cycle, along the line of action, worn",
         |s| Some(s.worn.transmission_error_um.peak_to_peak),
     ),
+    describes("total_contact_ratio", "total contact ratio", "", "ε_γ = ε_α + ε_β; empty for a spur pair", |s| {
+        Some(s.helical.as_ref()?.total_contact_ratio)
+    }),
+    wants_less(
+        "pinion_root_wear_variation",
+        "variation of the pinion’s root wear over the width",
+        "",
+        "greatest less least root wear of the slices, over its mean; empty where there are no slices",
+        |s| Some(s.helical.as_ref()?.wear.pinion.root_variation),
+    ),
+    wants_less(
+        "pinion_tip_wear_variation",
+        "variation of the pinion’s tip wear over the width",
+        "",
+        "greatest less least tip wear of the slices, over its mean; empty where there are no slices",
+        |s| Some(s.helical.as_ref()?.wear.pinion.tip_variation),
+    ),
+    wants_less(
+        "pinion_root_tip_wear_variation",
+        "variation of the pinion’s wear at root and tip",
+        "",
+        "greatest less least wear of root and tip of all slices, over its mean; empty where there are no slices",
+        |s| Some(s.helical.as_ref()?.wear.pinion.root_tip_variation),
+    ),
+    wants_less(
+        "wheel_root_wear_variation",
+        "variation of the wheel’s root wear over the width",
+        "",
+        "greatest less least root wear of the slices, over its mean; empty where there are no slices",
+        |s| Some(s.helical.as_ref()?.wear.wheel.root_variation),
+    ),
+    wants_less(
+        "wheel_tip_wear_variation",
+        "variation of the wheel’s tip wear over the width",
+        "",
+        "greatest less least tip wear of the slices, over its mean; empty where there are no slices",
+        |s| Some(s.helical.as_ref()?.wear.wheel.tip_variation),
+    ),
+    wants_less(
+        "wheel_root_tip_wear_variation",
+        "variation of the wheel’s wear at root and tip",
+        "",
+        "greatest less least wear of root and tip of all slices, over its mean; empty where there are no slices",
+        |s| Some(s.helical.as_ref()?.wear.wheel.root_tip_variation),
+    ),
+    describes(
+        "pinion_root_wear_asymmetry",
+        "asymmetry of the pinion’s root wear",
+        "",
+        "first less last slice over their sum; empty where there are no slices",
+        |s| Some(s.helical.as_ref()?.wear.pinion.root_asymmetry),
+    ),
+    wants_less(
+        "K_Hbeta_new",
+        "face load factor K_Hβ, new",
+        "",
+        "greatest over mean of the slices' loads, new; empty where there are no slices",
+        |s| Some(s.helical.as_ref()?.K_Hbeta_new),
+    ),
+    wants_less(
+        "K_Hbeta_worn",
+        "face load factor K_Hβ, worn",
+        "",
+        "greatest over mean of the slices' loads, worn; empty where there are no slices",
+        |s| Some(s.helical.as_ref()?.K_Hbeta_worn),
+    ),
+    wants_less(
+        "mesh_order_1_new_um",
+        "first mesh order of the transmission error, new",
+        "µm",
+        "amplitude at the mesh frequency, new; empty where there are no slices",
+        |s| s.helical.as_ref()?.mesh_orders_new_um.first().copied(),
+    ),
+    wants_less(
+        "mesh_order_1_worn_um",
+        "first mesh order of the transmission error, worn",
+        "µm",
+        "amplitude at the mesh frequency, worn; empty where there are no slices",
+        |s| s.helical.as_ref()?.mesh_orders_worn_um.first().copied(),
+    ),
 ];
 
 impl SweepFigure {

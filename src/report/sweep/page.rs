@@ -18,6 +18,9 @@ const DATA_FILES: &[(&str, &str)] = &[
     ("scene.toml", "the scene as given"),
 ];
 
+/// Figures whose least value is said at the top of the page, where there is one.
+const HEADLINES: [&str; 2] = ["pinion_root_tip_wear_variation", "pinion_peak_wear_um"];
+
 /// The whole page.
 pub fn page(record: &SweepRecord) -> String {
     let figures = figures(record);
@@ -71,8 +74,9 @@ fn answer(record: &SweepRecord) -> String {
     };
     let mut text =
         format!("{} combinations of {}{without}.", count(identity.combinations() as u64), keys.join(" and "));
-    if let Some(figure) = shown(record).next()
-        && let Some((row, least)) = record.least(figure)
+    for (figure, row, least) in shown(record)
+        .filter(|figure| HEADLINES.contains(&figure.name))
+        .filter_map(|figure| record.least(figure).map(|(row, least)| (figure, row, least)))
     {
         let place: Vec<String> = identity
             .axes
@@ -81,9 +85,10 @@ fn answer(record: &SweepRecord) -> String {
             .map(|(axis, &value)| format!("{} = {}", axis.key, given(value)))
             .collect();
         text.push_str(&format!(
-            " The {} is least, {} {}, at {}.",
+            " The {} is least, {}{}{}, at {}.",
             figure.title,
             shown_number(least),
+            if figure.unit.is_empty() { "" } else { " " },
             figure.unit,
             place.join(" and ")
         ));
