@@ -9,7 +9,15 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-const TABLES: [&str; 6] = ["rows.jsonl", "sweep.csv", "sweep.parquet", "sweep.json", "scene.toml", "report.html"];
+const TABLES: &[&str] = &[
+    "rows.jsonl",
+    "sweep.csv",
+    #[cfg(feature = "parquet")]
+    "sweep.parquet",
+    "sweep.json",
+    "scene.toml",
+    "report.html",
+];
 
 fn gearwear() -> Command {
     Command::new(assert_cmd::cargo::cargo_bin!("gearwear"))
