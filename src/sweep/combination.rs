@@ -110,9 +110,9 @@ impl Sweep {
             all.join("; ")
         })?;
         self.inputs_belong_to(&resolved.scene)?;
-        match pipeline::run(&resolved, &Plan::of(&resolved.scene), &self.inputs, observer) {
+        match pipeline::summarise(&resolved, &Plan::of(&resolved.scene), &self.inputs, observer) {
             Ok(Done { failure: Some(failure), .. }) => Err(failure.to_string()),
-            Ok(Done { record, failure: None }) => Ok(record.summary),
+            Ok(Done { record: summary, failure: None }) => Ok(summary),
             Err(failure) => Err(failure.to_string()),
         }
     }
