@@ -498,3 +498,71 @@ fn a_full_disk_is_an_error_and_what_was_written_is_kept() {
     done(&bench.sweep("whole", &["pair.face_width_mm=10:30:101"], &["--quiet"]));
     assert_eq!(table(&bench.out("out")), table(&bench.out("whole")));
 }
+
+/// Figures of slices are there for every combination with a helix, and empty for the spur pair that a range from 0° begins with.
+#[test]
+fn a_helical_sweep_keeps_the_figures_of_slices() {
+    let scene = gearwear::scene::presets::find("helical").unwrap().text;
+    let mut coarse = scene.to_owned();
+    for (from, to) in [
+        ("surface = \"hertz\" ", "surface = \"hertz-mean\" "),
+        ("slices = 20 ", "slices = 6 "),
+        ("flank_points = 750 ", "flank_points = 60 "),
+        ("positions = 400 ", "positions = 40 "),
+        ("step = { revolutions = 10000.0 }", "step = { revolutions = 200000.0 }"),
+    ] {
+        assert!(coarse.contains(from), "{from}");
+        coarse = coarse.replace(from, to);
+    }
+    let bench = Bench::of(&coarse);
+    let vary = ["pair.helix_angle_deg=0:30:3", "pair.face_width_mm=10:30:3"];
+    done(&bench.sweep("out", &vary, &["--quiet"]));
+    let out = bench.out("out");
+    assert!(column(&out, "status").iter().all(|status| status == "ok"), "{:?}", column(&out, "error"));
+    for name in ["pinion_root_wear_variation", "wheel_tip_wear_variation", "K_Hbeta_worn", "mesh_order_1_new_um"] {
+        let cells = column(&out, name);
+        assert!(cells[..3].iter().all(String::is_empty), "{name}: {cells:?}");
+        assert!(cells[3..].iter().all(|cell| cell.parse::<f64>().is_ok_and(|value| value >= 0.0)), "{name}: {cells:?}");
+    }
+    // ε_β = b tan β / (π m_t) of the preset, m_t = 4.5 mm, at 15° and 20 mm (ISO 21771).
+    let expected = 20.0 * 15f64.to_radians().tan() / (std::f64::consts::PI * 4.5);
+    assert!((numbers(&out, "overlap_ratio")[4] / expected - 1.0).abs() < 1e-12);
+    // A helix that no scene may have, in part of the range and in all of it.
+    done(&bench.sweep("part", &["pair.helix_angle_deg=30:60:2"], &["--quiet"]));
+    assert_eq!(column(&bench.out("part"), "status"), ["ok", "failed"]);
+    let refusal = bench.sweep("none", &["pair.helix_angle_deg=50:60:3"], &["--quiet"]);
+    refused(&refusal, &["pair.helix_angle_deg: found 50 to 60", "at most 45"]);
+}
+
+/// Three keys: every plot is drawn over the first two, and says where the third stays.
+#[test]
+fn a_third_key_stays_at_its_best() {
+    let bench = Bench::new();
+    done(&bench.sweep("out", &[WIDTHS, TORQUES, "operation.hours=10:100:2"], &["--quiet"]));
+    let page = fs::read_to_string(bench.out("out").join("report.html")).unwrap();
+    assert!(page.contains("id=\"contour-pinion-peak-wear-um\""));
+    assert!(page.contains("Shown with operation.hours = 10, where the least of all is."));
+    let peaks = numbers(&bench.out("out"), "pinion_peak_wear_um");
+    // Ten times the duration wears more in every combination.
+    assert!(peaks.chunks(2).all(|pair| pair[0] < pair[1]), "{peaks:?}");
+}
+
+/// A data file of the scene belongs to its pair: combinations of another pair are rows with an error, other widths are not.
+#[test]
+fn a_curve_of_the_scene_belongs_to_its_pair() {
+    let scene = coarse_scene()
+        .replace("model = \"constant\"", "model = \"simon\"\ncurve = \"curve.csv\" #")
+        .replace("pair_N_per_mm_um = 20.0", "# no value");
+    let bench = Bench::of(&scene);
+    // From A to E of the pair, 4.3 to 23.6 mm.
+    let curve = "# flattening = excluded\nposition_mm,stiffness_N_per_mm_um\n1,18\n10,20\n20,19\n30,17\n";
+    fs::write(bench.out("curve.csv"), curve).unwrap();
+    done(&bench.sweep("out", &[WIDTHS, "pair.centre_distance_mm=91.5:91.7:2"], &["--quiet"]));
+    let status = column(&bench.out("out"), "status");
+    assert!(status.chunks(2).all(|pair| pair == ["ok", "failed"]), "{status:?}");
+    assert!(column(&bench.out("out"), "error")[1].contains("stiffness.curve belongs to the pair"));
+    // Another curve is another sweep.
+    fs::write(bench.out("curve.csv"), curve.replace("1,18", "1,17")).unwrap();
+    let again = bench.sweep("out", &[WIDTHS, "pair.centre_distance_mm=91.5:91.7:2"], &["--quiet"]);
+    refused(&again, &["another sweep", "files that the scene names"]);
+}

@@ -70,3 +70,17 @@ pub fn range(record: &SweepRecord, figure: &SweepFigure) -> Option<(f64, f64)> {
 pub fn differs(record: &SweepRecord, figure: &SweepFigure) -> bool {
     range(record, figure).is_some_and(|(low, high)| high - low > 1e-9 * high.abs().max(low.abs()))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_values_are_thinned_evenly() {
+        assert_eq!(thinned(3), [0, 1, 2]);
+        assert_eq!(thinned(1), [0]);
+        let many = thinned(1999);
+        assert_eq!((many.len(), many[0], many[MOST_SHOWN - 1]), (MOST_SHOWN, 0, 1998));
+        assert!(many.windows(2).all(|pair| [10, 11].contains(&(pair[1] - pair[0]))));
+    }
+}
