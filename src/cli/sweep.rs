@@ -130,7 +130,7 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
         identity: sweep.identity,
         shard: args.shard,
         scene_toml: source.text,
-        rows: journal.rows.values().cloned().collect(),
+        rows: std::mem::take(&mut journal.rows).into_values().collect(),
         threads,
         wall_s: start.elapsed().as_secs_f64(),
     };
