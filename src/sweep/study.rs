@@ -3,15 +3,15 @@
 //! A combination is run by one thread from beginning to end: with many combinations that loses nothing to waiting, and a row
 //! depends neither on the number of threads nor on the order in which they finish.
 
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 use super::combination::Sweep;
 use super::journal::{Journal, JournalError};
 use crate::pipeline;
 use crate::plan::StageKind;
-use crate::simulation::sweep_record::Shard;
+use crate::simulation::sweep_record::{Shard, SweepRow};
 use crate::simulation::wear_run;
 
 /// Told of rows as they are finished; says whether to go on.
@@ -60,6 +60,26 @@ impl pipeline::Observer for Within<'_> {
     fn stage(&self, _kind: StageKind) {}
 }
 
+/// What the threads share.
+struct Kept<'a> {
+    journal: &'a mut Journal,
+    /// Rows with an error.
+    failed: usize,
+    /// Why no row can be kept any more.
+    error: Option<JournalError>,
+}
+
+impl Kept<'_> {
+    /// Keeps a finished row, if rows can still be kept: what follows a line that was not written whole could not be read again.
+    fn keep(&mut self, row: SweepRow) -> bool {
+        if self.error.is_none() {
+            self.failed += usize::from(row.error.is_some());
+            self.error = self.journal.append(row).err();
+        }
+        self.error.is_none()
+    }
+}
+
 /// Runs the combinations of `shard` that `journal` does not hold yet, on `threads` threads.
 ///
 /// # Errors
@@ -78,7 +98,7 @@ pub fn run(
 
     let next = AtomicUsize::new(0);
     let stopped = AtomicBool::new(false);
-    let kept = Mutex::new((journal, failed_before, None));
+    let kept = Mutex::new(Kept { journal, failed: failed_before, error: None });
     let within = Within { observer, stopped: &stopped };
     let work = || {
         while let Some(&index) = missing.get(next.fetch_add(1, Ordering::Relaxed)) {
@@ -86,22 +106,13 @@ pub fn run(
                 break;
             }
             let Some(row) = sweep.row(index, &within) else { break };
-            // A thread that panicked with the lock held would have left a whole journal behind: it only appends.
-            let mut kept = kept.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-            let (journal, failed, error) = &mut *kept;
-            if error.is_some() {
-                // What follows a line that was not written whole could not be read again.
+            // Nothing panics with the lock held that would leave the journal half changed: it only appends.
+            let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
+            if !kept.keep(row) {
+                stopped.store(true, Ordering::Relaxed);
                 break;
             }
-            *failed += usize::from(row.error.is_some());
-            match journal.append(row) {
-                Ok(()) => observer.row(journal.rows.len(), all.len(), *failed),
-                Err(reason) => {
-                    stopped.store(true, Ordering::Relaxed);
-                    error.get_or_insert(reason);
-                    break;
-                }
-            }
+            observer.row(kept.journal.rows.len(), all.len(), kept.failed);
         }
     };
     thread::scope(|scope| {
@@ -109,11 +120,11 @@ pub fn run(
             scope.spawn(|| on_one_thread(work));
         }
     });
-    let (journal, _, error) = kept.into_inner().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let Kept { journal, error, .. } = kept.into_inner().unwrap_or_else(PoisonError::into_inner);
     match error {
         Some(reason) => Err(reason),
-        None if journal.rows.len() < all.len() => Ok(Ended::Interrupted),
-        None => Ok(Ended::Completed),
+        None if all.iter().all(|index| journal.rows.contains_key(index)) => Ok(Ended::Completed),
+        None => Ok(Ended::Interrupted),
     }
 }
 
