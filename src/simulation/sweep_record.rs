@@ -289,7 +289,7 @@ mod tests {
         assert_eq!(axis("k", 0.1, 0.7, 7).values(), [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]);
         assert_eq!(axis("k", -1.0, 1.0, 3).values(), [-1.0, 0.0, 1.0]);
         assert_eq!(axis("k", 14.0, 14.0, 1).values(), [14.0]);
-        assert_eq!(axis("k", 0.0, 1.0, 4).values()[1], 0.333_333_333_333);
+        assert_eq!(axis("k", 0.0, 1.0, 4).values()[1], 0.333_333_333_33);
         assert_eq!(axis("k", -0.1, 0.6, 15).values()[1..4], [-0.05, 0.0, 0.05]);
         assert_eq!(axis("k", 1e-18, 3e-18, 3).values(), [1e-18, 2e-18, 3e-18]);
         assert_eq!(axis("k", 0.0, 3e15, 4).values(), [0.0, 1e15, 2e15, 3e15]);
