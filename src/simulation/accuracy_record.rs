@@ -95,6 +95,22 @@ pub struct ReferenceFlank {
     pub path_point_radius_mm: Option<PathPoints>,
 }
 
+impl ReferenceFlank {
+    /// The slices that stand for all: the first, the middle and the last.
+    pub fn shown_slices(&self) -> Vec<usize> {
+        let last = self.width_mm.len().saturating_sub(1);
+        let mut shown = vec![0, self.width_mm.len() / 2, last];
+        shown.dedup();
+        shown
+    }
+
+    /// The values of `field`, given slice after slice at the points of this flank, on one slice.
+    pub fn slice<'a>(&self, field: &'a [f64], slice: usize) -> &'a [f64] {
+        let points = self.radius_mm.len();
+        field.get(slice * points..(slice + 1) * points).unwrap_or_default()
+    }
+}
+
 /// A run: what it was made of, what it took, and how far it is from the reference.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct VariantRecord {
