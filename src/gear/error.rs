@@ -23,11 +23,13 @@ pub enum PairError {
         /// Centre distance without backlash.
         least_mm: f64,
     },
-    /// A tooth leaves the mesh before the next one enters.
-    #[error("transverse contact ratio is {contact_ratio:.4}: it must be at least 1")]
+    /// A tooth leaves the mesh before the next one enters: at some position no width is in contact.
+    #[error("{}", contact_ratio_message(*.contact_ratio, *.overlap_ratio))]
     ContactRatioBelowOne {
         /// ε_α; 0 where the tip circles do not reach each other.
         contact_ratio: f64,
+        /// ε_β.
+        overlap_ratio: f64,
     },
     /// The flanks meet before the tip circle.
     #[error("the {} tooth is pointed: its tip thickness is {tip_thickness_mm:.4} mm", .gear.name())]
@@ -130,4 +132,14 @@ pub enum PairError {
         /// What fits.
         greatest_mm: f64,
     },
+}
+
+fn contact_ratio_message(contact_ratio: f64, overlap_ratio: f64) -> String {
+    if overlap_ratio == 0.0 {
+        return format!("transverse contact ratio is {contact_ratio:.4}: it must be at least 1");
+    }
+    format!(
+        "transverse contact ratio is {contact_ratio:.4} and overlap ratio {overlap_ratio:.4}, so that no part of the face width \
+         is in contact at some position: together they must be at least 1, the first above 0"
+    )
 }

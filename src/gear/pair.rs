@@ -129,9 +129,9 @@ impl GearPair {
     }
 
     fn check_contact(&self) -> Result<(), PairError> {
-        let contact_ratio = self.path.contact_ratio();
-        if contact_ratio < 1.0 {
-            return Err(PairError::ContactRatioBelowOne { contact_ratio: contact_ratio.max(0.0) });
+        let (contact_ratio, overlap_ratio) = (self.path.contact_ratio(), self.overlap_ratio());
+        if contact_ratio <= 0.0 || contact_ratio + overlap_ratio < 1.0 {
+            return Err(PairError::ContactRatioBelowOne { contact_ratio: contact_ratio.max(0.0), overlap_ratio });
         }
         for gear in Gear::BOTH {
             let clearance_mm = self.tip_clearance_mm[gear];

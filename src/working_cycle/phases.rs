@@ -71,11 +71,8 @@ pub fn phases(path: &PathOfContact, slices: &Slices, positions: usize, beyond_mm
                 let turns = k.div_euclid(count as i32);
                 decided_at[k.rem_euclid(count as i32) as usize] + f64::from(turns) * pitch
             };
-            let [lower, upper] = bounds[j];
-            Phase {
-                position_mm: places[j],
-                contacts: course.contacts(places[j], [lower, upper], [neighbour(-1), decided_at[j], neighbour(1)]),
-            }
+            let contacts = course.contacts(bounds[j], [neighbour(-1), decided_at[j], neighbour(1)]);
+            Phase { position_mm: places[j], contacts }
         })
         .collect()
 }
@@ -108,9 +105,9 @@ impl Course<'_> {
         (self.first_mm..=self.last_mm).contains(&at_mm)
     }
 
-    /// The contacts at a place of the reference tooth whose stretch has `bounds`; `decided_at` are the places where it is
-    /// decided who touches at the place before, here, and after.
-    fn contacts(&self, place_mm: f64, bounds: [f64; 2], decided_at: [f64; 3]) -> Vec<SliceContact> {
+    /// The contacts in the stretch of the reference tooth that has `bounds`; `decided_at` are the places where it is decided who
+    /// touches in the stretch before, here, and after.
+    fn contacts(&self, bounds: [f64; 2], decided_at: [f64; 3]) -> Vec<SliceContact> {
         let [before, here, after] = decided_at;
         let reach = self.ahead_mm.iter().fold(0.0, |reach: f64, ahead| reach.max(ahead.abs()));
         let first_tooth = ((self.first_mm - here - reach) / self.pitch_mm).floor() as i32;
@@ -124,7 +121,8 @@ impl Course<'_> {
                 }
                 let lower_mm = if self.touches(before + shift) { bounds[0] + shift } else { self.first_mm };
                 let upper_mm = if self.touches(after + shift) { bounds[1] + shift } else { self.last_mm };
-                let position_mm = (place_mm + shift).clamp(self.first_mm, self.last_mm);
+                // A contact stands in the middle of its stretch, so that what a cut stretch wears is of second order too.
+                let position_mm = lower_mm.midpoint(upper_mm);
                 contacts.push(SliceContact { tooth, slice, cell: PositionCell { position_mm, lower_mm, upper_mm } });
             }
         }

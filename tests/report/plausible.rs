@@ -21,6 +21,7 @@ pub fn run() -> RunRecord {
         flanks,
         history,
         mesh_cycle: mesh_cycle(),
+        slices: None,
         drawing: drawing(),
     }
 }
@@ -106,7 +107,7 @@ fn flank(gear: Gear) -> FlankRecord {
     };
     FlankRecord {
         roll_angle_deg: rho.iter().map(|r| (r / r_b).to_degrees()).collect(),
-        width_mm: 7.0,
+        width_mm: vec![7.0],
         removed_um: radius_mm.iter().map(|r| (20.0 * (r - (tip - 2.0)) / 2.0).max(0.0)).collect(),
         sliding_mm_per_mesh: within(&|p| 0.4 * (p / CURVATURE.C - 1.0).abs()),
         wear_um: within(&|p| wear(gear, p, 127.75)),
@@ -219,6 +220,7 @@ fn summary() -> Summary {
                 wheel: gear(24, 108.0, 109.8, 118.36, 98.294, 101.4868, 103.997),
             },
         },
+        helical: None,
         contact: ContactSummary {
             surface: "winkler".into(),
             line_load_N_per_mm: 637.66,

@@ -5,6 +5,7 @@ use crate::gear::spec::PairSpec;
 use crate::gear::{Gear, PairError};
 use crate::scene::findings::Findings;
 use crate::scene::problem::{ProblemKind, number};
+use crate::working_cycle::settings::SliceSettings;
 
 /// Where a geometry error belongs, and what to do about it.
 struct Place {
@@ -14,12 +15,31 @@ struct Place {
     help: String,
 }
 
-/// Derives the pair and reports why that is impossible, if it is.
-pub fn check(spec: &PairSpec, findings: &mut Findings) {
-    if let Err(error) = GearPair::new(spec) {
-        let Place { key, found, allowed, help } = place(&error, spec, findings);
-        findings.problem(ProblemKind::Geometry(error), &key, found, allowed);
-        findings.help(help);
+/// Derives the pair and reports why that is impossible, if it is, or why its slices leave a position without contact.
+pub fn check(spec: &PairSpec, slices: Option<SliceSettings>, findings: &mut Findings) {
+    match GearPair::new(spec) {
+        Ok(pair) => {
+            if let Some(slices) = slices {
+                check_slices(&pair, slices.count, findings);
+            }
+        }
+        Err(error) => {
+            let Place { key, found, allowed, help } = place(&error, spec, findings);
+            findings.problem(ProblemKind::Geometry(error), &key, found, allowed);
+            findings.help(help);
+        }
+    }
+}
+
+/// The middles of the outermost slices are (n − 1)/n of the face width apart, and so much of the overlap they have.
+fn check_slices(pair: &GearPair, count: usize, findings: &mut Findings) {
+    let (contact_ratio, overlap_ratio) = (pair.path.contact_ratio(), pair.overlap_ratio());
+    let of_slices = overlap_ratio * (count as f64 - 1.0) / count as f64;
+    if contact_ratio + of_slices < 1.0 {
+        let least = overlap_ratio / (contact_ratio + overlap_ratio - 1.0);
+        let allowed = format!("at least {} slices", least.ceil());
+        findings.problem(ProblemKind::NotAllowed, "helical.slices", count.to_string(), allowed);
+        findings.help("with so few slices none of them is in contact at some position");
     }
 }
 
@@ -47,7 +67,18 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Place {
             least_mm,
             "or smaller profile shifts, or thinner teeth by a negative tooth_thickness_allowance_um on a gear",
         ),
-        PairError::ContactRatioBelowOne { contact_ratio } => Place {
+        PairError::ContactRatioBelowOne { contact_ratio, overlap_ratio } if overlap_ratio > 0.0 => Place {
+            key: "pair.face_width_mm".to_owned(),
+            found: format!(
+                "{}, transverse contact ratio {contact_ratio:.4}, overlap ratio {overlap_ratio:.4}",
+                number(spec.face_width_mm)
+            ),
+            allowed: "contact ratios that together are at least 1, the transverse one above 0".to_owned(),
+            help: "a larger face width or helix angle raises the overlap; larger tip diameters or a smaller centre distance \
+                   raise the transverse contact ratio"
+                .to_owned(),
+        },
+        PairError::ContactRatioBelowOne { contact_ratio, .. } => Place {
             key: "pair.centre_distance_mm".to_owned(),
             found: format!("{}, contact ratio {contact_ratio:.4}", number(spec.centre_distance_mm)),
             allowed: "a transverse contact ratio of at least 1".to_owned(),
@@ -166,7 +197,7 @@ mod tests {
                 PairError::NegativeBacklash { backlash_mm: -0.4, centre_distance_mm: 91.0, least_mm: 91.5 },
                 centre.clone(),
             ),
-            (PairError::ContactRatioBelowOne { contact_ratio: 0.75 }, centre),
+            (PairError::ContactRatioBelowOne { contact_ratio: 0.75, overlap_ratio: 0.0 }, centre),
             (
                 PairError::PointedTooth {
                     gear,

@@ -33,7 +33,7 @@ pub fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
     let resolved = text::typed::<SceneFile>(sound, &mut findings).and_then(|file| choose(file, &mut findings));
     let resolved = resolved.filter(|_| findings.problems.is_empty());
     if let Some((scene, _)) = &resolved {
-        geometry::check(&scene.pair, &mut findings);
+        geometry::check(&scene.pair, scene.slices, &mut findings);
     }
     let slips = slips.into_iter().filter(|slip| findings.is_in_file(&slip.key));
     match resolved {
