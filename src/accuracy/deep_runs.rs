@@ -90,15 +90,13 @@ pub(super) fn run(
         let [usual, fewer] = [0, 1].map(|k| ran.get(k).and_then(Option::as_ref));
         row.usual = usual.map(deep_run);
         row.fewer_steps = fewer.map(deep_run);
-        if let (Some((usual, _)), None) = (usual, &baseline)
-            && index == 0
-        {
-            baseline = Some(usual.observed.clone());
-        }
         row.wear_profile = usual.zip(baseline.as_ref()).map(|((own, _), baseline)| {
             let own = own.observed.at_coordinates_of(baseline);
             larger(|gear| profile_error(&own.flanks[gear], &baseline.flanks[gear]))
         });
+        if index == 0 {
+            baseline = usual.map(|(run, _)| run.observed.clone());
+        }
         if let (Some(usual), Some(fewer)) = (&row.usual, &row.fewer_steps)
             && usual.wear_steps as f64 >= LEAST_STEP_RATIO * fewer.wear_steps as f64
         {

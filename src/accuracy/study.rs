@@ -95,7 +95,9 @@ pub fn run(
     add_errors(&mut variants, &at_reference, &reference, &windows);
     let finest = selection.settings[0].coarsening;
     for ((variant, observed), setting) in variants.iter_mut().zip(&at_reference).zip(&selection.settings) {
-        if setting.coarsening == finest {
+        // The reference's own slices would show the same curves once more.
+        let own_slices = setting.slices.map(|s| s.count) == resolved.scene.slices.map(|s| s.count);
+        if setting.coarsening == finest && own_slices {
             variant.wear_um = observed.as_ref().map(|o| PerGear::from_fn(|gear| o.flanks[gear].wear_um.clone()));
             let over_width = observed.as_ref().and_then(|o| o.over_width.as_ref());
             variant.root_wear_um = over_width.map(|o| o.root_wear_um.clone());

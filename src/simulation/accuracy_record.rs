@@ -254,7 +254,7 @@ pub struct DeepRow {
     pub usual: Option<DeepRun>,
     /// With fewer wear steps.
     pub fewer_steps: Option<DeepRun>,
-    /// Relative L2 difference of the wear profile from the baseline's, the larger of both gears'.
+    /// Relative L2 difference of the wear profile from the baseline's, the larger of both gears'; `None` for the baseline.
     pub wear_profile: Option<f64>,
     /// Relative change of the greatest depth by the longer steps, the larger of both gears'.
     pub peak_wear_change: Option<f64>,

@@ -199,12 +199,14 @@ fn root_over_width(record: &AccuracyRecord, shown: &[&VariantRecord], gear: Gear
                 .hover_template("%{y:.3f} µm"),
         );
     }
+    let drawn = shown.iter().filter(|v| stroke(v).at_once).filter_map(|v| v.root_wear_um.as_ref());
+    let lowest = drawn.flat_map(|root| &root[gear]).copied().fold(0.0, f64::max);
     let deepest = greatest(&reference.root_wear_um).map_or(1.0, |e| e.value);
     plot.set_layout(
         layout(560)
             .show_legend(true)
             .x_axis(axis("place over the face width, mm").hover_format(".2f"))
-            .y_axis(axis("root wear, µm").range(vec![1.6 * deepest, 0.0])),
+            .y_axis(axis("root wear, µm").range(vec![1.05 * deepest.max(lowest), 0.0])),
     );
     let at = greatest(&reference.root_wear_um).map(|e| reference.width_mm[e.index]);
     Figure {
