@@ -1,5 +1,6 @@
 //! The wear run, and the plain records that runs leave behind.
 
+pub mod accuracy_quantity;
 pub mod accuracy_record;
 pub mod fem_pair_record;
 pub mod fem_problem_record;
