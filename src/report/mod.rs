@@ -19,6 +19,7 @@ pub mod flank_mesh;
 pub mod html;
 pub mod slice_table;
 pub mod summary;
+pub mod sweep;
 pub mod tables;
 
 use std::fs;

@@ -12,6 +12,7 @@ use crate::simulation::accuracy_record::AccuracyRecord;
 use crate::simulation::fem_pair_record::FemPairSummary;
 use crate::simulation::fem_problem_record::FemSummary;
 use crate::simulation::record::{FlankRecord, HistoryRow, MeshCycleRow, RunRecord, Summary};
+use crate::simulation::sweep_record::SweepRecord;
 
 /// Name and meaning of a column.
 pub type Column = (&'static str, &'static str);
@@ -93,6 +94,12 @@ impl<'a> Provenance<'a> {
     /// That of a comparison of models.
     pub fn of_accuracy(record: &'a AccuracyRecord) -> Self {
         Self { program_version: &record.program_version, input: "scene", hash: &record.scene_hash }
+    }
+
+    /// That of a sweep: the hash is that of the scene as given.
+    pub fn of_sweep(record: &'a SweepRecord) -> Self {
+        let identity = &record.identity;
+        Self { program_version: &identity.program_version, input: "scene", hash: &identity.scene_hash }
     }
 
     /// That of the finite-element problem summarised in `summary`.
@@ -186,7 +193,7 @@ pub fn mesh_cycle(out: &mut dyn Write, provenance: Provenance, rows: &[MeshCycle
 pub(super) fn table<R: Serialize>(
     out: &mut dyn Write,
     provenance: Provenance,
-    columns: &[Column],
+    columns: &[(&str, &str)],
     rows: impl IntoIterator<Item = R>,
 ) -> io::Result<()> {
     writeln!(out, "# gearwear {}, {} {}", provenance.program_version, provenance.input, provenance.hash)?;
