@@ -6,5 +6,6 @@ pub mod fem_problem_record;
 pub mod figures;
 pub mod record;
 pub mod settings;
+pub mod simplified;
 pub mod wear_run;
 pub mod wearing_pair;

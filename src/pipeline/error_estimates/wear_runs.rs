@@ -147,7 +147,7 @@ pub(super) fn estimate<'a>(
         Err(reason) => Estimate::none(&reason),
     };
     let ([discretisation, wear_step], surface_model) = match (model.contact, coarse_elements) {
-        (MeshContact::LineOfAction { .. }, _) => (on_the_line_of_action(&mut companions, peaks_mm), None),
+        (MeshContact::LineOfAction { .. } | MeshContact::Simplified { .. }, _) => (on_the_line_of_action(&mut companions, peaks_mm), None),
         (MeshContact::FiniteElements(_), Some(coarse)) => {
             let [discretisation, wear_step, elements] = on_finite_elements(&mut companions, coarse);
             ([discretisation, wear_step], Some(elements))
