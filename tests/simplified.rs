@@ -105,3 +105,11 @@ fn first_look() {
     }
     let _ = (assert_close, PerGear { pinion: 0, wheel: 0 });
 }
+
+#[test]
+fn timing() {
+    let scene = scene(20, Coupling::None);
+    for _ in 0..100 {
+        run(&scene);
+    }
+}

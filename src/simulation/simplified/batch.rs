@@ -13,7 +13,7 @@ use super::bending::BentTeeth;
 use super::closed_form::ContactForms;
 use super::exact::Springs;
 use super::lanes::{LANES, Lanes};
-use super::station::{Attempt, Common, Quad, Station, Tangent, UNUSED_GAP_MM};
+use super::station::{Attempt, Common, Pack, Station, Tangent, UNUSED_GAP_MM};
 use crate::gear::{Gear, PerGear};
 use crate::wear::WearLaw;
 use crate::working_cycle::{
@@ -33,22 +33,25 @@ struct PerRoot {
     half_width: Lanes,
 }
 
+/// A value for every lane of some packs.
+type Row = Vec<[f64; LANES]>;
+
 /// Some phases in rows.
 pub struct Batch {
     phases: Vec<Phase>,
     /// Their states.
     pub stations: Vec<Station>,
-    quads: Vec<Quad>,
+    packs: Vec<Pack>,
     per_root: Vec<PerRoot>,
     bent: Vec<BentTeeth>,
     common: Common,
     /// Depth that both flanks have lost at each contact, mm.
-    pub wear_mm: PerGear<Vec<f64>>,
+    wear_mm: PerGear<Row>,
     /// Depth that they lose in one mesh, mm.
-    pub depth_mm: PerGear<Vec<f64>>,
+    depth_mm: PerGear<Row>,
     tangents: Vec<Tangent>,
-    pressure_mpa: Vec<f64>,
-    sliding_mm: [Vec<f64>; 2],
+    pressure_mpa: Row,
+    sliding_mm: [Row; 2],
     begun: bool,
     outcome: Result<Work, EquilibriumError>,
 }
@@ -75,10 +78,10 @@ impl Batch {
         modification_mm: impl Fn(&SliceContact) -> f64,
     ) -> Self {
         let path = &springs.pair.path;
-        let quads_of = |phase: &Phase| phase.contacts.len().div_ceil(LANES);
-        let count: usize = phases.iter().map(quads_of).sum();
-        let unused = Quad { rigid: Lanes::splat(1.0), gap_mm: Lanes::splat(UNUSED_GAP_MM), ..Quad::default() };
-        let (mut quads, mut per_root) = (vec![unused; count], vec![PerRoot::default(); count]);
+        let packs_of = |phase: &Phase| phase.contacts.len().div_ceil(LANES);
+        let count: usize = phases.iter().map(packs_of).sum();
+        let unused = Pack { rigid: Lanes::splat(1.0), gap_mm: Lanes::splat(UNUSED_GAP_MM), ..Pack::default() };
+        let (mut packs, mut per_root) = (vec![unused; count], vec![PerRoot::default(); count]);
         let coupling = springs.sliced.coupling.as_ref();
         let mut common = Common {
             log_compliance_mm2_per_n: forms.log_compliance_mm2_per_n(),
@@ -87,14 +90,14 @@ impl Batch {
         };
         let (mut stations, mut bent, mut first) = (Vec::with_capacity(phases.len()), Vec::new(), 0);
         for phase in &phases {
-            let range = first..first + quads_of(phase);
+            let range = first..first + packs_of(phase);
             let mean = springs.line_load_n_per_mm / phase.contacts.len() as f64;
             for (at, contact) in phase.contacts.iter().enumerate() {
-                let (quad, k) = (first + at / LANES, at % LANES);
+                let (pack, k) = (first + at / LANES, at % LANES);
                 let position = contact.cell.position_mm;
                 let form = forms.at(position);
                 let teeth = if coupling.is_some() { 0.0 } else { springs.along_path.mm2_per_n(position) };
-                let (row, roots) = (&mut quads[quad], &mut per_root[quad]);
+                let (row, roots) = (&mut packs[pack], &mut per_root[pack]);
                 row.rigid.0[k] = form.surface_mm2_per_n + teeth;
                 for (series, own) in row.series.iter_mut().zip(form.series) {
                     series.0[k] = own;
@@ -119,16 +122,16 @@ impl Batch {
                 position_mm: phase.position_mm,
                 transmission_error_mm: 0.0,
                 contacts: phase.contacts.len(),
-                quads: range.clone(),
+                packs: range.clone(),
             });
             first = range.end;
         }
-        let longest = stations.iter().map(|station| station.quads.len()).max().unwrap_or(0);
-        let row = |quads: usize| vec![0.0; quads * LANES];
+        let longest = stations.iter().map(|station| station.packs.len()).max().unwrap_or(0);
+        let row = |packs: usize| vec![[0.0; LANES]; packs];
         Self {
             phases,
             stations,
-            quads,
+            packs,
             per_root,
             bent,
             common,
@@ -184,40 +187,41 @@ impl Batch {
 
     /// h ← h + meshes · dh of both flanks, and their gap.
     fn wear(&mut self, station: usize, meshes: PerGear<f64>) {
-        for quad in self.stations[station].quads.clone() {
-            let mut gap = self.quads[quad].gap_mm;
-            for gear in Gear::BOTH {
-                let lost = Lanes::read(&self.depth_mm[gear], quad) * meshes[gear];
-                (Lanes::read(&self.wear_mm[gear], quad) + lost).write(&mut self.wear_mm[gear], quad);
-                gap += lost;
-            }
-            self.quads[quad].gap_mm = gap;
+        let range = self.stations[station].packs.clone();
+        let (wear, depth) = (&mut self.wear_mm, &self.depth_mm);
+        let wear = wear.pinion[range.clone()].iter_mut().zip(&mut wear.wheel[range.clone()]);
+        let depth = depth.pinion[range.clone()].iter().zip(&depth.wheel[range.clone()]);
+        for ((pack, (h_1, h_2)), (dh_1, dh_2)) in self.packs[range.clone()].iter_mut().zip(wear).zip(depth) {
+            let lost = [Lanes(*dh_1) * meshes.pinion, Lanes(*dh_2) * meshes.wheel];
+            *h_1 = (Lanes(*h_1) + lost[0]).0;
+            *h_2 = (Lanes(*h_2) + lost[1]).0;
+            pack.gap_mm += lost[0] + lost[1];
         }
     }
 
     /// Newton steps to the equilibrium of a station.
     fn balance(&mut self, index: usize, springs: &Springs<'_>) -> Result<u64, EquilibriumError> {
         let station = &mut self.stations[index];
-        let quads = &mut self.quads[station.quads.clone()];
-        let tangents = &mut self.tangents[..quads.len()];
+        let packs = &mut self.packs[station.packs.clone()];
+        let tangents = &mut self.tangents[..packs.len()];
         let mut iterations = 0;
         if self.begun {
-            match station.follow(quads, tangents, self.bent.get_mut(index), &self.common) {
+            match station.follow(packs, tangents, self.bent.get_mut(index), &self.common) {
                 Attempt::Settled(steps) => return Ok(steps),
                 Attempt::Lost(steps) => iterations += steps,
             }
         }
-        match station.settle(quads, tangents, self.bent.get_mut(index), &self.common) {
+        match station.settle(packs, tangents, self.bent.get_mut(index), &self.common) {
             Attempt::Settled(steps) => return Ok(iterations + steps),
             Attempt::Lost(steps) => iterations += steps,
         }
-        let gaps = quads.iter().flat_map(|quad| quad.gap_mm.0);
+        let gaps = packs.iter().flat_map(|pack| pack.gap_mm.0);
         let (loads, equilibrium) = springs.balance(&self.phases[index].contacts, gaps, station.position_mm)?;
         for (at, load) in loads.into_iter().enumerate() {
-            let (quad, k) = (&mut quads[at / LANES], at % LANES);
-            quad.load.0[k] = load;
-            quad.log_load.0[k] = if load > 0.0 { load.ln() } else { 0.0 };
-            (quad.correction.0[k], quad.change.0[k]) = (0.0, 0.0);
+            let (pack, k) = (&mut packs[at / LANES], at % LANES);
+            pack.load.0[k] = load;
+            pack.log_load.0[k] = if load > 0.0 { load.ln() } else { 0.0 };
+            (pack.correction.0[k], pack.change.0[k]) = (0.0, 0.0);
         }
         station.transmission_error_mm = equilibrium.transmission_error_mm;
         Ok(iterations + equilibrium.iterations)
@@ -225,35 +229,42 @@ impl Batch {
 
     /// What both flanks lose in one mesh at the contacts of a station.
     fn lose(&mut self, index: usize, law: &dyn WearLaw) {
-        let range = self.stations[index].quads.clone();
-        for (at, quad) in range.clone().enumerate() {
-            let (root, per_root) = (self.quads[quad].loads().sqrt(), &self.per_root[quad]);
-            (root * per_root.pressure).write(&mut self.pressure_mpa, at);
-            for (row, sliding) in self.sliding_mm.iter_mut().zip(per_root.sliding) {
-                (root * sliding).write(row, at);
-            }
+        let range = self.stations[index].packs.clone();
+        let [sliding_1, sliding_2] = &mut self.sliding_mm;
+        let rows = self.pressure_mpa.iter_mut().zip(sliding_1.iter_mut().zip(&mut *sliding_2));
+        let contacts = self.packs[range.clone()].iter().zip(&self.per_root[range.clone()]);
+        for ((pack, per_root), (pressure, (of_pinion, of_wheel))) in contacts.zip(rows) {
+            let root = pack.loads().sqrt();
+            *pressure = (root * per_root.pressure).0;
+            *of_pinion = (root * per_root.sliding[0]).0;
+            *of_wheel = (root * per_root.sliding[1]).0;
         }
-        let (lanes, used) = (LANES * range.start..LANES * range.end, LANES * range.len());
-        for (gear, sliding) in Gear::BOTH.into_iter().zip(&self.sliding_mm) {
-            let depth = &mut self.depth_mm[gear][lanes.clone()];
+        let pressure = self.pressure_mpa[..range.len()].as_flattened();
+        for (gear, sliding) in [(Gear::Pinion, &*sliding_1), (Gear::Wheel, &*sliding_2)] {
+            let depth = self.depth_mm[gear][range.clone()].as_flattened_mut();
             depth.fill(0.0);
-            law.add_depth(&self.pressure_mpa[..used], &sliding[..used], depth);
+            law.add_depth(pressure, sliding[..range.len()].as_flattened(), depth);
         }
     }
 
     /// Each contact of a station with its lane and its state.
     pub fn contacts(&self, index: usize) -> impl Iterator<Item = (&SliceContact, usize, ContactState)> {
-        let first = LANES * self.stations[index].quads.start;
+        let first = LANES * self.stations[index].packs.start;
         self.phases[index].contacts.iter().enumerate().map(move |(at, contact)| {
             let lane = first + at;
             (contact, lane, self.contact(lane))
         })
     }
 
+    /// Depth that `gear`'s flank has lost at the contact in a lane, and loses in one mesh, mm.
+    pub fn of_lane(&self, gear: Gear, lane: usize) -> [f64; 2] {
+        [&self.wear_mm, &self.depth_mm].map(|rows| rows[gear].as_flattened()[lane])
+    }
+
     /// The contact in a lane.
     pub fn contact(&self, lane: usize) -> ContactState {
-        let (quad, per_root, k) = (&self.quads[lane / LANES], &self.per_root[lane / LANES], lane % LANES);
-        let load = quad.loads().0[k];
+        let (pack, per_root, k) = (&self.packs[lane / LANES], &self.per_root[lane / LANES], lane % LANES);
+        let load = pack.loads().0[k];
         let root = load.sqrt();
         let [pinion, wheel] = per_root.sliding.map(|sliding| root * sliding.0[k]);
         ContactState {

@@ -10,7 +10,7 @@
 //! K v = √q w then holds for the corrected loads exactly; only the contacts are nonlinear.
 
 use super::lanes::LANES;
-use super::station::{Quad, Tangent};
+use super::station::{Pack, Tangent};
 use crate::working_cycle::slice_coupling::SliceCoupling;
 
 /// The teeth of a phase.
@@ -51,16 +51,16 @@ impl BentTeeth {
     }
 
     /// Bends the teeth for the Newton step of `tangents`, adds their deflection to its approaches, and gives δ.
-    pub fn bend(&mut self, quads: &[Quad], tangents: &mut [Tangent], line_load: f64) -> f64 {
+    pub fn bend(&mut self, packs: &[Pack], tangents: &mut [Tangent], line_load: f64) -> f64 {
         // Σ w + Σ c (δ − h − √q Δv) = F, collected by δ.
         let (mut carried, mut stiffness) = (0.0, 0.0);
         for tooth in &mut self.teeth {
-            tooth.linearise(&self.coupling, quads, tangents);
+            tooth.linearise(&self.coupling, packs, tangents);
             for (k, &(slice, root)) in tooth.contacts.iter().enumerate() {
-                let (quad, lane) = ((tooth.first + k) / LANES, (tooth.first + k) % LANES);
-                let tangent = &tangents[quad];
+                let (pack, lane) = ((tooth.first + k) / LANES, (tooth.first + k) % LANES);
+                let tangent = &tangents[pack];
                 let (c, h) = (tangent.n_per_mm2.0[lane], tangent.approach_mm.0[lane] + root * tooth.v[slice]);
-                carried += quads[quad].load.0[lane] - c * (h + root * tooth.fixed[slice]);
+                carried += packs[pack].load.0[lane] - c * (h + root * tooth.fixed[slice]);
                 stiffness += c * (1.0 - root * tooth.with_approach[slice]);
             }
         }
@@ -81,18 +81,18 @@ impl BentTeeth {
 
 impl BentTooth {
     /// Prepares Δv as fixed + δ · with_approach.
-    fn linearise(&mut self, coupling: &SliceCoupling, quads: &[Quad], tangents: &[Tangent]) {
+    fn linearise(&mut self, coupling: &SliceCoupling, packs: &[Pack], tangents: &[Tangent]) {
         self.diagonal.fill(0.0);
         self.with_approach.fill(0.0);
         coupling.apply(&self.v, &mut self.fixed);
         self.fixed.iter_mut().for_each(|value| *value = -*value);
         for (k, &(slice, root)) in self.contacts.iter().enumerate() {
-            let (quad, lane) = ((self.first + k) / LANES, (self.first + k) % LANES);
-            let tangent = &tangents[quad];
+            let (pack, lane) = ((self.first + k) / LANES, (self.first + k) % LANES);
+            let tangent = &tangents[pack];
             let (c, h) = (tangent.n_per_mm2.0[lane], tangent.approach_mm.0[lane] + root * self.v[slice]);
             self.diagonal[slice] = root * root * c;
             self.with_approach[slice] = root * c;
-            self.fixed[slice] += root * (quads[quad].load.0[lane] - c * h);
+            self.fixed[slice] += root * (packs[pack].load.0[lane] - c * h);
         }
         let factors = coupling.factorise(&self.diagonal);
         factors.solve(&mut self.fixed);

@@ -191,7 +191,8 @@ impl WearingPair for SimplifiedPair<'_> {
                 values.extend(knots.iter().map(|knot| {
                     let (batch, lane) = (&self.batches[knot.at.0], knot.at.1);
                     let state = batch.contact(lane);
-                    [batch.wear_mm[gear][lane], batch.depth_mm[gear][lane], state.sliding_mm[gear], state.pressure_mpa]
+                    let [wear, depth] = batch.of_lane(gear, lane);
+                    [wear, depth, state.sliding_mm[gear], state.pressure_mpa]
                 }));
                 let first = slice * points[gear];
                 flank_points.bring(gear, knots, &values, |point, part, [wear, depth, sliding, pressure]| {

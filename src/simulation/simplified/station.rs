@@ -42,9 +42,9 @@ const KEPT: f64 = 0.1;
 /// Gap of the lanes that no contact uses: they never touch.
 pub const UNUSED_GAP_MM: f64 = 1e300;
 
-/// Four contacts: their constants and their state.
+/// Contacts side by side: their constants and their state.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Quad {
+pub struct Pack {
     /// Q, mm²/N.
     pub rigid: Lanes,
     /// A_k.
@@ -61,7 +61,7 @@ pub struct Quad {
     pub change: Lanes,
 }
 
-/// A Newton step's view of four contacts.
+/// A Newton step's view of them.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Tangent {
     /// h less the approach that is reckoned from, mm.
@@ -92,7 +92,7 @@ pub enum Attempt {
     Lost(u64),
 }
 
-impl Quad {
+impl Pack {
     /// w, N/mm.
     #[inline(always)]
     pub fn loads(&self) -> Lanes {
@@ -130,8 +130,8 @@ struct Sums {
 
 impl Sums {
     #[inline(always)]
-    fn add(&mut self, quad: &Quad, tangent: &Tangent) {
-        self.load += quad.load;
+    fn add(&mut self, pack: &Pack, tangent: &Tangent) {
+        self.load += pack.load;
         self.stiffness += tangent.n_per_mm2;
         self.carried += tangent.n_per_mm2 * tangent.approach_mm;
     }
@@ -149,17 +149,17 @@ pub struct Station {
     pub position_mm: f64,
     /// δ.
     pub transmission_error_mm: f64,
-    /// Contacts, in the first lanes of its quads.
+    /// How many contacts: they are in the first lanes of its packs.
     pub contacts: usize,
-    /// Its quads among those of its batch.
-    pub quads: std::ops::Range<usize>,
+    /// Its packs among those of its batch, the last with unused lanes where they do not fill it.
+    pub packs: std::ops::Range<usize>,
 }
 
 impl Station {
     /// Follows the equilibrium over a wear step.
     pub fn follow(
         &mut self,
-        quads: &mut [Quad],
+        packs: &mut [Pack],
         tangents: &mut [Tangent],
         mut bent: Option<&mut BentTeeth>,
         common: &Common,
@@ -168,35 +168,35 @@ impl Station {
         let mut continued = 1.0;
         for steps in 1..=FOLLOW_LIMIT {
             let (mut sums, mut shift) = (Sums::default(), Lanes::default());
-            for (quad, tangent) in quads.iter_mut().zip(&mut *tangents) {
-                let e = quad.correction + quad.change * continued;
+            for (pack, tangent) in packs.iter_mut().zip(&mut *tangents) {
+                let e = pack.correction + pack.change * continued;
                 let half_over_load =
-                    Lanes::splat(1.0) / (quad.load + quad.load + e).max(Lanes::splat(f64::MIN_POSITIVE));
+                    Lanes::splat(1.0) / (pack.load + pack.load + e).max(Lanes::splat(f64::MIN_POSITIVE));
                 let z = e * half_over_load;
                 let square = z * z;
-                quad.log_load += (square * (square * 0.2 + 1.0 / 3.0) + 1.0) * z * 2.0;
-                quad.load += e;
+                pack.log_load += (square * (square * 0.2 + 1.0 / 3.0) + 1.0) * z * 2.0;
+                pack.load += e;
                 shift = shift.max(z.abs());
-                let (approach_mm, n_per_mm2) = quad.tangent(phi, from_mm);
+                let (approach_mm, n_per_mm2) = pack.tangent(phi, from_mm);
                 *tangent = Tangent { approach_mm, n_per_mm2, half_over_load };
-                sums.add(quad, tangent);
+                sums.add(pack, tangent);
             }
             let approach_mm = match &mut bent {
                 None => sums.approach_mm(common.line_load_n_per_mm),
-                Some(bent) => bent.bend(quads, tangents, common.line_load_n_per_mm),
+                Some(bent) => bent.bend(packs, tangents, common.line_load_n_per_mm),
             };
             let shift = shift.greatest();
             let (mut correction, mut strayed, mut greatest) = (Lanes::default(), Lanes::splat(-1.0), Lanes::default());
-            for (quad, tangent) in quads.iter_mut().zip(&*tangents) {
+            for (pack, tangent) in packs.iter_mut().zip(&*tangents) {
                 let lacks = Lanes::splat(approach_mm) - tangent.approach_mm;
                 let own = tangent.n_per_mm2 * lacks;
-                quad.correction = own;
-                quad.change = quad.change + own;
-                let loads = quad.loads();
+                pack.correction = own;
+                pack.change = pack.change + own;
+                let loads = pack.loads();
                 correction = correction.max(own.abs() * tangent.half_over_load);
                 greatest = greatest.max(loads);
                 // A load must stay positive, and flanks without contact must not overlap.
-                strayed = strayed.max((Lanes::default() - loads).where_positive(quad.load, lacks));
+                strayed = strayed.max((Lanes::default() - loads).where_positive(pack.load, lacks));
             }
             let sound = approach_mm.is_finite() && shift <= GREATEST_SHIFT;
             if !(sound && strayed.greatest() <= 0.0 && greatest.greatest() <= common.greatest_load_n_per_mm) {
@@ -214,7 +214,7 @@ impl Station {
     /// Seeks the equilibrium from any loads: contacts come where flanks would overlap and go where a load would pull.
     pub fn settle(
         &mut self,
-        quads: &mut [Quad],
+        packs: &mut [Pack],
         tangents: &mut [Tangent],
         mut bent: Option<&mut BentTeeth>,
         common: &Common,
@@ -222,38 +222,38 @@ impl Station {
         let (phi, line_load) = (common.log_compliance_mm2_per_n, common.line_load_n_per_mm);
         let mean = line_load / self.contacts as f64;
         let from_mm = if self.transmission_error_mm.is_finite() { self.transmission_error_mm } else { 0.0 };
-        for quad in &mut *quads {
-            quad.load = quad.loads().map(|load| if load.is_finite() { load.clamp(0.0, line_load) } else { 0.0 });
-            (quad.correction, quad.change) = (Lanes::default(), Lanes::default());
+        for pack in &mut *packs {
+            pack.load = pack.loads().map(|load| if load.is_finite() { load.clamp(0.0, line_load) } else { 0.0 });
+            (pack.correction, pack.change) = (Lanes::default(), Lanes::default());
         }
         for steps in 1..=SETTLE_LIMIT {
             let mut sums = Sums::default();
-            for (quad, tangent) in quads.iter_mut().zip(&mut *tangents) {
-                quad.load = quad.loads();
-                quad.correction = Lanes::default();
-                quad.log_load = quad.load.map(|load| if load > 0.0 { load.ln() } else { 0.0 });
-                let (approach_mm, n_per_mm2) = quad.tangent(phi, from_mm);
+            for (pack, tangent) in packs.iter_mut().zip(&mut *tangents) {
+                pack.load = pack.loads();
+                pack.correction = Lanes::default();
+                pack.log_load = pack.load.map(|load| if load > 0.0 { load.ln() } else { 0.0 });
+                let (approach_mm, n_per_mm2) = pack.tangent(phi, from_mm);
                 *tangent = Tangent { approach_mm, n_per_mm2, half_over_load: Lanes::default() };
-                sums.add(quad, tangent);
+                sums.add(pack, tangent);
             }
             if sums.stiffness.sum() <= 0.0 {
                 // No contact carries: begin again with all of them.
-                for quad in &mut *quads {
-                    quad.correction = quad.gap_mm.map(|gap| if gap < UNUSED_GAP_MM { mean } else { 0.0 });
+                for pack in &mut *packs {
+                    pack.correction = pack.gap_mm.map(|gap| if gap < UNUSED_GAP_MM { mean } else { 0.0 });
                 }
                 continue;
             }
             let approach_mm = match &mut bent {
                 None => sums.approach_mm(line_load),
-                Some(bent) => bent.bend(quads, tangents, line_load),
+                Some(bent) => bent.bend(packs, tangents, line_load),
             };
             let mut settled = approach_mm.is_finite();
-            for (quad, tangent) in quads.iter_mut().zip(&*tangents) {
+            for (pack, tangent) in packs.iter_mut().zip(&*tangents) {
                 let lacks = Lanes::splat(approach_mm) - tangent.approach_mm;
-                let (surface, change) = (quad.load * quad.compliance(phi).0, tangent.n_per_mm2 * lacks);
+                let (surface, change) = (pack.load * pack.compliance(phi).0, tangent.n_per_mm2 * lacks);
                 for k in 0..LANES {
-                    let (load, lacks, change) = (quad.load.0[k], lacks.0[k], change.0[k]);
-                    quad.correction.0[k] = if load > 0.0 && load + change > 0.0 {
+                    let (load, lacks, change) = (pack.load.0[k], lacks.0[k], change.0[k]);
+                    pack.correction.0[k] = if load > 0.0 && load + change > 0.0 {
                         settled &= change * change <= SOUGHT * line_load * load;
                         change
                     } else if load > 0.0 {
@@ -262,7 +262,7 @@ impl Station {
                         if overlaps { KEPT * load - load } else { -load }
                     } else if lacks > 0.0 {
                         settled = false;
-                        (lacks / (quad.rigid.0[k] - 0.5 * phi * mean.ln())).min(line_load)
+                        (lacks / (pack.rigid.0[k] - 0.5 * phi * mean.ln())).min(line_load)
                     } else {
                         0.0
                     };
@@ -270,7 +270,7 @@ impl Station {
             }
             if settled {
                 self.transmission_error_mm = from_mm + approach_mm;
-                let greatest = quads.iter().fold(Lanes::default(), |greatest, quad| greatest.max(quad.loads()));
+                let greatest = packs.iter().fold(Lanes::default(), |greatest, pack| greatest.max(pack.loads()));
                 let holds = greatest.greatest() <= common.greatest_load_n_per_mm;
                 return if holds { Attempt::Settled(steps) } else { Attempt::Lost(steps) };
             }
