@@ -4,7 +4,7 @@ mod common;
 
 use std::f64::consts::PI;
 
-use common::{Scene, assert_close, fzg_c, fzg_c_scene, pair};
+use common::{Scene, assert_close, fzg_c, fzg_c_scene, pair, preset};
 use gearwear::gear::{
     Gear, GearPair, PairError,
     conjugate::ConjugateFlanks,
@@ -19,12 +19,6 @@ use gearwear::working_cycle::{
     phases::phases,
     settings::{Coupling, SliceSettings},
 };
-
-/// The pair of a preset.
-fn preset(name: &str) -> PairSpec {
-    let text = gearwear::scene::presets::find(name).expect("a preset").text;
-    gearwear::scene::Scene::from_toml(text).expect("presets are sound").scene.pair
-}
 
 fn slices(count: usize, coupling: Coupling) -> Option<SliceSettings> {
     Some(SliceSettings { count, coupling })
@@ -280,9 +274,8 @@ fn val_negative_helix_mirrors_the_width() {
 #[test]
 fn ver_threads_do_not_change_a_bit() {
     let scene = helical_scene("winkler", 5, Coupling::Slicing);
-    let on = |threads: usize| {
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| scene.run())
-    };
+    let on =
+        |threads: usize| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| scene.run());
     let (one, two) = (on(1), on(2));
     for gear in Gear::BOTH {
         let bits = |outcome: &Outcome| outcome.worn.wear_mm[gear].iter().map(|h| h.to_bits()).collect::<Vec<_>>();
@@ -313,8 +306,7 @@ fn val_face_load_factor_of_a_misaligned_spur_pair() {
     let uncoupled = scene(Coupling::None);
     let pair = pair(&spec);
     let outwards = 1.0 - 1.0 / count as f64;
-    let expected =
-        1.0 + outwards * pair.path.contact_ratio() * stiffness * slope_mm / (2.0 * uncoupled.line_load());
+    let expected = 1.0 + outwards * pair.path.contact_ratio() * stiffness * slope_mm / (2.0 * uncoupled.line_load());
     assert_close("K_Hβ", factor(&uncoupled), expected, 5e-3);
     // A tooth that holds its slices together resists the twist that the misalignment asks of it: its ends carry more.
     let coupled = factor(&scene(Coupling::Slicing));

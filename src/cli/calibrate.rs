@@ -36,6 +36,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let source = scene_source::resolve_alone(&args.scene)?;
     let resolved = &source.resolved;
     warn(&resolved.warnings);
+    warn(resolved.scene.plane_section_warning().as_slice());
     check_out(&args.out)?;
     let pool = pool(args.threads)?;
     let progress = Progress::new(args.quiet, watch_for_interrupt());

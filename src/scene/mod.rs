@@ -64,6 +64,15 @@ impl Scene {
     pub fn from_toml(text: &str) -> Result<Resolved, Vec<Problem>> {
         resolve::resolve(text)
     }
+
+    /// What plane finite elements leave out of a pair whose sections differ over the face width; none where they are alike.
+    pub fn plane_section_warning(&self) -> Option<String> {
+        self.slices.is_some().then(|| {
+            "finite elements are plane: they stand for one transverse section per mm of face width, without the helix and \
+             without modifications over the face width"
+                .to_owned()
+        })
+    }
 }
 
 /// A scene, the file that says all of it, and what the user should know about it.

@@ -48,6 +48,12 @@ pub fn fzg_a() -> PairSpec {
     spur(4.5, 91.5, 20.0, gear(16, 0.8532, Some(88.77)), gear(24, -0.5, Some(112.5)))
 }
 
+/// The pair of a preset.
+pub fn preset(name: &str) -> PairSpec {
+    let text = gearwear::scene::presets::find(name).expect("a preset").text;
+    gearwear::scene::Scene::from_toml(text).expect("presets are sound").scene.pair
+}
+
 /// A pair that can run.
 pub fn pair(spec: &PairSpec) -> GearPair {
     GearPair::new(spec).expect("the pair of the test is sound")

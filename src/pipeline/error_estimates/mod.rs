@@ -23,6 +23,7 @@ use crate::simulation::{
     record::{ErrorSources, ErrorSummary},
     wear_run::{MeshContact, Outcome, Progress},
 };
+use crate::working_cycle::{settings::SliceSettings, sliced_teeth::SlicedTeeth};
 
 /// Fewest points and positions of a companion: with fewer nothing can be learned.
 const LEAST_POINTS: usize = 20;
@@ -71,8 +72,8 @@ impl Progress for Companion<'_> {
 /// Estimates the errors of the pinion's peak wear in `outcome`. A companion that fails leaves its estimate out, never the
 /// result of the run.
 pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, observer: &dyn Progress) -> ErrorSummary {
-    let coarse = coarse_elements(model);
-    let coarse = coarse.as_ref();
+    let (elements, slices) = (coarse_elements(model), coarse_slices(model));
+    let coarse = Coarse { elements: elements.as_ref(), slices: slices.as_ref() };
     let runs = wear_runs::estimate(model, outcome, coarse, observer);
     let against_reference = || reference_mesh::estimate(model, outcome).map(|estimate| (estimate, 0.0));
     let from_elements = runs.surface_model.map(|estimate| (estimate, 0.0));
@@ -103,6 +104,24 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, observer: &dyn Prog
             surface_model: surface_model.how,
         },
     }
+}
+
+/// What companions are coarser in, beside points, positions and steps.
+#[derive(Clone, Copy)]
+struct Coarse<'a> {
+    /// Elements twice as long, of a run on finite elements.
+    elements: Option<&'a CondensedPair<'a>>,
+    /// Half of the slices, of a run that has some.
+    slices: Option<&'a SlicedTeeth>,
+}
+
+/// Of a run with slices, half as many; as many where so few would leave positions without contact.
+fn coarse_slices(model: &Model<'_>) -> Option<SlicedTeeth> {
+    let fine = model.sliced?;
+    let settings = SliceSettings { count: fine.settings.count.div_ceil(2), ..fine.settings };
+    let between = 1.0 - 1.0 / settings.count as f64;
+    let covers = model.pair.path.contact_ratio() + between * model.pair.overlap_ratio() >= 1.0;
+    Some(if covers { SlicedTeeth::new(model.pair, &model.scene.material, settings) } else { fine.clone() })
 }
 
 /// Of a run on finite elements, the model with elements twice as long; none where they cannot be so long.

@@ -3,7 +3,7 @@
 //! On the line of action two companions take an eighth of the wear steps S (on elastic half-planes, where short waves of wear
 //! bound the step, a quarter); one of them also half of the flank points and positions N. With the orders that the methods
 //! have (Euler: first in the step; flank and path of contact: second in their spacing, first with the discontinuous pressure
-//! of `hertz-mean`),
+//! of `hertz-mean`; slices, of which the latter companion has half as many too, second),
 //!
 //! ```text
 //! wear step        |h(N, S) − h(N, S/8)| / (8 − 1) / h
@@ -26,7 +26,7 @@
 //!
 //! Source: L. F. Richardson (1911); P. J. Roache, *Verification and Validation in Computational Science* (1998).
 
-use super::{Companion, Estimate, LEAST_POINTS, peak_wear_of_both_mm};
+use super::{Coarse, Companion, Estimate, LEAST_POINTS, peak_wear_of_both_mm};
 use crate::contact::settings::SurfaceKind;
 use crate::fem::gear::position::CondensedPair;
 use crate::gear::{Gear, PerGear};
@@ -63,6 +63,7 @@ struct Companions<'a> {
     model: &'a Model<'a>,
     operation: Operation,
     observer: &'a dyn Progress,
+    coarse: Coarse<'a>,
     /// Of the run itself.
     peaks_mm: PerGear<f64>,
     /// Cost so far, in equilibria of the run itself.
@@ -89,11 +90,27 @@ impl<'a> Companions<'a> {
         fine.flank_points.min(fine.positions) / spacing >= LEAST_POINTS
     }
 
-    /// "750 and 375 flank points, 400 and 200 positions".
+    /// `contact` with fewer slices where points and positions are fewer.
+    fn with_spacing(&self, contact: MeshContact<'a>, spacing: usize) -> MeshContact<'a> {
+        match contact {
+            MeshContact::LineOfAction { surface, teeth, tip_contact, .. } if spacing > 1 => {
+                MeshContact::LineOfAction { surface, teeth, tip_contact, sliced: self.coarse.slices }
+            }
+            MeshContact::Simplified { material, teeth, sliced } if spacing > 1 => {
+                MeshContact::Simplified { material, teeth, sliced: self.coarse.slices.unwrap_or(sliced) }
+            }
+            other => other,
+        }
+    }
+
+    /// "750 and 375 flank points, 400 and 200 positions, 20 and 10 slices".
     fn spacings(&self) -> String {
         let (fine, half) = (self.model.scene.numerics, self.numerics(Coarser { spacing: 2, step: 1.0 }));
+        let slices = self.model.sliced.zip(self.coarse.slices).map_or_else(String::new, |(fine, half)| {
+            format!(", {} and {} slices", fine.settings.count, half.settings.count)
+        });
         format!(
-            "{} and {} flank points, {} and {} positions",
+            "{} and {} flank points, {} and {} positions{slices}",
             fine.flank_points, half.flank_points, fine.positions, half.positions
         )
     }
@@ -120,6 +137,7 @@ impl<'a> Companions<'a> {
             return Err("too few flank points or positions to leave some out".to_owned());
         }
         let numerics = self.numerics(coarser);
+        let contact = self.with_spacing(contact, coarser.spacing);
         let run = WearRun { contact, numerics, operation: &self.operation, ..self.model.wear_run() };
         let failed = |error: SimulationError| format!("a companion run failed: {error}");
         let share = (begin, end - begin);
@@ -132,22 +150,24 @@ impl<'a> Companions<'a> {
     }
 }
 
-/// Estimates from coarser runs; `coarse_elements` are those of a run on finite elements.
+/// Estimates from coarser runs.
 pub(super) fn estimate<'a>(
     model: &'a Model<'a>,
     outcome: &Outcome,
-    coarse_elements: Option<&'a CondensedPair<'a>>,
+    coarse: Coarse<'a>,
     observer: &'a dyn Progress,
 ) -> FromRuns {
     let operation = Operation { snapshots_revolutions: Vec::new(), ..model.scene.operation.clone() };
     let peaks_mm = peak_wear_of_both_mm(model, outcome);
-    let mut companions = Companions { model, operation, observer, peaks_mm, cost: 0.0 };
+    let mut companions = Companions { model, operation, observer, coarse, peaks_mm, cost: 0.0 };
     let estimate = |difference: Difference| match difference {
         Ok((relative, how)) => Estimate { relative: Some(relative), how },
         Err(reason) => Estimate::none(&reason),
     };
-    let ([discretisation, wear_step], surface_model) = match (model.contact, coarse_elements) {
-        (MeshContact::LineOfAction { .. } | MeshContact::Simplified { .. }, _) => (on_the_line_of_action(&mut companions, peaks_mm), None),
+    let ([discretisation, wear_step], surface_model) = match (model.contact, coarse.elements) {
+        (MeshContact::LineOfAction { .. } | MeshContact::Simplified { .. }, _) => {
+            (on_the_line_of_action(&mut companions, peaks_mm), None)
+        }
         (MeshContact::FiniteElements(_), Some(coarse)) => {
             let [discretisation, wear_step, elements] = on_finite_elements(&mut companions, coarse);
             ([discretisation, wear_step], Some(elements))

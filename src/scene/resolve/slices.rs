@@ -27,7 +27,7 @@ pub fn choose(
     }
     if surface == Some(SurfaceKind::Fem) {
         findings.problem(
-            ProblemKind::NotAvailable,
+            ProblemKind::NotAllowed,
             "contact.surface",
             "\"fem\" with sections that differ over the face width",
             "\"winkler\", \"half-space\", \"hertz\" or \"hertz-mean\", which work slice by slice",

@@ -1,8 +1,8 @@
 //! What is known at the contacts of every slice, brought onto the points of the flanks.
 //!
-//! Along each slice contacts follow each other from A to E. Between two of them a quantity runs straight where their stretches meet
-//! halfway, and jumps where the stretches meet if another slice comes or goes there; before the first and after the last it
-//! is constant. A point whose share of the flank reaches beyond A or E counts for the part of it that does not.
+//! Along each slice contacts follow each other from A to E, each in the middle of its stretch of the path. Between two of them a quantity
+//! runs straight if their stretches are equally long. Otherwise another slice comes or goes where they meet, and the quantity
+//! jumps there. Before the first and after the last it is constant. A point whose share of the flank reaches beyond A or E counts for the part of it that does not.
 
 use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 
