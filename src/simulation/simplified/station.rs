@@ -99,15 +99,16 @@ impl Pack {
         self.load + self.correction
     }
 
-    /// y = s/w and s'.
+    /// y = s/w and s'. Sums are paired so that no long chain of operations waits for the logarithm, which comes last.
     #[inline(always)]
     fn compliance(&self, phi: f64) -> (Lanes, Lanes) {
         let ([a1, a2, a3, a4], w) = (self.series, self.load);
-        let steeper = a3 + w * a4;
-        let series = a1 + w * (a2 + w * steeper);
-        let slope = a2 + w * (steeper + a3 + w * a4 * 2.0);
-        let y = self.rigid - self.log_load * (0.5 * phi) + w * series;
-        (y, y - Lanes::splat(0.5 * phi) + w * (series + w * slope))
+        let (square, second) = (w * w, a3 + w * a4);
+        let series = w * (a1 + w * a2) + square * w * second;
+        // w P'
+        let slope = w * (a1 + w * a2 + w * a2) + square * w * (second + second + second + w * a4);
+        let y = self.rigid + series - self.log_load * (0.5 * phi);
+        (y, y + (slope - Lanes::splat(0.5 * phi)))
     }
 
     /// The tangent at the present load.
@@ -174,7 +175,7 @@ impl Station {
                     Lanes::splat(1.0) / (pack.load + pack.load + e).max(Lanes::splat(f64::MIN_POSITIVE));
                 let z = e * half_over_load;
                 let square = z * z;
-                pack.log_load += (square * (square * 0.2 + 1.0 / 3.0) + 1.0) * z * 2.0;
+                pack.log_load += z + z + z * square * (square * 0.4 + 2.0 / 3.0);
                 pack.load += e;
                 shift = shift.max(z.abs());
                 let (approach_mm, n_per_mm2) = pack.tangent(phi, from_mm);
