@@ -247,10 +247,12 @@ fn carry_out<R>(
     let law = Archard::new(&scene.wear);
     let contact = match (&finite_elements, surface.as_deref(), &teeth) {
         (Some(model), ..) => MeshContact::FiniteElements(model),
-        (None, Some(surface), Some(teeth)) => {
-            let (tip_contact, sliced) = (scene.contact.tip_contact, sliced.as_ref());
-            MeshContact::LineOfAction { surface, teeth, tip_contact, sliced }
-        }
+        (None, Some(surface), Some(teeth)) => match (scene.contact.surface, sliced.as_ref()) {
+            (SurfaceKind::HertzMean, Some(sliced)) => {
+                MeshContact::Simplified { material: &scene.material, teeth, sliced }
+            }
+            (_, sliced) => MeshContact::LineOfAction { surface, teeth, tip_contact: scene.contact.tip_contact, sliced },
+        },
         (None, ..) => unreachable!("every surface but fem has springs"),
     };
     let model = Model {

@@ -100,7 +100,7 @@ pub struct SlicedCycle<'a> {
 }
 
 /// What a slice's flanks have lost.
-fn of_slice<'a>(field: PerGear<&'a [f64]>, points: PerGear<usize>, slice: usize) -> PerGear<&'a [f64]> {
+fn of_slice(field: PerGear<&[f64]>, points: PerGear<usize>, slice: usize) -> PerGear<&[f64]> {
     PerGear::from_fn(|gear| &field[gear][slice * points[gear]..(slice + 1) * points[gear]])
 }
 
@@ -299,7 +299,7 @@ impl<'a> Station<'a> {
 }
 
 /// The teeth that `contacts`, in their order, belong to.
-pub(super) fn teeth_in_mesh(
+pub fn teeth_in_mesh(
     contacts: &[SliceContact],
     slices: usize,
     mm2_per_n: impl Fn(&SliceContact) -> f64,
