@@ -7,5 +7,8 @@ pub mod fem_problem_record;
 pub mod figures;
 pub mod record;
 pub mod settings;
+pub mod simplified;
+pub mod sweep_figures;
+pub mod sweep_record;
 pub mod wear_run;
 pub mod wearing_pair;

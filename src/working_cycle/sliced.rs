@@ -299,7 +299,7 @@ impl<'a> Station<'a> {
 }
 
 /// The teeth that `contacts`, in their order, belong to.
-pub(super) fn teeth_in_mesh(
+pub fn teeth_in_mesh(
     contacts: &[SliceContact],
     slices: usize,
     mm2_per_n: impl Fn(&SliceContact) -> f64,

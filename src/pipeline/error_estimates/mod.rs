@@ -77,11 +77,15 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, observer: &dyn Prog
     let runs = wear_runs::estimate(model, outcome, coarse, observer);
     let against_reference = || reference_mesh::estimate(model, outcome).map(|estimate| (estimate, 0.0));
     let from_elements = runs.surface_model.map(|estimate| (estimate, 0.0));
+    let on_truer_surface = |tip_contact: bool| {
+        let short = surface_model::estimate(model, outcome, tip_contact, BUDGET - runs.cost, observer);
+        (short.estimate, short.cost)
+    };
     let (surface_model, surface_cost) = match model.contact {
-        MeshContact::LineOfAction { tip_contact, .. } => against_reference().unwrap_or_else(|| {
-            let short = surface_model::estimate(model, outcome, tip_contact, BUDGET - runs.cost, observer);
-            (short.estimate, short.cost)
-        }),
+        MeshContact::LineOfAction { tip_contact, .. } => {
+            against_reference().unwrap_or_else(|| on_truer_surface(tip_contact))
+        }
+        MeshContact::Simplified { .. } => against_reference().unwrap_or_else(|| on_truer_surface(false)),
         MeshContact::FiniteElements(_) => {
             from_elements.unwrap_or_else(|| (Estimate::none("the companions say nothing of it"), 0.0))
         }

@@ -96,6 +96,9 @@ impl<'a> Companions<'a> {
             MeshContact::LineOfAction { surface, teeth, tip_contact, .. } if spacing > 1 => {
                 MeshContact::LineOfAction { surface, teeth, tip_contact, sliced: self.coarse.slices }
             }
+            MeshContact::Simplified { material, teeth, sliced } if spacing > 1 => {
+                MeshContact::Simplified { material, teeth, sliced: self.coarse.slices.unwrap_or(sliced) }
+            }
             other => other,
         }
     }
@@ -162,7 +165,9 @@ pub(super) fn estimate<'a>(
         Err(reason) => Estimate::none(&reason),
     };
     let ([discretisation, wear_step], surface_model) = match (model.contact, coarse.elements) {
-        (MeshContact::LineOfAction { .. }, _) => (on_the_line_of_action(&mut companions, peaks_mm), None),
+        (MeshContact::LineOfAction { .. } | MeshContact::Simplified { .. }, _) => {
+            (on_the_line_of_action(&mut companions, peaks_mm), None)
+        }
         (MeshContact::FiniteElements(_), Some(coarse)) => {
             let [discretisation, wear_step, elements] = on_finite_elements(&mut companions, coarse);
             ([discretisation, wear_step], Some(elements))

@@ -1,0 +1,277 @@
+//! Phases that are worked on one after the other: their contacts in rows, from equilibrium to wear.
+//!
+//! A contact of the simplified model stays where it is on both flanks, so that nothing is looked up or interpolated in a wear
+//! step. With the mean pressure and the sliding distance of [`crate::contact::hertz_mean`],
+//!
+//! ```text
+//! p = w/(2a) = √w / (2 √α)          s = 2 a |ζ| = √w · 2 √α |ζ|          a = √(α w)
+//! ```
+//!
+//! rows of both go to the wear law, and what it answers is added to the gap of the flanks before the next equilibrium.
+
+use super::bending::BentTeeth;
+use super::closed_form::ContactForms;
+use super::exact::Springs;
+use super::lanes::{LANES, Lanes};
+use super::station::{Attempt, Common, Pack, Station, Tangent, UNUSED_GAP_MM};
+use crate::gear::{Gear, PerGear};
+use crate::wear::WearLaw;
+use crate::working_cycle::{
+    Work,
+    load_sharing::EquilibriumError,
+    phases::{Phase, SliceContact},
+};
+
+/// What a contact's load does to the flanks, over its square root.
+#[derive(Debug, Clone, Copy, Default)]
+struct PerRoot {
+    /// 1/(2 √α): mean pressure.
+    pressure: Lanes,
+    /// 2 √α |ζ|: sliding distance of both flanks.
+    sliding: [Lanes; 2],
+    /// √α: half-width.
+    half_width: Lanes,
+}
+
+/// A value for every lane of some packs.
+type Row = Vec<[f64; LANES]>;
+
+/// Some phases in rows.
+pub struct Batch {
+    phases: Vec<Phase>,
+    /// Their states.
+    pub stations: Vec<Station>,
+    packs: Vec<Pack>,
+    per_root: Vec<PerRoot>,
+    bent: Vec<BentTeeth>,
+    common: Common,
+    /// Depth that both flanks have lost at each contact, mm.
+    wear_mm: PerGear<Row>,
+    /// Depth that they lose in one mesh, mm.
+    depth_mm: PerGear<Row>,
+    tangents: Vec<Tangent>,
+    pressure_mpa: Row,
+    sliding_mm: [Row; 2],
+    begun: bool,
+    outcome: Result<Work, EquilibriumError>,
+}
+
+/// A contact as it is.
+#[derive(Debug, Clone, Copy)]
+pub struct ContactState {
+    /// w, N/mm.
+    pub line_load_n_per_mm: f64,
+    /// a, mm.
+    pub half_width_mm: f64,
+    /// Mean pressure, MPa.
+    pub pressure_mpa: f64,
+    /// 2 a |ζ| of both flanks, mm.
+    pub sliding_mm: PerGear<f64>,
+}
+
+impl Batch {
+    /// Prepares the contacts of `phases`, on flanks modified by `modification_mm` there.
+    pub fn new(
+        phases: Vec<Phase>,
+        forms: &ContactForms<'_>,
+        springs: &Springs<'_>,
+        modification_mm: impl Fn(&SliceContact) -> f64,
+    ) -> Self {
+        let path = &springs.pair.path;
+        let packs_of = |phase: &Phase| phase.contacts.len().div_ceil(LANES);
+        let count: usize = phases.iter().map(packs_of).sum();
+        let unused = Pack { rigid: Lanes::splat(1.0), gap_mm: Lanes::splat(UNUSED_GAP_MM), ..Pack::default() };
+        let (mut packs, mut per_root) = (vec![unused; count], vec![PerRoot::default(); count]);
+        let coupling = springs.sliced.coupling.as_ref();
+        let mut common = Common {
+            log_compliance_mm2_per_n: forms.log_compliance_mm2_per_n(),
+            line_load_n_per_mm: springs.line_load_n_per_mm,
+            greatest_load_n_per_mm: f64::INFINITY,
+        };
+        let (mut stations, mut bent, mut first) = (Vec::with_capacity(phases.len()), Vec::new(), 0);
+        for phase in &phases {
+            let range = first..first + packs_of(phase);
+            let mean = springs.line_load_n_per_mm / phase.contacts.len() as f64;
+            for (at, contact) in phase.contacts.iter().enumerate() {
+                let (pack, k) = (first + at / LANES, at % LANES);
+                let position = contact.cell.position_mm;
+                let form = forms.at(position);
+                let teeth = if coupling.is_some() { 0.0 } else { springs.along_path.mm2_per_n(position) };
+                let (row, roots) = (&mut packs[pack], &mut per_root[pack]);
+                row.rigid.0[k] = form.surface_mm2_per_n + teeth;
+                for (series, own) in row.series.iter_mut().zip(form.series) {
+                    series.0[k] = own;
+                }
+                row.gap_mm.0[k] = modification_mm(contact);
+                row.load.0[k] = mean;
+                let half_width = form.square_half_width.sqrt();
+                roots.half_width.0[k] = half_width;
+                roots.pressure.0[k] = 0.5 / half_width;
+                for (sliding, gear) in roots.sliding.iter_mut().zip(Gear::BOTH) {
+                    sliding.0[k] = 2.0 * half_width * path.specific_sliding(gear, position).abs();
+                }
+                common.greatest_load_n_per_mm = common.greatest_load_n_per_mm.min(form.greatest_load_n_per_mm);
+            }
+            if let Some(coupling) = coupling {
+                let root = |contact: &SliceContact| springs.along_path.mm2_per_n(contact.cell.position_mm).sqrt();
+                let teeth = phase.contacts.chunk_by(|a, b| a.tooth == b.tooth);
+                let teeth = teeth.map(|own| own.iter().map(|contact| (contact.slice, root(contact))).collect());
+                bent.push(BentTeeth::new(teeth.collect(), springs.sliced.slices.count(), coupling));
+            }
+            stations.push(Station {
+                position_mm: phase.position_mm,
+                transmission_error_mm: 0.0,
+                contacts: phase.contacts.len(),
+                packs: range.clone(),
+            });
+            first = range.end;
+        }
+        let longest = stations.iter().map(|station| station.packs.len()).max().unwrap_or(0);
+        let row = |packs: usize| vec![[0.0; LANES]; packs];
+        Self {
+            phases,
+            stations,
+            packs,
+            per_root,
+            bent,
+            common,
+            wear_mm: PerGear::from_fn(|_| row(count)),
+            depth_mm: PerGear::from_fn(|_| row(count)),
+            tangents: vec![Tangent::default(); longest],
+            pressure_mpa: row(longest),
+            sliding_mm: [row(longest), row(longest)],
+            begun: false,
+            outcome: Ok(Work::default()),
+        }
+    }
+
+    /// Lets the flanks lose what the last evaluation found for so many `meshes`, finds the new equilibria, and what they lose now.
+    pub fn evaluate(
+        &mut self,
+        meshes: PerGear<f64>,
+        springs: &Springs<'_>,
+        law: &dyn WearLaw,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) {
+        let mut work = Work::default();
+        for index in 0..self.stations.len() {
+            if stopped() {
+                self.outcome = Err(EquilibriumError::Interrupted);
+                return;
+            }
+            self.wear(index, meshes);
+            match self.balance(index, springs) {
+                Ok(iterations) => {
+                    work.equilibria += 1;
+                    work.newton_iterations += iterations;
+                    work.pair_evaluations += iterations * self.stations[index].contacts as u64;
+                }
+                Err(failure) => {
+                    self.outcome = Err(failure);
+                    return;
+                }
+            }
+            self.lose(index, law);
+        }
+        self.begun = true;
+        self.outcome = Ok(work);
+    }
+
+    /// Work of the last evaluation.
+    ///
+    /// # Errors
+    /// Its failure.
+    pub fn outcome(&self) -> Result<Work, EquilibriumError> {
+        self.outcome.clone()
+    }
+
+    /// h ← h + meshes · dh of both flanks, and their gap.
+    fn wear(&mut self, station: usize, meshes: PerGear<f64>) {
+        let range = self.stations[station].packs.clone();
+        let (wear, depth) = (&mut self.wear_mm, &self.depth_mm);
+        let wear = wear.pinion[range.clone()].iter_mut().zip(&mut wear.wheel[range.clone()]);
+        let depth = depth.pinion[range.clone()].iter().zip(&depth.wheel[range.clone()]);
+        for ((pack, (h_1, h_2)), (dh_1, dh_2)) in self.packs[range.clone()].iter_mut().zip(wear).zip(depth) {
+            let lost = [Lanes(*dh_1) * meshes.pinion, Lanes(*dh_2) * meshes.wheel];
+            *h_1 = (Lanes(*h_1) + lost[0]).0;
+            *h_2 = (Lanes(*h_2) + lost[1]).0;
+            pack.gap_mm += lost[0] + lost[1];
+        }
+    }
+
+    /// Newton steps to the equilibrium of a station.
+    fn balance(&mut self, index: usize, springs: &Springs<'_>) -> Result<u64, EquilibriumError> {
+        let station = &mut self.stations[index];
+        let packs = &mut self.packs[station.packs.clone()];
+        let tangents = &mut self.tangents[..packs.len()];
+        let mut iterations = 0;
+        if self.begun {
+            match station.follow(packs, tangents, self.bent.get_mut(index), &self.common) {
+                Attempt::Settled(steps) => return Ok(steps),
+                Attempt::Lost(steps) => iterations += steps,
+            }
+        }
+        match station.settle(packs, tangents, self.bent.get_mut(index), &self.common) {
+            Attempt::Settled(steps) => return Ok(iterations + steps),
+            Attempt::Lost(steps) => iterations += steps,
+        }
+        let gaps = packs.iter().flat_map(|pack| pack.gap_mm.0);
+        let (loads, equilibrium) = springs.balance(&self.phases[index].contacts, gaps, station.position_mm)?;
+        for (at, load) in loads.into_iter().enumerate() {
+            let (pack, k) = (&mut packs[at / LANES], at % LANES);
+            pack.load.0[k] = load;
+            pack.log_load.0[k] = if load > 0.0 { load.ln() } else { 0.0 };
+            (pack.correction.0[k], pack.change.0[k]) = (0.0, 0.0);
+        }
+        station.transmission_error_mm = equilibrium.transmission_error_mm;
+        Ok(iterations + equilibrium.iterations)
+    }
+
+    /// What both flanks lose in one mesh at the contacts of a station.
+    fn lose(&mut self, index: usize, law: &dyn WearLaw) {
+        let range = self.stations[index].packs.clone();
+        let [sliding_1, sliding_2] = &mut self.sliding_mm;
+        let rows = self.pressure_mpa.iter_mut().zip(sliding_1.iter_mut().zip(&mut *sliding_2));
+        let contacts = self.packs[range.clone()].iter().zip(&self.per_root[range.clone()]);
+        for ((pack, per_root), (pressure, (of_pinion, of_wheel))) in contacts.zip(rows) {
+            let root = pack.loads().sqrt();
+            *pressure = (root * per_root.pressure).0;
+            *of_pinion = (root * per_root.sliding[0]).0;
+            *of_wheel = (root * per_root.sliding[1]).0;
+        }
+        let pressure = self.pressure_mpa[..range.len()].as_flattened();
+        for (gear, sliding) in [(Gear::Pinion, &*sliding_1), (Gear::Wheel, &*sliding_2)] {
+            let depth = self.depth_mm[gear][range.clone()].as_flattened_mut();
+            depth.fill(0.0);
+            law.add_depth(pressure, sliding[..range.len()].as_flattened(), depth);
+        }
+    }
+
+    /// Each contact of a station with its lane and its state.
+    pub fn contacts(&self, index: usize) -> impl Iterator<Item = (&SliceContact, usize, ContactState)> {
+        let first = LANES * self.stations[index].packs.start;
+        self.phases[index].contacts.iter().enumerate().map(move |(at, contact)| {
+            let lane = first + at;
+            (contact, lane, self.contact(lane))
+        })
+    }
+
+    /// Depth that `gear`'s flank has lost at the contact in a lane, and loses in one mesh, mm.
+    pub fn of_lane(&self, gear: Gear, lane: usize) -> [f64; 2] {
+        [&self.wear_mm, &self.depth_mm].map(|rows| rows[gear].as_flattened()[lane])
+    }
+
+    /// The contact in a lane.
+    pub fn contact(&self, lane: usize) -> ContactState {
+        let (pack, per_root, k) = (&self.packs[lane / LANES], &self.per_root[lane / LANES], lane % LANES);
+        let load = pack.loads().0[k];
+        let root = load.sqrt();
+        let [pinion, wheel] = per_root.sliding.map(|sliding| root * sliding.0[k]);
+        ContactState {
+            line_load_n_per_mm: load,
+            half_width_mm: root * per_root.half_width.0[k],
+            pressure_mpa: root * per_root.pressure.0[k],
+            sliding_mm: PerGear { pinion, wheel },
+        }
+    }
+}
