@@ -25,7 +25,7 @@ pub struct Run<'a> {
 }
 
 /// Tooth stiffnesses on the scene's surface, and contact surfaces with the best stiffness there is; where sections differ over the
-/// face width also the coupling of slices ([`super::sliced_comparison`]).
+/// face width also the coupling of slices (`sliced_comparison`).
 pub fn comparisons(resolved: &Resolved, runs: &[Run<'_>]) -> Vec<Comparison> {
     if resolved.scene.slices.is_some() {
         return sliced_comparison::comparisons(resolved, runs);

@@ -8,7 +8,7 @@
 //! * every other surface at the coarser resolutions, with the scene's own stiffness and with that of finite elements;
 //! * tip edges followed outside A to E, and not, with one stiffness only.
 //!
-//! A scene with slices over the face width has another plan: [`super::sliced_selection`].
+//! A scene with slices over the face width has another plan: `sliced_selection`.
 
 use super::settings::{Bed, Coarsening, Setting, Stiffness, Surface};
 use super::sliced_selection;
