@@ -84,43 +84,53 @@ fn differences(a: &SlicedMesh, b: &SlicedMesh, line_load: f64) -> [f64; 2] {
 }
 
 /// Unworn flanks: the same load sharing and transmission error as the general working cycle.
-fn assert_same_mesh(what: &str, scene: &Scene) {
+fn assert_same_mesh(what: &str, scene: &Scene, allowed: f64) {
     let scene = Scene { steps: 1.0, revolutions: 1.0, ..scene.clone() };
     let (simplified, general) = (run(&scene), scene.run());
     let [loads, error] = differences(mesh(&simplified.new), mesh(&general.new), scene.line_load());
-    assert!(loads <= 1e-9 && error <= 1e-9, "{what}: loads {loads:.1e}, transmission error {error:.1e}");
+    assert!(loads <= allowed && error <= allowed, "{what}: loads {loads:.1e}, transmission error {error:.1e}");
     assert!(mesh(&simplified.new).load_imbalance <= 1e-10);
 }
 
-/// The series of the closed form is the closed form, anywhere on the path and up to the load where it ends.
+/// The prepared closed form is the closed form, anywhere on the path and up to the load where it ends, to what its range of (a/t)²
+/// allows: the polynomial through the Chebyshev points is wrong by about (4/X)⁻⁵ of the rest, which is at most 0.4 X of flattening.
 #[test]
-fn ver_series_is_the_closed_form() {
+fn ver_prepared_form_is_the_closed_form() {
+    let mut hardest = 0.0_f64;
     for name in ["helical", "h501", "h951"] {
         let (pair, material) = (pair(&preset(name)), steel());
-        let forms = ContactForms::new(&pair, &material);
-        let phi = forms.log_compliance_mm2_per_n();
-        for at in pair.path.evenly_mm(97) {
-            let (form, exact) = (forms.at(at), flattening(&pair, &material, at));
-            for w in [1e-3, 1.0, 100.0, 0.3 * form.greatest_load_n_per_mm, form.greatest_load_n_per_mm] {
-                let [a1, a2, a3, a4] = form.series;
-                let series = w * (a1 + w * (a2 + w * (a3 + w * a4)));
-                let approach = w * (form.surface_mm2_per_n - 0.5 * phi * w.ln() + series);
-                assert_close(&format!("{name} at {at}, {w} N/mm"), approach, exact.approach_mm(w), 1e-9);
+        for line_load in [100.0, 450.0, 4000.0] {
+            let forms = ContactForms::new(&pair, &material, line_load);
+            let phi = forms.log_compliance_mm2_per_n();
+            for at in pair.path.evenly_mm(97) {
+                let (form, exact) = (forms.at(at), flattening(&pair, &material, at));
+                let depth = Gear::BOTH.map(|gear| pair.depth_mm(gear, at)).into_iter().fold(f64::INFINITY, f64::min);
+                let square = |w: f64| form.square_half_width * w / (depth * depth);
+                let range = square(form.greatest_load_n_per_mm);
+                hardest = hardest.max(range);
+                let allowed = 1e-9_f64.max(0.4 * range * (range / 4.0).powi(5) * 4.0);
+                for w in [1e-3, 1.0, 100.0, 0.3 * form.greatest_load_n_per_mm, form.greatest_load_n_per_mm] {
+                    let [a1, a2, a3, a4] = form.series;
+                    let rest = w * (a1 + w * (a2 + w * (a3 + w * a4)));
+                    let approach = w * (form.surface_mm2_per_n - 0.5 * phi * w.ln() + rest);
+                    assert_close(&format!("{name} at {at}, {w} N/mm"), approach, exact.approach_mm(w), allowed);
+                }
+                let half_width = (form.square_half_width * 100.0).sqrt();
+                assert_close("half-width", half_width, exact.contact.loaded(100.0).half_width_mm, 1e-12);
             }
-            let half_width = (form.square_half_width * 100.0).sqrt();
-            assert_close("half-width", half_width, exact.contact.loaded(100.0).half_width_mm, 1e-12);
         }
     }
+    assert!(hardest > 0.9, "the widest range is tried too: {hardest}");
 }
 
-/// The general working cycle with the surface `hertz-mean` solves the same equations on unworn flanks; the greatest load of all
-/// is one that the series does not hold for, the least one leaves contacts of the crowned flanks without load.
+/// The general working cycle with the surface `hertz-mean` solves the same equations on unworn flanks; the least load leaves
+/// contacts of the crowned flanks without load.
 #[test]
 fn val_unworn_flanks_share_the_load_as_on_the_general_cycle() {
     for coupling in [Coupling::None, Coupling::Slicing] {
         for count in [1, 2, 7, 20] {
             let plain = Scene { positions: 100, ..scene(count, coupling) };
-            assert_same_mesh(&format!("{count} slices {coupling:?}"), &plain);
+            assert_same_mesh(&format!("{count} slices {coupling:?}"), &plain, 1e-9);
         }
         let small = Scene { positions: 100, flank_points: 200, ..scene(9, coupling) };
         let mut modified = small.clone();
@@ -130,9 +140,11 @@ fn val_unworn_flanks_share_the_load_as_on_the_general_cycle() {
             ..Modification::default()
         };
         modified.pair.gears.wheel.modification.helix_slope_mm = -0.02;
-        for torque_n_mm in [3e3, 302e3, 3e7] {
+        // At a hundred times the load the strip is as wide as the tooth, at ten thousand times so wide that the general solver is asked.
+        for (torque_n_mm, allowed) in [(3e3, 1e-9), (302e3, 1e-9), (3e7, 1e-5), (3e9, 1e-9)] {
             for scene in [&small, &modified] {
-                assert_same_mesh(&format!("{torque_n_mm} {coupling:?}"), &Scene { torque_n_mm, ..scene.clone() });
+                let what = format!("{torque_n_mm} N·mm {coupling:?}");
+                assert_same_mesh(&what, &Scene { torque_n_mm, ..scene.clone() }, allowed);
             }
         }
         let light = run(&Scene { torque_n_mm: 3e3, steps: 1.0, ..modified });
@@ -161,6 +173,8 @@ fn val_wear_is_that_of_the_general_cycle() {
         let scene = Scene { severe, steps: 20.0, positions: 200, ..scene(8, coupling) };
         let (simplified, general) = (run(&scene), scene.run());
         let what = format!("{coupling:?} {severe:?}");
+        // Where wear turns severe it jumps, between two points.
+        let allowed = if severe.is_some() { 4e-3 } else { 2e-3 };
         for (a, b) in [(&simplified.new, &general.new), (&simplified.worn, &general.worn)] {
             assert!(mesh(a).load_imbalance <= 1e-10, "{what}");
             let fields = [
@@ -169,7 +183,7 @@ fn val_wear_is_that_of_the_general_cycle() {
                 ("sliding", mean_difference(&a.cycle.sliding_mm, &b.cycle.sliding_mm)),
             ];
             for (name, difference) in fields {
-                assert!(difference <= if severe.is_some() { 4e-3 } else { 2e-3 }, "{what} {name}: {difference:.1e}");
+                assert!(difference <= allowed, "{what} {name}: {difference:.1e}");
             }
         }
         let difference = mean_difference(&simplified.worn.wear_mm, &general.worn.wear_mm);
@@ -178,7 +192,7 @@ fn val_wear_is_that_of_the_general_cycle() {
         for gear in Gear::BOTH {
             let of = |outcome: &Outcome| WearFigures::at(&pair, gear, outcome, &outcome.worn).slices;
             for (a, b) in of(&simplified).iter().zip(of(&general)) {
-                assert_close(&format!("{what} {gear:?} area"), a.area_mm2, b.area_mm2, 2e-3);
+                assert_close(&format!("{what} {gear:?} area"), a.area_mm2, b.area_mm2, allowed);
             }
         }
     }

@@ -83,15 +83,15 @@ impl Batch {
         let unused = Pack { rigid: Lanes::splat(1.0), gap_mm: Lanes::splat(UNUSED_GAP_MM), ..Pack::default() };
         let (mut packs, mut per_root) = (vec![unused; count], vec![PerRoot::default(); count]);
         let coupling = springs.sliced.coupling.as_ref();
-        let mut common = Common {
+        let common = Common {
             log_compliance_mm2_per_n: forms.log_compliance_mm2_per_n(),
             line_load_n_per_mm: springs.line_load_n_per_mm,
-            greatest_load_n_per_mm: f64::INFINITY,
         };
         let (mut stations, mut bent, mut first) = (Vec::with_capacity(phases.len()), Vec::new(), 0);
         for phase in &phases {
             let range = first..first + packs_of(phase);
             let mean = springs.line_load_n_per_mm / phase.contacts.len() as f64;
+            let mut greatest_load_n_per_mm = f64::INFINITY;
             for (at, contact) in phase.contacts.iter().enumerate() {
                 let (pack, k) = (first + at / LANES, at % LANES);
                 let position = contact.cell.position_mm;
@@ -110,7 +110,7 @@ impl Batch {
                 for (sliding, gear) in roots.sliding.iter_mut().zip(Gear::BOTH) {
                     sliding.0[k] = 2.0 * half_width * path.specific_sliding(gear, position).abs();
                 }
-                common.greatest_load_n_per_mm = common.greatest_load_n_per_mm.min(form.greatest_load_n_per_mm);
+                greatest_load_n_per_mm = greatest_load_n_per_mm.min(form.greatest_load_n_per_mm);
             }
             if let Some(coupling) = coupling {
                 let root = |contact: &SliceContact| springs.along_path.mm2_per_n(contact.cell.position_mm).sqrt();
@@ -122,6 +122,7 @@ impl Batch {
                 position_mm: phase.position_mm,
                 transmission_error_mm: 0.0,
                 contacts: phase.contacts.len(),
+                greatest_load_n_per_mm,
                 packs: range.clone(),
             });
             first = range.end;

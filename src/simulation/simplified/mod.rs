@@ -80,7 +80,8 @@ impl<'a> SimplifiedPair<'a> {
         positions: usize,
         bodies_mm: f64,
     ) -> Self {
-        let forms = ContactForms::new(springs.pair, springs.material);
+        let line_load = springs.line_load_n_per_mm / springs.sliced.slices.count() as f64;
+        let forms = ContactForms::new(springs.pair, springs.material, line_load);
         let path = &springs.pair.path;
         let plain = Gear::BOTH.iter().all(|&gear| modification_mm[gear].iter().all(|&removed| removed == 0.0));
         let modified_by = |contact: &SliceContact| {

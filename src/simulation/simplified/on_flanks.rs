@@ -2,7 +2,7 @@
 //!
 //! Along each slice contacts follow each other from A to E, each in the middle of its stretch of the path. Between two of them a quantity
 //! runs straight if their stretches are equally long. Otherwise another slice comes or goes where they meet, and the quantity
-//! jumps there. Before the first and after the last it is constant. A point whose share of the flank reaches beyond A or E counts for the part of it that does not.
+//! jumps there. Before the first and after the last it runs on as between the two next to them, but not below zero. A point whose share of the flank reaches beyond A or E counts for the part of it that does not.
 
 use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 
@@ -28,8 +28,15 @@ struct Point {
     part: f64,
 }
 
-/// Stretches meet halfway if they do so within this part of the distance of their contacts.
-const HALFWAY: f64 = 1e-6;
+/// Stretches are equally long if they are within this part of the distance of their contacts.
+const ALIKE: f64 = 1e-6;
+
+impl Knot {
+    /// The contact is in the middle of its stretch.
+    fn half_length_mm(&self) -> f64 {
+        self.upper_mm - self.position_mm
+    }
+}
 
 /// The points of both flanks, in the order of the path.
 pub struct FlankPoints {
@@ -78,12 +85,15 @@ impl FlankPoints {
             while before < last && knots[before + 1].position_mm <= point.position_mm {
                 before += 1;
             }
+            // After the last contact as between the last two.
+            let before = before.min(last.saturating_sub(1));
             let after = (before + 1).min(last);
             let (low, high) = (&knots[before], &knots[after]);
             let distance = high.position_mm - low.position_mm;
-            let weight = if distance <= 0.0 || point.position_mm <= low.position_mm {
+            let alike = (low.half_length_mm() - high.half_length_mm()).abs() <= ALIKE * distance;
+            let weight = if distance <= 0.0 {
                 0.0
-            } else if (low.upper_mm - low.position_mm.midpoint(high.position_mm)).abs() <= HALFWAY * distance {
+            } else if alike {
                 (point.position_mm - low.position_mm) / distance
             } else if point.position_mm < low.upper_mm {
                 0.0
@@ -91,7 +101,7 @@ impl FlankPoints {
                 1.0
             };
             let (low, high) = (&values[before], &values[after]);
-            put(point.index, point.part, std::array::from_fn(|k| low[k] + weight * (high[k] - low[k])));
+            put(point.index, point.part, std::array::from_fn(|k| (low[k] + weight * (high[k] - low[k])).max(0.0)));
         }
     }
 }

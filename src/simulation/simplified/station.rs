@@ -18,8 +18,8 @@
 //! ```
 //!
 //! so that the logarithm costs a division. The sum of the loads w + correction is F, whatever the correction is. What it leaves of the
-//! other equation is ¼ Φ correction²/w, and c times that in load: with c Φ < 0.3, less than 1e-10 of F once no correction is
-//! above [`SETTLED`] of its load. Otherwise another one follows.
+//! other equation is ¼ Φ correction²/w, and c times that in load: with c Φ < 0.6, less than 2e-10 of F in all once no
+//! correction is above [`SETTLED`] of its load. Otherwise another one follows.
 //!
 //! Whatever does not fit that picture (a contact comes or goes, or changes its load by more than [`GREATEST_SHIFT`] allows) is
 //! solved with true logarithms, contacts coming and going ([`Station::settle`]).
@@ -79,8 +79,6 @@ pub struct Common {
     pub log_compliance_mm2_per_n: f64,
     /// F: sum of all line loads, N/mm.
     pub line_load_n_per_mm: f64,
-    /// Load up to which the closed form's series holds for every contact, N/mm.
-    pub greatest_load_n_per_mm: f64,
 }
 
 /// How an attempt ended.
@@ -152,6 +150,8 @@ pub struct Station {
     pub transmission_error_mm: f64,
     /// How many contacts: they are in the first lanes of its packs.
     pub contacts: usize,
+    /// Load up to which the closed form is prepared for every contact, N/mm.
+    pub greatest_load_n_per_mm: f64,
     /// Its packs among those of its batch, the last with unused lanes where they do not fill it.
     pub packs: std::ops::Range<usize>,
 }
@@ -200,7 +200,7 @@ impl Station {
                 strayed = strayed.max((Lanes::default() - loads).where_positive(pack.load, lacks));
             }
             let sound = approach_mm.is_finite() && shift <= GREATEST_SHIFT;
-            if !(sound && strayed.greatest() <= 0.0 && greatest.greatest() <= common.greatest_load_n_per_mm) {
+            if !(sound && strayed.greatest() <= 0.0 && greatest.greatest() <= self.greatest_load_n_per_mm) {
                 return Attempt::Lost(steps);
             }
             if correction.greatest() <= 0.5 * SETTLED {
@@ -272,7 +272,7 @@ impl Station {
             if settled {
                 self.transmission_error_mm = from_mm + approach_mm;
                 let greatest = packs.iter().fold(Lanes::default(), |greatest, pack| greatest.max(pack.loads()));
-                let holds = greatest.greatest() <= common.greatest_load_n_per_mm;
+                let holds = greatest.greatest() <= self.greatest_load_n_per_mm;
                 return if holds { Attempt::Settled(steps) } else { Attempt::Lost(steps) };
             }
         }
