@@ -29,7 +29,7 @@ use clap::{Parser, Subcommand};
 /// Width of messages where no terminal sets one: never broken, so that scripts find what they look for.
 const UNBROKEN: usize = 10_000;
 
-/// Predicts how the flanks of spur gears wear, and the pressure, load sharing and transmission error that follow.
+/// Predicts how the flanks of spur and helical gears wear, and the pressure, load sharing and transmission error that follow.
 ///
 /// Exit status: 0 done; 2 the input is wrong; 3 the solver failed; 130 interrupted (what was finished is kept).
 #[derive(Debug, Parser)]

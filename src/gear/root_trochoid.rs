@@ -49,9 +49,14 @@ pub struct RackTip {
 impl RackTip {
     /// Largest ρ_fP* that still leaves a tip: there the two roundings meet on the centre line.
     pub fn greatest_fillet_radius_factor(&self) -> f64 {
-        let alpha = self.normal_pressure_angle_rad;
-        (std::f64::consts::FRAC_PI_4 - self.dedendum_factor * alpha.tan()) / (1.0 / alpha.cos() - alpha.tan())
+        greatest_fillet_radius_factor(self.normal_pressure_angle_rad, self.dedendum_factor)
     }
+}
+
+/// The same of a rack given by α_n and h_fP*.
+pub fn greatest_fillet_radius_factor(normal_pressure_angle_rad: f64, dedendum_factor: f64) -> f64 {
+    let alpha = normal_pressure_angle_rad;
+    (std::f64::consts::FRAC_PI_4 - dedendum_factor * alpha.tan()) / (1.0 / alpha.cos() - alpha.tan())
 }
 
 impl RootTrochoid {

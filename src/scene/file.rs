@@ -109,7 +109,8 @@ pub struct BasicRackFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 3))]
     pub dedendum_factor: Option<f64>,
-    /// Root fillet radius factor ρ_fP*, 0 to 1. Default 0.38.
+    /// Root fillet radius factor ρ_fP*, 0 to 1. Default 0.38; of a transverse module, less where the normal section of a steep
+    /// helix has no room for it.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0, max = 1))]
     pub fillet_radius_factor: Option<f64>,

@@ -4,6 +4,7 @@
 //! becomes x_n = x_t / cos β, because x_n m_n = x_t m_t is the same length.
 
 use crate::gear::modification::{EndRelief, Modification, Relief};
+use crate::gear::root_trochoid::greatest_fillet_radius_factor;
 use crate::gear::spec::{BasicRack, GearSpec, PairSpec};
 use crate::gear::{Gear, PerGear};
 use crate::scene::file::{BasicRackFile, GearFile, PairFile, ReliefFile};
@@ -23,7 +24,7 @@ pub fn choose(file: &mut PairFile, findings: &mut Findings) -> Option<PairSpec> 
     let positive = "a number greater than 0";
     let centre_distance_mm = required(file.centre_distance_mm, "pair.centre_distance_mm", positive, findings);
     let face_width_mm = required(file.face_width_mm, "pair.face_width_mm", positive, findings);
-    let rack = rack(file.basic_rack.get_or_insert_default(), factor_scale);
+    let rack = rack(file.basic_rack.get_or_insert_default(), factor_scale, normal_pressure_angle_rad, findings);
     let pinion = gear(file.pinion.get_or_insert_default(), Gear::Pinion, factor_scale, findings);
     let wheel = gear(file.wheel.get_or_insert_default(), Gear::Wheel, factor_scale, findings);
     Some(PairSpec {
@@ -77,13 +78,33 @@ fn pressure_angle(file: &PairFile, cos_beta: f64, findings: &mut Findings) -> Op
     }
 }
 
-fn rack(file: &mut BasicRackFile, factor_scale: f64) -> BasicRack {
+fn rack(
+    file: &mut BasicRackFile,
+    factor_scale: f64,
+    normal_pressure_angle_rad: Option<f64>,
+    findings: &mut Findings,
+) -> BasicRack {
     let standard = BasicRack::default();
-    BasicRack {
-        addendum_factor: factor_scale * *file.addendum_factor.get_or_insert(standard.addendum_factor),
-        dedendum_factor: factor_scale * *file.dedendum_factor.get_or_insert(standard.dedendum_factor),
-        fillet_radius_factor: factor_scale * *file.fillet_radius_factor.get_or_insert(standard.fillet_radius_factor),
-    }
+    let addendum_factor = factor_scale * *file.addendum_factor.get_or_insert(standard.addendum_factor);
+    let dedendum_factor = factor_scale * *file.dedendum_factor.get_or_insert(standard.dedendum_factor);
+    let fillet = file.fillet_radius_factor.unwrap_or_else(|| {
+        // The standard's rounding of a transverse module does not fit into the normal section of a steep helix.
+        let room = normal_pressure_angle_rad.map_or(f64::INFINITY, |alpha| {
+            greatest_fillet_radius_factor(alpha, dedendum_factor) / factor_scale
+        });
+        if factor_scale == 1.0 || room >= standard.fillet_radius_factor || room <= 0.0 {
+            return standard.fillet_radius_factor;
+        }
+        let fits = (1e3 * room).floor() / 1e3;
+        findings.warnings.push(format!(
+            "pair.basic_rack.fillet_radius_factor: {} of the transverse module does not fit into the normal section of the rack; \
+             {fits} is used",
+            standard.fillet_radius_factor
+        ));
+        fits
+    });
+    file.fillet_radius_factor = Some(fillet);
+    BasicRack { addendum_factor, dedendum_factor, fillet_radius_factor: factor_scale * fillet }
 }
 
 fn gear(file: &mut GearFile, which: Gear, factor_scale: f64, findings: &mut Findings) -> Option<GearSpec> {
