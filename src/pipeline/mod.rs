@@ -220,9 +220,7 @@ pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Obs
             (SurfaceKind::HertzMean, Some(sliced)) => {
                 MeshContact::Simplified { material: &scene.material, teeth, sliced }
             }
-            (_, sliced) => {
-                MeshContact::LineOfAction { surface, teeth, tip_contact: scene.contact.tip_contact, sliced }
-            }
+            (_, sliced) => MeshContact::LineOfAction { surface, teeth, tip_contact: scene.contact.tip_contact, sliced },
         },
         (None, ..) => unreachable!("every surface but fem has springs"),
     };
