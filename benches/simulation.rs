@@ -8,6 +8,9 @@ use gearwear::plan::Plan;
 use gearwear::scene::{Resolved, Scene, presets};
 use gearwear::simulation::record::RunRecord;
 use gearwear::simulation::wear_run::Unwatched;
+use gearwear::sweep::combination::Sweep;
+use gearwear::sweep::journal::Journal;
+use gearwear::sweep::{axis, study};
 
 /// The fzg-c scene without snapshots and error estimates, some keys replaced.
 fn scene(edits: &[(&str, &str)]) -> Resolved {
@@ -55,5 +58,41 @@ fn wear_run(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, wear_run);
+/// A sweep of the preset helical with the simplified model: one combination, and some on all threads, journal included.
+fn sweep(criterion: &mut Criterion) {
+    let preset = presets::find("helical").expect("helical is a preset").text;
+    let text = preset.replace("surface = \"hertz\" ", "surface = \"hertz-mean\" ");
+    let resolved = Scene::from_toml(&text).expect("the preset is sound");
+    let sweep_of = |vary: [&str; 2]| {
+        let axes = axis::parse_all(vary).expect("the ranges are sound");
+        Sweep::new(&text, &resolved, Inputs::default(), axes, false).expect("the preset is TOML")
+    };
+    let mut group = criterion.benchmark_group("sweep");
+    group.sample_size(10);
+    let one = sweep_of(["pair.helix_angle_deg=20:20:1", "pair.face_width_mm=20:20:1"]);
+    group.bench_function("one combination", |bencher| bencher.iter(|| one.row(0, &Unwatched)));
+    let some = sweep_of(["pair.helix_angle_deg=0:30:7", "pair.face_width_mm=10:30:3"]);
+    group.throughput(Throughput::Elements(21));
+    group.bench_function("21 combinations on 2 threads", |bencher| {
+        bencher.iter(|| {
+            let folder = tempfile::tempdir().expect("a folder for the journal");
+            let mut journal = Journal::open(folder.path(), &some.identity, None).expect("a new journal");
+            study::run(&some, None, &mut journal, 2, &Unheard).expect("rows are kept")
+        });
+    });
+    group.finish();
+}
+
+/// Nobody watches the sweep.
+struct Unheard;
+
+impl study::Observer for Unheard {
+    fn row(&self, _done: usize, _total: usize, _failed: usize) {}
+
+    fn interrupted(&self) -> bool {
+        false
+    }
+}
+
+criterion_group!(benches, wear_run, sweep);
 criterion_main!(benches);

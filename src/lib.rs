@@ -26,6 +26,7 @@ pub mod report;
 pub mod scene;
 pub mod simulation;
 pub mod stiffness;
+pub mod sweep;
 pub mod wear;
 mod whole_file;
 pub mod working_cycle;

@@ -19,6 +19,7 @@ use gearwear::working_cycle::{
     phases::phases,
     settings::{Coupling, SliceSettings},
 };
+use proptest::prelude::*;
 
 fn slices(count: usize, coupling: Coupling) -> Option<SliceSettings> {
     Some(SliceSettings { count, coupling })
@@ -311,4 +312,51 @@ fn val_face_load_factor_of_a_misaligned_spur_pair() {
     // A tooth that holds its slices together resists the twist that the misalignment asks of it: its ends carry more.
     let coupled = factor(&scene(Coupling::Slicing));
     assert!(coupled > factor(&uncoupled), "{coupled}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Any helix, width, load and modification over the width: the loads balance, none pulls, and nothing but wear comes out.
+    #[test]
+    fn prop_slices_find_their_equilibrium(
+        degrees in -31.0..31.0_f64,
+        width_mm in 2.0..60.0_f64,
+        log_torque in 0.0..7.0_f64,
+        crowning_um in 0.0..300.0_f64,
+        slope_um in -300.0..300.0_f64,
+        count in 1_usize..25,
+        coupled in any::<bool>(),
+        surface in prop::sample::select(vec!["hertz", "winkler", "hertz-mean"]),
+    ) {
+        let text = gearwear::scene::presets::find("helical").unwrap().text;
+        let text = text
+            .replace("helix_angle_deg = 15.0", &format!("helix_angle_deg = {degrees:?}"))
+            .replace("face_width_mm = 20.0", &format!("face_width_mm = {width_mm:?}"));
+        let mut spec = gearwear::scene::Scene::from_toml(&text).unwrap().scene.pair;
+        spec.gears.pinion.modification.lead_crowning_mm = 1e-3 * crowning_um;
+        spec.gears.wheel.modification.helix_slope_mm = 1e-3 * slope_um;
+        let scene = Scene {
+            pair: spec,
+            torque_n_mm: 10f64.powf(log_torque),
+            surface,
+            revolutions: 10.0,
+            flank_points: 60,
+            positions: 25,
+            steps: 2.0,
+            slices: slices(count, if coupled { Coupling::Slicing } else { Coupling::None }),
+            ..helical_scene("hertz", 1, Coupling::None)
+        };
+        let outcome = scene.run();
+        prop_assert!(outcome.failure.is_none(), "{:?}", outcome.failure);
+        for snapshot in [&outcome.new, &outcome.worn] {
+            let mesh = snapshot.cycle.slices.as_ref().unwrap();
+            prop_assert!(mesh.load_imbalance <= 1e-10, "{:.1e}", mesh.load_imbalance);
+            prop_assert!(mesh.line_load_n_per_mm.iter().all(|load| *load >= 0.0 && load.is_finite()));
+            prop_assert!(mesh.transmission_error_mm.iter().all(|error| error.is_finite()));
+            for gear in Gear::BOTH {
+                prop_assert!(snapshot.wear_mm[gear].iter().all(|wear| *wear >= 0.0 && wear.is_finite()));
+            }
+        }
+    }
 }

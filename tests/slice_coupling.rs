@@ -106,9 +106,9 @@ fn ver_uniform_load_and_factors() {
     }
     let coupling = SliceCoupling::new(reach, 12, 1.2);
     let influence: Vec<Vec<f64>> = (0..12).map(|k| under_point_load(&coupling, 12, k)).collect();
-    for i in 0..12 {
-        for k in 0..12 {
-            assert!((influence[i][k] - influence[k][i]).abs() < 1e-13, "Maxwell: {i} {k}");
+    for (i, of_slice) in influence.iter().enumerate() {
+        for (k, there) in of_slice.iter().enumerate() {
+            assert!((there - influence[k][i]).abs() < 1e-13, "Maxwell: {i} {k}");
         }
     }
 }

@@ -6,8 +6,8 @@
 
 use super::measure::{greatest, profile_error};
 use super::observed::Observed;
-use super::settings::{Bed, Setting, Surface};
-use crate::contact::settings::{Foundation, SurfaceKind};
+use super::settings::{Setting, Surface};
+use super::sliced_comparison;
 use crate::gear::PerGear;
 use crate::scene::Resolved;
 use crate::scene::file::StiffnessModel;
@@ -24,8 +24,12 @@ pub struct Run<'a> {
     pub simulation_s: f64,
 }
 
-/// Tooth stiffnesses on the scene's surface, and contact surfaces with the best stiffness there is.
+/// Tooth stiffnesses on the scene's surface, and contact surfaces with the best stiffness there is; where sections differ over the
+/// face width also the coupling of slices (`sliced_comparison`).
 pub fn comparisons(resolved: &Resolved, runs: &[Run<'_>]) -> Vec<Comparison> {
+    if resolved.scene.slices.is_some() {
+        return sliced_comparison::comparisons(resolved, runs);
+    }
     let Some(finest) = runs.iter().map(|run| run.setting.coarsening.spacing).min() else { return Vec::new() };
     let even: Vec<Run<'_>> = runs
         .iter()
@@ -36,16 +40,8 @@ pub fn comparisons(resolved: &Resolved, runs: &[Run<'_>]) -> Vec<Comparison> {
 }
 
 /// All stiffnesses on one surface; none where only one was run.
-fn stiffnesses(resolved: &Resolved, runs: &[Run<'_>]) -> Option<Comparison> {
-    let contact = &resolved.scene.contact;
-    let surface = match (contact.surface, contact.foundation) {
-        (SurfaceKind::HertzMean, _) => Surface::HertzMean,
-        (SurfaceKind::Hertz, _) => Surface::Hertz,
-        (SurfaceKind::HalfSpace, _) => Surface::HalfSpace,
-        (_, Foundation::Given { foundation_mpa_per_mm }) => Surface::Winkler(Bed::Given { foundation_mpa_per_mm }),
-        (_, Foundation::Matched(criterion)) => Surface::Winkler(Bed::Matched(criterion)),
-        (_, Foundation::Calibrated(criterion)) => Surface::Winkler(Bed::Calibrated(criterion)),
-    };
+pub(super) fn stiffnesses(resolved: &Resolved, runs: &[Run<'_>]) -> Option<Comparison> {
+    let surface = Surface::of_scene(resolved);
     let on_it: Vec<Run<'_>> = runs.iter().copied().filter(|run| run.setting.surface == surface).collect();
     let model = |run: &Run<'_>| run.setting.stiffness.as_ref().and_then(|stiffness| stiffness.file.model);
     let with = |wanted| on_it.iter().copied().find(|run| model(run) == Some(wanted));
@@ -91,7 +87,7 @@ fn surfaces(runs: &[Run<'_>]) -> Option<Comparison> {
     })
 }
 
-fn row(name: String, run: &Run<'_>, baseline: &Run<'_>) -> ComparisonRow {
+pub(super) fn row(name: String, run: &Run<'_>, baseline: &Run<'_>) -> ComparisonRow {
     ComparisonRow {
         name,
         wear_profile: PerGear::from_fn(|gear| {

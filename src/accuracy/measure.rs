@@ -6,8 +6,9 @@
 //! e = √( ∫ (y − y_ref)² dx / ∫ y_ref² dx ),
 //! ```
 //!
-//! single figures by their relative difference |y − y_ref|/|y_ref|. Where the reference is zero everywhere the error is
-//! zero if the other is zero too, and infinite otherwise.
+//! depths over the whole flank in the same norm over its area, arc length times face width, and single figures by their
+//! relative difference |y − y_ref|/|y_ref|. Where the reference is zero everywhere the error is zero if the other is zero too,
+//! and infinite otherwise.
 //!
 //! The pressure at a sharp tip edge is singular: its peak grows with every refinement and has no value that a model
 //! could meet. Positions within [`EDGE_HALF_WIDTHS`] Hertz half-widths of A or E are left out of the comparison of peak
@@ -61,13 +62,13 @@ pub fn errors(observed: &Observed, reference: &Observed, windows: &Windows) -> B
     let between = |curve: fn(&ObservedCycle) -> &[f64]| {
         relative_difference(peak_to_peak(curve(&observed.cycle)), peak_to_peak(curve(&reference.cycle)))
     };
-    let half_width = {
+    let half_width = || {
         let [x, own, other] =
             [&reference.cycle.position_mm, &observed.cycle.half_width_mm, &reference.cycle.half_width_mm]
                 .map(|values| within(&reference.cycle.position_mm, values, windows.single_contact_mm));
         relative_l2(&x, &own, &other)
     };
-    BTreeMap::from([
+    let mut errors = BTreeMap::from([
         (Quantity::WearProfile, profile.pinion.max(profile.wheel)),
         (Quantity::PinionWearProfile, profile.pinion),
         (Quantity::WheelWearProfile, profile.wheel),
@@ -87,17 +88,27 @@ pub fn errors(observed: &Observed, reference: &Observed, windows: &Windows) -> B
                 greatest_within(&reference.cycle, windows.flank_mm),
             ),
         ),
-        (Quantity::HalfWidth, half_width),
         (Quantity::TransmissionError, over_path(|c| &c.transmission_error_um)),
         (Quantity::TransmissionErrorPeakToPeak, between(|c| &c.transmission_error_um)),
         (Quantity::WornTransmissionError, over_path(|c| &c.worn_transmission_error_um)),
         (Quantity::WornTransmissionErrorPeakToPeak, between(|c| &c.worn_transmission_error_um)),
-    ])
+    ]);
+    match (&observed.over_width, &reference.over_width) {
+        (Some(own), Some(of_reference)) => errors.extend(own.errors(of_reference)),
+        // Where slices of one tooth enter while others leave, no pair ever carries the load alone.
+        _ => errors.extend([(Quantity::HalfWidth, half_width())]),
+    }
+    errors
 }
 
-/// Relative L2 error of the depth over the flank; both at the same points.
+/// Relative L2 error of the depth over the whole flank; both at the same points and widths. Slices are as wide as each other.
 pub fn profile_error(observed: &ObservedFlank, reference: &ObservedFlank) -> f64 {
-    relative_l2(&reference.arc_mm, &observed.wear_um, &reference.wear_um)
+    let arc = &reference.arc_mm;
+    let over_flank = |square: &dyn Fn(&[f64], &[f64]) -> f64| -> f64 {
+        observed.slices().zip(reference.slices()).map(|(own, there)| square(own, there)).sum()
+    };
+    let difference = over_flank(&|own, there| integral(arc, |i| (own[i] - there[i]).powi(2)));
+    ratio(difference.sqrt(), over_flank(&|_, there| integral(arc, |i| there[i].powi(2))).sqrt())
 }
 
 /// Greatest pressure away from sharp tip edges.
@@ -128,14 +139,17 @@ pub fn relative_difference(value: f64, reference: f64) -> f64 {
 
 /// √(∫(y − y_ref)² dx / ∫y_ref² dx) by the trapezoidal rule.
 pub fn relative_l2(x: &[f64], values: &[f64], reference: &[f64]) -> f64 {
-    let integral = |square: &dyn Fn(usize) -> f64| -> f64 {
-        (1..x.len()).map(|i| 0.5 * (x[i] - x[i - 1]) * (square(i - 1) + square(i))).sum()
-    };
-    let difference = integral(&|i| (values[i] - reference[i]).powi(2));
-    ratio(difference.sqrt(), integral(&|i| reference[i].powi(2)).sqrt())
+    let difference = integral(x, |i| (values[i] - reference[i]).powi(2));
+    ratio(difference.sqrt(), integral(x, |i| reference[i].powi(2)).sqrt())
 }
 
-fn ratio(difference: f64, size: f64) -> f64 {
+/// ∫ y dx by the trapezoidal rule.
+fn integral(x: &[f64], value: impl Fn(usize) -> f64) -> f64 {
+    (1..x.len()).map(|i| 0.5 * (x[i] - x[i - 1]) * (value(i - 1) + value(i))).sum()
+}
+
+/// `difference` over `size`, where nothing over nothing is nothing.
+pub fn ratio(difference: f64, size: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / size }
 }
 

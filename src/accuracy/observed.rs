@@ -1,5 +1,6 @@
 //! The curves of a run that errors are measured on, and how they are brought onto common coordinates.
 
+use super::over_width::{OverWidth, depths_at_widths, pressure_along_path_mpa};
 use crate::gear::{Gear, PerGear};
 use crate::simulation::record::{FlankRecord, RunRecord};
 
@@ -10,6 +11,8 @@ pub struct Observed {
     pub flanks: PerGear<ObservedFlank>,
     /// The working cycle.
     pub cycle: ObservedCycle,
+    /// Over the face width; none where all sections are alike.
+    pub over_width: Option<OverWidth>,
 }
 
 /// Wear over one flank.
@@ -19,7 +22,9 @@ pub struct ObservedFlank {
     pub radius_mm: Vec<f64>,
     /// Arc length of the involute from the base circle.
     pub arc_mm: Vec<f64>,
-    /// Wear depth.
+    /// Place of each slice over the face width: one where all sections are alike.
+    pub width_mm: Vec<f64>,
+    /// Wear depth, slice after slice.
     pub wear_um: Vec<f64>,
 }
 
@@ -28,7 +33,7 @@ pub struct ObservedFlank {
 pub struct ObservedCycle {
     /// Radius of curvature of the pinion at the theoretical contact point, increasing.
     pub position_mm: Vec<f64>,
-    /// Greatest pressure, new.
+    /// Greatest pressure, new; of a pair with slices the greatest of any slice whose own contact point is there.
     pub peak_pressure_mpa: Vec<f64>,
     /// Half-width, new.
     pub half_width_mm: Vec<f64>,
@@ -44,11 +49,17 @@ impl Observed {
         let column = |value: fn(&crate::simulation::record::MeshCycleRow) -> f64| {
             record.mesh_cycle.iter().map(value).collect::<Vec<f64>>()
         };
+        let position_mm = column(|row| row.position_mm);
+        let peak_pressure_mpa = match &record.slices {
+            Some(slices) => pressure_along_path_mpa(slices, &position_mm),
+            None => column(|row| row.peak_pressure_new_MPa),
+        };
         Self {
             flanks: PerGear::from_fn(|gear| ObservedFlank::of(&record.flanks[gear])),
+            over_width: OverWidth::of(record),
             cycle: ObservedCycle {
-                position_mm: column(|row| row.position_mm),
-                peak_pressure_mpa: column(|row| row.peak_pressure_new_MPa),
+                position_mm,
+                peak_pressure_mpa,
                 half_width_mm: column(|row| row.half_width_mm),
                 transmission_error_um: column(|row| row.transmission_error_new_um),
                 worn_transmission_error_um: column(|row| row.transmission_error_worn_um),
@@ -60,12 +71,13 @@ impl Observed {
     pub fn at_coordinates_of(&self, other: &Self) -> Self {
         let flank = |gear: Gear| {
             let (own, common) = (&self.flanks[gear], &other.flanks[gear]);
-            ObservedFlank { wear_um: own.wear_at(&common.radius_mm), ..common.clone() }
+            ObservedFlank { wear_um: own.wear_at(&common.radius_mm, &common.width_mm), ..common.clone() }
         };
         let (own, at) = (&self.cycle, &other.cycle.position_mm);
         let there = |values: &[f64]| interpolated(&own.position_mm, values, at);
         Self {
             flanks: PerGear::from_fn(flank),
+            over_width: self.over_width.as_ref().map(|own| own.at_widths(&other.flanks.pinion.width_mm)),
             cycle: ObservedCycle {
                 position_mm: at.clone(),
                 peak_pressure_mpa: there(&own.peak_pressure_mpa),
@@ -96,6 +108,10 @@ impl Observed {
                     ..self.flanks[gear].clone()
                 }
             }),
+            over_width: match (&self.over_width, &fine.over_width, &coarse.over_width) {
+                (Some(own), Some(fine), Some(coarse)) => Some(own.corrected(factor, fine, coarse)),
+                _ => self.over_width.clone(),
+            },
             cycle: ObservedCycle {
                 position_mm: self.cycle.position_mm.clone(),
                 peak_pressure_mpa: of_cycle(|c| &c.peak_pressure_mpa),
@@ -117,13 +133,22 @@ impl ObservedFlank {
         Self {
             radius_mm: flank.radius_mm.clone(),
             arc_mm: flank.radius_mm.iter().zip(&flank.roll_angle_deg).map(arc).collect(),
+            width_mm: flank.width_mm.clone(),
             wear_um: flank.wear_um.clone(),
         }
     }
 
-    /// Depth at other radii.
-    pub fn wear_at(&self, radius_mm: &[f64]) -> Vec<f64> {
-        interpolated(&self.radius_mm, &self.wear_um, radius_mm)
+    /// The slices one after the other.
+    pub fn slices(&self) -> impl Iterator<Item = &[f64]> {
+        self.wear_um.chunks_exact(self.radius_mm.len())
+    }
+
+    /// Depth at other radii and widths, slice after slice.
+    pub fn wear_at(&self, radius_mm: &[f64], width_mm: &[f64]) -> Vec<f64> {
+        let at_radii: Vec<Vec<f64>> =
+            self.slices().map(|slice| interpolated(&self.radius_mm, slice, radius_mm)).collect();
+        let slices: Vec<&[f64]> = at_radii.iter().map(Vec::as_slice).collect();
+        depths_at_widths(&self.width_mm, &slices, width_mm)
     }
 }
 

@@ -7,7 +7,8 @@
 //! ```
 //!
 //! The correction is made value by value over the flanks and the path of contact, once for each kind of spacing: size of
-//! elements and spacing of points and positions (second order), length of the wear step (first order). The differences
+//! elements and spacing of points and positions (second order), length of the wear step and width of the slices (first
+//! order). The differences
 //! are taken at a coarser level of the other spacings, which changes a correction by a correction of it only.
 //!
 //! What remains uncertain is stated as the size of the whole correction: the error of the finest run itself, measured
@@ -69,9 +70,10 @@ mod tests {
     fn off_by(points: usize, error: impl Fn(f64) -> f64) -> Observed {
         let x: Vec<f64> = (0..=points).map(|i| i as f64 / points as f64).collect();
         let y: Vec<f64> = x.iter().map(|&x| 3.0 + x + error(x)).collect();
-        let flank = ObservedFlank { radius_mm: x.clone(), arc_mm: x.clone(), wear_um: y.clone() };
+        let flank = ObservedFlank { radius_mm: x.clone(), arc_mm: x.clone(), width_mm: vec![0.0], wear_um: y.clone() };
         Observed {
             flanks: PerGear { pinion: flank.clone(), wheel: flank },
+            over_width: None,
             cycle: ObservedCycle {
                 position_mm: x,
                 peak_pressure_mpa: y.clone(),

@@ -7,8 +7,11 @@
 //! * every other surface with every stiffness at the finest resolution;
 //! * every other surface at the coarser resolutions, with the scene's own stiffness and with that of finite elements;
 //! * tip edges followed outside A to E, and not, with one stiffness only.
+//!
+//! A scene with slices over the face width has another plan: `sliced_selection`.
 
 use super::settings::{Bed, Coarsening, Setting, Stiffness, Surface};
+use super::sliced_selection;
 use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use crate::scene::Resolved;
 use crate::scene::file::StiffnessModel;
@@ -22,7 +25,7 @@ const COARSER_MESHES: [f64; 2] = [0.6, 0.4];
 const LEAST_ELEMENTS: f64 = 2.0;
 /// How much longer the wear steps of the reference's companions are. On a fine mesh Euler's steps are bounded by short
 /// waves of wear; much longer ones would not be of the order that is extrapolated with.
-const COMPANION_STEP: u32 = 2;
+pub(super) const COMPANION_STEP: u32 = 2;
 
 /// What is asked of the comparison beside the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -51,6 +54,8 @@ pub enum Spacing {
     Elements(f64),
     /// The spacing of flank points and positions, by this ratio.
     Points(f64),
+    /// The width of the slices, by this ratio.
+    Slices(f64),
     /// The length of the wear step; the ratio follows from the steps taken.
     Step,
 }
@@ -88,16 +93,31 @@ impl Selection {
                 );
             }
         }
-        selection.finite_elements(scene.fem.elements_per_half_width, &levels);
-        selection.line_of_action(resolved, &levels, calibrated, no_calibration);
+        let stiffnesses = Stiffnesses::new(resolved, calibrated);
+        match scene.slices {
+            Some(slices) => sliced_selection::add(&mut selection, resolved, slices, &levels, calibrated, &stiffnesses),
+            None => {
+                selection.finite_elements(scene.fem.elements_per_half_width, &levels);
+                selection.line_of_action(resolved, &levels, calibrated, &stiffnesses);
+            }
+        }
+        selection.leave_out_of_all(resolved, calibrated, no_calibration);
         selection
     }
 
-    fn leave_out(&mut self, what: &str, reason: &str) {
+    /// The finest setting with half of its points and positions, where it was run with that.
+    pub fn second_resolution(&self) -> Setting {
+        let finest = &self.settings[0];
+        let by = 2 * finest.coarsening.spacing;
+        let half = self.settings.iter().find(|setting| setting.coarsening.spacing == by);
+        half.unwrap_or(finest).clone()
+    }
+
+    pub(super) fn leave_out(&mut self, what: &str, reason: &str) {
         self.left_out.push(LeftOut { what: what.to_owned(), reason: reason.to_owned() });
     }
 
-    fn add(&mut self, setting: Setting) -> usize {
+    pub(super) fn add(&mut self, setting: Setting) -> usize {
         if let Some(there) = self.settings.iter().position(|other| *other == setting) {
             return there;
         }
@@ -111,6 +131,7 @@ impl Selection {
             surface: Surface::Fem { elements_per_half_width },
             tip_contact: false,
             stiffness: None,
+            slices: None,
             coarsening,
         };
         let mut meshes = vec![elements];
@@ -154,55 +175,28 @@ impl Selection {
         resolved: &Resolved,
         levels: &[u32],
         calibrated: &[MatchCriterion],
-        no_calibration: &str,
+        with: &Stiffnesses,
     ) {
         let has_calibration = !calibrated.is_empty();
-        let own = (resolved.scene.contact.surface != SurfaceKind::Fem).then(|| Stiffness::of_scene(resolved));
-        let own = own.filter(|own| has_calibration || own.file.model != Some(StiffnessModel::Fem));
-        let of_fem = has_calibration.then(|| Stiffness::of_model(StiffnessModel::Fem, "fem"));
-        let mut stiffnesses: Vec<Stiffness> = Vec::new();
-        let own_is_constant = own.as_ref().is_some_and(|own| own.file.model == Some(StiffnessModel::Constant));
-        let usual = (!own_is_constant).then(|| Stiffness::constant(USUAL_STIFFNESS_N_PER_MM_UM));
-        let closed_forms = [
-            Stiffness::of_model(StiffnessModel::WeberBanaschek, "weber-banaschek"),
-            Stiffness::of_model(StiffnessModel::Iso6336, "iso6336"),
-        ];
-        for stiffness in own.iter().cloned().chain(of_fem.clone()).chain(closed_forms).chain(usual) {
-            if stiffnesses.iter().all(|other| other.name != stiffness.name) {
-                stiffnesses.push(stiffness);
-            }
-        }
-        for (model, name) in [(StiffnessModel::Simon, "simon"), (StiffnessModel::WangCheng, "wang-cheng")] {
-            if own.as_ref().is_none_or(|own| own.file.model != Some(model)) {
-                self.leave_out(&format!("stiffness {name}"), "a curve of the user's; the scene gives none");
-            }
-        }
-        if !has_calibration {
-            self.leave_out("stiffness fem and calibrated winkler", no_calibration);
-        }
-        // The stiffness that coarser resolutions and tip edges are tried with.
-        let mut tried: Vec<&str> = own.iter().chain(&of_fem).map(|stiffness| stiffness.name.as_str()).collect();
-        if tried.is_empty() {
-            tried.push("weber-banaschek");
-        }
-        let best = *tried.last().unwrap_or(&"weber-banaschek");
-
+        let Stiffnesses { all: stiffnesses, tried } = with;
+        let best = &with.best().name;
         let finest = levels[0];
         for surface in surfaces(resolved, calibrated) {
             for &by in levels {
-                for stiffness in &stiffnesses {
-                    if by != finest && !tried.contains(&stiffness.name.as_str()) {
+                for stiffness in stiffnesses {
+                    if by != finest && !tried.contains(&stiffness.name) {
                         continue;
                     }
                     let setting = |tip_contact| Setting {
                         surface,
                         tip_contact,
                         stiffness: Some(stiffness.clone()),
+                        slices: None,
                         coarsening: Coarsening::even(by),
                     };
                     let follows = follows_tip(surface, has_calibration);
                     self.add(setting(follows));
-                    if surface.may_follow_tip() && by == finest && stiffness.name == best {
+                    if surface.may_follow_tip() && by == finest && stiffness.name == *best {
                         self.add(setting(!follows));
                     }
                 }
@@ -220,12 +214,63 @@ impl Selection {
                 "what the tip edge changes hardly depends on the stiffness",
             );
         }
+    }
+
+    /// What no scene is run with.
+    fn leave_out_of_all(&mut self, resolved: &Resolved, calibrated: &[MatchCriterion], no_calibration: &str) {
+        let own = resolved.file.stiffness.as_ref().and_then(|stiffness| stiffness.model);
+        for (model, name) in [(StiffnessModel::Simon, "simon"), (StiffnessModel::WangCheng, "wang-cheng")] {
+            if own != Some(model) {
+                self.leave_out(&format!("stiffness {name}"), "a curve of the user's; the scene gives none");
+            }
+        }
+        if calibrated.is_empty() {
+            self.leave_out("stiffness fem and calibrated winkler", no_calibration);
+        }
         self.leave_out("several resolutions of points, positions and steps in one run", "they are refined together");
     }
 }
 
+/// The stiffnesses that fit a scene.
+pub(super) struct Stiffnesses {
+    /// All of them, each once.
+    pub all: Vec<Stiffness>,
+    /// Names of those that more than one resolution is tried with, the best last.
+    pub tried: Vec<String>,
+}
+
+impl Stiffnesses {
+    fn new(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Self {
+        let has_calibration = !calibrated.is_empty();
+        let own = (resolved.scene.contact.surface != SurfaceKind::Fem).then(|| Stiffness::of_scene(resolved));
+        let own = own.filter(|own| has_calibration || own.file.model != Some(StiffnessModel::Fem));
+        let of_fem = has_calibration.then(|| Stiffness::of_model(StiffnessModel::Fem, "fem"));
+        let own_is_constant = own.as_ref().is_some_and(|own| own.file.model == Some(StiffnessModel::Constant));
+        let usual = (!own_is_constant).then(|| Stiffness::constant(USUAL_STIFFNESS_N_PER_MM_UM));
+        let weber_banaschek = Stiffness::of_model(StiffnessModel::WeberBanaschek, "weber-banaschek");
+        let mut tried: Vec<String> = own.iter().chain(&of_fem).map(|stiffness| stiffness.name.clone()).collect();
+        if tried.is_empty() {
+            tried.push(weber_banaschek.name.clone());
+        }
+        let closed_forms = [weber_banaschek, Stiffness::of_model(StiffnessModel::Iso6336, "iso6336")];
+        let mut all: Vec<Stiffness> = Vec::new();
+        for stiffness in own.into_iter().chain(of_fem).chain(closed_forms).chain(usual) {
+            if all.iter().all(|other| other.name != stiffness.name) {
+                all.push(stiffness);
+            }
+        }
+        Self { all, tried }
+    }
+
+    /// The one that tip edges are tried with: that of finite elements where there is one.
+    pub fn best(&self) -> &Stiffness {
+        let name = self.tried.last();
+        self.all.iter().find(|stiffness| Some(&stiffness.name) == name).unwrap_or(&self.all[0])
+    }
+}
+
 /// The surfaces on the line of action, from cheap to true.
-fn surfaces(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Vec<Surface> {
+pub(super) fn surfaces(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Vec<Surface> {
     let mut surfaces = vec![Surface::HertzMean, Surface::Hertz];
     if let Foundation::Given { foundation_mpa_per_mm } = resolved.scene.contact.foundation {
         surfaces.push(Surface::Winkler(Bed::Given { foundation_mpa_per_mm }));

@@ -3,10 +3,11 @@
 //! The scene is the user's file with some keys changed, resolved again: what was measured can be repeated by
 //! `gearwear run` on that file, and the checks of scenes hold for settings as well.
 
-use crate::contact::settings::{MatchCriterion, SurfaceKind};
-use crate::scene::file::{NumericsFile, StepFile, StiffnessFile, StiffnessModel};
+use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
+use crate::scene::file::{HelicalFile, NumericsFile, StepFile, StiffnessFile, StiffnessModel};
 use crate::scene::{Problem, Resolved, Scene};
 use crate::simulation::accuracy_record::VariantSettings;
+use crate::working_cycle::settings::{Coupling, SliceSettings};
 
 /// Fewest points and positions of a setting: the least that a scene may ask for.
 pub const LEAST_POINTS: usize = 20;
@@ -87,11 +88,26 @@ pub struct Setting {
     pub tip_contact: bool,
     /// How the teeth yield; `None` for finite elements.
     pub stiffness: Option<Stiffness>,
+    /// The slices over the face width; none where all sections are alike.
+    pub slices: Option<SliceSettings>,
     /// How finely.
     pub coarsening: Coarsening,
 }
 
 impl Surface {
+    /// The scene's own, with the scene's own K/H.
+    pub fn of_scene(resolved: &Resolved) -> Self {
+        let contact = &resolved.scene.contact;
+        match (contact.surface, contact.foundation) {
+            (SurfaceKind::HertzMean, _) => Self::HertzMean,
+            (SurfaceKind::Hertz, _) => Self::Hertz,
+            (SurfaceKind::HalfSpace, _) => Self::HalfSpace,
+            (_, Foundation::Given { foundation_mpa_per_mm }) => Self::Winkler(Bed::Given { foundation_mpa_per_mm }),
+            (_, Foundation::Matched(criterion)) => Self::Winkler(Bed::Matched(criterion)),
+            (_, Foundation::Calibrated(criterion)) => Self::Winkler(Bed::Calibrated(criterion)),
+        }
+    }
+
     /// `winkler peak-pressure, calibrated`, `fem 10`.
     pub fn name(self) -> String {
         match self {
@@ -148,6 +164,14 @@ impl Stiffness {
     }
 }
 
+/// `coupled`, `uncoupled`.
+pub fn coupling_name(coupling: Coupling) -> &'static str {
+    match coupling {
+        Coupling::None => "uncoupled",
+        Coupling::Slicing => "coupled",
+    }
+}
+
 impl Setting {
     /// What it is called in tables and plots.
     pub fn name(&self) -> String {
@@ -157,6 +181,9 @@ impl Setting {
         }
         if let Some(stiffness) = &self.stiffness {
             name.push_str(&format!(" · {}", stiffness.name));
+        }
+        if let Some(SliceSettings { count, coupling }) = self.slices {
+            name.push_str(&format!(" · {count} slices, {}", coupling_name(coupling)));
         }
         name.push_str(&format!(" · {}", self.coarsening.name()));
         name
@@ -200,6 +227,9 @@ impl Setting {
                 file.fem.get_or_insert_default().elements_per_half_width = Some(elements_per_half_width);
             }
         }
+        if let Some(SliceSettings { count, coupling }) = self.slices {
+            file.helical = Some(HelicalFile { slices: Some(count as u32), coupling: Some(coupling) });
+        }
         file.stiffness = self.stiffness.as_ref().map(|stiffness| stiffness.file.clone());
         let numerics = base.scene.numerics;
         let coarser = |count: usize| (count as u32 / self.coarsening.spacing).max(LEAST_POINTS as u32);
@@ -231,6 +261,8 @@ impl Setting {
             tip_contact: self.tip_contact || elements_per_half_width.is_some(),
             stiffness: self.stiffness.as_ref().map(|stiffness| stiffness.name.clone()),
             elements_per_half_width,
+            slices: self.slices.map(|slices| slices.count),
+            coupling: self.slices.map(|slices| slices.coupling.name().to_owned()),
             flank_points: scene.numerics.flank_points,
             positions: scene.numerics.positions,
             step_revolutions: scene.numerics.step_revolutions,

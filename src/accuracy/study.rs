@@ -3,42 +3,33 @@
 use std::time::Instant;
 
 use super::comparison::{self, Run};
+use super::deep_runs;
 use super::front::{Point, cheapest_within, on_front};
 use super::measure::{Windows, errors, greatest, peak_pressure_mpa, peak_to_peak};
 use super::observed::Observed;
 use super::reference::{Correction, Reference};
 use super::selection::{Asked, Companions, Selection, Spacing};
 use super::settings::Setting;
+pub use super::timed_run::Observer;
+use super::timed_run::{Finished, Measured, Within, measure};
 use crate::calibration::Calibration;
 use crate::contact::settings::MatchCriterion;
 use crate::gear::{Gear, PerGear};
 use crate::pipeline::calibrate::{self, CalibrateError, Extent};
-use crate::pipeline::{self, Done, RunError, inputs::Inputs};
-use crate::plan::calibration::CalibrationStage;
-use crate::plan::{Plan, StageKind};
+use crate::pipeline::inputs::Inputs;
 use crate::scene::Resolved;
 use crate::simulation::accuracy_record::{
     AccuracyRecord, CALIBRATION_FILE, MeasuredError, Quantity, Recommendation, ReferenceFlank, ReferenceRecord,
     VariantRecord,
 };
-use crate::simulation::record::{RunRecord, StopReason};
-use crate::simulation::wear_run::Progress;
+use crate::simulation::record::StopReason;
 
-/// Runs shorter than this are repeated, and their least time counts.
-const LONG_ENOUGH_S: f64 = 0.2;
-/// Repeats at the most.
-const MOST_REPEATS: u32 = 20;
 /// Least ratio of the wear steps taken of which anything is learned.
 const LEAST_STEP_RATIO: f64 = 1.2;
-
-/// Told what is run; says whether to go on.
-pub trait Observer: Progress {
-    /// The calibration begins.
-    fn calibration(&self);
-
-    /// The run `number` of `count` begins.
-    fn variant(&self, number: usize, count: usize, name: &str);
-}
+/// What a reference without finite elements over the face width leaves open.
+const DOES_NOT_TELL: &str = "There is no three-dimensional finite-element solution of the pair: the finite elements are plane. \
+                             The errors are those of the contact surface, of the coupling of slices against that of the reference, \
+                             and of the resolution; how true the coupling itself is they do not tell.";
 
 /// Why there is nothing to compare.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -54,41 +45,6 @@ pub enum AccuracyError {
     /// The user interrupted before the reference was finished.
     #[error("interrupted before the reference was finished")]
     Interrupted,
-}
-
-/// What one setting came to.
-struct Measured {
-    record: VariantRecord,
-    run: Option<(RunRecord, Observed)>,
-}
-
-/// Hears an interrupt and scales the progress of one run into that of all.
-struct Within<'a> {
-    observer: &'a dyn Observer,
-    number: usize,
-    count: usize,
-}
-
-impl Progress for Within<'_> {
-    fn progress(&self, done: f64, total: f64) {
-        self.observer.progress(self.number as f64 + done / total, self.count as f64);
-    }
-
-    fn interrupted(&self) -> bool {
-        self.observer.interrupted()
-    }
-
-    fn gives_up(&self) -> bool {
-        self.observer.gives_up()
-    }
-}
-
-impl calibrate::Observer for Within<'_> {
-    fn stage(&self, _stage: CalibrationStage) {}
-}
-
-impl pipeline::Observer for Within<'_> {
-    fn stage(&self, _kind: StageKind) {}
 }
 
 /// Runs every setting that fits the scene and compares them.
@@ -109,8 +65,9 @@ pub fn run(
     let calibrated: Vec<MatchCriterion> =
         inputs.calibration.as_ref().map_or_else(Vec::new, |made| made.foundation.keys().copied().collect());
     let selection = Selection::new(resolved, asked, &calibrated, &calibration.why_none);
-    let count = selection.settings.len();
-    let mut measured: Vec<Measured> = Vec::with_capacity(count);
+    let settings = selection.settings.len();
+    let count = settings + if resolved.scene.slices.is_some() { deep_runs::RUNS } else { 0 };
+    let mut measured: Vec<Measured> = Vec::with_capacity(settings);
     for (number, setting) in selection.settings.iter().enumerate() {
         observer.variant(number, count, &setting.name());
         match measure(setting, resolved, inputs, &Within { observer, number, count }) {
@@ -118,12 +75,18 @@ pub fn run(
             None => break,
         }
     }
-    let stopped = if measured.len() == count { StopReason::Completed } else { StopReason::Interrupted };
+    let deep_runs = match measured.len() == settings {
+        true => deep_runs::run(resolved, &selection.second_resolution(), inputs, observer, settings, count),
+        false => None,
+    };
+    let all_deep_runs = deep_runs.is_some() == resolved.scene.slices.is_some();
+    let stopped =
+        if measured.len() == settings && all_deep_runs { StopReason::Completed } else { StopReason::Interrupted };
     let windows = windows(resolved, &measured)?;
     let (reference, runs) = reference(&selection, &measured, &windows)?;
     let at_reference: Vec<Option<Observed>> = measured
         .iter()
-        .map(|one| one.run.as_ref().map(|(_, observed)| observed.at_coordinates_of(&reference.observed)))
+        .map(|one| one.finished.as_ref().map(|run| run.observed.at_coordinates_of(&reference.observed)))
         .collect();
     let mut variants: Vec<VariantRecord> = measured.iter().map(|one| one.record.clone()).collect();
     for &index in &runs {
@@ -132,8 +95,12 @@ pub fn run(
     add_errors(&mut variants, &at_reference, &reference, &windows);
     let finest = selection.settings[0].coarsening;
     for ((variant, observed), setting) in variants.iter_mut().zip(&at_reference).zip(&selection.settings) {
-        if setting.coarsening == finest {
+        // The reference's own slices would show the same curves once more.
+        let own_slices = setting.slices.map(|s| s.count) == resolved.scene.slices.map(|s| s.count);
+        if setting.coarsening == finest && own_slices {
             variant.wear_um = observed.as_ref().map(|o| PerGear::from_fn(|gear| o.flanks[gear].wear_um.clone()));
+            let over_width = observed.as_ref().and_then(|o| o.over_width.as_ref());
+            variant.root_wear_um = over_width.map(|o| o.root_wear_um.clone());
         }
     }
     let compared: Vec<Run<'_>> = selection
@@ -158,6 +125,7 @@ pub fn run(
         within: asked.within,
         recommendations,
         comparisons: comparison::comparisons(resolved, &compared),
+        deep_runs,
         reference: reference_record(&selection, &measured, reference, runs, &windows),
         variants,
         left_out: selection.left_out,
@@ -196,84 +164,17 @@ fn recommended_toml(recommendations: &[Recommendation], settings: &[Setting], re
     Some(file.to_toml())
 }
 
-/// Runs one setting, a short one several times; `None` where the user interrupted it.
-fn measure(setting: &Setting, base: &Resolved, inputs: &Inputs, observer: &Within<'_>) -> Option<Measured> {
-    if observer.interrupted() {
-        return None;
-    }
-    let mut record = VariantRecord {
-        name: setting.name(),
-        settings: setting.record(&base.scene),
-        simulation_s: None,
-        setup_s: None,
-        repeats: 0,
-        work: None,
-        peak_wear_um: None,
-        errors: Default::default(),
-        failure: None,
-        part_of_reference: false,
-        wear_um: None,
-    };
-    let failed = |record: VariantRecord, failure: String| {
-        Some(Measured { record: VariantRecord { failure: Some(failure), ..record }, run: None })
-    };
-    let resolved = match setting.scene(base, Some(CALIBRATION_FILE)) {
-        Ok(resolved) => resolved,
-        Err(problems) => {
-            let all: Vec<String> = problems.iter().map(ToString::to_string).collect();
-            return failed(record, all.join("; "));
-        }
-    };
-    record.settings = setting.record(&resolved.scene);
-    let plan = Plan::of(&resolved.scene);
-    let mut kept = None;
-    let mut spent_s = 0.0;
-    while record.repeats == 0 || (spent_s < LONG_ENOUGH_S && record.repeats < MOST_REPEATS) {
-        let done = match pipeline::run(&resolved, &plan, inputs, observer) {
-            Ok(Done { record: done, failure: None }) if done.summary.stopped == StopReason::Completed => done,
-            Ok(Done { failure: Some(failure), .. }) => return failed(record, failure.to_string()),
-            Ok(_) => return None,
-            Err(_) if observer.interrupted() => return None,
-            Err(failure) => return failed(record, RunError::to_string(&failure)),
-        };
-        let (simulation_s, setup_s) = times(&done);
-        record.repeats += 1;
-        spent_s += simulation_s;
-        record.simulation_s = Some(record.simulation_s.map_or(simulation_s, |least: f64| least.min(simulation_s)));
-        record.setup_s = Some(record.setup_s.map_or(setup_s, |least: f64| least.min(setup_s)));
-        kept = Some(done);
-    }
-    let run = kept?;
-    record.work = Some(run.summary.work);
-    record.peak_wear_um =
-        Some(PerGear { pinion: run.summary.pinion.peak_wear_um, wheel: run.summary.wheel.peak_wear_um });
-    let observed = Observed::of(&run);
-    Some(Measured { record, run: Some((run, observed)) })
-}
-
-/// Wall times of the wear run and of everything before it, s.
-fn times(run: &RunRecord) -> (f64, f64) {
-    let simulation = StageKind::Simulation.name();
-    run.summary.stages.iter().fold((0.0, 0.0), |(simulation_s, setup_s), stage| {
-        if stage.name == simulation {
-            (simulation_s + stage.wall_s, setup_s)
-        } else {
-            (simulation_s, setup_s + stage.wall_s)
-        }
-    })
-}
-
 /// A run of the reference, which must be there.
-fn finished(measured: &[Measured], index: usize) -> Result<&(RunRecord, Observed), AccuracyError> {
+fn finished(measured: &[Measured], index: usize) -> Result<&Finished, AccuracyError> {
     let one = measured.get(index).ok_or(AccuracyError::Interrupted)?;
-    one.run.as_ref().ok_or_else(|| AccuracyError::Reference {
+    one.finished.as_ref().ok_or_else(|| AccuracyError::Reference {
         name: one.record.name.clone(),
         reason: one.record.failure.clone().unwrap_or_default(),
     })
 }
 
 fn windows(resolved: &Resolved, measured: &[Measured]) -> Result<Windows, AccuracyError> {
-    let summary = &finished(measured, 0)?.0.summary;
+    let summary = &finished(measured, 0)?.summary;
     let sharp = PerGear::from_fn(|gear| resolved.scene.pair.gears[gear].modification.tip_rounding_mm == 0.0);
     Ok(Windows::new(&summary.geometry.curvature_radius_mm, sharp, summary.contact.hertz_half_width_mm))
 }
@@ -284,20 +185,20 @@ fn reference(
     measured: &[Measured],
     windows: &Windows,
 ) -> Result<(Reference, Vec<usize>), AccuracyError> {
-    let finest = &finished(measured, 0)?.1;
+    let finest = &finished(measured, 0)?.observed;
     let mut corrections = Vec::new();
     let mut runs = vec![0];
     for &Companions { fine, coarse, spacing } in &selection.companions {
-        let ((fine_run, fine_observed), (coarse_run, coarse_observed)) =
-            (finished(measured, fine)?, finished(measured, coarse)?);
-        let steps = |run: &RunRecord| run.summary.work.wear_steps as f64;
+        let (fine_run, coarse_run) = (finished(measured, fine)?, finished(measured, coarse)?);
+        let steps = |run: &Finished| run.summary.work.wear_steps as f64;
         let (ratio, order) = match spacing {
             Spacing::Elements(ratio) | Spacing::Points(ratio) => (ratio, 2),
+            Spacing::Slices(ratio) => (ratio, 1),
             Spacing::Step => (steps(fine_run) / steps(coarse_run), 1),
         };
         runs.extend([fine, coarse]);
         if ratio >= LEAST_STEP_RATIO {
-            corrections.push(Correction { fine: fine_observed, coarse: coarse_observed, ratio, order });
+            corrections.push(Correction { fine: &fine_run.observed, coarse: &coarse_run.observed, ratio, order });
         }
     }
     runs.sort_unstable();
@@ -315,10 +216,11 @@ fn add_errors(variants: &mut [VariantRecord], at: &[Option<Observed>], reference
             .zip(&all)
             .map(|(variant, errors)| Point {
                 wall_s: variant.simulation_s.unwrap_or(f64::NAN),
-                error: errors.as_ref().map_or(f64::NAN, |errors| errors[&quantity]),
+                error: errors.as_ref().and_then(|errors| errors.get(&quantity)).copied().unwrap_or(f64::NAN),
             })
             .collect();
-        let front = on_front(&points, reference.uncertainty[&quantity]);
+        let uncertainty = reference.uncertainty.get(&quantity).copied().unwrap_or(0.0);
+        let front = on_front(&points, uncertainty);
         for ((variant, point), on_front) in variants.iter_mut().zip(points).zip(front) {
             if !point.error.is_nan() {
                 variant.errors.insert(quantity, MeasuredError { relative: point.error, on_front });
@@ -357,6 +259,7 @@ fn reference_record(
         .map(|companions| match companions.spacing {
             Spacing::Elements(ratio) => format!("size of elements, second order, ratio {ratio:.3}"),
             Spacing::Points(ratio) => format!("spacing of flank points and positions, second order, ratio {ratio}"),
+            Spacing::Slices(ratio) => format!("width of the slices, first order, ratio {ratio}"),
             Spacing::Step => "length of the wear step, first order".to_owned(),
         })
         .collect();
@@ -365,11 +268,11 @@ fn reference_record(
         measured[0].record.name,
         if parts.is_empty() { "nothing".to_owned() } else { parts.join("; ") }
     );
-    let points =
-        PerGear::from_fn(|gear| measured[0].run.as_ref().map(|(record, _)| record.flanks[gear].path_point_radius_mm));
+    let points = measured[0].finished.as_ref().map(|run| run.path_point_radius_mm);
     let Reference { observed, uncertainty } = reference;
     ReferenceRecord {
         how,
+        does_not_tell: observed.over_width.is_some().then(|| DOES_NOT_TELL.to_owned()),
         uncertainty,
         runs,
         peak_wear_um: PerGear::from_fn(|gear| greatest(&observed.flanks[gear].wear_um)),
@@ -380,8 +283,10 @@ fn reference_record(
         ],
         flanks: PerGear::from_fn(|gear: Gear| ReferenceFlank {
             radius_mm: observed.flanks[gear].radius_mm.clone(),
+            width_mm: observed.flanks[gear].width_mm.clone(),
             wear_um: observed.flanks[gear].wear_um.clone(),
-            path_point_radius_mm: points[gear],
+            root_wear_um: observed.over_width.as_ref().map_or_else(Vec::new, |o| o.root_wear_um[gear].clone()),
+            path_point_radius_mm: points.map(|points| points[gear]),
         }),
     }
 }

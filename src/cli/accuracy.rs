@@ -78,8 +78,13 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 fn table(record: &AccuracyRecord) -> String {
     let per_cent = |error: f64| format!("{} %", digits(100.0 * error));
     let mut text = format!("{}\n\nreference: {}\n\n", record.title, record.reference.how);
+    if let Some(open) = &record.reference.does_not_tell {
+        text.push_str(&format!("{open}\n\n"));
+    }
+    let names = record.variants.iter().map(|variant| variant.name.chars().count());
+    let width = names.max().unwrap_or(0).max(60);
     let line = |name: &str, cells: [&str; 4]| {
-        format!("  {name:60}{:>10}{:>12}{:>12}{:>12}\n", cells[0], cells[1], cells[2], cells[3])
+        format!("  {name:width$}{:>10}{:>12}{:>12}{:>12}\n", cells[0], cells[1], cells[2], cells[3])
     };
     text.push_str(&line("on the front of the wear profile", ["time, s", "profile", "pressure", "trans. err"]));
     let error = |v: &VariantRecord, quantity| v.errors.get(&quantity).map(|error| error.relative);

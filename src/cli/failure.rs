@@ -15,6 +15,9 @@ use gearwear::pipeline::pair_mesh::PairMeshError;
 use gearwear::report::ReportError;
 use gearwear::scene::{Problem, ProblemKind, presets};
 use gearwear::stiffness::curve_file::CurveFileError;
+use gearwear::sweep::axis::AxisError;
+use gearwear::sweep::journal::JournalError;
+use gearwear::sweep::merge::MergeError;
 use miette::{Diagnostic, LabeledSpan, MietteDiagnostic, NamedSource, Report};
 
 /// Problems of one file that are shown; the rest is counted.
@@ -44,6 +47,14 @@ pub enum Failure {
     /// The calibration failed.
     #[error(transparent)]
     Calibrate(CalibrateError),
+    /// No combination of a sweep has a result; its rows are written.
+    #[error("none of {count} combinations has a result; the first says: {error}")]
+    NoCombination {
+        /// How many there are.
+        count: usize,
+        /// The first error.
+        error: String,
+    },
     /// The user interrupted the run; it was said what is kept.
     #[error("interrupted")]
     Interrupted,
@@ -153,6 +164,27 @@ pub enum InputError {
     #[error("--out: {}", causes(.0))]
     #[diagnostic(help("a folder you may write to, and a name that ends in .msh, .vtu, .inp or .json"))]
     MeshFile(MeshFileError),
+    /// What is to be varied is wrong.
+    #[error("--vary: {0}")]
+    #[diagnostic(help("{}", .0.help().unwrap_or_else(|| "for example --vary pair.face_width_mm=10:30:21".to_owned())))]
+    Vary(AxisError),
+    /// The rows of a sweep cannot be kept, or belong to another one.
+    #[error("--out: {0}")]
+    #[diagnostic(help("{}", journal_help(.0)))]
+    Journal(JournalError),
+    /// Shards do not make a sweep.
+    #[error("{0}")]
+    #[diagnostic(help("{}", merge_help(.0)))]
+    Merge(MergeError),
+    /// `merge` into the folder of a shard.
+    #[error("--out: {name} is one of the folders to merge; allowed: a folder of its own for the whole sweep")]
+    MergeIntoShard {
+        /// The folder.
+        name: String,
+    },
+    /// None of the shards has the scene of the sweep beside its rows.
+    #[error("no folder has the scene.toml of its sweep; allowed: folders as gearwear sweep wrote them")]
+    MergeWithoutScene,
     /// The threads cannot be started.
     #[error("--threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
@@ -174,6 +206,34 @@ fn fem_pair(error: &FemPairError) -> String {
     }
 }
 
+/// What to do about rows that cannot be kept.
+fn journal_help(error: &JournalError) -> &'static str {
+    match error {
+        JournalError::OtherSweep { .. } | JournalError::Damaged { .. } => {
+            "choose another folder, or remove this one to begin anew"
+        }
+        JournalError::InUse { .. } => "wait for it to end, or choose another folder; each shard needs its own",
+        JournalError::NoSweep { .. } => "give the folders that gearwear sweep --shard wrote",
+        JournalError::Write { .. } | JournalError::Removed { .. } => "the same command goes on with the missing rows",
+        JournalError::Open { .. } | JournalError::Lost { .. } => "choose a folder you may write to",
+    }
+}
+
+/// What to do about shards that do not make a sweep.
+fn merge_help(error: &MergeError) -> String {
+    match error {
+        MergeError::Journal(error) => journal_help(error).to_owned(),
+        MergeError::OtherSweep { .. } => "merge shards of one scene, varied in the same way".to_owned(),
+        MergeError::Contradiction { .. } => "leave the folder out that is wrong, or run both anew".to_owned(),
+        MergeError::Incomplete { unfinished, .. } if unfinished.is_empty() => {
+            "give the folders of all shards; run the shards that were not".to_owned()
+        }
+        MergeError::Incomplete { unfinished, .. } => {
+            format!("not finished: {}; the command of a shard goes on where it was", unfinished.join(", "))
+        }
+    }
+}
+
 /// An error with everything that led to it, on one line.
 fn causes(error: &dyn std::error::Error) -> String {
     let chain = std::iter::successors(error.source(), |cause| cause.source());
@@ -191,6 +251,7 @@ impl Failure {
             Failure::Accuracy(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Calibrate(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Run(error) => say(&format!("{:?}", Report::msg(error))),
+            error @ Failure::NoCombination { .. } => say(&format!("{:?}", Report::msg(error))),
             Failure::Interrupted | Failure::Closed => {}
         }
     }
@@ -203,7 +264,8 @@ impl Failure {
             | Failure::Solve(_)
             | Failure::FemPair(_)
             | Failure::Calibrate(_)
-            | Failure::Accuracy(_) => 3,
+            | Failure::Accuracy(_)
+            | Failure::NoCombination { .. } => 3,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
         }

@@ -1,6 +1,6 @@
 //! The main figures of a run, as a table for the terminal.
 
-use gearwear::simulation::record::{ErrorSummary, Summary};
+use gearwear::simulation::record::{ErrorSummary, HelicalSummary, OverWidthSummary, Summary};
 
 /// The table.
 pub fn table(summary: &Summary) -> String {
@@ -27,6 +27,7 @@ pub fn table(summary: &Summary) -> String {
     ] {
         text.push_str(&figures(name, values));
     }
+    text.push_str(&over_the_width(summary.helical.as_ref()));
     text.push_str(&estimated_errors(&summary.error));
     let hours = summary.hours.map_or_else(String::new, |hours| format!(" ({} h)", digits(hours)));
     text.push_str(&format!(
@@ -35,6 +36,23 @@ pub fn table(summary: &Summary) -> String {
         summary.wall_s
     ));
     text
+}
+
+/// What the slices tell; nothing where all sections are alike.
+fn over_the_width(helical: Option<&HelicalSummary>) -> String {
+    let Some(helical) = helical else { return String::new() };
+    let per_cent =
+        |of: fn(&OverWidthSummary) -> f64| [&helical.wear.pinion, &helical.wear.wheel].map(|w| 100.0 * of(w));
+    let orders = [&helical.mesh_orders_new_um, &helical.mesh_orders_worn_um];
+    [
+        figures("face load factor K_Hbeta", [helical.K_Hbeta_new, helical.K_Hbeta_worn]),
+        figures("first mesh order, µm", orders.map(|orders| orders.first().copied().unwrap_or_default())),
+        row("over the face width", ["pinion", "wheel"]),
+        figures("variation of root wear, %", per_cent(|w| w.root_variation)),
+        figures("variation of tip wear, %", per_cent(|w| w.tip_variation)),
+        figures("variation of both together, %", per_cent(|w| w.root_tip_variation)),
+    ]
+    .concat()
 }
 
 /// The error estimates of the pinion's peak wear; nothing where none was made.

@@ -18,6 +18,8 @@ mod run;
 mod scene_source;
 mod schema;
 mod stdout;
+mod sweep;
+mod sweep_progress;
 
 use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
@@ -51,6 +53,8 @@ enum Command {
     Fem(fem::Args),
     /// Draw error against run time of every model that fits a scene, and recommend the cheapest below a wanted error
     Accuracy(accuracy::Args),
+    /// Run a scene for all combinations of varied keys: restartable, in shards on a cluster, with contour plots
+    Sweep(sweep::Args),
     /// Calibrate the fast model: tooth stiffness and K/H from finite elements, against Hertz
     Calibrate(calibrate::Args),
     /// Print the JSON schema of the scene: every key with its meaning, unit, range and default
@@ -75,6 +79,7 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(args),
         Command::Fem(args) => fem::run(args),
         Command::Accuracy(args) => accuracy::run(args),
+        Command::Sweep(args) => sweep::run(args),
         Command::Calibrate(args) => calibrate::run(args),
         Command::Schema(args) => schema::run(args),
         Command::Completions(args) => completions::run(args),

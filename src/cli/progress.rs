@@ -123,7 +123,8 @@ impl wear_run::Progress for Progress {
     }
 }
 
-fn bar() -> ProgressBar {
+/// The bar, with the remaining time.
+pub(super) fn bar() -> ProgressBar {
     let bar = ProgressBar::new(PARTS);
     let style = ProgressStyle::with_template("{msg:20} [{bar:40}] {percent:>3} %  {elapsed} so far, {eta} left");
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> "));

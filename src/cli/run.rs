@@ -104,11 +104,15 @@ fn write(record: &mut RunRecord, out: &Path, progress: &Progress) -> Result<(), 
     Ok(())
 }
 
-/// As many threads as asked for. More than cores only wait for each other.
-pub(super) fn pool(threads: Option<NonZeroUsize>) -> Result<rayon::ThreadPool, InputError> {
+/// As many threads as asked for; default: all cores. More than cores only wait for each other.
+pub(super) fn thread_count(asked: Option<NonZeroUsize>) -> usize {
     let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    let threads = threads.map_or(cores, NonZeroUsize::get).min(cores);
-    Ok(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?)
+    asked.map_or(cores, NonZeroUsize::get).min(cores)
+}
+
+/// A pool of so many threads.
+pub(super) fn pool(asked: Option<NonZeroUsize>) -> Result<rayon::ThreadPool, InputError> {
+    Ok(rayon::ThreadPoolBuilder::new().num_threads(thread_count(asked)).build()?)
 }
 
 /// A flag that the first Ctrl-C sets; a second one ends the program at once.

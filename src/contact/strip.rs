@@ -139,12 +139,30 @@ impl Strip {
         least
     }
 
-    /// Whether flanks pressed together by `approach_mm` can touch beyond an end of the window that is not real: removed
-    /// material only widens the gap, so the geometric gap decides.
-    pub fn may_touch_beyond(&self, approach_mm: f64) -> bool {
+    /// Whether flanks pressed together by `approach_mm`, and that have lost at least `removed_mm` wherever they may touch, can touch
+    /// beyond an end of the window that is not real: what else is removed only widens the gap, so the geometric gap decides.
+    pub fn may_touch_beyond(&self, approach_mm: f64, removed_mm: f64) -> bool {
         let ends = [self.geometric_gap_mm[0], self.geometric_gap_mm[self.geometric_gap_mm.len() - 1]];
-        ends.iter().zip(self.window.ends_are_real).any(|(&gap, real)| !real && approach_mm > gap)
+        ends.iter().zip(self.window.ends_are_real).any(|(&gap, real)| !real && approach_mm - removed_mm > gap)
     }
+}
+
+/// Flanks are searched this much farther than parabolas of their relative curvature would touch.
+const AMPLE_REACH: f64 = 1.25;
+
+/// The least that both flanks together have lost wherever they can touch when pressed together by `approach_mm`: where a parabola
+/// of their relative curvature, and some way on, is nearer than that.
+pub fn least_removed_mm(flanks: Flanks<'_>, position_mm: f64, approach_mm: f64, removed_mm: PerGear<&[f64]>) -> f64 {
+    let reach = AMPLE_REACH * (2.0 * flanks.geometry.relative_radius_mm(position_mm) * approach_mm).sqrt();
+    let least = |gear: Gear| {
+        let grid = flanks.grid[gear];
+        let here = grid.arc_mm[grid.place(flanks.geometry.contact_coordinate_mm(gear, position_mm)).index];
+        // The next point on either side counts too: what is removed is linear in between.
+        let first = grid.arc_mm.partition_point(|&arc| arc < here - reach).saturating_sub(1);
+        let end = (grid.arc_mm.partition_point(|&arc| arc <= here + reach) + 2).min(grid.len());
+        removed_mm[gear][first..end].iter().copied().fold(f64::INFINITY, f64::min)
+    };
+    least(Gear::Pinion) + least(Gear::Wheel)
 }
 
 /// Consecutive points of one flank that may touch the other, with one more at either end.

@@ -28,7 +28,7 @@ use std::ops::Range;
 use super::{
     ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
     foundation::{Bed, Springs},
-    strip::{GapAtPoints, ObservedPoints, Strip, Window, point_distance_mm},
+    strip::{GapAtPoints, ObservedPoints, Strip, Window, least_removed_mm, point_distance_mm},
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 
@@ -66,6 +66,7 @@ impl ContactSurface for Winkler {
             observed,
             gap: Vec::new(),
             touch: 0.0,
+            removed_everywhere: 0.0,
             depth: 0.0,
             extent_mm: (0.0, 0.0),
         })
@@ -131,6 +132,8 @@ struct WinklerPair<'a> {
     gap: Vec<f64>,
     /// The least gap, mm.
     touch: f64,
+    /// The least that both flanks together have lost where they may touch, mm; 0 where that is little.
+    removed_everywhere: f64,
     /// The last depth pressed, mm.
     depth: f64,
     /// Outermost places in contact at equilibrium, along the tangent.
@@ -143,6 +146,11 @@ impl PairContact for WinklerPair<'_> {
         // From the first touch on, nothing is lost where a light load meets a deep relief.
         self.gap.iter_mut().for_each(|gap| *gap -= touch);
         self.touch = touch;
+        // Where much is removed everywhere, as by a helix-slope deviation, the window need not reach as far as that is deep.
+        let Site { flanks, position_mm, half_window_mm, .. } = self.site;
+        let at_end = half_window_mm * half_window_mm / (2.0 * self.radius_mm);
+        self.removed_everywhere =
+            if touch > 0.25 * at_end { least_removed_mm(flanks, position_mm, touch + at_end, removed_mm) } else { 0.0 };
     }
 
     fn touch_mm(&self) -> f64 {
@@ -186,7 +194,7 @@ impl PairContact for WinklerPair<'_> {
 
     fn settle(&mut self) -> bool {
         self.extent_mm = self.extent_mm();
-        !self.strip.may_touch_beyond(self.touch + self.depth)
+        !self.strip.may_touch_beyond(self.touch + self.depth, self.removed_everywhere)
     }
 
     fn widen(&mut self) {

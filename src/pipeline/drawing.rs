@@ -64,3 +64,55 @@ fn outline_in_place(pair: &GearPair, gear: Gear) -> Vec<[f64; 2]> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gear::flank_surface::FlankSurface;
+    use crate::gear::modification::Modification;
+    use crate::gear::spec::{BasicRack, GearSpec, PairSpec};
+
+    /// The flanks in space, cut in the middle of the face width, are the working flanks drawn, but for the chords between the
+    /// drawing's points. The pair is the preset h501 (FEUP).
+    #[test]
+    fn ver_flanks_in_space_are_those_drawn() {
+        let gear = |teeth, profile_shift| GearSpec {
+            teeth,
+            profile_shift,
+            tip_diameter_mm: None,
+            tooth_thickness_allowance_mm: 0.0,
+            bore_diameter_mm: None,
+            modification: Modification::default(),
+        };
+        let pair = GearPair::new(&PairSpec {
+            normal_module_mm: 3.5,
+            normal_pressure_angle_rad: 20f64.to_radians(),
+            helix_angle_rad: 15f64.to_radians(),
+            centre_distance_mm: 91.5,
+            face_width_mm: 23.0,
+            rack: BasicRack::default(),
+            gears: PerGear { pinion: gear(20, 0.1809), wheel: gear(30, 0.0891) },
+        })
+        .unwrap();
+        let drawing = draw(&pair);
+        for gear in Gear::BOTH {
+            let surface = FlankSurface::new(&pair, gear);
+            let tooth = &pair.teeth[gear];
+            for i in 0..=20 {
+                let rho =
+                    tooth.root_form_rho_mm() + (tooth.tip_rho_mm() - tooth.root_form_rho_mm()) * f64::from(i) / 20.0;
+                let [x, y, z] = surface.point_mm(rho, 11.5, pair.path.pitch_point_mm);
+                let outline = &drawing.outline[gear];
+                let sides = outline.iter().zip(outline.iter().cycle().skip(1));
+                let distance = sides
+                    .map(|(from, to)| {
+                        let (from, side) = (Vector2::from(*from), Vector2::from(*to) - Vector2::from(*from));
+                        let along = ((Vector2::new(x, y) - from).dot(&side) / side.norm_squared()).clamp(0.0, 1.0);
+                        (from + along * side - Vector2::new(x, y)).norm()
+                    })
+                    .fold(f64::INFINITY, f64::min);
+                assert!(distance < 0.01 && z == 11.5, "{gear:?} at {rho}: {distance} mm off the outline");
+            }
+        }
+    }
+}

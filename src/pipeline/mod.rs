@@ -31,7 +31,7 @@ use crate::gear::{GearPair, PairError, PerGear};
 use crate::plan::{Plan, StageKind};
 use crate::reference::flattening::Flattening;
 use crate::scene::{Resolved, Scene};
-use crate::simulation::record::{ErrorSummary, RunRecord, StageTime, StopReason};
+use crate::simulation::record::{ErrorSummary, RunRecord, StageTime, StopReason, Summary};
 use crate::simulation::wear_run::{MeshContact, Outcome, Progress, SimulationError, Unwatched, WearRun};
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
@@ -89,9 +89,9 @@ impl RunError {
 
 /// What a plan came to.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Done {
-    /// Everything that was finished.
-    pub record: RunRecord,
+pub struct Done<R = RunRecord> {
+    /// Everything that was finished, or what is wanted of it.
+    pub record: R,
     /// Why that is not all.
     pub failure: Option<RunError>,
 }
@@ -155,6 +155,37 @@ impl Model<'_> {
 /// [`RunError`] where nothing was finished.
 pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Observer) -> Result<Done, RunError> {
     let start = Instant::now();
+    let mut done = carry_out(resolved, plan, inputs, observer, |model, outcome, summary| {
+        recording::record(resolved, model, outcome, summary)
+    })?;
+    done.record.summary.wall_s = start.elapsed().as_secs_f64();
+    Ok(done)
+}
+
+/// The same for the main figures alone: what only a report reads is not made.
+///
+/// # Errors
+/// [`RunError`] where nothing was finished.
+pub fn summarise(
+    resolved: &Resolved,
+    plan: &Plan,
+    inputs: &Inputs,
+    observer: &dyn Observer,
+) -> Result<Done<Summary>, RunError> {
+    let start = Instant::now();
+    let mut done = carry_out(resolved, plan, inputs, observer, |_, _, summary| summary)?;
+    done.record.wall_s = start.elapsed().as_secs_f64();
+    Ok(done)
+}
+
+/// Carries out `plan` and hands its outcome to `keep`, with a summary that lacks only the whole wall time.
+fn carry_out<R>(
+    resolved: &Resolved,
+    plan: &Plan,
+    inputs: &Inputs,
+    observer: &dyn Observer,
+    keep: impl FnOnce(&Model<'_>, &Outcome, Summary) -> R,
+) -> Result<Done<R>, RunError> {
     let scene = &resolved.scene;
     let mut stages = Stages { observer, times: Vec::new() };
 
@@ -245,9 +276,9 @@ pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Obs
         ErrorSummary::not_estimated(not_estimated_because(&outcome))
     };
 
-    let mut record = recording::record(resolved, plan, &model, &outcome, error)?;
-    record.summary.stages = stages.times;
-    record.summary.wall_s = start.elapsed().as_secs_f64();
+    let mut summary = recording::summary(resolved, plan, &model, &outcome, error)?;
+    summary.stages = stages.times;
+    let record = keep(&model, &outcome, summary);
     Ok(Done { record, failure: outcome.failure.map(RunError::from) })
 }
 

@@ -21,21 +21,34 @@ const STABILITY_LIMIT: f64 = 2.0;
 /// Wear beyond this part of the module is no longer small against the tooth.
 const SMALL_WEAR_MODULES: f64 = 0.05;
 
-/// The record of a run, without the times of its stages.
-pub(super) fn record(
+/// The record of a run.
+pub(super) fn record(resolved: &Resolved, model: &Model<'_>, outcome: &Outcome, summary: Summary) -> RunRecord {
+    RunRecord {
+        summary,
+        scene_toml: resolved.to_toml(),
+        flanks: PerGear::from_fn(|gear| flank(model, outcome, gear)),
+        history: outcome.snapshots.iter().map(|snapshot| history_row(model, outcome, snapshot)).collect(),
+        mesh_cycle: mesh_cycle(outcome),
+        slices: slices::record(model, outcome),
+        drawing: drawing::draw(model.pair),
+    }
+}
+
+/// The main figures of a run, without the times of its stages.
+pub(super) fn summary(
     resolved: &Resolved,
     plan: &Plan,
     model: &Model<'_>,
     outcome: &Outcome,
     error: ErrorSummary,
-) -> Result<RunRecord, RunError> {
+) -> Result<Summary, RunError> {
     let (scene, pair) = (model.scene, model.pair);
     let mut warnings = resolved.warnings.clone();
     warnings.extend(stability_warning(model, outcome));
     warnings.extend(deep_wear_warning(pair, outcome));
     warnings.extend(error_estimates::warnings(&error));
     let reached = outcome.worn.revolutions;
-    let summary = Summary {
+    Ok(Summary {
         title: scene.title.clone(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_hash: resolved.scene_hash(),
@@ -66,15 +79,6 @@ pub(super) fn record(
             pair_evaluations: outcome.work.pair_evaluations,
         },
         warnings,
-    };
-    Ok(RunRecord {
-        summary,
-        scene_toml: resolved.to_toml(),
-        flanks: PerGear::from_fn(|gear| flank(model, outcome, gear)),
-        history: outcome.snapshots.iter().map(|snapshot| history_row(model, outcome, snapshot)).collect(),
-        mesh_cycle: mesh_cycle(outcome),
-        slices: slices::record(model, outcome),
-        drawing: drawing::draw(pair),
     })
 }
 

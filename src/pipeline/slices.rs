@@ -2,7 +2,7 @@
 
 use super::Model;
 use super::recording::UM_PER_MM;
-use crate::gear::{Gear, PerGear};
+use crate::gear::{Gear, PerGear, flank_surface::FlankSurface};
 use crate::simulation::figures::{SliceFigures, WearFigures, variation};
 use crate::simulation::record::{HelicalSummary, LineOfContactSummary, OverWidthSummary, SliceRecord};
 use crate::simulation::wear_run::Outcome;
@@ -80,15 +80,10 @@ fn over_width(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> OverWidthSumm
 /// The mesh of one tooth; none where all sections are alike.
 pub(super) fn record(model: &Model<'_>, outcome: &Outcome) -> Option<SliceRecord> {
     let [new, worn] = meshes(outcome)?;
-    let pair = model.pair;
     Some(SliceRecord {
         width_mm: outcome.slices.width_mm.clone(),
         ahead_mm: outcome.slices.ahead_mm.clone(),
-        twist_rad_per_mm: PerGear {
-            pinion: pair.spec.helix_angle_rad.tan() / pair.teeth.pinion.reference_radius_mm,
-            wheel: -pair.spec.helix_angle_rad.tan() / pair.teeth.wheel.reference_radius_mm,
-        },
-        base_half_angle_rad: pair.teeth.as_ref().map(|tooth| tooth.base_half_angle_rad),
+        surface: PerGear::from_fn(|gear| FlankSurface::new(model.pair, gear)),
         position_mm: new.position_mm.clone(),
         line_load_new_N_per_mm: new.line_load_n_per_mm.clone(),
         line_load_worn_N_per_mm: worn.line_load_n_per_mm.clone(),

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `summary.json` | [`summary`] |
 //! | `pinion.csv`, `wheel.csv`, `history.csv`, `profiles.csv`, `mesh_cycle.csv` | [`tables`] |
+//! | `slices.csv`, `flank.vtu` | [`slice_table`], [`flank_mesh`]; only where the sections of the pair differ |
 //! | `scene.toml` | the resolved scene, byte for byte, so that its SHA-256 begins with the scene hash |
 //! | `report.html` | [`html`] |
 //!
@@ -14,8 +15,11 @@ pub mod accuracy;
 pub mod calibration;
 pub mod fem;
 pub mod fem_pair;
+pub mod flank_mesh;
 pub mod html;
+pub mod slice_table;
 pub mod summary;
+pub mod sweep;
 pub mod tables;
 
 use std::fs;
@@ -56,21 +60,34 @@ pub enum ReportError {
 }
 
 /// Writes all files of `record` but `summary.json` into `dir`, which is made if need be; returns their paths in the order
-/// written.
+/// written. The files that only a pair with slices has are taken away where `record` has none.
 pub fn write_data_and_page(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
     let provenance = tables::Provenance::of(&record.summary);
     let flank = |gear: Gear| move |out: &mut dyn Write| tables::flank(out, provenance, &record.flanks[gear]);
-    Ok(vec![
+    let mut paths = vec![
         place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?,
         place(dir, "pinion.csv", flank(Gear::Pinion))?,
         place(dir, "wheel.csv", flank(Gear::Wheel))?,
         place(dir, "history.csv", |out| tables::history(out, provenance, &record.history))?,
         place(dir, "profiles.csv", |out| tables::profiles(out, provenance, record))?,
         place(dir, "mesh_cycle.csv", |out| tables::mesh_cycle(out, provenance, &record.mesh_cycle))?,
-        place(dir, "report.html", |out| out.write_all(html::page(record).as_bytes()))?,
-    ])
+    ];
+    match &record.slices {
+        Some(slices) => {
+            let path = &record.summary.geometry.curvature_radius_mm;
+            paths.push(place(dir, SLICES, |out| slice_table::slices(out, provenance, slices, path))?);
+            paths.push(place(dir, FLANK, |out| flank_mesh::write(out, record, slices))?);
+        }
+        // What an earlier run left there would pass for this one's.
+        None => [SLICES, FLANK].into_iter().try_for_each(|name| remove(dir, name))?,
+    }
+    paths.push(place(dir, "report.html", |out| out.write_all(html::page(record).as_bytes()))?);
+    Ok(paths)
 }
+
+const SLICES: &str = "slices.csv";
+const FLANK: &str = "flank.vtu";
 
 /// Writes `summary.json` into `dir`, after everything else.
 pub fn write_summary(summary: &Summary, dir: &Path) -> Result<PathBuf, ReportError> {

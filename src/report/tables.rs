@@ -12,12 +12,13 @@ use crate::simulation::accuracy_record::AccuracyRecord;
 use crate::simulation::fem_pair_record::FemPairSummary;
 use crate::simulation::fem_problem_record::FemSummary;
 use crate::simulation::record::{FlankRecord, HistoryRow, MeshCycleRow, RunRecord, Summary};
+use crate::simulation::sweep_record::SweepRecord;
 
 /// Name and meaning of a column.
 pub type Column = (&'static str, &'static str);
 
-/// Columns of `pinion.csv` and `wheel.csv`; rows run from the base circle to the tip circle.
-pub const FLANK: [Column; 9] = [
+/// Columns of `pinion.csv` and `wheel.csv`; rows run from the base circle to the tip circle, slice after slice.
+pub const FLANK: [Column; 10] = [
     ("radius_mm", "distance from the gear's axis, new"),
     ("roll_angle_deg", "roll angle of the transverse involute"),
     ("width_mm", "place over the face width"),
@@ -27,6 +28,7 @@ pub const FLANK: [Column; 9] = [
     ("pressure_new_MPa", "greatest pressure during one mesh, new"),
     ("pressure_worn_MPa", "greatest pressure during one mesh, worn"),
     ("point", "index of the flank point, 0 at the base circle"),
+    ("slice", "number of the slice over the face width, 0 at width 0"),
 ];
 
 /// Columns of `history.csv`; one row per snapshot reached.
@@ -45,13 +47,14 @@ pub const HISTORY: [Column; 11] = [
 ];
 
 /// Columns of `profiles.csv`; both flanks at every snapshot.
-pub const PROFILES: [Column; 6] = [
+pub const PROFILES: [Column; 7] = [
     ("hours", "running time; empty where the scene gives no speed"),
     ("gear", "pinion or wheel"),
     ("radius_mm", "distance from the gear's axis, new"),
     ("width_mm", "place over the face width"),
     ("wear_um", "wear depth, normal to the flank"),
     ("revolutions", "of the pinion"),
+    ("slice", "number of the slice over the face width, 0 at width 0"),
 ];
 
 /// Columns of `mesh_cycle.csv`; one row per loading position of the reference pair, from A to E.
@@ -93,6 +96,12 @@ impl<'a> Provenance<'a> {
         Self { program_version: &record.program_version, input: "scene", hash: &record.scene_hash }
     }
 
+    /// That of a sweep: the hash is that of the scene as given.
+    pub fn of_sweep(record: &'a SweepRecord) -> Self {
+        let identity = &record.identity;
+        Self { program_version: &identity.program_version, input: "scene", hash: &identity.scene_hash }
+    }
+
     /// That of the finite-element problem summarised in `summary`.
     pub fn of_fem(summary: &'a FemSummary) -> Self {
         Self { program_version: &summary.program_version, input: "problem", hash: &summary.problem_hash }
@@ -111,6 +120,7 @@ struct FlankRow {
     pressure_new_MPa: f64,
     pressure_worn_MPa: f64,
     point: usize,
+    slice: usize,
 }
 
 #[derive(Serialize)]
@@ -121,6 +131,7 @@ struct ProfileRow {
     width_mm: f64,
     wear_um: f64,
     revolutions: f64,
+    slice: usize,
 }
 
 /// Writes `pinion.csv` or `wheel.csv`.
@@ -139,6 +150,7 @@ pub fn flank(out: &mut dyn Write, provenance: Provenance, flank: &FlankRecord) -
                 pressure_new_MPa: flank.pressure_new_MPa[place],
                 pressure_worn_MPa: flank.pressure_worn_MPa[place],
                 point,
+                slice,
             }
         })
     });
@@ -155,8 +167,8 @@ pub fn profiles(out: &mut dyn Write, provenance: Provenance, record: &RunRecord)
     let rows = record.history.iter().enumerate().flat_map(|(snapshot, at)| {
         Gear::BOTH.into_iter().flat_map(move |gear| {
             let flank = &record.flanks[gear];
-            let slices = flank.snapshot_wear_um[snapshot].chunks_exact(flank.radius_mm.len());
-            flank.width_mm.iter().zip(slices).flat_map(move |(&width_mm, wear_um)| {
+            let slices = flank.snapshot_wear_um[snapshot].chunks_exact(flank.radius_mm.len().max(1));
+            flank.width_mm.iter().zip(slices).enumerate().flat_map(move |(slice, (&width_mm, wear_um))| {
                 flank.radius_mm.iter().zip(wear_um).map(move |(&radius_mm, &wear_um)| ProfileRow {
                     hours: at.hours,
                     gear,
@@ -164,6 +176,7 @@ pub fn profiles(out: &mut dyn Write, provenance: Provenance, record: &RunRecord)
                     width_mm,
                     wear_um,
                     revolutions: at.revolutions,
+                    slice,
                 })
             })
         })
@@ -180,7 +193,7 @@ pub fn mesh_cycle(out: &mut dyn Write, provenance: Provenance, rows: &[MeshCycle
 pub(super) fn table<R: Serialize>(
     out: &mut dyn Write,
     provenance: Provenance,
-    columns: &[Column],
+    columns: &[(&str, &str)],
     rows: impl IntoIterator<Item = R>,
 ) -> io::Result<()> {
     writeln!(out, "# gearwear {}, {} {}", provenance.program_version, provenance.input, provenance.hash)?;

@@ -25,6 +25,11 @@ impl Findings {
         Self { locator, ..Self::default() }
     }
 
+    /// The places of the file's keys, the findings apart.
+    pub fn into_locator(self) -> Locator {
+        self.locator
+    }
+
     /// The problems, in the order in which they stand in the file.
     pub fn in_order(mut self) -> Vec<Problem> {
         self.problems.sort_by_key(|problem| problem.span.as_ref().map(|span| span.start));

@@ -1,8 +1,10 @@
 //! The user's scene: the file with its checks and presets, resolved into the settings of each layer.
 
+pub mod draft;
 pub mod fem_problem;
 pub mod file;
 mod findings;
+pub mod key;
 mod later;
 mod locate;
 mod nearest;

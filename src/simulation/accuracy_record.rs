@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+pub use super::accuracy_quantity::Quantity;
 use super::record::{PathPoints, StopReason, WorkSummary};
 use crate::gear::PerGear;
 
@@ -41,6 +42,8 @@ pub struct AccuracyRecord {
     pub recommendations: Vec<Recommendation>,
     /// Runs that differ in one respect only, side by side.
     pub comparisons: Vec<Comparison>,
+    /// Runs to a greater depth; `None` where the scene has no slices.
+    pub deep_runs: Option<DeepRuns>,
     /// What the user should know.
     pub warnings: Vec<String>,
     /// The resolved scene as TOML.
@@ -54,123 +57,13 @@ pub struct AccuracyRecord {
     pub calibration_json: Option<String>,
 }
 
-/// What errors are measured of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Quantity {
-    /// Depth over both flanks: the larger of both gears' errors.
-    WearProfile,
-    /// Depth over the pinion's flank.
-    PinionWearProfile,
-    /// Depth over the wheel's flank.
-    WheelWearProfile,
-    /// Greatest depth on the pinion.
-    PinionPeakWear,
-    /// Greatest depth on the wheel.
-    WheelPeakWear,
-    /// Greatest pressure of the unworn pair, at rounded tip edges too.
-    PeakPressure,
-    /// Greatest pressure of the unworn pair away from tip edges.
-    FlankPressure,
-    /// Half-width of the unworn contact where one pair carries the load alone.
-    HalfWidth,
-    /// Loaded transmission error of the unworn pair over the path of contact.
-    TransmissionError,
-    /// Its peak-to-peak value.
-    TransmissionErrorPeakToPeak,
-    /// Loaded transmission error of the worn pair over the path of contact.
-    WornTransmissionError,
-    /// Its peak-to-peak value.
-    WornTransmissionErrorPeakToPeak,
-}
-
-impl Quantity {
-    /// All of them, in the order of the tables.
-    pub const ALL: [Self; 12] = [
-        Self::WearProfile,
-        Self::PinionWearProfile,
-        Self::WheelWearProfile,
-        Self::PinionPeakWear,
-        Self::WheelPeakWear,
-        Self::PeakPressure,
-        Self::FlankPressure,
-        Self::HalfWidth,
-        Self::TransmissionError,
-        Self::TransmissionErrorPeakToPeak,
-        Self::WornTransmissionError,
-        Self::WornTransmissionErrorPeakToPeak,
-    ];
-
-    /// Its name in results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::WearProfile => "wear_profile",
-            Self::PinionWearProfile => "pinion_wear_profile",
-            Self::WheelWearProfile => "wheel_wear_profile",
-            Self::PinionPeakWear => "pinion_peak_wear",
-            Self::WheelPeakWear => "wheel_peak_wear",
-            Self::PeakPressure => "peak_pressure",
-            Self::FlankPressure => "flank_pressure",
-            Self::HalfWidth => "half_width",
-            Self::TransmissionError => "transmission_error",
-            Self::TransmissionErrorPeakToPeak => "transmission_error_peak_to_peak",
-            Self::WornTransmissionError => "worn_transmission_error",
-            Self::WornTransmissionErrorPeakToPeak => "worn_transmission_error_peak_to_peak",
-        }
-    }
-
-    /// What it is, for people.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::WearProfile => "Wear profile, both gears",
-            Self::PinionWearProfile => "Wear profile, pinion",
-            Self::WheelWearProfile => "Wear profile, wheel",
-            Self::PinionPeakWear => "Greatest wear, pinion",
-            Self::WheelPeakWear => "Greatest wear, wheel",
-            Self::PeakPressure => "Greatest pressure, new",
-            Self::FlankPressure => "Greatest pressure away from tip edges, new",
-            Self::HalfWidth => "Half-width in single contact, new",
-            Self::TransmissionError => "Transmission error, new",
-            Self::TransmissionErrorPeakToPeak => "Transmission error peak to peak, new",
-            Self::WornTransmissionError => "Transmission error, worn",
-            Self::WornTransmissionErrorPeakToPeak => "Transmission error peak to peak, worn",
-        }
-    }
-
-    /// How its error is measured.
-    pub fn measure(self) -> &'static str {
-        match self {
-            Self::WearProfile => {
-                "the larger of both gears' relative L2 errors of the depth over the flank's arc length"
-            }
-            Self::PinionWearProfile | Self::WheelWearProfile => {
-                "relative L2 error of the depth over the flank's arc length, √(∫(h − h_ref)² ds / ∫h_ref² ds)"
-            }
-            Self::PinionPeakWear | Self::WheelPeakWear => "relative difference of the greatest depth on the flank",
-            Self::PeakPressure => {
-                "relative difference of the greatest pressure over the path of contact, without the \
-                                   positions at a sharp tip edge"
-            }
-            Self::FlankPressure => {
-                "relative difference of the greatest pressure over the path of contact, without the positions at a tip edge, \
-                 sharp or rounded"
-            }
-            Self::HalfWidth => "relative L2 error of the half-width over the path from B to D",
-            Self::TransmissionError | Self::WornTransmissionError => {
-                "relative L2 error of the transmission error over the path from A to E"
-            }
-            Self::TransmissionErrorPeakToPeak | Self::WornTransmissionErrorPeakToPeak => {
-                "relative difference of the peak-to-peak value over the path from A to E"
-            }
-        }
-    }
-}
-
-/// The finite-element solution that the errors are measured against.
+/// The solution that the errors are measured against.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ReferenceRecord {
     /// How it was obtained.
     pub how: String,
+    /// What the errors against it do not tell; `None` where it is a finite-element solution of the whole pair.
+    pub does_not_tell: Option<String>,
     /// What remains uncertain of each quantity, relative: errors below this are not told apart.
     pub uncertainty: BTreeMap<Quantity, f64>,
     /// The runs it was extrapolated from; indices of `variants`.
@@ -192,10 +85,30 @@ pub struct ReferenceRecord {
 pub struct ReferenceFlank {
     /// Distance from the gear's axis, mm.
     pub radius_mm: Vec<f64>,
-    /// Wear depth, µm.
+    /// Place of each slice over the face width, mm: one where all sections are alike.
+    pub width_mm: Vec<f64>,
+    /// Wear depth, slice after slice, µm.
     pub wear_um: Vec<f64>,
+    /// Greatest depth in the root zone of each slice, µm; empty where all sections are alike.
+    pub root_wear_um: Vec<f64>,
     /// Radii of the points A–E.
     pub path_point_radius_mm: Option<PathPoints>,
+}
+
+impl ReferenceFlank {
+    /// The slices that stand for all: the first, the middle and the last.
+    pub fn shown_slices(&self) -> Vec<usize> {
+        let last = self.width_mm.len().saturating_sub(1);
+        let mut shown = vec![0, self.width_mm.len() / 2, last];
+        shown.dedup();
+        shown
+    }
+
+    /// The values of `field`, given slice after slice at the points of this flank, on one slice.
+    pub fn slice<'a>(&self, field: &'a [f64], slice: usize) -> &'a [f64] {
+        let points = self.radius_mm.len();
+        field.get(slice * points..(slice + 1) * points).unwrap_or_default()
+    }
 }
 
 /// A run: what it was made of, what it took, and how far it is from the reference.
@@ -221,9 +134,12 @@ pub struct VariantRecord {
     pub failure: Option<String>,
     /// Whether the reference was extrapolated from it.
     pub part_of_reference: bool,
-    /// Wear depth at the reference's radii, µm; kept where it is shown.
+    /// Wear depth at the reference's radii and widths, slice after slice, µm; kept where it is shown.
     #[serde(skip)]
     pub wear_um: Option<PerGear<Vec<f64>>>,
+    /// Greatest depth in the root zone at the reference's widths, µm; kept where it is shown.
+    #[serde(skip)]
+    pub root_wear_um: Option<PerGear<Vec<f64>>>,
 }
 
 /// What a run was made of.
@@ -242,6 +158,10 @@ pub struct VariantSettings {
     pub stiffness: Option<String>,
     /// Elements in the half-width of contact, of surface `fem`.
     pub elements_per_half_width: Option<f64>,
+    /// Slices over the face width; `None` where all sections are alike.
+    pub slices: Option<usize>,
+    /// Name of their coupling.
+    pub coupling: Option<String>,
     /// Intervals of a flank.
     pub flank_points: usize,
     /// Loading positions.
@@ -307,4 +227,55 @@ pub struct ComparisonRow {
     pub peak_wear: PerGear<f64>,
     /// Wall time of the wear run, s.
     pub simulation_s: f64,
+}
+
+/// The models run to a greater depth, once with the scene's number of wear steps and once with fewer: a model whose wear
+/// oscillates from step to step then finds other depths, one that does not hardly notices.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DeepRuns {
+    /// What they have in common.
+    pub common: String,
+    /// The scene's revolutions times this.
+    pub revolutions_factor: f64,
+    /// The run that the profiles are compared with.
+    pub baseline: String,
+    /// Beyond this change of the greatest depth with the wear step a run is said to be unstable.
+    pub stable_within: f64,
+    /// The runs.
+    pub rows: Vec<DeepRow>,
+}
+
+/// One model run to a greater depth.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DeepRow {
+    /// The model.
+    pub name: String,
+    /// With the scene's number of wear steps.
+    pub usual: Option<DeepRun>,
+    /// With fewer wear steps.
+    pub fewer_steps: Option<DeepRun>,
+    /// Relative L2 difference of the wear profile from the baseline's, the larger of both gears'; `None` for the baseline.
+    pub wear_profile: Option<f64>,
+    /// Relative change of the greatest depth by the longer steps, the larger of both gears'.
+    pub peak_wear_change: Option<f64>,
+    /// Whether that is within what stable runs change.
+    pub stable: Option<bool>,
+    /// Why there is no result, where there is none.
+    pub failure: Option<String>,
+}
+
+/// One of its runs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DeepRun {
+    /// Wear steps taken.
+    pub wear_steps: u64,
+    /// Wall time of the wear run, s.
+    pub simulation_s: f64,
+    /// Greatest depth of each gear, µm.
+    pub peak_wear_um: PerGear<f64>,
+    /// ‖h − S h‖/‖h‖ of each gear, where S averages each point with its neighbours (1/4, 1/2, 1/4): what of the depth jumps
+    /// from point to point.
+    pub roughness: PerGear<f64>,
+    /// Whether the run warned of its wear step.
+    pub warned: bool,
 }

@@ -1,5 +1,6 @@
 //! The wear run, and the plain records that runs leave behind.
 
+pub mod accuracy_quantity;
 pub mod accuracy_record;
 pub mod fem_pair_record;
 pub mod fem_problem_record;
@@ -7,5 +8,7 @@ pub mod figures;
 pub mod record;
 pub mod settings;
 pub mod simplified;
+pub mod sweep_figures;
+pub mod sweep_record;
 pub mod wear_run;
 pub mod wearing_pair;

@@ -4,7 +4,7 @@
 
 use serde::Serialize;
 
-use crate::gear::PerGear;
+use crate::gear::{PerGear, flank_surface::FlankSurface};
 
 /// A finished (or interrupted) run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -430,10 +430,8 @@ pub struct SliceRecord {
     pub width_mm: Vec<f64>,
     /// How far the theoretical contact point of each slice is ahead of that in the middle of the face width.
     pub ahead_mm: Vec<f64>,
-    /// tan β at radius 1 mm of each gear: a flank point at radius r and width z lies turned by z · this from width 0, rad/mm.
-    pub twist_rad_per_mm: PerGear<f64>,
-    /// Half the tooth's angle at the base circle, rad: with the involute of the roll angle, the place of a flank point.
-    pub base_half_angle_rad: PerGear<f64>,
+    /// Each gear's working flank in space.
+    pub surface: PerGear<FlankSurface>,
     /// Position of the tooth in the middle of the face width: the pinion's radius of curvature, also before A and after E.
     pub position_mm: Vec<f64>,
     /// Load of each slice at each position, position after position, N per mm of face width; new.

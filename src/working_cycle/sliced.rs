@@ -100,7 +100,7 @@ pub struct SlicedCycle<'a> {
 }
 
 /// What a slice's flanks have lost.
-fn of_slice<'a>(field: PerGear<&'a [f64]>, points: PerGear<usize>, slice: usize) -> PerGear<&'a [f64]> {
+fn of_slice(field: PerGear<&[f64]>, points: PerGear<usize>, slice: usize) -> PerGear<&[f64]> {
     PerGear::from_fn(|gear| &field[gear][slice * points[gear]..(slice + 1) * points[gear]])
 }
 

@@ -1,4 +1,6 @@
 //! Error against run time, one plot for each quantity, with its Pareto front.
+//!
+//! Colours and shapes are the surfaces; of pairs with slices, full marks are coupled slices and open ones uncoupled.
 
 use plotly::Plot;
 use plotly::common::{DashType, Marker, MarkerSymbol, Mode};
@@ -31,7 +33,8 @@ const TICKS: [(f64, &str); 12] = [
 struct Kind {
     name: &'static str,
     colour: &'static str,
-    symbol: fn() -> MarkerSymbol,
+    /// With coupled slices, or without slices; with uncoupled ones.
+    symbols: fn() -> [MarkerSymbol; 2],
     holds: fn(&VariantRecord) -> bool,
 }
 
@@ -39,39 +42,45 @@ const KINDS: [Kind; 6] = [
     Kind {
         name: "hertz-mean",
         colour: "var(--new)",
-        symbol: || MarkerSymbol::Circle,
+        symbols: || [MarkerSymbol::Circle, MarkerSymbol::CircleOpen],
         holds: |v| v.settings.surface == "hertz-mean",
     },
     Kind {
         name: "hertz",
         colour: "var(--wheel)",
-        symbol: || MarkerSymbol::Square,
+        symbols: || [MarkerSymbol::Square, MarkerSymbol::SquareOpen],
         holds: |v| v.settings.surface == "hertz",
     },
     Kind {
         name: "winkler, one K/H",
         colour: "var(--pinion)",
-        symbol: || MarkerSymbol::CircleOpen,
+        symbols: || [MarkerSymbol::TriangleDown, MarkerSymbol::TriangleDownOpen],
         holds: |v| v.settings.surface == "winkler" && !v.settings.calibrated,
     },
     Kind {
         name: "winkler, calibrated",
         colour: "var(--pinion)",
-        symbol: || MarkerSymbol::Diamond,
+        symbols: || [MarkerSymbol::Diamond, MarkerSymbol::DiamondOpen],
         holds: |v| v.settings.surface == "winkler" && v.settings.calibrated,
     },
     Kind {
         name: "half-space",
         colour: "var(--path)",
-        symbol: || MarkerSymbol::TriangleUp,
+        symbols: || [MarkerSymbol::TriangleUp, MarkerSymbol::TriangleUpOpen],
         holds: |v| v.settings.surface == "half-space",
     },
-    Kind { name: "fem", colour: "var(--worn)", symbol: || MarkerSymbol::Cross, holds: |v| v.settings.surface == "fem" },
+    Kind {
+        name: "fem",
+        colour: "var(--worn)",
+        symbols: || [MarkerSymbol::Cross, MarkerSymbol::CrossOpen],
+        holds: |v| v.settings.surface == "fem",
+    },
 ];
 
 /// One plot for each quantity.
 pub fn all(record: &AccuracyRecord) -> Vec<Figure> {
-    Quantity::ALL.into_iter().map(|quantity| front(record, quantity)).collect()
+    let measured = |quantity: &Quantity| record.variants.iter().any(|v| v.errors.contains_key(quantity));
+    Quantity::ALL.into_iter().filter(measured).map(|quantity| front(record, quantity)).collect()
 }
 
 fn front(record: &AccuracyRecord, quantity: Quantity) -> Figure {
@@ -96,27 +105,37 @@ fn front(record: &AccuracyRecord, quantity: Quantity) -> Figure {
         .hover_info(plotly::common::HoverInfo::Skip),
     );
     for kind in &KINDS {
-        let of_kind: Vec<_> = runs(kind.holds).collect();
-        if of_kind.is_empty() {
-            continue;
+        let [coupled, uncoupled] = (kind.symbols)();
+        let groups = [(None, coupled.clone()), (Some("slicing"), coupled), (Some("none"), uncoupled)];
+        for (coupling, symbol) in groups {
+            let of_kind: Vec<_> =
+                runs(kind.holds).filter(|(v, ..)| v.settings.coupling.as_deref() == coupling).collect();
+            if of_kind.is_empty() {
+                continue;
+            }
+            let text: Vec<String> = of_kind
+                .iter()
+                .map(|(v, wall_s, error, _)| format!("{}: {}, {} s", v.name, percent(*error), significant(*wall_s, 3)))
+                .collect();
+            let sizes: Vec<usize> = of_kind.iter().map(|(v, ..)| size(v)).collect();
+            let name = match coupling {
+                None => kind.name.to_owned(),
+                Some("slicing") => format!("{}, coupled", kind.name),
+                Some(_) => format!("{}, uncoupled", kind.name),
+            };
+            plot.add_trace(
+                curve(
+                    &name,
+                    of_kind.iter().map(|run| run.1),
+                    of_kind.iter().map(|run| shown(run.2)),
+                    line(kind.colour, 1.0, DashType::Solid),
+                )
+                .mode(Mode::Markers)
+                .marker(Marker::new().color(kind.colour).symbol(symbol).size_array(sizes))
+                .hover_text_array(text)
+                .hover_template("%{hovertext}<extra></extra>"),
+            );
         }
-        let text: Vec<String> = of_kind
-            .iter()
-            .map(|(v, wall_s, error, _)| format!("{}: {}, {} s", v.name, percent(*error), significant(*wall_s, 3)))
-            .collect();
-        let sizes: Vec<usize> = of_kind.iter().map(|(v, ..)| size(v)).collect();
-        plot.add_trace(
-            curve(
-                kind.name,
-                of_kind.iter().map(|run| run.1),
-                of_kind.iter().map(|run| shown(run.2)),
-                line(kind.colour, 1.0, DashType::Solid),
-            )
-            .mode(Mode::Markers)
-            .marker(Marker::new().color(kind.colour).symbol((kind.symbol)()).size_array(sizes))
-            .hover_text_array(text)
-            .hover_template("%{hovertext}<extra></extra>"),
-        );
     }
     let times: Vec<f64> = runs(|_| true).map(|run| run.1).collect();
     let ends = [times.iter().copied().fold(f64::INFINITY, f64::min), times.iter().copied().fold(0.0, f64::max)];
@@ -143,7 +162,7 @@ fn front(record: &AccuracyRecord, quantity: Quantity) -> Figure {
             ),
     );
     Figure {
-        id: format!("front-{}", quantity.name().replace('_', "-")),
+        id: format!("front-{}", quantity.name().to_lowercase().replace('_', "-")),
         title: quantity.title().to_owned(),
         reading: reading(record, quantity, uncertainty),
         plot,

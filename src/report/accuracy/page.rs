@@ -1,16 +1,17 @@
 //! `report.html` of a comparison of models.
 
-use super::{front_figures, profile_figures, run_tables};
+use super::{OVER_WIDTH, front_figures, has_slices, profile_figures, run_tables};
 use crate::report::html::number::{percent, significant};
 use crate::report::html::page::{Page, escape, plots, section, sources_list};
 use crate::simulation::accuracy_record::{AccuracyRecord, CALIBRATION_FILE, Quantity};
 use crate::simulation::record::StopReason;
 
 /// The data files named in the page, which lie beside it.
-const DATA_FILES: [(&str, &str); 6] = [
+const DATA_FILES: [(&str, &str); 7] = [
     ("accuracy.json", "everything: the reference, every run with its errors, the recommendations"),
     ("accuracy.csv", "one row per run: settings, times, work, errors, fronts"),
     ("wear_profiles.csv", "wear over both flanks, reference and runs of the finest resolution"),
+    (OVER_WIDTH, "root wear over the face width, reference and runs of the finest resolution"),
     ("scene.toml", "the resolved scene"),
     ("recommended.toml", "the scene of the recommended run of the wear profile"),
     ("calibration.json", "the calibration that the runs read"),
@@ -21,9 +22,10 @@ pub fn page(record: &AccuracyRecord) -> String {
     let mut figures = front_figures::all(record);
     figures.splice(1..1, profile_figures::all(record));
     let reference = format!(
-        "<p>The reference is {}. Run times are wall times of the wear run alone on {} thread{}, each run by itself; a short \
+        "<p>The reference is {}.{} Run times are wall times of the wear run alone on {} thread{}, each run by itself; a short \
          run is repeated and its least time counts.</p>\n",
         escape(&record.reference.how),
+        record.reference.does_not_tell.as_ref().map_or_else(String::new, |open| format!(" {}", escape(open))),
         record.threads,
         if record.threads == 1 { "" } else { "s" }
     );
@@ -31,7 +33,13 @@ pub fn page(record: &AccuracyRecord) -> String {
         section(
             "recommendation",
             "Recommendation",
-            &[reference, run_tables::recommendations(record), run_tables::comparisons(record)].concat(),
+            &[
+                reference,
+                run_tables::recommendations(record),
+                run_tables::comparisons(record),
+                run_tables::deep_runs(record),
+            ]
+            .concat(),
         ),
         section("plots", "Error against run time", &plots(&figures)),
         section("runs", "All runs", &[run_tables::runs(record), run_tables::left_out(record)].concat()),
@@ -58,7 +66,8 @@ pub fn page(record: &AccuracyRecord) -> String {
 /// The files that are there.
 fn data_files(record: &AccuracyRecord) -> Vec<(&'static str, &'static str)> {
     let missing = |name: &str| {
-        name == CALIBRATION_FILE && record.calibration_json.is_none()
+        name == OVER_WIDTH && !has_slices(record)
+            || name == CALIBRATION_FILE && record.calibration_json.is_none()
             || name == "recommended.toml" && record.recommended_toml.is_none()
     };
     DATA_FILES.into_iter().filter(|(name, _)| !missing(name)).collect()
@@ -77,7 +86,8 @@ fn answer(record: &AccuracyRecord) -> String {
     let reference = record.variants.first().and_then(|finest| finest.simulation_s);
     let against = reference.map_or_else(String::new, |reference_s| {
         format!(
-            " The finest finite-element run takes {} s, {} times as long.",
+            " The finest {} takes {} s, {} times as long.",
+            if has_slices(record) { "run, that the reference begins with," } else { "finite-element run" },
             significant(reference_s, 3),
             significant(reference_s / wall_s, 2)
         )

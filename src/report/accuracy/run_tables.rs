@@ -1,11 +1,11 @@
-//! The tables of the page: recommendations, all runs, runs that differ in one respect, what was left out.
+//! The tables of the page: recommendations, all runs, runs that differ in one respect, runs to a greater depth, what was left out.
 
 use crate::report::html::number::{count, fixed, percent, significant};
 use crate::report::html::page::escape;
-use crate::simulation::accuracy_record::{AccuracyRecord, Comparison, Quantity, VariantRecord};
+use crate::simulation::accuracy_record::{AccuracyRecord, Comparison, DeepRun, Quantity, VariantRecord};
 
-/// The quantities with a column of their own in the table of all runs.
-const SHOWN: [(Quantity, &str); 7] = [
+/// The quantities with a column of their own in the table of all runs, where they are measured.
+const SHOWN: [(Quantity, &str); 9] = [
     (Quantity::WearProfile, "wear profile"),
     (Quantity::PinionPeakWear, "pinion’s peak wear"),
     (Quantity::PeakPressure, "peak pressure"),
@@ -13,6 +13,8 @@ const SHOWN: [(Quantity, &str); 7] = [
     (Quantity::HalfWidth, "half-width"),
     (Quantity::TransmissionError, "transmission error"),
     (Quantity::WornTransmissionError, "the same, worn"),
+    (Quantity::RootWear, "root wear"),
+    (Quantity::WornFaceLoadFactor, "K_Hβ, worn"),
 ];
 
 /// A table of text cells; the first column names the row.
@@ -60,7 +62,9 @@ pub fn runs(record: &AccuracyRecord) -> String {
     let error = |v: &VariantRecord| v.errors.get(&Quantity::WearProfile).map_or(f64::INFINITY, |e| e.relative);
     sorted.sort_by(|a, b| error(a).total_cmp(&error(b)));
     let mut columns = vec!["run", "time, s", "set-up, s", "equilibria"];
-    columns.extend(SHOWN.map(|(_, name)| name));
+    let measured = |quantity: Quantity| record.variants.iter().any(|v| v.errors.contains_key(&quantity));
+    let shown: Vec<(Quantity, &str)> = SHOWN.into_iter().filter(|&(quantity, _)| measured(quantity)).collect();
+    columns.extend(shown.iter().map(|&(_, name)| name));
     let rows = sorted.into_iter().map(|v| {
         let mut cells = vec![
             match &v.failure {
@@ -71,8 +75,8 @@ pub fn runs(record: &AccuracyRecord) -> String {
             v.setup_s.map_or_else(dash, |wall_s| fixed(wall_s, 2)),
             v.work.map_or_else(dash, |work| count(work.equilibria)),
         ];
-        cells.extend(SHOWN.map(|(quantity, _)| {
-            v.errors.get(&quantity).map_or_else(dash, |error| {
+        cells.extend(shown.iter().map(|(quantity, _)| {
+            v.errors.get(quantity).map_or_else(dash, |error| {
                 format!("{}{}", percent(error.relative), if error.on_front { " ●" } else { "" })
             })
         }));
@@ -102,6 +106,55 @@ fn comparison(of: &Comparison) -> String {
         ]
     });
     let caption = format!("{}: differences from {}, {}", of.title, of.baseline, of.common);
+    table(&caption, &columns, rows)
+}
+
+/// The models run to a greater depth, and whether they stay stable.
+pub fn deep_runs(record: &AccuracyRecord) -> String {
+    let Some(deep) = &record.deep_runs else { return String::new() };
+    let columns = [
+        "model",
+        "greatest wear, µm, pinion / wheel",
+        "profile",
+        "roughness",
+        "steps",
+        "time, s",
+        "fewer steps",
+        "time, s",
+        "change of greatest wear",
+        "roughness",
+        "stable",
+    ];
+    let rows = deep.rows.iter().map(|row| {
+        let name = row.failure.as_ref().map_or_else(|| row.name.clone(), |failure| format!("{}: {failure}", row.name));
+        let of = |run: &Option<DeepRun>, cell: fn(&DeepRun) -> String| run.as_ref().map_or_else(dash, cell);
+        let rough = |run: &DeepRun| percent(run.roughness.pinion.max(run.roughness.wheel));
+        let steps = |run: &DeepRun| format!("{}{}", run.wear_steps, if run.warned { " (warned)" } else { "" });
+        let time = |run: &DeepRun| significant(run.simulation_s, 3);
+        let deepest = |run: &DeepRun| {
+            format!("{} / {}", significant(run.peak_wear_um.pinion, 3), significant(run.peak_wear_um.wheel, 3))
+        };
+        vec![
+            name,
+            of(&row.usual, deepest),
+            row.wear_profile.map_or_else(dash, percent),
+            of(&row.usual, rough),
+            of(&row.usual, steps),
+            of(&row.usual, time),
+            of(&row.fewer_steps, steps),
+            of(&row.fewer_steps, time),
+            row.peak_wear_change.map_or_else(dash, percent),
+            of(&row.fewer_steps, rough),
+            row.stable.map_or_else(dash, |stable| if stable { "yes" } else { "no" }.to_owned()),
+        ]
+    });
+    let caption = format!(
+        "To a greater depth: {}. Profile: difference from {}. Stable: with the fewer, longer wear steps the greatest wear of \
+         neither gear changes by more than {}. Roughness: what of the depth jumps from point to point",
+        deep.common,
+        deep.baseline,
+        percent(deep.stable_within)
+    );
     table(&caption, &columns, rows)
 }
 

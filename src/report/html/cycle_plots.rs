@@ -8,7 +8,7 @@ use super::theme::{Figure, axis, from_zero, layout, mark_path_points, named, new
 use crate::simulation::record::{MeshCycleRow, PathPoints, RunRecord};
 
 /// A pair that carries at least this share of the load counts as carrying it alone.
-const ALONE: f64 = 0.9995;
+pub const ALONE: f64 = 0.9995;
 
 /// Load share, transmission error and greatest pressure over the cycle, new and worn.
 pub fn all(record: &RunRecord) -> Vec<Figure> {
@@ -36,7 +36,8 @@ fn load_sharing(record: &RunRecord) -> Figure {
     )
 }
 
-fn transmission_error(record: &RunRecord) -> Figure {
+/// Loaded transmission error.
+pub fn transmission_error(record: &RunRecord) -> Figure {
     let (new, worn) = (&record.summary.new.transmission_error_um, &record.summary.worn.transmission_error_um);
     let reading = if record.mesh_cycle.is_empty() {
         NOT_COMPUTED.into()
@@ -101,7 +102,8 @@ fn pressure(record: &RunRecord) -> Figure {
     )
 }
 
-const NOT_COMPUTED: &str = "The run ended before a working cycle was evaluated.";
+/// What to say of a run without a working cycle.
+pub const NOT_COMPUTED: &str = "The run ended before a working cycle was evaluated.";
 
 /// What a plot over the cycle is called.
 struct Words {

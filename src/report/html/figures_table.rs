@@ -2,13 +2,15 @@
 
 use super::number::{change, figure, fixed, percent, significant};
 use super::page::escape;
+use super::sliced;
 use super::table::{row, table};
 use crate::simulation::record::{ErrorSummary, GearSummary, RunRecord, Summary, WearSummary};
 
 /// All tables, in the order of the page.
 pub fn tables(record: &RunRecord) -> String {
     let s = &record.summary;
-    [new_and_worn(s), wear(s), pair(s), gears(s), contact(s)].concat()
+    let sliced = s.helical.as_ref().map_or_else(String::new, sliced::tables::tables);
+    [new_and_worn(s), wear(s), sliced, pair(s), gears(s), contact(s)].concat()
 }
 
 fn new_and_worn(s: &Summary) -> String {

@@ -1,13 +1,14 @@
-//! Plots over a flank, from root to tip: wear at every snapshot, greatest pressure, modifications.
+//! Plots over a flank whose sections are alike, from root to tip: wear at every snapshot, greatest pressure, modifications.
 
 use plotly::Plot;
 use plotly::common::DashType;
 
+use super::active_flank::ActiveFlank;
 use super::number::{figure, given, plotted, revolutions};
 use super::reading::{Extreme, greatest, place_on_flank, tip_edge_note};
-use super::theme::{self, Figure, axis, curve, layout, line, mark_path_points, new_and_worn, padded};
+use super::theme::{self, Figure, axis, curve, layout, line, mark_path_points, new_and_worn};
 use crate::gear::Gear;
-use crate::simulation::record::{FlankRecord, HistoryRow, RunRecord};
+use crate::simulation::record::{HistoryRow, RunRecord};
 
 /// At most so many snapshots are drawn, evenly chosen: more curves than that cannot be told apart.
 const CURVES: usize = 12;
@@ -28,7 +29,7 @@ pub fn wear(record: &RunRecord) -> Vec<Figure> {
 
 fn wear_of(record: &RunRecord, gear: Gear, depth_um: f64) -> Figure {
     let flank = &record.flanks[gear];
-    let active = Active::of(flank);
+    let active = ActiveFlank::of(flank);
     let radius = active.cut(&flank.radius_mm);
     let mut plot = Plot::new();
     let drawn = drawn_snapshots(record.history.len());
@@ -49,7 +50,7 @@ fn wear_of(record: &RunRecord, gear: Gear, depth_um: f64) -> Figure {
     plot.set_layout(mark_path_points(
         layout(400)
             .show_legend(true)
-            .x_axis(radius_axis(gear, &active))
+            .x_axis(active.axis(gear))
             .y_axis(axis("wear depth, µm").range(vec![bottom, -0.02 * bottom])),
         &flank.path_point_radius_mm,
     ));
@@ -96,7 +97,7 @@ pub fn pressure(record: &RunRecord) -> Vec<Figure> {
 
 fn pressure_on(record: &RunRecord, gear: Gear, top_mpa: f64) -> Figure {
     let flank = &record.flanks[gear];
-    let active = Active::of(flank);
+    let active = ActiveFlank::of(flank);
     let mut plot = Plot::new();
     new_and_worn(
         &mut plot,
@@ -108,7 +109,7 @@ fn pressure_on(record: &RunRecord, gear: Gear, top_mpa: f64) -> Figure {
     plot.set_layout(mark_path_points(
         layout(380)
             .show_legend(true)
-            .x_axis(radius_axis(gear, &active))
+            .x_axis(active.axis(gear))
             .y_axis(axis("greatest pressure, MPa").range(theme::from_zero(top_mpa).to_vec())),
         &flank.path_point_radius_mm,
     ));
@@ -142,7 +143,7 @@ pub fn modifications(record: &RunRecord) -> Vec<Figure> {
 
 fn modifications_of(record: &RunRecord, gear: Gear) -> Figure {
     let flank = &record.flanks[gear];
-    let active = Active::of(flank);
+    let active = ActiveFlank::of(flank);
     let removed = active.cut(&flank.removed_um);
     let radius = active.cut(&flank.radius_mm);
     let (least, most) = removed.iter().fold((0.0_f64, 0.0_f64), |(a, b), &h| (a.min(h), b.max(h)));
@@ -154,7 +155,7 @@ fn modifications_of(record: &RunRecord, gear: Gear) -> Figure {
     plot.set_layout(mark_path_points(
         layout(320)
             .show_legend(false)
-            .x_axis(radius_axis(gear, &active))
+            .x_axis(active.axis(gear))
             .y_axis(axis("material removed, µm").range(vec![most + 0.06 * span, least - 0.04 * span])),
         &flank.path_point_radius_mm,
     ));
@@ -180,31 +181,6 @@ fn gear_wear(record: &RunRecord, gear: Gear) -> &crate::simulation::record::Wear
     match gear {
         Gear::Pinion => &record.summary.pinion,
         Gear::Wheel => &record.summary.wheel,
-    }
-}
-
-fn radius_axis(gear: Gear, active: &Active) -> plotly::layout::Axis {
-    axis(&format!("radius on the {}, mm", gear.name())).range(padded(active.from_mm, active.to_mm)).hover_format(".3f")
-}
-
-/// The part of a flank that is drawn: a little below the start of active profile up to the tip.
-struct Active {
-    first: usize,
-    from_mm: f64,
-    to_mm: f64,
-}
-
-impl Active {
-    fn of(flank: &FlankRecord) -> Self {
-        let ends = theme::named(&flank.path_point_radius_mm).map(|(_, radius)| radius);
-        let from_mm = ends.iter().copied().fold(f64::INFINITY, f64::min);
-        let to_mm = ends.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let margin = 0.03 * (to_mm - from_mm);
-        Self { first: flank.radius_mm.partition_point(|&r| r < from_mm - margin), from_mm, to_mm }
-    }
-
-    fn cut(&self, values: &[f64]) -> Vec<f64> {
-        values.get(self.first..).unwrap_or_default().to_vec()
     }
 }
 

@@ -4,6 +4,7 @@
   "use strict";
   const PRINT_WIDTH = 670; // px: an A4 page less its margins
   const NARROW = 480; // px: below this a plot is that of a phone
+  const FARTHER = 1.8; // how much farther away a phone looks at a scene in space, which is wider than its screen
   const BUTTONS = 26; // px: height of a plot's buttons, which show all the time where there is no mouse to hover
   const root = document.documentElement;
   const touch = matchMedia("(pointer: coarse)").matches;
@@ -51,6 +52,7 @@
     if (layout.width < NARROW) {
       layout.legend.font.size = 11;
       layout.height = Math.min(layout.height, layout.width + (plot.node.closest(".wide") ? 140 : 40));
+      if (layout.scene) for (const axis of "xyz") layout.scene.camera.eye[axis] *= FARTHER;
     }
     if (buttonsShown && !printing()) {
       layout.margin.t += BUTTONS;

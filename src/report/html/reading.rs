@@ -1,6 +1,6 @@
 //! Words for places and moments: the sentences that say what the numbers mean.
 
-use super::number::{change, figure, given, revolutions, significant};
+use super::number::{change, figure, given, percent, revolutions, significant};
 use super::theme::named;
 use crate::simulation::record::RunRecord;
 use crate::simulation::record::{FlankRecord, StopReason, Summary, WearSummary};
@@ -83,18 +83,40 @@ pub fn answer(record: &RunRecord) -> String {
     if record.history.is_empty() {
         return text;
     }
-    let positions = named(&s.geometry.curvature_radius_mm);
-    let worn = greatest(&record.mesh_cycle.iter().map(|row| row.peak_pressure_worn_MPa).collect::<Vec<_>>());
-    let place = worn.map_or_else(String::new, |at| among(&positions, record.mesh_cycle[at.index].position_mm));
     text.push_str(&format!(
-        " The greatest pressure, {place}, went from {} to {} MPa ({}), the transmission error peak to peak from {} to {} µm.",
+        " The greatest pressure, {}, went from {} to {} MPa ({}), the transmission error peak to peak from {} to {} µm.",
+        place_of_pressure(record),
         figure(s.new.peak_pressure_MPa),
         figure(s.worn.peak_pressure_MPa),
         change(s.new.peak_pressure_MPa, s.worn.peak_pressure_MPa),
         figure(s.new.transmission_error_um.peak_to_peak),
         figure(s.worn.transmission_error_um.peak_to_peak),
     ));
+    if let Some(helical) = &s.helical {
+        let wear = &helical.wear.pinion;
+        text.push_str(&format!(
+            " Over the face width the pinion’s root wear varies by {} of its mean and its tip wear by {}; the face load factor \
+             went from {} to {}.",
+            percent(wear.root_variation),
+            percent(wear.tip_variation),
+            figure(helical.K_Hbeta_new),
+            figure(helical.K_Hbeta_worn),
+        ));
+    }
     text
+}
+
+/// Where the pressure of the worn pair is greatest: on the pinion's flank where slices are at different places of the path.
+fn place_of_pressure(record: &RunRecord) -> String {
+    if record.slices.is_some() {
+        let flank = &record.flanks.pinion;
+        let at = greatest(&flank.pressure_worn_MPa);
+        return at
+            .map_or_else(String::new, |at| place_on_flank(flank, flank.radius_mm[at.index % flank.radius_mm.len()]));
+    }
+    let positions = named(&record.summary.geometry.curvature_radius_mm);
+    let worn = greatest(&record.mesh_cycle.iter().map(|row| row.peak_pressure_worn_MPa).collect::<Vec<_>>());
+    worn.map_or_else(String::new, |at| among(&positions, record.mesh_cycle[at.index].position_mm))
 }
 
 fn depth(flank: &FlankRecord, wear: &WearSummary) -> String {

@@ -24,7 +24,15 @@ use super::{Resolved, Scene, later, presets, text, unit_slip};
 /// # Errors
 /// Everything that is wrong with it.
 pub fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
-    let (table, mut findings) = text::parse(text)?;
+    let (table, findings) = text::parse(text)?;
+    resolve_table(table, findings)
+}
+
+/// Resolves a scene file that was read before; `findings` know where its keys stand.
+///
+/// # Errors
+/// Everything that is wrong with it.
+pub fn resolve_table(table: Table, mut findings: Findings) -> Result<Resolved, Vec<Problem>> {
     let format = Format { root: Node::root(schema()), later: later::SCENE };
     let sound = with_preset(shape::check(format, &table, &mut findings));
     // A value outside its range is a suspect too, so the slips are looked for in the file as it is.

@@ -1,0 +1,234 @@
+//! `gearwear sweep`: the scene's run for all combinations of some varied keys, and `gearwear sweep merge`.
+
+use std::fs;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+use gearwear::report;
+use gearwear::scene::draft::Draft;
+use gearwear::simulation::sweep_record::{Shard, SweepRecord};
+use gearwear::sweep::axis::{self, AxisError};
+use gearwear::sweep::combination::Sweep;
+use gearwear::sweep::journal::{self, Contents, Journal, JournalError};
+use gearwear::sweep::merge::merge;
+use gearwear::sweep::study::{self, Ended};
+
+use super::failure::{Failure, InputError, SceneProblems};
+use super::figures::digits;
+use super::run::{thread_count, watch_for_interrupt};
+use super::sweep_progress::SweepProgress;
+use super::{say, scene_source, stdout, warn};
+
+/// Arguments of `sweep`.
+#[derive(Debug, clap::Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub struct Args {
+    #[command(flatten)]
+    run: Option<RunArgs>,
+    #[command(subcommand)]
+    part: Option<Part>,
+}
+
+/// A sweep to run.
+#[derive(Debug, clap::Args)]
+pub struct RunArgs {
+    /// The scene file; - reads standard input
+    #[arg(required = true)]
+    scene: PathBuf,
+    /// A key of the scene that takes a number, and its values: COUNT of them evenly from FROM to TO, both included.
+    /// May be given several times: all combinations are run
+    #[arg(long, value_name = "KEY=FROM:TO:COUNT", required = true)]
+    vary: Vec<String>,
+    /// The folder for the results; a sweep that was stopped goes on where it was
+    #[arg(long, value_name = "DIR", required = true)]
+    out: PathBuf,
+    /// Run only part I of N, every N-th combination; each part into a folder of its own, merged afterwards
+    #[arg(long, value_name = "I/N", value_parser = shard)]
+    shard: Option<Shard>,
+    /// Number of threads; default: all cores. Never changes the results, but the times
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// Estimate the errors of each combination, which costs extra runs and warns where they are large
+    #[arg(long)]
+    error_estimate: bool,
+    /// Show neither progress nor figures, only what is wrong
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+#[derive(Debug, clap::Subcommand)]
+enum Part {
+    /// Make one sweep from the folders of its shards
+    Merge(MergeArgs),
+}
+
+/// Shards to merge.
+#[derive(Debug, clap::Args)]
+pub struct MergeArgs {
+    /// The folders of the shards, in any order
+    #[arg(value_name = "DIR", required = true)]
+    folders: Vec<PathBuf>,
+    /// The folder for the results of the whole sweep
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Show no figures, only what is wrong
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+fn shard(text: &str) -> Result<Shard, String> {
+    let parsed = text
+        .split_once('/')
+        .and_then(|(number, of)| Some(Shard { number: number.trim().parse().ok()?, of: of.trim().parse().ok()? }));
+    match parsed {
+        Some(shard) if (1..=shard.of).contains(&shard.number) && shard.of <= axis::MOST_COMBINATIONS => Ok(shard),
+        _ => Err("allowed: I/N with I from 1 to N, such as 3/10".to_owned()),
+    }
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    match (&args.part, &args.run) {
+        (Some(Part::Merge(args)), _) => merge_shards(args),
+        (None, Some(args)) => run_sweep(args),
+        (None, None) => Err(InputError::Vary(AxisError::Form { given: String::new() }).into()),
+    }
+}
+
+fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
+    let source = scene_source::resolve(&args.scene)?;
+    warn(&source.resolved.warnings);
+    let axes = axis::parse_all(args.vary.iter().map(String::as_str)).map_err(InputError::Vary)?;
+    warn(&axes.iter().filter_map(axis::partly_not_allowed).collect::<Vec<_>>());
+    let sweep = Sweep::new(&source.text, &source.resolved, source.inputs.clone(), axes, args.error_estimate);
+    let sweep = sweep.map_err(|problems| {
+        Failure::Scene(SceneProblems { name: source.name.clone(), text: source.text.clone(), problems })
+    })?;
+    report::writable(&args.out)?;
+    let threads = thread_count(args.threads);
+
+    let start = Instant::now();
+    let interrupted = watch_for_interrupt();
+    let mut journal = Journal::open(&args.out, &sweep.identity, args.shard).map_err(InputError::Journal)?;
+    report::sweep::begin(&source.text, &args.out)?;
+    let total = study::part(sweep.identity.combinations(), args.shard).count();
+    if !args.quiet {
+        say(&begun(&sweep, args, total, journal.rows.len()));
+    }
+    let progress = SweepProgress::new(args.quiet, Arc::clone(&interrupted));
+    let ended = study::run(&sweep, args.shard, &mut journal, threads, &progress);
+    progress.finish();
+    if ended.map_err(InputError::Journal)? == Ended::Interrupted {
+        let (finished, out) = (journal.rows.len(), args.out.display());
+        say(&format!(
+            "interrupted: {finished} of {total} combinations are finished and kept in {out}; the same command goes on there"
+        ));
+        return Err(Failure::Interrupted);
+    }
+    let record = SweepRecord {
+        identity: sweep.identity,
+        shard: args.shard,
+        scene_toml: source.text,
+        rows: std::mem::take(&mut journal.rows).into_values().collect(),
+        threads,
+        wall_s: start.elapsed().as_secs_f64(),
+    };
+    finish(&record, &args.out, args.quiet)
+}
+
+/// What is about to be run.
+fn begun(sweep: &Sweep, args: &RunArgs, total: usize, finished: usize) -> String {
+    let part = args.shard.map_or_else(String::new, |shard| {
+        format!(", shard {}/{} of {}", shard.number, shard.of, sweep.identity.combinations())
+    });
+    let before = if finished > 0 { format!(", {finished} of them finished before") } else { String::new() };
+    let estimates = if args.error_estimate {
+        String::new()
+    } else {
+        "; errors are not estimated (--error-estimate does it)".to_owned()
+    };
+    format!("{total} combinations{part}{before}{estimates}")
+}
+
+fn merge_shards(args: &MergeArgs) -> Result<(), Failure> {
+    let same = |folder: &PathBuf| matches!((folder.canonicalize(), args.out.canonicalize()), (Ok(a), Ok(b)) if a == b);
+    if let Some(folder) = args.folders.iter().find(|folder| same(folder)) {
+        return Err(InputError::MergeIntoShard { name: folder.display().to_string() }.into());
+    }
+    let start = Instant::now();
+    let whole = merge(&args.folders).map_err(InputError::Merge)?;
+    let scene_toml = scene_of(&whole, &args.folders)?;
+    report::writable(&args.out)?;
+    not_another_sweep(&whole, &args.out).map_err(InputError::Journal)?;
+    journal::write(&args.out, &whole).map_err(|source| {
+        InputError::Journal(JournalError::Open { path: args.out.join(journal::FILE_NAME), source })
+    })?;
+    let record = SweepRecord {
+        identity: whole.identity,
+        shard: None,
+        scene_toml,
+        rows: whole.rows.into_values().collect(),
+        threads: 0,
+        wall_s: start.elapsed().as_secs_f64(),
+    };
+    finish(&record, &args.out, args.quiet)
+}
+
+/// Rows that stand in `out` already must be those of this sweep: they are about to be replaced.
+fn not_another_sweep(whole: &Contents, out: &Path) -> Result<(), JournalError> {
+    let differences = match journal::read(out) {
+        Ok(found) => found.identity.differences(&whole.identity),
+        Err(JournalError::NoSweep { .. }) => Vec::new(),
+        Err(error) => return Err(error),
+    };
+    if differences.is_empty() {
+        return Ok(());
+    }
+    Err(JournalError::OtherSweep { path: out.join(journal::FILE_NAME), differences })
+}
+
+/// The scene of the sweep, from the first folder that has it.
+fn scene_of(whole: &Contents, folders: &[PathBuf]) -> Result<String, InputError> {
+    let of_sweep = |text: &String| Draft::parse(text).is_ok_and(|draft| draft.hash() == whole.identity.given_hash);
+    let read = |folder: &PathBuf| fs::read_to_string(folder.join(report::sweep::SCENE)).ok();
+    folders.iter().filter_map(read).find(of_sweep).ok_or(InputError::MergeWithoutScene)
+}
+
+/// Writes the outputs and says what came out.
+fn finish(record: &SweepRecord, out: &Path, quiet: bool) -> Result<(), Failure> {
+    report::sweep::write(record, out)?;
+    if !quiet {
+        stdout::print(&table(record, out))?;
+    }
+    let first_error = record.rows.iter().find_map(|row| row.error.clone());
+    match first_error {
+        // A shard may well lie where nothing can be built.
+        Some(error) if record.shard.is_none() && record.failed() == record.rows.len() => {
+            Err(Failure::NoCombination { count: record.rows.len(), error })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The best combinations, for the terminal.
+fn table(record: &SweepRecord, out: &Path) -> String {
+    let summary = record.summary();
+    let mut text = format!(
+        "{}\n\n{} combinations, {} without a result, in {} s\n",
+        record.identity.title,
+        record.rows.len(),
+        summary.failed,
+        digits(record.wall_s)
+    );
+    if !summary.best.is_empty() {
+        text.push_str("\nleast of\n");
+    }
+    for best in &summary.best {
+        let place = record.identity.in_words(best.index);
+        text.push_str(&format!("  {:42}{:>12}   {place}\n", best.figure, digits(best.value)));
+    }
+    let file = out.join(if record.shard.is_none() { "report.html" } else { "sweep.csv" });
+    text.push_str(&format!("\n{}: {}\n", if record.shard.is_none() { "report" } else { "table" }, file.display()));
+    text
+}

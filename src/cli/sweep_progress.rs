@@ -1,0 +1,112 @@
+//! Tells the user how far a sweep is: a bar on a terminal, a line now and then elsewhere, each with the remaining time.
+
+use std::io::IsTerminal;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
+use std::time::{Duration, Instant};
+
+use gearwear::sweep::study::Observer;
+use indicatif::ProgressBar;
+
+use super::{progress, say};
+
+/// Time between two lines of the log.
+const BETWEEN_LINES: Duration = Duration::from_secs(10);
+
+/// How progress is shown.
+enum Display {
+    Quiet,
+    Log(Mutex<Log>),
+    Bar(ProgressBar),
+}
+
+/// What the log remembers.
+struct Log {
+    /// When the first row of this start was begun, and how many there were before.
+    began: Option<(Instant, usize)>,
+    last: Instant,
+}
+
+/// Watches a sweep for the user, who may interrupt it.
+pub struct SweepProgress {
+    display: Display,
+    interrupted: Arc<AtomicBool>,
+}
+
+impl SweepProgress {
+    /// A bar on a terminal, a log elsewhere, nothing where `quiet`; `interrupted` is set when the user wants to stop.
+    pub fn new(quiet: bool, interrupted: Arc<AtomicBool>) -> Self {
+        let display = if quiet {
+            Display::Quiet
+        } else if std::io::stderr().is_terminal() {
+            Display::Bar(progress::bar())
+        } else {
+            Display::Log(Mutex::new(Log { began: None, last: Instant::now() }))
+        };
+        Self { display, interrupted }
+    }
+
+    /// Ends the display.
+    pub fn finish(&self) {
+        if let Display::Bar(bar) = &self.display {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+impl Observer for SweepProgress {
+    fn row(&self, done: usize, total: usize, failed: usize) {
+        match &self.display {
+            Display::Quiet => {}
+            Display::Log(log) => {
+                let Ok(mut log) = log.lock() else { return };
+                let now = Instant::now();
+                let &mut (start, before) = log.began.get_or_insert((now, done));
+                if done < total && now.duration_since(log.last) < BETWEEN_LINES {
+                    return;
+                }
+                log.last = now;
+                let left = remaining_s(now.duration_since(start).as_secs_f64(), done - before, total - done);
+                say(&format!("{done} of {total} combinations{}{left}", with_failed(failed)));
+            }
+            Display::Bar(bar) => {
+                if bar.length() != Some(total as u64) {
+                    // Rows of an earlier start took no time of this one.
+                    bar.set_length(total as u64);
+                    bar.set_position(done as u64);
+                    bar.reset_eta();
+                }
+                bar.set_position(done as u64);
+                bar.set_message(format!("{done} of {total}{}", with_failed(failed)));
+            }
+        }
+    }
+
+    fn interrupted(&self) -> bool {
+        self.interrupted.load(Ordering::Relaxed)
+    }
+}
+
+fn with_failed(failed: usize) -> String {
+    if failed == 0 { String::new() } else { format!(", {failed} failed") }
+}
+
+/// The remaining time, from what the finished ones took; empty at the ends.
+fn remaining_s(elapsed_s: f64, finished: usize, left: usize) -> String {
+    if finished == 0 || left == 0 {
+        return String::new();
+    }
+    format!(", {:.0} s left", elapsed_s / finished as f64 * left as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_remaining_time_follows_from_what_is_finished() {
+        assert_eq!(remaining_s(10.0, 20, 60), ", 30 s left");
+        assert_eq!(remaining_s(0.1, 0, 60), "");
+        assert_eq!(remaining_s(10.0, 20, 0), "");
+    }
+}

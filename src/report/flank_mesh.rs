@@ -1,0 +1,111 @@
+//! `flank.vtu`: the working flanks of one tooth pair in space, where they touch at the pitch point in the middle of the face
+//! width; for ParaView.
+//!
+//! Points lie on the nominal flanks ([`crate::gear::flank_surface`]), from the root form circle to the tip circle and from one
+//! end face to the other: at the middle of every slice, and at both end faces with the values of the slice next to them. Wear
+//! and modifications are data; along `transverse_normal` they make the worn flank (ParaView: Warp By Vector, or Calculator and
+//! Warp By Scalar with a factor).
+
+use std::io::{self, Write};
+
+use crate::gear::Gear;
+use crate::mesh::vtu::VtuEncoding;
+use crate::mesh::{CellBlock, CellKind, DataArray, Format, Mesh, Values, to_bytes};
+use crate::simulation::record::{FlankRecord, RunRecord, SliceRecord};
+
+/// Writes it in the form ParaView reads.
+pub fn write(out: &mut dyn Write, record: &RunRecord, slices: &SliceRecord) -> io::Result<()> {
+    let bytes = to_bytes(&mesh(record, slices), Format::Vtu(VtuEncoding::default())).map_err(io::Error::other)?;
+    out.write_all(&bytes)
+}
+
+/// A place over the face width with the slice whose values it has.
+struct Station {
+    width_mm: f64,
+    slice: usize,
+}
+
+fn stations(width_mm: &[f64], face_width_mm: f64) -> Vec<Station> {
+    let middles = width_mm.iter().enumerate().map(|(slice, &width_mm)| Station { width_mm, slice });
+    let last = width_mm.len().saturating_sub(1);
+    let ends = [Station { width_mm: 0.0, slice: 0 }, Station { width_mm: face_width_mm, slice: last }];
+    let [first, end] = ends;
+    std::iter::once(first).chain(middles).chain([end]).collect()
+}
+
+fn mesh(record: &RunRecord, slices: &SliceRecord) -> Mesh {
+    let mut mesh = Mesh::default();
+    let (mut quads, mut gear_of_quad) = (Vec::new(), Vec::new());
+    let mut data = PointData::default();
+    for gear in Gear::BOTH {
+        let flank = &record.flanks[gear];
+        let surface = &slices.surface[gear];
+        let position_mm = record.summary.geometry.curvature_radius_mm.C;
+        let root_form_mm = 0.5 * record.summary.geometry.gears[gear].root_form_diameter_mm;
+        let on_involute = flank.radius_mm.partition_point(|&radius| radius < root_form_mm)..flank.radius_mm.len();
+        let (start, along) = (mesh.points.len(), on_involute.len());
+        let stations = stations(&flank.width_mm, surface.face_width_mm);
+        for station in &stations {
+            for point in on_involute.clone() {
+                let rho = surface.rho_mm(flank.radius_mm[point]);
+                mesh.points.push(surface.point_mm(rho, station.width_mm, position_mm));
+                data.normal.extend(surface.transverse_normal(rho, station.width_mm, position_mm));
+                data.push(flank, point, station);
+            }
+        }
+        for across in 0..stations.len().saturating_sub(1) {
+            for point in 0..along.saturating_sub(1) {
+                let near = start + across * along + point;
+                let far = near + along;
+                // Anticlockwise as seen from outside the tooth.
+                quads.extend([near, far, far + 1, near + 1]);
+                gear_of_quad.push(gear as i64);
+            }
+        }
+    }
+    mesh.cells.push(CellBlock { kind: CellKind::Quad, nodes: quads });
+    let gears = DataArray { components: 1, values: Values::Integers(gear_of_quad) };
+    mesh.cell_data.insert("gear".to_owned(), vec![gears]);
+    data.into_mesh(&mut mesh);
+    mesh
+}
+
+/// What is told of every point.
+#[derive(Default)]
+struct PointData {
+    reals: [Vec<f64>; 7],
+    slice: Vec<i64>,
+    normal: Vec<f64>,
+}
+
+/// Names of the scalars, in the order in which [`PointData::push`] adds them.
+const NAMES: [&str; 7] =
+    ["radius_mm", "width_mm", "removed_um", "sliding_mm_per_mesh", "wear_um", "pressure_new_MPa", "pressure_worn_MPa"];
+
+impl PointData {
+    fn push(&mut self, flank: &FlankRecord, point: usize, station: &Station) {
+        let place = station.slice * flank.radius_mm.len() + point;
+        let values = [
+            flank.radius_mm[point],
+            station.width_mm,
+            flank.removed_um[place],
+            flank.sliding_mm_per_mesh[place],
+            flank.wear_um[place],
+            flank.pressure_new_MPa[place],
+            flank.pressure_worn_MPa[place],
+        ];
+        self.reals.iter_mut().zip(values).for_each(|(all, value)| all.push(value));
+        self.slice.push(station.slice as i64);
+    }
+
+    fn into_mesh(self, mesh: &mut Mesh) {
+        let mut add = |name: &str, components: usize, values: Values| {
+            mesh.point_data.insert(name.to_owned(), DataArray { components, values });
+        };
+        for (name, values) in NAMES.into_iter().zip(self.reals) {
+            add(name, 1, Values::Reals(values));
+        }
+        add("slice", 1, Values::Integers(self.slice));
+        add("transverse_normal", 3, Values::Reals(self.normal));
+    }
+}

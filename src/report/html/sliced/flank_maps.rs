@@ -1,0 +1,264 @@
+//! Maps of the whole flank, face width across and root to tip upwards, with lines of contact.
+//!
+//! A line of contact is straight in the radius of curvature, ρ_c(z), and therefore a little bent over the radius
+//! r = √(r_b² + ρ²). It crosses the flank from one side of the map to the other while the tooth goes through the mesh.
+
+use plotly::common::{Anchor, ColorBar, ColorScale, ColorScalePalette, DashType, Font, HoverInfo, Mode, Title};
+use plotly::layout::{Annotation, HoverMode};
+use plotly::{HeatMap, Plot, Scatter};
+
+use super::raster::SlicedRaster;
+use super::{SlicedRun, slice_name};
+use crate::gear::Gear;
+use crate::report::html::active_flank::ActiveFlank;
+use crate::report::html::number::{figure, plotted, significant};
+use crate::report::html::reading::{greatest, place_on_flank};
+use crate::report::html::theme::{self, Figure, MUTED, axis, layout, line};
+use crate::simulation::record::FlankRecord;
+
+/// Positions of the tooth whose lines of contact are drawn.
+const LINES_OF_CONTACT: usize = 7;
+/// Pieces of a drawn line of contact.
+const PIECES: usize = 24;
+
+/// What a map shows.
+struct Quantity<'a> {
+    id: &'static str,
+    title: String,
+    unit: &'static str,
+    values: &'a [f64],
+    /// The greatest value of the scale of colours, which begins at 0.
+    top: f64,
+    reading: String,
+}
+
+/// Wear, sliding, pressure new and worn, and the modifications where there are any.
+pub fn all(run: SlicedRun<'_>, gear: Gear) -> Vec<Figure> {
+    let flank = &run.record.flanks[gear];
+    let top = |field: &[f64]| greatest(field).map_or(0.0, |peak| peak.value);
+    let pressure_top = top(&flank.pressure_new_MPa).max(top(&flank.pressure_worn_MPa));
+    let name = gear.name();
+    let mut quantities = vec![
+        Quantity {
+            id: "wear",
+            title: format!("Wear of the {name}’s flank"),
+            unit: "µm",
+            values: &flank.wear_um,
+            top: top(&flank.wear_um),
+            reading: wear_reading(run, gear),
+        },
+        Quantity {
+            id: "sliding",
+            title: format!("Sliding of the {name}’s flank during one mesh, new"),
+            unit: "mm",
+            values: &flank.sliding_mm_per_mesh,
+            top: top(&flank.sliding_mm_per_mesh),
+            reading: sliding_reading(flank),
+        },
+        Quantity {
+            id: "pressure-new",
+            title: format!("Greatest pressure on the {name}’s flank, new"),
+            unit: "MPa",
+            values: &flank.pressure_new_MPa,
+            top: pressure_top,
+            reading: pressure_reading(run, gear, &flank.pressure_new_MPa, "New"),
+        },
+        Quantity {
+            id: "pressure-worn",
+            title: format!("Greatest pressure on the {name}’s flank, worn"),
+            unit: "MPa",
+            values: &flank.pressure_worn_MPa,
+            top: pressure_top,
+            reading: pressure_reading(run, gear, &flank.pressure_worn_MPa, "Worn"),
+        },
+    ];
+    if flank.removed_um.iter().any(|&removed| removed != 0.0) {
+        let shown = on_active_flank(flank, &flank.removed_um);
+        quantities.push(Quantity {
+            id: "modifications",
+            title: format!("Modifications of the {name}’s flank"),
+            unit: "µm",
+            values: &flank.removed_um,
+            top: top(&shown),
+            reading: format!("The modifications take up to {}.", peak_of(flank, &shown, "µm")),
+        });
+    }
+    quantities.into_iter().map(|quantity| map(run, gear, quantity)).collect()
+}
+
+/// The `field` with no value where it is not shown.
+fn on_active_flank(flank: &FlankRecord, field: &[f64]) -> Vec<f64> {
+    let (first, points) = (ActiveFlank::of(flank).first, flank.radius_mm.len());
+    let shown = |place: usize| place % points >= first;
+    field.iter().enumerate().map(|(place, &value)| if shown(place) { value } else { f64::NAN }).collect()
+}
+
+fn map(run: SlicedRun<'_>, gear: Gear, quantity: Quantity<'_>) -> Figure {
+    let flank = &run.record.flanks[gear];
+    let raster = SlicedRaster::of_flank(flank, run.slices.surface[gear].face_width_mm);
+    let points = flank.radius_mm.len();
+    let values = raster.rows(|point, slice| quantity.values[slice * points + point]);
+    let edges = |edges: &[f64]| edges.iter().map(|&edge| plotted(edge)).collect::<Vec<f64>>();
+    let unit = quantity.unit;
+    let mut plot = Plot::new();
+    plot.add_trace(
+        HeatMap::new(edges(&raster.across.edges), edges(&raster.along.edges), values)
+            .zmin(0.0)
+            .zmax(if quantity.top > 0.0 { quantity.top } else { 1.0 })
+            .color_scale(ColorScale::Palette(ColorScalePalette::Viridis))
+            .color_bar(ColorBar::new().title(Title::with_text(unit).font(Font::new().size(12))).thickness(12).x(1.05))
+            .hover_template(format!("width %{{x:.2f}} mm, radius %{{y:.2f}} mm<br>%{{z:.4~g}} {unit}<extra></extra>")),
+    );
+    plot.add_trace(lines_of_contact(run, gear));
+    let ends = |edges: &[f64]| match edges {
+        [first, .., last] => vec![*first, *last],
+        _ => vec![0.0, 1.0],
+    };
+    plot.set_layout(
+        layout(360)
+            .show_legend(false)
+            .hover_mode(HoverMode::Closest)
+            .x_axis(axis("face width, mm").range(ends(&raster.across.edges)).show_grid(false))
+            .y_axis(
+                axis(&format!("radius on the {}, mm", gear.name())).range(ends(&raster.along.edges)).show_grid(false),
+            )
+            .annotations(path_points(flank)),
+    );
+    Figure {
+        id: format!("map-{}-{}", quantity.id, gear.name()),
+        title: quantity.title,
+        reading: quantity.reading,
+        plot,
+        wide: false,
+    }
+}
+
+/// The letters A–E at the right of the map.
+fn path_points(flank: &FlankRecord) -> Vec<Annotation> {
+    theme::named(&flank.path_point_radius_mm)
+        .into_iter()
+        .filter(|(_, radius)| radius.is_finite())
+        .map(|(name, radius)| {
+            Annotation::new()
+                .x_ref("paper")
+                .y_ref("y")
+                .x(1.005)
+                .y(radius)
+                .x_anchor(Anchor::Left)
+                .show_arrow(false)
+                .text(name)
+                .font(Font::new().size(12).color(MUTED))
+        })
+        .collect()
+}
+
+/// Lines of contact at evenly spaced positions of the tooth between its first and its last touch, as one line with gaps.
+fn lines_of_contact(run: SlicedRun<'_>, gear: Gear) -> Box<Scatter<Option<f64>, Option<f64>>> {
+    let (mut width, mut radius) = (Vec::new(), Vec::new());
+    for points in lines_mm(run, gear) {
+        width.extend(points.iter().map(|[z, _]| Some(plotted(*z))));
+        radius.extend(points.iter().map(|[_, r]| Some(plotted(*r))));
+        width.push(None);
+        radius.push(None);
+    }
+    Scatter::new(width, radius)
+        .name("lines of contact")
+        .mode(Mode::Lines)
+        .line(line("rgba(255,255,255,0.8)", 1.3, DashType::Solid))
+        .hover_info(HoverInfo::Skip)
+}
+
+/// Those lines as points (width, radius), mm.
+fn lines_mm(run: SlicedRun<'_>, gear: Gear) -> Vec<Vec<[f64; 2]>> {
+    let surface = &run.slices.surface[gear];
+    let path = &run.record.summary.geometry.curvature_radius_mm;
+    let reach = 0.5 * surface.face_width_mm * surface.base_helix_tangent.abs();
+    let (first, last) = (path.A - reach, path.E + reach);
+    (0..LINES_OF_CONTACT)
+        .map(|i| first + (last - first) * (i as f64 + 0.5) / LINES_OF_CONTACT as f64)
+        .map(|position| {
+            (0..=PIECES)
+                .map(|piece| surface.face_width_mm * piece as f64 / PIECES as f64)
+                .map(|width| (width, surface.contact_rho_mm(position, width)))
+                .filter(|(_, rho)| touches(run, gear, *rho))
+                .map(|(width, rho)| [width, surface.base_radius_mm.hypot(rho)])
+                .collect()
+        })
+        .collect()
+}
+
+/// Whether `rho_mm` lies on the active flank.
+fn touches(run: SlicedRun<'_>, gear: Gear, rho_mm: f64) -> bool {
+    let geometry = &run.record.summary.geometry;
+    let path = &geometry.curvature_radius_mm;
+    let position = match gear {
+        Gear::Pinion => rho_mm,
+        Gear::Wheel => geometry.line_of_action_mm - rho_mm,
+    };
+    (path.A..=path.E).contains(&position)
+}
+
+/// "3.21 µm at 34.12 mm radius, close to A, in slice 2 (1.5 mm)".
+fn peak_of(flank: &FlankRecord, field: &[f64], unit: &str) -> String {
+    let Some(peak) = greatest(field) else { return format!("nothing in {unit}") };
+    let points = flank.radius_mm.len();
+    let (slice, point) = (peak.index / points, peak.index % points);
+    format!(
+        "{} {unit} {}, in {}",
+        figure(peak.value),
+        place_on_flank(flank, flank.radius_mm[point]),
+        slice_name(flank, slice),
+    )
+}
+
+fn wear_reading(run: SlicedRun<'_>, gear: Gear) -> String {
+    let flank = &run.record.flanks[gear];
+    let root = &run.helical.wear[gear].root_wear_um;
+    let mut reading = match (root.first(), root.last()) {
+        (Some(first), Some(last)) if flank.wear_um.iter().any(|&wear| wear > 0.0) => format!(
+            "The {} has worn up to {}; over its root by up to {} µm in the first slice and {} µm in the last.",
+            gear.name(),
+            peak_of(flank, &flank.wear_um, "µm"),
+            figure(*first),
+            figure(*last),
+        ),
+        _ => format!("The {}’s flank has not worn.", gear.name()),
+    };
+    reading.push_str(&format!(
+        " White: lines of contact at {LINES_OF_CONTACT} positions of the tooth, evenly spaced from its first to its last touch."
+    ));
+    reading
+}
+
+fn sliding_reading(flank: &FlankRecord) -> String {
+    format!(
+        "A point slides up to {} against the other flank; on the pitch circle, at {} mm radius, the sliding changes its direction.",
+        peak_of(flank, &flank.sliding_mm_per_mesh, "mm"),
+        significant(flank.path_point_radius_mm.C, 4),
+    )
+}
+
+/// Where the pressure is greatest, and what it is where the first slice begins its contact.
+fn pressure_reading(run: SlicedRun<'_>, gear: Gear, field: &[f64], when: &str) -> String {
+    let flank = &run.record.flanks[gear];
+    let mut reading = format!("{when}, the {} feels at most {}.", gear.name(), peak_of(flank, field, "MPa"));
+    // The slice that is farthest ahead enters first.
+    if let Some(entering) = greatest(&run.slices.ahead_mm) {
+        let points = flank.radius_mm.len();
+        let first_touch = flank.path_point_radius_mm.A;
+        let after = flank.radius_mm.partition_point(|&radius| radius < first_touch);
+        let nearest = match gear {
+            // A is where the pinion's active flank begins, and where the wheel's ends.
+            Gear::Pinion => after.min(points.saturating_sub(1)),
+            Gear::Wheel => after.saturating_sub(1),
+        };
+        if let Some(pressure) = field.get(entering.index * points + nearest) {
+            reading.push_str(&format!(
+                " Where the tooth first touches, at A in {}, it is {} MPa.",
+                slice_name(flank, entering.index),
+                figure(*pressure)
+            ));
+        }
+    }
+    reading
+}

@@ -1,0 +1,67 @@
+//! `slices.csv`: what each slice of a tooth carries while the tooth goes through the mesh.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+use super::tables::{Column, Provenance, table};
+use crate::simulation::record::{PathPoints, SliceRecord};
+
+/// Columns; rows by position of the tooth, and there by slice: those that are between A and E, or loaded at a tip edge outside.
+pub const SLICES: [Column; 8] = [
+    (
+        "position_mm",
+        "position of the tooth in the middle of the face width: radius of curvature of the pinion's flank, also before A and \
+         after E",
+    ),
+    ("slice", "number of the slice, 0 at width 0"),
+    ("width_mm", "place of the slice over the face width: its middle"),
+    ("slice_position_mm", "position of the slice's own theoretical contact point"),
+    ("line_load_new_N_per_mm", "load of the slice per mm of face width, new"),
+    ("line_load_worn_N_per_mm", "the same, worn"),
+    ("peak_pressure_new_MPa", "greatest pressure of the slice, new"),
+    ("peak_pressure_worn_MPa", "the same, worn"),
+];
+
+/// Positions are compared with A and E to this part of A–E.
+const SAME_PLACE: f64 = 1e-9;
+
+#[allow(non_snake_case, reason = "the contract's column names")]
+#[derive(Serialize)]
+struct Row {
+    position_mm: f64,
+    slice: usize,
+    width_mm: f64,
+    slice_position_mm: f64,
+    line_load_new_N_per_mm: f64,
+    line_load_worn_N_per_mm: f64,
+    peak_pressure_new_MPa: f64,
+    peak_pressure_worn_MPa: f64,
+}
+
+/// Writes it; `path` are the positions of A–E.
+pub fn slices(out: &mut dyn Write, provenance: Provenance, record: &SliceRecord, path: &PathPoints) -> io::Result<()> {
+    let count = record.width_mm.len();
+    let slack = SAME_PLACE * (path.E - path.A);
+    let rows = record.position_mm.iter().enumerate().flat_map(|(position, &position_mm)| {
+        (0..count).map(move |slice| {
+            let place = position * count + slice;
+            Row {
+                position_mm,
+                slice,
+                width_mm: record.width_mm[slice],
+                slice_position_mm: position_mm + record.ahead_mm[slice],
+                line_load_new_N_per_mm: record.line_load_new_N_per_mm[place],
+                line_load_worn_N_per_mm: record.line_load_worn_N_per_mm[place],
+                peak_pressure_new_MPa: record.peak_pressure_new_MPa[place],
+                peak_pressure_worn_MPa: record.peak_pressure_worn_MPa[place],
+            }
+        })
+    });
+    let in_contact = |row: &Row| {
+        (path.A - slack..=path.E + slack).contains(&row.slice_position_mm)
+            || row.line_load_new_N_per_mm > 0.0
+            || row.line_load_worn_N_per_mm > 0.0
+    };
+    table(out, provenance, &SLICES, rows.filter(in_contact))
+}

@@ -1,0 +1,131 @@
+//! A scene file whose values may be exchanged before it is resolved: what the combinations of a sweep are made of.
+//!
+//! The text is read once. A value that is exchanged stands where the user would have written it, so that everything
+//! the file leaves open is chosen anew for each combination: a tip diameter that follows from the rack, say.
+
+use toml::{Table, Value};
+
+use super::findings::Findings;
+use super::locate::Locator;
+use super::problem::Problem;
+use super::{Resolved, resolve, short_hash, text};
+
+/// Keys that say the same thing in two ways: giving one takes the other away.
+const SAME_THING: [[&str; 2]; 5] = [
+    ["pair.normal_module_mm", "pair.transverse_module_mm"],
+    ["pair.pressure_angle_deg", "pair.transverse_pressure_angle_deg"],
+    ["operation.hours", "operation.pinion_revolutions"],
+    ["wear.coefficient_m2_per_N", "wear.coefficient_mm3_per_Nm"],
+    ["contact.foundation_MPa_per_mm", "contact.match"],
+];
+
+/// The other key that says what `key` says, if there is one.
+pub fn other_way_to_say(key: &str) -> Option<&'static str> {
+    SAME_THING.iter().find_map(|&[one, other]| match key {
+        _ if key == one => Some(other),
+        _ if key == other => Some(one),
+        _ => None,
+    })
+}
+
+/// A scene file, read but not resolved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Draft {
+    table: Table,
+    locator: Locator,
+}
+
+impl Draft {
+    /// Reads the text of a scene file.
+    ///
+    /// # Errors
+    /// Text that is not TOML.
+    pub fn parse(text: &str) -> Result<Self, Vec<Problem>> {
+        let (table, findings) = text::parse(text)?;
+        Ok(Self { table, locator: findings.into_locator() })
+    }
+
+    /// Gives the key at the path `key` this value, and takes away the key that says the same in another way.
+    pub fn set(&mut self, key: &str, value: impl Into<Value>) {
+        if let Some(other) = other_way_to_say(key) {
+            self.remove(other);
+        }
+        let (tables, name) = key.rsplit_once('.').map_or((None, key), |(tables, name)| (Some(tables), name));
+        let mut table = &mut self.table;
+        for part in tables.into_iter().flat_map(|tables| tables.split('.')) {
+            let below = table.entry(part).or_insert_with(|| Value::Table(Table::new()));
+            // Something else in the place of a table cannot be a scene's; resolving says so.
+            let Value::Table(below) = below else { return };
+            table = below;
+        }
+        table.insert(name.to_owned(), value.into());
+    }
+
+    /// Takes the key at the path `key` away, if it is there.
+    pub fn remove(&mut self, key: &str) {
+        let mut parts = key.split('.').rev();
+        let Some(name) = parts.next() else { return };
+        let table = parts.rev().try_fold(&mut self.table, |table, part| match table.get_mut(part) {
+            Some(Value::Table(below)) => Some(below),
+            _ => None,
+        });
+        if let Some(table) = table {
+            table.remove(name);
+        }
+    }
+
+    /// Resolves what it says now.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, at the places of the text it was read from.
+    pub fn resolve(&self) -> Result<Resolved, Vec<Problem>> {
+        resolve::resolve_table(self.table.clone(), Findings::new(self.locator.clone()))
+    }
+
+    /// First 16 hexadecimal digits of the SHA-256 of what it says; layout and comments of the text do not matter.
+    pub fn hash(&self) -> String {
+        short_hash(self.table.to_string().as_bytes())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Scene, presets};
+
+    /// Exchanging values gives the same scene as writing them into the text.
+    #[test]
+    fn a_draft_resolves_as_its_text_would() {
+        let text = presets::find("fzg-c").unwrap().text;
+        let mut draft = Draft::parse(text).unwrap();
+        assert_eq!(draft.resolve().unwrap(), Scene::from_toml(text).unwrap());
+        draft.set("pair.face_width_mm", 20.0);
+        draft.set("pair.pinion.teeth", 17);
+        draft.remove("pair.pinion.tip_diameter_mm");
+        draft.remove("pair.pinion.basic_rack.nothing");
+        let written = text
+            .replace("face_width_mm = 14.0", "face_width_mm = 20.0")
+            .replace("teeth = 16", "teeth = 17")
+            .replace("tip_diameter_mm = 82.46", "");
+        let (mine, theirs) = (draft.resolve(), Scene::from_toml(&written));
+        assert_eq!(mine.map(|r| r.scene), theirs.map(|r| r.scene));
+    }
+
+    #[test]
+    fn a_key_beside_a_preset_and_a_second_way_to_say_it() {
+        let text = "[pair]\npreset = \"fzg-c\"\n[operation]\npinion_torque_Nm = 302\npinion_revolutions = 1e6\n\
+                    [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n";
+        let mut draft = Draft::parse(text).unwrap();
+        let as_given = draft.hash();
+        draft.set("pair.wheel.tip_relief.amount_um", 20.0);
+        draft.set("pair.wheel.tip_relief.length_mm", 2.0);
+        draft.set("wear.coefficient_mm3_per_Nm", 2e-8);
+        draft.set("operation.hours", 10);
+        draft.set("operation.pinion_speed_rpm", 100);
+        let scene = draft.resolve().unwrap().scene;
+        assert_eq!(scene.pair.gears.wheel.modification.tip_relief.unwrap().amount_mm, 0.02);
+        assert_eq!(scene.operation.pinion_revolutions, 60_000.0);
+        assert_ne!(draft.hash(), as_given);
+        assert_eq!(Draft::parse(&format!("# a comment\n{text}")).unwrap().hash(), as_given);
+    }
+}

@@ -1,0 +1,123 @@
+//! A key of the scene by its path, such as `pair.pinion.teeth`: whether there is one, and which numbers it takes.
+
+use super::locate::join;
+use super::nearest::nearest;
+use super::schema::{Node, schema};
+
+/// A key that takes a number.
+#[derive(Debug, Clone, Copy)]
+pub struct NumberKey {
+    node: Node<'static>,
+}
+
+/// Why a path is not that of a number.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum KeyError {
+    /// No scene has the key.
+    #[error("unknown key {key}; allowed: a key of the scene that takes a number, such as pair.face_width_mm")]
+    Unknown {
+        /// As given.
+        key: String,
+        /// What was probably meant.
+        nearest: Option<String>,
+    },
+    /// The key takes something else.
+    #[error("{key} takes {takes}; allowed: a key that takes a number, such as pair.face_width_mm")]
+    NotANumber {
+        /// As given.
+        key: String,
+        /// What it takes.
+        takes: String,
+    },
+}
+
+impl NumberKey {
+    /// The key at `path`.
+    ///
+    /// # Errors
+    /// A path that leads nowhere, or to something that is no number.
+    pub fn find(path: &str) -> Result<Self, KeyError> {
+        let node = path.split('.').try_fold(Node::root(schema()), |node, name| node.child(name));
+        let Some(node) = node else {
+            return Err(KeyError::Unknown { key: path.to_owned(), nearest: nearest_number(path) });
+        };
+        if is_number(node) {
+            Ok(Self { node })
+        } else {
+            Err(KeyError::NotANumber { key: path.to_owned(), takes: node.allowed() })
+        }
+    }
+
+    /// Whether it takes whole numbers only.
+    pub fn whole(&self) -> bool {
+        self.node.type_name() == "integer"
+    }
+
+    /// Whether `value` lies within what it takes.
+    pub fn holds(&self, value: f64) -> bool {
+        self.node.holds(value) && !(self.whole() && value.fract() != 0.0)
+    }
+
+    /// What it takes, in words.
+    pub fn allowed(&self) -> String {
+        self.node.allowed()
+    }
+}
+
+fn is_number(node: Node<'_>) -> bool {
+    node.choices().is_empty() && matches!(node.type_name(), "number" | "integer")
+}
+
+/// The path of a number that `path` is most like: one that ends in it, or the nearest in spelling.
+fn nearest_number(path: &str) -> Option<String> {
+    let mut known = Vec::new();
+    numbers_below(Node::root(schema()), "", &mut known);
+    let ending = format!(".{path}");
+    if let Some(whole) = known.iter().find(|known| known.ends_with(&ending)) {
+        return Some(whole.clone());
+    }
+    let known: Vec<&str> = known.iter().map(String::as_str).collect();
+    nearest(path, &known).map(str::to_owned)
+}
+
+fn numbers_below(node: Node<'_>, path: &str, found: &mut Vec<String>) {
+    for name in node.keys() {
+        let Some(child) = node.child(name) else { continue };
+        let path = join(path, name);
+        if is_number(child) {
+            found.push(path);
+        } else {
+            numbers_below(child, &path, found);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_found_and_others_are_refused() {
+        assert!(!NumberKey::find("pair.face_width_mm").unwrap().whole());
+        let teeth = NumberKey::find("pair.pinion.teeth").unwrap();
+        assert!(teeth.whole() && teeth.holds(16.0) && !teeth.holds(16.5) && !teeth.holds(4.0));
+        assert!(NumberKey::find("numerics.step.revolutions").is_ok());
+        for path in ["contact.surface", "pair.pinion", "operation.snapshots_h", "title", "numerics.error_estimate"] {
+            assert!(matches!(NumberKey::find(path), Err(KeyError::NotANumber { .. })), "{path}");
+        }
+    }
+
+    #[test]
+    fn misspelt_keys_have_a_nearest_one() {
+        for (path, meant) in [
+            ("face_width_mm", "pair.face_width_mm"),
+            ("pair.face_widht_mm", "pair.face_width_mm"),
+            ("pair.helix_angle", "pair.helix_angle_deg"),
+            ("pair.teeth", "pair.wheel.teeth"),
+        ] {
+            let Err(KeyError::Unknown { nearest, .. }) = NumberKey::find(path) else { panic!("{path} is known") };
+            assert_eq!(nearest.as_deref(), Some(meant));
+        }
+        assert!(matches!(NumberKey::find(""), Err(KeyError::Unknown { .. })));
+    }
+}

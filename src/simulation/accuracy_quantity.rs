@@ -1,0 +1,137 @@
+//! What errors are measured of when models are compared.
+
+use serde::Serialize;
+
+/// What errors are measured of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Quantity {
+    /// Depth over both flanks: the larger of both gears' errors.
+    WearProfile,
+    /// Depth over the pinion's flank.
+    PinionWearProfile,
+    /// Depth over the wheel's flank.
+    WheelWearProfile,
+    /// Greatest depth on the pinion.
+    PinionPeakWear,
+    /// Greatest depth on the wheel.
+    WheelPeakWear,
+    /// Greatest pressure of the unworn pair, at rounded tip edges too.
+    PeakPressure,
+    /// Greatest pressure of the unworn pair away from tip edges.
+    FlankPressure,
+    /// Half-width of the unworn contact where one pair carries the load alone.
+    HalfWidth,
+    /// Loaded transmission error of the unworn pair over the path of contact.
+    TransmissionError,
+    /// Its peak-to-peak value.
+    TransmissionErrorPeakToPeak,
+    /// Loaded transmission error of the worn pair over the path of contact.
+    WornTransmissionError,
+    /// Its peak-to-peak value.
+    WornTransmissionErrorPeakToPeak,
+    /// Greatest depth in the root zone, slice by slice over the face width of both gears.
+    RootWear,
+    /// Face load factor of the unworn pair.
+    #[serde(rename = "K_Hbeta")]
+    FaceLoadFactor,
+    /// Face load factor of the worn pair.
+    #[serde(rename = "worn_K_Hbeta")]
+    WornFaceLoadFactor,
+}
+
+impl Quantity {
+    /// All of them, in the order of the tables; the last three are of pairs with slices, half-width is of the others.
+    pub const ALL: [Self; 15] = [
+        Self::WearProfile,
+        Self::PinionWearProfile,
+        Self::WheelWearProfile,
+        Self::PinionPeakWear,
+        Self::WheelPeakWear,
+        Self::PeakPressure,
+        Self::FlankPressure,
+        Self::HalfWidth,
+        Self::TransmissionError,
+        Self::TransmissionErrorPeakToPeak,
+        Self::WornTransmissionError,
+        Self::WornTransmissionErrorPeakToPeak,
+        Self::RootWear,
+        Self::FaceLoadFactor,
+        Self::WornFaceLoadFactor,
+    ];
+
+    /// Its name in results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::WearProfile => "wear_profile",
+            Self::PinionWearProfile => "pinion_wear_profile",
+            Self::WheelWearProfile => "wheel_wear_profile",
+            Self::PinionPeakWear => "pinion_peak_wear",
+            Self::WheelPeakWear => "wheel_peak_wear",
+            Self::PeakPressure => "peak_pressure",
+            Self::FlankPressure => "flank_pressure",
+            Self::HalfWidth => "half_width",
+            Self::TransmissionError => "transmission_error",
+            Self::TransmissionErrorPeakToPeak => "transmission_error_peak_to_peak",
+            Self::WornTransmissionError => "worn_transmission_error",
+            Self::WornTransmissionErrorPeakToPeak => "worn_transmission_error_peak_to_peak",
+            Self::RootWear => "root_wear",
+            Self::FaceLoadFactor => "K_Hbeta",
+            Self::WornFaceLoadFactor => "worn_K_Hbeta",
+        }
+    }
+
+    /// What it is, for people.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::WearProfile => "Wear profile, both gears",
+            Self::PinionWearProfile => "Wear profile, pinion",
+            Self::WheelWearProfile => "Wear profile, wheel",
+            Self::PinionPeakWear => "Greatest wear, pinion",
+            Self::WheelPeakWear => "Greatest wear, wheel",
+            Self::PeakPressure => "Greatest pressure, new",
+            Self::FlankPressure => "Greatest pressure away from tip edges, new",
+            Self::HalfWidth => "Half-width in single contact, new",
+            Self::TransmissionError => "Transmission error, new",
+            Self::TransmissionErrorPeakToPeak => "Transmission error peak to peak, new",
+            Self::WornTransmissionError => "Transmission error, worn",
+            Self::WornTransmissionErrorPeakToPeak => "Transmission error peak to peak, worn",
+            Self::RootWear => "Root wear over the face width, both gears",
+            Self::FaceLoadFactor => "Face load factor K_Hβ, new",
+            Self::WornFaceLoadFactor => "Face load factor K_Hβ, worn",
+        }
+    }
+
+    /// How its error is measured.
+    pub fn measure(self) -> &'static str {
+        match self {
+            Self::WearProfile => "the larger of both gears' relative L2 errors of the depth over the whole flank",
+            Self::PinionWearProfile | Self::WheelWearProfile => {
+                "relative L2 error of the depth over the whole flank, √(∫(h − h_ref)² dA / ∫h_ref² dA)"
+            }
+            Self::PinionPeakWear | Self::WheelPeakWear => "relative difference of the greatest depth on the flank",
+            Self::PeakPressure => {
+                "relative difference of the greatest pressure over the path of contact, without the \
+                                   positions at a sharp tip edge"
+            }
+            Self::FlankPressure => {
+                "relative difference of the greatest pressure over the path of contact, without the positions at a tip edge, \
+                 sharp or rounded"
+            }
+            Self::HalfWidth => "relative L2 error of the half-width over the path from B to D",
+            Self::TransmissionError | Self::WornTransmissionError => {
+                "relative L2 error of the transmission error over the path from A to E"
+            }
+            Self::TransmissionErrorPeakToPeak | Self::WornTransmissionErrorPeakToPeak => {
+                "relative difference of the peak-to-peak value over the path from A to E"
+            }
+            Self::RootWear => {
+                "the larger of both gears' relative L2 errors, over the face width, of the greatest depth within 2 mm of radius \
+                 above the start of active profile"
+            }
+            Self::FaceLoadFactor | Self::WornFaceLoadFactor => {
+                "relative difference of the greatest over the mean load of the slices, each averaged over the mesh"
+            }
+        }
+    }
+}
