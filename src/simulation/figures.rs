@@ -47,12 +47,11 @@ pub struct SliceFigures {
 }
 
 impl SliceFigures {
-    /// Of `wear_mm` at the points of one slice of `gear`'s flank.
-    fn new(pair: &GearPair, gear: Gear, grid: &FlankGrid, wear_mm: &[f64]) -> Self {
-        let involute = pair.teeth[gear].involute;
+    /// Of `wear_mm` at the points of one slice of `gear`'s flank, which are at `radius_mm`.
+    fn new(pair: &GearPair, gear: Gear, grid: &FlankGrid, radius_mm: &[f64], wear_mm: &[f64]) -> Self {
         let start_radius = pair.active_start_radius_mm(gear);
         let tip_radius = pair.teeth[gear].tip_radius_mm;
-        let radius = |i: usize| involute.radius_mm(grid.coordinate_mm[i]);
+        let radius = |i: usize| radius_mm[i];
         let greatest = |points: &mut dyn Iterator<Item = usize>| {
             points.fold((0.0, 0), |best: (f64, usize), i| if wear_mm[i] > best.0 { (wear_mm[i], i) } else { best })
         };
@@ -76,8 +75,10 @@ impl SliceFigures {
 impl WearFigures {
     /// Of `wear_mm` at the points of `gear`'s flank, slice after slice (at least one).
     pub fn new(pair: &GearPair, gear: Gear, grid: &FlankGrid, wear_mm: &[f64]) -> Self {
-        let slices: Vec<_> =
-            wear_mm.chunks_exact(grid.len()).map(|slice| SliceFigures::new(pair, gear, grid, slice)).collect();
+        let involute = pair.teeth[gear].involute;
+        let radius_mm: Vec<f64> = grid.coordinate_mm.iter().map(|&rho| involute.radius_mm(rho)).collect();
+        let of_slice = |slice| SliceFigures::new(pair, gear, grid, &radius_mm, slice);
+        let slices: Vec<_> = wear_mm.chunks_exact(grid.len()).map(of_slice).collect();
         let mean = |of: fn(&SliceFigures) -> f64| slices.iter().map(of).sum::<f64>() / slices.len() as f64;
         // The first of equals, as the slices follow each other.
         let worst =

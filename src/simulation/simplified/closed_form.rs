@@ -14,7 +14,7 @@
 //! exactly. r is small and smooth, and a polynomial of the fourth degree takes its place: that through the Chebyshev points of
 //! [0, X], whose constant joins Q and whose other coefficients make P(w) = A₁ w + A₂ w² + A₃ w³ + A₄ w⁴. The nearest branch
 //! point is x = −1, so that it is wrong by about r ρ⁻⁵ with ρ ≈ 4/X: of the flattening, 1e-9 and far below for X = 0.1, 1e-7 for
-//! 0.3 and 1e-5 for 1, where the strip is as wide as the tooth and the closed form itself says little. X is the least of [`RANGES`] that
+//! 0.3 and 2e-5 for 1, where the strip is as wide as the tooth and the closed form itself says little. X is the least of [`RANGES`] that
 //! holds [`AMPLE_LOADS`] times the whole line load.
 //!
 //! Depths are smooth along the path of contact and cost an arc tangent each; they are tabulated and interpolated by cubics.
@@ -30,7 +30,7 @@ pub const RANGES: [f64; 4] = [0.03, 0.1, 0.3, 1.0];
 pub const AMPLE_LOADS: f64 = 3.0;
 
 /// Places along the path where depths are computed.
-const TABLE: usize = 256;
+const TABLE: usize = 512;
 
 /// A contact, ready for any load up to `greatest_load_n_per_mm`.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,8 +1,17 @@
 //! What is known at the contacts of every slice, brought onto the points of the flanks.
 //!
-//! Along each slice contacts follow each other from A to E, each in the middle of its stretch of the path. Between two of them a quantity
-//! runs straight if their stretches are equally long. Otherwise another slice comes or goes where they meet, and the quantity
-//! jumps there. Before the first and after the last it runs on as between the two next to them, but not below zero. A point whose share of the flank reaches beyond A or E counts for the part of it that does not.
+//! Along each slice contacts follow each other from A to E, each in the middle of its stretch of the path, for which its values are the
+//! mean. Over the stretch a quantity runs straight through that mean, with the gentler of the slopes towards both neighbours, and none
+//! where they disagree or one is missing,
+//!
+//! ```text
+//! v(ξ) = v_j + minmod((v_j − v_{j−1})/(ξ_j − ξ_{j−1}), (v_{j+1} − v_j)/(ξ_{j+1} − ξ_j)) (ξ − ξ_j)
+//! ```
+//!
+//! so that what all stretches have worn is kept, jumps where other slices come or go stay sharp, and nothing rises above its
+//! neighbours. A point whose share of the flank reaches beyond A or E counts for the part of it that does not.
+//!
+//! Source: B. van Leer, *J. Comput. Phys.* 32 (1979) 101–136, for slopes that keep means and monotony.
 
 use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 
@@ -28,14 +37,18 @@ struct Point {
     part: f64,
 }
 
-/// Stretches are equally long if they are within this part of the distance of their contacts.
-const ALIKE: f64 = 1e-6;
-
-impl Knot {
-    /// The contact is in the middle of its stretch.
-    fn half_length_mm(&self) -> f64 {
-        self.upper_mm - self.position_mm
-    }
+/// The slope of each value at each knot.
+fn slopes<const N: usize>(knots: &[Knot], values: &[[f64; N]]) -> Vec<[f64; N]> {
+    let towards = |j: usize, k: usize| {
+        let distance = knots[j + 1].position_mm - knots[j].position_mm;
+        if distance > 0.0 { (values[j + 1][k] - values[j][k]) / distance } else { 0.0 }
+    };
+    let minmod = |a: f64, b: f64| if a * b <= 0.0 { 0.0 } else { a.signum() * a.abs().min(b.abs()) };
+    let last = knots.len().saturating_sub(1);
+    let of_knot = |j: usize| {
+        std::array::from_fn(|k| if j == 0 || j == last { 0.0 } else { minmod(towards(j - 1, k), towards(j, k)) })
+    };
+    (0..knots.len()).map(of_knot).collect()
 }
 
 /// The points of both flanks, in the order of the path.
@@ -80,28 +93,14 @@ impl FlankPoints {
         mut put: impl FnMut(usize, f64, [f64; N]),
     ) {
         let Some(last) = knots.len().checked_sub(1) else { return };
-        let mut before = 0;
+        let slopes = slopes(knots, values);
+        let mut own = 0;
         for point in &self.points[gear] {
-            while before < last && knots[before + 1].position_mm <= point.position_mm {
-                before += 1;
+            while own < last && knots[own].upper_mm <= point.position_mm {
+                own += 1;
             }
-            // After the last contact as between the last two.
-            let before = before.min(last.saturating_sub(1));
-            let after = (before + 1).min(last);
-            let (low, high) = (&knots[before], &knots[after]);
-            let distance = high.position_mm - low.position_mm;
-            let alike = (low.half_length_mm() - high.half_length_mm()).abs() <= ALIKE * distance;
-            let weight = if distance <= 0.0 {
-                0.0
-            } else if alike {
-                (point.position_mm - low.position_mm) / distance
-            } else if point.position_mm < low.upper_mm {
-                0.0
-            } else {
-                1.0
-            };
-            let (low, high) = (&values[before], &values[after]);
-            put(point.index, point.part, std::array::from_fn(|k| (low[k] + weight * (high[k] - low[k])).max(0.0)));
+            let beyond = point.position_mm - knots[own].position_mm;
+            put(point.index, point.part, std::array::from_fn(|k| values[own][k] + beyond * slopes[own][k]));
         }
     }
 }
