@@ -178,8 +178,10 @@ pub fn balance(
     position_mm: f64,
 ) -> Result<Equilibrium, EquilibriumError> {
     let mut evaluations = 0;
+    // What a pair may carry at first sight: of a few pairs all, of many slices twice the mean.
+    let expected = line_load * (2.0 / pairs.len() as f64).min(1.0);
     for pair in pairs.iter_mut() {
-        let start = pair.start_mm(line_load);
+        let start = pair.start_mm(expected);
         pair.press(start);
         evaluations += 1;
     }
@@ -197,7 +199,7 @@ pub fn balance(
         if stiffness <= 0.0 {
             // No pair touches: begin again from where each would carry the load alone.
             for pair in pairs.iter_mut() {
-                let ample = pair.contact.ample_depth_mm(line_load);
+                let ample = pair.contact.ample_depth_mm(expected);
                 pair.press(ample);
                 evaluations += 1;
             }
