@@ -95,9 +95,9 @@ impl<'a> ContactForms<'a> {
         let to_load = 0.5 * square_half_width.ln();
         let (mut surface_mm2_per_n, mut series) = (log_depths, [0.0; 4]);
         let mut greatest_load_n_per_mm = f64::INFINITY;
-        for body in 0..2 {
+        for (body, inverse_square) in inverse_squares.into_iter().enumerate() {
             let factor = self.factor[body];
-            let x = square_half_width * inverse_squares[body];
+            let x = square_half_width * inverse_square;
             let holds = |&k: &usize| RANGES[k] >= x * self.ample_load_n_per_mm;
             let range = (0..RANGES.len() - 1).find(holds).unwrap_or(RANGES.len() - 1);
             let [constant, coefficients @ ..] = self.fits[body][range];

@@ -192,7 +192,7 @@ impl Station {
                 let lacks = Lanes::splat(approach_mm) - tangent.approach_mm;
                 let own = tangent.n_per_mm2 * lacks;
                 pack.correction = own;
-                pack.change = pack.change + own;
+                pack.change += own;
                 let loads = pack.loads();
                 correction = correction.max(own.abs() * tangent.half_over_load);
                 greatest = greatest.max(loads);
