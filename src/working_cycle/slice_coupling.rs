@@ -146,69 +146,74 @@ impl SliceCoupling {
 
     /// The factors of the operator with `diagonal` (≥ 0) added.
     pub fn factorise(&self, diagonal: &[f64]) -> Factors {
+        let mut factors = Factors::default();
+        self.factorise_into(diagonal, &mut factors);
+        factors
+    }
+
+    /// The same into `factors` that were used before: nothing is allocated.
+    pub fn factorise_into(&self, diagonal: &[f64], factors: &mut Factors) {
         let n = self.count;
-        let mut bands = Factors { pivot: diagonal.to_vec(), first: vec![0.0; n], second: vec![0.0; n] };
-        for pivot in &mut bands.pivot {
-            *pivot += 1.0;
+        let Factors { per_pivot, first, second } = factors;
+        for row in [&mut *per_pivot, first, second] {
+            row.resize(n, 0.0);
         }
-        for i in 1..n {
-            bands.pivot[i] += self.twist;
-            bands.pivot[i - 1] += self.twist;
-            bands.first[i] -= self.twist;
+        // Row by row with a, b, d of the matrix beside and on the diagonal, and L D Lᵀ: L₂ = a/D₋₂, f = b − a L₁₋₁, L₁ = f/D₋₁,
+        // D = d − f L₁ − a L₂.
+        let (mut per_before, mut per_second, mut first_before) = (0.0, 0.0, 0.0);
+        for i in 0..n {
+            let [d, b, a] = self.row(i);
+            let (l_2, f) = (a * per_second, b - a * first_before);
+            let l_1 = f * per_before;
+            let per_own = 1.0 / (d + diagonal[i] - f * l_1 - a * l_2);
+            (per_pivot[i], first[i], second[i]) = (per_own, l_1, l_2);
+            (per_second, per_before, first_before) = (per_before, per_own, l_1);
         }
-        for i in 1..n.saturating_sub(1) {
-            bands.pivot[i - 1] += self.bending;
-            bands.pivot[i] += 4.0 * self.bending;
-            bands.pivot[i + 1] += self.bending;
-            bands.first[i] -= 2.0 * self.bending;
-            bands.first[i + 1] -= 2.0 * self.bending;
-            bands.second[i + 1] += self.bending;
-        }
-        // L D Lᵀ in place: first[i] and second[i] become L[i][i−1] and L[i][i−2].
-        for i in 1..n {
-            if i >= 2 {
-                bands.second[i] /= bands.pivot[i - 2];
-                bands.first[i] -= bands.second[i] * bands.pivot[i - 2] * bands.first[i - 1];
-            }
-            bands.first[i] /= bands.pivot[i - 1];
-            let mut taken = bands.first[i] * bands.first[i] * bands.pivot[i - 1];
-            if i >= 2 {
-                taken += bands.second[i] * bands.second[i] * bands.pivot[i - 2];
-            }
-            bands.pivot[i] -= taken;
-        }
-        bands
+    }
+
+    /// Row i of the operator: on the diagonal, one and two places before it.
+    fn row(&self, i: usize) -> [f64; 3] {
+        let (n, twist, bending) = (self.count, self.twist, self.bending);
+        let neighbours = f64::from(u8::from(i > 0) + u8::from(i + 1 < n));
+        // Second differences with their middle here, and with an end here.
+        let middle = f64::from(u8::from(i > 0 && i + 1 < n));
+        let ends = f64::from(u8::from(i >= 2) + u8::from(i + 2 < n));
+        let before = f64::from(u8::from(i > 0 && i + 1 < n) + u8::from(i >= 2));
+        [
+            1.0 + neighbours * twist + (4.0 * middle + ends) * bending,
+            if i > 0 { -twist - 2.0 * before * bending } else { 0.0 },
+            if i >= 2 { bending } else { 0.0 },
+        ]
     }
 }
 
 /// L D Lᵀ of a symmetric matrix with two bands beside the diagonal.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Factors {
-    pivot: Vec<f64>,
+    /// 1/D.
+    per_pivot: Vec<f64>,
+    /// L beside the diagonal.
     first: Vec<f64>,
+    /// L two places beside it.
     second: Vec<f64>,
 }
 
 impl Factors {
     /// Solves in place.
     pub fn solve(&self, x: &mut [f64]) {
-        let n = self.pivot.len();
-        for i in 1..n {
-            x[i] -= self.first[i] * x[i - 1];
-            if i >= 2 {
-                x[i] -= self.second[i] * x[i - 2];
-            }
+        let n = self.per_pivot.len();
+        let (mut before, mut second_before) = (0.0, 0.0);
+        for (x, (first, second)) in x.iter_mut().zip(self.first.iter().zip(&self.second)) {
+            *x -= first * before + second * second_before;
+            (second_before, before) = (before, *x);
         }
-        for (x, pivot) in x.iter_mut().zip(&self.pivot) {
-            *x /= pivot;
-        }
+        // Backwards with the rows that follow: L₁ and L₂ of row i + 1 and i + 2.
+        let (mut after, mut second_after) = (0.0, 0.0);
         for i in (0..n).rev() {
-            if i + 1 < n {
-                x[i] -= self.first[i + 1] * x[i + 1];
-            }
-            if i + 2 < n {
-                x[i] -= self.second[i + 2] * x[i + 2];
-            }
+            let first = if i + 1 < n { self.first[i + 1] } else { 0.0 };
+            let second = if i + 2 < n { self.second[i + 2] } else { 0.0 };
+            x[i] = x[i] * self.per_pivot[i] - first * after - second * second_after;
+            (second_after, after) = (after, x[i]);
         }
     }
 }

@@ -11,7 +11,7 @@
 
 use super::lanes::LANES;
 use super::station::{Pack, Tangent};
-use crate::working_cycle::slice_coupling::SliceCoupling;
+use crate::working_cycle::slice_coupling::{Factors, SliceCoupling};
 
 /// The teeth of a phase.
 #[derive(Debug, Clone)]
@@ -34,6 +34,7 @@ struct BentTooth {
     fixed: Vec<f64>,
     /// Change of v with δ.
     with_approach: Vec<f64>,
+    factors: Factors,
 }
 
 impl BentTeeth {
@@ -45,7 +46,7 @@ impl BentTeeth {
             first += contacts.len();
             let zeros = || vec![0.0; slices];
             let (v, diagonal, fixed, with_approach) = (zeros(), zeros(), zeros(), zeros());
-            BentTooth { first: begins, contacts, v, diagonal, fixed, with_approach }
+            BentTooth { first: begins, contacts, v, diagonal, fixed, with_approach, factors: Factors::default() }
         });
         Self { teeth: teeth.collect(), coupling: coupling.clone() }
     }
@@ -94,8 +95,8 @@ impl BentTooth {
             self.with_approach[slice] = root * c;
             self.fixed[slice] += root * (packs[pack].load.0[lane] - c * h);
         }
-        let factors = coupling.factorise(&self.diagonal);
-        factors.solve(&mut self.fixed);
-        factors.solve(&mut self.with_approach);
+        coupling.factorise_into(&self.diagonal, &mut self.factors);
+        self.factors.solve(&mut self.fixed);
+        self.factors.solve(&mut self.with_approach);
     }
 }

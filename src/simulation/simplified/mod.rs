@@ -52,6 +52,23 @@ use on_flanks::{FlankPoints, Knot};
 /// Contacts of a batch: enough that handing it to another thread costs nothing beside it, about 0.1 ms.
 const BATCH: usize = 16_000;
 
+/// The contacts of each slice in the order of the path.
+fn knots(batches: &[Batch], slices: usize) -> Vec<Vec<Knot>> {
+    let mut knots = vec![Vec::new(); slices];
+    for (number, batch) in batches.iter().enumerate() {
+        for station in 0..batch.stations.len() {
+            for (contact, lane, _) in batch.contacts(station) {
+                let (position_mm, upper_mm) = (contact.cell.position_mm, contact.cell.upper_mm);
+                knots[contact.slice].push(Knot { position_mm, upper_mm, at: (number, lane) });
+            }
+        }
+    }
+    for of_slice in &mut knots {
+        of_slice.sort_by(|a, b| a.position_mm.total_cmp(&b.position_mm));
+    }
+    knots
+}
+
 /// A pair that wears by the simplified model.
 pub struct SimplifiedPair<'a> {
     springs: Springs<'a>,
@@ -63,9 +80,8 @@ pub struct SimplifiedPair<'a> {
     positions: usize,
     /// How far the bodies that all pairs share yield under the whole load, mm.
     bodies_mm: f64,
-    /// Made at the first snapshot.
-    flank_points: Option<FlankPoints>,
-    /// The contacts of each slice in the order of the path, made with them.
+    flank_points: FlankPoints,
+    /// The contacts of each slice in the order of the path.
     knots: Vec<Vec<Knot>>,
 }
 
@@ -104,24 +120,9 @@ impl<'a> SimplifiedPair<'a> {
             phases = rest;
         }
         let meshes = PerGear { pinion: 0.0, wheel: 0.0 };
-        Self { springs, grid, batches, meshes, positions, bodies_mm, flank_points: None, knots: Vec::new() }
-    }
-
-    /// The contacts of each slice in the order of the path.
-    fn knots(&self) -> Vec<Vec<Knot>> {
-        let mut knots = vec![Vec::new(); self.springs.sliced.slices.count()];
-        for (number, batch) in self.batches.iter().enumerate() {
-            for station in 0..batch.stations.len() {
-                for (contact, lane, _) in batch.contacts(station) {
-                    let (position_mm, upper_mm) = (contact.cell.position_mm, contact.cell.upper_mm);
-                    knots[contact.slice].push(Knot { position_mm, upper_mm, at: (number, lane) });
-                }
-            }
-        }
-        for of_slice in &mut knots {
-            of_slice.sort_by(|a, b| a.position_mm.total_cmp(&b.position_mm));
-        }
-        knots
+        let flank_points = FlankPoints::new(springs.pair, grid);
+        let knots = knots(&batches, springs.sliced.slices.count());
+        Self { springs, grid, batches, meshes, positions, bodies_mm, flank_points, knots }
     }
 
     /// The mesh of one tooth.
@@ -177,26 +178,25 @@ impl WearingPair for SimplifiedPair<'_> {
     }
 
     fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {
-        if self.flank_points.is_none() {
-            self.flank_points = Some(FlankPoints::new(self.springs.pair, self.grid));
-            self.knots = self.knots();
-        }
         let points = self.grid.map(|grid| grid.len());
         let field = || points.map(|points| vec![0.0; self.knots.len() * points]);
         let (mut wear_mm, mut depth_mm, mut pressure_mpa, mut sliding_mm) = (field(), field(), field(), field());
-        let flank_points = self.flank_points.iter();
-        for (flank_points, gear) in flank_points.flat_map(|points| Gear::BOTH.map(|gear| (points, gear))) {
-            let mut values = Vec::new();
-            for (slice, knots) in self.knots.iter().enumerate() {
-                values.clear();
-                values.extend(knots.iter().map(|knot| {
-                    let (batch, lane) = (&self.batches[knot.at.0], knot.at.1);
-                    let state = batch.contact(lane);
+        let mut values: PerGear<Vec<[f64; 4]>> = PerGear::from_fn(|_| Vec::new());
+        for (slice, knots) in self.knots.iter().enumerate() {
+            for gear in Gear::BOTH {
+                values[gear].clear();
+            }
+            for knot in knots {
+                let (batch, lane) = (&self.batches[knot.at.0], knot.at.1);
+                let state = batch.contact(lane);
+                for gear in Gear::BOTH {
                     let [wear, depth] = batch.of_lane(gear, lane);
-                    [wear, depth, state.sliding_mm[gear], state.pressure_mpa]
-                }));
+                    values[gear].push([wear, depth, state.sliding_mm[gear], state.pressure_mpa]);
+                }
+            }
+            for gear in Gear::BOTH {
                 let first = slice * points[gear];
-                flank_points.bring(gear, knots, &values, |point, part, [wear, depth, sliding, pressure]| {
+                self.flank_points.bring(gear, knots, &values[gear], |point, part, [wear, depth, sliding, pressure]| {
                     let at = first + point;
                     wear_mm[gear][at] = part * wear;
                     depth_mm[gear][at] = part * depth;
