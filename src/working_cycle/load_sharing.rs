@@ -18,6 +18,7 @@
 //! Where Newton does not settle (a gap so rough that rounding decides), both equations are solved by bisection instead,
 //! which their monotony allows.
 
+use super::Work;
 use super::tip_contact::OnLever;
 use crate::contact::{PairContact, Response};
 use crate::fem::active_set::ActiveSetError;
@@ -126,7 +127,7 @@ impl<'a> MeshedPair<'a> {
     }
 
     /// Keeps the present depth as a start for later.
-    pub fn remember(&mut self) {
+    fn remember(&mut self) {
         self.history_mm = [Some(self.depth_mm), self.history_mm[0], self.history_mm[1]];
     }
 
@@ -163,6 +164,39 @@ impl<'a> MeshedPair<'a> {
     /// 1 + w'/k.
     pub(super) fn series(&self) -> f64 {
         1.0 + self.response.stiffness_n_per_mm2 * (1.0 / self.teeth_n_per_mm2 + self.further.1)
+    }
+}
+
+/// Equilibrium, by `balance`, of `pairs` on flanks that have lost `removed_mm` of each; pairs that turn out to touch beyond what they
+/// look at look wider.
+///
+/// # Errors
+/// That of `balance`.
+pub fn settled<'a, 'r>(
+    pairs: &mut [MeshedPair<'a>],
+    removed_mm: impl Fn(usize) -> PerGear<&'r [f64]>,
+    mut balance: impl FnMut(&mut [MeshedPair<'a>]) -> Result<Equilibrium, EquilibriumError>,
+) -> Result<(Equilibrium, Work), EquilibriumError> {
+    let mut work = Work { equilibria: 1, ..Work::default() };
+    for (k, pair) in pairs.iter_mut().enumerate() {
+        pair.read(removed_mm(k));
+    }
+    loop {
+        let equilibrium = balance(pairs)?;
+        work.newton_iterations += equilibrium.iterations;
+        work.pair_evaluations += equilibrium.pair_evaluations;
+        let mut held = true;
+        for (k, pair) in pairs.iter_mut().enumerate() {
+            if !pair.contact.settle() {
+                pair.contact.widen();
+                pair.read(removed_mm(k));
+                held = false;
+            }
+        }
+        if held {
+            pairs.iter_mut().for_each(MeshedPair::remember);
+            return Ok((equilibrium, work));
+        }
     }
 }
 

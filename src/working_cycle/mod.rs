@@ -24,7 +24,7 @@ use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCel
 use crate::gear::{Gear, PerGear};
 use crate::wear::WearLaw;
 use collected::Collected;
-use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance};
+use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use sliced_mesh::SlicedMesh;
 
 /// Groups of positions that collect wear on their own; fixed, so that sums always run in the same order.
@@ -278,29 +278,12 @@ impl<'a> Station<'a> {
         Self { cell: position.cell, on_line_of_action, pairs, equilibrium: Equilibrium::default() }
     }
 
-    /// Equilibrium on the flanks as they are now; pairs that turn out to touch beyond what they look at look wider.
+    /// Equilibrium on the flanks as they are now.
     fn solve(&mut self, removed_mm: PerGear<&[f64]>, line_load: f64) -> Result<Work, EquilibriumError> {
-        let mut work = Work { equilibria: 1, ..Work::default() };
-        for pair in &mut self.pairs {
-            pair.read(removed_mm);
-        }
-        loop {
-            self.equilibrium = balance(&mut self.pairs, line_load, self.cell.position_mm)?;
-            work.newton_iterations += self.equilibrium.iterations;
-            work.pair_evaluations += self.equilibrium.pair_evaluations;
-            let mut held = true;
-            for pair in &mut self.pairs {
-                if !pair.contact.settle() {
-                    pair.contact.widen();
-                    pair.read(removed_mm);
-                    held = false;
-                }
-            }
-            if held {
-                self.pairs.iter_mut().for_each(MeshedPair::remember);
-                return Ok(work);
-            }
-        }
+        let at = self.cell.position_mm;
+        let (equilibrium, work) = settled(&mut self.pairs, |_| removed_mm, |pairs| balance(pairs, line_load, at))?;
+        self.equilibrium = equilibrium;
+        Ok(work)
     }
 
     fn observe(&self, line_load: f64, bodies_mm: f64) -> PositionObservation {

@@ -13,7 +13,7 @@
 use rayon::prelude::*;
 
 use super::collected::Collected;
-use super::load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance};
+use super::load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use super::phases::{Phase, SliceContact};
 use super::slice_coupling::SliceCoupling;
 use super::sliced_mesh::{ObservedContact, ObservedPhase, SlicedMesh};
@@ -247,7 +247,7 @@ impl<'a> Station<'a> {
         }
     }
 
-    /// Equilibrium on the flanks as they are now; contacts that turn out to touch beyond what they look at look wider.
+    /// Equilibrium on the flanks as they are now.
     fn solve(
         &mut self,
         removed_mm: PerGear<&[f64]>,
@@ -255,30 +255,14 @@ impl<'a> Station<'a> {
         coupling: Option<&SliceCoupling>,
         load: f64,
     ) -> Result<Work, EquilibriumError> {
-        let mut work = Work { equilibria: 1, ..Work::default() };
-        for (contact, pair) in self.contacts.iter().zip(&mut self.pairs) {
-            pair.read(of_slice(removed_mm, points, contact.slice));
-        }
-        loop {
-            self.equilibrium = match coupling {
-                None => balance(&mut self.pairs, load, self.position_mm)?,
-                Some(coupling) => balance_on_teeth(&mut self.pairs, &mut self.teeth, coupling, load, self.position_mm)?,
-            };
-            work.newton_iterations += self.equilibrium.iterations;
-            work.pair_evaluations += self.equilibrium.pair_evaluations;
-            let mut held = true;
-            for (contact, pair) in self.contacts.iter().zip(&mut self.pairs) {
-                if !pair.contact.settle() {
-                    pair.contact.widen();
-                    pair.read(of_slice(removed_mm, points, contact.slice));
-                    held = false;
-                }
-            }
-            if held {
-                self.pairs.iter_mut().for_each(MeshedPair::remember);
-                return Ok(work);
-            }
-        }
+        let Self { position_mm, contacts, pairs, teeth, .. } = self;
+        let removed_mm = |k: usize| of_slice(removed_mm, points, contacts[k].slice);
+        let (equilibrium, work) = settled(pairs, removed_mm, |pairs| match coupling {
+            None => balance(pairs, load, *position_mm),
+            Some(coupling) => balance_on_teeth(pairs, teeth, coupling, load, *position_mm),
+        })?;
+        self.equilibrium = equilibrium;
+        Ok(work)
     }
 
     fn observe(&self, load: f64, bodies_mm: f64) -> ObservedPhase {
