@@ -102,7 +102,9 @@ fn ver_uniform_load_and_factors() {
         load.iter_mut().zip(&diagonal).zip(&v).for_each(|((load, d), v)| *load += d * v);
         coupling.factorise(&diagonal).solve(&mut load);
         let error = load.iter().zip(&v).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        assert!(error < if count <= 20 { 1e-11 } else { 1e-4 }, "{count}: {error:.1e}");
+        // Rounding the bands is worth ε times the greatest eigenvalue, at most 16 ℓ₂⁴/Δz⁴ of bending; the least is 1.
+        let greatest = 16.0 * reach.bending_mm4 * (count as f64 / 14.0).powi(4);
+        assert!(error < 1e-11_f64.max(2.0 * f64::EPSILON * greatest), "{count}: {error:.1e}");
     }
     let coupling = SliceCoupling::new(reach, 12, 1.2);
     let influence: Vec<Vec<f64>> = (0..12).map(|k| under_point_load(&coupling, 12, k)).collect();
