@@ -369,12 +369,70 @@ fn choices_of_a_later_version_are_refused_by_name() {
     for (table, key, line, allowed) in [
         ("wear", "law", "law = \"oxidation\"", "archard"),
         ("numerics", "positions", "step = \"adaptive\"", "revolutions"),
-        ("pair", "face_width_mm", "face_width_mm = 14.0\nhelix_angle_deg = 10.0", "helix_angle_deg = 0"),
-        ("pair.pinion", "teeth", "teeth = 16\nlead_crowning_um = 5.0", "profile_crowning_um"),
-        ("numerics", "error_estimate", "[helical]\nslices = 20", "spur gears"),
     ] {
         Case::fzg_c().with(table, key, line).refused().says(&["is not available in this version", "allowed:", allowed]);
     }
+}
+
+#[test]
+fn helical_pairs_out_of_range() {
+    for (table, key, line, at, says) in [
+        ("pair", "face_width_mm", "face_width_mm = 14.0\nhelix_angle_deg = 60.0", "helix_angle_deg", "at most 45"),
+        ("pair.pinion", "teeth", "teeth = 16\nlead_crowning_um = -5.0", "lead_crowning_um", "at least 0"),
+        ("numerics", "error_estimate", "[helical]\nslices = 0", "slices", "at least 1"),
+        ("numerics", "error_estimate", "[helical]\ncoupling = \"yes\"", "coupling", "slicing"),
+        (
+            "pair.wheel",
+            "teeth",
+            "teeth = 24\nend_relief = { amount_um = 10.0, length_mm = 8.0 }",
+            "end_relief",
+            "at most 7.0000 mm",
+        ),
+        (
+            "pair.wheel",
+            "teeth",
+            "teeth = 24\nhelix_slope_deviation_um = -9000.0",
+            "helix_slope_deviation_um",
+            "at most 1125 µm",
+        ),
+    ] {
+        let case = Case::fzg_c().with(table, key, line);
+        let line = case.line_of(at);
+        case.refused().at_line(line).says(&[says]);
+    }
+}
+
+/// Where no part of the face width is in contact at some position, or none of so few slices.
+#[test]
+fn helical_pairs_without_contact_at_some_position() {
+    let h951 = |from: &str, to: &str| {
+        let text = gearwear::scene::presets::find("h951").unwrap().text;
+        assert!(text.contains(from));
+        Case { text: text.replace(from, to), folder: tempfile::tempdir().unwrap() }
+    };
+    let narrow = h951("face_width_mm = 21.2418", "face_width_mm = 1.0");
+    narrow.refused().says(&["pair.face_width_mm", "no part of the face width is in contact", "overlap ratio 0.0471"]);
+    let few = h951("face_width_mm = 21.2418", "face_width_mm = 1.5");
+    let few = Case { text: few.text.replace("slices = 20", "slices = 3"), ..few };
+    few.refused().says(&["helical.slices: found 3; allowed: at least 14 slices"]);
+    let wide = h951("face_width_mm = 21.2418", "face_width_mm = 1e7");
+    wide.refused().says(&["pair.face_width_mm", "an overlap ratio of at most 1000"]);
+}
+
+#[test]
+fn the_finite_element_surface_has_no_slices() {
+    let case = Case::fzg_c().with("pair", "face_width_mm", "face_width_mm = 14.0\nhelix_angle_deg = 10.0").with(
+        "contact",
+        "surface",
+        "surface = \"fem\"",
+    );
+    case.refused().says(&["contact.surface", "winkler", "half-space"]);
+}
+
+#[test]
+fn slices_that_nothing_needs_are_told() {
+    let case = Case::fzg_c().with("numerics", "error_estimate", "[helical]\nslices = 20");
+    assert!(case.warnings().contains("[helical] is not used"));
 }
 
 #[test]

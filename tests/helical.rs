@@ -360,3 +360,19 @@ proptest! {
         }
     }
 }
+
+/// Where slices enter as others leave, the transmission error hardly varies but by their steps, and the run says so.
+#[test]
+fn steps_of_single_slices_are_told() {
+    let warnings = |name: &str| {
+        let text = gearwear::scene::presets::find(name).unwrap().text.replace("\"hertz\"", "\"hertz-mean\"");
+        let text = format!("{}\n", text.replace("error_estimate = true", "error_estimate = false"));
+        let resolved = gearwear::scene::Scene::from_toml(&text).unwrap();
+        let plan = gearwear::plan::Plan::of(&resolved.scene);
+        let inputs = gearwear::pipeline::inputs::Inputs::default();
+        let unwatched = &gearwear::simulation::wear_run::Unwatched;
+        gearwear::pipeline::run(&resolved, &plan, &inputs, unwatched).unwrap().record.summary.warnings
+    };
+    assert!(warnings("h951").iter().any(|warning| warning.starts_with("helical.slices: the transmission error")));
+    assert!(!warnings("helical").iter().any(|warning| warning.starts_with("helical.slices")));
+}

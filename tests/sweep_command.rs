@@ -263,12 +263,13 @@ fn values_outside_a_keys_range_are_rows() {
 }
 
 #[test]
-fn a_sweep_without_any_result_says_so() {
+fn a_sweep_without_any_scene_is_refused() {
     let bench = Bench::new();
     let output = bench.sweep("out", &["pair.centre_distance_mm=80:82:3"], &[]);
-    assert_eq!(output.status.code(), Some(3), "{}", said(&output));
-    assert!(said(&output).contains("none of 3 combinations has a result"), "{}", said(&output));
-    assert_eq!(column(&bench.out("out"), "status"), ["failed"; 3]);
+    assert_eq!(output.status.code(), Some(2), "{}", said(&output));
+    assert!(said(&output).contains("none of the combinations makes a scene"), "{}", said(&output));
+    assert!(said(&output).contains("pair.centre_distance_mm"), "{}", said(&output));
+    assert!(!bench.out("out").exists());
 }
 
 #[test]

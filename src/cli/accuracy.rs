@@ -103,7 +103,11 @@ fn table(record: &AccuracyRecord) -> String {
         let found = error(variant, r.quantity).map_or_else(String::new, per_cent);
         let none = if r.is_within { "" } else { "none; closest: " };
         let wall_s = variant.simulation_s.map_or_else(String::new, |s| format!(", {} s", digits(s)));
-        text.push_str(&format!("  {:44}{none}{} ({found}{wall_s})\n", r.quantity.title(), variant.name));
+        let uncertain = record.reference.uncertainty.get(&r.quantity).filter(|&&known| known > record.within);
+        let beside = uncertain.map_or_else(String::new, |&known| {
+            format!("; the reference is uncertain by {}, so this says little", per_cent(known))
+        });
+        text.push_str(&format!("  {:44}{none}{} ({found}{wall_s}){beside}\n", r.quantity.title(), variant.name));
     }
     let failed: Vec<&VariantRecord> = record.variants.iter().filter(|v| v.failure.is_some()).collect();
     if !failed.is_empty() {

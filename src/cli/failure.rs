@@ -96,6 +96,10 @@ pub enum InputError {
         /// Its line.
         line: usize,
     },
+    /// Not one combination of a sweep makes a scene.
+    #[error("--vary: none of the combinations makes a scene; the first: {0}")]
+    #[diagnostic(help("give the scene what the varied key needs beside it, or another range"))]
+    NothingToVary(String),
     /// A file that is both a problem with its own mesh and a gear pair.
     #[error("{name}: found both [mesh] and [pair]; allowed: one of them")]
     #[diagnostic(help("a problem with its own mesh has [mesh], a gear pair has [pair]"))]

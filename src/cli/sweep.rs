@@ -105,6 +105,9 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
     let sweep = sweep.map_err(|problems| {
         Failure::Scene(SceneProblems { name: source.name.clone(), text: source.text.clone(), problems })
     })?;
+    if let Some(problems) = sweep.unbuildable() {
+        return Err(InputError::NothingToVary(problems).into());
+    }
     report::writable(&args.out)?;
     let threads = thread_count(args.threads);
 

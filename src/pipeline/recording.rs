@@ -46,6 +46,7 @@ pub(super) fn summary(
     let mut warnings = resolved.warnings.clone();
     warnings.extend(stability_warning(model, outcome));
     warnings.extend(deep_wear_warning(pair, outcome));
+    warnings.extend(slices::warning(outcome));
     warnings.extend(error_estimates::warnings(&error));
     let reached = outcome.worn.revolutions;
     Ok(Summary {

@@ -16,6 +16,28 @@ fn meshes(outcome: &Outcome) -> Option<[&SlicedMesh; 2]> {
     Some([outcome.new.cycle.slices.as_ref()?, outcome.worn.cycle.slices.as_ref()?])
 }
 
+/// Part of the peak-to-peak transmission error above which the step of a single slice is warned of.
+const TELLING_STEP: f64 = 0.25;
+
+/// Warns where the transmission error varies by little more than the steps of slices that enter and leave.
+pub(super) fn warning(outcome: &Outcome) -> Option<String> {
+    let [new, _] = meshes(outcome)?;
+    let errors = || new.transmission_error_mm.iter().copied();
+    let peak_to_peak = errors().fold(f64::NEG_INFINITY, f64::max) - errors().fold(f64::INFINITY, f64::min);
+    // Slices that enter within one phase of each other make a step that is real, as spur teeth do.
+    let spacing = new.base_pitch_mm / new.transmission_error_mm.len() as f64;
+    let apart = outcome.slices.ahead_mm.windows(2).all(|two| (two[0] - two[1]).abs() >= spacing);
+    let step = new.greatest_step_mm();
+    (apart && outcome.slices.count() > 1 && step > TELLING_STEP * peak_to_peak).then(|| {
+        format!(
+            "helical.slices: the transmission error varies by {:.3} µm peak to peak, and by {:.3} µm where a single slice enters or \
+             leaves: it tells the slices more than the gears; the mesh orders tell more, and more slices make the steps smaller",
+            peak_to_peak * UM_PER_MM,
+            step * UM_PER_MM
+        )
+    })
+}
+
 /// The pair slice by slice in figures; none where all sections are alike.
 pub(super) fn summary(model: &Model<'_>, outcome: &Outcome) -> Option<HelicalSummary> {
     let [new, worn] = meshes(outcome)?;

@@ -74,6 +74,14 @@ impl Sweep {
         Ok(resolved)
     }
 
+    /// Where not a single combination makes a scene, what is wrong with the first.
+    pub fn unbuildable(&self) -> Option<String> {
+        let problems = |index| self.scene(index).err();
+        let first = problems(0)?;
+        let all = (1..self.identity.combinations()).all(|index| problems(index).is_some());
+        all.then(|| in_words(&first))
+    }
+
     /// Runs combination `index`; `None` where it was interrupted.
     ///
     /// Whatever goes wrong with it is its row's error, a defect of the program included.
@@ -105,10 +113,7 @@ impl Sweep {
     }
 
     fn run(&self, index: usize, observer: &dyn Observer) -> Result<Summary, String> {
-        let resolved = self.scene(index).map_err(|problems| {
-            let all: Vec<String> = problems.iter().map(ToString::to_string).collect();
-            all.join("; ")
-        })?;
+        let resolved = self.scene(index).map_err(|problems| in_words(&problems))?;
         self.inputs_belong_to(&resolved.scene)?;
         match pipeline::summarise(&resolved, &Plan::of(&resolved.scene), &self.inputs, observer) {
             Ok(Done { failure: Some(failure), .. }) => Err(failure.to_string()),
@@ -147,6 +152,10 @@ fn hash_of(inputs: &Inputs) -> String {
 fn simulation_s(summary: &Summary) -> Option<f64> {
     let name = StageKind::Simulation.name();
     summary.stages.iter().find(|stage| stage.name == name).map(|stage| stage.wall_s)
+}
+
+fn in_words(problems: &[Problem]) -> String {
+    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
 }
 
 fn one_line(text: &str) -> String {

@@ -153,6 +153,13 @@ impl SlicedMesh {
             .collect()
     }
 
+    /// Greatest change of the transmission error from one phase to the next, mm.
+    pub fn greatest_step_mm(&self) -> f64 {
+        let errors = &self.transmission_error_mm;
+        let next = errors.iter().cycle().skip(1);
+        errors.iter().zip(next).map(|(here, there)| (there - here).abs()).fold(0.0, f64::max)
+    }
+
     /// The tooth as a whole at `count` positions of its middle from A to E, between those observed: all slices together under the
     /// whole line load `line_load_n_per_mm`.
     pub fn along_path(&self, path: &PathOfContact, count: usize, line_load_n_per_mm: f64) -> Vec<PositionObservation> {

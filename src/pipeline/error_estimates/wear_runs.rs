@@ -3,7 +3,8 @@
 //! On the line of action two companions take an eighth of the wear steps S (on elastic half-planes, where short waves of wear
 //! bound the step, a quarter); one of them also half of the flank points and positions N. With the orders that the methods
 //! have (Euler: first in the step; flank and path of contact: second in their spacing, first with the discontinuous pressure
-//! of `hertz-mean`; slices, of which the latter companion has half as many too, second),
+//! of `hertz-mean` and with slices, of which the latter companion has half as many too: the greatest depth lies at the outermost one,
+//! which moves outwards, or where a line of contact ends),
 //!
 //! ```text
 //! wear step        |h(N, S) − h(N, S/8)| / (8 − 1) / h
@@ -193,7 +194,8 @@ fn on_the_line_of_action(companions: &mut Companions<'_>, reference: PerGear<f64
     let stepped = companions.peaks_mm(Coarser { spacing: 1, step }, own, (0.0, 0.5));
     let discretisation = stepped.clone().and_then(|stepped| {
         let half = companions.peaks_mm(Coarser { spacing: 2, step }, own, (0.5, 0.75))?;
-        let (order, divisor) = if surface == SurfaceKind::HertzMean { ("first", 1.0) } else { ("second", 3.0) };
+        let first_order = surface == SurfaceKind::HertzMean || companions.model.sliced.is_some();
+        let (order, divisor) = if first_order { ("first", 1.0) } else { ("second", 3.0) };
         let how = format!("Richardson, {order} order, from companion runs with {}", companions.spacings());
         Ok((companions.relative(stepped, half) / divisor, how))
     });

@@ -31,9 +31,18 @@ pub fn check(spec: &PairSpec, slices: Option<SliceSettings>, findings: &mut Find
     }
 }
 
+/// More teeth than this do not lie side by side over a face width.
+const GREATEST_OVERLAP: f64 = 1000.0;
+
 /// The middles of the outermost slices are (n − 1)/n of the face width apart, and so much of the overlap they have.
 fn check_slices(pair: &GearPair, count: usize, findings: &mut Findings) {
     let (contact_ratio, overlap_ratio) = (pair.path.contact_ratio(), pair.overlap_ratio());
+    if overlap_ratio > GREATEST_OVERLAP {
+        let found = format!("{}, overlap ratio {overlap_ratio:.0}", number(pair.spec.face_width_mm));
+        let allowed = format!("an overlap ratio of at most {GREATEST_OVERLAP}");
+        findings.problem(ProblemKind::NotAllowed, "pair.face_width_mm", found, allowed);
+        return;
+    }
     let of_slices = overlap_ratio * (count as f64 - 1.0) / count as f64;
     if contact_ratio + of_slices < 1.0 {
         let least = overlap_ratio / (contact_ratio + overlap_ratio - 1.0);

@@ -121,7 +121,12 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         settings::memory(numerics, surface, slices.map_or(1, |slices| slices.count), findings);
     }
     let title = file.title.get_or_insert_with(|| {
-        format!("Gear pair {}/{}, module {} mm", pair.gears.pinion.teeth, pair.gears.wheel.teeth, pair.normal_module_mm)
+        // As the file gives it.
+        let module = match file.pair.transverse_module_mm {
+            Some(transverse) => format!("transverse module {transverse}"),
+            None => format!("module {}", pair.normal_module_mm),
+        };
+        format!("Gear pair {}/{}, {module} mm", pair.gears.pinion.teeth, pair.gears.wheel.teeth)
     });
     let title = title.clone();
     let scene = Scene {
