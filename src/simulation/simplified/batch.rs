@@ -189,14 +189,13 @@ impl Batch {
     /// h ← h + meshes · dh of both flanks, and their gap.
     fn wear(&mut self, station: usize, meshes: PerGear<f64>) {
         let range = self.stations[station].packs.clone();
-        let (wear, depth) = (&mut self.wear_mm, &self.depth_mm);
-        let wear = wear.pinion[range.clone()].iter_mut().zip(&mut wear.wheel[range.clone()]);
-        let depth = depth.pinion[range.clone()].iter().zip(&depth.wheel[range.clone()]);
-        for ((pack, (h_1, h_2)), (dh_1, dh_2)) in self.packs[range.clone()].iter_mut().zip(wear).zip(depth) {
-            let lost = [Lanes(*dh_1) * meshes.pinion, Lanes(*dh_2) * meshes.wheel];
-            *h_1 = (Lanes(*h_1) + lost[0]).0;
-            *h_2 = (Lanes(*h_2) + lost[1]).0;
-            pack.gap_mm += lost[0] + lost[1];
+        for gear in Gear::BOTH {
+            let (wear, depth) = (&mut self.wear_mm[gear][range.clone()], &self.depth_mm[gear][range.clone()]);
+            for (pack, (h, dh)) in self.packs[range.clone()].iter_mut().zip(wear.iter_mut().zip(depth)) {
+                let lost = Lanes(*dh) * meshes[gear];
+                *h = (Lanes(*h) + lost).0;
+                pack.gap_mm += lost;
+            }
         }
     }
 

@@ -39,16 +39,18 @@ struct Point {
 
 /// The slope of each value at each knot.
 fn slopes<const N: usize>(knots: &[Knot], values: &[[f64; N]]) -> Vec<[f64; N]> {
-    let towards = |j: usize, k: usize| {
-        let distance = knots[j + 1].position_mm - knots[j].position_mm;
-        if distance > 0.0 { (values[j + 1][k] - values[j][k]) / distance } else { 0.0 }
-    };
     let minmod = |a: f64, b: f64| if a * b <= 0.0 { 0.0 } else { a.signum() * a.abs().min(b.abs()) };
-    let last = knots.len().saturating_sub(1);
-    let of_knot = |j: usize| {
-        std::array::from_fn(|k| if j == 0 || j == last { 0.0 } else { minmod(towards(j - 1, k), towards(j, k)) })
-    };
-    (0..knots.len()).map(of_knot).collect()
+    let mut slopes = vec![[0.0; N]; knots.len()];
+    // Towards the knot before.
+    let mut before = [0.0; N];
+    for (j, (two, values)) in knots.windows(2).zip(values.windows(2)).enumerate() {
+        let distance = two[1].position_mm - two[0].position_mm;
+        let per_distance = if distance > 0.0 { 1.0 / distance } else { 0.0 };
+        let after: [f64; N] = std::array::from_fn(|k| (values[1][k] - values[0][k]) * per_distance);
+        slopes[j] = std::array::from_fn(|k| minmod(before[k], after[k]));
+        before = after;
+    }
+    slopes
 }
 
 /// The points of both flanks, in the order of the path.
