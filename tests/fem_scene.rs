@@ -156,17 +156,11 @@ fn threads_change_no_bit() {
 fn refusals() {
     let dir = tempfile::tempdir().unwrap();
     let sector = exchanged(&coarse(), "\n[fem]\n", "\n[fem]\nbody = \"sector\"\nsector_teeth = 1\n");
-    let cases: [(&str, String, &[&str], &[&str]); 6] = [
+    let cases: [(&str, String, &[&str], &[&str]); 5] = [
         ("position before A", coarse(), &["--position", "1"], &["--position: found 1", "allowed: ", "(A)"]),
         ("position after E", coarse(), &["--position", "99"], &["--position: found 99", "(E)"]),
         ("position that is none", coarse(), &["--position", "nan"], &["--position"]),
         ("too few teeth", sector, &[], &["fem.sector_teeth: found 1", "at least 3"]),
-        (
-            "helical",
-            exchanged(&coarse(), "pressure_angle_deg = 20.0 ", "helix_angle_deg = 10.0\npressure_angle_deg = 20.0 "),
-            &[],
-            &["pair.helix_angle_deg"],
-        ),
         ("an option of another command", coarse(), &["--hours", "3"], &["--hours"]),
     ];
     for (what, text, more, said) in cases {

@@ -315,7 +315,7 @@ fn val_face_load_factor_of_a_misaligned_spur_pair() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 60, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
 
     /// Any helix, width, load and modification over the width: the loads balance, none pulls, and nothing but wear comes out.
     #[test]

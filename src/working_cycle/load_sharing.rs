@@ -147,7 +147,7 @@ impl<'a> MeshedPair<'a> {
     }
 
     /// Approach of the whole pair beyond the first touch of its flanks, teeth included.
-    fn whole_depth_mm(&self) -> f64 {
+    pub(super) fn whole_depth_mm(&self) -> f64 {
         self.depth_mm + self.response.line_load_n_per_mm / self.teeth_n_per_mm2 + self.further.0
     }
 

@@ -19,11 +19,11 @@
 
 use std::ops::Range;
 
-use super::load_sharing::{Equilibrium, EquilibriumError, MeshedPair, TOLERANCE};
+use super::load_sharing::{Equilibrium, EquilibriumError, GREATEST_IMBALANCE, MeshedPair, TOLERANCE};
 use super::slice_coupling::SliceCoupling;
 
 /// Newton steps before giving up; three to six are usual.
-const NEWTON_LIMIT: u64 = 200;
+const NEWTON_LIMIT: u64 = 80;
 
 /// The slices of one tooth in contact.
 pub struct ToothInMesh {
@@ -62,7 +62,7 @@ impl ToothInMesh {
     }
 
     /// Prepares Δv as fixed + δ · with_approach.
-    fn linearise(&mut self, coupling: &SliceCoupling, pairs: &[MeshedPair<'_>]) {
+    fn linearise(&mut self, coupling: &SliceCoupling, pairs: &[MeshedPair<'_>], base_mm: f64) {
         let Scratch { diagonal, fixed, with_approach } = &mut self.scratch;
         diagonal.fill(0.0);
         with_approach.fill(0.0);
@@ -71,7 +71,7 @@ impl ToothInMesh {
         for (k, pair) in pairs[self.contacts.clone()].iter().enumerate() {
             let (root, slice) = (self.root_compliance[k], self.slice[k]);
             let tangent = pair.response.stiffness_n_per_mm2 / pair.series();
-            let approach = pair.whole_approach_mm() + root * self.v[slice];
+            let approach = approach_mm(pair, base_mm) + root * self.v[slice];
             diagonal[slice] = root * root * tangent;
             with_approach[slice] = root * tangent;
             fixed[slice] += root * (pair.response.line_load_n_per_mm - tangent * approach);
@@ -80,6 +80,11 @@ impl ToothInMesh {
         factors.solve(fixed);
         factors.solve(with_approach);
     }
+}
+
+/// Approach of a pair beyond `base_mm`, the first touch of any: nothing is lost where a light load meets a deep relief.
+fn approach_mm(pair: &MeshedPair<'_>, base_mm: f64) -> f64 {
+    (pair.touch_mm - base_mm) + pair.whole_depth_mm()
 }
 
 /// Finds the equilibrium of `pairs`, whose own springs are infinitely stiff, on the teeth that they belong to, under the sum of
@@ -95,6 +100,7 @@ pub fn balance_on_teeth(
     position_mm: f64,
 ) -> Result<Equilibrium, EquilibriumError> {
     let mut evaluations = 0;
+    let base_mm = pairs.iter().map(|pair| pair.touch_mm).fold(f64::INFINITY, f64::min);
     let expected = line_load / pairs.len() as f64;
     for pair in pairs.iter_mut() {
         let start = pair.start_mm(expected);
@@ -103,6 +109,8 @@ pub fn balance_on_teeth(
     }
     let mut residual = f64::INFINITY;
     for iterations in 1..=NEWTON_LIMIT {
+        // Where rounding stands in the way, what a result may have is accepted.
+        let tolerance = if 2 * iterations > NEWTON_LIMIT { GREATEST_IMBALANCE } else { TOLERANCE };
         let load: f64 = pairs.iter().map(|pair| pair.response.line_load_n_per_mm).sum();
         if !load.is_finite() {
             return Err(EquilibriumError::NotFinite { position_mm });
@@ -110,11 +118,11 @@ pub fn balance_on_teeth(
         // Σ w + Σ c (δ − h − √q Δv) = F, collected by δ.
         let (mut carried, mut stiffness) = (load, 0.0);
         for tooth in teeth.iter_mut() {
-            tooth.linearise(coupling, pairs);
+            tooth.linearise(coupling, pairs, base_mm);
             for (k, pair) in pairs[tooth.contacts.clone()].iter().enumerate() {
                 let (root, slice) = (tooth.root_compliance[k], tooth.slice[k]);
                 let tangent = pair.response.stiffness_n_per_mm2 / pair.series();
-                let approach = pair.whole_approach_mm() + tooth.deflection_mm(k);
+                let approach = approach_mm(pair, base_mm) + tooth.deflection_mm(k);
                 carried -= tangent * (approach + root * tooth.scratch.fixed[slice]);
                 stiffness += tangent * (1.0 - root * tooth.scratch.with_approach[slice]);
             }
@@ -129,25 +137,26 @@ pub fn balance_on_teeth(
             continue;
         }
         let delta = (line_load - carried) / stiffness;
-        let mut settled = (load - line_load).abs() <= TOLERANCE * line_load;
+        let mut settled = (load - line_load).abs() <= tolerance * line_load;
         let mut greatest = 0.0_f64;
         for tooth in teeth.iter_mut() {
             for (k, pair) in pairs[tooth.contacts.clone()].iter().enumerate() {
-                let step = tooth.step_mm(k, pair, delta);
+                let step = tooth.step_mm(k, pair, delta, base_mm);
                 let stiffest = pair.response.stiffness_n_per_mm2.max(1.0 / tooth.root_compliance[k].powi(2));
-                let least = 8.0 * f64::EPSILON * pair.whole_approach_mm().abs().max(delta.abs());
-                settled &= step.abs() * stiffest <= TOLERANCE * line_load || step.abs() <= least;
+                let least = 8.0 * f64::EPSILON * approach_mm(pair, base_mm).abs().max(delta.abs());
+                settled &= step.abs() * stiffest <= tolerance * line_load || step.abs() <= least;
                 greatest = greatest.max(step.abs() * stiffest);
             }
         }
         if settled {
-            return Ok(Equilibrium { transmission_error_mm: delta, iterations, pair_evaluations: evaluations });
+            let transmission_error_mm = base_mm + delta;
+            return Ok(Equilibrium { transmission_error_mm, iterations, pair_evaluations: evaluations });
         }
         residual = greatest / line_load;
         for tooth in teeth.iter_mut() {
             for k in 0..tooth.slice.len() {
                 let pair = &mut pairs[tooth.contacts.start + k];
-                let deeper = pair.depth_mm + tooth.step_mm(k, pair, delta);
+                let deeper = pair.depth_mm + tooth.step_mm(k, pair, delta, base_mm);
                 pair.press(deeper);
                 evaluations += 1;
             }
@@ -161,11 +170,11 @@ pub fn balance_on_teeth(
 }
 
 impl ToothInMesh {
-    /// Change of the depth of a contact in this iteration, with the gears `delta_mm` together.
-    fn step_mm(&self, contact: usize, pair: &MeshedPair<'_>, delta_mm: f64) -> f64 {
+    /// Change of the depth of a contact in this iteration, with the gears `delta_mm` together beyond `base_mm`.
+    fn step_mm(&self, contact: usize, pair: &MeshedPair<'_>, delta_mm: f64, base_mm: f64) -> f64 {
         let (root, slice) = (self.root_compliance[contact], self.slice[contact]);
         let bends = self.scratch.fixed[slice] + delta_mm * self.scratch.with_approach[slice];
-        let lacks = delta_mm - pair.whole_approach_mm() - root * (self.v[slice] + bends);
+        let lacks = delta_mm - approach_mm(pair, base_mm) - root * (self.v[slice] + bends);
         lacks / pair.series()
     }
 }

@@ -15,7 +15,7 @@
 //! The elastic half-plane stands in for finite elements: it knows the real gap and the real elasticity near the contact.
 //! The tooth stiffness is the same on both surfaces, and so is contact outside the line of action; neither is judged.
 
-use super::{Companion, Estimate, peak_wear_of_both_mm, relative_cost};
+use super::{Companion, Estimate, SIMPLIFIED_COST, peak_wear_of_both_mm, relative_cost};
 use crate::contact::half_space::HalfSpace;
 use crate::contact::settings::SurfaceKind;
 use crate::pipeline::Model;
@@ -56,7 +56,12 @@ pub(super) fn estimate(
     }
     let fine = model.scene.numerics;
     let (flank_points, positions) = (fine.flank_points.min(FLANK_POINTS), fine.positions.min(POSITIONS));
-    let weight = relative_cost(SurfaceKind::HalfSpace) / relative_cost(model.scene.contact.surface);
+    let own = if let MeshContact::Simplified { .. } = model.contact {
+        SIMPLIFIED_COST
+    } else {
+        relative_cost(model.scene.contact.surface)
+    };
+    let weight = relative_cost(SurfaceKind::HalfSpace) / own;
     let of_the_run = |own: u64, truer: u64| (own as f64 + weight * truer as f64) / outcome.work.equilibria as f64;
     // A run of s steps evaluates s + 1 working cycles.
     let affordable = budget / of_the_run(positions as u64, positions as u64) - 1.0;
