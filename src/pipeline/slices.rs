@@ -30,8 +30,8 @@ pub(super) fn warning(outcome: &Outcome) -> Option<String> {
     let step = new.greatest_step_mm();
     (apart && outcome.slices.count() > 1 && step > TELLING_STEP * peak_to_peak).then(|| {
         format!(
-            "helical.slices: the transmission error varies by {:.3} µm peak to peak, and by {:.3} µm where a single slice enters or \
-             leaves: it tells the slices more than the gears; the mesh orders tell more, and more slices make the steps smaller",
+            "helical.slices: the transmission error varies by {:.3} µm peak to peak, of which {:.3} µm is the step of a single slice that \
+             enters or leaves: that part is of the slices, not of the gears; the mesh orders see less of it, and more slices make it smaller",
             peak_to_peak * UM_PER_MM,
             step * UM_PER_MM
         )
