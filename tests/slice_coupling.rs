@@ -3,7 +3,7 @@
 mod common;
 
 use common::{assert_close, fzg_c, pair, steel};
-use gearwear::working_cycle::slice_coupling::{Reach, SliceCoupling};
+use gearwear::working_cycle::slice_coupling::{Factors, Reach, SliceCoupling};
 
 const NU: f64 = 0.3;
 
@@ -52,7 +52,9 @@ fn even_plate() -> Reach {
 fn under_point_load(coupling: &SliceCoupling, count: usize, loaded: usize) -> Vec<f64> {
     let mut u = vec![0.0; count];
     u[loaded] = 1.0;
-    coupling.factorise(&vec![0.0; count]).solve(&mut u);
+    let mut factors = Factors::default();
+    coupling.factorise(&vec![0.0; count], &mut factors);
+    factors.solve(&mut u);
     u
 }
 
@@ -100,7 +102,9 @@ fn ver_uniform_load_and_factors() {
         let mut load = vec![0.0; count];
         coupling.apply(&v, &mut load);
         load.iter_mut().zip(&diagonal).zip(&v).for_each(|((load, d), v)| *load += d * v);
-        coupling.factorise(&diagonal).solve(&mut load);
+        let mut factors = Factors::default();
+        coupling.factorise(&diagonal, &mut factors);
+        factors.solve(&mut load);
         let error = load.iter().zip(&v).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         // Rounding the bands is worth ε times the greatest eigenvalue, at most 16 ℓ₂⁴/Δz⁴ of bending; the least is 1.
         let greatest = 16.0 * reach.bending_mm4 * (count as f64 / 14.0).powi(4);

@@ -161,6 +161,11 @@ impl<'a> MeshedPair<'a> {
         (self.touch_mm - other.touch_mm) + (self.whole_depth_mm() - other.whole_depth_mm())
     }
 
+    /// c = w'/(1 + w'/k).
+    pub(super) fn tangent_n_per_mm2(&self) -> f64 {
+        self.response.stiffness_n_per_mm2 / self.series()
+    }
+
     /// 1 + w'/k.
     pub(super) fn series(&self) -> f64 {
         1.0 + self.response.stiffness_n_per_mm2 * (1.0 / self.teeth_n_per_mm2 + self.further.1)
@@ -222,7 +227,7 @@ pub fn balance(
     for iterations in 1..=NEWTON_LIMIT {
         let (mut load, mut stiffness, mut ahead) = (0.0, 0.0, 0.0);
         for pair in pairs.iter() {
-            let tangent = pair.response.stiffness_n_per_mm2 / pair.series();
+            let tangent = pair.tangent_n_per_mm2();
             load += pair.response.line_load_n_per_mm;
             stiffness += tangent;
             ahead += tangent * pair.ahead_of(&pairs[0]);

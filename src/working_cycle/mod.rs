@@ -5,6 +5,7 @@
 //! are independent of each other, so they are shared out to threads; each fixed group of positions collects its wear by
 //! itself and the groups are added in order: the result does not depend on the number of threads.
 
+pub mod bent_tooth;
 mod collected;
 pub mod condensed;
 pub mod load_sharing;

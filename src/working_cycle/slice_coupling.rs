@@ -144,15 +144,8 @@ impl SliceCoupling {
         }
     }
 
-    /// The factors of the operator with `diagonal` (≥ 0) added.
-    pub fn factorise(&self, diagonal: &[f64]) -> Factors {
-        let mut factors = Factors::default();
-        self.factorise_into(diagonal, &mut factors);
-        factors
-    }
-
-    /// The same into `factors` that were used before: nothing is allocated.
-    pub fn factorise_into(&self, diagonal: &[f64], factors: &mut Factors) {
+    /// The factors of the operator with `diagonal` (≥ 0) added, into `factors`: nothing is allocated where those were used before.
+    pub fn factorise(&self, diagonal: &[f64], factors: &mut Factors) {
         let n = self.count;
         let Factors { per_pivot, first, second } = factors;
         for row in [&mut *per_pivot, first, second] {

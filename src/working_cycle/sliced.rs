@@ -12,12 +12,13 @@
 
 use rayon::prelude::*;
 
+use super::bent_tooth::BentTooth;
 use super::collected::Collected;
 use super::load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use super::phases::{Phase, SliceContact};
 use super::slice_coupling::SliceCoupling;
 use super::sliced_mesh::{ObservedContact, ObservedPhase, SlicedMesh};
-use super::sliced_sharing::{ToothInMesh, balance_on_teeth};
+use super::sliced_sharing::balance_on_teeth;
 use super::sliced_teeth::SlicedTeeth;
 use super::{CycleObservation, GROUPS, LostMaterial, MeshCycle, Work, note_what_points_felt};
 use crate::contact::{ContactSurface, Flanks, Sweep};
@@ -74,7 +75,7 @@ struct Station<'a> {
     contacts: Vec<SliceContact>,
     pairs: Vec<MeshedPair<'a>>,
     /// The teeth that the contacts belong to, where slices are coupled.
-    teeth: Vec<ToothInMesh>,
+    teeth: Vec<BentTooth>,
     equilibrium: Equilibrium,
 }
 
@@ -237,7 +238,7 @@ impl<'a> Station<'a> {
             })
             .collect();
         let teeth =
-            if coupled { teeth_in_mesh(&phase.contacts, sliced.slices.count(), compliance) } else { Vec::new() };
+            if coupled { BentTooth::of_phase(&phase.contacts, sliced.slices.count(), compliance) } else { Vec::new() };
         Self {
             position_mm: phase.position_mm,
             contacts: phase.contacts.clone(),
@@ -280,23 +281,4 @@ impl<'a> Station<'a> {
             contacts: contacts.collect(),
         }
     }
-}
-
-/// The teeth that `contacts`, in their order, belong to.
-pub fn teeth_in_mesh(
-    contacts: &[SliceContact],
-    slices: usize,
-    mm2_per_n: impl Fn(&SliceContact) -> f64,
-) -> Vec<ToothInMesh> {
-    let mut first = 0;
-    contacts
-        .chunk_by(|a, b| a.tooth == b.tooth)
-        .map(|of_tooth| {
-            let range = first..first + of_tooth.len();
-            first = range.end;
-            let slice = of_tooth.iter().map(|contact| contact.slice).collect();
-            let root_compliance = of_tooth.iter().map(|contact| mm2_per_n(contact).sqrt()).collect();
-            ToothInMesh::new(range, slice, root_compliance, slices)
-        })
-        .collect()
 }

@@ -18,6 +18,7 @@ use crate::gear::{Gear, PerGear};
 use crate::wear::WearLaw;
 use crate::working_cycle::{
     Work,
+    bent_tooth::BentTooth,
     load_sharing::EquilibriumError,
     phases::{Phase, SliceContact},
 };
@@ -43,7 +44,8 @@ pub struct Batch {
     pub stations: Vec<Station>,
     packs: Vec<Pack>,
     per_root: Vec<PerRoot>,
-    bent: Vec<BentTeeth>,
+    /// The teeth of each phase, where slices are coupled.
+    bent: Vec<Vec<BentTooth>>,
     common: Common,
     /// Depth that both flanks have lost at each contact, mm.
     wear_mm: PerGear<Row>,
@@ -82,7 +84,7 @@ impl Batch {
         let count: usize = phases.iter().map(packs_of).sum();
         let unused = Pack { rigid: Lanes::splat(1.0), gap_mm: Lanes::splat(UNUSED_GAP_MM), ..Pack::default() };
         let (mut packs, mut per_root) = (vec![unused; count], vec![PerRoot::default(); count]);
-        let coupling = springs.sliced.coupling.as_ref();
+        let coupled = springs.sliced.coupling.is_some();
         let common = Common {
             log_compliance_mm2_per_n: forms.log_compliance_mm2_per_n(),
             line_load_n_per_mm: springs.line_load_n_per_mm,
@@ -96,7 +98,7 @@ impl Batch {
                 let (pack, k) = (first + at / LANES, at % LANES);
                 let position = contact.cell.position_mm;
                 let form = forms.at(position);
-                let teeth = if coupling.is_some() { 0.0 } else { springs.along_path.mm2_per_n(position) };
+                let teeth = if coupled { 0.0 } else { springs.along_path.mm2_per_n(position) };
                 let (row, roots) = (&mut packs[pack], &mut per_root[pack]);
                 row.rigid.0[k] = form.surface_mm2_per_n + teeth;
                 for (series, own) in row.series.iter_mut().zip(form.series) {
@@ -112,11 +114,9 @@ impl Batch {
                 }
                 greatest_load_n_per_mm = greatest_load_n_per_mm.min(form.greatest_load_n_per_mm);
             }
-            if let Some(coupling) = coupling {
-                let root = |contact: &SliceContact| springs.along_path.mm2_per_n(contact.cell.position_mm).sqrt();
-                let teeth = phase.contacts.chunk_by(|a, b| a.tooth == b.tooth);
-                let teeth = teeth.map(|own| own.iter().map(|contact| (contact.slice, root(contact))).collect());
-                bent.push(BentTeeth::new(teeth.collect(), springs.sliced.slices.count(), coupling));
+            if coupled {
+                let compliance = |contact: &SliceContact| springs.along_path.mm2_per_n(contact.cell.position_mm);
+                bent.push(BentTooth::of_phase(&phase.contacts, springs.sliced.slices.count(), compliance));
             }
             stations.push(Station {
                 position_mm: phase.position_mm,
@@ -204,14 +204,17 @@ impl Batch {
         let station = &mut self.stations[index];
         let packs = &mut self.packs[station.packs.clone()];
         let tangents = &mut self.tangents[..packs.len()];
+        let teeth = self.bent.get_mut(index).map(Vec::as_mut_slice);
+        let coupled = teeth.zip(springs.sliced.coupling.as_ref());
+        let mut bent = coupled.map(|(teeth, coupling)| BentTeeth { teeth, coupling });
         let mut iterations = 0;
         if self.begun {
-            match station.follow(packs, tangents, self.bent.get_mut(index), &self.common) {
+            match station.follow(packs, tangents, bent.as_mut(), &self.common) {
                 Attempt::Settled(steps) => return Ok(steps),
                 Attempt::Lost(steps) => iterations += steps,
             }
         }
-        match station.settle(packs, tangents, self.bent.get_mut(index), &self.common) {
+        match station.settle(packs, tangents, bent.as_mut(), &self.common) {
             Attempt::Settled(steps) => return Ok(iterations + steps),
             Attempt::Lost(steps) => iterations += steps,
         }

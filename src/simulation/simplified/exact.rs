@@ -7,9 +7,10 @@ use crate::contact::{Felt, Footprint, PairContact, Response, Sweep, hertz, setti
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::reference::flattening::Flattening;
 use crate::working_cycle::{
+    bent_tooth::BentTooth,
     load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance},
     phases::SliceContact,
-    sliced::{SpringAlongPath, teeth_in_mesh},
+    sliced::SpringAlongPath,
     sliced_sharing::balance_on_teeth,
     sliced_teeth::SlicedTeeth,
 };
@@ -93,7 +94,7 @@ impl Springs<'_> {
         let equilibrium = match coupling {
             None => balance(&mut pairs, self.line_load_n_per_mm, position_mm)?,
             Some(coupling) => {
-                let mut teeth = teeth_in_mesh(contacts, self.sliced.slices.count(), compliance);
+                let mut teeth = BentTooth::of_phase(contacts, self.sliced.slices.count(), compliance);
                 balance_on_teeth(&mut pairs, &mut teeth, coupling, self.line_load_n_per_mm, position_mm)?
             }
         };

@@ -162,7 +162,7 @@ impl Station {
         &mut self,
         packs: &mut [Pack],
         tangents: &mut [Tangent],
-        mut bent: Option<&mut BentTeeth>,
+        mut bent: Option<&mut BentTeeth<'_>>,
         common: &Common,
     ) -> Attempt {
         let (phi, from_mm) = (common.log_compliance_mm2_per_n, self.transmission_error_mm);
@@ -217,7 +217,7 @@ impl Station {
         &mut self,
         packs: &mut [Pack],
         tangents: &mut [Tangent],
-        mut bent: Option<&mut BentTeeth>,
+        mut bent: Option<&mut BentTeeth<'_>>,
         common: &Common,
     ) -> Attempt {
         let (phi, line_load) = (common.log_compliance_mm2_per_n, common.line_load_n_per_mm);
