@@ -27,6 +27,7 @@ pub mod scene;
 pub mod simulation;
 pub mod stiffness;
 pub mod sweep;
+pub mod thermal;
 pub mod wear;
 mod whole_file;
 pub mod working_cycle;

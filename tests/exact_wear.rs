@@ -21,7 +21,7 @@ use gearwear::gear::{
     involute::{TangentFramePoint, inv, inverse_inv},
 };
 use gearwear::simulation::wear_run::Outcome;
-use gearwear::wear::{archard::Archard, settings::WearSettings};
+use gearwear::wear::{WearModel, settings::WearSettings};
 use gearwear::working_cycle::{LoadingPosition, LostMaterial, MeshCycle, PairInMesh, WorkingCycle};
 
 /// Two discs rolling and sliding on each other: coordinates are arc lengths, the position is the time.
@@ -108,10 +108,10 @@ fn disc_wear_over_exact(surface: impl Fn(f64, &TwoDiscs) -> Box<dyn ContactSurfa
     let mut cycle = WorkingCycle::new(flanks, surface.as_ref(), &positions, line_load);
     let zeros = vec![0.0; grid.len()];
     let mut depth = PerGear { pinion: zeros.clone(), wheel: zeros.clone() };
-    let law = Archard::new(&WearSettings { coefficient_mm2_per_n: k, severe: None });
+    let law = gearwear::wear::of(&WearSettings::archard(k));
     let nothing = PerGear { pinion: zeros.as_slice(), wheel: zeros.as_slice() };
     let lost = LostMaterial { removed_mm: nothing, wear_mm: nothing };
-    cycle.evaluate(lost, &law, &mut depth, &|| false).unwrap();
+    cycle.evaluate(lost, &WearModel::cold(law.as_ref()), &mut depth, &|| false).unwrap();
     PerGear::from_fn(|gear| {
         let middle = discs.contact_coordinate_mm(gear, 1.2);
         let specific_sliding = 1.0 - discs.speed[gear.mate()] / discs.speed[gear];

@@ -16,7 +16,7 @@ use gearwear::gear::{
     spec::PairSpec,
 };
 use gearwear::mesh::settings::{Body, BodySettings, default_clamp};
-use gearwear::wear::{archard::Archard, settings::WearSettings};
+use gearwear::wear::{WearModel, settings::WearSettings};
 use gearwear::working_cycle::{CycleObservation, LostMaterial, MeshCycle, Work, condensed::CondensedCycle};
 
 const TORQUE_N_MM: f64 = 302e3;
@@ -49,9 +49,11 @@ fn mesh_once(
     let mut cycle = CondensedCycle::new(model, flanks, positions, line_load(model.pair));
     let wear_mm = wear.as_ref().map(Vec::as_slice);
     let lost = LostMaterial { removed_mm: wear_mm, wear_mm };
-    let law = Archard::new(&WearSettings { coefficient_mm2_per_n: COEFFICIENT, severe: None });
+    let law = gearwear::wear::of(&WearSettings::archard(COEFFICIENT));
     let mut depth = none(grid);
-    let work = cycle.evaluate(lost, &law, &mut depth, &|| false).expect("the cycle has an equilibrium");
+    let work = cycle
+        .evaluate(lost, &WearModel::cold(law.as_ref()), &mut depth, &|| false)
+        .expect("the cycle has an equilibrium");
     let observed = cycle.observe(lost).expect("the cycle has an equilibrium");
     (depth, observed, work)
 }
@@ -206,14 +208,14 @@ fn ver_work_and_bits() {
 
     let flanks = Flanks { geometry: &pair, grid: grid.as_ref() };
     let mut cycle = CondensedCycle::new(&model, flanks, 40, line_load(&pair));
-    let law = Archard::new(&WearSettings { coefficient_mm2_per_n: COEFFICIENT, severe: None });
+    let law = gearwear::wear::of(&WearSettings::archard(COEFFICIENT));
     let mut wear = none(&grid);
     let mut depth = none(&grid);
     let mut later = 0;
     for step in 0..5 {
         let wear_mm = wear.as_ref().map(Vec::as_slice);
         let lost = LostMaterial { removed_mm: wear_mm, wear_mm };
-        let work = cycle.evaluate(lost, &law, &mut depth, &|| false).unwrap();
+        let work = cycle.evaluate(lost, &WearModel::cold(law.as_ref()), &mut depth, &|| false).unwrap();
         later += if step == 0 { 0 } else { work.newton_iterations };
         for gear in Gear::BOTH {
             wear[gear].iter_mut().zip(&depth[gear]).for_each(|(wear, depth)| *wear += 2000.0 * depth);

@@ -4,6 +4,7 @@ use assert_cmd::Command;
 use gearwear::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use gearwear::gear::Gear;
 use gearwear::scene::{Resolved, Scene, presets, schema};
+use gearwear::simulation::settings::Stepping;
 use gearwear::stiffness::settings::StiffnessSettings;
 use proptest::prelude::*;
 
@@ -47,7 +48,8 @@ fn fzg_c_is_the_scene_everything_is_measured_on() {
     assert!((scene.wear.coefficient_mm2_per_n / 1e-11 - 1.0).abs() < 1e-15);
     assert_eq!(scene.wear.severe, None);
     assert_eq!((scene.numerics.flank_points, scene.numerics.positions), (750, 400));
-    assert_eq!(scene.numerics.step_revolutions, scene.operation.pinion_revolutions / 150.0);
+    let revolutions = scene.operation.pinion_revolutions / 150.0;
+    assert_eq!(scene.numerics.stepping, Stepping::Fixed { revolutions });
 }
 
 #[test]

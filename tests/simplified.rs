@@ -12,13 +12,13 @@ use gearwear::gear::{
 };
 use gearwear::simulation::{
     figures::WearFigures,
-    settings::{Numerics, Operation},
+    mesh_contact::MeshContact,
     simplified::closed_form::{AMPLE_LOADS, ContactForms, RANGES},
-    wear_run::{MeshContact, Outcome, Snapshot, Unwatched, WearRun},
+    wear_run::{Outcome, RunPhase, Snapshot, Unwatched, WearRun},
 };
 use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
 use gearwear::wear::{
-    archard::Archard,
+    WearModel,
     settings::{SevereTransition, WearSettings},
 };
 use gearwear::working_cycle::{
@@ -46,23 +46,19 @@ fn run(scene: &Scene) -> Outcome {
     let (pair, material) = (pair(&scene.pair), steel());
     let (surface, line_load) = (HertzMean { material }, scene.line_load());
     let teeth = TeethSpring::new(scene.stiffness, scene.curve.as_ref(), &pair, &material, &surface, line_load);
-    let law = Archard::new(&WearSettings { coefficient_mm2_per_n: scene.coefficient_mm2_per_n, severe: scene.severe });
+    let law = gearwear::wear::of(&WearSettings {
+        severe: scene.severe,
+        ..WearSettings::archard(scene.coefficient_mm2_per_n)
+    });
     let sliced = SlicedTeeth::new(&pair, &material, scene.slices.expect("a scene with slices"));
-    let operation = Operation {
-        pinion_torque_n_mm: scene.torque_n_mm,
-        pinion_speed_rpm: None,
-        pinion_revolutions: scene.revolutions,
-        snapshots_revolutions: scene.snapshots.clone(),
+    let phase = RunPhase {
+        contact: MeshContact::Simplified { material: &material, teeth: &teeth, sliced: &sliced },
+        wear: WearModel::cold(law.as_ref()),
+        line_load_n_per_mm: line_load,
+        end_revolutions: scene.revolutions,
     };
-    let numerics = Numerics {
-        flank_points: scene.flank_points,
-        positions: scene.positions,
-        step_revolutions: scene.revolutions / scene.steps,
-        error_estimate: false,
-    };
-    let contact = MeshContact::Simplified { material: &material, teeth: &teeth, sliced: &sliced };
     let run =
-        WearRun { pair: &pair, contact, law: &law, line_load_n_per_mm: line_load, operation: &operation, numerics };
+        WearRun { pair: &pair, phases: &[phase], snapshots_revolutions: &scene.snapshots, numerics: scene.numerics() };
     run.run(&Unwatched).expect("the run of the test converges")
 }
 
@@ -169,7 +165,7 @@ fn mean_difference(a: &PerGear<Vec<f64>>, b: &PerGear<Vec<f64>>) -> f64 {
 /// wear of the points at A and E, and loads them more. Every slice loses the same area.
 #[test]
 fn val_wear_is_that_of_the_general_cycle() {
-    let severe = Some(SevereTransition { above_mpa: 1100.0, factor: 3.0 });
+    let severe = Some(SevereTransition { above_mpa: 1100.0, factor: 3.0, band_mpa: 0.0 });
     for (coupling, severe) in [(Coupling::None, None), (Coupling::Slicing, None), (Coupling::None, severe)] {
         let scene = Scene { severe, steps: 20.0, positions: 200, ..scene(8, coupling) };
         let (simplified, general) = (run(&scene), scene.run());

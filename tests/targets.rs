@@ -83,7 +83,7 @@ fn val_s3_severe_wear_moves_on_to_two_millimetres() {
     let pair = pair(&fzg_c());
     let mut scene = fzg_c_scene();
     scene.torque_n_mm = 372.6e3;
-    scene.severe = Some(SevereTransition { above_mpa: 2000.0, factor: 100.0 });
+    scene.severe = Some(SevereTransition { above_mpa: 2000.0, factor: 100.0, band_mpa: 0.0 });
     scene.steps = 1500.0;
     let outcome = scene.run();
     let wear = figures(&pair, &outcome, &outcome.worn);

@@ -12,7 +12,7 @@
 
 use super::measure::{greatest, profile_error, ratio, relative_difference};
 use super::observed::{Observed, ObservedFlank};
-use super::settings::{Bed, Coarsening, Setting, Surface, coupling_name};
+use super::settings::{Bed, Coarsening, Setting, Surface, coupling_name, euler_revolutions};
 use super::timed_run::{Finished, Observer, Within, measure};
 use crate::contact::settings::MatchCriterion;
 use crate::gear::{Gear, PerGear};
@@ -125,11 +125,17 @@ fn deeper(resolved: &Resolved) -> Result<Resolved, Vec<Problem>> {
     let operation = &mut file.operation;
     operation.hours = None;
     operation.pinion_revolutions = Some(DEEPER * resolved.scene.operation.pinion_revolutions);
+    if let Some(phases) = &mut operation.phases {
+        operation.pinion_revolutions = None;
+        for phase in phases {
+            phase.hours = phase.hours.map(|hours| DEEPER * hours);
+            phase.pinion_revolutions = phase.pinion_revolutions.map(|revolutions| DEEPER * revolutions);
+        }
+    }
     operation.snapshots_h = None;
     // The end alone: a snapshot shortens the step before it.
-    operation.snapshots_revolutions = operation.pinion_revolutions.map(|end| vec![end]);
-    file.numerics.get_or_insert_default().step =
-        Some(StepFile { revolutions: DEEPER * resolved.scene.numerics.step_revolutions });
+    operation.snapshots_revolutions = Some(vec![DEEPER * resolved.scene.operation.pinion_revolutions]);
+    file.numerics.get_or_insert_default().step = Some(StepFile::fixed(DEEPER * euler_revolutions(&resolved.scene)));
     Scene::from_toml(&file.to_toml())
 }
 

@@ -164,6 +164,11 @@ impl Stiffness {
     }
 }
 
+/// The wear step that everything is compared with: Euler's.
+pub fn euler_revolutions(scene: &Scene) -> f64 {
+    scene.numerics.stepping.euler_revolutions(scene.operation.pinion_revolutions)
+}
+
 /// `coupled`, `uncoupled`.
 pub fn coupling_name(coupling: Coupling) -> &'static str {
     match coupling {
@@ -237,7 +242,8 @@ impl Setting {
             flank_points: Some(coarser(numerics.flank_points)),
             positions: Some(coarser(numerics.positions)),
             error_estimate: Some(false),
-            step: Some(StepFile { revolutions: f64::from(self.coarsening.step) * numerics.step_revolutions }),
+            step: Some(StepFile::fixed(f64::from(self.coarsening.step) * euler_revolutions(&base.scene))),
+            ..NumericsFile::default()
         });
         Scene::from_toml(&file.to_toml())
     }
@@ -265,7 +271,7 @@ impl Setting {
             coupling: self.slices.map(|slices| slices.coupling.name().to_owned()),
             flank_points: scene.numerics.flank_points,
             positions: scene.numerics.positions,
-            step_revolutions: scene.numerics.step_revolutions,
+            step_revolutions: euler_revolutions(scene),
             spacing_coarsening: self.coarsening.spacing,
             step_coarsening: self.coarsening.step,
         }

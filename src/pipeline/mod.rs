@@ -31,11 +31,14 @@ use crate::gear::{GearPair, PairError, PerGear};
 use crate::plan::{Plan, StageKind};
 use crate::reference::flattening::Flattening;
 use crate::scene::{Resolved, Scene};
+use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::record::{ErrorSummary, RunRecord, StageTime, StopReason, Summary};
-use crate::simulation::wear_run::{MeshContact, Outcome, Progress, SimulationError, Unwatched, WearRun};
+use crate::simulation::settings::Phase;
+use crate::simulation::wear_run::{Outcome, Progress, RunPhase, SimulationError, Unwatched, WearRun};
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
-use crate::wear::{WearLaw, archard::Archard};
+use crate::thermal::ContactHeat;
+use crate::wear::{self, FlankWear, WearModel, settings::WearSettings};
 use crate::working_cycle::sliced_teeth::SlicedTeeth;
 use inputs::Inputs;
 
@@ -112,11 +115,11 @@ impl Stages<'_> {
     }
 }
 
-/// What a run is made of, beyond the scene's own data.
+/// What a run is made of, beyond the scene's own data. Where loads of phases differ, figures of one load are of the first phase.
 struct Model<'a> {
     scene: &'a Scene,
     pair: &'a GearPair,
-    contact: MeshContact<'a>,
+    phases: Vec<RunPhase<'a>>,
     /// The slices over the face width; none where all sections are alike.
     sliced: Option<&'a SlicedTeeth>,
     /// Springs of the teeth; none with finite elements.
@@ -125,8 +128,6 @@ struct Model<'a> {
     stiffness_curve: Option<&'a PairCompliance>,
     /// The calibration that the scene names.
     calibration: Option<&'a Calibration>,
-    law: &'a dyn WearLaw,
-    line_load_n_per_mm: f64,
     /// Hertz at the pitch point.
     at_pitch: Flattening,
     foundation_mpa_per_mm: Option<f64>,
@@ -137,13 +138,25 @@ impl Model<'_> {
     fn wear_run(&self) -> WearRun<'_> {
         WearRun {
             pair: self.pair,
-            contact: self.contact,
-            law: self.law,
-            line_load_n_per_mm: self.line_load_n_per_mm,
-            operation: &self.scene.operation,
+            phases: &self.phases,
+            snapshots_revolutions: &self.scene.operation.snapshots_revolutions,
             numerics: self.scene.numerics,
         }
     }
+
+    /// The first phase.
+    fn first(&self) -> &RunPhase<'_> {
+        &self.phases[0]
+    }
+}
+
+/// How the gears touch under one load.
+struct LoadCase<'a> {
+    line_load_n_per_mm: f64,
+    foundation_mpa_per_mm: Option<f64>,
+    /// None with finite elements.
+    surface: Option<Box<dyn ContactSurface>>,
+    finite_elements: Option<CondensedPair<'a>>,
 }
 
 /// Carries out `plan`, the report apart: that is left to the caller, who knows where it goes.
@@ -190,37 +203,15 @@ fn carry_out<R>(
     let mut stages = Stages { observer, times: Vec::new() };
 
     let pair = stages.run(StageKind::Geometry, || GearPair::new(&scene.pair))?;
-    let line_load_n_per_mm =
-        scene.operation.pinion_torque_n_mm / pair.path.involute.pinion.base_radius_mm / scene.pair.face_width_mm;
     let at_pitch = hertz::flattening(&pair, &scene.material, pair.path.pitch_point_mm);
-    let bed = match (scene.contact.surface, scene.contact.foundation, &inputs.calibration) {
-        (SurfaceKind::Winkler, Foundation::Given { foundation_mpa_per_mm }, _) => {
-            Some(Bed::Uniform { mpa_per_mm: foundation_mpa_per_mm })
+    let (base_radius, width) = (pair.path.involute.pinion.base_radius_mm, scene.pair.face_width_mm);
+    let line_load = |phase: &Phase| phase.pinion_torque_n_mm / base_radius / width;
+    let mut cases: Vec<LoadCase<'_>> = Vec::new();
+    for phase in &scene.operation.phases {
+        if cases.iter().all(|case| case.line_load_n_per_mm != line_load(phase)) {
+            cases.push(load_case(scene, &pair, inputs, &at_pitch, line_load(phase), &mut stages)?);
         }
-        (SurfaceKind::Winkler, Foundation::Calibrated(criterion), Some(calibration))
-            if calibration.foundation.contains_key(&criterion)
-                && calibration.foundation.contains_key(&MatchCriterion::Approach) =>
-        {
-            Some(Bed::Curve {
-                pressure: calibration.foundation[&criterion].clone(),
-                approach: calibration.foundation[&MatchCriterion::Approach].clone(),
-            })
-        }
-        (SurfaceKind::Winkler, Foundation::Matched(criterion) | Foundation::Calibrated(criterion), _) => {
-            let matched = || matched_mpa_per_mm(criterion, &at_pitch, line_load_n_per_mm);
-            Some(Bed::Uniform { mpa_per_mm: stages.run(StageKind::ContactMatch, matched) })
-        }
-        _ => None,
-    };
-    let springs_at_pitch = bed.as_ref().map(|bed| bed.at(pair.path.pitch_point_mm));
-    let foundation_mpa_per_mm = springs_at_pitch.map(|springs| springs.mpa_per_mm(line_load_n_per_mm));
-    let finite_elements = match scene.contact.surface {
-        SurfaceKind::Fem => Some(stages.run(StageKind::FiniteElementModel, || {
-            CondensedPair::build(&pair, &elastic(&scene.material), line_load_n_per_mm, &scene.fem)
-        })?),
-        _ => None,
-    };
-    let surface = surface(scene, bed, line_load_n_per_mm);
+    }
     let computed = match plan.has(StageKind::FiniteElementCalibration) && inputs.calibration.is_none() {
         true => Some(stages.run(StageKind::FiniteElementCalibration, || {
             calibration::pair_compliance(&calibrate::setup(scene, &pair))
@@ -232,20 +223,22 @@ fn carry_out<R>(
         (StiffnessSettings::Fem, None) => computed.as_ref(),
         _ => inputs.stiffness_curve.as_ref(),
     };
-    let spring =
-        |surface| TeethSpring::new(scene.stiffness, curve, &pair, &scene.material, surface, line_load_n_per_mm);
-    let teeth = surface.as_deref().map(|surface| {
-        if plan.has(StageKind::ToothStiffness) {
-            stages.run(StageKind::ToothStiffness, || spring(surface))
-        } else {
-            spring(surface)
-        }
-    });
+    let mut teeth = Vec::with_capacity(cases.len());
+    let mut springs = || {
+        teeth.extend(cases.iter().map(|case| {
+            let (surface, load) = (case.surface.as_deref()?, case.line_load_n_per_mm);
+            Some(TeethSpring::new(scene.stiffness, curve, &pair, &scene.material, surface, load))
+        }));
+    };
+    if plan.has(StageKind::ToothStiffness) {
+        stages.run(StageKind::ToothStiffness, springs);
+    } else {
+        springs();
+    }
     let sliced = scene
         .slices
         .map(|settings| stages.run(StageKind::HelicalSlices, || SlicedTeeth::new(&pair, &scene.material, settings)));
-    let law = Archard::new(&scene.wear);
-    let contact = match (&finite_elements, surface.as_deref(), &teeth) {
+    let contact = |case: usize| match (&cases[case].finite_elements, cases[case].surface.as_deref(), &teeth[case]) {
         (Some(model), ..) => MeshContact::FiniteElements(model),
         (None, Some(surface), Some(teeth)) => match (scene.contact.surface, sliced.as_ref()) {
             (SurfaceKind::HertzMean, Some(sliced)) => {
@@ -255,18 +248,46 @@ fn carry_out<R>(
         },
         (None, ..) => unreachable!("every surface but fem has springs"),
     };
+    let laws: Vec<(Box<dyn FlankWear>, Option<ContactHeat>)> = scene
+        .operation
+        .phases
+        .iter()
+        .map(|phase| {
+            let coefficient_mm2_per_n = phase.coefficient_mm2_per_n.unwrap_or(scene.wear.coefficient_mm2_per_n);
+            let heat = scene.heat.zip(phase.pinion_speed_rpm).map(|(settings, rpm)| ContactHeat {
+                settings,
+                speed_mm_per_s: base_radius * std::f64::consts::TAU * rpm / 60.0,
+            });
+            (wear::of(&WearSettings { coefficient_mm2_per_n, ..scene.wear }), heat)
+        })
+        .collect();
+    let phases = scene
+        .operation
+        .phases
+        .iter()
+        .zip(&laws)
+        .map(|(phase, (law, heat))| {
+            let load = line_load(phase);
+            // Every load has its case.
+            let case = cases.iter().position(|case| case.line_load_n_per_mm == load).unwrap_or_default();
+            RunPhase {
+                contact: contact(case),
+                wear: WearModel { law: law.as_ref(), heat: heat.as_ref() },
+                line_load_n_per_mm: load,
+                end_revolutions: phase.end_revolutions,
+            }
+        })
+        .collect();
     let model = Model {
         scene,
         pair: &pair,
-        contact,
+        phases,
         sliced: sliced.as_ref(),
-        teeth: teeth.as_ref(),
+        teeth: teeth[0].as_ref(),
         stiffness_curve: curve,
         calibration: inputs.calibration.as_ref(),
-        law: &law,
-        line_load_n_per_mm,
         at_pitch,
-        foundation_mpa_per_mm,
+        foundation_mpa_per_mm: cases[0].foundation_mpa_per_mm,
     };
 
     let outcome = stages.run(StageKind::Simulation, || model.wear_run().run(observer))?;
@@ -288,6 +309,46 @@ fn not_estimated_because(outcome: &Outcome) -> &'static str {
         StopReason::Interrupted => "the run was interrupted",
         StopReason::NotConverged => "the run did not converge",
     }
+}
+
+/// Prepares the contact under one load.
+fn load_case<'a>(
+    scene: &Scene,
+    pair: &'a GearPair,
+    inputs: &Inputs,
+    at_pitch: &Flattening,
+    line_load_n_per_mm: f64,
+    stages: &mut Stages<'_>,
+) -> Result<LoadCase<'a>, RunError> {
+    let bed = match (scene.contact.surface, scene.contact.foundation, &inputs.calibration) {
+        (SurfaceKind::Winkler, Foundation::Given { foundation_mpa_per_mm }, _) => {
+            Some(Bed::Uniform { mpa_per_mm: foundation_mpa_per_mm })
+        }
+        (SurfaceKind::Winkler, Foundation::Calibrated(criterion), Some(calibration))
+            if calibration.foundation.contains_key(&criterion)
+                && calibration.foundation.contains_key(&MatchCriterion::Approach) =>
+        {
+            Some(Bed::Curve {
+                pressure: calibration.foundation[&criterion].clone(),
+                approach: calibration.foundation[&MatchCriterion::Approach].clone(),
+            })
+        }
+        (SurfaceKind::Winkler, Foundation::Matched(criterion) | Foundation::Calibrated(criterion), _) => {
+            let matched = || matched_mpa_per_mm(criterion, at_pitch, line_load_n_per_mm);
+            Some(Bed::Uniform { mpa_per_mm: stages.run(StageKind::ContactMatch, matched) })
+        }
+        _ => None,
+    };
+    let springs_at_pitch = bed.as_ref().map(|bed| bed.at(pair.path.pitch_point_mm));
+    let foundation_mpa_per_mm = springs_at_pitch.map(|springs| springs.mpa_per_mm(line_load_n_per_mm));
+    let finite_elements = match scene.contact.surface {
+        SurfaceKind::Fem => Some(stages.run(StageKind::FiniteElementModel, || {
+            CondensedPair::build(pair, &elastic(&scene.material), line_load_n_per_mm, &scene.fem)
+        })?),
+        _ => None,
+    };
+    let surface = surface(scene, bed, line_load_n_per_mm);
+    Ok(LoadCase { line_load_n_per_mm, foundation_mpa_per_mm, surface, finite_elements })
 }
 
 /// Elastic constants alone.

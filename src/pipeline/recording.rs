@@ -6,11 +6,13 @@ use crate::gear::{Gear, GearPair, PerGear};
 use crate::plan::Plan;
 use crate::scene::Resolved;
 use crate::simulation::figures::WearFigures;
+use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::record::{
     ContactSummary, CycleSummary, ErrorSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, MeshCycleRow,
     PathPoints, RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearSummary, WorkSummary,
 };
-use crate::simulation::wear_run::{MeshContact, Outcome, Snapshot};
+use crate::simulation::settings::Stepping;
+use crate::simulation::wear_run::{Outcome, Snapshot};
 use crate::working_cycle::CycleObservation;
 
 pub(super) const UM_PER_MM: f64 = 1e3;
@@ -121,10 +123,10 @@ pub(super) fn geometry(pair: &GearPair) -> GeometrySummary {
 }
 
 fn contact(model: &Model<'_>) -> ContactSummary {
-    let at_pitch = model.at_pitch.contact.loaded(model.line_load_n_per_mm);
+    let at_pitch = model.at_pitch.contact.loaded(model.first().line_load_n_per_mm);
     ContactSummary {
         surface: model.scene.contact.surface.name().to_owned(),
-        line_load_N_per_mm: model.line_load_n_per_mm,
+        line_load_N_per_mm: model.first().line_load_n_per_mm,
         foundation_MPa_per_mm: model.foundation_mpa_per_mm,
         hertz_half_width_mm: at_pitch.half_width_mm,
         hertz_peak_pressure_MPa: at_pitch.peak_pressure_mpa,
@@ -233,20 +235,21 @@ fn mesh_cycle(outcome: &Outcome) -> Vec<MeshCycleRow> {
 
 /// Warns where the wear step is too long for Euler's method, and names the longest that is not.
 fn stability_warning(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
-    let MeshContact::LineOfAction { surface, .. } = model.contact else { return None };
+    let MeshContact::LineOfAction { surface, .. } = model.first().contact else { return None };
     let flanks = Flanks { geometry: model.pair, grid: outcome.grid.as_ref() };
     let loaded = outcome.new.cycle.positions.iter().filter(|at| at.load_share > 0.0);
     let stiffest = loaded
         .filter_map(|at| {
-            let load = at.load_share * model.line_load_n_per_mm;
+            let load = at.load_share * model.first().line_load_n_per_mm;
             surface.stiffness_of_short_waves_mpa_per_mm(flanks, at.position_mm, load)
         })
         .reduce(f64::max)?;
-    let step = model.scene.numerics.step_revolutions.min(model.scene.operation.pinion_revolutions);
+    let Stepping::Fixed { revolutions: step } = model.scene.numerics.stepping else { return None };
+    let step = step.min(model.scene.operation.pinion_revolutions);
     let meshes = PerGear { pinion: step, wheel: step * model.pair.wheel_turns_per_pinion_turn() };
     let greatest = |gear: Gear| outcome.new.cycle.sliding_mm[gear].iter().copied().fold(0.0, f64::max);
     let number = Gear::BOTH
-        .map(|gear| meshes[gear] * model.law.greatest_coefficient_mm2_per_n() * stiffest * greatest(gear))
+        .map(|gear| meshes[gear] * model.first().wear.law.greatest_coefficient_mm2_per_n() * stiffest * greatest(gear))
         .into_iter()
         .fold(0.0, f64::max);
     (number > STABILITY_LIMIT).then(|| {

@@ -7,7 +7,9 @@ use serde::{Serialize, Serializer};
 
 use crate::contact::settings::{Foundation, SurfaceKind};
 use crate::scene::Scene;
+use crate::simulation::settings::Stepping;
 use crate::stiffness::settings::StiffnessSettings;
+use crate::wear::settings::LawSettings;
 use crate::working_cycle::settings::Coupling;
 
 /// A stage of the work, in the order of the work.
@@ -120,7 +122,7 @@ fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
         StageKind::ContactMatch => contact_match(scene),
         StageKind::ToothStiffness => tooth_stiffness(scene),
         StageKind::HelicalSlices => helical_slices(scene),
-        StageKind::ContactTemperature => Err("the wear law archard asks for no temperature".to_owned()),
+        StageKind::ContactTemperature => contact_temperature(scene),
         StageKind::Simulation => Ok(simulation(scene)),
         StageKind::ErrorEstimates if scene.numerics.error_estimate => {
             Ok("numerics.error_estimate: coarser companion runs, and short ones on a truer surface; at most half of the run's work"
@@ -148,6 +150,15 @@ fn finite_element_model(scene: &Scene) -> Result<String, String> {
     match scene.contact.surface {
         SurfaceKind::Fem => Ok("the surface fem: both gears meshed, and condensed onto their flanks".to_owned()),
         surface => Err(format!("the surface {} has none; [fem] is not used by it", surface.name())),
+    }
+}
+
+fn contact_temperature(scene: &Scene) -> Result<String, String> {
+    let law = scene.wear.law.name();
+    match (scene.heat, scene.wear.law) {
+        (None, _) => Err(format!("the wear law {law} asks for no temperature, and neither does the scene")),
+        (Some(_), LawSettings::Archard) => Ok("[temperature] asks for it".to_owned()),
+        (Some(_), _) => Ok(format!("the wear law {law} reads it at every point")),
     }
 }
 
@@ -200,10 +211,21 @@ fn contact_match(scene: &Scene) -> Result<String, String> {
 
 fn simulation(scene: &Scene) -> String {
     let (operation, numerics) = (&scene.operation, &scene.numerics);
-    let steps = (operation.pinion_revolutions / numerics.step_revolutions).ceil();
+    let steps = match numerics.stepping {
+        Stepping::Fixed { revolutions } => {
+            format!("about {} wear steps", (operation.pinion_revolutions / revolutions).ceil())
+        }
+        Stepping::Adaptive { tolerance_mm, .. } => {
+            format!("adaptive wear steps within {} µm", 1e3 * tolerance_mm)
+        }
+    };
+    let phases = match operation.phases.len() {
+        1 => String::new(),
+        several => format!(", {several} phases"),
+    };
     let tip_edges = if scene.contact.tip_contact { ", contact at tip edges before A and after E" } else { "" };
     format!(
-        "about {steps} wear steps, {} positions, {} points a flank, {} snapshots{tip_edges}",
+        "{steps}, {} positions, {} points a flank, {} snapshots{phases}{tip_edges}",
         numerics.positions,
         numerics.flank_points,
         operation.snapshots_revolutions.len()

@@ -13,6 +13,9 @@ use super::presets;
 use crate::contact::settings::{MatchCriterion, SurfaceKind};
 use crate::gear::modification::ReliefShape;
 use crate::mesh::settings::SectorSides;
+use crate::simulation::settings::AdaptiveMethod;
+use crate::thermal::settings::{HeatPartition, HeatVelocity, TemperatureMethod};
+use crate::wear::oxidation::MassRatio;
 use crate::working_cycle::settings::Coupling;
 
 /// A gear pair, its load and how its wear is to be computed.
@@ -39,6 +42,9 @@ pub struct SceneFile {
     /// The finite-element bodies, read only where finite elements are used. Default: whole rings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fem: Option<FemFile>,
+    /// Contact temperatures. Default: found only where the wear law reads them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub temperature: Option<TemperatureFile>,
     /// The wear law.
     pub wear: WearFile,
     /// Slices over the face width, read only where sections differ: with a helix angle, or a modification over the face width.
@@ -198,6 +204,14 @@ pub struct MaterialFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub density_kg_per_m3: Option<f64>,
+    /// Thermal conductivity in W/(m·K), > 0; read where contact temperatures are. Default 46.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub thermal_conductivity_W_per_mK: Option<f64>,
+    /// Thermal diffusivity in m²/s, > 0; read where contact temperatures are. Default 1.2e-5.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub thermal_diffusivity_m2_per_s: Option<f64>,
     /// Material of the pinion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pinion: Option<GearMaterialFile>,
@@ -222,6 +236,14 @@ pub struct GearMaterialFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub density_kg_per_m3: Option<f64>,
+    /// Thermal conductivity in W/(m·K), > 0; read where contact temperatures are. Default 46.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub thermal_conductivity_W_per_mK: Option<f64>,
+    /// Thermal diffusivity in m²/s, > 0; read where contact temperatures are. Default 1.2e-5.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub thermal_diffusivity_m2_per_s: Option<f64>,
 }
 
 /// Load, speed and duration; the pinion drives.
@@ -252,6 +274,40 @@ pub struct OperationFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("items" = { "type": "number", "exclusiveMinimum": 0 }))]
     pub snapshots_revolutions: Option<Vec<f64>>,
+    /// A load spectrum: phases that follow each other, each with its own duration; hours or pinion_revolutions of the whole may
+    /// be left out then, and must be their sum where given. Default: one phase.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub phases: Option<Vec<PhaseFile>>,
+}
+
+/// A phase of the run under constant load and speed.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PhaseFile {
+    /// Duration of the phase in hours, > 0; or give pinion_revolutions.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub hours: Option<f64>,
+    /// Duration of the phase in revolutions of the pinion, > 0; or give hours.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub pinion_revolutions: Option<f64>,
+    /// Torque on the pinion in N·m, > 0. Default: operation.pinion_torque_Nm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub pinion_torque_Nm: Option<f64>,
+    /// Speed of the pinion in revolutions per minute, > 0. Default: operation.pinion_speed_rpm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub pinion_speed_rpm: Option<f64>,
+    /// Wear coefficient in m²/N, > 0. Default: that of the wear law.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub coefficient_m2_per_N: Option<f64>,
+    /// The same in mm³/(N·m), > 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub coefficient_mm3_per_Nm: Option<f64>,
 }
 
 /// How the flanks touch.
@@ -368,6 +424,29 @@ pub struct ClampRadiusFile {
     pub wheel: Option<f64>,
 }
 
+/// Friction heat of the contact.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TemperatureFile {
+    /// How contact temperatures are found. Default: tian-kennedy.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub method: Option<TemperatureMethod>,
+    /// With which velocity heat moves over the bodies. Default: sliding, as in the thesis.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub velocity: Option<HeatVelocity>,
+    /// Which part of the heat each body takes. Default: archard-rowntree.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub partition: Option<HeatPartition>,
+    /// Coefficient of friction μ, > 0 to 2. Default 0.1.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 2))]
+    pub friction_coefficient: Option<f64>,
+    /// Bulk temperature of the gears in °C, above absolute zero (−273.15) to 1500. Default 90: usual for the oil of gear tests.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = -273.15, "maximum" = 1500))]
+    pub bulk_temperature_C: Option<f64>,
+}
+
 /// The wear law: one of the two coefficients must be given.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -385,6 +464,12 @@ pub struct WearFile {
     /// Transition from mild to severe wear. Default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub severe: Option<SevereFile>,
+    /// Constants of law = "adsorption". Default: typical orders of magnitude, not those of any lubricant.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub adsorption: Option<AdsorptionFile>,
+    /// Constants of law = "oxidation". Default: typical orders of magnitude, not those of any steel.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub oxidation: Option<OxidationFile>,
 }
 
 /// Name of a wear law.
@@ -393,6 +478,50 @@ pub struct WearFile {
 pub enum WearLaw {
     /// Depth in proportion to pressure and sliding distance.
     Archard,
+    /// The same where an adsorbed film leaves the surface unprotected. Its coefficient is that of the bare surface.
+    Adsorption,
+    /// An oxide that grows with temperature and time is rubbed off. Its coefficient is the part of the area in real contact over
+    /// the pressure, about one over the hardness.
+    Oxidation,
+}
+
+/// Constants of an adsorbed film.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AdsorptionFile {
+    /// Diameter X of a molecule in nm, > 0. Default 0.3 (typical).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub molecule_diameter_nm: Option<f64>,
+    /// Fundamental time of vibration t₀ of a molecule in ps, > 0. Default 3 (typical).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub vibration_time_ps: Option<f64>,
+    /// Heat of adsorption E in kJ/mol, 0 or more; typically 40 to 55. Default 48 (typical).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub heat_of_adsorption_kJ_per_mol: Option<f64>,
+}
+
+/// Constants of the oxidation of iron.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OxidationFile {
+    /// Arrhenius constant A_l of linear oxidation in kg/(m²·s), > 0: oxygen taken up.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub arrhenius_constant_kg_per_m2s: Option<f64>,
+    /// Activation energy Q_l in kJ/mol, 0 or more.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub activation_energy_kJ_per_mol: Option<f64>,
+    /// Density of the iron in kg/m³, > 0. Default 7870.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub density_kg_per_m3: Option<f64>,
+    /// How the mass of iron follows from that of oxygen. Default: stoichiometric.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mass_ratio: Option<MassRatio>,
 }
 
 /// Transition from mild to severe wear.
@@ -405,6 +534,11 @@ pub struct SevereFile {
     /// Factor on the wear coefficient there, > 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub factor: f64,
+    /// Pressure in MPa over which the factor rises, half of it to either side of above_MPa, 0 or more. Default 0: at once, as in the
+    /// thesis.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(range(min = 0))]
+    pub band_MPa: Option<f64>,
 }
 
 /// Slices over the face width.
@@ -435,18 +569,50 @@ pub struct NumericsFile {
     /// Whether the summary estimates the errors of the answer, which costs extra runs. Default true.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_estimate: Option<bool>,
-    /// Length of a wear step. Default: 1/150 of the duration.
+    /// Length of a wear step, or "adaptive". Default: 1/150 of the duration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<StepFile>,
+    /// Error of the wear depth allowed in µm, > 0; read with step = "adaptive". Default 0.05.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub tolerance_um: Option<f64>,
+    /// How the wear is integrated; read with step = "adaptive". Default: runge-kutta-chebyshev.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub method: Option<AdaptiveMethod>,
 }
 
-/// A fixed length of the wear step.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// Steps of the wear run: a table for Euler's method, or a word.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(untagged)]
+pub enum StepFile {
+    /// Of a fixed length.
+    Fixed(FixedStepFile),
+    /// As long as the error allows.
+    Named(NamedStep),
+}
+
+/// A fixed length of the wear step, by Euler's method.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct StepFile {
+pub struct FixedStepFile {
     /// Revolutions of the pinion a wear step, > 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub revolutions: f64,
+}
+
+/// A wear step that is not given by its length.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum NamedStep {
+    /// As long as the error allows.
+    Adaptive,
+}
+
+impl StepFile {
+    /// A fixed length.
+    pub fn fixed(revolutions: f64) -> Self {
+        StepFile::Fixed(FixedStepFile { revolutions })
+    }
 }
 
 impl SceneFile {

@@ -5,7 +5,6 @@ pub mod fem_problem;
 pub mod file;
 mod findings;
 pub mod key;
-mod later;
 mod locate;
 mod nearest;
 pub mod presets;
@@ -23,6 +22,7 @@ use crate::gear::{PerGear, spec::PairSpec};
 use crate::mesh::settings::BodySettings;
 use crate::simulation::settings::{Numerics, Operation};
 use crate::stiffness::settings::StiffnessSettings;
+use crate::thermal::settings::HeatSettings;
 use crate::wear::settings::WearSettings;
 use crate::working_cycle::settings::SliceSettings;
 
@@ -52,6 +52,8 @@ pub struct Scene {
     pub fem: BodySettings,
     /// Slices over the face width; none where all sections are alike.
     pub slices: Option<SliceSettings>,
+    /// Contact temperatures; none where nothing asks for them.
+    pub heat: Option<HeatSettings>,
     /// Wear law.
     pub wear: WearSettings,
     /// Resolution.

@@ -63,14 +63,30 @@ impl<'a> Node<'a> {
         Node(schema)
     }
 
+    /// What this key takes of `value`'s kind, where it takes a table as well as a word.
+    pub fn variant(self, value: &toml::Value) -> Node<'a> {
+        let kind = if value.is_str() { "string" } else { "object" };
+        self.variants().find(|variant| variant.type_name() == kind).unwrap_or(self)
+    }
+
+    /// What this key takes, where that is of several kinds.
+    fn variants(self) -> impl Iterator<Item = Node<'a>> {
+        self.0.get("anyOf").and_then(Value::as_array).into_iter().flatten().map(Node)
+    }
+
+    /// The table that this key takes.
+    fn table(self) -> Node<'a> {
+        self.variants().find(|variant| variant.type_name() == "object").unwrap_or(self)
+    }
+
     /// The key `name` of this table.
     pub fn child(&self, name: &str) -> Option<Node<'a>> {
-        self.0.get("properties")?.get(name).map(Node)
+        self.table().0.get("properties")?.get(name).map(Node)
     }
 
     /// The names of all keys of this table, in alphabetical order.
     pub fn keys(&self) -> Vec<&'a str> {
-        match self.0.get("properties") {
+        match self.table().0.get("properties") {
             Some(Value::Object(properties)) => properties.keys().map(String::as_str).collect(),
             _ => Vec::new(),
         }
@@ -123,6 +139,10 @@ impl<'a> Node<'a> {
 
     /// What is allowed, in an engineer's words.
     pub fn allowed(&self) -> String {
+        let variants: Vec<String> = self.variants().map(|variant| variant.allowed()).collect();
+        if !variants.is_empty() {
+            return variants.join(", or ");
+        }
         let choices = self.choices();
         if !choices.is_empty() {
             let quoted: Vec<String> = choices.iter().map(|word| format!("{word:?}")).collect();

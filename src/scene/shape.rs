@@ -6,7 +6,6 @@
 use toml::{Table, Value};
 
 use super::findings::Findings;
-use super::later::{self, Later};
 use super::locate::join;
 use super::nearest::nearest;
 use super::problem::{ProblemKind, number, words};
@@ -17,8 +16,8 @@ use super::schema::Node;
 pub struct Format {
     /// Its schema.
     pub root: Node<'static>,
-    /// What of it this version lacks.
-    pub later: &'static [Later],
+    /// Keys of other files, each with what to do instead.
+    pub of_other_files: &'static [(&'static str, &'static str)],
 }
 
 /// The part of `table` that has the right shape; the rest is reported.
@@ -66,12 +65,7 @@ fn stand_in(node: Node<'_>) -> Value {
 }
 
 fn check_value(format: Format, node: Node<'_>, value: &Value, key: &str, findings: &mut Findings) -> Option<Value> {
-    if let Value::String(text) = value
-        && let Some(later) = later::unknown_value(format.later, key, text)
-    {
-        findings.problem(ProblemKind::NotAvailable, key, format!("{text:?}"), later.instead);
-        return None;
-    }
+    let node = node.variant(value);
     match (node.type_name(), value) {
         ("object", Value::Table(table)) => Some(Value::Table(check_table(format, node, table, key, findings))),
         ("array", Value::Array(items)) => check_items(format, node, items, key, findings),
@@ -130,8 +124,8 @@ fn check_number(node: Node<'_>, x: f64, value: &Value, key: &str, findings: &mut
 }
 
 fn unknown_key(format: Format, node: Node<'_>, name: &str, key: &str, path: &str, findings: &mut Findings) {
-    if let Some(later) = later::unknown_key(format.later, key) {
-        return findings.problem(ProblemKind::NotAvailable, key, "this key", later.instead);
+    if let Some((_, instead)) = format.of_other_files.iter().find(|(other, _)| *other == key) {
+        return findings.problem(ProblemKind::NotAvailable, key, "this key", *instead);
     }
     let known = node.keys();
     findings.problem(ProblemKind::UnknownKey, key, name, known.join(", "));

@@ -2,9 +2,11 @@
 
 pub mod accuracy_quantity;
 pub mod accuracy_record;
+pub mod advance;
 pub mod fem_pair_record;
 pub mod fem_problem_record;
 pub mod figures;
+pub mod mesh_contact;
 pub mod record;
 pub mod settings;
 pub mod simplified;

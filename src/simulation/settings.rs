@@ -1,22 +1,127 @@
 //! What is asked of the run: operation and numerical resolution.
 
-/// Load, speed and duration.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Operation {
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Wear steps of a run where nothing else is asked for.
+const STEPS: f64 = 150.0;
+
+/// A stretch of the run under constant load and speed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Phase {
     /// Torque on the pinion, N·mm.
     pub pinion_torque_n_mm: f64,
     /// Speed of the pinion, 1/min, where given.
     pub pinion_speed_rpm: Option<f64>,
+    /// Its wear coefficient, mm²/N; `None`: that of the wear law.
+    pub coefficient_mm2_per_n: Option<f64>,
+    /// When it ends, in revolutions of the pinion from the beginning of the run.
+    pub end_revolutions: f64,
+}
+
+/// Load, speed and duration.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Operation {
+    /// Torque on the pinion, N·mm: of a run in phases, that of phases which name none, and of everything that looks at one load
+    /// only (calibration, meshes of finite elements).
+    pub pinion_torque_n_mm: f64,
+    /// Speed of the pinion, 1/min, where given; of a run in phases, that of phases which name none.
+    pub pinion_speed_rpm: Option<f64>,
     /// How long the pair runs, in revolutions of the pinion.
     pub pinion_revolutions: f64,
-    /// When the state is kept, in revolutions of the pinion: increasing, the last is the end of the run.
+    /// When the state is kept, in revolutions of the pinion: increasing, the last is the end of the run. The ends of phases are
+    /// among them.
     pub snapshots_revolutions: Vec<f64>,
+    /// The phases of the run, one at least; the last ends with the run.
+    pub phases: Vec<Phase>,
 }
 
 impl Operation {
+    /// The same load and speed from beginning to end.
+    pub fn steady(
+        pinion_torque_n_mm: f64,
+        pinion_speed_rpm: Option<f64>,
+        pinion_revolutions: f64,
+        snapshots_revolutions: Vec<f64>,
+    ) -> Self {
+        let phase = Phase {
+            pinion_torque_n_mm,
+            pinion_speed_rpm,
+            coefficient_mm2_per_n: None,
+            end_revolutions: pinion_revolutions,
+        };
+        Self { pinion_torque_n_mm, pinion_speed_rpm, pinion_revolutions, snapshots_revolutions, phases: vec![phase] }
+    }
+
     /// Running time after `revolutions` of the pinion, in hours; `None` without a speed.
     pub fn hours(&self, revolutions: f64) -> Option<f64> {
-        self.pinion_speed_rpm.map(|rpm| revolutions / (60.0 * rpm))
+        let (mut begin, mut hours) = (0.0, 0.0);
+        for phase in &self.phases {
+            let end = phase.end_revolutions.min(revolutions);
+            if end > begin {
+                hours += (end - begin) / (60.0 * phase.pinion_speed_rpm?);
+            }
+            begin = phase.end_revolutions;
+        }
+        Some(hours)
+    }
+
+    /// The phase that `revolutions` lie in, the earlier one at an end.
+    pub fn phase_at(&self, revolutions: f64) -> usize {
+        self.phases.partition_point(|phase| phase.end_revolutions < revolutions).min(self.phases.len() - 1)
+    }
+}
+
+/// How the wear is integrated with an error that is controlled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum AdaptiveMethod {
+    /// Stabilised explicit, of second order: Runge–Kutta–Chebyshev.
+    #[default]
+    RungeKuttaChebyshev,
+    /// Linearly implicit, of second order: a Rosenbrock method with an approximate Jacobian.
+    LinearlyImplicit,
+}
+
+/// Steps of the wear run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stepping {
+    /// Euler's method with steps of this many pinion revolutions.
+    Fixed {
+        /// Pinion revolutions a wear step.
+        revolutions: f64,
+    },
+    /// Steps as long as the error allows.
+    Adaptive {
+        /// Error of the wear depth that is allowed, mm.
+        tolerance_mm: f64,
+        /// How.
+        method: AdaptiveMethod,
+    },
+}
+
+impl Stepping {
+    /// The step of Euler's method for a run of `duration` revolutions: the one that is set, or the default where none is.
+    pub fn euler_revolutions(&self, duration: f64) -> f64 {
+        match *self {
+            Stepping::Fixed { revolutions } => revolutions,
+            Stepping::Adaptive { .. } => duration / STEPS,
+        }
+    }
+
+    /// Steps `by` times as long, or with an error that many times as large.
+    pub fn coarser(self, by: f64) -> Self {
+        match self {
+            Stepping::Fixed { revolutions } => Stepping::Fixed { revolutions: by * revolutions },
+            Stepping::Adaptive { tolerance_mm, method } => {
+                Stepping::Adaptive { tolerance_mm: by * tolerance_mm, method }
+            }
+        }
+    }
+
+    /// Euler's method with the default step for a run of `duration` revolutions.
+    pub fn euler(duration: f64) -> Self {
+        Stepping::Fixed { revolutions: duration / STEPS }
     }
 }
 
@@ -27,8 +132,8 @@ pub struct Numerics {
     pub flank_points: usize,
     /// Loading positions from A to E, evenly along the path of contact, both ends included.
     pub positions: usize,
-    /// Pinion revolutions a wear step.
-    pub step_revolutions: f64,
+    /// Steps in time.
+    pub stepping: Stepping,
     /// Whether to estimate the errors of the answer from coarser companion runs.
     pub error_estimate: bool,
 }

@@ -5,20 +5,31 @@
 
 use super::wear_run::Snapshot;
 use crate::gear::{Gear, PerGear};
-use crate::wear::WearLaw;
+use crate::wear::WearModel;
 use crate::working_cycle::{LostMaterial, MeshCycle, Work, load_sharing::EquilibriumError};
 
 /// A pair that wears.
 pub trait WearingPair {
-    /// Solves one working cycle on the flanks as they are, and keeps what they lose in one mesh by `law`. `stopped` is asked now
+    /// Solves one working cycle on the flanks as they are, and keeps what they lose in one mesh by `wear`. `stopped` is asked now
     /// and then whether to give up.
     ///
     /// # Errors
     /// [`EquilibriumError`] of the first position without equilibrium.
-    fn evaluate(&mut self, law: &dyn WearLaw, stopped: &(dyn Fn() -> bool + Sync)) -> Result<Work, EquilibriumError>;
+    fn evaluate(&mut self, wear: &WearModel<'_>, stopped: &(dyn Fn() -> bool + Sync))
+    -> Result<Work, EquilibriumError>;
 
     /// Lets the flanks lose that in so many meshes of each gear's teeth.
     fn wear_for(&mut self, meshes: PerGear<f64>);
+
+    /// What each place of the flanks has lost, mm: as many places as [`Self::set_wear_mm`] takes and [`Self::depth_mm`] gives. Flank
+    /// points of most models, but the contact points of some.
+    fn wear_mm(&self) -> PerGear<Vec<f64>>;
+
+    /// Takes the flanks to have lost this.
+    fn set_wear_mm(&mut self, wear_mm: &PerGear<Vec<f64>>);
+
+    /// What each place loses in one mesh, as the last evaluation found, mm.
+    fn depth_mm(&self, depth_mm: &mut PerGear<Vec<f64>>);
 
     /// The state that the last evaluation found.
     ///
@@ -50,8 +61,12 @@ fn lost<'a>(removed_mm: &'a PerGear<Vec<f64>>, wear_mm: &'a PerGear<Vec<f64>>) -
 }
 
 impl WearingPair for OnFlankPoints<'_> {
-    fn evaluate(&mut self, law: &dyn WearLaw, stopped: &(dyn Fn() -> bool + Sync)) -> Result<Work, EquilibriumError> {
-        self.cycle.evaluate(lost(&self.removed_mm, &self.wear_mm), law, &mut self.depth_mm, stopped)
+    fn evaluate(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.cycle.evaluate(lost(&self.removed_mm, &self.wear_mm), wear, &mut self.depth_mm, stopped)
     }
 
     fn wear_for(&mut self, meshes: PerGear<f64>) {
@@ -63,6 +78,24 @@ impl WearingPair for OnFlankPoints<'_> {
                 *removed = modification + *wear;
             }
         }
+    }
+
+    fn wear_mm(&self) -> PerGear<Vec<f64>> {
+        self.wear_mm.clone()
+    }
+
+    fn set_wear_mm(&mut self, wear_mm: &PerGear<Vec<f64>>) {
+        for gear in Gear::BOTH {
+            self.wear_mm[gear].copy_from_slice(&wear_mm[gear]);
+            let points = self.removed_mm[gear].iter_mut().zip(&self.modification_mm[gear]);
+            for ((removed, modification), wear) in points.zip(&wear_mm[gear]) {
+                *removed = modification + wear;
+            }
+        }
+    }
+
+    fn depth_mm(&self, depth_mm: &mut PerGear<Vec<f64>>) {
+        depth_mm.clone_from(&self.depth_mm);
     }
 
     fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {

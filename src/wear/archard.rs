@@ -1,58 +1,47 @@
-//! The generalised Archard law with a transition from mild to severe wear.
+//! The generalised Archard law.
 //!
 //! ```text
-//! dh = C k p ds        C = 1 where p ≤ p_lim, C = C_severe above
+//! dh = k p ds
 //! ```
 //!
-//! Source: J. F. Archard (1953); the thesis, equations 9–12 and 26.
+//! Source: J. F. Archard (1953); the thesis, equations 9–12.
 
-use super::{
-    WearLaw,
-    settings::{SevereTransition, WearSettings},
-};
+use super::{Surroundings, WearLaw};
 
 /// dh = k p ds at every point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Archard {
-    coefficient: f64,
-    severe: Option<SevereTransition>,
-}
-
-impl Archard {
-    /// The law of a scene.
-    pub fn new(settings: &WearSettings) -> Self {
-        Self { coefficient: settings.coefficient_mm2_per_n, severe: settings.severe }
-    }
+    /// k, mm²/N.
+    pub coefficient_mm2_per_n: f64,
 }
 
 impl WearLaw for Archard {
-    fn add_depth(&self, pressure_mpa: &[f64], sliding_mm: &[f64], depth_mm: &mut [f64]) {
-        let (mild, limit, severe) = match self.severe {
-            Some(severe) => (self.coefficient, severe.above_mpa, self.coefficient * severe.factor),
-            None => (self.coefficient, f64::INFINITY, self.coefficient),
-        };
-        for ((depth, &pressure), &sliding) in depth_mm.iter_mut().zip(pressure_mpa).zip(sliding_mm) {
-            let k = if pressure > limit { severe } else { mild };
-            *depth += k * pressure * sliding;
-        }
+    const READS_SURROUNDINGS: bool = false;
+
+    fn coefficient_mm2_per_n(&self, _surroundings: Option<Surroundings>) -> f64 {
+        self.coefficient_mm2_per_n
     }
 
     fn greatest_coefficient_mm2_per_n(&self) -> f64 {
-        self.coefficient * self.severe.map_or(1.0, |severe| severe.factor.max(1.0))
+        self.coefficient_mm2_per_n
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use crate::wear::{
+        Rubbing,
+        settings::{SevereTransition, WearSettings},
+    };
 
     /// Thesis eq 26 with k = 1e-17 m²/N, factor 100 above 2000 MPa, 0.7 mm of sliding.
     #[test]
     fn ver_mild_and_severe_rates() {
-        let severe = Some(SevereTransition { above_mpa: 2000.0, factor: 100.0 });
-        let law = Archard::new(&WearSettings { coefficient_mm2_per_n: 1e-11, severe });
+        let severe = Some(SevereTransition { above_mpa: 2000.0, factor: 100.0, band_mpa: 0.0 });
+        let law = crate::wear::of(&WearSettings { severe, ..WearSettings::archard(1e-11) });
         let mut depth = [0.0; 3];
-        law.add_depth(&[1000.0, 2000.0, 2001.0], &[0.7; 3], &mut depth);
+        let rubbing = Rubbing { pressure_mpa: &[1000.0, 2000.0, 2001.0], sliding_mm: &[0.7; 3], surroundings: None };
+        law.add_depth(&rubbing, &mut depth);
         let expected = [1e-11 * 1000.0 * 0.7, 1e-11 * 2000.0 * 0.7, 1e-9 * 2001.0 * 0.7];
         for (d, e) in depth.iter().zip(expected) {
             assert!((d / e - 1.0).abs() < 1e-14);

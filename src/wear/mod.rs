@@ -1,15 +1,128 @@
 //! Wear laws: how fast a flank point loses material under pressure and sliding.
+//!
+//! Every law here has the form of the generalised Archard law with a coefficient of its own,
+//!
+//! ```text
+//! dh = C(p) · k(v, T) · p ds
+//! ```
+//!
+//! and a new one is a file that implements [`WearLaw`]. The severe transition C(p) ([`severe`]) goes with any of them.
 
+pub mod adsorption;
 pub mod archard;
+pub mod oxidation;
 pub mod settings;
+mod severe;
 
-/// A local wear law: depth worn from a surface point by sliding under pressure.
-///
-/// Working on whole rows of points keeps the law out of the inner loop's way.
+use crate::thermal::ContactHeat;
+use settings::{LawSettings, SevereTransition, WearSettings};
+
+/// What the chemistry of a flank point knows of the contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Surroundings {
+    /// Sliding speed, mm/s.
+    pub sliding_speed_mm_per_s: f64,
+    /// Contact temperature, K.
+    pub temperature_k: f64,
+}
+
+/// A local wear law.
 pub trait WearLaw: Sync {
-    /// Adds to each point's depth (mm) what it loses under its pressure (MPa) over its sliding distance (mm).
-    fn add_depth(&self, pressure_mpa: &[f64], sliding_mm: &[f64], depth_mm: &mut [f64]);
+    /// Whether the coefficient depends on the [`Surroundings`].
+    const READS_SURROUNDINGS: bool;
 
-    /// The greatest rate of depth per sliding distance and pressure the law can give, mm²/N: bounds the stable wear step.
+    /// Depth per pressure and sliding distance, mm²/N. Laws that do not read the surroundings get none.
+    fn coefficient_mm2_per_n(&self, surroundings: Option<Surroundings>) -> f64;
+
+    /// The greatest coefficient that the law can give, mm²/N: bounds the stable wear step.
     fn greatest_coefficient_mm2_per_n(&self) -> f64;
+}
+
+/// What consecutive points of a flank feel at one loading position, in rows of the same length.
+#[derive(Debug, Clone, Copy)]
+pub struct Rubbing<'a> {
+    /// Pressure on each, MPa.
+    pub pressure_mpa: &'a [f64],
+    /// How far each slides, mm.
+    pub sliding_mm: &'a [f64],
+    /// What its chemistry knows, where the law reads it.
+    pub surroundings: Option<&'a [Surroundings]>,
+}
+
+/// Wear of a flank by some law, in rows of points: the law itself stays out of the inner loop's way.
+pub trait FlankWear: Sync {
+    /// Adds to each point's depth (mm) what it loses. Rows without surroundings are for laws that do not read them.
+    fn add_depth(&self, rubbing: &Rubbing<'_>, depth_mm: &mut [f64]);
+
+    /// Whether rows must have surroundings.
+    fn reads_surroundings(&self) -> bool;
+
+    /// The greatest rate of depth per sliding distance and pressure, severe wear included, mm²/N.
+    fn greatest_coefficient_mm2_per_n(&self) -> f64;
+}
+
+/// A law with a transition to severe wear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WithTransition<L> {
+    /// The law of mild wear.
+    pub law: L,
+    /// The transition, where there is one.
+    pub severe: Option<SevereTransition>,
+}
+
+impl<L: WearLaw> FlankWear for WithTransition<L> {
+    fn add_depth(&self, rubbing: &Rubbing<'_>, depth_mm: &mut [f64]) {
+        let points = rubbing.pressure_mpa.iter().zip(rubbing.sliding_mm);
+        let add = |(depth, (&pressure, &sliding)): (&mut f64, (&f64, &f64)), k: f64| {
+            let factor = self.severe.as_ref().map_or(1.0, |severe| severe.factor_at(pressure));
+            *depth += factor * k * pressure * sliding;
+        };
+        if L::READS_SURROUNDINGS {
+            let surroundings = rubbing.surroundings.unwrap_or_default();
+            for (point, own) in depth_mm.iter_mut().zip(points).zip(surroundings) {
+                add(point, self.law.coefficient_mm2_per_n(Some(*own)));
+            }
+        } else {
+            let k = self.law.coefficient_mm2_per_n(None);
+            depth_mm.iter_mut().zip(points).for_each(|point| add(point, k));
+        }
+    }
+
+    fn reads_surroundings(&self) -> bool {
+        L::READS_SURROUNDINGS
+    }
+
+    fn greatest_coefficient_mm2_per_n(&self) -> f64 {
+        self.law.greatest_coefficient_mm2_per_n() * self.severe.map_or(1.0, |severe| severe.factor.max(1.0))
+    }
+}
+
+/// The wear that a scene asks for.
+pub fn of(settings: &WearSettings) -> Box<dyn FlankWear> {
+    let (k, severe) = (settings.coefficient_mm2_per_n, settings.severe);
+    match settings.law {
+        LawSettings::Archard => Box::new(WithTransition { law: archard::Archard { coefficient_mm2_per_n: k }, severe }),
+        LawSettings::Adsorption(constants) => {
+            Box::new(WithTransition { law: adsorption::Adsorption { coefficient_mm2_per_n: k, constants }, severe })
+        }
+        LawSettings::Oxidation(constants) => {
+            Box::new(WithTransition { law: oxidation::Oxidation { coefficient_mm2_per_n: k, constants }, severe })
+        }
+    }
+}
+
+/// How flanks in mesh wear: by which law, and where their heat comes from where the law reads it.
+#[derive(Clone, Copy)]
+pub struct WearModel<'a> {
+    /// The law.
+    pub law: &'a dyn FlankWear,
+    /// Friction heat of the contact, where the law or the scene asks for it.
+    pub heat: Option<&'a ContactHeat>,
+}
+
+impl<'a> WearModel<'a> {
+    /// A law that reads no surroundings.
+    pub fn cold(law: &'a dyn FlankWear) -> Self {
+        Self { law, heat: None }
+    }
 }

@@ -20,7 +20,7 @@ use crate::fem::gear::observed_flank::{FlankPoints, ObservedFlank};
 use crate::fem::gear::position::CondensedPair;
 use crate::fem::gear::prepared::{NodalWear, Prepared};
 use crate::gear::{Gear, PerGear};
-use crate::wear::WearLaw;
+use crate::wear::{Rubbing, WearModel};
 
 /// One position and how the flank points read it.
 struct Station {
@@ -134,14 +134,14 @@ impl MeshCycle for CondensedCycle<'_> {
     fn evaluate(
         &mut self,
         lost: LostMaterial<'_>,
-        law: &dyn WearLaw,
+        wear: &WearModel<'_>,
         depth_mm: &mut PerGear<Vec<f64>>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
-        let wear = self.nodal_wear(lost.wear_mm);
+        let nodal_wear = self.nodal_wear(lost.wear_mm);
         let length_mm = self.length_mm();
         let points = flank_points(&self.radius_mm, &self.node_radius_mm);
-        let step = Step { model: self.model, wear: &wear, points, length_mm, law, stopped };
+        let step = Step { model: self.model, nodal_wear: &nodal_wear, points, length_mm, wear, stopped };
         self.groups.par_iter_mut().for_each(|group| group.evaluate(&step));
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
@@ -183,10 +183,10 @@ impl MeshCycle for CondensedCycle<'_> {
 /// What the evaluation of a wear step is made of.
 struct Step<'a> {
     model: &'a CondensedPair<'a>,
-    wear: &'a NodalWear,
+    nodal_wear: &'a NodalWear,
     points: PerGear<FlankPoints<'a>>,
     length_mm: f64,
-    law: &'a dyn WearLaw,
+    wear: &'a WearModel<'a>,
     stopped: &'a (dyn Fn() -> bool + Sync),
 }
 
@@ -204,7 +204,8 @@ impl Group {
                     self.pressure_mpa.clear();
                     self.pressure_mpa.extend(points.pressure_mpa(&station.nodal_mpa));
                     let range = points.first_point..points.first_point + sliding.len();
-                    step.law.add_depth(&self.pressure_mpa, sliding, &mut self.collected.depth_mm[gear][range]);
+                    let rubbing = Rubbing { pressure_mpa: &self.pressure_mpa, sliding_mm: sliding, surroundings: None };
+                    step.wear.law.add_depth(&rubbing, &mut self.collected.depth_mm[gear][range]);
                 }
             }
         }
@@ -234,7 +235,7 @@ impl Station {
         let position_mm = self.prepared.position_mm;
         let found = step
             .model
-            .solve(&mut self.prepared, Some(step.wear))
+            .solve(&mut self.prepared, Some(step.nodal_wear))
             .map_err(|source| EquilibriumError::Contact { position_mm, source })?;
         if self.looks != self.prepared.looks() {
             self.look(step.model, step.points, step.length_mm);

@@ -23,7 +23,7 @@ use rayon::prelude::*;
 
 use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCell, Sweep};
 use crate::gear::{Gear, PerGear};
-use crate::wear::WearLaw;
+use crate::wear::{Rubbing, WearModel};
 use collected::Collected;
 use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use sliced_mesh::SlicedMesh;
@@ -147,7 +147,7 @@ pub trait MeshCycle {
     fn evaluate(
         &mut self,
         lost: LostMaterial<'_>,
-        law: &dyn WearLaw,
+        wear: &WearModel<'_>,
         depth_mm: &mut PerGear<Vec<f64>>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError>;
@@ -189,12 +189,12 @@ impl MeshCycle for WorkingCycle<'_> {
     fn evaluate(
         &mut self,
         lost: LostMaterial<'_>,
-        law: &dyn WearLaw,
+        wear: &WearModel<'_>,
         depth_mm: &mut PerGear<Vec<f64>>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
         let load = self.line_load_n_per_mm;
-        self.groups.par_iter_mut().for_each(|group| group.evaluate(lost.removed_mm, load, law, stopped));
+        self.groups.par_iter_mut().for_each(|group| group.evaluate(lost.removed_mm, load, wear, stopped));
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
 
@@ -243,7 +243,7 @@ impl Group<'_> {
         &mut self,
         removed_mm: PerGear<&[f64]>,
         line_load: f64,
-        law: &dyn WearLaw,
+        wear: &WearModel<'_>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) {
         self.collected.clear();
@@ -257,7 +257,9 @@ impl Group<'_> {
                 let sweep = &mut self.sweep;
                 station.pairs[0].contact.sweep(gear, removed_mm, sweep);
                 let points = sweep.first_point..sweep.first_point + sweep.sliding_mm.len();
-                law.add_depth(&sweep.pressure_mpa, &sweep.sliding_mm, &mut self.collected.depth_mm[gear][points]);
+                let rubbing =
+                    Rubbing { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, surroundings: None };
+                wear.law.add_depth(&rubbing, &mut self.collected.depth_mm[gear][points]);
             }
         }
     }

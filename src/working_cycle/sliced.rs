@@ -23,7 +23,7 @@ use super::sliced_teeth::SlicedTeeth;
 use super::{CycleObservation, GROUPS, LostMaterial, MeshCycle, Work, note_what_points_felt};
 use crate::contact::{ContactSurface, Flanks, Sweep};
 use crate::gear::{Gear, PerGear, path_of_contact::PathOfContact};
-use crate::wear::WearLaw;
+use crate::wear::{Rubbing, WearModel};
 
 /// The spring of the teeth along the path of contact, evaluated once for all slices.
 pub struct SpringAlongPath {
@@ -146,14 +146,14 @@ impl MeshCycle for SlicedCycle<'_> {
     fn evaluate(
         &mut self,
         lost: LostMaterial<'_>,
-        law: &dyn WearLaw,
+        wear: &WearModel<'_>,
         depth_mm: &mut PerGear<Vec<f64>>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
         let (load, points) = (self.sum_of_line_loads(), self.points);
         let coupling = self.sliced.coupling.as_ref();
         self.groups.par_iter_mut().for_each(|group| {
-            group.evaluate(lost.removed_mm, points, coupling, load, law, stopped);
+            group.evaluate(lost.removed_mm, points, coupling, load, wear, stopped);
         });
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
@@ -189,7 +189,7 @@ impl Group<'_> {
         points: PerGear<usize>,
         coupling: Option<&SliceCoupling>,
         load: f64,
-        law: &dyn WearLaw,
+        wear: &WearModel<'_>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) {
         self.collected.clear();
@@ -209,7 +209,12 @@ impl Group<'_> {
                     pair.contact.sweep(gear, own, sweep);
                     let first = contact.slice * points[gear] + sweep.first_point;
                     let depth = &mut self.collected.depth_mm[gear][first..first + sweep.sliding_mm.len()];
-                    law.add_depth(&sweep.pressure_mpa, &sweep.sliding_mm, depth);
+                    let rubbing = Rubbing {
+                        pressure_mpa: &sweep.pressure_mpa,
+                        sliding_mm: &sweep.sliding_mm,
+                        surroundings: None,
+                    };
+                    wear.law.add_depth(&rubbing, depth);
                 }
             }
         }

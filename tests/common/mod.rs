@@ -78,12 +78,13 @@ use gearwear::contact::{
     winkler::Winkler,
 };
 use gearwear::simulation::{
-    settings::{Numerics, Operation},
-    wear_run::{MeshContact, Outcome, Unwatched, WearRun},
+    mesh_contact::MeshContact,
+    settings::{Numerics, Stepping},
+    wear_run::{Outcome, RunPhase, Unwatched, WearRun},
 };
 use gearwear::stiffness::{TeethSpring, curve::PairCompliance, settings::StiffnessSettings};
 use gearwear::wear::{
-    archard::Archard,
+    WearModel,
     settings::{SevereTransition, WearSettings},
 };
 use gearwear::working_cycle::{settings::SliceSettings, sliced_teeth::SlicedTeeth};
@@ -157,38 +158,39 @@ impl Scene {
         }
     }
 
+    /// Its resolution.
+    pub fn numerics(&self) -> Numerics {
+        Numerics {
+            flank_points: self.flank_points,
+            positions: self.positions,
+            stepping: Stepping::Fixed { revolutions: self.revolutions / self.steps },
+            error_estimate: false,
+        }
+    }
+
     /// Runs it.
     pub fn run(&self) -> Outcome {
         let pair = pair(&self.pair);
         let (surface, line_load) = (self.surface(), self.line_load());
         let teeth = TeethSpring::new(self.stiffness, self.curve.as_ref(), &pair, &steel(), surface.as_ref(), line_load);
-        let law =
-            Archard::new(&WearSettings { coefficient_mm2_per_n: self.coefficient_mm2_per_n, severe: self.severe });
+        let law = gearwear::wear::of(&WearSettings {
+            severe: self.severe,
+            ..WearSettings::archard(self.coefficient_mm2_per_n)
+        });
         let sliced = self.slices.map(|settings| SlicedTeeth::new(&pair, &steel(), settings));
-        WearRun {
-            pair: &pair,
+        let phase = RunPhase {
             contact: MeshContact::LineOfAction {
                 surface: surface.as_ref(),
                 teeth: &teeth,
                 tip_contact: self.tip_contact,
                 sliced: sliced.as_ref(),
             },
-            law: &law,
+            wear: WearModel::cold(law.as_ref()),
             line_load_n_per_mm: line_load,
-            operation: &Operation {
-                pinion_torque_n_mm: self.torque_n_mm,
-                pinion_speed_rpm: None,
-                pinion_revolutions: self.revolutions,
-                snapshots_revolutions: self.snapshots.clone(),
-            },
-            numerics: Numerics {
-                flank_points: self.flank_points,
-                positions: self.positions,
-                step_revolutions: self.revolutions / self.steps,
-                error_estimate: false,
-            },
-        }
-        .run(&Unwatched)
-        .expect("the run of the test converges")
+            end_revolutions: self.revolutions,
+        };
+        WearRun { pair: &pair, phases: &[phase], snapshots_revolutions: &self.snapshots, numerics: self.numerics() }
+            .run(&Unwatched)
+            .expect("the run of the test converges")
     }
 }

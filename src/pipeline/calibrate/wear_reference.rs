@@ -5,13 +5,10 @@ use crate::calibration::wear_reference::{FLANK_POINTS, FlankWear, LOADS, POSITIO
 use crate::contact::Flanks;
 use crate::fem::gear::position::CondensedPair;
 use crate::gear::{Gear, PerGear, flank::FlankGrid};
-use crate::wear::{archard::Archard, settings::WearSettings};
+use crate::wear::{self, WearModel, settings::WearSettings};
 use crate::working_cycle::condensed::CondensedCycle;
 use crate::working_cycle::load_sharing::EquilibriumError;
 use crate::working_cycle::{LostMaterial, MeshCycle};
-
-/// Wear per coefficient: that of the coefficient 1.
-const UNIT: WearSettings = WearSettings { coefficient_mm2_per_n: 1.0, severe: None };
 
 /// The references of all loads, each a multiple of `line_load_n_per_mm`.
 pub(super) fn references(
@@ -23,14 +20,15 @@ pub(super) fn references(
     let grids = PerGear::from_fn(|gear| FlankGrid::new(pair, gear, FLANK_POINTS));
     let unworn = PerGear::from_fn(|gear| vec![0.0; grids[gear].len()]);
     let zeros = unworn.as_ref().map(Vec::as_slice);
-    let law = Archard::new(&UNIT);
+    // Wear per coefficient: that of the coefficient 1.
+    let law = wear::of(&WearSettings::archard(1.0));
     let one = |load: f64| {
         let load = load * line_load_n_per_mm;
         let mut cycle =
             CondensedCycle::new(condensed, Flanks { geometry: pair, grid: grids.as_ref() }, POSITIONS, load);
         let mut depth = unworn.clone();
         let lost = LostMaterial { removed_mm: zeros, wear_mm: zeros };
-        match cycle.evaluate(lost, &law, &mut depth, stopped) {
+        match cycle.evaluate(lost, &WearModel::cold(law.as_ref()), &mut depth, stopped) {
             Ok(_) => {}
             Err(EquilibriumError::Interrupted) => return Err(CalibrateError::Interrupted),
             Err(source) => return Err(CalibrateError::Cycle { line_load_n_per_mm: load, source }),

@@ -20,8 +20,9 @@ use crate::gear::PerGear;
 use crate::mesh::settings::BodySettings;
 use crate::simulation::{
     figures::WearFigures,
+    mesh_contact::MeshContact,
     record::{ErrorSources, ErrorSummary},
-    wear_run::{MeshContact, Outcome, Progress},
+    wear_run::{Outcome, Progress},
 };
 use crate::working_cycle::{settings::SliceSettings, sliced_teeth::SlicedTeeth};
 
@@ -81,7 +82,7 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, observer: &dyn Prog
         let short = surface_model::estimate(model, outcome, tip_contact, BUDGET - runs.cost, observer);
         (short.estimate, short.cost)
     };
-    let (surface_model, surface_cost) = match model.contact {
+    let (surface_model, surface_cost) = match model.first().contact {
         MeshContact::LineOfAction { tip_contact, .. } => {
             against_reference().unwrap_or_else(|| on_truer_surface(tip_contact))
         }
@@ -126,14 +127,14 @@ fn coarse_slices(model: &Model<'_>) -> Option<SlicedTeeth> {
 
 /// Of a run on finite elements, the model with elements twice as long; none where they cannot be so long.
 fn coarse_elements<'a>(model: &Model<'a>) -> Option<CondensedPair<'a>> {
-    let MeshContact::FiniteElements(_) = model.contact else { return None };
+    let MeshContact::FiniteElements(_) = model.first().contact else { return None };
     let fine = model.scene.fem;
     let elements_per_half_width = 0.5 * fine.elements_per_half_width;
     if elements_per_half_width < LEAST_ELEMENTS {
         return None;
     }
     let bodies = BodySettings { elements_per_half_width, ..fine };
-    CondensedPair::build(model.pair, &elastic(&model.scene.material), model.line_load_n_per_mm, &bodies).ok()
+    CondensedPair::build(model.pair, &elastic(&model.scene.material), model.first().line_load_n_per_mm, &bodies).ok()
 }
 
 /// Time of an equilibrium of slices in the simplified model over that of slices on Winkler beds: 0.3 µs of 30, measured on the preset

@@ -30,10 +30,10 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome) -> Option<Estimate>
     }
     let involute = model.pair.teeth.pinion.involute;
     let grid = &outcome.grid.pinion;
-    let reference = at_load(references, model.line_load_n_per_mm, grid, |rho| involute.radius_mm(rho))?;
+    let reference = at_load(references, model.first().line_load_n_per_mm, grid, |rho| involute.radius_mm(rho))?;
     let peak = WearFigures::at(model.pair, Gear::Pinion, outcome, &outcome.worn).peak_radius_mm;
     let peak_arc_mm = involute.arc_mm(involute.curvature_radius_mm(peak));
-    let reach_mm = HALF_WIDTHS * model.at_pitch.contact.loaded(model.line_load_n_per_mm).half_width_mm;
+    let reach_mm = HALF_WIDTHS * model.at_pitch.contact.loaded(model.first().line_load_n_per_mm).half_width_mm;
     let near = |i: &usize| (grid.arc_mm[*i] - peak_arc_mm).abs() <= reach_mm;
     let sum = |of: &dyn Fn(usize) -> f64| (0..grid.len()).filter(near).map(|i| of(i) * grid.share_mm(i)).sum::<f64>();
     let own = sum(&|i| outcome.new.depth_per_mesh_mm.pinion[i]) / model.scene.wear.coefficient_mm2_per_n;

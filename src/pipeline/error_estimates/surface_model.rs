@@ -19,8 +19,9 @@ use super::{Companion, Estimate, SIMPLIFIED_COST, peak_wear_of_both_mm, relative
 use crate::contact::half_space::HalfSpace;
 use crate::contact::settings::SurfaceKind;
 use crate::pipeline::Model;
-use crate::simulation::settings::{Numerics, Operation};
-use crate::simulation::wear_run::{MeshContact, Outcome, Progress, SimulationError, WearRun};
+use crate::simulation::mesh_contact::MeshContact;
+use crate::simulation::settings::{Numerics, Stepping};
+use crate::simulation::wear_run::{Outcome, Progress, RunPhase, SimulationError, WearRun};
 use crate::stiffness::TeethSpring;
 
 /// Flank points and positions of the companions, where the run has more.
@@ -56,7 +57,7 @@ pub(super) fn estimate(
     }
     let fine = model.scene.numerics;
     let (flank_points, positions) = (fine.flank_points.min(FLANK_POINTS), fine.positions.min(POSITIONS));
-    let own = if let MeshContact::Simplified { .. } = model.contact {
+    let own = if let MeshContact::Simplified { .. } = model.first().contact {
         SIMPLIFIED_COST
     } else {
         relative_cost(model.scene.contact.surface)
@@ -71,18 +72,18 @@ pub(super) fn estimate(
         );
     }
     let steps = (affordable as u64).min(STEPS[1]);
-    let step_revolutions = model.scene.operation.pinion_revolutions / steps as f64;
-    let numerics = Numerics { flank_points, positions, step_revolutions, ..fine };
-    let operation = Operation { snapshots_revolutions: Vec::new(), ..model.scene.operation.clone() };
-    let own = WearRun { numerics, operation: &operation, ..model.wear_run() };
+    let revolutions = model.scene.operation.pinion_revolutions / steps as f64;
+    let numerics = Numerics { flank_points, positions, stepping: Stepping::Fixed { revolutions }, ..fine };
+    let own = WearRun { numerics, snapshots_revolutions: &[], ..model.wear_run() };
 
-    let line_load = model.line_load_n_per_mm;
+    let line_load = model.first().line_load_n_per_mm;
     let surface = HalfSpace { material: model.scene.material, expected_line_load_n_per_mm: line_load };
     let stiffness = (model.scene.stiffness, model.stiffness_curve);
     let teeth = TeethSpring::new(stiffness.0, stiffness.1, model.pair, &model.scene.material, &surface, line_load);
     let sliced = model.sliced;
     let contact = MeshContact::LineOfAction { surface: &surface, teeth: &teeth, tip_contact, sliced };
-    let truer = WearRun { contact, ..own };
+    let phases: Vec<RunPhase<'_>> = model.phases.iter().map(|phase| RunPhase { contact, ..*phase }).collect();
+    let truer = WearRun { phases: &phases, ..own };
 
     let mut equilibria = [0; 2];
     let mut peak_mm = |k: usize, run: &WearRun<'_>| -> Result<f64, SimulationError> {

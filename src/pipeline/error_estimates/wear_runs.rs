@@ -32,8 +32,9 @@ use crate::contact::settings::SurfaceKind;
 use crate::fem::gear::position::CondensedPair;
 use crate::gear::{Gear, PerGear};
 use crate::pipeline::Model;
-use crate::simulation::settings::{Numerics, Operation};
-use crate::simulation::wear_run::{MeshContact, Outcome, Progress, SimulationError, WearRun};
+use crate::simulation::mesh_contact::MeshContact;
+use crate::simulation::settings::Numerics;
+use crate::simulation::wear_run::{Outcome, Progress, RunPhase, SimulationError, WearRun};
 
 /// Cost of an equilibrium on finite elements twice as long.
 const COST_ON_COARSE_MESH: f64 = 0.5;
@@ -59,10 +60,18 @@ struct Coarser {
     step: f64,
 }
 
+/// On which model of the contact a companion runs.
+#[derive(Clone, Copy)]
+enum Elements<'a> {
+    /// That of the run itself.
+    Own,
+    /// Finite elements twice as long.
+    Coarse(&'a CondensedPair<'a>),
+}
+
 /// Runs companions of one run.
 struct Companions<'a> {
     model: &'a Model<'a>,
-    operation: Operation,
     observer: &'a dyn Progress,
     coarse: Coarse<'a>,
     /// Of the run itself.
@@ -80,7 +89,7 @@ impl<'a> Companions<'a> {
         Numerics {
             flank_points: fine.flank_points / spacing,
             positions: fine.positions / spacing,
-            step_revolutions: step * fine.step_revolutions,
+            stepping: fine.stepping.coarser(step),
             ..fine
         }
     }
@@ -126,23 +135,33 @@ impl<'a> Companions<'a> {
         of(Gear::Pinion).max(of(Gear::Wheel))
     }
 
-    /// The peak wear of both gears by a coarser run on `contact`, an equilibrium of which costs `weight`; where it does not come to
-    /// its end, why. Companions from `begin` on are still to come, as a share of all their work.
+    /// The peak wear of both gears by a coarser run; where it does not come to its end, why. Companions from `begin` on are still to come, as a share of all their work.
     fn peaks_mm(
         &mut self,
         coarser: Coarser,
-        (contact, weight): (MeshContact<'a>, f64),
+        elements: Elements<'a>,
         (begin, end): (f64, f64),
     ) -> Result<PerGear<f64>, String> {
         if !self.allow(coarser.spacing) {
             return Err("too few flank points or positions to leave some out".to_owned());
         }
         let numerics = self.numerics(coarser);
-        let contact = self.with_spacing(contact, coarser.spacing);
-        let run = WearRun { contact, numerics, operation: &self.operation, ..self.model.wear_run() };
+        let of_phase = |phase: &RunPhase<'a>| {
+            let contact = match elements {
+                Elements::Own => phase.contact,
+                Elements::Coarse(model) => MeshContact::FiniteElements(model),
+            };
+            RunPhase { contact: self.with_spacing(contact, coarser.spacing), ..*phase }
+        };
+        let phases: Vec<RunPhase<'_>> = self.model.phases.iter().map(of_phase).collect();
+        let run = WearRun { phases: &phases, numerics, snapshots_revolutions: &[], ..self.model.wear_run() };
         let failed = |error: SimulationError| format!("a companion run failed: {error}");
         let share = (begin, end - begin);
         let outcome = run.run(&Companion { observer: self.observer, share }).map_err(failed)?;
+        let weight = match elements {
+            Elements::Own => 1.0,
+            Elements::Coarse(_) => COST_ON_COARSE_MESH,
+        };
         self.cost += weight * outcome.work.equilibria as f64;
         match outcome.failure.clone() {
             Some(error) => Err(failed(error)),
@@ -158,14 +177,13 @@ pub(super) fn estimate<'a>(
     coarse: Coarse<'a>,
     observer: &'a dyn Progress,
 ) -> FromRuns {
-    let operation = Operation { snapshots_revolutions: Vec::new(), ..model.scene.operation.clone() };
     let peaks_mm = peak_wear_of_both_mm(model, outcome);
-    let mut companions = Companions { model, operation, observer, coarse, peaks_mm, cost: 0.0 };
+    let mut companions = Companions { model, observer, coarse, peaks_mm, cost: 0.0 };
     let estimate = |difference: Difference| match difference {
         Ok((relative, how)) => Estimate { relative: Some(relative), how },
         Err(reason) => Estimate::none(&reason),
     };
-    let ([discretisation, wear_step], surface_model) = match (model.contact, coarse.elements) {
+    let ([discretisation, wear_step], surface_model) = match (model.first().contact, coarse.elements) {
         (MeshContact::LineOfAction { .. } | MeshContact::Simplified { .. }, _) => {
             (on_the_line_of_action(&mut companions, peaks_mm), None)
         }
@@ -190,7 +208,7 @@ pub(super) fn estimate<'a>(
 fn on_the_line_of_action(companions: &mut Companions<'_>, reference: PerGear<f64>) -> [Difference; 2] {
     let surface = companions.model.scene.contact.surface;
     let step = if surface == SurfaceKind::HalfSpace { 4.0 } else { 8.0 };
-    let own = (companions.model.contact, 1.0);
+    let own = Elements::Own;
     let stepped = companions.peaks_mm(Coarser { spacing: 1, step }, own, (0.0, 0.5));
     let discretisation = stepped.clone().and_then(|stepped| {
         let half = companions.peaks_mm(Coarser { spacing: 2, step }, own, (0.5, 0.75))?;
@@ -199,8 +217,8 @@ fn on_the_line_of_action(companions: &mut Companions<'_>, reference: PerGear<f64
         let how = format!("Richardson, {order} order, from companion runs with {}", companions.spacings());
         Ok((companions.relative(stepped, half) / divisor, how))
     });
-    let duration = companions.operation.pinion_revolutions;
-    let ratio = step.min(duration / companions.model.scene.numerics.step_revolutions);
+    let duration = companions.model.scene.operation.pinion_revolutions;
+    let ratio = step.min(duration / companions.model.scene.numerics.stepping.euler_revolutions(duration));
     let wear_step = stepped.and_then(|stepped| {
         if ratio < LEAST_STEP_RATIO {
             return Err("the run is hardly longer than one wear step".to_owned());
@@ -213,7 +231,7 @@ fn on_the_line_of_action(companions: &mut Companions<'_>, reference: PerGear<f64
 
 /// Discretisation, wear step, and size of the elements.
 fn on_finite_elements<'a>(companions: &mut Companions<'a>, coarse: &'a CondensedPair<'a>) -> [Difference; 3] {
-    let (own, coarse) = ((companions.model.contact, 1.0), (MeshContact::FiniteElements(coarse), COST_ON_COARSE_MESH));
+    let (own, coarse) = (Elements::Own, Elements::Coarse(coarse));
     let on_mesh = "on a mesh with elements twice as long";
     let few = if companions.allow(4) { 4 } else { 2 };
     let points = format!("one in {few} of the points and positions");

@@ -63,7 +63,7 @@ impl FemProblem {
     /// Everything that is wrong with the file by itself.
     pub fn from_toml(text: &str) -> Result<Self, Vec<Problem>> {
         let (table, mut findings) = text::parse(text)?;
-        let format = Format { root: Node::root(schema()), later: &[] };
+        let format = Format { root: Node::root(schema()), of_other_files: &[] };
         let sound = shape::check(format, &table, &mut findings);
         let file = text::typed::<FemProblemFile>(sound, &mut findings);
         match file.filter(|_| findings.problems.is_empty()) {

@@ -9,6 +9,8 @@ mod operation;
 mod pair;
 mod settings;
 mod slices;
+mod temperature;
+mod wear;
 
 use toml::{Table, Value};
 
@@ -17,7 +19,11 @@ use super::findings::Findings;
 use super::problem::{Problem, ProblemKind};
 use super::schema::{Node, schema};
 use super::shape::{self, Format};
-use super::{Resolved, Scene, later, presets, text, unit_slip};
+use super::{Resolved, Scene, presets, text, unit_slip};
+
+/// Keys that other files have, and what to do with those.
+const OF_OTHER_FILES: &[(&str, &str)] =
+    &[("mesh", "a gear pair, [pair]; gearwear fem runs a problem with a mesh of its own")];
 
 /// Resolves the text of a scene file.
 ///
@@ -33,7 +39,7 @@ pub fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
 /// # Errors
 /// Everything that is wrong with it.
 pub fn resolve_table(table: Table, mut findings: Findings) -> Result<Resolved, Vec<Problem>> {
-    let format = Format { root: Node::root(schema()), later: later::SCENE };
+    let format = Format { root: Node::root(schema()), of_other_files: OF_OTHER_FILES };
     let sound = with_preset(shape::check(format, &table, &mut findings));
     // A value outside its range is a suspect too, so the slips are looked for in the file as it is.
     let slips = unit_slip::find(&with_preset(table));
@@ -105,14 +111,22 @@ fn lay_below(above: &mut Table, below: Table) {
 /// Makes every choice the file leaves open, and writes it into the file.
 fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneFile)> {
     let pair = pair::choose(&mut file.pair, findings);
-    let material = settings::material(&mut file.material, findings);
+    let materials = settings::material(&mut file.material, findings);
     let operation = operation::choose(&mut file.operation, findings);
     let contact = settings::contact(&mut file.contact, findings);
     let calibration_file = file.contact.as_ref().and_then(|contact| contact.calibration.clone());
     let surface = contact.map(|contact| contact.surface);
     let stiffness = settings::stiffness(&mut file.stiffness, surface, calibration_file.is_some(), findings);
     let stiffness_curve_file = file.stiffness.as_ref().and_then(|stiffness| stiffness.curve.clone());
-    let wear = settings::wear(&file.wear, findings);
+    let wear = wear::choose(&mut file.wear, findings);
+    let material = materials.map(|materials| materials.map(|(elastic, _)| elastic));
+    let heat = temperature::choose(
+        &mut file.temperature,
+        materials.map(|materials| materials.map(|(_, thermal)| thermal)),
+        wear.map(|wear| wear.law),
+        &file.operation,
+        findings,
+    );
     let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
     let (pair, operation) = (pair?, operation?);
     let slices = slices::choose(&mut file.helical, &pair, surface, findings);
@@ -140,6 +154,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         stiffness_curve_file,
         fem: fem?,
         slices,
+        heat: heat?,
         wear: wear?,
         numerics: numerics?,
     };

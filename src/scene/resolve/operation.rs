@@ -1,9 +1,10 @@
 //! Load, speed, duration and snapshots, in revolutions of the pinion.
 
-use crate::scene::file::OperationFile;
+use super::wear::coefficient_mm2_per_n;
+use crate::scene::file::{OperationFile, PhaseFile};
 use crate::scene::findings::Findings;
 use crate::scene::problem::{ProblemKind, number};
-use crate::simulation::settings::Operation;
+use crate::simulation::settings::{Operation, Phase};
 
 /// Snapshots this close to the end of the run, relatively, are the end: hours and revolutions round differently.
 const SAME_TIME: f64 = 1e-9;
@@ -13,24 +14,59 @@ const HALVINGS: i32 = 6;
 
 /// Chooses what `[operation]` leaves open.
 pub fn choose(file: &mut OperationFile, findings: &mut Findings) -> Option<Operation> {
-    let revolutions_per_hour = file.pinion_speed_rpm.map(|rpm| 60.0 * rpm);
-    let pinion_revolutions = duration(file, revolutions_per_hour, findings)?;
-    let snapshots_revolutions = snapshots(file, pinion_revolutions, revolutions_per_hour, findings)?;
-    Some(Operation {
+    let of_whole = Phase {
         pinion_torque_n_mm: 1e3 * file.pinion_torque_Nm,
         pinion_speed_rpm: file.pinion_speed_rpm,
+        coefficient_mm2_per_n: None,
+        end_revolutions: 0.0,
+    };
+    let phases = match &file.phases {
+        None => {
+            let keys = ["operation.hours", "operation.pinion_revolutions"];
+            let duration = duration(keys, file.hours, file.pinion_revolutions, file.pinion_speed_rpm, findings)?;
+            vec![Phase { end_revolutions: duration, ..of_whole }]
+        }
+        Some(given) => {
+            let phases = phases(given, of_whole, findings)?;
+            add_up(file, &phases, findings)?;
+            phases
+        }
+    };
+    let pinion_revolutions = phases.last()?.end_revolutions;
+    let mut operation = Operation {
+        pinion_torque_n_mm: of_whole.pinion_torque_n_mm,
+        pinion_speed_rpm: of_whole.pinion_speed_rpm,
         pinion_revolutions,
-        snapshots_revolutions,
-    })
+        snapshots_revolutions: Vec::new(),
+        phases,
+    };
+    operation.snapshots_revolutions = snapshots(file, &operation, findings)?;
+    for phase in &operation.phases {
+        let end = phase.end_revolutions;
+        let is_end = |&other: &f64| (other / end - 1.0).abs() <= SAME_TIME;
+        match operation.snapshots_revolutions.iter().position(is_end) {
+            // Hours and revolutions round differently: the end of the phase is meant.
+            Some(index) => operation.snapshots_revolutions[index] = end,
+            None => operation.snapshots_revolutions.push(end),
+        }
+    }
+    operation.snapshots_revolutions.sort_by(f64::total_cmp);
+    Some(operation)
 }
 
-fn duration(file: &OperationFile, revolutions_per_hour: Option<f64>, findings: &mut Findings) -> Option<f64> {
-    let keys = ["operation.hours", "operation.pinion_revolutions"];
-    let revolutions = match (file.hours, file.pinion_revolutions) {
-        (Some(hours), None) => match revolutions_per_hour {
-            Some(per_hour) => hours * per_hour,
+/// A duration said in one of two ways, in revolutions of the pinion.
+fn duration(
+    keys: [&str; 2],
+    hours: Option<f64>,
+    revolutions: Option<f64>,
+    speed_rpm: Option<f64>,
+    findings: &mut Findings,
+) -> Option<f64> {
+    let revolutions = match (hours, revolutions) {
+        (Some(hours), None) => match speed_rpm {
+            Some(rpm) => 60.0 * rpm * hours,
             None => {
-                speed_needed("operation.hours", findings);
+                speed_needed(keys[0], findings);
                 return None;
             }
         },
@@ -46,61 +82,137 @@ fn duration(file: &OperationFile, revolutions_per_hour: Option<f64>, findings: &
     };
     // Only products of extreme numbers can fail here: each factor was checked by itself.
     if !revolutions.is_normal() {
-        findings.problem(
-            ProblemKind::NotAllowed,
-            "operation.hours",
-            number(revolutions),
-            "a finite number of revolutions",
-        );
+        findings.problem(ProblemKind::NotAllowed, keys[0], number(revolutions), "a finite number of revolutions");
         return None;
     }
     Some(revolutions)
 }
 
-fn snapshots(
-    file: &mut OperationFile,
-    duration: f64,
-    revolutions_per_hour: Option<f64>,
-    findings: &mut Findings,
-) -> Option<Vec<f64>> {
+/// The phases one after the other, with what they leave open as of the whole.
+fn phases(given: &[PhaseFile], of_whole: Phase, findings: &mut Findings) -> Option<Vec<Phase>> {
+    if given.is_empty() {
+        findings.problem(ProblemKind::NotAllowed, "operation.phases", "no phase", "at least one [[operation.phases]]");
+        return None;
+    }
+    let (mut phases, mut end_revolutions) = (Vec::with_capacity(given.len()), 0.0);
+    for (index, phase) in given.iter().enumerate() {
+        let key = |name: &str| format!("operation.phases[{index}].{name}");
+        let pinion_speed_rpm = phase.pinion_speed_rpm.or(of_whole.pinion_speed_rpm);
+        let durations = [key("hours"), key("pinion_revolutions")];
+        let [hours, revolutions] = durations.each_ref().map(String::as_str);
+        end_revolutions +=
+            duration([hours, revolutions], phase.hours, phase.pinion_revolutions, pinion_speed_rpm, findings)?;
+        let coefficients = [key("coefficient_m2_per_N"), key("coefficient_mm3_per_Nm")];
+        let coefficient_mm2_per_n = coefficient_mm2_per_n(
+            coefficients.each_ref().map(String::as_str),
+            phase.coefficient_m2_per_N,
+            phase.coefficient_mm3_per_Nm,
+            findings,
+        )?;
+        phases.push(Phase {
+            pinion_torque_n_mm: phase.pinion_torque_Nm.map_or(of_whole.pinion_torque_n_mm, |torque| 1e3 * torque),
+            pinion_speed_rpm,
+            coefficient_mm2_per_n,
+            end_revolutions,
+        });
+    }
+    Some(phases)
+}
+
+/// Checks that the duration of the whole, where it is given, is that of its phases.
+fn add_up(file: &OperationFile, phases: &[Phase], findings: &mut Findings) -> Option<()> {
+    let keys = ["operation.hours", "operation.pinion_revolutions"];
+    if findings.said_twice(&[(keys[0], file.hours.is_some()), (keys[1], file.pinion_revolutions.is_some())]) {
+        return None;
+    }
+    let end = phases.last()?.end_revolutions;
+    let check = |key: &str, given: f64, sum: f64, findings: &mut Findings| {
+        if (given / sum - 1.0).abs() <= SAME_TIME {
+            return Some(());
+        }
+        let allowed = format!("{}, the sum of operation.phases", number(sum));
+        findings.problem(ProblemKind::NotAllowed, key, number(given), allowed);
+        findings.help(format!("{key} may be left out where there are phases"));
+        None
+    };
+    match (file.hours, file.pinion_revolutions) {
+        (Some(hours), _) => {
+            let whole = Operation { phases: phases.to_vec(), ..Operation::steady(0.0, None, end, Vec::new()) };
+            let Some(sum) = whole.hours(end) else {
+                speed_needed(keys[0], findings);
+                return None;
+            };
+            check(keys[0], hours, sum, findings)
+        }
+        (_, Some(revolutions)) => check(keys[1], revolutions, end, findings),
+        _ => Some(()),
+    }
+}
+
+/// Revolutions of the pinion after so many hours; `None` without a speed.
+fn revolutions_after(hours: f64, phases: &[Phase]) -> Option<f64> {
+    let (mut begin, mut left) = (0.0, hours);
+    for phase in phases {
+        let per_hour = 60.0 * phase.pinion_speed_rpm?;
+        let takes = (phase.end_revolutions - begin) / per_hour;
+        if left <= takes {
+            return Some(begin + left * per_hour);
+        }
+        (begin, left) = (phase.end_revolutions, left - takes);
+    }
+    // Beyond the end, at the last speed.
+    Some(begin + left * 60.0 * phases.last()?.pinion_speed_rpm?)
+}
+
+/// When the state is kept, in revolutions of the pinion, the end of the run included.
+fn snapshots(file: &mut OperationFile, operation: &Operation, findings: &mut Findings) -> Option<Vec<f64>> {
     let keys = ["operation.snapshots_h", "operation.snapshots_revolutions"];
-    let (key, given, per_unit) = match (&mut file.snapshots_h, &mut file.snapshots_revolutions) {
+    let duration = operation.pinion_revolutions;
+    let in_hours = match (&file.snapshots_h, &file.snapshots_revolutions) {
         (Some(_), Some(_)) => {
             findings.said_twice(&keys.map(|key| (key, true)));
             return None;
         }
-        (Some(hours), None) => match revolutions_per_hour {
-            Some(per_hour) => (keys[0], hours, per_hour),
-            None => {
-                speed_needed(keys[0], findings);
-                return None;
-            }
-        },
-        (None, Some(revolutions)) => (keys[1], revolutions, 1.0),
+        (Some(_), None) => true,
+        (None, Some(_)) => false,
         (None, None) => {
             let halvings = |whole: f64| (0..=HALVINGS).rev().map(|n| whole * 0.5_f64.powi(n)).collect::<Vec<_>>();
-            match file.hours {
+            // In hours of different speeds the halves would be none of the revolutions.
+            match file.hours.filter(|_| file.phases.is_none()) {
                 Some(hours) => file.snapshots_h = Some(halvings(hours)),
                 None => file.snapshots_revolutions = Some(halvings(duration)),
             }
             return Some(halvings(duration));
         }
     };
+    let (key, given) = match in_hours {
+        true => (keys[0], &mut file.snapshots_h),
+        false => (keys[1], &mut file.snapshots_revolutions),
+    };
+    let given = given.get_or_insert_default();
+    let whole = match (in_hours, operation.hours(duration)) {
+        (false, _) => duration,
+        (true, Some(hours)) => file.hours.unwrap_or(hours),
+        (true, None) => {
+            speed_needed(key, findings);
+            return None;
+        }
+    };
 
     let mut snapshots: Vec<f64> = Vec::with_capacity(given.len() + 1);
     for (index, &time) in given.iter().enumerate() {
-        let revolutions = time * per_unit;
+        let revolutions = if in_hours { revolutions_after(time, &operation.phases)? } else { time };
         let at_end = (revolutions / duration - 1.0).abs() <= SAME_TIME;
         let revolutions = if at_end { duration } else { revolutions };
         if revolutions > duration || snapshots.last().is_some_and(|&last| revolutions <= last) {
-            let allowed = format!("increasing times up to the duration, {}", number(duration / per_unit));
+            let allowed = format!("increasing times up to the duration, {}", number(whole));
             findings.problem(ProblemKind::NotAllowed, &format!("{key}[{index}]"), number(time), allowed);
             return None;
         }
         snapshots.push(revolutions);
     }
     if snapshots.last() != Some(&duration) {
-        given.push(file.hours.filter(|_| key == keys[0]).unwrap_or(duration / per_unit));
+        given.push(whole);
         snapshots.push(duration);
     }
     Some(snapshots)

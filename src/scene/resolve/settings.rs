@@ -1,36 +1,46 @@
-//! Material, contact, stiffness, wear and numerics.
+//! Material, contact, stiffness and numerics.
 
 use crate::contact::settings::{ContactSettings, Foundation, Material, SurfaceKind};
 use crate::gear::PerGear;
 use crate::scene::file::{
-    ContactFile, GearMaterialFile, MaterialFile, NumericsFile, StepFile, StiffnessFile, StiffnessModel, WearFile,
-    WearLaw,
+    ContactFile, GearMaterialFile, MaterialFile, NamedStep, NumericsFile, StepFile, StiffnessFile, StiffnessModel,
 };
 use crate::scene::findings::Findings;
 use crate::scene::problem::{ProblemKind, number};
-use crate::simulation::settings::Numerics;
+use crate::simulation::settings::{Numerics, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
-use crate::wear::settings::{SevereTransition, WearSettings};
+use crate::thermal::settings::ThermalMaterial;
 
 const FLANK_POINTS: u32 = 750;
 const POSITIONS: u32 = 400;
-const STEPS: f64 = 150.0;
+/// Error of the wear depth that adaptive steps may make, µm.
+const TOLERANCE_UM: f64 = 0.05;
 /// What the memory of a machine holds: 300 000 take about 10 MB.
 const MOST_POINTS_TIMES_POSITIONS: usize = 100_000_000;
 /// More wear steps than this never end.
 const MOST_STEPS: f64 = 1e7;
 
 /// Case-hardened steel.
-const STEEL: GearMaterialFile =
-    GearMaterialFile { young_modulus_GPa: Some(206.0), poisson_ratio: Some(0.3), density_kg_per_m3: Some(7830.0) };
+const STEEL: GearMaterialFile = GearMaterialFile {
+    young_modulus_GPa: Some(206.0),
+    poisson_ratio: Some(0.3),
+    density_kg_per_m3: Some(7830.0),
+    thermal_conductivity_W_per_mK: Some(46.0),
+    thermal_diffusivity_m2_per_s: Some(1.2e-5),
+};
 
-/// Chooses the material of each gear.
-pub fn material(file: &mut Option<MaterialFile>, findings: &mut Findings) -> Option<PerGear<Material>> {
+/// Chooses the material of each gear: how it deforms, and how it conducts heat.
+pub fn material(
+    file: &mut Option<MaterialFile>,
+    findings: &mut Findings,
+) -> Option<PerGear<(Material, ThermalMaterial)>> {
     let given = file.take().unwrap_or_default();
     let both = GearMaterialFile {
         young_modulus_GPa: given.young_modulus_GPa,
         poisson_ratio: given.poisson_ratio,
         density_kg_per_m3: given.density_kg_per_m3,
+        thermal_conductivity_W_per_mK: given.thermal_conductivity_W_per_mK,
+        thermal_diffusivity_m2_per_s: given.thermal_diffusivity_m2_per_s,
     };
     let mut sound = true;
     for (gear, of_gear) in [("pinion", &given.pinion), ("wheel", &given.wheel)] {
@@ -39,6 +49,8 @@ pub fn material(file: &mut Option<MaterialFile>, findings: &mut Findings) -> Opt
             ("young_modulus_GPa", both.young_modulus_GPa, own.young_modulus_GPa),
             ("poisson_ratio", both.poisson_ratio, own.poisson_ratio),
             ("density_kg_per_m3", both.density_kg_per_m3, own.density_kg_per_m3),
+            ("thermal_conductivity_W_per_mK", both.thermal_conductivity_W_per_mK, own.thermal_conductivity_W_per_mK),
+            ("thermal_diffusivity_m2_per_s", both.thermal_diffusivity_m2_per_s, own.thermal_diffusivity_m2_per_s),
         ] {
             let keys = [format!("material.{name}"), format!("material.{gear}.{name}")];
             sound &= !findings.said_twice(&[(&keys[0], common.is_some()), (&keys[1], own.is_some())]);
@@ -56,15 +68,22 @@ fn over(above: GearMaterialFile, below: &GearMaterialFile) -> GearMaterialFile {
         young_modulus_GPa: above.young_modulus_GPa.or(below.young_modulus_GPa),
         poisson_ratio: above.poisson_ratio.or(below.poisson_ratio),
         density_kg_per_m3: above.density_kg_per_m3.or(below.density_kg_per_m3),
+        thermal_conductivity_W_per_mK: above.thermal_conductivity_W_per_mK.or(below.thermal_conductivity_W_per_mK),
+        thermal_diffusivity_m2_per_s: above.thermal_diffusivity_m2_per_s.or(below.thermal_diffusivity_m2_per_s),
     }
 }
 
-fn properties(file: &GearMaterialFile) -> Option<Material> {
-    Some(Material {
+fn properties(file: &GearMaterialFile) -> Option<(Material, ThermalMaterial)> {
+    let elastic = Material {
         young_modulus_mpa: 1e3 * file.young_modulus_GPa?,
         poisson_ratio: file.poisson_ratio?,
         density_kg_per_m3: file.density_kg_per_m3?,
-    })
+    };
+    let thermal = ThermalMaterial {
+        conductivity_n_per_s_k: file.thermal_conductivity_W_per_mK?,
+        diffusivity_mm2_per_s: 1e6 * file.thermal_diffusivity_m2_per_s?,
+    };
+    Some((elastic, thermal))
 }
 
 /// Chooses the contact surface.
@@ -163,43 +182,39 @@ pub fn stiffness(
     Some(settings)
 }
 
-/// Chooses the wear law.
-pub fn wear(file: &WearFile, findings: &mut Findings) -> Option<WearSettings> {
-    let WearLaw::Archard = file.law;
-    let keys = ["wear.coefficient_m2_per_N", "wear.coefficient_mm3_per_Nm"];
-    let coefficient_mm2_per_n = match (file.coefficient_m2_per_N, file.coefficient_mm3_per_Nm) {
-        (Some(k), None) => 1e6 * k,
-        (None, Some(k)) => 1e-3 * k,
-        (Some(_), Some(_)) => {
-            findings.said_twice(&keys.map(|key| (key, true)));
-            return None;
-        }
-        (None, None) => {
-            findings.missing(&keys, "a number greater than 0");
-            return None;
-        }
-    };
-    let severe = file.severe.as_ref().map(|s| SevereTransition { above_mpa: s.above_MPa, factor: s.factor });
-    Some(WearSettings { coefficient_mm2_per_n, severe })
-}
-
 /// Chooses the resolution for a run of `duration` revolutions.
 pub fn numerics(file: &mut Option<NumericsFile>, duration: f64, findings: &mut Findings) -> Option<Numerics> {
     let file = file.get_or_insert_default();
-    let step = file.step.get_or_insert(StepFile { revolutions: duration / STEPS }).revolutions;
-    if duration / step > MOST_STEPS {
-        let allowed = format!("at least {} (ten million steps)", number(duration / MOST_STEPS));
-        findings.problem(ProblemKind::NotAllowed, "numerics.step.revolutions", number(step), allowed);
-        return None;
-    }
+    let stepping = stepping(file, duration, findings)?;
     let flank_points = *file.flank_points.get_or_insert(FLANK_POINTS) as usize;
     let positions = *file.positions.get_or_insert(POSITIONS) as usize;
-    Some(Numerics {
-        flank_points,
-        positions,
-        step_revolutions: step,
-        error_estimate: *file.error_estimate.get_or_insert(true),
-    })
+    Some(Numerics { flank_points, positions, stepping, error_estimate: *file.error_estimate.get_or_insert(true) })
+}
+
+fn stepping(file: &mut NumericsFile, duration: f64, findings: &mut Findings) -> Option<Stepping> {
+    let default = StepFile::fixed(Stepping::euler(duration).euler_revolutions(duration));
+    match *file.step.get_or_insert(default) {
+        StepFile::Fixed(step) => {
+            let revolutions = step.revolutions;
+            for (key, given) in
+                [("numerics.tolerance_um", file.tolerance_um.is_some()), ("numerics.method", file.method.is_some())]
+            {
+                if given {
+                    findings.warnings.push(format!("{key} is not used: only numerics.step = \"adaptive\" reads it"));
+                }
+            }
+            if duration / revolutions > MOST_STEPS {
+                let allowed = format!("at least {} (ten million steps)", number(duration / MOST_STEPS));
+                findings.problem(ProblemKind::NotAllowed, "numerics.step.revolutions", number(revolutions), allowed);
+                return None;
+            }
+            Some(Stepping::Fixed { revolutions })
+        }
+        StepFile::Named(NamedStep::Adaptive) => Some(Stepping::Adaptive {
+            tolerance_mm: 1e-3 * *file.tolerance_um.get_or_insert(TOLERANCE_UM),
+            method: *file.method.get_or_insert_default(),
+        }),
+    }
 }
 
 /// Refuses a resolution that no memory holds. The simplified surface keeps a place and not a strip of flank at each contact.

@@ -15,7 +15,7 @@ use super::exact::Springs;
 use super::lanes::{LANES, Lanes};
 use super::station::{Attempt, Common, Pack, Station, Tangent, UNUSED_GAP_MM};
 use crate::gear::{Gear, PerGear};
-use crate::wear::WearLaw;
+use crate::wear::{Rubbing, WearModel};
 use crate::working_cycle::{
     Work,
     bent_tooth::BentTooth,
@@ -43,6 +43,8 @@ pub struct Batch {
     /// Their states.
     pub stations: Vec<Station>,
     packs: Vec<Pack>,
+    /// Gap of the unworn flanks.
+    modification_mm: Vec<Lanes>,
     per_root: Vec<PerRoot>,
     /// The teeth of each phase, where slices are coupled.
     bent: Vec<Vec<BentTooth>>,
@@ -132,6 +134,7 @@ impl Batch {
         Self {
             phases,
             stations,
+            modification_mm: packs.iter().map(|pack| pack.gap_mm).collect(),
             packs,
             per_root,
             bent,
@@ -151,7 +154,7 @@ impl Batch {
         &mut self,
         meshes: PerGear<f64>,
         springs: &Springs<'_>,
-        law: &dyn WearLaw,
+        wear: &WearModel<'_>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) {
         let mut work = Work::default();
@@ -172,7 +175,7 @@ impl Batch {
                     return;
                 }
             }
-            self.lose(index, law);
+            self.lose(index, wear);
         }
         self.begun = true;
         self.outcome = Ok(work);
@@ -231,7 +234,7 @@ impl Batch {
     }
 
     /// What both flanks lose in one mesh at the contacts of a station.
-    fn lose(&mut self, index: usize, law: &dyn WearLaw) {
+    fn lose(&mut self, index: usize, wear: &WearModel<'_>) {
         let range = self.stations[index].packs.clone();
         let [sliding_1, sliding_2] = &mut self.sliding_mm;
         let rows = self.pressure_mpa.iter_mut().zip(sliding_1.iter_mut().zip(&mut *sliding_2));
@@ -246,7 +249,8 @@ impl Batch {
         for (gear, sliding) in [(Gear::Pinion, &*sliding_1), (Gear::Wheel, &*sliding_2)] {
             let depth = self.depth_mm[gear][range.clone()].as_flattened_mut();
             depth.fill(0.0);
-            law.add_depth(pressure, sliding[..range.len()].as_flattened(), depth);
+            let sliding_mm = sliding[..range.len()].as_flattened();
+            wear.law.add_depth(&Rubbing { pressure_mpa: pressure, sliding_mm, surroundings: None }, depth);
         }
     }
 
@@ -257,6 +261,30 @@ impl Batch {
             let lane = first + at;
             (contact, lane, self.contact(lane))
         })
+    }
+
+    /// Lanes in all, those without a contact included.
+    pub fn lanes(&self) -> usize {
+        LANES * self.packs.len()
+    }
+
+    /// Depth that `gear`'s flank has lost in each lane, and loses in one mesh, mm.
+    pub fn rows(&self, gear: Gear) -> impl Iterator<Item = [f64; 2]> {
+        let [wear, depth] = [&self.wear_mm, &self.depth_mm].map(|rows| rows[gear].as_flattened());
+        wear.iter().zip(depth).map(|(&wear, &depth)| [wear, depth])
+    }
+
+    /// Takes both flanks to have lost this in each lane.
+    pub fn set_wear_mm(&mut self, wear_mm: PerGear<&[f64]>) {
+        for gear in Gear::BOTH {
+            self.wear_mm[gear].as_flattened_mut().copy_from_slice(wear_mm[gear]);
+        }
+        for (index, pack) in self.packs.iter_mut().enumerate() {
+            pack.gap_mm = self.modification_mm[index];
+            for gear in Gear::BOTH {
+                pack.gap_mm += Lanes(self.wear_mm[gear][index]);
+            }
+        }
     }
 
     /// Depth that `gear`'s flank has lost at the contact in a lane, and loses in one mesh, mm.

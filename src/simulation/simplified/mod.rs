@@ -37,7 +37,7 @@ use super::wear_run::Snapshot;
 use super::wearing_pair::WearingPair;
 use crate::contact::Footprint;
 use crate::gear::{Gear, PerGear, flank::FlankGrid};
-use crate::wear::WearLaw;
+use crate::wear::WearModel;
 use crate::working_cycle::{
     CycleObservation, Work,
     load_sharing::EquilibriumError,
@@ -157,11 +157,15 @@ impl<'a> SimplifiedPair<'a> {
 }
 
 impl WearingPair for SimplifiedPair<'_> {
-    fn evaluate(&mut self, law: &dyn WearLaw, stopped: &(dyn Fn() -> bool + Sync)) -> Result<Work, EquilibriumError> {
+    fn evaluate(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
         let (meshes, springs) = (self.meshes, &self.springs);
         match self.batches.as_mut_slice() {
-            [batch] => batch.evaluate(meshes, springs, law, stopped),
-            batches => batches.par_iter_mut().for_each(|batch| batch.evaluate(meshes, springs, law, stopped)),
+            [batch] => batch.evaluate(meshes, springs, wear, stopped),
+            batches => batches.par_iter_mut().for_each(|batch| batch.evaluate(meshes, springs, wear, stopped)),
         }
         self.meshes = PerGear { pinion: 0.0, wheel: 0.0 };
         let mut work = Work { mesh_cycles: 1, ..Work::default() };
@@ -174,6 +178,34 @@ impl WearingPair for SimplifiedPair<'_> {
     fn wear_for(&mut self, meshes: PerGear<f64>) {
         for gear in Gear::BOTH {
             self.meshes[gear] += meshes[gear];
+        }
+    }
+
+    fn wear_mm(&self) -> PerGear<Vec<f64>> {
+        PerGear::from_fn(|gear| {
+            let rows = |batch: &Batch| {
+                batch.rows(gear).map(|[wear, depth]| wear + self.meshes[gear] * depth).collect::<Vec<_>>()
+            };
+            self.batches.iter().flat_map(rows).collect()
+        })
+    }
+
+    fn set_wear_mm(&mut self, wear_mm: &PerGear<Vec<f64>>) {
+        self.meshes = PerGear { pinion: 0.0, wheel: 0.0 };
+        let mut rest = wear_mm.as_ref().map(Vec::as_slice);
+        for batch in &mut self.batches {
+            let parts = rest.map(|rest| rest.split_at(batch.lanes()));
+            batch.set_wear_mm(parts.map(|(own, _)| own));
+            rest = parts.map(|(_, rest)| rest);
+        }
+    }
+
+    fn depth_mm(&self, depth_mm: &mut PerGear<Vec<f64>>) {
+        for gear in Gear::BOTH {
+            depth_mm[gear].clear();
+            for batch in &self.batches {
+                depth_mm[gear].extend(batch.rows(gear).map(|[_, depth]| depth));
+            }
         }
     }
 

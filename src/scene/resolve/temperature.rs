@@ -1,0 +1,45 @@
+//! Contact temperatures: only where the wear law reads them or the scene asks for them.
+
+use crate::gear::PerGear;
+use crate::scene::file::{OperationFile, TemperatureFile};
+use crate::scene::findings::Findings;
+use crate::thermal::settings::{HeatSettings, ThermalMaterial};
+use crate::wear::settings::LawSettings;
+
+const FRICTION_COEFFICIENT: f64 = 0.1;
+const BULK_TEMPERATURE_C: f64 = 90.0;
+const ABSOLUTE_ZERO_C: f64 = -273.15;
+
+/// Chooses what `[temperature]` leaves open; `Some(None)` where nobody asks for temperatures.
+pub fn choose(
+    file: &mut Option<TemperatureFile>,
+    material: Option<PerGear<ThermalMaterial>>,
+    law: Option<LawSettings>,
+    operation: &OperationFile,
+    findings: &mut Findings,
+) -> Option<Option<HeatSettings>> {
+    let (material, law) = (material?, law?);
+    if file.is_none() && law == LawSettings::Archard {
+        return Some(None);
+    }
+    let asked_for_by = match law {
+        LawSettings::Archard => "[temperature]".to_owned(),
+        other => format!("wear.law = {:?}", other.name()),
+    };
+    let phases = operation.phases.iter().flatten();
+    let of_phases = operation.phases.is_some() && phases.clone().all(|phase| phase.pinion_speed_rpm.is_some());
+    if operation.pinion_speed_rpm.is_none() && !of_phases {
+        findings.missing(&["operation.pinion_speed_rpm"], "a number greater than 0");
+        findings.help(format!("{asked_for_by} needs the speed"));
+        return None;
+    }
+    let file = file.get_or_insert_default();
+    Some(Some(HeatSettings {
+        method: *file.method.get_or_insert_default(),
+        velocity: *file.velocity.get_or_insert_default(),
+        partition: *file.partition.get_or_insert_default(),
+        friction_coefficient: *file.friction_coefficient.get_or_insert(FRICTION_COEFFICIENT),
+        bulk_temperature_k: *file.bulk_temperature_C.get_or_insert(BULK_TEMPERATURE_C) - ABSOLUTE_ZERO_C,
+        material,
+    }))
+}

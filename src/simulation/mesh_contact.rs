@@ -1,0 +1,149 @@
+//! The elastic model of a pair in mesh, and the pair that wears by it.
+
+use super::settings::Numerics;
+use super::simplified::{SimplifiedPair, exact::Springs};
+use super::wearing_pair::{OnFlankPoints, WearingPair};
+use crate::contact::{ContactSurface, Flanks, settings::Material};
+use crate::fem::gear::position::CondensedPair;
+use crate::gear::{GearPair, PerGear, slices::Slices};
+use crate::stiffness::{StiffnessError, TeethSpring};
+use crate::working_cycle::{
+    MeshCycle, WorkingCycle,
+    condensed::CondensedCycle,
+    phases::phases,
+    positions::{loading_positions, positions_with_tip_contact},
+    sliced::{SliceSprings, SlicedCycle, SpringAlongPath},
+    sliced_teeth::SlicedTeeth,
+    tip_contact,
+};
+
+/// The elastic model of the pair in mesh.
+#[derive(Clone, Copy)]
+pub enum MeshContact<'a> {
+    /// Each tooth pair a spring of its teeth in series with its contact surface, on the theoretical line of action.
+    LineOfAction {
+        /// How the flanks touch.
+        surface: &'a dyn ContactSurface,
+        /// How the teeth yield.
+        teeth: &'a TeethSpring<'a>,
+        /// Whether tip edges are followed into contact before A and after E.
+        tip_contact: bool,
+        /// The slices over the face width; none where all sections are alike.
+        sliced: Option<&'a SlicedTeeth>,
+    },
+    /// Slices with Hertz's mean pressure, whose wear is kept at their contact points.
+    Simplified {
+        /// Of each gear.
+        material: &'a PerGear<Material>,
+        /// How the teeth yield.
+        teeth: &'a TeethSpring<'a>,
+        /// The slices over the face width.
+        sliced: &'a SlicedTeeth,
+    },
+    /// Both gears as finite elements, condensed onto their flanks.
+    FiniteElements(&'a CondensedPair<'a>),
+}
+
+/// Tip edges are looked at within this many times the approach at the pitch point under the whole load: off it the teeth
+/// are softer, and wear adds to it.
+const AMPLE_APPROACH: f64 = 2.0;
+
+/// A pair under a load, at some resolution.
+pub(super) struct LoadedMesh<'a> {
+    pub pair: &'a GearPair,
+    pub contact: MeshContact<'a>,
+    pub line_load_n_per_mm: f64,
+    pub numerics: Numerics,
+}
+
+impl MeshContact<'_> {
+    /// The slices of `pair` over the face width: one where all sections are alike.
+    pub(super) fn slices(&self, pair: &GearPair) -> Slices {
+        match self {
+            MeshContact::LineOfAction { sliced: Some(teeth), .. } | MeshContact::Simplified { sliced: teeth, .. } => {
+                teeth.slices.clone()
+            }
+            _ => Slices::new(pair, 1),
+        }
+    }
+}
+
+impl<'a> LoadedMesh<'a> {
+    /// The pair, ready to wear.
+    pub fn wearing_pair<'b>(
+        &'b self,
+        flanks: Flanks<'b>,
+        modification_mm: &'b PerGear<Vec<f64>>,
+    ) -> Result<Box<dyn WearingPair + 'b>, StiffnessError> {
+        let (count, line_load) = (self.numerics.positions, self.line_load_n_per_mm);
+        let cycle: Box<dyn MeshCycle + 'b> = match self.contact {
+            MeshContact::LineOfAction { surface, teeth, tip_contact, sliced } => {
+                self.on_line_of_action(flanks, surface, teeth, tip_contact, sliced)?
+            }
+            MeshContact::Simplified { material, teeth, sliced } => {
+                return Ok(Box::new(self.simplified(flanks, modification_mm, material, teeth, sliced)?));
+            }
+            MeshContact::FiniteElements(model) => Box::new(CondensedCycle::new(model, flanks, count, line_load)),
+        };
+        Ok(Box::new(OnFlankPoints::new(cycle, modification_mm)))
+    }
+
+    /// The simplified model of a pair with slices.
+    fn simplified<'b>(
+        &'b self,
+        flanks: Flanks<'b>,
+        modification_mm: &PerGear<Vec<f64>>,
+        material: &'b PerGear<Material>,
+        teeth: &TeethSpring<'_>,
+        sliced: &'b SlicedTeeth,
+    ) -> Result<SimplifiedPair<'b>, StiffnessError> {
+        let (path, count, line_load) = (&self.pair.path, self.numerics.positions, self.line_load_n_per_mm);
+        let springs = Springs {
+            pair: self.pair,
+            material,
+            along_path: SpringAlongPath::new(path, count, |at| teeth.own_n_per_mm2(at))?,
+            sliced,
+            line_load_n_per_mm: line_load * sliced.slices.count() as f64,
+        };
+        let phases = phases(path, &sliced.slices, count, None);
+        let bodies_mm = teeth.shared_mm2_per_n() * line_load;
+        Ok(SimplifiedPair::new(springs, phases, flanks.grid, modification_mm, count, bodies_mm))
+    }
+
+    /// Springs on the line of action, at every loading position.
+    fn on_line_of_action<'b>(
+        &'b self,
+        flanks: Flanks<'b>,
+        surface: &'b dyn ContactSurface,
+        teeth: &TeethSpring<'_>,
+        tip_contact: bool,
+        sliced: Option<&'b SlicedTeeth>,
+    ) -> Result<Box<dyn MeshCycle + 'b>, StiffnessError> {
+        let line_load = self.line_load_n_per_mm;
+        let (path, count) = (&self.pair.path, self.numerics.positions);
+        let spring = |at| teeth.own_n_per_mm2(at);
+        let bodies = teeth.shared_mm2_per_n() * line_load;
+        let lever_ratio = |at| tip_contact::lever_ratio(self.pair, at);
+        let beyond = if tip_contact {
+            let pitch_point = path.pitch_point_mm;
+            let surfaces = surface.plain_approach_mm(self.pair, pitch_point, line_load);
+            let approach = bodies + surfaces + line_load / spring(pitch_point)?;
+            Some(tip_contact::reach_mm(self.pair, AMPLE_APPROACH * approach))
+        } else {
+            None
+        };
+        if let Some(sliced) = sliced {
+            let along = SpringAlongPath::new(path, count, spring)?;
+            let phases = phases(path, &sliced.slices, count, beyond);
+            let springs = SliceSprings { along_path: &along, lever_ratio: &lever_ratio };
+            let cycle = SlicedCycle::new(flanks, surface, sliced, &phases, &springs, path, count, line_load);
+            return Ok(Box::new(cycle.on_bodies_that_yield_by(bodies)));
+        }
+        let positions = match beyond {
+            Some(beyond) => positions_with_tip_contact(path, count, beyond, lever_ratio, spring)?,
+            None => loading_positions(path, count, spring)?,
+        };
+        let cycle = WorkingCycle::new(flanks, surface, &positions, line_load);
+        Ok(Box::new(cycle.on_bodies_that_yield_by(bodies)))
+    }
+}

@@ -1,0 +1,87 @@
+//! Wear of an oxide that grows linearly.
+//!
+//! Iron turns into Fe₂O₃ at the rate A_l exp(−Q_l/(R T)) of oxygen per area; what has grown in a contact is rubbed off in it:
+//!
+//! ```text
+//! dh = k_r p · A_l/(v ρ_Fe) · m · exp(−Q_l/(R T)) ds
+//! ```
+//!
+//! with m the mass of iron per mass of oxygen. In Fe₂O₃ that is 4 M_Fe/(3 M_O₂) = 2.327: so the uptake of oxygen, in kg/(m² s), gives
+//! the depth of iron that is consumed. The thesis's equation 21 prints 3 M_O₂/(4 M_Fe) = 0.430, its inverse, which no balance
+//! of masses gives; it is 5.4 times less and can be chosen ([`MassRatio`]).
+//!
+//! Source: T. F. J. Quinn (1962); the thesis, equations 20–25, which hold for contact temperatures of about 200 to 400 °C.
+
+use super::{Surroundings, WearLaw, adsorption::MOLAR_GAS_CONSTANT};
+
+/// M_Fe, g/mol.
+const IRON: f64 = 55.845;
+/// M_O₂, g/mol.
+const OXYGEN: f64 = 31.998;
+
+/// How the mass of iron follows from that of oxygen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum MassRatio {
+    /// 4 M_Fe/(3 M_O₂), by the stoichiometry of Fe₂O₃.
+    #[default]
+    Stoichiometric,
+    /// 3 M_O₂/(4 M_Fe), as the thesis prints it.
+    Thesis,
+}
+
+impl MassRatio {
+    /// m.
+    pub fn value(self) -> f64 {
+        let iron_per_oxygen = 4.0 * IRON / (3.0 * OXYGEN);
+        match self {
+            MassRatio::Stoichiometric => iron_per_oxygen,
+            MassRatio::Thesis => 1.0 / iron_per_oxygen,
+        }
+    }
+}
+
+/// Constants of the reaction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OxidationConstants {
+    /// A_l: oxygen taken up per area and time, kg/(m²·s).
+    pub arrhenius_constant_kg_per_m2_s: f64,
+    /// Q_l, J/mol.
+    pub activation_energy_j_per_mol: f64,
+    /// ρ_Fe, kg/m³.
+    pub density_kg_per_m3: f64,
+    /// m.
+    pub mass_ratio: MassRatio,
+}
+
+/// dh = k_r p · (depth of iron that oxidises while sliding ds).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Oxidation {
+    /// k_r: part of the area that is in real contact, over the pressure, mm²/N.
+    pub coefficient_mm2_per_n: f64,
+    /// Of the reaction.
+    pub constants: OxidationConstants,
+}
+
+impl OxidationConstants {
+    /// Speed at which the surface turns into oxide, mm/s.
+    pub fn growth_mm_per_s(&self, temperature_k: f64) -> f64 {
+        let uptake = self.arrhenius_constant_kg_per_m2_s
+            * (-self.activation_energy_j_per_mol / (MOLAR_GAS_CONSTANT * temperature_k)).exp();
+        1e3 * uptake * self.mass_ratio.value() / self.density_kg_per_m3
+    }
+}
+
+impl WearLaw for Oxidation {
+    const READS_SURROUNDINGS: bool = true;
+
+    fn coefficient_mm2_per_n(&self, surroundings: Option<Surroundings>) -> f64 {
+        surroundings.map_or(0.0, |Surroundings { sliding_speed_mm_per_s, temperature_k }| {
+            self.coefficient_mm2_per_n * self.constants.growth_mm_per_s(temperature_k) / sliding_speed_mm_per_s
+        })
+    }
+
+    fn greatest_coefficient_mm2_per_n(&self) -> f64 {
+        self.coefficient_mm2_per_n
+    }
+}
