@@ -55,7 +55,7 @@ fn main() {
             let (o, s) = run(adaptive(tol, method));
             let (l, p, m) = l2(&o, &fine);
             let c = o.steps;
-            let e = o.step_error_mm.as_ref().map_or(0.0, |e| Gear::BOTH.iter().flat_map(|&g| &e[g]).fold(0.0f64, |m, x| m.max(x.abs())) * 1e3);
+            let e = o.step_error_mm.map_or(0.0, |e| e.pinion * 1e3);
             println!("{name} tol {tol:7} evals {:6} L2 {l:.2e} peak {p:.2e} max {m:.4} um est {e:.4} acc {} rej {} floor {} stages {} probes {} {s:.2}s", o.work.mesh_cycles, c.accepted, c.rejected, c.at_floor, c.stages, c.probes);
         }
     }

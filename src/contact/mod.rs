@@ -142,14 +142,8 @@ pub trait ContactSurface: Sync {
     /// Approach of plain involutes under a line load at `position_mm`, away from the tip edges.
     fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64;
 
-    /// How much the pressure rises with the height of the shortest waves of wear that the surface tells apart, at a position
-    /// under a line load (> 0), MPa/mm: it bounds the wear step. None where the pressure knows nothing of such waves.
-    fn stiffness_of_short_waves_mpa_per_mm(
-        &self,
-        _flanks: Flanks<'_>,
-        _position_mm: f64,
-        _line_load_n_per_mm: f64,
-    ) -> Option<f64> {
-        None
+    /// Whether the pressure rises where short waves of wear stand up: they bound the wear step then.
+    fn feels_short_waves(&self) -> bool {
+        false
     }
 }

@@ -11,6 +11,7 @@ pub mod inputs;
 pub mod pair_mesh;
 mod recording;
 mod slices;
+mod stability;
 
 use std::time::Instant;
 
@@ -46,6 +47,9 @@ use inputs::Inputs;
 pub trait Observer: Progress {
     /// A stage begins.
     fn stage(&self, kind: StageKind);
+
+    /// Something the user should know before the work is done; the summary has it too.
+    fn warning(&self, _text: &str) {}
 }
 
 impl Observer for Unwatched {
@@ -290,6 +294,7 @@ fn carry_out<R>(
         foundation_mpa_per_mm: cases[0].foundation_mpa_per_mm,
     };
 
+    let judged = stability::judge(&model, observer);
     let outcome = stages.run(StageKind::Simulation, || model.wear_run().run(observer))?;
     let error = if plan.has(StageKind::ErrorEstimates) && outcome.stop == StopReason::Completed {
         stages.run(StageKind::ErrorEstimates, || error_estimates::estimate(&model, &outcome, observer))
@@ -297,7 +302,7 @@ fn carry_out<R>(
         ErrorSummary::not_estimated(not_estimated_because(&outcome))
     };
 
-    let mut summary = recording::summary(resolved, plan, &model, &outcome, error)?;
+    let mut summary = recording::summary(resolved, plan, &model, &outcome, error, judged)?;
     summary.stages = stages.times;
     let record = keep(&model, &outcome, summary);
     Ok(Done { record, failure: outcome.failure.map(RunError::from) })
