@@ -24,7 +24,7 @@
 use std::f64::consts::PI;
 
 use super::{
-    ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
+    ContactSurface, Effort, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
     elastic_cells::ElasticCells,
     hertz,
     pressure_field::PressureField,
@@ -57,8 +57,8 @@ const FREE_CELLS: usize = 2;
 const LEAST_CELLS: usize = 4;
 /// Most cells in a window: those of a window that has grown beyond are wider.
 const MOST_CELLS: f64 = 320.0;
-/// Time of an equilibrium over that on springs, on the preset `fzg-c`, rounded.
-const RELATIVE_EFFORT: f64 = 20.0;
+/// Measured on the preset `fzg-c`, rounded.
+const EFFORT: Effort = Effort { of_equilibrium: 20.0, of_clean_start: 15.0 };
 
 impl ContactSurface for HalfSpace {
     fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
@@ -86,8 +86,8 @@ impl ContactSurface for HalfSpace {
         hertz::flattening(geometry, &self.material, position_mm).approach_mm(line_load_n_per_mm)
     }
 
-    fn relative_effort(&self) -> f64 {
-        RELATIVE_EFFORT
+    fn effort(&self) -> Effort {
+        EFFORT
     }
 
     /// A wave of length λ on a half-plane: π E*/λ, and no wave is shorter than two cells.

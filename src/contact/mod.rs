@@ -140,6 +140,15 @@ pub trait PairContact: Send {
     fn footprint(&self) -> Footprint;
 }
 
+/// How long equilibria take, about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Of a tooth pair, over that on springs.
+    pub of_equilibrium: f64,
+    /// What one without anything to start from takes more, over one with.
+    pub of_clean_start: f64,
+}
+
 /// A model of the surfaces in contact.
 pub trait ContactSurface: Sync {
     /// Prepares a tooth pair with its theoretical contact point at `position_mm`; with a `cell`, its wear is collected.
@@ -148,9 +157,9 @@ pub trait ContactSurface: Sync {
     /// Approach of plain involutes under a line load at `position_mm`, away from the tip edges.
     fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64;
 
-    /// Time that an equilibrium takes over that on springs, about.
-    fn relative_effort(&self) -> f64 {
-        1.0
+    /// How long equilibria take.
+    fn effort(&self) -> Effort {
+        Effort { of_equilibrium: 1.0, of_clean_start: 4.0 }
     }
 
     /// How much the pressure rises with the height of the shortest waves of wear that the surface tells apart, at a position

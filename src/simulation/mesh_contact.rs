@@ -3,7 +3,7 @@
 use super::settings::Numerics;
 use super::simplified::{SimplifiedPair, exact::Springs};
 use super::wearing_pair::{OnFlankPoints, WearingPair};
-use crate::contact::{ContactSurface, Flanks, settings::Material};
+use crate::contact::{ContactSurface, Effort, Flanks, settings::Material};
 use crate::fem::gear::position::CondensedPair;
 use crate::gear::{GearPair, PerGear, slices::Slices};
 use crate::stiffness::{StiffnessError, TeethSpring};
@@ -48,13 +48,13 @@ pub enum MeshContact<'a> {
 /// are softer, and wear adds to it.
 const AMPLE_APPROACH: f64 = 2.0;
 
-/// Effort between clean starts, in equilibria of a tooth pair on springs: about a second of one thread.
-const EFFORT: f64 = 400_000.0;
-/// Efforts of a contact over that on springs, measured on the preset `fzg-c` and `helical`, rounded.
-const SIMPLIFIED_EFFORT: f64 = 0.005;
-const FINITE_ELEMENTS_EFFORT: f64 = 80.0;
-/// Fewest evaluations between clean starts, which take several times as long as others.
-const LEAST_EVALUATIONS: f64 = 10.0;
+/// Least effort between clean starts, in equilibria of a tooth pair on springs: about a quarter of a second of one thread.
+const EFFORT_BETWEEN_CLEAN_STARTS: f64 = 100_000.0;
+/// Part of the time that clean starts may take at the most.
+const SHARE_OF_CLEAN_STARTS: f64 = 0.05;
+/// Measured on the presets `helical` and `fzg-c`, rounded.
+const SIMPLIFIED: Effort = Effort { of_equilibrium: 0.005, of_clean_start: 5.0 };
+const FINITE_ELEMENTS: Effort = Effort { of_equilibrium: 80.0, of_clean_start: 4.0 };
 
 /// A pair under a load, at some resolution.
 pub(super) struct LoadedMesh<'a> {
@@ -70,12 +70,13 @@ impl MeshContact<'_> {
     pub fn evaluations_between_clean_starts(&self, positions: usize) -> u64 {
         let (effort, slices) = match self {
             MeshContact::LineOfAction { surface, sliced, .. } => {
-                (surface.relative_effort(), sliced.map_or(1, |sliced| sliced.slices.count()))
+                (surface.effort(), sliced.map_or(1, |sliced| sliced.slices.count()))
             }
-            MeshContact::Simplified { sliced, .. } => (SIMPLIFIED_EFFORT, sliced.slices.count()),
-            MeshContact::FiniteElements(_) => (FINITE_ELEMENTS_EFFORT, 1),
+            MeshContact::Simplified { sliced, .. } => (SIMPLIFIED, sliced.slices.count()),
+            MeshContact::FiniteElements(_) => (FINITE_ELEMENTS, 1),
         };
-        (EFFORT / (effort * (positions * slices) as f64)).max(LEAST_EVALUATIONS) as u64
+        let of_evaluation = effort.of_equilibrium * (positions * slices) as f64;
+        (EFFORT_BETWEEN_CLEAN_STARTS / of_evaluation).max(effort.of_clean_start / SHARE_OF_CLEAN_STARTS) as u64
     }
 
     /// The slices of `pair` over the face width: one where all sections are alike.
