@@ -9,6 +9,8 @@
 //!
 //! Steps are shortened to end where a stretch does.
 
+use serde::{Deserialize, Serialize};
+
 use super::settings::Stepping;
 use super::wearing_pair::WearingPair;
 use crate::gear::PerGear;
@@ -25,6 +27,9 @@ pub struct Stretch {
     pub from: f64,
     /// Greater than `from`.
     pub limit: f64,
+    /// Whether the pair must forget where it was ([`WearingPair::forget`]) before its evaluation at the end of the step: a run may go
+    /// on from there another time.
+    pub clean_start: bool,
 }
 
 /// What came of a step.
@@ -35,6 +40,10 @@ pub struct Advanced {
     /// Its evaluation there, with the work of the whole step.
     pub evaluated: Result<Work, EquilibriumError>,
 }
+
+/// What a [`Stepper`] knows beside what it is made of: nothing for Euler's method.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct StepperState {}
 
 /// Takes wear steps.
 pub struct Stepper {
@@ -49,6 +58,14 @@ impl Stepper {
         Self { step_revolutions: stepping.euler_revolutions(duration), wheel_meshes }
     }
 
+    /// What it knows after the last step.
+    pub fn state(&self) -> StepperState {
+        StepperState {}
+    }
+
+    /// Goes on from there.
+    pub fn resume(&mut self, _state: StepperState) {}
+
     /// Takes `pair`, which is evaluated where `stretch` begins, one step on, and evaluates it there.
     pub fn advance(
         &mut self,
@@ -62,6 +79,9 @@ impl Stepper {
         let step = if arrives { stretch.limit - stretch.from } else { step };
         pair.wear_for(PerGear { pinion: step, wheel: step * self.wheel_meshes });
         let revolutions = if arrives { stretch.limit } else { stretch.from + step };
+        if stretch.clean_start {
+            pair.forget();
+        }
         Advanced { revolutions, evaluated: pair.evaluate(wear, stopped) }
     }
 }

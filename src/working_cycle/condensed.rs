@@ -189,6 +189,18 @@ impl MeshCycle for CondensedCycle<'_> {
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
 
+    fn forget(&mut self) {
+        let (model, length_mm) = (self.model, self.length_mm());
+        let points = flank_points(&self.radius_mm, &self.node_radius_mm);
+        self.groups.par_iter_mut().flat_map(|group| &mut group.stations).for_each(|station| {
+            model.forget(&mut station.prepared);
+            if station.looks != station.prepared.looks() {
+                station.look(model, points, length_mm);
+            }
+        });
+        self.observation.par_iter_mut().for_each(|prepared| model.forget(prepared));
+    }
+
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
         let wear = self.nodal_wear(lost.wear_mm);
         let (model, load) = (self.model, self.line_load_n_per_mm);

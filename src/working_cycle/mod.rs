@@ -20,6 +20,7 @@ pub mod sliced_teeth;
 pub mod tip_contact;
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCell, Sweep};
 use crate::gear::{Gear, PerGear};
@@ -58,7 +59,7 @@ pub struct LoadingPosition {
 }
 
 /// Counters of work done.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Work {
     /// Working cycles evaluated.
     pub mesh_cycles: u64,
@@ -107,7 +108,7 @@ pub struct WorkingCycle<'a> {
 }
 
 /// What was observed at one position.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PositionObservation {
     /// Theoretical contact point of the reference pair.
     pub position_mm: f64,
@@ -122,7 +123,7 @@ pub struct PositionObservation {
 }
 
 /// What was observed over a working cycle.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CycleObservation {
     /// At each position, in order.
     pub positions: Vec<PositionObservation>,
@@ -158,6 +159,10 @@ pub trait MeshCycle {
         depth_mm: &mut PerGear<Vec<f64>>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError>;
+
+    /// Is again as if never evaluated: the next evaluation depends only on what the flanks have lost, to the bit, and not on
+    /// where the last one ended.
+    fn forget(&mut self);
 
     /// What the last evaluation found, on the same `lost`.
     ///
@@ -204,6 +209,12 @@ impl MeshCycle for WorkingCycle<'_> {
         let load = self.line_load_n_per_mm;
         self.groups.par_iter_mut().for_each(|group| group.evaluate(lost.removed_mm, load, wear, stopped));
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
+    }
+
+    fn forget(&mut self) {
+        self.groups.par_iter_mut().flat_map(|group| &mut group.stations).for_each(|station| {
+            station.pairs.iter_mut().for_each(MeshedPair::forget);
+        });
     }
 
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {

@@ -165,6 +165,13 @@ impl MeshCycle for SlicedCycle<'_> {
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
 
+    fn forget(&mut self) {
+        self.groups.par_iter_mut().flat_map(|group| &mut group.stations).for_each(|station| {
+            station.pairs.iter_mut().for_each(MeshedPair::forget);
+            station.teeth.iter_mut().for_each(BentTooth::straighten);
+        });
+    }
+
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
         let removed_mm = lost.removed_mm;
         let load = self.sum_of_line_loads();

@@ -309,6 +309,21 @@ impl Batch {
         }
     }
 
+    /// Is again as if never evaluated, on the flanks as they are.
+    pub fn forget(&mut self) {
+        for station in &mut self.stations {
+            let mean = self.common.line_load_n_per_mm / station.contacts as f64;
+            station.transmission_error_mm = 0.0;
+            for (at, pack) in self.packs[station.packs.clone()].iter_mut().enumerate() {
+                let used = |lane: usize| at * LANES + lane < station.contacts;
+                pack.load = Lanes(std::array::from_fn(|lane| if used(lane) { mean } else { 0.0 }));
+                (pack.log_load, pack.correction, pack.change) = Default::default();
+            }
+        }
+        self.bent.iter_mut().flatten().for_each(BentTooth::straighten);
+        self.begun = false;
+    }
+
     /// Depth that `gear`'s flank has lost at the contact in a lane, and loses in one mesh, mm.
     pub fn of_lane(&self, gear: Gear, lane: usize) -> [f64; 2] {
         [&self.wear_mm, &self.depth_mm].map(|rows| rows[gear].as_flattened()[lane])
