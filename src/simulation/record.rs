@@ -2,7 +2,7 @@
 //!
 //! Field names are the contract's column and key names, so that serialising a record is writing the file.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::gear::{PerGear, flank_surface::FlankSurface};
 
@@ -71,7 +71,7 @@ pub struct Summary {
 }
 
 /// Why a wear run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum StopReason {
     /// The whole duration was run.
