@@ -43,11 +43,13 @@ impl Change {
     pub const NOTHING: Self = Self { coefficient_factor: 1.0, severe_factor: None };
 }
 
-/// Hears an interrupt; the progress of one run among unknown many is not shown.
+/// Hears an interrupt, and shows the progress of each run by itself.
 struct Within<'a>(&'a dyn Observer);
 
 impl Progress for Within<'_> {
-    fn progress(&self, _done: f64, _total: f64) {}
+    fn progress(&self, done: f64, total: f64) {
+        self.0.progress(done, total);
+    }
 
     fn interrupted(&self) -> bool {
         self.0.interrupted()
