@@ -313,7 +313,9 @@ impl Failure {
             Failure::Accuracy(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Calibrate(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Run(error) => say(&format!("{:?}", Report::msg(error))),
-            error @ (Failure::NoCombination { .. } | Failure::NotFitted { .. }) => say(&format!("{:?}", Report::msg(error))),
+            error @ (Failure::NoCombination { .. } | Failure::NotFitted { .. }) => {
+                say(&format!("{:?}", Report::msg(error)))
+            }
             Failure::Interrupted | Failure::Closed => {}
         }
     }
