@@ -11,6 +11,7 @@ pub mod inputs;
 pub mod pair_mesh;
 mod recording;
 mod slices;
+mod temperature;
 
 use std::time::Instant;
 
@@ -41,6 +42,7 @@ use crate::thermal::ContactHeat;
 use crate::wear::{self, FlankWear, WearModel, settings::WearSettings};
 use crate::working_cycle::sliced_teeth::SlicedTeeth;
 use inputs::Inputs;
+use recording::Found;
 
 /// Told of progress; says whether to go on.
 pub trait Observer: Progress {
@@ -168,8 +170,8 @@ struct LoadCase<'a> {
 /// [`RunError`] where nothing was finished.
 pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Observer) -> Result<Done, RunError> {
     let start = Instant::now();
-    let mut done = carry_out(resolved, plan, inputs, observer, |model, outcome, summary| {
-        recording::record(resolved, model, outcome, summary)
+    let mut done = carry_out(resolved, plan, inputs, observer, |model, found, summary| {
+        recording::record(resolved, model, found, summary)
     })?;
     done.record.summary.wall_s = start.elapsed().as_secs_f64();
     Ok(done)
@@ -197,7 +199,7 @@ fn carry_out<R>(
     plan: &Plan,
     inputs: &Inputs,
     observer: &dyn Observer,
-    keep: impl FnOnce(&Model<'_>, &Outcome, Summary) -> R,
+    keep: impl FnOnce(&Model<'_>, Found<'_>, Summary) -> R,
 ) -> Result<Done<R>, RunError> {
     let scene = &resolved.scene;
     let mut stages = Stages { observer, times: Vec::new() };
@@ -291,15 +293,20 @@ fn carry_out<R>(
     };
 
     let outcome = stages.run(StageKind::Simulation, || model.wear_run().run(observer))?;
+    let heat = match plan.has(StageKind::ContactTemperature) {
+        true => stages.run(StageKind::ContactTemperature, || temperature::observe(&model, &outcome)),
+        false => None,
+    };
+    let found = Found { outcome: &outcome, heat: heat.as_ref() };
     let error = if plan.has(StageKind::ErrorEstimates) && outcome.stop == StopReason::Completed {
         stages.run(StageKind::ErrorEstimates, || error_estimates::estimate(&model, &outcome, observer))
     } else {
         ErrorSummary::not_estimated(not_estimated_because(&outcome))
     };
 
-    let mut summary = recording::summary(resolved, plan, &model, &outcome, error)?;
+    let mut summary = recording::summary(resolved, plan, &model, found, error)?;
     summary.stages = stages.times;
-    let record = keep(&model, &outcome, summary);
+    let record = keep(&model, found, summary);
     Ok(Done { record, failure: outcome.failure.map(RunError::from) })
 }
 
