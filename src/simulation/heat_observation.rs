@@ -193,7 +193,9 @@ impl HeatObserver<'_> {
         for gear in Gear::BOTH {
             match self.spread {
                 Spread::Even => rises.fill(band.greatest_rise_k(gear, Spread::Even)),
-                Spread::Ellipse => band.rises_k(gear, &pressure, &mut rises),
+                Spread::Ellipse => {
+                    band.rises_k(gear, 2.0 * contact.half_width_mm / PLACES as f64, &pressure, &mut rises);
+                }
             }
             let slid_mm = 2.0 * contact.half_width_mm * ratios.sliding / ratios.rolling[gear];
             for (pressure, rise) in pressure.iter().zip(rises) {
