@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use crate::thermal::settings::{HeatPartition, HeatVelocity, TemperatureMethod};
-use crate::wear::regime::Regime;
+pub use crate::thermal::settings::{HeatPartition, HeatVelocity, TemperatureMethod};
+pub use crate::wear::regime::Regime;
 
 /// The wear law and where it stands.
 #[allow(non_snake_case, reason = "names that end in their unit")]
