@@ -32,6 +32,7 @@ use crate::gear::{GearPair, PairError, PerGear};
 use crate::plan::{Plan, StageKind};
 use crate::reference::flattening::Flattening;
 use crate::scene::{Resolved, Scene};
+use crate::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
 use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::record::{ErrorSummary, RunRecord, StageTime, StopReason, Summary};
 use crate::simulation::settings::Phase;
@@ -161,6 +162,21 @@ struct LoadCase<'a> {
     finite_elements: Option<CondensedPair<'a>>,
 }
 
+/// Where a run goes on, and who keeps its checkpoints.
+pub struct Resumption<'a> {
+    /// A checkpoint of this same run; `None`: it begins.
+    pub from: Option<Checkpoint>,
+    /// Gets new ones.
+    pub keeper: &'a dyn Keeper,
+}
+
+impl Resumption<'_> {
+    /// A run from its beginning, of which nothing is kept.
+    fn none() -> Self {
+        Self { from: None, keeper: &NothingKept }
+    }
+}
+
 /// Carries out `plan`, the report apart: that is left to the caller, who knows where it goes.
 ///
 /// A run that is interrupted or does not converge gives the record of what it had finished, and its failure in the latter
@@ -169,8 +185,22 @@ struct LoadCase<'a> {
 /// # Errors
 /// [`RunError`] where nothing was finished.
 pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Observer) -> Result<Done, RunError> {
+    run_from(resolved, plan, inputs, Resumption::none(), observer)
+}
+
+/// The same for a run that may go on from a checkpoint, and gives new ones.
+///
+/// # Errors
+/// [`RunError`] where nothing was finished.
+pub fn run_from(
+    resolved: &Resolved,
+    plan: &Plan,
+    inputs: &Inputs,
+    resumption: Resumption<'_>,
+    observer: &dyn Observer,
+) -> Result<Done, RunError> {
     let start = Instant::now();
-    let mut done = carry_out(resolved, plan, inputs, observer, |model, found, summary| {
+    let mut done = carry_out(resolved, plan, inputs, resumption, observer, |model, found, summary| {
         recording::record(resolved, model, found, summary)
     })?;
     done.record.summary.wall_s = start.elapsed().as_secs_f64();
@@ -188,7 +218,7 @@ pub fn summarise(
     observer: &dyn Observer,
 ) -> Result<Done<Summary>, RunError> {
     let start = Instant::now();
-    let mut done = carry_out(resolved, plan, inputs, observer, |_, _, summary| summary)?;
+    let mut done = carry_out(resolved, plan, inputs, Resumption::none(), observer, |_, _, summary| summary)?;
     done.record.wall_s = start.elapsed().as_secs_f64();
     Ok(done)
 }
@@ -198,6 +228,7 @@ fn carry_out<R>(
     resolved: &Resolved,
     plan: &Plan,
     inputs: &Inputs,
+    resumption: Resumption<'_>,
     observer: &dyn Observer,
     keep: impl FnOnce(&Model<'_>, Found<'_>, Summary) -> R,
 ) -> Result<Done<R>, RunError> {
@@ -292,7 +323,8 @@ fn carry_out<R>(
         foundation_mpa_per_mm: cases[0].foundation_mpa_per_mm,
     };
 
-    let outcome = stages.run(StageKind::Simulation, || model.wear_run().run(observer))?;
+    let Resumption { from, keeper } = resumption;
+    let outcome = stages.run(StageKind::Simulation, || model.wear_run().run_from(from, keeper, observer))?;
     let heat = match plan.has(StageKind::ContactTemperature) {
         true => stages.run(StageKind::ContactTemperature, || temperature::observe(&model, &outcome)),
         false => None,

@@ -16,7 +16,7 @@ use super::settings::Numerics;
 use crate::contact::Flanks;
 use crate::gear::{GearPair, PerGear, flank::FlankGrid, removed_material::modifications_mm, slices::Slices};
 use crate::stiffness::StiffnessError;
-use crate::wear::WearModel;
+use crate::wear::{WearModel, stepping::adaptive::StepCounts};
 use crate::working_cycle::{CycleObservation, Work, load_sharing::EquilibriumError};
 
 /// Why a wear run could not go on.
@@ -96,8 +96,10 @@ pub struct Outcome {
     pub snapshots: Vec<Snapshot>,
     /// The pair when the run ended: the last of the snapshots.
     pub worn: Snapshot,
-    /// Wear steps taken.
-    pub wear_steps: u64,
+    /// Wear steps taken, and what else came of them.
+    pub steps: StepCounts,
+    /// Of adaptive steps: the estimated error of the wear at each place that the steps worked on, mm.
+    pub step_error_mm: Option<PerGear<Vec<f64>>>,
     /// Work done in all.
     pub work: Work,
 }
@@ -157,7 +159,7 @@ impl WearRun<'_> {
         let end = self.phases.last().map_or(0.0, |phase| phase.end_revolutions);
         let mut stepper = Stepper::new(self.numerics.stepping, end, self.pair.wheel_turns_per_pinion_turn());
         let mut due = self.snapshots_revolutions.iter().copied().chain([end]).peekable();
-        let (mut first_phase, mut revolutions, mut wear_steps, mut work) = (0, 0.0, 0, Work::default());
+        let (mut first_phase, mut revolutions, mut work) = (0, 0.0, Work::default());
         // The unworn pair first, then each snapshot.
         let mut states: Vec<Snapshot> = Vec::new();
         let mut worn_so_far: Option<PerGear<Vec<f64>>> = None;
@@ -169,7 +171,7 @@ impl WearRun<'_> {
             if !(is_within && from.fits(points)) {
                 return Err(SimulationError::OtherRun);
             }
-            (first_phase, revolutions, wear_steps, work) = (from.phase, from.revolutions, from.wear_steps, from.work);
+            (first_phase, revolutions, work) = (from.phase, from.revolutions, from.work);
             while due.next_if(|&next| next <= revolutions).is_some() {}
             stepper.resume(from.stepper);
             states = from.states;
@@ -191,6 +193,9 @@ impl WearRun<'_> {
                     return Err(SimulationError::OtherRun);
                 }
                 pair.set_wear_mm(wear_mm);
+            }
+            if !is_repeated {
+                stepper.begin_phase();
             }
             let mut evaluated = pair.evaluate(&phase.wear, stopped);
             if std::mem::take(&mut is_repeated) {
@@ -232,13 +237,12 @@ impl WearRun<'_> {
                 }
                 if is_clean {
                     cleaned_at = work.mesh_cycles;
-                    if wear_steps > 0 && keeper.is_due() {
+                    if stepper.counts().accepted > 0 && keeper.is_due() {
                         keeper.keep(&Checkpoint {
                             phase: number,
                             revolutions,
                             wear_mm: pair.wear_mm(),
                             stepper: stepper.state(),
-                            wear_steps,
                             work,
                             states: states.clone(),
                         });
@@ -249,7 +253,6 @@ impl WearRun<'_> {
                     Stretch { from: revolutions, limit: next.min(phase.end_revolutions), clean_start: is_clean };
                 let advanced = stepper.advance(&mut *pair, &phase.wear, stretch, stopped);
                 (revolutions, evaluated) = (advanced.revolutions, advanced.evaluated);
-                wear_steps += 1;
             }
             worn_so_far = Some(pair.wear_mm());
         }
@@ -258,8 +261,21 @@ impl WearRun<'_> {
             None if due.peek().is_none() => StopReason::Completed,
             None => StopReason::Interrupted,
         };
+        let (steps, step_error_mm) = (stepper.counts(), stepper.error_mm());
         let new = states.remove(0);
         let worn = states.last().unwrap_or(&new).clone();
-        Ok(Outcome { stop, failure, grid, slices, modification_mm, new, snapshots: states, worn, wear_steps, work })
+        Ok(Outcome {
+            stop,
+            failure,
+            grid,
+            slices,
+            modification_mm,
+            new,
+            snapshots: states,
+            worn,
+            steps,
+            step_error_mm,
+            work,
+        })
     }
 }

@@ -15,6 +15,7 @@ pub mod oxidation;
 pub mod regime;
 pub mod settings;
 mod severe;
+pub mod stepping;
 
 use crate::thermal::ContactHeat;
 use settings::{LawSettings, SevereTransition, WearSettings};
