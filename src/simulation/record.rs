@@ -4,6 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::chemistry_record::{TemperatureSummary, WearLawSummary};
 use crate::gear::{PerGear, flank_surface::FlankSurface};
 
 /// A finished (or interrupted) run.
@@ -54,6 +55,10 @@ pub struct Summary {
     pub contact: ContactSummary,
     /// Of the tooth pair as a spring; `None` with finite elements, whose teeth are no springs.
     pub stiffness: Option<StiffnessSummary>,
+    /// Of the wear law.
+    pub wear: WearLawSummary,
+    /// Of the contact's temperatures; `None` where nobody asks for them.
+    pub temperature: Option<TemperatureSummary>,
     /// The working cycle of the unworn pair.
     pub new: CycleSummary,
     /// The working cycle of the worn pair.
@@ -422,10 +427,15 @@ pub struct MeshCycleRow {
     pub half_width_mm: f64,
     pub transmission_error_new_um: f64,
     pub transmission_error_worn_um: f64,
-    /// `None` where no temperature is computed.
+    /// Greatest rise by the chosen method, new; `None` where no temperature is computed, as with those that follow.
     pub temperature_rise_K: Option<f64>,
     /// Half the extent of the contact strip, worn.
     pub half_width_worn_mm: f64,
+    pub temperature_rise_heat_equation_K: Option<f64>,
+    pub temperature_rise_williams_K: Option<f64>,
+    pub temperature_rise_tian_kennedy_K: Option<f64>,
+    pub peclet_pinion: Option<f64>,
+    pub peclet_wheel: Option<f64>,
 }
 
 /// The mesh of one tooth slice by slice, from its first touch to its last.
