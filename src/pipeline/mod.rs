@@ -285,9 +285,10 @@ fn carry_out<R>(
         .iter()
         .map(|phase| {
             let coefficient_mm2_per_n = phase.coefficient_mm2_per_n.unwrap_or(scene.wear.coefficient_mm2_per_n);
-            let heat = scene.heat.zip(phase.pinion_speed_rpm).map(|(settings, rpm)| {
-                ContactHeat::new(settings, base_radius * std::f64::consts::TAU * rpm / 60.0)
-            });
+            let heat = scene
+                .heat
+                .zip(phase.pinion_speed_rpm)
+                .map(|(settings, rpm)| ContactHeat::new(settings, base_radius * std::f64::consts::TAU * rpm / 60.0));
             (wear::of(&WearSettings { coefficient_mm2_per_n, ..scene.wear }), heat)
         })
         .collect();

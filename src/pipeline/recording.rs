@@ -75,7 +75,10 @@ pub(super) fn summary(
         wheel: wear(model, outcome, Gear::Wheel),
         error,
         work: WorkSummary {
-            wear_steps: outcome.wear_steps,
+            wear_steps: outcome.steps.accepted,
+            rejected_steps: outcome.steps.rejected,
+            stages: outcome.steps.stages,
+            jacobian_probes: outcome.steps.probes,
             mesh_cycles: outcome.work.mesh_cycles,
             equilibria: outcome.work.equilibria,
             newton_iterations: outcome.work.newton_iterations,

@@ -4,6 +4,6 @@ pub mod cantilever;
 pub mod flattening;
 pub mod half_plane;
 pub mod hertz_line;
-pub mod moving_heat_band;
 pub mod lame_cylinder;
+pub mod moving_heat_band;
 pub mod persson;

@@ -157,7 +157,6 @@ mod tests {
             revolutions: 1.0 / 3.0,
             wear_mm,
             stepper: StepperState::default(),
-            wear_steps: 7,
             work: Work { mesh_cycles: 8, ..Work::default() },
             states: Vec::new(),
         };

@@ -28,8 +28,6 @@ pub struct Checkpoint {
     pub wear_mm: PerGear<Vec<f64>>,
     /// State of the step control.
     pub stepper: StepperState,
-    /// Wear steps taken.
-    pub wear_steps: u64,
     /// Work done, the evaluation of this state included.
     pub work: Work,
     /// The unworn pair, then each snapshot reached.

@@ -343,7 +343,13 @@ pub struct ErrorSources {
 pub struct WorkSummary {
     /// Wear steps taken.
     pub wear_steps: u64,
-    /// Working cycles evaluated: one per wear step, and one at the end.
+    /// Trial steps that were not taken: their error was too large, or the pair had no equilibrium at their end.
+    pub rejected_steps: u64,
+    /// Working cycles evaluated in wear steps, rejected ones included.
+    pub stages: u64,
+    /// Working cycles evaluated to learn how stiff the wear is: spectral radius, Jacobian, length of the first step.
+    pub jacobian_probes: u64,
+    /// Working cycles evaluated in all: with Euler's method one per wear step, and one at the end.
     pub mesh_cycles: u64,
     /// Equilibria solved: working cycles × positions.
     pub equilibria: u64,

@@ -13,6 +13,7 @@ pub mod archard;
 pub mod oxidation;
 pub mod settings;
 mod severe;
+pub mod stepping;
 
 use crate::thermal::ContactHeat;
 use settings::{LawSettings, SevereTransition, WearSettings};

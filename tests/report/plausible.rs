@@ -252,6 +252,9 @@ fn summary() -> Summary {
         },
         work: WorkSummary {
             wear_steps: 150,
+            rejected_steps: 0,
+            stages: 150,
+            jacobian_probes: 0,
             mesh_cycles: 161,
             equilibria: 64_400,
             newton_iterations: 201_331,
