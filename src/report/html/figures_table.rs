@@ -2,6 +2,7 @@
 
 use super::number::{change, figure, fixed, percent, significant};
 use super::page::escape;
+use super::phase_table;
 use super::sliced;
 use super::table::{row, table};
 use crate::simulation::record::{ErrorSummary, GearSummary, RunRecord, Summary, WearSummary};
@@ -10,7 +11,7 @@ use crate::simulation::record::{ErrorSummary, GearSummary, RunRecord, Summary, W
 pub fn tables(record: &RunRecord) -> String {
     let s = &record.summary;
     let sliced = s.helical.as_ref().map_or_else(String::new, sliced::tables::tables);
-    [new_and_worn(s), wear(s), sliced, pair(s), gears(s), contact(s)].concat()
+    [phase_table::table(s), new_and_worn(s), wear(s), sliced, pair(s), gears(s), contact(s)].concat()
 }
 
 fn new_and_worn(s: &Summary) -> String {

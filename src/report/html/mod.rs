@@ -12,6 +12,7 @@ mod flank_plots;
 mod history_plot;
 pub(super) mod number;
 pub(super) mod page;
+mod phase_table;
 pub(super) mod reading;
 mod sliced;
 pub(super) mod table;
