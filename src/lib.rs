@@ -15,9 +15,11 @@
 
 pub mod accuracy;
 pub mod calibration;
+pub mod compare;
 pub mod contact;
 pub mod fem;
 pub mod gear;
+pub mod measurement;
 pub mod mesh;
 pub mod pipeline;
 pub mod plan;

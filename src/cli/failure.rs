@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use super::say;
 use gearwear::accuracy::study::AccuracyError;
+use gearwear::compare::question::QuestionError;
+use gearwear::compare::run_folder::RunFolderError;
 use gearwear::fem::SolveError;
 use gearwear::fem::gear::model::ModelError;
 use gearwear::mesh::MeshFileError;
@@ -49,6 +51,12 @@ pub enum Failure {
     /// The calibration failed.
     #[error(transparent)]
     Calibrate(CalibrateError),
+    /// A measured profile does not give what was to be fitted to it; the comparison is written.
+    #[error("nothing could be fitted: {why}")]
+    NotFitted {
+        /// What is to blame.
+        why: String,
+    },
     /// No combination of a sweep has a result; its rows are written.
     #[error("none of {count} combinations has a result; the first says: {error}")]
     NoCombination {
@@ -143,6 +151,19 @@ pub enum InputError {
         name: String,
         /// What is wrong with it.
         error: CurveFileError,
+    },
+    /// A folder that is not that of a finished run.
+    #[error("RUN: {0}")]
+    #[diagnostic(help("gearwear run SCENE --out RUN makes one"))]
+    RunFolder(#[from] RunFolderError),
+    /// A measured profile that cannot be compared with the run.
+    #[error("{name}: {error}")]
+    #[diagnostic(help("gearwear compare --help says what stands in a measured file"))]
+    Measured {
+        /// Name of the file.
+        name: String,
+        /// What is wrong.
+        error: QuestionError,
     },
     /// A gear that cannot be modelled with finite elements.
     #[error(transparent)]
@@ -292,7 +313,9 @@ impl Failure {
             Failure::Accuracy(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Calibrate(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Run(error) => say(&format!("{:?}", Report::msg(error))),
-            error @ Failure::NoCombination { .. } => say(&format!("{:?}", Report::msg(error))),
+            error @ (Failure::NoCombination { .. } | Failure::NotFitted { .. }) => {
+                say(&format!("{:?}", Report::msg(error)))
+            }
             Failure::Interrupted | Failure::Closed => {}
         }
     }
@@ -306,6 +329,7 @@ impl Failure {
             | Failure::FemPair(_)
             | Failure::Calibrate(_)
             | Failure::Accuracy(_)
+            | Failure::NotFitted { .. }
             | Failure::NoCombination { .. } => 3,
             Failure::Interrupted => 130,
             Failure::Closed => 0,

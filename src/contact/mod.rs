@@ -133,6 +133,12 @@ pub trait PairContact: Send {
     /// Fills in what the points of a flank felt; nothing for a pair prepared without a [`PositionCell`].
     fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep);
 
+    /// Whether the points of a [`Sweep`] run across the contact from one end of its strip to the other, each under its own pressure;
+    /// otherwise they are those that pass the theoretical contact point, and each feels all of the contact.
+    fn sweeps_across(&self) -> bool {
+        true
+    }
+
     /// What each point of that [`Sweep`] felt, for an observer.
     fn felt(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<Felt>;
 

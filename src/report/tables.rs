@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::gear::Gear;
 use crate::simulation::accuracy_record::AccuracyRecord;
+use crate::simulation::compare_record::CompareRecord;
 use crate::simulation::fem_pair_record::FemPairSummary;
 use crate::simulation::fem_problem_record::FemSummary;
 use crate::simulation::record::{FlankRecord, HistoryRow, MeshCycleRow, RunRecord, Summary};
@@ -97,6 +98,11 @@ impl<'a> Provenance<'a> {
 
     /// That of a comparison of models.
     pub fn of_accuracy(record: &'a AccuracyRecord) -> Self {
+        Self { program_version: &record.program_version, input: "scene", hash: &record.scene_hash }
+    }
+
+    /// That of a comparison with a measured profile: the hash is that of the run's scene.
+    pub fn of_compare(record: &'a CompareRecord) -> Self {
         Self { program_version: &record.program_version, input: "scene", hash: &record.scene_hash }
     }
 

@@ -4,6 +4,7 @@ pub mod accuracy_quantity;
 pub mod accuracy_record;
 pub mod advance;
 pub mod checkpoint;
+pub mod compare_record;
 pub mod fem_pair_record;
 pub mod fem_problem_record;
 pub mod figures;

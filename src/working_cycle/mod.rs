@@ -24,7 +24,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCell, Sweep};
 use crate::gear::{Gear, PerGear};
-use crate::wear::{Rubbing, WearModel};
+use crate::thermal::SpeedRatios;
+use crate::wear::{
+    Rubbing, Surroundings, WearModel,
+    heated_row::{HeatedContact, HeatedRow},
+};
 use collected::Collected;
 use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use sliced_mesh::SlicedMesh;
@@ -80,6 +84,8 @@ impl std::ops::AddAssign for Work {
 struct Station<'a> {
     cell: PositionCell,
     on_line_of_action: bool,
+    /// Of the reference pair.
+    ratios: SpeedRatios,
     /// The reference pair first.
     pairs: Vec<MeshedPair<'a>>,
     equilibrium: Equilibrium,
@@ -90,6 +96,7 @@ struct Group<'a> {
     stations: Vec<Station<'a>>,
     collected: Collected,
     sweep: Sweep,
+    heated: HeatedRow,
 }
 
 /// All loading positions of a pair, ready to be evaluated on ever newly worn flanks.
@@ -179,6 +186,7 @@ impl<'a> WorkingCycle<'a> {
                 stations: positions.iter().map(|p| Station::new(flanks, surface, p)).collect(),
                 collected: Collected::new(flanks.grid.map(|grid| grid.len())),
                 sweep: Sweep::default(),
+                heated: HeatedRow::default(),
             })
             .collect();
         Self { groups, line_load_n_per_mm, bodies_mm: 0.0 }
@@ -249,6 +257,32 @@ fn note_what_points_felt(
     }
 }
 
+/// The contact of `pair` as a source of heat, where the law reads what that does.
+fn heated_contact<'a>(wear: &WearModel<'a>, pair: &MeshedPair<'_>, ratios: SpeedRatios) -> Option<HeatedContact<'a>> {
+    wear.heat_of_law().map(|heat| HeatedContact {
+        heat,
+        ratios,
+        line_load_n_per_mm: pair.response.line_load_n_per_mm,
+        half_width_mm: pair.contact.footprint().half_width_mm,
+    })
+}
+
+/// The surroundings of the points of a sweep, where the law reads them.
+fn surroundings<'a>(
+    row: &'a mut HeatedRow,
+    heated: Option<&HeatedContact<'_>>,
+    contact: &dyn PairContact,
+    gear: Gear,
+    sweep: &Sweep,
+) -> Option<&'a [Surroundings]> {
+    let heated = heated?;
+    Some(if contact.sweeps_across() {
+        row.across(heated, gear, &sweep.pressure_mpa)
+    } else {
+        row.even(heated, gear, sweep.pressure_mpa.len())
+    })
+}
+
 impl Group<'_> {
     fn evaluate(
         &mut self,
@@ -264,12 +298,15 @@ impl Group<'_> {
             if !self.collected.take(solved) {
                 return;
             }
+            let pair = &station.pairs[0];
+            let heated = heated_contact(wear, pair, station.ratios);
             for gear in Gear::BOTH {
                 let sweep = &mut self.sweep;
-                station.pairs[0].contact.sweep(gear, removed_mm, sweep);
+                pair.contact.sweep(gear, removed_mm, sweep);
                 let points = sweep.first_point..sweep.first_point + sweep.sliding_mm.len();
+                let surroundings = surroundings(&mut self.heated, heated.as_ref(), &*pair.contact, gear, sweep);
                 let rubbing =
-                    Rubbing { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, surroundings: None };
+                    Rubbing { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, surroundings };
                 wear.law.add_depth(&rubbing, &mut self.collected.depth_mm[gear][points]);
             }
         }
@@ -288,8 +325,9 @@ impl<'a> Station<'a> {
                 MeshedPair::on_lever(contact, pair.teeth_n_per_mm2, pair.lever_ratio)
             })
             .collect();
-        let on_line_of_action = position.on_line_of_action;
-        Self { cell: position.cell, on_line_of_action, pairs, equilibrium: Equilibrium::default() }
+        let (cell, on_line_of_action) = (position.cell, position.on_line_of_action);
+        let ratios = SpeedRatios::over(flanks.geometry, cell.lower_mm, cell.upper_mm);
+        Self { cell, on_line_of_action, ratios, pairs, equilibrium: Equilibrium::default() }
     }
 
     /// Equilibrium on the flanks as they are now.

@@ -20,10 +20,13 @@ use super::slice_coupling::SliceCoupling;
 use super::sliced_mesh::{ObservedContact, ObservedPhase, SlicedMesh};
 use super::sliced_sharing::balance_on_teeth;
 use super::sliced_teeth::SlicedTeeth;
-use super::{CycleObservation, GROUPS, LostMaterial, MeshCycle, Work, note_what_points_felt};
+use super::{
+    CycleObservation, GROUPS, LostMaterial, MeshCycle, Work, heated_contact, note_what_points_felt, surroundings,
+};
 use crate::contact::{ContactSurface, Flanks, Sweep};
 use crate::gear::{Gear, PerGear, path_of_contact::PathOfContact};
-use crate::wear::{Rubbing, WearModel};
+use crate::thermal::SpeedRatios;
+use crate::wear::{Rubbing, WearModel, heated_row::HeatedRow};
 
 /// The spring of the teeth along the path of contact, evaluated once for all slices.
 pub struct SpringAlongPath {
@@ -74,6 +77,8 @@ struct Station<'a> {
     position_mm: f64,
     contacts: Vec<SliceContact>,
     pairs: Vec<MeshedPair<'a>>,
+    /// Of each contact.
+    ratios: Vec<SpeedRatios>,
     /// The teeth that the contacts belong to, where slices are coupled.
     teeth: Vec<BentTooth>,
     equilibrium: Equilibrium,
@@ -84,6 +89,7 @@ struct Group<'a> {
     stations: Vec<Station<'a>>,
     collected: Collected,
     sweep: Sweep,
+    heated: HeatedRow,
 }
 
 /// All phases of a sliced pair, ready to be evaluated on ever newly worn flanks.
@@ -126,6 +132,7 @@ impl<'a> SlicedCycle<'a> {
                 stations: phases.iter().map(|phase| Station::new(flanks, surface, sliced, phase, springs)).collect(),
                 collected: Collected::new(points.map(|points| slices * points)),
                 sweep: Sweep::default(),
+                heated: HeatedRow::default(),
             })
             .collect();
         Self { groups, sliced, path, points, positions, line_load_n_per_mm, bodies_mm: 0.0 }
@@ -209,18 +216,18 @@ impl Group<'_> {
             if !self.collected.take(solved) {
                 return;
             }
-            for (contact, pair) in station.contacts.iter().zip(&station.pairs) {
+            let contacts = station.contacts.iter().zip(&station.ratios);
+            for ((contact, &ratios), pair) in contacts.zip(&station.pairs) {
                 let own = of_slice(removed_mm, points, contact.slice);
+                let heated = heated_contact(wear, pair, ratios);
                 for gear in Gear::BOTH {
                     let sweep = &mut self.sweep;
                     pair.contact.sweep(gear, own, sweep);
                     let first = contact.slice * points[gear] + sweep.first_point;
                     let depth = &mut self.collected.depth_mm[gear][first..first + sweep.sliding_mm.len()];
-                    let rubbing = Rubbing {
-                        pressure_mpa: &sweep.pressure_mpa,
-                        sliding_mm: &sweep.sliding_mm,
-                        surroundings: None,
-                    };
+                    let surroundings = surroundings(&mut self.heated, heated.as_ref(), &*pair.contact, gear, sweep);
+                    let rubbing =
+                        Rubbing { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, surroundings };
                     wear.law.add_depth(&rubbing, depth);
                 }
             }
@@ -255,6 +262,11 @@ impl<'a> Station<'a> {
             position_mm: phase.position_mm,
             contacts: phase.contacts.clone(),
             pairs,
+            ratios: phase
+                .contacts
+                .iter()
+                .map(|contact| SpeedRatios::over(flanks.geometry, contact.cell.lower_mm, contact.cell.upper_mm))
+                .collect(),
             teeth,
             equilibrium: Equilibrium::default(),
         }
