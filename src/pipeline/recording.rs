@@ -1,7 +1,7 @@
 //! From what a run found, in the program's units, to the record, in those of the output files.
 
 use super::temperature::{self, ObservedHeat};
-use super::{Model, RunError, drawing, error_estimates, slices};
+use super::{Model, RunError, drawing, error_estimates, phases, slices};
 use crate::contact::Flanks;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::plan::Plan;
@@ -81,6 +81,7 @@ pub(super) fn summary(
         geometry: geometry(pair),
         helical: slices::summary(model, outcome),
         contact: contact(model),
+        phases: phases::summaries(model, outcome),
         stiffness: stiffness(model)?,
         wear: law,
         temperature: found.heat.and_then(|heat| temperature::summary(model, heat)),
@@ -145,7 +146,7 @@ fn contact(model: &Model<'_>) -> ContactSummary {
     ContactSummary {
         surface: model.scene.contact.surface.name().to_owned(),
         line_load_N_per_mm: model.first().line_load_n_per_mm,
-        foundation_MPa_per_mm: model.foundation_mpa_per_mm,
+        foundation_MPa_per_mm: model.foundations_mpa_per_mm[0],
         hertz_half_width_mm: at_pitch.half_width_mm,
         hertz_peak_pressure_MPa: at_pitch.peak_pressure_mpa,
     }
@@ -230,6 +231,7 @@ fn history_row(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> His
         pinion_peak_wear_radius_mm: pinion.peak_radius_mm,
         pinion_sap_wear_um: pinion.active_start_mm * UM_PER_MM,
         pinion_sap_wear_rate_um_per_Mrev: rate * UM_PER_MM * 1e6,
+        phase: phases::number_at(model, snapshot),
     }
 }
 

@@ -50,7 +50,7 @@ pub struct Advanced {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct StepperState {
     euler_steps: u64,
-    integrator: Option<Adaptive>,
+    adaptive: Option<Adaptive>,
 }
 
 /// Takes wear steps.
@@ -103,16 +103,20 @@ impl Stepper {
 
     /// What it knows after the last step.
     pub fn state(&self) -> StepperState {
-        StepperState {
-            euler_steps: self.euler_steps,
-            integrator: self.adaptive.as_ref().map(|steps| steps.integrator.clone()),
-        }
+        let adaptive = self.adaptive.as_ref().map(|steps| steps.integrator.clone());
+        StepperState { euler_steps: self.euler_steps, adaptive }
     }
 
-    /// Goes on from there.
-    pub fn resume(&mut self, state: StepperState) {
+    /// Goes on from there with a pair that has lost `wear_mm`; refuses a state of other rows.
+    pub fn resume(&mut self, state: StepperState, wear_mm: &PerGear<Vec<f64>>) -> bool {
         self.euler_steps = state.euler_steps;
-        self.adaptive = state.integrator.map(|integrator| Box::new(AdaptiveSteps::of(integrator)));
+        let places = wear_mm.as_ref().map(Vec::len).sum();
+        let fits = state.adaptive.as_ref().is_none_or(|integrator| integrator.accumulated_error().len() == places);
+        self.adaptive = state.adaptive.filter(|_| fits).map(|integrator| {
+            let (wear_mm, depth_mm) = (wear_mm.clone(), wear_mm.clone());
+            Box::new(AdaptiveSteps { integrator, state: Vec::new(), slope: Vec::new(), wear_mm, depth_mm })
+        });
+        fits
     }
 
     /// Takes `pair`, which is evaluated where `stretch` begins, one step on, and evaluates it there.
@@ -163,12 +167,8 @@ impl AdaptiveSteps {
             AdaptiveMethod::RungeKuttaChebyshev => Adaptive::chebyshev(tolerance_mm, duration, &blocks),
             AdaptiveMethod::LinearlyImplicit => Adaptive::linearly_implicit(tolerance_mm, duration, &blocks),
         };
-        Self::of(integrator)
-    }
-
-    fn of(integrator: Adaptive) -> Self {
-        let rows = || PerGear::from_fn(|_| Vec::new());
-        Self { integrator, state: Vec::new(), slope: Vec::new(), wear_mm: rows(), depth_mm: rows() }
+        let depth_mm = wear_mm.clone();
+        Self { integrator, state: Vec::new(), slope: Vec::new(), wear_mm, depth_mm }
     }
 
     fn advance(&mut self, rate: PairRate<'_>, stretch: Stretch) -> Advanced {
@@ -177,14 +177,14 @@ impl AdaptiveSteps {
         self.state.extend(Gear::BOTH.iter().flat_map(|&gear| &self.wear_mm[gear]));
         self.slope.resize(self.state.len(), 0.0);
         rate.read_slope(&mut self.depth_mm, &mut self.slope);
-        let mut pair = OnRows { rate, wear_mm: &mut self.wear_mm, depth_mm: &mut self.depth_mm };
+        let clean_start = stretch.clean_start;
+        let mut pair = OnRows { rate, wear_mm: &mut self.wear_mm, depth_mm: &mut self.depth_mm, clean_start };
         let room = stretch.limit - stretch.from;
         match self.integrator.step(&mut pair, &mut self.state, &mut self.slope, room) {
             Ok(length) => {
                 let arrives = length >= room;
                 let revolutions = if arrives { stretch.limit } else { stretch.from + length };
-                let evaluated = if stretch.clean_start { pair.rate.evaluate_from_clean_start() } else { Ok(()) };
-                Advanced { revolutions, evaluated: evaluated.map(|()| pair.rate.work) }
+                Advanced { revolutions, evaluated: Ok(pair.rate.work) }
             }
             Err(failure) => Advanced { revolutions: stretch.from, evaluated: Err(failure) },
         }
@@ -201,13 +201,6 @@ struct PairRate<'a> {
 }
 
 impl PairRate<'_> {
-    /// Evaluates the pair once more as it is, as if for the first time.
-    fn evaluate_from_clean_start(&mut self) -> Result<(), EquilibriumError> {
-        self.pair.forget();
-        self.work += self.pair.evaluate(self.wear, self.stopped)?;
-        Ok(())
-    }
-
     /// What the pair lost in its last evaluation, per pinion revolution.
     fn read_slope(&self, depth_mm: &mut PerGear<Vec<f64>>, slope: &mut [f64]) {
         self.pair.depth_mm(depth_mm);
@@ -222,6 +215,8 @@ struct OnRows<'a, 'b> {
     rate: PairRate<'a>,
     wear_mm: &'b mut PerGear<Vec<f64>>,
     depth_mm: &'b mut PerGear<Vec<f64>>,
+    /// Whether the end of a step is evaluated from a clean start.
+    clean_start: bool,
 }
 
 impl Rate for OnRows<'_, '_> {
@@ -235,6 +230,13 @@ impl Rate for OnRows<'_, '_> {
         self.rate.work += self.rate.pair.evaluate(self.rate.wear, self.rate.stopped)?;
         self.rate.read_slope(self.depth_mm, slope);
         Ok(())
+    }
+
+    fn evaluate_end(&mut self, state: &[f64], slope: &mut [f64]) -> Result<(), EquilibriumError> {
+        if self.clean_start {
+            self.rate.pair.forget();
+        }
+        self.evaluate(state, slope)
     }
 
     fn may_succeed_nearer(&self, failure: &EquilibriumError) -> bool {

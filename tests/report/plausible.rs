@@ -135,6 +135,7 @@ fn history_row(hours: f64) -> HistoryRow {
         pinion_peak_wear_radius_mm: path_points(Gear::Pinion).A,
         pinion_sap_wear_um: peak,
         pinion_sap_wear_rate_um_per_Mrev: peak / (hours * REVOLUTIONS_PER_HOUR) * 1e6,
+        phase: 1,
     }
 }
 
@@ -235,6 +236,7 @@ fn summary() -> Summary {
             hertz_half_width_mm: 0.2452,
             hertz_peak_pressure_MPa: 1655.8,
         },
+        phases: Vec::new(),
         stiffness: Some(StiffnessSummary {
             model: "constant".into(),
             reference_line_load_N_per_mm: 637.66,

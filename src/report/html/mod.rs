@@ -13,6 +13,7 @@ mod history_plot;
 mod law_table;
 pub(super) mod number;
 pub(super) mod page;
+mod phase_table;
 pub(super) mod reading;
 mod sliced;
 pub(super) mod table;

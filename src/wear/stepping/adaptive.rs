@@ -233,7 +233,7 @@ impl Adaptive {
         };
         self.end.iter_mut().zip(state).for_each(|(end, start)| *end = end.max(*start));
         self.end_slope.resize(state.len(), 0.0);
-        rate.evaluate(&self.end, &mut self.end_slope)?;
+        rate.evaluate_end(&self.end, &mut self.end_slope)?;
         self.error.clear();
         let rates = slope.iter().zip(&self.end_slope);
         let ends = state.iter().zip(&self.end);
