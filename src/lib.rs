@@ -15,14 +15,17 @@
 
 pub mod accuracy;
 pub mod calibration;
+pub mod compare;
 pub mod contact;
 pub mod fem;
 pub mod gear;
+pub mod measurement;
 pub mod mesh;
 pub mod pipeline;
 pub mod plan;
 pub mod reference;
 pub mod report;
+pub mod resume;
 pub mod scene;
 pub mod simulation;
 pub mod stiffness;

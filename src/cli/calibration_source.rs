@@ -5,6 +5,7 @@ use std::path::Path;
 
 use gearwear::calibration::{Calibration, identity::Identity};
 use gearwear::gear::GearPair;
+use gearwear::resume::identity::InputFile;
 use gearwear::scene::Problem;
 
 use super::failure::{Failure, SceneProblems};
@@ -15,9 +16,9 @@ const ALLOWED: &str = "a file that gearwear calibrate wrote for this pair";
 /// Part of a load that counts as within a range.
 const ROUNDING: f64 = 1e-9;
 
-/// The calibration of `source`, where it names one; a file that is not absolute lies in `folder`. What the user should
+/// The calibration of `source` and its file, where it names one; a file that is not absolute lies in `folder`. What the user should
 /// know of it joins the scene's warnings.
-pub fn read(folder: &Path, source: &mut Source) -> Result<Option<Calibration>, Failure> {
+pub fn read(folder: &Path, source: &mut Source) -> Result<Option<(Calibration, InputFile)>, Failure> {
     let Some(name) = source.resolved.scene.calibration_file.clone() else { return Ok(None) };
     let refused = |what: String, help: &str| {
         Failure::Scene(SceneProblems {
@@ -46,7 +47,7 @@ pub fn read(folder: &Path, source: &mut Source) -> Result<Option<Calibration>, F
     }
     let warnings = warnings(&name, &calibration, source, &pair);
     source.resolved.warnings.extend(warnings);
-    Ok(Some(calibration))
+    Ok(Some((calibration, InputFile { key: KEY, name, bytes: text.into_bytes() })))
 }
 
 fn warnings(name: &str, calibration: &Calibration, source: &Source, pair: &GearPair) -> Vec<String> {
@@ -57,9 +58,11 @@ fn warnings(name: &str, calibration: &Calibration, source: &Source, pair: &GearP
         warnings.push(format!("{KEY}: {name} was made by gearwear {made}, this is {version}"));
     }
     let scene = &source.resolved.scene;
-    let load = scene.operation.pinion_torque_n_mm / pair.path.involute.pinion.base_radius_mm / scene.pair.face_width_mm;
+    let per_torque = 1.0 / (pair.path.involute.pinion.base_radius_mm * scene.pair.face_width_mm);
     let (least, greatest) = calibration.fitted_loads_n_per_mm();
-    if load < least * (1.0 - ROUNDING) || load > greatest * (1.0 + ROUNDING) {
+    let loads = scene.operation.phases.iter().map(|phase| phase.pinion_torque_n_mm * per_torque);
+    let is_outside = |load: &f64| *load < least * (1.0 - ROUNDING) || *load > greatest * (1.0 + ROUNDING);
+    if let Some(load) = loads.into_iter().find(is_outside) {
         warnings.push(format!(
             "{KEY}: the line load of {load:.1} N/mm lies outside the loads that {name} was fitted on, {least:.1} to \
              {greatest:.1} N/mm"

@@ -1,8 +1,10 @@
 //! The commands, one file each, and what they share: reading scenes, saying what is wrong, exit statuses.
 
 mod accuracy;
+mod begun_run;
 mod calibrate;
 mod calibration_source;
+mod compare;
 mod completions;
 mod curve_source;
 mod failure;
@@ -57,6 +59,8 @@ enum Command {
     Sweep(sweep::Args),
     /// Calibrate the fast model: tooth stiffness and K/H from finite elements, against Hertz
     Calibrate(calibrate::Args),
+    /// Compare a measured flank profile with a finished run, and fit the wear coefficient to it
+    Compare(compare::Args),
     /// Print the JSON schema of the scene: every key with its meaning, unit, range and default
     Schema(schema::Args),
     /// Print completions for a shell
@@ -81,6 +85,7 @@ pub fn main() -> ExitCode {
         Command::Accuracy(args) => accuracy::run(args),
         Command::Sweep(args) => sweep::run(args),
         Command::Calibrate(args) => calibrate::run(args),
+        Command::Compare(args) => compare::run(args),
         Command::Schema(args) => schema::run(args),
         Command::Completions(args) => completions::run(args),
     };

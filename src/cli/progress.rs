@@ -7,6 +7,7 @@ use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 use gearwear::accuracy::study;
+use gearwear::compare;
 use gearwear::pipeline::{Observer, calibrate, fem_scene};
 use gearwear::plan::StageKind;
 use gearwear::plan::calibration::CalibrationStage;
@@ -100,6 +101,12 @@ impl study::Observer for Progress {
             Display::Log(_) => self.begin(&format!("{} of {count}: {name}", number + 1)),
             Display::Bar(bar) => bar.set_message(format!("{} of {count}", number + 1)),
         }
+    }
+}
+
+impl compare::study::Observer for Progress {
+    fn run(&self, number: u64) {
+        self.begin(&format!("run {number}"));
     }
 }
 

@@ -1,6 +1,7 @@
 //! From what a run found, in the program's units, to the record, in those of the output files.
 
-use super::{Model, RunError, drawing, error_estimates, slices, stability::Judged};
+use super::temperature::{self, ObservedHeat};
+use super::{Model, RunError, drawing, error_estimates, phases, slices, stability::Judged};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::plan::Plan;
 use crate::scene::Resolved;
@@ -10,6 +11,7 @@ use crate::simulation::record::{
     PathPoints, RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearSummary, WorkSummary,
 };
 use crate::simulation::wear_run::{Outcome, Snapshot};
+use crate::thermal::settings::TemperatureMethod;
 use crate::working_cycle::CycleObservation;
 
 pub(super) const UM_PER_MM: f64 = 1e3;
@@ -18,14 +20,22 @@ const INDEX_POINTS: f64 = 750.0;
 /// Wear beyond this part of the module is no longer small against the tooth.
 const SMALL_WEAR_MODULES: f64 = 0.05;
 
+/// What a run found, and what was seen of its temperatures.
+#[derive(Clone, Copy)]
+pub(super) struct Found<'a> {
+    pub outcome: &'a Outcome,
+    pub heat: Option<&'a ObservedHeat>,
+}
+
 /// The record of a run.
-pub(super) fn record(resolved: &Resolved, model: &Model<'_>, outcome: &Outcome, summary: Summary) -> RunRecord {
+pub(super) fn record(resolved: &Resolved, model: &Model<'_>, found: Found<'_>, summary: Summary) -> RunRecord {
+    let outcome = found.outcome;
     RunRecord {
         summary,
         scene_toml: resolved.to_toml(),
         flanks: PerGear::from_fn(|gear| flank(model, outcome, gear)),
         history: outcome.snapshots.iter().map(|snapshot| history_row(model, outcome, snapshot)).collect(),
-        mesh_cycle: mesh_cycle(outcome),
+        mesh_cycle: mesh_cycle(model, found),
         slices: slices::record(model, outcome),
         drawing: drawing::draw(model.pair),
     }
@@ -36,12 +46,15 @@ pub(super) fn summary(
     resolved: &Resolved,
     plan: &Plan,
     model: &Model<'_>,
-    outcome: &Outcome,
+    found: Found<'_>,
     error: ErrorSummary,
     judged: Judged,
 ) -> Result<Summary, RunError> {
     let (scene, pair) = (model.scene, model.pair);
+    let outcome = found.outcome;
+    let law = temperature::law(model, outcome, found.heat);
     let mut warnings = resolved.warnings.clone();
+    warnings.extend(temperature::warnings(&law));
     warnings.extend(judged.warnings);
     warnings.extend(deep_wear_warning(pair, outcome));
     warnings.extend(slices::warning(outcome));
@@ -64,7 +77,10 @@ pub(super) fn summary(
         geometry: geometry(pair),
         helical: slices::summary(model, outcome),
         contact: contact(model),
+        phases: phases::summaries(model, outcome),
         stiffness: stiffness(model)?,
+        wear: law,
+        temperature: found.heat.and_then(|heat| temperature::summary(model, heat)),
         new: cycle(pair, &outcome.new.cycle),
         worn: cycle(pair, &outcome.worn.cycle),
         pinion: wear(model, outcome, Gear::Pinion),
@@ -127,7 +143,7 @@ fn contact(model: &Model<'_>) -> ContactSummary {
     ContactSummary {
         surface: model.scene.contact.surface.name().to_owned(),
         line_load_N_per_mm: model.first().line_load_n_per_mm,
-        foundation_MPa_per_mm: model.foundation_mpa_per_mm,
+        foundation_MPa_per_mm: model.foundations_mpa_per_mm[0],
         hertz_half_width_mm: at_pitch.half_width_mm,
         hertz_peak_pressure_MPa: at_pitch.peak_pressure_mpa,
     }
@@ -212,13 +228,17 @@ fn history_row(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> His
         pinion_peak_wear_radius_mm: pinion.peak_radius_mm,
         pinion_sap_wear_um: pinion.active_start_mm * UM_PER_MM,
         pinion_sap_wear_rate_um_per_Mrev: rate * UM_PER_MM * 1e6,
+        phase: phases::number_at(model, snapshot),
     }
 }
 
-fn mesh_cycle(outcome: &Outcome) -> Vec<MeshCycleRow> {
+fn mesh_cycle(model: &Model<'_>, Found { outcome, heat }: Found<'_>) -> Vec<MeshCycleRow> {
     let positions = outcome.new.cycle.positions.iter().zip(&outcome.worn.cycle.positions);
+    let rise = |k: usize, method: TemperatureMethod| heat.map(|heat| heat.new.positions[k].rise_k[method.index()]);
+    let peclet = |k: usize, gear: Gear| heat.map(|heat| heat.new.positions[k].peclet[gear]);
     positions
-        .map(|(new, worn)| MeshCycleRow {
+        .enumerate()
+        .map(|(k, (new, worn))| MeshCycleRow {
             position_mm: new.position_mm,
             load_share_new: new.load_share,
             load_share_worn: worn.load_share,
@@ -227,8 +247,13 @@ fn mesh_cycle(outcome: &Outcome) -> Vec<MeshCycleRow> {
             half_width_mm: new.footprint.half_width_mm,
             transmission_error_new_um: new.transmission_error_mm * UM_PER_MM,
             transmission_error_worn_um: worn.transmission_error_mm * UM_PER_MM,
-            temperature_rise_K: None,
+            temperature_rise_K: model.scene.heat.and_then(|settings| rise(k, settings.method)),
             half_width_worn_mm: worn.footprint.half_width_mm,
+            temperature_rise_heat_equation_K: rise(k, TemperatureMethod::HeatEquation),
+            temperature_rise_williams_K: rise(k, TemperatureMethod::Williams),
+            temperature_rise_tian_kennedy_K: rise(k, TemperatureMethod::TianKennedy),
+            peclet_pinion: peclet(k, Gear::Pinion),
+            peclet_wheel: peclet(k, Gear::Wheel),
         })
         .collect()
 }

@@ -13,6 +13,7 @@
 
 pub mod accuracy;
 pub mod calibration;
+pub mod compare;
 pub mod fem;
 pub mod fem_pair;
 pub mod flank_mesh;
@@ -122,7 +123,8 @@ pub fn writable(dir: &Path) -> Result<(), ReportError> {
     probed
 }
 
-fn create_folder(dir: &Path) -> Result<(), ReportError> {
+/// Makes `dir` if need be.
+pub fn create_folder(dir: &Path) -> Result<(), ReportError> {
     if dir.exists() && !dir.is_dir() {
         return Err(ReportError::NotAFolder { path: dir.into() });
     }

@@ -9,6 +9,7 @@ use serde::Serialize;
 
 use crate::gear::Gear;
 use crate::simulation::accuracy_record::AccuracyRecord;
+use crate::simulation::compare_record::CompareRecord;
 use crate::simulation::fem_pair_record::FemPairSummary;
 use crate::simulation::fem_problem_record::FemSummary;
 use crate::simulation::record::{FlankRecord, HistoryRow, MeshCycleRow, RunRecord, Summary};
@@ -31,8 +32,10 @@ pub const FLANK: [Column; 10] = [
     ("slice", "number of the slice over the face width, 0 at width 0"),
 ];
 
+const PHASE: &str = "number of the phase of the operation, from 1; at the end of one, that one";
+
 /// Columns of `history.csv`; one row per snapshot reached.
-pub const HISTORY: [Column; 11] = [
+pub const HISTORY: [Column; 12] = [
     ("hours", "running time; empty where the scene gives no speed"),
     ("revolutions", "of the pinion"),
     ("pinion_peak_wear_um", "greatest wear depth of the pinion's flank"),
@@ -44,10 +47,11 @@ pub const HISTORY: [Column; 11] = [
     ("pinion_peak_wear_radius_mm", "radius of the greatest wear depth"),
     ("pinion_sap_wear_um", "wear depth at the start of active profile"),
     ("pinion_sap_wear_rate_um_per_Mrev", "growth there per million pinion revolutions"),
+    ("phase", PHASE),
 ];
 
 /// Columns of `profiles.csv`; both flanks at every snapshot.
-pub const PROFILES: [Column; 7] = [
+pub const PROFILES: [Column; 8] = [
     ("hours", "running time; empty where the scene gives no speed"),
     ("gear", "pinion or wheel"),
     ("radius_mm", "distance from the gear's axis, new"),
@@ -55,10 +59,11 @@ pub const PROFILES: [Column; 7] = [
     ("wear_um", "wear depth, normal to the flank"),
     ("revolutions", "of the pinion"),
     ("slice", "number of the slice over the face width, 0 at width 0"),
+    ("phase", PHASE),
 ];
 
 /// Columns of `mesh_cycle.csv`; one row per loading position of the reference pair, from A to E.
-pub const MESH_CYCLE: [Column; 10] = [
+pub const MESH_CYCLE: [Column; 15] = [
     ("position_mm", "radius of curvature of the pinion's flank at the theoretical contact point"),
     ("load_share_new", "share of the whole load that the pair carries, new"),
     ("load_share_worn", "the same, worn"),
@@ -67,8 +72,16 @@ pub const MESH_CYCLE: [Column; 10] = [
     ("half_width_mm", "half the extent of the contact strip, new"),
     ("transmission_error_new_um", "approach along the line of action, positive under load, new"),
     ("transmission_error_worn_um", "the same, worn"),
-    ("temperature_rise_K", "of the contact; empty where not computed"),
+    (
+        "temperature_rise_K",
+        "greatest rise of the contact above the bulk by the chosen method, new; empty where not computed",
+    ),
     ("half_width_worn_mm", "half the extent of the contact strip, worn"),
+    ("temperature_rise_heat_equation_K", "the rise by the transient heat equation, new; empty where not computed"),
+    ("temperature_rise_williams_K", "the same by Williams"),
+    ("temperature_rise_tian_kennedy_K", "the same by Tian and Kennedy"),
+    ("peclet_pinion", "Peclet number of the pinion's surface, new; empty where not computed"),
+    ("peclet_wheel", "the same of the wheel's"),
 ];
 
 /// Where the figures of a table come from.
@@ -93,6 +106,11 @@ impl<'a> Provenance<'a> {
 
     /// That of a comparison of models.
     pub fn of_accuracy(record: &'a AccuracyRecord) -> Self {
+        Self { program_version: &record.program_version, input: "scene", hash: &record.scene_hash }
+    }
+
+    /// That of a comparison with a measured profile: the hash is that of the run's scene.
+    pub fn of_compare(record: &'a CompareRecord) -> Self {
         Self { program_version: &record.program_version, input: "scene", hash: &record.scene_hash }
     }
 
@@ -132,6 +150,7 @@ struct ProfileRow {
     wear_um: f64,
     revolutions: f64,
     slice: usize,
+    phase: usize,
 }
 
 /// Writes `pinion.csv` or `wheel.csv`.
@@ -177,6 +196,7 @@ pub fn profiles(out: &mut dyn Write, provenance: Provenance, record: &RunRecord)
                     wear_um,
                     revolutions: at.revolutions,
                     slice,
+                    phase: at.phase,
                 })
             })
         })

@@ -10,6 +10,8 @@
 //! Steps are shortened to end where a stretch does. Adaptive steps ([`crate::wear::stepping`]) see the rows of both gears as one
 //! state, in depth per pinion revolution.
 
+use serde::{Deserialize, Serialize};
+
 use super::settings::{AdaptiveMethod, Stepping};
 use super::wearing_pair::WearingPair;
 use crate::gear::{Gear, PerGear};
@@ -31,6 +33,9 @@ pub struct Stretch {
     pub from: f64,
     /// Greater than `from`.
     pub limit: f64,
+    /// Whether the pair must forget where it was ([`WearingPair::forget`]) before its evaluation at the end of the step: a run may go
+    /// on from there another time.
+    pub clean_start: bool,
 }
 
 /// What came of a step.
@@ -40,6 +45,13 @@ pub struct Advanced {
     pub revolutions: f64,
     /// Its evaluation there, with the work of the whole step.
     pub evaluated: Result<Work, EquilibriumError>,
+}
+
+/// What a [`Stepper`] knows beside what it is made of.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct StepperState {
+    euler_steps: u64,
+    adaptive: Option<Adaptive>,
 }
 
 /// Takes wear steps.
@@ -94,6 +106,25 @@ impl Stepper {
         Some(PerGear { pinion: deepest(wear.0, error.0), wheel: deepest(wear.1, error.1) })
     }
 
+    /// What it knows after the last step.
+    pub fn state(&self) -> StepperState {
+        let adaptive = self.adaptive.as_ref().map(|steps| steps.integrator.clone());
+        StepperState { euler_steps: self.euler_steps, adaptive }
+    }
+
+    /// Goes on from there with a pair that has lost `wear_mm`; refuses a state of other rows.
+    pub fn resume(&mut self, state: StepperState, wear_mm: &PerGear<Vec<f64>>) -> bool {
+        self.euler_steps = state.euler_steps;
+        let places = wear_mm.as_ref().map(Vec::len).sum();
+        let fits = state.adaptive.as_ref().is_none_or(|integrator| integrator.accumulated_error().len() == places);
+        self.adaptive = state.adaptive.filter(|_| fits).map(|integrator| {
+            let state = Gear::BOTH.iter().flat_map(|&gear| &wear_mm[gear]).copied().collect();
+            let (wear_mm, depth_mm) = (wear_mm.clone(), wear_mm.clone());
+            Box::new(AdaptiveSteps { integrator, state, slope: Vec::new(), wear_mm, depth_mm })
+        });
+        fits
+    }
+
     /// Takes `pair`, which is evaluated where `stretch` begins, one step on, and evaluates it there.
     pub fn advance(
         &mut self,
@@ -127,6 +158,9 @@ impl Stepper {
         pair.wear_for(PerGear { pinion: step, wheel: step * self.wheel_meshes });
         self.euler_steps += 1;
         let revolutions = if arrives { stretch.limit } else { stretch.from + step };
+        if stretch.clean_start {
+            pair.forget();
+        }
         Advanced { revolutions, evaluated: pair.evaluate(wear, stopped) }
     }
 }
@@ -149,7 +183,8 @@ impl AdaptiveSteps {
         self.state.extend(Gear::BOTH.iter().flat_map(|&gear| &self.wear_mm[gear]));
         self.slope.resize(self.state.len(), 0.0);
         rate.read_slope(&mut self.depth_mm, &mut self.slope);
-        let mut pair = OnRows { rate, wear_mm: &mut self.wear_mm, depth_mm: &mut self.depth_mm };
+        let clean_start = stretch.clean_start;
+        let mut pair = OnRows { rate, wear_mm: &mut self.wear_mm, depth_mm: &mut self.depth_mm, clean_start };
         let room = stretch.limit - stretch.from;
         match self.integrator.step(&mut pair, &mut self.state, &mut self.slope, room) {
             Ok(length) => {
@@ -178,7 +213,7 @@ pub(super) fn fastest_decay(
     let mut slope = vec![0.0; state.len()];
     let rate = PairRate { pair, wear, stopped: &|| false, wheel_meshes, work: Work::default() };
     rate.read_slope(&mut depth_mm, &mut slope);
-    let mut rows = OnRows { rate, wear_mm: &mut wear_mm, depth_mm: &mut depth_mm };
+    let mut rows = OnRows { rate, wear_mm: &mut wear_mm, depth_mm: &mut depth_mm, clean_start: false };
     let mut radius = SpectralRadius::default();
     let evaluations = radius.estimate(&mut rows, (&state, &slope), PROBE_MM)?;
     Ok((radius.found(), evaluations))
@@ -208,6 +243,8 @@ struct OnRows<'a, 'b> {
     rate: PairRate<'a>,
     wear_mm: &'b mut PerGear<Vec<f64>>,
     depth_mm: &'b mut PerGear<Vec<f64>>,
+    /// Whether the end of a step is evaluated from a clean start.
+    clean_start: bool,
 }
 
 impl Rate for OnRows<'_, '_> {
@@ -221,6 +258,13 @@ impl Rate for OnRows<'_, '_> {
         self.rate.work += self.rate.pair.evaluate(self.rate.wear, self.rate.stopped)?;
         self.rate.read_slope(self.depth_mm, slope);
         Ok(())
+    }
+
+    fn evaluate_end(&mut self, state: &[f64], slope: &mut [f64]) -> Result<(), EquilibriumError> {
+        if self.clean_start {
+            self.rate.pair.forget();
+        }
+        self.evaluate(state, slope)
     }
 
     fn may_succeed_nearer(&self, failure: &EquilibriumError) -> bool {

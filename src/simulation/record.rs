@@ -2,8 +2,9 @@
 //!
 //! Field names are the contract's column and key names, so that serialising a record is writing the file.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
+use super::chemistry_record::{TemperatureSummary, WearLawSummary};
 use crate::gear::{PerGear, flank_surface::FlankSurface};
 
 /// A finished (or interrupted) run.
@@ -50,13 +51,19 @@ pub struct Summary {
     pub geometry: GeometrySummary,
     /// Of the slices over the face width; `None` where all sections are alike.
     pub helical: Option<HelicalSummary>,
-    /// Of the contact at the pitch point with the whole load.
+    /// Of the contact at the pitch point with the whole load of the first phase.
     pub contact: ContactSummary,
+    /// The phases that the run came to, in order; one where the operation has none of its own.
+    pub phases: Vec<PhaseSummary>,
     /// Of the tooth pair as a spring; `None` with finite elements, whose teeth are no springs.
     pub stiffness: Option<StiffnessSummary>,
-    /// The working cycle of the unworn pair.
+    /// Of the wear law.
+    pub wear: WearLawSummary,
+    /// Of the contact's temperatures; `None` where nobody asks for them.
+    pub temperature: Option<TemperatureSummary>,
+    /// The working cycle of the unworn pair, under the load of the first phase.
     pub new: CycleSummary,
-    /// The working cycle of the worn pair.
+    /// The working cycle of the worn pair, under the load of the last phase.
     pub worn: CycleSummary,
     /// Wear of one pinion flank.
     pub pinion: WearSummary,
@@ -70,8 +77,45 @@ pub struct Summary {
     pub warnings: Vec<String>,
 }
 
+/// A phase of the operation.
+#[allow(non_snake_case, reason = "the contract's key names")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PhaseSummary {
+    /// Its number, from 1.
+    pub number: usize,
+    /// How long it was run; `None` without a speed.
+    pub hours: Option<f64>,
+    /// The same in pinion revolutions.
+    pub revolutions: f64,
+    /// Torque on the pinion.
+    pub pinion_torque_Nm: f64,
+    /// Speed of the pinion, where given.
+    pub pinion_speed_rpm: Option<f64>,
+    /// Whole torque over base radius and face width.
+    pub line_load_N_per_mm: f64,
+    /// K/H, where the surface has one.
+    pub foundation_MPa_per_mm: Option<f64>,
+    /// Hertz's greatest pressure at the pitch point under the whole load.
+    pub hertz_peak_pressure_MPa: f64,
+    /// Its wear coefficient.
+    pub coefficient_m2_per_N: f64,
+    /// What the pinion wore off in it.
+    pub pinion: PhaseWear,
+    /// What the wheel wore off in it.
+    pub wheel: PhaseWear,
+}
+
+/// What a gear wore off in a phase.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PhaseWear {
+    /// Greatest depth that any place of the flank lost.
+    pub greatest_depth_um: f64,
+    /// Worn off the whole gear: all teeth, whole width.
+    pub worn_volume_mm3: f64,
+}
+
 /// Why a wear run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum StopReason {
     /// The whole duration was run.
@@ -411,6 +455,8 @@ pub struct HistoryRow {
     pub pinion_sap_wear_um: f64,
     /// Wear per million pinion revolutions at the start of active profile.
     pub pinion_sap_wear_rate_um_per_Mrev: f64,
+    /// Number of the phase, from 1; at the end of one, that one.
+    pub phase: usize,
 }
 
 /// A row of `mesh_cycle.csv`: the reference pair at one loading position.
@@ -428,10 +474,15 @@ pub struct MeshCycleRow {
     pub half_width_mm: f64,
     pub transmission_error_new_um: f64,
     pub transmission_error_worn_um: f64,
-    /// `None` where no temperature is computed.
+    /// Greatest rise by the chosen method, new; `None` where no temperature is computed, as with those that follow.
     pub temperature_rise_K: Option<f64>,
     /// Half the extent of the contact strip, worn.
     pub half_width_worn_mm: f64,
+    pub temperature_rise_heat_equation_K: Option<f64>,
+    pub temperature_rise_williams_K: Option<f64>,
+    pub temperature_rise_tian_kennedy_K: Option<f64>,
+    pub peclet_pinion: Option<f64>,
+    pub peclet_wheel: Option<f64>,
 }
 
 /// The mesh of one tooth slice by slice, from its first touch to its last.

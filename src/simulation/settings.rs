@@ -66,6 +66,20 @@ impl Operation {
         Some(hours)
     }
 
+    /// Revolutions of the pinion after so many hours, beyond the end at the last speed; `None` without a speed.
+    pub fn revolutions_after(&self, hours: f64) -> Option<f64> {
+        let (mut begin, mut left) = (0.0, hours);
+        for phase in &self.phases {
+            let per_hour = 60.0 * phase.pinion_speed_rpm?;
+            let takes = (phase.end_revolutions - begin) / per_hour;
+            if left <= takes {
+                return Some(begin + left * per_hour);
+            }
+            (begin, left) = (phase.end_revolutions, left - takes);
+        }
+        Some(begin + left * 60.0 * self.phases.last()?.pinion_speed_rpm?)
+    }
+
     /// The phase that `revolutions` lie in, the earlier one at an end.
     pub fn phase_at(&self, revolutions: f64) -> usize {
         self.phases.partition_point(|phase| phase.end_revolutions < revolutions).min(self.phases.len() - 1)

@@ -6,10 +6,14 @@
 //!
 //! Source: the thesis, equation 12 (single-point observation, section 3.3).
 
+use serde::{Deserialize, Serialize};
+
 use super::advance::{Stepper, Stretch};
+use super::checkpoint::{Checkpoint, Keeper, NothingKept};
 use super::mesh_contact::{LoadedMesh, MeshContact};
 use super::record::StopReason;
 use super::settings::Numerics;
+use super::wearing_pair::WearingPair;
 use crate::contact::Flanks;
 use crate::gear::{GearPair, PerGear, flank::FlankGrid, removed_material::modifications_mm, slices::Slices};
 use crate::stiffness::StiffnessError;
@@ -30,6 +34,9 @@ pub enum SimulationError {
         /// What happened.
         source: EquilibriumError,
     },
+    /// A checkpoint with other rows or phases than the run has.
+    #[error("the checkpoint is not of this run")]
+    OtherRun,
 }
 
 /// A stretch of the run under constant load and speed.
@@ -59,7 +66,7 @@ pub struct WearRun<'a> {
 }
 
 /// State kept at a snapshot.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     /// Pinion revolutions so far.
     pub revolutions: f64,
@@ -125,28 +132,71 @@ impl Progress for Unwatched {
     }
 }
 
+/// A run on its way.
+struct Course {
+    /// Number of its phase.
+    phase: usize,
+    revolutions: f64,
+    stepper: Stepper,
+    work: Work,
+    /// The unworn pair first, then each snapshot.
+    states: Vec<Snapshot>,
+    /// What the flanks have lost, where they are not new.
+    wear_mm: Option<PerGear<Vec<f64>>>,
+    /// How many of the snapshots asked for were due so far.
+    passed: usize,
+    /// Whether it goes on from a checkpoint: its state is evaluated once more, but its work and its snapshot are already there.
+    is_repeated: bool,
+}
+
+/// How a phase ended.
+enum PhaseEnd {
+    /// Where it should.
+    Reached,
+    /// The whole run ended there, or was interrupted.
+    Stopped,
+    /// In failure, after something was finished.
+    Failed(SimulationError),
+}
+
+/// Whoever looks on while a run runs.
+#[derive(Clone, Copy)]
+struct Attendants<'a> {
+    keeper: &'a dyn Keeper,
+    progress: &'a dyn Progress,
+}
+
 impl WearRun<'_> {
     /// Runs the whole duration, or until interrupted.
     ///
     /// # Errors
     /// [`SimulationError`].
     pub fn run(&self, progress: &dyn Progress) -> Result<Outcome, SimulationError> {
+        self.run_from(None, &NothingKept, progress)
+    }
+
+    /// The same from a checkpoint of this same run on, to the same bits; `keeper` gets new ones.
+    ///
+    /// # Errors
+    /// [`SimulationError`].
+    pub fn run_from(
+        &self,
+        checkpoint: Option<Checkpoint>,
+        keeper: &dyn Keeper,
+        progress: &dyn Progress,
+    ) -> Result<Outcome, SimulationError> {
         let slices = self.phases.first().map_or_else(|| Slices::new(self.pair, 1), |one| one.contact.slices(self.pair));
         let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));
         let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear], &slices));
         let flanks = Flanks { geometry: self.pair, grid: grid.as_ref() };
-        let stopped: &(dyn Fn() -> bool + Sync) = &|| progress.gives_up();
-
-        let end = self.phases.last().map_or(0.0, |phase| phase.end_revolutions);
-        let mut stepper = Stepper::new(self.numerics.stepping, end, self.pair.wheel_turns_per_pinion_turn());
-        let mut due = self.snapshots_revolutions.iter().copied().chain([end]).peekable();
-        let (mut revolutions, mut work) = (0.0, Work::default());
-        // The unworn pair first, then each snapshot.
-        let mut states: Vec<Snapshot> = Vec::new();
-        let mut worn_so_far: Option<PerGear<Vec<f64>>> = None;
-
+        let mut course = match checkpoint {
+            None => self.beginning(),
+            Some(checkpoint) if checkpoint.fits(modification_mm.as_ref().map(Vec::len)) => self.resumed(checkpoint)?,
+            Some(_) => return Err(SimulationError::OtherRun),
+        };
         let mut failure = None;
-        'run: for phase in self.phases {
+        while course.phase < self.phases.len() {
+            let phase = &self.phases[course.phase];
             let mesh = LoadedMesh {
                 pair: self.pair,
                 contact: phase.contact,
@@ -154,56 +204,168 @@ impl WearRun<'_> {
                 numerics: self.numerics,
             };
             let mut pair = mesh.wearing_pair(flanks, &modification_mm)?;
-            if let Some(wear_mm) = &worn_so_far {
-                pair.set_wear_mm(wear_mm);
-            }
-            stepper.begin_phase();
-            let mut evaluated = pair.evaluate(&phase.wear, stopped);
-            loop {
-                let is_due = due.peek().is_some_and(|&next| revolutions >= next);
-                let interrupted = progress.interrupted();
-                let keep = states.is_empty() || is_due || interrupted;
-                let state = evaluated.and_then(|done| {
-                    work += done;
-                    keep.then(|| pair.snapshot(revolutions)).transpose()
-                });
-                match state {
-                    Ok(state) => states.extend(state),
-                    // Before anything is finished there is nothing to keep.
-                    Err(source) if states.is_empty() => {
-                        return Err(SimulationError::Equilibrium { revolutions, source });
-                    }
-                    Err(EquilibriumError::Interrupted) => break 'run,
-                    Err(source) => {
-                        failure = Some(SimulationError::Equilibrium { revolutions, source });
-                        break 'run;
-                    }
-                }
-                if keep {
-                    while due.next_if(|&next| next <= revolutions).is_some() {}
-                }
-                progress.progress(revolutions, end);
-                let Some(&next) = due.peek() else { break 'run };
-                if interrupted {
-                    break 'run;
-                }
-                if revolutions >= phase.end_revolutions {
+            match self.through_phase(&mut course, &mut *pair, Attendants { keeper, progress })? {
+                PhaseEnd::Reached => course.wear_mm = Some(pair.wear_mm()),
+                PhaseEnd::Stopped => break,
+                PhaseEnd::Failed(error) => {
+                    failure = Some(error);
                     break;
                 }
-                let stretch = Stretch { from: revolutions, limit: next.min(phase.end_revolutions) };
-                let advanced = stepper.advance(&mut *pair, &phase.wear, stretch, stopped);
-                (revolutions, evaluated) = (advanced.revolutions, advanced.evaluated);
             }
-            worn_so_far = Some(pair.wear_mm());
+            course.phase += 1;
         }
         let stop = match &failure {
             Some(_) => StopReason::NotConverged,
-            None if due.peek().is_none() => StopReason::Completed,
+            None if self.due(course.passed).is_none() => StopReason::Completed,
             None => StopReason::Interrupted,
         };
-        let (steps, step_error_mm) = (stepper.counts(), stepper.error_mm());
-        let new = states.remove(0);
-        let worn = states.last().unwrap_or(&new).clone();
-        Ok(Outcome { stop, failure, grid, slices, modification_mm, new, snapshots: states, worn, steps, step_error_mm, work })
+        let (steps, step_error_mm) = (course.stepper.counts(), course.stepper.error_mm());
+        let new = course.states.remove(0);
+        let worn = course.states.last().unwrap_or(&new).clone();
+        Ok(Outcome {
+            stop,
+            failure,
+            grid,
+            slices,
+            modification_mm,
+            new,
+            snapshots: course.states,
+            worn,
+            steps,
+            step_error_mm,
+            work: course.work,
+        })
+    }
+    /// A run that has not begun.
+    fn beginning(&self) -> Course {
+        Course {
+            phase: 0,
+            revolutions: 0.0,
+            stepper: Stepper::new(
+                self.numerics.stepping,
+                self.end_revolutions(),
+                self.pair.wheel_turns_per_pinion_turn(),
+            ),
+            work: Work::default(),
+            states: Vec::new(),
+            wear_mm: None,
+            passed: 0,
+            is_repeated: false,
+        }
+    }
+
+    /// A run that goes on.
+    fn resumed(&self, from: Checkpoint) -> Result<Course, SimulationError> {
+        let mut course = Course {
+            phase: from.phase,
+            revolutions: from.revolutions,
+            work: from.work,
+            states: from.states,
+            is_repeated: true,
+            ..self.beginning()
+        };
+        let is_within = from.phase < self.phases.len() && (0.0..self.end_revolutions()).contains(&from.revolutions);
+        if !is_within || !course.stepper.resume(from.stepper, &from.wear_mm) {
+            return Err(SimulationError::OtherRun);
+        }
+        course.wear_mm = Some(from.wear_mm);
+        self.pass_due(&mut course);
+        Ok(course)
+    }
+
+    fn end_revolutions(&self) -> f64 {
+        self.phases.last().map_or(0.0, |phase| phase.end_revolutions)
+    }
+
+    /// The first snapshot that is asked for after the first `passed` of them; the last is the end of the run.
+    fn due(&self, passed: usize) -> Option<f64> {
+        let end = self.end_revolutions();
+        self.snapshots_revolutions.iter().copied().chain([end]).nth(passed)
+    }
+
+    /// Passes over the snapshots that are reached.
+    fn pass_due(&self, course: &mut Course) {
+        while self.due(course.passed).is_some_and(|next| next <= course.revolutions) {
+            course.passed += 1;
+        }
+    }
+
+    /// Runs to the end of the phase that `course` is in.
+    ///
+    /// # Errors
+    /// [`SimulationError`] before anything is finished.
+    fn through_phase(
+        &self,
+        course: &mut Course,
+        pair: &mut dyn WearingPair,
+        Attendants { keeper, progress }: Attendants<'_>,
+    ) -> Result<PhaseEnd, SimulationError> {
+        let phase = &self.phases[course.phase];
+        let stopped: &(dyn Fn() -> bool + Sync) = &|| progress.gives_up();
+        if let Some(wear_mm) = &course.wear_mm {
+            if wear_mm.as_ref().map(Vec::len) != pair.wear_mm().map(|row| row.len()) {
+                return Err(SimulationError::OtherRun);
+            }
+            pair.set_wear_mm(wear_mm);
+        }
+        let mut evaluated = pair.evaluate(&phase.wear, stopped);
+        if std::mem::take(&mut course.is_repeated) {
+            evaluated = evaluated.map(|_| Work::default());
+        } else {
+            course.stepper.begin_phase();
+        }
+        // A phase begins with a pair made anew, which is a clean start.
+        let (mut is_clean, mut cleaned_at) = (true, 0);
+        let clean_after = phase.contact.evaluations_between_clean_starts(self.numerics.positions);
+        loop {
+            let revolutions = course.revolutions;
+            let is_due = self.due(course.passed).is_some_and(|next| revolutions >= next);
+            let interrupted = progress.interrupted();
+            let keep = course.states.is_empty() || is_due || interrupted;
+            let state = evaluated.and_then(|done| {
+                course.work += done;
+                keep.then(|| pair.snapshot(revolutions)).transpose()
+            });
+            match state {
+                Ok(state) => course.states.extend(state),
+                // Before anything is finished there is nothing to keep.
+                Err(source) if course.states.is_empty() => {
+                    return Err(SimulationError::Equilibrium { revolutions, source });
+                }
+                Err(EquilibriumError::Interrupted) => return Ok(PhaseEnd::Stopped),
+                Err(source) => return Ok(PhaseEnd::Failed(SimulationError::Equilibrium { revolutions, source })),
+            }
+            self.pass_due(course);
+            progress.progress(revolutions, self.end_revolutions());
+            let Some(next) = self.due(course.passed).filter(|_| !interrupted) else { return Ok(PhaseEnd::Stopped) };
+            if revolutions >= phase.end_revolutions {
+                return Ok(PhaseEnd::Reached);
+            }
+            if is_clean {
+                cleaned_at = course.work.mesh_cycles;
+                if revolutions > 0.0 && keeper.is_due() {
+                    keeper.keep(&course.checkpoint(pair.wear_mm()));
+                }
+            }
+            is_clean = course.work.mesh_cycles - cleaned_at >= clean_after;
+            let limit = next.min(phase.end_revolutions);
+            let stretch = Stretch { from: revolutions, limit, clean_start: is_clean };
+            let advanced = course.stepper.advance(pair, &phase.wear, stretch, stopped);
+            (course.revolutions, evaluated) = (advanced.revolutions, advanced.evaluated);
+        }
+    }
+}
+
+impl Course {
+    /// The run as it is, on flanks that have lost `wear_mm`.
+    fn checkpoint(&self, wear_mm: PerGear<Vec<f64>>) -> Checkpoint {
+        Checkpoint {
+            phase: self.phase,
+            revolutions: self.revolutions,
+            wear_mm,
+            stepper: self.stepper.state(),
+            work: self.work,
+            states: self.states.clone(),
+        }
     }
 }

@@ -149,21 +149,6 @@ fn add_up(file: &OperationFile, phases: &[Phase], findings: &mut Findings) -> Op
     }
 }
 
-/// Revolutions of the pinion after so many hours; `None` without a speed.
-fn revolutions_after(hours: f64, phases: &[Phase]) -> Option<f64> {
-    let (mut begin, mut left) = (0.0, hours);
-    for phase in phases {
-        let per_hour = 60.0 * phase.pinion_speed_rpm?;
-        let takes = (phase.end_revolutions - begin) / per_hour;
-        if left <= takes {
-            return Some(begin + left * per_hour);
-        }
-        (begin, left) = (phase.end_revolutions, left - takes);
-    }
-    // Beyond the end, at the last speed.
-    Some(begin + left * 60.0 * phases.last()?.pinion_speed_rpm?)
-}
-
 /// When the state is kept, in revolutions of the pinion, the end of the run included.
 fn snapshots(file: &mut OperationFile, operation: &Operation, findings: &mut Findings) -> Option<Vec<f64>> {
     let keys = ["operation.snapshots_h", "operation.snapshots_revolutions"];
@@ -201,7 +186,7 @@ fn snapshots(file: &mut OperationFile, operation: &Operation, findings: &mut Fin
 
     let mut snapshots: Vec<f64> = Vec::with_capacity(given.len() + 1);
     for (index, &time) in given.iter().enumerate() {
-        let revolutions = if in_hours { revolutions_after(time, &operation.phases)? } else { time };
+        let revolutions = if in_hours { operation.revolutions_after(time)? } else { time };
         let at_end = (revolutions / duration - 1.0).abs() <= SAME_TIME;
         let revolutions = if at_end { duration } else { revolutions };
         if revolutions > duration || snapshots.last().is_some_and(|&last| revolutions <= last) {

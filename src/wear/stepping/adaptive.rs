@@ -15,6 +15,8 @@
 //! No step is shorter than 1e-5 of what the run has done since it was last started anew (and never below 1e-11 of it all): at that
 //! floor a step is taken whatever its error, and counted, so that a run ends in any case.
 
+use serde::{Deserialize, Serialize};
+
 use super::{
     Rate, diagonal, greatest,
     linearly_implicit::LinearlyImplicit,
@@ -37,14 +39,14 @@ const FLOOR_OF_RUN: f64 = 1e-11;
 const SHORTER: f64 = 0.25;
 
 /// How a step is taken.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 enum Method {
     Chebyshev { step: RungeKuttaChebyshev, radius: SpectralRadius },
     Implicit { step: LinearlyImplicit, diagonal: Vec<f64> },
 }
 
 /// What the steps came to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct StepCounts {
     /// Steps taken.
     pub accepted: u64,
@@ -59,7 +61,7 @@ pub struct StepCounts {
 }
 
 /// The integrator.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Adaptive {
     tolerance: f64,
     duration: f64,
@@ -72,8 +74,11 @@ pub struct Adaptive {
     run: f64,
     counts: StepCounts,
     accumulated: Vec<f64>,
+    #[serde(skip)]
     end: Vec<f64>,
+    #[serde(skip)]
     end_slope: Vec<f64>,
+    #[serde(skip)]
     error: Vec<f64>,
 }
 
@@ -228,7 +233,7 @@ impl Adaptive {
         };
         self.end.iter_mut().zip(state).for_each(|(end, start)| *end = end.max(*start));
         self.end_slope.resize(state.len(), 0.0);
-        rate.evaluate(&self.end, &mut self.end_slope)?;
+        rate.evaluate_end(&self.end, &mut self.end_slope)?;
         self.error.clear();
         let rates = slope.iter().zip(&self.end_slope);
         let ends = state.iter().zip(&self.end);

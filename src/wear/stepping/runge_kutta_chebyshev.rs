@@ -21,6 +21,8 @@
 //! Source: B. P. Sommeijer, L. F. Shampine and J. G. Verwer, "RKC: an explicit solver for parabolic PDEs", *J. Comput. Appl. Math.*
 //! 88 (1997) 315–326, section 2.
 
+use serde::{Deserialize, Serialize};
+
 use super::Rate;
 
 /// Damping.
@@ -78,10 +80,13 @@ impl Chebyshev {
 }
 
 /// The method with its rows.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct RungeKuttaChebyshev {
+    #[serde(skip)]
     stage: Vec<f64>,
+    #[serde(skip)]
     before: Vec<f64>,
+    #[serde(skip)]
     rate: Vec<f64>,
 }
 
@@ -187,7 +192,10 @@ mod tests {
     fn ver_consistent_of_second_order() {
         for stages in [2, 3, 7, 30] {
             let error = |z: f64| (amplification(z, stages) - (1.0 + z + 0.5 * z * z)).abs();
-            assert!(error(-1e-2) < 1e-6 / 4.0 && error(-1e-2) / error(-5e-3).max(1e-15) > 7.0 || stages == 2, "{stages}");
+            assert!(
+                error(-1e-2) < 1e-6 / 4.0 && error(-1e-2) / error(-5e-3).max(1e-15) > 7.0 || stages == 2,
+                "{stages}"
+            );
             assert!(error(-1e-3) < 2e-10, "{stages}: {}", error(-1e-3));
         }
     }

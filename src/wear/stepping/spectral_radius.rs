@@ -12,6 +12,8 @@
 //!
 //! Source: Sommeijer, Shampine and Verwer (1997), section 3; B. Lindberg (1974) for the factor of safety.
 
+use serde::{Deserialize, Serialize};
+
 use super::{Noise, Rate, greatest};
 
 /// Iterations until the radius is taken as found.
@@ -22,7 +24,7 @@ const CONVERGED: f64 = 0.05;
 const SAFETY: f64 = 1.2;
 
 /// What is known of the radius.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct SpectralRadius {
     vector: Vec<f64>,
     value: Option<f64>,

@@ -1,0 +1,210 @@
+//! `gearwear compare`: a measured flank profile against a finished run.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use gearwear::compare::question::{Asked, FitKind, Question, QuestionError};
+use gearwear::compare::run_folder::RunFolder;
+use gearwear::compare::study::{self, CompareError};
+use gearwear::gear::{Gear, GearPair};
+use gearwear::measurement::file;
+use gearwear::measurement::fit::FitStop;
+use gearwear::measurement::form::Form;
+use gearwear::pipeline::RunError;
+use gearwear::report;
+use gearwear::simulation::compare_record::{CompareRecord, Estimate};
+
+use super::failure::{Failure, InputError};
+use super::figures::digits;
+use super::progress::Progress;
+use super::run::{pool, watch_for_interrupt};
+use super::{say, scene_source, stdout, warn};
+
+/// Longest shift along the flank, where nothing else is asked, mm.
+const SHIFT_WITHIN_MM: f64 = 0.1;
+
+/// What a measured file looks like.
+const FILE_HELP: &str = "\
+The measured file is CSV. Lines that begin with # come first and say what is measured:
+  # gear = pinion                        or wheel
+  # hours = 31.75                        or revolutions (of the pinion); left out: the end of the run
+  # width_mm = 7.0                       place over the face width; only for runs with slices
+  # uncertainty_um = 0.3                 of a height, one standard deviation
+  # arc_from = start-of-active-profile   with arc_mm: or base-circle, or tip (towards the root)
+  # height_from = involute               or line: heights of a stylus, with the curvature of the tooth
+Then column names with units, in any order: radius_mm, arc_mm or roll_angle_deg, and height_um or height_mm (falls
+where material is gone) or wear_um or wear_mm (rises there); then a row for each point, from one end to the other.";
+
+/// Arguments of `compare`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = FILE_HELP)]
+pub struct Args {
+    /// The folder of a finished `gearwear run`
+    run: PathBuf,
+    /// The measured profile, a CSV file; - reads standard input
+    measured: PathBuf,
+    /// Whose flank it is, where the file does not say
+    #[arg(long, value_name = "GEAR", value_parser = gear)]
+    gear: Option<Gear>,
+    /// What is taken away for the form, of the measured and the simulated profile alike; default: cubic of heights, none of
+    /// wear depths
+    #[arg(long, value_enum)]
+    form: Option<FormArg>,
+    /// What is fitted: the wear coefficient k, the factor of severe wear, both, or nothing
+    #[arg(long, value_enum, default_value_t = FitArg::K)]
+    fit: FitArg,
+    /// How far the profile may be shifted along the flank to where it fits best; 0: not at all
+    #[arg(long, value_name = "MM", default_value_t = SHIFT_WITHIN_MM, value_parser = length)]
+    shift_within: f64,
+    /// The folder for the results; default: compare/NAME in RUN, with the name of the measured file
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Number of threads; default: all cores. Never changes the results
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// Show neither progress nor figures, only what is wrong
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// `--form`.
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+enum FormArg {
+    /// A least-squares polynomial of third order
+    Cubic,
+    /// The nominal flank, with offset and tilt by least squares
+    Involute,
+    /// Nothing
+    None,
+}
+
+/// `--fit`.
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+enum FitArg {
+    /// Nothing but the place along the flank
+    None,
+    /// The wear coefficient
+    K,
+    /// The factor of severe wear
+    Severe,
+    /// Both
+    Both,
+}
+
+fn gear(text: &str) -> Result<Gear, String> {
+    let named = Gear::BOTH.into_iter().find(|gear| gear.name() == text);
+    named.ok_or_else(|| "allowed: pinion or wheel".to_owned())
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value >= 0.0 && value.is_finite() => Ok(value),
+        _ => Err("allowed: a length in mm, 0 or more".to_owned()),
+    }
+}
+
+impl Args {
+    fn asked(&self) -> Asked {
+        Asked {
+            gear: self.gear,
+            form: self.form.map(|form| match form {
+                FormArg::Cubic => Form::Cubic,
+                FormArg::Involute => Form::Involute,
+                FormArg::None => Form::None,
+            }),
+            fit: match self.fit {
+                FitArg::None => FitKind::None,
+                FitArg::K => FitKind::K,
+                FitArg::Severe => FitKind::Severe,
+                FitArg::Both => FitKind::Both,
+            },
+            shift_within_mm: self.shift_within,
+        }
+    }
+
+    /// Where the results go.
+    fn out(&self) -> PathBuf {
+        let name = self.measured.file_stem().filter(|stem| *stem != "-").unwrap_or("measured".as_ref());
+        self.out.clone().unwrap_or_else(|| self.run.join("compare").join(name))
+    }
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    let folder = RunFolder::read(&args.run).map_err(InputError::from)?;
+    let source = scene_source::resolve(&RunFolder::scene_path(&args.run))?;
+    let resolved = &source.resolved;
+    folder.check_scene(resolved).map_err(InputError::from)?;
+    let text = scene_source::read(&args.measured)?;
+    let refused = |error: QuestionError| InputError::Measured { name: text.name.clone(), error };
+    let file = file::parse(&text.text).map_err(|error| refused(error.into()))?;
+    // The pair was checked when the scene was resolved.
+    let pair = GearPair::new(&resolved.scene.pair).map_err(RunError::from)?;
+    let question = Question::new(&args.asked(), &file, &folder, resolved, &pair).map_err(refused)?;
+    let out = args.out();
+    report::writable(&out)?;
+
+    let pool = pool(args.threads)?;
+    let progress = Progress::new(args.quiet, Arc::clone(&watch_for_interrupt()));
+    let name =
+        Path::new(&text.name).file_name().map_or_else(|| text.name.clone(), |n| n.to_string_lossy().into_owned());
+    let done = pool.install(|| study::run(&question, &folder, resolved, &source.inputs, &name, &progress));
+    progress.finish();
+    let record = done.map_err(|error| match error {
+        CompareError::Interrupted => {
+            say("interrupted before the comparison was finished");
+            Failure::Interrupted
+        }
+        CompareError::Run(error) => Failure::Run(error),
+    })?;
+    report::compare::write(&record, &out)?;
+    if !args.quiet {
+        let report = out.join("report.html");
+        stdout::print(&format!("{}report: {}\n", table(&record), report.display()))?;
+    }
+    let fit = &record.fit;
+    let asks_for_more_shift = fit.blamed.as_deref() == Some("the shift");
+    if fit.stopped == FitStop::Converged || asks_for_more_shift {
+        warn(&record.warnings);
+        return Ok(());
+    }
+    let why = format!("{}; what was compared is kept in {}", record.warnings.join("; "), out.display());
+    Err(Failure::NotFitted { why })
+}
+
+/// What was found, for the terminal.
+fn table(record: &CompareRecord) -> String {
+    let (fit, f) = (&record.fit, &record.figures);
+    let mut text = format!("{} – {}\n\n", record.title, record.measured);
+    let line = |name: &str, cells: [&str; 4]| {
+        format!("  {name:44}{:>12}{:>12}{:>12}{:>12}\n", cells[0], cells[1], cells[2], cells[3])
+    };
+    let mut estimate = |name: &str, estimate: &Option<Estimate>, head: bool| {
+        let Some(e) = estimate else { return };
+        if head {
+            text.push_str(&line("", ["run", "fitted", "95 % from", "to"]));
+        }
+        let end = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), digits);
+        text.push_str(&line(name, [&digits(e.of_run), &digits(e.value), &end(e.low), &end(e.high)]));
+    };
+    estimate("wear coefficient k, m²/N", &fit.coefficient_m2_per_N, true);
+    estimate("factor of severe wear", &fit.severe_factor, fit.coefficient_m2_per_N.is_none());
+    let is_first = fit.coefficient_m2_per_N.is_none() && fit.severe_factor.is_none();
+    estimate("shift towards the tip, mm", &fit.shift_mm, is_first);
+    text.push_str(&format!("\n  {}\n\n", fit.how));
+    for (name, value) in [
+        ("arithmetic mean deviation, measured, µm", Some(f.mean_deviation_um)),
+        ("  the same, simulated", Some(f.simulated_mean_deviation_um)),
+        ("Ra, cutoff 0.8 mm, measured, µm", f.roughness_um),
+        ("difference as run, root mean square, µm", Some(f.as_run_difference_um)),
+        ("  after the fit", Some(f.difference_um)),
+    ] {
+        text.push_str(&format!("  {name:44}{:>12}\n", value.map_or_else(|| "–".to_owned(), digits)));
+    }
+    let runs = if fit.runs == 1 { "run" } else { "runs" };
+    text.push_str(&format!(
+        "\nform {}, {} {runs} of the scene ({} working cycles)\n",
+        record.form, fit.runs, fit.mesh_cycles
+    ));
+    text
+}

@@ -1,0 +1,245 @@
+//! What is asked of a comparison, checked against the run and the measured file before anything is computed.
+
+use serde::{Deserialize, Serialize};
+
+use super::run_folder::RunFolder;
+use crate::gear::{Gear, GearPair, slices::Slices};
+use crate::measurement::file::{HeightFrom, MeasuredFile, MeasuredFileError, Moment, ValueKind};
+use crate::measurement::form::Form;
+use crate::measurement::profile::MeasuredProfile;
+use crate::scene::Resolved;
+
+/// Times beyond the end by less than this part are the end.
+const SAME_TIME: f64 = 1e-9;
+/// Points that a fit needs beyond the values it finds.
+const SPARE_POINTS: usize = 2;
+
+/// What is fitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FitKind {
+    /// Nothing but the place along the flank.
+    None,
+    /// The wear coefficient.
+    K,
+    /// The factor of severe wear.
+    Severe,
+    /// Both.
+    Both,
+}
+
+impl FitKind {
+    /// Whether the wear coefficient is fitted.
+    pub fn coefficient(self) -> bool {
+        matches!(self, FitKind::K | FitKind::Both)
+    }
+
+    /// Whether the factor of severe wear is.
+    pub fn severe(self) -> bool {
+        matches!(self, FitKind::Severe | FitKind::Both)
+    }
+}
+
+/// What the user asks beside the files.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Asked {
+    /// Which gear; `None`: as the file says.
+    pub gear: Option<Gear>,
+    /// What is taken for the form; `None`: a cubic of heights, nothing of wear depths.
+    pub form: Option<Form>,
+    /// What is fitted.
+    pub fit: FitKind,
+    /// How far the profile may be shifted along the flank, mm; 0: not at all.
+    pub shift_within_mm: f64,
+}
+
+/// What does not fit together.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum QuestionError {
+    /// The file.
+    #[error(transparent)]
+    File(#[from] MeasuredFileError),
+    /// Nothing says which gear was measured.
+    #[error("gear is missing; allowed: a line \"# gear = pinion\" or \"# gear = wheel\", or --gear")]
+    NoGear,
+    /// File and command name different gears.
+    #[error("gear: found {file} in the file and --gear {command}; allowed: the same")]
+    OtherGear {
+        /// In the file.
+        file: &'static str,
+        /// On the command line.
+        command: &'static str,
+    },
+    /// The scene has no speed to count hours with.
+    #[error("line {line}: hours: found {hours}; allowed: revolutions, since the scene of the run gives no speed")]
+    NoSpeed {
+        /// Line of the file.
+        line: usize,
+        /// As given.
+        hours: f64,
+    },
+    /// Measured when the run was over.
+    #[error("line {line}: {key}: found {found}; allowed: more than 0 and at most {end}, the end of the run")]
+    Time {
+        /// Line of the file.
+        line: usize,
+        /// `hours` or `revolutions`.
+        key: &'static str,
+        /// As given.
+        found: f64,
+        /// When the run ends.
+        end: f64,
+    },
+    /// Nothing says where over the face width.
+    #[error("width_mm is missing; allowed: a line \"# width_mm = …\", 0 to {face_width_mm}, since the run has slices")]
+    NoWidth {
+        /// b.
+        face_width_mm: f64,
+    },
+    /// Measured beside the flank.
+    #[error("line {line}: width_mm: found {found}; allowed: 0 to {face_width_mm}, the face width")]
+    Width {
+        /// Line of the file.
+        line: usize,
+        /// As given.
+        found: f64,
+        /// b.
+        face_width_mm: f64,
+    },
+    /// Fewer points than values to find.
+    #[error("found {found} points; allowed: at least {least}, for {needs}")]
+    TooFewPoints {
+        /// In the file.
+        found: usize,
+        /// What it takes.
+        least: usize,
+        /// What for.
+        needs: String,
+    },
+    /// The curvature of a tooth taken for wear.
+    #[error(
+        "--form: found none with heights from a line; allowed: cubic or involute, which take the tooth's curvature away"
+    )]
+    LineWithoutForm,
+    /// A factor that the scene does not have.
+    #[error("--fit: found {found}, but the scene of the run has no wear.severe; allowed: none or k")]
+    NoSevereWear {
+        /// As given.
+        found: &'static str,
+    },
+}
+
+/// A comparison that can be made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Question {
+    /// What was measured, on its flank.
+    pub profile: MeasuredProfile,
+    /// When, in pinion revolutions.
+    pub revolutions: f64,
+    /// Where over the face width; `None` where all sections are alike.
+    pub width_mm: Option<f64>,
+    /// Standard deviation of a height, as the file says.
+    pub uncertainty_um: Option<f64>,
+    /// What is taken for the form.
+    pub form: Form,
+    /// What is fitted.
+    pub fit: FitKind,
+    /// How far the profile may be shifted along the flank, mm.
+    pub shift_within_mm: f64,
+    /// Wear of the run itself at that time, slice after slice, where it kept that state.
+    pub as_run_um: Option<Vec<f64>>,
+}
+
+impl Question {
+    /// Checks what is asked of the run in `folder`, whose scene is `resolved`, and of its `pair`.
+    ///
+    /// # Errors
+    /// The first thing that does not fit together.
+    pub fn new(
+        asked: &Asked,
+        file: &MeasuredFile,
+        folder: &RunFolder,
+        resolved: &Resolved,
+        pair: &GearPair,
+    ) -> Result<Self, QuestionError> {
+        let scene = &resolved.scene;
+        let gear = match (file.gear, asked.gear) {
+            (Some(file), Some(command)) if file != command => {
+                return Err(QuestionError::OtherGear { file: file.name(), command: command.name() });
+            }
+            (file, command) => file.or(command).ok_or(QuestionError::NoGear)?,
+        };
+        if asked.fit.severe() && scene.wear.severe.is_none() {
+            let found = if asked.fit == FitKind::Both { "both" } else { "severe" };
+            return Err(QuestionError::NoSevereWear { found });
+        }
+        let of_kind = if file.kind == ValueKind::Wear { Form::None } else { Form::Cubic };
+        let form = asked.form.unwrap_or(of_kind);
+        if form == Form::None && file.kind == ValueKind::Height && file.height_from == HeightFrom::Line {
+            return Err(QuestionError::LineWithoutForm);
+        }
+        let revolutions = revolutions(file, resolved)?;
+        let face_width_mm = scene.pair.face_width_mm;
+        if let Some(found) = file.width_mm.filter(|width| !(0.0..=face_width_mm).contains(width)) {
+            return Err(QuestionError::Width { line: file.width_line, found, face_width_mm });
+        }
+        let width_mm = match scene.slices {
+            Some(_) => Some(file.width_mm.ok_or(QuestionError::NoWidth { face_width_mm })?),
+            None => None,
+        };
+        let found = file.rows.len();
+        let (least, needs) = points_needed(asked, form);
+        if found < least {
+            return Err(QuestionError::TooFewPoints { found, least, needs });
+        }
+        let profile = MeasuredProfile::on_flank(file, pair, gear)?;
+        let slices = scene.slices.map_or(1, |settings| Slices::new(pair, settings.count).count());
+        let values = (scene.numerics.flank_points + 1) * slices;
+        let as_run_um = folder.wear_um(gear, revolutions).filter(|wear| wear.len() == values).map(<[f64]>::to_vec);
+        Ok(Self {
+            profile,
+            revolutions,
+            width_mm,
+            uncertainty_um: file.uncertainty_um,
+            form,
+            fit: asked.fit,
+            shift_within_mm: asked.shift_within_mm,
+            as_run_um,
+        })
+    }
+}
+
+/// When the profile was measured, in pinion revolutions.
+fn revolutions(file: &MeasuredFile, resolved: &Resolved) -> Result<f64, QuestionError> {
+    let operation = &resolved.scene.operation;
+    let end = operation.pinion_revolutions;
+    let line = file.moment_line;
+    let (revolutions, key, found, shown_end) = match file.moment {
+        Moment::End => return Ok(end),
+        Moment::Revolutions(given) => (given, "revolutions", given, end),
+        Moment::Hours(hours) => {
+            let no_speed = || QuestionError::NoSpeed { line, hours };
+            let at = operation.revolutions_after(hours).ok_or_else(no_speed)?;
+            (at, "hours", hours, operation.hours(end).ok_or_else(no_speed)?)
+        }
+    };
+    if revolutions > end * (1.0 + SAME_TIME) {
+        return Err(QuestionError::Time { line, key, found, end: shown_end });
+    }
+    Ok(revolutions.min(end))
+}
+
+/// How many points it takes, and what for.
+fn points_needed(asked: &Asked, form: Form) -> (usize, String) {
+    let values = [
+        (form.parameters(), format!("a form ({})", form.name())),
+        (usize::from(asked.fit.coefficient()), "the wear coefficient".to_owned()),
+        (usize::from(asked.fit.severe()), "the severe factor".to_owned()),
+        (usize::from(asked.shift_within_mm > 0.0), "a shift".to_owned()),
+    ];
+    let least = values.iter().map(|(count, _)| count).sum::<usize>() + SPARE_POINTS;
+    let needs: Vec<String> =
+        values.into_iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} of {what}")).collect();
+    let needs = if needs.is_empty() { "a difference".to_owned() } else { needs.join(", ") };
+    (least, format!("{needs}, and {SPARE_POINTS} to spare"))
+}

@@ -1,0 +1,179 @@
+//! What a finished run left behind, as far as a comparison reads it: `summary.json` and `profiles.csv`.
+//!
+//! `scene.toml` lies beside them; its SHA-256 is the summary's scene hash, so that a scene changed after the run is noticed.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use crate::gear::{Gear, PerGear};
+use crate::scene::Resolved;
+
+const SUMMARY: &str = "summary.json";
+const PROFILES: &str = "profiles.csv";
+const SCENE: &str = "scene.toml";
+/// Times this close to each other, relatively, are the same: hours and revolutions round differently.
+const SAME_TIME: f64 = 1e-9;
+
+/// What is wrong with the folder of a run.
+#[derive(Debug, thiserror::Error)]
+pub enum RunFolderError {
+    /// A file that every finished run has is not there.
+    #[error("{} cannot be read: {reason}; allowed: the folder of a finished gearwear run", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: io::Error,
+    },
+    /// The run did not come to its end.
+    #[error("{}: stopped: found {found}; allowed: completed", path.display())]
+    Unfinished {
+        /// The summary.
+        path: PathBuf,
+        /// Why the run ended.
+        found: String,
+    },
+    /// The scene is not that of the run.
+    #[error("{}: found a scene with hash {found}; allowed: {allowed}, that of {SUMMARY}", path.display())]
+    OtherScene {
+        /// The scene.
+        path: PathBuf,
+        /// Its hash.
+        found: String,
+        /// That of the run.
+        allowed: String,
+    },
+    /// A file that no run leaves behind like that.
+    #[error("{}: line {line}: found {found}; allowed: {allowed}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// Its line, from 1.
+        line: u64,
+        /// What stands there.
+        found: String,
+        /// What a run writes there.
+        allowed: String,
+    },
+}
+
+/// What is read of the summary.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+struct Summary {
+    title: String,
+    program_version: String,
+    scene_hash: String,
+    stopped: String,
+}
+
+/// What is read of a row of the profiles.
+#[derive(Debug, Clone, Copy, Deserialize)]
+struct ProfileRow {
+    gear: Gear,
+    wear_um: f64,
+    revolutions: f64,
+}
+
+/// Wear of both flanks at a snapshot.
+#[derive(Debug, Clone, PartialEq)]
+struct Snapshot {
+    revolutions: f64,
+    wear_um: PerGear<Vec<f64>>,
+}
+
+/// A finished run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunFolder {
+    path: PathBuf,
+    summary: Summary,
+    snapshots: Vec<Snapshot>,
+}
+
+impl RunFolder {
+    /// The scene of the run in `folder`.
+    pub fn scene_path(folder: &Path) -> PathBuf {
+        folder.join(SCENE)
+    }
+
+    /// Reads the folder of a finished run.
+    ///
+    /// # Errors
+    /// [`RunFolderError`].
+    pub fn read(folder: &Path) -> Result<Self, RunFolderError> {
+        let path = folder.join(SUMMARY);
+        let text = read(&path)?;
+        let summary: Summary = serde_json::from_str(&text).map_err(|error| RunFolderError::Damaged {
+            path: path.clone(),
+            line: error.line() as u64,
+            found: error.to_string(),
+            allowed: "what gearwear run writes".to_owned(),
+        })?;
+        if summary.stopped != "completed" {
+            return Err(RunFolderError::Unfinished { path, found: summary.stopped });
+        }
+        let snapshots = snapshots(&folder.join(PROFILES))?;
+        // The scene is resolved by others, who say better what is wrong with it; that it is there belongs here.
+        read(&folder.join(SCENE))?;
+        Ok(Self { path: folder.to_owned(), summary, snapshots })
+    }
+
+    /// Checks that `resolved`, from the folder's scene, is the scene of the run.
+    ///
+    /// # Errors
+    /// [`RunFolderError::OtherScene`].
+    pub fn check_scene(&self, resolved: &Resolved) -> Result<(), RunFolderError> {
+        let found = resolved.scene_hash();
+        if found == self.summary.scene_hash {
+            return Ok(());
+        }
+        let path = Self::scene_path(&self.path);
+        Err(RunFolderError::OtherScene { path, found, allowed: self.summary.scene_hash.clone() })
+    }
+
+    /// The title of the run.
+    pub fn title(&self) -> &str {
+        &self.summary.title
+    }
+
+    /// Says that the run was made by another version of the program, if it was.
+    pub fn version_warning(&self) -> Option<String> {
+        let (own, its) = (env!("CARGO_PKG_VERSION"), &self.summary.program_version);
+        (its != own).then(|| format!("the run was made by gearwear {its}; its scene is run again by {own}"))
+    }
+
+    /// Wear depth of each point of a flank, slice after slice, at the snapshot after `revolutions`, if there is one.
+    pub fn wear_um(&self, gear: Gear, revolutions: f64) -> Option<&[f64]> {
+        let same = |snapshot: &&Snapshot| (snapshot.revolutions / revolutions - 1.0).abs() <= SAME_TIME;
+        self.snapshots.iter().find(same).map(|snapshot| snapshot.wear_um[gear].as_slice())
+    }
+}
+
+fn read(path: &Path) -> Result<String, RunFolderError> {
+    fs::read_to_string(path).map_err(|reason| RunFolderError::Unreadable { path: path.to_owned(), reason })
+}
+
+/// The wear in `profiles.csv`.
+fn snapshots(path: &Path) -> Result<Vec<Snapshot>, RunFolderError> {
+    let text = read(path)?;
+    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
+    let mut snapshots: Vec<Snapshot> = Vec::new();
+    for row in reader.deserialize::<ProfileRow>() {
+        let row = row.map_err(|error| RunFolderError::Damaged {
+            path: path.to_owned(),
+            line: error.position().map_or(0, csv::Position::line),
+            found: error.to_string(),
+            allowed: "the columns gear, wear_um and revolutions as gearwear run writes them".to_owned(),
+        })?;
+        if snapshots.last().is_none_or(|last| last.revolutions != row.revolutions) {
+            let wear_um = PerGear { pinion: Vec::new(), wheel: Vec::new() };
+            snapshots.push(Snapshot { revolutions: row.revolutions, wear_um });
+        }
+        if let Some(snapshot) = snapshots.last_mut() {
+            snapshot.wear_um[row.gear].push(row.wear_um);
+        }
+    }
+    Ok(snapshots)
+}

@@ -1,0 +1,401 @@
+//! The file of a measured profile.
+//!
+//! ```text
+//! # gear = pinion
+//! # hours = 31.75
+//! # uncertainty_um = 0.3
+//! # arc_from = start-of-active-profile
+//! arc_mm,height_um
+//! 0.00,-3.10
+//! 0.01,-3.24
+//! ```
+//!
+//! Lines that begin with # come first; those of the form `key = value` say what is measured:
+//!
+//! | key | meaning |
+//! |---|---|
+//! | `gear` | `pinion` or `wheel` |
+//! | `hours`, `revolutions` | when it was measured, of the pinion; left out: at the end of the run |
+//! | `width_mm` | where over the face width, for runs with slices |
+//! | `uncertainty_um` | of a height, one standard deviation, for comparison with the scatter |
+//! | `arc_from` | where `arc_mm` begins: `base-circle`, `start-of-active-profile`, or `tip` (towards the root) |
+//! | `height_from` | what heights are measured from: `involute` (the nominal one, along its normal) or `line` (as a stylus on a
+//! straight guide measures them, with the curvature of the tooth in them); left out: `involute` |
+//!
+//! Other lines with # are remarks. One column is the place on the flank: `radius_mm`, `arc_mm` (length along the flank) or
+//! `roll_angle_deg`; another one the height `height_um` or `height_mm`, which falls where material is gone, or `wear_um` or
+//! `wear_mm`, which rises there (a difference of profiles before and after). Columns stand in any order; places increase from row
+//! to row.
+
+use crate::gear::Gear;
+
+/// Names of the columns that may give the place.
+const PLACES: [(&str, PlaceColumn); 3] = [
+    ("radius_mm", PlaceColumn::RadiusMm),
+    ("arc_mm", PlaceColumn::ArcMm),
+    ("roll_angle_deg", PlaceColumn::RollAngleDeg),
+];
+/// Names of the columns that may give the height, and µm of height per unit.
+const VALUES: [(&str, ValueKind, f64); 4] = [
+    ("height_um", ValueKind::Height, 1.0),
+    ("height_mm", ValueKind::Height, UM_PER_MM),
+    ("wear_um", ValueKind::Wear, -1.0),
+    ("wear_mm", ValueKind::Wear, -UM_PER_MM),
+];
+const KEYS: [&str; 7] = ["gear", "hours", "revolutions", "width_mm", "uncertainty_um", "arc_from", "height_from"];
+const UM_PER_MM: f64 = 1e3;
+/// Keys as similar as this to one that is known are taken for a slip (Jaro and Winkler's measure).
+const SLIP: f64 = 0.85;
+
+/// What is wrong with the file.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MeasuredFileError {
+    /// A value, or a header, that is not allowed.
+    #[error("line {line}: {column}: found {found}; allowed: {allowed}")]
+    NotAllowed {
+        /// Line of the file, from 1.
+        line: usize,
+        /// Column, or key of a header line.
+        column: String,
+        /// What stands there.
+        found: String,
+        /// What may stand there.
+        allowed: String,
+    },
+    /// Something that must be there is not.
+    #[error("{what} is missing; allowed: {allowed}")]
+    Missing {
+        /// What.
+        what: String,
+        /// How it looks.
+        allowed: String,
+    },
+}
+
+/// How a file says where on the flank a point is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PlaceColumn {
+    /// Distance from the axis.
+    RadiusMm,
+    /// Length along the flank.
+    ArcMm,
+    /// Roll angle of the transverse involute.
+    RollAngleDeg,
+}
+
+impl PlaceColumn {
+    /// Its name in the file.
+    pub fn name(self) -> &'static str {
+        match self {
+            PlaceColumn::RadiusMm => "radius_mm",
+            PlaceColumn::ArcMm => "arc_mm",
+            PlaceColumn::RollAngleDeg => "roll_angle_deg",
+        }
+    }
+}
+
+/// What the heights of a file are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ValueKind {
+    /// Of the surface.
+    Height,
+    /// Of what is gone of it.
+    Wear,
+}
+
+/// Where lengths along the flank begin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ArcFrom {
+    /// The involute's own beginning.
+    BaseCircle,
+    /// Where contact ends towards the root.
+    ActiveStart,
+    /// The tip circle; lengths run towards the root.
+    Tip,
+}
+
+/// What heights are measured from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum HeightFrom {
+    /// The nominal involute, along its normal.
+    #[default]
+    Involute,
+    /// A straight line.
+    Line,
+}
+
+/// When a profile was measured.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Moment {
+    /// When the run ended.
+    #[default]
+    End,
+    /// After so many hours.
+    Hours(f64),
+    /// After so many revolutions of the pinion.
+    Revolutions(f64),
+}
+
+/// What a file says, as it says it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeasuredFile {
+    /// Which gear.
+    pub gear: Option<Gear>,
+    /// When.
+    pub moment: Moment,
+    /// Line of the key that says when; 0 where none does.
+    pub moment_line: usize,
+    /// Where over the face width.
+    pub width_mm: Option<f64>,
+    /// Line of that key; 0 where there is none.
+    pub width_line: usize,
+    /// Standard deviation of a height.
+    pub uncertainty_um: Option<f64>,
+    /// Where lengths along the flank begin.
+    pub arc_from: Option<ArcFrom>,
+    /// What heights are measured from.
+    pub height_from: HeightFrom,
+    /// How places are given.
+    pub place: PlaceColumn,
+    /// What the heights are.
+    pub kind: ValueKind,
+    /// The points.
+    pub rows: Vec<MeasuredRow>,
+}
+
+/// A point of the file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeasuredRow {
+    /// Its line.
+    pub line: usize,
+    /// Its place, in the unit of the column.
+    pub place: f64,
+    /// Its height, µm, falling where material is gone.
+    pub height_um: f64,
+}
+
+/// What the lines with # say.
+#[derive(Default)]
+struct Header {
+    gear: Option<Gear>,
+    moment: Moment,
+    moment_line: usize,
+    width_mm: Option<f64>,
+    width_line: usize,
+    uncertainty_um: Option<f64>,
+    arc_from: Option<ArcFrom>,
+    height_from: HeightFrom,
+}
+
+/// Reads the text of a file.
+///
+/// # Errors
+/// The first thing that is wrong with it.
+pub fn parse(text: &str) -> Result<MeasuredFile, MeasuredFileError> {
+    let mut header = Header::default();
+    let mut rows = Vec::new();
+    for (line, content) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
+        match content.trim().strip_prefix('#') {
+            Some(remark) => header.take(line, remark)?,
+            None if content.trim().is_empty() => {}
+            None => rows.push((line, content.split(',').map(str::trim).collect::<Vec<_>>())),
+        }
+    }
+    let Some(((line, names), rows)) = rows.split_first() else {
+        return Err(missing("the line of column names", columns_allowed()));
+    };
+    let columns = Columns::find(*line, names)?;
+    if columns.place == PlaceColumn::ArcMm && header.arc_from.is_none() {
+        return Err(missing(
+            "where arc_mm begins",
+            "a line \"# arc_from = base-circle\", \"start-of-active-profile\" or \"tip\"".to_owned(),
+        ));
+    }
+    let mut points: Vec<MeasuredRow> = Vec::with_capacity(rows.len());
+    for (line, fields) in rows {
+        let point = columns.point(*line, fields)?;
+        if let Some(before) = points.last().filter(|before| before.place >= point.place) {
+            let allowed =
+                format!("more than {} of line {}: places increase from row to row", before.place, before.line);
+            return Err(not_allowed(*line, columns.place.name(), point.place, allowed));
+        }
+        points.push(point);
+    }
+    let Header { gear, moment, moment_line, width_mm, width_line, uncertainty_um, arc_from, height_from } = header;
+    Ok(MeasuredFile {
+        gear,
+        moment,
+        moment_line,
+        width_mm,
+        width_line,
+        uncertainty_um,
+        arc_from,
+        height_from,
+        place: columns.place,
+        kind: columns.kind,
+        rows: points,
+    })
+}
+
+/// Where the columns are.
+struct Columns {
+    count: usize,
+    place: PlaceColumn,
+    place_index: usize,
+    kind: ValueKind,
+    value_name: &'static str,
+    value_index: usize,
+    um_per_unit: f64,
+}
+
+impl Columns {
+    fn find(line: usize, names: &[&str]) -> Result<Self, MeasuredFileError> {
+        let refused = || not_allowed(line, "column names", names.join(","), columns_allowed());
+        let index = |name: &str| names.iter().position(|&n| n == name);
+        let places: Vec<_> = PLACES.iter().filter_map(|(name, column)| Some((index(name)?, *column))).collect();
+        let values: Vec<_> = VALUES.iter().filter_map(|value| Some((index(value.0)?, value))).collect();
+        let (&[(place_index, place)], &[(value_index, &(value_name, kind, um_per_unit))]) = (&places[..], &values[..])
+        else {
+            return Err(refused());
+        };
+        Ok(Self { count: names.len(), place, place_index, kind, value_name, value_index, um_per_unit })
+    }
+
+    fn point(&self, line: usize, fields: &[&str]) -> Result<MeasuredRow, MeasuredFileError> {
+        if fields.len() != self.count {
+            let allowed = format!("{}, as there are columns; decimals are written with a point", self.count);
+            return Err(not_allowed(line, "number of fields", fields.len(), allowed));
+        }
+        let place = finite(line, self.place.name(), fields[self.place_index])?;
+        let value = finite(line, self.value_name, fields[self.value_index])?;
+        Ok(MeasuredRow { line, place, height_um: value * self.um_per_unit })
+    }
+}
+
+impl Header {
+    fn take(&mut self, line: usize, remark: &str) -> Result<(), MeasuredFileError> {
+        let Some((key, value)) = remark.split_once('=') else { return Ok(()) };
+        let (key, value) = (key.trim(), value.trim());
+        let refused = |allowed: &str| not_allowed(line, key, value, allowed.to_owned());
+        match key {
+            "gear" => {
+                let gear = Gear::BOTH.into_iter().find(|gear| gear.name() == value);
+                self.gear = Some(gear.ok_or_else(|| refused("pinion or wheel"))?);
+            }
+            "hours" | "revolutions" => {
+                if self.moment != Moment::End {
+                    return Err(refused("one of hours and revolutions, once"));
+                }
+                let time = positive(line, key, value)?;
+                self.moment = if key == "hours" { Moment::Hours(time) } else { Moment::Revolutions(time) };
+                self.moment_line = line;
+            }
+            "width_mm" => {
+                let place = finite(line, key, value)?;
+                self.width_mm = Some(place);
+                self.width_line = line;
+            }
+            "uncertainty_um" => self.uncertainty_um = Some(positive(line, key, value)?),
+            "arc_from" => {
+                self.arc_from = Some(match value {
+                    "base-circle" => ArcFrom::BaseCircle,
+                    "start-of-active-profile" => ArcFrom::ActiveStart,
+                    "tip" => ArcFrom::Tip,
+                    _ => return Err(refused("base-circle, start-of-active-profile or tip")),
+                });
+            }
+            "height_from" => {
+                self.height_from = match value {
+                    "involute" => HeightFrom::Involute,
+                    "line" => HeightFrom::Line,
+                    _ => return Err(refused("involute or line")),
+                };
+            }
+            _ => {
+                if let Some(meant) = KEYS.iter().find(|known| strsim::jaro_winkler(known, key) > SLIP) {
+                    return Err(not_allowed(line, "key", key, format!("{meant}, or a remark without =")));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn columns_allowed() -> String {
+    let names = |names: &[&str]| names.join(", ");
+    format!(
+        "names with units, separated by commas: one of {}, and one of {}",
+        names(&PLACES.map(|(name, _)| name)),
+        names(&VALUES.map(|(name, ..)| name))
+    )
+}
+
+fn finite(line: usize, column: &str, text: &str) -> Result<f64, MeasuredFileError> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => {
+            let found = if text.is_empty() { "nothing" } else { text };
+            Err(not_allowed(line, column, found, "a finite number".to_owned()))
+        }
+    }
+}
+
+fn positive(line: usize, column: &str, text: &str) -> Result<f64, MeasuredFileError> {
+    match finite(line, column, text) {
+        Ok(value) if value > 0.0 => Ok(value),
+        _ => Err(not_allowed(line, column, text, "a number greater than 0".to_owned())),
+    }
+}
+
+fn not_allowed(line: usize, column: &str, found: impl ToString, allowed: String) -> MeasuredFileError {
+    MeasuredFileError::NotAllowed { line, column: column.to_owned(), found: found.to_string(), allowed }
+}
+
+fn missing(what: &str, allowed: String) -> MeasuredFileError {
+    MeasuredFileError::Missing { what: what.to_owned(), allowed }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_in_any_order_and_units_of_both_kinds() {
+        let text = "# a remark\n# gear = wheel\n# hours = 2\nwear_um,note,roll_angle_deg\n1.5,a,10\n2,b,10.5\n";
+        let file = parse(text).unwrap();
+        assert_eq!(
+            (file.gear, file.moment, file.place),
+            (Some(Gear::Wheel), Moment::Hours(2.0), PlaceColumn::RollAngleDeg)
+        );
+        let points: Vec<_> = file.rows.iter().map(|row| (row.line, row.place, row.height_um)).collect();
+        assert_eq!(points, [(5, 10.0, -1.5), (6, 10.5, -2.0)]);
+        let in_mm = parse("radius_mm,height_mm\n34,-0.002\n").unwrap();
+        assert_eq!((in_mm.rows[0].height_um, in_mm.kind), (-2.0, ValueKind::Height));
+    }
+
+    /// Each wrong file is refused at its line, with what was found and what is allowed.
+    #[test]
+    fn wrong_files_are_refused_where_they_are_wrong() {
+        for (text, line, found) in [
+            ("radius,height\n1,2\n", "line 1", "radius,height"),
+            ("radius_mm,height_nm\n1,2\n", "line 1", "radius_mm,height_nm"),
+            ("34.0,1.0\n34.1,1.0\n", "line 1", "34.0,1.0"),
+            ("radius_mm,arc_mm,height_um\n1,2,3\n", "line 1", "radius_mm,arc_mm"),
+            ("radius_mm,height_um\n34,1\n34.1,NaN\n", "line 3", "NaN"),
+            ("radius_mm,height_um\n34,1\n34.1,\n", "line 3", "nothing"),
+            ("radius_mm,height_um\n34,1,5\n", "line 2", "3"),
+            ("radius_mm,height_um\n34.2,1\n34.2,1\n", "line 3", "34.2"),
+            ("# gear = rack\nradius_mm,height_um\n34,1\n", "line 1", "rack"),
+            ("# hour = 3\nradius_mm,height_um\n34,1\n", "line 1", "hour"),
+            ("# hours = -3\nradius_mm,height_um\n34,1\n", "line 1", "-3"),
+            ("# hours = 3\n# revolutions = 3\nradius_mm,height_um\n34,1\n", "line 2", "3"),
+        ] {
+            let message = parse(text).unwrap_err().to_string();
+            assert!(message.starts_with(line) && message.contains(&format!("found {found}")), "{text}: {message}");
+            assert!(message.contains("allowed: "), "{message}");
+        }
+        for text in ["", "# only remarks\n", "arc_mm,height_um\n1,2\n"] {
+            assert!(matches!(parse(text), Err(MeasuredFileError::Missing { .. })), "{text}");
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! Nonlinear least squares in a few bounded parameters, after Levenberg and Marquardt.
+//!
+//! ```text
+//! minimise |r(θ)|²          (JᵀJ + λ diag JᵀJ) δ = −Jᵀr,          J = ∂r/∂θ by central differences
+//! ```
+//!
+//! λ falls with every step that lessens the sum of squares and grows with every one that does not; steps are cut at the bounds.
+//! Parameters are logarithms of positive quantities, or lengths: each comes with the width of its differences, which is also
+//! the measure of a step that no longer matters.
+//!
+//! Source: J. J. Moré, *The Levenberg–Marquardt algorithm*, Lecture Notes in Mathematics 630 (1978) 105–116.
+
+use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
+
+/// Most iterations.
+const MOST_ITERATIONS: usize = 60;
+/// A step shorter than this part of the width of the differences ends the search.
+const SMALL_STEP: f64 = 1e-4;
+/// λ beyond which no step lessens the sum of squares.
+const MOST_DAMPING: f64 = 1e12;
+/// A parameter whose column of J, times the width of its differences, is shorter than this part of r is not determined.
+const NO_EFFECT: f64 = 1e-12;
+
+/// A parameter to fit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parameter {
+    /// Where the search begins.
+    pub start: f64,
+    /// Least value.
+    pub least: f64,
+    /// Greatest value.
+    pub greatest: f64,
+    /// Width of the differences.
+    pub width: f64,
+}
+
+/// Why the search ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum FitStop {
+    /// A minimum was found.
+    Converged,
+    /// Too many iterations.
+    MaxIterations,
+    /// A parameter has no effect on the residuals.
+    Undetermined,
+    /// The least sum of squares is at the bound of a parameter.
+    AtBound,
+    /// The residuals are not numbers.
+    NotFinite,
+}
+
+/// What the search found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fitted {
+    /// θ.
+    pub parameters: Vec<f64>,
+    /// r(θ).
+    pub residuals: Vec<f64>,
+    /// Columns of J at θ.
+    pub jacobian: Vec<Vec<f64>>,
+    /// Why it ended.
+    pub stop: FitStop,
+    /// Which parameter is to blame, where one is.
+    pub blamed: Option<usize>,
+}
+
+/// Finds the parameters with the least sum of squares of `residuals`.
+///
+/// # Errors
+/// Those of `residuals`.
+pub fn least_squares<E>(
+    parameters: &[Parameter],
+    residuals: &mut dyn FnMut(&[f64]) -> Result<Vec<f64>, E>,
+) -> Result<Fitted, E> {
+    let mut theta: Vec<f64> = parameters.iter().map(|p| p.start.clamp(p.least, p.greatest)).collect();
+    let mut r = residuals(&theta)?;
+    let mut damping = 1e-3;
+    let mut stop = FitStop::MaxIterations;
+    for _ in 0..MOST_ITERATIONS {
+        if !square(&r).is_finite() {
+            stop = FitStop::NotFinite;
+            break;
+        }
+        let columns = jacobian(parameters, &theta, residuals)?;
+        let mut stepped = false;
+        while damping < MOST_DAMPING {
+            let Some(step) = newton_step(&columns, &r, damping) else { break };
+            let next: Vec<f64> = parameters
+                .iter()
+                .zip(theta.iter().zip(&step))
+                .map(|(p, (value, by))| (value + by).clamp(p.least, p.greatest))
+                .collect();
+            let change = parameters.iter().zip(theta.iter().zip(&next)).map(|(p, (a, b))| (b - a).abs() / p.width);
+            let change = change.fold(0.0, f64::max);
+            if change < SMALL_STEP {
+                break;
+            }
+            let tried = residuals(&next)?;
+            if square(&tried) < square(&r) {
+                (theta, r) = (next, tried);
+                damping = (damping * 0.1).max(1e-12);
+                stepped = true;
+                break;
+            }
+            damping *= 10.0;
+        }
+        if !stepped {
+            stop = FitStop::Converged;
+            break;
+        }
+    }
+    let jacobian = jacobian(parameters, &theta, residuals)?;
+    let scale = square(&r).sqrt();
+    let without_effect = (0..theta.len()).find(|&i| {
+        square(&jacobian[i]).sqrt() * parameters[i].width <= NO_EFFECT * scale || square(&jacobian[i]) == 0.0
+    });
+    let at_bound = (0..theta.len()).find(|&i| theta[i] <= parameters[i].least || theta[i] >= parameters[i].greatest);
+    let (stop, blamed) = match (stop, without_effect, at_bound) {
+        (FitStop::NotFinite, ..) => (stop, None),
+        (_, Some(index), _) => (FitStop::Undetermined, Some(index)),
+        (_, None, Some(index)) => (FitStop::AtBound, Some(index)),
+        _ => (stop, None),
+    };
+    Ok(Fitted { parameters: theta, residuals: r, jacobian, stop, blamed })
+}
+
+/// The undamped step −(JᵀJ)⁻¹Jᵀr; `None` where the parameters are not determined.
+pub fn gauss_newton_step(jacobian: &[Vec<f64>], residuals: &[f64]) -> Option<Vec<f64>> {
+    newton_step(jacobian, residuals, 0.0)
+}
+
+/// (JᵀJ)⁻¹, row by row; `None` where the parameters are not determined.
+pub fn inverse_normal_matrix(jacobian: &[Vec<f64>]) -> Option<DMatrix<f64>> {
+    let (scales, normal) = scaled_normal_matrix(jacobian, 0.0)?;
+    let inverse = normal.cholesky()?.inverse();
+    Some(DMatrix::from_fn(scales.len(), scales.len(), |i, j| inverse[(i, j)] / (scales[i] * scales[j])))
+}
+
+/// JᵀJ with its diagonal scaled to 1 and damped, and the lengths of the columns.
+fn scaled_normal_matrix(jacobian: &[Vec<f64>], damping: f64) -> Option<(Vec<f64>, DMatrix<f64>)> {
+    let scales: Vec<f64> = jacobian.iter().map(|column| square(column).sqrt()).collect();
+    if scales.iter().any(|scale| !(*scale > 0.0 && scale.is_finite())) {
+        return None;
+    }
+    let normal = DMatrix::from_fn(scales.len(), scales.len(), |i, j| {
+        let product = dot(&jacobian[i], &jacobian[j]) / (scales[i] * scales[j]);
+        if i == j { product + damping } else { product }
+    });
+    Some((scales, normal))
+}
+
+fn newton_step(jacobian: &[Vec<f64>], residuals: &[f64], damping: f64) -> Option<Vec<f64>> {
+    let (scales, normal) = scaled_normal_matrix(jacobian, damping)?;
+    let gradient = DVector::from_fn(scales.len(), |i, _| -dot(&jacobian[i], residuals) / scales[i]);
+    let step = normal.cholesky()?.solve(&gradient);
+    Some(step.iter().zip(&scales).map(|(value, scale)| value / scale).collect())
+}
+
+/// Central differences, one-sided at a bound.
+fn jacobian<E>(
+    parameters: &[Parameter],
+    theta: &[f64],
+    residuals: &mut dyn FnMut(&[f64]) -> Result<Vec<f64>, E>,
+) -> Result<Vec<Vec<f64>>, E> {
+    let mut columns = Vec::with_capacity(theta.len());
+    for (i, p) in parameters.iter().enumerate() {
+        let [low, high] = [-p.width, p.width].map(|by| (theta[i] + by).clamp(p.least, p.greatest));
+        let mut at = |value: f64| {
+            let mut moved = theta.to_vec();
+            moved[i] = value;
+            residuals(&moved)
+        };
+        let (below, above) = (at(low)?, at(high)?);
+        let span = (high - low).max(f64::MIN_POSITIVE);
+        columns.push(below.iter().zip(&above).map(|(a, b)| (b - a) / span).collect());
+    }
+    Ok(columns)
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Sum of squares.
+fn square(values: &[f64]) -> f64 {
+    dot(values, values)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::convert::Infallible;
+
+    fn free(start: f64) -> Parameter {
+        Parameter { start, least: -10.0, greatest: 10.0, width: 1e-3 }
+    }
+
+    fn fit(parameters: &[Parameter], mut of: impl FnMut(&[f64]) -> Vec<f64>) -> Fitted {
+        let Ok(fitted) = least_squares::<Infallible>(parameters, &mut |theta| Ok(of(theta)));
+        fitted
+    }
+
+    /// Rosenbrock's valley, Moré, Garbow and Hillstrom (1981) problem 1: minimum at (1, 1).
+    #[test]
+    fn val_rosenbrock() {
+        let fitted = fit(&[free(-1.2), free(1.0)], |t| vec![10.0 * (t[1] - t[0] * t[0]), 1.0 - t[0]]);
+        assert_eq!(fitted.stop, FitStop::Converged);
+        assert!(fitted.parameters.iter().all(|t| (t - 1.0).abs() < 1e-6), "{fitted:?}");
+    }
+
+    /// A linear problem has the solution of its normal equations, whatever the scales of its parameters.
+    #[test]
+    fn ver_linear_regression() {
+        let x: Vec<f64> = (0..20).map(f64::from).collect();
+        let fitted = fit(&[free(0.0), Parameter { width: 1e-6, ..free(0.0) }], |t| {
+            x.iter().map(|x| t[0] + 1e3 * t[1] * x - (2.0 + 0.5 * x)).collect()
+        });
+        assert!((fitted.parameters[0] - 2.0).abs() < 1e-6 && (fitted.parameters[1] - 5e-4).abs() < 1e-9, "{fitted:?}");
+        // Var of the slope: 1/Σ(x − x̄)² = 1/665, in units of a thousandth.
+        let covariance = inverse_normal_matrix(&fitted.jacobian).unwrap();
+        assert!((covariance[(1, 1)] * 1e6 * 665.0 - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn it_says_what_is_not_determined_and_what_is_at_a_bound() {
+        let nothing = fit(&[free(0.0), free(1.0)], |t| vec![t[0] - 1.0, 0.5]);
+        assert_eq!((nothing.stop, nothing.blamed), (FitStop::Undetermined, Some(1)));
+        let bound = fit(&[free(0.0)], |t| vec![t[0] - 20.0]);
+        assert_eq!((bound.stop, bound.blamed, bound.parameters[0]), (FitStop::AtBound, Some(0), 10.0));
+        let wrong = fit(&[free(0.0)], |_| vec![f64::NAN]);
+        assert_eq!(wrong.stop, FitStop::NotFinite);
+    }
+}

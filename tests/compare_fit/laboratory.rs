@@ -1,0 +1,141 @@
+//! Synthetic measurements: the wear of a run with known coefficients, form and noise added.
+
+use std::f64::consts::{PI, TAU};
+
+use gearwear::compare::question::{Asked, FitKind, Question};
+use gearwear::compare::run_folder::RunFolder;
+use gearwear::compare::study;
+use gearwear::gear::{Gear, GearPair};
+use gearwear::measurement::file;
+use gearwear::pipeline::{self, inputs::Inputs};
+use gearwear::plan::Plan;
+use gearwear::report;
+use gearwear::scene::{Resolved, Scene};
+use gearwear::simulation::compare_record::CompareRecord;
+use gearwear::simulation::record::RunRecord;
+use gearwear::simulation::wear_run::Unwatched;
+
+/// A run in a folder, the noiseless trace of another one with other coefficients, and where its points are.
+pub struct Laboratory {
+    folder: tempfile::TempDir,
+    resolved: Resolved,
+    /// Radii of the points of the trace.
+    pub radius_mm: Vec<f64>,
+    /// Arc lengths from the base circle.
+    pub arc_mm: Vec<f64>,
+    /// Wear depth of the other run there.
+    pub wear_um: Vec<f64>,
+}
+
+/// Points of a trace.
+pub const POINTS: usize = 300;
+
+impl Laboratory {
+    /// A run of `scene`, and the wear of the pinion by `truth` at evenly spaced arc lengths of the active flank.
+    pub fn new(scene: &str, truth: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let (resolved, record) = run(scene);
+        report::write_data_and_page(&record, folder.path()).unwrap();
+        report::write_summary(&record.summary, folder.path()).unwrap();
+        let pair = GearPair::new(&resolved.scene.pair).unwrap();
+        let involute = pair.teeth.pinion.involute;
+        let start = involute.arc_mm(pair.active_start_rho_mm(Gear::Pinion));
+        let end = involute.arc_mm(pair.teeth.pinion.tip_rho_mm());
+        // A little less than the whole flank, so that a shift leaves the trace on it.
+        let arc_mm: Vec<f64> =
+            (0..POINTS).map(|i| start + 0.06 + (end - start - 0.12) * i as f64 / (POINTS - 1) as f64).collect();
+        let radius_at = |arc: f64| involute.radius_mm((2.0 * involute.base_radius_mm * arc).sqrt());
+        let flank = run(truth).1.flanks.pinion;
+        let wear_um =
+            arc_mm.iter().map(|&arc| interpolated(&flank.radius_mm, &flank.wear_um, radius_at(arc))).collect();
+        let radius_mm = arc_mm.iter().map(|&arc| radius_at(arc)).collect();
+        Self { folder, resolved, radius_mm, arc_mm, wear_um }
+    }
+
+    /// Greatest wear depth of the trace.
+    pub fn depth_um(&self) -> f64 {
+        self.wear_um.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// A file of heights at the points.
+    pub fn file(&self, height_um: &[f64]) -> String {
+        let rows: String = self.radius_mm.iter().zip(height_um).map(|(r, z)| format!("{r},{z}\n")).collect();
+        format!("# gear = pinion\nradius_mm,height_um\n{rows}")
+    }
+
+    /// What the comparison of a file with the run says.
+    pub fn compare(&self, text: &str, asked: &Asked) -> CompareRecord {
+        let folder = RunFolder::read(self.folder.path()).unwrap();
+        let pair = GearPair::new(&self.resolved.scene.pair).unwrap();
+        let file = file::parse(text).unwrap();
+        let question = Question::new(asked, &file, &folder, &self.resolved, &pair).unwrap();
+        study::run(&question, &folder, &self.resolved, &Inputs::default(), "trace.csv", &Unwatched).unwrap()
+    }
+}
+
+/// Carries a scene out.
+fn run(scene: &str) -> (Resolved, RunRecord) {
+    let resolved = Scene::from_toml(scene).unwrap_or_else(|problems| panic!("{problems:?}"));
+    let done = pipeline::run(&resolved, &Plan::of(&resolved.scene), &Inputs::default(), &Unwatched).unwrap();
+    assert!(done.failure.is_none());
+    (resolved, done.record)
+}
+
+fn interpolated(x: &[f64], y: &[f64], at: f64) -> f64 {
+    let after = x.partition_point(|&x| x <= at).clamp(1, x.len() - 1);
+    let t = (at - x[after - 1]) / (x[after] - x[after - 1]);
+    y[after - 1] + t * (y[after] - y[after - 1])
+}
+
+/// What is asked where a test says nothing else: k of heights, no shift.
+pub fn asked(fit: FitKind) -> Asked {
+    Asked { gear: None, form: None, fit, shift_within_mm: 0.0 }
+}
+
+/// Normal numbers of mean 0 and deviation 1 by Box and Muller, from xorshift64* (Vigna 2016).
+pub struct Noise(u64);
+
+impl Noise {
+    /// A generator with its seed.
+    pub fn new(seed: u64) -> Self {
+        // Neighbouring seeds begin far apart: the odd constant of Knuth's multiplicative hashing.
+        let mut noise = Self((seed + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
+        for _ in 0..16 {
+            noise.uniform();
+        }
+        noise
+    }
+
+    fn uniform(&mut self) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        ((self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 + 0.5) / (1u64 << 53) as f64
+    }
+
+    /// The next number.
+    pub fn normal(&mut self) -> f64 {
+        (-2.0 * self.uniform().ln()).sqrt() * (TAU * self.uniform()).cos()
+    }
+
+    /// White noise.
+    pub fn white(&mut self, count: usize) -> Vec<f64> {
+        (0..count).map(|_| self.normal()).collect()
+    }
+
+    /// Noise of the same deviation whose neighbours depend on each other: an autoregression of first order.
+    pub fn correlated(&mut self, count: usize, rho: f64) -> Vec<f64> {
+        let mut last = self.normal();
+        (0..count)
+            .map(|_| {
+                last = rho * last + (1.0 - rho * rho).sqrt() * self.normal();
+                last
+            })
+            .collect()
+    }
+}
+
+/// A wave of this amplitude and length.
+pub fn wave(arc_mm: &[f64], amplitude_um: f64, length_mm: f64) -> Vec<f64> {
+    arc_mm.iter().map(|s| amplitude_um * (2.0 * PI * s / length_mm).sin()).collect()
+}
