@@ -6,3 +6,4 @@ pub mod half_plane;
 pub mod hertz_line;
 pub mod lame_cylinder;
 pub mod persson;
+pub mod worn_cylinder;
