@@ -131,10 +131,10 @@ impl Args {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let folder = RunFolder::read(&args.run).map_err(InputError::from)?;
+    let folder = RunFolder::read(&args.run).map_err(InputError::RunFolder)?;
     let source = scene_source::resolve(&RunFolder::scene_path(&args.run))?;
     let resolved = &source.resolved;
-    folder.check_scene(resolved).map_err(InputError::from)?;
+    folder.check_scene(resolved).map_err(InputError::RunFolder)?;
     let text = scene_source::read(&args.measured)?;
     let refused = |error: QuestionError| InputError::Measured { name: text.name.clone(), error };
     let file = file::parse(&text.text).map_err(|error| refused(error.into()))?;
@@ -146,7 +146,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 
     let pool = pool(args.threads)?;
     let progress = Progress::new(args.quiet, Arc::clone(&watch_for_interrupt()));
-    let name = Path::new(&text.name).file_name().map_or_else(|| text.name.clone(), |n| n.to_string_lossy().into_owned());
+    let name =
+        Path::new(&text.name).file_name().map_or_else(|| text.name.clone(), |n| n.to_string_lossy().into_owned());
     let done = pool.install(|| study::run(&question, &folder, resolved, &source.inputs, &name, &progress));
     progress.finish();
     let record = done.map_err(|error| match error {
@@ -201,6 +202,9 @@ fn table(record: &CompareRecord) -> String {
         text.push_str(&format!("  {name:44}{:>12}\n", value.map_or_else(|| "–".to_owned(), digits)));
     }
     let runs = if fit.runs == 1 { "run" } else { "runs" };
-    text.push_str(&format!("\nform {}, {} {runs} of the scene ({} working cycles)\n", record.form, fit.runs, fit.mesh_cycles));
+    text.push_str(&format!(
+        "\nform {}, {} {runs} of the scene ({} working cycles)\n",
+        record.form, fit.runs, fit.mesh_cycles
+    ));
     text
 }

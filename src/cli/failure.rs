@@ -153,7 +153,7 @@ pub enum InputError {
     /// A folder that is not that of a finished run.
     #[error("RUN: {0}")]
     #[diagnostic(help("gearwear run SCENE --out RUN makes one"))]
-    RunFolder(#[from] RunFolderError),
+    RunFolder(RunFolderError),
     /// A measured profile that cannot be compared with the run.
     #[error("{name}: {error}")]
     #[diagnostic(help("gearwear compare --help says what stands in a measured file"))]
@@ -276,7 +276,9 @@ impl Failure {
             Failure::Accuracy(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Calibrate(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Run(error) => say(&format!("{:?}", Report::msg(error))),
-            error @ (Failure::NoCombination { .. } | Failure::NotFitted { .. }) => say(&format!("{:?}", Report::msg(error))),
+            error @ (Failure::NoCombination { .. } | Failure::NotFitted { .. }) => {
+                say(&format!("{:?}", Report::msg(error)))
+            }
             Failure::Interrupted | Failure::Closed => {}
         }
     }

@@ -117,7 +117,9 @@ pub enum QuestionError {
         needs: String,
     },
     /// The curvature of a tooth taken for wear.
-    #[error("--form: found none with heights from a line; allowed: cubic or involute, which take the tooth's curvature away")]
+    #[error(
+        "--form: found none with heights from a line; allowed: cubic or involute, which take the tooth's curvature away"
+    )]
     LineWithoutForm,
     /// A factor that the scene does not have.
     #[error("--fit: found {found}, but the scene of the run has no wear.severe; allowed: none or k")]

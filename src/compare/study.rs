@@ -141,7 +141,10 @@ fn fit(question: &Question, resolved: &Resolved, found: &Found, simulations: &Si
             u.effective_points
         ),
         None if found.unknowns.is_empty() => "nothing was fitted".to_owned(),
-        None => "no interval: by the autocorrelation of the residuals too few points count, or a value is not determined".to_owned(),
+        None => {
+            "no interval: by the autocorrelation of the residuals too few points count, or a value is not determined"
+                .to_owned()
+        }
     };
     FitRecord {
         stopped: found.stop,
@@ -199,8 +202,12 @@ fn warnings(fit: &FitRecord, figures: &CompareFigures) -> Vec<String> {
         FitStop::AtBound if blamed == name(Unknown::Shift) => {
             warnings.push("the shift is as long as it may be: allow more with --shift-within, or check where the file's arc begins".to_owned());
         }
-        FitStop::AtBound => warnings.push(format!("{blamed} is at the end of what is searched: the profile does not give it")),
-        FitStop::Undetermined => warnings.push(format!("{blamed} has no effect on the profile, which therefore does not give it")),
+        FitStop::AtBound => {
+            warnings.push(format!("{blamed} is at the end of what is searched: the profile does not give it"))
+        }
+        FitStop::Undetermined => {
+            warnings.push(format!("{blamed} has no effect on the profile, which therefore does not give it"))
+        }
         FitStop::MaxIterations => warnings.push("the fit did not converge: its values are the last ones".to_owned()),
         FitStop::NotFinite => warnings.push("the residuals are not numbers: nothing was fitted".to_owned()),
     }

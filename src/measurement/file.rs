@@ -215,7 +215,8 @@ pub fn parse(text: &str) -> Result<MeasuredFile, MeasuredFileError> {
     for (line, fields) in rows {
         let point = columns.point(*line, fields)?;
         if let Some(before) = points.last().filter(|before| before.place >= point.place) {
-            let allowed = format!("more than {} of line {}: places increase from row to row", before.place, before.line);
+            let allowed =
+                format!("more than {} of line {}: places increase from row to row", before.place, before.line);
             return Err(not_allowed(*line, columns.place.name(), point.place, allowed));
         }
         points.push(point);
@@ -362,7 +363,10 @@ mod tests {
     fn columns_in_any_order_and_units_of_both_kinds() {
         let text = "# a remark\n# gear = wheel\n# hours = 2\nwear_um,note,roll_angle_deg\n1.5,a,10\n2,b,10.5\n";
         let file = parse(text).unwrap();
-        assert_eq!((file.gear, file.moment, file.place), (Some(Gear::Wheel), Moment::Hours(2.0), PlaceColumn::RollAngleDeg));
+        assert_eq!(
+            (file.gear, file.moment, file.place),
+            (Some(Gear::Wheel), Moment::Hours(2.0), PlaceColumn::RollAngleDeg)
+        );
         let points: Vec<_> = file.rows.iter().map(|row| (row.line, row.place, row.height_um)).collect();
         assert_eq!(points, [(5, 10.0, -1.5), (6, 10.5, -2.0)]);
         let in_mm = parse("radius_mm,height_mm\n34,-0.002\n").unwrap();

@@ -113,8 +113,9 @@ pub fn least_squares<E>(
     }
     let jacobian = jacobian(parameters, &theta, residuals)?;
     let scale = square(&r).sqrt();
-    let without_effect = (0..theta.len())
-        .find(|&i| square(&jacobian[i]).sqrt() * parameters[i].width <= NO_EFFECT * scale || square(&jacobian[i]) == 0.0);
+    let without_effect = (0..theta.len()).find(|&i| {
+        square(&jacobian[i]).sqrt() * parameters[i].width <= NO_EFFECT * scale || square(&jacobian[i]) == 0.0
+    });
     let at_bound = (0..theta.len()).find(|&i| theta[i] <= parameters[i].least || theta[i] >= parameters[i].greatest);
     let (stop, blamed) = match (stop, without_effect, at_bound) {
         (FitStop::NotFinite, ..) => (stop, None),

@@ -46,7 +46,8 @@ impl Laboratory {
             (0..POINTS).map(|i| start + 0.06 + (end - start - 0.12) * i as f64 / (POINTS - 1) as f64).collect();
         let radius_at = |arc: f64| involute.radius_mm((2.0 * involute.base_radius_mm * arc).sqrt());
         let flank = run(truth).1.flanks.pinion;
-        let wear_um = arc_mm.iter().map(|&arc| interpolated(&flank.radius_mm, &flank.wear_um, radius_at(arc))).collect();
+        let wear_um =
+            arc_mm.iter().map(|&arc| interpolated(&flank.radius_mm, &flank.wear_um, radius_at(arc))).collect();
         let radius_mm = arc_mm.iter().map(|&arc| radius_at(arc)).collect();
         Self { folder, resolved, radius_mm, arc_mm, wear_um }
     }

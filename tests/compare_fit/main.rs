@@ -125,7 +125,8 @@ fn ver_the_severe_factor_comes_back() {
 fn ver_the_coefficient_comes_back_from_phases() {
     let phases = |k: f64| {
         let text = scene(k, 1.0).replace("hours = 127.75\n", "");
-        let phases = "[[operation.phases]]\nhours = 40.0\npinion_torque_Nm = 200.0\n[[operation.phases]]\nhours = 87.75\n";
+        let phases =
+            "[[operation.phases]]\nhours = 40.0\npinion_torque_Nm = 200.0\n[[operation.phases]]\nhours = 87.75\n";
         text.replace("[stiffness]\n", &format!("{phases}[stiffness]\n"))
     };
     let of = Laboratory::new(&phases(1e-17), &phases(TRUE_K));

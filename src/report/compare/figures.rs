@@ -6,7 +6,9 @@ use plotly::layout::{Axis, Layout};
 
 use crate::report::html::number::{figure, significant};
 use crate::report::html::reading::{among, greatest};
-use crate::report::html::theme::{Figure, MUTED, NEW, WORN, axis, curve, layout, line, mark_path_points, named, padded};
+use crate::report::html::theme::{
+    Figure, MUTED, NEW, WORN, axis, curve, layout, line, mark_path_points, named, padded,
+};
 use crate::simulation::compare_record::{CompareRecord, CompareRow};
 
 const MEASURED: &str = "var(--wheel)";
@@ -118,7 +120,8 @@ fn differences(record: &CompareRecord) -> Figure {
     if let Some(uncertainty) = f.uncertainty_um {
         for (name, value) in [("uncertainty of a height", uncertainty), ("", -uncertainty)] {
             let level = vec![value; record.rows.len()];
-            let trace = curve(name, record.rows.iter().map(|row| row.radius_mm), level, line(MUTED, 1.0, DashType::Dash));
+            let trace =
+                curve(name, record.rows.iter().map(|row| row.radius_mm), level, line(MUTED, 1.0, DashType::Dash));
             plot.add_trace(trace.show_legend(!name.is_empty()).hover_template("%{y:.3f} µm"));
         }
     }

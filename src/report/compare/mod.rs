@@ -27,7 +27,10 @@ pub const COMPARE: [Column; 8] = [
     ("difference_um", "measured less simulated"),
     ("as_run_um", "simulated height of the run as it is, form removed in the same way"),
     ("wear_um", "simulated wear depth after the fit"),
-    ("measured_wear_um", "wear depth of the measured profile on the form of the simulation: wear_um less difference_um"),
+    (
+        "measured_wear_um",
+        "wear depth of the measured profile on the form of the simulation: wear_um less difference_um",
+    ),
 ];
 
 /// Writes all files of `record` into `dir`, which is made if need be; returns their paths in the order written.

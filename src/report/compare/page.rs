@@ -8,8 +8,10 @@ use crate::report::html::table::{Row, row, table};
 use crate::simulation::compare_record::{CompareRecord, Estimate};
 
 /// The data files named in the page, which lie beside it.
-const DATA_FILES: [(&str, &str); 2] =
-    [("compare.json", "the figures and what was fitted"), ("compare.csv", "measured and simulated profile, point by point")];
+const DATA_FILES: [(&str, &str); 2] = [
+    ("compare.json", "the figures and what was fitted"),
+    ("compare.csv", "measured and simulated profile, point by point"),
+];
 
 /// The whole page.
 pub fn page(record: &CompareRecord) -> String {
