@@ -50,7 +50,7 @@ pub enum Failure {
     #[error(transparent)]
     Calibrate(CalibrateError),
     /// A measured profile does not give what was to be fitted to it; the comparison is written.
-    #[error("nothing could be fitted: {why}")]
+    #[error("the fit failed: {why}")]
     NotFitted {
         /// What is to blame.
         why: String,
