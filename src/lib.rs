@@ -25,6 +25,7 @@ pub mod pipeline;
 pub mod plan;
 pub mod reference;
 pub mod report;
+pub mod resume;
 pub mod scene;
 pub mod simulation;
 pub mod stiffness;

@@ -172,7 +172,7 @@ fn snapshots_are_hit_exactly() {
     let reached: Vec<f64> = outcome.snapshots.iter().map(|s| s.revolutions).collect();
     assert_eq!(reached, [250.0, 300.0, 1000.0 / 3.0, 1000.0]);
     // 100, 200, 250; 300; 333.3; seven more: 433.3 … 933.3, 1000.
-    assert_eq!(outcome.wear_steps, 3 + 1 + 1 + 7);
+    assert_eq!(outcome.steps.accepted, 3 + 1 + 1 + 7);
 }
 
 /// Work is linear in positions × wear steps, and an equilibrium takes about three Newton steps.

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use gearwear::calibration::{Calibration, identity::Identity};
 use gearwear::gear::GearPair;
+use gearwear::resume::identity::InputFile;
 use gearwear::scene::Problem;
 
 use super::failure::{Failure, SceneProblems};
@@ -15,9 +16,9 @@ const ALLOWED: &str = "a file that gearwear calibrate wrote for this pair";
 /// Part of a load that counts as within a range.
 const ROUNDING: f64 = 1e-9;
 
-/// The calibration of `source`, where it names one; a file that is not absolute lies in `folder`. What the user should
+/// The calibration of `source` and its file, where it names one; a file that is not absolute lies in `folder`. What the user should
 /// know of it joins the scene's warnings.
-pub fn read(folder: &Path, source: &mut Source) -> Result<Option<Calibration>, Failure> {
+pub fn read(folder: &Path, source: &mut Source) -> Result<Option<(Calibration, InputFile)>, Failure> {
     let Some(name) = source.resolved.scene.calibration_file.clone() else { return Ok(None) };
     let refused = |what: String, help: &str| {
         Failure::Scene(SceneProblems {
@@ -46,7 +47,7 @@ pub fn read(folder: &Path, source: &mut Source) -> Result<Option<Calibration>, F
     }
     let warnings = warnings(&name, &calibration, source, &pair);
     source.resolved.warnings.extend(warnings);
-    Ok(Some(calibration))
+    Ok(Some((calibration, InputFile { key: KEY, name, bytes: text.into_bytes() })))
 }
 
 fn warnings(name: &str, calibration: &Calibration, source: &Source, pair: &GearPair) -> Vec<String> {

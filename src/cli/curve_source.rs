@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use gearwear::gear::GearPair;
+use gearwear::resume::identity::InputFile;
 use gearwear::scene::Problem;
 use gearwear::stiffness::curve::PairCompliance;
 use gearwear::stiffness::curve_file;
@@ -16,8 +17,8 @@ const KEY: &str = "stiffness.curve";
 const ALLOWED: &str = "a data file (CSV) of the stiffness along the path of contact";
 const HELP: &str = "the file lies beside the scene; gearwear schema says what stands in it";
 
-/// The curve of `source`, where its stiffness model has one; a file that is not absolute lies in `folder`.
-pub fn read(folder: &Path, source: &Source) -> Result<Option<PairCompliance>, Failure> {
+/// The curve of `source` and its file, where its stiffness model has one; a file that is not absolute lies in `folder`.
+pub fn read(folder: &Path, source: &Source) -> Result<Option<(PairCompliance, InputFile)>, Failure> {
     let scene = &source.resolved.scene;
     let (StiffnessSettings::Simon | StiffnessSettings::WangCheng, Some(name)) =
         (scene.stiffness, &scene.stiffness_curve_file)
@@ -39,5 +40,5 @@ pub fn read(folder: &Path, source: &Source) -> Result<Option<PairCompliance>, Fa
     let pair = GearPair::new(&scene.pair).map_err(|error| refused(format!("but {error}")))?;
     let curve = curve_file::parse(&text, &pair.path)
         .map_err(|error| InputError::Curve { name: path.display().to_string(), error })?;
-    Ok(Some(curve))
+    Ok(Some((curve, InputFile { key: KEY, name: name.clone(), bytes: text.into_bytes() })))
 }

@@ -15,6 +15,8 @@ use gearwear::pipeline::calibrate::CalibrateError;
 use gearwear::pipeline::fem_scene::FemPairError;
 use gearwear::pipeline::pair_mesh::PairMeshError;
 use gearwear::report::ReportError;
+use gearwear::resume::file::CheckpointError;
+use gearwear::resume::folder::FolderError;
 use gearwear::scene::{Problem, ProblemKind, presets};
 use gearwear::stiffness::curve_file::CurveFileError;
 use gearwear::sweep::axis::AxisError;
@@ -189,6 +191,28 @@ pub enum InputError {
     #[error("--out: {}", causes(.0))]
     #[diagnostic(help("a folder you may write to, and a name that ends in .msh, .vtu, .inp or .json"))]
     MeshFile(MeshFileError),
+    /// `--resume` of a folder that no run began in.
+    #[error("--resume: {folder} has no scene.toml; allowed: a folder that gearwear run --out began")]
+    #[diagnostic(help("give the scene too, and the run begins there: gearwear run SCENE --resume {folder}"))]
+    NothingToResume {
+        /// The folder.
+        folder: String,
+    },
+    /// `--resume` of a run that has ended.
+    #[error("--resume: the run in {folder} {how}: nothing is left to do")]
+    #[diagnostic(help(
+        "its results lie in {folder}; gearwear run SCENE --out {folder} runs it again from the beginning"
+    ))]
+    NothingLeft {
+        /// The folder.
+        folder: String,
+        /// How it ended.
+        how: &'static str,
+    },
+    /// `--resume` of a folder whose run cannot go on.
+    #[error("--resume: {0}")]
+    #[diagnostic(help("{}", resume_help(.0)))]
+    Resume(Box<FolderError>),
     /// What is to be varied is wrong.
     #[error("--vary: {0}")]
     #[diagnostic(help("{}", .0.help().unwrap_or_else(|| "for example --vary pair.face_width_mm=10:30:21".to_owned())))]
@@ -228,6 +252,19 @@ fn fem_pair(error: &FemPairError) -> String {
             format!("--position: found {given_mm}; allowed: {from_mm:.4} (A) to {to_mm:.4} (E), in mm")
         }
         other => other.to_string(),
+    }
+}
+
+/// What to do about a run that cannot go on.
+fn resume_help(error: &FolderError) -> &'static str {
+    match error {
+        FolderError::OtherRun { .. } => "resume it with its own scene and files, or choose another folder with --out",
+        FolderError::Checkpoint {
+            source: CheckpointError::OtherVersion { .. } | CheckpointError::OtherFormat { .. },
+            ..
+        } => "resume it with the version that wrote it, or remove the checkpoint to begin anew",
+        FolderError::Checkpoint { .. } => "remove the checkpoint to begin anew",
+        FolderError::Unreadable { .. } => "choose a folder you may read",
     }
 }
 

@@ -1,6 +1,7 @@
 //! The commands, one file each, and what they share: reading scenes, saying what is wrong, exit statuses.
 
 mod accuracy;
+mod begun_run;
 mod calibrate;
 mod calibration_source;
 mod compare;

@@ -6,16 +6,19 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use gearwear::pipeline::{self, Done, Observer, RunError};
+use gearwear::pipeline::{self, Done, Observer, Resumption, RunError};
 use gearwear::plan::{Plan, StageKind};
 use gearwear::report::{self, ReportError};
+use gearwear::resume::folder;
 use gearwear::scene::Problem;
+use gearwear::simulation::checkpoint::Checkpoint;
 use gearwear::simulation::record::{RunRecord, StageTime, StopReason};
 use gearwear::simulation::settings::Operation;
 
+use super::begun_run::{self, BegunRun, FolderKeeper};
 use super::failure::{Failure, InputError, SceneProblems};
 use super::progress::Progress;
-use super::scene_source::{self, Source};
+use super::scene_source::Source;
 use super::{figures, model_failure, say, stdout, warn};
 
 /// The exit status after an interrupt: 128 and the number of the signal.
@@ -24,11 +27,15 @@ const INTERRUPTED: i32 = 130;
 /// Arguments of `run`.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The scene file; - reads standard input
-    scene: PathBuf,
+    /// The scene file; - reads standard input. May be left out with --resume
+    #[arg(required_unless_present = "resume")]
+    scene: Option<PathBuf>,
     /// The folder for the results; files of an earlier run are replaced
-    #[arg(long, value_name = "DIR")]
-    out: PathBuf,
+    #[arg(long, value_name = "DIR", required_unless_present = "resume")]
+    out: Option<PathBuf>,
+    /// Go on with the run in this folder from its last checkpoint, to the same results as without a break
+    #[arg(long, value_name = "DIR", conflicts_with = "out")]
+    resume: Option<PathBuf>,
     /// Number of threads; default: all cores. Never changes the results
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
@@ -38,25 +45,38 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let source = scene_source::resolve(&args.scene)?;
+    let pool = pool(args.threads)?;
+    let begun = match (&args.scene, &args.out, &args.resume) {
+        (scene, _, Some(folder)) => begun_run::resume(scene.as_deref(), folder)?,
+        (Some(scene), Some(out), None) => begun_run::begin(scene, out)?,
+        (_, _, None) => unreachable!("clap demands both"),
+    };
+    let BegunRun { source, out, identity, from } = begun;
     let resolved = &source.resolved;
     warn(&resolved.warnings);
+    if let Some(from) = &from {
+        say_where_it_goes_on(from, &resolved.scene.operation, args.quiet);
+    }
     let plan = Plan::of(&resolved.scene);
-    report::writable(&args.out)?;
-    let pool = pool(args.threads)?;
 
     let interrupted = watch_for_interrupt();
     let progress = Progress::new(args.quiet, Arc::clone(&interrupted));
     // The summary's presence says that everything else in the folder is complete and of the same run.
-    report::remove_summary(&args.out)?;
+    report::remove_summary(&out)?;
+    let keeper = FolderKeeper::new(&out, &identity, &resolved.warnings);
     let done = pool.install(|| -> Result<Done, Failure> {
-        let mut done = pipeline::run(resolved, &plan, &source.inputs, &progress)?;
-        write(&mut done.record, &args.out, &progress)?;
+        let resumption = Resumption { from, keeper: &keeper };
+        let mut done = pipeline::run_from(resolved, &plan, &source.inputs, resumption, &progress)?;
+        write(&mut done.record, &out, &progress)?;
+        if done.record.summary.stopped != StopReason::Interrupted {
+            folder::remove_checkpoint(&out)?;
+        }
         Ok(done)
     });
     progress.finish();
+    keeper.say_failure();
     if matches!(done, Err(Failure::Run(_))) && interrupted.load(Ordering::Relaxed) {
-        say("interrupted before anything was finished");
+        say(&format!("interrupted before anything was finished; {}", how_to_go_on(&out)));
         return Err(Failure::Interrupted);
     }
     let Done { record, failure } = done.map_err(|failure| match failure {
@@ -65,11 +85,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     })?;
     warn(&record.summary.warnings[resolved.warnings.len()..]);
     if !args.quiet {
-        let report = args.out.join("report.html");
+        let report = out.join("report.html");
         stdout::print(&format!("{}report: {}\n", figures::table(&record.summary), report.display()))?;
     }
     if record.summary.stopped != StopReason::Completed {
-        say_what_is_kept(&record, &resolved.scene.operation, &args.out);
+        say_what_is_kept(&record, &resolved.scene.operation, &out);
     }
     match failure {
         Some(failure) => Err(Failure::Run(failure)),
@@ -143,4 +163,17 @@ fn say_what_is_kept(record: &RunRecord, operation: &Operation, out: &Path) {
         planned.len(),
         out.display()
     ));
+    if record.summary.stopped == StopReason::Interrupted {
+        say(&how_to_go_on(out));
+    }
+}
+
+fn how_to_go_on(out: &Path) -> String {
+    format!("gearwear run --resume {} goes on with it", out.display())
+}
+
+fn say_where_it_goes_on(from: &Checkpoint, operation: &Operation, quiet: bool) {
+    if !quiet {
+        say(&format!("goes on at {:.0} of {:.0} pinion revolutions", from.revolutions, operation.pinion_revolutions));
+    }
 }

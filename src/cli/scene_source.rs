@@ -5,6 +5,7 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use gearwear::pipeline::inputs::Inputs;
+use gearwear::resume::identity::InputFile;
 use gearwear::scene::{Resolved, Scene};
 
 use super::failure::{Failure, InputError, SceneProblems};
@@ -28,6 +29,8 @@ pub struct Source {
     pub resolved: Resolved,
     /// The files it names.
     pub inputs: Inputs,
+    /// The same as they were read.
+    pub files: Vec<InputFile>,
 }
 
 /// Reads the text at `path` (`-`: standard input).
@@ -52,8 +55,14 @@ pub fn read(path: &Path) -> Result<Text, Failure> {
 pub fn resolve(path: &Path) -> Result<Source, Failure> {
     let mut source = resolve_alone(path)?;
     let folder = if path == Path::new("-") { Path::new("") } else { path.parent().unwrap_or(Path::new("")) };
-    source.inputs.calibration = calibration_source::read(folder, &mut source)?;
-    source.inputs.stiffness_curve = curve_source::read(folder, &source)?;
+    if let Some((calibration, file)) = calibration_source::read(folder, &mut source)? {
+        source.inputs.calibration = Some(calibration);
+        source.files.push(file);
+    }
+    if let Some((curve, file)) = curve_source::read(folder, &source)? {
+        source.inputs.stiffness_curve = Some(curve);
+        source.files.push(file);
+    }
     Ok(source)
 }
 
@@ -66,7 +75,7 @@ pub fn resolve_alone(path: &Path) -> Result<Source, Failure> {
 pub fn resolve_text(text: Text) -> Result<Source, Failure> {
     let Text { name, text } = text;
     match Scene::from_toml(&text) {
-        Ok(resolved) => Ok(Source { name, text, resolved, inputs: Inputs::default() }),
+        Ok(resolved) => Ok(Source { name, text, resolved, inputs: Inputs::default(), files: Vec::new() }),
         Err(problems) => Err(Failure::Scene(SceneProblems { name, text, problems })),
     }
 }

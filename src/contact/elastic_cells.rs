@@ -52,6 +52,12 @@ impl ElasticCells {
         Self { width_mm, gap_mm: vec![0.0; compliance.len()], compliance, touching: None, depth_mm: 0.0 }
     }
 
+    /// No longer knows which cells touched.
+    pub fn forget(&mut self) {
+        self.touching = None;
+        self.depth_mm = 0.0;
+    }
+
     /// Exchanges the gaps, one for each cell.
     pub fn read(&mut self, gap_mm: &[f64]) {
         self.gap_mm.copy_from_slice(gap_mm);

@@ -24,7 +24,7 @@
 use std::f64::consts::PI;
 
 use super::{
-    ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
+    ContactSurface, Effort, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
     elastic_cells::ElasticCells,
     hertz,
     pressure_field::PressureField,
@@ -57,6 +57,8 @@ const FREE_CELLS: usize = 2;
 const LEAST_CELLS: usize = 4;
 /// Most cells in a window: those of a window that has grown beyond are wider.
 const MOST_CELLS: f64 = 320.0;
+/// Measured on the preset `fzg-c`, rounded.
+const EFFORT: Effort = Effort { of_equilibrium: 20.0, of_clean_start: 15.0 };
 
 impl ContactSurface for HalfSpace {
     fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
@@ -70,11 +72,22 @@ impl ContactSurface for HalfSpace {
             cell_mm: self.cell_width_mm(flanks, position_mm),
             half_window_mm: FIRST_WINDOW * half_width,
         };
-        Box::new(HalfSpacePair { look: site.look(), site, samples: Vec::new(), gap: Vec::new(), touch: 0.0 })
+        Box::new(HalfSpacePair {
+            look: site.look(),
+            first_half_window_mm: site.half_window_mm,
+            site,
+            samples: Vec::new(),
+            gap: Vec::new(),
+            touch: 0.0,
+        })
     }
 
     fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
         hertz::flattening(geometry, &self.material, position_mm).approach_mm(line_load_n_per_mm)
+    }
+
+    fn effort(&self) -> Effort {
+        EFFORT
     }
 
     /// A wave of length λ on a half-plane: π E*/λ, and no wave is shorter than two cells.
@@ -150,6 +163,8 @@ impl Site<'_> {
 /// One tooth pair on half-planes.
 struct HalfSpacePair<'a> {
     site: Site<'a>,
+    /// Half-length of the window before it was ever too short.
+    first_half_window_mm: f64,
     look: Look,
     /// Real gap at the cells' boundaries and centres, mm.
     samples: Vec<f64>,
@@ -201,6 +216,14 @@ impl PairContact for HalfSpacePair<'_> {
     fn widen(&mut self) {
         self.site.half_window_mm *= 1.5;
         self.look = self.site.look();
+    }
+
+    fn forget(&mut self) {
+        if self.site.half_window_mm != self.first_half_window_mm {
+            self.site.half_window_mm = self.first_half_window_mm;
+            self.look = self.site.look();
+        }
+        self.look.cells.forget();
     }
 
     fn sweep(&self, gear: Gear, _removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {

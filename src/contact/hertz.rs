@@ -104,6 +104,7 @@ impl ContactSurface for Hertz {
             closed_form,
             extent,
             cell,
+            first_half_window_mm: widest,
             half_window_mm: widest,
             observed: None,
             strip_load: 0.0,
@@ -124,6 +125,8 @@ struct HertzPair<'a> {
     /// Where both flanks exist.
     extent: Window,
     cell: Option<PositionCell>,
+    /// Half-length of the window before it was ever too short.
+    first_half_window_mm: f64,
     half_window_mm: f64,
     /// The points of each flank that may touch, with their movement through the cell.
     observed: Option<PerGear<(ObservedPoints, Vec<[f64; 2]>)>>,
@@ -158,6 +161,13 @@ impl PairContact for HertzPair<'_> {
     fn widen(&mut self) {
         self.half_window_mm = 1.5 * self.half_width_mm;
         self.look();
+    }
+
+    fn forget(&mut self) {
+        if self.half_window_mm != self.first_half_window_mm {
+            self.half_window_mm = self.first_half_window_mm;
+            self.look();
+        }
     }
 
     fn sweep(&self, gear: Gear, _removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {

@@ -103,6 +103,10 @@ impl PairContact for HertzMeanPair<'_> {
         sweep.pressure_mpa.fill(peak_pressure_mpa);
     }
 
+    fn sweeps_across(&self) -> bool {
+        false
+    }
+
     fn felt(&self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Vec<Felt> {
         let points = self.passed.as_ref().map_or(0, |passed| passed[gear].specific_sliding.len());
         vec![Felt { pressure_mpa: self.footprint().peak_pressure_mpa, contact_fraction: 1.0 }; points]

@@ -21,6 +21,8 @@ pub mod settings;
 pub mod strip;
 pub mod winkler;
 
+use serde::{Deserialize, Serialize};
+
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 
 /// Two flanks and the points on them.
@@ -84,7 +86,7 @@ pub struct Felt {
 }
 
 /// Where the contact is and how hard it presses.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Footprint {
     /// Greatest pressure, MPa.
     pub peak_pressure_mpa: f64,
@@ -124,14 +126,33 @@ pub trait PairContact: Send {
     /// Looks at a longer stretch of flank.
     fn widen(&mut self) {}
 
+    /// Is again as it was when it was made: what it does then depends only on what it reads and how it is pressed from now on, to the
+    /// bit. For contacts that keep something from one wear step to the next.
+    fn forget(&mut self) {}
+
     /// Fills in what the points of a flank felt; nothing for a pair prepared without a [`PositionCell`].
     fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep);
+
+    /// Whether the points of a [`Sweep`] run across the contact from one end of its strip to the other, each under its own pressure;
+    /// otherwise they are those that pass the theoretical contact point, and each feels all of the contact.
+    fn sweeps_across(&self) -> bool {
+        true
+    }
 
     /// What each point of that [`Sweep`] felt, for an observer.
     fn felt(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<Felt>;
 
     /// Extent and greatest pressure.
     fn footprint(&self) -> Footprint;
+}
+
+/// How long equilibria take, about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Of a tooth pair, over that on springs.
+    pub of_equilibrium: f64,
+    /// What one without anything to start from takes more, over one with.
+    pub of_clean_start: f64,
 }
 
 /// A model of the surfaces in contact.
@@ -141,6 +162,11 @@ pub trait ContactSurface: Sync {
 
     /// Approach of plain involutes under a line load at `position_mm`, away from the tip edges.
     fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64;
+
+    /// How long equilibria take.
+    fn effort(&self) -> Effort {
+        Effort { of_equilibrium: 1.0, of_clean_start: 4.0 }
+    }
 
     /// How much the pressure rises with the height of the shortest waves of wear that the surface tells apart, at a position
     /// under a line load (> 0), MPa/mm: it bounds the wear step. None where the pressure knows nothing of such waves.

@@ -54,13 +54,17 @@ impl ContactSurface for Winkler {
         let radius_mm = flanks.geometry.relative_radius_mm(position_mm);
         let springs = self.bed.at(position_mm);
         let half_width = springs.half_width_mm(radius_mm, self.expected_line_load_n_per_mm);
-        let site = Site { flanks, position_mm, cell, half_window_mm: FIRST_WINDOW * half_width };
+        let first_half_window_mm = FIRST_WINDOW * half_width;
+        let site = Site { flanks, position_mm, cell, half_window_mm: first_half_window_mm };
         let (strip, observed) = site.look();
+        let first_foundation = springs.mpa_per_mm(self.expected_line_load_n_per_mm);
         Box::new(WinklerPair {
             springs,
             bodies: self.bed.approach_at(position_mm),
-            foundation: springs.mpa_per_mm(self.expected_line_load_n_per_mm),
+            foundation: first_foundation,
+            first_foundation,
             radius_mm,
+            first_half_window_mm,
             site,
             strip,
             observed,
@@ -124,7 +128,11 @@ struct WinklerPair<'a> {
     bodies: Option<Springs>,
     /// K/H under the last load, MPa/mm.
     foundation: f64,
+    /// The same before any load.
+    first_foundation: f64,
     radius_mm: f64,
+    /// Half-length of the window before it was ever too short.
+    first_half_window_mm: f64,
     site: Site<'a>,
     strip: Strip,
     observed: Option<Observed>,
@@ -200,6 +208,14 @@ impl PairContact for WinklerPair<'_> {
     fn widen(&mut self) {
         self.site.half_window_mm *= 1.5;
         (self.strip, self.observed) = self.site.look();
+    }
+
+    fn forget(&mut self) {
+        if self.site.half_window_mm != self.first_half_window_mm {
+            self.site.half_window_mm = self.first_half_window_mm;
+            (self.strip, self.observed) = self.site.look();
+        }
+        self.foundation = self.first_foundation;
     }
 
     fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {

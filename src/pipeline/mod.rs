@@ -11,6 +11,7 @@ pub mod inputs;
 pub mod pair_mesh;
 mod recording;
 mod slices;
+mod temperature;
 
 use std::time::Instant;
 
@@ -31,6 +32,7 @@ use crate::gear::{GearPair, PairError, PerGear};
 use crate::plan::{Plan, StageKind};
 use crate::reference::flattening::Flattening;
 use crate::scene::{Resolved, Scene};
+use crate::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
 use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::record::{ErrorSummary, RunRecord, StageTime, StopReason, Summary};
 use crate::simulation::settings::Phase;
@@ -41,6 +43,7 @@ use crate::thermal::ContactHeat;
 use crate::wear::{self, FlankWear, WearModel, settings::WearSettings};
 use crate::working_cycle::sliced_teeth::SlicedTeeth;
 use inputs::Inputs;
+use recording::Found;
 
 /// Told of progress; says whether to go on.
 pub trait Observer: Progress {
@@ -159,6 +162,21 @@ struct LoadCase<'a> {
     finite_elements: Option<CondensedPair<'a>>,
 }
 
+/// Where a run goes on, and who keeps its checkpoints.
+pub struct Resumption<'a> {
+    /// A checkpoint of this same run; `None`: it begins.
+    pub from: Option<Checkpoint>,
+    /// Gets new ones.
+    pub keeper: &'a dyn Keeper,
+}
+
+impl Resumption<'_> {
+    /// A run from its beginning, of which nothing is kept.
+    fn none() -> Self {
+        Self { from: None, keeper: &NothingKept }
+    }
+}
+
 /// Carries out `plan`, the report apart: that is left to the caller, who knows where it goes.
 ///
 /// A run that is interrupted or does not converge gives the record of what it had finished, and its failure in the latter
@@ -167,9 +185,23 @@ struct LoadCase<'a> {
 /// # Errors
 /// [`RunError`] where nothing was finished.
 pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Observer) -> Result<Done, RunError> {
+    run_from(resolved, plan, inputs, Resumption::none(), observer)
+}
+
+/// The same for a run that may go on from a checkpoint, and gives new ones.
+///
+/// # Errors
+/// [`RunError`] where nothing was finished.
+pub fn run_from(
+    resolved: &Resolved,
+    plan: &Plan,
+    inputs: &Inputs,
+    resumption: Resumption<'_>,
+    observer: &dyn Observer,
+) -> Result<Done, RunError> {
     let start = Instant::now();
-    let mut done = carry_out(resolved, plan, inputs, observer, |model, outcome, summary| {
-        recording::record(resolved, model, outcome, summary)
+    let mut done = carry_out(resolved, plan, inputs, resumption, observer, |model, found, summary| {
+        recording::record(resolved, model, found, summary)
     })?;
     done.record.summary.wall_s = start.elapsed().as_secs_f64();
     Ok(done)
@@ -186,7 +218,7 @@ pub fn summarise(
     observer: &dyn Observer,
 ) -> Result<Done<Summary>, RunError> {
     let start = Instant::now();
-    let mut done = carry_out(resolved, plan, inputs, observer, |_, _, summary| summary)?;
+    let mut done = carry_out(resolved, plan, inputs, Resumption::none(), observer, |_, _, summary| summary)?;
     done.record.wall_s = start.elapsed().as_secs_f64();
     Ok(done)
 }
@@ -196,8 +228,9 @@ fn carry_out<R>(
     resolved: &Resolved,
     plan: &Plan,
     inputs: &Inputs,
+    resumption: Resumption<'_>,
     observer: &dyn Observer,
-    keep: impl FnOnce(&Model<'_>, &Outcome, Summary) -> R,
+    keep: impl FnOnce(&Model<'_>, Found<'_>, Summary) -> R,
 ) -> Result<Done<R>, RunError> {
     let scene = &resolved.scene;
     let mut stages = Stages { observer, times: Vec::new() };
@@ -254,10 +287,10 @@ fn carry_out<R>(
         .iter()
         .map(|phase| {
             let coefficient_mm2_per_n = phase.coefficient_mm2_per_n.unwrap_or(scene.wear.coefficient_mm2_per_n);
-            let heat = scene.heat.zip(phase.pinion_speed_rpm).map(|(settings, rpm)| ContactHeat {
-                settings,
-                speed_mm_per_s: base_radius * std::f64::consts::TAU * rpm / 60.0,
-            });
+            let heat = scene
+                .heat
+                .zip(phase.pinion_speed_rpm)
+                .map(|(settings, rpm)| ContactHeat::new(settings, base_radius * std::f64::consts::TAU * rpm / 60.0));
             (wear::of(&WearSettings { coefficient_mm2_per_n, ..scene.wear }), heat)
         })
         .collect();
@@ -290,16 +323,22 @@ fn carry_out<R>(
         foundation_mpa_per_mm: cases[0].foundation_mpa_per_mm,
     };
 
-    let outcome = stages.run(StageKind::Simulation, || model.wear_run().run(observer))?;
+    let Resumption { from, keeper } = resumption;
+    let outcome = stages.run(StageKind::Simulation, || model.wear_run().run_from(from, keeper, observer))?;
+    let heat = match plan.has(StageKind::ContactTemperature) {
+        true => stages.run(StageKind::ContactTemperature, || temperature::observe(&model, &outcome)),
+        false => None,
+    };
+    let found = Found { outcome: &outcome, heat: heat.as_ref() };
     let error = if plan.has(StageKind::ErrorEstimates) && outcome.stop == StopReason::Completed {
         stages.run(StageKind::ErrorEstimates, || error_estimates::estimate(&model, &outcome, observer))
     } else {
         ErrorSummary::not_estimated(not_estimated_because(&outcome))
     };
 
-    let mut summary = recording::summary(resolved, plan, &model, &outcome, error)?;
+    let mut summary = recording::summary(resolved, plan, &model, found, error)?;
     summary.stages = stages.times;
-    let record = keep(&model, &outcome, summary);
+    let record = keep(&model, found, summary);
     Ok(Done { record, failure: outcome.failure.map(RunError::from) })
 }
 

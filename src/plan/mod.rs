@@ -27,10 +27,10 @@ pub enum StageKind {
     ToothStiffness,
     /// Slices over the face width.
     HelicalSlices,
-    /// Flash temperatures of the contact.
-    ContactTemperature,
     /// The wear run.
     Simulation,
+    /// Temperatures of the contact, new and worn.
+    ContactTemperature,
     /// Coarser companion runs, and short ones on a truer surface.
     ErrorEstimates,
     /// The output folder.
@@ -46,8 +46,8 @@ impl StageKind {
         StageKind::ContactMatch,
         StageKind::ToothStiffness,
         StageKind::HelicalSlices,
-        StageKind::ContactTemperature,
         StageKind::Simulation,
+        StageKind::ContactTemperature,
         StageKind::ErrorEstimates,
         StageKind::Report,
     ];
@@ -157,8 +157,10 @@ fn contact_temperature(scene: &Scene) -> Result<String, String> {
     let law = scene.wear.law.name();
     match (scene.heat, scene.wear.law) {
         (None, _) => Err(format!("the wear law {law} asks for no temperature, and neither does the scene")),
-        (Some(_), LawSettings::Archard) => Ok("[temperature] asks for it".to_owned()),
-        (Some(_), _) => Ok(format!("the wear law {law} reads it at every point")),
+        (Some(_), LawSettings::Archard) => Ok("[temperature] asks for it; by all methods, new and worn".to_owned()),
+        (Some(_), _) => Ok(format!(
+            "the wear law {law} reads it at every point during the simulation; by all methods, new and worn"
+        )),
     }
 }
 

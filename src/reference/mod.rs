@@ -5,5 +5,6 @@ pub mod flattening;
 pub mod half_plane;
 pub mod hertz_line;
 pub mod lame_cylinder;
+pub mod moving_heat_band;
 pub mod persson;
 pub mod worn_cylinder;

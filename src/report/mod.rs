@@ -123,7 +123,8 @@ pub fn writable(dir: &Path) -> Result<(), ReportError> {
     probed
 }
 
-fn create_folder(dir: &Path) -> Result<(), ReportError> {
+/// Makes `dir` if need be.
+pub fn create_folder(dir: &Path) -> Result<(), ReportError> {
     if dir.exists() && !dir.is_dir() {
         return Err(ReportError::NotAFolder { path: dir.into() });
     }

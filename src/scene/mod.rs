@@ -96,6 +96,22 @@ impl Resolved {
         self.file.to_toml()
     }
 
+    /// Lets the key `contact.calibration` or `stiffness.curve` name another file.
+    pub fn rename_file(&mut self, key: &str, name: &str) {
+        let name = Some(name.to_owned());
+        match key {
+            "contact.calibration" => {
+                self.scene.calibration_file.clone_from(&name);
+                self.file.contact.get_or_insert_default().calibration = name;
+            }
+            "stiffness.curve" => {
+                self.scene.stiffness_curve_file.clone_from(&name);
+                self.file.stiffness.get_or_insert_default().curve = name;
+            }
+            _ => {}
+        }
+    }
+
     /// First 16 hexadecimal digits of the SHA-256 of [`Self::to_toml`].
     pub fn scene_hash(&self) -> String {
         short_hash(self.to_toml().as_bytes())

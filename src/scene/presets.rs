@@ -1,7 +1,8 @@
 //! Gear pairs of the library: each is a whole scene file, ready to run and commented.
 //!
 //! `gearwear init NAME` prints the file; `pair.preset = "NAME"` takes its `[pair]` table. The numbers of the FZG gears
-//! are those of ISO 14635-1: their tip diameters are data of the standard, not derived. Helical pairs: one like the FZG gears,
+//! are those of ISO 14635-1: their tip diameters are data of the standard, not derived; `fzg-test` is the thesis's wear test of
+//! them. Helical pairs: one like the FZG gears,
 //! and the public ones of FEUP (Porto), whose tip diameters follow from the rack.
 
 /// A scene of the library.
@@ -14,8 +15,9 @@ pub struct Preset {
 }
 
 /// All presets; the first is the one `gearwear init` prints unasked.
-pub const PRESETS: [Preset; 6] = [
+pub const PRESETS: [Preset; 7] = [
     Preset { name: "fzg-c", text: include_str!("presets/fzg-c.toml") },
+    Preset { name: "fzg-test", text: include_str!("presets/fzg-test.toml") },
     Preset { name: "fzg-a", text: include_str!("presets/fzg-a.toml") },
     Preset { name: "helical", text: include_str!("presets/helical.toml") },
     Preset { name: "h501", text: include_str!("presets/h501.toml") },

@@ -3,10 +3,13 @@
 pub mod accuracy_quantity;
 pub mod accuracy_record;
 pub mod advance;
+pub mod checkpoint;
+pub mod chemistry_record;
 pub mod compare_record;
 pub mod fem_pair_record;
 pub mod fem_problem_record;
 pub mod figures;
+pub mod heat_observation;
 pub mod mesh_contact;
 pub mod record;
 pub mod settings;

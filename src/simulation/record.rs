@@ -2,8 +2,9 @@
 //!
 //! Field names are the contract's column and key names, so that serialising a record is writing the file.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
+use super::chemistry_record::{TemperatureSummary, WearLawSummary};
 use crate::gear::{PerGear, flank_surface::FlankSurface};
 
 /// A finished (or interrupted) run.
@@ -54,6 +55,10 @@ pub struct Summary {
     pub contact: ContactSummary,
     /// Of the tooth pair as a spring; `None` with finite elements, whose teeth are no springs.
     pub stiffness: Option<StiffnessSummary>,
+    /// Of the wear law.
+    pub wear: WearLawSummary,
+    /// Of the contact's temperatures; `None` where nobody asks for them.
+    pub temperature: Option<TemperatureSummary>,
     /// The working cycle of the unworn pair.
     pub new: CycleSummary,
     /// The working cycle of the worn pair.
@@ -71,7 +76,7 @@ pub struct Summary {
 }
 
 /// Why a wear run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum StopReason {
     /// The whole duration was run.
@@ -343,7 +348,13 @@ pub struct ErrorSources {
 pub struct WorkSummary {
     /// Wear steps taken.
     pub wear_steps: u64,
-    /// Working cycles evaluated: one per wear step, and one at the end.
+    /// Trial steps that were not taken: their error was too large, or the pair had no equilibrium at their end.
+    pub rejected_steps: u64,
+    /// Working cycles evaluated in wear steps, rejected ones included.
+    pub stages: u64,
+    /// Working cycles evaluated to learn how stiff the wear is: spectral radius, Jacobian, length of the first step.
+    pub jacobian_probes: u64,
+    /// Working cycles evaluated in all: with Euler's method one per wear step, and one at the end.
     pub mesh_cycles: u64,
     /// Equilibria solved: working cycles × positions.
     pub equilibria: u64,
@@ -416,10 +427,15 @@ pub struct MeshCycleRow {
     pub half_width_mm: f64,
     pub transmission_error_new_um: f64,
     pub transmission_error_worn_um: f64,
-    /// `None` where no temperature is computed.
+    /// Greatest rise by the chosen method, new; `None` where no temperature is computed, as with those that follow.
     pub temperature_rise_K: Option<f64>,
     /// Half the extent of the contact strip, worn.
     pub half_width_worn_mm: f64,
+    pub temperature_rise_heat_equation_K: Option<f64>,
+    pub temperature_rise_williams_K: Option<f64>,
+    pub temperature_rise_tian_kennedy_K: Option<f64>,
+    pub peclet_pinion: Option<f64>,
+    pub peclet_wheel: Option<f64>,
 }
 
 /// The mesh of one tooth slice by slice, from its first touch to its last.

@@ -6,14 +6,17 @@
 //!
 //! Source: the thesis, equation 12 (single-point observation, section 3.3).
 
+use serde::{Deserialize, Serialize};
+
 use super::advance::{Stepper, Stretch};
+use super::checkpoint::{Checkpoint, Keeper, NothingKept};
 use super::mesh_contact::{LoadedMesh, MeshContact};
 use super::record::StopReason;
 use super::settings::Numerics;
 use crate::contact::Flanks;
 use crate::gear::{GearPair, PerGear, flank::FlankGrid, removed_material::modifications_mm, slices::Slices};
 use crate::stiffness::StiffnessError;
-use crate::wear::WearModel;
+use crate::wear::{WearModel, stepping::adaptive::StepCounts};
 use crate::working_cycle::{CycleObservation, Work, load_sharing::EquilibriumError};
 
 /// Why a wear run could not go on.
@@ -30,6 +33,9 @@ pub enum SimulationError {
         /// What happened.
         source: EquilibriumError,
     },
+    /// A checkpoint with other rows or phases than the run has.
+    #[error("the checkpoint is not of this run")]
+    OtherRun,
 }
 
 /// A stretch of the run under constant load and speed.
@@ -59,7 +65,7 @@ pub struct WearRun<'a> {
 }
 
 /// State kept at a snapshot.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     /// Pinion revolutions so far.
     pub revolutions: f64,
@@ -90,8 +96,10 @@ pub struct Outcome {
     pub snapshots: Vec<Snapshot>,
     /// The pair when the run ended: the last of the snapshots.
     pub worn: Snapshot,
-    /// Wear steps taken.
-    pub wear_steps: u64,
+    /// Wear steps taken, and what else came of them.
+    pub steps: StepCounts,
+    /// Of adaptive steps: the estimated error of the wear at each place that the steps worked on, mm.
+    pub step_error_mm: Option<PerGear<Vec<f64>>>,
     /// Work done in all.
     pub work: Work,
 }
@@ -129,6 +137,19 @@ impl WearRun<'_> {
     /// # Errors
     /// [`SimulationError`].
     pub fn run(&self, progress: &dyn Progress) -> Result<Outcome, SimulationError> {
+        self.run_from(None, &NothingKept, progress)
+    }
+
+    /// The same from a checkpoint of this same run on, to the same bits; `keeper` gets new ones.
+    ///
+    /// # Errors
+    /// [`SimulationError`].
+    pub fn run_from(
+        &self,
+        checkpoint: Option<Checkpoint>,
+        keeper: &dyn Keeper,
+        progress: &dyn Progress,
+    ) -> Result<Outcome, SimulationError> {
         let slices = self.phases.first().map_or_else(|| Slices::new(self.pair, 1), |one| one.contact.slices(self.pair));
         let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));
         let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear], &slices));
@@ -138,13 +159,28 @@ impl WearRun<'_> {
         let end = self.phases.last().map_or(0.0, |phase| phase.end_revolutions);
         let mut stepper = Stepper::new(self.numerics.stepping, end, self.pair.wheel_turns_per_pinion_turn());
         let mut due = self.snapshots_revolutions.iter().copied().chain([end]).peekable();
-        let (mut revolutions, mut wear_steps, mut work) = (0.0, 0, Work::default());
+        let (mut first_phase, mut revolutions, mut work) = (0, 0.0, Work::default());
         // The unworn pair first, then each snapshot.
         let mut states: Vec<Snapshot> = Vec::new();
         let mut worn_so_far: Option<PerGear<Vec<f64>>> = None;
+        // The state of a checkpoint is evaluated again; its work and its snapshot are already there.
+        let mut is_repeated = false;
+        if let Some(from) = checkpoint {
+            let points = modification_mm.as_ref().map(Vec::len);
+            let is_within = from.phase < self.phases.len() && (0.0..end).contains(&from.revolutions);
+            if !(is_within && from.fits(points)) {
+                return Err(SimulationError::OtherRun);
+            }
+            (first_phase, revolutions, work) = (from.phase, from.revolutions, from.work);
+            while due.next_if(|&next| next <= revolutions).is_some() {}
+            stepper.resume(from.stepper);
+            states = from.states;
+            worn_so_far = Some(from.wear_mm);
+            is_repeated = true;
+        }
 
         let mut failure = None;
-        'run: for phase in self.phases {
+        'run: for (number, phase) in self.phases.iter().enumerate().skip(first_phase) {
             let mesh = LoadedMesh {
                 pair: self.pair,
                 contact: phase.contact,
@@ -153,9 +189,21 @@ impl WearRun<'_> {
             };
             let mut pair = mesh.wearing_pair(flanks, &modification_mm)?;
             if let Some(wear_mm) = &worn_so_far {
+                if wear_mm.as_ref().map(Vec::len) != pair.wear_mm().map(|row| row.len()) {
+                    return Err(SimulationError::OtherRun);
+                }
                 pair.set_wear_mm(wear_mm);
             }
+            if !is_repeated {
+                stepper.begin_phase();
+            }
             let mut evaluated = pair.evaluate(&phase.wear, stopped);
+            if std::mem::take(&mut is_repeated) {
+                evaluated = evaluated.map(|_| Work::default());
+            }
+            // A phase begins with a pair made anew, which is a clean start.
+            let (mut is_clean, mut cleaned_at) = (true, 0);
+            let clean_after = phase.contact.evaluations_between_clean_starts(self.numerics.positions);
             loop {
                 let is_due = due.peek().is_some_and(|&next| revolutions >= next);
                 let interrupted = progress.interrupted();
@@ -187,10 +235,24 @@ impl WearRun<'_> {
                 if revolutions >= phase.end_revolutions {
                     break;
                 }
-                let stretch = Stretch { from: revolutions, limit: next.min(phase.end_revolutions) };
+                if is_clean {
+                    cleaned_at = work.mesh_cycles;
+                    if stepper.counts().accepted > 0 && keeper.is_due() {
+                        keeper.keep(&Checkpoint {
+                            phase: number,
+                            revolutions,
+                            wear_mm: pair.wear_mm(),
+                            stepper: stepper.state(),
+                            work,
+                            states: states.clone(),
+                        });
+                    }
+                }
+                is_clean = work.mesh_cycles - cleaned_at >= clean_after;
+                let stretch =
+                    Stretch { from: revolutions, limit: next.min(phase.end_revolutions), clean_start: is_clean };
                 let advanced = stepper.advance(&mut *pair, &phase.wear, stretch, stopped);
                 (revolutions, evaluated) = (advanced.revolutions, advanced.evaluated);
-                wear_steps += 1;
             }
             worn_so_far = Some(pair.wear_mm());
         }
@@ -199,8 +261,21 @@ impl WearRun<'_> {
             None if due.peek().is_none() => StopReason::Completed,
             None => StopReason::Interrupted,
         };
+        let (steps, step_error_mm) = (stepper.counts(), stepper.error_mm());
         let new = states.remove(0);
         let worn = states.last().unwrap_or(&new).clone();
-        Ok(Outcome { stop, failure, grid, slices, modification_mm, new, snapshots: states, worn, wear_steps, work })
+        Ok(Outcome {
+            stop,
+            failure,
+            grid,
+            slices,
+            modification_mm,
+            new,
+            snapshots: states,
+            worn,
+            steps,
+            step_error_mm,
+            work,
+        })
     }
 }

@@ -21,6 +21,10 @@ pub trait WearingPair {
     /// Lets the flanks lose that in so many meshes of each gear's teeth.
     fn wear_for(&mut self, meshes: PerGear<f64>);
 
+    /// Is again as if never evaluated: the next evaluation finds, to the bit, what that of a pair made anew finds whose flanks have
+    /// lost the same. Otherwise it depends in its last bits on where the last one ended.
+    fn forget(&mut self);
+
     /// What each place of the flanks has lost, mm: as many places as [`Self::set_wear_mm`] takes and [`Self::depth_mm`] gives. Flank
     /// points of most models, but the contact points of some.
     fn wear_mm(&self) -> PerGear<Vec<f64>>;
@@ -78,6 +82,10 @@ impl WearingPair for OnFlankPoints<'_> {
                 *removed = modification + *wear;
             }
         }
+    }
+
+    fn forget(&mut self) {
+        self.cycle.forget();
     }
 
     fn wear_mm(&self) -> PerGear<Vec<f64>> {

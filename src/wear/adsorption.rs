@@ -35,8 +35,16 @@ pub struct Adsorption {
 }
 
 impl AdsorptionConstants {
+    /// Orders of magnitude for a fatty acid or ester on steel (Kingsbury; Wu and Cheng), not the constants of any lubricant.
+    pub const TYPICAL: Self =
+        Self { molecule_diameter_mm: 0.3 / 1e6, vibration_time_s: 3.0 / 1e12, heat_of_adsorption_j_per_mol: 48e3 };
+
     /// α, 0 to 1: the part of the contact that the film leaves unprotected.
     pub fn unprotected(&self, Surroundings { sliding_speed_mm_per_s, temperature_k }: Surroundings) -> f64 {
+        if sliding_speed_mm_per_s <= 0.0 {
+            // Every molecule leaves before an asperity has passed its place.
+            return 1.0;
+        }
         let stays =
             self.vibration_time_s * (self.heat_of_adsorption_j_per_mol / (MOLAR_GAS_CONSTANT * temperature_k)).exp();
         -(-self.molecule_diameter_mm / (sliding_speed_mm_per_s * stays)).exp_m1()
@@ -53,5 +61,44 @@ impl WearLaw for Adsorption {
 
     fn greatest_coefficient_mm2_per_n(&self) -> f64 {
         self.coefficient_mm2_per_n
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wear::{FlankWear, Rubbing, WithTransition};
+
+    /// Thesis eq 19 at 250 mm/s, 120 °C, 1000 MPa over 0.5 mm, by hand: t₀ exp(E/(R T)) = 3e-12 · exp(14.684 …).
+    #[test]
+    fn ver_equation_19() {
+        let law = Adsorption { coefficient_mm2_per_n: 1e-7, constants: AdsorptionConstants::TYPICAL };
+        let own = Surroundings { sliding_speed_mm_per_s: 250.0, temperature_k: 393.15 };
+        let stays = 3e-12 * (48e3 / (8.314_462_618 * 393.15_f64)).exp();
+        let expected = 1e-7 * 1000.0 * (1.0 - (-3e-7 / (250.0 * stays)).exp()) * 0.5;
+        let mut depth = [0.0];
+        let rubbing = Rubbing { pressure_mpa: &[1000.0], sliding_mm: &[0.5], surroundings: Some(&[own]) };
+        WithTransition { law, severe: None }.add_depth(&rubbing, &mut depth);
+        assert!((depth[0] / expected - 1.0).abs() < 1e-12, "{} {expected}", depth[0]);
+    }
+
+    /// α = 1 − e⁻¹ where a molecule stays as long as an asperity needs for its diameter; all of the surface is bare when hot or
+    /// still, none when cold.
+    #[test]
+    fn ver_limits() {
+        let constants = AdsorptionConstants {
+            vibration_time_s: 1e-6,
+            heat_of_adsorption_j_per_mol: 0.0,
+            ..AdsorptionConstants::TYPICAL
+        };
+        let at = |constants: AdsorptionConstants, sliding_speed_mm_per_s, temperature_k| {
+            constants.unprotected(Surroundings { sliding_speed_mm_per_s, temperature_k })
+        };
+        assert!((at(constants, 0.3, 300.0) - (1.0 - (-1.0_f64).exp())).abs() < 1e-15);
+        let typical = AdsorptionConstants::TYPICAL;
+        assert_eq!(at(typical, 0.0, 300.0), 1.0);
+        assert_eq!(at(typical, 1.0, 0.05), 0.0);
+        assert!(at(typical, 100.0, 400.0) > at(typical, 100.0, 380.0));
+        assert!(at(typical, 200.0, 400.0) < at(typical, 100.0, 400.0));
     }
 }

@@ -10,9 +10,12 @@
 
 pub mod adsorption;
 pub mod archard;
+pub mod heated_row;
 pub mod oxidation;
+pub mod regime;
 pub mod settings;
 mod severe;
+pub mod stepping;
 
 use crate::thermal::ContactHeat;
 use settings::{LawSettings, SevereTransition, WearSettings};
@@ -57,6 +60,9 @@ pub trait FlankWear: Sync {
     /// Whether rows must have surroundings.
     fn reads_surroundings(&self) -> bool;
 
+    /// Depth per pressure and sliding distance of mild wear, mm²/N.
+    fn mild_coefficient_mm2_per_n(&self, surroundings: Option<Surroundings>) -> f64;
+
     /// The greatest rate of depth per sliding distance and pressure, severe wear included, mm²/N.
     fn greatest_coefficient_mm2_per_n(&self) -> f64;
 }
@@ -92,6 +98,10 @@ impl<L: WearLaw> FlankWear for WithTransition<L> {
         L::READS_SURROUNDINGS
     }
 
+    fn mild_coefficient_mm2_per_n(&self, surroundings: Option<Surroundings>) -> f64 {
+        self.law.coefficient_mm2_per_n(surroundings)
+    }
+
     fn greatest_coefficient_mm2_per_n(&self) -> f64 {
         self.law.greatest_coefficient_mm2_per_n() * self.severe.map_or(1.0, |severe| severe.factor.max(1.0))
     }
@@ -124,5 +134,10 @@ impl<'a> WearModel<'a> {
     /// A law that reads no surroundings.
     pub fn cold(law: &'a dyn FlankWear) -> Self {
         Self { law, heat: None }
+    }
+
+    /// The heat, where the law reads what it does to the contact.
+    pub fn heat_of_law(&self) -> Option<&'a ContactHeat> {
+        self.heat.filter(|_| self.law.reads_surroundings())
     }
 }

@@ -1,6 +1,9 @@
 //! What is asked of the wear law.
 
-use super::{adsorption::AdsorptionConstants, oxidation::OxidationConstants};
+use super::{
+    adsorption::AdsorptionConstants,
+    oxidation::{OxidationConstants, VALID_TEMPERATURE_C},
+};
 
 /// The transition from mild to severe wear (thesis eq 26).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +35,46 @@ impl LawSettings {
             LawSettings::Adsorption(_) => "adsorption",
             LawSettings::Oxidation(_) => "oxidation",
         }
+    }
+
+    /// Contact temperatures between which it holds, °C; none where it names no bounds.
+    pub fn valid_temperature_c(&self) -> Option<[f64; 2]> {
+        match self {
+            LawSettings::Oxidation(_) => Some(VALID_TEMPERATURE_C),
+            LawSettings::Archard | LawSettings::Adsorption(_) => None,
+        }
+    }
+
+    /// Names of its constants that have the program's typical value, which is an order of magnitude and not measured.
+    pub fn typical_constants(&self) -> Vec<&'static str> {
+        let at_typical: Vec<(&'static str, bool)> = match self {
+            LawSettings::Archard => Vec::new(),
+            LawSettings::Adsorption(own) => {
+                let typical = AdsorptionConstants::TYPICAL;
+                vec![
+                    ("molecule_diameter_nm", own.molecule_diameter_mm == typical.molecule_diameter_mm),
+                    ("vibration_time_ps", own.vibration_time_s == typical.vibration_time_s),
+                    (
+                        "heat_of_adsorption_kJ_per_mol",
+                        own.heat_of_adsorption_j_per_mol == typical.heat_of_adsorption_j_per_mol,
+                    ),
+                ]
+            }
+            LawSettings::Oxidation(own) => {
+                let typical = OxidationConstants::TYPICAL;
+                vec![
+                    (
+                        "arrhenius_constant_kg_per_m2s",
+                        own.arrhenius_constant_kg_per_m2_s == typical.arrhenius_constant_kg_per_m2_s,
+                    ),
+                    (
+                        "activation_energy_kJ_per_mol",
+                        own.activation_energy_j_per_mol == typical.activation_energy_j_per_mol,
+                    ),
+                ]
+            }
+        };
+        at_typical.into_iter().filter(|(_, typical)| *typical).map(|(name, _)| name).collect()
     }
 }
 

@@ -64,6 +64,11 @@ impl BentTooth {
         contacts.chunk_by(|a, b| a.tooth == b.tooth).map(of_tooth).collect()
     }
 
+    /// Is straight again.
+    pub fn straighten(&mut self) {
+        self.v.fill(0.0);
+    }
+
     /// Each of its contacts, by its number in the phase, with the compliance of the teeth there, mm²/N, and how far they are bent, mm.
     pub fn deflections_mm(&self) -> impl Iterator<Item = (usize, f64, f64)> {
         let contacts = self.contacts.iter().enumerate();

@@ -19,18 +19,59 @@ use crate::contact::{Flanks, Footprint};
 use crate::fem::gear::observed_flank::{FlankPoints, ObservedFlank};
 use crate::fem::gear::position::CondensedPair;
 use crate::fem::gear::prepared::{NodalWear, Prepared};
-use crate::gear::{Gear, PerGear};
-use crate::wear::{Rubbing, WearModel};
+use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use crate::thermal::{ContactHeat, SpeedRatios};
+use crate::wear::{
+    Rubbing, WearModel,
+    heated_row::{HeatedContact, HeatedRow, RowOfPoints},
+};
 
 /// One position and how the flank points read it.
 struct Station {
     prepared: Prepared,
-    /// Of each tooth pair that may touch, with the sliding of its points.
-    observed: Vec<PerGear<(ObservedFlank, Vec<f64>)>>,
+    /// Of each tooth pair that may touch.
+    observed: Vec<PerGear<RubbedFlank>>,
     /// For how many looks that holds.
     looks: usize,
     /// Pressures at the multipliers in the last equilibrium.
     nodal_mpa: Vec<f64>,
+}
+
+/// The points of one flank that a tooth pair may rub at a position.
+struct RubbedFlank {
+    points: ObservedFlank,
+    /// How far each slides, mm.
+    sliding_mm: Vec<f64>,
+    /// Distance of the points along the flank, mm.
+    spacing_mm: f64,
+    /// How fast both surfaces move through the contact.
+    rolling: PerGear<f64>,
+}
+
+impl RubbedFlank {
+    /// The contact whose pressures these points feel, as a source of heat: its half-width is that of Hertz's ellipse with the same
+    /// second moment.
+    fn heated<'a>(&self, heat: &'a ContactHeat, pressure_mpa: &[f64], length_mm: f64) -> HeatedContact<'a> {
+        let (mut sum, mut first, mut second, mut slid) = (0.0, 0.0, 0.0, 0.0);
+        for (k, (pressure, sliding)) in pressure_mpa.iter().zip(&self.sliding_mm).enumerate() {
+            let place = k as f64 * self.spacing_mm;
+            sum += pressure;
+            first += pressure * place;
+            second += pressure * place * place;
+            slid += pressure * sliding;
+        }
+        if sum <= 0.0 {
+            return HeatedContact { heat, ratios: SpeedRatios::default(), line_load_n_per_mm: 0.0, half_width_mm: 0.0 };
+        }
+        // Each point stands for its spacing.
+        let variance = second / sum - (first / sum).powi(2) + self.spacing_mm.powi(2) / 12.0;
+        HeatedContact {
+            heat,
+            ratios: SpeedRatios { sliding: slid / sum / length_mm, rolling: self.rolling },
+            line_load_n_per_mm: sum * self.spacing_mm,
+            half_width_mm: 2.0 * variance.max(0.0).sqrt(),
+        }
+    }
 }
 
 /// Positions that collect wear together.
@@ -38,6 +79,7 @@ struct Group {
     stations: Vec<Station>,
     collected: Collected,
     pressure_mpa: Vec<f64>,
+    heated: HeatedRow,
 }
 
 /// All positions of one base pitch, ready to be evaluated on ever newly worn flanks.
@@ -77,6 +119,7 @@ impl<'a> CondensedCycle<'a> {
                     .collect(),
                 collected: Collected::new(radius_mm.as_ref().map(Vec::len)),
                 pressure_mpa: Vec::new(),
+                heated: HeatedRow::default(),
             })
             .collect();
         let observation_mm = path.evenly_mm(positions);
@@ -146,6 +189,18 @@ impl MeshCycle for CondensedCycle<'_> {
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
 
+    fn forget(&mut self) {
+        let (model, length_mm) = (self.model, self.length_mm());
+        let points = flank_points(&self.radius_mm, &self.node_radius_mm);
+        self.groups.par_iter_mut().flat_map(|group| &mut group.stations).for_each(|station| {
+            model.forget(&mut station.prepared);
+            if station.looks != station.prepared.looks() {
+                station.look(model, points, length_mm);
+            }
+        });
+        self.observation.par_iter_mut().for_each(|prepared| model.forget(prepared));
+    }
+
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
         let wear = self.nodal_wear(lost.wear_mm);
         let (model, load) = (self.model, self.line_load_n_per_mm);
@@ -164,7 +219,7 @@ impl MeshCycle for CondensedCycle<'_> {
         for station in self.groups.iter().flat_map(|group| &group.stations) {
             for pair in &station.observed {
                 for gear in Gear::BOTH {
-                    let (points, sliding) = &pair[gear];
+                    let RubbedFlank { points, sliding_mm: sliding, .. } = &pair[gear];
                     let first = points.first_point;
                     for (k, pressure) in points.greatest_mpa(&station.nodal_mpa).enumerate() {
                         if pressure > 0.0 {
@@ -200,11 +255,18 @@ impl Group {
             }
             for pair in &station.observed {
                 for gear in Gear::BOTH {
-                    let (points, sliding) = &pair[gear];
+                    let flank = &pair[gear];
+                    let (points, sliding) = (&flank.points, &flank.sliding_mm);
                     self.pressure_mpa.clear();
                     self.pressure_mpa.extend(points.pressure_mpa(&station.nodal_mpa));
                     let range = points.first_point..points.first_point + sliding.len();
-                    let rubbing = Rubbing { pressure_mpa: &self.pressure_mpa, sliding_mm: sliding, surroundings: None };
+                    let (row, pressure) = (&mut self.heated, &self.pressure_mpa);
+                    let surroundings = step.wear.heat_of_law().map(|heat| {
+                        let contact = flank.heated(heat, pressure, step.length_mm);
+                        let points = RowOfPoints { gear, spacing_mm: flank.spacing_mm, pressure_mpa: pressure };
+                        row.across_sliding(&contact, points, sliding, step.length_mm / heat.speed_mm_per_s)
+                    });
+                    let rubbing = Rubbing { pressure_mpa: pressure, sliding_mm: sliding, surroundings };
                     step.wear.law.add_depth(&rubbing, &mut self.collected.depth_mm[gear][range]);
                 }
             }
@@ -221,13 +283,29 @@ impl Station {
 
     /// Reads anew which points are near the contact.
     fn look(&mut self, model: &CondensedPair<'_>, points: PerGear<FlankPoints<'_>>, length_mm: f64) {
-        let turn = model.pair.path.relative_turn_per_mm();
-        let with_sliding = |flank: ObservedFlank| {
-            let sliding = flank.sliding_mm(turn, length_mm);
-            (flank, sliding)
+        let path = &model.pair.path;
+        let turn = path.relative_turn_per_mm();
+        let rubbed = |gear: Gear, own: ObservedFlank, rolling: PerGear<f64>| {
+            let sliding_mm = own.sliding_mm(turn, length_mm);
+            let radii = points[gear].radius_mm;
+            let last = (own.first_point + sliding_mm.len()).min(radii.len()).saturating_sub(1);
+            let first = own.first_point.min(last);
+            // The arc of an involute from its base circle on is (r² − r_b²)/(2 r_b).
+            let arc = (radii[last].powi(2) - radii[first].powi(2)) / (2.0 * path.involute[gear].base_radius_mm);
+            let spacing_mm = if last > first { arc / (last - first) as f64 } else { 0.0 };
+            RubbedFlank { points: own, sliding_mm, spacing_mm, rolling }
         };
         let pairs = model.observed_pairs(&self.prepared, length_mm, points);
-        self.observed = pairs.into_iter().map(|pair| pair.map(with_sliding)).collect();
+        self.observed = pairs
+            .into_iter()
+            .map(|(pair, PerGear { pinion, wheel })| {
+                // Before A and after E, surfaces roll about as fast as there.
+                let own_mm = self.prepared.position_mm + f64::from(pair) * path.base_pitch_mm;
+                let at_mm = own_mm.clamp(path.start_mm, path.end_mm);
+                let rolling = PerGear::from_fn(|gear| model.pair.rolling_ratio(gear, at_mm));
+                PerGear { pinion: rubbed(Gear::Pinion, pinion, rolling), wheel: rubbed(Gear::Wheel, wheel, rolling) }
+            })
+            .collect();
         self.looks = self.prepared.looks();
     }
 

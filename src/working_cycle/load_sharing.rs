@@ -126,6 +126,14 @@ impl<'a> MeshedPair<'a> {
         self.touch_mm = self.contact.touch_mm();
     }
 
+    /// Is again a pair that has not carried load yet.
+    pub(super) fn forget(&mut self) {
+        self.contact.forget();
+        (self.response, self.further) = (Response::default(), (0.0, 0.0));
+        (self.touch_mm, self.depth_mm) = (0.0, 0.0);
+        self.history_mm = [None; 3];
+    }
+
     /// Keeps the present depth as a start for later.
     fn remember(&mut self) {
         self.history_mm = [Some(self.depth_mm), self.history_mm[0], self.history_mm[1]];

@@ -8,6 +8,7 @@
 pub mod bent_tooth;
 mod collected;
 pub mod condensed;
+mod heated;
 pub mod load_sharing;
 pub mod phases;
 pub mod positions;
@@ -20,11 +21,13 @@ pub mod sliced_teeth;
 pub mod tip_contact;
 
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCell, Sweep};
 use crate::gear::{Gear, PerGear};
-use crate::wear::{Rubbing, WearModel};
+use crate::wear::{Rubbing, WearModel, heated_row::HeatedRow};
 use collected::Collected;
+use heated::HeatedPlace;
 use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use sliced_mesh::SlicedMesh;
 
@@ -54,7 +57,7 @@ pub struct LoadingPosition {
 }
 
 /// Counters of work done.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Work {
     /// Working cycles evaluated.
     pub mesh_cycles: u64,
@@ -79,6 +82,7 @@ impl std::ops::AddAssign for Work {
 struct Station<'a> {
     cell: PositionCell,
     on_line_of_action: bool,
+    heated_place: HeatedPlace,
     /// The reference pair first.
     pairs: Vec<MeshedPair<'a>>,
     equilibrium: Equilibrium,
@@ -89,6 +93,7 @@ struct Group<'a> {
     stations: Vec<Station<'a>>,
     collected: Collected,
     sweep: Sweep,
+    heated: HeatedRow,
 }
 
 /// All loading positions of a pair, ready to be evaluated on ever newly worn flanks.
@@ -100,7 +105,7 @@ pub struct WorkingCycle<'a> {
 }
 
 /// What was observed at one position.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PositionObservation {
     /// Theoretical contact point of the reference pair.
     pub position_mm: f64,
@@ -115,7 +120,7 @@ pub struct PositionObservation {
 }
 
 /// What was observed over a working cycle.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CycleObservation {
     /// At each position, in order.
     pub positions: Vec<PositionObservation>,
@@ -152,6 +157,10 @@ pub trait MeshCycle {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError>;
 
+    /// Is again as if never evaluated: the next evaluation depends only on what the flanks have lost, to the bit, and not on
+    /// where the last one ended.
+    fn forget(&mut self);
+
     /// What the last evaluation found, on the same `lost`.
     ///
     /// # Errors
@@ -174,6 +183,7 @@ impl<'a> WorkingCycle<'a> {
                 stations: positions.iter().map(|p| Station::new(flanks, surface, p)).collect(),
                 collected: Collected::new(flanks.grid.map(|grid| grid.len())),
                 sweep: Sweep::default(),
+                heated: HeatedRow::default(),
             })
             .collect();
         Self { groups, line_load_n_per_mm, bodies_mm: 0.0 }
@@ -196,6 +206,12 @@ impl MeshCycle for WorkingCycle<'_> {
         let load = self.line_load_n_per_mm;
         self.groups.par_iter_mut().for_each(|group| group.evaluate(lost.removed_mm, load, wear, stopped));
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
+    }
+
+    fn forget(&mut self) {
+        self.groups.par_iter_mut().flat_map(|group| &mut group.stations).for_each(|station| {
+            station.pairs.iter_mut().for_each(MeshedPair::forget);
+        });
     }
 
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
@@ -253,12 +269,17 @@ impl Group<'_> {
             if !self.collected.take(solved) {
                 return;
             }
+            let pair = &station.pairs[0];
+            let load = pair.response.line_load_n_per_mm;
+            let heated = station.heated_place.under(wear, &*pair.contact, load);
             for gear in Gear::BOTH {
                 let sweep = &mut self.sweep;
-                station.pairs[0].contact.sweep(gear, removed_mm, sweep);
+                pair.contact.sweep(gear, removed_mm, sweep);
                 let points = sweep.first_point..sweep.first_point + sweep.sliding_mm.len();
+                let row = &mut self.heated;
+                let surroundings = heated.as_ref().map(|heated| heated.surroundings(row, gear, sweep));
                 let rubbing =
-                    Rubbing { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, surroundings: None };
+                    Rubbing { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, surroundings };
                 wear.law.add_depth(&rubbing, &mut self.collected.depth_mm[gear][points]);
             }
         }
@@ -277,8 +298,9 @@ impl<'a> Station<'a> {
                 MeshedPair::on_lever(contact, pair.teeth_n_per_mm2, pair.lever_ratio)
             })
             .collect();
-        let on_line_of_action = position.on_line_of_action;
-        Self { cell: position.cell, on_line_of_action, pairs, equilibrium: Equilibrium::default() }
+        let (cell, on_line_of_action) = (position.cell, position.on_line_of_action);
+        let heated_place = HeatedPlace::new(flanks, cell);
+        Self { cell, on_line_of_action, heated_place, pairs, equilibrium: Equilibrium::default() }
     }
 
     /// Equilibrium on the flanks as they are now.

@@ -14,6 +14,7 @@ use rayon::prelude::*;
 
 use super::bent_tooth::BentTooth;
 use super::collected::Collected;
+use super::heated::HeatedPlace;
 use super::load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use super::phases::{Phase, SliceContact};
 use super::slice_coupling::SliceCoupling;
@@ -23,7 +24,7 @@ use super::sliced_teeth::SlicedTeeth;
 use super::{CycleObservation, GROUPS, LostMaterial, MeshCycle, Work, note_what_points_felt};
 use crate::contact::{ContactSurface, Flanks, Sweep};
 use crate::gear::{Gear, PerGear, path_of_contact::PathOfContact};
-use crate::wear::{Rubbing, WearModel};
+use crate::wear::{Rubbing, WearModel, heated_row::HeatedRow};
 
 /// The spring of the teeth along the path of contact, evaluated once for all slices.
 pub struct SpringAlongPath {
@@ -74,6 +75,8 @@ struct Station<'a> {
     position_mm: f64,
     contacts: Vec<SliceContact>,
     pairs: Vec<MeshedPair<'a>>,
+    /// Of each contact.
+    heated_places: Vec<HeatedPlace>,
     /// The teeth that the contacts belong to, where slices are coupled.
     teeth: Vec<BentTooth>,
     equilibrium: Equilibrium,
@@ -84,6 +87,7 @@ struct Group<'a> {
     stations: Vec<Station<'a>>,
     collected: Collected,
     sweep: Sweep,
+    heated: HeatedRow,
 }
 
 /// All phases of a sliced pair, ready to be evaluated on ever newly worn flanks.
@@ -126,6 +130,7 @@ impl<'a> SlicedCycle<'a> {
                 stations: phases.iter().map(|phase| Station::new(flanks, surface, sliced, phase, springs)).collect(),
                 collected: Collected::new(points.map(|points| slices * points)),
                 sweep: Sweep::default(),
+                heated: HeatedRow::default(),
             })
             .collect();
         Self { groups, sliced, path, points, positions, line_load_n_per_mm, bodies_mm: 0.0 }
@@ -156,6 +161,13 @@ impl MeshCycle for SlicedCycle<'_> {
             group.evaluate(lost.removed_mm, points, coupling, load, wear, stopped);
         });
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
+    }
+
+    fn forget(&mut self) {
+        self.groups.par_iter_mut().flat_map(|group| &mut group.stations).for_each(|station| {
+            station.pairs.iter_mut().for_each(MeshedPair::forget);
+            station.teeth.iter_mut().for_each(BentTooth::straighten);
+        });
     }
 
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
@@ -202,18 +214,19 @@ impl Group<'_> {
             if !self.collected.take(solved) {
                 return;
             }
-            for (contact, pair) in station.contacts.iter().zip(&station.pairs) {
+            let contacts = station.contacts.iter().zip(&station.heated_places);
+            for ((contact, place), pair) in contacts.zip(&station.pairs) {
                 let own = of_slice(removed_mm, points, contact.slice);
+                let heated = place.under(wear, &*pair.contact, pair.response.line_load_n_per_mm);
                 for gear in Gear::BOTH {
                     let sweep = &mut self.sweep;
                     pair.contact.sweep(gear, own, sweep);
                     let first = contact.slice * points[gear] + sweep.first_point;
                     let depth = &mut self.collected.depth_mm[gear][first..first + sweep.sliding_mm.len()];
-                    let rubbing = Rubbing {
-                        pressure_mpa: &sweep.pressure_mpa,
-                        sliding_mm: &sweep.sliding_mm,
-                        surroundings: None,
-                    };
+                    let row = &mut self.heated;
+                    let surroundings = heated.as_ref().map(|heated| heated.surroundings(row, gear, sweep));
+                    let rubbing =
+                        Rubbing { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, surroundings };
                     wear.law.add_depth(&rubbing, depth);
                 }
             }
@@ -248,6 +261,7 @@ impl<'a> Station<'a> {
             position_mm: phase.position_mm,
             contacts: phase.contacts.clone(),
             pairs,
+            heated_places: phase.contacts.iter().map(|contact| HeatedPlace::new(flanks, contact.cell)).collect(),
             teeth,
             equilibrium: Equilibrium::default(),
         }

@@ -3,6 +3,8 @@
 //! The phases of one base pitch hold all of it: tooth k at a phase is the reference tooth k base pitches later, and the
 //! transmission error is the same in every base pitch.
 
+use serde::{Deserialize, Serialize};
+
 use super::PositionObservation;
 use crate::contact::Footprint;
 use crate::gear::path_of_contact::PathOfContact;
@@ -34,7 +36,7 @@ pub struct ObservedPhase {
 }
 
 /// The mesh of one tooth, and the base pitch that tells it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SlicedMesh {
     /// Slices over the face width.
     pub slices: usize,

@@ -116,6 +116,10 @@ impl PairContact for OnLever<'_> {
         self.contact.widen();
     }
 
+    fn forget(&mut self) {
+        self.contact.forget();
+    }
+
     fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
         self.contact.sweep(gear, removed_mm, sweep);
     }

@@ -104,6 +104,8 @@ pub struct Scene {
     pub flank_points: usize,
     pub positions: usize,
     pub steps: f64,
+    /// Instead of `steps`.
+    pub stepping: Option<Stepping>,
     pub tip_contact: bool,
     pub slices: Option<SliceSettings>,
     pub curve: Option<PairCompliance>,
@@ -124,6 +126,7 @@ pub fn fzg_c_scene() -> Scene {
         flank_points: 750,
         positions: 400,
         steps: 150.0,
+        stepping: None,
         tip_contact: false,
         slices: None,
         curve: None,
@@ -163,7 +166,7 @@ impl Scene {
         Numerics {
             flank_points: self.flank_points,
             positions: self.positions,
-            stepping: Stepping::Fixed { revolutions: self.revolutions / self.steps },
+            stepping: self.stepping.unwrap_or(Stepping::Fixed { revolutions: self.revolutions / self.steps }),
             error_estimate: false,
         }
     }

@@ -138,17 +138,17 @@ impl<'a> CondensedPair<'a> {
         loaded.collect()
     }
 
-    /// How the points of both flanks read the pressure of each tooth pair that may touch, with the
-    /// position standing for `length_mm` of the path.
+    /// Each tooth pair that may touch, by the base pitches it is ahead, and how the points of both flanks read its pressure, with
+    /// the position standing for `length_mm` of the path.
     pub fn observed_pairs(
         &self,
         prepared: &Prepared,
         length_mm: f64,
         points: PerGear<FlankPoints<'_>>,
-    ) -> Vec<PerGear<ObservedFlank>> {
+    ) -> Vec<(i32, PerGear<ObservedFlank>)> {
         let at = prepared.position_mm;
         let observed = |facing| PerGear::from_fn(|gear| self.observed_flank(at, length_mm, facing, gear, points[gear]));
-        prepared.facings.iter().map(observed).collect()
+        prepared.facings.iter().map(|facing| (facing.pair, observed(facing))).collect()
     }
 
     /// The figures of a solution.

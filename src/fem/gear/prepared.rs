@@ -63,13 +63,17 @@ impl<'a> CondensedPair<'a> {
     }
 
     fn prepare_among(&self, beside: i32, position_mm: f64, line_load_n_per_mm: f64) -> Prepared {
-        let window = Window {
+        self.look(position_mm, self.first_window(beside, line_load_n_per_mm))
+    }
+
+    /// Where contact is looked for first.
+    fn first_window(&self, beside: i32, line_load_n_per_mm: f64) -> Window {
+        Window {
             beside,
             line_load_n_per_mm,
             half_widths: FIRST_WINDOW,
             reach_mm: FIRST_REACH * line_load_n_per_mm / self.contact_modulus_mpa,
-        };
-        self.look(position_mm, window)
+        }
     }
 
     fn look(&self, position_mm: f64, window: Window) -> Prepared {
@@ -107,6 +111,17 @@ impl<'a> CondensedPair<'a> {
             }
         }
         unreachable!("the last look returns")
+    }
+
+    /// Makes a prepared position as if it had never been solved, and its wear never seen: it starts from no contact, and looks no
+    /// wider than at first.
+    pub fn forget(&self, prepared: &mut Prepared) {
+        if prepared.looks > 1 {
+            let Window { beside, line_load_n_per_mm, .. } = prepared.window;
+            *prepared = self.look(prepared.position_mm, self.first_window(beside, line_load_n_per_mm));
+        } else {
+            (prepared.active, prepared.factored) = (None, None);
+        }
     }
 
     fn widen(&self, prepared: &mut Prepared) {

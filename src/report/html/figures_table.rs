@@ -1,5 +1,6 @@
 //! The main figures of a run as HTML tables.
 
+use super::law_table;
 use super::number::{change, figure, fixed, percent, significant};
 use super::page::escape;
 use super::sliced;
@@ -10,7 +11,7 @@ use crate::simulation::record::{ErrorSummary, GearSummary, RunRecord, Summary, W
 pub fn tables(record: &RunRecord) -> String {
     let s = &record.summary;
     let sliced = s.helical.as_ref().map_or_else(String::new, sliced::tables::tables);
-    [new_and_worn(s), wear(s), sliced, pair(s), gears(s), contact(s)].concat()
+    [new_and_worn(s), wear(s), law_table::tables(s), sliced, pair(s), gears(s), contact(s)].concat()
 }
 
 fn new_and_worn(s: &Summary) -> String {

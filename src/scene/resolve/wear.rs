@@ -8,12 +8,10 @@ use crate::wear::{
     settings::{LawSettings, SevereTransition, WearSettings},
 };
 
-/// Typical film of a fatty acid or ester on steel (Kingsbury; Wu and Cheng): orders of magnitude.
+// The typical constants of `wear::adsorption` and `wear::oxidation`, in the units of the file.
 const MOLECULE_DIAMETER_NM: f64 = 0.3;
 const VIBRATION_TIME_PS: f64 = 3.0;
 const HEAT_OF_ADSORPTION_KJ_PER_MOL: f64 = 48.0;
-
-/// Typical oxidation of steel: orders of magnitude.
 const ARRHENIUS_CONSTANT_KG_PER_M2S: f64 = 1e3;
 const ACTIVATION_ENERGY_KJ_PER_MOL: f64 = 100.0;
 const IRON_KG_PER_M3: f64 = 7870.0;
@@ -63,8 +61,8 @@ pub fn coefficient_mm2_per_n(
 
 fn adsorption(file: &mut AdsorptionFile) -> AdsorptionConstants {
     AdsorptionConstants {
-        molecule_diameter_mm: 1e-6 * *file.molecule_diameter_nm.get_or_insert(MOLECULE_DIAMETER_NM),
-        vibration_time_s: 1e-12 * *file.vibration_time_ps.get_or_insert(VIBRATION_TIME_PS),
+        molecule_diameter_mm: *file.molecule_diameter_nm.get_or_insert(MOLECULE_DIAMETER_NM) / 1e6,
+        vibration_time_s: *file.vibration_time_ps.get_or_insert(VIBRATION_TIME_PS) / 1e12,
         heat_of_adsorption_j_per_mol: 1e3
             * *file.heat_of_adsorption_kJ_per_mol.get_or_insert(HEAT_OF_ADSORPTION_KJ_PER_MOL),
     }
@@ -79,5 +77,16 @@ fn oxidation(file: &mut OxidationFile) -> OxidationConstants {
             * *file.activation_energy_kJ_per_mol.get_or_insert(ACTIVATION_ENERGY_KJ_PER_MOL),
         density_kg_per_m3: *file.density_kg_per_m3.get_or_insert(IRON_KG_PER_M3),
         mass_ratio: *file.mass_ratio.get_or_insert_default(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn defaults_are_the_typical_constants() {
+        assert_eq!(adsorption(&mut AdsorptionFile::default()), AdsorptionConstants::TYPICAL);
+        assert_eq!(oxidation(&mut OxidationFile::default()), OxidationConstants::TYPICAL);
     }
 }

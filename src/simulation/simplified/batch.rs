@@ -15,7 +15,8 @@ use super::exact::Springs;
 use super::lanes::{LANES, Lanes};
 use super::station::{Attempt, Common, Pack, Station, Tangent, UNUSED_GAP_MM};
 use crate::gear::{Gear, PerGear};
-use crate::wear::{Rubbing, WearModel};
+use crate::thermal::{SpeedRatios, band::Spread};
+use crate::wear::{Rubbing, Surroundings, WearModel, heated_row::HeatedContact};
 use crate::working_cycle::{
     Work,
     bent_tooth::BentTooth,
@@ -46,6 +47,8 @@ pub struct Batch {
     /// Gap of the unworn flanks.
     modification_mm: Vec<Lanes>,
     per_root: Vec<PerRoot>,
+    /// How fast the surfaces move at the contact in each lane.
+    ratios: Vec<SpeedRatios>,
     /// The teeth of each phase, where slices are coupled.
     bent: Vec<Vec<BentTooth>>,
     common: Common,
@@ -56,6 +59,7 @@ pub struct Batch {
     tangents: Vec<Tangent>,
     pressure_mpa: Row,
     sliding_mm: [Row; 2],
+    surroundings: Vec<Surroundings>,
     begun: bool,
     outcome: Result<Work, EquilibriumError>,
 }
@@ -86,6 +90,7 @@ impl Batch {
         let count: usize = phases.iter().map(packs_of).sum();
         let unused = Pack { rigid: Lanes::splat(1.0), gap_mm: Lanes::splat(UNUSED_GAP_MM), ..Pack::default() };
         let (mut packs, mut per_root) = (vec![unused; count], vec![PerRoot::default(); count]);
+        let mut ratios = vec![SpeedRatios::default(); LANES * count];
         let coupled = springs.sliced.coupling.is_some();
         let common = Common {
             log_compliance_mm2_per_n: forms.log_compliance_mm2_per_n(),
@@ -100,6 +105,7 @@ impl Batch {
                 let (pack, k) = (first + at / LANES, at % LANES);
                 let position = contact.cell.position_mm;
                 let form = forms.at(position);
+                ratios[LANES * first + at] = SpeedRatios::over(springs.pair, position, position);
                 let teeth = if coupled { 0.0 } else { springs.along_path.mm2_per_n(position) };
                 let (row, roots) = (&mut packs[pack], &mut per_root[pack]);
                 row.rigid.0[k] = form.surface_mm2_per_n + teeth;
@@ -137,6 +143,7 @@ impl Batch {
             modification_mm: packs.iter().map(|pack| pack.gap_mm).collect(),
             packs,
             per_root,
+            ratios,
             bent,
             common,
             wear_mm: PerGear::from_fn(|_| row(count)),
@@ -144,6 +151,7 @@ impl Batch {
             tangents: vec![Tangent::default(); longest],
             pressure_mpa: row(longest),
             sliding_mm: [row(longest), row(longest)],
+            surroundings: Vec::new(),
             begun: false,
             outcome: Ok(Work::default()),
         }
@@ -250,7 +258,21 @@ impl Batch {
             let depth = self.depth_mm[gear][range.clone()].as_flattened_mut();
             depth.fill(0.0);
             let sliding_mm = sliding[..range.len()].as_flattened();
-            wear.law.add_depth(&Rubbing { pressure_mpa: pressure, sliding_mm, surroundings: None }, depth);
+            let (row, contacts) =
+                (&mut self.surroundings, self.packs[range.clone()].iter().zip(&self.per_root[range.clone()]));
+            let surroundings = wear.heat_of_law().map(|heat| {
+                let lanes = contacts.flat_map(|(pack, per_root)| {
+                    let (load, half_width) = (pack.loads(), pack.loads().sqrt() * per_root.half_width);
+                    load.0.into_iter().zip(half_width.0)
+                });
+                let ratios = &self.ratios[LANES * range.start..LANES * range.end];
+                row.clear();
+                row.extend(lanes.zip(ratios).map(|((line_load_n_per_mm, half_width_mm), &ratios)| {
+                    HeatedContact { heat, ratios, line_load_n_per_mm, half_width_mm }.at_hottest(gear, Spread::Even)
+                }));
+                &**row
+            });
+            wear.law.add_depth(&Rubbing { pressure_mpa: pressure, sliding_mm, surroundings }, depth);
         }
     }
 
@@ -285,6 +307,21 @@ impl Batch {
                 pack.gap_mm += Lanes(self.wear_mm[gear][index]);
             }
         }
+    }
+
+    /// Is again as if never evaluated, on the flanks as they are.
+    pub fn forget(&mut self) {
+        for station in &mut self.stations {
+            let mean = self.common.line_load_n_per_mm / station.contacts as f64;
+            station.transmission_error_mm = 0.0;
+            for (at, pack) in self.packs[station.packs.clone()].iter_mut().enumerate() {
+                let used = |lane: usize| at * LANES + lane < station.contacts;
+                pack.load = Lanes(std::array::from_fn(|lane| if used(lane) { mean } else { 0.0 }));
+                (pack.log_load, pack.correction, pack.change) = Default::default();
+            }
+        }
+        self.bent.iter_mut().flatten().for_each(BentTooth::straighten);
+        self.begun = false;
     }
 
     /// Depth that `gear`'s flank has lost at the contact in a lane, and loses in one mesh, mm.

@@ -181,6 +181,13 @@ impl WearingPair for SimplifiedPair<'_> {
         }
     }
 
+    fn forget(&mut self) {
+        // The gaps are kept up step by step; summed anew they differ in their last bits.
+        let wear_mm = self.wear_mm();
+        self.set_wear_mm(&wear_mm);
+        self.batches.iter_mut().for_each(Batch::forget);
+    }
+
     fn wear_mm(&self) -> PerGear<Vec<f64>> {
         PerGear::from_fn(|gear| {
             let rows = |batch: &Batch| {

@@ -1,0 +1,120 @@
+//! Where a run begins: in a fresh folder, or where an earlier run of the same scene was broken off.
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use gearwear::report;
+use gearwear::resume::file::{self, CheckpointFile};
+use gearwear::resume::folder::{self, Contents};
+use gearwear::resume::identity::Identity;
+use gearwear::simulation::checkpoint::{Checkpoint, Keeper};
+use gearwear::simulation::record::StopReason;
+
+use super::failure::{Failure, InputError};
+use super::say;
+use super::scene_source::{self, Source};
+
+/// Least time between two checkpoints.
+const LEAST_INTERVAL: Duration = Duration::from_millis(250);
+/// Least time between two checkpoints over what writing the last one took.
+const INTERVAL_OVER_WRITING: u32 = 20;
+
+/// A run that can begin.
+pub struct BegunRun {
+    /// Its scene, with input files as they lie in the folder.
+    pub source: Source,
+    /// Its folder, which holds the scene and the input files.
+    pub out: PathBuf,
+    /// Scene and input files.
+    pub identity: Identity,
+    /// Where it goes on from; `None`: from the beginning.
+    pub from: Option<Checkpoint>,
+}
+
+/// Begins the run of `scene` in the folder `out`.
+pub fn begin(scene: &Path, out: &Path) -> Result<BegunRun, Failure> {
+    let (source, identity) = named_as_copied(scene_source::resolve(scene)?);
+    report::writable(out)?;
+    begin_anew(source, identity, out)
+}
+
+/// Goes on with the run in the folder `out`: that of `scene`, or, without one, of the scene that lies there.
+pub fn resume(scene: Option<&Path>, out: &Path) -> Result<BegunRun, Failure> {
+    let own = out.join(folder::SCENE);
+    if scene.is_none() && !own.exists() {
+        return Err(InputError::NothingToResume { folder: out.display().to_string() }.into());
+    }
+    let (mut source, identity) = named_as_copied(scene_source::resolve(scene.unwrap_or(&own))?);
+    report::writable(out)?;
+    let contents = folder::look(out, &identity, &source.resolved.scene_hash())
+        .map_err(|error| InputError::Resume(Box::new(error)))?;
+    match contents {
+        Contents::Nothing | Contents::Begun => begin_anew(source, identity, out),
+        Contents::Checkpoint(found) => {
+            let CheckpointFile { warnings, checkpoint, .. } = *found;
+            source.resolved.warnings = warnings;
+            Ok(BegunRun { source, out: out.to_owned(), identity, from: Some(checkpoint) })
+        }
+        Contents::Ended(stopped) => {
+            let how = if stopped == StopReason::Completed { "is complete" } else { "did not converge" };
+            Err(InputError::NothingLeft { folder: out.display().to_string(), how }.into())
+        }
+    }
+}
+
+fn named_as_copied(mut source: Source) -> (Source, Identity) {
+    folder::name_inputs_as_copied(&mut source.resolved, &mut source.files);
+    let identity = Identity::new(source.resolved.to_toml(), &source.files);
+    (source, identity)
+}
+
+fn begin_anew(source: Source, identity: Identity, out: &Path) -> Result<BegunRun, Failure> {
+    report::create_folder(out)?;
+    folder::begin(out, &identity, &source.files)?;
+    Ok(BegunRun { source, out: out.to_owned(), identity, from: None })
+}
+
+/// Writes checkpoints into the folder of a run, so rarely that it costs nothing. That a checkpoint cannot be written is no reason to
+/// end a run.
+pub struct FolderKeeper<'a> {
+    path: PathBuf,
+    identity: &'a Identity,
+    warnings: &'a [String],
+    due: Mutex<Instant>,
+    failure: Mutex<Option<io::Error>>,
+}
+
+impl<'a> FolderKeeper<'a> {
+    /// For the run `identity` in the folder `out`, whose user was told `warnings`.
+    pub fn new(out: &Path, identity: &'a Identity, warnings: &'a [String]) -> Self {
+        let due = Mutex::new(Instant::now() + LEAST_INTERVAL);
+        Self { path: out.join(folder::CHECKPOINT), identity, warnings, due, failure: Mutex::new(None) }
+    }
+
+    /// Says why the last checkpoint could not be written, if so.
+    pub fn say_failure(&self) {
+        let failure = self.failure.lock().ok().and_then(|mut failure| failure.take());
+        if let Some(error) = failure {
+            say(&format!("warning: the last checkpoint, {}, could not be written: {error}", self.path.display()));
+        }
+    }
+}
+
+impl Keeper for FolderKeeper<'_> {
+    fn is_due(&self) -> bool {
+        self.due.lock().is_ok_and(|due| Instant::now() >= *due)
+    }
+
+    fn keep(&self, checkpoint: &Checkpoint) {
+        let begin = Instant::now();
+        let written = file::write(&self.path, self.identity, self.warnings, checkpoint);
+        if let Ok(mut failure) = self.failure.lock() {
+            *failure = written.err();
+        }
+        if let Ok(mut due) = self.due.lock() {
+            *due = Instant::now() + LEAST_INTERVAL.max(INTERVAL_OVER_WRITING * begin.elapsed());
+        }
+    }
+}

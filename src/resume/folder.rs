@@ -1,0 +1,155 @@
+//! The folder of a run, from its beginning on.
+//!
+//! What is there at any moment, also when the program is killed between two files, must not pass for something else. The order of
+//! the beginning: the checkpoint of an earlier run goes first, then come input files and scene, and last goes the summary, which
+//! counts only beside a scene of its own hash.
+
+use std::ffi::OsStr;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+
+use super::file::{self, CheckpointError, CheckpointFile};
+use super::identity::{Identity, InputFile, between_scenes};
+use crate::report::ReportError;
+use crate::scene::Resolved;
+use crate::simulation::record::StopReason;
+use crate::whole_file;
+
+/// The resolved scene.
+pub const SCENE: &str = "scene.toml";
+/// The last checkpoint.
+pub const CHECKPOINT: &str = "checkpoint.bin";
+const INPUTS: &str = "inputs";
+const SUMMARY: &str = "summary.json";
+
+/// What a folder holds of a run.
+#[derive(Debug, PartialEq)]
+pub enum Contents {
+    /// Nothing that was begun.
+    Nothing,
+    /// A run that began, and has no checkpoint yet.
+    Begun,
+    /// A run that can go on.
+    Checkpoint(Box<CheckpointFile>),
+    /// A run that has ended, in whatever way.
+    Ended(StopReason),
+}
+
+/// Why a folder cannot be gone on with.
+#[derive(Debug, thiserror::Error)]
+pub enum FolderError {
+    /// Not a checkpoint to go on from.
+    #[error("{}: {source}", path.display())]
+    Checkpoint {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: CheckpointError,
+    },
+    /// The run of another scene, or of other input files.
+    #[error("{} holds the run of another scene: {}", path.display(), differences.join("; "))]
+    OtherRun {
+        /// The file that says so.
+        path: PathBuf,
+        /// What differs, there and here.
+        differences: Vec<String>,
+    },
+    /// The system cannot read a file.
+    #[error("{} cannot be read: {source}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+}
+
+/// Lets the scene name its input files as they lie in the folder of a run.
+pub fn name_inputs_as_copied(resolved: &mut Resolved, files: &mut [InputFile]) {
+    let mut taken: Vec<String> = Vec::new();
+    for file in files {
+        let base = Path::new(&file.name).file_name().and_then(OsStr::to_str).unwrap_or(file.key);
+        let mut name = format!("{INPUTS}/{base}");
+        if taken.contains(&name) {
+            name = format!("{INPUTS}/{}-{base}", file.key);
+        }
+        resolved.rename_file(file.key, &name);
+        file.name.clone_from(&name);
+        taken.push(name);
+    }
+}
+
+/// Begins the run of `identity` in `dir`, which exists, with copies of its input files: what an earlier run could go on from is gone.
+///
+/// # Errors
+/// A file that cannot be written or taken away.
+pub fn begin(dir: &Path, identity: &Identity, files: &[InputFile]) -> Result<(), ReportError> {
+    remove_checkpoint(dir)?;
+    let place = |name: &str, bytes: &[u8]| {
+        let path = dir.join(name);
+        let written = path.parent().map_or(Ok(()), fs::create_dir_all);
+        written
+            .and_then(|()| whole_file::write(&path, |out| out.write_all(bytes)))
+            .map_err(|source| ReportError::WriteFile { path, source })
+    };
+    files.iter().try_for_each(|file| place(&file.name, &file.bytes))?;
+    place(SCENE, identity.scene_toml.as_bytes())
+}
+
+/// Takes away the checkpoint in `dir`, if there is one.
+///
+/// # Errors
+/// One that cannot be.
+pub fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
+    let path = dir.join(CHECKPOINT);
+    match fs::remove_file(&path) {
+        Err(source) if source.kind() != io::ErrorKind::NotFound => Err(ReportError::WriteFile { path, source }),
+        _ => Ok(()),
+    }
+}
+
+/// What `dir` holds of the run of `identity` with the scene hash `scene_hash`.
+///
+/// # Errors
+/// [`FolderError`] where it holds another run, or what cannot be read.
+pub fn look(dir: &Path, identity: &Identity, scene_hash: &str) -> Result<Contents, FolderError> {
+    let Some(scene_toml) = read(&dir.join(SCENE))? else { return Ok(Contents::Nothing) };
+    let other_run = |path: PathBuf, differences: Vec<String>| match differences.is_empty() {
+        true => Ok(()),
+        false => Err(FolderError::OtherRun { path, differences }),
+    };
+    other_run(dir.join(SCENE), between_scenes(&scene_toml, &identity.scene_toml))?;
+    if let Some(stopped) = read(&dir.join(SUMMARY))?.and_then(|text| stopped(&text, scene_hash))
+        && stopped != StopReason::Interrupted
+    {
+        return Ok(Contents::Ended(stopped));
+    }
+    let path = dir.join(CHECKPOINT);
+    match file::read(&path) {
+        Ok(None) => Ok(Contents::Begun),
+        Ok(Some(found)) => {
+            other_run(path, found.identity.differences(identity))?;
+            Ok(Contents::Checkpoint(Box::new(found)))
+        }
+        Err(source) => Err(FolderError::Checkpoint { path, source }),
+    }
+}
+
+/// The text of a file; `None` where there is none.
+fn read(path: &Path) -> Result<Option<String>, FolderError> {
+    match fs::read_to_string(path) {
+        Ok(text) => Ok(Some(text)),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(source) => Err(FolderError::Unreadable { path: path.to_owned(), source }),
+    }
+}
+
+/// How the run of a summary ended; `None` where it is none of the scene.
+fn stopped(summary: &str, scene_hash: &str) -> Option<StopReason> {
+    let summary: serde_json::Value = serde_json::from_str(summary).ok()?;
+    let is_own = summary["scene_hash"] == scene_hash;
+    is_own.then(|| StopReason::deserialize(&summary["stopped"]).ok()).flatten()
+}

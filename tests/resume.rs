@@ -1,0 +1,140 @@
+//! Runs that are killed and go on: the same bits as without a break, and refusals of what would not be.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+const TABLES: [&str; 5] = ["pinion.csv", "wheel.csv", "history.csv", "profiles.csv", "mesh_cycle.csv"];
+
+fn gearwear() -> Command {
+    Command::new(assert_cmd::cargo::cargo_bin!("gearwear"))
+}
+
+/// Slow mild wear of the preset pair on a coarse grid, with some lines more in `[contact]`, `[numerics]` and at the end.
+fn scene(contact: &str, numerics: &str, more: &str) -> String {
+    format!(
+        "[pair]\npreset = \"fzg-c\"\n[operation]\npinion_torque_Nm = 302.0\npinion_speed_rpm = 150.0\nhours = 128.0\n\
+         [contact]\n{contact}\n[wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 2e-17\n\
+         [numerics]\nerror_estimate = false\n{numerics}\n{more}\n"
+    )
+}
+
+/// So long that it is killed many times: a clean start every 300 evaluations on half-planes.
+fn half_space(step: &str) -> String {
+    scene("surface = \"half-space\"", &format!("flank_points = 120\npositions = 24\n{step}"), "")
+}
+
+/// A clean start every 75 evaluations on finite elements.
+fn finite_elements(step: &str) -> String {
+    scene(
+        "surface = \"fem\"",
+        &format!("flank_points = 120\npositions = 24\n{step}"),
+        "[fem]\nbody = \"sector\"\nsector_teeth = 5\nelements_per_half_width = 3",
+    )
+}
+
+struct Folder(tempfile::TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn write(&self, name: &str, text: &str) -> PathBuf {
+        let path = self.path(name);
+        fs::write(&path, text).unwrap();
+        path
+    }
+}
+
+fn run(args: &[&dyn AsRef<std::ffi::OsStr>]) -> Output {
+    gearwear().arg("run").args(args.iter().map(|arg| arg.as_ref())).output().unwrap()
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// What may differ between a run and the same run with breaks: wall times only.
+fn without_times(out: &Path) -> Value {
+    let mut summary: Value = serde_json::from_slice(&fs::read(out.join("summary.json")).unwrap()).unwrap();
+    summary["wall_s"] = Value::Null;
+    for stage in summary["stages"].as_array_mut().unwrap() {
+        stage["wall_s"] = Value::Null;
+    }
+    summary
+}
+
+fn assert_same_results(one: &Path, other: &Path) {
+    for table in TABLES.into_iter().chain(["scene.toml"]) {
+        assert!(fs::read(one.join(table)).unwrap() == fs::read(other.join(table)).unwrap(), "{table}");
+    }
+    assert_eq!(without_times(one), without_times(other));
+}
+
+/// Starts a run with `args` and kills it after `milliseconds`; says whether it had ended before.
+fn killed_after(milliseconds: u64, args: &[&dyn AsRef<std::ffi::OsStr>]) -> bool {
+    let mut command = gearwear();
+    command.arg("run").args(args.iter().map(|arg| arg.as_ref())).stdout(Stdio::null()).stderr(Stdio::null());
+    let mut child = command.spawn().unwrap();
+    std::thread::sleep(Duration::from_millis(milliseconds));
+    let ended = child.try_wait().unwrap().is_some();
+    // SIGKILL.
+    child.kill().unwrap();
+    child.wait().unwrap();
+    ended
+}
+
+/// Runs `scene` without a break, and again with 20 kills at pseudo-random moments, resumed on one and two threads by turns. Returns after
+/// how many kills there was a checkpoint to go on from.
+fn survives_kills(scene: &str) -> u64 {
+    let folder = Folder::new();
+    let file = folder.write("scene.toml", scene);
+    let (whole, broken) = (folder.path("whole"), folder.path("broken"));
+    let begin = Instant::now();
+    let output = run(&[&file, &"--out", &whole, &"--threads", &"2"]);
+    assert!(output.status.success(), "{}", said(&output));
+    let takes_ms = begin.elapsed().as_millis() as u64;
+
+    let mut random = 12345_u64;
+    let (mut found, mut ended) = (0, true);
+    for kill in 0..20 {
+        // Knuth's MMIX generator; its high bits.
+        random = random.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        let part = (random >> 33) % (takes_ms / 10);
+        ended = if ended {
+            killed_after(takes_ms / 4 + part, &[&file, &"--out", &broken, &"--quiet"])
+        } else {
+            let threads = if kill % 2 == 0 { "1" } else { "2" };
+            killed_after(part, &[&"--resume", &broken, &"--threads", &threads])
+        };
+        found += u64::from(broken.join("checkpoint.bin").exists());
+    }
+    // The scene may be given too.
+    if !ended {
+        let output = run(&[&file, &"--resume", &broken, &"--quiet"]);
+        assert!(output.status.success(), "{}", said(&output));
+    }
+    assert_same_results(&whole, &broken);
+    assert!(!broken.join("checkpoint.bin").exists());
+    found
+}
+
+#[test]
+fn a_run_on_half_planes_that_is_killed_20_times_ends_with_the_same_bits() {
+    let found = survives_kills(&half_space("step = { revolutions = 100.0 }"));
+    assert!(found >= 10, "{found}");
+}
+
+#[test]
+fn a_run_on_finite_elements_that_is_killed_20_times_ends_with_the_same_bits() {
+    let found = survives_kills(&finite_elements("step = { revolutions = 200.0 }"));
+    assert!(found >= 10, "{found}");
+}
