@@ -12,6 +12,7 @@ pub mod pair_mesh;
 mod phases;
 mod recording;
 mod slices;
+mod stability;
 mod temperature;
 
 use std::time::Instant;
@@ -50,6 +51,9 @@ use recording::Found;
 pub trait Observer: Progress {
     /// A stage begins.
     fn stage(&self, kind: StageKind);
+
+    /// Something the user should know before the work is done; the summary has it too.
+    fn warning(&self, _text: &str) {}
 }
 
 impl Observer for Unwatched {
@@ -327,6 +331,7 @@ fn carry_out<R>(
         foundations_mpa_per_mm,
     };
 
+    let judged = stability::judge(&model, observer);
     let Resumption { from, keeper } = resumption;
     let outcome = stages.run(StageKind::Simulation, || model.wear_run().run_from(from, keeper, observer))?;
     let heat = match plan.has(StageKind::ContactTemperature) {
@@ -340,7 +345,7 @@ fn carry_out<R>(
         ErrorSummary::not_estimated(not_estimated_because(&outcome))
     };
 
-    let mut summary = recording::summary(resolved, plan, &model, found, error)?;
+    let mut summary = recording::summary(resolved, plan, &model, found, error, judged)?;
     summary.stages = stages.times;
     let record = keep(&model, found, summary);
     Ok(Done { record, failure: outcome.failure.map(RunError::from) })

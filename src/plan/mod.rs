@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 
 use crate::contact::settings::{Foundation, SurfaceKind};
 use crate::scene::Scene;
-use crate::simulation::settings::{Operation, Stepping};
+use crate::simulation::settings::{AdaptiveMethod, Operation, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::wear::settings::LawSettings;
 use crate::working_cycle::settings::Coupling;
@@ -220,8 +220,12 @@ fn simulation(scene: &Scene) -> String {
         Stepping::Fixed { revolutions } => {
             format!("about {} wear steps", (operation.pinion_revolutions / revolutions).ceil())
         }
-        Stepping::Adaptive { tolerance_mm, .. } => {
-            format!("adaptive wear steps within {} µm", 1e3 * tolerance_mm)
+        Stepping::Adaptive { tolerance_mm, method } => {
+            let method = match method {
+                AdaptiveMethod::RungeKuttaChebyshev => "Runge–Kutta–Chebyshev",
+                AdaptiveMethod::LinearlyImplicit => "linearly implicit",
+            };
+            format!("adaptive wear steps ({method}) within {} µm", 1e3 * tolerance_mm)
         }
     };
     let tip_edges = if scene.contact.tip_contact { ", contact at tip edges before A and after E" } else { "" };

@@ -355,6 +355,8 @@ pub struct ErrorSummary {
     pub wear_step: Option<f64>,
     /// From the contact surface, against the finite-element reference.
     pub surface_model: Option<f64>,
+    /// Between a hard switch to severe wear and one over a band; `None` where no wear is severe. Not an error but a choice of the scene.
+    pub severe_switch: Option<f64>,
     /// What the estimates cost over what the run itself did, counted in equilibria weighted by their time.
     pub companions_cost: Option<f64>,
     /// How each was obtained, or why it was not.
@@ -368,6 +370,7 @@ impl ErrorSummary {
             discretisation: format!("not estimated: {reason}"),
             wear_step: format!("not estimated: {reason}"),
             surface_model: format!("not estimated: {reason}"),
+            severe_switch: format!("not estimated: {reason}"),
         };
         Self { how, ..Self::default() }
     }
@@ -380,6 +383,7 @@ pub struct ErrorSources {
     pub discretisation: String,
     pub wear_step: String,
     pub surface_model: String,
+    pub severe_switch: String,
 }
 
 /// Work done by the wear simulation alone.
@@ -393,6 +397,8 @@ pub struct WorkSummary {
     pub stages: u64,
     /// Working cycles evaluated to learn how stiff the wear is: spectral radius, Jacobian, length of the first step.
     pub jacobian_probes: u64,
+    /// Working cycles evaluated before the run, to learn how long a step of Euler's method may be; not among those of the run.
+    pub stability_probes: u64,
     /// Working cycles evaluated in all: with Euler's method one per wear step, and one at the end.
     pub mesh_cycles: u64,
     /// Equilibria solved: working cycles × positions.

@@ -267,10 +267,12 @@ fn summary() -> Summary {
             discretisation: Some(0.0021),
             wear_step: Some(0.0008),
             surface_model: None,
+            severe_switch: None,
             how: ErrorSources {
                 discretisation: "run again with half the points and positions; the difference over three".into(),
                 wear_step: "run again with twice the step; the difference".into(),
                 surface_model: "needs a calibration file".into(),
+                severe_switch: "the scene has no transition to severe wear".into(),
             },
         },
         work: WorkSummary {
@@ -278,6 +280,7 @@ fn summary() -> Summary {
             rejected_steps: 0,
             stages: 150,
             jacobian_probes: 0,
+            stability_probes: 9,
             mesh_cycles: 161,
             equilibria: 64_400,
             newton_iterations: 201_331,

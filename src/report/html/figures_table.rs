@@ -123,6 +123,7 @@ pub fn errors(error: &ErrorSummary) -> String {
         ("Points and positions", error.discretisation, &error.how.discretisation),
         ("Wear step", error.wear_step, &error.how.wear_step),
         ("Contact surface", error.surface_model, &error.how.surface_model),
+        ("Hard switch to severe wear against a band", error.severe_switch, &error.how.severe_switch),
     ]
     .into_iter()
     .map(|(label, estimate, how)| {

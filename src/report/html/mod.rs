@@ -118,6 +118,8 @@ fn work(s: &Summary) -> String {
     let w = &s.work;
     let counts: String = [
         ("Wear steps", w.wear_steps),
+        ("Rejected steps", w.rejected_steps),
+        ("Working cycles to learn the stiffness", w.jacobian_probes),
         ("Working cycles", w.mesh_cycles),
         ("Equilibria", w.equilibria),
         ("Newton iterations", w.newton_iterations),
