@@ -365,12 +365,52 @@ fn constant_stiffness_without_its_value() {
 }
 
 #[test]
-fn choices_of_a_later_version_are_refused_by_name() {
-    for (table, key, line, allowed) in [
-        ("wear", "law", "law = \"oxidation\"", "archard"),
-        ("numerics", "positions", "step = \"adaptive\"", "revolutions"),
+fn temperatures_out_of_range_or_without_a_speed() {
+    let with = |table: &str| Case::fzg_c().with("numerics", "error_estimate", &format!("[temperature]\n{table}"));
+    for (line, says) in [
+        ("bulk_temperature_C = -273.15", "-273.15"),
+        ("bulk_temperature_C = -300.0", "-273.15"),
+        ("bulk_temperature_C = nan", "bulk_temperature_C"),
+        ("friction_coefficient = 0.0", "friction_coefficient"),
+        ("method = \"blok\"", "tian-kennedy"),
+        ("velocity = \"rolling\"", "surface"),
+        ("partition = 0.5", "partition"),
     ] {
-        Case::fzg_c().with(table, key, line).refused().says(&["is not available in this version", "allowed:", allowed]);
+        let case = with(line);
+        let line = case.line_of(line.split(' ').next().unwrap());
+        case.refused().at_line(line).says(&[says]);
+    }
+    for law in ["adsorption", "oxidation"] {
+        let text = Case::fzg_c()
+            .text
+            .replace("pinion_speed_rpm = 150.0", "")
+            .replace("hours = 127.75 ", "pinion_revolutions = 1e6 ");
+        let text =
+            text.replace("snapshots_h", "# snapshots_h").replace("law = \"archard\"", &format!("law = \"{law}\""));
+        let case = Case { text, folder: tempfile::tempdir().unwrap() };
+        case.refused().says(&["operation.pinion_speed_rpm", &format!("wear.law = \"{law}\" needs the speed")]);
+    }
+}
+
+#[test]
+fn constants_of_wear_laws_out_of_range() {
+    for (law, line) in [
+        ("adsorption", "molecule_diameter_nm = 0.0"),
+        ("adsorption", "vibration_time_ps = -1.0"),
+        ("adsorption", "heat_of_adsorption_kJ_per_mol = -1.0"),
+        ("oxidation", "arrhenius_constant_kg_per_m2s = 0.0"),
+        ("oxidation", "activation_energy_kJ_per_mol = -5.0"),
+        ("oxidation", "density_kg_per_m3 = 0.0"),
+        ("oxidation", "mass_ratio = \"printed\""),
+    ] {
+        let case = Case::fzg_c().with("wear", "law", &format!("law = \"{law}\"")).with(
+            "numerics",
+            "error_estimate",
+            &format!("[wear.{law}]\n{line}"),
+        );
+        let key = line.split(' ').next().unwrap();
+        let at = case.line_of(key);
+        case.refused().at_line(at).says(&[key]);
     }
 }
 
@@ -513,4 +553,15 @@ fn a_slip_that_makes_the_scene_invalid_becomes_help() {
     // Metres for millimetres in the module alone: no pair at this centre distance.
     let case = Case::fzg_c().with("pair", "normal_module_mm", "normal_module_mm = 0.0045");
     case.refused().says(&["pair.normal_module_mm = 0.0045: did you mean 4.5? (m given for mm)"]);
+}
+
+/// A tolerance that no step can meet is refused, as is none at all.
+#[test]
+fn tolerance_of_adaptive_steps() {
+    for (tolerance, allowed) in [("0", "greater than 0"), ("1e-9", "at least 0.0001 µm"), ("-1.0", "greater than 0")] {
+        let lines = format!("error_estimate = false\nstep = \"adaptive\"\ntolerance_um = {tolerance}");
+        let case = Case::fzg_c().with("numerics", "error_estimate", &lines);
+        let line = case.line_of("tolerance_um");
+        case.refused().at_line(line).says(&["numerics.tolerance_um", allowed]);
+    }
 }

@@ -12,6 +12,8 @@ pub mod pair_mesh;
 mod phases;
 mod recording;
 mod slices;
+mod stability;
+mod temperature;
 
 use std::time::Instant;
 
@@ -43,11 +45,15 @@ use crate::thermal::ContactHeat;
 use crate::wear::{self, FlankWear, WearModel, settings::WearSettings};
 use crate::working_cycle::sliced_teeth::SlicedTeeth;
 use inputs::Inputs;
+use recording::Found;
 
 /// Told of progress; says whether to go on.
 pub trait Observer: Progress {
     /// A stage begins.
     fn stage(&self, kind: StageKind);
+
+    /// Something the user should know before the work is done; the summary has it too.
+    fn warning(&self, _text: &str) {}
 }
 
 impl Observer for Unwatched {
@@ -200,8 +206,8 @@ pub fn run_from(
     observer: &dyn Observer,
 ) -> Result<Done, RunError> {
     let start = Instant::now();
-    let mut done = carry_out(resolved, plan, inputs, resumption, observer, |model, outcome, summary| {
-        recording::record(resolved, model, outcome, summary)
+    let mut done = carry_out(resolved, plan, inputs, resumption, observer, |model, found, summary| {
+        recording::record(resolved, model, found, summary)
     })?;
     done.record.summary.wall_s = start.elapsed().as_secs_f64();
     Ok(done)
@@ -230,7 +236,7 @@ fn carry_out<R>(
     inputs: &Inputs,
     resumption: Resumption<'_>,
     observer: &dyn Observer,
-    keep: impl FnOnce(&Model<'_>, &Outcome, Summary) -> R,
+    keep: impl FnOnce(&Model<'_>, Found<'_>, Summary) -> R,
 ) -> Result<Done<R>, RunError> {
     let scene = &resolved.scene;
     let mut stages = Stages { observer, times: Vec::new() };
@@ -325,17 +331,23 @@ fn carry_out<R>(
         foundations_mpa_per_mm,
     };
 
+    let judged = stability::judge(&model, observer);
     let Resumption { from, keeper } = resumption;
     let outcome = stages.run(StageKind::Simulation, || model.wear_run().run_from(from, keeper, observer))?;
+    let heat = match plan.has(StageKind::ContactTemperature) {
+        true => stages.run(StageKind::ContactTemperature, || temperature::observe(&model, &outcome)),
+        false => None,
+    };
+    let found = Found { outcome: &outcome, heat: heat.as_ref() };
     let error = if plan.has(StageKind::ErrorEstimates) && outcome.stop == StopReason::Completed {
         stages.run(StageKind::ErrorEstimates, || error_estimates::estimate(&model, &outcome, observer))
     } else {
         ErrorSummary::not_estimated(not_estimated_because(&outcome))
     };
 
-    let mut summary = recording::summary(resolved, plan, &model, &outcome, error)?;
+    let mut summary = recording::summary(resolved, plan, &model, found, error, judged)?;
     summary.stages = stages.times;
-    let record = keep(&model, &outcome, summary);
+    let record = keep(&model, found, summary);
     Ok(Done { record, failure: outcome.failure.map(RunError::from) })
 }
 

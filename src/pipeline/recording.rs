@@ -1,36 +1,41 @@
 //! From what a run found, in the program's units, to the record, in those of the output files.
 
-use super::{Model, RunError, drawing, error_estimates, phases, slices};
-use crate::contact::Flanks;
+use super::temperature::{self, ObservedHeat};
+use super::{Model, RunError, drawing, error_estimates, phases, slices, stability::Judged};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::plan::Plan;
 use crate::scene::Resolved;
 use crate::simulation::figures::WearFigures;
-use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::record::{
     ContactSummary, CycleSummary, ErrorSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, MeshCycleRow,
     PathPoints, RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearSummary, WorkSummary,
 };
-use crate::simulation::settings::Stepping;
 use crate::simulation::wear_run::{Outcome, Snapshot};
+use crate::thermal::settings::TemperatureMethod;
 use crate::working_cycle::CycleObservation;
 
 pub(super) const UM_PER_MM: f64 = 1e3;
 /// Pitch point index of the contract: on a flank of this many points.
 const INDEX_POINTS: f64 = 750.0;
-/// Euler's method oscillates where one step more than doubles back on a wave of wear: Δn k K s > 2.
-const STABILITY_LIMIT: f64 = 2.0;
 /// Wear beyond this part of the module is no longer small against the tooth.
 const SMALL_WEAR_MODULES: f64 = 0.05;
 
+/// What a run found, and what was seen of its temperatures.
+#[derive(Clone, Copy)]
+pub(super) struct Found<'a> {
+    pub outcome: &'a Outcome,
+    pub heat: Option<&'a ObservedHeat>,
+}
+
 /// The record of a run.
-pub(super) fn record(resolved: &Resolved, model: &Model<'_>, outcome: &Outcome, summary: Summary) -> RunRecord {
+pub(super) fn record(resolved: &Resolved, model: &Model<'_>, found: Found<'_>, summary: Summary) -> RunRecord {
+    let outcome = found.outcome;
     RunRecord {
         summary,
         scene_toml: resolved.to_toml(),
         flanks: PerGear::from_fn(|gear| flank(model, outcome, gear)),
         history: outcome.snapshots.iter().map(|snapshot| history_row(model, outcome, snapshot)).collect(),
-        mesh_cycle: mesh_cycle(outcome),
+        mesh_cycle: mesh_cycle(model, found),
         slices: slices::record(model, outcome),
         drawing: drawing::draw(model.pair),
     }
@@ -41,12 +46,16 @@ pub(super) fn summary(
     resolved: &Resolved,
     plan: &Plan,
     model: &Model<'_>,
-    outcome: &Outcome,
+    found: Found<'_>,
     error: ErrorSummary,
+    judged: Judged,
 ) -> Result<Summary, RunError> {
     let (scene, pair) = (model.scene, model.pair);
+    let outcome = found.outcome;
+    let law = temperature::law(model, outcome, found.heat);
     let mut warnings = resolved.warnings.clone();
-    warnings.extend(stability_warning(model, outcome));
+    warnings.extend(temperature::warnings(&law));
+    warnings.extend(judged.warnings);
     warnings.extend(deep_wear_warning(pair, outcome));
     warnings.extend(slices::warning(outcome));
     warnings.extend(error_estimates::warnings(&error));
@@ -70,6 +79,8 @@ pub(super) fn summary(
         contact: contact(model),
         phases: phases::summaries(model, outcome),
         stiffness: stiffness(model)?,
+        wear: law,
+        temperature: found.heat.and_then(|heat| temperature::summary(model, heat)),
         new: cycle(pair, &outcome.new.cycle),
         worn: cycle(pair, &outcome.worn.cycle),
         pinion: wear(model, outcome, Gear::Pinion),
@@ -80,6 +91,7 @@ pub(super) fn summary(
             rejected_steps: outcome.steps.rejected,
             stages: outcome.steps.stages,
             jacobian_probes: outcome.steps.probes,
+            stability_probes: judged.evaluations,
             mesh_cycles: outcome.work.mesh_cycles,
             equilibria: outcome.work.equilibria,
             newton_iterations: outcome.work.newton_iterations,
@@ -220,10 +232,13 @@ fn history_row(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> His
     }
 }
 
-fn mesh_cycle(outcome: &Outcome) -> Vec<MeshCycleRow> {
+fn mesh_cycle(model: &Model<'_>, Found { outcome, heat }: Found<'_>) -> Vec<MeshCycleRow> {
     let positions = outcome.new.cycle.positions.iter().zip(&outcome.worn.cycle.positions);
+    let rise = |k: usize, method: TemperatureMethod| heat.map(|heat| heat.new.positions[k].rise_k[method.index()]);
+    let peclet = |k: usize, gear: Gear| heat.map(|heat| heat.new.positions[k].peclet[gear]);
     positions
-        .map(|(new, worn)| MeshCycleRow {
+        .enumerate()
+        .map(|(k, (new, worn))| MeshCycleRow {
             position_mm: new.position_mm,
             load_share_new: new.load_share,
             load_share_worn: worn.load_share,
@@ -232,39 +247,15 @@ fn mesh_cycle(outcome: &Outcome) -> Vec<MeshCycleRow> {
             half_width_mm: new.footprint.half_width_mm,
             transmission_error_new_um: new.transmission_error_mm * UM_PER_MM,
             transmission_error_worn_um: worn.transmission_error_mm * UM_PER_MM,
-            temperature_rise_K: None,
+            temperature_rise_K: model.scene.heat.and_then(|settings| rise(k, settings.method)),
             half_width_worn_mm: worn.footprint.half_width_mm,
+            temperature_rise_heat_equation_K: rise(k, TemperatureMethod::HeatEquation),
+            temperature_rise_williams_K: rise(k, TemperatureMethod::Williams),
+            temperature_rise_tian_kennedy_K: rise(k, TemperatureMethod::TianKennedy),
+            peclet_pinion: peclet(k, Gear::Pinion),
+            peclet_wheel: peclet(k, Gear::Wheel),
         })
         .collect()
-}
-
-/// Warns where the wear step is too long for Euler's method, and names the longest that is not.
-fn stability_warning(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
-    let MeshContact::LineOfAction { surface, .. } = model.first().contact else { return None };
-    let flanks = Flanks { geometry: model.pair, grid: outcome.grid.as_ref() };
-    let loaded = outcome.new.cycle.positions.iter().filter(|at| at.load_share > 0.0);
-    let stiffest = loaded
-        .filter_map(|at| {
-            let load = at.load_share * model.first().line_load_n_per_mm;
-            surface.stiffness_of_short_waves_mpa_per_mm(flanks, at.position_mm, load)
-        })
-        .reduce(f64::max)?;
-    let Stepping::Fixed { revolutions: step } = model.scene.numerics.stepping else { return None };
-    let step = step.min(model.scene.operation.pinion_revolutions);
-    let meshes = PerGear { pinion: step, wheel: step * model.pair.wheel_turns_per_pinion_turn() };
-    let greatest = |gear: Gear| outcome.new.cycle.sliding_mm[gear].iter().copied().fold(0.0, f64::max);
-    let number = Gear::BOTH
-        .map(|gear| meshes[gear] * model.first().wear.law.greatest_coefficient_mm2_per_n() * stiffest * greatest(gear))
-        .into_iter()
-        .fold(0.0, f64::max);
-    (number > STABILITY_LIMIT).then(|| {
-        let severe = if model.scene.wear.severe.is_some() { " where wear is severe" } else { "" };
-        format!(
-            "numerics.step: with {step:.4} revolutions a step the wear may oscillate{severe} (Δn·k·K·s = {number:.2} > 2, \
-             K = {stiffest:.3e} MPa/mm); the longest safe step is {:.4} revolutions",
-            step * STABILITY_LIMIT / number
-        )
-    })
 }
 
 /// Warns where so much is worn that the nominal tooth no longer stands for the worn one.

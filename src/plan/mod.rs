@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 
 use crate::contact::settings::{Foundation, SurfaceKind};
 use crate::scene::Scene;
-use crate::simulation::settings::{Operation, Stepping};
+use crate::simulation::settings::{AdaptiveMethod, Operation, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::wear::settings::LawSettings;
 use crate::working_cycle::settings::Coupling;
@@ -30,10 +30,10 @@ pub enum StageKind {
     ToothStiffness,
     /// Slices over the face width.
     HelicalSlices,
-    /// Flash temperatures of the contact.
-    ContactTemperature,
     /// The wear run.
     Simulation,
+    /// Temperatures of the contact, new and worn.
+    ContactTemperature,
     /// Coarser companion runs, and short ones on a truer surface.
     ErrorEstimates,
     /// The output folder.
@@ -49,8 +49,8 @@ impl StageKind {
         StageKind::ContactMatch,
         StageKind::ToothStiffness,
         StageKind::HelicalSlices,
-        StageKind::ContactTemperature,
         StageKind::Simulation,
+        StageKind::ContactTemperature,
         StageKind::ErrorEstimates,
         StageKind::Report,
     ];
@@ -160,8 +160,10 @@ fn contact_temperature(scene: &Scene) -> Result<String, String> {
     let law = scene.wear.law.name();
     match (scene.heat, scene.wear.law) {
         (None, _) => Err(format!("the wear law {law} asks for no temperature, and neither does the scene")),
-        (Some(_), LawSettings::Archard) => Ok("[temperature] asks for it".to_owned()),
-        (Some(_), _) => Ok(format!("the wear law {law} reads it at every point")),
+        (Some(_), LawSettings::Archard) => Ok("[temperature] asks for it; by all methods, new and worn".to_owned()),
+        (Some(_), _) => Ok(format!(
+            "the wear law {law} reads it at every point during the simulation; by all methods, new and worn"
+        )),
     }
 }
 
@@ -218,8 +220,12 @@ fn simulation(scene: &Scene) -> String {
         Stepping::Fixed { revolutions } => {
             format!("about {} wear steps", (operation.pinion_revolutions / revolutions).ceil())
         }
-        Stepping::Adaptive { tolerance_mm, .. } => {
-            format!("adaptive wear steps within {} µm", 1e3 * tolerance_mm)
+        Stepping::Adaptive { tolerance_mm, method } => {
+            let method = match method {
+                AdaptiveMethod::RungeKuttaChebyshev => "Runge–Kutta–Chebyshev",
+                AdaptiveMethod::LinearlyImplicit => "linearly implicit",
+            };
+            format!("adaptive wear steps ({method}) within {} µm", 1e3 * tolerance_mm)
         }
     };
     let tip_edges = if scene.contact.tip_contact { ", contact at tip edges before A and after E" } else { "" };

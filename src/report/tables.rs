@@ -63,7 +63,7 @@ pub const PROFILES: [Column; 8] = [
 ];
 
 /// Columns of `mesh_cycle.csv`; one row per loading position of the reference pair, from A to E.
-pub const MESH_CYCLE: [Column; 10] = [
+pub const MESH_CYCLE: [Column; 15] = [
     ("position_mm", "radius of curvature of the pinion's flank at the theoretical contact point"),
     ("load_share_new", "share of the whole load that the pair carries, new"),
     ("load_share_worn", "the same, worn"),
@@ -72,8 +72,16 @@ pub const MESH_CYCLE: [Column; 10] = [
     ("half_width_mm", "half the extent of the contact strip, new"),
     ("transmission_error_new_um", "approach along the line of action, positive under load, new"),
     ("transmission_error_worn_um", "the same, worn"),
-    ("temperature_rise_K", "of the contact; empty where not computed"),
+    (
+        "temperature_rise_K",
+        "greatest rise of the contact above the bulk by the chosen method, new; empty where not computed",
+    ),
     ("half_width_worn_mm", "half the extent of the contact strip, worn"),
+    ("temperature_rise_heat_equation_K", "the rise by the transient heat equation, new; empty where not computed"),
+    ("temperature_rise_williams_K", "the same by Williams"),
+    ("temperature_rise_tian_kennedy_K", "the same by Tian and Kennedy"),
+    ("peclet_pinion", "Peclet number of the pinion's surface, new; empty where not computed"),
+    ("peclet_wheel", "the same of the wheel's"),
 ];
 
 /// Where the figures of a table come from.

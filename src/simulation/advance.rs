@@ -19,6 +19,7 @@ use crate::wear::WearModel;
 use crate::wear::stepping::{
     Rate,
     adaptive::{Adaptive, StepCounts},
+    spectral_radius::SpectralRadius,
 };
 use crate::working_cycle::{Work, load_sharing::EquilibriumError};
 
@@ -94,11 +95,15 @@ impl Stepper {
         }
     }
 
-    /// Of adaptive steps: the estimated error of the wear at each place, mm.
-    pub fn error_mm(&self) -> Option<PerGear<Vec<f64>>> {
+    /// Of adaptive steps: the estimated error of each gear's wear at the place where it is greatest, mm.
+    pub fn error_mm(&self) -> Option<PerGear<f64>> {
         let steps = self.adaptive.as_ref()?;
-        let (pinion, wheel) = steps.integrator.accumulated_error().split_at(steps.wear_mm.pinion.len());
-        Some(PerGear { pinion: pinion.to_vec(), wheel: wheel.to_vec() })
+        let places = steps.wear_mm.pinion.len();
+        let (wear, error) = (steps.state.split_at(places), steps.integrator.accumulated_error().split_at(places));
+        let deepest = |wear: &[f64], error: &[f64]| {
+            wear.iter().zip(error).max_by(|a, b| a.0.total_cmp(b.0)).map_or(0.0, |(_, error)| error.abs())
+        };
+        Some(PerGear { pinion: deepest(wear.0, error.0), wheel: deepest(wear.1, error.1) })
     }
 
     /// What it knows after the last step.
@@ -113,8 +118,9 @@ impl Stepper {
         let places = wear_mm.as_ref().map(Vec::len).sum();
         let fits = state.adaptive.as_ref().is_none_or(|integrator| integrator.accumulated_error().len() == places);
         self.adaptive = state.adaptive.filter(|_| fits).map(|integrator| {
+            let state = Gear::BOTH.iter().flat_map(|&gear| &wear_mm[gear]).copied().collect();
             let (wear_mm, depth_mm) = (wear_mm.clone(), wear_mm.clone());
-            Box::new(AdaptiveSteps { integrator, state: Vec::new(), slope: Vec::new(), wear_mm, depth_mm })
+            Box::new(AdaptiveSteps { integrator, state, slope: Vec::new(), wear_mm, depth_mm })
         });
         fits
     }
@@ -189,6 +195,28 @@ impl AdaptiveSteps {
             Err(failure) => Advanced { revolutions: stretch.from, evaluated: Err(failure) },
         }
     }
+}
+
+/// Depth of the waves that are probed on otherwise linear flanks, mm: well above the rounding of equilibria, well below any approach.
+const PROBE_MM: f64 = 1e-5;
+
+/// The fastest rate at which waves of wear of `pair`, which is evaluated, decay, per pinion revolution, and how many evaluations
+/// it took to find.
+pub(super) fn fastest_decay(
+    pair: &mut dyn WearingPair,
+    wear: &WearModel<'_>,
+    wheel_meshes: f64,
+) -> Result<(f64, u64), EquilibriumError> {
+    let mut wear_mm = pair.wear_mm();
+    let mut depth_mm = wear_mm.clone();
+    let state: Vec<f64> = Gear::BOTH.iter().flat_map(|&gear| &wear_mm[gear]).copied().collect();
+    let mut slope = vec![0.0; state.len()];
+    let rate = PairRate { pair, wear, stopped: &|| false, wheel_meshes, work: Work::default() };
+    rate.read_slope(&mut depth_mm, &mut slope);
+    let mut rows = OnRows { rate, wear_mm: &mut wear_mm, depth_mm: &mut depth_mm, clean_start: false };
+    let mut radius = SpectralRadius::default();
+    let evaluations = radius.estimate(&mut rows, (&state, &slope), PROBE_MM)?;
+    Ok((radius.found(), evaluations))
 }
 
 /// A wearing pair whose working cycles are counted.

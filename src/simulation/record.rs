@@ -4,6 +4,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::chemistry_record::{TemperatureSummary, WearLawSummary};
 use crate::gear::{PerGear, flank_surface::FlankSurface};
 
 /// A finished (or interrupted) run.
@@ -56,6 +57,10 @@ pub struct Summary {
     pub phases: Vec<PhaseSummary>,
     /// Of the tooth pair as a spring; `None` with finite elements, whose teeth are no springs.
     pub stiffness: Option<StiffnessSummary>,
+    /// Of the wear law.
+    pub wear: WearLawSummary,
+    /// Of the contact's temperatures; `None` where nobody asks for them.
+    pub temperature: Option<TemperatureSummary>,
     /// The working cycle of the unworn pair, under the load of the first phase.
     pub new: CycleSummary,
     /// The working cycle of the worn pair, under the load of the last phase.
@@ -350,6 +355,8 @@ pub struct ErrorSummary {
     pub wear_step: Option<f64>,
     /// From the contact surface, against the finite-element reference.
     pub surface_model: Option<f64>,
+    /// Between a hard switch to severe wear and one over a band; `None` where no wear is severe. Not an error but a choice of the scene.
+    pub severe_switch: Option<f64>,
     /// What the estimates cost over what the run itself did, counted in equilibria weighted by their time.
     pub companions_cost: Option<f64>,
     /// How each was obtained, or why it was not.
@@ -363,6 +370,7 @@ impl ErrorSummary {
             discretisation: format!("not estimated: {reason}"),
             wear_step: format!("not estimated: {reason}"),
             surface_model: format!("not estimated: {reason}"),
+            severe_switch: format!("not estimated: {reason}"),
         };
         Self { how, ..Self::default() }
     }
@@ -375,6 +383,7 @@ pub struct ErrorSources {
     pub discretisation: String,
     pub wear_step: String,
     pub surface_model: String,
+    pub severe_switch: String,
 }
 
 /// Work done by the wear simulation alone.
@@ -388,6 +397,8 @@ pub struct WorkSummary {
     pub stages: u64,
     /// Working cycles evaluated to learn how stiff the wear is: spectral radius, Jacobian, length of the first step.
     pub jacobian_probes: u64,
+    /// Working cycles evaluated before the run, to learn how long a step of Euler's method may be; not among those of the run.
+    pub stability_probes: u64,
     /// Working cycles evaluated in all: with Euler's method one per wear step, and one at the end.
     pub mesh_cycles: u64,
     /// Equilibria solved: working cycles × positions.
@@ -463,10 +474,15 @@ pub struct MeshCycleRow {
     pub half_width_mm: f64,
     pub transmission_error_new_um: f64,
     pub transmission_error_worn_um: f64,
-    /// `None` where no temperature is computed.
+    /// Greatest rise by the chosen method, new; `None` where no temperature is computed, as with those that follow.
     pub temperature_rise_K: Option<f64>,
     /// Half the extent of the contact strip, worn.
     pub half_width_worn_mm: f64,
+    pub temperature_rise_heat_equation_K: Option<f64>,
+    pub temperature_rise_williams_K: Option<f64>,
+    pub temperature_rise_tian_kennedy_K: Option<f64>,
+    pub peclet_pinion: Option<f64>,
+    pub peclet_wheel: Option<f64>,
 }
 
 /// The mesh of one tooth slice by slice, from its first touch to its last.

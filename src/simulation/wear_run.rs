@@ -99,8 +99,8 @@ pub struct Outcome {
     pub worn: Snapshot,
     /// Wear steps taken, and what else came of them.
     pub steps: StepCounts,
-    /// Of adaptive steps: the estimated error of the wear at each place that the steps worked on, mm.
-    pub step_error_mm: Option<PerGear<Vec<f64>>>,
+    /// Of adaptive steps: the estimated error of each gear's wear at the place where it is greatest, mm.
+    pub step_error_mm: Option<PerGear<f64>>,
     /// Work done in all.
     pub work: Work,
 }

@@ -99,46 +99,35 @@ impl<'a> HeatedBand<'a> {
         flux / material.conductivity_n_per_s_k * (material.diffusivity_mm2_per_s * passage_s).sqrt()
     }
 
-    /// The rise of `gear`'s surface at consecutive points of its flank, from root to tip, which are under `pressure_mpa`; K. Evenly
-    /// spaced points between the first and the last under pressure make up the strip; `rise_k` is as long.
-    pub fn rises_k(&self, gear: Gear, pressure_mpa: &[f64], rise_k: &mut [f64]) {
+    /// The rise of `gear`'s surface at consecutive points of its flank, from root to tip and `spacing_mm` apart, which are under
+    /// `pressure_mpa`; K. The strip is as wide as the band and lies around the centre of the pressure; `rise_k` is as long as the
+    /// row.
+    pub fn rises_k(&self, gear: Gear, spacing_mm: f64, pressure_mpa: &[f64], rise_k: &mut [f64]) {
         rise_k.fill(0.0);
-        let loaded = |pressure: &f64| *pressure > 0.0;
-        let (Some(first), Some(last)) = (pressure_mpa.iter().position(loaded), pressure_mpa.iter().rposition(loaded))
-        else {
-            return;
-        };
         let HeatedBody { flux, velocity_mm_per_s, material } = &self.bodies[gear];
-        if *flux <= 0.0 {
+        let sum: f64 = pressure_mpa.iter().sum();
+        if *flux <= 0.0 || sum <= 0.0 {
             return;
         }
-        let (strip, rises) = (&pressure_mpa[first..=last], &mut rise_k[first..=last]);
-        let count = strip.len() as f64;
-        // Part of the strip that each point has come through, in its middle.
-        let passed = |k: usize| {
-            let from_root = (k as f64 + 0.5) / count;
-            if enters_at_tip_side(gear) { 1.0 - from_root } else { from_root }
-        };
+        let moment: f64 = pressure_mpa.iter().enumerate().map(|(k, pressure)| k as f64 * pressure).sum();
+        let width = 2.0 * self.half_width_mm;
+        let strip = Strip { centre: moment / sum, per_point: spacing_mm / width, backwards: enters_at_tip_side(gear) };
+        let heated = rise_k.iter_mut().enumerate().zip(pressure_mpa).filter(|(_, pressure)| **pressure > 0.0);
         match self.method {
             TemperatureMethod::TianKennedy => {
-                rises.fill(tian_kennedy::greatest_rise_k(*flux, self.half_width_mm, *velocity_mm_per_s, material));
+                let greatest = tian_kennedy::greatest_rise_k(*flux, self.half_width_mm, *velocity_mm_per_s, material);
+                heated.for_each(|((_, rise), _)| *rise = greatest);
             }
             TemperatureMethod::Williams => {
-                let width = 2.0 * self.half_width_mm;
-                for (k, rise) in rises.iter_mut().enumerate() {
-                    *rise = williams::rise_k(*flux, passed(k) * width, *velocity_mm_per_s, material);
+                for ((k, rise), _) in heated {
+                    *rise = williams::rise_k(*flux, strip.passed(k) * width, *velocity_mm_per_s, material);
                 }
             }
             TemperatureMethod::HeatEquation => {
-                let flux = if enters_at_tip_side(gear) {
-                    cells(strip.iter().rev().copied(), strip.len())
-                } else {
-                    cells(strip.iter().copied(), strip.len())
-                };
-                let at_ends = self.passage.rises(&flux);
+                let at_ends = self.passage.rises(&strip.cells(pressure_mpa));
                 let scale = self.rise_per_passage_k(gear);
-                for (k, rise) in rises.iter_mut().enumerate() {
-                    let place = passed(k) * CELLS as f64;
+                for ((k, rise), _) in heated {
+                    let place = strip.passed(k) * CELLS as f64;
                     let cell = (place as usize).min(CELLS - 1);
                     let before = if cell > 0 { at_ends[cell - 1] } else { 0.0 };
                     *rise = scale * (before + (place - cell as f64) * (at_ends[cell] - before));
@@ -148,26 +137,40 @@ impl<'a> HeatedBand<'a> {
     }
 }
 
-/// The pressures of `count` points, each even over its share of a strip, averaged over the cells of a passage; their mean is 1.
-fn cells(mut pressure_mpa: impl Iterator<Item = f64>, count: usize) -> [f64; CELLS] {
-    let per_cell = count as f64 / CELLS as f64;
-    let mut sums = [0.0; CELLS];
-    let (mut total, mut left, mut pressure) = (0.0, 0.0_f64, 0.0);
-    for sum in &mut sums {
-        let mut needed = per_cell;
-        while needed > 0.0 {
-            if left <= 0.0 {
-                // Round-off may ask for more than there is in the last cell.
-                let Some(next) = pressure_mpa.next() else { break };
-                (pressure, left) = (next, 1.0);
-            }
-            let part = needed.min(left);
-            *sum += part * pressure;
-            (needed, left) = (needed - part, left - part);
-        }
-        total += *sum;
+/// Where a row of points lies in the strip of the contact.
+#[derive(Debug, Clone, Copy)]
+struct Strip {
+    /// Number of the point, with a fraction, in the middle of the strip.
+    centre: f64,
+    /// Distance of the points over the width of the strip.
+    per_point: f64,
+    /// Whether material enters at the row's end.
+    backwards: bool,
+}
+
+impl Strip {
+    /// Part of the strip that point k has come through: 0 before it, 1 behind it.
+    fn passed(&self, k: usize) -> f64 {
+        let from_centre = (k as f64 - self.centre) * self.per_point;
+        (0.5 + if self.backwards { -from_centre } else { from_centre }).clamp(0.0, 1.0)
     }
-    sums.map(|sum| sum * CELLS as f64 / total)
+
+    /// The pressure in the middle of every cell of the passage over their mean: straight lines between the points within the strip,
+    /// and beyond the ends of the row the pressure at its ends.
+    fn cells(&self, pressure_mpa: &[f64]) -> [f64; CELLS] {
+        let last = pressure_mpa.len() - 1;
+        let at = |cell: usize| {
+            let from_inlet = (cell as f64 + 0.5) / CELLS as f64;
+            let from_start = if self.backwards { 1.0 - from_inlet } else { from_inlet };
+            let place = (self.centre + (from_start - 0.5) / self.per_point).clamp(0.0, last as f64);
+            let before = (place as usize).min(last.saturating_sub(1));
+            let next = (before + 1).min(last);
+            pressure_mpa[before] + (place - before as f64) * (pressure_mpa[next] - pressure_mpa[before])
+        };
+        let cells: [f64; CELLS] = std::array::from_fn(at);
+        let mean = cells.iter().sum::<f64>() / CELLS as f64;
+        if mean > 0.0 { cells.map(|pressure| pressure / mean) } else { [1.0; CELLS] }
+    }
 }
 
 #[cfg(test)]
@@ -204,7 +207,7 @@ mod tests {
                     *pressure = if spread == Spread::Even { 1.0 } else { (1.0 - x * x).sqrt() };
                 }
                 for gear in Gear::BOTH {
-                    band.rises_k(gear, &row, &mut rise);
+                    band.rises_k(gear, 2.0 * 0.0966 / 200.0, &row, &mut rise);
                     let (greatest, expected) =
                         (rise.iter().copied().fold(0.0, f64::max), band.greatest_rise_k(gear, spread));
                     assert!((greatest / expected - 1.0).abs() < 4e-3, "{method:?} {spread:?} {greatest} {expected}");
@@ -218,7 +221,7 @@ mod tests {
         }
     }
 
-    /// Both surfaces equally hot; no heat without sliding; cells keep the heat of a row however few its points.
+    /// Both surfaces equally hot; no heat without sliding; few points heat as many.
     #[test]
     fn ver_both_surfaces_are_equally_hot() {
         let heat = heat(TemperatureMethod::Williams, HeatVelocity::Surface);
@@ -227,9 +230,14 @@ mod tests {
         assert!((pinion / wheel - 1.0).abs() < 1e-12 && pinion > 1.0);
         let still = heat.band(&SpeedRatios { sliding: 0.0, ..RATIOS }, 212.6, 0.0966);
         assert_eq!(Gear::BOTH.map(|gear| still.greatest_rise_k(gear, Spread::Ellipse)), [0.0; 2]);
-        for count in [1, 7, 32, 100] {
-            let row = (0..count).map(|k| 1.0 + k as f64);
-            assert!((cells(row, count).iter().sum::<f64>() / CELLS as f64 - 1.0).abs() < 1e-12, "{count}");
+        // The mean of the cells is 1 however few points there are in the strip.
+        for (row, per_point) in
+            [(vec![0.0, 1.0, 0.0], 0.9), (vec![2.0], 3.0), (vec![0.0, 1.0, 2.0, 1.5, 0.5, 0.0], 0.24)]
+        {
+            let sum: f64 = row.iter().sum();
+            let centre = row.iter().enumerate().map(|(k, p)| k as f64 * p).sum::<f64>() / sum;
+            let cells = Strip { centre, per_point, backwards: true }.cells(&row);
+            assert!((cells.iter().sum::<f64>() / CELLS as f64 - 1.0).abs() < 1e-12, "{row:?}");
         }
     }
 }

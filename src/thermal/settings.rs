@@ -5,6 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::gear::PerGear;
 
+/// 0 K in °C.
+pub const ABSOLUTE_ZERO_C: f64 = -273.15;
+
 /// How contact temperatures are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -16,6 +19,29 @@ pub enum TemperatureMethod {
     /// Tian and Kennedy's greatest temperature under a band of heat of any speed (thesis eq 29).
     #[default]
     TianKennedy,
+}
+
+impl TemperatureMethod {
+    /// All methods.
+    pub const ALL: [Self; 3] = [Self::HeatEquation, Self::Williams, Self::TianKennedy];
+
+    /// Its place in [`Self::ALL`].
+    pub fn index(self) -> usize {
+        match self {
+            Self::HeatEquation => 0,
+            Self::Williams => 1,
+            Self::TianKennedy => 2,
+        }
+    }
+
+    /// As reports name it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::HeatEquation => "heat equation",
+            Self::Williams => "Williams",
+            Self::TianKennedy => "Tian and Kennedy",
+        }
+    }
 }
 
 /// With which velocity heat moves over a body.

@@ -33,6 +33,17 @@ impl HeatedContact<'_> {
     }
 }
 
+/// Consecutive points of a gear's flank, from root to tip, that run across a contact.
+#[derive(Debug, Clone, Copy)]
+pub struct RowOfPoints<'a> {
+    /// Whose they are.
+    pub gear: Gear,
+    /// Their distance along the flank.
+    pub spacing_mm: f64,
+    /// Pressure on each.
+    pub pressure_mpa: &'a [f64],
+}
+
 /// A row of surroundings.
 #[derive(Debug, Clone, Default)]
 pub struct HeatedRow {
@@ -41,9 +52,9 @@ pub struct HeatedRow {
 }
 
 impl HeatedRow {
-    /// Of consecutive points of `gear`'s flank, from root to tip, that run across the contact under `pressure_mpa`.
-    pub fn across(&mut self, contact: &HeatedContact<'_>, gear: Gear, pressure_mpa: &[f64]) -> &[Surroundings] {
-        self.heat_up(contact, gear, pressure_mpa);
+    /// Of points across the contact.
+    pub fn across(&mut self, contact: &HeatedContact<'_>, points: RowOfPoints<'_>) -> &[Surroundings] {
+        self.heat_up(contact, points);
         self.surroundings.clear();
         self.surroundings.extend(self.rise_k.iter().map(|&rise| contact.at(rise)));
         &self.surroundings
@@ -53,22 +64,21 @@ impl HeatedRow {
     pub fn across_sliding(
         &mut self,
         contact: &HeatedContact<'_>,
-        gear: Gear,
-        pressure_mpa: &[f64],
+        points: RowOfPoints<'_>,
         sliding_mm: &[f64],
         time_s: f64,
     ) -> &[Surroundings] {
-        self.heat_up(contact, gear, pressure_mpa);
+        self.heat_up(contact, points);
         self.surroundings.clear();
         let points = self.rise_k.iter().zip(sliding_mm);
         self.surroundings.extend(points.map(|(&rise, sliding)| contact.sliding_at(sliding / time_s, rise)));
         &self.surroundings
     }
 
-    fn heat_up(&mut self, contact: &HeatedContact<'_>, gear: Gear, pressure_mpa: &[f64]) {
-        self.rise_k.resize(pressure_mpa.len(), 0.0);
+    fn heat_up(&mut self, contact: &HeatedContact<'_>, points: RowOfPoints<'_>) {
+        self.rise_k.resize(points.pressure_mpa.len(), 0.0);
         let band = contact.heat.band(&contact.ratios, contact.line_load_n_per_mm, contact.half_width_mm);
-        band.rises_k(gear, pressure_mpa, &mut self.rise_k);
+        band.rises_k(points.gear, points.spacing_mm, points.pressure_mpa, &mut self.rise_k);
     }
 
     /// Of `points` of `gear`'s flank that all feel the hottest place of an even contact.

@@ -23,7 +23,7 @@ use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 use crate::thermal::{ContactHeat, SpeedRatios};
 use crate::wear::{
     Rubbing, WearModel,
-    heated_row::{HeatedContact, HeatedRow},
+    heated_row::{HeatedContact, HeatedRow, RowOfPoints},
 };
 
 /// One position and how the flank points read it.
@@ -263,7 +263,8 @@ impl Group {
                     let (row, pressure) = (&mut self.heated, &self.pressure_mpa);
                     let surroundings = step.wear.heat_of_law().map(|heat| {
                         let contact = flank.heated(heat, pressure, step.length_mm);
-                        row.across_sliding(&contact, gear, pressure, sliding, step.length_mm / heat.speed_mm_per_s)
+                        let points = RowOfPoints { gear, spacing_mm: flank.spacing_mm, pressure_mpa: pressure };
+                        row.across_sliding(&contact, points, sliding, step.length_mm / heat.speed_mm_per_s)
                     });
                     let rubbing = Rubbing { pressure_mpa: pressure, sliding_mm: sliding, surroundings };
                     step.wear.law.add_depth(&rubbing, &mut self.collected.depth_mm[gear][range]);

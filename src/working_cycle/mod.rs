@@ -8,6 +8,7 @@
 pub mod bent_tooth;
 mod collected;
 pub mod condensed;
+mod heated;
 pub mod load_sharing;
 pub mod phases;
 pub mod positions;
@@ -24,12 +25,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCell, Sweep};
 use crate::gear::{Gear, PerGear};
-use crate::thermal::SpeedRatios;
-use crate::wear::{
-    Rubbing, Surroundings, WearModel,
-    heated_row::{HeatedContact, HeatedRow},
-};
+use crate::wear::{Rubbing, WearModel, heated_row::HeatedRow};
 use collected::Collected;
+use heated::HeatedPlace;
 use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use sliced_mesh::SlicedMesh;
 
@@ -84,8 +82,7 @@ impl std::ops::AddAssign for Work {
 struct Station<'a> {
     cell: PositionCell,
     on_line_of_action: bool,
-    /// Of the reference pair.
-    ratios: SpeedRatios,
+    heated_place: HeatedPlace,
     /// The reference pair first.
     pairs: Vec<MeshedPair<'a>>,
     equilibrium: Equilibrium,
@@ -257,32 +254,6 @@ fn note_what_points_felt(
     }
 }
 
-/// The contact of `pair` as a source of heat, where the law reads what that does.
-fn heated_contact<'a>(wear: &WearModel<'a>, pair: &MeshedPair<'_>, ratios: SpeedRatios) -> Option<HeatedContact<'a>> {
-    wear.heat_of_law().map(|heat| HeatedContact {
-        heat,
-        ratios,
-        line_load_n_per_mm: pair.response.line_load_n_per_mm,
-        half_width_mm: pair.contact.footprint().half_width_mm,
-    })
-}
-
-/// The surroundings of the points of a sweep, where the law reads them.
-fn surroundings<'a>(
-    row: &'a mut HeatedRow,
-    heated: Option<&HeatedContact<'_>>,
-    contact: &dyn PairContact,
-    gear: Gear,
-    sweep: &Sweep,
-) -> Option<&'a [Surroundings]> {
-    let heated = heated?;
-    Some(if contact.sweeps_across() {
-        row.across(heated, gear, &sweep.pressure_mpa)
-    } else {
-        row.even(heated, gear, sweep.pressure_mpa.len())
-    })
-}
-
 impl Group<'_> {
     fn evaluate(
         &mut self,
@@ -299,12 +270,14 @@ impl Group<'_> {
                 return;
             }
             let pair = &station.pairs[0];
-            let heated = heated_contact(wear, pair, station.ratios);
+            let load = pair.response.line_load_n_per_mm;
+            let heated = station.heated_place.under(wear, &*pair.contact, load);
             for gear in Gear::BOTH {
                 let sweep = &mut self.sweep;
                 pair.contact.sweep(gear, removed_mm, sweep);
                 let points = sweep.first_point..sweep.first_point + sweep.sliding_mm.len();
-                let surroundings = surroundings(&mut self.heated, heated.as_ref(), &*pair.contact, gear, sweep);
+                let row = &mut self.heated;
+                let surroundings = heated.as_ref().map(|heated| heated.surroundings(row, gear, sweep));
                 let rubbing =
                     Rubbing { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, surroundings };
                 wear.law.add_depth(&rubbing, &mut self.collected.depth_mm[gear][points]);
@@ -326,8 +299,8 @@ impl<'a> Station<'a> {
             })
             .collect();
         let (cell, on_line_of_action) = (position.cell, position.on_line_of_action);
-        let ratios = SpeedRatios::over(flanks.geometry, cell.lower_mm, cell.upper_mm);
-        Self { cell, on_line_of_action, ratios, pairs, equilibrium: Equilibrium::default() }
+        let heated_place = HeatedPlace::new(flanks, cell);
+        Self { cell, on_line_of_action, heated_place, pairs, equilibrium: Equilibrium::default() }
     }
 
     /// Equilibrium on the flanks as they are now.

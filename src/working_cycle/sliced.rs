@@ -14,18 +14,16 @@ use rayon::prelude::*;
 
 use super::bent_tooth::BentTooth;
 use super::collected::Collected;
+use super::heated::HeatedPlace;
 use super::load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use super::phases::{Phase, SliceContact};
 use super::slice_coupling::SliceCoupling;
 use super::sliced_mesh::{ObservedContact, ObservedPhase, SlicedMesh};
 use super::sliced_sharing::balance_on_teeth;
 use super::sliced_teeth::SlicedTeeth;
-use super::{
-    CycleObservation, GROUPS, LostMaterial, MeshCycle, Work, heated_contact, note_what_points_felt, surroundings,
-};
+use super::{CycleObservation, GROUPS, LostMaterial, MeshCycle, Work, note_what_points_felt};
 use crate::contact::{ContactSurface, Flanks, Sweep};
 use crate::gear::{Gear, PerGear, path_of_contact::PathOfContact};
-use crate::thermal::SpeedRatios;
 use crate::wear::{Rubbing, WearModel, heated_row::HeatedRow};
 
 /// The spring of the teeth along the path of contact, evaluated once for all slices.
@@ -78,7 +76,7 @@ struct Station<'a> {
     contacts: Vec<SliceContact>,
     pairs: Vec<MeshedPair<'a>>,
     /// Of each contact.
-    ratios: Vec<SpeedRatios>,
+    heated_places: Vec<HeatedPlace>,
     /// The teeth that the contacts belong to, where slices are coupled.
     teeth: Vec<BentTooth>,
     equilibrium: Equilibrium,
@@ -216,16 +214,17 @@ impl Group<'_> {
             if !self.collected.take(solved) {
                 return;
             }
-            let contacts = station.contacts.iter().zip(&station.ratios);
-            for ((contact, &ratios), pair) in contacts.zip(&station.pairs) {
+            let contacts = station.contacts.iter().zip(&station.heated_places);
+            for ((contact, place), pair) in contacts.zip(&station.pairs) {
                 let own = of_slice(removed_mm, points, contact.slice);
-                let heated = heated_contact(wear, pair, ratios);
+                let heated = place.under(wear, &*pair.contact, pair.response.line_load_n_per_mm);
                 for gear in Gear::BOTH {
                     let sweep = &mut self.sweep;
                     pair.contact.sweep(gear, own, sweep);
                     let first = contact.slice * points[gear] + sweep.first_point;
                     let depth = &mut self.collected.depth_mm[gear][first..first + sweep.sliding_mm.len()];
-                    let surroundings = surroundings(&mut self.heated, heated.as_ref(), &*pair.contact, gear, sweep);
+                    let row = &mut self.heated;
+                    let surroundings = heated.as_ref().map(|heated| heated.surroundings(row, gear, sweep));
                     let rubbing =
                         Rubbing { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, surroundings };
                     wear.law.add_depth(&rubbing, depth);
@@ -262,11 +261,7 @@ impl<'a> Station<'a> {
             position_mm: phase.position_mm,
             contacts: phase.contacts.clone(),
             pairs,
-            ratios: phase
-                .contacts
-                .iter()
-                .map(|contact| SpeedRatios::over(flanks.geometry, contact.cell.lower_mm, contact.cell.upper_mm))
-                .collect(),
+            heated_places: phase.contacts.iter().map(|contact| HeatedPlace::new(flanks, contact.cell)).collect(),
             teeth,
             equilibrium: Equilibrium::default(),
         }

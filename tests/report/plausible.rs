@@ -1,7 +1,9 @@
 //! A run that never happened but looks like one: an FZG type C pair with a made-up wear that grows with time.
 
 use gearwear::gear::{Gear, PerGear};
+use gearwear::simulation::chemistry_record::WearLawSummary;
 use gearwear::simulation::record::*;
+use gearwear::wear::regime::Regime;
 
 const HOURS: [f64; 9] = [0.25, 0.75, 1.75, 3.75, 7.75, 15.75, 31.75, 63.75, 127.75];
 const REVOLUTIONS_PER_HOUR: f64 = 9000.0;
@@ -154,6 +156,11 @@ fn mesh_cycle() -> Vec<MeshCycleRow> {
                 transmission_error_worn_um: if alone { 38.2 } else { 26.5 } + 3.4 * bend,
                 temperature_rise_K: None,
                 half_width_worn_mm: 0.251,
+                temperature_rise_heat_equation_K: None,
+                temperature_rise_williams_K: None,
+                temperature_rise_tian_kennedy_K: None,
+                peclet_pinion: None,
+                peclet_wheel: None,
             }
         })
         .collect()
@@ -237,6 +244,20 @@ fn summary() -> Summary {
             teeth_at_pitch_N_per_mm_um: 20.0,
             split_remainder_at_half_load: Some(0.012),
         }),
+        wear: WearLawSummary {
+            law: "archard".into(),
+            coefficient_mm3_per_Nm: 1e-8,
+            effective_coefficient_new_mm3_per_Nm: 1e-8,
+            effective_coefficient_worn_mm3_per_Nm: 1e-8,
+            irg_regime: Regime::Two,
+            severe_coefficient_mm3_per_Nm: None,
+            irg_regime_severe: None,
+            typical_constants: Vec::new(),
+            valid_temperature_C: None,
+            work_outside_validity_new: None,
+            work_outside_validity_worn: None,
+        },
+        temperature: None,
         new: cycle(1880.0, 24.0, 38.4),
         worn: cycle(1702.0, 26.5, 38.9),
         pinion: worn(Gear::Pinion, CURVATURE.A),
@@ -246,10 +267,12 @@ fn summary() -> Summary {
             discretisation: Some(0.0021),
             wear_step: Some(0.0008),
             surface_model: None,
+            severe_switch: None,
             how: ErrorSources {
                 discretisation: "run again with half the points and positions; the difference over three".into(),
                 wear_step: "run again with twice the step; the difference".into(),
                 surface_model: "needs a calibration file".into(),
+                severe_switch: "the scene has no transition to severe wear".into(),
             },
         },
         work: WorkSummary {
@@ -257,6 +280,7 @@ fn summary() -> Summary {
             rejected_steps: 0,
             stages: 150,
             jacobian_probes: 0,
+            stability_probes: 9,
             mesh_cycles: 161,
             equilibria: 64_400,
             newton_iterations: 201_331,

@@ -10,12 +10,14 @@ pub(super) mod field_plot;
 mod figures_table;
 mod flank_plots;
 mod history_plot;
+mod law_table;
 pub(super) mod number;
 pub(super) mod page;
 mod phase_table;
 pub(super) mod reading;
 mod sliced;
 pub(super) mod table;
+mod temperature_plot;
 pub(super) mod theme;
 
 use self::page::{Page, escape, plots, section, sources_list, stages_table};
@@ -67,8 +69,9 @@ pub fn page(record: &RunRecord) -> String {
             "figures",
             "Main figures",
             &format!(
-                "<div class=\"tables\">\n{}</div>\n{}",
+                "<div class=\"tables\">\n{}</div>\n{}{}",
                 figures_table::tables(record),
+                law_table::note(s),
                 figures_table::errors(&s.error)
             ),
         ),
@@ -94,6 +97,7 @@ fn figures_of_equal_sections(record: &RunRecord) -> Vec<Figure> {
     figures.extend(flank_plots::wear(record));
     figures.extend(flank_plots::pressure(record));
     figures.extend(cycle_plots::all(record));
+    figures.extend(temperature_plot::all(record));
     figures.push(history_plot::wear_against_time(record));
     figures.extend(flank_plots::modifications(record));
     figures
@@ -114,6 +118,8 @@ fn work(s: &Summary) -> String {
     let w = &s.work;
     let counts: String = [
         ("Wear steps", w.wear_steps),
+        ("Rejected steps", w.rejected_steps),
+        ("Working cycles to learn the stiffness", w.jacobian_probes),
         ("Working cycles", w.mesh_cycles),
         ("Equilibria", w.equilibria),
         ("Newton iterations", w.newton_iterations),

@@ -3,12 +3,11 @@
 use crate::gear::PerGear;
 use crate::scene::file::{OperationFile, TemperatureFile};
 use crate::scene::findings::Findings;
-use crate::thermal::settings::{HeatSettings, ThermalMaterial};
+use crate::thermal::settings::{ABSOLUTE_ZERO_C, HeatSettings, ThermalMaterial};
 use crate::wear::settings::LawSettings;
 
 const FRICTION_COEFFICIENT: f64 = 0.1;
 const BULK_TEMPERATURE_C: f64 = 90.0;
-const ABSOLUTE_ZERO_C: f64 = -273.15;
 
 /// Chooses what `[temperature]` leaves open; `Some(None)` where nobody asks for temperatures.
 pub fn choose(

@@ -40,6 +40,11 @@ impl SpectralRadius {
         self.value
     }
 
+    /// The radius as it was found, which approaches the true one from below; 0 where there is none.
+    pub fn found(&self) -> f64 {
+        self.value.unwrap_or_default() / SAFETY
+    }
+
     /// Takes it for out of date; the vector is kept.
     pub fn forget(&mut self) {
         self.value = None;
@@ -64,16 +69,17 @@ impl SpectralRadius {
         let (mut radius, mut evaluations): (f64, u64) = (0.0, 0);
         for _ in 0..MOST_ITERATIONS {
             let height = greatest(&self.vector);
-            if height == 0.0 || !height.is_finite() {
+            if !(height > 0.0 && height.is_finite()) {
                 // Nothing wears, or nothing changes with wear.
                 self.vector.clear();
                 break;
             }
-            let scale = probe / height;
-            probed.iter_mut().zip(state.iter().zip(&self.vector)).for_each(|(p, (y, v))| *p = y + scale * v);
+            // The probe is normalised: without that repeated application of J takes it out of the range of numbers.
+            self.vector.iter_mut().for_each(|v| *v *= probe / height);
+            probed.iter_mut().zip(state.iter().zip(&self.vector)).for_each(|(p, (y, v))| *p = y + v);
             rate.evaluate(&probed, &mut image)?;
             evaluations += 1;
-            image.iter_mut().zip(slope).for_each(|(image, f)| *image = (*image - f) / scale);
+            image.iter_mut().zip(slope).for_each(|(image, f)| *image -= f);
             let (before, found) = (radius, norm(&image) / norm(&self.vector));
             std::mem::swap(&mut self.vector, &mut image);
             radius = found;

@@ -12,7 +12,7 @@ mod tooth_cycle;
 
 use super::number::given;
 use super::theme::Figure;
-use super::{cycle_plots, drawing_plot, history_plot};
+use super::{cycle_plots, drawing_plot, history_plot, temperature_plot};
 use crate::gear::Gear;
 use crate::simulation::record::{FlankRecord, HelicalSummary, RunRecord, SliceRecord};
 
@@ -48,6 +48,7 @@ pub fn figures(run: SlicedRun<'_>) -> Vec<Figure> {
     figures.extend(load_maps::new_and_worn(run));
     figures.extend([tooth_cycle::load_share(run), tooth_cycle::pressure(run)]);
     figures.extend([cycle_plots::transmission_error(run.record), mesh_orders::new_and_worn(run)]);
+    figures.extend(temperature_plot::all(run.record));
     figures.push(history_plot::wear_against_time(run.record));
     figures
 }

@@ -1,0 +1,118 @@
+//! The temperatures of the new and the worn pair, and what is said of them and of the wear law.
+
+use super::Model;
+use crate::contact::settings::SurfaceKind;
+use crate::simulation::chemistry_record::{GreatestRise, RisesByMethod, TemperatureSummary, WearLawSummary};
+use crate::simulation::heat_observation::{HeatObservation, HeatObserver};
+use crate::simulation::wear_run::{Outcome, Snapshot};
+use crate::thermal::band::Spread;
+use crate::thermal::settings::{ABSOLUTE_ZERO_C, TemperatureMethod};
+use crate::wear::regime::{MM3_PER_NM, Regime};
+
+/// Heat of the new and of the worn pair.
+pub(super) struct ObservedHeat {
+    pub new: HeatObservation,
+    pub worn: HeatObservation,
+}
+
+/// Looks at both; none where nobody asks for temperatures.
+pub(super) fn observe(model: &Model<'_>, outcome: &Outcome) -> Option<ObservedHeat> {
+    let of = |snapshot: &Snapshot| {
+        let phase = &model.phases[model.scene.operation.phase_at(snapshot.revolutions)];
+        let observer = HeatObserver {
+            pair: model.pair,
+            heat: phase.wear.heat?,
+            law: phase.wear.law,
+            valid_k: model.scene.wear.law.valid_temperature_c().map(|range| range.map(|at| at - ABSOLUTE_ZERO_C)),
+            spread: match model.scene.contact.surface {
+                SurfaceKind::HertzMean => Spread::Even,
+                _ => Spread::Ellipse,
+            },
+            line_load_n_per_mm: phase.line_load_n_per_mm,
+            ahead_mm: &outcome.slices.ahead_mm,
+        };
+        Some(observer.observe(&snapshot.cycle))
+    };
+    Some(ObservedHeat { new: of(&outcome.new)?, worn: of(&outcome.worn)? })
+}
+
+/// What the summary says of the temperatures.
+pub(super) fn summary(model: &Model<'_>, observed: &ObservedHeat) -> Option<TemperatureSummary> {
+    let settings = model.scene.heat?;
+    let (new, worn) = (observed.new.greatest_rise_k(), observed.worn.greatest_rise_k());
+    let by = |k: usize| GreatestRise { greatest_rise_new_K: new[k], greatest_rise_worn_K: worn[k] };
+    let own = by(settings.method.index());
+    let [peclet_min, peclet_max] = observed.new.peclet_range();
+    Some(TemperatureSummary {
+        method: settings.method,
+        velocity: settings.velocity,
+        partition: settings.partition,
+        friction_coefficient: settings.friction_coefficient,
+        bulk_temperature_C: settings.bulk_temperature_k + ABSOLUTE_ZERO_C,
+        greatest_rise_new_K: own.greatest_rise_new_K,
+        greatest_rise_worn_K: own.greatest_rise_worn_K,
+        peclet_min,
+        peclet_max,
+        by_method: RisesByMethod {
+            heat_equation: by(TemperatureMethod::HeatEquation.index()),
+            williams: by(TemperatureMethod::Williams.index()),
+            tian_kennedy: by(TemperatureMethod::TianKennedy.index()),
+        },
+    })
+}
+
+/// What the summary says of the wear law.
+pub(super) fn law(model: &Model<'_>, outcome: &Outcome, observed: Option<&ObservedHeat>) -> WearLawSummary {
+    let wear = &model.scene.wear;
+    let mild = |snapshot: &Snapshot, of: Option<&HeatObservation>| match of {
+        Some(heat) => heat.law.mean_coefficient_mm2_per_n,
+        None => {
+            let phase = &model.phases[model.scene.operation.phase_at(snapshot.revolutions)];
+            phase.wear.law.mild_coefficient_mm2_per_n(None)
+        }
+    };
+    let new = mild(&outcome.new, observed.map(|heat| &heat.new));
+    let worn = mild(&outcome.worn, observed.map(|heat| &heat.worn));
+    let severe = wear.severe.map(|severe| severe.factor * new);
+    let outside =
+        |of: fn(&ObservedHeat) -> &HeatObservation| observed.and_then(|heat| of(heat).law.work_outside_validity);
+    WearLawSummary {
+        law: wear.law.name().to_owned(),
+        coefficient_mm3_per_Nm: MM3_PER_NM * wear.coefficient_mm2_per_n,
+        effective_coefficient_new_mm3_per_Nm: MM3_PER_NM * new,
+        effective_coefficient_worn_mm3_per_Nm: MM3_PER_NM * worn,
+        irg_regime: Regime::of(new),
+        severe_coefficient_mm3_per_Nm: severe.map(|k| MM3_PER_NM * k),
+        irg_regime_severe: severe.map(Regime::of),
+        typical_constants: wear.law.typical_constants().into_iter().map(str::to_owned).collect(),
+        valid_temperature_C: wear.law.valid_temperature_c(),
+        work_outside_validity_new: outside(|heat| &heat.new),
+        work_outside_validity_worn: outside(|heat| &heat.worn),
+    }
+}
+
+/// What the user should know of the law: constants that nobody measured, and work where it does not hold.
+pub(super) fn warnings(law: &WearLawSummary) -> Vec<String> {
+    let mut warnings = Vec::new();
+    if !law.typical_constants.is_empty() {
+        warnings.push(format!(
+            "[wear.{}] {}: typical value{}, an order of magnitude that belongs to no lubricant or steel in particular",
+            law.law,
+            law.typical_constants.join(", "),
+            if law.typical_constants.len() > 1 { "s" } else { "" },
+        ));
+    }
+    if let (Some([low, high]), Some(new), Some(worn)) =
+        (law.valid_temperature_C, law.work_outside_validity_new, law.work_outside_validity_worn)
+        && (new > 0.0 || worn > 0.0)
+    {
+        warnings.push(format!(
+            "wear.law = {:?} holds for contact temperatures of about {low} to {high} °C: {:.1} % of the sliding work of a mesh is done \
+             outside them new and {:.1} % worn",
+            law.law,
+            100.0 * new,
+            100.0 * worn
+        ));
+    }
+    warnings
+}

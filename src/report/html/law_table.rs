@@ -1,0 +1,71 @@
+//! The wear law, its regime and where it holds, and the temperatures of the contact, as tables and a sentence.
+
+use super::number::{figure, percent, significant};
+use super::page::escape;
+use super::table::{row, table};
+use crate::simulation::chemistry_record::{TemperatureSummary, WearLawSummary};
+use crate::simulation::record::Summary;
+
+/// The tables.
+pub fn tables(s: &Summary) -> String {
+    let temperature = s.temperature.as_ref().map_or_else(String::new, temperature);
+    [law(&s.wear), temperature].concat()
+}
+
+fn law(w: &WearLawSummary) -> String {
+    let k = |value: f64| format!("{value:.3e}");
+    let mut rows = vec![
+        row("Wear law", "", [escape(&w.law)]),
+        row("Coefficient as given", "mm³/(N·m)", [k(w.coefficient_mm3_per_Nm)]),
+        row("Effective, new", "mm³/(N·m)", [k(w.effective_coefficient_new_mm3_per_Nm)]),
+        row("Effective, worn", "mm³/(N·m)", [k(w.effective_coefficient_worn_mm3_per_Nm)]),
+        row("Regime of the IRG diagram", "", [w.irg_regime.name().to_owned()]),
+    ];
+    if let Some(regime) = w.irg_regime_severe {
+        rows.push(row("Regime where wear is severe", "", [regime.name().to_owned()]));
+    }
+    table("Wear law", &["value"], &rows)
+}
+
+fn temperature(t: &TemperatureSummary) -> String {
+    let by = &t.by_method;
+    let both = |label, of: &crate::simulation::chemistry_record::GreatestRise| {
+        row(label, "K", [figure(of.greatest_rise_new_K), figure(of.greatest_rise_worn_K)])
+    };
+    table(
+        "Greatest rise of the contact’s temperature",
+        &["new", "worn"],
+        &[
+            both("Heat equation", &by.heat_equation),
+            both("Williams", &by.williams),
+            both("Tian and Kennedy", &by.tian_kennedy),
+        ],
+    )
+}
+
+/// What the tables mean, in words.
+pub fn note(s: &Summary) -> String {
+    let w = &s.wear;
+    let mut text = format!(
+        "The {} law wears by {:.2e} mm³/(N·m) on average over the sliding work of a mesh of the new pair: regime {} of the IRG \
+         transition diagram (I below 1e-9, II from 1e-8 to 1e-6, III above 1e-5).",
+        w.law,
+        w.effective_coefficient_new_mm3_per_Nm,
+        w.irg_regime.name()
+    );
+    if let (Some(k), Some(regime)) = (w.severe_coefficient_mm3_per_Nm, w.irg_regime_severe) {
+        text.push_str(&format!(" Where wear is severe it is {k:.2e} mm³/(N·m), regime {}.", regime.name()));
+    }
+    if let (Some([low, high]), Some(new), Some(worn)) =
+        (w.valid_temperature_C, w.work_outside_validity_new, w.work_outside_validity_worn)
+    {
+        text.push_str(&format!(
+            " It holds from about {} to {} °C; {} of the work is done outside that new and {} worn.",
+            significant(low, 3),
+            significant(high, 3),
+            percent(new),
+            percent(worn)
+        ));
+    }
+    format!("<p class=\"legend-note\">{}</p>\n", escape(&text))
+}

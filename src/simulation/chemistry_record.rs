@@ -1,0 +1,81 @@
+//! What `summary.json` says of the wear law and of the temperatures of the contact.
+
+use serde::Serialize;
+
+pub use crate::thermal::settings::{HeatPartition, HeatVelocity, TemperatureMethod};
+pub use crate::wear::regime::Regime;
+
+/// The wear law and where it stands.
+#[allow(non_snake_case, reason = "names that end in their unit")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WearLawSummary {
+    /// Name of the law.
+    pub law: String,
+    /// The coefficient as given: k of the generalised Archard law, k_r of the others.
+    pub coefficient_mm3_per_Nm: f64,
+    /// Depth of mild wear per pressure and sliding distance on average over a mesh, weighted by the sliding work, new.
+    pub effective_coefficient_new_mm3_per_Nm: f64,
+    /// The same, worn.
+    pub effective_coefficient_worn_mm3_per_Nm: f64,
+    /// Regime of the IRG transition diagram that the effective coefficient, new, is in.
+    pub irg_regime: Regime,
+    /// The effective coefficient, new, times the severe factor; `None` without a transition.
+    pub severe_coefficient_mm3_per_Nm: Option<f64>,
+    /// Its regime.
+    pub irg_regime_severe: Option<Regime>,
+    /// Names of the law's constants that are typical values of the program: orders of magnitude, not measured ones.
+    pub typical_constants: Vec<String>,
+    /// Contact temperatures between which the law holds; `None` where it names none.
+    pub valid_temperature_C: Option<[f64; 2]>,
+    /// Part of the sliding work of a mesh that is done outside them, new.
+    pub work_outside_validity_new: Option<f64>,
+    /// The same, worn.
+    pub work_outside_validity_worn: Option<f64>,
+}
+
+/// The temperatures of the contact.
+#[allow(non_snake_case, reason = "names that end in their unit")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TemperatureSummary {
+    /// How they are found.
+    pub method: TemperatureMethod,
+    /// With which velocity heat moves over the bodies.
+    pub velocity: HeatVelocity,
+    /// How both share the heat.
+    pub partition: HeatPartition,
+    /// μ.
+    pub friction_coefficient: f64,
+    /// Of the gears away from the contact.
+    pub bulk_temperature_C: f64,
+    /// Greatest rise above it over a mesh, new.
+    pub greatest_rise_new_K: f64,
+    /// The same, worn.
+    pub greatest_rise_worn_K: f64,
+    /// Least Peclet number of either surface where the pair carries load, new.
+    pub peclet_min: f64,
+    /// Greatest.
+    pub peclet_max: f64,
+    /// Greatest rise by every method.
+    pub by_method: RisesByMethod,
+}
+
+/// Greatest rise over a mesh by every method.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RisesByMethod {
+    /// The transient heat equation.
+    pub heat_equation: GreatestRise,
+    /// Williams.
+    pub williams: GreatestRise,
+    /// Tian and Kennedy.
+    pub tian_kennedy: GreatestRise,
+}
+
+/// Greatest rise over a mesh.
+#[allow(non_snake_case, reason = "names that end in their unit")]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct GreatestRise {
+    /// New.
+    pub greatest_rise_new_K: f64,
+    /// Worn.
+    pub greatest_rise_worn_K: f64,
+}
