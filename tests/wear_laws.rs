@@ -161,7 +161,7 @@ fn ver_finite_elements_wear_by_the_mean_coefficient() {
     let run = |law: (&str, &str)| {
         let edits = [
             law,
-            ("positions = 400 ", "positions = 40 "),
+            ("positions = 400 ", "positions = 60 "),
             ("snapshots_h", "# snapshots_h"),
             NO_ESTIMATE,
             (HOURS, "pinion_revolutions = 10.0 "),

@@ -131,10 +131,10 @@ impl Args {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let folder = RunFolder::read(&args.run).map_err(InputError::from)?;
+    let folder = RunFolder::read(&args.run).map_err(InputError::RunFolder)?;
     let source = scene_source::resolve(&RunFolder::scene_path(&args.run))?;
     let resolved = &source.resolved;
-    folder.check_scene(resolved).map_err(InputError::from)?;
+    folder.check_scene(resolved).map_err(InputError::RunFolder)?;
     let text = scene_source::read(&args.measured)?;
     let refused = |error: QuestionError| InputError::Measured { name: text.name.clone(), error };
     let file = file::parse(&text.text).map_err(|error| refused(error.into()))?;

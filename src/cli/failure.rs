@@ -52,7 +52,7 @@ pub enum Failure {
     #[error(transparent)]
     Calibrate(CalibrateError),
     /// A measured profile does not give what was to be fitted to it; the comparison is written.
-    #[error("nothing could be fitted: {why}")]
+    #[error("the fit failed: {why}")]
     NotFitted {
         /// What is to blame.
         why: String,
@@ -155,7 +155,7 @@ pub enum InputError {
     /// A folder that is not that of a finished run.
     #[error("RUN: {0}")]
     #[diagnostic(help("gearwear run SCENE --out RUN makes one"))]
-    RunFolder(#[from] RunFolderError),
+    RunFolder(RunFolderError),
     /// A measured profile that cannot be compared with the run.
     #[error("{name}: {error}")]
     #[diagnostic(help("gearwear compare --help says what stands in a measured file"))]

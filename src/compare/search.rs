@@ -8,13 +8,15 @@
 //! the form, and as parameters, where they are asked for, ln κ and ln C, the logarithms of the factor on the wear coefficient and of
 //! the factor of severe wear, and the shift d along the flank. |r|² is least over profiles interpolated between runs
 //! ([`Simulations::about`]); then runs with just the parameters found take the place of the interpolation, and Gauss–Newton
-//! steps on their residuals go on until they no longer matter. The result is that of the exact runs; only the derivatives are interpolated.
+//! steps on their residuals go on until they no longer matter. The result is that of the exact runs, the best of them; only the
+//! derivatives are interpolated. Where wear does not change smoothly with the coefficient (a hard switch to severe wear, wear steps
+//! beyond the stable one), exact runs scatter: steps of up to half a standard deviation are then left, and reported.
 
 use super::question::Question;
 use super::simulations::{Change, Simulations};
 use super::study::CompareError;
 use crate::gear::GearPair;
-use crate::measurement::fit::{FitStop, Parameter, gauss_newton_step, least_squares};
+use crate::measurement::fit::{FitStop, Fitted, Parameter, gauss_newton_step, least_squares};
 use crate::measurement::form::FormRemoval;
 use crate::measurement::interval::{Uncertainty, uncertainty};
 
@@ -30,6 +32,8 @@ const SHIFT_WIDTH_MM: f64 = 5e-3;
 const SHIFTS_TRIED: i32 = 15;
 /// A step shorter than this part of a parameter's standard deviation no longer matters.
 const NEGLIGIBLE: f64 = 0.02;
+/// One shorter than this part of it is left where exact runs go on to scatter.
+const TOLERABLE: f64 = 0.5;
 /// Nor does one shorter than this part of the width of its differences.
 const SMALL_STEP: f64 = 5e-3;
 /// Most exact runs at the end.
@@ -71,6 +75,18 @@ pub struct Found {
     pub uncertainty: Option<Uncertainty>,
     /// Wear depth of the row of flank points.
     pub wear_um: Vec<f64>,
+    /// The last step in standard deviations, where exact runs still ask for one.
+    pub unsettled: Option<f64>,
+}
+
+/// Where the steps on exact runs ended.
+struct Settled {
+    parameters: Vec<f64>,
+    residuals: Vec<f64>,
+    jacobian: Vec<Vec<f64>>,
+    wear_um: Vec<f64>,
+    stop: FitStop,
+    unsettled: Option<f64>,
 }
 
 impl Found {
@@ -179,33 +195,74 @@ impl<'a> Comparison<'a> {
             Ok(self.residuals_um(&wear_um, shift_of(&unknowns, theta)))
         };
         let fitted = least_squares::<CompareError>(&parameters, &mut residuals)?;
-        let (mut theta, mut r, mut stop) = (fitted.parameters, fitted.residuals, fitted.stop);
-        let mut wear_um = as_run_um.to_vec();
         let also = self.question.form.parameters();
-        if needs_runs {
-            let refines = matches!(stop, FitStop::Converged);
-            for _ in 0..MOST_EXACT_RUNS {
-                wear_um = simulations.exactly(change(&unknowns, &theta))?;
-                r = self.residuals_um(&wear_um, shift_of(&unknowns, &theta));
-                stop = if refines { FitStop::Converged } else { stop };
-                let Some(step) = refines.then(|| gauss_newton_step(&fitted.jacobian, &r)).flatten() else { break };
-                let deviations = uncertainty(&fitted.jacobian, &r, also).map(|u| u.deviations);
-                let matters = step.iter().enumerate().any(|(i, by)| {
-                    let deviation = deviations.as_ref().map_or(0.0, |all| all[i]);
-                    by.abs() > (NEGLIGIBLE * deviation).max(SMALL_STEP * parameters[i].width)
-                });
-                if !matters {
-                    break;
-                }
-                stop = FitStop::MaxIterations;
-                for ((value, by), p) in theta.iter_mut().zip(&step).zip(&parameters) {
-                    *value = (*value + by).clamp(p.least, p.greatest);
-                }
+        let blamed = fitted.blamed.map(|index| unknowns[index]);
+        let found = match needs_runs {
+            true => self.settle(&unknowns, &parameters, fitted, simulations)?,
+            false => Settled {
+                parameters: fitted.parameters,
+                residuals: fitted.residuals,
+                jacobian: fitted.jacobian,
+                wear_um: as_run_um.to_vec(),
+                stop: fitted.stop,
+                unsettled: None,
+            },
+        };
+        let Settled { parameters, residuals, jacobian, wear_um, stop, unsettled } = found;
+        let uncertainty = uncertainty(&jacobian, &residuals, also);
+        Ok(Found { unknowns, parameters, stop, blamed, uncertainty, wear_um, unsettled })
+    }
+
+    /// Gauss–Newton steps on the residuals of exact runs, until they no longer matter.
+    fn settle(
+        &self,
+        unknowns: &[Unknown],
+        parameters: &[Parameter],
+        fitted: Fitted,
+        simulations: &mut Simulations<'_>,
+    ) -> Result<Settled, CompareError> {
+        let Fitted { parameters: mut theta, jacobian, stop, .. } = fitted;
+        let converges = stop == FitStop::Converged;
+        let also = self.question.form.parameters();
+        let mut best: Option<(f64, Settled)> = None;
+        let mut last_step = 0.0;
+        for _ in 0..MOST_EXACT_RUNS {
+            let wear_um = simulations.exactly(change(unknowns, &theta))?;
+            let r = self.residuals_um(&wear_um, shift_of(unknowns, &theta));
+            let square: f64 = r.iter().map(|r| r * r).sum();
+            let step = converges.then(|| gauss_newton_step(&jacobian, &r)).flatten();
+            let deviations = uncertainty(&jacobian, &r, also).map(|u| u.deviations);
+            if best.as_ref().is_none_or(|(least, _)| square < *least) {
+                let settled = Settled {
+                    parameters: theta.clone(),
+                    residuals: r,
+                    jacobian: jacobian.clone(),
+                    wear_um,
+                    stop,
+                    unsettled: None,
+                };
+                best = Some((square, settled));
+            }
+            let Some(step) = step else { break };
+            // Steps in standard deviations; those that are nothing beside the differences count for nothing.
+            last_step = (0..step.len())
+                .filter(|&i| step[i].abs() > SMALL_STEP * parameters[i].width)
+                .map(|i| step[i].abs() / deviations.as_ref().map_or(0.0, |all| all[i]))
+                .fold(0.0, f64::max);
+            if last_step <= NEGLIGIBLE {
+                break;
+            }
+            for ((value, by), p) in theta.iter_mut().zip(&step).zip(parameters) {
+                *value = (*value + by).clamp(p.least, p.greatest);
             }
         }
-        let uncertainty = uncertainty(&fitted.jacobian, &r, also);
-        let blamed = fitted.blamed.map(|index| unknowns[index]);
-        Ok(Found { unknowns, parameters: theta, stop, blamed, uncertainty, wear_um })
+        // At least one run is exact.
+        let Some((_, mut settled)) = best else { return Err(CompareError::Interrupted) };
+        if converges && last_step > NEGLIGIBLE {
+            settled.unsettled = Some(last_step);
+            settled.stop = if last_step <= TOLERABLE { FitStop::Converged } else { FitStop::MaxIterations };
+        }
+        Ok(settled)
     }
 }
 

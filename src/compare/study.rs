@@ -72,7 +72,7 @@ pub fn run(
     let rows = rows(question, pair, &comparison, &found, &as_run_um);
     let fit = fit(question, resolved, &found, &simulations);
     let figures = figures(question, &rows);
-    let warnings = folder.version_warning().into_iter().chain(warnings(&fit, &figures)).collect();
+    let warnings = folder.version_warning().into_iter().chain(warnings(&fit, &figures, found.unsettled)).collect();
     let [a, b, c, d, e] = pair.path.points_mm().map(|position| pair.radius_at_mm(profile.gear, position));
     Ok(CompareRecord {
         title: folder.title().to_owned(),
@@ -194,7 +194,7 @@ fn figures(question: &Question, rows: &[CompareRow]) -> CompareFigures {
     }
 }
 
-fn warnings(fit: &FitRecord, figures: &CompareFigures) -> Vec<String> {
+fn warnings(fit: &FitRecord, figures: &CompareFigures, unsettled: Option<f64>) -> Vec<String> {
     let mut warnings = Vec::new();
     let blamed = fit.blamed.as_deref().unwrap_or("a value");
     match fit.stopped {
@@ -210,6 +210,12 @@ fn warnings(fit: &FitRecord, figures: &CompareFigures) -> Vec<String> {
         }
         FitStop::MaxIterations => warnings.push("the fit did not converge: its values are the last ones".to_owned()),
         FitStop::NotFinite => warnings.push("the residuals are not numbers: nothing was fitted".to_owned()),
+    }
+    if let Some(step) = unsettled {
+        warnings.push(format!(
+            "the last run would still move the fit by {step:.2} of a standard deviation: the wear of this scene does not change smoothly \
+             with what is fitted (a hard switch to severe wear, or wear steps beyond the stable one)"
+        ));
     }
     if let Some(uncertainty) = figures.uncertainty_um.filter(|u| figures.difference_um > NOT_DESCRIBED * u) {
         warnings.push(format!(

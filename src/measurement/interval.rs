@@ -102,3 +102,52 @@ fn correlation_points(residuals: &[f64], fitted: f64) -> f64 {
     }
     time
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A sum of waves without correlation between neighbours: every second point of the opposite sign, and of all signs in turn.
+    fn alternating(count: usize) -> Vec<f64> {
+        (0..count).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect()
+    }
+
+    /// The mean of n independent values: σ²/n with n − 1 degrees of freedom. t(0.975, 9) = 2.262 in any table.
+    #[test]
+    fn val_the_mean_of_ten_values() {
+        let column = vec![vec![1.0; 10]];
+        let found = uncertainty(&column, &alternating(10), 0).unwrap();
+        assert_eq!(found.effective_points, 10.0);
+        let deviation = (10.0_f64 / 9.0 / 10.0).sqrt();
+        assert!((found.deviations[0] / deviation - 1.0).abs() < 1e-12);
+        assert!((found.half_widths[0] / (2.262 * deviation) - 1.0).abs() < 1e-3);
+    }
+
+    /// Each value repeated m times counts once: n/m points, whatever is said m times.
+    #[test]
+    fn ver_repeated_values_count_once() {
+        // Signs of a linear congruential generator (Numerical Recipes): no correlation of neighbours.
+        let mut state = 1u32;
+        let signs: Vec<f64> = (0..400)
+            .map(|_| {
+                state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                if state >> 31 == 0 { 1.0 } else { -1.0 }
+            })
+            .collect();
+        let repeated: Vec<f64> = signs.iter().flat_map(|&s| [s; 10]).collect();
+        let column = |n: usize| vec![vec![1.0; n]];
+        let once = uncertainty(&column(400), &signs, 0).unwrap();
+        let tenfold = uncertainty(&column(4000), &repeated, 0).unwrap();
+        assert!((0.5..2.0).contains(&(tenfold.effective_points / 400.0)), "{}", tenfold.effective_points);
+        // The textbook's interval would be √10 times too narrow.
+        assert!((0.7..1.5).contains(&(tenfold.half_widths[0] / once.half_widths[0])), "{tenfold:?} {once:?}");
+    }
+
+    #[test]
+    fn too_few_points_that_count_give_no_interval() {
+        let smooth: Vec<f64> = (0..100).map(|i| (f64::from(i) * 0.03).cos()).collect();
+        assert_eq!(uncertainty(&[vec![1.0; 100]], &smooth, 4), None);
+        assert_eq!(uncertainty(&[vec![1.0; 4]], &alternating(4), 4), None);
+        assert_eq!(uncertainty(&[vec![0.0; 20]], &alternating(20), 0), None);
+    }
+}

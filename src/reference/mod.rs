@@ -7,3 +7,4 @@ pub mod hertz_line;
 pub mod lame_cylinder;
 pub mod moving_heat_band;
 pub mod persson;
+pub mod worn_cylinder;

@@ -57,6 +57,11 @@ impl Laboratory {
         self.wear_um.iter().copied().fold(0.0, f64::max)
     }
 
+    /// r_b of the pinion.
+    pub fn base_radius_mm(&self) -> f64 {
+        GearPair::new(&self.resolved.scene.pair).unwrap().teeth.pinion.involute.base_radius_mm
+    }
+
     /// A file of heights at the points.
     pub fn file(&self, height_um: &[f64]) -> String {
         let rows: String = self.radius_mm.iter().zip(height_um).map(|(r, z)| format!("{r},{z}\n")).collect();

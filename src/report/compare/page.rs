@@ -44,8 +44,14 @@ fn answer(record: &CompareRecord) -> String {
     };
     let whose = format!("The {}’s profile after {when}", record.gear.name());
     let difference = figure(record.figures.difference_um);
-    if record.fit.stopped != FitStop::Converged && record.fit.blamed.as_deref() != Some("the shift") {
-        return format!("{whose} does not give what was to be fitted to it.");
+    match record.fit.stopped {
+        FitStop::MaxIterations | FitStop::NotFinite => {
+            return format!("{whose} was compared, but the fit did not converge.");
+        }
+        FitStop::AtBound | FitStop::Undetermined if record.fit.blamed.as_deref() != Some("the shift") => {
+            return format!("{whose} does not give what was to be fitted to it.");
+        }
+        _ => {}
     }
     let of = |estimate: &Option<Estimate>, what: &str| {
         let e = estimate.as_ref()?;
@@ -107,10 +113,9 @@ fn tables(record: &CompareRecord) -> String {
         row("working cycles in them", "", [count(fit.mesh_cycles)]),
     ];
     format!(
-        "<div class=\"tables\">\n{fitted}{}</div>\n<p>Form: {}. {}</p>\n",
-        table("Profile, form removed", &[""], &profile),
-        escape(&record.form),
-        escape(&sentence(&fit.how))
+        "{fitted}<p>{}</p>\n{}",
+        escape(&sentence(&fit.how)),
+        table(&format!("Profile, form removed ({})", record.form), &[""], &profile)
     )
 }
 
