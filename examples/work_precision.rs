@@ -27,7 +27,8 @@ fn errors(run: &Outcome, reference: &Outcome) -> [f64; 2] {
 fn main() {
     let only = std::env::args().nth(1);
     let severe = |band_mpa| Some(SevereTransition { above_mpa: 2000.0, factor: 100.0, band_mpa });
-    let transitions = [("no severe wear", None, 4800.0), ("band", severe(100.0), 19200.0), ("hard switch", severe(0.0), 19200.0)];
+    let transitions =
+        [("no severe wear", None, 4800.0), ("band", severe(100.0), 19200.0), ("hard switch", severe(0.0), 19200.0)];
     let chebyshev = AdaptiveMethod::RungeKuttaChebyshev;
     let methods = [("Runge–Kutta–Chebyshev", chebyshev), ("linearly implicit", AdaptiveMethod::LinearlyImplicit)];
     for surface in ["winkler", "half-space"] {

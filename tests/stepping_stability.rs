@@ -141,7 +141,8 @@ fn ver_adaptive_steps_never_break() {
         for factor in [0.01, 1.0, 10.0, 100.0] {
             let revolutions = factor * bound;
             let step = (bound / 50.0).min(revolutions / 200.0);
-            let fine = Scene { revolutions, stepping: Some(Stepping::Fixed { revolutions: step }), ..scene.clone() }.run();
+            let fine =
+                Scene { revolutions, stepping: Some(Stepping::Fixed { revolutions: step }), ..scene.clone() }.run();
             for tolerance_um in [0.5, 0.05] {
                 let what = format!("{surface}, {factor} times the bound, {tolerance_um} µm");
                 let outcome = Scene { revolutions, stepping: chebyshev(tolerance_um), ..scene.clone() }.run();

@@ -37,7 +37,10 @@ fn ver_adaptive_steps_take_fewer_evaluations() {
         let outcome = run(Stepping::Adaptive { tolerance_mm: 1e-3 * tolerance_um, method });
         let reached = error(&outcome, &reference);
         let saved = of_euler(reached) / outcome.work.mesh_cycles as f64;
-        println!("{tolerance_um} µm: {reached:.2e} with {} evaluations, {saved:.1} times fewer", outcome.work.mesh_cycles);
+        println!(
+            "{tolerance_um} µm: {reached:.2e} with {} evaluations, {saved:.1} times fewer",
+            outcome.work.mesh_cycles
+        );
         assert!(saved > times, "{tolerance_um} µm: {saved}");
     }
 }

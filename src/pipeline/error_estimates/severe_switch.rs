@@ -26,12 +26,7 @@ const SPACING: usize = 4;
 const STEPS: [f64; 2] = [40.0, 150.0];
 
 /// The estimate and its cost over that of the run, within `budget`.
-pub(super) fn estimate(
-    model: &Model<'_>,
-    outcome: &Outcome,
-    budget: f64,
-    observer: &dyn Progress,
-) -> (Estimate, f64) {
+pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observer: &dyn Progress) -> (Estimate, f64) {
     let scene = model.scene;
     let Some(own) = scene.wear.severe else {
         return (Estimate::none("the scene has no transition to severe wear"), 0.0);
@@ -70,8 +65,7 @@ pub(super) fn estimate(
             .map(|(phase, law)| RunPhase { wear: WearModel { law: law.as_ref(), ..phase.wear }, ..*phase })
             .collect();
         let run = WearRun { pair: model.pair, phases: &phases, snapshots_revolutions: &[], numerics };
-        let outcome =
-            run.run(&Companion { observer, share: (0.9, 0.1) }).map_err(|error| error.to_string())?;
+        let outcome = run.run(&Companion { observer, share: (0.9, 0.1) }).map_err(|error| error.to_string())?;
         equilibria += outcome.work.equilibria;
         match &outcome.failure {
             Some(failure) => Err(failure.to_string()),

@@ -238,7 +238,8 @@ pub(super) fn estimate<'a>(
 
 /// Wear step of adaptive steps, from what they estimated.
 fn of_the_steps(companions: &Companions<'_>, error_mm: PerGear<f64>) -> (f64, String) {
-    let of = |gear: Gear| if companions.peaks_mm[gear] > 0.0 { error_mm[gear] / companions.peaks_mm[gear] } else { 0.0 };
+    let of =
+        |gear: Gear| if companions.peaks_mm[gear] > 0.0 { error_mm[gear] / companions.peaks_mm[gear] } else { 0.0 };
     (
         of(Gear::Pinion).max(of(Gear::Wheel)),
         "sum of the estimated errors of all adaptive steps where the wear is greatest".to_owned(),
@@ -255,7 +256,9 @@ fn adaptively_on_finite_elements<'a>(
     let quarter = companions.peaks_mm(few, coarse, (0.0, 0.2));
     let discretisation = quarter.clone().and_then(|quarter| {
         let half = companions.peaks_mm(Coarser { spacing: 2, ..few }, coarse, (0.2, 0.6))?;
-        let how = format!("Richardson, second order, from companion runs with one in two and one in four of the points {on_mesh}");
+        let how = format!(
+            "Richardson, second order, from companion runs with one in two and one in four of the points {on_mesh}"
+        );
         Ok((companions.relative(half, quarter) / 12.0, how))
     });
     let elements = quarter.and_then(|quarter| {
