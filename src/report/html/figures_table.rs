@@ -3,7 +3,6 @@
 use super::law_table;
 use super::number::{change, figure, fixed, percent, significant};
 use super::page::escape;
-use super::phase_table;
 use super::sliced;
 use super::table::{row, table};
 use crate::simulation::record::{ErrorSummary, GearSummary, RunRecord, Summary, WearSummary};
@@ -12,8 +11,8 @@ use crate::simulation::record::{ErrorSummary, GearSummary, RunRecord, Summary, W
 pub fn tables(record: &RunRecord) -> String {
     let s = &record.summary;
     let sliced = s.helical.as_ref().map_or_else(String::new, sliced::tables::tables);
-    let (phases, law) = (phase_table::table(s), law_table::tables(s));
-    [phases, new_and_worn(s), wear(s), law, sliced, pair(s), gears(s), contact(s)].concat()
+    let law = law_table::tables(s);
+    [new_and_worn(s), wear(s), law, sliced, pair(s), gears(s), contact(s)].concat()
 }
 
 fn new_and_worn(s: &Summary) -> String {

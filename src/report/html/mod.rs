@@ -69,8 +69,9 @@ pub fn page(record: &RunRecord) -> String {
             "figures",
             "Main figures",
             &format!(
-                "<div class=\"tables\">\n{}</div>\n{}{}",
+                "<div class=\"tables\">\n{}</div>\n{}{}{}",
                 figures_table::tables(record),
+                phase_table::table(s),
                 law_table::note(s),
                 figures_table::errors(&s.error)
             ),

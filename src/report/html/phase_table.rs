@@ -29,9 +29,9 @@ pub fn table(s: &Summary) -> String {
         more => format!("<p class=\"legend-note\">{more} more phases are in summary.json.</p>\n"),
     };
     format!(
-        "<table class=\"phases\">\n<caption>Phases of the operation</caption>\n<thead><tr><td>phase</td>{head}</tr></thead>\n\
-         <tbody>\n{rows}</tbody>\n</table>\n{more}<p class=\"legend-note\">New is the unworn pair under the load of the first \
-         phase, worn the worn pair under that of the last. Line load, K/H and Hertz pressure below are those of the first \
+        "<div class=\"phases\">\n<table>\n<caption>Phases of the operation</caption>\n<thead><tr><td>phase</td>{head}</tr></thead>\n\
+         <tbody>\n{rows}</tbody>\n</table>\n</div>\n{more}<p class=\"legend-note\">New is the unworn pair under the load of the first \
+         phase, worn the worn pair under that of the last. Line load, K/H and Hertz pressure above are those of the first \
          phase; all are in summary.json.</p>\n"
     )
 }
