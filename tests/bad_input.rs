@@ -293,7 +293,7 @@ fn preset_that_does_not_exist() {
         "[pair]\npreset = \"fzg-d\"\n[operation]\npinion_torque_Nm = 302\npinion_revolutions = 1e6\n\
          [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n",
     );
-    case.refused().at_line(2).says(&["pair.preset", "found \"fzg-d\"", "\"fzg-c\", \"fzg-a\"", "did you mean"]);
+    case.refused().at_line(2).says(&["pair.preset", "found \"fzg-d\"", "\"fzg-c\", \"fzg-test\", \"fzg-a\"", "did you mean"]);
     let mut init = Command::cargo_bin("gearwear").unwrap();
     let output = init.args(["init", "fzg-cc"]).output().unwrap();
     assert_eq!(output.status.code(), Some(2));
@@ -409,8 +409,7 @@ fn constants_of_wear_laws_out_of_range() {
             &format!("[wear.{law}]\n{line}"),
         );
         let key = line.split(' ').next().unwrap();
-        let at = case.line_of(key);
-        case.refused().at_line(at).says(&[key]);
+        case.refused().says(&[&format!("wear.{law}.{key}")]);
     }
 }
 
@@ -553,4 +552,15 @@ fn a_slip_that_makes_the_scene_invalid_becomes_help() {
     // Metres for millimetres in the module alone: no pair at this centre distance.
     let case = Case::fzg_c().with("pair", "normal_module_mm", "normal_module_mm = 0.0045");
     case.refused().says(&["pair.normal_module_mm = 0.0045: did you mean 4.5? (m given for mm)"]);
+}
+
+/// A tolerance that no step can meet is refused, as is none at all.
+#[test]
+fn tolerance_of_adaptive_steps() {
+    for (tolerance, allowed) in [("0", "greater than 0"), ("1e-9", "at least 0.0001 µm"), ("-1.0", "greater than 0")] {
+        let lines = format!("error_estimate = false\nstep = \"adaptive\"\ntolerance_um = {tolerance}");
+        let case = Case::fzg_c().with("numerics", "error_estimate", &lines);
+        let line = case.line_of("tolerance_um");
+        case.refused().at_line(line).says(&["numerics.tolerance_um", allowed]);
+    }
 }

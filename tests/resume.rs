@@ -138,3 +138,120 @@ fn a_run_on_finite_elements_that_is_killed_20_times_ends_with_the_same_bits() {
     let found = survives_kills(&finite_elements("step = { revolutions = 200.0 }"));
     assert!(found >= 10, "{found}");
 }
+
+#[test]
+fn an_adaptive_run_that_is_killed_20_times_ends_with_the_same_bits() {
+    // A clean start every 100 evaluations on springs at 1000 positions.
+    let numerics = "flank_points = 120\npositions = 1000\nstep = \"adaptive\"\ntolerance_um = 1e-4\nmethod = \"linearly-implicit\"";
+    let found = survives_kills(&scene("surface = \"winkler\"", numerics, ""));
+    assert!(found >= 10, "{found}");
+}
+
+/// A run that is killed once after it has a checkpoint: folder and scene file.
+fn broken_run(folder: &Folder) -> (PathBuf, PathBuf) {
+    let file = folder.write("scene.toml", &half_space("step = { revolutions = 100.0 }"));
+    let out = folder.path("out");
+    let mut child = gearwear().arg("run").arg(&file).arg("--out").arg(&out).arg("--quiet").spawn().unwrap();
+    let begin = Instant::now();
+    while !out.join("checkpoint.bin").exists() && begin.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert!(out.join("checkpoint.bin").exists());
+    (file, out)
+}
+
+fn refused(args: &[&dyn AsRef<std::ffi::OsStr>], parts: &[&str]) {
+    let output = run(args);
+    let said = said(&output);
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    for part in parts {
+        assert!(said.contains(part), "no {part:?} in\n{said}");
+    }
+}
+
+#[test]
+fn checkpoints_of_another_run_or_damaged_are_refused() {
+    let folder = Folder::new();
+    let (file, out) = broken_run(&folder);
+    let checkpoint = out.join("checkpoint.bin");
+    let sound = fs::read(&checkpoint).unwrap();
+
+    let text = fs::read_to_string(&file).unwrap();
+    let other = folder.write("other.toml", &text.replace("hours = 128.0", "hours = 129.0"));
+    refused(&[&other, &"--resume", &out], &["another scene", "operation.hours: 128.0 there, 129.0 here"]);
+
+    fs::write(&checkpoint, &sound[..sound.len() - 10]).unwrap();
+    refused(&[&"--resume", &out], &["checkpoint.bin", "torn", "remove the checkpoint"]);
+    let mut edited = sound.clone();
+    let last = edited.len() - 100;
+    edited[last] ^= 1;
+    fs::write(&checkpoint, &edited).unwrap();
+    refused(&[&"--resume", &out], &["damaged", "SHA-256"]);
+    fs::write(&checkpoint, b"not at all\n").unwrap();
+    refused(&[&"--resume", &out], &["its first line is not that of a checkpoint"]);
+    let end = sound.iter().position(|&byte| byte == b'\n').unwrap();
+    let version = env!("CARGO_PKG_VERSION");
+    let line = String::from_utf8_lossy(&sound[..end]).replace(version, "99.9.9");
+    fs::write(&checkpoint, [line.as_bytes(), &sound[end..]].concat()).unwrap();
+    refused(&[&"--resume", &out], &["written by gearwear 99.9.9", version]);
+
+    // The scene in the folder was edited.
+    fs::write(&checkpoint, &sound).unwrap();
+    let own = fs::read_to_string(out.join("scene.toml")).unwrap();
+    fs::write(out.join("scene.toml"), own.replace("pinion_torque_Nm = 302.0", "pinion_torque_Nm = 303.0")).unwrap();
+    refused(&[&"--resume", &out], &["operation.pinion_torque_Nm: 302.0 there, 303.0 here"]);
+    // None of this has touched it.
+    fs::write(out.join("scene.toml"), own).unwrap();
+    assert!(fs::read(&checkpoint).unwrap() == sound);
+    let output = run(&[&"--resume", &out]);
+    assert!(output.status.success() && said(&output).contains("goes on at"), "{}", said(&output));
+    // And it is complete.
+    refused(&[&"--resume", &out], &["is complete", "nothing is left to do"]);
+}
+
+#[test]
+fn input_files_lie_in_the_folder_and_are_those_of_the_checkpoint() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("data")).unwrap();
+    // From A to E of fzg-c: a stiffness curve of one's own.
+    let curve = |stiffness: f64| {
+        let row = |at: f64| format!("{at},{stiffness}\n");
+        format!("# flattening = excluded\nposition_mm,stiffness_N_per_mm_um\n{}{}", row(4.4723), row(23.5694))
+    };
+    folder.write("data/curve.csv", &curve(15.0));
+    let numerics = "flank_points = 100\npositions = 40\n[stiffness]\nmodel = \"simon\"\ncurve = \"data/curve.csv\"";
+    let file = folder.write("scene.toml", &scene("surface = \"hertz\"", numerics, ""));
+    let out = folder.path("out");
+    let output = run(&[&file, &"--out", &out]);
+    if !output.status.success() {
+        panic!("{}", said(&output));
+    }
+    assert_eq!(fs::read_to_string(out.join("inputs/curve.csv")).unwrap(), curve(15.0));
+    // What lies there can be run by itself, to the same bits.
+    fs::remove_file(folder.path("data/curve.csv")).unwrap();
+    let again = folder.path("again");
+    let output = run(&[&out.join("scene.toml"), &"--out", &again]);
+    assert!(output.status.success(), "{}", said(&output));
+    assert_same_results(&out, &again);
+    // Before a checkpoint is written the run begins anew; the same scene with another file is another run.
+    fs::remove_file(again.join("summary.json")).unwrap();
+    let output = run(&[&"--resume", &again]);
+    assert!(output.status.success(), "{}", said(&output));
+    assert_same_results(&out, &again);
+}
+
+#[test]
+fn folders_without_a_run() {
+    let folder = Folder::new();
+    let file = folder.write("scene.toml", &scene("surface = \"hertz\"", "flank_points = 100\npositions = 40", ""));
+    let out = folder.path("out");
+    refused(&[&"--resume", &out], &["has no scene.toml", "gearwear run SCENE --resume"]);
+    refused(&[&file, &"--resume", &out, &"--out", &out], &["--resume", "cannot be used with", "--out"]);
+    refused(&[&file], &["--out"]);
+    // With a scene it begins there.
+    let output = run(&[&file, &"--resume", &out]);
+    assert!(output.status.success(), "{}", said(&output));
+    refused(&[&file, &"--resume", &out], &["is complete"]);
+}

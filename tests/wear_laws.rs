@@ -161,7 +161,7 @@ fn ver_finite_elements_wear_by_the_mean_coefficient() {
     let run = |law: (&str, &str)| {
         let edits = [
             law,
-            ("positions = 400 ", "positions = 40 "),
+            ("positions = 400 ", "positions = 60 "),
             ("snapshots_h", "# snapshots_h"),
             NO_ESTIMATE,
             (HOURS, "pinion_revolutions = 10.0 "),
@@ -169,7 +169,7 @@ fn ver_finite_elements_wear_by_the_mean_coefficient() {
         ];
         run_preset("fzg-c", &edits, "[fem]\nelements_per_half_width = 4\n")
     };
-    check_mean_coefficient("finite elements", &run((LAW.0, LAW.0)), &run(LAW), 0.05);
+    check_mean_coefficient("finite elements", &run((LAW.0, LAW.0)), &run(LAW), 0.03);
 }
 
 fn check_mean_coefficient(what: &str, linear: &RunRecord, adsorption: &RunRecord, allowed: f64) {

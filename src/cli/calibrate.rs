@@ -37,6 +37,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let resolved = &source.resolved;
     warn(&resolved.warnings);
     warn(resolved.scene.plane_section_warning().as_slice());
+    warn(resolved.scene.one_load_warning().as_slice());
     check_out(&args.out)?;
     let pool = pool(args.threads)?;
     let progress = Progress::new(args.quiet, watch_for_interrupt());

@@ -58,9 +58,11 @@ fn warnings(name: &str, calibration: &Calibration, source: &Source, pair: &GearP
         warnings.push(format!("{KEY}: {name} was made by gearwear {made}, this is {version}"));
     }
     let scene = &source.resolved.scene;
-    let load = scene.operation.pinion_torque_n_mm / pair.path.involute.pinion.base_radius_mm / scene.pair.face_width_mm;
+    let per_torque = 1.0 / (pair.path.involute.pinion.base_radius_mm * scene.pair.face_width_mm);
     let (least, greatest) = calibration.fitted_loads_n_per_mm();
-    if load < least * (1.0 - ROUNDING) || load > greatest * (1.0 + ROUNDING) {
+    let loads = scene.operation.phases.iter().map(|phase| phase.pinion_torque_n_mm * per_torque);
+    let is_outside = |load: &f64| *load < least * (1.0 - ROUNDING) || *load > greatest * (1.0 + ROUNDING);
+    if let Some(load) = loads.into_iter().find(is_outside) {
         warnings.push(format!(
             "{KEY}: the line load of {load:.1} N/mm lies outside the loads that {name} was fitted on, {least:.1} to \
              {greatest:.1} N/mm"

@@ -61,6 +61,7 @@ fn estimated_errors(error: &ErrorSummary) -> String {
         ("points and positions", error.discretisation),
         ("wear step", error.wear_step),
         ("contact surface", error.surface_model),
+        ("hard switch against a band", error.severe_switch),
     ]
     .into_iter()
     .filter_map(|(name, estimate)| Some(format!("{name} {} %", two_digits(100.0 * estimate?))))

@@ -30,6 +30,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let resolved = scene_source::resolve_alone(&args.scene)?.resolved;
     warn(&resolved.warnings);
     warn(resolved.scene.plane_section_warning().as_slice());
+    warn(resolved.scene.one_load_warning().as_slice());
     // Whether the ending is one of a mesh file is known before the work.
     let format = Format::of_path(&args.out).map_err(InputError::MeshFile)?;
     let built = pair_mesh::build(&resolved.scene, args.position).map_err(InputError::from)?;

@@ -34,6 +34,8 @@ pub struct Progress {
     interrupted: Arc<AtomicBool>,
     /// When the interrupt was first noticed.
     first_heard: OnceLock<Instant>,
+    /// Warnings given so far.
+    told: Mutex<Vec<String>>,
 }
 
 impl Progress {
@@ -46,7 +48,13 @@ impl Progress {
         } else {
             Display::Log(Mutex::new(None))
         };
-        Self { display, interrupted, first_heard: OnceLock::new() }
+        Self { display, interrupted, first_heard: OnceLock::new(), told: Mutex::default() }
+    }
+
+    /// Those of `warnings` that have not been given during the run.
+    pub fn not_yet_told(&self, warnings: &[String]) -> Vec<String> {
+        let told = self.told.lock().map(|told| told.clone()).unwrap_or_default();
+        warnings.iter().filter(|warning| !told.contains(warning)).cloned().collect()
     }
 
     /// Ends the display.
@@ -62,6 +70,17 @@ impl Progress {
 impl Observer for Progress {
     fn stage(&self, kind: StageKind) {
         self.begin(kind.name());
+    }
+
+    fn warning(&self, text: &str) {
+        if let Ok(mut told) = self.told.lock() {
+            told.push(text.to_owned());
+        }
+        let say = || super::say(&format!("warning: {text}"));
+        match &self.display {
+            Display::Bar(bar) => bar.suspend(say),
+            Display::Log(_) | Display::Quiet => say(),
+        }
     }
 }
 

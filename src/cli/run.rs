@@ -83,7 +83,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         Failure::Run(error) => in_the_scene(error, &source),
         other => other,
     })?;
-    warn(&record.summary.warnings[resolved.warnings.len()..]);
+    warn(&progress.not_yet_told(&record.summary.warnings[resolved.warnings.len()..]));
     if !args.quiet {
         let report = out.join("report.html");
         stdout::print(&format!("{}report: {}\n", figures::table(&record.summary), report.display()))?;

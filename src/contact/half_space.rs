@@ -21,8 +21,6 @@
 //!
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), sections 2.5 and 5.9.
 
-use std::f64::consts::PI;
-
 use super::{
     ContactSurface, Effort, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
     elastic_cells::ElasticCells,
@@ -90,15 +88,8 @@ impl ContactSurface for HalfSpace {
         EFFORT
     }
 
-    /// A wave of length λ on a half-plane: π E*/λ, and no wave is shorter than two cells.
-    fn stiffness_of_short_waves_mpa_per_mm(
-        &self,
-        flanks: Flanks<'_>,
-        position_mm: f64,
-        _line_load_n_per_mm: f64,
-    ) -> Option<f64> {
-        let modulus = hertz::contact_modulus_mpa(&self.material);
-        Some(PI * modulus / (2.0 * self.cell_width_mm(flanks, position_mm)))
+    fn feels_short_waves(&self) -> bool {
+        true
     }
 }
 

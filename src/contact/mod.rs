@@ -168,14 +168,8 @@ pub trait ContactSurface: Sync {
         Effort { of_equilibrium: 1.0, of_clean_start: 4.0 }
     }
 
-    /// How much the pressure rises with the height of the shortest waves of wear that the surface tells apart, at a position
-    /// under a line load (> 0), MPa/mm: it bounds the wear step. None where the pressure knows nothing of such waves.
-    fn stiffness_of_short_waves_mpa_per_mm(
-        &self,
-        _flanks: Flanks<'_>,
-        _position_mm: f64,
-        _line_load_n_per_mm: f64,
-    ) -> Option<f64> {
-        None
+    /// Whether the pressure rises where short waves of wear stand up: they bound the wear step then.
+    fn feels_short_waves(&self) -> bool {
+        false
     }
 }

@@ -82,13 +82,8 @@ impl ContactSurface for Winkler {
         springs.approach_and_compliance(radius, line_load_n_per_mm).0
     }
 
-    fn stiffness_of_short_waves_mpa_per_mm(
-        &self,
-        _flanks: Flanks<'_>,
-        position_mm: f64,
-        line_load_n_per_mm: f64,
-    ) -> Option<f64> {
-        Some(self.bed.at(position_mm).mpa_per_mm(line_load_n_per_mm))
+    fn feels_short_waves(&self) -> bool {
+        true
     }
 }
 

@@ -9,8 +9,10 @@ pub mod fem_problem;
 pub mod fem_scene;
 pub mod inputs;
 pub mod pair_mesh;
+mod phases;
 mod recording;
 mod slices;
+mod stability;
 mod temperature;
 
 use std::time::Instant;
@@ -49,6 +51,9 @@ use recording::Found;
 pub trait Observer: Progress {
     /// A stage begins.
     fn stage(&self, kind: StageKind);
+
+    /// Something the user should know before the work is done; the summary has it too.
+    fn warning(&self, _text: &str) {}
 }
 
 impl Observer for Unwatched {
@@ -133,7 +138,8 @@ struct Model<'a> {
     calibration: Option<&'a Calibration>,
     /// Hertz at the pitch point.
     at_pitch: Flattening,
-    foundation_mpa_per_mm: Option<f64>,
+    /// K/H under the load of each phase, of the surfaces that have one.
+    foundations_mpa_per_mm: Vec<Option<f64>>,
 }
 
 impl Model<'_> {
@@ -294,6 +300,10 @@ fn carry_out<R>(
             (wear::of(&WearSettings { coefficient_mm2_per_n, ..scene.wear }), heat)
         })
         .collect();
+    // Every load has its case.
+    let case_of = |load: f64| cases.iter().position(|case| case.line_load_n_per_mm == load).unwrap_or_default();
+    let of_phase = |phase: &Phase| cases[case_of(line_load(phase))].foundation_mpa_per_mm;
+    let foundations_mpa_per_mm = scene.operation.phases.iter().map(of_phase).collect();
     let phases = scene
         .operation
         .phases
@@ -301,10 +311,8 @@ fn carry_out<R>(
         .zip(&laws)
         .map(|(phase, (law, heat))| {
             let load = line_load(phase);
-            // Every load has its case.
-            let case = cases.iter().position(|case| case.line_load_n_per_mm == load).unwrap_or_default();
             RunPhase {
-                contact: contact(case),
+                contact: contact(case_of(load)),
                 wear: WearModel { law: law.as_ref(), heat: heat.as_ref() },
                 line_load_n_per_mm: load,
                 end_revolutions: phase.end_revolutions,
@@ -320,9 +328,10 @@ fn carry_out<R>(
         stiffness_curve: curve,
         calibration: inputs.calibration.as_ref(),
         at_pitch,
-        foundation_mpa_per_mm: cases[0].foundation_mpa_per_mm,
+        foundations_mpa_per_mm,
     };
 
+    let judged = stability::judge(&model, observer);
     let Resumption { from, keeper } = resumption;
     let outcome = stages.run(StageKind::Simulation, || model.wear_run().run_from(from, keeper, observer))?;
     let heat = match plan.has(StageKind::ContactTemperature) {
@@ -336,7 +345,7 @@ fn carry_out<R>(
         ErrorSummary::not_estimated(not_estimated_because(&outcome))
     };
 
-    let mut summary = recording::summary(resolved, plan, &model, found, error)?;
+    let mut summary = recording::summary(resolved, plan, &model, found, error, judged)?;
     summary.stages = stages.times;
     let record = keep(&model, found, summary);
     Ok(Done { record, failure: outcome.failure.map(RunError::from) })

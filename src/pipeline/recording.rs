@@ -1,18 +1,15 @@
 //! From what a run found, in the program's units, to the record, in those of the output files.
 
 use super::temperature::{self, ObservedHeat};
-use super::{Model, RunError, drawing, error_estimates, slices};
-use crate::contact::Flanks;
+use super::{Model, RunError, drawing, error_estimates, phases, slices, stability::Judged};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::plan::Plan;
 use crate::scene::Resolved;
 use crate::simulation::figures::WearFigures;
-use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::record::{
     ContactSummary, CycleSummary, ErrorSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, MeshCycleRow,
     PathPoints, RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearSummary, WorkSummary,
 };
-use crate::simulation::settings::Stepping;
 use crate::simulation::wear_run::{Outcome, Snapshot};
 use crate::thermal::settings::TemperatureMethod;
 use crate::working_cycle::CycleObservation;
@@ -20,8 +17,6 @@ use crate::working_cycle::CycleObservation;
 pub(super) const UM_PER_MM: f64 = 1e3;
 /// Pitch point index of the contract: on a flank of this many points.
 const INDEX_POINTS: f64 = 750.0;
-/// Euler's method oscillates where one step more than doubles back on a wave of wear: Δn k K s > 2.
-const STABILITY_LIMIT: f64 = 2.0;
 /// Wear beyond this part of the module is no longer small against the tooth.
 const SMALL_WEAR_MODULES: f64 = 0.05;
 
@@ -53,13 +48,14 @@ pub(super) fn summary(
     model: &Model<'_>,
     found: Found<'_>,
     error: ErrorSummary,
+    judged: Judged,
 ) -> Result<Summary, RunError> {
     let (scene, pair) = (model.scene, model.pair);
     let outcome = found.outcome;
     let law = temperature::law(model, outcome, found.heat);
     let mut warnings = resolved.warnings.clone();
     warnings.extend(temperature::warnings(&law));
-    warnings.extend(stability_warning(model, found));
+    warnings.extend(judged.warnings);
     warnings.extend(deep_wear_warning(pair, outcome));
     warnings.extend(slices::warning(outcome));
     warnings.extend(error_estimates::warnings(&error));
@@ -81,6 +77,7 @@ pub(super) fn summary(
         geometry: geometry(pair),
         helical: slices::summary(model, outcome),
         contact: contact(model),
+        phases: phases::summaries(model, outcome),
         stiffness: stiffness(model)?,
         wear: law,
         temperature: found.heat.and_then(|heat| temperature::summary(model, heat)),
@@ -94,6 +91,7 @@ pub(super) fn summary(
             rejected_steps: outcome.steps.rejected,
             stages: outcome.steps.stages,
             jacobian_probes: outcome.steps.probes,
+            stability_probes: judged.evaluations,
             mesh_cycles: outcome.work.mesh_cycles,
             equilibria: outcome.work.equilibria,
             newton_iterations: outcome.work.newton_iterations,
@@ -145,7 +143,7 @@ fn contact(model: &Model<'_>) -> ContactSummary {
     ContactSummary {
         surface: model.scene.contact.surface.name().to_owned(),
         line_load_N_per_mm: model.first().line_load_n_per_mm,
-        foundation_MPa_per_mm: model.foundation_mpa_per_mm,
+        foundation_MPa_per_mm: model.foundations_mpa_per_mm[0],
         hertz_half_width_mm: at_pitch.half_width_mm,
         hertz_peak_pressure_MPa: at_pitch.peak_pressure_mpa,
     }
@@ -230,6 +228,7 @@ fn history_row(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> His
         pinion_peak_wear_radius_mm: pinion.peak_radius_mm,
         pinion_sap_wear_um: pinion.active_start_mm * UM_PER_MM,
         pinion_sap_wear_rate_um_per_Mrev: rate * UM_PER_MM * 1e6,
+        phase: phases::number_at(model, snapshot),
     }
 }
 
@@ -257,41 +256,6 @@ fn mesh_cycle(model: &Model<'_>, Found { outcome, heat }: Found<'_>) -> Vec<Mesh
             peclet_wheel: peclet(k, Gear::Wheel),
         })
         .collect()
-}
-
-/// Warns where the wear step is too long for Euler's method, and names the longest that is not.
-fn stability_warning(model: &Model<'_>, Found { outcome, heat }: Found<'_>) -> Option<String> {
-    let MeshContact::LineOfAction { surface, .. } = model.first().contact else { return None };
-    let flanks = Flanks { geometry: model.pair, grid: outcome.grid.as_ref() };
-    let loaded = outcome.new.cycle.positions.iter().filter(|at| at.load_share > 0.0);
-    let stiffest = loaded
-        .filter_map(|at| {
-            let load = at.load_share * model.first().line_load_n_per_mm;
-            surface.stiffness_of_short_waves_mpa_per_mm(flanks, at.position_mm, load)
-        })
-        .reduce(f64::max)?;
-    let Stepping::Fixed { revolutions: step } = model.scene.numerics.stepping else { return None };
-    let step = step.min(model.scene.operation.pinion_revolutions);
-    let meshes = PerGear { pinion: step, wheel: step * model.pair.wheel_turns_per_pinion_turn() };
-    let greatest = |gear: Gear| outcome.new.cycle.sliding_mm[gear].iter().copied().fold(0.0, f64::max);
-    let law = model.first().wear.law;
-    let rate = |gear: Gear| match heat.filter(|_| law.reads_surroundings()) {
-        // What the law can give at all is far from what it gives at these speeds and temperatures.
-        Some(heat) => {
-            let severe = model.scene.wear.severe.map_or(1.0, |severe| severe.factor.max(1.0));
-            severe * heat.new.law.greatest_rate_mm3_per_n[gear]
-        }
-        None => law.greatest_coefficient_mm2_per_n() * greatest(gear),
-    };
-    let number = Gear::BOTH.map(|gear| meshes[gear] * rate(gear) * stiffest).into_iter().fold(0.0, f64::max);
-    (number > STABILITY_LIMIT).then(|| {
-        let severe = if model.scene.wear.severe.is_some() { " where wear is severe" } else { "" };
-        format!(
-            "numerics.step: with {step:.4} revolutions a step the wear may oscillate{severe} (Δn·k·K·s = {number:.2} > 2, \
-             K = {stiffest:.3e} MPa/mm); the longest safe step is {:.4} revolutions",
-            step * STABILITY_LIMIT / number
-        )
-    })
 }
 
 /// Warns where so much is worn that the nominal tooth no longer stands for the worn one.

@@ -7,10 +7,13 @@ use serde::{Serialize, Serializer};
 
 use crate::contact::settings::{Foundation, SurfaceKind};
 use crate::scene::Scene;
-use crate::simulation::settings::Stepping;
+use crate::simulation::settings::{AdaptiveMethod, Operation, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::wear::settings::LawSettings;
 use crate::working_cycle::settings::Coupling;
+
+/// Phases that are listed one by one.
+const PHASES_LISTED: usize = 8;
 
 /// A stage of the work, in the order of the work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -217,19 +220,42 @@ fn simulation(scene: &Scene) -> String {
         Stepping::Fixed { revolutions } => {
             format!("about {} wear steps", (operation.pinion_revolutions / revolutions).ceil())
         }
-        Stepping::Adaptive { tolerance_mm, .. } => {
-            format!("adaptive wear steps within {} µm", 1e3 * tolerance_mm)
+        Stepping::Adaptive { tolerance_mm, method } => {
+            let method = match method {
+                AdaptiveMethod::RungeKuttaChebyshev => "Runge–Kutta–Chebyshev",
+                AdaptiveMethod::LinearlyImplicit => "linearly implicit",
+            };
+            format!("adaptive wear steps ({method}) within {} µm", 1e3 * tolerance_mm)
         }
-    };
-    let phases = match operation.phases.len() {
-        1 => String::new(),
-        several => format!(", {several} phases"),
     };
     let tip_edges = if scene.contact.tip_contact { ", contact at tip edges before A and after E" } else { "" };
     format!(
-        "{steps}, {} positions, {} points a flank, {} snapshots{phases}{tip_edges}",
+        "{steps}, {} positions, {} points a flank, {} snapshots{tip_edges}{}",
         numerics.positions,
         numerics.flank_points,
-        operation.snapshots_revolutions.len()
+        operation.snapshots_revolutions.len(),
+        phases(operation)
     )
+}
+
+/// The first phases with their durations and loads; nothing where there is only one.
+fn phases(operation: &Operation) -> String {
+    let count = operation.phases.len();
+    if count == 1 {
+        return String::new();
+    }
+    let mut begin = 0.0;
+    let listed: Vec<String> = operation
+        .phases
+        .iter()
+        .take(PHASES_LISTED)
+        .enumerate()
+        .map(|(index, phase)| {
+            let duration = phase.end_revolutions - std::mem::replace(&mut begin, phase.end_revolutions);
+            let unit = if index == 0 { " revolutions" } else { "" };
+            format!("{duration:.0}{unit} under {} N·m", 1e-3 * phase.pinion_torque_n_mm)
+        })
+        .collect();
+    let more = if count > PHASES_LISTED { ", …" } else { "" };
+    format!("; {count} phases: {}{more}", listed.join(", "))
 }

@@ -32,8 +32,10 @@ pub const FLANK: [Column; 10] = [
     ("slice", "number of the slice over the face width, 0 at width 0"),
 ];
 
+const PHASE: &str = "number of the phase of the operation, from 1; at the end of one, that one";
+
 /// Columns of `history.csv`; one row per snapshot reached.
-pub const HISTORY: [Column; 11] = [
+pub const HISTORY: [Column; 12] = [
     ("hours", "running time; empty where the scene gives no speed"),
     ("revolutions", "of the pinion"),
     ("pinion_peak_wear_um", "greatest wear depth of the pinion's flank"),
@@ -45,10 +47,11 @@ pub const HISTORY: [Column; 11] = [
     ("pinion_peak_wear_radius_mm", "radius of the greatest wear depth"),
     ("pinion_sap_wear_um", "wear depth at the start of active profile"),
     ("pinion_sap_wear_rate_um_per_Mrev", "growth there per million pinion revolutions"),
+    ("phase", PHASE),
 ];
 
 /// Columns of `profiles.csv`; both flanks at every snapshot.
-pub const PROFILES: [Column; 7] = [
+pub const PROFILES: [Column; 8] = [
     ("hours", "running time; empty where the scene gives no speed"),
     ("gear", "pinion or wheel"),
     ("radius_mm", "distance from the gear's axis, new"),
@@ -56,6 +59,7 @@ pub const PROFILES: [Column; 7] = [
     ("wear_um", "wear depth, normal to the flank"),
     ("revolutions", "of the pinion"),
     ("slice", "number of the slice over the face width, 0 at width 0"),
+    ("phase", PHASE),
 ];
 
 /// Columns of `mesh_cycle.csv`; one row per loading position of the reference pair, from A to E.
@@ -146,6 +150,7 @@ struct ProfileRow {
     wear_um: f64,
     revolutions: f64,
     slice: usize,
+    phase: usize,
 }
 
 /// Writes `pinion.csv` or `wheel.csv`.
@@ -191,6 +196,7 @@ pub fn profiles(out: &mut dyn Write, provenance: Provenance, record: &RunRecord)
                     wear_um,
                     revolutions: at.revolutions,
                     slice,
+                    phase: at.phase,
                 })
             })
         })

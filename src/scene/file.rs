@@ -572,11 +572,11 @@ pub struct NumericsFile {
     /// Length of a wear step, or "adaptive". Default: 1/150 of the duration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<StepFile>,
-    /// Error of the wear depth allowed in µm, > 0; read with step = "adaptive". Default 0.05.
+    /// Error of the wear depth allowed in µm, > 0, at least 0.0001; read with step = "adaptive". Default 0.05.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub tolerance_um: Option<f64>,
-    /// How the wear is integrated; read with step = "adaptive". Default: runge-kutta-chebyshev.
+    /// How the wear is integrated; read with step = "adaptive". Default: runge-kutta-chebyshev, the better one by far.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<AdaptiveMethod>,
 }

@@ -69,6 +69,22 @@ impl Scene {
         resolve::resolve(text)
     }
 
+    /// What a command that looks at one load leaves out of a scene with phases under others; none where there are no others.
+    pub fn one_load_warning(&self) -> Option<String> {
+        let own = self.operation.pinion_torque_n_mm;
+        let torques = self.operation.phases.iter().map(|phase| phase.pinion_torque_n_mm);
+        let (least, greatest) = torques.fold((own, own), |(least, most), torque| (least.min(torque), most.max(torque)));
+        (least < greatest).then(|| {
+            let n_m = 1e-3;
+            format!(
+                "this command looks at operation.pinion_torque_Nm, {} N·m, alone; the phases run under {} to {} N·m",
+                n_m * own,
+                n_m * least,
+                n_m * greatest
+            )
+        })
+    }
+
     /// What plane finite elements leave out of a pair whose sections differ over the face width; none where they are alike.
     pub fn plane_section_warning(&self) -> Option<String> {
         self.slices.is_some().then(|| {

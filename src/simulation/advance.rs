@@ -19,6 +19,7 @@ use crate::wear::WearModel;
 use crate::wear::stepping::{
     Rate,
     adaptive::{Adaptive, StepCounts},
+    spectral_radius::SpectralRadius,
 };
 use crate::working_cycle::{Work, load_sharing::EquilibriumError};
 
@@ -50,7 +51,7 @@ pub struct Advanced {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct StepperState {
     euler_steps: u64,
-    integrator: Option<Adaptive>,
+    adaptive: Option<Adaptive>,
 }
 
 /// Takes wear steps.
@@ -94,25 +95,34 @@ impl Stepper {
         }
     }
 
-    /// Of adaptive steps: the estimated error of the wear at each place, mm.
-    pub fn error_mm(&self) -> Option<PerGear<Vec<f64>>> {
+    /// Of adaptive steps: the estimated error of each gear's wear at the place where it is greatest, mm.
+    pub fn error_mm(&self) -> Option<PerGear<f64>> {
         let steps = self.adaptive.as_ref()?;
-        let (pinion, wheel) = steps.integrator.accumulated_error().split_at(steps.wear_mm.pinion.len());
-        Some(PerGear { pinion: pinion.to_vec(), wheel: wheel.to_vec() })
+        let places = steps.wear_mm.pinion.len();
+        let (wear, error) = (steps.state.split_at(places), steps.integrator.accumulated_error().split_at(places));
+        let deepest = |wear: &[f64], error: &[f64]| {
+            wear.iter().zip(error).max_by(|a, b| a.0.total_cmp(b.0)).map_or(0.0, |(_, error)| error.abs())
+        };
+        Some(PerGear { pinion: deepest(wear.0, error.0), wheel: deepest(wear.1, error.1) })
     }
 
     /// What it knows after the last step.
     pub fn state(&self) -> StepperState {
-        StepperState {
-            euler_steps: self.euler_steps,
-            integrator: self.adaptive.as_ref().map(|steps| steps.integrator.clone()),
-        }
+        let adaptive = self.adaptive.as_ref().map(|steps| steps.integrator.clone());
+        StepperState { euler_steps: self.euler_steps, adaptive }
     }
 
-    /// Goes on from there.
-    pub fn resume(&mut self, state: StepperState) {
+    /// Goes on from there with a pair that has lost `wear_mm`; refuses a state of other rows.
+    pub fn resume(&mut self, state: StepperState, wear_mm: &PerGear<Vec<f64>>) -> bool {
         self.euler_steps = state.euler_steps;
-        self.adaptive = state.integrator.map(|integrator| Box::new(AdaptiveSteps::of(integrator)));
+        let places = wear_mm.as_ref().map(Vec::len).sum();
+        let fits = state.adaptive.as_ref().is_none_or(|integrator| integrator.accumulated_error().len() == places);
+        self.adaptive = state.adaptive.filter(|_| fits).map(|integrator| {
+            let state = Gear::BOTH.iter().flat_map(|&gear| &wear_mm[gear]).copied().collect();
+            let (wear_mm, depth_mm) = (wear_mm.clone(), wear_mm.clone());
+            Box::new(AdaptiveSteps { integrator, state, slope: Vec::new(), wear_mm, depth_mm })
+        });
+        fits
     }
 
     /// Takes `pair`, which is evaluated where `stretch` begins, one step on, and evaluates it there.
@@ -163,12 +173,8 @@ impl AdaptiveSteps {
             AdaptiveMethod::RungeKuttaChebyshev => Adaptive::chebyshev(tolerance_mm, duration, &blocks),
             AdaptiveMethod::LinearlyImplicit => Adaptive::linearly_implicit(tolerance_mm, duration, &blocks),
         };
-        Self::of(integrator)
-    }
-
-    fn of(integrator: Adaptive) -> Self {
-        let rows = || PerGear::from_fn(|_| Vec::new());
-        Self { integrator, state: Vec::new(), slope: Vec::new(), wear_mm: rows(), depth_mm: rows() }
+        let depth_mm = wear_mm.clone();
+        Self { integrator, state: Vec::new(), slope: Vec::new(), wear_mm, depth_mm }
     }
 
     fn advance(&mut self, rate: PairRate<'_>, stretch: Stretch) -> Advanced {
@@ -177,18 +183,40 @@ impl AdaptiveSteps {
         self.state.extend(Gear::BOTH.iter().flat_map(|&gear| &self.wear_mm[gear]));
         self.slope.resize(self.state.len(), 0.0);
         rate.read_slope(&mut self.depth_mm, &mut self.slope);
-        let mut pair = OnRows { rate, wear_mm: &mut self.wear_mm, depth_mm: &mut self.depth_mm };
+        let clean_start = stretch.clean_start;
+        let mut pair = OnRows { rate, wear_mm: &mut self.wear_mm, depth_mm: &mut self.depth_mm, clean_start };
         let room = stretch.limit - stretch.from;
         match self.integrator.step(&mut pair, &mut self.state, &mut self.slope, room) {
             Ok(length) => {
                 let arrives = length >= room;
                 let revolutions = if arrives { stretch.limit } else { stretch.from + length };
-                let evaluated = if stretch.clean_start { pair.rate.evaluate_from_clean_start() } else { Ok(()) };
-                Advanced { revolutions, evaluated: evaluated.map(|()| pair.rate.work) }
+                Advanced { revolutions, evaluated: Ok(pair.rate.work) }
             }
             Err(failure) => Advanced { revolutions: stretch.from, evaluated: Err(failure) },
         }
     }
+}
+
+/// Depth of the waves that are probed on otherwise linear flanks, mm: well above the rounding of equilibria, well below any approach.
+const PROBE_MM: f64 = 1e-5;
+
+/// The fastest rate at which waves of wear of `pair`, which is evaluated, decay, per pinion revolution, and how many evaluations
+/// it took to find.
+pub(super) fn fastest_decay(
+    pair: &mut dyn WearingPair,
+    wear: &WearModel<'_>,
+    wheel_meshes: f64,
+) -> Result<(f64, u64), EquilibriumError> {
+    let mut wear_mm = pair.wear_mm();
+    let mut depth_mm = wear_mm.clone();
+    let state: Vec<f64> = Gear::BOTH.iter().flat_map(|&gear| &wear_mm[gear]).copied().collect();
+    let mut slope = vec![0.0; state.len()];
+    let rate = PairRate { pair, wear, stopped: &|| false, wheel_meshes, work: Work::default() };
+    rate.read_slope(&mut depth_mm, &mut slope);
+    let mut rows = OnRows { rate, wear_mm: &mut wear_mm, depth_mm: &mut depth_mm, clean_start: false };
+    let mut radius = SpectralRadius::default();
+    let evaluations = radius.estimate(&mut rows, (&state, &slope), PROBE_MM)?;
+    Ok((radius.found(), evaluations))
 }
 
 /// A wearing pair whose working cycles are counted.
@@ -201,13 +229,6 @@ struct PairRate<'a> {
 }
 
 impl PairRate<'_> {
-    /// Evaluates the pair once more as it is, as if for the first time.
-    fn evaluate_from_clean_start(&mut self) -> Result<(), EquilibriumError> {
-        self.pair.forget();
-        self.work += self.pair.evaluate(self.wear, self.stopped)?;
-        Ok(())
-    }
-
     /// What the pair lost in its last evaluation, per pinion revolution.
     fn read_slope(&self, depth_mm: &mut PerGear<Vec<f64>>, slope: &mut [f64]) {
         self.pair.depth_mm(depth_mm);
@@ -222,6 +243,8 @@ struct OnRows<'a, 'b> {
     rate: PairRate<'a>,
     wear_mm: &'b mut PerGear<Vec<f64>>,
     depth_mm: &'b mut PerGear<Vec<f64>>,
+    /// Whether the end of a step is evaluated from a clean start.
+    clean_start: bool,
 }
 
 impl Rate for OnRows<'_, '_> {
@@ -235,6 +258,13 @@ impl Rate for OnRows<'_, '_> {
         self.rate.work += self.rate.pair.evaluate(self.rate.wear, self.rate.stopped)?;
         self.rate.read_slope(self.depth_mm, slope);
         Ok(())
+    }
+
+    fn evaluate_end(&mut self, state: &[f64], slope: &mut [f64]) -> Result<(), EquilibriumError> {
+        if self.clean_start {
+            self.rate.pair.forget();
+        }
+        self.evaluate(state, slope)
     }
 
     fn may_succeed_nearer(&self, failure: &EquilibriumError) -> bool {

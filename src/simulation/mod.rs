@@ -14,6 +14,7 @@ pub mod mesh_contact;
 pub mod record;
 pub mod settings;
 pub mod simplified;
+pub mod stability;
 pub mod sweep_figures;
 pub mod sweep_record;
 pub mod wear_run;

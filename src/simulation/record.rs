@@ -51,17 +51,19 @@ pub struct Summary {
     pub geometry: GeometrySummary,
     /// Of the slices over the face width; `None` where all sections are alike.
     pub helical: Option<HelicalSummary>,
-    /// Of the contact at the pitch point with the whole load.
+    /// Of the contact at the pitch point with the whole load of the first phase.
     pub contact: ContactSummary,
+    /// The phases that the run came to, in order; one where the operation has none of its own.
+    pub phases: Vec<PhaseSummary>,
     /// Of the tooth pair as a spring; `None` with finite elements, whose teeth are no springs.
     pub stiffness: Option<StiffnessSummary>,
     /// Of the wear law.
     pub wear: WearLawSummary,
     /// Of the contact's temperatures; `None` where nobody asks for them.
     pub temperature: Option<TemperatureSummary>,
-    /// The working cycle of the unworn pair.
+    /// The working cycle of the unworn pair, under the load of the first phase.
     pub new: CycleSummary,
-    /// The working cycle of the worn pair.
+    /// The working cycle of the worn pair, under the load of the last phase.
     pub worn: CycleSummary,
     /// Wear of one pinion flank.
     pub pinion: WearSummary,
@@ -73,6 +75,43 @@ pub struct Summary {
     pub work: WorkSummary,
     /// What the user should know.
     pub warnings: Vec<String>,
+}
+
+/// A phase of the operation.
+#[allow(non_snake_case, reason = "the contract's key names")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PhaseSummary {
+    /// Its number, from 1.
+    pub number: usize,
+    /// How long it was run; `None` without a speed.
+    pub hours: Option<f64>,
+    /// The same in pinion revolutions.
+    pub revolutions: f64,
+    /// Torque on the pinion.
+    pub pinion_torque_Nm: f64,
+    /// Speed of the pinion, where given.
+    pub pinion_speed_rpm: Option<f64>,
+    /// Whole torque over base radius and face width.
+    pub line_load_N_per_mm: f64,
+    /// K/H, where the surface has one.
+    pub foundation_MPa_per_mm: Option<f64>,
+    /// Hertz's greatest pressure at the pitch point under the whole load.
+    pub hertz_peak_pressure_MPa: f64,
+    /// Its wear coefficient.
+    pub coefficient_m2_per_N: f64,
+    /// What the pinion wore off in it.
+    pub pinion: PhaseWear,
+    /// What the wheel wore off in it.
+    pub wheel: PhaseWear,
+}
+
+/// What a gear wore off in a phase.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PhaseWear {
+    /// Greatest depth that any place of the flank lost.
+    pub greatest_depth_um: f64,
+    /// Worn off the whole gear: all teeth, whole width.
+    pub worn_volume_mm3: f64,
 }
 
 /// Why a wear run ended.
@@ -316,6 +355,8 @@ pub struct ErrorSummary {
     pub wear_step: Option<f64>,
     /// From the contact surface, against the finite-element reference.
     pub surface_model: Option<f64>,
+    /// Between a hard switch to severe wear and one over a band; `None` where no wear is severe. Not an error but a choice of the scene.
+    pub severe_switch: Option<f64>,
     /// What the estimates cost over what the run itself did, counted in equilibria weighted by their time.
     pub companions_cost: Option<f64>,
     /// How each was obtained, or why it was not.
@@ -329,6 +370,7 @@ impl ErrorSummary {
             discretisation: format!("not estimated: {reason}"),
             wear_step: format!("not estimated: {reason}"),
             surface_model: format!("not estimated: {reason}"),
+            severe_switch: format!("not estimated: {reason}"),
         };
         Self { how, ..Self::default() }
     }
@@ -341,6 +383,7 @@ pub struct ErrorSources {
     pub discretisation: String,
     pub wear_step: String,
     pub surface_model: String,
+    pub severe_switch: String,
 }
 
 /// Work done by the wear simulation alone.
@@ -354,6 +397,8 @@ pub struct WorkSummary {
     pub stages: u64,
     /// Working cycles evaluated to learn how stiff the wear is: spectral radius, Jacobian, length of the first step.
     pub jacobian_probes: u64,
+    /// Working cycles evaluated before the run, to learn how long a step of Euler's method may be; not among those of the run.
+    pub stability_probes: u64,
     /// Working cycles evaluated in all: with Euler's method one per wear step, and one at the end.
     pub mesh_cycles: u64,
     /// Equilibria solved: working cycles × positions.
@@ -410,6 +455,8 @@ pub struct HistoryRow {
     pub pinion_sap_wear_um: f64,
     /// Wear per million pinion revolutions at the start of active profile.
     pub pinion_sap_wear_rate_um_per_Mrev: f64,
+    /// Number of the phase, from 1; at the end of one, that one.
+    pub phase: usize,
 }
 
 /// A row of `mesh_cycle.csv`: the reference pair at one loading position.

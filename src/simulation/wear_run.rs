@@ -13,6 +13,7 @@ use super::checkpoint::{Checkpoint, Keeper, NothingKept};
 use super::mesh_contact::{LoadedMesh, MeshContact};
 use super::record::StopReason;
 use super::settings::Numerics;
+use super::wearing_pair::WearingPair;
 use crate::contact::Flanks;
 use crate::gear::{GearPair, PerGear, flank::FlankGrid, removed_material::modifications_mm, slices::Slices};
 use crate::stiffness::StiffnessError;
@@ -98,8 +99,8 @@ pub struct Outcome {
     pub worn: Snapshot,
     /// Wear steps taken, and what else came of them.
     pub steps: StepCounts,
-    /// Of adaptive steps: the estimated error of the wear at each place that the steps worked on, mm.
-    pub step_error_mm: Option<PerGear<Vec<f64>>>,
+    /// Of adaptive steps: the estimated error of each gear's wear at the place where it is greatest, mm.
+    pub step_error_mm: Option<PerGear<f64>>,
     /// Work done in all.
     pub work: Work,
 }
@@ -131,6 +132,40 @@ impl Progress for Unwatched {
     }
 }
 
+/// A run on its way.
+struct Course {
+    /// Number of its phase.
+    phase: usize,
+    revolutions: f64,
+    stepper: Stepper,
+    work: Work,
+    /// The unworn pair first, then each snapshot.
+    states: Vec<Snapshot>,
+    /// What the flanks have lost, where they are not new.
+    wear_mm: Option<PerGear<Vec<f64>>>,
+    /// How many of the snapshots asked for were due so far.
+    passed: usize,
+    /// Whether it goes on from a checkpoint: its state is evaluated once more, but its work and its snapshot are already there.
+    is_repeated: bool,
+}
+
+/// How a phase ended.
+enum PhaseEnd {
+    /// Where it should.
+    Reached,
+    /// The whole run ended there, or was interrupted.
+    Stopped,
+    /// In failure, after something was finished.
+    Failed(SimulationError),
+}
+
+/// Whoever looks on while a run runs.
+#[derive(Clone, Copy)]
+struct Attendants<'a> {
+    keeper: &'a dyn Keeper,
+    progress: &'a dyn Progress,
+}
+
 impl WearRun<'_> {
     /// Runs the whole duration, or until interrupted.
     ///
@@ -154,33 +189,14 @@ impl WearRun<'_> {
         let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));
         let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear], &slices));
         let flanks = Flanks { geometry: self.pair, grid: grid.as_ref() };
-        let stopped: &(dyn Fn() -> bool + Sync) = &|| progress.gives_up();
-
-        let end = self.phases.last().map_or(0.0, |phase| phase.end_revolutions);
-        let mut stepper = Stepper::new(self.numerics.stepping, end, self.pair.wheel_turns_per_pinion_turn());
-        let mut due = self.snapshots_revolutions.iter().copied().chain([end]).peekable();
-        let (mut first_phase, mut revolutions, mut work) = (0, 0.0, Work::default());
-        // The unworn pair first, then each snapshot.
-        let mut states: Vec<Snapshot> = Vec::new();
-        let mut worn_so_far: Option<PerGear<Vec<f64>>> = None;
-        // The state of a checkpoint is evaluated again; its work and its snapshot are already there.
-        let mut is_repeated = false;
-        if let Some(from) = checkpoint {
-            let points = modification_mm.as_ref().map(Vec::len);
-            let is_within = from.phase < self.phases.len() && (0.0..end).contains(&from.revolutions);
-            if !(is_within && from.fits(points)) {
-                return Err(SimulationError::OtherRun);
-            }
-            (first_phase, revolutions, work) = (from.phase, from.revolutions, from.work);
-            while due.next_if(|&next| next <= revolutions).is_some() {}
-            stepper.resume(from.stepper);
-            states = from.states;
-            worn_so_far = Some(from.wear_mm);
-            is_repeated = true;
-        }
-
+        let mut course = match checkpoint {
+            None => self.beginning(),
+            Some(checkpoint) if checkpoint.fits(modification_mm.as_ref().map(Vec::len)) => self.resumed(checkpoint)?,
+            Some(_) => return Err(SimulationError::OtherRun),
+        };
         let mut failure = None;
-        'run: for (number, phase) in self.phases.iter().enumerate().skip(first_phase) {
+        while course.phase < self.phases.len() {
+            let phase = &self.phases[course.phase];
             let mesh = LoadedMesh {
                 pair: self.pair,
                 contact: phase.contact,
@@ -188,82 +204,24 @@ impl WearRun<'_> {
                 numerics: self.numerics,
             };
             let mut pair = mesh.wearing_pair(flanks, &modification_mm)?;
-            if let Some(wear_mm) = &worn_so_far {
-                if wear_mm.as_ref().map(Vec::len) != pair.wear_mm().map(|row| row.len()) {
-                    return Err(SimulationError::OtherRun);
-                }
-                pair.set_wear_mm(wear_mm);
-            }
-            if !is_repeated {
-                stepper.begin_phase();
-            }
-            let mut evaluated = pair.evaluate(&phase.wear, stopped);
-            if std::mem::take(&mut is_repeated) {
-                evaluated = evaluated.map(|_| Work::default());
-            }
-            // A phase begins with a pair made anew, which is a clean start.
-            let (mut is_clean, mut cleaned_at) = (true, 0);
-            let clean_after = phase.contact.evaluations_between_clean_starts(self.numerics.positions);
-            loop {
-                let is_due = due.peek().is_some_and(|&next| revolutions >= next);
-                let interrupted = progress.interrupted();
-                let keep = states.is_empty() || is_due || interrupted;
-                let state = evaluated.and_then(|done| {
-                    work += done;
-                    keep.then(|| pair.snapshot(revolutions)).transpose()
-                });
-                match state {
-                    Ok(state) => states.extend(state),
-                    // Before anything is finished there is nothing to keep.
-                    Err(source) if states.is_empty() => {
-                        return Err(SimulationError::Equilibrium { revolutions, source });
-                    }
-                    Err(EquilibriumError::Interrupted) => break 'run,
-                    Err(source) => {
-                        failure = Some(SimulationError::Equilibrium { revolutions, source });
-                        break 'run;
-                    }
-                }
-                if keep {
-                    while due.next_if(|&next| next <= revolutions).is_some() {}
-                }
-                progress.progress(revolutions, end);
-                let Some(&next) = due.peek() else { break 'run };
-                if interrupted {
-                    break 'run;
-                }
-                if revolutions >= phase.end_revolutions {
+            match self.through_phase(&mut course, &mut *pair, Attendants { keeper, progress })? {
+                PhaseEnd::Reached => course.wear_mm = Some(pair.wear_mm()),
+                PhaseEnd::Stopped => break,
+                PhaseEnd::Failed(error) => {
+                    failure = Some(error);
                     break;
                 }
-                if is_clean {
-                    cleaned_at = work.mesh_cycles;
-                    if stepper.counts().accepted > 0 && keeper.is_due() {
-                        keeper.keep(&Checkpoint {
-                            phase: number,
-                            revolutions,
-                            wear_mm: pair.wear_mm(),
-                            stepper: stepper.state(),
-                            work,
-                            states: states.clone(),
-                        });
-                    }
-                }
-                is_clean = work.mesh_cycles - cleaned_at >= clean_after;
-                let stretch =
-                    Stretch { from: revolutions, limit: next.min(phase.end_revolutions), clean_start: is_clean };
-                let advanced = stepper.advance(&mut *pair, &phase.wear, stretch, stopped);
-                (revolutions, evaluated) = (advanced.revolutions, advanced.evaluated);
             }
-            worn_so_far = Some(pair.wear_mm());
+            course.phase += 1;
         }
         let stop = match &failure {
             Some(_) => StopReason::NotConverged,
-            None if due.peek().is_none() => StopReason::Completed,
+            None if self.due(course.passed).is_none() => StopReason::Completed,
             None => StopReason::Interrupted,
         };
-        let (steps, step_error_mm) = (stepper.counts(), stepper.error_mm());
-        let new = states.remove(0);
-        let worn = states.last().unwrap_or(&new).clone();
+        let (steps, step_error_mm) = (course.stepper.counts(), course.stepper.error_mm());
+        let new = course.states.remove(0);
+        let worn = course.states.last().unwrap_or(&new).clone();
         Ok(Outcome {
             stop,
             failure,
@@ -271,11 +229,143 @@ impl WearRun<'_> {
             slices,
             modification_mm,
             new,
-            snapshots: states,
+            snapshots: course.states,
             worn,
             steps,
             step_error_mm,
-            work,
+            work: course.work,
         })
+    }
+    /// A run that has not begun.
+    fn beginning(&self) -> Course {
+        Course {
+            phase: 0,
+            revolutions: 0.0,
+            stepper: Stepper::new(
+                self.numerics.stepping,
+                self.end_revolutions(),
+                self.pair.wheel_turns_per_pinion_turn(),
+            ),
+            work: Work::default(),
+            states: Vec::new(),
+            wear_mm: None,
+            passed: 0,
+            is_repeated: false,
+        }
+    }
+
+    /// A run that goes on.
+    fn resumed(&self, from: Checkpoint) -> Result<Course, SimulationError> {
+        let mut course = Course {
+            phase: from.phase,
+            revolutions: from.revolutions,
+            work: from.work,
+            states: from.states,
+            is_repeated: true,
+            ..self.beginning()
+        };
+        let is_within = from.phase < self.phases.len() && (0.0..self.end_revolutions()).contains(&from.revolutions);
+        if !is_within || !course.stepper.resume(from.stepper, &from.wear_mm) {
+            return Err(SimulationError::OtherRun);
+        }
+        course.wear_mm = Some(from.wear_mm);
+        self.pass_due(&mut course);
+        Ok(course)
+    }
+
+    fn end_revolutions(&self) -> f64 {
+        self.phases.last().map_or(0.0, |phase| phase.end_revolutions)
+    }
+
+    /// The first snapshot that is asked for after the first `passed` of them; the last is the end of the run.
+    fn due(&self, passed: usize) -> Option<f64> {
+        let end = self.end_revolutions();
+        self.snapshots_revolutions.iter().copied().chain([end]).nth(passed)
+    }
+
+    /// Passes over the snapshots that are reached.
+    fn pass_due(&self, course: &mut Course) {
+        while self.due(course.passed).is_some_and(|next| next <= course.revolutions) {
+            course.passed += 1;
+        }
+    }
+
+    /// Runs to the end of the phase that `course` is in.
+    ///
+    /// # Errors
+    /// [`SimulationError`] before anything is finished.
+    fn through_phase(
+        &self,
+        course: &mut Course,
+        pair: &mut dyn WearingPair,
+        Attendants { keeper, progress }: Attendants<'_>,
+    ) -> Result<PhaseEnd, SimulationError> {
+        let phase = &self.phases[course.phase];
+        let stopped: &(dyn Fn() -> bool + Sync) = &|| progress.gives_up();
+        if let Some(wear_mm) = &course.wear_mm {
+            if wear_mm.as_ref().map(Vec::len) != pair.wear_mm().map(|row| row.len()) {
+                return Err(SimulationError::OtherRun);
+            }
+            pair.set_wear_mm(wear_mm);
+        }
+        let mut evaluated = pair.evaluate(&phase.wear, stopped);
+        if std::mem::take(&mut course.is_repeated) {
+            evaluated = evaluated.map(|_| Work::default());
+        } else {
+            course.stepper.begin_phase();
+        }
+        // A phase begins with a pair made anew, which is a clean start.
+        let (mut is_clean, mut cleaned_at) = (true, 0);
+        let clean_after = phase.contact.evaluations_between_clean_starts(self.numerics.positions);
+        loop {
+            let revolutions = course.revolutions;
+            let is_due = self.due(course.passed).is_some_and(|next| revolutions >= next);
+            let interrupted = progress.interrupted();
+            let keep = course.states.is_empty() || is_due || interrupted;
+            let state = evaluated.and_then(|done| {
+                course.work += done;
+                keep.then(|| pair.snapshot(revolutions)).transpose()
+            });
+            match state {
+                Ok(state) => course.states.extend(state),
+                // Before anything is finished there is nothing to keep.
+                Err(source) if course.states.is_empty() => {
+                    return Err(SimulationError::Equilibrium { revolutions, source });
+                }
+                Err(EquilibriumError::Interrupted) => return Ok(PhaseEnd::Stopped),
+                Err(source) => return Ok(PhaseEnd::Failed(SimulationError::Equilibrium { revolutions, source })),
+            }
+            self.pass_due(course);
+            progress.progress(revolutions, self.end_revolutions());
+            let Some(next) = self.due(course.passed).filter(|_| !interrupted) else { return Ok(PhaseEnd::Stopped) };
+            if revolutions >= phase.end_revolutions {
+                return Ok(PhaseEnd::Reached);
+            }
+            if is_clean {
+                cleaned_at = course.work.mesh_cycles;
+                if revolutions > 0.0 && keeper.is_due() {
+                    keeper.keep(&course.checkpoint(pair.wear_mm()));
+                }
+            }
+            is_clean = course.work.mesh_cycles - cleaned_at >= clean_after;
+            let limit = next.min(phase.end_revolutions);
+            let stretch = Stretch { from: revolutions, limit, clean_start: is_clean };
+            let advanced = course.stepper.advance(pair, &phase.wear, stretch, stopped);
+            (course.revolutions, evaluated) = (advanced.revolutions, advanced.evaluated);
+        }
+    }
+}
+
+impl Course {
+    /// The run as it is, on flanks that have lost `wear_mm`.
+    fn checkpoint(&self, wear_mm: PerGear<Vec<f64>>) -> Checkpoint {
+        Checkpoint {
+            phase: self.phase,
+            revolutions: self.revolutions,
+            wear_mm,
+            stepper: self.stepper.state(),
+            work: self.work,
+            states: self.states.clone(),
+        }
     }
 }

@@ -51,7 +51,7 @@ struct RubbedFlank {
 impl RubbedFlank {
     /// The contact whose pressures these points feel, as a source of heat: its half-width is that of Hertz's ellipse with the same
     /// second moment.
-    fn heated<'a>(&self, heat: &'a ContactHeat, pressure_mpa: &[f64], length_mm: f64) -> HeatedContact<'a> {
+    fn heated<'a>(&self, gear: Gear, heat: &'a ContactHeat, pressure_mpa: &[f64], length_mm: f64) -> HeatedContact<'a> {
         let (mut sum, mut first, mut second, mut slid) = (0.0, 0.0, 0.0, 0.0);
         for (k, (pressure, sliding)) in pressure_mpa.iter().zip(&self.sliding_mm).enumerate() {
             let place = k as f64 * self.spacing_mm;
@@ -63,13 +63,15 @@ impl RubbedFlank {
         if sum <= 0.0 {
             return HeatedContact { heat, ratios: SpeedRatios::default(), line_load_n_per_mm: 0.0, half_width_mm: 0.0 };
         }
-        // Each point stands for its spacing.
-        let variance = second / sum - (first / sum).powi(2) + self.spacing_mm.powi(2) / 12.0;
+        // Each point stands for its spacing; the mean over the stretch, during which the contact moves along, spreads the pressure.
+        let moved_mm = self.rolling[gear] * length_mm;
+        let variance = second / sum - (first / sum).powi(2) + (self.spacing_mm.powi(2) - moved_mm.powi(2)) / 12.0;
+        let least = self.spacing_mm.powi(2) / 12.0;
         HeatedContact {
             heat,
             ratios: SpeedRatios { sliding: slid / sum / length_mm, rolling: self.rolling },
             line_load_n_per_mm: sum * self.spacing_mm,
-            half_width_mm: 2.0 * variance.max(0.0).sqrt(),
+            half_width_mm: 2.0 * variance.max(least).sqrt(),
         }
     }
 }
@@ -262,7 +264,7 @@ impl Group {
                     let range = points.first_point..points.first_point + sliding.len();
                     let (row, pressure) = (&mut self.heated, &self.pressure_mpa);
                     let surroundings = step.wear.heat_of_law().map(|heat| {
-                        let contact = flank.heated(heat, pressure, step.length_mm);
+                        let contact = flank.heated(gear, heat, pressure, step.length_mm);
                         let points = RowOfPoints { gear, spacing_mm: flank.spacing_mm, pressure_mpa: pressure };
                         row.across_sliding(&contact, points, sliding, step.length_mm / heat.speed_mm_per_s)
                     });

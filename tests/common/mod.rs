@@ -80,6 +80,7 @@ use gearwear::contact::{
 use gearwear::simulation::{
     mesh_contact::MeshContact,
     settings::{Numerics, Stepping},
+    stability::StepBound,
     wear_run::{Outcome, RunPhase, Unwatched, WearRun},
 };
 use gearwear::stiffness::{TeethSpring, curve::PairCompliance, settings::StiffnessSettings};
@@ -173,6 +174,16 @@ impl Scene {
 
     /// Runs it.
     pub fn run(&self) -> Outcome {
+        self.with(|run, _| run.run(&Unwatched).expect("the run of the test converges"))
+    }
+
+    /// The longest stable step of Euler's method.
+    pub fn step_bound(&self) -> StepBound {
+        self.with(|run, phase| run.step_bound(phase).expect("the unworn pair has an equilibrium"))
+    }
+
+    /// Hands the run and its phase to `then`.
+    fn with<T>(&self, then: impl FnOnce(&WearRun<'_>, &RunPhase<'_>) -> T) -> T {
         let pair = pair(&self.pair);
         let (surface, line_load) = (self.surface(), self.line_load());
         let teeth = TeethSpring::new(self.stiffness, self.curve.as_ref(), &pair, &steel(), surface.as_ref(), line_load);
@@ -192,8 +203,8 @@ impl Scene {
             line_load_n_per_mm: line_load,
             end_revolutions: self.revolutions,
         };
-        WearRun { pair: &pair, phases: &[phase], snapshots_revolutions: &self.snapshots, numerics: self.numerics() }
-            .run(&Unwatched)
-            .expect("the run of the test converges")
+        let (snapshots, numerics) = (&self.snapshots, self.numerics());
+        let run = WearRun { pair: &pair, phases: &[phase], snapshots_revolutions: snapshots, numerics };
+        then(&run, &phase)
     }
 }

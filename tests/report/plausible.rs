@@ -135,6 +135,7 @@ fn history_row(hours: f64) -> HistoryRow {
         pinion_peak_wear_radius_mm: path_points(Gear::Pinion).A,
         pinion_sap_wear_um: peak,
         pinion_sap_wear_rate_um_per_Mrev: peak / (hours * REVOLUTIONS_PER_HOUR) * 1e6,
+        phase: 1,
     }
 }
 
@@ -235,6 +236,7 @@ fn summary() -> Summary {
             hertz_half_width_mm: 0.2452,
             hertz_peak_pressure_MPa: 1655.8,
         },
+        phases: Vec::new(),
         stiffness: Some(StiffnessSummary {
             model: "constant".into(),
             reference_line_load_N_per_mm: 637.66,
@@ -265,10 +267,12 @@ fn summary() -> Summary {
             discretisation: Some(0.0021),
             wear_step: Some(0.0008),
             surface_model: None,
+            severe_switch: None,
             how: ErrorSources {
                 discretisation: "run again with half the points and positions; the difference over three".into(),
                 wear_step: "run again with twice the step; the difference".into(),
                 surface_model: "needs a calibration file".into(),
+                severe_switch: "the scene has no transition to severe wear".into(),
             },
         },
         work: WorkSummary {
@@ -276,6 +280,7 @@ fn summary() -> Summary {
             rejected_steps: 0,
             stages: 150,
             jacobian_probes: 0,
+            stability_probes: 9,
             mesh_cycles: 161,
             equilibria: 64_400,
             newton_iterations: 201_331,

@@ -3,6 +3,8 @@
 //! | estimate | companions | module |
 //! |---|---|---|
 //! | wear step, discretisation; on finite elements the size of the elements | coarser wear runs | [`wear_runs`] |
+//! | wear step of adaptive runs | none: their own steps estimate it | [`wear_runs`] |
+//! | severe switch: hard or over a band | two short wear runs | [`severe_switch`] |
 //! | surface model, with a calibration | none: the calibration holds a mesh of finite elements | [`reference_mesh`] |
 //! | surface model, without | short wear runs on a truer surface and on the run's own | [`surface_model`] |
 //!
@@ -10,6 +12,7 @@
 //! many as it takes the time of ([`relative_cost`]).
 
 mod reference_mesh;
+mod severe_switch;
 mod surface_model;
 mod wear_runs;
 
@@ -91,6 +94,8 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, observer: &dyn Prog
             from_elements.unwrap_or_else(|| (Estimate::none("the companions say nothing of it"), 0.0))
         }
     };
+    let (severe_switch, switch_cost) =
+        severe_switch::estimate(model, outcome, BUDGET - runs.cost - surface_cost, observer);
     if observer.interrupted() {
         return ErrorSummary::not_estimated("the estimates were interrupted");
     }
@@ -98,11 +103,13 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, observer: &dyn Prog
         discretisation: runs.discretisation.relative,
         wear_step: runs.wear_step.relative,
         surface_model: surface_model.relative,
-        companions_cost: Some(runs.cost + surface_cost),
+        severe_switch: severe_switch.relative,
+        companions_cost: Some(runs.cost + surface_cost + switch_cost),
         how: ErrorSources {
             discretisation: runs.discretisation.how,
             wear_step: runs.wear_step.how,
             surface_model: surface_model.how,
+            severe_switch: severe_switch.how,
         },
     }
 }

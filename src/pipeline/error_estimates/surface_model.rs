@@ -64,8 +64,8 @@ pub(super) fn estimate(
     };
     let weight = relative_cost(SurfaceKind::HalfSpace) / own;
     let of_the_run = |own: u64, truer: u64| (own as f64 + weight * truer as f64) / outcome.work.equilibria as f64;
-    // A run of s steps evaluates s + 1 working cycles.
-    let affordable = budget / of_the_run(positions as u64, positions as u64) - 1.0;
+    // A run of s steps evaluates s working cycles, and one more at the beginning of each phase.
+    let affordable = budget / of_the_run(positions as u64, positions as u64) - model.phases.len() as f64;
     if affordable < STEPS[0] as f64 {
         return FromShortRuns::none(
             "the run is too short for another one on an elastic half-plane to be cheap beside it",

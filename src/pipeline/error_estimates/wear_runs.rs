@@ -25,6 +25,16 @@
 //! surface model    |h(M, N/4, S/2) − h(M/2, N/4, S/2)| / (2² − 1) / h
 //! ```
 //!
+//! Adaptive steps estimate their own error: what they have accumulated where the wear is greatest. They need no companion for it,
+//! and as their companions may have the same steps, fewer points tell the discretisation by themselves, a third of them on the line of
+//! action, and on finite elements a half and a quarter on the coarse mesh,
+//!
+//! ```text
+//! discretisation   |h(N) − h(N/3)| / (3ᵖ − 1) / h         on finite elements   |h(M/2, N/2) − h(M/2, N/4)| / (4² − 2²) / h
+//! ```
+//!
+//! with twice or four times the tolerance.
+//!
 //! Source: L. F. Richardson (1911); P. J. Roache, *Verification and Validation in Computational Science* (1998).
 
 use super::{Coarse, Companion, Estimate, LEAST_POINTS, peak_wear_of_both_mm};
@@ -113,6 +123,11 @@ impl<'a> Companions<'a> {
         }
     }
 
+    /// Whether the error of the spacing is of first order.
+    fn first_order(&self) -> bool {
+        self.model.scene.contact.surface == SurfaceKind::HertzMean || self.model.sliced.is_some()
+    }
+
     /// "750 and 375 flank points, 400 and 200 positions, 20 and 10 slices".
     fn spacings(&self) -> String {
         let (fine, half) = (self.model.scene.numerics, self.numerics(Coarser { spacing: 2, step: 1.0 }));
@@ -183,7 +198,24 @@ pub(super) fn estimate<'a>(
         Ok((relative, how)) => Estimate { relative: Some(relative), how },
         Err(reason) => Estimate::none(&reason),
     };
+    let embedded = outcome.step_error_mm.map(|error_mm| of_the_steps(&companions, error_mm));
     let ([discretisation, wear_step], surface_model) = match (model.first().contact, coarse.elements) {
+        (MeshContact::LineOfAction { .. } | MeshContact::Simplified { .. }, _) if embedded.is_some() => {
+            let first_order = companions.first_order();
+            let discretisation = companions.peaks_mm(Coarser { spacing: 3, step: 2.0 }, Elements::Own, (0.0, 0.8)).map(|few| {
+                let (order, divisor) = if first_order { ("first", 2.0) } else { ("second", 8.0) };
+                let how = format!(
+                    "Richardson, {order} order, from a companion run with one in three of the points and positions and twice \
+                     the tolerance"
+                );
+                (companions.relative(peaks_mm, few) / divisor, how)
+            });
+            ([discretisation, Err(String::new())], None)
+        }
+        (MeshContact::FiniteElements(_), Some(coarse)) if embedded.is_some() => {
+            let [discretisation, elements] = adaptively_on_finite_elements(&mut companions, coarse);
+            ([discretisation, Err(String::new())], Some(elements))
+        }
         (MeshContact::LineOfAction { .. } | MeshContact::Simplified { .. }, _) => {
             (on_the_line_of_action(&mut companions, peaks_mm), None)
         }
@@ -198,10 +230,46 @@ pub(super) fn estimate<'a>(
     };
     FromRuns {
         discretisation: estimate(discretisation),
-        wear_step: estimate(wear_step),
+        wear_step: estimate(embedded.map_or(wear_step, Ok)),
         surface_model: surface_model.map(estimate),
         cost: companions.cost / outcome.work.equilibria as f64,
     }
+}
+
+/// Wear step of adaptive steps, from what they estimated.
+fn of_the_steps(companions: &Companions<'_>, error_mm: PerGear<f64>) -> (f64, String) {
+    let of =
+        |gear: Gear| if companions.peaks_mm[gear] > 0.0 { error_mm[gear] / companions.peaks_mm[gear] } else { 0.0 };
+    (
+        of(Gear::Pinion).max(of(Gear::Wheel)),
+        "sum of the estimated errors of all adaptive steps where the wear is greatest".to_owned(),
+    )
+}
+
+/// Discretisation and size of the elements of adaptive runs.
+fn adaptively_on_finite_elements<'a>(
+    companions: &mut Companions<'a>,
+    coarse: &'a CondensedPair<'a>,
+) -> [Difference; 2] {
+    let on_mesh = "on a mesh with elements twice as long, with four times the tolerance";
+    let (few, coarse) = (Coarser { spacing: 4, step: 4.0 }, Elements::Coarse(coarse));
+    let quarter = companions.peaks_mm(few, coarse, (0.0, 0.2));
+    let discretisation = quarter.clone().and_then(|quarter| {
+        let half = companions.peaks_mm(Coarser { spacing: 2, ..few }, coarse, (0.2, 0.6))?;
+        let how = format!(
+            "Richardson, second order, from companion runs with one in two and one in four of the points {on_mesh}"
+        );
+        Ok((companions.relative(half, quarter) / 12.0, how))
+    });
+    let elements = quarter.and_then(|quarter| {
+        let fine = companions.peaks_mm(few, Elements::Own, (0.6, 1.0))?;
+        let how = format!(
+            "the surface is the finite-element one, whose error is the size of its elements: Richardson, second order, from \
+             companion runs with one in four of the points, on this mesh and {on_mesh}"
+        );
+        Ok((companions.relative(fine, quarter) / 3.0, how))
+    });
+    [discretisation, elements]
 }
 
 /// Discretisation and wear step.
@@ -212,8 +280,7 @@ fn on_the_line_of_action(companions: &mut Companions<'_>, reference: PerGear<f64
     let stepped = companions.peaks_mm(Coarser { spacing: 1, step }, own, (0.0, 0.5));
     let discretisation = stepped.clone().and_then(|stepped| {
         let half = companions.peaks_mm(Coarser { spacing: 2, step }, own, (0.5, 0.75))?;
-        let first_order = surface == SurfaceKind::HertzMean || companions.model.sliced.is_some();
-        let (order, divisor) = if first_order { ("first", 1.0) } else { ("second", 3.0) };
+        let (order, divisor) = if companions.first_order() { ("first", 1.0) } else { ("second", 3.0) };
         let how = format!("Richardson, {order} order, from companion runs with {}", companions.spacings());
         Ok((companions.relative(stepped, half) / divisor, how))
     });

@@ -65,6 +65,7 @@ pub(super) fn record(
     let new = parts.cycle(solved, &mesh_cycle);
     let mut warnings = parts.resolved.warnings.clone();
     warnings.extend(parts.resolved.scene.plane_section_warning());
+    warnings.extend(parts.resolved.scene.one_load_warning());
     warnings.extend(parts.warnings(&new));
     let summary = FemPairSummary {
         title: scene.title.clone(),

@@ -11,7 +11,8 @@ use crate::simulation::record::{ErrorSummary, GearSummary, RunRecord, Summary, W
 pub fn tables(record: &RunRecord) -> String {
     let s = &record.summary;
     let sliced = s.helical.as_ref().map_or_else(String::new, sliced::tables::tables);
-    [new_and_worn(s), wear(s), law_table::tables(s), sliced, pair(s), gears(s), contact(s)].concat()
+    let law = law_table::tables(s);
+    [new_and_worn(s), wear(s), law, sliced, pair(s), gears(s), contact(s)].concat()
 }
 
 fn new_and_worn(s: &Summary) -> String {
@@ -121,6 +122,7 @@ pub fn errors(error: &ErrorSummary) -> String {
         ("Points and positions", error.discretisation, &error.how.discretisation),
         ("Wear step", error.wear_step, &error.how.wear_step),
         ("Contact surface", error.surface_model, &error.how.surface_model),
+        ("Hard switch to severe wear against a band", error.severe_switch, &error.how.severe_switch),
     ]
     .into_iter()
     .map(|(label, estimate, how)| {

@@ -5,9 +5,12 @@ use plotly::common::{DashType, Marker, MarkerSymbol, Mode};
 
 use super::number::{figure, significant};
 use super::reading::duration;
-use super::theme::{Figure, axis, curve, from_zero, gear_colour, layout, line};
+use super::theme::{Figure, axis, curve, from_zero, gear_colour, layout, line, mark};
 use crate::gear::Gear;
-use crate::simulation::record::{HistoryRow, RunRecord};
+use crate::simulation::record::{HistoryRow, PhaseSummary, RunRecord};
+
+/// Phases whose ends are marked at the most: more would hide the curves.
+const MOST_MARKED: usize = 20;
 
 /// One quantity of the plot.
 struct Series {
@@ -28,6 +31,7 @@ const SERIES: [Series; 3] = [
 pub fn wear_against_time(record: &RunRecord) -> Figure {
     let rows = &record.history;
     let hours: Option<Vec<f64>> = rows.iter().map(|row| row.hours).collect();
+    let in_hours = hours.is_some();
     let (time, title) = match hours {
         Some(hours) => (hours, "running time, h"),
         None => (rows.iter().map(|row| row.revolutions).collect(), "pinion revolutions"),
@@ -46,12 +50,13 @@ pub fn wear_against_time(record: &RunRecord) -> Figure {
     }
     let deepest = rows.iter().flat_map(|row| SERIES.map(|s| (s.value)(row))).fold(0.0, f64::max);
     let last = time.last().copied().unwrap_or(0.0);
-    plot.set_layout(
-        layout(380)
-            .show_legend(true)
-            .x_axis(axis(title).range(from_zero(last).to_vec()))
-            .y_axis(axis("greatest wear depth, µm").range(from_zero(deepest).to_vec())),
-    );
+    let shape = layout(380)
+        .show_legend(true)
+        .x_axis(axis(title).range(from_zero(last).to_vec()))
+        .y_axis(axis("greatest wear depth, µm").range(from_zero(deepest).to_vec()));
+    let phases = &record.summary.phases;
+    let marked = if (2..=MOST_MARKED).contains(&phases.len()) { ends_of_phases(phases, in_hours) } else { Vec::new() };
+    plot.set_layout(mark(shape, marked, ""));
     Figure {
         id: "history".into(),
         title: "Greatest root wear against time".into(),
@@ -59,6 +64,16 @@ pub fn wear_against_time(record: &RunRecord) -> Figure {
         plot,
         wide: false,
     }
+}
+
+/// When each phase ends, with its number.
+fn ends_of_phases(phases: &[PhaseSummary], in_hours: bool) -> Vec<(String, f64)> {
+    let mut end = 0.0;
+    let marks = phases.iter().map(|phase| {
+        end += if in_hours { phase.hours.unwrap_or(f64::NAN) } else { phase.revolutions };
+        (phase.number.to_string(), end)
+    });
+    marks.collect()
 }
 
 fn reading(record: &RunRecord) -> String {
@@ -69,8 +84,12 @@ fn reading(record: &RunRecord) -> String {
     let (turns, wear) = before.map_or((0.0, 0.0), |row| (row.revolutions, row.pinion_root_wear_um));
     let rate = (last.pinion_root_wear_um - wear) / (last.revolutions - turns) * 1e6;
     let mean = last.pinion_root_wear_um / last.revolutions * 1e6;
+    let phases = match record.summary.phases.len() {
+        0 | 1 => "",
+        _ => " Vertical lines mark where the numbered phases end.",
+    };
     format!(
-        "The pinion’s root has worn {} µm after {}: {} µm per million revolutions on the whole, {} since the snapshot before.",
+        "The pinion’s root has worn {} µm after {}: {} µm per million revolutions on the whole, {} since the snapshot before.{phases}",
         figure(last.pinion_root_wear_um),
         duration(&record.summary),
         significant(mean, 3),

@@ -13,6 +13,7 @@ mod history_plot;
 mod law_table;
 pub(super) mod number;
 pub(super) mod page;
+mod phase_table;
 pub(super) mod reading;
 mod sliced;
 pub(super) mod table;
@@ -68,8 +69,9 @@ pub fn page(record: &RunRecord) -> String {
             "figures",
             "Main figures",
             &format!(
-                "<div class=\"tables\">\n{}</div>\n{}{}",
+                "<div class=\"tables\">\n{}</div>\n{}{}{}",
                 figures_table::tables(record),
+                phase_table::table(s),
                 law_table::note(s),
                 figures_table::errors(&s.error)
             ),
@@ -117,6 +119,8 @@ fn work(s: &Summary) -> String {
     let w = &s.work;
     let counts: String = [
         ("Wear steps", w.wear_steps),
+        ("Rejected steps", w.rejected_steps),
+        ("Working cycles to learn the stiffness", w.jacobian_probes),
         ("Working cycles", w.mesh_cycles),
         ("Equilibria", w.equilibria),
         ("Newton iterations", w.newton_iterations),

@@ -128,9 +128,14 @@ pub fn named(points: &PathPoints) -> [(&'static str, f64); 5] {
 
 /// Adds a vertical line with its letter at each of the points A–E; the pitch point C is the stronger one.
 pub fn mark_path_points(layout: Layout, points: &PathPoints) -> Layout {
+    mark(layout, named(points).into_iter().map(|(name, x)| (name.to_owned(), x)), "C")
+}
+
+/// Adds a vertical line with its name at each place; that of the name `strongest` is the stronger one.
+pub fn mark(layout: Layout, places: impl IntoIterator<Item = (String, f64)>, strongest: &str) -> Layout {
     let (mut shapes, mut letters) = (Vec::new(), Vec::new());
-    for (name, x) in named(points).into_iter().filter(|(_, x)| x.is_finite()) {
-        let (width, dash) = if name == "C" { (1.4, DashType::DashDot) } else { (1.0, DashType::Dot) };
+    for (name, x) in places.into_iter().filter(|(_, x)| x.is_finite()) {
+        let (width, dash) = if name == strongest { (1.4, DashType::DashDot) } else { (1.0, DashType::Dot) };
         shapes.push(
             Shape::new()
                 .shape_type(ShapeType::Line)

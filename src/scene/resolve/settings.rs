@@ -15,6 +15,8 @@ const FLANK_POINTS: u32 = 750;
 const POSITIONS: u32 = 400;
 /// Error of the wear depth that adaptive steps may make, µm.
 const TOLERANCE_UM: f64 = 0.05;
+/// Smaller errors than an atom are lost in the rounding of equilibria, and steps for them never end.
+const LEAST_TOLERANCE_UM: f64 = 1e-4;
 /// What the memory of a machine holds: 300 000 take about 10 MB.
 const MOST_POINTS_TIMES_POSITIONS: usize = 100_000_000;
 /// More wear steps than this never end.
@@ -210,10 +212,15 @@ fn stepping(file: &mut NumericsFile, duration: f64, findings: &mut Findings) -> 
             }
             Some(Stepping::Fixed { revolutions })
         }
-        StepFile::Named(NamedStep::Adaptive) => Some(Stepping::Adaptive {
-            tolerance_mm: 1e-3 * *file.tolerance_um.get_or_insert(TOLERANCE_UM),
-            method: *file.method.get_or_insert_default(),
-        }),
+        StepFile::Named(NamedStep::Adaptive) => {
+            let tolerance_um = *file.tolerance_um.get_or_insert(TOLERANCE_UM);
+            if tolerance_um < LEAST_TOLERANCE_UM {
+                let allowed = format!("at least {} µm", number(LEAST_TOLERANCE_UM));
+                findings.problem(ProblemKind::NotAllowed, "numerics.tolerance_um", number(tolerance_um), allowed);
+                return None;
+            }
+            Some(Stepping::Adaptive { tolerance_mm: 1e-3 * tolerance_um, method: *file.method.get_or_insert_default() })
+        }
     }
 }
 

@@ -3,12 +3,12 @@
 //! **What the tolerance means.** It is a depth. The estimated error of a step, at whichever place it is greatest, stays below
 //!
 //! ```text
-//! tolerance · max(1/10, h/T)
+//! 0.3 · tolerance
 //! ```
 //!
-//! T being the length of the whole run: steps longer than a tenth of the run may spend their share of the tolerance, the shorter
-//! ones at the beginning, which errors of all the rest outlive, a tenth of it each. What is estimated is kept with its sign
-//! ([`Adaptive::accumulated_error`]), so that a run can say in the end what it came to.
+//! which leaves room for several steps whose errors add up where the wear is neutral (its mean over a contact); elsewhere later steps
+//! wear the error down. Measured on the preset fzg-c (`docs/stepping.md`) the error at the end is then below the tolerance. What is
+//! estimated is kept with its sign ([`Adaptive::accumulated_error`]), so that a run can say in the end what it came to.
 //!
 //! **What else can happen to a step.** A trial state may have no rate (teeth without equilibrium): the step is shortened. A place
 //! may seem to have grown where the rate jumps to and fro: it is taken to have stayed as it was, before the error is estimated.
@@ -19,14 +19,14 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     Rate, diagonal, greatest,
-    linearly_implicit::{GAMMA, LinearlyImplicit},
+    linearly_implicit::LinearlyImplicit,
     runge_kutta_chebyshev::{ERROR_FACTOR, MOST_STAGES, RungeKuttaChebyshev, stability_bound, stages_for},
     spectral_radius::SpectralRadius,
     step_control::{StepControl, Verdict},
 };
 
 /// Part of the tolerance that any step may spend.
-const SHARE: f64 = 0.1;
+const SHARE: f64 = 0.3;
 /// Probes of the Jacobian over the tolerance.
 const PROBE: f64 = 0.1;
 /// Accepted steps until the spectral radius or the diagonal is estimated anew.
@@ -167,7 +167,7 @@ impl Adaptive {
                 }
                 Err(failure) => return Err(failure),
             }
-            let allowed = self.tolerance * SHARE.max(length / self.duration);
+            let allowed = SHARE * self.tolerance;
             let error = greatest(&self.error) / allowed;
             let verdict = self.control.judge(length, error, length < planned);
             if verdict == Verdict::Rejected && !(at_floor && error.is_finite()) {
@@ -212,7 +212,7 @@ impl Adaptive {
                     self.counts.probes += radius.estimate(rate, start, probe)?;
                     self.age = 0;
                 }
-                let fastest = radius.value().unwrap_or_default();
+                let fastest = radius.value().filter(|radius| radius.is_finite()).unwrap_or_default();
                 let stages = stages_for(*length * fastest).unwrap_or_else(|| {
                     *length = stability_bound(MOST_STAGES) / fastest;
                     MOST_STAGES
@@ -233,16 +233,12 @@ impl Adaptive {
         };
         self.end.iter_mut().zip(state).for_each(|(end, start)| *end = end.max(*start));
         self.end_slope.resize(state.len(), 0.0);
-        rate.evaluate(&self.end, &mut self.end_slope)?;
+        rate.evaluate_end(&self.end, &mut self.end_slope)?;
         self.error.clear();
         let rates = slope.iter().zip(&self.end_slope);
         let ends = state.iter().zip(&self.end);
         let mean = 0.5 * *length;
         self.error.extend(ends.zip(rates).map(|((y, end), (f0, f1))| error_factor * (mean * (f0 + f1) - (end - y))));
-        if let Method::Implicit { diagonal, .. } = &self.method {
-            // The trapezoidal rule does not damp what the method damps.
-            self.error.iter_mut().zip(diagonal).for_each(|(e, w)| *e /= 1.0 - GAMMA * *length * w);
-        }
         Ok(())
     }
 

@@ -12,13 +12,15 @@
 //!
 //! Source: J. G. Verwer, E. J. Spee, J. G. Blom and W. Hundsdorfer, *SIAM J. Sci. Comput.* 20 (1999) 1456, ROS2.
 
+use serde::{Deserialize, Serialize};
+
 use super::Rate;
 
 /// γ.
 pub const GAMMA: f64 = 1.0 + std::f64::consts::FRAC_1_SQRT_2;
 
 /// The method with its rows.
-#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct LinearlyImplicit {
     #[serde(skip)]
     first: Vec<f64>,

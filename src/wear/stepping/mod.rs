@@ -43,6 +43,14 @@ pub trait Rate {
     /// Where there is no rate at this state.
     fn evaluate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Self::Error>;
 
+    /// The same at the end of a trial step: where a run may go on from another time, if the step is taken.
+    ///
+    /// # Errors
+    /// Where there is no rate at this state.
+    fn evaluate_end(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Self::Error> {
+        self.evaluate(state, rate)
+    }
+
     /// Whether a state nearer to the last good one may have a rate where this failed.
     fn may_succeed_nearer(&self, failure: &Self::Error) -> bool;
 }

@@ -21,6 +21,8 @@
 //! Source: B. P. Sommeijer, L. F. Shampine and J. G. Verwer, "RKC: an explicit solver for parabolic PDEs", *J. Comput. Appl. Math.*
 //! 88 (1997) 315–326, section 2.
 
+use serde::{Deserialize, Serialize};
+
 use super::Rate;
 
 /// Damping.
@@ -78,7 +80,7 @@ impl Chebyshev {
 }
 
 /// The method with its rows.
-#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct RungeKuttaChebyshev {
     #[serde(skip)]
     stage: Vec<f64>,

@@ -12,6 +12,8 @@
 //!
 //! Source: Sommeijer, Shampine and Verwer (1997), section 3; B. Lindberg (1974) for the factor of safety.
 
+use serde::{Deserialize, Serialize};
+
 use super::{Noise, Rate, greatest};
 
 /// Iterations until the radius is taken as found.
@@ -22,7 +24,7 @@ const CONVERGED: f64 = 0.05;
 const SAFETY: f64 = 1.2;
 
 /// What is known of the radius.
-#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct SpectralRadius {
     vector: Vec<f64>,
     value: Option<f64>,
@@ -36,6 +38,11 @@ impl SpectralRadius {
     /// The radius, with a factor of safety, if it has been estimated.
     pub fn value(&self) -> Option<f64> {
         self.value
+    }
+
+    /// The radius as it was found, which approaches the true one from below; 0 where there is none.
+    pub fn found(&self) -> f64 {
+        self.value.unwrap_or_default() / SAFETY
     }
 
     /// Takes it for out of date; the vector is kept.
@@ -62,16 +69,17 @@ impl SpectralRadius {
         let (mut radius, mut evaluations): (f64, u64) = (0.0, 0);
         for _ in 0..MOST_ITERATIONS {
             let height = greatest(&self.vector);
-            if height == 0.0 || !height.is_finite() {
+            if !(height > 0.0 && height.is_finite()) {
                 // Nothing wears, or nothing changes with wear.
                 self.vector.clear();
                 break;
             }
-            let scale = probe / height;
-            probed.iter_mut().zip(state.iter().zip(&self.vector)).for_each(|(p, (y, v))| *p = y + scale * v);
+            // The probe is normalised: without that repeated application of J takes it out of the range of numbers.
+            self.vector.iter_mut().for_each(|v| *v *= probe / height);
+            probed.iter_mut().zip(state.iter().zip(&self.vector)).for_each(|(p, (y, v))| *p = y + v);
             rate.evaluate(&probed, &mut image)?;
             evaluations += 1;
-            image.iter_mut().zip(slope).for_each(|(image, f)| *image = (*image - f) / scale);
+            image.iter_mut().zip(slope).for_each(|(image, f)| *image -= f);
             let (before, found) = (radius, norm(&image) / norm(&self.vector));
             std::mem::swap(&mut self.vector, &mut image);
             radius = found;

@@ -12,6 +12,8 @@
 //!
 //! Source: K. Gustafsson, *ACM Trans. Math. Softw.* 20 (1994) 496; Sommeijer, Shampine and Verwer (1997), section 3.
 
+use serde::{Deserialize, Serialize};
+
 /// One over the order of the error of a step.
 const EXPONENT: f64 = 1.0 / 3.0;
 const SAFETY: f64 = 0.8;
@@ -30,7 +32,7 @@ pub enum Verdict {
 }
 
 /// The controller.
-#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct StepControl {
     /// Length that the next step should have; none before the first.
     next: Option<f64>,

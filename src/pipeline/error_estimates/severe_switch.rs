@@ -1,0 +1,94 @@
+//! What it makes whether wear turns severe at once or over a band.
+//!
+//! The hard switch of the thesis makes the rate jump: pressure is worn down to the limit and chatters there, by as much as a step
+//! wears. Over a band the rate is continuous, and steps converge. Two short companions, alike in everything else, tell the
+//! difference: one with the hard switch, one with a band,
+//!
+//! ```text
+//! severe switch    |h(hard) − h(band)| / h(the scene's own kind)
+//! ```
+//!
+//! with a quarter of the points and positions and Euler's steps, as many as the budget allows; of both gears' differences of the
+//! peak wear the larger.
+
+use super::{Companion, Estimate, LEAST_POINTS, peak_wear_of_both_mm};
+use crate::gear::{Gear, PerGear};
+use crate::pipeline::Model;
+use crate::simulation::settings::{Numerics, Stepping};
+use crate::simulation::wear_run::{Outcome, Progress, RunPhase, WearRun};
+use crate::wear::{self, FlankWear, WearModel, settings::SevereTransition, settings::WearSettings};
+
+/// Band that a hard switch is compared with, over its limit.
+const BAND: f64 = 0.05;
+/// Points and positions are divided by this.
+const SPACING: usize = 4;
+/// Wear steps of a companion: as many as the budget allows within these.
+const STEPS: [f64; 2] = [40.0, 150.0];
+
+/// The estimate and its cost over that of the run, within `budget`.
+pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observer: &dyn Progress) -> (Estimate, f64) {
+    let scene = model.scene;
+    let Some(own) = scene.wear.severe else {
+        return (Estimate::none("the scene has no transition to severe wear"), 0.0);
+    };
+    let peak_mpa = outcome.snapshots.iter().map(|state| state.cycle.peak_pressure_mpa());
+    let felt_mpa = peak_mpa.fold(outcome.new.cycle.peak_pressure_mpa(), f64::max);
+    if own.factor_at(felt_mpa) <= 1.0 {
+        return (Estimate::none("no pressure reaches the transition to severe wear"), 0.0);
+    }
+    let fine = scene.numerics;
+    let (flank_points, positions) = (fine.flank_points / SPACING, fine.positions / SPACING);
+    if flank_points.min(positions) < LEAST_POINTS {
+        return (Estimate::none("too few flank points or positions to leave some out"), 0.0);
+    }
+    let affordable = 0.5 * budget * outcome.work.equilibria as f64 / positions as f64 - 1.0;
+    if affordable < STEPS[0] {
+        return (Estimate::none("the run is too short for two more to be cheap beside it"), 0.0);
+    }
+    let steps = affordable.min(STEPS[1]).floor();
+    let revolutions = scene.operation.pinion_revolutions / steps;
+    let numerics = Numerics { flank_points, positions, stepping: Stepping::Fixed { revolutions }, ..fine };
+    let band_mpa = if own.band_mpa > 0.0 { own.band_mpa } else { BAND * own.above_mpa };
+    let mut equilibria = 0;
+    let mut peaks_mm = |band_mpa: f64| -> Result<PerGear<f64>, String> {
+        let severe = Some(SevereTransition { band_mpa, ..own });
+        let law = |coefficient: Option<f64>| {
+            let coefficient_mm2_per_n = coefficient.unwrap_or(scene.wear.coefficient_mm2_per_n);
+            wear::of(&WearSettings { coefficient_mm2_per_n, severe, ..scene.wear })
+        };
+        let laws: Vec<Box<dyn FlankWear>> =
+            scene.operation.phases.iter().map(|phase| law(phase.coefficient_mm2_per_n)).collect();
+        let phases: Vec<RunPhase<'_>> = model
+            .phases
+            .iter()
+            .zip(&laws)
+            .map(|(phase, law)| RunPhase { wear: WearModel { law: law.as_ref(), ..phase.wear }, ..*phase })
+            .collect();
+        let run = WearRun { pair: model.pair, phases: &phases, snapshots_revolutions: &[], numerics };
+        let outcome = run.run(&Companion { observer, share: (0.9, 0.1) }).map_err(|error| error.to_string())?;
+        equilibria += outcome.work.equilibria;
+        match &outcome.failure {
+            Some(failure) => Err(failure.to_string()),
+            None => Ok(peak_wear_of_both_mm(model, &outcome)),
+        }
+    };
+    let peaks = peaks_mm(0.0).and_then(|hard| Ok((hard, peaks_mm(band_mpa)?)));
+    let estimate = match peaks {
+        Ok((hard, band)) => {
+            let reference = if own.band_mpa > 0.0 { band } else { hard };
+            let of = |gear: Gear| match reference[gear] > 0.0 {
+                true => (hard[gear] - band[gear]).abs() / reference[gear],
+                false => 0.0,
+            };
+            Estimate {
+                relative: Some(of(Gear::Pinion).max(of(Gear::Wheel))),
+                how: format!(
+                    "difference of two short wear runs, with the hard switch and with a band of {band_mpa:.0} MPa: {flank_points} \
+                     flank points, {positions} positions, {steps} wear steps"
+                ),
+            }
+        }
+        Err(error) => Estimate::none(&format!("a companion run failed: {error}")),
+    };
+    (estimate, equilibria as f64 / outcome.work.equilibria as f64)
+}

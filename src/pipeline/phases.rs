@@ -1,0 +1,60 @@
+//! The phases of a run in figures: under what each of them ran, and what it wore off.
+
+use super::Model;
+use super::recording::UM_PER_MM;
+use crate::gear::Gear;
+use crate::simulation::figures::WearFigures;
+use crate::simulation::record::{PhaseSummary, PhaseWear};
+use crate::simulation::wear_run::{Outcome, Snapshot};
+
+/// 1 m²/N in mm²/N.
+const MM2_PER_N: f64 = 1e6;
+
+/// Every phase that the run came to; the last may not be finished.
+pub(super) fn summaries(model: &Model<'_>, outcome: &Outcome) -> Vec<PhaseSummary> {
+    let operation = &model.scene.operation;
+    let reached = outcome.worn.revolutions;
+    let (mut begin, mut before) = (0.0, &outcome.new);
+    let mut summaries = Vec::with_capacity(operation.phases.len());
+    for (index, (phase, run)) in operation.phases.iter().zip(&model.phases).enumerate() {
+        if index > 0 && begin >= reached {
+            break;
+        }
+        let end = phase.end_revolutions.min(reached);
+        // The ends of phases are among the snapshots.
+        let after = outcome.snapshots.iter().rfind(|snapshot| snapshot.revolutions <= end).unwrap_or(before);
+        let load = run.line_load_n_per_mm;
+        let coefficient = phase.coefficient_mm2_per_n.unwrap_or(model.scene.wear.coefficient_mm2_per_n);
+        summaries.push(PhaseSummary {
+            number: index + 1,
+            hours: phase.pinion_speed_rpm.map(|rpm| (end - begin) / (60.0 * rpm)),
+            revolutions: end - begin,
+            pinion_torque_Nm: 1e-3 * phase.pinion_torque_n_mm,
+            pinion_speed_rpm: phase.pinion_speed_rpm,
+            line_load_N_per_mm: load,
+            foundation_MPa_per_mm: model.foundations_mpa_per_mm[index],
+            hertz_peak_pressure_MPa: model.at_pitch.contact.loaded(load).peak_pressure_mpa,
+            coefficient_m2_per_N: coefficient / MM2_PER_N,
+            pinion: wear(model, outcome, Gear::Pinion, [before, after]),
+            wheel: wear(model, outcome, Gear::Wheel, [before, after]),
+        });
+        (begin, before) = (end, after);
+    }
+    summaries
+}
+
+/// What a gear lost from one state to another.
+fn wear(model: &Model<'_>, outcome: &Outcome, gear: Gear, [before, after]: [&Snapshot; 2]) -> PhaseWear {
+    let [from, to] = [before, after].map(|state| WearFigures::at(model.pair, gear, outcome, state).area_mm2);
+    let depths = after.wear_mm[gear].iter().zip(&before.wear_mm[gear]).map(|(after, before)| after - before);
+    let spec = &model.scene.pair;
+    PhaseWear {
+        greatest_depth_um: depths.fold(0.0, f64::max) * UM_PER_MM,
+        worn_volume_mm3: (to - from) * spec.face_width_mm * f64::from(spec.gears[gear].teeth),
+    }
+}
+
+/// Number of the phase that `snapshot` was taken in, from 1; at the end of a phase, that one.
+pub(super) fn number_at(model: &Model<'_>, snapshot: &Snapshot) -> usize {
+    model.scene.operation.phase_at(snapshot.revolutions) + 1
+}

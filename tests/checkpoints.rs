@@ -1,0 +1,152 @@
+//! Checkpoints of every contact model, with Euler's method and with adaptive steps: a run that goes on from one has the same bits, and so
+//! has a run of which none is kept.
+
+use std::sync::Mutex;
+
+use gearwear::pipeline::{self, Resumption, RunError, inputs::Inputs};
+use gearwear::plan::Plan;
+use gearwear::scene::Scene;
+use gearwear::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
+use gearwear::simulation::record::RunRecord;
+use gearwear::simulation::wear_run::{SimulationError, Unwatched};
+
+/// Keeps every checkpoint there is, as it would be in a file.
+#[derive(Default)]
+struct AllKept(Mutex<Vec<Vec<u8>>>);
+
+impl Keeper for AllKept {
+    fn is_due(&self) -> bool {
+        true
+    }
+
+    fn keep(&self, checkpoint: &Checkpoint) {
+        self.0.lock().unwrap().push(postcard::to_stdvec(checkpoint).unwrap());
+    }
+}
+
+fn scene(pair: &str, contact: &str, numerics: &str, more: &str) -> String {
+    format!(
+        "[pair]\n{pair}\n[operation]\npinion_torque_Nm = 302.0\npinion_revolutions = 1e6\n[contact]\n{contact}\n\
+         [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 2e-17\n[numerics]\nerror_estimate = false\n{numerics}\n{more}\n"
+    )
+}
+
+/// The record, without what a clock tells.
+fn run(text: &str, from: Option<Checkpoint>, keeper: &dyn Keeper) -> Result<RunRecord, RunError> {
+    let resolved = Scene::from_toml(text).unwrap();
+    let plan = Plan::of(&resolved.scene);
+    let resumption = Resumption { from, keeper };
+    let mut done = pipeline::run_from(&resolved, &plan, &Inputs::default(), resumption, &Unwatched)?;
+    assert_eq!(done.failure, None);
+    done.record.summary.stages.clear();
+    done.record.summary.wall_s = 0.0;
+    Ok(done.record)
+}
+
+/// Runs `text`, and again from its first and its last checkpoint; `least` of these there must be.
+fn goes_on_to_the_same_bits(text: &str, least: usize) {
+    let all = AllKept::default();
+    let whole = run(text, None, &all).unwrap();
+    let kept = all.0.into_inner().unwrap();
+    assert!(kept.len() >= least, "{} checkpoints; {:?}", kept.len(), whole.summary.work);
+    for bytes in [&kept[0], &kept[kept.len() / 2], &kept[kept.len() - 1]] {
+        let checkpoint: Checkpoint = postcard::from_bytes(bytes).unwrap();
+        let at = checkpoint.revolutions;
+        let resumed = run(text, Some(checkpoint), &NothingKept).unwrap();
+        assert_eq!(resumed.summary, whole.summary, "from {at}");
+        assert!(resumed == whole, "from {at}");
+    }
+    assert!(run(text, None, &NothingKept).unwrap() == whole, "without checkpoints");
+}
+
+const SPUR: &str = "preset = \"fzg-c\"";
+const HELICAL: &str = "preset = \"helical\"";
+
+#[test]
+fn on_winkler_beds() {
+    let numerics = "flank_points = 150\npositions = 400\nstep = { revolutions = 1200.0 }";
+    goes_on_to_the_same_bits(&scene(SPUR, "surface = \"winkler\"\ntip_contact = true", numerics, ""), 3);
+}
+
+#[test]
+fn with_hertz_pressure() {
+    let numerics = "flank_points = 150\npositions = 200\nstep = { revolutions = 900.0 }";
+    goes_on_to_the_same_bits(&scene(SPUR, "surface = \"hertz\"", numerics, ""), 2);
+}
+
+#[test]
+fn on_half_planes() {
+    let numerics = "flank_points = 120\npositions = 20\nstep = { revolutions = 1400.0 }";
+    goes_on_to_the_same_bits(&scene(SPUR, "surface = \"half-space\"", numerics, ""), 2);
+}
+
+#[test]
+fn on_finite_elements() {
+    let numerics = "flank_points = 120\npositions = 20\nstep = { revolutions = 4500.0 }";
+    let fem = "[fem]\nbody = \"sector\"\nsector_teeth = 5\nelements_per_half_width = 3";
+    goes_on_to_the_same_bits(&scene(SPUR, "surface = \"fem\"", numerics, fem), 2);
+}
+
+#[test]
+fn with_adaptive_steps() {
+    for (method, tolerance) in [("runge-kutta-chebyshev", 1e-3), ("linearly-implicit", 1e-2)] {
+        let numerics = format!(
+            "flank_points = 150\npositions = 1000\nstep = \"adaptive\"\ntolerance_um = {tolerance}\nmethod = \"{method}\""
+        );
+        goes_on_to_the_same_bits(&scene(SPUR, "surface = \"winkler\"", &numerics, ""), 1);
+    }
+}
+
+#[test]
+fn slice_by_slice() {
+    for coupling in ["none", "slicing"] {
+        let helical = format!("[helical]\nslices = 8\ncoupling = \"{coupling}\"");
+        let numerics = "flank_points = 60\npositions = 60\nstep = { revolutions = 3500.0 }";
+        goes_on_to_the_same_bits(&scene(HELICAL, "surface = \"winkler\"", numerics, &helical), 1);
+    }
+}
+
+#[test]
+fn at_contact_points() {
+    for coupling in ["none", "slicing"] {
+        let helical = format!("[helical]\nslices = 20\ncoupling = \"{coupling}\"");
+        let numerics = "flank_points = 60\npositions = 400\nstep = { revolutions = 180.0 }";
+        goes_on_to_the_same_bits(&scene(HELICAL, "surface = \"hertz-mean\"", numerics, &helical), 2);
+    }
+}
+
+/// A phase begins with a clean start, so that a checkpoint may be taken there too.
+#[test]
+fn over_several_phases() {
+    let phase = |torque: f64| format!("[[operation.phases]]\npinion_torque_Nm = {torque}\npinion_revolutions = 4e5\n");
+    let text = scene(SPUR, "surface = \"winkler\"", "flank_points = 100\npositions = 60", "");
+    let text = text.replace("pinion_revolutions = 1e6\n", "") + &phase(302.0) + &phase(100.0) + &phase(400.0);
+    goes_on_to_the_same_bits(&text, 2);
+    let adaptive = text.replace("positions = 60", "positions = 60\nstep = \"adaptive\"\ntolerance_um = 0.01");
+    goes_on_to_the_same_bits(&adaptive, 2);
+}
+
+/// What no file of this program holds, but a file could: rows of other flanks, phases that are none.
+#[test]
+fn a_checkpoint_of_another_run_is_refused() {
+    let text = |points: u32| {
+        let numerics = format!("flank_points = {points}\npositions = 400\nstep = {{ revolutions = 2500.0 }}");
+        scene(SPUR, "surface = \"winkler\"", &numerics, "")
+    };
+    let all = AllKept::default();
+    run(&text(100), None, &all).unwrap();
+    let bytes = all.0.into_inner().unwrap().remove(0);
+    let checkpoint = || -> Checkpoint { postcard::from_bytes(&bytes).unwrap() };
+    let refused = |checkpoint: Checkpoint, points: u32| {
+        let error = run(&text(points), Some(checkpoint), &NothingKept).unwrap_err();
+        assert_eq!(error, RunError::Simulation(SimulationError::OtherRun));
+    };
+    refused(checkpoint(), 101);
+    refused(Checkpoint { phase: 1, ..checkpoint() }, 100);
+    refused(Checkpoint { revolutions: 2e6, ..checkpoint() }, 100);
+    refused(Checkpoint { revolutions: f64::NAN, ..checkpoint() }, 100);
+    refused(Checkpoint { states: Vec::new(), ..checkpoint() }, 100);
+    let mut short = checkpoint();
+    short.wear_mm.wheel.pop();
+    refused(short, 100);
+}
