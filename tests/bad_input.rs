@@ -293,7 +293,12 @@ fn preset_that_does_not_exist() {
         "[pair]\npreset = \"fzg-d\"\n[operation]\npinion_torque_Nm = 302\npinion_revolutions = 1e6\n\
          [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n",
     );
-    case.refused().at_line(2).says(&["pair.preset", "found \"fzg-d\"", "\"fzg-c\", \"fzg-test\", \"fzg-a\"", "did you mean"]);
+    case.refused().at_line(2).says(&[
+        "pair.preset",
+        "found \"fzg-d\"",
+        "\"fzg-c\", \"fzg-test\", \"fzg-a\"",
+        "did you mean",
+    ]);
     let mut init = Command::cargo_bin("gearwear").unwrap();
     let output = init.args(["init", "fzg-cc"]).output().unwrap();
     assert_eq!(output.status.code(), Some(2));

@@ -144,9 +144,9 @@ fn difference_um(one: &Outcome, other: &Outcome) -> (f64, Gear, usize) {
     greatest
 }
 
-/// Runs of 1/100 to 100 times the bound are sound, with few steps. Up to ten times the bound (the 128 h of the scene) the error stays
-/// within the tolerance, against Euler's method with steps of a fiftieth of the bound; what is left of a flank that has lost 70 µm on
-/// half-planes depends on its edges more than that.
+/// Runs of 1/100 to 100 times the bound are sound, with few steps. On the Winkler bed, and up to ten times the bound (the 128 h of the
+/// scene) on half-planes, the error stays within the tolerance, against Euler's method with steps of a fiftieth of the bound. Beyond,
+/// points below the wheel's active profile differ by more (docs/stepping.md).
 #[test]
 fn ver_adaptive_steps_never_break() {
     for surface in ["winkler", "half-space"] {
@@ -164,7 +164,8 @@ fn ver_adaptive_steps_never_break() {
                 let (error, gear, place) = difference_um(&outcome, &fine);
                 let deepest = 1e3 * fine.worn.wear_mm.pinion.iter().copied().fold(0.0, f64::max);
                 println!("{what}: {error:.4} µm of {deepest:.1} at {gear:?} {place}, {:?}", outcome.steps);
-                assert!(factor > 10.0 || error <= tolerance_um, "{what}: {error}");
+                let compared = surface == "winkler" || factor <= 10.0;
+                assert!(!compared || error <= tolerance_um, "{what}: {error}");
                 assert!(outcome.steps.accepted < 3000, "{what}: {:?}", outcome.steps);
             }
         }

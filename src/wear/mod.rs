@@ -6,7 +6,7 @@
 //! dh = C(p) · k(v, T) · p ds
 //! ```
 //!
-//! and a new one is a file that implements [`WearLaw`]. The severe transition C(p) ([`severe`]) goes with any of them.
+//! and a new one is a file that implements [`WearLaw`]. The severe transition C(p) (`severe`) goes with any of them.
 
 pub mod adsorption;
 pub mod archard;

@@ -173,7 +173,8 @@ mod tests {
         end[0]
     }
 
-    /// |P(z)| ≤ 1 up to β(s), and not much beyond: the last extremum is damped by ε/3, so that |P| passes 1 within 5 %.
+    /// |P(z)| ≤ 1 up to β(s), and not beyond 1.25 β(s): where s is odd, P leaves its last minimum of about 1/3 downwards, and passes
+    /// −1 somewhat later than P of an even s passes 1.
     #[test]
     fn ver_stable_as_far_as_the_bound_says() {
         for stages in [2, 3, 5, 10, 40, MOST_STAGES] {
@@ -183,7 +184,7 @@ mod tests {
                 .map(|i| amplification(-bound * f64::from(i) / f64::from(samples), stages).abs())
                 .fold(0.0, f64::max);
             assert!(greatest <= 1.0 + 1e-9, "{stages}: {greatest}");
-            assert!(amplification(-1.05 * bound, stages).abs() > 1.0, "{stages}");
+            assert!(amplification(-1.25 * bound, stages).abs() > 1.0, "{stages}");
         }
     }
 

@@ -55,7 +55,7 @@ impl StepControl {
     /// Judges a step of `length` by its error over the tolerance, and plans the next one. A step that was `cut` short of
     /// what was planned never makes the next one shorter.
     pub fn judge(&mut self, length: f64, error: f64, cut: bool) -> Verdict {
-        if !(error <= 1.0) {
+        if error.is_nan() || error > 1.0 {
             let factor = if error.is_finite() { SAFETY * error.powf(-EXPONENT) } else { LEAST_FACTOR };
             self.next = Some(length * factor.clamp(LEAST_FACTOR, SAFETY));
             (self.last, self.rejected_before) = (None, true);
