@@ -79,10 +79,11 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, observer: &dyn Prog
     let (elements, slices) = (coarse_elements(model), coarse_slices(model));
     let coarse = Coarse { elements: elements.as_ref(), slices: slices.as_ref() };
     let runs = wear_runs::estimate(model, outcome, coarse, observer);
+    let (severe_switch, switch_cost) = severe_switch::estimate(model, outcome, BUDGET - runs.cost, observer);
     let against_reference = || reference_mesh::estimate(model, outcome).map(|estimate| (estimate, 0.0));
     let from_elements = runs.surface_model.map(|estimate| (estimate, 0.0));
     let on_truer_surface = |tip_contact: bool| {
-        let short = surface_model::estimate(model, outcome, tip_contact, BUDGET - runs.cost, observer);
+        let short = surface_model::estimate(model, outcome, tip_contact, BUDGET - runs.cost - switch_cost, observer);
         (short.estimate, short.cost)
     };
     let (surface_model, surface_cost) = match model.first().contact {
@@ -94,8 +95,6 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, observer: &dyn Prog
             from_elements.unwrap_or_else(|| (Estimate::none("the companions say nothing of it"), 0.0))
         }
     };
-    let (severe_switch, switch_cost) =
-        severe_switch::estimate(model, outcome, BUDGET - runs.cost - surface_cost, observer);
     if observer.interrupted() {
         return ErrorSummary::not_estimated("the estimates were interrupted");
     }

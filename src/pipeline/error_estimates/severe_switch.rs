@@ -8,8 +8,9 @@
 //! severe switch    |h(hard) − h(band)| / h(the scene's own kind)
 //! ```
 //!
-//! with a quarter of the points and positions and Euler's steps, as many as the budget allows; of both gears' differences of the
-//! peak wear the larger.
+//! with a quarter of the points, an eighth of the positions and the longest of Euler's steps that are stable under severe wear; of both gears'
+//! differences of the peak wear the larger. Where that many steps cost more than the budget, there is no estimate: longer ones would
+//! tell the swing of the steps and not the switch.
 
 use super::{Companion, Estimate, LEAST_POINTS, peak_wear_of_both_mm};
 use crate::gear::{Gear, PerGear};
@@ -20,10 +21,12 @@ use crate::wear::{self, FlankWear, WearModel, settings::SevereTransition, settin
 
 /// Band that a hard switch is compared with, over its limit.
 const BAND: f64 = 0.05;
-/// Points and positions are divided by this.
-const SPACING: usize = 4;
-/// Wear steps of a companion: as many as the budget allows within these.
-const STEPS: [f64; 2] = [40.0, 150.0];
+/// Points are divided by this.
+const POINTS_SPACING: usize = 4;
+/// Positions are divided by this.
+const POSITIONS_SPACING: usize = 8;
+/// Fewest wear steps of a companion.
+const LEAST_STEPS: f64 = 40.0;
 
 /// The estimate and its cost over that of the run, within `budget`.
 pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observer: &dyn Progress) -> (Estimate, f64) {
@@ -37,17 +40,31 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
         return (Estimate::none("no pressure reaches the transition to severe wear"), 0.0);
     }
     let fine = scene.numerics;
-    let (flank_points, positions) = (fine.flank_points / SPACING, fine.positions / SPACING);
+    let (flank_points, positions) = (fine.flank_points / POINTS_SPACING, fine.positions / POSITIONS_SPACING);
     if flank_points.min(positions) < LEAST_POINTS {
         return (Estimate::none("too few flank points or positions to leave some out"), 0.0);
     }
-    let affordable = 0.5 * budget * outcome.work.equilibria as f64 / positions as f64 - 1.0;
-    if affordable < STEPS[0] {
-        return (Estimate::none("the run is too short for two more to be cheap beside it"), 0.0);
+    let duration = scene.operation.pinion_revolutions;
+    let coarse = |revolutions: f64| {
+        let numerics = Numerics { flank_points, positions, stepping: Stepping::Fixed { revolutions }, ..fine };
+        WearRun { numerics, snapshots_revolutions: &[], ..model.wear_run() }
+    };
+    let mild = wear::of(&WearSettings { severe: None, ..scene.wear });
+    let first = model.first();
+    let phase = RunPhase { wear: WearModel { law: mild.as_ref(), ..first.wear }, ..*first };
+    let bound = match coarse(duration).step_bound(&phase) {
+        Ok(bound) => bound.revolutions / own.factor.max(1.0),
+        Err(error) => return (Estimate::none(&error.to_string()), 0.0),
+    };
+    let steps = (duration / bound).ceil().max(LEAST_STEPS);
+    let cost = 2.0 * (steps + 1.0) * positions as f64 / outcome.work.equilibria as f64;
+    if cost > budget {
+        return (
+            Estimate::none("two more runs with steps as short as the switch needs are not cheap beside this one"),
+            0.0,
+        );
     }
-    let steps = affordable.min(STEPS[1]).floor();
-    let revolutions = scene.operation.pinion_revolutions / steps;
-    let numerics = Numerics { flank_points, positions, stepping: Stepping::Fixed { revolutions }, ..fine };
+    let revolutions = duration / steps;
     let band_mpa = if own.band_mpa > 0.0 { own.band_mpa } else { BAND * own.above_mpa };
     let mut equilibria = 0;
     let mut peaks_mm = |band_mpa: f64| -> Result<PerGear<f64>, String> {
@@ -64,7 +81,7 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
             .zip(&laws)
             .map(|(phase, law)| RunPhase { wear: WearModel { law: law.as_ref(), ..phase.wear }, ..*phase })
             .collect();
-        let run = WearRun { pair: model.pair, phases: &phases, snapshots_revolutions: &[], numerics };
+        let run = WearRun { phases: &phases, ..coarse(revolutions) };
         let outcome = run.run(&Companion { observer, share: (0.9, 0.1) }).map_err(|error| error.to_string())?;
         equilibria += outcome.work.equilibria;
         match &outcome.failure {
