@@ -8,7 +8,7 @@
 //! severe switch    |h(hard) − h(band)| / h(the scene's own kind)
 //! ```
 //!
-//! with a quarter of the points, an eighth of the positions and the longest of Euler's steps that are stable under severe wear; of both gears'
+//! with a quarter of the points, a half or a quarter of the positions (as the budget allows) and the longest of Euler's steps that are stable under severe wear; of both gears'
 //! differences of the peak wear the larger. Where that many steps cost more than the budget, there is no estimate: longer ones would
 //! tell the swing of the steps and not the switch.
 
@@ -23,10 +23,18 @@ use crate::wear::{self, FlankWear, WearModel, settings::SevereTransition, settin
 const BAND: f64 = 0.05;
 /// Points are divided by this.
 const POINTS_SPACING: usize = 4;
-/// Positions are divided by this.
-const POSITIONS_SPACING: usize = 8;
+/// Positions are divided by the first of these that the budget allows. With fewer each position is a jump of its own, and the switch
+/// seems to matter more than it does.
+const POSITIONS_SPACINGS: [usize; 2] = [2, 4];
 /// Fewest wear steps of a companion.
 const LEAST_STEPS: f64 = 40.0;
+
+/// Whether any wear of the run is severe.
+pub(super) fn felt(model: &Model<'_>, outcome: &Outcome) -> bool {
+    let Some(severe) = model.scene.wear.severe else { return false };
+    let mut states = outcome.snapshots.iter().chain([&outcome.new]);
+    states.any(|state| severe.factor_at(state.cycle.peak_pressure_mpa()) > 1.0)
+}
 
 /// The estimate and its cost over that of the run, within `budget`.
 pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observer: &dyn Progress) -> (Estimate, f64) {
@@ -34,36 +42,36 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
     let Some(own) = scene.wear.severe else {
         return (Estimate::none("the scene has no transition to severe wear"), 0.0);
     };
-    let peak_mpa = outcome.snapshots.iter().map(|state| state.cycle.peak_pressure_mpa());
-    let felt_mpa = peak_mpa.fold(outcome.new.cycle.peak_pressure_mpa(), f64::max);
-    if own.factor_at(felt_mpa) <= 1.0 {
+    if !felt(model, outcome) {
         return (Estimate::none("no pressure reaches the transition to severe wear"), 0.0);
     }
     let fine = scene.numerics;
-    let (flank_points, positions) = (fine.flank_points / POINTS_SPACING, fine.positions / POSITIONS_SPACING);
-    if flank_points.min(positions) < LEAST_POINTS {
+    let (flank_points, fewest) = (fine.flank_points / POINTS_SPACING, fine.positions / POSITIONS_SPACINGS[1]);
+    if flank_points.min(fewest) < LEAST_POINTS {
         return (Estimate::none("too few flank points or positions to leave some out"), 0.0);
     }
     let duration = scene.operation.pinion_revolutions;
-    let coarse = |revolutions: f64| {
+    let coarse = |positions: usize, revolutions: f64| {
         let numerics = Numerics { flank_points, positions, stepping: Stepping::Fixed { revolutions }, ..fine };
         WearRun { numerics, snapshots_revolutions: &[], ..model.wear_run() }
     };
     let mild = wear::of(&WearSettings { severe: None, ..scene.wear });
     let first = model.first();
     let phase = RunPhase { wear: WearModel { law: mild.as_ref(), ..first.wear }, ..*first };
-    let bound = match coarse(duration).step_bound(&phase) {
+    let bound = match coarse(fewest, duration).step_bound(&phase) {
         Ok(bound) => bound.revolutions / own.factor.max(1.0),
         Err(error) => return (Estimate::none(&error.to_string()), 0.0),
     };
     let steps = (duration / bound).ceil().max(LEAST_STEPS);
-    let cost = 2.0 * (steps + 1.0) * positions as f64 / outcome.work.equilibria as f64;
-    if cost > budget {
+    let cost = |positions: usize| 2.0 * (steps + 1.0) * positions as f64 / outcome.work.equilibria as f64;
+    let affordable =
+        POSITIONS_SPACINGS.map(|spacing| fine.positions / spacing).into_iter().find(|&n| cost(n) <= budget);
+    let Some(positions) = affordable else {
         return (
             Estimate::none("two more runs with steps as short as the switch needs are not cheap beside this one"),
             0.0,
         );
-    }
+    };
     let revolutions = duration / steps;
     let band_mpa = if own.band_mpa > 0.0 { own.band_mpa } else { BAND * own.above_mpa };
     let mut equilibria = 0;
@@ -81,7 +89,7 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
             .zip(&laws)
             .map(|(phase, law)| RunPhase { wear: WearModel { law: law.as_ref(), ..phase.wear }, ..*phase })
             .collect();
-        let run = WearRun { phases: &phases, ..coarse(revolutions) };
+        let run = WearRun { phases: &phases, ..coarse(positions, revolutions) };
         let outcome = run.run(&Companion { observer, share: (0.9, 0.1) }).map_err(|error| error.to_string())?;
         equilibria += outcome.work.equilibria;
         match &outcome.failure {

@@ -26,18 +26,19 @@
 //! ```
 //!
 //! Adaptive steps estimate their own error: what they have accumulated where the wear is greatest. They need no companion for it,
-//! and as their companions may have the same steps, fewer points tell the discretisation by themselves, a third of them on the line of
+//! and as their companions may have the same steps, fewer points tell the discretisation by themselves, a quarter of them on the line of
 //! action, and on finite elements a half and a quarter on the coarse mesh,
 //!
 //! ```text
-//! discretisation   |h(N) − h(N/3)| / (3ᵖ − 1) / h         on finite elements   |h(M/2, N/2) − h(M/2, N/4)| / (4² − 2²) / h
+//! discretisation   |h(N) − h(N/4)| / (4ᵖ − 1) / h         on finite elements   |h(M/2, N/2) − h(M/2, N/4)| / (4² − 2²) / h
 //! ```
 //!
-//! with twice or four times the tolerance.
+//! with the same tolerance, on finite elements with four times it. Where wear is severe there is no such estimate: with fewer
+//! positions the switch is coarser, and adaptive steps take several times the work.
 //!
 //! Source: L. F. Richardson (1911); P. J. Roache, *Verification and Validation in Computational Science* (1998).
 
-use super::{Coarse, Companion, Estimate, LEAST_POINTS, peak_wear_of_both_mm};
+use super::{Coarse, Companion, Estimate, LEAST_POINTS, peak_wear_of_both_mm, severe_switch};
 use crate::contact::settings::SurfaceKind;
 use crate::fem::gear::position::CondensedPair;
 use crate::gear::{Gear, PerGear};
@@ -202,11 +203,14 @@ pub(super) fn estimate<'a>(
     let ([discretisation, wear_step], surface_model) = match (model.first().contact, coarse.elements) {
         (MeshContact::LineOfAction { .. } | MeshContact::Simplified { .. }, _) if embedded.is_some() => {
             let first_order = companions.first_order();
-            let discretisation = companions.peaks_mm(Coarser { spacing: 3, step: 2.0 }, Elements::Own, (0.0, 0.8)).map(|few| {
-                let (order, divisor) = if first_order { ("first", 2.0) } else { ("second", 8.0) };
+            let few = match severe_switch::felt(model, outcome) {
+                true => Err("where wear is severe, fewer points take adaptive steps more work and not less".to_owned()),
+                false => companions.peaks_mm(Coarser { spacing: 4, step: 1.0 }, Elements::Own, (0.0, 0.8)),
+            };
+            let discretisation = few.map(|few| {
+                let (order, divisor) = if first_order { ("first", 3.0) } else { ("second", 15.0) };
                 let how = format!(
-                    "Richardson, {order} order, from a companion run with one in three of the points and positions and twice \
-                     the tolerance"
+                    "Richardson, {order} order, from a companion run with one in four of the points and positions"
                 );
                 (companions.relative(peaks_mm, few) / divisor, how)
             });
