@@ -18,6 +18,8 @@ fn main() {
         "surface = \"winkler\"\nmatch = \"peak-pressure\"",
         "surface = \"winkler\"\nmatch = \"half-width\"\ntip_contact = true",
         "surface = \"winkler\"\nmatch = \"peak-pressure\"\ntip_contact = true",
+        "surface = \"half-space\"",
+        "surface = \"half-space\"\ntip_contact = true",
     ];
     let mut estimates = Vec::new();
     for contact in contacts {
@@ -25,7 +27,7 @@ fn main() {
             estimates.push(Estimate {
                 torque_nm,
                 contact: contact.to_owned(),
-                numerics: "step = { revolutions = 1150.0 }".to_owned(),
+                numerics: "step = \"adaptive\"\ntolerance_um = 0.05".to_owned(),
                 band_mpa: band,
                 speeds_rpm: SPEEDS_RPM.to_vec(),
             });

@@ -217,7 +217,9 @@ fn folders_that_are_no_finished_run_are_refused() {
     trace.refused(&run, &[], &["scene.toml", "found a scene with hash"]);
     change("scene.toml", "301.0", "302.0");
     change("profiles.csv", "5,pinion,", "5,sun,");
-    trace.refused(&run, &[], &["profiles.csv", "line 10", "sun"]);
+    let text = fs::read_to_string(run.join("profiles.csv")).unwrap();
+    let line = 1 + text.lines().position(|line| line.contains("5,sun,")).unwrap();
+    trace.refused(&run, &[], &["profiles.csv", &format!("line {line}"), "sun"]);
     fs::remove_file(run.join("profiles.csv")).unwrap();
     trace.refused(&run, &[], &["profiles.csv", "cannot be read"]);
 }

@@ -208,7 +208,9 @@ fn warnings(fit: &FitRecord, figures: &CompareFigures, unsettled: Option<f64>) -
         FitStop::Undetermined => {
             warnings.push(format!("{blamed} has no effect on the profile, which therefore does not give it"))
         }
-        FitStop::MaxIterations => warnings.push("the fit did not converge: its values are the last ones".to_owned()),
+        FitStop::MaxIterations => {
+            warnings.push("the fit did not converge: its values are those of the best run".to_owned())
+        }
         FitStop::NotFinite => warnings.push("the residuals are not numbers: nothing was fitted".to_owned()),
     }
     if let Some(step) = unsettled {

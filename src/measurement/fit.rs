@@ -22,6 +22,9 @@ const MOST_DAMPING: f64 = 1e12;
 /// A parameter whose column of J, times the width of its differences, is shorter than this part of r is not determined.
 const NO_EFFECT: f64 = 1e-12;
 
+/// r(θ), or why it cannot be computed.
+pub type Residuals<'a, E> = dyn FnMut(&[f64]) -> Result<Vec<f64>, E> + 'a;
+
 /// A parameter to fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parameter {
@@ -70,10 +73,7 @@ pub struct Fitted {
 ///
 /// # Errors
 /// Those of `residuals`.
-pub fn least_squares<E>(
-    parameters: &[Parameter],
-    residuals: &mut dyn FnMut(&[f64]) -> Result<Vec<f64>, E>,
-) -> Result<Fitted, E> {
+pub fn least_squares<E>(parameters: &[Parameter], residuals: &mut Residuals<'_, E>) -> Result<Fitted, E> {
     let mut theta: Vec<f64> = parameters.iter().map(|p| p.start.clamp(p.least, p.greatest)).collect();
     let mut r = residuals(&theta)?;
     let mut damping = 1e-3;
@@ -159,11 +159,7 @@ fn newton_step(jacobian: &[Vec<f64>], residuals: &[f64], damping: f64) -> Option
 }
 
 /// Central differences, one-sided at a bound.
-fn jacobian<E>(
-    parameters: &[Parameter],
-    theta: &[f64],
-    residuals: &mut dyn FnMut(&[f64]) -> Result<Vec<f64>, E>,
-) -> Result<Vec<Vec<f64>>, E> {
+fn jacobian<E>(parameters: &[Parameter], theta: &[f64], residuals: &mut Residuals<'_, E>) -> Result<Vec<Vec<f64>>, E> {
     let mut columns = Vec::with_capacity(theta.len());
     for (i, p) in parameters.iter().enumerate() {
         let [low, high] = [-p.width, p.width].map(|by| (theta[i] + by).clamp(p.least, p.greatest));

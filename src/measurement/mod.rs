@@ -6,7 +6,7 @@
 //!
 //! | module | what it does |
 //! |---|---|
-//! | [`file`] | the CSV file with its header |
+//! | [`mod@file`] | the CSV file with its header |
 //! | [`profile`] | its points on the flank of a gear |
 //! | [`form`] | form removal as a projection |
 //! | [`roughness`] | arithmetic mean deviation, before and after a Gaussian filter |

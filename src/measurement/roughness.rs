@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn ver_mean_deviation_of_a_sine() {
         let arc = places();
-        let z: Vec<f64> = arc.iter().map(|s| 1.3 * (2.0 * PI * s / 0.1).sin()).collect();
+        let z: Vec<f64> = arc.iter().map(|s| 1.3 * (2.0 * PI * s / 0.4).sin()).collect();
         assert!((mean_deviation(&arc, &z) / (1.3 * 2.0 / PI) - 1.0).abs() < 1e-3);
     }
 

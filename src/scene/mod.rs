@@ -14,6 +14,7 @@ pub mod schema;
 mod shape;
 mod text;
 mod unit_slip;
+pub mod wear_file;
 
 use sha2::{Digest, Sha256};
 

@@ -103,14 +103,17 @@ fn ver_the_interval_covers_as_often_as_it_says_correlated_noise() {
     }
 }
 
-/// The severe factor, alone and together with the coefficient.
+/// The severe factor, alone and together with the coefficient. Wear steps are short enough for Euler's method where wear is severe:
+/// beyond the stable step wear is no smooth function of what is fitted.
 #[test]
 fn ver_the_severe_factor_comes_back() {
+    let scene = |k: f64, severe: f64| scene(k, severe).replace("19162.5", "4000.0");
     let of = Laboratory::new(&scene(1e-17, 8.0), &scene(1.3e-17, 20.0));
     let record = of.compare(&of.file(&heights(&of, &[0.0; POINTS])), &asked(FitKind::Both));
     let (k, severe) = (record.fit.coefficient_m2_per_N.unwrap(), record.fit.severe_factor.unwrap());
-    println!("{k:?} {severe:?}: {} runs, {} cycles", record.fit.runs, record.fit.mesh_cycles);
-    assert!((k.value / 1.3e-17 - 1.0).abs() < 2e-3 && (severe.value / 20.0 - 1.0).abs() < 5e-3, "{k:?} {severe:?}");
+    println!("{k:?} {severe:?}: {} runs, {} cycles, {:?}", record.fit.runs, record.fit.mesh_cycles, record.warnings);
+    assert_eq!((record.fit.stopped, record.warnings.len()), (FitStop::Converged, 0), "{:?}", record.warnings);
+    assert!((k.value / 1.3e-17 - 1.0).abs() < 1e-3 && (severe.value / 20.0 - 1.0).abs() < 1e-3, "{k:?} {severe:?}");
 
     let of = Laboratory::new(&scene(1e-17, 8.0), &scene(1e-17, 20.0));
     let noisy = of.compare(&of.file(&heights(&of, &Noise::new(1).white(POINTS))), &asked(FitKind::Severe));

@@ -15,7 +15,7 @@
 //! The elastic half-plane stands in for finite elements: it knows the real gap and the real elasticity near the contact.
 //! The tooth stiffness is the same on both surfaces, and so is contact outside the line of action; neither is judged.
 
-use super::{Companion, Estimate, SIMPLIFIED_COST, peak_wear_of_both_mm, relative_cost};
+use super::{Companion, Estimate, SIMPLIFIED_COST, peak_wear_of_both_mm, relative_cost, severe_switch};
 use crate::contact::half_space::HalfSpace;
 use crate::contact::settings::SurfaceKind;
 use crate::pipeline::Model;
@@ -53,6 +53,11 @@ pub(super) fn estimate(
     if model.scene.contact.surface == SurfaceKind::HalfSpace {
         return FromShortRuns::none(
             "only finite elements are truer than the elastic half-plane; gearwear accuracy compares them",
+        );
+    }
+    if severe_switch::felt(model, outcome) {
+        return FromShortRuns::none(
+            "severe wear swings in runs of few steps, on either surface; gearwear accuracy compares whole runs",
         );
     }
     let fine = model.scene.numerics;

@@ -7,7 +7,7 @@ use crate::scene::file::{
 };
 use crate::scene::findings::Findings;
 use crate::scene::problem::{ProblemKind, number};
-use crate::simulation::settings::{Numerics, Stepping};
+use crate::simulation::settings::{AdaptiveMethod, Numerics, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::thermal::settings::ThermalMaterial;
 
@@ -219,7 +219,15 @@ fn stepping(file: &mut NumericsFile, duration: f64, findings: &mut Findings) -> 
                 findings.problem(ProblemKind::NotAllowed, "numerics.tolerance_um", number(tolerance_um), allowed);
                 return None;
             }
-            Some(Stepping::Adaptive { tolerance_mm: 1e-3 * tolerance_um, method: *file.method.get_or_insert_default() })
+            let method = *file.method.get_or_insert_default();
+            if method == AdaptiveMethod::LinearlyImplicit {
+                findings.warnings.push(
+                    "numerics.method = \"linearly-implicit\" is there to be compared with: it damps the wear as a whole, and its \
+                     error is far above numerics.tolerance_um"
+                        .to_owned(),
+                );
+            }
+            Some(Stepping::Adaptive { tolerance_mm: 1e-3 * tolerance_um, method })
         }
     }
 }

@@ -1,8 +1,9 @@
 //! Contact temperatures: only where the wear law reads them or the scene asks for them.
 
 use crate::gear::PerGear;
-use crate::scene::file::{OperationFile, TemperatureFile};
+use crate::scene::file::OperationFile;
 use crate::scene::findings::Findings;
+use crate::scene::wear_file::TemperatureFile;
 use crate::thermal::settings::{ABSOLUTE_ZERO_C, HeatSettings, ThermalMaterial};
 use crate::wear::settings::LawSettings;
 

@@ -1,7 +1,7 @@
 //! The wear law and its constants.
 
-use crate::scene::file::{AdsorptionFile, OxidationFile, WearFile, WearLaw};
 use crate::scene::findings::Findings;
+use crate::scene::wear_file::{AdsorptionFile, OxidationFile, WearFile, WearLaw};
 use crate::wear::{
     adsorption::AdsorptionConstants,
     oxidation::OxidationConstants,
