@@ -17,6 +17,7 @@ pub mod accuracy;
 pub mod calibration;
 pub mod compare;
 pub mod contact;
+pub mod data_table;
 pub mod fem;
 pub mod gear;
 pub mod measurement;

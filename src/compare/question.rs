@@ -3,8 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::run_folder::RunFolder;
+use crate::data_table::DataTableError;
 use crate::gear::{Gear, GearPair, slices::Slices};
-use crate::measurement::file::{HeightFrom, MeasuredFile, MeasuredFileError, Moment, ValueKind};
+use crate::measurement::file::{HeightFrom, MeasuredFile, Moment, ValueKind};
 use crate::measurement::form::Form;
 use crate::measurement::profile::MeasuredProfile;
 use crate::scene::Resolved;
@@ -58,7 +59,7 @@ pub struct Asked {
 pub enum QuestionError {
     /// The file.
     #[error(transparent)]
-    File(#[from] MeasuredFileError),
+    File(#[from] DataTableError),
     /// Nothing says which gear was measured.
     #[error("gear is missing; allowed: a line \"# gear = pinion\" or \"# gear = wheel\", or --gear")]
     NoGear,

@@ -27,6 +27,7 @@
 //! `wear_mm`, which rises there (a difference of profiles before and after). Columns stand in any order; places increase from row
 //! to row.
 
+use crate::data_table::{DataTable, DataTableError, finite, missing, not_allowed, positive};
 use crate::gear::Gear;
 
 /// Names of the columns that may give the place.
@@ -46,31 +47,6 @@ const KEYS: [&str; 7] = ["gear", "hours", "revolutions", "width_mm", "uncertaint
 const UM_PER_MM: f64 = 1e3;
 /// Keys as similar as this to one that is known are taken for a slip (Jaro and Winkler's measure).
 const SLIP: f64 = 0.85;
-
-/// What is wrong with the file.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum MeasuredFileError {
-    /// A value, or a header, that is not allowed.
-    #[error("line {line}: {column}: found {found}; allowed: {allowed}")]
-    NotAllowed {
-        /// Line of the file, from 1.
-        line: usize,
-        /// Column, or key of a header line.
-        column: String,
-        /// What stands there.
-        found: String,
-        /// What may stand there.
-        allowed: String,
-    },
-    /// Something that must be there is not.
-    #[error("{what} is missing; allowed: {allowed}")]
-    Missing {
-        /// What.
-        what: String,
-        /// How it looks.
-        allowed: String,
-    },
-}
 
 /// How a file says where on the flank a point is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -191,28 +167,21 @@ struct Header {
 ///
 /// # Errors
 /// The first thing that is wrong with it.
-pub fn parse(text: &str) -> Result<MeasuredFile, MeasuredFileError> {
+pub fn parse(text: &str) -> Result<MeasuredFile, DataTableError> {
+    let table = DataTable::read(text, columns_allowed)?;
     let mut header = Header::default();
-    let mut rows = Vec::new();
-    for (line, content) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
-        match content.trim().strip_prefix('#') {
-            Some(remark) => header.take(line, remark)?,
-            None if content.trim().is_empty() => {}
-            None => rows.push((line, content.split(',').map(str::trim).collect::<Vec<_>>())),
-        }
+    for &(line, key, value) in &table.keys {
+        header.take(line, key, value)?;
     }
-    let Some(((line, names), rows)) = rows.split_first() else {
-        return Err(missing("the line of column names", columns_allowed()));
-    };
-    let columns = Columns::find(*line, names)?;
+    let columns = Columns::find(table.names.0, &table.names.1)?;
     if columns.place == PlaceColumn::ArcMm && header.arc_from.is_none() {
         return Err(missing(
             "where arc_mm begins",
             "a line \"# arc_from = base-circle\", \"start-of-active-profile\" or \"tip\"".to_owned(),
         ));
     }
-    let mut points: Vec<MeasuredRow> = Vec::with_capacity(rows.len());
-    for (line, fields) in rows {
+    let mut points: Vec<MeasuredRow> = Vec::with_capacity(table.rows.len());
+    for (line, fields) in &table.rows {
         let point = columns.point(*line, fields)?;
         if let Some(before) = points.last().filter(|before| before.place >= point.place) {
             let allowed =
@@ -249,7 +218,7 @@ struct Columns {
 }
 
 impl Columns {
-    fn find(line: usize, names: &[&str]) -> Result<Self, MeasuredFileError> {
+    fn find(line: usize, names: &[&str]) -> Result<Self, DataTableError> {
         let refused = || not_allowed(line, "column names", names.join(","), columns_allowed());
         let index = |name: &str| names.iter().position(|&n| n == name);
         let places: Vec<_> = PLACES.iter().filter_map(|(name, column)| Some((index(name)?, *column))).collect();
@@ -261,7 +230,7 @@ impl Columns {
         Ok(Self { count: names.len(), place, place_index, kind, value_name, value_index, um_per_unit })
     }
 
-    fn point(&self, line: usize, fields: &[&str]) -> Result<MeasuredRow, MeasuredFileError> {
+    fn point(&self, line: usize, fields: &[&str]) -> Result<MeasuredRow, DataTableError> {
         if fields.len() != self.count {
             let allowed = format!("{}, as there are columns; decimals are written with a point", self.count);
             return Err(not_allowed(line, "number of fields", fields.len(), allowed));
@@ -273,9 +242,7 @@ impl Columns {
 }
 
 impl Header {
-    fn take(&mut self, line: usize, remark: &str) -> Result<(), MeasuredFileError> {
-        let Some((key, value)) = remark.split_once('=') else { return Ok(()) };
-        let (key, value) = (key.trim(), value.trim());
+    fn take(&mut self, line: usize, key: &str, value: &str) -> Result<(), DataTableError> {
         let refused = |allowed: &str| not_allowed(line, key, value, allowed.to_owned());
         match key {
             "gear" => {
@@ -330,31 +297,6 @@ fn columns_allowed() -> String {
     )
 }
 
-fn finite(line: usize, column: &str, text: &str) -> Result<f64, MeasuredFileError> {
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => {
-            let found = if text.is_empty() { "nothing" } else { text };
-            Err(not_allowed(line, column, found, "a finite number".to_owned()))
-        }
-    }
-}
-
-fn positive(line: usize, column: &str, text: &str) -> Result<f64, MeasuredFileError> {
-    match finite(line, column, text) {
-        Ok(value) if value > 0.0 => Ok(value),
-        _ => Err(not_allowed(line, column, text, "a number greater than 0".to_owned())),
-    }
-}
-
-fn not_allowed(line: usize, column: &str, found: impl ToString, allowed: String) -> MeasuredFileError {
-    MeasuredFileError::NotAllowed { line, column: column.to_owned(), found: found.to_string(), allowed }
-}
-
-fn missing(what: &str, allowed: String) -> MeasuredFileError {
-    MeasuredFileError::Missing { what: what.to_owned(), allowed }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -395,7 +337,7 @@ mod tests {
             assert!(message.contains("allowed: "), "{message}");
         }
         for text in ["", "# only remarks\n", "arc_mm,height_um\n1,2\n"] {
-            assert!(matches!(parse(text), Err(MeasuredFileError::Missing { .. })), "{text}");
+            assert!(matches!(parse(text), Err(DataTableError::Missing { .. })), "{text}");
         }
     }
 }

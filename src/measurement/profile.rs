@@ -12,7 +12,8 @@
 //! middle of the profile; another one differs from it by an offset and a tilt, which form removal takes away (to first order in
 //! the angle between them: level the trace to a few degrees).
 
-use super::file::{ArcFrom, HeightFrom, MeasuredFile, MeasuredFileError, PlaceColumn, ValueKind};
+use super::file::{ArcFrom, HeightFrom, MeasuredFile, PlaceColumn, ValueKind};
+use crate::data_table::{DataTableError, not_allowed};
 use crate::gear::{Gear, GearPair, involute::Involute, removed_material::removed_mm};
 
 const UM_PER_MM: f64 = 1e3;
@@ -39,7 +40,7 @@ impl MeasuredProfile {
     ///
     /// # Errors
     /// A point that does not lie on the flank.
-    pub fn on_flank(file: &MeasuredFile, pair: &GearPair, gear: Gear) -> Result<Self, MeasuredFileError> {
+    pub fn on_flank(file: &MeasuredFile, pair: &GearPair, gear: Gear) -> Result<Self, DataTableError> {
         let tooth = &pair.teeth[gear];
         let involute = tooth.involute;
         let arc_at = |rho: f64| involute.arc_mm(rho);
@@ -60,12 +61,8 @@ impl MeasuredProfile {
             let is_below = file.place == PlaceColumn::RadiusMm && row.place < involute.base_radius_mm
                 || file.place == PlaceColumn::RollAngleDeg && row.place < 0.0;
             if is_below || at < first - margin || at > last + margin {
-                return Err(MeasuredFileError::NotAllowed {
-                    line: row.line,
-                    column: file.place.name().to_owned(),
-                    found: row.place.to_string(),
-                    allowed: limits(file, &involute, [first, active_start, last], gear),
-                });
+                let allowed = limits(file, &involute, [first, active_start, last], gear);
+                return Err(not_allowed(row.line, file.place.name(), row.place, allowed));
             }
             points.push((at.clamp(first, last), row.height_um));
         }

@@ -19,6 +19,7 @@
 //! and values with flattening need. Other lines with # are remarks.
 
 use super::curve::{PairCompliance, StandsFor};
+use crate::data_table::{DataTable, DataTableError, missing, not_allowed, positive};
 use crate::gear::path_of_contact::PathOfContact;
 
 const POSITION: &str = "position_mm";
@@ -33,26 +34,9 @@ const MISSING_AT_ENDS: f64 = 0.02;
 /// What is wrong with the file.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CurveFileError {
-    /// A value, or a header, that is not allowed.
-    #[error("line {line}: {column}: found {found}; allowed: {allowed}")]
-    NotAllowed {
-        /// Line of the file, from 1.
-        line: usize,
-        /// Column, or key of a header line.
-        column: String,
-        /// What stands there.
-        found: String,
-        /// What may stand there.
-        allowed: String,
-    },
-    /// Something that must be there is not.
-    #[error("{what} is missing; allowed: {allowed}")]
-    Missing {
-        /// What.
-        what: String,
-        /// How it looks.
-        allowed: String,
-    },
+    /// It is not a table of the right kind.
+    #[error(transparent)]
+    Table(#[from] DataTableError),
     /// The rows end before the path of contact does.
     #[error("{POSITION}: found {first_mm:.4} to {last_mm:.4}; allowed: at least {start_mm:.4} (A) to {end_mm:.4} (E)")]
     TooShort {
@@ -79,29 +63,22 @@ struct Header {
 /// # Errors
 /// [`CurveFileError`].
 pub fn parse(text: &str, path: &PathOfContact) -> Result<PairCompliance, CurveFileError> {
+    let table = DataTable::read(text, || format!("{POSITION},{STIFFNESS} or {POSITION},{DEFLECTION}"))?;
     let mut header = Header::default();
-    let mut rows = Vec::new();
-    for (line, content) in (1..).zip(text.trim_start_matches('\u{feff}').lines()) {
-        match content.trim().strip_prefix('#') {
-            Some(remark) => header.take(line, remark)?,
-            None if content.trim().is_empty() => {}
-            None => rows.push((line, content.split(',').map(str::trim).collect::<Vec<_>>())),
-        }
+    for &(line, key, value) in &table.keys {
+        header.take(line, key, value)?;
     }
-    let mut rows = rows.into_iter();
-    let Some((line, names)) = rows.next() else {
-        return Err(missing("the line of column names", format!("{POSITION},{STIFFNESS} or {POSITION},{DEFLECTION}")));
-    };
-    let columns = Columns::find(line, &names)?;
+    let columns = Columns::find(table.names.0, &table.names.1)?;
     let stands_for = header.stands_for(columns.are_deflections)?;
     let mut curve =
         PairCompliance { position_mm: Vec::new(), mm2_per_n: Vec::new(), stands_for, shared_mm2_per_n: 0.0 };
-    for (line, values) in rows {
-        let position = positive(line, POSITION, values.get(columns.position).copied())?;
+    for (line, values) in table.rows {
+        let field = |index: usize| values.get(index).copied().unwrap_or_default();
+        let position = positive(line, POSITION, field(columns.position))?;
         if let Some(&before) = curve.position_mm.last().filter(|&&before| position <= before) {
-            return Err(not_allowed(line, POSITION, position, format!("more than {before}, the row before")));
+            return Err(not_allowed(line, POSITION, position, format!("more than {before}, the row before")).into());
         }
-        let value = positive(line, columns.value_name(), values.get(columns.value).copied())?;
+        let value = positive(line, columns.value_name(), field(columns.value))?;
         curve.position_mm.push(position);
         curve.mm2_per_n.push(match header.line_load_n_per_mm {
             Some(load) if columns.are_deflections => value / UM_PER_MM / load,
@@ -116,7 +93,7 @@ pub fn parse(text: &str, path: &PathOfContact) -> Result<PairCompliance, CurveFi
             }
             Err(CurveFileError::TooShort { first_mm, last_mm, start_mm: path.start_mm, end_mm: path.end_mm })
         }
-        _ => Err(missing("rows", "at least two rows of numbers".to_owned())),
+        _ => Err(missing("rows", "at least two rows of numbers".to_owned()).into()),
     }
 }
 
@@ -128,7 +105,7 @@ struct Columns {
 }
 
 impl Columns {
-    fn find(line: usize, names: &[&str]) -> Result<Self, CurveFileError> {
+    fn find(line: usize, names: &[&str]) -> Result<Self, DataTableError> {
         let place = |name: &str| names.iter().position(|&n| n == name);
         let allowed = || format!("{POSITION} and either {STIFFNESS} or {DEFLECTION}, separated by commas");
         let (value, are_deflections) = match (place(STIFFNESS), place(DEFLECTION)) {
@@ -148,19 +125,18 @@ impl Columns {
 }
 
 impl Header {
-    fn take(&mut self, line: usize, remark: &str) -> Result<(), CurveFileError> {
-        let Some((key, value)) = remark.split_once('=') else { return Ok(()) };
-        match (key.trim(), value.trim()) {
+    fn take(&mut self, line: usize, key: &str, value: &str) -> Result<(), DataTableError> {
+        match (key, value) {
             (FLATTENING, "included") => self.flattening_included = Some(true),
             (FLATTENING, "excluded") => self.flattening_included = Some(false),
             (FLATTENING, other) => return Err(not_allowed(line, FLATTENING, other, "included or excluded".to_owned())),
-            (LINE_LOAD, value) => self.line_load_n_per_mm = Some(positive(line, LINE_LOAD, Some(value))?),
+            (LINE_LOAD, value) => self.line_load_n_per_mm = Some(positive(line, LINE_LOAD, value)?),
             _ => {}
         }
         Ok(())
     }
 
-    fn stands_for(&self, deflections: bool) -> Result<StandsFor, CurveFileError> {
+    fn stands_for(&self, deflections: bool) -> Result<StandsFor, DataTableError> {
         let Some(included) = self.flattening_included else {
             return Err(missing(
                 "whether the values hold the flattening of the flanks",
@@ -177,20 +153,4 @@ impl Header {
             false => Ok(StandsFor::Teeth),
         }
     }
-}
-
-fn positive(line: usize, column: &str, text: Option<&str>) -> Result<f64, CurveFileError> {
-    let found = text.unwrap_or("nothing");
-    match found.parse::<f64>() {
-        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
-        _ => Err(not_allowed(line, column, found, "a number greater than 0".to_owned())),
-    }
-}
-
-fn not_allowed(line: usize, column: &str, found: impl ToString, allowed: String) -> CurveFileError {
-    CurveFileError::NotAllowed { line, column: column.to_owned(), found: found.to_string(), allowed }
-}
-
-fn missing(what: &str, allowed: String) -> CurveFileError {
-    CurveFileError::Missing { what: what.to_owned(), allowed }
 }
