@@ -40,8 +40,8 @@ pub fn begin(scene: &Path, out: &Path) -> Result<BegunRun, Failure> {
     begin_anew(source, identity, out)
 }
 
-/// Goes on with the run in the folder `out`: that of `scene`, or, without one, of the scene that lies there.
-pub fn resume(scene: Option<&Path>, out: &Path) -> Result<BegunRun, Failure> {
+/// Goes on with the run in the folder `out`: that of `scene`, or, without one, of the scene that lies there. None where it is complete.
+pub fn resume(scene: Option<&Path>, out: &Path) -> Result<Option<BegunRun>, Failure> {
     let own = out.join(folder::SCENE);
     if scene.is_none() && !own.exists() {
         return Err(InputError::NothingToResume { folder: out.display().to_string() }.into());
@@ -51,16 +51,14 @@ pub fn resume(scene: Option<&Path>, out: &Path) -> Result<BegunRun, Failure> {
     let contents = folder::look(out, &identity, &source.resolved.scene_hash())
         .map_err(|error| InputError::Resume(Box::new(error)))?;
     match contents {
-        Contents::Nothing | Contents::Begun => begin_anew(source, identity, out),
+        Contents::Nothing | Contents::Begun => begin_anew(source, identity, out).map(Some),
         Contents::Checkpoint(found) => {
             let CheckpointFile { warnings, checkpoint, .. } = *found;
             source.resolved.warnings = warnings;
-            Ok(BegunRun { source, out: out.to_owned(), identity, from: Some(checkpoint) })
+            Ok(Some(BegunRun { source, out: out.to_owned(), identity, from: Some(checkpoint) }))
         }
-        Contents::Ended(stopped) => {
-            let how = if stopped == StopReason::Completed { "is complete" } else { "did not converge" };
-            Err(InputError::NothingLeft { folder: out.display().to_string(), how }.into())
-        }
+        Contents::Ended(StopReason::Completed) => Ok(None),
+        Contents::Ended(_) => Err(InputError::NothingLeft { folder: out.display().to_string() }.into()),
     }
 }
 

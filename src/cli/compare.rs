@@ -163,8 +163,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         stdout::print(&format!("{}report: {}\n", table(&record), report.display()))?;
     }
     let fit = &record.fit;
-    let asks_for_more_shift = fit.blamed.as_deref() == Some("the shift");
-    if fit.stopped == FitStop::Converged || asks_for_more_shift {
+    if fit.stopped == FitStop::Converged {
         warn(&record.warnings);
         return Ok(());
     }

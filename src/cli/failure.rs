@@ -198,16 +198,14 @@ pub enum InputError {
         /// The folder.
         folder: String,
     },
-    /// `--resume` of a run that has ended.
-    #[error("--resume: the run in {folder} {how}: nothing is left to do")]
+    /// `--resume` of a run that did not converge.
+    #[error("--resume: the run in {folder} did not converge: nothing is left to do")]
     #[diagnostic(help(
-        "its results lie in {folder}; gearwear run SCENE --out {folder} runs it again from the beginning"
+        "what it finished lies in {folder}; gearwear run SCENE --out {folder} runs it again from the beginning"
     ))]
     NothingLeft {
         /// The folder.
         folder: String,
-        /// How it ended.
-        how: &'static str,
     },
     /// `--resume` of a folder whose run cannot go on.
     #[error("--resume: {0}")]

@@ -8,8 +8,8 @@ use super::stdout;
 /// Arguments of `init`.
 #[derive(Debug, clap::Args)]
 pub struct Args {
-    /// The scene to print: fzg-c, fzg-a
-    #[arg(default_value = presets::PRESETS[0].name)]
+    /// The scene to print
+    #[arg(default_value = presets::PRESETS[0].name, help = format!("The scene to print: {}", presets::names().join(", ")))]
     preset: String,
 }
 

@@ -47,7 +47,13 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<(), Failure> {
     let pool = pool(args.threads)?;
     let begun = match (&args.scene, &args.out, &args.resume) {
-        (scene, _, Some(folder)) => begun_run::resume(scene.as_deref(), folder)?,
+        (scene, _, Some(folder)) => match begun_run::resume(scene.as_deref(), folder)? {
+            Some(begun) => begun,
+            None => {
+                say(&format!("the run in {} is complete: nothing is left to do", folder.display()));
+                return Ok(());
+            }
+        },
         (Some(scene), Some(out), None) => begun_run::begin(scene, out)?,
         (_, _, None) => unreachable!("clap demands both"),
     };

@@ -209,7 +209,8 @@ impl<'a> Comparison<'a> {
             },
         };
         let Settled { parameters, residuals, jacobian, wear_um, stop, unsettled } = found;
-        let uncertainty = uncertainty(&jacobian, &residuals, also);
+        // Beside the best value that was searched no interval means anything.
+        let uncertainty = (stop == FitStop::Converged).then(|| uncertainty(&jacobian, &residuals, also)).flatten();
         Ok(Found { unknowns, parameters, stop, blamed, uncertainty, wear_um, unsettled })
     }
 

@@ -142,7 +142,7 @@ fn fit(question: &Question, resolved: &Resolved, found: &Found, simulations: &Si
         ),
         None if found.unknowns.is_empty() => "nothing was fitted".to_owned(),
         None => {
-            "no interval: by the autocorrelation of the residuals too few points count, or a value is not determined"
+            "no interval: by the autocorrelation of the residuals too few points count, or a value is not determined or at its bound"
                 .to_owned()
         }
     };
@@ -216,7 +216,8 @@ fn warnings(fit: &FitRecord, figures: &CompareFigures, unsettled: Option<f64>) -
     if let Some(step) = unsettled {
         warnings.push(format!(
             "the last run would still move the fit by {step:.2} of a standard deviation: the wear of this scene does not change smoothly \
-             with what is fitted (a hard switch to severe wear, or wear steps beyond the stable one)"
+             with what is fitted (a hard switch to severe wear, or wear steps beyond the stable one): a run with wear.severe.band_MPa and \
+             numerics.step = \"adaptive\" does"
         ));
     }
     if let Some(uncertainty) = figures.uncertainty_um.filter(|u| figures.difference_um > NOT_DESCRIBED * u) {

@@ -340,7 +340,8 @@ fn carry_out<R>(
     };
     let found = Found { outcome: &outcome, heat: heat.as_ref() };
     let error = if plan.has(StageKind::ErrorEstimates) && outcome.stop == StopReason::Completed {
-        stages.run(StageKind::ErrorEstimates, || error_estimates::estimate(&model, &outcome, observer))
+        let estimate = || error_estimates::estimate(&model, &outcome, judged.step_over_safe, observer);
+        stages.run(StageKind::ErrorEstimates, estimate)
     } else {
         ErrorSummary::not_estimated(not_estimated_because(&outcome))
     };

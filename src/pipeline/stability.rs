@@ -11,6 +11,8 @@ use crate::wear::{self, WearModel, settings::WearSettings};
 pub(super) struct Judged {
     pub warnings: Vec<String>,
     pub evaluations: u64,
+    /// The step over the longest safe one, of the phase where that is most; 0 where nothing can swing.
+    pub step_over_safe: f64,
 }
 
 /// Warns of each phase whose steps are too long for Euler's method, and names the longest that are not. Tells `observer` at once.
@@ -34,6 +36,7 @@ pub(super) fn judge(model: &Model<'_>, observer: &dyn Observer) -> Judged {
         judged.evaluations += bound.evaluations;
         let severe = scene.wear.severe.filter(|severe| severe.factor_at(bound.peak_pressure_mpa) > 1.0);
         let safe = bound.revolutions / severe.map_or(1.0, |severe| severe.factor.max(1.0));
+        judged.step_over_safe = judged.step_over_safe.max(step / safe);
         if step > safe {
             let of_phase = if model.phases.len() > 1 { format!(" of phase {}", index + 1) } else { String::new() };
             let where_severe = if severe.is_some() { " where wear is severe" } else { "" };

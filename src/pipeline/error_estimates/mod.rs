@@ -74,11 +74,16 @@ impl Progress for Companion<'_> {
 }
 
 /// Estimates the errors of the pinion's peak wear in `outcome`. A companion that fails leaves its estimate out, never the
-/// result of the run.
-pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, observer: &dyn Progress) -> ErrorSummary {
+/// result of the run. `step_over_safe` is the run's step over the longest safe one, 0 where nothing can swing.
+pub(super) fn estimate(
+    model: &Model<'_>,
+    outcome: &Outcome,
+    step_over_safe: f64,
+    observer: &dyn Progress,
+) -> ErrorSummary {
     let (elements, slices) = (coarse_elements(model), coarse_slices(model));
     let coarse = Coarse { elements: elements.as_ref(), slices: slices.as_ref() };
-    let runs = wear_runs::estimate(model, outcome, coarse, observer);
+    let runs = wear_runs::estimate(model, outcome, coarse, step_over_safe, observer);
     let (severe_switch, switch_cost) = severe_switch::estimate(model, outcome, BUDGET - runs.cost, observer);
     let against_reference = || reference_mesh::estimate(model, outcome).map(|estimate| (estimate, 0.0));
     let from_elements = runs.surface_model.map(|estimate| (estimate, 0.0));

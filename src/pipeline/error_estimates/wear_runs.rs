@@ -85,6 +85,8 @@ struct Companions<'a> {
     model: &'a Model<'a>,
     observer: &'a dyn Progress,
     coarse: Coarse<'a>,
+    /// The run's step over the longest safe one.
+    step_over_safe: f64,
     /// Of the run itself.
     peaks_mm: PerGear<f64>,
     /// Cost so far, in equilibria of the run itself.
@@ -161,6 +163,12 @@ impl<'a> Companions<'a> {
         if !self.allow(coarser.spacing) {
             return Err("too few flank points or positions to leave some out".to_owned());
         }
+        if coarser.step * self.step_over_safe > 1.0 {
+            return Err(format!(
+                "a companion run with wear steps {} times as long would swing, as they would be longer than the longest safe step",
+                coarser.step
+            ));
+        }
         let numerics = self.numerics(coarser);
         let of_phase = |phase: &RunPhase<'a>| {
             let contact = match elements {
@@ -191,10 +199,11 @@ pub(super) fn estimate<'a>(
     model: &'a Model<'a>,
     outcome: &Outcome,
     coarse: Coarse<'a>,
+    step_over_safe: f64,
     observer: &'a dyn Progress,
 ) -> FromRuns {
     let peaks_mm = peak_wear_of_both_mm(model, outcome);
-    let mut companions = Companions { model, observer, coarse, peaks_mm, cost: 0.0 };
+    let mut companions = Companions { model, observer, coarse, step_over_safe, peaks_mm, cost: 0.0 };
     let estimate = |difference: Difference| match difference {
         Ok((relative, how)) => Estimate { relative: Some(relative), how },
         Err(reason) => Estimate::none(&reason),
@@ -279,7 +288,9 @@ fn adaptively_on_finite_elements<'a>(
 /// Discretisation and wear step.
 fn on_the_line_of_action(companions: &mut Companions<'_>, reference: PerGear<f64>) -> [Difference; 2] {
     let surface = companions.model.scene.contact.surface;
-    let step = if surface == SurfaceKind::HalfSpace { 4.0 } else { 8.0 };
+    let longest = if surface == SurfaceKind::HalfSpace { 4.0 } else { 8.0 };
+    // Four times as long is dearer, but within the budget too.
+    let step = if longest * companions.step_over_safe > 1.0 { 4.0 } else { longest };
     let own = Elements::Own;
     let stepped = companions.peaks_mm(Coarser { spacing: 1, step }, own, (0.0, 0.5));
     let discretisation = stepped.clone().and_then(|stepped| {

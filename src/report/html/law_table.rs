@@ -17,8 +17,8 @@ fn law(w: &WearLawSummary) -> String {
     let mut rows = vec![
         row("Wear law", "", [escape(&w.law)]),
         row("Coefficient as given", "mm³/(N·m)", [k(w.coefficient_mm3_per_Nm)]),
-        row("Effective, new", "mm³/(N·m)", [k(w.effective_coefficient_new_mm3_per_Nm)]),
-        row("Effective, worn", "mm³/(N·m)", [k(w.effective_coefficient_worn_mm3_per_Nm)]),
+        row("Effective where mild, new", "mm³/(N·m)", [k(w.effective_coefficient_new_mm3_per_Nm)]),
+        row("Effective where mild, worn", "mm³/(N·m)", [k(w.effective_coefficient_worn_mm3_per_Nm)]),
         row("Regime of the IRG diagram", "", [w.irg_regime.name().to_owned()]),
     ];
     if let Some(regime) = w.irg_regime_severe {
@@ -47,7 +47,7 @@ fn temperature(t: &TemperatureSummary) -> String {
 pub fn note(s: &Summary) -> String {
     let w = &s.wear;
     let mut text = format!(
-        "The {} law wears by {:.2e} mm³/(N·m) on average over the sliding work of a mesh of the new pair: regime {} of the IRG \
+        "Where wear is mild the {} law wears by {:.2e} mm³/(N·m) on average over the sliding work of a mesh of the new pair: regime {} of the IRG \
          transition diagram (I below 1e-9, II from 1e-8 to 1e-6, III above 1e-5).",
         w.law,
         w.effective_coefficient_new_mm3_per_Nm,
