@@ -21,11 +21,12 @@ const POINTS_PER_CUTOFF: f64 = 10.0;
 /// The filter's weights beyond this many cutoffs are below 1e-6.
 const REACH: f64 = 1.0;
 
-/// Arithmetic mean deviation from zero of `values` at points of these arc lengths.
+/// Arithmetic mean deviation from their mean of `values` at points of these arc lengths.
 pub fn mean_deviation(arc_mm: &[f64], values: &[f64]) -> f64 {
     let shares = shares_mm(arc_mm);
     let length: f64 = shares.iter().sum();
-    values.iter().zip(&shares).map(|(value, share)| value.abs() * share).sum::<f64>() / length
+    let mean = values.iter().zip(&shares).map(|(value, share)| value * share).sum::<f64>() / length;
+    values.iter().zip(&shares).map(|(value, share)| (value - mean).abs() * share).sum::<f64>() / length
 }
 
 /// The same from the mean line of the Gaussian filter; `None` where the points are too far apart, or the profile is shorter than

@@ -2,6 +2,7 @@
 
 use super::Model;
 use super::recording::UM_PER_MM;
+use super::temperature;
 use crate::gear::Gear;
 use crate::simulation::figures::WearFigures;
 use crate::simulation::record::{PhaseSummary, PhaseWear};
@@ -25,6 +26,7 @@ pub(super) fn summaries(model: &Model<'_>, outcome: &Outcome) -> Vec<PhaseSummar
         let after = outcome.snapshots.iter().rfind(|snapshot| snapshot.revolutions <= end).unwrap_or(before);
         let load = run.line_load_n_per_mm;
         let coefficient = phase.coefficient_mm2_per_n.unwrap_or(model.scene.wear.coefficient_mm2_per_n);
+        let heat = model.scene.heat.and_then(|asked| Some((asked, temperature::observe_at(model, outcome, after)?)));
         summaries.push(PhaseSummary {
             number: index + 1,
             hours: phase.pinion_speed_rpm.map(|rpm| (end - begin) / (60.0 * rpm)),
@@ -35,6 +37,8 @@ pub(super) fn summaries(model: &Model<'_>, outcome: &Outcome) -> Vec<PhaseSummar
             foundation_MPa_per_mm: model.foundations_mpa_per_mm[index],
             hertz_peak_pressure_MPa: model.at_pitch.contact.loaded(load).peak_pressure_mpa,
             coefficient_m2_per_N: coefficient / MM2_PER_N,
+            greatest_rise_K: heat.as_ref().map(|(asked, found)| found.greatest_rise_k()[asked.method.index()]),
+            work_outside_validity: heat.and_then(|(_, found)| found.law.work_outside_validity),
             pinion: wear(model, outcome, Gear::Pinion, [before, after]),
             wheel: wear(model, outcome, Gear::Wheel, [before, after]),
         });

@@ -17,23 +17,26 @@ pub(super) struct ObservedHeat {
 
 /// Looks at both; none where nobody asks for temperatures.
 pub(super) fn observe(model: &Model<'_>, outcome: &Outcome) -> Option<ObservedHeat> {
-    let of = |snapshot: &Snapshot| {
-        let phase = &model.phases[model.scene.operation.phase_at(snapshot.revolutions)];
-        let observer = HeatObserver {
-            pair: model.pair,
-            heat: phase.wear.heat?,
-            law: phase.wear.law,
-            valid_k: model.scene.wear.law.valid_temperature_c().map(|range| range.map(|at| at - ABSOLUTE_ZERO_C)),
-            spread: match model.scene.contact.surface {
-                SurfaceKind::HertzMean => Spread::Even,
-                _ => Spread::Ellipse,
-            },
-            line_load_n_per_mm: phase.line_load_n_per_mm,
-            ahead_mm: &outcome.slices.ahead_mm,
-        };
-        Some(observer.observe(&snapshot.cycle))
-    };
+    let of = |snapshot| observe_at(model, outcome, snapshot);
     Some(ObservedHeat { new: of(&outcome.new)?, worn: of(&outcome.worn)? })
+}
+
+/// Looks at a snapshot, under the speed and load of its phase.
+pub(super) fn observe_at(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> Option<HeatObservation> {
+    let phase = &model.phases[model.scene.operation.phase_at(snapshot.revolutions)];
+    let observer = HeatObserver {
+        pair: model.pair,
+        heat: phase.wear.heat?,
+        law: phase.wear.law,
+        valid_k: model.scene.wear.law.valid_temperature_c().map(|range| range.map(|at| at - ABSOLUTE_ZERO_C)),
+        spread: match model.scene.contact.surface {
+            SurfaceKind::HertzMean => Spread::Even,
+            _ => Spread::Ellipse,
+        },
+        line_load_n_per_mm: phase.line_load_n_per_mm,
+        ahead_mm: &outcome.slices.ahead_mm,
+    };
+    Some(observer.observe(&snapshot.cycle))
 }
 
 /// What the summary says of the temperatures.

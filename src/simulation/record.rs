@@ -99,6 +99,10 @@ pub struct PhaseSummary {
     pub hertz_peak_pressure_MPa: f64,
     /// Its wear coefficient.
     pub coefficient_m2_per_N: f64,
+    /// Greatest rise of the contact temperature at its end, by the chosen method; `None` where nobody asks for temperatures.
+    pub greatest_rise_K: Option<f64>,
+    /// Part of the sliding work at its end that is outside the temperatures for which the wear law holds, where it names some.
+    pub work_outside_validity: Option<f64>,
     /// What the pinion wore off in it.
     pub pinion: PhaseWear,
     /// What the wheel wore off in it.

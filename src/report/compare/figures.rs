@@ -60,7 +60,11 @@ fn profiles(record: &CompareRecord) -> Figure {
     }
     let simulated = column(record, |row| row.simulated_um);
     add(&mut plot, record, simulated_name(record), simulated, (SIMULATED, 2.4, DashType::Solid));
-    plot.set_layout(laid_out(record, 520, axis("height, form removed, µm")));
+    let (title, height) = match record.form.as_str() {
+        "none" => ("Measured and simulated profile", "height, µm"),
+        _ => ("Measured and simulated profile, form removed", "height, form removed, µm"),
+    };
+    plot.set_layout(laid_out(record, 520, axis(height)));
     let form = match record.form.as_str() {
         "cubic" => "The least-squares cubic is taken from both, and with it a part of the wear.",
         "involute" => "Offset and tilt against the nominal involute are taken from both.",
@@ -73,7 +77,7 @@ fn profiles(record: &CompareRecord) -> Figure {
     };
     Figure {
         id: "profiles".to_owned(),
-        title: "Measured and simulated profile, form removed".to_owned(),
+        title: title.to_owned(),
         reading: format!(
             "{form} Their arithmetic mean deviations are {} µm measured and {} µm simulated; they differ by {before}{} µm (root \
              mean square){}.",
@@ -100,11 +104,16 @@ fn depths(record: &CompareRecord) -> Figure {
     // Depths grow downwards.
     plot.set_layout(laid_out(record, 460, axis("wear depth, µm").range(vec![deepest + margin, highest - margin])));
     let places = named(&record.path_point_radius_mm);
+    let stands = match record.form.as_str() {
+        "none" => "",
+        _ => {
+            " The measured profile stands on it by the form that is left open: only its shape is measured, not its level."
+        }
+    };
     let reading = at.map_or_else(String::new, |at| {
         let radius = record.rows[at.index].radius_mm;
         format!(
-            "The simulation is deepest over the measured stretch with {} µm at {} mm, {}. The measured profile stands on it by the form \
-             that is left open: only its shape is measured, not its level.",
+            "The simulation is deepest over the measured stretch with {} µm at {} mm, {}.{stands}",
             figure(at.value),
             significant(radius, 4),
             among(&places, radius)

@@ -18,6 +18,7 @@ pub fn table(s: &Summary) -> String {
         "speed, 1/min",
         "Hertz pressure at C, MPa",
         "wear coefficient, m²/N",
+        "temperature rise, K",
         "pinion, greatest added, µm",
         "wheel, greatest added, µm",
         "pinion, volume added, mm³",
@@ -31,7 +32,7 @@ pub fn table(s: &Summary) -> String {
     format!(
         "<div class=\"phases\">\n<table>\n<caption>Phases of the operation</caption>\n<thead><tr><td>phase</td>{head}</tr></thead>\n\
          <tbody>\n{rows}</tbody>\n</table>\n</div>\n{more}<p class=\"legend-note\">New is the unworn pair under the load of the first \
-         phase, worn the worn pair under that of the last. Line load, K/H and Hertz pressure above are those of the first \
+         phase, worn the worn pair under that of the last. Line load, K/H, Hertz pressure and the temperatures of a new pair are those of the first \
          phase; all are in summary.json.</p>\n"
     )
 }
@@ -45,6 +46,7 @@ fn row(phase: &PhaseSummary) -> String {
         given(phase.pinion_speed_rpm),
         figure(phase.hertz_peak_pressure_MPa),
         format!("{:e}", phase.coefficient_m2_per_N),
+        given(phase.greatest_rise_K),
         significant(phase.pinion.greatest_depth_um, 3),
         significant(phase.wheel.greatest_depth_um, 3),
         significant(phase.pinion.worn_volume_mm3, 3),

@@ -84,11 +84,11 @@ pub fn answer(record: &RunRecord) -> String {
         return text;
     }
     text.push_str(&format!(
-        " The greatest pressure, {}, went from {} to {} MPa ({}), the transmission error peak to peak from {} to {} µm.",
-        place_of_pressure(record),
+        " The greatest pressure went from {} to {} MPa ({}), worn {}; the transmission error peak to peak from {} to {} µm.",
         figure(s.new.peak_pressure_MPa),
         figure(s.worn.peak_pressure_MPa),
         change(s.new.peak_pressure_MPa, s.worn.peak_pressure_MPa),
+        place_of_pressure(record),
         figure(s.new.transmission_error_um.peak_to_peak),
         figure(s.worn.transmission_error_um.peak_to_peak),
     ));
