@@ -93,9 +93,13 @@ fn companions_cost_at_most_half_of_the_run() {
         for (by, step) in [(2, 7_665.0), (4, 100_000.0)] {
             let error = run(&with(surface, by, step)).error;
             let cost = error.companions_cost.expect("estimates were made");
-            assert!(cost > 0.0 && cost <= 0.5, "{surface}: {cost}");
-            if error.surface_model.is_none() {
-                assert!(error.how.surface_model.starts_with("not estimated: "), "{}", error.how.surface_model);
+            // Nothing is run where longer steps would swing: on half-planes with the longer of both.
+            let may_swing = surface == "half-space" && step > 10_000.0;
+            assert!((cost > 0.0 || may_swing) && cost <= 0.5, "{surface}: {cost}");
+            let (sources, how) =
+                ([error.wear_step, error.surface_model], [&error.how.wear_step, &error.how.surface_model]);
+            for (estimate, how) in sources.into_iter().zip(how) {
+                assert!(estimate.is_some() || how.starts_with("not estimated: "), "{how}");
             }
         }
     }

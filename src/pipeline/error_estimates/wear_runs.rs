@@ -50,6 +50,10 @@ use crate::simulation::wear_run::{Outcome, Progress, RunPhase, SimulationError, 
 /// Cost of an equilibrium on finite elements twice as long.
 const COST_ON_COARSE_MESH: f64 = 0.5;
 
+/// Longest safe step on finite elements twice as long over that on those of the run: waves between nodes are twice as long, and half
+/// as stiff.
+const SAFE_ON_COARSE_MESH: f64 = 2.0;
+
 /// Least ratio of two wear steps of which anything is learned.
 const LEAST_STEP_RATIO: f64 = 1.5;
 
@@ -163,7 +167,11 @@ impl<'a> Companions<'a> {
         if !self.allow(coarser.spacing) {
             return Err("too few flank points or positions to leave some out".to_owned());
         }
-        if coarser.step * self.step_over_safe > 1.0 {
+        let safe = match elements {
+            Elements::Own => 1.0,
+            Elements::Coarse(_) => SAFE_ON_COARSE_MESH,
+        };
+        if coarser.step * self.step_over_safe > safe {
             return Err(format!(
                 "a companion run with wear steps {} times as long would swing, as they would be longer than the longest safe step",
                 coarser.step
