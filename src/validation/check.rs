@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::case_file::{CaseFile, Command, QuantitySpec, RunSpec, VarySpec};
+use super::expression::Evaluator;
 use crate::simulation::validation_record::Standing;
 
 /// Greatest number of members of a family.
@@ -44,11 +45,17 @@ pub fn check(case: &CaseFile) -> Result<(), CaseFault> {
     for name in all.chain(case.define.iter().map(|definition| definition.name.as_str())) {
         let plain = name.starts_with(|c: char| c.is_ascii_lowercase())
             && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-        if !plain {
-            return Err(fault("name", name, "it", "a small letter, then letters, digits and underscores"));
+        if !plain || !Evaluator::can_name(name) {
+            let allowed = "a small letter, then letters, digits and underscores; no word of the expression language";
+            return Err(fault("name", name, "it", allowed));
         }
         if !names.insert(name) {
-            return Err(fault("name", name, "it twice, or the name of every member", "each name once, and not \"run\""));
+            return Err(fault(
+                "name",
+                name,
+                "it twice, or the name of every member",
+                "each name once, and not \"run\"",
+            ));
         }
     }
     case.run.iter().try_for_each(|run| check_run(run, case))?;
@@ -58,7 +65,8 @@ pub fn check(case: &CaseFile) -> Result<(), CaseFault> {
     case.quantity.iter().try_for_each(|quantity| check_quantity(quantity, case))?;
     let families: BTreeSet<&str> = case.run.iter().filter(|r| r.is_family()).map(|r| r.name.as_str()).collect();
     let of_plots = case.plot.iter().flat_map(|plot| &plot.curve).filter_map(|curve| curve.each.as_deref());
-    let others = case.work_precision.iter().map(|w| w.family.as_str()).chain(case.stability.iter().map(|s| s.family.as_str()));
+    let others =
+        case.work_precision.iter().map(|w| w.family.as_str()).chain(case.stability.iter().map(|s| s.family.as_str()));
     for family in of_plots.chain(others) {
         if !families.contains(family) {
             return Err(fault("family", family, "no such family", "the name of a run with vary, each or sample"));

@@ -14,9 +14,24 @@ pub fn write(record: &ValidationRecord, _: Option<&Changes>, dir: &Path) -> Resu
 pub fn terminal(record: &ValidationRecord, _: Option<&Changes>, _: Option<u16>) -> String {
     let mut text = String::new();
     for case in &record.cases {
-        text.push_str(&format!("{} {} {:.2} s {:?}\n", if case.passed() { "ok    " } else { "MISSED" }, case.name, case.wall_s, case.failure));
+        text.push_str(&format!(
+            "{} {} {:.2} s {:?}\n",
+            if case.passed() { "ok    " } else { "MISSED" },
+            case.name,
+            case.wall_s,
+            case.failure
+        ));
         for q in &case.quantities {
-            text.push_str(&format!("    {} {} = {:?} {} {:?} share {:?} {}\n", q.standing.title(), q.name, q.value, q.unit, q.criterion, q.share, q.remark.as_deref().unwrap_or("")));
+            text.push_str(&format!(
+                "    {} {} = {:?} {} {:?} share {:?} {}\n",
+                q.standing.title(),
+                q.name,
+                q.value,
+                q.unit,
+                q.criterion,
+                q.share,
+                q.remark.as_deref().unwrap_or("")
+            ));
         }
     }
     text
