@@ -1,0 +1,3 @@
+//! The validation suite.
+
+pub mod against;
