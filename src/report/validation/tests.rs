@@ -20,14 +20,12 @@ struct Element {
 
 impl Element {
     fn of(start: &BytesStart) -> Self {
-        let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
         let attributes = start.attributes().map(|attribute| {
             let attribute = attribute.unwrap();
-            let value =
-                quick_xml::escape::unescape(std::str::from_utf8(&attribute.value).unwrap()).unwrap().into_owned();
-            (text(attribute.key.as_ref()), value)
+            let value = quick_xml::escape::unescape(&attribute.value).unwrap().into_owned();
+            (attribute.key.as_ref().to_owned(), value)
         });
-        Self { name: text(start.name().as_ref()), attributes: attributes.collect() }
+        Self { name: start.name().as_ref().to_owned(), attributes: attributes.collect() }
     }
 
     fn get(&self, key: &str) -> &str {
@@ -230,11 +228,4 @@ fn an_empty_suite_has_its_files_too() {
     let folder = TempDir::new().unwrap();
     assert_eq!(write(&record, None, folder.path()).unwrap().len(), 5);
     assert!(terminal(&record, None, Some(80)).contains("No case was run."));
-}
-#[test]
-fn demo() {
-    write(&record(), Some(&changes()), std::path::Path::new("/tmp/hR-demo")).unwrap();
-    write(&repeated(10), None, std::path::Path::new("/tmp/hR-demo10")).unwrap();
-    println!("{}", terminal(&record(), Some(&changes()), Some(110)));
-    println!("{}", terminal(&record(), Some(&changes()), Some(70)));
 }
