@@ -48,7 +48,12 @@ pub fn check(case: &CaseFile) -> Result<(), CaseFault> {
             return Err(fault("name", name, "it", "a small letter, then letters, digits and underscores"));
         }
         if !names.insert(name) {
-            return Err(fault("name", name, "it twice, or the name of every member", "each name once, and not \"run\""));
+            return Err(fault(
+                "name",
+                name,
+                "it twice, or the name of every member",
+                "each name once, and not \"run\"",
+            ));
         }
     }
     case.run.iter().try_for_each(|run| check_run(run, case))?;
@@ -58,7 +63,8 @@ pub fn check(case: &CaseFile) -> Result<(), CaseFault> {
     case.quantity.iter().try_for_each(|quantity| check_quantity(quantity, case))?;
     let families: BTreeSet<&str> = case.run.iter().filter(|r| r.is_family()).map(|r| r.name.as_str()).collect();
     let of_plots = case.plot.iter().flat_map(|plot| &plot.curve).filter_map(|curve| curve.each.as_deref());
-    let others = case.work_precision.iter().map(|w| w.family.as_str()).chain(case.stability.iter().map(|s| s.family.as_str()));
+    let others =
+        case.work_precision.iter().map(|w| w.family.as_str()).chain(case.stability.iter().map(|s| s.family.as_str()));
     for family in of_plots.chain(others) {
         if !families.contains(family) {
             return Err(fault("family", family, "no such family", "the name of a run with vary, each or sample"));

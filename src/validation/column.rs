@@ -60,7 +60,11 @@ impl Column {
     /// A figure that a number that is none spoils.
     fn fold(&self, f: impl Fn(f64, f64) -> f64) -> Result<f64, Failed> {
         let points = self.not_empty()?;
-        Ok(points.iter().copied().reduce(|a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { f(a, b) }).unwrap_or(f64::NAN))
+        Ok(points
+            .iter()
+            .copied()
+            .reduce(|a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { f(a, b) })
+            .unwrap_or(f64::NAN))
     }
 
     fn sum(&self) -> f64 {
@@ -162,7 +166,8 @@ pub fn register(engine: &mut Engine) {
     engine.register_fn("min", |x: Column| x.fold(f64::min));
     engine.register_fn("sum", |x: Column| x.sum());
     engine.register_fn("mean", |x: Column| -> Result<f64, Failed> { Ok(x.sum() / x.not_empty()?.len() as f64) });
-    engine.register_fn("rms", |x: Column| -> Result<f64, Failed> { Ok(x.norm() / (x.not_empty()?.len() as f64).sqrt()) });
+    engine
+        .register_fn("rms", |x: Column| -> Result<f64, Failed> { Ok(x.norm() / (x.not_empty()?.len() as f64).sqrt()) });
     engine.register_fn("quantile", |x: Column, share: f64| quantile(&x, share));
     engine.register_fn("differences", |x: Column| Column(x.0.windows(2).map(|two| two[1] - two[0]).collect()));
     engine.register_fn("is_rising", |x: Column| ordered(&x, |a, b| a < b));

@@ -25,7 +25,11 @@ pub fn read(spec: &DataSpec, folder: &Path) -> Result<Option<Value>, String> {
     let mut columns = Vec::new();
     for wanted in &spec.columns {
         let Some(place) = names.iter().position(|name| name == wanted) else {
-            return Err(format!("{}: line {line}: found columns {}; allowed: {wanted} among them", spec.file, names.join(", ")));
+            return Err(format!(
+                "{}: line {line}: found columns {}; allowed: {wanted} among them",
+                spec.file,
+                names.join(", ")
+            ));
         };
         let mut numbers = Vec::with_capacity(table.rows.len());
         for (line, fields) in &table.rows {

@@ -138,8 +138,9 @@ fn refused(problems: Vec<Problem>) -> Failed {
 fn text(run: &RunSpec, folder: &Path) -> Result<String, Failed> {
     match presets::find(&run.scene) {
         Some(preset) => Ok(preset.text.to_owned()),
-        None => fs::read_to_string(folder.join(&run.scene))
-            .map_err(|reason| Failed::Refused(format!("{}: neither a preset nor a file that can be read: {reason}", run.scene))),
+        None => fs::read_to_string(folder.join(&run.scene)).map_err(|reason| {
+            Failed::Refused(format!("{}: neither a preset nor a file that can be read: {reason}", run.scene))
+        }),
     }
 }
 
@@ -202,12 +203,13 @@ fn wear_run(
     if !foreign.is_empty() {
         return Err(Failed::Refused(format!("contact.calibration belongs to another pair: {}", foreign.join("; "))));
     }
-    let done = pipeline::run(&resolved, &Plan::of(&resolved.scene), &inputs, &Watch(watch)).map_err(|error| {
-        match &error {
-            RunError::Pair(_) | RunError::Stiffness(_) | RunError::FiniteElements(_) => Failed::Refused(error.to_string()),
+    let done =
+        pipeline::run(&resolved, &Plan::of(&resolved.scene), &inputs, &Watch(watch)).map_err(|error| match &error {
+            RunError::Pair(_) | RunError::Stiffness(_) | RunError::FiniteElements(_) => {
+                Failed::Refused(error.to_string())
+            }
             _ => Failed::NotConverged(error.to_string()),
-        }
-    })?;
+        })?;
     let record = done.record;
     let provenance = tables::Provenance::of(&record.summary);
     let summary = tree(&record.summary)?;
@@ -262,9 +264,10 @@ fn finite_element_pair(run: &RunSpec, member: &Member, folder: &Path, watch: &dy
     let resolved = scene(run, member, folder, false)?;
     let asked = fem_scene::Asked { position_mm: run.position_mm, full: run.full };
     let done = fem_scene::run(&resolved, asked, &Watch(watch)).map_err(|error| match &error {
-        FemPairError::Position { .. } | FemPairError::Pair(_) | FemPairError::Quality { .. } | FemPairError::Model(_) => {
-            Failed::Refused(error.to_string())
-        }
+        FemPairError::Position { .. }
+        | FemPairError::Pair(_)
+        | FemPairError::Quality { .. }
+        | FemPairError::Model(_) => Failed::Refused(error.to_string()),
         _ => Failed::NotConverged(error.to_string()),
     })?;
     let record = done.record;

@@ -157,8 +157,12 @@ mod tests {
 
     fn evaluator() -> Evaluator {
         let mut evaluator = Evaluator::default();
-        let flank = Value::group([("x", Value::column([0.0, 1.0, 2.0, 4.0])), ("y", Value::column([1.0, 3.0, 2.0, 8.0]))]);
-        evaluator.name("r", &Value::group([("pinion", flank), ("n", Value::Number(2.0)), ("name", Value::Text("a".into()))]));
+        let flank =
+            Value::group([("x", Value::column([0.0, 1.0, 2.0, 4.0])), ("y", Value::column([1.0, 3.0, 2.0, 8.0]))]);
+        evaluator.name(
+            "r",
+            &Value::group([("pinion", flank), ("n", Value::Number(2.0)), ("name", Value::Text("a".into()))]),
+        );
         evaluator
     }
 

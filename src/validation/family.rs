@@ -12,11 +12,7 @@ use crate::simulation::validation_record::RunOutcome;
 ///
 /// # Errors
 /// An expression that has no value for a member that ended sound.
-pub fn columns(
-    family: &Members,
-    take: &BTreeMap<String, String>,
-    e: &mut Evaluator,
-) -> Result<Value, ExpressionError> {
+pub fn columns(family: &Members, take: &BTreeMap<String, String>, e: &mut Evaluator) -> Result<Value, ExpressionError> {
     let executed: Vec<&Executed> = family.executed.iter().flatten().collect();
     let number_of = |of: fn(&Executed) -> f64| Value::column(executed.iter().map(|run| of(run)));
     let mut group = BTreeMap::from([
@@ -54,7 +50,9 @@ pub fn columns(
 fn work(executed: &[&Executed]) -> Value {
     let Some(counted) = executed.iter().find(|run| !run.work.is_empty()) else { return Value::Group(BTreeMap::new()) };
     let count = |run: &Executed, name: &str| run.work.get(name).map_or(f64::NAN, |&count| count as f64);
-    Value::group(counted.work.keys().map(|name| (name.clone(), Value::column(executed.iter().map(|run| count(run, name))))))
+    Value::group(
+        counted.work.keys().map(|name| (name.clone(), Value::column(executed.iter().map(|run| count(run, name))))),
+    )
 }
 
 /// Values one after another: a column where they are numbers or truths.

@@ -127,9 +127,8 @@ pub fn judge(spec: &QuantitySpec, present: &BTreeSet<&str>, e: &mut Evaluator) -
 /// That every member of a run ended as it should.
 pub fn endings(run: &str, family: &Members) -> QuantityRecord {
     let ended = family.executed.iter().zip(&family.members);
-    let as_expected = ended
-        .filter(|(executed, member)| executed.as_ref().is_some_and(|e| e.outcome == member.expected))
-        .count();
+    let as_expected =
+        ended.filter(|(executed, member)| executed.as_ref().is_some_and(|e| e.outcome == member.expected)).count();
     let (count, all) = (as_expected as f64, family.members.len() as f64);
     let refusals = family.members.iter().filter(|member| member.expected != RunOutcome::Sound).count();
     let name = match (family.members.len(), refusals) {

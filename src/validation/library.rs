@@ -20,7 +20,10 @@ const CASE_FILE: &str = "case.toml";
 #[derive(Debug, thiserror::Error)]
 pub enum LibraryError {
     /// Neither the name of a built-in case nor a folder with a case.
-    #[error("found {found:?}; allowed: the name of a built-in case, or a folder with a file {CASE_FILE}{}", near(nearest))]
+    #[error(
+        "found {found:?}; allowed: the name of a built-in case, or a folder with a file {CASE_FILE}{}",
+        near(nearest)
+    )]
     Unknown {
         /// As given.
         found: String,
@@ -165,6 +168,9 @@ mod tests {
     #[test]
     fn an_unknown_case_is_refused_with_the_nearest_name() {
         let message = Library::open(&["fzg-c-geometri".to_owned()]).unwrap_err().to_string();
-        assert!(message.contains("\"fzg-c-geometri\"") && message.contains("did you mean \"fzg-c-geometry\""), "{message}");
+        assert!(
+            message.contains("\"fzg-c-geometri\"") && message.contains("did you mean \"fzg-c-geometry\""),
+            "{message}"
+        );
     }
 }

@@ -142,7 +142,8 @@ mod tests {
         assert_eq!(varied[3].set.len(), 4);
         assert_eq!(varied[3].values[1], ("teeth".to_owned(), Value::Number(500.0)));
 
-        let listed = members(&run("[[each]]\nvalue = 2.0\nset = { k = 1 }\nexpect = \"refused\"\n[[each]]\nlabel = \"b\"\n"));
+        let listed =
+            members(&run("[[each]]\nvalue = 2.0\nset = { k = 1 }\nexpect = \"refused\"\n[[each]]\nlabel = \"b\"\n"));
         assert_eq!((listed[0].label.as_str(), listed[0].expected), ("k = 1", RunOutcome::Refused));
         assert_eq!((listed[1].label.as_str(), listed[1].expected), ("b", RunOutcome::Sound));
 

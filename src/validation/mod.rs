@@ -5,8 +5,8 @@
 //! under the names of its output files; [`judge`] holds quantities, which are expressions over those names ([`expression`]), against
 //! references and bounds; [`drawing`] evaluates plots. The result is a plain record that reports are written from.
 
-pub mod case_file;
 pub mod against;
+pub mod case_file;
 mod check;
 mod column;
 mod data_file;
@@ -86,7 +86,9 @@ fn fill(record: &mut CaseRecord, case: &Case, runs: &[Members]) -> Result<(), St
     // Outcomes come first: they are worth knowing of a case that fails.
     let of_family = |name: &str| file.run.iter().position(|run| run.name == name).map(|index| &runs[index]);
     for spec in &file.stability {
-        record.stability.extend(of_family(&spec.family).into_iter().flat_map(|family| drawing::stability(spec, family)));
+        record
+            .stability
+            .extend(of_family(&spec.family).into_iter().flat_map(|family| drawing::stability(spec, family)));
     }
     let mut e = Evaluator::default();
     let mut present = BTreeSet::new();

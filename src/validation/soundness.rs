@@ -13,7 +13,8 @@ pub fn fault(record: &RunRecord) -> Option<String> {
     let imbalance = |(when, cycle): (&str, &CycleSummary)| {
         // Written so that a number that is none is a fault too.
         let balanced = cycle.load_imbalance <= MOST_IMBALANCE;
-        (!balanced).then(|| format!("{when}: loads of the pairs differ from the load by {:e} of it", cycle.load_imbalance))
+        (!balanced)
+            .then(|| format!("{when}: loads of the pairs differ from the load by {:e} of it", cycle.load_imbalance))
     };
     let cycles = [("new", &summary.new), ("worn", &summary.worn)];
     cycles
@@ -63,5 +64,7 @@ fn of_history(record: &RunRecord) -> Option<String> {
     let rows = &record.history;
     not_finite("history, peak wear", rows.iter().flat_map(|row| [row.pinion_peak_wear_um, row.wheel_peak_wear_um]))
         .or_else(|| not_finite("history, pressure", rows.iter().map(|row| row.peak_pressure_MPa)))
-        .or_else(|| not_finite("history, transmission error", rows.iter().map(|row| row.transmission_error_peak_to_peak_um)))
+        .or_else(|| {
+            not_finite("history, transmission error", rows.iter().map(|row| row.transmission_error_peak_to_peak_um))
+        })
 }

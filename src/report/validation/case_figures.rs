@@ -6,7 +6,7 @@ use plotly::{Plot, Scatter};
 
 use super::markup::identifier;
 use crate::report::html::number::plotted;
-use crate::report::html::theme::{Figure, MUTED, axis, curve, layout, line, mark};
+use crate::report::html::theme::{Figure, MUTED, axis, curve, layout, line, mark, mark_logarithmic};
 use crate::simulation::validation_record::{CasePlot, CaseRecord, CurveStyle, PlotAxis, PlotCurve};
 
 /// How the curve of a number is told from the others: by colour and by sign.
@@ -58,11 +58,11 @@ fn figure(case: &CaseRecord, number: usize, of: &CasePlot) -> Figure {
             );
         }
     }
-    // A line up the plot stands where its logarithm is, if the axis is logarithmic.
-    let place = |x: f64| if of.x.log { x.log10() } else { x };
-    let marks = of.marks.iter().map(|(name, x)| (name.clone(), place(*x)));
+    let marks = of.marks.iter().cloned();
+    let bare = layout(400);
+    let marked = if of.x.log { mark_logarithmic(bare, marks) } else { mark(bare, marks, "") };
     plot.set_layout(
-        mark(layout(400), marks, "")
+        marked
             .show_legend(of.curves.len() + of.levels.len() > 1)
             .hover_mode(HoverMode::Closest)
             .x_axis(plot_axis(&of.x))

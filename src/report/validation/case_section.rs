@@ -7,7 +7,7 @@ use super::verdict::Verdict;
 use super::words::{self, NONE, time};
 use crate::report::html::number::{count, significant};
 use crate::report::html::page::{escape, plots};
-use crate::simulation::validation_record::{CaseRecord, CaseRun, QuantityRecord};
+use crate::simulation::validation_record::{CaseRecord, CaseRun, QuantityRecord, RunOutcome};
 
 /// The section, open from the start where something is not as expected.
 pub(super) fn html(case: &CaseRecord) -> String {
@@ -76,7 +76,7 @@ fn quantities(case: &CaseRecord) -> String {
             escape(&words::value(quantity)),
             escape(&words::criterion(quantity)),
             escape(&words::error(quantity)),
-            margin_bar(quantity.share),
+            margin_bar(words::used(quantity)),
             badge(Verdict::of_quantity(quantity)),
         ]
     });
@@ -134,7 +134,7 @@ fn runs(case: &CaseRecord) -> String {
 }
 
 fn outcomes(run: &CaseRun) -> String {
-    let of_one = |(outcome, number): (&crate::simulation::validation_record::RunOutcome, &usize)| {
+    let of_one = |(outcome, number): (&RunOutcome, &usize)| {
         if run.members == 1 { outcome.title().to_owned() } else { format!("{number} {}", outcome.title()) }
     };
     let outcomes: Vec<String> = run.outcomes.iter().map(of_one).collect();
@@ -146,7 +146,7 @@ fn work(run: &CaseRun) -> String {
         .work
         .iter()
         .filter(|(_, counted)| **counted > 0)
-        .map(|(name, &counted)| format!("{} {name}", count(counted)))
+        .map(|(name, &counted)| format!("{} {}", count(counted), words::counted_thing(name)))
         .collect();
     if counts.is_empty() { NONE.to_owned() } else { counts.join(", ") }
 }

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use super::markup::link;
-use crate::report::html::number::given;
+use super::words::as_written;
 use crate::report::html::page::escape;
 use crate::simulation::validation_record::{CaseRecord, RunOutcome, StabilityPoint, ValidationRecord};
 
@@ -102,9 +102,9 @@ fn row(name: &str, points: &[&StabilityPoint]) -> String {
         })
         .collect();
     let axis = if low == high {
-        given(low)
+        as_written(low)
     } else {
-        format!("{} to {}{}", given(low), given(high), if logarithmic { ", logarithmic" } else { "" })
+        format!("{} to {}{}", as_written(low), as_written(high), if logarithmic { ", logarithmic" } else { "" })
     };
     format!(
         "<div class=\"parameter\"><span>{name}</span> <span class=\"muted\">{axis}</span>\n\

@@ -2,6 +2,7 @@
 
 use super::markup::{badge, link, margin_bar, table};
 use super::verdict::Verdict;
+use super::words;
 use crate::report::html::page::escape;
 use crate::simulation::validation_record::{CaseRecord, ValidationRecord};
 
@@ -33,41 +34,52 @@ const TARGETS: [(&str, &str); 24] = [
     ("H6", "the simplified model wears deeper without instability, and faster"),
 ];
 
-/// The table; empty where no case speaks to any target.
+/// The table, and the targets that no case of this run speaks to; empty where no case speaks to any target.
 pub(super) fn html(record: &ValidationRecord) -> String {
     if record.cases.iter().all(|case| case.targets.is_empty()) {
         return String::new();
     }
-    let rows = TARGETS.into_iter().map(|(id, words)| {
+    let (mut rows, mut absent) = (Vec::new(), Vec::new());
+    for (id, words) in TARGETS {
         let cases: Vec<&CaseRecord> =
             record.cases.iter().filter(|case| case.targets.iter().any(|target| target == id)).collect();
-        let share = cases.iter().filter_map(|case| case.greatest_share()).reduce(f64::max);
-        let links: Vec<String> = cases.iter().map(|case| link(case, &case.name)).collect();
-        vec![
-            format!("<b>{id}</b> {}", escape(words)),
-            verdict(&cases),
-            margin_bar(share),
-            if cases.iter().any(|case| !case.rests_on.is_empty()) { "estimate" } else { "" }.to_owned(),
-            links.join("<br>"),
-        ]
-    });
-    table("targets", &["statement", "verdict", "of tolerance used", "rests on", "cases"], rows)
+        match verdict(&cases) {
+            Some(verdict) => rows.push(row(id, words, &cases, verdict)),
+            None => absent.push(id),
+        }
+    }
+    let absent = match absent.as_slice() {
+        [] => String::new(),
+        absent => format!("<p class=\"muted\">No case of this run speaks to {}.</p>\n", absent.join(", ")),
+    };
+    format!("{}{absent}", table("targets", &["statement", "verdict", "of tolerance used", "rests on", "cases"], rows))
 }
 
-/// What becomes of a target: the most urgent of its cases, with how many of its quantities hold where not all do.
-fn verdict(cases: &[&CaseRecord]) -> String {
-    let Some(worst) = cases.iter().map(|case| Verdict::of_case(case)).min() else {
-        return "<span class=\"muted\">not in this run</span>".to_owned();
-    };
+fn row(id: &str, words: &str, cases: &[&CaseRecord], verdict: String) -> Vec<String> {
+    let used = cases.iter().filter_map(|case| words::tightest(case)).map(|(_, share)| share).reduce(f64::max);
+    let links: Vec<String> = cases.iter().map(|case| link(case, &case.name)).collect();
+    vec![
+        format!("<b>{id}</b> {}", escape(words)),
+        verdict,
+        margin_bar(used),
+        if cases.iter().any(|case| !case.rests_on.is_empty()) { "estimate" } else { "" }.to_owned(),
+        links.join("<br>"),
+    ]
+}
+
+/// What becomes of a target: the most urgent of its cases, with how many of its quantities hold where not all do; `None`
+/// where no case speaks to it.
+fn verdict(cases: &[&CaseRecord]) -> Option<String> {
+    let worst = cases.iter().map(|case| Verdict::of_case(case)).min()?;
     let compared: Vec<Verdict> = cases
         .iter()
         .flat_map(|case| case.quantities.iter().map(Verdict::of_quantity))
         .filter(|verdict| !matches!(verdict, Verdict::Reported))
         .collect();
     let hold = compared.iter().filter(|verdict| matches!(verdict, Verdict::Holds | Verdict::NowHolds)).count();
-    if hold < compared.len() {
+    Some(if hold < compared.len() {
         format!("{} <span class=\"muted\">{hold} of {} hold</span>", badge(worst), compared.len())
     } else {
         badge(worst)
-    }
+    })
 }

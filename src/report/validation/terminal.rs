@@ -1,15 +1,19 @@
 //! The suite for the terminal: a line for each case, then what is not as it should be, then the totals.
 
 use comfy_table::presets::NOTHING;
-use comfy_table::{CellAlignment, ContentArrangement, Table};
+use comfy_table::{ContentArrangement, Table};
 
 use super::totals;
 use super::verdict::Verdict;
 use super::words::{self, time};
 use crate::simulation::validation_record::{CaseRecord, Changes, ValidationRecord};
 
-/// Below this many columns the table does without the quantity that comes closest to its bound and without the work.
-const NARROW: u16 = 100;
+/// From this many columns on the table has the group and the quantity that comes closest to its bound.
+const WITH_QUANTITY: u16 = 90;
+/// From this many columns on it has the work too.
+const WITH_WORK: u16 = 125;
+/// Letters of a quantity's name: a line is to stay one.
+const NAME: usize = 36;
 
 /// A line a case, the details of whatever is not as expected, and the totals; cells wrap at `width` columns.
 pub fn terminal(record: &ValidationRecord, changes: Option<&Changes>, width: Option<u16>) -> String {
@@ -20,46 +24,47 @@ pub fn terminal(record: &ValidationRecord, changes: Option<&Changes>, width: Opt
 }
 
 fn cases(record: &ValidationRecord, width: Option<u16>) -> String {
-    let wide = width.is_none_or(|width| width >= NARROW);
     let mut table = Table::new();
     table.load_style(NOTHING).set_content_arrangement(ContentArrangement::Disabled);
     if let Some(width) = width {
         table.set_content_arrangement(ContentArrangement::Dynamic).set_width(width);
     }
-    table.set_header(shown(wide, ["", "group", "case", "tol. used", "by", "work", "time"].map(str::to_owned)));
+    table.set_header(shown(width, ["", "group", "case", "tol. used", "by", "work", "time"].map(str::to_owned)));
     for case in &record.cases {
         let verdict = Verdict::of_case(case);
         let tightest = words::tightest(case);
         table.add_row(shown(
-            wide,
+            width,
             [
                 format!("{} {}", verdict.sign(), verdict.word()),
                 case.group.clone(),
                 case.name.clone(),
                 words::share(tightest.map(|(_, share)| share)),
-                tightest.map_or_else(String::new, |(quantity, _)| quantity.name.clone()),
+                tightest.map_or_else(String::new, |(quantity, _)| shortened(&quantity.name)),
                 words::main_work(case),
                 time(case.wall_s),
             ],
         ));
     }
-    for column in table.column_iter_mut().skip(3) {
-        column.set_cell_alignment(CellAlignment::Right);
-    }
-    if wide && let Some(column) = table.column_mut(4) {
-        column.set_cell_alignment(CellAlignment::Left);
-    }
     format!("{}\n", table.trim_fmt())
 }
 
 /// The cells for which there is room.
-fn shown(wide: bool, cells: [String; 7]) -> Vec<String> {
-    cells
-        .into_iter()
-        .enumerate()
-        .filter(|(column, _)| wide || !matches!(column, 1 | 4 | 5))
-        .map(|(_, cell)| cell)
-        .collect()
+fn shown(width: Option<u16>, cells: [String; 7]) -> Vec<String> {
+    let has_room = |least: u16| width.is_none_or(|width| width >= least);
+    let is_shown = |column: usize| match column {
+        1 | 4 => has_room(WITH_QUANTITY),
+        5 => has_room(WITH_WORK),
+        _ => true,
+    };
+    cells.into_iter().enumerate().filter(|&(column, _)| is_shown(column)).map(|(_, cell)| cell).collect()
+}
+
+fn shortened(name: &str) -> String {
+    if name.chars().count() <= NAME {
+        return name.to_owned();
+    }
+    format!("{}…", name.chars().take(NAME - 1).collect::<String>().trim_end())
 }
 
 fn not_as_expected(record: &ValidationRecord) -> String {

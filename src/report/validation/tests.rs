@@ -8,6 +8,7 @@ use tempfile::TempDir;
 
 use super::markup::anchor;
 use super::synthetic::{changes, record, repeated};
+use super::words::as_written;
 use super::{junit, markdown, page, terminal, write};
 use crate::simulation::validation_record::{CaseRecord, ValidationRecord};
 
@@ -210,15 +211,25 @@ fn the_page_shows_no_number_that_is_none_and_no_raw_markup() {
     assert!(!page.contains("<angle>"));
 }
 
-/// The thesis's targets are all named, whether a case speaks to them or not.
+/// The statements of the thesis are all named, whether a case speaks to them or not.
 #[test]
 fn the_page_names_all_targets() {
     let page = html();
-    let ids = (1..=12).map(|n| format!("S{n}")).chain((1..=4).map(|n| format!("D{n}")));
-    for id in ids.chain(["K1", "K2"].map(str::to_owned)).chain((1..=6).map(|n| format!("H{n}"))) {
+    for id in ["S1", "S10", "D1", "D2", "D3", "D4", "K1"] {
         assert!(page.contains(&format!("<b>{id}</b> ")), "{id}");
     }
-    assert!(page.contains("not in this run"));
+    assert!(page.contains(
+        "No case of this run speaks to S2, S3, S4, S5, S6, S7, S8, S9, S11, S12, K2, H1, H2, H3, H4, H5, H6."
+    ));
+}
+
+/// A power of ten and a bound carry no digits that say nothing.
+#[test]
+fn bounds_read_as_written() {
+    for (value, text) in [(1e-6, "10⁻⁶"), (2.5e-17, "2.5 × 10⁻¹⁷"), (-1e7, "−10⁷"), (0.05, "0.05"), (450.0, "450")]
+    {
+        assert_eq!(as_written(value).replace('\u{2009}', " "), text);
+    }
 }
 
 #[test]

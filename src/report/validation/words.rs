@@ -2,7 +2,7 @@
 
 use super::verdict::Verdict;
 use crate::report::html::number::{count, figure, given, percent, significant};
-use crate::simulation::validation_record::{CaseRecord, Criterion, QuantityRecord};
+use crate::simulation::validation_record::{CaseRecord, Criterion, QuantityRecord, Standing};
 
 /// Stands where there is no number.
 pub(super) const NONE: &str = "–";
@@ -18,7 +18,22 @@ pub(super) fn value(quantity: &QuantityRecord) -> String {
 
 /// Four digits or so; whole numbers keep all of theirs.
 fn digits(value: f64) -> String {
-    if value.fract() == 0.0 && value.abs() < 1e9 { given(value) } else { figure(value) }
+    if value.fract() == 0.0 && value.abs() < 1e6 { given(value) } else { figure(value) }
+}
+
+/// A bound or a setting as a person writes it: no digits that say nothing, powers of ten as such.
+pub(super) fn as_written(value: f64) -> String {
+    let text = given(value);
+    match text.split_once('\u{2009}') {
+        Some((mantissa, power)) if power.starts_with('×') => {
+            let power = power.trim_start_matches(['×', '\u{2009}']);
+            match mantissa.trim_start_matches('−').trim_end_matches('0').trim_end_matches('.') {
+                "1" => format!("{}{power}", if value < 0.0 { "−" } else { "" }),
+                short => format!("{}{short}\u{2009}×\u{2009}{power}", if value < 0.0 { "−" } else { "" }),
+            }
+        }
+        _ => text,
+    }
 }
 
 fn with_unit(text: &str, unit: &str) -> String {
@@ -28,10 +43,11 @@ fn with_unit(text: &str, unit: &str) -> String {
 /// What it is held against, with the unit.
 pub(super) fn criterion(quantity: &QuantityRecord) -> String {
     let text = match quantity.criterion {
+        Criterion::Near { reference, tolerance: 0.0 } => format!("exactly {}", as_written(reference)),
         Criterion::Near { reference, tolerance } => format!("{} ± {}", digits(reference), significant(tolerance, 2)),
-        Criterion::AtLeast { bound } => format!("≥ {}", given(bound)),
-        Criterion::AtMost { bound } => format!("≤ {}", given(bound)),
-        Criterion::Between { low, high } => format!("{} to {}", given(low), given(high)),
+        Criterion::AtLeast { bound } => format!("≥ {}", as_written(bound)),
+        Criterion::AtMost { bound } => format!("≤ {}", as_written(bound)),
+        Criterion::Between { low, high } => format!("{} to {}", as_written(low), as_written(high)),
         Criterion::True => return "must be so".to_owned(),
         Criterion::Reported => return NONE.to_owned(),
     };
@@ -59,16 +75,15 @@ pub(super) fn share(share: Option<f64>) -> String {
 
 /// Everything about a quantity that is not as it should be, in a line.
 pub(super) fn deviation(quantity: &QuantityRecord) -> String {
-    let verdict = Verdict::of_quantity(quantity);
     let mut text = match (quantity.value, quantity.criterion) {
         (None, _) => "could not be computed".to_owned(),
         (Some(_), Criterion::Reported) => value(quantity),
         (Some(_), _) => format!("{}, held against {}", value(quantity), criterion(quantity)),
     };
-    if quantity.share.is_some_and(|share| share > 1.0) {
+    if quantity.share.is_some_and(|share| share > 1.0) && matches!(quantity.criterion, Criterion::Near { .. }) {
         text.push_str(&format!(" ({} of the tolerance)", share(quantity.share)));
     }
-    if verdict.is_failure() {
+    if quantity.expected != Standing::Holds && Verdict::of_quantity(quantity).is_failure() {
         text.push_str(&format!("; expected: {}", quantity.expected.title()));
     }
     for remark in [&quantity.remark, &quantity.because].into_iter().flatten() {
@@ -77,23 +92,40 @@ pub(super) fn deviation(quantity: &QuantityRecord) -> String {
     text
 }
 
-/// The quantity that uses most of its tolerance, and how much: of those that fail unexpectedly first.
+/// The share of its tolerance or bound that a quantity uses: 1 is where it stops to hold.
+///
+/// Beside the record's own shares, of references and of upper bounds: of a lower bound as bound ÷ value, of a range by the way
+/// from its middle.
+pub(super) fn used(quantity: &QuantityRecord) -> Option<f64> {
+    let of_bound = |value: f64| match quantity.criterion {
+        Criterion::AtLeast { bound } if bound > 0.0 && value > 0.0 => Some(bound / value),
+        Criterion::Between { low, high } if low < high => Some((2.0 * value - low - high).abs() / (high - low)),
+        _ => None,
+    };
+    quantity.share.or_else(|| quantity.value.and_then(of_bound)).filter(|share| share.is_finite())
+}
+
+/// The quantity that uses most of its tolerance, and how much: of those that are missed, if there are any.
 pub(super) fn tightest(case: &CaseRecord) -> Option<(&QuantityRecord, f64)> {
-    let among = |wanted: fn(Verdict) -> bool| {
+    let among = |wanted: Verdict| {
         case.quantities
             .iter()
-            .filter(|quantity| wanted(Verdict::of_quantity(quantity)))
-            .filter_map(|quantity| Some((quantity, quantity.share.filter(|share| share.is_finite())?)))
+            .filter(|quantity| Verdict::of_quantity(quantity) == wanted)
+            .filter_map(|quantity| Some((quantity, used(quantity)?)))
             .reduce(|most, next| if next.1 > most.1 { next } else { most })
     };
-    among(|verdict| verdict == Verdict::Missed)
-        .or_else(|| among(|verdict| !verdict.is_failure() && verdict != Verdict::KnownNot))
+    among(Verdict::Missed).or_else(|| among(Verdict::Holds))
 }
 
 /// The greatest of the work counts: what the time went into.
 pub(super) fn main_work(case: &CaseRecord) -> String {
     let most = case.work.iter().reduce(|most, next| if next.1 > most.1 { next } else { most });
-    most.map_or_else(|| NONE.to_owned(), |(name, &counted)| format!("{} {name}", count(counted)))
+    most.map_or_else(|| NONE.to_owned(), |(name, &counted)| format!("{} {}", count(counted), counted_thing(name)))
+}
+
+/// What was counted, as words.
+pub(super) fn counted_thing(name: &str) -> String {
+    name.replace('_', " ")
 }
 
 /// A wall time, unit included.
