@@ -87,7 +87,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 }
 
 fn in_words(record: &ValidationRecord, changes: Option<&Changes>, out: &Path) -> String {
-    let verdicts = report::validation::terminal(record, changes, None);
+    let verdicts = report::validation::terminal(record, changes, stdout::width());
     format!("{verdicts}report: {}\n", out.join("report.html").display())
 }
 
