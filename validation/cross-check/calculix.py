@@ -10,6 +10,7 @@ increments the normals turn with the surfaces, which is another model, so a run 
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 from dataclasses import dataclass
 
@@ -101,7 +102,10 @@ class Deck:
 
 
 def program():
-    return os.environ.get("CCX", "ccx")
+    path = shutil.which(os.environ.get("CCX", "ccx"))
+    if path is None:
+        raise SystemExit("ccx is not on the PATH and CCX does not name it; see README.md")
+    return os.path.abspath(path)
 
 
 def version():

@@ -1,8 +1,8 @@
 """The course of a contact pressure along a surface, reduced to the figures that are compared."""
 
-# Only where the pressure is above this part of the greatest is the ellipse fitted: near its ends the penalty, the
-# averaging over nodes and the mesh blur it.
-FITTED_ABOVE = 0.3
+# Only where the pressure is above this part of the greatest is the ellipse fitted, that is within 0.87 half-widths: near its
+# ends the penalty, CalculiX's extrapolation to nodes and the mesh blur the pressure over an element.
+FITTED_ABOVE = 0.5
 
 
 def hertz_ellipse(along_mm, pressure_mpa):
