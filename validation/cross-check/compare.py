@@ -13,7 +13,7 @@ import pressure_course
 import table
 
 HERE = pathlib.Path(__file__).parent
-# The course of the pressure is compared up to this part of gearwear's half-width; see pressure_course.py.
+# The course of the pressure is compared up to this part of gearwear's fitted half-width; see pressure_course.py.
 COMPARED_HALF_WIDTHS = 0.8
 
 
@@ -35,10 +35,13 @@ def interpolated(along_mm, pressure_mpa, at_mm):
     return 0.0
 
 
-def course_difference(ours, theirs, half_width_mm):
-    """Root mean square difference of two courses at our nodes, over our peak."""
-    squares = [(p - interpolated(*theirs, s)) ** 2 for s, p in zip(*ours) if abs(s) < COMPARED_HALF_WIDTHS * half_width_mm]
-    return (sum(squares) / len(squares)) ** 0.5 / max(ours[1])
+def course_difference(ours, theirs):
+    """Root mean square difference of two courses at our nodes, over our peak, with the middles of their ellipses together."""
+    own, other = pressure_course.hertz_ellipse(*ours), pressure_course.hertz_ellipse(*theirs)
+    from_centre = [(s - own.centre_mm, p) for s, p in zip(*ours)]
+    squares = [(p - interpolated(*theirs, other.centre_mm + s)) ** 2
+               for s, p in from_centre if abs(s) < COMPARED_HALF_WIDTHS * own.half_width_mm]
+    return (sum(squares) / len(squares)) ** 0.5 / own.peak_mpa
 
 
 def print_table(title, lines):
@@ -55,18 +58,18 @@ def cylinder(folder):
     our_course = pressure_course.mirrored(*columns(rows, "x_mm", "pressure_MPa"))
     their_course = pressure_course.mirrored(
         *columns(table.read(HERE / "nafems-cylinder-pressure.csv"), "x_mm", "pressure_MPa"))
-    peak_mpa, half_width_mm = pressure_course.hertz_ellipse(*our_course)
+    fitted = pressure_course.hertz_ellipse(*our_course)
     # CalculiX measures the surface after deformation, gearwear before.
     end_mm, shift_mm = columns(rows, "along_mm", "displacement_x_mm")
     own_half_width_mm = contact["half_width_mm"] + interpolated(end_mm, shift_mm, min(contact["half_width_mm"], max(end_mm)))
     print_table("NAFEMS cylinder on a block (Hertz: 3585.4 MPa, 6.215 mm)", [
         ("peak pressure, MPa", 1, theirs["peak_pressure_MPa"], contact["peak_pressure_MPa"]),
         ("half-width after deformation, mm", 3, theirs["half_width_mm"], own_half_width_mm),
-        ("peak of the fitted ellipse, MPa", 1, theirs["fitted_pressure_MPa"], peak_mpa),
-        ("half-width of the fitted ellipse, mm", 3, theirs["fitted_half_width_mm"], half_width_mm),
+        ("peak of the fitted ellipse, MPa", 1, theirs["fitted_pressure_MPa"], fitted.peak_mpa),
+        ("half-width of the fitted ellipse, mm", 3, theirs["fitted_half_width_mm"], fitted.half_width_mm),
         ("contact force, N/mm", 1, theirs["contact_force_N_per_mm"], 2.0 * contact["force_N_per_mm"][1]),
     ])
-    difference = course_difference(our_course, their_course, contact["half_width_mm"])
+    difference = course_difference(our_course, their_course)
     print(f"\npressure along the contact: {100.0 * difference:.2f} % of the peak (root mean square)")
 
 
@@ -88,15 +91,15 @@ def gear_pair(folder):
                                  "along_mm", "pressure_MPa")
             their_course = columns([row for row in their_courses if float(row["position_mm"]) == float(position_mm)
                                     and int(row["pair"]) == pair], "along_mm", "pressure_MPa")
-            peak_mpa, half_width_mm = pressure_course.hertz_ellipse(*our_course)
+            fitted = pressure_course.hertz_ellipse(*our_course)
             figures = (("line load, N/mm", 2, "line_load_{}_N_per_mm", float(ours[pair]["line_load_N_per_mm"])),
                        ("peak pressure, MPa", 1, "peak_pressure_{}_MPa", float(ours[pair]["peak_pressure_MPa"])),
                        ("half-width, mm", 4, "half_width_{}_mm", float(ours[pair]["half_width_mm"])),
-                       ("fitted peak, MPa", 1, "fitted_pressure_{}_MPa", peak_mpa),
-                       ("fitted half-width, mm", 4, "fitted_half_width_{}_mm", half_width_mm))
+                       ("fitted peak, MPa", 1, "fitted_pressure_{}_MPa", fitted.peak_mpa),
+                       ("fitted half-width, mm", 4, "fitted_half_width_{}_mm", fitted.half_width_mm))
             lines += [(f"{what}, pair {pair}", digits, float(theirs[column.format(name)]), value)
                       for what, digits, column, value in figures]
-            difference = course_difference(our_course, their_course, float(ours[pair]["half_width_mm"]))
+            difference = course_difference(our_course, their_course)
             differences.append(f"{100.0 * difference:.2f} % (pair {pair})")
         print_table(f"fzg-c at {position_mm} mm", lines)
         print(f"\npressure along the contact: {', '.join(differences)} of the peak (root mean square)")

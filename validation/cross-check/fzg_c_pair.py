@@ -110,7 +110,8 @@ def figures(results, points, torque_nm, pair):
     share = moments[flank("pinion", pair)] / sum(moments.values())
     line_load = share * 1e3 * torque_nm / (BASE_RADIUS_MM * FACE_WIDTH_MM)
     half_width_mm = 0.5 * results.contacts[flank("pinion", pair)].length_mm
-    return [line_load, max(p for _, p in points), half_width_mm, *pressure_course.hertz_ellipse(*zip(*points))]
+    fitted = pressure_course.hertz_ellipse(*zip(*points))
+    return [line_load, max(p for _, p in points), half_width_mm, fitted.peak_mpa, fitted.half_width_mm]
 
 
 def main():

@@ -45,10 +45,10 @@ def solve(folder, penalty_mpa_per_mm):
     results = deck.solve(folder, f"cylinder-{penalty_mpa_per_mm:.0e}", "base")
 
     course = sorted((mesh.points[node][0], results.pressure_mpa[node]) for node in mesh.nodes_of("cylinder-surface"))
-    peak_mpa, half_width_mm = pressure_course.hertz_ellipse(*pressure_course.mirrored(*zip(*course)))
+    fitted = pressure_course.hertz_ellipse(*pressure_course.mirrored(*zip(*course)))
     force = results.contacts["cylinder-surface"]
     row = [penalty_mpa_per_mm, max(pressure for _, pressure in course), force.length_mm, 2.0 * force.y_n_per_mm,
-           peak_mpa, half_width_mm]
+           fitted.peak_mpa, fitted.half_width_mm]
     return course, row
 
 

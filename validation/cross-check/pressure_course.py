@@ -1,12 +1,20 @@
 """The course of a contact pressure along a surface, reduced to the figures that are compared."""
 
+from typing import NamedTuple
+
 # Only where the pressure is above this part of the greatest is the ellipse fitted, that is within 0.87 half-widths: near its
 # ends the penalty, CalculiX's extrapolation to nodes and the mesh blur the pressure over an element.
 FITTED_ABOVE = 0.5
 
 
+class Ellipse(NamedTuple):
+    peak_mpa: float
+    half_width_mm: float
+    centre_mm: float
+
+
 def hertz_ellipse(along_mm, pressure_mpa):
-    """Peak (MPa) and half-width (mm) of the ellipse p² = p₀² (1 − (s − s₀)²/a²), by least squares in p²."""
+    """The ellipse p² = p₀² (1 − (s − s₀)²/a²), by least squares in p²."""
     least = FITTED_ABOVE * max(pressure_mpa)
     rows = [(s, p * p) for s, p in zip(along_mm, pressure_mpa) if p > least]
     middle = sum(s for s, _ in rows) / len(rows)
@@ -14,7 +22,7 @@ def hertz_ellipse(along_mm, pressure_mpa):
     right = [sum((s - middle) ** k * squared for s, squared in rows) for k in range(3)]
     c0, c1, c2 = _solve([[power[i + j] for j in range(3)] for i in range(3)], right)
     peak_squared = c0 - c1 * c1 / (4.0 * c2)
-    return peak_squared ** 0.5, (-peak_squared / c2) ** 0.5
+    return Ellipse(peak_squared ** 0.5, (-peak_squared / c2) ** 0.5, middle - 0.5 * c1 / c2)
 
 
 def mirrored(along_mm, pressure_mpa):
