@@ -32,6 +32,7 @@ pub mod simulation;
 pub mod stiffness;
 pub mod sweep;
 pub mod thermal;
+pub mod validation;
 pub mod wear;
 mod whole_file;
 pub mod working_cycle;

@@ -22,6 +22,7 @@ use gearwear::stiffness::curve_file::CurveFileError;
 use gearwear::sweep::axis::AxisError;
 use gearwear::sweep::journal::JournalError;
 use gearwear::sweep::merge::MergeError;
+use gearwear::validation::library::LibraryError;
 use miette::{Diagnostic, LabeledSpan, MietteDiagnostic, NamedSource, Report};
 
 /// Problems of one file that are shown; the rest is counted.
@@ -65,6 +66,12 @@ pub enum Failure {
         /// The first error.
         error: String,
     },
+    /// Cases of the validation suite that do not stand as they should; the reports are written.
+    #[error("{} of the validation suite's cases missed: {}", cases.len(), cases.join(", "))]
+    Missed {
+        /// Their names.
+        cases: Vec<String>,
+    },
     /// The user interrupted the run; it was said what is kept.
     #[error("interrupted")]
     Interrupted,
@@ -87,6 +94,19 @@ pub struct SceneProblems {
 /// What can be wrong with a command beside the scene's content.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 pub enum InputError {
+    /// There is no such validation case, or it is none.
+    #[error(transparent)]
+    ValidationCase(LibraryError),
+    /// A file that is no record of the validation suite.
+    #[error("{name}: line {line}: found {reason}; allowed: a validation.json that gearwear validate wrote")]
+    NoValidationRecord {
+        /// The file.
+        name: String,
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong.
+        reason: String,
+    },
     /// The file cannot be read.
     #[error("{name} cannot be read: {reason}")]
     Unreadable {
@@ -311,7 +331,7 @@ impl Failure {
             Failure::Accuracy(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Calibrate(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::Run(error) => say(&format!("{:?}", Report::msg(error))),
-            error @ (Failure::NoCombination { .. } | Failure::NotFitted { .. }) => {
+            error @ (Failure::NoCombination { .. } | Failure::NotFitted { .. } | Failure::Missed { .. }) => {
                 say(&format!("{:?}", Report::msg(error)))
             }
             Failure::Interrupted | Failure::Closed => {}
@@ -329,6 +349,7 @@ impl Failure {
             | Failure::Accuracy(_)
             | Failure::NotFitted { .. }
             | Failure::NoCombination { .. } => 3,
+            Failure::Missed { .. } => 1,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
         }

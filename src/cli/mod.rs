@@ -22,6 +22,8 @@ mod schema;
 mod stdout;
 mod sweep;
 mod sweep_progress;
+mod validate;
+mod validate_progress;
 
 use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
@@ -33,7 +35,7 @@ const UNBROKEN: usize = 10_000;
 
 /// Predicts how the flanks of spur and helical gears wear, and the pressure, load sharing and transmission error that follow.
 ///
-/// Exit status: 0 done; 2 the input is wrong; 3 the solver failed; 130 interrupted (what was finished is kept).
+/// Exit status: 0 done; 1 a check failed; 2 the input is wrong; 3 the solver failed; 130 interrupted (what was finished is kept).
 #[derive(Debug, Parser)]
 #[command(name = "gearwear", version)]
 struct Cli {
@@ -61,6 +63,8 @@ enum Command {
     Calibrate(calibrate::Args),
     /// Compare a measured flank profile with a finished run, and fit the wear coefficient to it
     Compare(compare::Args),
+    /// Run the validation suite: every claim against its reference, with error, run time and work
+    Validate(validate::Args),
     /// Print the JSON schema of the scene: every key with its meaning, unit, range and default
     Schema(schema::Args),
     /// Print completions for a shell
@@ -86,6 +90,7 @@ pub fn main() -> ExitCode {
         Command::Sweep(args) => sweep::run(args),
         Command::Calibrate(args) => calibrate::run(args),
         Command::Compare(args) => compare::run(args),
+        Command::Validate(args) => validate::run(args),
         Command::Schema(args) => schema::run(args),
         Command::Completions(args) => completions::run(args),
     };

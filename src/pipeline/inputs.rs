@@ -1,6 +1,8 @@
 //! What a scene names beside itself: files that are read before the work begins.
 
-use crate::calibration::Calibration;
+use crate::calibration::{Calibration, identity::Identity};
+use crate::gear::GearPair;
+use crate::scene::Resolved;
 use crate::stiffness::curve::PairCompliance;
 
 /// The files a scene names, read.
@@ -10,4 +12,18 @@ pub struct Inputs {
     pub calibration: Option<Calibration>,
     /// `stiffness.curve`.
     pub stiffness_curve: Option<PairCompliance>,
+}
+
+impl Inputs {
+    /// In what the pair of the calibration differs from that of the scene; empty where there is none, or none differs.
+    pub fn belonging_to_another_pair(&self, resolved: &Resolved) -> Vec<String> {
+        let Some(calibration) = &self.calibration else { return Vec::new() };
+        match GearPair::new(&resolved.scene.pair) {
+            Ok(pair) => {
+                let own = Identity::of(&pair, &resolved.scene.material, &resolved.scene.fem);
+                calibration.belongs_to.differences(&own, resolved.file.fem.is_some())
+            }
+            Err(error) => vec![error.to_string()],
+        }
+    }
 }

@@ -22,6 +22,7 @@ pub mod slice_table;
 pub mod summary;
 pub mod sweep;
 pub mod tables;
+pub mod validation;
 
 use std::fs;
 use std::io::{self, Write};

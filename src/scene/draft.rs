@@ -28,6 +28,19 @@ pub fn other_way_to_say(key: &str) -> Option<&'static str> {
     })
 }
 
+/// Gives the key at the path `key` of `table` this value.
+pub fn set(table: &mut Table, key: &str, value: impl Into<Value>) {
+    let (tables, name) = key.rsplit_once('.').map_or((None, key), |(tables, name)| (Some(tables), name));
+    let mut table = table;
+    for part in tables.into_iter().flat_map(|tables| tables.split('.')) {
+        let below = table.entry(part).or_insert_with(|| Value::Table(Table::new()));
+        // Something else in the place of a table cannot be a scene's; resolving says so.
+        let Value::Table(below) = below else { return };
+        table = below;
+    }
+    table.insert(name.to_owned(), value.into());
+}
+
 /// A scene file, read but not resolved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Draft {
@@ -50,15 +63,7 @@ impl Draft {
         if let Some(other) = other_way_to_say(key) {
             self.remove(other);
         }
-        let (tables, name) = key.rsplit_once('.').map_or((None, key), |(tables, name)| (Some(tables), name));
-        let mut table = &mut self.table;
-        for part in tables.into_iter().flat_map(|tables| tables.split('.')) {
-            let below = table.entry(part).or_insert_with(|| Value::Table(Table::new()));
-            // Something else in the place of a table cannot be a scene's; resolving says so.
-            let Value::Table(below) = below else { return };
-            table = below;
-        }
-        table.insert(name.to_owned(), value.into());
+        set(&mut self.table, key, value);
     }
 
     /// Takes the key at the path `key` away, if it is there.

@@ -6,7 +6,7 @@ pub mod file;
 mod findings;
 pub mod key;
 mod locate;
-mod nearest;
+pub(crate) mod nearest;
 pub mod presets;
 pub mod problem;
 mod resolve;

@@ -17,5 +17,6 @@ pub mod simplified;
 pub mod stability;
 pub mod sweep_figures;
 pub mod sweep_record;
+pub mod validation_record;
 pub mod wear_run;
 pub mod wearing_pair;

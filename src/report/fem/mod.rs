@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 use super::{ReportError, create_folder, place, summary, tables::Provenance};
 use crate::simulation::fem_problem_record::{FemRecord, FemSummary};
 
-pub use contact_table::CONTACT;
+pub use contact_table::{CONTACT, write as contact_table};
 
 /// Writes all files of `record` but `summary.json` into `dir`, which is made if need be; returns their paths in the order
 /// written.

@@ -1,0 +1,113 @@
+//! `gearwear validate`: the validation suite.
+
+use std::fs;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use gearwear::report;
+use gearwear::simulation::validation_record::{Changes, Tier, ValidationRecord};
+use gearwear::validation::library::{self, Library};
+use gearwear::validation::{self, against};
+
+use super::failure::{Failure, InputError};
+use super::run::{thread_count, watch_for_interrupt};
+use super::validate_progress::ValidateProgress;
+use super::{say, stdout};
+
+/// Arguments of `validate`.
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    /// Cases: names of built-in ones, or folders with a case.toml; default: all built-in cases of the tier
+    #[arg(value_name = "CASE")]
+    cases: Vec<String>,
+    /// How much to run: smoke takes below 3 minutes on two cores, full below 15, long as long as it takes. With CASEs given,
+    /// all of them are run unless a tier is asked for
+    #[arg(long, value_name = "TIER", value_parser = tier)]
+    tier: Option<Tier>,
+    /// The folder for the results; files of an earlier run are replaced
+    #[arg(long, value_name = "DIR", required_unless_present_any = ["export", "list"])]
+    out: Option<PathBuf>,
+    /// An earlier run's validation.json: what got worse or better since, in verdicts, errors and work
+    #[arg(long, value_name = "JSON")]
+    against: Option<PathBuf>,
+    /// Write the built-in cases to this folder, to be read, changed, or completed with measurements; runs nothing
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["out", "cases", "tier", "against"])]
+    export: Option<PathBuf>,
+    /// List the built-in cases with their tiers and requirements; runs nothing
+    #[arg(long, conflicts_with_all = ["out", "cases", "against", "export"])]
+    list: bool,
+    /// Number of threads; default: all cores. Never changes the results, but the times
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// Show neither progress nor verdicts, only what is wrong
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+fn tier(text: &str) -> Result<Tier, String> {
+    let found = Tier::ALL.into_iter().find(|tier| tier.name() == text);
+    found.ok_or_else(|| format!("allowed: {}", Tier::ALL.map(Tier::name).join(", ")))
+}
+
+pub fn run(args: &Args) -> Result<(), Failure> {
+    if let Some(folder) = &args.export {
+        report::create_folder(folder)?;
+        library::export(folder).map_err(InputError::ValidationCase)?;
+        say(&format!("{} cases are in {}", library::names().len(), folder.join("validation").display()));
+        return Ok(());
+    }
+    let library = Library::open(&args.cases).map_err(InputError::ValidationCase)?;
+    // The whole suite is asked for by its tier; cases that are named are run whatever theirs is.
+    let tier = args.tier.or(args.cases.is_empty().then_some(Tier::Full));
+    if args.list {
+        return list(&library, args.tier);
+    }
+    let earlier = args.against.as_deref().map(read_earlier).transpose()?;
+    let Some(out) = &args.out else { unreachable!("clap demands it") };
+    report::writable(out)?;
+    let interrupted = watch_for_interrupt();
+    let progress = ValidateProgress::new(args.quiet, Arc::clone(&interrupted));
+    let record = validation::run(&library.cases, tier, thread_count(args.threads), &progress);
+    progress.finish();
+    let changes = earlier.map(|earlier| against::changes(&earlier, &record));
+    report::validation::write(&record, changes.as_ref(), out)?;
+    if !args.quiet {
+        stdout::print(&in_words(&record, changes.as_ref(), out))?;
+    }
+    let missed: Vec<String> = record.cases.iter().filter(|case| !case.passed()).map(|case| case.name.clone()).collect();
+    match (record.interrupted, missed.is_empty()) {
+        (true, _) => {
+            say(&format!("interrupted: {} cases were finished and are kept in {}", record.cases.len(), out.display()));
+            Err(Failure::Interrupted)
+        }
+        (false, false) => Err(Failure::Missed { cases: missed }),
+        (false, true) => Ok(()),
+    }
+}
+
+fn in_words(record: &ValidationRecord, changes: Option<&Changes>, out: &Path) -> String {
+    let verdicts = report::validation::terminal(record, changes, None);
+    format!("{verdicts}report: {}\n", out.join("report.html").display())
+}
+
+/// The cases of a tier, or all of them.
+fn list(library: &Library, tier: Option<Tier>) -> Result<(), Failure> {
+    let mut text = String::new();
+    for case in library.cases.iter().filter(|case| tier.is_none_or(|tier| case.file.tier <= tier)) {
+        text.push_str(&format!("{:32} {:6} {}\n", case.name, case.file.tier.name(), case.file.requirement));
+    }
+    stdout::print(&text)?;
+    Ok(())
+}
+
+/// The record of an earlier run.
+fn read_earlier(path: &Path) -> Result<ValidationRecord, InputError> {
+    let name = path.display().to_string();
+    let text = fs::read_to_string(path).map_err(|reason| InputError::Unreadable { name: name.clone(), reason })?;
+    serde_json::from_str(&text).map_err(|error| InputError::NoValidationRecord {
+        name,
+        line: error.line(),
+        reason: error.to_string(),
+    })
+}

@@ -1,0 +1,185 @@
+//! Holds the quantities of a case against what they must be.
+//!
+//! A tolerance is honest where it is no wider than the reference is uncertain plus what the spacing of the computation
+//! contributes; a wider one must come with a sentence that says why, or the case does not count.
+
+use std::collections::BTreeSet;
+
+use super::case_file::{Extent, Formula, QuantitySpec};
+use super::expression::{Evaluator, ExpressionError};
+use super::schedule::Members;
+use crate::simulation::validation_record::{Criterion, QuantityRecord, RunOutcome, Standing};
+
+/// Rounding of a sum of allowances.
+const ROUNDING: f64 = 1e-9;
+
+/// Why a quantity could not be judged.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum JudgeError {
+    /// One of its expressions has no value.
+    #[error("{quantity}: {error}")]
+    Expression {
+        /// Its name.
+        quantity: String,
+        /// What is wrong.
+        error: ExpressionError,
+    },
+    /// A tolerance that nothing justifies.
+    #[error(
+        "{quantity}: found a tolerance of {tolerance:e}, wider than the uncertainty of the reference and the discretisation \
+         together, {allowed:e}; allowed: one as narrow, or a sentence because = \"…\""
+    )]
+    TooWide {
+        /// Its name.
+        quantity: String,
+        /// The tolerance.
+        tolerance: f64,
+        /// Uncertainty and discretisation together.
+        allowed: f64,
+    },
+}
+
+/// Judges one quantity; `present` holds the names of the files of numbers that are there.
+///
+/// # Errors
+/// [`JudgeError`]
+pub fn judge(spec: &QuantitySpec, present: &BTreeSet<&str>, e: &mut Evaluator) -> Result<QuantityRecord, JudgeError> {
+    let missing = spec.needs.as_deref().is_some_and(|name| !present.contains(name));
+    let expected = if missing { Standing::CannotBeCompared } else { spec.stands.unwrap_or(Standing::Holds) };
+    let mut record = QuantityRecord {
+        name: spec.name.clone(),
+        unit: spec.unit.clone(),
+        value: None,
+        criterion: Criterion::Reported,
+        source: spec.source.clone(),
+        uncertainty: None,
+        discretisation: None,
+        because: spec.because.clone(),
+        error: None,
+        relative_error: None,
+        share: None,
+        standing: Standing::CannotBeCompared,
+        expected,
+        remark: spec.remark.clone(),
+        counts_work: spec.work,
+    };
+    if missing {
+        return Ok(record);
+    }
+    let wrong = |error| JudgeError::Expression { quantity: spec.name.clone(), error };
+    let Some(value) = spec.value.as_ref().map(|formula| number(formula, e)).transpose().map_err(wrong)? else {
+        return Ok(record);
+    };
+    record.value = Some(value).filter(|value| value.is_finite());
+    let mut of = |formula: &Option<Formula>| formula.as_ref().map(|f| number(f, e)).transpose().map_err(wrong);
+    let (near, at_least, at_most) = (of(&spec.near)?, of(&spec.at_least)?, of(&spec.at_most)?);
+    let holds = match (near, &spec.within, at_least, at_most) {
+        (Some(reference), Some(within), ..) => {
+            let scale = reference.abs();
+            let mut of = |extent: Option<&Extent>| extent.map(|x| size(x, scale, e)).transpose().map_err(wrong);
+            let tolerance = of(Some(within))?.unwrap_or_default();
+            record.uncertainty = of(spec.uncertainty.as_ref())?;
+            record.discretisation = of(spec.discretisation.as_ref())?;
+            let allowed = record.uncertainty.unwrap_or_default() + record.discretisation.unwrap_or_default();
+            if tolerance > allowed * (1.0 + ROUNDING) && spec.because.is_none() {
+                return Err(JudgeError::TooWide { quantity: spec.name.clone(), tolerance, allowed });
+            }
+            let error = (value - reference).abs();
+            record.criterion = Criterion::Near { reference, tolerance };
+            record.error = Some(error).filter(|error| error.is_finite());
+            record.relative_error = Some(error / scale).filter(|relative| relative.is_finite());
+            record.share = Some(error / tolerance).filter(|share| share.is_finite());
+            Some(error <= tolerance)
+        }
+        (_, _, Some(low), Some(high)) => {
+            record.criterion = Criterion::Between { low, high };
+            Some(value >= low && value <= high)
+        }
+        (_, _, Some(bound), None) => {
+            record.criterion = Criterion::AtLeast { bound };
+            Some(value >= bound)
+        }
+        (_, _, None, Some(bound)) => {
+            record.criterion = Criterion::AtMost { bound };
+            // How much of a bound is used says something where zero is perfect.
+            record.share = Some(value / bound).filter(|share| bound > 0.0 && *share >= 0.0);
+            Some(value <= bound)
+        }
+        _ if spec.is_true => {
+            record.criterion = Criterion::True;
+            Some(value == 1.0)
+        }
+        _ => None,
+    };
+    record.standing = match holds {
+        Some(true) => Standing::Holds,
+        Some(false) => Standing::Fails,
+        // Only reported: nothing can be wrong with it but to have no value.
+        None if record.value.is_none() => Standing::Fails,
+        None => Standing::CannotBeCompared,
+    };
+    if holds.is_none() && record.value.is_some() {
+        record.expected = Standing::CannotBeCompared;
+    }
+    Ok(record)
+}
+
+/// That every member of a run ended as it should.
+pub fn endings(run: &str, family: &Members) -> QuantityRecord {
+    let ended = family.executed.iter().zip(&family.members);
+    let as_expected =
+        ended.filter(|(executed, member)| executed.as_ref().is_some_and(|e| e.outcome == member.expected)).count();
+    let (count, all) = (as_expected as f64, family.members.len() as f64);
+    let refusals = family.members.iter().filter(|member| member.expected != RunOutcome::Sound).count();
+    let name = match (family.members.len(), refusals) {
+        (1, 0) => format!("{run}: ends sound"),
+        (_, 0) => format!("{run}: members that end sound"),
+        _ => format!("{run}: members that end as they should, {refusals} of them not with a result"),
+    };
+    let standing = if as_expected == family.members.len() { Standing::Holds } else { Standing::Fails };
+    QuantityRecord {
+        name,
+        unit: String::new(),
+        value: Some(count),
+        criterion: Criterion::Near { reference: all, tolerance: 0.0 },
+        source: "every run: finite numbers, no negative wear or pressure, loads in equilibrium within 1e-6".to_owned(),
+        uncertainty: None,
+        discretisation: None,
+        because: None,
+        error: Some(all - count),
+        relative_error: Some((all - count) / all),
+        share: None,
+        standing,
+        expected: Standing::Holds,
+        remark: first_surprise(family),
+        counts_work: false,
+    }
+}
+
+/// What the first member that did not end as it should has said.
+fn first_surprise(family: &Members) -> Option<String> {
+    let (executed, member) = family
+        .executed
+        .iter()
+        .zip(&family.members)
+        .find(|(executed, member)| executed.as_ref().is_some_and(|e| e.outcome != member.expected))?;
+    let executed = executed.as_ref()?;
+    let said = executed.said.as_deref().unwrap_or("nothing");
+    let place = if member.label.is_empty() { String::new() } else { format!("{}: ", member.label) };
+    Some(format!("{place}{}: {said}", executed.outcome.title()))
+}
+
+/// The number a formula stands for.
+pub fn number(formula: &Formula, e: &mut Evaluator) -> Result<f64, ExpressionError> {
+    match formula {
+        Formula::Number(number) => Ok(*number),
+        Formula::Expression(expression) => e.number(expression),
+    }
+}
+
+fn size(extent: &Extent, scale: f64, e: &mut Evaluator) -> Result<f64, ExpressionError> {
+    match extent {
+        Extent::Relative(share) => Ok(number(share, e)? * scale),
+        Extent::Absolute(size) => number(size, e),
+    }
+}

@@ -1,0 +1,176 @@
+//! Where cases come from: those built into the program, or folders on disk.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use include_dir::{Dir, include_dir};
+use tempfile::TempDir;
+
+use super::case_file::CaseFile;
+
+/// The cases of this version, with everything that they read.
+static CASES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/validation");
+/// Finite-element meshes that cases read.
+static MESHES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/meshes");
+/// The file that makes a folder a case.
+const CASE_FILE: &str = "case.toml";
+
+/// Why there is no such case.
+#[derive(Debug, thiserror::Error)]
+pub enum LibraryError {
+    /// Neither the name of a built-in case nor a folder with a case.
+    #[error(
+        "found {found:?}; allowed: the name of a built-in case, or a folder with a file {CASE_FILE}{}",
+        near(nearest)
+    )]
+    Unknown {
+        /// As given.
+        found: String,
+        /// The most similar name.
+        nearest: Option<&'static str>,
+    },
+    /// A case file that cannot be read.
+    #[error("{}: {reason}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        reason: io::Error,
+    },
+    /// A case file that is none.
+    #[error("{}: line {line}: {reason}", path.display())]
+    NotACase {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong.
+        reason: String,
+    },
+    /// The built-in cases cannot be laid out in a folder.
+    #[error("cannot write the built-in cases to {}: {reason}", folder.display())]
+    Export {
+        /// The folder.
+        folder: PathBuf,
+        /// What the system says.
+        reason: io::Error,
+    },
+}
+
+fn near(nearest: &Option<&str>) -> String {
+    nearest.map_or_else(String::new, |nearest| format!("; did you mean {nearest:?}?"))
+}
+
+/// A case with its place on disk.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Name of its folder.
+    pub name: String,
+    /// The folder.
+    pub folder: PathBuf,
+    /// What it says.
+    pub file: CaseFile,
+}
+
+/// Cases, and the folder that keeps the built-in ones as long as they are needed.
+#[derive(Debug)]
+pub struct Library {
+    /// The cases.
+    pub cases: Vec<Case>,
+    _built_in: Option<TempDir>,
+}
+
+/// Names of the built-in cases.
+pub fn names() -> Vec<&'static str> {
+    let has_case = |dir: &&Dir<'static>| dir.contains(dir.path().join(CASE_FILE));
+    CASES.dirs().filter(has_case).filter_map(|dir| dir.path().to_str()).collect()
+}
+
+/// Lays the built-in cases out in `folder`: `validation/` with one folder a case, and `meshes/` beside it.
+///
+/// # Errors
+/// [`LibraryError::Export`]
+pub fn export(folder: &Path) -> Result<(), LibraryError> {
+    let lay_out = |dir: &Dir<'_>, name: &str| -> io::Result<()> {
+        let into = folder.join(name);
+        fs::create_dir_all(&into)?;
+        dir.extract(&into)
+    };
+    lay_out(&CASES, "validation")
+        .and_then(|()| lay_out(&MESHES, "meshes"))
+        .map_err(|reason| LibraryError::Export { folder: folder.into(), reason })
+}
+
+impl Library {
+    /// The cases asked for, each by its name or by the folder it lies in; none asked for: all built-in ones.
+    ///
+    /// # Errors
+    /// [`LibraryError`]
+    pub fn open(asked: &[String]) -> Result<Self, LibraryError> {
+        let names = names();
+        let is_folder = |asked: &&String| Path::new(asked).join(CASE_FILE).is_file();
+        for found in asked.iter().filter(|asked| !is_folder(asked) && !names.contains(&asked.as_str())) {
+            let nearest = crate::scene::nearest::nearest(found, &names);
+            return Err(LibraryError::Unknown { found: found.clone(), nearest });
+        }
+        let built_in_wanted = asked.is_empty() || asked.iter().any(|asked| !is_folder(&asked));
+        let built_in = match built_in_wanted {
+            true => {
+                let folder = tempfile::tempdir()
+                    .map_err(|reason| LibraryError::Export { folder: std::env::temp_dir(), reason })?;
+                export(folder.path())?;
+                Some(folder)
+            }
+            false => None,
+        };
+        let all: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+        let asked = if asked.is_empty() { &all } else { asked };
+        let place = |asked: &String| match &built_in {
+            Some(folder) if !is_folder(&asked) => folder.path().join("validation").join(asked),
+            _ => PathBuf::from(asked),
+        };
+        let cases = asked.iter().map(|asked| read(&place(asked))).collect::<Result<_, _>>()?;
+        Ok(Self { cases, _built_in: built_in })
+    }
+}
+
+/// Reads the case in `folder`.
+fn read(folder: &Path) -> Result<Case, LibraryError> {
+    let path = folder.join(CASE_FILE);
+    let text = fs::read_to_string(&path).map_err(|reason| LibraryError::Unreadable { path: path.clone(), reason })?;
+    let file: CaseFile = toml::from_str(&text).map_err(|error| {
+        let start = error.span().map_or(0, |span| span.start);
+        let line = text.get(..start).map_or(1, |before| before.matches('\n').count() + 1);
+        LibraryError::NotACase { path: path.clone(), line, reason: error.message().to_owned() }
+    })?;
+    super::check::check(&file).map_err(|fault| {
+        let line = fault.line(&text);
+        LibraryError::NotACase { path, line, reason: fault.to_string() }
+    })?;
+    // A folder given as `.` has a name all the same.
+    let whole = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
+    let name = whole.file_name().map_or_else(|| "case".to_owned(), |name| name.to_string_lossy().into_owned());
+    Ok(Case { name, folder: folder.to_owned(), file })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_built_in_case_is_one() {
+        let library = Library::open(&[]).unwrap();
+        assert_eq!(library.cases.len(), names().len());
+        assert!(!library.cases.is_empty());
+    }
+
+    #[test]
+    fn an_unknown_case_is_refused_with_the_nearest_name() {
+        let message = Library::open(&["fzg-c-geometri".to_owned()]).unwrap_err().to_string();
+        assert!(
+            message.contains("\"fzg-c-geometri\"") && message.contains("did you mean \"fzg-c-geometry\""),
+            "{message}"
+        );
+    }
+}

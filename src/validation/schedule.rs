@@ -1,0 +1,118 @@
+//! Hands the runs of all cases to the threads. Each run has one thread of its own, so that its wall time is its own; results never
+//! depend on which thread took it.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use super::case_file::Command;
+use super::execution::{Executed, execute};
+use super::library::Case;
+use super::members::{Member, members};
+use crate::calibration::Calibration;
+use crate::simulation::wear_run::Progress;
+
+/// Told how far the suite is; says whether to go on.
+pub trait Observer: Progress {
+    /// `done` of `total` runs are finished, the last one of this case.
+    fn run(&self, done: usize, total: usize, case: &str);
+}
+
+/// A run, one or a family, with its members.
+#[derive(Debug)]
+pub struct Members {
+    /// Its members.
+    pub members: Vec<Member>,
+    /// What each came to; `None` where the suite was interrupted before.
+    pub executed: Vec<Option<Executed>>,
+}
+
+/// One run to carry out.
+#[derive(Debug, Clone, Copy)]
+struct Job {
+    case: usize,
+    run: usize,
+    member: usize,
+}
+
+/// Carries out all runs of `cases` on `threads` threads: for each case, each of its runs.
+pub fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer) -> Vec<Vec<Members>> {
+    let mut all: Vec<Vec<Members>> = cases
+        .iter()
+        .map(|case| {
+            let of_run = |run| {
+                let members = members(run);
+                Members { executed: vec![None; members.len()], members }
+            };
+            case.file.run.iter().map(of_run).collect()
+        })
+        .collect();
+    let mut jobs: Vec<Job> = Vec::new();
+    for (case, runs) in all.iter().enumerate() {
+        for (run, family) in runs.iter().enumerate() {
+            jobs.extend((0..family.members.len()).map(|member| Job { case, run, member }));
+        }
+    }
+    let total = jobs.len();
+    let reads_calibration = |job: &Job| cases[job.case].file.run[job.run].calibration.is_some();
+    let (after, mut first): (Vec<Job>, Vec<Job>) = jobs.into_iter().partition(reads_calibration);
+    // Long ones first, so that no thread is left with one at the end.
+    first.sort_by_key(|job| match cases[job.case].file.run[job.run].command {
+        Command::Calibrate => 0,
+        Command::Fem => 1,
+        Command::Run => 2,
+    });
+    let done = AtomicUsize::new(0);
+    for jobs in [first, after] {
+        let executed = spread(&jobs, threads, |job| {
+            if observer.interrupted() {
+                return None;
+            }
+            let (case, family) = (cases[job.case], &all[job.case][job.run]);
+            let spec = &case.file.run[job.run];
+            let calibration = spec.calibration.as_ref().and_then(|name| made_by(case, &all[job.case], name));
+            let executed = match (&spec.calibration, &calibration) {
+                (Some(name), None) => Executed::without_calibration(name),
+                _ => execute(spec, &family.members[job.member], &case.folder, calibration, observer),
+            };
+            observer.run(done.fetch_add(1, Ordering::Relaxed) + 1, total, &case.name);
+            // What was running when the user stopped it is not its result.
+            (!observer.interrupted()).then_some(executed)
+        });
+        for (job, executed) in jobs.iter().zip(executed) {
+            all[job.case][job.run].executed[job.member] = executed;
+        }
+    }
+    all
+}
+
+/// The calibration that the run called `name` of the case made.
+fn made_by<'a>(case: &Case, runs: &'a [Members], name: &str) -> Option<&'a Calibration> {
+    let index = case.file.run.iter().position(|run| run.name == name)?;
+    runs[index].executed.first()?.as_ref()?.calibration.as_ref()
+}
+
+/// Does `work` for every job on so many threads, each with a pool of one thread for whatever runs in parallel inside;
+/// results in the order of the jobs.
+fn spread<T: Send>(jobs: &[Job], threads: usize, work: impl Fn(&Job) -> T + Sync) -> Vec<T> {
+    let next = AtomicUsize::new(0);
+    let results: Mutex<Vec<(usize, T)>> = Mutex::new(Vec::with_capacity(jobs.len()));
+    let hand_out = || {
+        while let Some((index, job)) = Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|i| Some((i, jobs.get(i)?)))
+        {
+            let done = work(job);
+            results.lock().unwrap_or_else(PoisonError::into_inner).push((index, done));
+        }
+    };
+    std::thread::scope(|scope| {
+        for _ in 0..threads.clamp(1, jobs.len().max(1)) {
+            scope.spawn(|| match rayon::ThreadPoolBuilder::new().num_threads(1).build() {
+                Ok(pool) => pool.install(hand_out),
+                // Without a pool of its own a run shares the program's: slower to time, the same results.
+                Err(_) => hand_out(),
+            });
+        }
+    });
+    let mut results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
+    results.sort_by_key(|(index, _)| *index);
+    results.into_iter().map(|(_, done)| done).collect()
+}
