@@ -69,15 +69,15 @@ fn quantities(case: &CaseRecord) -> String {
     if case.quantities.is_empty() {
         return String::new();
     }
-    let columns = ["quantity", "value", "held against", "error", "of tolerance used", "verdict"];
+    let columns = ["quantity", "verdict", "value", "held against", "error", "of tolerance used"];
     let rows = case.quantities.iter().map(|quantity| {
         vec![
             escape(&quantity.name),
+            badge(Verdict::of_quantity(quantity)),
             escape(&words::value(quantity)),
             escape(&words::criterion(quantity)),
             escape(&words::error(quantity)),
             margin_bar(words::used(quantity)),
-            badge(Verdict::of_quantity(quantity)),
         ]
     });
     let reasons: String = case.quantities.iter().map(reasons).collect();
