@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::case_file::{CaseFile, Command, QuantitySpec, RunSpec, VarySpec};
+use super::expression::Evaluator;
 use crate::simulation::validation_record::Standing;
 
 /// Greatest number of members of a family.
@@ -44,8 +45,9 @@ pub fn check(case: &CaseFile) -> Result<(), CaseFault> {
     for name in all.chain(case.define.iter().map(|definition| definition.name.as_str())) {
         let plain = name.starts_with(|c: char| c.is_ascii_lowercase())
             && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
-        if !plain {
-            return Err(fault("name", name, "it", "a small letter, then letters, digits and underscores"));
+        if !plain || !Evaluator::can_name(name) {
+            let allowed = "a small letter, then letters, digits and underscores; no word of the expression language";
+            return Err(fault("name", name, "it", allowed));
         }
         if !names.insert(name) {
             return Err(fault(

@@ -2,7 +2,8 @@
 //!
 //! The language is that of the `rhai` crate restricted to expressions: arithmetic, comparisons, `&&`, `||`, `!`, calls, `.name`
 //! and `[index]`; no statements, loops or functions of its own. Numbers with and without a decimal point mix, but two whole
-//! numbers divide as whole numbers do. Beside `sqrt`, `sin`, `exp`, `ln`, `PI()` and the like there are the functions of
+//! numbers divide as whole numbers do. `new` is a word of the language: what the outputs call `summary.new` is `summary.unworn`
+//! here. Beside `sqrt`, `sin`, `exp`, `ln`, `PI()` and the like there are the functions of
 //! [`super::column`].
 
 use rhai::{Array, Dynamic, Engine, Map, Scope};
@@ -58,6 +59,11 @@ impl Evaluator {
         done
     }
 
+    /// Whether `name` can stand for something: words of the language cannot.
+    pub fn can_name(name: &str) -> bool {
+        Engine::new().compile_expression(name).is_ok()
+    }
+
     /// The value of an expression.
     ///
     /// # Errors
@@ -75,14 +81,6 @@ impl Evaluator {
             Value::Number(number) => Ok(number),
             Value::Truth(truth) => Ok(f64::from(u8::from(truth))),
             other => Err(unfit(expression, &other, "a number")),
-        }
-    }
-
-    /// The same, which must be a truth.
-    pub fn truth(&mut self, expression: &str) -> Result<bool, ExpressionError> {
-        match self.value(expression)? {
-            Value::Truth(truth) => Ok(truth),
-            other => Err(unfit(expression, &other, "a statement that is true or false")),
         }
     }
 
@@ -116,9 +114,14 @@ fn dynamic(value: &Value) -> Dynamic {
         Value::Column(numbers) => Dynamic::from(Column(numbers.clone())),
         Value::List(items) => items.iter().map(dynamic).collect::<Array>().into(),
         Value::Group(entries) => {
-            entries.iter().map(|(name, value)| (name.as_str().into(), dynamic(value))).collect::<Map>().into()
+            entries.iter().map(|(name, value)| (speakable(name).into(), dynamic(value))).collect::<Map>().into()
         }
     }
+}
+
+/// A name as expressions may say it.
+fn speakable(name: &str) -> &str {
+    if name == "new" { "unworn" } else { name }
 }
 
 /// Back again; otherwise the name of what it is.
@@ -192,7 +195,7 @@ mod tests {
             let found = e.number(expression).unwrap();
             assert!((found - expected).abs() < 1e-12, "{expression}: {found}, expected {expected}");
         }
-        assert!(e.truth("is_rising(r.pinion.x) && !is_rising(r.pinion.y) && r.name == \"a\"").unwrap());
+        assert_eq!(e.number("is_rising(r.pinion.x) && !is_rising(r.pinion.y) && r.name == \"a\"").unwrap(), 1.0);
     }
 
     #[test]
