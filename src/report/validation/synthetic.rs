@@ -38,7 +38,10 @@ fn quantity(name: &str, unit: &str, value: Option<f64>, criterion: Criterion) ->
             error <= tolerance
         }
         Criterion::AtLeast { bound } => value >= bound,
-        Criterion::AtMost { bound } => value <= bound,
+        Criterion::AtMost { bound } => {
+            quantity.share = Some(value / bound);
+            value <= bound
+        }
         Criterion::Between { low, high } => (low..=high).contains(&value),
         Criterion::True => value == 1.0,
         Criterion::Reported => {
