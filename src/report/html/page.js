@@ -61,18 +61,26 @@
     Plotly.react(plot.node, data, layout, config);
   }
 
+  const hasRoom = ({ node }) => node.clientWidth > 0 && !node.closest("details:not([open])");
+
   function drawAll() {
     const colour = palette();
-    for (const plot of plots) draw(plot, colour);
+    for (const plot of plots) {
+      if (hasRoom(plot)) draw(plot, colour);
+      else plot.width = 0; // to be drawn as soon as there is room
+    }
+  }
+
+  function drawWhatHasOtherRoom() {
+    if (printing()) return;
+    for (const plot of plots) if (hasRoom(plot) && plot.node.clientWidth !== plot.width) draw(plot, palette());
   }
 
   drawAll();
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawAll);
-  const room = new ResizeObserver(() => {
-    if (printing()) return;
-    for (const plot of plots) if (plot.node.clientWidth !== plot.width) draw(plot, palette());
-  });
+  const room = new ResizeObserver(drawWhatHasOtherRoom);
   for (const { node } of plots) room.observe(node);
+  document.addEventListener("toggle", drawWhatHasOtherRoom, true);
   addEventListener("beforeprint", () => {
     root.dataset.printing = "";
     drawAll();

@@ -28,13 +28,18 @@ pub struct Page<'a> {
 impl Page<'_> {
     /// The whole page, which holds everything it needs.
     pub fn html(&self) -> String {
+        self.html_with("", "")
+    }
+
+    /// The same with rules after those of the common style sheet and a script after the one that draws the plots.
+    pub fn html_with(&self, style: &str, script: &str) -> String {
         let title = escape(self.title);
         [
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n",
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n",
             "<meta name=\"color-scheme\" content=\"light dark\">\n",
             &format!(
-                "<title>{title} – gearwear</title>\n<style>\n{}</style>\n</head>\n<body>\n",
+                "<title>{title} – gearwear</title>\n<style>\n{}{style}</style>\n</head>\n<body>\n",
                 include_str!("page.css")
             ),
             &format!("<header>\n<p class=\"kind\">{}</p>\n<h1>{title}</h1>\n", escape(self.kind)),
@@ -43,7 +48,7 @@ impl Page<'_> {
             self.main,
             "</main>\n",
             &format!("<footer>{}</footer>\n", escape(self.footer)),
-            &format!("<script>{}</script>\n<script>\n{}</script>\n", plotly_js(), include_str!("page.js")),
+            &format!("<script>{}</script>\n<script>\n{}{script}</script>\n", plotly_js(), include_str!("page.js")),
             "</body>\n</html>\n",
         ]
         .concat()

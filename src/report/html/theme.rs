@@ -133,6 +133,20 @@ pub fn mark_path_points(layout: Layout, points: &PathPoints) -> Layout {
 
 /// Adds a vertical line with its name at each place; that of the name `strongest` is the stronger one.
 pub fn mark(layout: Layout, places: impl IntoIterator<Item = (String, f64)>, strongest: &str) -> Layout {
+    mark_with(layout, places, strongest, |x| x)
+}
+
+/// The same on a logarithmic axis, where plotly takes the place of a line as it is and that of its name as a logarithm.
+pub fn mark_logarithmic(layout: Layout, places: impl IntoIterator<Item = (String, f64)>) -> Layout {
+    mark_with(layout, places.into_iter().filter(|(_, x)| *x > 0.0), "", f64::log10)
+}
+
+fn mark_with(
+    layout: Layout,
+    places: impl IntoIterator<Item = (String, f64)>,
+    strongest: &str,
+    name_at: fn(f64) -> f64,
+) -> Layout {
     let (mut shapes, mut letters) = (Vec::new(), Vec::new());
     for (name, x) in places.into_iter().filter(|(_, x)| x.is_finite()) {
         let (width, dash) = if name == strongest { (1.4, DashType::DashDot) } else { (1.0, DashType::Dot) };
@@ -152,7 +166,7 @@ pub fn mark(layout: Layout, places: impl IntoIterator<Item = (String, f64)>, str
             Annotation::new()
                 .x_ref("x")
                 .y_ref("paper")
-                .x(x)
+                .x(name_at(x))
                 .y(1.0)
                 .y_anchor(Anchor::Bottom)
                 .show_arrow(false)

@@ -1,38 +1,52 @@
 //! The files of the validation suite, written from its [`ValidationRecord`] alone.
+//!
+//! | file | for |
+//! |---|---|
+//! | `report.html` | readers: what holds, by what margin, what it cost, what rests on estimates |
+//! | `junit.xml` | services that collect test results |
+//! | `summary.md` | the summary or a comment of a CI service, as Markdown |
+//! | `work_precision.json` | plots of the history of error against run time |
+//! | `validation.json` | the next run, to be compared with: the whole record but its plots |
+
+mod case_figures;
+mod case_section;
+mod junit;
+mod markdown;
+mod markup;
+mod overview;
+mod page;
+mod stability_map;
+#[cfg(test)]
+mod synthetic;
+mod targets_table;
+mod terminal;
+#[cfg(test)]
+mod tests;
+mod totals;
+mod verdict;
+mod words;
+mod work_precision_figures;
+mod work_precision_file;
+
 use std::path::{Path, PathBuf};
 
-use super::{ReportError, create_folder, place, summary};
+pub use self::terminal::terminal;
+use self::work_precision_file::WorkPrecisionFile;
+use super::{ReportError, create_folder, place, remove, summary};
 use crate::simulation::validation_record::{Changes, ValidationRecord};
 
-/// Writes all files of `record` into `dir`.
-pub fn write(record: &ValidationRecord, _: Option<&Changes>, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
-    create_folder(dir)?;
-    Ok(vec![place(dir, "validation.json", |out| summary::write(out, record))?])
-}
+/// The file that is written last: its presence says that the others are complete.
+const LAST: &str = "validation.json";
 
-/// For the terminal.
-pub fn terminal(record: &ValidationRecord, _: Option<&Changes>, _: Option<u16>) -> String {
-    let mut text = String::new();
-    for case in &record.cases {
-        text.push_str(&format!(
-            "{} {} {:.2} s {:?}\n",
-            if case.passed() { "ok    " } else { "MISSED" },
-            case.name,
-            case.wall_s,
-            case.failure
-        ));
-        for q in &case.quantities {
-            text.push_str(&format!(
-                "    {} {} = {:?} {} {:?} share {:?} {}\n",
-                q.standing.title(),
-                q.name,
-                q.value,
-                q.unit,
-                q.criterion,
-                q.share,
-                q.remark.as_deref().unwrap_or("")
-            ));
-        }
-    }
-    text
+/// Writes all files of `record` into `dir`, which is made if need be; returns their paths in the order written.
+pub fn write(record: &ValidationRecord, changes: Option<&Changes>, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+    create_folder(dir)?;
+    remove(dir, LAST)?;
+    Ok(vec![
+        place(dir, "report.html", |out| out.write_all(page::page(record, changes).as_bytes()))?,
+        place(dir, "junit.xml", |out| junit::write(out, record))?,
+        place(dir, "summary.md", |out| out.write_all(markdown::text(record, changes).as_bytes()))?,
+        place(dir, "work_precision.json", |out| summary::write(out, &WorkPrecisionFile::of(record)))?,
+        place(dir, LAST, |out| summary::write(out, record))?,
+    ])
 }
