@@ -79,7 +79,8 @@ fn a_missed_bound_is_exit_status_1_and_what_is_known_to_fail_is_not() {
     let missed = folder(&case_text(&wrong));
     validate(missed.path(), &["mine", "--out", "out"]).code(1).stderr(contains("missed: mine"));
 
-    let known = wrong.replace("name = \"base pitch\"", "name = \"base pitch\"\nstands = \"fails\"\nremark = \"another angle\"");
+    let known =
+        wrong.replace("name = \"base pitch\"", "name = \"base pitch\"\nstands = \"fails\"\nremark = \"another angle\"");
     let known_to_fail = folder(&case_text(&known));
     validate(known_to_fail.path(), &["mine", "--out", "out"]).success();
     // A statement that suddenly holds is news too.
