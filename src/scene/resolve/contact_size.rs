@@ -39,7 +39,9 @@ pub fn check(scene: &Scene, pair: &GearPair, findings: &mut Findings) {
         let key = "operation.pinion_torque_Nm";
         let allowed = format!("at most {} on this pair", number((1e-3 * torque_n_mm / (share * share)).floor()));
         findings.problem(ProblemKind::NotAllowed, key, number(1e-3 * torque_n_mm), allowed);
-        findings.help(format!("half the width of Hertz's contact would be {said}: check torque, width and Young's modulus"));
+        findings.help(format!(
+            "half the width of Hertz's contact would be {said}: check torque, width and Young's modulus"
+        ));
     } else if share > GREATEST_SMALL {
         findings.warnings.push(format!(
             "operation.pinion_torque_Nm = {}: half the width of Hertz's contact is {said}: strains are no longer small, and \
@@ -53,7 +55,8 @@ pub fn check(scene: &Scene, pair: &GearPair, findings: &mut Findings) {
             let allowed = format!("at least {:e} under this load", 1.5 * line_load / (radius * radius));
             let key = "contact.foundation_MPa_per_mm";
             findings.problem(ProblemKind::NotAllowed, key, number(foundation_mpa_per_mm), allowed);
-            findings.help(format!("half the width of contact would be {half_width:.3} mm, more than the relative radius"));
+            findings
+                .help(format!("half the width of contact would be {half_width:.3} mm, more than the relative radius"));
         }
     }
 }
