@@ -50,7 +50,7 @@ pub fn resolve_table(table: Table, mut findings: Findings) -> Result<Resolved, V
     if let Some((scene, _)) = &resolved
         && let Some(pair) = geometry::check(&scene.pair, scene.slices, &mut findings)
     {
-        contact_size::check(scene, &pair, &mut findings);
+        findings.warnings.extend(contact_size::warnings(scene, &pair));
     }
     let slips = slips.into_iter().filter(|slip| findings.is_in_file(&slip.key));
     match resolved {
