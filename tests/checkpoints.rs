@@ -120,7 +120,7 @@ fn at_contact_points() {
 fn over_several_phases() {
     let phase = |torque: f64| format!("[[operation.phases]]\npinion_torque_Nm = {torque}\npinion_revolutions = 4e5\n");
     let text = scene(SPUR, "surface = \"winkler\"", "flank_points = 100\npositions = 60", "");
-    let text = text.replace("pinion_revolutions = 1e6\n", "") + &phase(302.0) + &phase(100.0) + &phase(400.0);
+    let text = [text.replace("pinion_revolutions = 1e6\n", ""), phase(302.0), phase(100.0), phase(400.0)].concat();
     goes_on_to_the_same_bits(&text, 2);
     let adaptive = text.replace("positions = 60", "positions = 60\nstep = \"adaptive\"\ntolerance_um = 0.01");
     goes_on_to_the_same_bits(&adaptive, 2);

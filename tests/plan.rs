@@ -22,7 +22,7 @@ fn plan(exchange: &[(&str, &str)]) -> (Vec<&'static str>, Vec<&'static str>) {
 #[test]
 fn given_stiffness_needs_no_stiffness_stage() {
     let (stages, left_out) = plan(&[]);
-    assert_eq!(stages, ["geometry", "contact-match", "simulation", "error-estimates", "report"]);
+    assert_eq!(stages, ["geometry", "contact-match", "step-bound", "simulation", "error-estimates", "report"]);
     let fem = ["finite-element-calibration", "finite-element-model"];
     assert_eq!(left_out, [fem.as_slice(), &["tooth-stiffness", "helical-slices", "contact-temperature"]].concat());
 }
@@ -55,6 +55,18 @@ fn given_foundation_and_hertz_surfaces_need_no_match() {
         ("surface = \"winkler\"", "surface = \"hertz-mean\""),
     ] {
         assert!(plan(&[exchange]).1.contains(&"contact-match"), "{exchange:?}");
+    }
+}
+
+/// Only fixed steps on a surface that answers to short waves of wear have a bound.
+#[test]
+fn the_step_bound_only_where_steps_have_one() {
+    for exchange in [
+        ("surface = \"winkler\"", "surface = \"hertz\""),
+        ("# step = { revolutions = 1000.0 }", "step = \"adaptive\" #"),
+    ] {
+        let (stages, left_out) = plan(&[exchange]);
+        assert!(!stages.contains(&"step-bound") && left_out.contains(&"step-bound"), "{exchange:?}");
     }
 }
 

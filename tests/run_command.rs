@@ -76,7 +76,10 @@ fn the_preset_runs_and_writes_everything_the_contract_names() {
     let names = |list: &Value| -> Vec<String> {
         list.as_array().unwrap().iter().map(|stage| stage["name"].as_str().unwrap().to_owned()).collect()
     };
-    assert_eq!(names(&summary["stages"]), ["geometry", "contact-match", "simulation", "error-estimates", "report"]);
+    assert_eq!(
+        names(&summary["stages"]),
+        ["geometry", "contact-match", "step-bound", "simulation", "error-estimates", "report"]
+    );
     assert!(names(&summary["left_out"]).contains(&"helical-slices".to_owned()));
 
     // Rows: points 0 to 750, positions, snapshots.

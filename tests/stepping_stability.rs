@@ -101,7 +101,7 @@ fn ver_eulers_steps_break_where_the_bound_says_on_finite_elements() {
         let numerics = Numerics { flank_points: 300, positions: 40, stepping, error_estimate: false };
         let run = WearRun { pair: &pair, phases: &[phase], snapshots_revolutions: snapshots, numerics };
         match bound {
-            true => Err(run.step_bound(&phase).expect("the unworn pair has an equilibrium")),
+            true => Err(run.step_bound(&phase, false, &|| false).expect("the unworn pair has an equilibrium")),
             false => Ok(run.run(&Unwatched).expect("the run converges")),
         }
     };

@@ -3,8 +3,9 @@
 use std::fs;
 use std::path::Path;
 
-use gearwear::calibration::{Calibration, identity::Identity};
+use gearwear::calibration::Calibration;
 use gearwear::gear::GearPair;
+use gearwear::pipeline::inputs;
 use gearwear::resume::identity::InputFile;
 use gearwear::scene::Problem;
 
@@ -39,8 +40,7 @@ pub fn read(folder: &Path, source: &mut Source) -> Result<Option<(Calibration, I
     let scene = &source.resolved.scene;
     // The pair was checked when the scene was resolved.
     let pair = GearPair::new(&scene.pair).map_err(|error| refused(format!("but {error}"), make))?;
-    let own = Identity::of(&pair, &scene.material, &scene.fem);
-    let differences = calibration.belongs_to.differences(&own, source.resolved.file.fem.is_some());
+    let differences = inputs::foreign(&calibration, &source.resolved);
     if !differences.is_empty() {
         let what = format!("which belongs to another pair: {}", differences.join("; "));
         return Err(refused(what, "calibrate this scene, or name the calibration that belongs to it"));

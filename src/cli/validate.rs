@@ -87,7 +87,9 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 }
 
 fn in_words(record: &ValidationRecord, changes: Option<&Changes>, out: &Path) -> String {
-    let verdicts = report::validation::terminal(record, changes, None);
+    // As wide as the terminal; `None` where the output goes elsewhere.
+    let width = comfy_table::Table::new().width();
+    let verdicts = report::validation::terminal(record, changes, width);
     format!("{verdicts}report: {}\n", out.join("report.html").display())
 }
 

@@ -87,10 +87,6 @@ impl ContactSurface for HalfSpace {
     fn effort(&self) -> Effort {
         EFFORT
     }
-
-    fn feels_short_waves(&self) -> bool {
-        true
-    }
 }
 
 impl HalfSpace {

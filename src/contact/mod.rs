@@ -167,9 +167,4 @@ pub trait ContactSurface: Sync {
     fn effort(&self) -> Effort {
         Effort { of_equilibrium: 1.0, of_clean_start: 4.0 }
     }
-
-    /// Whether the pressure rises where short waves of wear stand up: they bound the wear step then.
-    fn feels_short_waves(&self) -> bool {
-        false
-    }
 }

@@ -81,10 +81,6 @@ impl ContactSurface for Winkler {
         let springs = self.bed.approach_at(position_mm).unwrap_or_else(|| self.bed.at(position_mm));
         springs.approach_and_compliance(radius, line_load_n_per_mm).0
     }
-
-    fn feels_short_waves(&self) -> bool {
-        true
-    }
 }
 
 /// The points of each flank that may touch, with the gap they face.

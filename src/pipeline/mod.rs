@@ -331,7 +331,10 @@ fn carry_out<R>(
         foundations_mpa_per_mm,
     };
 
-    let judged = stability::judge(&model, observer);
+    let judged = match plan.has(StageKind::StepBound) {
+        true => stages.run(StageKind::StepBound, || stability::judge(&model, observer)),
+        false => stability::Judged::default(),
+    };
     let Resumption { from, keeper } = resumption;
     let outcome = stages.run(StageKind::Simulation, || model.wear_run().run_from(from, keeper, observer))?;
     let heat = match plan.has(StageKind::ContactTemperature) {

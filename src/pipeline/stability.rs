@@ -1,8 +1,8 @@
 //! Whether Euler's steps are short enough, asked before the first of them.
 
 use super::{Model, Observer};
-use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::settings::Stepping;
+use crate::simulation::stability::StepBound;
 use crate::simulation::wear_run::RunPhase;
 use crate::wear::{self, WearModel, settings::WearSettings};
 
@@ -15,26 +15,49 @@ pub(super) struct Judged {
     pub step_over_safe: f64,
 }
 
+/// What the bound on the steps of a phase depends on.
+#[derive(Clone, Copy, PartialEq)]
+struct Conditions {
+    line_load_n_per_mm: f64,
+    pinion_speed_rpm: Option<f64>,
+    coefficient_mm2_per_n: f64,
+}
+
 /// Warns of each phase whose steps are too long for Euler's method, and names the longest that are not. Tells `observer` at once.
+/// Phases of the same load, speed and wear coefficient have the same bound.
 pub(super) fn judge(model: &Model<'_>, observer: &dyn Observer) -> Judged {
     let scene = model.scene;
     let Stepping::Fixed { revolutions: step } = scene.numerics.stepping else { return Judged::default() };
     let mut judged = Judged::default();
     let mut begin = 0.0;
+    let mut measured: Vec<(Conditions, StepBound)> = Vec::new();
     for (index, (phase, asked)) in model.phases.iter().zip(&scene.operation.phases).enumerate() {
         let step = step.min(phase.end_revolutions - begin);
         begin = phase.end_revolutions;
-        if !knows_short_waves(&phase.contact) {
-            continue;
-        }
         let coefficient_mm2_per_n = asked.coefficient_mm2_per_n.unwrap_or(scene.wear.coefficient_mm2_per_n);
         // The transition counts as a factor: its jump has no rate of its own.
         let mild = wear::of(&WearSettings { coefficient_mm2_per_n, severe: None, ..scene.wear });
         let phase = RunPhase { wear: WearModel { law: mild.as_ref(), ..phase.wear }, ..*phase };
-        // Where the unworn pair has no equilibrium, the run says so.
-        let Ok(bound) = model.wear_run().step_bound(&phase) else { continue };
-        judged.evaluations += bound.evaluations;
-        let severe = scene.wear.severe.filter(|severe| severe.factor_at(bound.peak_pressure_mpa) > 1.0);
+        let conditions = Conditions {
+            line_load_n_per_mm: phase.line_load_n_per_mm,
+            pinion_speed_rpm: asked.pinion_speed_rpm,
+            coefficient_mm2_per_n,
+        };
+        let bound = match measured.iter().find(|(before, _)| *before == conditions) {
+            Some(&(_, bound)) => bound,
+            None => {
+                let stopped = || observer.gives_up();
+                // Where the unworn pair has no equilibrium, the run says so.
+                let Ok(bound) = model.wear_run().step_bound(&phase, scene.wear.severe.is_some(), &stopped) else {
+                    continue;
+                };
+                judged.evaluations += bound.evaluations;
+                measured.push((conditions, bound));
+                bound
+            }
+        };
+        let severe =
+            scene.wear.severe.filter(|severe| bound.peak_pressure_mpa.is_some_and(|p| severe.factor_at(p) > 1.0));
         let safe = bound.revolutions / severe.map_or(1.0, |severe| severe.factor.max(1.0));
         judged.step_over_safe = judged.step_over_safe.max(step / safe);
         if step > safe {
@@ -49,13 +72,4 @@ pub(super) fn judge(model: &Model<'_>, observer: &dyn Observer) -> Judged {
         }
     }
     judged
-}
-
-/// Whether the pressure answers to short waves of wear at all: on Hertz's ellipse it does not.
-fn knows_short_waves(contact: &MeshContact<'_>) -> bool {
-    match contact {
-        MeshContact::LineOfAction { surface, .. } => surface.feels_short_waves(),
-        MeshContact::Simplified { .. } => false,
-        MeshContact::FiniteElements(_) => true,
-    }
 }

@@ -30,6 +30,8 @@ pub enum StageKind {
     ToothStiffness,
     /// Slices over the face width.
     HelicalSlices,
+    /// How long a wear step of Euler's method may be.
+    StepBound,
     /// The wear run.
     Simulation,
     /// Temperatures of the contact, new and worn.
@@ -42,13 +44,14 @@ pub enum StageKind {
 
 impl StageKind {
     /// All stages, in the order of the work.
-    pub const ALL: [StageKind; 10] = [
+    pub const ALL: [StageKind; 11] = [
         StageKind::Geometry,
         StageKind::FiniteElementCalibration,
         StageKind::FiniteElementModel,
         StageKind::ContactMatch,
         StageKind::ToothStiffness,
         StageKind::HelicalSlices,
+        StageKind::StepBound,
         StageKind::Simulation,
         StageKind::ContactTemperature,
         StageKind::ErrorEstimates,
@@ -64,6 +67,7 @@ impl StageKind {
             StageKind::ContactMatch => "contact-match",
             StageKind::ToothStiffness => "tooth-stiffness",
             StageKind::HelicalSlices => "helical-slices",
+            StageKind::StepBound => "step-bound",
             StageKind::ContactTemperature => "contact-temperature",
             StageKind::Simulation => "simulation",
             StageKind::ErrorEstimates => "error-estimates",
@@ -125,6 +129,7 @@ fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
         StageKind::ContactMatch => contact_match(scene),
         StageKind::ToothStiffness => tooth_stiffness(scene),
         StageKind::HelicalSlices => helical_slices(scene),
+        StageKind::StepBound => step_bound(scene),
         StageKind::ContactTemperature => contact_temperature(scene),
         StageKind::Simulation => Ok(simulation(scene)),
         StageKind::ErrorEstimates if scene.numerics.error_estimate => {
@@ -196,6 +201,19 @@ fn helical_slices(scene: &Scene) -> Result<String, String> {
         Coupling::Slicing => "coupled through the bending of the tooth",
     };
     Ok(format!("{} slices over the face width, {coupling}", slices.count))
+}
+
+/// On Hertz's ellipse the pressure does not answer to short waves of wear, so that no step makes them grow.
+fn step_bound(scene: &Scene) -> Result<String, String> {
+    match (scene.numerics.stepping, scene.contact.surface) {
+        (Stepping::Adaptive { .. }, _) => Err("adaptive steps are stable by themselves".to_owned()),
+        (_, SurfaceKind::Hertz | SurfaceKind::HertzMean) => {
+            Err(format!("on the surface {} no wave of wear can swing", scene.contact.surface.name()))
+        }
+        (Stepping::Fixed { .. }, _) => {
+            Ok("how long a step of Euler's method may be: the spectral radius of the working cycle".to_owned())
+        }
+    }
 }
 
 fn contact_match(scene: &Scene) -> Result<String, String> {

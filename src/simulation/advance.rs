@@ -201,17 +201,18 @@ impl AdaptiveSteps {
 const PROBE_MM: f64 = 1e-5;
 
 /// The fastest rate at which waves of wear of `pair`, which is evaluated, decay, per pinion revolution, and how many evaluations
-/// it took to find.
+/// it took to find. `stopped` is asked now and then whether to give up.
 pub(super) fn fastest_decay(
     pair: &mut dyn WearingPair,
     wear: &WearModel<'_>,
     wheel_meshes: f64,
+    stopped: &(dyn Fn() -> bool + Sync),
 ) -> Result<(f64, u64), EquilibriumError> {
     let mut wear_mm = pair.wear_mm();
     let mut depth_mm = wear_mm.clone();
     let state: Vec<f64> = Gear::BOTH.iter().flat_map(|&gear| &wear_mm[gear]).copied().collect();
     let mut slope = vec![0.0; state.len()];
-    let rate = PairRate { pair, wear, stopped: &|| false, wheel_meshes, work: Work::default() };
+    let rate = PairRate { pair, wear, stopped, wheel_meshes, work: Work::default() };
     rate.read_slope(&mut depth_mm, &mut slope);
     let mut rows = OnRows { rate, wear_mm: &mut wear_mm, depth_mm: &mut depth_mm, clean_start: false };
     let mut radius = SpectralRadius::default();

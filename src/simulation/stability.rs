@@ -28,18 +28,24 @@ const STABLE: f64 = 2.0;
 pub struct StepBound {
     /// Longest stable step of Euler's method, pinion revolutions; infinite where nothing bounds it.
     pub revolutions: f64,
-    /// Greatest pressure on the unworn flanks, MPa.
-    pub peak_pressure_mpa: f64,
+    /// Greatest pressure on the unworn flanks, MPa; `None` where it was not asked for.
+    pub peak_pressure_mpa: Option<f64>,
     /// Working cycles evaluated to find it.
     pub evaluations: u64,
 }
 
 impl WearRun<'_> {
-    /// The longest stable step of Euler's method on unworn flanks in the conditions of `phase`.
+    /// The longest stable step of Euler's method on unworn flanks in the conditions of `phase`; with `pressure_too`, the greatest
+    /// pressure on them beside it. `stopped` is asked now and then whether to give up.
     ///
     /// # Errors
     /// [`SimulationError`].
-    pub fn step_bound(&self, phase: &RunPhase<'_>) -> Result<StepBound, SimulationError> {
+    pub fn step_bound(
+        &self,
+        phase: &RunPhase<'_>,
+        pressure_too: bool,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<StepBound, SimulationError> {
         let slices = phase.contact.slices(self.pair);
         let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));
         let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear], &slices));
@@ -52,10 +58,14 @@ impl WearRun<'_> {
         };
         let mut pair = mesh.wearing_pair(flanks, &modification_mm)?;
         let failed = |source| SimulationError::Equilibrium { revolutions: 0.0, source };
-        pair.evaluate(&phase.wear, &|| false).map_err(failed)?;
-        let peak_pressure_mpa = pair.snapshot(0.0).map_err(failed)?.cycle.peak_pressure_mpa();
+        pair.evaluate(&phase.wear, stopped).map_err(failed)?;
+        let peak_pressure_mpa = match pressure_too {
+            true => Some(pair.snapshot(0.0).map_err(failed)?.cycle.peak_pressure_mpa()),
+            false => None,
+        };
+        let wheel_meshes = self.pair.wheel_turns_per_pinion_turn();
         let (fastest, evaluations) =
-            advance::fastest_decay(&mut *pair, &phase.wear, self.pair.wheel_turns_per_pinion_turn()).map_err(failed)?;
+            advance::fastest_decay(&mut *pair, &phase.wear, wheel_meshes, stopped).map_err(failed)?;
         Ok(StepBound { revolutions: STABLE / fastest, peak_pressure_mpa, evaluations: evaluations + 1 })
     }
 }

@@ -4,12 +4,11 @@ use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
-use crate::calibration::identity::Identity;
-use crate::gear::{GearPair, spec::PairSpec};
+use crate::gear::spec::PairSpec;
 use crate::pipeline::{self, Done, Observer, inputs::Inputs};
 use crate::plan::{Plan, StageKind};
 use crate::scene::draft::Draft;
-use crate::scene::{Problem, Resolved, Scene, short_hash};
+use crate::scene::{Problem, Resolved, short_hash};
 use crate::simulation::record::{StopReason, Summary};
 use crate::simulation::sweep_figures::FIGURES;
 use crate::simulation::sweep_record::{SweepAxis, SweepIdentity, SweepRow};
@@ -114,7 +113,7 @@ impl Sweep {
 
     fn run(&self, index: usize, observer: &dyn Observer) -> Result<Summary, String> {
         let resolved = self.scene(index).map_err(|problems| in_words(&problems))?;
-        self.inputs_belong_to(&resolved.scene)?;
+        self.inputs_belong_to(&resolved)?;
         match pipeline::summarise(&resolved, &Plan::of(&resolved.scene), &self.inputs, observer) {
             Ok(Done { failure: Some(failure), .. }) => Err(failure.to_string()),
             Ok(Done { record: summary, failure: None }) => Ok(summary),
@@ -123,18 +122,14 @@ impl Sweep {
     }
 
     /// Whether the files that the scene names were made for the pair of this combination.
-    fn inputs_belong_to(&self, scene: &Scene) -> Result<(), String> {
-        if let Some(calibration) = &self.inputs.calibration {
-            let pair = GearPair::new(&scene.pair).map_err(|error| error.to_string())?;
-            let own = Identity::of(&pair, &scene.material, &scene.fem);
-            let differences = calibration.belongs_to.differences(&own, true);
-            if !differences.is_empty() {
-                return Err(format!("contact.calibration belongs to another pair: {}", differences.join("; ")));
-            }
+    fn inputs_belong_to(&self, resolved: &Resolved) -> Result<(), String> {
+        let differences = self.inputs.foreign_to(resolved);
+        if !differences.is_empty() {
+            return Err(format!("contact.calibration belongs to another pair: {}", differences.join("; ")));
         }
         let same_section =
             |own: &PairSpec| PairSpec { face_width_mm: self.pair.face_width_mm, ..own.clone() } == self.pair;
-        if self.inputs.stiffness_curve.is_some() && !same_section(&scene.pair) {
+        if self.inputs.stiffness_curve.is_some() && !same_section(&resolved.scene.pair) {
             return Err("stiffness.curve belongs to the pair of the scene as given".to_owned());
         }
         Ok(())

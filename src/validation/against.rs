@@ -14,6 +14,8 @@ use crate::simulation::validation_record::{
 const SHARE: f64 = 0.05;
 /// A number held against a bound, or a count of work, has changed from this relative difference on.
 const RELATIVE: f64 = 0.01;
+/// Below this share of its bound a number is as good as zero, and its relative change says nothing.
+const NOTHING: f64 = 1e-6;
 
 /// What changed from `old` to `new`. A case that only one of them has is named, not judged: a suite may be run in part.
 pub fn changes(old: &ValidationRecord, new: &ValidationRecord) -> Changes {
@@ -113,7 +115,7 @@ impl Found {
             return;
         }
         match (before.share, now.share) {
-            (Some(earlier), Some(share)) => {
+            (Some(earlier), Some(share)) if !now.counts_work => {
                 if (share - earlier).abs() > SHARE {
                     let words = |share: f64| format!("{:.0} % of the tolerance", 100.0 * share);
                     self.add(Way::worse_if(share > earlier), case, &now.name, words(earlier), words(share));
@@ -148,7 +150,7 @@ impl Found {
     fn compare_work(&mut self, before: &CaseRecord, now: &CaseRecord) {
         for (name, &count) in &now.work {
             let Some(&earlier) = before.work.get(name) else { continue };
-            if changed(earlier as f64, count as f64) {
+            if count.abs_diff(earlier) as f64 > RELATIVE * earlier as f64 {
                 self.add(Way::worse_if(count > earlier), now, name, earlier.to_string(), count.to_string());
             }
         }
@@ -167,26 +169,20 @@ fn rank(standing: Standing) -> u8 {
 /// Which way a number without a tolerance went, seen from its bound; `None` where it did not move, or has no bound.
 fn towards_bound(before: &QuantityRecord, now: &QuantityRecord) -> Option<Way> {
     let (earlier, value) = (before.value?, now.value?);
-    if !changed(earlier, value) {
-        return None;
-    }
-    match now.criterion {
-        Criterion::AtMost { .. } => Some(Way::worse_if(value > earlier)),
-        Criterion::AtLeast { .. } => Some(Way::worse_if(value < earlier)),
+    let moved = |bound: f64| (value - earlier).abs() > RELATIVE * earlier.abs().max(NOTHING * bound.abs());
+    let (moved, worse) = match now.criterion {
+        Criterion::AtMost { bound } => (moved(bound), value > earlier),
+        Criterion::AtLeast { bound } => (moved(bound), value < earlier),
         Criterion::Between { low, high } => {
             let room = |value: f64| (value - low).min(high - value);
-            Some(Way::worse_if(room(value) < room(earlier)))
+            (moved(high - low), room(value) < room(earlier))
         }
         Criterion::Near { reference, .. } => {
-            Some(Way::worse_if((value - reference).abs() > (earlier - reference).abs()))
+            (moved(reference), (value - reference).abs() > (earlier - reference).abs())
         }
-        Criterion::True | Criterion::Reported => None,
-    }
-}
-
-/// Whether two numbers differ by more than rounding does on another machine.
-fn changed(before: f64, now: f64) -> bool {
-    (now - before).abs() > RELATIVE * before.abs()
+        Criterion::True | Criterion::Reported => return None,
+    };
+    moved.then_some(Way::worse_if(worse))
 }
 
 fn digits(value: f64) -> String {
@@ -202,6 +198,7 @@ mod tests {
     fn quantity(criterion: Criterion, value: f64, share: Option<f64>) -> QuantityRecord {
         QuantityRecord {
             name: "q".to_owned(),
+            target: None,
             unit: "MPa".to_owned(),
             value: Some(value),
             criterion,
@@ -258,7 +255,7 @@ mod tests {
         [changes.worse, changes.better].map(|all| all.into_iter().map(|change| change.what).collect())
     }
 
-    const NOTHING: [Vec<String>; 2] = [Vec::new(), Vec::new()];
+    const SAME: [Vec<String>; 2] = [Vec::new(), Vec::new()];
 
     fn near(share: f64) -> CaseRecord {
         let criterion = Criterion::Near { reference: 100.0, tolerance: 10.0 };
@@ -271,7 +268,7 @@ mod tests {
 
     #[test]
     fn a_share_that_moves_by_more_than_a_twentieth_is_a_change() {
-        assert_eq!(between(near(0.2), near(0.24)), NOTHING);
+        assert_eq!(between(near(0.2), near(0.24)), SAME);
         assert_eq!(between(near(0.2), near(0.26)), [vec!["q".to_owned()], vec![]]);
         assert_eq!(between(near(0.26), near(0.2)), [vec![], vec!["q".to_owned()]]);
     }
@@ -279,13 +276,29 @@ mod tests {
     #[test]
     fn a_number_without_a_tolerance_is_judged_by_its_way_to_the_bound() {
         let least = Criterion::AtLeast { bound: 10.0 };
-        assert_eq!(between(of_value(least, 100.0), of_value(least, 99.5)), NOTHING);
+        assert_eq!(between(of_value(least, 100.0), of_value(least, 99.5)), SAME);
         assert_eq!(between(of_value(least, 100.0), of_value(least, 98.0)), [vec!["q".to_owned()], vec![]]);
         let most = Criterion::AtMost { bound: 200.0 };
         assert_eq!(between(of_value(most, 100.0), of_value(most, 98.0)), [vec![], vec!["q".to_owned()]]);
         let between_ends = Criterion::Between { low: 1.0, high: 3.0 };
         assert_eq!(between(of_value(between_ends, 1.5), of_value(between_ends, 2.0)), [vec![], vec!["q".to_owned()]]);
         assert_eq!(between(of_value(between_ends, 2.0), of_value(between_ends, 2.5)), [vec!["q".to_owned()], vec![]]);
+    }
+
+    #[test]
+    fn rounding_about_zero_is_no_change() {
+        let least = Criterion::AtLeast { bound: -5.0 };
+        assert_eq!(between(of_value(least, 0.0), of_value(least, -1e-17)), SAME);
+    }
+
+    #[test]
+    fn a_count_with_a_bound_is_judged_as_a_count() {
+        let gate = |value, share| {
+            let mut case = case("a", vec![quantity(Criterion::AtMost { bound: 1000.0 }, value, Some(share))]);
+            case.quantities[0].counts_work = true;
+            case
+        };
+        assert_eq!(between(gate(500.0, 0.5), gate(520.0, 0.52)), [vec!["q".to_owned()], vec![]]);
     }
 
     #[test]
@@ -317,7 +330,7 @@ mod tests {
             case.wall_s = wall_s;
             case
         };
-        assert_eq!(between(with(1000, 1.0), with(1010, 900.0)), NOTHING);
+        assert_eq!(between(with(1000, 1.0), with(1010, 900.0)), SAME);
         assert_eq!(between(with(1000, 1.0), with(1011, 1.0)), [vec!["equilibria".to_owned()], vec![]]);
         assert_eq!(between(with(1000, 1.0), with(900, 1.0)), [vec![], vec!["equilibria".to_owned()]]);
         // Work where there was none before.

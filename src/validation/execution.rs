@@ -204,7 +204,7 @@ fn wear_run(
 ) -> Result<Found, Failed> {
     let resolved = scene(run, member, folder, calibration.is_some())?;
     let inputs = Inputs { calibration: calibration.cloned(), ..Inputs::default() };
-    let foreign = inputs.belonging_to_another_pair(&resolved);
+    let foreign = inputs.foreign_to(&resolved);
     if !foreign.is_empty() {
         return Err(Failed::Refused(format!("contact.calibration belongs to another pair: {}", foreign.join("; "))));
     }

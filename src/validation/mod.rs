@@ -9,13 +9,13 @@
 pub mod against;
 pub mod case_file;
 mod check;
-mod column;
+pub mod column;
 mod data_file;
-mod drawing;
-mod execution;
-mod expression;
+pub mod drawing;
+pub mod execution;
+pub mod expression;
 mod family;
-mod judge;
+pub mod judge;
 pub mod library;
 mod members;
 mod profile;

@@ -179,7 +179,7 @@ impl Scene {
 
     /// The longest stable step of Euler's method.
     pub fn step_bound(&self) -> StepBound {
-        self.with(|run, phase| run.step_bound(phase).expect("the unworn pair has an equilibrium"))
+        self.with(|run, phase| run.step_bound(phase, false, &|| false).expect("the unworn pair has an equilibrium"))
     }
 
     /// Hands the run and its phase to `then`.

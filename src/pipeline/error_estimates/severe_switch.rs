@@ -58,7 +58,7 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
     let mild = wear::of(&WearSettings { severe: None, ..scene.wear });
     let first = model.first();
     let phase = RunPhase { wear: WearModel { law: mild.as_ref(), ..first.wear }, ..*first };
-    let bound = match coarse(fewest, duration).step_bound(&phase) {
+    let bound = match coarse(fewest, duration).step_bound(&phase, false, &|| observer.gives_up()) {
         Ok(bound) => bound.revolutions / own.factor.max(1.0),
         Err(error) => return (Estimate::none(&error.to_string()), 0.0),
     };

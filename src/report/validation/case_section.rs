@@ -5,7 +5,7 @@ use super::markup::{anchor, badge, margin_bar, table};
 use super::stability_map;
 use super::verdict::Verdict;
 use super::words::{self, NONE, time};
-use crate::report::html::number::{count, significant};
+use crate::report::html::number::count;
 use crate::report::html::page::{escape, plots};
 use crate::simulation::validation_record::{CaseRecord, CaseRun, QuantityRecord, RunOutcome};
 
@@ -69,15 +69,15 @@ fn quantities(case: &CaseRecord) -> String {
     if case.quantities.is_empty() {
         return String::new();
     }
-    let columns = ["quantity", "value", "held against", "error", "of tolerance used", "verdict"];
+    let columns = ["quantity", "verdict", "value", "held against", "error", "of tolerance used"];
     let rows = case.quantities.iter().map(|quantity| {
         vec![
             escape(&quantity.name),
+            badge(Verdict::of_quantity(quantity)),
             escape(&words::value(quantity)),
             escape(&words::criterion(quantity)),
             escape(&words::error(quantity)),
             margin_bar(words::used(quantity)),
-            badge(Verdict::of_quantity(quantity)),
         ]
     });
     let reasons: String = case.quantities.iter().map(reasons).collect();
@@ -90,7 +90,7 @@ fn quantities(case: &CaseRecord) -> String {
 
 /// Where the reference comes from, how sure it is and why the tolerance is what it is.
 fn reasons(quantity: &QuantityRecord) -> String {
-    let with_unit = |value: f64| format!("{} {}", significant(value, 2), quantity.unit).trim_end().to_owned();
+    let with_unit = |value: f64| format!("{} {}", words::rough(value), quantity.unit).trim_end().to_owned();
     let mut said = vec![quantity.source.clone()];
     said.extend(quantity.uncertainty.map(|value| format!("uncertainty of the reference {}", with_unit(value))));
     said.extend(quantity.discretisation.map(|value| format!("the computation’s own resolution {}", with_unit(value))));
@@ -100,7 +100,7 @@ fn reasons(quantity: &QuantityRecord) -> String {
     if said.is_empty() {
         return String::new();
     }
-    format!("<dt>{}</dt><dd>{}.</dd>\n", escape(&quantity.name), escape(&said.join(". ")))
+    format!("<dt>{}</dt><dd>{}.</dd>\n", escape(&quantity.name), escape(&said.join("; ")))
 }
 
 /// Why something is not expected to hold, or what is missing: not hidden, it is what readers must know.

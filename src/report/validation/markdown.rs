@@ -11,7 +11,7 @@ use crate::simulation::validation_record::{CaseRecord, Change, Changes, Quantity
 /// Bytes that one of the six tables may have: together they stay below 45 000.
 const TABLE_LIMIT: usize = 7_000;
 
-/// Bytes that one cell may have: a message of many lines belongs in the page.
+/// Letters that one cell may have: a message of many lines belongs in the page.
 const CELL_LIMIT: usize = 600;
 
 /// The whole text.
@@ -163,12 +163,12 @@ fn signed(verdict: Verdict) -> String {
     format!("{} {}", verdict.sign(), verdict.word())
 }
 
-/// The text, cut where it has more than `most` bytes.
+/// The text, cut where it has more than `most` letters.
 fn shortened(text: &str, most: usize) -> String {
-    if text.len() <= most {
-        return text.to_owned();
+    match text.char_indices().nth(most) {
+        None => text.to_owned(),
+        Some((cut, _)) => format!("{}…", &text[..cut]),
     }
-    format!("{}…", &text[..text.floor_char_boundary(most)])
 }
 
 /// Text that Markdown takes for nothing but text, and that stays in its cell.

@@ -62,7 +62,11 @@ fn tiles(record: &ValidationRecord) -> String {
     let unit = |one: &'static str, many: &'static str, number: usize| if number == 1 { one } else { many };
     [
         "<div class=\"tiles\">\n".to_owned(),
-        tile("holds", format!("{} / {}", t.passed, t.cases), "cases stand as they should"),
+        tile(
+            if wrong == 0 { "holds" } else { "" },
+            format!("{} / {}", t.passed, t.cases),
+            "cases stand as they should",
+        ),
         tile(alarm(wrong, "missed"), wrong.to_string(), "missed or could not run"),
         tile("", format!("{} / {}", t.hold, t.quantities), "quantities hold"),
         tile(

@@ -10,6 +10,7 @@ use crate::simulation::validation_record::{
 fn quantity(name: &str, unit: &str, value: Option<f64>, criterion: Criterion) -> QuantityRecord {
     let mut quantity = QuantityRecord {
         name: name.to_owned(),
+        target: None,
         unit: unit.to_owned(),
         value,
         criterion,
@@ -38,7 +39,10 @@ fn quantity(name: &str, unit: &str, value: Option<f64>, criterion: Criterion) ->
             error <= tolerance
         }
         Criterion::AtLeast { bound } => value >= bound,
-        Criterion::AtMost { bound } => value <= bound,
+        Criterion::AtMost { bound } => {
+            quantity.share = Some(value / bound);
+            value <= bound
+        }
         Criterion::Between { low, high } => (low..=high).contains(&value),
         Criterion::True => value == 1.0,
         Criterion::Reported => {

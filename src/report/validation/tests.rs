@@ -9,8 +9,8 @@ use tempfile::TempDir;
 use super::markup::anchor;
 use super::synthetic::{changes, record, repeated};
 use super::words::as_written;
-use super::{junit, markdown, page, terminal, write};
-use crate::simulation::validation_record::{CaseRecord, ValidationRecord};
+use super::{junit, markdown, page, terminal, words, write};
+use crate::simulation::validation_record::{CaseRecord, Criterion, ValidationRecord};
 
 /// An element of the JUnit file: its name and attributes.
 #[derive(Debug)]
@@ -230,6 +230,16 @@ fn bounds_read_as_written() {
     {
         assert_eq!(as_written(value).replace('\u{2009}', " "), text);
     }
+}
+
+/// Value and reference are told apart where the tolerance tells them apart.
+#[test]
+fn close_numbers_show_the_digits_in_which_they_differ() {
+    let mut quantity = record().cases[0].quantities[0].clone();
+    quantity.value = Some(1.437_537);
+    quantity.criterion = Criterion::Near { reference: 1.4375, tolerance: 5e-5 };
+    assert_eq!(words::value(&quantity), "1.43754 MPa");
+    assert_eq!(words::criterion(&quantity).replace('\u{2009}', " "), "1.43750 ± 5 × 10⁻⁵ MPa");
 }
 
 #[test]

@@ -68,7 +68,7 @@ pub(super) fn sentence(record: &ValidationRecord) -> String {
         if t.could_not_run > 0 {
             wrong.push(format!("{} could not run", t.could_not_run));
         }
-        format!("{} of {} stand as they should; {}.", t.passed, counted(t.cases, "case", "cases"), wrong.join(", "))
+        format!("{} of {} cases stand as they should; {}.", t.passed, t.cases, wrong.join(", "))
     };
     let known = match (t.known_not, t.cannot_be_compared) {
         (0, 0) => String::new(),

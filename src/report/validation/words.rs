@@ -12,6 +12,7 @@ pub(super) fn value(quantity: &QuantityRecord) -> String {
     match (quantity.value, quantity.criterion) {
         (None, _) => NONE.to_owned(),
         (Some(value), Criterion::True) => if value == 0.0 { "no" } else { "yes" }.to_owned(),
+        (Some(value), Criterion::Near { tolerance, .. }) => with_unit(&resolved(value, tolerance), &quantity.unit),
         (Some(value), _) => with_unit(&digits(value), &quantity.unit),
     }
 }
@@ -19,6 +20,17 @@ pub(super) fn value(quantity: &QuantityRecord) -> String {
 /// Four digits or so; whole numbers keep all of theirs.
 fn digits(value: f64) -> String {
     if value.fract() == 0.0 && value.abs() < 1e6 { given(value) } else { figure(value) }
+}
+
+/// As many digits as it takes to see a tenth of the tolerance.
+fn resolved(value: f64, tolerance: f64) -> String {
+    let needed = (10.0 * value / tolerance).abs().log10().ceil();
+    if needed > 4.0 && needed < 12.0 { significant(value, needed as usize) } else { digits(value) }
+}
+
+/// Two digits, which is what is known of an uncertainty.
+pub(super) fn rough(value: f64) -> String {
+    as_written(format!("{value:.1e}").parse().unwrap_or(value))
 }
 
 /// A bound or a setting as a person writes it: no digits that say nothing, powers of ten as such.
@@ -44,7 +56,9 @@ fn with_unit(text: &str, unit: &str) -> String {
 pub(super) fn criterion(quantity: &QuantityRecord) -> String {
     let text = match quantity.criterion {
         Criterion::Near { reference, tolerance: 0.0 } => format!("exactly {}", as_written(reference)),
-        Criterion::Near { reference, tolerance } => format!("{} ± {}", digits(reference), significant(tolerance, 2)),
+        Criterion::Near { reference, tolerance } => {
+            format!("{} ± {}", resolved(reference, tolerance), rough(tolerance))
+        }
         Criterion::AtLeast { bound } => format!("≥ {}", as_written(bound)),
         Criterion::AtMost { bound } => format!("≤ {}", as_written(bound)),
         Criterion::Between { low, high } => format!("{} to {}", as_written(low), as_written(high)),

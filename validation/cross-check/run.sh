@@ -1,0 +1,14 @@
+#!/bin/sh
+# Solves the NAFEMS cylinder and the fzg-c pair with CalculiX, writes the results beside this file and prints them beside
+# gearwear's. Needs Python 3.10, ccx (or CCX=…) and gearwear (or GEARWEAR=…); about a quarter of an hour.
+set -eu
+here=$(dirname "$0")
+for program in "${CCX:-ccx}" "${GEARWEAR:-gearwear}"; do
+    command -v "$program" >/dev/null || { echo "$program is not on the PATH; see README.md" >&2; exit 2; }
+done
+export PYTHONDONTWRITEBYTECODE=1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+python3 "$here"/nafems_cylinder.py "$work"
+python3 "$here"/fzg_c_pair.py "$work"
+python3 "$here"/compare.py "$work"
