@@ -156,7 +156,13 @@ pub fn register(engine: &mut Engine) {
     arithmetic(engine, "*", |a, b| a * b);
     arithmetic(engine, "/", |a, b| a / b);
     engine.register_fn("-", |x: Column| x.map(|x| -x));
-    for (name, f) in [("abs", f64::abs as fn(f64) -> f64), ("sqrt", f64::sqrt), ("ln", f64::ln), ("exp", f64::exp), ("sin", f64::sin)] {
+    for (name, f) in [
+        ("abs", f64::abs as fn(f64) -> f64),
+        ("sqrt", f64::sqrt),
+        ("ln", f64::ln),
+        ("exp", f64::exp),
+        ("sin", f64::sin),
+    ] {
         engine.register_fn(name, move |x: Column| x.map(f));
     }
     engine.register_indexer_get(|x: &mut Column, index: i64| x.get(index));
