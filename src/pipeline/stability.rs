@@ -15,6 +15,14 @@ pub(super) struct Judged {
     pub step_over_safe: f64,
 }
 
+/// What the bound on the steps of a phase depends on.
+#[derive(Clone, Copy, PartialEq)]
+struct Conditions {
+    line_load_n_per_mm: f64,
+    pinion_speed_rpm: Option<f64>,
+    coefficient_mm2_per_n: f64,
+}
+
 /// Warns of each phase whose steps are too long for Euler's method, and names the longest that are not. Tells `observer` at once.
 /// Phases of the same load, speed and wear coefficient have the same bound.
 pub(super) fn judge(model: &Model<'_>, observer: &dyn Observer) -> Judged {
@@ -22,7 +30,7 @@ pub(super) fn judge(model: &Model<'_>, observer: &dyn Observer) -> Judged {
     let Stepping::Fixed { revolutions: step } = scene.numerics.stepping else { return Judged::default() };
     let mut judged = Judged::default();
     let mut begin = 0.0;
-    let mut measured: Vec<((f64, Option<f64>, f64), StepBound)> = Vec::new();
+    let mut measured: Vec<(Conditions, StepBound)> = Vec::new();
     for (index, (phase, asked)) in model.phases.iter().zip(&scene.operation.phases).enumerate() {
         let step = step.min(phase.end_revolutions - begin);
         begin = phase.end_revolutions;
@@ -30,7 +38,11 @@ pub(super) fn judge(model: &Model<'_>, observer: &dyn Observer) -> Judged {
         // The transition counts as a factor: its jump has no rate of its own.
         let mild = wear::of(&WearSettings { coefficient_mm2_per_n, severe: None, ..scene.wear });
         let phase = RunPhase { wear: WearModel { law: mild.as_ref(), ..phase.wear }, ..*phase };
-        let conditions = (phase.line_load_n_per_mm, asked.pinion_speed_rpm, coefficient_mm2_per_n);
+        let conditions = Conditions {
+            line_load_n_per_mm: phase.line_load_n_per_mm,
+            pinion_speed_rpm: asked.pinion_speed_rpm,
+            coefficient_mm2_per_n,
+        };
         let bound = match measured.iter().find(|(before, _)| *before == conditions) {
             Some(&(_, bound)) => bound,
             None => {

@@ -136,6 +136,13 @@ impl CaseRecord {
         }
     }
 
+    /// The quantities that speak to a target: those that name it, or else those that name none.
+    pub fn speaking_to(&self, target: &str) -> Vec<&QuantityRecord> {
+        let named = |name: Option<&str>| self.quantities.iter().filter(|q| q.target.as_deref() == name).collect();
+        let own: Vec<&QuantityRecord> = named(Some(target));
+        if own.is_empty() { named(None) } else { own }
+    }
+
     /// Greatest share of a tolerance that any quantity with a reference uses.
     pub fn greatest_share(&self) -> Option<f64> {
         self.quantities.iter().filter(|q| q.standing == Standing::Holds).filter_map(|q| q.share).reduce(f64::max)
@@ -216,6 +223,8 @@ impl RunOutcome {
 pub struct QuantityRecord {
     /// What it is.
     pub name: String,
+    /// The one target of its case that it speaks to; `None`: all of them.
+    pub target: Option<String>,
     /// Its unit; empty for a ratio.
     pub unit: String,
     /// The number; `None` where it could not be computed.

@@ -198,6 +198,7 @@ mod tests {
     fn quantity(criterion: Criterion, value: f64, share: Option<f64>) -> QuantityRecord {
         QuantityRecord {
             name: "q".to_owned(),
+            target: None,
             unit: "MPa".to_owned(),
             value: Some(value),
             criterion,

@@ -248,6 +248,8 @@ pub enum Extent {
 pub struct QuantitySpec {
     /// What it is.
     pub name: String,
+    /// The one target of the case that it speaks to; without it, all of them.
+    pub target: Option<String>,
     /// Its unit.
     #[serde(default)]
     pub unit: String,

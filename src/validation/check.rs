@@ -93,7 +93,7 @@ fn check_run(run: &RunSpec, case: &CaseFile) -> Result<(), CaseFault> {
     for varied in run.vary.iter().chain(run.sample.iter().flat_map(|sample| &sample.of)) {
         check_varied(varied).map_err(|(found, allowed)| fault("run", &run.name, found, allowed))?;
     }
-    let members = run.vary.iter().map(VarySpec::len).try_fold(1usize, usize::checked_mul);
+    let members = run.vary.iter().map(VarySpec::count).try_fold(1usize, usize::checked_mul);
     let members = members.map(|members| run.sample.as_ref().map_or(members, |sample| sample.count));
     if members.is_none_or(|members| members > MOST_MEMBERS || members == 0) {
         return wrong("no members, or more than can be kept", "1 to 10000 members");
@@ -142,6 +142,11 @@ fn check_quantity(quantity: &QuantitySpec, case: &CaseFile) -> Result<(), CaseFa
     }
     if (cannot || quantity.stands == Some(Standing::Fails)) && quantity.remark.is_none() {
         return wrong("stands without remark", "the reason");
+    }
+    if let Some(target) = &quantity.target
+        && !case.targets.contains(target)
+    {
+        return wrong(&format!("target = {target:?}"), "one of the case's targets");
     }
     if let Some(name) = &quantity.needs
         && !case.data.iter().any(|data| data.name == *name && data.missing.is_some())

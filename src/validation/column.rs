@@ -21,13 +21,15 @@ use std::sync::Arc;
 
 use rhai::{Array, Dynamic, Engine, EvalAltResult, Position};
 
-type Failed = Box<EvalAltResult>;
+/// Why a function has no value.
+pub type Failed = Box<EvalAltResult>;
 
 /// A column in an expression.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Column(pub Arc<[f64]>);
 
-fn fault<T>(text: String) -> Result<T, Failed> {
+/// A function that has no value, and why.
+pub fn fault<T>(text: String) -> Result<T, Failed> {
     Err(EvalAltResult::ErrorRuntime(text.into(), Position::NONE).into())
 }
 
@@ -46,7 +48,8 @@ impl Column {
         Ok(Self(self.0.iter().zip(other.0.iter()).map(|(&x, &y)| f(x, y)).collect()))
     }
 
-    fn same_length(&self, other: &Self) -> Result<(), Failed> {
+    /// Refuses columns that do not go together.
+    pub fn same_length(&self, other: &Self) -> Result<(), Failed> {
         match (self.0.len(), other.0.len()) {
             (one, same) if one == same => Ok(()),
             (one, two) => fault(format!("columns of {one} and {two} points do not go together")),

@@ -182,6 +182,11 @@ fn table(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Value, 
     Value::of_csv(&bytes).map_err(|error| Failed::NotConverged(error.to_string()))
 }
 
+/// The wear at each row of the history, a column a row: `profiles.csv` of one gear.
+fn snapshots(wear_um: &[Vec<f64>]) -> Value {
+    Value::List(wear_um.iter().map(|profile| Value::column(profile.iter().copied())).collect())
+}
+
 fn of_stop(stop: StopReason) -> Option<String> {
     match stop {
         StopReason::Completed => None,
@@ -220,8 +225,11 @@ fn wear_run(
         ("mesh_cycle".to_owned(), table(|out| tables::mesh_cycle(out, provenance, &record.mesh_cycle))?),
     ]);
     for gear in Gear::BOTH {
-        let flank = table(|out| tables::flank(out, provenance, &record.flanks[gear]))?;
-        value.insert(gear.name().to_owned(), flank);
+        let flank = &record.flanks[gear];
+        let mut columns = table(|out| tables::flank(out, provenance, flank))?;
+        columns.add("path_point_radius_mm", tree(&flank.path_point_radius_mm)?);
+        columns.add("snapshot_wear_um", snapshots(&flank.snapshot_wear_um));
+        value.insert(gear.name().to_owned(), columns);
     }
     if let Some(slices) = &record.slices {
         let path = &record.summary.geometry.curvature_radius_mm;

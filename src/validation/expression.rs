@@ -4,11 +4,12 @@
 //! and `[index]`; no statements, loops or functions of its own. Numbers with and without a decimal point mix, but two whole
 //! numbers divide as whole numbers do. `new` is a word of the language: what the outputs call `summary.new` is `summary.unworn`
 //! here. Beside `sqrt`, `sin`, `exp`, `ln`, `PI()` and the like there are the functions of
-//! [`super::column`].
+//! [`super::column`] and [`super::profile`].
 
 use rhai::{Array, Dynamic, Engine, Map, Scope};
 
 use super::column::{self, Column};
+use super::profile;
 use super::value::Value;
 
 /// Operations of one expression: far more than any needs, so that none runs for ever.
@@ -40,6 +41,7 @@ impl Default for Evaluator {
         engine.set_fail_on_invalid_map_property(true);
         engine.set_strict_variables(true);
         column::register(&mut engine);
+        profile::register(&mut engine);
         Self { engine, scope: Scope::new() }
     }
 }

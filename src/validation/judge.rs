@@ -48,6 +48,7 @@ pub fn judge(spec: &QuantitySpec, present: &BTreeSet<&str>, e: &mut Evaluator) -
     let expected = if missing { Standing::CannotBeCompared } else { spec.stands.unwrap_or(Standing::Holds) };
     let mut record = QuantityRecord {
         name: spec.name.clone(),
+        target: spec.target.clone(),
         unit: spec.unit.clone(),
         value: None,
         criterion: Criterion::Reported,
@@ -139,6 +140,7 @@ pub fn endings(run: &str, family: &Members) -> QuantityRecord {
     let standing = if as_expected == family.members.len() { Standing::Holds } else { Standing::Fails };
     QuantityRecord {
         name,
+        target: None,
         unit: String::new(),
         value: Some(count),
         criterion: Criterion::Near { reference: all, tolerance: 0.0 },

@@ -110,7 +110,8 @@ impl Library {
     pub fn open(asked: &[String]) -> Result<Self, LibraryError> {
         let names = names();
         let is_folder = |asked: &&String| Path::new(asked).join(CASE_FILE).is_file();
-        for found in asked.iter().filter(|asked| !is_folder(asked) && !names.contains(&asked.as_str())) {
+        let is_known = |asked: &&String| is_folder(asked) || names.contains(&asked.as_str());
+        if let Some(found) = asked.iter().find(|asked| !is_known(asked)) {
             let nearest = crate::scene::nearest::nearest(found, &names);
             return Err(LibraryError::Unknown { found: found.clone(), nearest });
         }

@@ -36,22 +36,22 @@ pub fn members(run: &RunSpec) -> Vec<Member> {
     }
     // The last key runs fastest.
     run.vary.iter().fold(vec![alone], |members, varied| {
-        let values: Vec<toml::Value> = (0..varied.len()).map(|index| varied.at(index)).collect();
+        let values: Vec<toml::Value> = (0..varied.count()).map(|index| varied.at(index)).collect();
         members.iter().flat_map(|member| values.iter().map(|value| with(member, varied, value.clone()))).collect()
     })
 }
 
 impl VarySpec {
     /// How many values there are.
-    pub fn len(&self) -> usize {
-        self.values.as_ref().map_or(self.count.unwrap_or(2), Vec::len)
+    pub fn count(&self) -> usize {
+        self.values.as_ref().map_or(self.count.unwrap_or(2), |values| values.len())
     }
 
     /// Value `index`.
     fn at(&self, index: usize) -> toml::Value {
         match &self.values {
             Some(values) => values[index].clone(),
-            None => toml::Value::Float(self.between(index as f64 / (self.len().max(2) - 1) as f64)),
+            None => toml::Value::Float(self.between(index as f64 / (self.count().max(2) - 1) as f64)),
         }
     }
 

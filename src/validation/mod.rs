@@ -2,21 +2,23 @@
 //!
 //! A case is a folder of data with a file `case.toml` ([`case_file`]); adding one adds no code. [`library`] finds cases, built in or
 //! on disk; [`schedule`] hands their runs to the threads; [`execution`] carries each out through the pipeline and reads it back
-//! under the names of its output files; [`judge`] holds quantities, which are expressions over those names ([`expression`]), against
+//! under the names of its output files (and, of each flank, `snapshot_wear_um[row of the history]` and `path_point_radius_mm.A` to
+//! `.E`); [`judge`] holds quantities, which are expressions over those names ([`expression`]), against
 //! references and bounds; [`drawing`] evaluates plots. The result is a plain record that reports are written from.
 
 pub mod against;
 pub mod case_file;
 mod check;
-mod column;
+pub mod column;
 mod data_file;
-mod drawing;
-mod execution;
-mod expression;
+pub mod drawing;
+pub mod execution;
+pub mod expression;
 mod family;
-mod judge;
+pub mod judge;
 pub mod library;
 mod members;
+mod profile;
 pub mod schedule;
 mod soundness;
 mod value;

@@ -34,6 +34,13 @@ impl Value {
         Self::Group(entries.into_iter().map(|(name, value)| (name.into(), value)).collect())
     }
 
+    /// Adds a name to a group; nothing else has names.
+    pub fn add(&mut self, name: &str, value: Value) {
+        if let Self::Group(entries) = self {
+            entries.insert(name.to_owned(), value);
+        }
+    }
+
     /// From JSON; `null` is no number.
     pub fn of_json(json: serde_json::Value) -> Self {
         use serde_json::Value as Json;

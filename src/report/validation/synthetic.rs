@@ -10,6 +10,7 @@ use crate::simulation::validation_record::{
 fn quantity(name: &str, unit: &str, value: Option<f64>, criterion: Criterion) -> QuantityRecord {
     let mut quantity = QuantityRecord {
         name: name.to_owned(),
+        target: None,
         unit: unit.to_owned(),
         value,
         criterion,

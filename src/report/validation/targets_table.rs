@@ -43,7 +43,7 @@ pub(super) fn html(record: &ValidationRecord) -> String {
     for (id, words) in TARGETS {
         let cases: Vec<&CaseRecord> =
             record.cases.iter().filter(|case| case.targets.iter().any(|target| target == id)).collect();
-        match verdict(&cases) {
+        match verdict(id, &cases) {
             Some(verdict) => rows.push(row(id, words, &cases, verdict)),
             None => absent.push(id),
         }
@@ -69,11 +69,15 @@ fn row(id: &str, words: &str, cases: &[&CaseRecord], verdict: String) -> Vec<Str
 
 /// What becomes of a target: the most urgent of its cases, with how many of its quantities hold where not all do; `None`
 /// where no case speaks to it.
-fn verdict(cases: &[&CaseRecord]) -> Option<String> {
-    let worst = cases.iter().map(|case| Verdict::of_case(case)).min()?;
+fn verdict(id: &str, cases: &[&CaseRecord]) -> Option<String> {
+    let of_case = |case: &&CaseRecord| match case.failure {
+        Some(_) => Verdict::CouldNotRun,
+        None => Verdict::of_quantities(&case.speaking_to(id)),
+    };
+    let worst = cases.iter().map(of_case).min()?;
     let compared: Vec<Verdict> = cases
         .iter()
-        .flat_map(|case| case.quantities.iter().map(Verdict::of_quantity))
+        .flat_map(|case| case.speaking_to(id).into_iter().map(Verdict::of_quantity))
         .filter(|verdict| !matches!(verdict, Verdict::Reported))
         .collect();
     let hold = compared.iter().filter(|verdict| matches!(verdict, Verdict::Holds | Verdict::NowHolds)).count();

@@ -53,10 +53,15 @@ impl Verdict {
         if case.failure.is_some() {
             return Self::CouldNotRun;
         }
-        let of_quantities = || case.quantities.iter().map(Self::of_quantity);
-        let worst = of_quantities().min().unwrap_or(Self::Reported);
-        // What cannot be compared beside something that holds is a mark on the case, not what became of it.
-        if worst == Self::CannotBeCompared && of_quantities().any(|verdict| verdict == Self::Holds) {
+        Self::of_quantities(&case.quantities.iter().collect::<Vec<_>>())
+    }
+
+    /// That of several quantities: the most urgent of theirs.
+    pub(super) fn of_quantities(quantities: &[&QuantityRecord]) -> Self {
+        let each = || quantities.iter().map(|quantity| Self::of_quantity(quantity));
+        let worst = each().min().unwrap_or(Self::Reported);
+        // What cannot be compared beside something that holds is a mark on the whole, not what became of it.
+        if worst == Self::CannotBeCompared && each().any(|verdict| verdict == Self::Holds) {
             Self::Holds
         } else {
             worst

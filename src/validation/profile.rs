@@ -1,0 +1,111 @@
+//! Profiles in expressions: what is read off a worn or a measured flank beside the figures of any column.
+//!
+//! | expression | meaning |
+//! |---|---|
+//! | `form_removed(x, y)` | y less its least-squares polynomial of third order in x, as `gearwear compare --form cubic` takes it away |
+//! | `mean_deviation(x, y)` | mean of the distance of y from its mean over the length: Pa of one trace, Sa of an area |
+//! | `separate_peaks(x, y, share)` | y at its separate peaks, 0 elsewhere |
+//!
+//! A peak is separate where the profile falls by `share` of its height on both sides before it rises above the peak.
+
+use std::sync::Arc;
+
+use rhai::Engine;
+
+use super::column::{Column, Failed, fault};
+use crate::measurement::form::{Form, FormRemoval};
+use crate::measurement::roughness;
+
+/// Teaches the engine all of the above.
+pub fn register(engine: &mut Engine) {
+    engine.register_fn("form_removed", |x: Column, y: Column| form_removed(&x, &y));
+    engine.register_fn("mean_deviation", |x: Column, y: Column| -> Result<f64, Failed> {
+        rising(&x, &y)?;
+        Ok(roughness::mean_deviation(&x.0, &y.0))
+    });
+    engine.register_fn("separate_peaks", |x: Column, y: Column, share: f64| separate_peaks(&x, &y, share));
+}
+
+/// Refuses what is no profile over the rising places `x`.
+fn rising(x: &Column, y: &Column) -> Result<(), Failed> {
+    x.same_length(y)?;
+    if x.0.is_sorted_by(|a, b| a < b) { Ok(()) } else { fault("the places of a profile must rise".to_owned()) }
+}
+
+fn form_removed(x: &Column, y: &Column) -> Result<Column, Failed> {
+    rising(x, y)?;
+    if x.0.len() <= Form::Cubic.parameters() {
+        return fault(format!("a profile of {} points has no cubic form", x.0.len()));
+    }
+    let mut left = y.0.to_vec();
+    FormRemoval::new(Form::Cubic, &x.0).remove(&mut left);
+    Ok(Column(left.into()))
+}
+
+fn separate_peaks(x: &Column, y: &Column, share: f64) -> Result<Column, Failed> {
+    rising(x, y)?;
+    let points = &y.0;
+    let falls = |side: &mut dyn Iterator<Item = &f64>, height: f64| {
+        side.take_while(|&&depth| depth <= height).any(|&depth| depth < (1.0 - share) * height)
+    };
+    let separate = |place: usize| {
+        let height = points[place];
+        falls(&mut points[..place].iter().rev(), height) && falls(&mut points[place + 1..].iter(), height)
+    };
+    let peaks: Arc<[f64]> = (0..points.len()).map(|i| if separate(i) { points[i] } else { 0.0 }).collect();
+    Ok(Column(peaks))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::validation::expression::Evaluator;
+    use crate::validation::value::Value;
+
+    fn evaluator() -> Evaluator {
+        let mut evaluator = Evaluator::default();
+        let x: Vec<f64> = (0..401).map(|i| 0.01 * f64::from(i)).collect();
+        let wave = |x: f64| (20.0 * std::f64::consts::PI * x).sin();
+        evaluator.name("x", &Value::column(x.iter().copied()));
+        evaluator.name("wave", &Value::column(x.iter().map(|&x| wave(x))));
+        evaluator.name("cubic", &Value::column(x.iter().map(|&x| 3.0 - x + 0.5 * x.powi(3))));
+        evaluator.name("at", &Value::column([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
+        evaluator.name("depth", &Value::column([9.0, 5.0, 8.0, 7.5, 7.9, 3.0, 4.0]));
+        evaluator
+    }
+
+    /// The mean of |sin| is 2/π; a cubic has no form left, and a short wave hardly loses any.
+    #[test]
+    fn ver_form_and_mean_deviation() {
+        let mut e = evaluator();
+        for (expression, expected, allowed) in [
+            ("max(abs(form_removed(x, cubic)))", 0.0, 1e-12),
+            ("mean_deviation(x, wave)", 2.0 / std::f64::consts::PI, 2e-2),
+            ("mean_deviation(x, form_removed(x, wave + cubic))", 2.0 / std::f64::consts::PI, 2e-2),
+        ] {
+            let found = e.number(expression).unwrap();
+            assert!((found - expected).abs() <= allowed, "{expression}: {found}");
+        }
+    }
+
+    /// Of 9, 5, 8, 7.5, 7.9, 3, 4 the 8 alone falls by a tenth on both sides; ends are no peaks, and 7.9 is a shoulder of 8.
+    #[test]
+    fn ver_separate_peaks() {
+        let mut e = evaluator();
+        assert_eq!(e.column("separate_peaks(at, depth, 0.1)").unwrap(), [0.0, 0.0, 8.0, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!(e.column("separate_peaks(at, depth, 0.05)").unwrap(), [0.0, 0.0, 8.0, 0.0, 7.9, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn what_is_no_profile_is_refused() {
+        let mut e = evaluator();
+        for (expression, said) in [
+            ("form_removed(at - at, depth)", "must rise"),
+            ("form_removed(column([0.0, 1.0, 2.0, 3.0]), column([0.0, 1.0, 2.0, 3.0]))", "no cubic form"),
+            ("separate_peaks(x, depth, 0.1)", "401 and 7"),
+        ] {
+            let message = e.column(expression).unwrap_err().to_string();
+            assert!(message.contains(said), "{message}");
+        }
+    }
+}
