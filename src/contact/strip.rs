@@ -274,6 +274,9 @@ fn shift_to_ends_mm(geometry: &dyn ConjugateFlanks, gear: Gear, coordinate_mm: f
     })
 }
 
+/// Points within so many cells of the theoretical contact point are those that it passes, or nearly so.
+const NEAR_CELLS: f64 = 1.0;
+
 /// The gap that observed points face, and how it changes under them.
 #[derive(Debug, Clone)]
 pub struct GapAtPoints {
@@ -399,14 +402,18 @@ impl GapAtPoints {
         let curvature = 1.0 / flanks.geometry.relative_radius_mm(position_mm);
         let shifts = points.shifts_to_ends_mm();
         let slope = |k: usize| 0.5 * (geometric_gap_mm[k + 2] - geometric_gap_mm[k]) / points.spacing_mm;
+        // Conjugate flanks touch once the contact has come to the point: there, the parabola's bottom is a gap of nought, which
+        // what differences and a constant curvature miss would drown in the narrow contact of a light load.
+        let bottoms_out = |k: usize| (2.0 * geometric_gap_mm[k + 1].max(0.0) * curvature).sqrt();
         let course: Vec<Course> = shifts
             .iter()
             .enumerate()
-            .map(|(k, [begin, end])| Course {
-                from_mm: begin.min(*end),
-                to_mm: begin.max(*end),
-                slope: slope(k),
-                curvature,
+            .map(|(k, [begin, end])| {
+                let (from_mm, to_mm) = (begin.min(*end), begin.max(*end));
+                let along = points.at[k + 1].along_mm;
+                let near = along.abs() <= NEAR_CELLS * (to_mm - from_mm);
+                let slope = if near { bottoms_out(k).copysign(along) } else { slope(k) };
+                Course { from_mm, to_mm, slope, curvature }
             })
             .collect();
         geometric_gap_mm.truncate(count + 1);

@@ -89,6 +89,9 @@ pub struct RunSpec {
     /// How it must end, members of `each` that say otherwise apart.
     #[serde(default = "sound")]
     pub expect: RunOutcome,
+    /// Other ways in which members may end, where nobody can say beforehand which of them are refused.
+    #[serde(default)]
+    pub accept: Vec<RunOutcome>,
     /// Of a family: expressions for every member, in which `run` is the member; each becomes a column of the family.
     #[serde(default)]
     pub take: BTreeMap<String, String>,

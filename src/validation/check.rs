@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::case_file::{CaseFile, Command, QuantitySpec, RunSpec, VarySpec};
 use super::expression::Evaluator;
-use crate::simulation::validation_record::Standing;
+use crate::simulation::validation_record::{RunOutcome, Standing};
 
 /// Greatest number of members of a family.
 pub const MOST_MEMBERS: usize = 10_000;
@@ -89,6 +89,10 @@ fn check_run(run: &RunSpec, case: &CaseFile) -> Result<(), CaseFault> {
     }
     if run.command == Command::Run && run.full {
         return wrong("full", "it with command = \"fem\" or \"calibrate\" alone");
+    }
+    let is_defect = |outcome: &RunOutcome| matches!(outcome, RunOutcome::Unsound | RunOutcome::Panicked);
+    if run.accept.iter().any(is_defect) {
+        return wrong("accept of a defect", "accept of \"sound\", \"refused\" and \"not-converged\" alone");
     }
     for varied in run.vary.iter().chain(run.sample.iter().flat_map(|sample| &sample.of)) {
         check_varied(varied).map_err(|(found, allowed)| fault("run", &run.name, found, allowed))?;

@@ -107,7 +107,7 @@ pub fn stability(spec: &StabilitySpec, family: &Members) -> Vec<StabilityPoint> 
             value: if let Some(Value::Number(number)) = value { *number } else { f64::NAN },
             setting: member.label.clone(),
             outcome: executed.outcome,
-            expected: member.expected,
+            expected: if member.may_end(executed.outcome) { executed.outcome } else { member.expected },
             said: executed.said.clone(),
         })
     })

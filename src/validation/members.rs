@@ -17,6 +17,15 @@ pub struct Member {
     pub values: Vec<(String, Value)>,
     /// How it must end.
     pub expected: RunOutcome,
+    /// Other ways in which it may end.
+    pub accepted: Vec<RunOutcome>,
+}
+
+impl Member {
+    /// Whether it may end so.
+    pub fn may_end(&self, outcome: RunOutcome) -> bool {
+        outcome == self.expected || self.accepted.contains(&outcome)
+    }
 }
 
 /// All members of a run; one where it is alone.
@@ -27,6 +36,7 @@ pub fn members(run: &RunSpec) -> Vec<Member> {
         label: String::new(),
         values: Vec::new(),
         expected: run.expect,
+        accepted: run.accept.clone(),
     };
     if let Some(sample) = &run.sample {
         return (0..sample.count).map(|index| drawn(&alone, sample, index)).collect();
@@ -97,6 +107,8 @@ fn one_by_one(alone: &Member, spec: &MemberSpec) -> Member {
         values: vec![("value".to_owned(), Value::Number(spec.value.unwrap_or(f64::NAN)))],
         unset: [alone.unset.clone(), spec.unset.clone()].concat(),
         expected: spec.expect.unwrap_or(alone.expected),
+        // A member that says how it ends ends so.
+        accepted: if spec.expect.is_some() { Vec::new() } else { alone.accepted.clone() },
         set: [alone.set.clone(), own].concat(),
         label,
     }
@@ -146,6 +158,12 @@ mod tests {
             members(&run("[[each]]\nvalue = 2.0\nset = { k = 1 }\nexpect = \"refused\"\n[[each]]\nlabel = \"b\"\n"));
         assert_eq!((listed[0].label.as_str(), listed[0].expected), ("k = 1", RunOutcome::Refused));
         assert_eq!((listed[1].label.as_str(), listed[1].expected), ("b", RunOutcome::Sound));
+
+        let either = members(&run("accept = [\"refused\"]\n[[each]]\nset = { k = 1 }\n[[each]]\nexpect = \"sound\"\n"));
+        let may_end = |outcome| either.iter().map(|member| member.may_end(outcome)).collect::<Vec<_>>();
+        assert_eq!(may_end(RunOutcome::Sound), [true, true]);
+        assert_eq!(may_end(RunOutcome::Refused), [true, false]);
+        assert_eq!(may_end(RunOutcome::Panicked), [false, false]);
 
         let sampled = members(&run(
             "[sample]\ncount = 200\nof = [{ key = \"m\", from = 1, to = 3 }, { key = \"s\", values = [\"a\", \"b\"] }]\n",

@@ -16,17 +16,19 @@ struct Place {
 }
 
 /// Derives the pair and reports why that is impossible, if it is, or why its slices leave a position without contact.
-pub fn check(spec: &PairSpec, slices: Option<SliceSettings>, findings: &mut Findings) {
+pub fn check(spec: &PairSpec, slices: Option<SliceSettings>, findings: &mut Findings) -> Option<GearPair> {
     match GearPair::new(spec) {
         Ok(pair) => {
             if let Some(slices) = slices {
                 check_slices(&pair, slices.count, findings);
             }
+            Some(pair)
         }
         Err(error) => {
             let Place { key, found, allowed, help } = place(&error, spec, findings);
             findings.problem(ProblemKind::Geometry(error), &key, found, allowed);
             findings.help(help);
+            None
         }
     }
 }

@@ -3,6 +3,7 @@
 //! In order: TOML, shape (names, types, ranges), preset, defaults and what keys say about each other, units, and last
 //! the gear pair itself. Each step reports all it finds and passes on what is sound.
 
+mod contact_size;
 mod fem;
 mod geometry;
 mod operation;
@@ -47,7 +48,9 @@ pub fn resolve_table(table: Table, mut findings: Findings) -> Result<Resolved, V
     let resolved = text::typed::<SceneFile>(sound, &mut findings).and_then(|file| choose(file, &mut findings));
     let resolved = resolved.filter(|_| findings.problems.is_empty());
     if let Some((scene, _)) = &resolved {
-        geometry::check(&scene.pair, scene.slices, &mut findings);
+        if let Some(pair) = geometry::check(&scene.pair, scene.slices, &mut findings) {
+            contact_size::check(scene, &pair, &mut findings);
+        }
     }
     let slips = slips.into_iter().filter(|slip| findings.is_in_file(&slip.key));
     match resolved {
