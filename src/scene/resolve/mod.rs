@@ -47,10 +47,10 @@ pub fn resolve_table(table: Table, mut findings: Findings) -> Result<Resolved, V
 
     let resolved = text::typed::<SceneFile>(sound, &mut findings).and_then(|file| choose(file, &mut findings));
     let resolved = resolved.filter(|_| findings.problems.is_empty());
-    if let Some((scene, _)) = &resolved {
-        if let Some(pair) = geometry::check(&scene.pair, scene.slices, &mut findings) {
-            contact_size::check(scene, &pair, &mut findings);
-        }
+    if let Some((scene, _)) = &resolved
+        && let Some(pair) = geometry::check(&scene.pair, scene.slices, &mut findings)
+    {
+        findings.warnings.extend(contact_size::warnings(scene, &pair));
     }
     let slips = slips.into_iter().filter(|slip| findings.is_in_file(&slip.key));
     match resolved {
