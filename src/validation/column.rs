@@ -2,7 +2,7 @@
 //!
 //! | expression | meaning |
 //! |---|---|
-//! | `x + y`, `2.0 * x`, `-x`, `abs(x)`, `sqrt(x)`, `ln(x)` | point by point |
+//! | `x + y`, `2.0 * x`, `-x`, `abs(x)`, `sqrt(x)`, `ln(x)`, `exp(x)`, `sin(x)` | point by point |
 //! | `x[3]`, `x.len`, `first(x)`, `last(x)` | points of a column |
 //! | `max(x)`, `min(x)`, `mean(x)`, `sum(x)`, `rms(x)`, `quantile(x, q)` | figures of a column |
 //! | `at(x, y, x0)`, `resample(x, y, places)` | y at x0 (at places), linear between the points |
@@ -156,7 +156,13 @@ pub fn register(engine: &mut Engine) {
     arithmetic(engine, "*", |a, b| a * b);
     arithmetic(engine, "/", |a, b| a / b);
     engine.register_fn("-", |x: Column| x.map(|x| -x));
-    for (name, f) in [("abs", f64::abs as fn(f64) -> f64), ("sqrt", f64::sqrt), ("ln", f64::ln), ("exp", f64::exp)] {
+    for (name, f) in [
+        ("abs", f64::abs as fn(f64) -> f64),
+        ("sqrt", f64::sqrt),
+        ("ln", f64::ln),
+        ("exp", f64::exp),
+        ("sin", f64::sin),
+    ] {
         engine.register_fn(name, move |x: Column| x.map(f));
     }
     engine.register_indexer_get(|x: &mut Column, index: i64| x.get(index));

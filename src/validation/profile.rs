@@ -58,14 +58,13 @@ fn separate_peaks(x: &Column, y: &Column, share: f64) -> Result<Column, Failed> 
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::validation::expression::Evaluator;
     use crate::validation::value::Value;
 
     fn evaluator() -> Evaluator {
         let mut evaluator = Evaluator::default();
         let x: Vec<f64> = (0..401).map(|i| 0.01 * f64::from(i)).collect();
-        let wave = |x: f64| (20.0 * std::f64::consts::PI * x).sin();
+        let wave = |x: f64| (10.0 * std::f64::consts::PI * x).sin();
         evaluator.name("x", &Value::column(x.iter().copied()));
         evaluator.name("wave", &Value::column(x.iter().map(|&x| wave(x))));
         evaluator.name("cubic", &Value::column(x.iter().map(|&x| 3.0 - x + 0.5 * x.powi(3))));
