@@ -53,8 +53,6 @@ const FIRST_WINDOW: f64 = 1.25;
 const FREE_CELLS: usize = 2;
 /// Fewest cells in a window.
 const LEAST_CELLS: usize = 4;
-/// Of a number of cells.
-const ROUND_OFF: f64 = 1e-9;
 /// Most cells in a window: those of a window that has grown beyond are wider.
 const MOST_CELLS: f64 = 320.0;
 /// Measured on the preset `fzg-c`, rounded.
@@ -126,8 +124,7 @@ impl Site<'_> {
     fn look(&self) -> Look {
         let window = Window::new(self.flanks, self.position_mm, self.half_window_mm);
         let widest = self.cell_mm.max(window.length_mm() / MOST_CELLS);
-        // The first window is a whole number of the finest cells: rounding must not add one.
-        let count = ((window.length_mm() / widest - ROUND_OFF).ceil() as usize).max(LEAST_CELLS);
+        let count = ((window.length_mm() / widest).ceil() as usize).max(LEAST_CELLS);
         let strip = Strip::new(self.flanks, self.position_mm, window, 2 * count);
         let width = 2.0 * strip.spacing_mm;
         let compliance = cell_compliance_mm_per_mpa(&self.flattening.bodies, width, count);
