@@ -89,7 +89,8 @@ fn fault(record: &RunRecord) -> Option<String> {
         }
     }
     let cycles = [&record.summary.new, &record.summary.worn];
-    let imbalance = cycles.iter().map(|cycle| cycle.load_imbalance).find(|&imbalance| !(imbalance <= MOST_IMBALANCE));
+    let imbalance =
+        cycles.iter().map(|cycle| cycle.load_imbalance).find(|&found| found.is_nan() || found > MOST_IMBALANCE);
     imbalance.map(|imbalance| format!("loads of the pairs differ from the load by {imbalance:e} of it"))
 }
 
