@@ -274,8 +274,9 @@ fn shift_to_ends_mm(geometry: &dyn ConjugateFlanks, gear: Gear, coordinate_mm: f
     })
 }
 
-/// Points within so many cells of the theoretical contact point are those that it passes, or nearly so.
-const NEAR_CELLS: f64 = 1.0;
+/// By this part of its course the theoretical contact point may miss a point and still passes it: where it passes between two
+/// cells, neither must lose it to rounding.
+const SLACK: f64 = 0.02;
 
 /// The gap that observed points face, and how it changes under them.
 #[derive(Debug, Clone)]
@@ -403,7 +404,8 @@ impl GapAtPoints {
         let shifts = points.shifts_to_ends_mm();
         let slope = |k: usize| 0.5 * (geometric_gap_mm[k + 2] - geometric_gap_mm[k]) / points.spacing_mm;
         // Conjugate flanks touch once the contact has come to the point: there, the parabola's bottom is a gap of nought, which
-        // what differences and a constant curvature miss would drown in the narrow contact of a light load.
+        // what differences and a constant curvature miss would drown in the narrow contact of a light load. Nowhere do they dip
+        // into each other.
         let bottoms_out = |k: usize| (2.0 * geometric_gap_mm[k + 1].max(0.0) * curvature).sqrt();
         let course: Vec<Course> = shifts
             .iter()
@@ -411,9 +413,14 @@ impl GapAtPoints {
             .map(|(k, [begin, end])| {
                 let (from_mm, to_mm) = (begin.min(*end), begin.max(*end));
                 let along = points.at[k + 1].along_mm;
-                let near = along.abs() <= NEAR_CELLS * (to_mm - from_mm);
-                let slope = if near { bottoms_out(k).copysign(along) } else { slope(k) };
-                Course { from_mm, to_mm, slope, curvature }
+                let slack = SLACK * (to_mm - from_mm);
+                let passed = (from_mm - slack..=to_mm + slack).contains(&-along);
+                let by_differences = Course { from_mm, to_mm, slope: slope(k), curvature };
+                let dips = geometric_gap_mm[k + 1] + by_differences.growth().least_mm < 0.0;
+                match passed || dips {
+                    true => Course { slope: bottoms_out(k).copysign(along), ..by_differences },
+                    false => by_differences,
+                }
             })
             .collect();
         geometric_gap_mm.truncate(count + 1);

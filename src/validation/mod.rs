@@ -18,7 +18,7 @@ mod family;
 pub mod judge;
 pub mod library;
 mod members;
-mod profile;
+pub mod profile;
 pub mod schedule;
 mod soundness;
 mod value;
