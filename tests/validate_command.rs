@@ -176,9 +176,11 @@ fn an_earlier_record_shows_what_got_worse() {
         fs::write(folder.path().join("mine/case.toml"), text).unwrap();
         validate(folder.path(), &["mine", "--out", "out", "--against", "old.json"]).success()
     };
-    again(&loose).stdout(contains("worse").not().or(contains("nothing")));
-    again(&loose.replace("1e-6", "2e-7")).stdout(contains("base pitch"));
-    again(&loose.replace("\"numerics.positions\" = 40", "\"numerics.positions\" = 80")).stdout(contains("equilibria"));
+    again(&loose).stdout(contains("0 worse, 0 better"));
+    // A tenth of the tolerance was used, half of it is.
+    again(&loose.replace("1e-6", "2e-7")).stdout(contains("1 worse, 0 better"));
+    let finer = loose.replace("\"numerics.positions\" = 40", "\"numerics.positions\" = 80");
+    again(&finer).stdout(contains("equilibria").and(contains("0 worse").not()));
 }
 
 #[test]

@@ -97,8 +97,9 @@ fn spread<T: Send>(jobs: &[Job], threads: usize, work: impl Fn(&Job) -> T + Sync
     let next = AtomicUsize::new(0);
     let results: Mutex<Vec<(usize, T)>> = Mutex::new(Vec::with_capacity(jobs.len()));
     let hand_out = || {
-        while let Some((index, job)) = Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|i| Some((i, jobs.get(i)?)))
-        {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(job) = jobs.get(index) else { break };
             let done = work(job);
             results.lock().unwrap_or_else(PoisonError::into_inner).push((index, done));
         }
