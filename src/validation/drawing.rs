@@ -1,6 +1,6 @@
 //! What a case draws: plots, error against cost, outcomes over a range.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use super::case_file::{CurveSpec, PlotSpec, StabilitySpec, WorkPrecisionSpec};
 use super::execution::Executed;
@@ -26,12 +26,12 @@ fn finished(family: &Members) -> impl Iterator<Item = (&Member, &Executed)> {
 /// An expression without a value.
 pub fn plot<'a>(
     spec: &PlotSpec,
-    present: &BTreeSet<&str>,
+    absent: &BTreeMap<&str, &str>,
     families: &impl Fn(&str) -> Option<&'a Members>,
     e: &mut Evaluator,
 ) -> Result<CasePlot, ExpressionError> {
     let mut curves = Vec::new();
-    for of in spec.curve.iter().filter(|of| of.needs.as_deref().is_none_or(|name| present.contains(name))) {
+    for of in spec.curve.iter().filter(|of| of.needs.as_deref().is_none_or(|name| !absent.contains_key(name))) {
         match of.each.as_deref().and_then(families) {
             None => curves.push(curve(of, of.name.clone(), e)?),
             Some(family) => {

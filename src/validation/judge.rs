@@ -3,7 +3,7 @@
 //! A tolerance is honest where it is no wider than the reference is uncertain plus what the spacing of the computation
 //! contributes; a wider one must come with a sentence that says why, or the case does not count.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use super::case_file::{Extent, Formula, QuantitySpec};
 use super::expression::{Evaluator, ExpressionError};
@@ -39,13 +39,17 @@ pub enum JudgeError {
     },
 }
 
-/// Judges one quantity; `present` holds the names of the files of numbers that are there.
+/// Judges one quantity; `absent` holds the names of the files of numbers that are not there, with what is then not known.
 ///
 /// # Errors
 /// [`JudgeError`]
-pub fn judge(spec: &QuantitySpec, present: &BTreeSet<&str>, e: &mut Evaluator) -> Result<QuantityRecord, JudgeError> {
-    let missing = spec.needs.as_deref().is_some_and(|name| !present.contains(name));
-    let expected = if missing { Standing::CannotBeCompared } else { spec.stands.unwrap_or(Standing::Holds) };
+pub fn judge(
+    spec: &QuantitySpec,
+    absent: &BTreeMap<&str, &str>,
+    e: &mut Evaluator,
+) -> Result<QuantityRecord, JudgeError> {
+    let missing = spec.needs.as_deref().and_then(|name| absent.get(name));
+    let expected = if missing.is_some() { Standing::CannotBeCompared } else { spec.stands.unwrap_or(Standing::Holds) };
     let mut record = QuantityRecord {
         name: spec.name.clone(),
         target: spec.target.clone(),
@@ -61,10 +65,10 @@ pub fn judge(spec: &QuantitySpec, present: &BTreeSet<&str>, e: &mut Evaluator) -
         share: None,
         standing: Standing::CannotBeCompared,
         expected,
-        remark: spec.remark.clone(),
+        remark: spec.remark.clone().or_else(|| missing.map(|reason| (*reason).to_owned())),
         counts_work: spec.work,
     };
-    if missing {
+    if missing.is_some() {
         return Ok(record);
     }
     let wrong = |error| JudgeError::Expression { quantity: spec.name.clone(), error };

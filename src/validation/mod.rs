@@ -23,7 +23,7 @@ pub mod schedule;
 mod soundness;
 mod value;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::time::Instant;
 
 use crate::simulation::validation_record::{CaseRecord, CaseRun, RunOutcome, Tier, ValidationRecord};
@@ -93,11 +93,13 @@ fn fill(record: &mut CaseRecord, case: &Case, runs: &[Members]) -> Result<(), St
             .extend(of_family(&spec.family).into_iter().flat_map(|family| drawing::stability(spec, family)));
     }
     let mut e = Evaluator::default();
-    let mut present = BTreeSet::new();
+    let mut absent = BTreeMap::new();
     for spec in &file.data {
-        if let Some(columns) = data_file::read(spec, &case.folder)? {
-            e.name(&spec.name, &columns);
-            present.insert(spec.name.as_str());
+        match data_file::read(spec, &case.folder)? {
+            Some(columns) => e.name(&spec.name, &columns),
+            None => {
+                absent.insert(spec.name.as_str(), spec.missing.as_deref().unwrap_or_default());
+            }
         }
     }
     let said = |error: expression::ExpressionError| error.to_string();
@@ -116,7 +118,7 @@ fn fill(record: &mut CaseRecord, case: &Case, runs: &[Members]) -> Result<(), St
         e.name(&definition.name, &value);
     }
     for spec in &file.quantity {
-        record.quantities.push(judge::judge(spec, &present, &mut e).map_err(|error| error.to_string())?);
+        record.quantities.push(judge::judge(spec, &absent, &mut e).map_err(|error| error.to_string())?);
     }
     for spec in &file.work_precision {
         if let Some(family) = of_family(&spec.family) {
@@ -124,7 +126,7 @@ fn fill(record: &mut CaseRecord, case: &Case, runs: &[Members]) -> Result<(), St
         }
     }
     for spec in &file.plot {
-        record.plots.push(drawing::plot(spec, &present, &of_family, &mut e).map_err(said)?);
+        record.plots.push(drawing::plot(spec, &absent, &of_family, &mut e).map_err(said)?);
     }
     Ok(())
 }

@@ -115,5 +115,5 @@ impl Verdict {
 
 /// Whether nothing is missing to compare the number: nobody asked for a comparison.
 fn is_only_reported(quantity: &QuantityRecord) -> bool {
-    quantity.criterion == Criterion::Reported && quantity.remark.is_none()
+    quantity.criterion == Criterion::Reported && quantity.value.is_some() && quantity.remark.is_none()
 }

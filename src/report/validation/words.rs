@@ -119,12 +119,14 @@ pub(super) fn used(quantity: &QuantityRecord) -> Option<f64> {
     quantity.share.or_else(|| quantity.value.and_then(of_bound)).filter(|share| share.is_finite())
 }
 
-/// The quantity that uses most of its tolerance, and how much: of those that are missed, if there are any.
+/// The quantity that uses most of its tolerance, and how much: of those that are missed, if there are any. Counts of work are
+/// kept close to what they are, and say nothing of accuracy: they are named only where one is missed.
 pub(super) fn tightest(case: &CaseRecord) -> Option<(&QuantityRecord, f64)> {
     let among = |wanted: Verdict| {
         case.quantities
             .iter()
             .filter(|quantity| Verdict::of_quantity(quantity) == wanted)
+            .filter(|quantity| wanted == Verdict::Missed || !quantity.counts_work)
             .filter_map(|quantity| Some((quantity, used(quantity)?)))
             .reduce(|most, next| if next.1 > most.1 { next } else { most })
     };
