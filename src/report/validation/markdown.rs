@@ -68,7 +68,12 @@ fn not_as_expected(record: &ValidationRecord) -> String {
 
 fn of_verdict(record: &ValidationRecord, verdict: Verdict, one: &str, many: &str) -> String {
     let of_case = |case: &CaseRecord, quantity: &QuantityRecord| {
-        vec![case.targets.join(" "), case.name.clone(), quantity.name.clone(), words::deviation(quantity)]
+        vec![
+            quantity.target.clone().unwrap_or_else(|| case.targets.join(" ")),
+            case.name.clone(),
+            quantity.name.clone(),
+            words::deviation(quantity),
+        ]
     };
     let rows: Vec<Vec<String>> = record
         .cases
