@@ -97,6 +97,12 @@ pub enum InputError {
     /// There is no such validation case, or it is none.
     #[error(transparent)]
     ValidationCase(LibraryError),
+    /// None of the cases asked for belongs to the tier asked for.
+    #[error("found no case of the tier {tier} among those named; allowed: cases of that tier, or no --tier")]
+    NoCaseOfTier {
+        /// The tier.
+        tier: &'static str,
+    },
     /// A file that is no record of the validation suite.
     #[error("{name}: line {line}: found {reason}; allowed: a validation.json that gearwear validate wrote")]
     NoValidationRecord {

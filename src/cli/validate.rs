@@ -60,6 +60,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let library = Library::open(&args.cases).map_err(InputError::ValidationCase)?;
     // The whole suite is asked for by its tier; cases that are named are run whatever theirs is.
     let tier = args.tier.or(args.cases.is_empty().then_some(Tier::Full));
+    if let Some(asked) = tier
+        && library.cases.iter().all(|case| case.file.tier > asked)
+    {
+        return Err(InputError::NoCaseOfTier { tier: asked.name() }.into());
+    }
     if args.list {
         return list(&library, args.tier);
     }
@@ -76,13 +81,13 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         stdout::print(&in_words(&record, changes.as_ref(), out))?;
     }
     let missed: Vec<String> = record.cases.iter().filter(|case| !case.passed()).map(|case| case.name.clone()).collect();
-    match (record.interrupted, missed.is_empty()) {
-        (true, _) => {
+    match (record.not_run.is_empty(), missed.is_empty()) {
+        (false, _) => {
             say(&format!("interrupted: {} cases were finished and are kept in {}", record.cases.len(), out.display()));
             Err(Failure::Interrupted)
         }
-        (false, false) => Err(Failure::Missed { cases: missed }),
-        (false, true) => Ok(()),
+        (true, false) => Err(Failure::Missed { cases: missed }),
+        (true, true) => Ok(()),
     }
 }
 

@@ -22,8 +22,8 @@ pub struct ValidationRecord {
     pub cases: Vec<CaseRecord>,
     /// From the first run to the last verdict.
     pub wall_s: f64,
-    /// Cases of the tier that an interrupt left out.
-    pub interrupted: bool,
+    /// Cases that an interrupt left out.
+    pub not_run: Vec<String>,
 }
 
 /// How long a suite may take: each tier holds those before it.

@@ -114,6 +114,18 @@ impl Found {
             self.add(way, case, &now.name, word(before), word(now));
             return;
         }
+        if let Some(way) = limit_moved(before.criterion, now.criterion) {
+            // A share of another tolerance says nothing: what is compared is the error, in the tolerance as it was.
+            let what = format!("{}: what it is held against", now.name);
+            self.add(way, case, &what, limit(before.criterion), limit(now.criterion));
+            if let (Some(earlier), Some(error), Criterion::Near { tolerance, .. }) =
+                (before.error, now.error, before.criterion)
+                && (error - earlier).abs() > SHARE * tolerance
+            {
+                self.add(Way::worse_if(error > earlier), case, &now.name, digits(earlier), digits(error));
+            }
+            return;
+        }
         match (before.share, now.share) {
             (Some(earlier), Some(share)) if !now.counts_work => {
                 if (share - earlier).abs() > SHARE {
@@ -163,6 +175,36 @@ fn rank(standing: Standing) -> u8 {
         Standing::Fails => 0,
         Standing::CannotBeCompared => 1,
         Standing::Holds => 2,
+    }
+}
+
+/// Whether a quantity is held against something else than before: worse where that is looser, or another reference.
+fn limit_moved(before: Criterion, now: Criterion) -> Option<Way> {
+    let differs = |before: f64, now: f64, scale: f64| (now - before).abs() > RELATIVE * scale.abs();
+    let (moved, looser) = match (before, now) {
+        (Criterion::Near { reference: r0, tolerance: t0 }, Criterion::Near { reference: r1, tolerance: t1 }) => {
+            let another = differs(r0, r1, t0);
+            (another || differs(t0, t1, t0), another || t1 > t0)
+        }
+        (Criterion::AtMost { bound: b0 }, Criterion::AtMost { bound: b1 }) => (differs(b0, b1, b0), b1 > b0),
+        (Criterion::AtLeast { bound: b0 }, Criterion::AtLeast { bound: b1 }) => (differs(b0, b1, b0), b1 < b0),
+        (Criterion::Between { low: l0, high: h0 }, Criterion::Between { low: l1, high: h1 }) => {
+            (differs(l0, l1, h0 - l0) || differs(h0, h1, h0 - l0), l1 < l0 || h1 > h0)
+        }
+        (Criterion::True, Criterion::True) | (Criterion::Reported, Criterion::Reported) => return None,
+        _ => (true, true),
+    };
+    moved.then_some(Way::worse_if(looser))
+}
+
+fn limit(criterion: Criterion) -> String {
+    match criterion {
+        Criterion::Near { reference, tolerance } => format!("{} ± {}", digits(reference), digits(tolerance)),
+        Criterion::AtLeast { bound } => format!("at least {}", digits(bound)),
+        Criterion::AtMost { bound } => format!("at most {}", digits(bound)),
+        Criterion::Between { low, high } => format!("{} to {}", digits(low), digits(high)),
+        Criterion::True => "a statement".to_owned(),
+        Criterion::Reported => "nothing".to_owned(),
     }
 }
 
@@ -245,7 +287,7 @@ mod tests {
             threads: 1,
             cases,
             wall_s: 1.0,
-            interrupted: false,
+            not_run: Vec::new(),
         }
     }
 
@@ -283,6 +325,20 @@ mod tests {
         let between_ends = Criterion::Between { low: 1.0, high: 3.0 };
         assert_eq!(between(of_value(between_ends, 1.5), of_value(between_ends, 2.0)), [vec![], vec!["q".to_owned()]]);
         assert_eq!(between(of_value(between_ends, 2.0), of_value(between_ends, 2.5)), [vec!["q".to_owned()], vec![]]);
+    }
+
+    #[test]
+    fn a_looser_tolerance_is_worse_whatever_share_of_it_is_used() {
+        let held = |tolerance: f64, error: f64| {
+            let mut quantity =
+                quantity(Criterion::Near { reference: 1.0, tolerance }, 1.0 + error, Some(error / tolerance));
+            quantity.error = Some(error);
+            case("a", vec![quantity])
+        };
+        let limit = "q: what it is held against".to_owned();
+        assert_eq!(between(held(1.0, 0.5), held(10.0, 0.9)), [vec![limit.clone(), "q".to_owned()], vec![]]);
+        assert_eq!(between(held(1.0, 0.5), held(10.0, 0.5)), [vec![limit.clone()], vec![]]);
+        assert_eq!(between(held(1.0, 0.1), held(0.2, 0.1)), [vec![], vec![limit]]);
     }
 
     #[test]

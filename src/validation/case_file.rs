@@ -266,9 +266,8 @@ pub struct QuantitySpec {
     pub at_least: Option<Formula>,
     /// Its greatest value; with `at_least`, both hold.
     pub at_most: Option<Formula>,
-    /// The expression is a statement that must be true.
-    #[serde(default)]
-    pub is_true: bool,
+    /// `true`: the expression is a statement that must be true.
+    pub is_true: Option<bool>,
     /// Where reference or bound come from.
     #[serde(default)]
     pub source: String,

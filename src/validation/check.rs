@@ -62,6 +62,10 @@ pub fn check(case: &CaseFile) -> Result<(), CaseFault> {
     if case.quantity.is_empty() {
         return Err(fault("case", &case.title, "no quantity", "at least one [[quantity]]"));
     }
+    let mut quantities = BTreeSet::new();
+    if let Some(twice) = case.quantity.iter().find(|quantity| !quantities.insert(quantity.name.as_str())) {
+        return Err(fault("quantity", &twice.name, "it twice", "each name once"));
+    }
     case.quantity.iter().try_for_each(|quantity| check_quantity(quantity, case))?;
     let families: BTreeSet<&str> = case.run.iter().filter(|r| r.is_family()).map(|r| r.name.as_str()).collect();
     let of_plots = case.plot.iter().flat_map(|plot| &plot.curve).filter_map(|curve| curve.each.as_deref());
@@ -127,7 +131,14 @@ fn check_varied(varied: &VarySpec) -> Result<(), (String, &'static str)> {
 fn check_quantity(quantity: &QuantitySpec, case: &CaseFile) -> Result<(), CaseFault> {
     let wrong = |found: &str, allowed: &str| Err(fault("quantity", &quantity.name, found, allowed));
     let bounded = quantity.at_least.is_some() || quantity.at_most.is_some();
-    let criteria = [quantity.near.is_some(), bounded, quantity.is_true];
+    if quantity.is_true == Some(false) {
+        return wrong("is_true = false", "is_true = true, with ! before a statement that must not be true");
+    }
+    let blank = |text: &Option<String>| text.as_ref().is_some_and(|text| text.trim().is_empty());
+    if blank(&quantity.because) || blank(&quantity.remark) {
+        return wrong("because or remark without a word", "the reason");
+    }
+    let criteria = [quantity.near.is_some(), bounded, quantity.is_true.is_some()];
     let cannot = quantity.stands == Some(Standing::CannotBeCompared);
     if criteria.iter().filter(|&&given| given).count() > 1 {
         return wrong("more than one of near, at_least or at_most, and is_true", "one of them");

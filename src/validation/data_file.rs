@@ -1,4 +1,5 @@
-//! Files of numbers beside a case: CSV with lines of `#` remarks and a line of column names.
+//! Files of numbers beside a case: CSV with lines of `#` remarks and a line of column names. Columns whose name begins with
+//! `uncertainty` hold positive numbers.
 
 use std::fs;
 use std::io;
@@ -6,7 +7,7 @@ use std::path::Path;
 
 use super::case_file::DataSpec;
 use super::value::Value;
-use crate::data_table::{DataTable, finite};
+use crate::data_table::{DataTable, finite, positive};
 
 /// The columns of the file, as a group; `None` where it is missing and may be.
 ///
@@ -31,9 +32,10 @@ pub fn read(spec: &DataSpec, folder: &Path) -> Result<Option<Value>, String> {
                 names.join(", ")
             ));
         };
+        let read = if wanted.starts_with("uncertainty") { positive } else { finite };
         let mut numbers = Vec::with_capacity(table.rows.len());
         for (line, fields) in &table.rows {
-            numbers.push(finite(*line, wanted, fields.get(place).copied().unwrap_or_default()).map_err(said)?);
+            numbers.push(read(*line, wanted, fields.get(place).copied().unwrap_or_default()).map_err(said)?);
         }
         if numbers.is_empty() {
             return Err(format!("{}: found no row; allowed: at least one", spec.file));

@@ -14,6 +14,10 @@ use super::value::Value;
 
 /// Operations of one expression: far more than any needs, so that none runs for ever.
 const MOST_OPERATIONS: u64 = 1_000_000;
+/// Items of a list and letters of a text that an expression makes; columns of results may be longer.
+const MOST_ITEMS: usize = 100_000;
+/// What prints, reads the clock, or makes expressions of texts.
+const NOT_FOR_CASES: [&str; 6] = ["eval", "print", "debug", "timestamp", "sleep", "blob"];
 /// Depth of nested terms.
 const MOST_DEPTH: usize = 128;
 
@@ -38,6 +42,12 @@ impl Default for Evaluator {
         let mut engine = Engine::new();
         engine.set_max_operations(MOST_OPERATIONS);
         engine.set_max_expr_depths(MOST_DEPTH, MOST_DEPTH);
+        engine.set_max_array_size(MOST_ITEMS);
+        engine.set_max_map_size(MOST_ITEMS);
+        engine.set_max_string_size(MOST_ITEMS);
+        for symbol in NOT_FOR_CASES {
+            engine.disable_symbol(symbol);
+        }
         engine.set_fail_on_invalid_map_property(true);
         engine.set_strict_variables(true);
         column::register(&mut engine);
@@ -210,6 +220,10 @@ mod tests {
             ("at(r.pinion.x, r.pinion.y, 9.0)", "9 lies outside the column, 0 to 4"),
             ("r.pinion.x + column([1.0])", "columns of 4 and 1 points"),
             ("let x = 1", "let"),
+            ("print(1)", "print"),
+            ("timestamp()", "timestamp"),
+            ("[].pad(1000000000, 1).len()", "large"),
+            ("\"a\".pad(1000000000, \"b\")", "l"),
             ("max(r.pinion.y", ")"),
             ("r.pinion.y", "found a column; allowed: a number"),
             ("r", "allowed: a number"),

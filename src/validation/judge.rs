@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 
 use super::case_file::{Extent, Formula, QuantitySpec};
+use super::execution::Executed;
 use super::expression::{Evaluator, ExpressionError};
 use super::schedule::Members;
 use crate::simulation::validation_record::{Criterion, QuantityRecord, RunOutcome, Standing};
@@ -23,6 +24,16 @@ pub enum JudgeError {
         quantity: String,
         /// What is wrong.
         error: ExpressionError,
+    },
+    /// A reference, bound or tolerance that is no finite number.
+    #[error("{quantity}: found {found} for {what}; allowed: a finite number")]
+    NotFinite {
+        /// Its name.
+        quantity: String,
+        /// Which.
+        what: &'static str,
+        /// What it came to.
+        found: f64,
     },
     /// A tolerance that nothing justifies.
     #[error(
@@ -76,15 +87,24 @@ pub fn judge(
         return Ok(record);
     };
     record.value = Some(value).filter(|value| value.is_finite());
-    let mut of = |formula: &Option<Formula>| formula.as_ref().map(|f| number(f, e)).transpose().map_err(wrong);
-    let (near, at_least, at_most) = (of(&spec.near)?, of(&spec.at_least)?, of(&spec.at_most)?);
+    let finite = |what: &'static str, found: Option<f64>| match found {
+        Some(found) if !found.is_finite() => Err(JudgeError::NotFinite { quantity: spec.name.clone(), what, found }),
+        found => Ok(found),
+    };
+    let mut of = |what: &'static str, formula: &Option<Formula>| {
+        finite(what, formula.as_ref().map(|f| number(f, e)).transpose().map_err(wrong)?)
+    };
+    let near = of("near", &spec.near)?;
+    let (at_least, at_most) = (of("at_least", &spec.at_least)?, of("at_most", &spec.at_most)?);
     let holds = match (near, &spec.within, at_least, at_most) {
         (Some(reference), Some(within), ..) => {
             let scale = reference.abs();
-            let mut of = |extent: Option<&Extent>| extent.map(|x| size(x, scale, e)).transpose().map_err(wrong);
-            let tolerance = of(Some(within))?.unwrap_or_default();
-            record.uncertainty = of(spec.uncertainty.as_ref())?;
-            record.discretisation = of(spec.discretisation.as_ref())?;
+            let mut of = |what: &'static str, extent: Option<&Extent>| {
+                finite(what, extent.map(|x| size(x, scale, e)).transpose().map_err(wrong)?)
+            };
+            let tolerance = of("within", Some(within))?.unwrap_or_default();
+            record.uncertainty = of("uncertainty", spec.uncertainty.as_ref())?;
+            record.discretisation = of("discretisation", spec.discretisation.as_ref())?;
             let allowed = record.uncertainty.unwrap_or_default() + record.discretisation.unwrap_or_default();
             if tolerance > allowed * (1.0 + ROUNDING) && spec.because.is_none() {
                 return Err(JudgeError::TooWide { quantity: spec.name.clone(), tolerance, allowed });
@@ -110,17 +130,18 @@ pub fn judge(
             record.share = Some(value / bound).filter(|share| bound > 0.0 && *share >= 0.0);
             Some(value <= bound)
         }
-        _ if spec.is_true => {
+        _ if spec.is_true.is_some() => {
             record.criterion = Criterion::True;
             Some(value == 1.0)
         }
         _ => None,
     };
     record.standing = match holds {
+        // No number fulfils nothing; where a failure is expected it is not that failure either.
+        _ if record.value.is_none() && expected == Standing::Fails => Standing::CannotBeCompared,
+        _ if record.value.is_none() => Standing::Fails,
         Some(true) => Standing::Holds,
         Some(false) => Standing::Fails,
-        // Only reported: nothing can be wrong with it but to have no value.
-        None if record.value.is_none() => Standing::Fails,
         None => Standing::CannotBeCompared,
     };
     if holds.is_none() && record.value.is_some() {
@@ -143,7 +164,10 @@ pub fn endings(run: &str, family: &Members) -> QuantityRecord {
         (_, 0) => format!("{run}: members that end sound"),
         _ => format!("{run}: members that end as they should, {refusals} of them not with a result"),
     };
-    let standing = if as_expected == family.members.len() { Standing::Holds } else { Standing::Fails };
+    // Refusals that are accepted beside results prove nothing where there is no result.
+    let sound = |executed: &Option<Executed>| executed.as_ref().is_some_and(|e| e.outcome == RunOutcome::Sound);
+    let any_result = !may_be_refused || family.executed.iter().any(sound);
+    let standing = if as_expected == family.members.len() && any_result { Standing::Holds } else { Standing::Fails };
     QuantityRecord {
         name,
         target: None,

@@ -1,5 +1,6 @@
 //! Where cases come from: those built into the program, or folders on disk.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -48,6 +49,18 @@ pub enum LibraryError {
         /// What is wrong.
         reason: String,
     },
+    /// Two cases of one name: reports and later comparisons could not tell them apart.
+    #[error("found two cases called {name:?}; allowed: each name once")]
+    Twice {
+        /// The name.
+        name: String,
+    },
+    /// What is there already is not written over: it may have been changed.
+    #[error("found {} there already; allowed: a folder without it", path.display())]
+    Exists {
+        /// What is there.
+        path: PathBuf,
+    },
     /// The built-in cases cannot be laid out in a folder.
     #[error("cannot write the built-in cases to {}: {reason}", folder.display())]
     Export {
@@ -90,8 +103,14 @@ pub fn names() -> Vec<&'static str> {
 /// Lays the built-in cases out in `folder`: `validation/` with one folder a case, and `meshes/` beside it.
 ///
 /// # Errors
-/// [`LibraryError::Export`]
+/// [`LibraryError::Exists`], [`LibraryError::Export`]
 pub fn export(folder: &Path) -> Result<(), LibraryError> {
+    for name in ["validation", "meshes"] {
+        let path = folder.join(name);
+        if path.exists() {
+            return Err(LibraryError::Exists { path });
+        }
+    }
     let lay_out = |dir: &Dir<'_>, name: &str| -> io::Result<()> {
         let into = folder.join(name);
         fs::create_dir_all(&into)?;
@@ -109,7 +128,9 @@ impl Library {
     /// [`LibraryError`]
     pub fn open(asked: &[String]) -> Result<Self, LibraryError> {
         let names = names();
-        let is_folder = |asked: &&String| Path::new(asked).join(CASE_FILE).is_file();
+        // A name of the program's own is that case; `./NAME` is a folder.
+        let is_folder =
+            |asked: &&String| !names.contains(&asked.as_str()) && Path::new(asked).join(CASE_FILE).is_file();
         let is_known = |asked: &&String| is_folder(asked) || names.contains(&asked.as_str());
         if let Some(found) = asked.iter().find(|asked| !is_known(asked)) {
             let nearest = crate::scene::nearest::nearest(found, &names);
@@ -131,7 +152,11 @@ impl Library {
             Some(folder) if !is_folder(&asked) => folder.path().join("validation").join(asked),
             _ => PathBuf::from(asked),
         };
-        let cases = asked.iter().map(|asked| read(&place(asked))).collect::<Result<_, _>>()?;
+        let cases = asked.iter().map(|asked| read(&place(asked))).collect::<Result<Vec<Case>, _>>()?;
+        let mut taken = BTreeSet::new();
+        if let Some(twice) = cases.iter().find(|case| !taken.insert(case.name.as_str())) {
+            return Err(LibraryError::Twice { name: twice.name.clone() });
+        }
         Ok(Self { cases, _built_in: built_in })
     }
 }

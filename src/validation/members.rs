@@ -91,12 +91,22 @@ impl VarySpec {
 
 fn with(member: &Member, varied: &VarySpec, value: toml::Value) -> Member {
     let mut member = member.clone();
-    let text = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+    let text = match &value {
+        toml::Value::String(text) => text.clone(),
+        toml::Value::Float(number) => short(*number),
+        other => other.to_string(),
+    };
     let said = format!("{} {text}", varied.column().replace('_', " "));
     member.label = if member.label.is_empty() { said } else { format!("{}, {said}", member.label) };
     member.values.push((varied.column(), Value::of_toml(&value)));
     member.set.extend(varied.key.all().iter().map(|key| (key.clone(), value.clone())));
     member
+}
+
+/// The number with four digits, for labels.
+fn short(number: f64) -> String {
+    let rounded: f64 = format!("{number:.3e}").parse().unwrap_or(number);
+    format!("{rounded:?}")
 }
 
 fn one_by_one(alone: &Member, spec: &MemberSpec) -> Member {

@@ -44,7 +44,12 @@ pub fn run(cases: &[Case], tier: Option<Tier>, threads: usize, observer: &dyn Ob
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         tier,
         threads,
-        interrupted: records.len() < chosen.len(),
+        not_run: chosen
+            .iter()
+            .zip(&executed)
+            .filter(|(_, runs)| !whole(runs))
+            .map(|(case, _)| case.name.clone())
+            .collect(),
         cases: records,
         wall_s: start.elapsed().as_secs_f64(),
     }

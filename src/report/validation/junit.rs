@@ -17,7 +17,18 @@ pub(super) fn write(out: &mut dyn Write, record: &ValidationRecord) -> io::Resul
     let mut report = Report::new("gearwear validate");
     report.set_time(duration(record.wall_s));
     report.add_test_suites(record.cases.iter().map(suite));
+    report.add_test_suites(record.not_run.iter().map(|name| not_run(name)));
     report.serialize(out).map_err(io::Error::other)
+}
+
+/// A case that an interrupt left out.
+fn not_run(name: &str) -> TestSuite {
+    let mut suite = TestSuite::new(name);
+    let mut test =
+        TestCase::new("the case runs to its end", non_success(NonSuccessKind::Error, "interrupted before it"));
+    test.set_classname(name);
+    suite.add_test_case(test);
+    suite
 }
 
 fn suite(case: &CaseRecord) -> TestSuite {

@@ -16,10 +16,12 @@ const CELL_LIMIT: usize = 600;
 
 /// The whole text.
 pub(super) fn text(record: &ValidationRecord, changes: Option<&Changes>) -> String {
-    let verdict = if Totals::of(record).passed == record.cases.len() { "✓" } else { "✗" };
+    let all_stand = record.not_run.is_empty() && Totals::of(record).passed == record.cases.len();
+    let verdict = if all_stand { "✓" } else { "✗" };
     let mut text = format!("## {verdict} Validation suite\n\n{}\n\n", escape(&totals::sentence(record)));
-    if record.interrupted {
-        text.push_str("**Not the whole suite:** it was interrupted.\n\n");
+    if !record.not_run.is_empty() {
+        let left_out = escape(&record.not_run.join(", "));
+        text.push_str(&format!("**Not the whole suite:** it was interrupted before {left_out}.\n\n"));
     }
     text.push_str(&not_as_expected(record));
     if let Some(changes) = changes {

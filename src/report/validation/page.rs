@@ -42,8 +42,7 @@ pub(super) fn page(record: &ValidationRecord, changes: Option<&Changes>) -> Stri
         kind: "Validation suite",
         title: "What gearwear’s results can be held to",
         answer: &totals::sentence(record),
-        interruption: record
-            .interrupted
+        interruption: (!record.not_run.is_empty())
             .then_some("The suite was interrupted; the cases shown are those that were finished."),
         warnings: &[],
         main: &format!("{}{sections}", tiles(record)),

@@ -239,7 +239,7 @@ pub(super) fn record() -> ValidationRecord {
             extreme,
         ],
         wall_s: 64.2,
-        interrupted: false,
+        not_run: Vec::new(),
     }
 }
 

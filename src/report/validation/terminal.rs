@@ -105,6 +105,9 @@ fn changed(changes: &Changes) -> String {
 }
 
 fn totals(record: &ValidationRecord) -> String {
-    let interrupted = if record.interrupted { "interrupted: this is not the whole suite\n" } else { "" };
+    let interrupted = match record.not_run.as_slice() {
+        [] => String::new(),
+        left_out => format!("interrupted: this is not the whole suite; not run: {}\n", left_out.join(", ")),
+    };
     format!("\n{interrupted}{}\n", totals::sentence(record))
 }
