@@ -6,6 +6,7 @@ mod calibrate;
 mod calibration_source;
 mod compare;
 mod completions;
+mod counted_progress;
 mod curve_source;
 mod failure;
 mod fem;
@@ -21,9 +22,7 @@ mod scene_source;
 mod schema;
 mod stdout;
 mod sweep;
-mod sweep_progress;
 mod validate;
-mod validate_progress;
 
 use std::io::{IsTerminal, Write};
 use std::process::ExitCode;

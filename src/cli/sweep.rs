@@ -15,10 +15,10 @@ use gearwear::sweep::journal::{self, Contents, Journal, JournalError};
 use gearwear::sweep::merge::merge;
 use gearwear::sweep::study::{self, Ended};
 
+use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError, SceneProblems};
 use super::figures::digits;
 use super::run::{thread_count, watch_for_interrupt};
-use super::sweep_progress::SweepProgress;
 use super::{say, scene_source, stdout, warn};
 
 /// Arguments of `sweep`.
@@ -119,7 +119,7 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
     if !args.quiet {
         say(&begun(&sweep, args, total, journal.rows.len()));
     }
-    let progress = SweepProgress::new(args.quiet, Arc::clone(&interrupted));
+    let progress = CountedProgress::new(args.quiet, Arc::clone(&interrupted));
     let ended = study::run(&sweep, args.shard, &mut journal, threads, &progress);
     progress.finish();
     if ended.map_err(InputError::Journal)? == Ended::Interrupted {

@@ -10,9 +10,9 @@ use gearwear::simulation::validation_record::{Changes, Tier, ValidationRecord};
 use gearwear::validation::library::{self, Library};
 use gearwear::validation::{self, against};
 
+use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError};
 use super::run::{thread_count, watch_for_interrupt};
-use super::validate_progress::ValidateProgress;
 use super::{say, stdout};
 
 /// Arguments of `validate`.
@@ -72,7 +72,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let Some(out) = &args.out else { unreachable!("clap demands it") };
     report::writable(out)?;
     let interrupted = watch_for_interrupt();
-    let progress = ValidateProgress::new(args.quiet, Arc::clone(&interrupted));
+    let progress = CountedProgress::new(args.quiet, Arc::clone(&interrupted));
     let record = validation::run(&library.cases, tier, thread_count(args.threads), &progress);
     progress.finish();
     let changes = earlier.map(|earlier| against::changes(&earlier, &record));

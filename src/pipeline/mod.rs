@@ -7,6 +7,7 @@ mod drawing;
 mod error_estimates;
 pub mod fem_problem;
 pub mod fem_scene;
+pub mod guarded;
 pub mod inputs;
 pub mod pair_mesh;
 mod phases;

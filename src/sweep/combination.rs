@@ -1,11 +1,9 @@
 //! The scene of a combination, and the row it comes to.
 
-use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::Instant;
 
 use crate::gear::spec::PairSpec;
-use crate::pipeline::{self, Done, Observer, inputs::Inputs};
+use crate::pipeline::{self, Done, Observer, guarded::guarded, inputs::Inputs};
 use crate::plan::{Plan, StageKind};
 use crate::scene::draft::Draft;
 use crate::scene::{Problem, Resolved, short_hash};
@@ -86,8 +84,8 @@ impl Sweep {
     /// Whatever goes wrong with it is its row's error, a defect of the program included.
     pub fn row(&self, index: usize, observer: &dyn Observer) -> Option<SweepRow> {
         let start = Instant::now();
-        let run = catch_unwind(AssertUnwindSafe(|| self.run(index, observer)));
-        let run = run.unwrap_or_else(|panic| Err(format!("a defect of the program: {}", said_by(&*panic))));
+        let run = guarded(|| self.run(index, observer));
+        let run = run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
         let row = SweepRow {
             index,
             values: self.identity.values(index),
@@ -155,10 +153,4 @@ fn in_words(problems: &[Problem]) -> String {
 
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// What a panic said.
-fn said_by(panic: &(dyn Any + Send)) -> &str {
-    let text = panic.downcast_ref::<&str>().copied();
-    text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("it did not say what")
 }

@@ -1,10 +1,8 @@
 //! One run of a case, carried out as its command would, and read back as its output files would be.
 
-use std::any::Any;
 use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Write};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::time::Instant;
 
@@ -19,6 +17,7 @@ use crate::gear::Gear;
 use crate::pipeline::calibrate::{self, CalibrateError, Extent};
 use crate::pipeline::fem_problem::{self, FemProblemError};
 use crate::pipeline::fem_scene::{self, FemPairError};
+use crate::pipeline::guarded::guarded;
 use crate::pipeline::inputs::Inputs;
 use crate::pipeline::{self, RunError};
 use crate::plan::Plan;
@@ -107,11 +106,11 @@ pub fn execute(
         Command::Fem => finite_elements(run, member, folder, watch),
         Command::Calibrate => calibrated(run, member, folder, watch),
     };
-    let done = catch_unwind(AssertUnwindSafe(work));
+    let done = guarded(work);
     let wall_s = start.elapsed().as_secs_f64();
     let nothing = |outcome, said: String| (outcome, Some(said), Found::default());
     let (outcome, said, found) = match done {
-        Err(panic) => nothing(RunOutcome::Panicked, said_by(&*panic)),
+        Err(said) => nothing(RunOutcome::Panicked, said),
         Ok(Err(Failed::Refused(said))) => nothing(RunOutcome::Refused, said),
         Ok(Err(Failed::NotConverged(said))) => nothing(RunOutcome::NotConverged, said),
         Ok(Ok(found)) => match (&found.not_converged, &found.fault) {
@@ -121,13 +120,6 @@ pub fn execute(
         },
     };
     Executed { outcome, said, value: found.value, calibration: found.calibration, wall_s, work: found.work }
-}
-
-/// What a panic said.
-fn said_by(panic: &(dyn Any + Send)) -> String {
-    let text = panic.downcast_ref::<&str>().copied();
-    let text = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
-    text.unwrap_or("it did not say what").to_owned()
 }
 
 fn refused(problems: Vec<Problem>) -> Failed {

@@ -116,6 +116,16 @@ pub(super) fn used(quantity: &QuantityRecord) -> Option<f64> {
         Criterion::Between { low, high } if low < high => Some((2.0 * value - low - high).abs() / (high - low)),
         _ => None,
     };
+    // Of a number of things one more or less is no margin.
+    let counts_things = |limit: f64| {
+        quantity.unit.is_empty() && limit.fract() == 0.0 && quantity.value.is_some_and(|value| value.fract() == 0.0)
+    };
+    if let Criterion::AtLeast { bound } | Criterion::AtMost { bound } = quantity.criterion
+        && counts_things(bound)
+        && !quantity.counts_work
+    {
+        return None;
+    }
     quantity.share.or_else(|| quantity.value.and_then(of_bound)).filter(|share| share.is_finite())
 }
 

@@ -1,11 +1,12 @@
-//! Tells the user how far a sweep is: a bar on a terminal, a line now and then elsewhere, each with the remaining time.
+//! Tells the user how far a number of runs is: a bar on a terminal, a line now and then elsewhere, each with the remaining time.
 
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use gearwear::sweep::study::Observer;
+use gearwear::simulation::wear_run;
+use gearwear::{sweep, validation};
 use indicatif::ProgressBar;
 
 use super::{progress, say};
@@ -22,18 +23,18 @@ enum Display {
 
 /// What the log remembers.
 struct Log {
-    /// When the first row of this start was begun, and how many there were before.
+    /// When the first run of this start was begun, and how many there were before.
     began: Option<(Instant, usize)>,
     last: Instant,
 }
 
-/// Watches a sweep for the user, who may interrupt it.
-pub struct SweepProgress {
+/// Watches the runs for the user, who may interrupt them.
+pub struct CountedProgress {
     display: Display,
     interrupted: Arc<AtomicBool>,
 }
 
-impl SweepProgress {
+impl CountedProgress {
     /// A bar on a terminal, a log elsewhere, nothing where `quiet`; `interrupted` is set when the user wants to stop.
     pub fn new(quiet: bool, interrupted: Arc<AtomicBool>) -> Self {
         let display = if quiet {
@@ -52,10 +53,9 @@ impl SweepProgress {
             bar.finish_and_clear();
         }
     }
-}
 
-impl Observer for SweepProgress {
-    fn row(&self, done: usize, total: usize, failed: usize) {
+    /// `done` of `total` are finished; `things` is what they are called, `beside` what else is to be said.
+    fn tell(&self, done: usize, total: usize, things: &str, beside: &str) {
         match &self.display {
             Display::Quiet => {}
             Display::Log(log) => {
@@ -66,24 +66,53 @@ impl Observer for SweepProgress {
                     return;
                 }
                 log.last = now;
-                let left = remaining_s(now.duration_since(start).as_secs_f64(), done - before, total - done);
-                say(&format!("{done} of {total} combinations{}{left}", with_failed(failed)));
+                let finished = done.saturating_sub(before);
+                let left = remaining_s(now.duration_since(start).as_secs_f64(), finished, total - done);
+                say(&format!("{done} of {total} {things}{beside}{left}"));
             }
             Display::Bar(bar) => {
                 if bar.length() != Some(total as u64) {
-                    // Rows of an earlier start took no time of this one.
+                    // Runs of an earlier start took no time of this one.
                     bar.set_length(total as u64);
                     bar.set_position(done as u64);
                     bar.reset_eta();
                 }
                 bar.set_position(done as u64);
-                bar.set_message(format!("{done} of {total}{}", with_failed(failed)));
+                bar.set_message(format!("{done} of {total}{beside}"));
             }
         }
     }
 
-    fn interrupted(&self) -> bool {
+    fn is_interrupted(&self) -> bool {
         self.interrupted.load(Ordering::Relaxed)
+    }
+}
+
+impl sweep::study::Observer for CountedProgress {
+    fn row(&self, done: usize, total: usize, failed: usize) {
+        self.tell(done, total, "combinations", &with_failed(failed));
+    }
+
+    fn interrupted(&self) -> bool {
+        self.is_interrupted()
+    }
+}
+
+impl wear_run::Progress for CountedProgress {
+    fn progress(&self, _done: f64, _total: f64) {}
+
+    fn interrupted(&self) -> bool {
+        self.is_interrupted()
+    }
+
+    fn gives_up(&self) -> bool {
+        self.is_interrupted()
+    }
+}
+
+impl validation::schedule::Observer for CountedProgress {
+    fn run(&self, done: usize, total: usize, case: &str) {
+        self.tell(done, total, "runs", &format!(", the last of {case}"));
     }
 }
 
