@@ -97,6 +97,13 @@ fn a_case_that_cannot_run_is_a_failure() {
         ("short.summary.geometry.base_pitch_mm", "short.summary.geometry.nothing"),
         // What is no number holds nothing, and is no known failure either.
         ("short.summary.geometry.base_pitch_mm", "1.0 / 0.0"),
+        // A place on the stability map is a number.
+        (
+            "discretisation = { relative = 1e-12 }\n",
+            "discretisation = { relative = 1e-12 }\n[[run]]\nname = \"f\"\nscene = \"fzg-c\"\nexpect = \"refused\"\n\
+             set = { \"numerics.positions\" = 0 }\n[[run.each]]\n[[stability]]\nfamily = \"f\"\nparameter = \"p\"\n\
+             value = \"value\"\n",
+        ),
         // The tolerance is wider than what it allows for, and nothing says why.
         ("within = { relative = 1e-12 }", "within = { relative = 1e-3 }"),
     ] {

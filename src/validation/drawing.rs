@@ -83,6 +83,10 @@ pub fn work_precision(
     let mut points = Vec::new();
     for (member, run) in finished(family) {
         let error = e.with("run", &run.as_value(), |e| e.number(&spec.error))?;
+        if !error.is_finite() {
+            let reason = format!("found {error} for {:?}; allowed: a finite error", member.label);
+            return Err(ExpressionError { expression: spec.error.clone(), reason });
+        }
         let named = member.values.iter().find(|(name, _)| *name == spec.series);
         points.push(WorkPrecisionPoint {
             series: named.map_or_else(String::new, |(_, value)| in_words(value)),
@@ -97,21 +101,29 @@ pub fn work_precision(
 }
 
 /// Outcomes of the members of a family over its parameter.
-pub fn stability(spec: &StabilitySpec, family: &Members) -> Vec<StabilityPoint> {
+///
+/// # Errors
+/// In words: a member without a number for it.
+pub fn stability(spec: &StabilitySpec, family: &Members) -> Result<Vec<StabilityPoint>, String> {
     let both = family.members.iter().zip(&family.executed);
-    both.filter_map(|(member, executed)| {
-        let executed = executed.as_ref()?;
-        let value = member.values.iter().find(|(name, _)| *name == spec.value).map(|(_, value)| value);
-        Some(StabilityPoint {
-            parameter: spec.parameter.clone(),
-            value: if let Some(Value::Number(number)) = value { *number } else { f64::NAN },
-            setting: member.label.clone(),
-            outcome: executed.outcome,
-            expected: if member.may_end(executed.outcome) { executed.outcome } else { member.expected },
-            said: executed.said.clone(),
+    both.filter_map(|(member, executed)| executed.as_ref().map(|run| (member, run)))
+        .map(|(member, run)| {
+            let value = member.values.iter().find(|(name, _)| *name == spec.value).map(|(_, value)| value);
+            let Some(Value::Number(value)) = value.filter(|value| matches!(value, Value::Number(x) if x.is_finite()))
+            else {
+                let (parameter, name) = (&spec.parameter, &spec.value);
+                return Err(format!("stability over {parameter}: {name} of a member is no number; allowed: numbers"));
+            };
+            Ok(StabilityPoint {
+                parameter: spec.parameter.clone(),
+                value: *value,
+                setting: member.label.clone(),
+                outcome: run.outcome,
+                expected: if member.may_end(run.outcome) { run.outcome } else { member.expected },
+                said: run.said.clone(),
+            })
         })
-    })
-    .collect()
+        .collect()
 }
 
 fn in_words(value: &Value) -> String {

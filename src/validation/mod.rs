@@ -93,9 +93,9 @@ fn fill(record: &mut CaseRecord, case: &Case, runs: &[Members]) -> Result<(), St
     // Outcomes come first: they are worth knowing of a case that fails.
     let of_family = |name: &str| file.run.iter().position(|run| run.name == name).map(|index| &runs[index]);
     for spec in &file.stability {
-        record
-            .stability
-            .extend(of_family(&spec.family).into_iter().flat_map(|family| drawing::stability(spec, family)));
+        if let Some(family) = of_family(&spec.family) {
+            record.stability.extend(drawing::stability(spec, family)?);
+        }
     }
     let mut e = Evaluator::default();
     let mut absent = BTreeMap::new();
