@@ -25,7 +25,7 @@ use super::{
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 use crate::reference::{
     flattening::{Body, Flattening},
-    hertz_line::HertzLine,
+    hertz_line::{self, HertzLine},
 };
 
 /// Hertz's distributed pressure.
@@ -37,10 +37,11 @@ pub struct Hertz {
     pub expected_line_load_n_per_mm: f64,
 }
 
-/// Contact modulus E*: 1/E* = (1 − ν1²)/E1 + (1 − ν2²)/E2.
+/// Contact modulus E* of both gears.
 pub fn contact_modulus_mpa(material: &PerGear<Material>) -> f64 {
-    let compliance = |m: &Material| (1.0 - m.poisson_ratio.powi(2)) / m.young_modulus_mpa;
-    1.0 / (compliance(&material.pinion) + compliance(&material.wheel))
+    hertz_line::contact_modulus_mpa(
+        Gear::BOTH.map(|gear| (material[gear].young_modulus_mpa, material[gear].poisson_ratio)),
+    )
 }
 
 /// The closed-form contact of two flanks at `position_mm`, flattening measured to the teeth's centre lines.

@@ -407,7 +407,7 @@ impl GapAtPoints {
         // what differences and a constant curvature miss would drown in the narrow contact of a light load. Nowhere do they dip
         // into each other.
         let bottoms_out = |k: usize| (2.0 * geometric_gap_mm[k + 1].max(0.0) * curvature).sqrt();
-        let course: Vec<Course> = shifts
+        let (course, growth): (Vec<Course>, Vec<Growth>) = shifts
             .iter()
             .enumerate()
             .map(|(k, [begin, end])| {
@@ -416,16 +416,17 @@ impl GapAtPoints {
                 let slack = SLACK * (to_mm - from_mm);
                 let passed = (from_mm - slack..=to_mm + slack).contains(&-along);
                 let by_differences = Course { from_mm, to_mm, slope: slope(k), curvature };
-                let dips = geometric_gap_mm[k + 1] + by_differences.growth().least_mm < 0.0;
-                match passed || dips {
-                    true => Course { slope: bottoms_out(k).copysign(along), ..by_differences },
-                    false => by_differences,
+                let growth = by_differences.growth();
+                let dips = geometric_gap_mm[k + 1] + growth.least_mm < 0.0;
+                if !(passed || dips) {
+                    return (by_differences, growth);
                 }
+                let course = Course { slope: bottoms_out(k).copysign(along), ..by_differences };
+                (course, course.growth())
             })
-            .collect();
+            .unzip();
         geometric_gap_mm.truncate(count + 1);
         geometric_gap_mm.remove(0);
-        let growth = course.iter().map(Course::growth).collect();
         Self { geometric_gap_mm, mate, course, growth }
     }
 

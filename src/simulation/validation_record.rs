@@ -124,28 +124,11 @@ impl CaseRecord {
         self.failure.is_none() && self.quantities.iter().all(QuantityRecord::as_expected)
     }
 
-    /// What becomes of its requirement: it fails where anything does not hold, known or not.
-    pub fn standing(&self) -> Standing {
-        let any = |standing| self.quantities.iter().any(|quantity| quantity.standing == standing);
-        if self.failure.is_some() || any(Standing::Fails) {
-            Standing::Fails
-        } else if any(Standing::Holds) {
-            Standing::Holds
-        } else {
-            Standing::CannotBeCompared
-        }
-    }
-
     /// The quantities that speak to a target: those that name it, or else those that name none.
     pub fn speaking_to(&self, target: &str) -> Vec<&QuantityRecord> {
         let named = |name: Option<&str>| self.quantities.iter().filter(|q| q.target.as_deref() == name).collect();
         let own: Vec<&QuantityRecord> = named(Some(target));
         if own.is_empty() { named(None) } else { own }
-    }
-
-    /// Greatest share of a tolerance that any quantity with a reference uses.
-    pub fn greatest_share(&self) -> Option<f64> {
-        self.quantities.iter().filter(|q| q.standing == Standing::Holds).filter_map(|q| q.share).reduce(f64::max)
     }
 }
 
@@ -206,6 +189,17 @@ pub enum RunOutcome {
 }
 
 impl RunOutcome {
+    /// As case files, expressions and style sheets write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sound => "sound",
+            Self::Refused => "refused",
+            Self::NotConverged => "not-converged",
+            Self::Unsound => "unsound",
+            Self::Panicked => "panicked",
+        }
+    }
+
     /// In words.
     pub fn title(self) -> &'static str {
         match self {
@@ -256,6 +250,28 @@ pub struct QuantityRecord {
 }
 
 impl QuantityRecord {
+    /// A quantity that is expected to hold, without a value and held against nothing yet.
+    pub fn named(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            target: None,
+            unit: String::new(),
+            value: None,
+            criterion: Criterion::Reported,
+            source: String::new(),
+            uncertainty: None,
+            discretisation: None,
+            because: None,
+            error: None,
+            relative_error: None,
+            share: None,
+            standing: Standing::CannotBeCompared,
+            expected: Standing::Holds,
+            remark: None,
+            counts_work: false,
+        }
+    }
+
     /// Whether it stands as the case says.
     pub fn as_expected(&self) -> bool {
         self.standing == self.expected
@@ -410,8 +426,32 @@ pub struct Change {
     pub case: String,
     /// What of it: the name of a quantity or of what is counted, or `verdict`.
     pub what: String,
-    /// As it was, in words.
-    pub before: String,
-    /// As it is, in words.
-    pub now: String,
+    /// As it was.
+    pub before: State,
+    /// As it is.
+    pub now: State,
+}
+
+/// What is compared of two records.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum State {
+    /// Whether the case could be carried out.
+    Ran(bool),
+    /// The quantity is not there.
+    Absent,
+    /// What the comparison says.
+    Stands(Standing),
+    /// How a run ended.
+    Ended(RunOutcome),
+    /// The share of its tolerance that a quantity uses.
+    Uses(f64),
+    /// The value of a quantity, with its unit.
+    Is(Option<f64>, String),
+    /// The error of a quantity, with its unit.
+    Errs(f64, String),
+    /// What a quantity is held against.
+    Against(Criterion),
+    /// A count of work.
+    Counted(u64),
 }

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 
 use crate::simulation::validation_record::{
-    CaseRecord, Change, Changes, Criterion, QuantityRecord, StabilityPoint, Standing, ValidationRecord,
+    CaseRecord, Change, Changes, Criterion, QuantityRecord, StabilityPoint, Standing, State, ValidationRecord,
 };
 
 /// A share of a tolerance has changed from this difference on.
@@ -65,7 +65,7 @@ struct Found {
 }
 
 impl Found {
-    fn add(&mut self, way: Way, case: &CaseRecord, what: &str, before: String, now: String) {
+    fn add(&mut self, way: Way, case: &CaseRecord, what: &str, before: State, now: State) {
         let change = Change { case: case.name.clone(), what: what.to_owned(), before, now };
         match way {
             Way::Worse => self.worse.push(change),
@@ -75,21 +75,15 @@ impl Found {
 
     fn compare(&mut self, before: &CaseRecord, now: &CaseRecord) {
         if before.failure.is_some() != now.failure.is_some() {
-            let word = |case: &CaseRecord| if case.failure.is_some() { "could not run" } else { "ran" }.to_owned();
-            self.add(Way::worse_if(now.failure.is_some()), now, "verdict", word(before), word(now));
+            let ran = |case: &CaseRecord| State::Ran(case.failure.is_none());
+            self.add(Way::worse_if(now.failure.is_some()), now, "verdict", ran(before), ran(now));
         }
         for quantity in &now.quantities {
             match before.quantities.iter().find(|earlier| earlier.name == quantity.name) {
                 Some(earlier) => self.compare_quantity(now, earlier, quantity),
                 // A quantity that is new is no change of the program, unless it fails.
                 None if !quantity.as_expected() => {
-                    self.add(
-                        Way::Worse,
-                        now,
-                        &quantity.name,
-                        "not there".to_owned(),
-                        quantity.standing.title().to_owned(),
-                    );
+                    self.add(Way::Worse, now, &quantity.name, State::Absent, State::Stands(quantity.standing));
                 }
                 None => {}
             }
@@ -98,8 +92,7 @@ impl Found {
         if now.failure.is_none() {
             for earlier in &before.quantities {
                 if now.quantities.iter().all(|quantity| quantity.name != earlier.name) {
-                    let standing = earlier.standing.title().to_owned();
-                    self.add(Way::Worse, now, &earlier.name, standing, "not there".to_owned());
+                    self.add(Way::Worse, now, &earlier.name, State::Stands(earlier.standing), State::Absent);
                 }
             }
         }
@@ -110,36 +103,33 @@ impl Found {
     fn compare_quantity(&mut self, case: &CaseRecord, before: &QuantityRecord, now: &QuantityRecord) {
         if before.standing != now.standing {
             let way = Way::worse_if(rank(now.standing) < rank(before.standing));
-            let word = |quantity: &QuantityRecord| quantity.standing.title().to_owned();
-            self.add(way, case, &now.name, word(before), word(now));
+            self.add(way, case, &now.name, State::Stands(before.standing), State::Stands(now.standing));
             return;
         }
         if let Some(way) = limit_moved(before.criterion, now.criterion) {
             // A share of another tolerance says nothing: what is compared is the error, in the tolerance as it was.
             let what = format!("{}: what it is held against", now.name);
-            self.add(way, case, &what, limit(before.criterion), limit(now.criterion));
+            self.add(way, case, &what, State::Against(before.criterion), State::Against(now.criterion));
             if let (Some(earlier), Some(error), Criterion::Near { tolerance, .. }) =
                 (before.error, now.error, before.criterion)
                 && (error - earlier).abs() > SHARE * tolerance
             {
-                self.add(Way::worse_if(error > earlier), case, &now.name, digits(earlier), digits(error));
+                let errs = |error: f64| State::Errs(error, now.unit.clone());
+                self.add(Way::worse_if(error > earlier), case, &now.name, errs(earlier), errs(error));
             }
             return;
         }
         match (before.share, now.share) {
             (Some(earlier), Some(share)) if !now.counts_work => {
                 if (share - earlier).abs() > SHARE {
-                    let words = |share: f64| format!("{:.0} % of the tolerance", 100.0 * share);
-                    self.add(Way::worse_if(share > earlier), case, &now.name, words(earlier), words(share));
+                    let way = Way::worse_if(share > earlier);
+                    self.add(way, case, &now.name, State::Uses(earlier), State::Uses(share));
                 }
             }
             _ => {
                 if let Some(way) = towards_bound(before, now) {
-                    let words = |quantity: &QuantityRecord| {
-                        let value = quantity.value.map_or_else(|| "–".to_owned(), digits);
-                        format!("{value} {}", quantity.unit).trim_end().to_owned()
-                    };
-                    self.add(way, case, &now.name, words(before), words(now));
+                    let is = |quantity: &QuantityRecord| State::Is(quantity.value, quantity.unit.clone());
+                    self.add(way, case, &now.name, is(before), is(now));
                 }
             }
         }
@@ -153,8 +143,7 @@ impl Found {
             let (was, is) = (earlier.outcome == earlier.expected, point.outcome == point.expected);
             if was != is {
                 let what = format!("{}: {}", point.parameter, point.setting);
-                let words = |p: &StabilityPoint| p.outcome.title().to_owned();
-                self.add(Way::worse_if(was), now, &what, words(earlier), words(point));
+                self.add(Way::worse_if(was), now, &what, State::Ended(earlier.outcome), State::Ended(point.outcome));
             }
         }
     }
@@ -163,7 +152,7 @@ impl Found {
         for (name, &count) in &now.work {
             let Some(&earlier) = before.work.get(name) else { continue };
             if count.abs_diff(earlier) as f64 > RELATIVE * earlier as f64 {
-                self.add(Way::worse_if(count > earlier), now, name, earlier.to_string(), count.to_string());
+                self.add(Way::worse_if(count > earlier), now, name, State::Counted(earlier), State::Counted(count));
             }
         }
     }
@@ -197,17 +186,6 @@ fn limit_moved(before: Criterion, now: Criterion) -> Option<Way> {
     moved.then_some(Way::worse_if(looser))
 }
 
-fn limit(criterion: Criterion) -> String {
-    match criterion {
-        Criterion::Near { reference, tolerance } => format!("{} ± {}", digits(reference), digits(tolerance)),
-        Criterion::AtLeast { bound } => format!("at least {}", digits(bound)),
-        Criterion::AtMost { bound } => format!("at most {}", digits(bound)),
-        Criterion::Between { low, high } => format!("{} to {}", digits(low), digits(high)),
-        Criterion::True => "a statement".to_owned(),
-        Criterion::Reported => "nothing".to_owned(),
-    }
-}
-
 /// Which way a number without a tolerance went, seen from its bound; `None` where it did not move, or has no bound.
 fn towards_bound(before: &QuantityRecord, now: &QuantityRecord) -> Option<Way> {
     let (earlier, value) = (before.value?, now.value?);
@@ -227,11 +205,6 @@ fn towards_bound(before: &QuantityRecord, now: &QuantityRecord) -> Option<Way> {
     moved.then_some(Way::worse_if(worse))
 }
 
-fn digits(value: f64) -> String {
-    let magnitude = value.abs();
-    if value == 0.0 || (1e-3..1e6).contains(&magnitude) { format!("{value:.4}") } else { format!("{value:.3e}") }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -239,22 +212,12 @@ mod tests {
 
     fn quantity(criterion: Criterion, value: f64, share: Option<f64>) -> QuantityRecord {
         QuantityRecord {
-            name: "q".to_owned(),
-            target: None,
             unit: "MPa".to_owned(),
             value: Some(value),
             criterion,
-            source: String::new(),
-            uncertainty: None,
-            discretisation: None,
-            because: None,
-            error: None,
-            relative_error: None,
             share,
             standing: Standing::Holds,
-            expected: Standing::Holds,
-            remark: None,
-            counts_work: false,
+            ..QuantityRecord::named("q")
         }
     }
 

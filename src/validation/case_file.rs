@@ -362,6 +362,9 @@ pub struct WorkPrecisionSpec {
     pub family: String,
     /// The column of the family that names the curves.
     pub series: String,
+    /// What else is said of them, such as `with tip edges`.
+    #[serde(default)]
+    pub name: String,
     /// Expression for the relative error of a member, `run`.
     pub error: String,
     /// What is counted, as in the summary's `work`.

@@ -89,7 +89,10 @@ pub fn work_precision(
         }
         let named = member.values.iter().find(|(name, _)| *name == spec.series);
         points.push(WorkPrecisionPoint {
-            series: named.map_or_else(String::new, |(_, value)| in_words(value)),
+            series: [named.map_or_else(String::new, |(_, value)| in_words(value)), spec.name.clone()]
+                .join(" ")
+                .trim()
+                .to_owned(),
             setting: member.label.clone(),
             error,
             wall_s: run.wall_s,

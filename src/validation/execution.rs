@@ -57,20 +57,12 @@ impl Executed {
     /// As expressions see it.
     pub fn as_value(&self) -> Value {
         let mut group = self.value.clone();
-        group.insert("outcome".to_owned(), Value::Text(of_name(self.outcome)));
+        group.insert("outcome".to_owned(), Value::Text(self.outcome.name().to_owned()));
         group.insert("message".to_owned(), Value::Text(self.said.clone().unwrap_or_default()));
         group.insert("wall_s".to_owned(), Value::Number(self.wall_s));
         let work = self.work.iter().map(|(name, &count)| (name.as_str(), Value::Number(count as f64)));
         group.insert("work".to_owned(), Value::group(work));
         Value::Group(group)
-    }
-}
-
-/// As case files write it.
-pub fn of_name(outcome: RunOutcome) -> String {
-    match serde_json::to_value(outcome) {
-        Ok(serde_json::Value::String(name)) => name,
-        _ => unreachable!("an outcome is written as a text"),
     }
 }
 

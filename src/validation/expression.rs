@@ -73,7 +73,7 @@ impl Evaluator {
 
     /// Whether `name` can stand for something: words of the language cannot.
     pub fn can_name(name: &str) -> bool {
-        Engine::new().compile_expression(name).is_ok()
+        Engine::new_raw().compile_expression(name).is_ok()
     }
 
     /// The value of an expression.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::execution::{Executed, of_name};
+use super::execution::Executed;
 use super::expression::{Evaluator, ExpressionError};
 use super::schedule::Members;
 use super::value::Value;
@@ -19,7 +19,10 @@ pub fn columns(family: &Members, take: &BTreeMap<String, String>, e: &mut Evalua
         ("count".to_owned(), Value::Number(executed.len() as f64)),
         ("wall_s".to_owned(), number_of(|run| run.wall_s)),
         ("sound".to_owned(), number_of(|run| f64::from(u8::from(run.outcome == RunOutcome::Sound)))),
-        ("outcome".to_owned(), Value::List(executed.iter().map(|run| Value::Text(of_name(run.outcome))).collect())),
+        (
+            "outcome".to_owned(),
+            Value::List(executed.iter().map(|run| Value::Text(run.outcome.name().to_owned())).collect()),
+        ),
         (
             "message".to_owned(),
             Value::List(executed.iter().map(|run| Value::Text(run.said.clone().unwrap_or_default())).collect()),
@@ -31,18 +34,20 @@ pub fn columns(family: &Members, take: &BTreeMap<String, String>, e: &mut Evalua
         let values = family.members.iter().map(|member| member.values[place].1.clone()).collect();
         group.insert(name, in_a_row(values));
     }
-    for (name, expression) in take {
-        let of_member = |run: &&Executed| {
-            let found = e.with("run", &run.as_value(), |e| e.value(expression));
-            match found {
-                Err(error) if run.outcome == RunOutcome::Sound => Err(error),
-                Err(_) => Ok(Value::Number(f64::NAN)),
-                Ok(value) => Ok(value),
+    let mut taken: Vec<Vec<Value>> = vec![Vec::with_capacity(executed.len()); take.len()];
+    for run in &executed {
+        // A member is laid out for the expressions once, whatever is taken of it.
+        e.with("run", &run.as_value(), |e| -> Result<(), ExpressionError> {
+            for (column, expression) in taken.iter_mut().zip(take.values()) {
+                column.push(match e.value(expression) {
+                    Err(_) if run.outcome != RunOutcome::Sound => Value::Number(f64::NAN),
+                    found => found?,
+                });
             }
-        };
-        let values = executed.iter().map(of_member).collect::<Result<Vec<Value>, _>>()?;
-        group.insert(name.clone(), in_a_row(values));
+            Ok(())
+        })?;
     }
+    group.extend(take.keys().cloned().zip(taken.into_iter().map(in_a_row)));
     Ok(Value::Group(group))
 }
 

@@ -62,22 +62,14 @@ pub fn judge(
     let missing = spec.needs.as_deref().and_then(|name| absent.get(name));
     let expected = if missing.is_some() { Standing::CannotBeCompared } else { spec.stands.unwrap_or(Standing::Holds) };
     let mut record = QuantityRecord {
-        name: spec.name.clone(),
         target: spec.target.clone(),
         unit: spec.unit.clone(),
-        value: None,
-        criterion: Criterion::Reported,
         source: spec.source.clone(),
-        uncertainty: None,
-        discretisation: None,
         because: spec.because.clone(),
-        error: None,
-        relative_error: None,
-        share: None,
-        standing: Standing::CannotBeCompared,
         expected,
         remark: spec.remark.clone().or_else(|| missing.map(|reason| (*reason).to_owned())),
         counts_work: spec.work,
+        ..QuantityRecord::named(&spec.name)
     };
     if missing.is_some() {
         return Ok(record);
@@ -169,22 +161,14 @@ pub fn endings(run: &str, family: &Members) -> QuantityRecord {
     let any_result = !may_be_refused || family.executed.iter().any(sound);
     let standing = if as_expected == family.members.len() && any_result { Standing::Holds } else { Standing::Fails };
     QuantityRecord {
-        name,
-        target: None,
-        unit: String::new(),
         value: Some(count),
         criterion: Criterion::Near { reference: all, tolerance: 0.0 },
         source: "every run: finite numbers, no negative wear or pressure, loads in equilibrium within 1e-6".to_owned(),
-        uncertainty: None,
-        discretisation: None,
-        because: None,
         error: Some(all - count),
         relative_error: Some((all - count) / all),
-        share: None,
         standing,
-        expected: Standing::Holds,
         remark: first_surprise(family),
-        counts_work: false,
+        ..QuantityRecord::named(&name)
     }
 }
 

@@ -59,10 +59,7 @@ pub fn run(cases: &[Case], tier: Option<Tier>, threads: usize, observer: &dyn Ob
 fn record(case: &Case, runs: &[Members]) -> CaseRecord {
     let file = &case.file;
     let runs_of_case: Vec<CaseRun> = file.run.iter().zip(runs).map(|(spec, family)| of_run(spec, family)).collect();
-    let mut work = BTreeMap::new();
-    for (name, count) in runs_of_case.iter().flat_map(|run| &run.work) {
-        *work.entry(name.clone()).or_insert(0) += count;
-    }
+    let work = together(runs_of_case.iter().map(|run| &run.work));
     let mut record = CaseRecord {
         name: case.name.clone(),
         title: file.title.clone(),
@@ -139,12 +136,8 @@ fn fill(record: &mut CaseRecord, case: &Case, runs: &[Members]) -> Result<(), St
 fn of_run(spec: &case_file::RunSpec, family: &Members) -> CaseRun {
     let executed: Vec<_> = family.executed.iter().flatten().collect();
     let mut outcomes: BTreeMap<RunOutcome, usize> = BTreeMap::new();
-    let mut work = BTreeMap::new();
     for run in &executed {
         *outcomes.entry(run.outcome).or_default() += 1;
-        for (name, count) in &run.work {
-            *work.entry(name.clone()).or_insert(0) += count;
-        }
     }
     CaseRun {
         name: spec.name.clone(),
@@ -152,6 +145,15 @@ fn of_run(spec: &case_file::RunSpec, family: &Members) -> CaseRun {
         members: executed.len(),
         outcomes,
         wall_s: executed.iter().map(|run| run.wall_s).sum(),
-        work,
+        work: together(executed.iter().map(|run| &run.work)),
     }
+}
+
+/// Counts of work, added by their names.
+fn together<'a>(counts: impl Iterator<Item = &'a BTreeMap<String, u64>>) -> BTreeMap<String, u64> {
+    let mut all = BTreeMap::new();
+    for (name, count) in counts.flatten() {
+        *all.entry(name.clone()).or_insert(0) += count;
+    }
+    all
 }

@@ -8,8 +8,6 @@
 //!
 //! A peak is separate where the profile falls by `share` of its height on both sides before it rises above the peak.
 
-use std::sync::Arc;
-
 use rhai::Engine;
 
 use super::column::{Column, Failed, fault};
@@ -23,7 +21,10 @@ pub fn register(engine: &mut Engine) {
         rising(&x, &y)?;
         Ok(roughness::mean_deviation(&x.0, &y.0))
     });
-    engine.register_fn("separate_peaks", |x: Column, y: Column, share: f64| separate_peaks(&x, &y, share));
+    engine.register_fn("separate_peaks", |x: Column, y: Column, share: f64| -> Result<Column, Failed> {
+        rising(&x, &y)?;
+        Ok(Column(separate_peaks(&y.0, share).into()))
+    });
 }
 
 /// Refuses what is no profile over the rising places `x`.
@@ -42,9 +43,9 @@ fn form_removed(x: &Column, y: &Column) -> Result<Column, Failed> {
     Ok(Column(left.into()))
 }
 
-fn separate_peaks(x: &Column, y: &Column, share: f64) -> Result<Column, Failed> {
-    rising(x, y)?;
-    let points = &y.0;
+/// The points of a profile that are separate peaks, 0 elsewhere: those from which it falls by `share` of their height on both
+/// sides before it rises above them.
+pub fn separate_peaks(points: &[f64], share: f64) -> Vec<f64> {
     let falls = |side: &mut dyn Iterator<Item = &f64>, height: f64| {
         side.take_while(|&&depth| depth <= height).any(|&depth| depth < (1.0 - share) * height)
     };
@@ -52,8 +53,7 @@ fn separate_peaks(x: &Column, y: &Column, share: f64) -> Result<Column, Failed> 
         let height = points[place];
         falls(&mut points[..place].iter().rev(), height) && falls(&mut points[place + 1..].iter(), height)
     };
-    let peaks: Arc<[f64]> = (0..points.len()).map(|i| if separate(i) { points[i] } else { 0.0 }).collect();
-    Ok(Column(peaks))
+    (0..points.len()).map(|place| if separate(place) { points[place] } else { 0.0 }).collect()
 }
 
 #[cfg(test)]

@@ -18,6 +18,7 @@ use gearwear::plan::Plan;
 use gearwear::scene::Scene;
 use gearwear::simulation::record::FlankRecord;
 use gearwear::simulation::wear_run::Unwatched;
+use gearwear::validation::profile::separate_peaks;
 
 /// The stops of the test, h.
 pub const STOPS_H: [f64; 9] = [0.25, 0.75, 1.75, 3.75, 7.75, 15.75, 31.75, 63.75, 127.75];
@@ -150,18 +151,11 @@ impl Course {
             .map(|(radius, &depth)| (radius - start, depth))
             .filter(|(above, _)| (0.0..=ROOT_ZONE_MM).contains(above))
             .collect();
-        let falls = |side: &[(f64, f64)], height: f64| side.iter().any(|(_, d)| *d < (1.0 - SEPARATE) * height);
-        let separate = |&(at, height): &(f64, f64)| {
-            let place = zone.partition_point(|(above, _)| *above < at);
-            let between = |side: &mut dyn Iterator<Item = &(f64, f64)>| {
-                side.take_while(|(_, d)| *d <= height).copied().collect::<Vec<_>>()
-            };
-            let before = between(&mut zone[..place].iter().rev());
-            let after = between(&mut zone[place + 1..].iter());
-            falls(&before, height) && falls(&after, height)
-        };
-        let there = |(above, _): &(f64, f64)| PEAK_PLACE_MM.contains(above);
-        zone.iter().copied().filter(there).filter(separate).max_by(|a, b| a.1.total_cmp(&b.1))
+        let depths: Vec<f64> = zone.iter().map(|(_, depth)| *depth).collect();
+        let peaks = zone.iter().map(|(above, _)| *above).zip(separate_peaks(&depths, SEPARATE));
+        peaks
+            .filter(|(above, height)| *height > 0.0 && PEAK_PLACE_MM.contains(above))
+            .max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// What the targets come to at a speed.

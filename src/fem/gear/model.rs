@@ -13,7 +13,7 @@ use crate::gear::{Gear, GearPair, PerGear};
 use crate::mesh::CellKind;
 use crate::mesh::settings::{Body, BodySettings, SectorSides};
 use crate::mesh::tooth::{Cell, ToothMeshError, ToothSector, gear_sector, touching_pairs};
-use crate::reference::hertz_line::HertzLine;
+use crate::reference::hertz_line::{self, HertzLine};
 
 /// Nodes of one flank whose compliance among three teeth takes some 4 GB.
 const MOST_FLANK_NODES: usize = 4000;
@@ -80,7 +80,9 @@ pub struct MeshedGear {
 
 /// Contact modulus E*, MPa.
 fn contact_modulus_mpa(material: &PerGear<Elastic>) -> f64 {
-    1.0 / material.map(|m| (1.0 - m.poisson_ratio * m.poisson_ratio) / m.young_modulus_mpa).sum()
+    hertz_line::contact_modulus_mpa(
+        Gear::BOTH.map(|gear| (material[gear].young_modulus_mpa, material[gear].poisson_ratio)),
+    )
 }
 
 /// Hertz half-width under the whole load at `position_mm`, taken at A or E where it lies outside.

@@ -94,9 +94,9 @@ pub fn axis(title: &str) -> Axis {
         .tick_length(4)
 }
 
-/// A line.
+/// A line, through all its points: plotly would leave some out, which puts corners into smooth curves.
 pub fn line(colour: impl Color, width_px: f64, dash: DashType) -> Line {
-    Line::new().color(colour).width(width_px).dash(dash)
+    Line::new().color(colour).width(width_px).dash(dash).simplify(false)
 }
 
 /// A curve through the points, its values rounded to what a plot needs.

@@ -29,10 +29,8 @@ pub(super) fn look(number: usize) -> Look {
         MarkerSymbol::TriangleDown,
         MarkerSymbol::X,
     ];
-    let [.., last] = COLOURS;
-    let colour = COLOURS.get(number % COLOURS.len()).copied().unwrap_or(last);
-    let symbol = symbols.into_iter().nth(number % 7).unwrap_or(MarkerSymbol::Circle);
-    Look { colour, symbol }
+    let symbol = symbols[number % symbols.len()].clone();
+    Look { colour: COLOURS[number % COLOURS.len()], symbol }
 }
 
 /// Curves with no more points than this show them.

@@ -104,7 +104,7 @@ fn all_cases(record: &ValidationRecord) -> String {
         .cases
         .iter()
         .map(|case| {
-            let share = words::tightest(case).map(|(_, share)| share);
+            let share = words::tightest(case.quantities.iter()).map(|(_, share)| share);
             vec![
                 signed(Verdict::of_case(case)),
                 case.group.clone(),
@@ -125,7 +125,10 @@ fn changed(changes: &Changes) -> String {
         return format!("{against}: nothing changed beyond the noise.\n\n");
     }
     let rows = |changes: &[Change]| -> Vec<Vec<String>> {
-        changes.iter().map(|c| vec![c.case.clone(), c.what.clone(), c.before.clone(), c.now.clone()]).collect()
+        changes
+            .iter()
+            .map(|c| vec![c.case.clone(), c.what.clone(), words::state(&c.before), words::state(&c.now)])
+            .collect()
     };
     let columns = ["case", "what", "before", "now"];
     let mut text = format!("{against}: {} worse, {} better.\n\n", changes.worse.len(), changes.better.len());

@@ -32,7 +32,7 @@ pub(super) fn groups(record: &ValidationRecord) -> Vec<&str> {
 
 fn case_row(case: &CaseRecord) -> String {
     let verdict = Verdict::of_case(case);
-    let tightest = words::tightest(case);
+    let tightest = words::tightest(case.quantities.iter());
     let by = tightest.map_or_else(String::new, |(quantity, _)| {
         format!("<br><span class=\"muted\">{}</span>", escape(&quantity.name))
     });

@@ -113,7 +113,8 @@ fn changed(changes: &Changes) -> String {
     let version = format!("<p>Against a run of version {}.</p>\n", escape(&changes.against_version));
     let rows = |word: &str, changes: &[Change]| -> String {
         let cells = |change: &Change| {
-            [&change.case, &change.what, &change.before, &change.now].map(|text| escape(text)).to_vec()
+            let (before, now) = (words::state(&change.before), words::state(&change.now));
+            [&change.case, &change.what, &before, &now].map(|text| escape(text)).to_vec()
         };
         changes
             .iter()

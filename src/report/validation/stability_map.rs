@@ -27,16 +27,6 @@ fn sign(outcome: RunOutcome) -> &'static str {
     }
 }
 
-fn class(outcome: RunOutcome) -> &'static str {
-    match outcome {
-        RunOutcome::Sound => "sound",
-        RunOutcome::Refused => "refused",
-        RunOutcome::NotConverged => "not-converged",
-        RunOutcome::Unsound => "unsound",
-        RunOutcome::Panicked => "panicked",
-    }
-}
-
 /// The map over all cases; empty where none has such points.
 pub(super) fn all(record: &ValidationRecord) -> String {
     let rows: String = record
@@ -59,7 +49,7 @@ fn map(rows: &str, unexpected: &str) -> String {
     let key: String = OUTCOMES
         .into_iter()
         .map(|outcome| {
-            format!("<span><b class=\"{}\">{}</b> {}</span>\n", class(outcome), sign(outcome), outcome.title())
+            format!("<span><b class=\"{}\">{}</b> {}</span>\n", outcome.name(), sign(outcome), outcome.title())
         })
         .collect();
     format!(
@@ -94,7 +84,7 @@ fn row(name: &str, points: &[&StabilityPoint]) -> String {
             let ring = if point.outcome == point.expected { "" } else { " ring" };
             format!(
                 "<span class=\"mark {}{ring}\" style=\"left:{:.2}%\">{}</span><span class=\"say\">{}</span>\n",
-                class(point.outcome),
+                point.outcome.name(),
                 place(point.value),
                 sign(point.outcome),
                 escape(&said(point))

@@ -4,27 +4,16 @@ use std::collections::BTreeMap;
 
 use crate::simulation::validation_record::{
     CaseKind, CasePlot, CaseRecord, CaseRun, Change, Changes, Criterion, CurveStyle, PlotAxis, PlotCurve,
-    QuantityRecord, RunOutcome, StabilityPoint, Standing, Tier, ValidationRecord, WorkPrecisionPoint,
+    QuantityRecord, RunOutcome, StabilityPoint, Standing, State, Tier, ValidationRecord, WorkPrecisionPoint,
 };
 
 fn quantity(name: &str, unit: &str, value: Option<f64>, criterion: Criterion) -> QuantityRecord {
     let mut quantity = QuantityRecord {
-        name: name.to_owned(),
-        target: None,
         unit: unit.to_owned(),
         value,
         criterion,
         source: "K. L. Johnson, Contact Mechanics (1985), eq. (4.45)".to_owned(),
-        uncertainty: None,
-        discretisation: None,
-        because: None,
-        error: None,
-        relative_error: None,
-        share: None,
-        standing: Standing::CannotBeCompared,
-        expected: Standing::Holds,
-        remark: None,
-        counts_work: false,
+        ..QuantityRecord::named(name)
     };
     let Some(value) = value else { return quantity };
     let holds = match criterion {
@@ -259,16 +248,12 @@ pub(super) fn repeated(times: usize) -> ValidationRecord {
 
 /// Something of every kind.
 pub(super) fn changes() -> Changes {
-    let change = |what: &str, before: &str, now: &str| Change {
-        case: "hertz-cylinders".to_owned(),
-        what: what.to_owned(),
-        before: before.to_owned(),
-        now: now.to_owned(),
-    };
+    let change =
+        |what: &str, before, now| Change { case: "hertz-cylinders".to_owned(), what: what.to_owned(), before, now };
     Changes {
         against_version: "0.0.9".to_owned(),
-        worse: vec![change("equilibria", "1000", "1200")],
-        better: vec![change("greatest pressure", "80 % of the tolerance", "38 % of the tolerance")],
+        worse: vec![change("equilibria", State::Counted(1000), State::Counted(1200))],
+        better: vec![change("greatest pressure", State::Uses(0.8), State::Uses(0.38))],
         added: vec!["thin-teeth".to_owned()],
         gone: vec!["thick-teeth".to_owned()],
     }

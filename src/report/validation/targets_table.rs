@@ -56,7 +56,8 @@ pub(super) fn html(record: &ValidationRecord) -> String {
 }
 
 fn row(id: &str, words: &str, cases: &[&CaseRecord], verdict: String) -> Vec<String> {
-    let used = cases.iter().filter_map(|case| words::tightest(case)).map(|(_, share)| share).reduce(f64::max);
+    let speaking: Vec<_> = cases.iter().flat_map(|case| case.speaking_to(id)).collect();
+    let used = words::tightest(speaking.into_iter()).map(|(_, share)| share);
     let links: Vec<String> = cases.iter().map(|case| link(case, &case.name)).collect();
     vec![
         format!("<b>{id}</b> {}", escape(words)),

@@ -32,7 +32,7 @@ fn cases(record: &ValidationRecord, width: Option<u16>) -> String {
     table.set_header(shown(width, ["", "group", "case", "tol. used", "by", "work", "time"].map(str::to_owned)));
     for case in &record.cases {
         let verdict = Verdict::of_case(case);
-        let tightest = words::tightest(case);
+        let tightest = words::tightest(case.quantities.iter());
         table.add_row(shown(
             width,
             [
@@ -97,7 +97,10 @@ fn changed(changes: &Changes) -> String {
         for change in changes {
             text.push_str(&format!(
                 "    {word} {}: {}: {} → {}\n",
-                change.case, change.what, change.before, change.now
+                change.case,
+                change.what,
+                words::state(&change.before),
+                words::state(&change.now)
             ));
         }
     }

@@ -2,7 +2,7 @@
 
 use super::verdict::Verdict;
 use crate::report::html::number::{count, figure, given, percent, significant};
-use crate::simulation::validation_record::{CaseRecord, Criterion, QuantityRecord, Standing};
+use crate::simulation::validation_record::{CaseRecord, Criterion, QuantityRecord, Standing, State};
 
 /// Stands where there is no number.
 pub(super) const NONE: &str = "–";
@@ -54,7 +54,15 @@ fn with_unit(text: &str, unit: &str) -> String {
 
 /// What it is held against, with the unit.
 pub(super) fn criterion(quantity: &QuantityRecord) -> String {
-    let text = match quantity.criterion {
+    match quantity.criterion {
+        Criterion::True | Criterion::Reported => limit(quantity.criterion),
+        other => with_unit(&limit(other), &quantity.unit),
+    }
+}
+
+/// A criterion without its unit.
+fn limit(criterion: Criterion) -> String {
+    match criterion {
         Criterion::Near { reference, tolerance: 0.0 } => format!("exactly {}", as_written(reference)),
         Criterion::Near { reference, tolerance } => {
             format!("{} ± {}", resolved(reference, tolerance), rough(tolerance))
@@ -62,10 +70,25 @@ pub(super) fn criterion(quantity: &QuantityRecord) -> String {
         Criterion::AtLeast { bound } => format!("≥ {}", as_written(bound)),
         Criterion::AtMost { bound } => format!("≤ {}", as_written(bound)),
         Criterion::Between { low, high } => format!("{} to {}", as_written(low), as_written(high)),
-        Criterion::True => return "must be so".to_owned(),
-        Criterion::Reported => return NONE.to_owned(),
-    };
-    with_unit(&text, &quantity.unit)
+        Criterion::True => "must be so".to_owned(),
+        Criterion::Reported => NONE.to_owned(),
+    }
+}
+
+/// One side of a change.
+pub(super) fn state(state: &State) -> String {
+    match state {
+        State::Ran(true) => "ran".to_owned(),
+        State::Ran(false) => "could not run".to_owned(),
+        State::Absent => "not there".to_owned(),
+        State::Stands(standing) => standing.title().to_owned(),
+        State::Ended(outcome) => outcome.title().to_owned(),
+        State::Uses(used) => format!("{} of the tolerance", share(Some(*used))),
+        State::Is(value, unit) => value.map_or_else(|| NONE.to_owned(), |value| with_unit(&digits(value), unit)),
+        State::Errs(error, unit) => format!("an error of {}", with_unit(&significant(*error, 2), unit)),
+        State::Against(criterion) => limit(*criterion),
+        State::Counted(number) => count(*number),
+    }
 }
 
 /// How far it is from its reference: relative where that makes sense.
@@ -131,10 +154,12 @@ pub(super) fn used(quantity: &QuantityRecord) -> Option<f64> {
 
 /// The quantity that uses most of its tolerance, and how much: of those that are missed, if there are any. Counts of work are
 /// kept close to what they are, and say nothing of accuracy: they are named only where one is missed.
-pub(super) fn tightest(case: &CaseRecord) -> Option<(&QuantityRecord, f64)> {
+pub(super) fn tightest<'a>(
+    quantities: impl Iterator<Item = &'a QuantityRecord> + Clone,
+) -> Option<(&'a QuantityRecord, f64)> {
     let among = |wanted: Verdict| {
-        case.quantities
-            .iter()
+        quantities
+            .clone()
             .filter(|quantity| Verdict::of_quantity(quantity) == wanted)
             .filter(|quantity| wanted == Verdict::Missed || !quantity.counts_work)
             .filter_map(|quantity| Some((quantity, used(quantity)?)))

@@ -1,4 +1,4 @@
-//! Loads that no elastic contact carries: a strip of contact as wide as the flanks are curved.
+//! Loads whose contact is not narrow: a strip that is wide beside the radius of curvature of the flanks.
 //!
 //! Every surface approximates the flanks by parabolas of relative radius R and takes strains to be small. Both rest on
 //! the half-width a of the contact being small beside R, and Hertz's contact says so in one number, since p₀/E* = a/(2R).
@@ -15,7 +15,7 @@
 use crate::contact::settings::Foundation;
 use crate::gear::conjugate::ConjugateFlanks;
 use crate::gear::{Gear, GearPair};
-use crate::reference::hertz_line::HertzLine;
+use crate::reference::hertz_line::{HertzLine, contact_modulus_mpa};
 use crate::scene::Scene;
 use crate::scene::problem::number;
 
@@ -28,11 +28,10 @@ pub fn warnings(scene: &Scene, pair: &GearPair) -> Vec<String> {
     let torque_n_mm = torques.fold(0.0, f64::max);
     let line_load = torque_n_mm / pair.path.involute.pinion.base_radius_mm / scene.pair.face_width_mm;
     let radius = pair.relative_radius_mm(pair.path.pitch_point_mm);
-    let compliance: f64 = Gear::BOTH
-        .map(|gear| (1.0 - scene.material[gear].poisson_ratio.powi(2)) / scene.material[gear].young_modulus_mpa)
-        .iter()
-        .sum();
-    let of_hertz = HertzLine::of_relative_radius(radius, 1.0 / compliance).loaded(line_load).half_width_mm;
+    let material = &scene.material;
+    let modulus =
+        contact_modulus_mpa(Gear::BOTH.map(|gear| (material[gear].young_modulus_mpa, material[gear].poisson_ratio)));
+    let of_hertz = HertzLine::of_relative_radius(radius, modulus).loaded(line_load).half_width_mm;
     let mut contacts = vec![("operation.pinion_torque_Nm", 1e-3 * torque_n_mm, "Hertz's contact", of_hertz)];
     if let Foundation::Given { foundation_mpa_per_mm } = scene.contact.foundation {
         let half_width = (1.5 * line_load * radius / foundation_mpa_per_mm).cbrt();
