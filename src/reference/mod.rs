@@ -5,6 +5,7 @@ pub mod flattening;
 pub mod half_plane;
 pub mod hertz_line;
 pub mod lame_cylinder;
+pub mod monotone_cubic;
 pub mod moving_heat_band;
 pub mod persson;
 pub mod worn_cylinder;

@@ -2,7 +2,7 @@
 
 use super::settings::Numerics;
 use super::simplified::{SimplifiedPair, exact::Springs};
-use super::wearing_pair::{OnFlankPoints, WearingPair};
+use super::wearing_pair::{OnFlankNodes, OnFlankPoints, WearingPair};
 use crate::contact::{ContactSurface, Effort, Flanks, settings::Material};
 use crate::fem::gear::position::CondensedPair;
 use crate::gear::{GearPair, PerGear, slices::Slices};
@@ -105,7 +105,14 @@ impl<'a> LoadedMesh<'a> {
             MeshContact::Simplified { material, teeth, sliced } => {
                 return Ok(Box::new(self.simplified(flanks, modification_mm, material, teeth, sliced)?));
             }
-            MeshContact::FiniteElements(model) => Box::new(CondensedCycle::new(model, flanks, count, line_load)),
+            MeshContact::FiniteElements(model) => {
+                let cycle = CondensedCycle::new(model, count, line_load);
+                let radius_mm = PerGear::from_fn(|gear| {
+                    let involute = self.pair.teeth[gear].involute;
+                    flanks.grid[gear].coordinate_mm.iter().map(|&rho| involute.radius_mm(rho)).collect()
+                });
+                return Ok(Box::new(OnFlankNodes::new(cycle, radius_mm)));
+            }
         };
         Ok(Box::new(OnFlankPoints::new(cycle, modification_mm)))
     }

@@ -1,12 +1,12 @@
 //! A pair with the wear it has so far: what the steps of a wear run work on.
 //!
-//! Most models keep what each flank point has lost ([`OnFlankPoints`]); the simplified model of helical gears keeps it at the
-//! contact points themselves ([`super::simplified`]).
+//! Most models keep what each flank point has lost ([`OnFlankPoints`]); finite elements keep it at the nodes of their flanks
+//! ([`OnFlankNodes`]), the simplified model of helical gears at the contact points themselves ([`super::simplified`]).
 
 use super::wear_run::Snapshot;
 use crate::gear::{Gear, PerGear};
 use crate::wear::WearModel;
-use crate::working_cycle::{LostMaterial, MeshCycle, Work, load_sharing::EquilibriumError};
+use crate::working_cycle::{LostMaterial, MeshCycle, Work, condensed::CondensedCycle, load_sharing::EquilibriumError};
 
 /// A pair that wears.
 pub trait WearingPair {
@@ -109,5 +109,71 @@ impl WearingPair for OnFlankPoints<'_> {
     fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {
         let cycle = self.cycle.observe(lost(&self.removed_mm, &self.wear_mm))?;
         Ok(Snapshot { revolutions, wear_mm: self.wear_mm.clone(), depth_per_mesh_mm: self.depth_mm.clone(), cycle })
+    }
+}
+
+/// Flanks of finite elements, worn at their nodes; flank points are read between them.
+pub struct OnFlankNodes<'a> {
+    cycle: CondensedCycle<'a>,
+    /// Nominal radii of the flank points.
+    radius_mm: PerGear<Vec<f64>>,
+    wear_mm: PerGear<Vec<f64>>,
+    depth_mm: PerGear<Vec<f64>>,
+}
+
+impl<'a> OnFlankNodes<'a> {
+    /// Unworn flanks with points at the nominal radii `radius_mm`.
+    pub fn new(cycle: CondensedCycle<'a>, radius_mm: PerGear<Vec<f64>>) -> Self {
+        let zeros = || cycle.nodes().map(|nodes| vec![0.0; nodes.len()]);
+        let (wear_mm, depth_mm) = (zeros(), zeros());
+        Self { cycle, radius_mm, wear_mm, depth_mm }
+    }
+
+    /// What `at_nodes` is at the flank points.
+    fn at_points(&self, at_nodes: &PerGear<Vec<f64>>) -> PerGear<Vec<f64>> {
+        PerGear::from_fn(|gear| {
+            self.cycle.at_radii(gear, &at_nodes[gear], self.radius_mm[gear].iter().copied())
+        })
+    }
+}
+
+impl WearingPair for OnFlankNodes<'_> {
+    fn evaluate(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.cycle.evaluate(lost(&self.wear_mm, &self.wear_mm), wear, &mut self.depth_mm, stopped)
+    }
+
+    fn wear_for(&mut self, meshes: PerGear<f64>) {
+        for gear in Gear::BOTH {
+            let nodes = self.wear_mm[gear].iter_mut().zip(&self.depth_mm[gear]);
+            nodes.for_each(|(wear, depth)| *wear += meshes[gear] * depth);
+        }
+    }
+
+    fn forget(&mut self) {
+        self.cycle.forget();
+    }
+
+    fn wear_mm(&self) -> PerGear<Vec<f64>> {
+        self.wear_mm.clone()
+    }
+
+    fn set_wear_mm(&mut self, wear_mm: &PerGear<Vec<f64>>) {
+        self.wear_mm.clone_from(wear_mm);
+    }
+
+    fn depth_mm(&self, depth_mm: &mut PerGear<Vec<f64>>) {
+        depth_mm.clone_from(&self.depth_mm);
+    }
+
+    fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {
+        let mut cycle = self.cycle.observe(lost(&self.wear_mm, &self.wear_mm))?;
+        cycle.pressure_mpa = self.at_points(&cycle.pressure_mpa);
+        cycle.sliding_mm = self.at_points(&cycle.sliding_mm);
+        let (wear_mm, depth_per_mesh_mm) = (self.at_points(&self.wear_mm), self.at_points(&self.depth_mm));
+        Ok(Snapshot { revolutions, wear_mm, depth_per_mesh_mm, cycle })
     }
 }

@@ -1,11 +1,14 @@
-//! The working cycle on the finite-element model: both gears condensed onto their flanks, contact found from their true,
-//! worn profiles.
+//! The mesh cycle on the finite-element model: both gears condensed onto their flanks, contact found from their true, worn profiles.
 //!
 //! All tooth pairs at a position are in one complementarity problem, coupled through the gear bodies ([`crate::fem::gear`]),
 //! and touch wherever their profiles do, also before A and after E, where a tip edge meets its mate outside the line of
 //! action. As every tooth of a gear wears alike, the positions of one base pitch tell all: the pairs found there, each at its
-//! own place of the path, together are one tooth pair over its whole mesh. Positions are as far apart as those that divide
-//! A–E evenly, rounded to a whole number in a base pitch, and the sum over them is that of a periodic function.
+//! own place of the path, together are one tooth pair over its whole mesh.
+//!
+//! What wears are the nodes of both flanks: the load of every multiplier reaches those that it faces while the contact moves on
+//! ([`crate::fem::gear::load_transfer`]). Positions are closer together where a tip edge touches, about A and E, for there the contact is
+//! narrow, stands still on the edge and runs along the mate; where the number of pairs changes, about B and D, they are closer by that, for
+//! a base pitch leads from A to D and from B to E.
 //!
 //! The couplings of a position are prepared once; from one wear step to the next only the gaps change, and the active set
 //! hardly at all.
@@ -14,165 +17,159 @@ use rayon::prelude::*;
 
 use super::collected::Collected;
 use super::load_sharing::EquilibriumError;
+use super::tip_contact;
 use super::{CycleObservation, GROUPS, LostMaterial, MeshCycle, PositionObservation, Work};
-use crate::contact::{Flanks, Footprint};
-use crate::fem::gear::observed_flank::{FlankPoints, ObservedFlank};
+use crate::contact::Footprint;
+use crate::fem::active_set::Equilibrium;
+use crate::fem::gear::flank_nodes::{FlankNodes, Weights};
+use crate::fem::gear::load_transfer::LoadTransfer;
+use crate::fem::gear::model::hertz_half_width_mm;
 use crate::fem::gear::position::CondensedPair;
-use crate::fem::gear::prepared::{NodalWear, Prepared};
+use crate::fem::gear::prepared::Prepared;
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use crate::reference::monotone_cubic::MonotoneCubic;
 use crate::thermal::{ContactHeat, SpeedRatios};
 use crate::wear::{
-    Rubbing, WearModel,
+    Rubbing, Surroundings, WearModel,
     heated_row::{HeatedContact, HeatedRow, RowOfPoints},
 };
 
-/// One position and how the flank points read it.
+/// Distance of positions over that of those which divide A–E evenly, away from the tip edges.
+const APART: f64 = 2.0;
+/// The same where a tip edge touches.
+const APART_AT_TIP_EDGES: f64 = 0.5;
+/// How far the path is looked at beyond A and E, over how far unworn tip edges reach their mates under the approach at the pitch point.
+const AMPLE_APPROACH: f64 = 1.3;
+/// How far within A–E a contact still feels the tip edge, in Hertz half-widths at the pitch point.
+const WITHIN_HALF_WIDTHS: f64 = 2.0;
+
+/// One position and how its load reaches the nodes.
 struct Station {
     prepared: Prepared,
+    /// The part of the path that it stands for.
+    stretch_mm: (f64, f64),
     /// Of each tooth pair that may touch.
-    observed: Vec<PerGear<RubbedFlank>>,
+    transfers: Vec<LoadTransfer>,
     /// For how many looks that holds.
     looks: usize,
-    /// Pressures at the multipliers in the last equilibrium.
-    nodal_mpa: Vec<f64>,
-}
-
-/// The points of one flank that a tooth pair may rub at a position.
-struct RubbedFlank {
-    points: ObservedFlank,
-    /// How far each slides, mm.
-    sliding_mm: Vec<f64>,
-    /// Distance of the points along the flank, mm.
-    spacing_mm: f64,
-    /// How fast both surfaces move through the contact.
-    rolling: PerGear<f64>,
-}
-
-impl RubbedFlank {
-    /// The contact whose pressures these points feel, as a source of heat: its half-width is that of Hertz's ellipse with the same
-    /// second moment.
-    fn heated<'a>(&self, gear: Gear, heat: &'a ContactHeat, pressure_mpa: &[f64], length_mm: f64) -> HeatedContact<'a> {
-        let (mut sum, mut first, mut second, mut slid) = (0.0, 0.0, 0.0, 0.0);
-        for (k, (pressure, sliding)) in pressure_mpa.iter().zip(&self.sliding_mm).enumerate() {
-            let place = k as f64 * self.spacing_mm;
-            sum += pressure;
-            first += pressure * place;
-            second += pressure * place * place;
-            slid += pressure * sliding;
-        }
-        if sum <= 0.0 {
-            return HeatedContact { heat, ratios: SpeedRatios::default(), line_load_n_per_mm: 0.0, half_width_mm: 0.0 };
-        }
-        // Each point stands for its spacing; the mean over the stretch, during which the contact moves along, spreads the pressure.
-        let moved_mm = self.rolling[gear] * length_mm;
-        let variance = second / sum - (first / sum).powi(2) + (self.spacing_mm.powi(2) - moved_mm.powi(2)) / 12.0;
-        let least = self.spacing_mm.powi(2) / 12.0;
-        HeatedContact {
-            heat,
-            ratios: SpeedRatios { sliding: slid / sum / length_mm, rolling: self.rolling },
-            line_load_n_per_mm: sum * self.spacing_mm,
-            half_width_mm: 2.0 * variance.max(least).sqrt(),
-        }
-    }
+    found: Option<Equilibrium>,
 }
 
 /// Positions that collect wear together.
 struct Group {
     stations: Vec<Station>,
     collected: Collected,
-    pressure_mpa: Vec<f64>,
-    heated: HeatedRow,
+    rows: Rows,
 }
 
-/// All positions of one base pitch, ready to be evaluated on ever newly worn flanks.
+/// Buffers for the rows of one contact.
+#[derive(Default)]
+struct Rows {
+    pressure_mpa: Vec<f64>,
+    depth_mm: Vec<f64>,
+    heated: HeatedContactRows,
+}
+
+/// All positions of one base pitch, ready to be evaluated on ever newly worn flanks, whose places are the nodes of the flanks.
 pub struct CondensedCycle<'a> {
     model: &'a CondensedPair<'a>,
     line_load_n_per_mm: f64,
-    /// Nominal radii of the flank points.
+    nodes: PerGear<FlankNodes>,
+    /// Nominal radii of the nodes, from root to tip.
     radius_mm: PerGear<Vec<f64>>,
-    /// Nominal radii of the flanks' nodes.
-    node_radius_mm: PerGear<Vec<f64>>,
     groups: Vec<Group>,
-    /// Positions from A to E at which the cycle is observed; prepared when first asked for.
+    /// Positions from A to E at which the cycle is observed.
     observation_mm: Vec<f64>,
-    observation: Vec<Prepared>,
 }
 
 impl<'a> CondensedCycle<'a> {
-    /// Prepares positions as far apart as `positions` from A to E.
-    pub fn new(model: &'a CondensedPair<'a>, flanks: Flanks<'_>, positions: usize, line_load_n_per_mm: f64) -> Self {
-        let path = &model.pair.path;
+    /// Prepares positions as close as `positions` from A to E ask for.
+    pub fn new(model: &'a CondensedPair<'a>, positions: usize, line_load_n_per_mm: f64) -> Self {
+        let nodes = model.flank_nodes();
         let radius_mm = PerGear::from_fn(|gear| {
-            let involute = model.pair.teeth[gear].involute;
-            flanks.grid[gear].coordinate_mm.iter().map(|&rho| involute.radius_mm(rho)).collect::<Vec<f64>>()
+            let local = model.nominal_radius_mm(gear);
+            let mut radius_mm = vec![0.0; local.len()];
+            nodes[gear].place.iter().zip(local).for_each(|(&place, radius)| radius_mm[place] = radius);
+            radius_mm
         });
-        let spacing = (path.end_mm - path.start_mm) / (positions - 1) as f64;
-        let in_a_pitch = (path.base_pitch_mm / spacing).round().max(1.0) as usize;
-        let length_mm = path.base_pitch_mm / in_a_pitch as f64;
-        let pitch_mm: Vec<f64> = (0..in_a_pitch).map(|j| path.start_mm + j as f64 * length_mm).collect();
-        let node_radius_mm = PerGear::from_fn(|gear| model.nominal_radius_mm(gear));
-        let points = flank_points(&radius_mm, &node_radius_mm);
-        let groups = pitch_mm
-            .par_chunks(in_a_pitch.div_ceil(GROUPS))
-            .map(|positions| Group {
-                stations: positions
+        let stretches = stretches(model, positions, line_load_n_per_mm);
+        let groups = stretches
+            .par_chunks(stretches.len().div_ceil(GROUPS))
+            .map(|stretches| Group {
+                stations: stretches
                     .iter()
-                    .map(|&at| Station::new(model, model.prepare(at, line_load_n_per_mm), points, length_mm))
+                    .map(|&stretch| Station::new(model, stretch, line_load_n_per_mm, nodes.as_ref()))
                     .collect(),
-                collected: Collected::new(radius_mm.as_ref().map(Vec::len)),
-                pressure_mpa: Vec::new(),
-                heated: HeatedRow::default(),
+                collected: Collected::new(nodes.as_ref().map(FlankNodes::len)),
+                rows: Rows::default(),
             })
             .collect();
-        let observation_mm = path.evenly_mm(positions);
-        Self { model, line_load_n_per_mm, radius_mm, node_radius_mm, groups, observation_mm, observation: Vec::new() }
+        let observation_mm = model.pair.path.evenly_mm(positions);
+        Self { model, line_load_n_per_mm, nodes, radius_mm, groups, observation_mm }
     }
 
-    /// Stretch of the path that each position stands for.
-    fn length_mm(&self) -> f64 {
-        let positions: usize = self.groups.iter().map(|group| group.stations.len()).sum();
-        self.model.pair.path.base_pitch_mm / positions as f64
+    /// The nodes of both flanks.
+    pub fn nodes(&self) -> PerGear<&FlankNodes> {
+        self.nodes.as_ref()
     }
 
-    /// Wear at the nodes of both flanks.
-    fn nodal_wear(&self, wear_mm: PerGear<&[f64]>) -> NodalWear {
-        PerGear::from_fn(|gear| {
-            let (radius, wear) = (&self.radius_mm[gear], wear_mm[gear]);
-            self.node_radius_mm[gear].iter().map(|&node| interpolated(radius, wear, node)).collect()
+    /// Number of positions in a base pitch.
+    pub fn positions(&self) -> usize {
+        self.stations().count()
+    }
+
+    /// What `at_nodes` of `gear`'s flank is at the nominal radii `radius_mm`; beyond the nodes, what it is at the last of them.
+    pub fn at_radii(&self, gear: Gear, at_nodes: &[f64], radius_mm: impl Iterator<Item = f64>) -> Vec<f64> {
+        let curve = MonotoneCubic::new(&self.radius_mm[gear], at_nodes);
+        radius_mm.map(|radius| curve.at(radius)).collect()
+    }
+
+    fn stations(&self) -> impl Iterator<Item = &Station> {
+        self.groups.iter().flat_map(|group| &group.stations)
+    }
+}
+
+/// The stretches of one base pitch that positions stand for, from A on: short ones where a tip edge touches.
+fn stretches(model: &CondensedPair<'_>, positions: usize, line_load_n_per_mm: f64) -> Vec<(f64, f64)> {
+    let (pair, path) = (model.pair, &model.pair.path);
+    let (start, pitch) = (path.start_mm, path.base_pitch_mm);
+    let even = (path.end_mm - start) / (positions - 1) as f64;
+    let within = WITHIN_HALF_WIDTHS
+        * hertz_half_width_mm(pair, model.contact_modulus_mpa, line_load_n_per_mm, path.pitch_point_mm);
+    let approach = model
+        .at(path.pitch_point_mm, line_load_n_per_mm, &Default::default())
+        .map_or(0.0, |contact| contact.transmission_error_mm);
+    let [before, after] = tip_contact::reach_mm(pair, AMPLE_APPROACH * approach);
+    // Both zones, moved by base pitches to where they begin in the first one from A on, and cut at its end.
+    let zones = [(start - before, start + within), (path.end_mm - within, path.end_mm + after)];
+    let mut at_edges: Vec<(f64, f64)> = zones
+        .into_iter()
+        .flat_map(|(from, to)| {
+            let length = (to - from).min(pitch);
+            let from = (from - start).rem_euclid(pitch);
+            [(from, (from + length).min(pitch)), (0.0, from + length - pitch)]
         })
-    }
-}
-
-/// The points of both flanks.
-fn flank_points<'a>(
-    radius_mm: &'a PerGear<Vec<f64>>,
-    node_radius_mm: &'a PerGear<Vec<f64>>,
-) -> PerGear<FlankPoints<'a>> {
-    PerGear::from_fn(|gear| FlankPoints { radius_mm: &radius_mm[gear], node_radius_mm: &node_radius_mm[gear] })
-}
-
-/// Value at `x` of what is given at the evenly spaced, increasing `places`; beyond their ends, the value there.
-///
-/// A cubic on each interval, with the harmonic mean of the neighbouring slopes at its ends where they agree in sign: without
-/// kinks, which elastic surfaces would answer with peaks of pressure, and without overshoot.
-///
-/// Source: F. N. Fritsch and J. Butland, *SIAM J. Sci. Stat. Comput.* 5 (1984) 300.
-fn interpolated(places: &[f64], values: &[f64], x: f64) -> f64 {
-    let last = places.len() - 1;
-    let after = places.partition_point(|&place| place <= x).clamp(1, last);
-    let before = after - 1;
-    let h = places[after] - places[before];
-    let t = ((x - places[before]) / h).clamp(0.0, 1.0);
-    let rise = |i: usize| values[i + 1] - values[i];
-    let slope = |i: usize| match (i, i == last) {
-        (0, _) => rise(0),
-        (_, true) => rise(last - 1),
-        _ if rise(i - 1) * rise(i) > 0.0 => 2.0 * rise(i - 1) * rise(i) / (rise(i - 1) + rise(i)),
-        _ => 0.0,
+        .filter(|(from, to)| to > from)
+        .collect();
+    at_edges.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut stretches = Vec::new();
+    let mut reached = 0.0;
+    let mut divide = |reached: &mut f64, to: f64, apart: f64| {
+        let length = to - *reached;
+        if length <= 1e-9 * pitch {
+            return;
+        }
+        let count = (length / (apart * even) - 1e-9).ceil().max(1.0) as usize;
+        let at = |k: usize| start + *reached + length * k as f64 / count as f64;
+        stretches.extend((0..count).map(|k| (at(k), at(k + 1))));
+        *reached = to;
     };
-    let (a, b) = (slope(before), slope(after));
-    let d = rise(before);
-    values[before] + t * (a + t * ((3.0 * d - 2.0 * a - b) + t * (a + b - 2.0 * d)))
+    for (from, to) in at_edges {
+        divide(&mut reached, from, APART);
+        divide(&mut reached, to, APART_AT_TIP_EDGES);
+    }
+    divide(&mut reached, pitch, APART);
+    stretches
 }
 
 impl MeshCycle for CondensedCycle<'_> {
@@ -183,51 +180,48 @@ impl MeshCycle for CondensedCycle<'_> {
         depth_mm: &mut PerGear<Vec<f64>>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
-        let nodal_wear = self.nodal_wear(lost.wear_mm);
-        let length_mm = self.length_mm();
-        let points = flank_points(&self.radius_mm, &self.node_radius_mm);
-        let step = Step { model: self.model, nodal_wear: &nodal_wear, points, length_mm, wear, stopped };
+        let step = Step { model: self.model, lost_mm: lost.wear_mm, nodes: self.nodes.as_ref(), wear, stopped };
         self.groups.par_iter_mut().for_each(|group| group.evaluate(&step));
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
 
     fn forget(&mut self) {
-        let (model, length_mm) = (self.model, self.length_mm());
-        let points = flank_points(&self.radius_mm, &self.node_radius_mm);
+        let (model, nodes) = (self.model, self.nodes.as_ref());
         self.groups.par_iter_mut().flat_map(|group| &mut group.stations).for_each(|station| {
             model.forget(&mut station.prepared);
+            station.found = None;
             if station.looks != station.prepared.looks() {
-                station.look(model, points, length_mm);
+                station.transfers = model.load_transfers(&station.prepared, station.stretch_mm, nodes);
+                station.looks = station.prepared.looks();
             }
         });
-        self.observation.par_iter_mut().for_each(|prepared| model.forget(prepared));
     }
 
-    fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
-        let wear = self.nodal_wear(lost.wear_mm);
-        let (model, load) = (self.model, self.line_load_n_per_mm);
-        if self.observation.is_empty() {
-            self.observation = self.observation_mm.par_iter().map(|&at| model.prepare(at, load)).collect();
-        }
-        let positions =
-            self.observation.par_iter_mut().map(|at| observe_position(model, at, &wear)).collect::<Vec<_>>();
-        let zeros = || PerGear::from_fn(|gear| vec![0.0; self.radius_mm[gear].len()]);
+    /// Positions from A to E are between those of the base pitch.
+    fn observe(&mut self, _lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
+        let zeros = || PerGear::from_fn(|gear| vec![0.0; self.nodes[gear].len()]);
         let mut observation = CycleObservation {
-            positions: positions.into_iter().collect::<Result<_, _>>()?,
+            positions: self.along_the_path(),
             pressure_mpa: zeros(),
             sliding_mm: zeros(),
             slices: None,
         };
-        for station in self.groups.iter().flat_map(|group| &group.stations) {
-            for pair in &station.observed {
-                for gear in Gear::BOTH {
-                    let RubbedFlank { points, sliding_mm: sliding, .. } = &pair[gear];
-                    let first = points.first_point;
-                    for (k, pressure) in points.greatest_mpa(&station.nodal_mpa).enumerate() {
-                        if pressure > 0.0 {
+        for station in self.stations() {
+            let Some(found) = &station.found else { continue };
+            for contact in &station.transfers {
+                for i in 0..contact.len() {
+                    let force = found.force[contact.first_row + i];
+                    if force <= 0.0 {
+                        continue;
+                    }
+                    let pressure = force / contact.weight_mm[i];
+                    for gear in Gear::BOTH {
+                        let Weights { first, weights } = contact.means[gear].row(i);
+                        for (k, m) in weights.iter().enumerate().filter(|(_, m)| **m > 0.0) {
                             let greatest = &mut observation.pressure_mpa[gear][first + k];
                             *greatest = greatest.max(pressure);
-                            observation.sliding_mm[gear][first + k] += sliding[k];
+                            observation.sliding_mm[gear][first + k] +=
+                                m * contact.weight_mm[i] / self.nodes[gear].share_mm[first + k] * contact.sliding_mm[i];
                         }
                     }
                 }
@@ -237,12 +231,61 @@ impl MeshCycle for CondensedCycle<'_> {
     }
 }
 
+impl CondensedCycle<'_> {
+    /// The reference pair from A to E, from the pairs found in the base pitch.
+    fn along_the_path(&self) -> Vec<PositionObservation> {
+        let (path, load) = (&self.model.pair.path, self.line_load_n_per_mm);
+        let mut found: Vec<PositionObservation> = Vec::new();
+        for station in self.stations() {
+            let Some(equilibrium) = &station.found else { continue };
+            let at = station.prepared.position_mm;
+            let pairs = self.model.tooth_pairs(&station.prepared, equilibrium);
+            let total: f64 = pairs.iter().map(|pair| pair.line_load_n_per_mm).sum();
+            let first = ((path.start_mm - at) / path.base_pitch_mm).floor() as i32;
+            let last = ((path.end_mm - at) / path.base_pitch_mm).ceil() as i32;
+            found.extend((first..=last).map(|ahead| {
+                let pair = pairs.iter().find(|pair| pair.pair == ahead);
+                PositionObservation {
+                    position_mm: at + f64::from(ahead) * path.base_pitch_mm,
+                    transmission_error_mm: equilibrium.rigid[0],
+                    load_share: pair.map_or(0.0, |pair| pair.line_load_n_per_mm / load),
+                    load_imbalance: total / load - 1.0,
+                    footprint: pair.map_or_else(Footprint::default, |pair| Footprint {
+                        peak_pressure_mpa: pair.peak_pressure_mpa,
+                        half_width_mm: pair.half_width_mm,
+                    }),
+                }
+            }));
+        }
+        found.sort_by(|a, b| a.position_mm.total_cmp(&b.position_mm));
+        let places: Vec<f64> = found.iter().map(|at| at.position_mm).collect();
+        let course = |of: &dyn Fn(&PositionObservation) -> f64| -> Vec<f64> {
+            let values: Vec<f64> = found.iter().map(of).collect();
+            let curve = MonotoneCubic::new(&places, &values);
+            self.observation_mm.iter().map(|&at| curve.at(at)).collect()
+        };
+        let transmission_error = course(&|at| at.transmission_error_mm);
+        let (share, imbalance) = (course(&|at| at.load_share), course(&|at| at.load_imbalance));
+        let (peak, half_width) =
+            (course(&|at| at.footprint.peak_pressure_mpa), course(&|at| at.footprint.half_width_mm));
+        (0..self.observation_mm.len())
+            .map(|k| PositionObservation {
+                position_mm: self.observation_mm[k],
+                transmission_error_mm: transmission_error[k],
+                load_share: share[k],
+                load_imbalance: imbalance[k],
+                footprint: Footprint { peak_pressure_mpa: peak[k], half_width_mm: half_width[k] },
+            })
+            .collect()
+    }
+}
+
 /// What the evaluation of a wear step is made of.
 struct Step<'a> {
     model: &'a CondensedPair<'a>,
-    nodal_wear: &'a NodalWear,
-    points: PerGear<FlankPoints<'a>>,
-    length_mm: f64,
+    /// At the nodes.
+    lost_mm: PerGear<&'a [f64]>,
+    nodes: PerGear<&'a FlankNodes>,
     wear: &'a WearModel<'a>,
     stopped: &'a (dyn Fn() -> bool + Sync),
 }
@@ -255,73 +298,40 @@ impl Group {
             if !self.collected.take(solved) {
                 return;
             }
-            for pair in &station.observed {
-                for gear in Gear::BOTH {
-                    let flank = &pair[gear];
-                    let (points, sliding) = (&flank.points, &flank.sliding_mm);
-                    self.pressure_mpa.clear();
-                    self.pressure_mpa.extend(points.pressure_mpa(&station.nodal_mpa));
-                    let range = points.first_point..points.first_point + sliding.len();
-                    let (row, pressure) = (&mut self.heated, &self.pressure_mpa);
-                    let surroundings = step.wear.heat_of_law().map(|heat| {
-                        let contact = flank.heated(gear, heat, pressure, step.length_mm);
-                        let points = RowOfPoints { gear, spacing_mm: flank.spacing_mm, pressure_mpa: pressure };
-                        row.across_sliding(&contact, points, sliding, step.length_mm / heat.speed_mm_per_s)
-                    });
-                    let rubbing = Rubbing { pressure_mpa: pressure, sliding_mm: sliding, surroundings };
-                    step.wear.law.add_depth(&rubbing, &mut self.collected.depth_mm[gear][range]);
-                }
-            }
+            station.wear(step, &mut self.rows, &mut self.collected.depth_mm);
         }
     }
 }
 
 impl Station {
-    fn new(model: &CondensedPair<'_>, prepared: Prepared, points: PerGear<FlankPoints<'_>>, length_mm: f64) -> Self {
-        let mut station = Self { prepared, observed: Vec::new(), looks: 0, nodal_mpa: Vec::new() };
-        station.look(model, points, length_mm);
-        station
-    }
-
-    /// Reads anew which points are near the contact.
-    fn look(&mut self, model: &CondensedPair<'_>, points: PerGear<FlankPoints<'_>>, length_mm: f64) {
-        let path = &model.pair.path;
-        let turn = path.relative_turn_per_mm();
-        let rubbed = |gear: Gear, own: ObservedFlank, rolling: PerGear<f64>| {
-            let sliding_mm = own.sliding_mm(turn, length_mm);
-            let radii = points[gear].radius_mm;
-            let last = (own.first_point + sliding_mm.len()).min(radii.len()).saturating_sub(1);
-            let first = own.first_point.min(last);
-            // The arc of an involute from its base circle on is (r² − r_b²)/(2 r_b).
-            let arc = (radii[last].powi(2) - radii[first].powi(2)) / (2.0 * path.involute[gear].base_radius_mm);
-            let spacing_mm = if last > first { arc / (last - first) as f64 } else { 0.0 };
-            RubbedFlank { points: own, sliding_mm, spacing_mm, rolling }
-        };
-        let pairs = model.observed_pairs(&self.prepared, length_mm, points);
-        self.observed = pairs
-            .into_iter()
-            .map(|(pair, PerGear { pinion, wheel })| {
-                // Before A and after E, surfaces roll about as fast as there.
-                let own_mm = self.prepared.position_mm + f64::from(pair) * path.base_pitch_mm;
-                let at_mm = own_mm.clamp(path.start_mm, path.end_mm);
-                let rolling = PerGear::from_fn(|gear| model.pair.rolling_ratio(gear, at_mm));
-                PerGear { pinion: rubbed(Gear::Pinion, pinion, rolling), wheel: rubbed(Gear::Wheel, wheel, rolling) }
-            })
-            .collect();
-        self.looks = self.prepared.looks();
+    fn new(
+        model: &CondensedPair<'_>,
+        stretch_mm: (f64, f64),
+        line_load_n_per_mm: f64,
+        nodes: PerGear<&FlankNodes>,
+    ) -> Self {
+        let prepared = model.prepare(stretch_mm.0.midpoint(stretch_mm.1), line_load_n_per_mm);
+        let transfers = model.load_transfers(&prepared, stretch_mm, nodes);
+        let looks = prepared.looks();
+        Self { prepared, stretch_mm, transfers, looks, found: None }
     }
 
     fn solve(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
         let position_mm = self.prepared.position_mm;
-        let found = step
+        let Self { prepared, stretch_mm, transfers, looks, found } = self;
+        let mut opening = |prepared: &Prepared, gap_mm: &mut [f64]| {
+            if *looks != prepared.looks() {
+                *transfers = step.model.load_transfers(prepared, *stretch_mm, step.nodes);
+                *looks = prepared.looks();
+            }
+            transfers.iter().for_each(|contact| contact.open_gaps(step.lost_mm, gap_mm));
+        };
+        let solved = step
             .model
-            .solve(&mut self.prepared, Some(step.nodal_wear))
+            .solve(prepared, &mut opening)
             .map_err(|source| EquilibriumError::Contact { position_mm, source })?;
-        if self.looks != self.prepared.looks() {
-            self.look(step.model, step.points, step.length_mm);
-        }
-        self.prepared.nodal_pressure_mpa(&found.force, &mut self.nodal_mpa);
-        let iterations = found.log.steps.len() as u64;
+        let iterations = solved.log.steps.len() as u64;
+        *found = Some(solved);
         Ok(Work {
             mesh_cycles: 0,
             equilibria: 1,
@@ -329,28 +339,102 @@ impl Station {
             pair_evaluations: iterations * self.prepared.tooth_pairs() as u64,
         })
     }
+
+    /// Adds what the nodes of both flanks lose.
+    fn wear(&self, step: &Step<'_>, rows: &mut Rows, depth_mm: &mut PerGear<Vec<f64>>) {
+        let Some(found) = &self.found else { return };
+        for contact in &self.transfers {
+            let force = &found.force[contact.first_row..contact.first_row + contact.len()];
+            if force.iter().all(|f| *f <= 0.0) {
+                continue;
+            }
+            rows.pressure_mpa.clear();
+            rows.pressure_mpa.extend(force.iter().zip(&contact.weight_mm).map(|(force, weight)| force / weight));
+            for gear in Gear::BOTH {
+                let surroundings = step.wear.heat_of_law().map(|heat| {
+                    let place = HeatedPlace { model: step.model, contact, stretch_mm: self.stretch_mm, gear };
+                    rows.heated.surroundings(heat, place, &rows.pressure_mpa)
+                });
+                let rubbing =
+                    Rubbing { pressure_mpa: &rows.pressure_mpa, sliding_mm: &contact.sliding_mm, surroundings };
+                rows.depth_mm.clear();
+                rows.depth_mm.resize(contact.len(), 0.0);
+                step.wear.law.add_depth(&rubbing, &mut rows.depth_mm);
+                contact.wear_nodes(gear, step.nodes[gear], &rows.depth_mm, &mut depth_mm[gear]);
+            }
+        }
+    }
 }
 
-/// The reference pair at one position of the path.
-fn observe_position(
-    model: &CondensedPair<'_>,
-    prepared: &mut Prepared,
-    wear: &NodalWear,
-) -> Result<PositionObservation, EquilibriumError> {
-    let (position_mm, load) = (prepared.position_mm, prepared.line_load_n_per_mm());
-    let found =
-        model.solve(prepared, Some(wear)).map_err(|source| EquilibriumError::Contact { position_mm, source })?;
-    let pairs = model.tooth_pairs(prepared, &found);
-    let total: f64 = pairs.iter().map(|pair| pair.line_load_n_per_mm).sum();
-    let reference = pairs.iter().find(|pair| pair.pair == 0);
-    Ok(PositionObservation {
-        position_mm,
-        transmission_error_mm: found.rigid[0],
-        load_share: reference.map_or(0.0, |pair| pair.line_load_n_per_mm / load),
-        load_imbalance: total / load - 1.0,
-        footprint: reference.map_or_else(Footprint::default, |pair| Footprint {
-            peak_pressure_mpa: pair.peak_pressure_mpa,
-            half_width_mm: pair.half_width_mm,
-        }),
-    })
+/// A contact as a source of heat.
+#[derive(Clone, Copy)]
+struct HeatedPlace<'a> {
+    model: &'a CondensedPair<'a>,
+    contact: &'a LoadTransfer,
+    stretch_mm: (f64, f64),
+    gear: Gear,
+}
+
+/// The rows of a contact, whose multipliers stand for stretches of different lengths, as evenly spaced ones and back.
+#[derive(Default)]
+struct HeatedContactRows {
+    even_mpa: Vec<f64>,
+    even_sliding_mm: Vec<f64>,
+    row: HeatedRow,
+    surroundings: Vec<Surroundings>,
+}
+
+impl HeatedContactRows {
+    /// The surroundings of each row of a contact under `pressure_mpa`. The strip is as wide as Hertz's ellipse with the same second moment.
+    fn surroundings(&mut self, heat: &ContactHeat, place: HeatedPlace<'_>, pressure_mpa: &[f64]) -> &[Surroundings] {
+        let HeatedPlace { model, contact, stretch_mm, gear } = place;
+        let path = &model.pair.path;
+        let length_mm = stretch_mm.1 - stretch_mm.0;
+        // Before A and after E, surfaces roll about as fast as there.
+        let own_mm = stretch_mm.0.midpoint(stretch_mm.1) + f64::from(contact.pair) * path.base_pitch_mm;
+        let at_mm = own_mm.clamp(path.start_mm, path.end_mm);
+        let rolling = PerGear::from_fn(|gear| model.pair.rolling_ratio(gear, at_mm));
+        let loads = pressure_mpa.iter().zip(&contact.weight_mm).map(|(pressure, weight)| pressure * weight);
+        let (mut sum, mut first, mut second, mut slid) = (0.0, 0.0, 0.0, 0.0);
+        for (i, load) in loads.enumerate() {
+            let at = contact.along_mm[i];
+            sum += load;
+            first += load * at;
+            second += load * (at * at + contact.weight_mm[i].powi(2) / 12.0);
+            slid += load * contact.sliding_mm[i];
+        }
+        let variance = (second / sum - (first / sum).powi(2)).max(0.0);
+        let heated = HeatedContact {
+            heat,
+            ratios: SpeedRatios { sliding: slid / sum / length_mm, rolling },
+            line_load_n_per_mm: sum,
+            half_width_mm: 2.0 * variance.sqrt(),
+        };
+        let greatest = contact.along_mm.iter().copied().fold(0.0, f64::max);
+        let count = (2 * contact.len()).max(2);
+        let spacing_mm = greatest / (count - 1) as f64;
+        // Along the profile from root to tip, which the wheel's runs the other way.
+        let cell_of = |at: f64| {
+            let at = if gear == Gear::Pinion { at } else { greatest - at };
+            ((at / spacing_mm).round() as usize).min(count - 1)
+        };
+        for row in [&mut self.even_mpa, &mut self.even_sliding_mm] {
+            row.clear();
+            row.resize(count, 0.0);
+        }
+        for (i, &at) in contact.along_mm.iter().enumerate() {
+            let half = 0.5 * contact.weight_mm[i];
+            let (a, b) = (cell_of((at - half).max(0.0)), cell_of((at + half).min(greatest)));
+            for k in a.min(b)..=a.max(b) {
+                self.even_mpa[k] = pressure_mpa[i];
+                self.even_sliding_mm[k] = contact.sliding_mm[i];
+            }
+        }
+        let points = RowOfPoints { gear, spacing_mm, pressure_mpa: &self.even_mpa };
+        let time_s = length_mm / heat.speed_mm_per_s;
+        let even = self.row.across_sliding(&heated, points, &self.even_sliding_mm, time_s);
+        self.surroundings.clear();
+        self.surroundings.extend(contact.along_mm.iter().map(|&at| even[cell_of(at)]));
+        &self.surroundings
+    }
 }

@@ -160,15 +160,6 @@ impl CondensedPair<'_> {
 }
 
 impl Facing {
-    /// The position's row of each local node of the slave, of which there are `nodes`.
-    pub fn rows_of_nodes(&self, nodes: usize) -> Vec<Option<usize>> {
-        let mut rows = vec![None; nodes];
-        for (row, &node) in self.coupling.nodes.iter().enumerate() {
-            rows[node] = Some(self.first_row + row);
-        }
-        rows
-    }
-
     /// Distance of a node of the slave from the expected contact, towards the pinion's tip.
     pub fn towards_pinion_tip_mm(&self, slave: &FlankSurface, node: usize) -> f64 {
         let from_tip_mm = slave.from_tip_mm[node] - self.expected_mm;

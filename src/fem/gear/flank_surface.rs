@@ -19,15 +19,6 @@ pub struct FlankSurface {
     pub sharp: bool,
 }
 
-/// Where a point lies on a flank.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
-    /// Number of the edge.
-    pub edge: usize,
-    /// Place on it, −1 to 1 from the tip's side.
-    pub xi: f64,
-}
-
 impl FlankSurface {
     /// The flank along `chain` (ends and middles of edges alternately, from root to tip) with ρ at each of its nodes.
     pub fn new(chain: &[u32], rho_mm: &[f64], points_mm: &[Vector2<f64>], sharp: bool) -> Self {
@@ -62,38 +53,6 @@ impl FlankSurface {
             }
         }
         nearest.1
-    }
-
-    /// Distance of a place from the tip end, mm: in straight lines between nodes.
-    pub fn from_tip_of_mm(&self, place: Place) -> f64 {
-        let [start, middle, end] = self.stations_mm(place.edge);
-        if place.xi < 0.0 { middle + place.xi * (middle - start) } else { middle + place.xi * (end - middle) }
-    }
-
-    /// The place at `from_tip_mm` among the edges `among`; none beyond their ends.
-    pub fn place_from_tip(&self, among: Range<usize>, from_tip_mm: f64) -> Option<Place> {
-        let edges = &self.surface.edges[among.clone()];
-        let edge = among.start + edges.partition_point(|edge| self.from_tip_mm[edge.nodes()[1]] < from_tip_mm);
-        if edge == among.end {
-            return None;
-        }
-        let [start, middle, end] = self.stations_mm(edge);
-        let side = if from_tip_mm < middle { middle - start } else { end - middle };
-        let xi = (from_tip_mm - middle) / side;
-        (xi >= -1.0).then_some(Place { edge, xi })
-    }
-
-    /// Mean distance of neighbouring nodes of an edge, mm.
-    pub fn node_distance_mm(&self, edge: usize) -> f64 {
-        let [start, _, end] = self.stations_mm(edge);
-        (end - start) / (self.surface.edges[edge].nodes().len() - 1) as f64
-    }
-
-    /// Distance of an edge's first end, middle and last end from the tip end.
-    fn stations_mm(&self, edge: usize) -> [f64; 3] {
-        let nodes = self.surface.edges[edge].nodes();
-        let (start, end) = (self.from_tip_mm[nodes[0]], self.from_tip_mm[nodes[1]]);
-        [start, nodes.get(2).map_or(0.5 * (start + end), |&node| self.from_tip_mm[node]), end]
     }
 
     /// The edges that reach into the stretch from `from_mm` to `to_mm` from the tip end; at least one.

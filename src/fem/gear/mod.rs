@@ -2,10 +2,11 @@
 
 pub mod cycle;
 mod facing;
+pub mod flank_nodes;
 pub mod flank_surface;
 pub mod full;
+pub mod load_transfer;
 pub mod model;
-pub mod observed_flank;
 pub mod placement;
 pub mod position;
 pub mod prepared;

@@ -16,7 +16,6 @@ use sprs::CsMat;
 
 use super::facing::Facing;
 use super::flank_surface::FlankSurface;
-use super::observed_flank::{FlankPoints, ObservedFlank};
 use super::prepared::Prepared;
 use super::ring::{GearCompliance, ToothForce};
 use crate::fem::active_set::{ActiveSetError, Equilibrium, Log};
@@ -125,7 +124,7 @@ impl<'a> CondensedPair<'a> {
 
     fn solve_from(&self, mut prepared: Prepared, warm: &WarmStart) -> Result<PositionContact, ActiveSetError> {
         prepared.active = start(&prepared.facings, &self.flanks, warm);
-        let found = self.solve(&mut prepared, None)?;
+        let found = self.solve(&mut prepared, &mut |_, _| {})?;
         Ok(self.read(&prepared, found))
     }
 
@@ -136,19 +135,6 @@ impl<'a> CondensedPair<'a> {
             force.iter().any(|f| *f > 0.0).then(|| self.tooth_pair(facing, force).0)
         });
         loaded.collect()
-    }
-
-    /// Each tooth pair that may touch, by the base pitches it is ahead, and how the points of both flanks read its pressure, with
-    /// the position standing for `length_mm` of the path.
-    pub fn observed_pairs(
-        &self,
-        prepared: &Prepared,
-        length_mm: f64,
-        points: PerGear<FlankPoints<'_>>,
-    ) -> Vec<(i32, PerGear<ObservedFlank>)> {
-        let at = prepared.position_mm;
-        let observed = |facing| PerGear::from_fn(|gear| self.observed_flank(at, length_mm, facing, gear, points[gear]));
-        prepared.facings.iter().map(|facing| (facing.pair, observed(facing))).collect()
     }
 
     /// The figures of a solution.

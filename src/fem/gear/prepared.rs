@@ -48,9 +48,6 @@ pub struct Prepared {
     looks: usize,
 }
 
-/// Wear depth along the normal at the nodes of each gear's flank, mm.
-pub type NodalWear = PerGear<Vec<f64>>;
-
 impl<'a> CondensedPair<'a> {
     /// Prepares the contact at `position_mm` under `line_load_n_per_mm`.
     pub fn prepare(&self, position_mm: f64, line_load_n_per_mm: f64) -> Prepared {
@@ -91,14 +88,18 @@ impl<'a> CondensedPair<'a> {
         }
     }
 
-    /// Solves a prepared position on flanks that have lost `wear`; looks wider where contact comes close to the end of what is
-    /// looked at.
+    /// Solves a prepared position; looks wider where contact comes close to the end of what is looked at. `opening` adds to the gaps
+    /// of the unworn flanks what these are opened by: each time anew where the position looks wider, and so has other multipliers.
     ///
     /// # Errors
     /// See [`ActiveSetError`].
-    pub fn solve(&self, prepared: &mut Prepared, wear: Option<&NodalWear>) -> Result<Equilibrium, ActiveSetError> {
+    pub fn solve(
+        &self,
+        prepared: &mut Prepared,
+        opening: &mut dyn FnMut(&Prepared, &mut [f64]),
+    ) -> Result<Equilibrium, ActiveSetError> {
         for look in 1..=MOST_LOOKS {
-            prepared.open_gaps(&self.flanks, wear);
+            prepared.open_gaps(opening);
             let last = look == MOST_LOOKS;
             match prepared.condensed.solve_with(prepared.active.as_deref(), &mut prepared.factored) {
                 Ok(found) if last || !prepared.is_cramped(&found, &self.flanks) => {
@@ -183,21 +184,12 @@ impl Prepared {
         pressure_mpa.extend(force.iter().zip(weights).map(|(force, weight)| force / weight));
     }
 
-    /// The gaps of flanks that have lost `wear`.
-    fn open_gaps(&mut self, flanks: &PerGear<FlankSurface>, wear: Option<&NodalWear>) {
-        self.condensed.gap_mm.copy_from_slice(&self.unworn_gap_mm);
-        let Some(wear) = wear else { return };
-        for facing in &self.facings {
-            let gaps = &mut self.condensed.gap_mm[facing.first_row..facing.first_row + facing.coupling.len()];
-            for gear in Gear::BOTH {
-                let (normals, wear) = (&flanks[gear].surface.normals, &wear[gear]);
-                for (gap, row) in gaps.iter_mut().zip(facing.operator[gear].outer_iterator()) {
-                    for (column, b) in row.iter() {
-                        *gap -= b * normals[column / 2][column % 2] * wear[column / 2];
-                    }
-                }
-            }
-        }
+    /// The gaps of the unworn flanks with what `opening` adds.
+    fn open_gaps(&mut self, opening: &mut dyn FnMut(&Prepared, &mut [f64])) {
+        let mut gap_mm = std::mem::take(&mut self.condensed.gap_mm);
+        gap_mm.copy_from_slice(&self.unworn_gap_mm);
+        opening(self, &mut gap_mm);
+        self.condensed.gap_mm = gap_mm;
     }
 
     /// Whether contact failed for want of anything near enough to touch.

@@ -2,7 +2,6 @@
 
 use super::CalibrateError;
 use crate::calibration::wear_reference::{FLANK_POINTS, FlankWear, LOADS, POSITIONS, WearReference};
-use crate::contact::Flanks;
 use crate::fem::gear::position::CondensedPair;
 use crate::gear::{Gear, PerGear, flank::FlankGrid};
 use crate::wear::{self, WearModel, settings::WearSettings};
@@ -17,25 +16,26 @@ pub(super) fn references(
     stopped: &(dyn Fn() -> bool + Sync),
 ) -> Result<Vec<WearReference>, CalibrateError> {
     let pair = condensed.pair;
-    let grids = PerGear::from_fn(|gear| FlankGrid::new(pair, gear, FLANK_POINTS));
-    let unworn = PerGear::from_fn(|gear| vec![0.0; grids[gear].len()]);
-    let zeros = unworn.as_ref().map(Vec::as_slice);
     // Wear per coefficient: that of the coefficient 1.
     let law = wear::of(&WearSettings::archard(1.0));
     let one = |load: f64| {
         let load = load * line_load_n_per_mm;
-        let mut cycle =
-            CondensedCycle::new(condensed, Flanks { geometry: pair, grid: grids.as_ref() }, POSITIONS, load);
-        let mut depth = unworn.clone();
+        let mut cycle = CondensedCycle::new(condensed, POSITIONS, load);
+        let mut depth = cycle.nodes().map(|nodes| vec![0.0; nodes.len()]);
+        let unworn = depth.clone();
+        let zeros = unworn.as_ref().map(Vec::as_slice);
         let lost = LostMaterial { removed_mm: zeros, wear_mm: zeros };
         match cycle.evaluate(lost, &WearModel::cold(law.as_ref()), &mut depth, stopped) {
             Ok(_) => {}
             Err(EquilibriumError::Interrupted) => return Err(CalibrateError::Interrupted),
             Err(source) => return Err(CalibrateError::Cycle { line_load_n_per_mm: load, source }),
         }
-        let flanks = PerGear::from_fn(|gear: Gear| FlankWear {
-            radius_mm: grids[gear].coordinate_mm.iter().map(|&rho| pair.teeth[gear].involute.radius_mm(rho)).collect(),
-            depth_per_coefficient_n_per_mm: std::mem::take(&mut depth[gear]),
+        let flanks = PerGear::from_fn(|gear: Gear| {
+            let grid = FlankGrid::new(pair, gear, FLANK_POINTS);
+            let radius_mm: Vec<f64> =
+                grid.coordinate_mm.iter().map(|&rho| pair.teeth[gear].involute.radius_mm(rho)).collect();
+            let depth_per_coefficient_n_per_mm = cycle.at_radii(gear, &depth[gear], radius_mm.iter().copied());
+            FlankWear { radius_mm, depth_per_coefficient_n_per_mm }
         });
         Ok(WearReference { line_load_n_per_mm: load, flanks })
     };
