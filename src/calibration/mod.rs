@@ -27,7 +27,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use self::bodies::{NeighbourRow, ResolutionRow, RimRow, Setup};
+use self::bodies::{NeighbourRow, ResolutionRow, RimRow};
 use self::course::Course;
 use self::foundation_fit::FoundationFit;
 use self::identity::Identity;
@@ -35,14 +35,16 @@ use self::single_contact::SingleContact;
 use self::tooth_family::FamilyMember;
 use self::tooth_stiffness::{LoadedPair, PairDeflection};
 use self::wear_reference::WearReference;
-use crate::contact::{foundation::FoundationCurve, settings::MatchCriterion};
+use crate::contact::{foundation::FoundationCurve, settings::MatchCriterion, settings::Material};
 use crate::fem::active_set::ActiveSetError;
-use crate::fem::gear::model::ModelError;
-use crate::gear::Gear;
+use crate::fem::gear::{model::ModelError, position::CondensedPair};
+use crate::gear::{Gear, PerGear};
 use crate::stiffness::curve::PairCompliance;
 
 /// Positions of the stiffness curve.
 pub const STIFFNESS_POSITIONS: usize = 61;
+/// Positions of the curve that a run makes for itself: straight lines between them are off by 1e-4.
+const OWN_POSITIONS: usize = 31;
 
 /// Why there is no calibration.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -133,9 +135,12 @@ impl Calibration {
 ///
 /// # Errors
 /// [`CalibrationError`]
-pub fn pair_compliance(setup: &Setup<'_>) -> Result<PairCompliance, CalibrationError> {
-    let condensed = setup.condensed(&setup.meshed()?)?;
-    let loaded = LoadedPair::new(&condensed, &setup.material);
-    let deflection = loaded.along_the_path(STIFFNESS_POSITIONS, setup.line_load_n_per_mm)?;
-    Ok(tooth_stiffness::curve(setup.pair, &deflection))
+pub fn pair_compliance(
+    condensed: &CondensedPair<'_>,
+    material: &PerGear<Material>,
+    line_load_n_per_mm: f64,
+) -> Result<PairCompliance, CalibrationError> {
+    let loaded = LoadedPair::new(condensed, material);
+    let deflection = loaded.along_the_path(OWN_POSITIONS, line_load_n_per_mm)?;
+    Ok(tooth_stiffness::curve(condensed.pair, &deflection))
 }

@@ -1,6 +1,6 @@
 //! The main figures of a run, as a table for the terminal.
 
-use gearwear::simulation::record::{ErrorSummary, HelicalSummary, OverWidthSummary, Summary};
+use gearwear::simulation::record::{ErrorPerGear, ErrorSummary, HelicalSummary, OverWidthSummary, Summary, TotalError};
 
 /// The table.
 pub fn table(summary: &Summary) -> String {
@@ -28,6 +28,7 @@ pub fn table(summary: &Summary) -> String {
         text.push_str(&figures(name, values));
     }
     text.push_str(&over_the_width(summary.helical.as_ref()));
+    text.push_str(&verified(&summary.error.total));
     text.push_str(&estimated_errors(&summary.error));
     let hours = summary.hours.map_or_else(String::new, |hours| format!(" ({} h)", digits(hours)));
     text.push_str(&format!(
@@ -51,6 +52,25 @@ fn over_the_width(helical: Option<&HelicalSummary>) -> String {
         figures("variation of root wear, %", per_cent(|w| w.root_variation)),
         figures("variation of tip wear, %", per_cent(|w| w.tip_variation)),
         figures("variation of both together, %", per_cent(|w| w.root_tip_variation)),
+    ]
+    .concat()
+}
+
+/// How far the run is from finite elements, or why that is not known.
+fn verified(total: &TotalError) -> String {
+    let within = |error: Option<f64>| error.map_or_else(|| "–".to_owned(), |error| two_digits(100.0 * error));
+    let both = |errors: &ErrorPerGear| [within(errors.pinion), within(errors.wheel)];
+    let [pinion, wheel] = both(&total.peak_wear);
+    let [pinion_profile, wheel_profile] = both(&total.profile);
+    if total.peak_wear.pinion.or(total.peak_wear.wheel).is_none() {
+        return format!("\n  {}\n", total.how);
+    }
+    [
+        row("within, of finite elements", ["pinion", "wheel"]),
+        row("peak wear, %", [&pinion, &wheel]),
+        row("wear over the flank (rms), %", [&pinion_profile, &wheel_profile]),
+        format!("  {:38}{:>12}\n", "transmission error, peak to peak, %", within(total.transmission_error_peak_to_peak)),
+        format!("  {:38}{:>12}\n", "pressure between the tip edges, %", within(total.pressure_between_tips)),
     ]
     .concat()
 }

@@ -111,9 +111,17 @@ pub enum ActiveSetError {
     NotFinite,
 }
 
+/// What solutions with the same compliance and rigid motions share.
+#[derive(Debug, Clone)]
+pub struct Kept {
+    /// See [`Condensed::greatest_resistance`].
+    resistance: Vec<f64>,
+    factored: Option<FactoredSet>,
+}
+
 /// An active set and the Cholesky factor of its compliance.
 #[derive(Debug, Clone)]
-pub struct FactoredSet {
+struct FactoredSet {
     active: Vec<bool>,
     members: Vec<usize>,
     factor: Llt<f64>,
@@ -136,24 +144,24 @@ impl Condensed {
         self.solve_with(start, &mut None)
     }
 
-    /// As [`Self::solve`], with the factor of an earlier solution with the same compliance: where the active set is still the
-    /// same, nothing is factorised. The factor of this solution is left there.
+    /// As [`Self::solve`], with what an earlier solution with the same compliance and rigid motions has kept: where the active set is
+    /// still the same, nothing is factorised. What this solution has is left there.
     ///
     /// # Errors
     /// See [`ActiveSetError`].
     pub fn solve_with(
         &self,
         start: Option<&[bool]>,
-        factored: &mut Option<FactoredSet>,
+        kept: &mut Option<Kept>,
     ) -> Result<Equilibrium, ActiveSetError> {
         let n = self.gap_mm.len();
-        if !self.is_finite() {
+        if self.gap_mm.iter().chain(&self.rigid_load).any(|value| !value.is_finite()) {
             return Err(ActiveSetError::NotFinite);
         }
-        let resistance = self.greatest_resistance();
-        if let Some(amplitudes) = self.never_held(&resistance) {
-            return Err(ActiveSetError::Floating { amplitudes });
-        }
+        let Kept { resistance, factored } = match kept {
+            Some(kept) => kept,
+            None => kept.insert(self.checked()?),
+        };
         let mut active = match start {
             Some(start) if start.len() == n && start.contains(&true) => start.to_vec(),
             _ => self.first_touch()?,
@@ -161,7 +169,7 @@ impl Condensed {
         let mut log = Log::default();
         let (mut fewest, mut patience, mut one_by_one) = (usize::MAX, PATIENCE, false);
         for _ in 0..MOST_ITERATIONS {
-            let trial = self.trial(&active, &resistance, factored, &mut log)?;
+            let trial = self.trial(&active, resistance, factored, &mut log)?;
             let wrong = self.wrong(&trial, &active);
             log.steps.push((active.iter().filter(|a| **a).count(), wrong.len()));
             if wrong.is_empty() {
@@ -196,6 +204,18 @@ impl Condensed {
         Ok(Equilibrium { force: trial.force, gap_mm: trial.gap_mm, rigid: trial.rigid, active, log })
     }
 
+    /// What compliance and rigid motions alone say of every solution.
+    fn checked(&self) -> Result<Kept, ActiveSetError> {
+        if !self.is_finite() {
+            return Err(ActiveSetError::NotFinite);
+        }
+        let resistance = self.greatest_resistance();
+        match self.never_held(&resistance) {
+            Some(amplitudes) => Err(ActiveSetError::Floating { amplitudes }),
+            None => Ok(Kept { resistance, factored: None }),
+        }
+    }
+
     /// For each rigid motion Σ G_i²/C_ii over all multipliers: the resistance of independent springs, the measure of S.
     fn greatest_resistance(&self) -> Vec<f64> {
         let spring = |i: usize, a: usize| self.rigid[(i, a)].powi(2) / self.compliance[(i, i)];
@@ -219,9 +239,7 @@ impl Condensed {
 
     fn is_finite(&self) -> bool {
         let finite = |matrix: &Mat<f64>| (0..matrix.ncols()).all(|j| column(matrix, j).iter().all(|v| v.is_finite()));
-        finite(&self.compliance)
-            && finite(&self.rigid)
-            && self.gap_mm.iter().chain(&self.rigid_load).all(|value| value.is_finite())
+        finite(&self.compliance) && finite(&self.rigid)
     }
 
     /// The multipliers that touch first when the loads move the free bodies.

@@ -15,10 +15,11 @@ mod recording;
 mod slices;
 mod stability;
 mod temperature;
+mod verification;
 
 use std::time::Instant;
 
-use crate::calibration::{self, Calibration, CalibrationError};
+use crate::calibration::{self, CalibrationError};
 use crate::contact::{
     ContactSurface,
     foundation::{Bed, matched_mpa_per_mm},
@@ -32,6 +33,7 @@ use crate::fem::elastic::Elastic;
 use crate::fem::gear::model::ModelError;
 use crate::fem::gear::position::CondensedPair;
 use crate::gear::{GearPair, PairError, PerGear};
+use crate::mesh::settings::BodySettings;
 use crate::plan::{Plan, StageKind};
 use crate::reference::flattening::Flattening;
 use crate::scene::{Resolved, Scene};
@@ -47,6 +49,7 @@ use crate::wear::{self, FlankWear, WearModel, settings::WearSettings};
 use crate::working_cycle::sliced_teeth::SlicedTeeth;
 use inputs::Inputs;
 use recording::Found;
+use verification::Verified;
 
 /// Told of progress; says whether to go on.
 pub trait Observer: Progress {
@@ -127,16 +130,14 @@ impl Stages<'_> {
 /// What a run is made of, beyond the scene's own data. Where loads of phases differ, figures of one load are of the first phase.
 struct Model<'a> {
     scene: &'a Scene,
+    /// The model of the teeth's stiffness that is used.
+    stiffness: StiffnessSettings,
     pair: &'a GearPair,
     phases: Vec<RunPhase<'a>>,
     /// The slices over the face width; none where all sections are alike.
     sliced: Option<&'a SlicedTeeth>,
     /// Springs of the teeth; none with finite elements.
     teeth: Option<&'a TeethSpring<'a>>,
-    /// The curve that they are made from, of the models that have one.
-    stiffness_curve: Option<&'a PairCompliance>,
-    /// The calibration that the scene names.
-    calibration: Option<&'a Calibration>,
     /// Hertz at the pitch point.
     at_pitch: Flattening,
     /// K/H under the load of each phase, of the surfaces that have one.
@@ -252,13 +253,14 @@ fn carry_out<R>(
             cases.push(load_case(scene, &pair, inputs, &at_pitch, line_load(phase), &mut stages)?);
         }
     }
-    let computed = match plan.has(StageKind::FiniteElementCalibration) && inputs.calibration.is_none() {
-        true => Some(stages.run(StageKind::FiniteElementCalibration, || {
-            calibration::pair_compliance(&calibrate::setup(scene, &pair))
-        })?),
+    // One model of finite elements serves the stiffness of the teeth and the verification.
+    let elements = match plan.has(StageKind::FiniteElementModel) && scene.contact.surface != SurfaceKind::Fem {
+        true => Some(stages.run(StageKind::FiniteElementModel, || verification::elements(scene, &pair, line_load))),
         false => None,
     };
-    let curve = match (scene.stiffness, &inputs.calibration) {
+    let (stiffness, computed, stiffness_warning) =
+        own_stiffness(scene, plan, inputs, elements.as_ref(), &calibrate::setup(scene, &pair), &mut stages)?;
+    let curve = match (stiffness, &inputs.calibration) {
         (StiffnessSettings::Fem, Some(calibration)) => Some(&calibration.pair_compliance),
         (StiffnessSettings::Fem, None) => computed.as_ref(),
         _ => inputs.stiffness_curve.as_ref(),
@@ -267,7 +269,7 @@ fn carry_out<R>(
     let mut springs = || {
         teeth.extend(cases.iter().map(|case| {
             let (surface, load) = (case.surface.as_deref()?, case.line_load_n_per_mm);
-            Some(TeethSpring::new(scene.stiffness, curve, &pair, &scene.material, surface, load))
+            Some(TeethSpring::new(stiffness, curve, &pair, &scene.material, surface, load))
         }));
     };
     if plan.has(StageKind::ToothStiffness) {
@@ -322,12 +324,11 @@ fn carry_out<R>(
         .collect();
     let model = Model {
         scene,
+        stiffness,
         pair: &pair,
         phases,
         sliced: sliced.as_ref(),
         teeth: teeth[0].as_ref(),
-        stiffness_curve: curve,
-        calibration: inputs.calibration.as_ref(),
         at_pitch,
         foundations_mpa_per_mm,
     };
@@ -342,18 +343,60 @@ fn carry_out<R>(
         true => stages.run(StageKind::ContactTemperature, || temperature::observe(&model, &outcome)),
         false => None,
     };
-    let found = Found { outcome: &outcome, heat: heat.as_ref() };
-    let error = if plan.has(StageKind::ErrorEstimates) && outcome.stop == StopReason::Completed {
+    let found = Found { outcome: &outcome, heat: heat.as_ref(), verified: None };
+    let mut error = if plan.has(StageKind::ErrorEstimates) && outcome.stop == StopReason::Completed {
         let estimate = || error_estimates::estimate(&model, &outcome, judged.step_over_safe, observer);
         stages.run(StageKind::ErrorEstimates, estimate)
     } else {
         ErrorSummary::not_estimated(not_estimated_because(&outcome))
     };
 
+    let verified = match (outcome.stop, plan.left_out_because(StageKind::Verification)) {
+        (StopReason::Completed, None) => {
+            stages.run(StageKind::Verification, || verification::verify(&model, &outcome, elements, observer))
+        }
+        (StopReason::Completed, Some(reason)) if !scene.verify => Verified::warned(reason),
+        (StopReason::Completed, Some(reason)) => Verified::none(reason),
+        _ => Verified::none(not_estimated_because(&outcome)),
+    };
+    verified.tell(&mut error);
+
+    let found = Found { verified: Some(&verified), ..found };
     let mut summary = recording::summary(resolved, plan, &model, found, error, judged)?;
+    summary.warnings.extend(stiffness_warning);
     summary.stages = stages.times;
     let record = keep(&model, found, summary);
     Ok(Done { record, failure: outcome.failure.map(RunError::from) })
+}
+
+/// The stiffness model of a run, and the curve that it makes for itself on `elements`. Where these cannot be had and the scene does not
+/// ask for them by name, it is Weber and Banaschek's, with a warning.
+fn own_stiffness(
+    scene: &Scene,
+    plan: &Plan,
+    inputs: &Inputs,
+    elements: Option<&Result<CondensedPair<'_>, ModelError>>,
+    setup: &calibration::bodies::Setup<'_>,
+    stages: &mut Stages<'_>,
+) -> Result<(StiffnessSettings, Option<PairCompliance>, Option<String>), RunError> {
+    let Some(elements) = elements.filter(|_| plan.has(StageKind::FiniteElementCalibration) && inputs.calibration.is_none())
+    else {
+        return Ok((scene.stiffness, None, None));
+    };
+    let curve = stages.run(StageKind::FiniteElementCalibration, || match elements {
+        Ok(elements) => calibration::pair_compliance(elements, &setup.material, setup.line_load_n_per_mm),
+        Err(error) => Err(CalibrationError::Model(error.clone())),
+    });
+    match curve {
+        Ok(curve) => Ok((scene.stiffness, Some(curve), None)),
+        Err(error) if scene.stiffness_by_default => {
+            let warning = format!(
+                "stiffness.model: Weber and Banaschek's, as finite elements, the default, cannot be had for this pair: {error}"
+            );
+            Ok((StiffnessSettings::WeberBanaschek, None, Some(warning)))
+        }
+        Err(error) => Err(error.into()),
+    }
 }
 
 fn not_estimated_because(outcome: &Outcome) -> &'static str {
@@ -396,7 +439,8 @@ fn load_case<'a>(
     let foundation_mpa_per_mm = springs_at_pitch.map(|springs| springs.mpa_per_mm(line_load_n_per_mm));
     let finite_elements = match scene.contact.surface {
         SurfaceKind::Fem => Some(stages.run(StageKind::FiniteElementModel, || {
-            CondensedPair::build(pair, &elastic(&scene.material), line_load_n_per_mm, &scene.fem)
+            let bodies = BodySettings { elements_per_half_width: scene.wear_elements_per_half_width, ..scene.fem };
+            CondensedPair::build(pair, &elastic(&scene.material), line_load_n_per_mm, &bodies)
         })?),
         _ => None,
     };

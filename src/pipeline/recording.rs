@@ -1,7 +1,7 @@
 //! From what a run found, in the program's units, to the record, in those of the output files.
 
 use super::temperature::{self, ObservedHeat};
-use super::{Model, RunError, drawing, error_estimates, phases, slices, stability::Judged};
+use super::{Model, RunError, drawing, error_estimates, phases, slices, stability::Judged, verification::Verified};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::plan::Plan;
 use crate::scene::Resolved;
@@ -25,6 +25,7 @@ const SMALL_WEAR_MODULES: f64 = 0.05;
 pub(super) struct Found<'a> {
     pub outcome: &'a Outcome,
     pub heat: Option<&'a ObservedHeat>,
+    pub verified: Option<&'a Verified>,
 }
 
 /// The record of a run.
@@ -33,7 +34,7 @@ pub(super) fn record(resolved: &Resolved, model: &Model<'_>, found: Found<'_>, s
     RunRecord {
         summary,
         scene_toml: resolved.to_toml(),
-        flanks: PerGear::from_fn(|gear| flank(model, outcome, gear)),
+        flanks: PerGear::from_fn(|gear| flank(model, found, gear)),
         history: outcome.snapshots.iter().map(|snapshot| history_row(model, outcome, snapshot)).collect(),
         mesh_cycle: mesh_cycle(model, found),
         slices: slices::record(model, outcome),
@@ -59,6 +60,7 @@ pub(super) fn summary(
     warnings.extend(deep_wear_warning(pair, outcome));
     warnings.extend(slices::warning(outcome));
     warnings.extend(error_estimates::warnings(&error));
+    warnings.extend(found.verified.and_then(|verified| verified.warning.clone()));
     let reached = outcome.worn.revolutions;
     Ok(Summary {
         title: scene.title.clone(),
@@ -154,7 +156,7 @@ fn stiffness(model: &Model<'_>) -> Result<Option<StiffnessSummary>, RunError> {
     let Some(teeth) = model.teeth else { return Ok(None) };
     let at = model.pair.path.pitch_point_mm;
     Ok(Some(StiffnessSummary {
-        model: model.scene.stiffness.name().to_owned(),
+        model: model.stiffness.name().to_owned(),
         reference_line_load_N_per_mm: teeth.reference_line_load_n_per_mm,
         pair_at_pitch_N_per_mm_um: teeth.pair_n_per_mm2(at)? / UM_PER_MM,
         teeth_at_pitch_N_per_mm_um: teeth.n_per_mm2(at)? / UM_PER_MM,
@@ -191,7 +193,7 @@ fn wear(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> WearSummary {
     }
 }
 
-fn flank(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> FlankRecord {
+fn flank(model: &Model<'_>, Found { outcome, verified, .. }: Found<'_>, gear: Gear) -> FlankRecord {
     let pair = model.pair;
     let involute = pair.teeth[gear].involute;
     let um = |values: &[f64]| values.iter().map(|value| value * UM_PER_MM).collect::<Vec<_>>();
@@ -203,6 +205,7 @@ fn flank(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> FlankRecord {
         removed_um: um(&outcome.modification_mm[gear]),
         sliding_mm_per_mesh: outcome.new.cycle.sliding_mm[gear].clone(),
         wear_um: um(&outcome.worn.wear_mm[gear]),
+        verified_wear_um: verified.and_then(|verified| verified.wear_mm.as_ref()).map(|wear_mm| um(&wear_mm[gear])),
         pressure_new_MPa: outcome.new.cycle.pressure_mpa[gear].clone(),
         pressure_worn_MPa: outcome.worn.cycle.pressure_mpa[gear].clone(),
         snapshot_wear_um: outcome.snapshots.iter().map(|snapshot| um(&snapshot.wear_mm[gear])).collect(),
@@ -232,7 +235,7 @@ fn history_row(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> His
     }
 }
 
-fn mesh_cycle(model: &Model<'_>, Found { outcome, heat }: Found<'_>) -> Vec<MeshCycleRow> {
+fn mesh_cycle(model: &Model<'_>, Found { outcome, heat, .. }: Found<'_>) -> Vec<MeshCycleRow> {
     let positions = outcome.new.cycle.positions.iter().zip(&outcome.worn.cycle.positions);
     let rise = |k: usize, method: TemperatureMethod| heat.map(|heat| heat.new.positions[k].rise_k[method.index()]);
     let peclet = |k: usize, gear: Gear| heat.map(|heat| heat.new.positions[k].peclet[gear]);

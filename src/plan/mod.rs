@@ -20,10 +20,10 @@ const PHASES_LISTED: usize = 8;
 pub enum StageKind {
     /// Everything that follows from the data of the pair.
     Geometry,
-    /// K/H and tooth stiffness from finite elements.
-    FiniteElementCalibration,
     /// Both gears meshed, and condensed onto their flanks.
     FiniteElementModel,
+    /// K/H and tooth stiffness from finite elements.
+    FiniteElementCalibration,
     /// K/H from Hertz.
     ContactMatch,
     /// The stiffness of the teeth along the path of contact.
@@ -36,18 +36,20 @@ pub enum StageKind {
     Simulation,
     /// Temperatures of the contact, new and worn.
     ContactTemperature,
-    /// Coarser companion runs, and short ones on a truer surface.
+    /// Coarser companion runs.
     ErrorEstimates,
+    /// The same life on finite elements.
+    Verification,
     /// The output folder.
     Report,
 }
 
 impl StageKind {
     /// All stages, in the order of the work.
-    pub const ALL: [StageKind; 11] = [
+    pub const ALL: [StageKind; 12] = [
         StageKind::Geometry,
-        StageKind::FiniteElementCalibration,
         StageKind::FiniteElementModel,
+        StageKind::FiniteElementCalibration,
         StageKind::ContactMatch,
         StageKind::ToothStiffness,
         StageKind::HelicalSlices,
@@ -55,6 +57,7 @@ impl StageKind {
         StageKind::Simulation,
         StageKind::ContactTemperature,
         StageKind::ErrorEstimates,
+        StageKind::Verification,
         StageKind::Report,
     ];
 
@@ -71,6 +74,7 @@ impl StageKind {
             StageKind::ContactTemperature => "contact-temperature",
             StageKind::Simulation => "simulation",
             StageKind::ErrorEstimates => "error-estimates",
+            StageKind::Verification => "verification",
             StageKind::Report => "report",
         }
     }
@@ -114,6 +118,11 @@ impl Plan {
         Self { stages, left_out }
     }
 
+    /// Why it does not have this stage; `None` where it has.
+    pub fn left_out_because(&self, kind: StageKind) -> Option<&str> {
+        self.left_out.iter().find(|stage| stage.kind == kind).map(|stage| stage.reason.as_str())
+    }
+
     /// Whether the plan has this stage.
     pub fn has(&self, kind: StageKind) -> bool {
         self.stages.iter().any(|stage| stage.kind == kind)
@@ -133,10 +142,10 @@ fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
         StageKind::ContactTemperature => contact_temperature(scene),
         StageKind::Simulation => Ok(simulation(scene)),
         StageKind::ErrorEstimates if scene.numerics.error_estimate => {
-            Ok("numerics.error_estimate: coarser companion runs, and short ones on a truer surface; at most half of the run's work"
-                .to_owned())
+            Ok("numerics.error_estimate: coarser companion runs; at most half of the run's work".to_owned())
         }
         StageKind::ErrorEstimates => Err("numerics.error_estimate is false".to_owned()),
+        StageKind::Verification => verification(scene),
         StageKind::Report => Ok("the output folder: data, summary, page".to_owned()),
     }
 }
@@ -154,11 +163,32 @@ fn calibration(scene: &Scene) -> Result<String, String> {
     }
 }
 
-fn finite_element_model(scene: &Scene) -> Result<String, String> {
-    match scene.contact.surface {
-        SurfaceKind::Fem => Ok("the surface fem: both gears meshed, and condensed onto their flanks".to_owned()),
-        surface => Err(format!("the surface {} has none; [fem] is not used by it", surface.name())),
+/// Finite elements vouch for the answer, where they can.
+fn verification(scene: &Scene) -> Result<String, String> {
+    if !scene.verify {
+        return Err("numerics.verify is false: nothing vouches for the answer".to_owned());
     }
+    if scene.slices.is_some() {
+        return Err("plane finite elements vouch for nothing over the face width".to_owned());
+    }
+    Ok(match scene.contact.surface {
+        SurfaceKind::Fem => "numerics.verify: the same life on another mesh of finite elements".to_owned(),
+        _ => "numerics.verify: the same life on finite elements, which gives error.total".to_owned(),
+    })
+}
+
+fn finite_element_model(scene: &Scene) -> Result<String, String> {
+    let (stiffness, verified) = (calibration(scene).is_ok(), verification(scene).is_ok());
+    let of = match (scene.contact.surface, stiffness, verified) {
+        (SurfaceKind::Fem, ..) => "the surface fem",
+        (_, true, true) => "the stiffness of the teeth and the verification",
+        (_, true, false) => "the stiffness of the teeth",
+        (_, false, true) => "the verification",
+        (surface, false, false) => {
+            return Err(format!("the surface {} has none, and nothing else asks for it", surface.name()));
+        }
+    };
+    Ok(format!("{of}: both gears meshed, and condensed onto their flanks"))
 }
 
 fn contact_temperature(scene: &Scene) -> Result<String, String> {

@@ -66,6 +66,14 @@ impl Draft {
         set(&mut self.table, key, value);
     }
 
+    /// Gives the key at the path `key` this value, if the file does not.
+    pub fn set_unless_given(&mut self, key: &str, value: impl Into<Value>) {
+        let given = key.split('.').try_fold(&Value::Table(self.table.clone()), |value, part| value.get(part)).is_some();
+        if !given {
+            self.set(key, value);
+        }
+    }
+
     /// Takes the key at the path `key` away, if it is there.
     pub fn remove(&mut self, key: &str) {
         let mut parts = key.split('.').rev();

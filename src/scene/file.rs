@@ -35,7 +35,7 @@ pub struct SceneFile {
     /// How the flanks touch. Default: Winkler, matched on half-width.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactFile>,
-    /// How far the teeth bend. Default: Weber and Banaschek.
+    /// How far the teeth bend. Default: by finite elements; with slices, Weber and Banaschek.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<StiffnessFile>,
     /// The finite-element bodies, read only where finite elements are used. Default: whole rings.
@@ -329,7 +329,7 @@ pub struct ContactFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub calibration: Option<String>,
     /// Whether a tip edge is followed into contact before A and after E; read by winkler and half-space, always so with
-    /// fem. Default: true where a calibration is given, false otherwise.
+    /// fem. Default true; false is the thesis's model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tip_contact: Option<bool>,
 }
@@ -338,7 +338,8 @@ pub struct ContactFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessFile {
-    /// Model of the stiffness of a tooth pair. Default: weber-banaschek; fem where a calibration is given. Not read with
+    /// Model of the stiffness of a tooth pair. Default: fem, from the run's own finite elements or the calibration that is given (where
+    /// they cannot be had, weber-banaschek with a warning); with slices and no calibration weber-banaschek. Not read with
     /// contact.surface = "fem".
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<StiffnessModel>,
@@ -392,7 +393,8 @@ pub struct FemFile {
     /// Radii in mm at which the bodies are held or turned rigidly, rim or bore.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clamp_radius_mm: Option<ClampRadiusFile>,
-    /// Elements in the half-width of contact under the whole load, 2 to 60: the resolution. Default 10.
+    /// Elements in the half-width of contact under the whole load, 2 to 60: the resolution. Default 10, and 3 in a wear run, whose wear
+    /// they resolve as well.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 2, max = 60))]
     pub elements_per_half_width: Option<f64>,
@@ -451,7 +453,11 @@ pub struct NumericsFile {
     /// Whether the summary estimates the errors of the answer, which costs extra runs. Default true.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_estimate: Option<bool>,
-    /// Length of a wear step, or "adaptive". Default: 1/150 of the duration.
+    /// Whether the run is checked by the same life on finite elements, which gives error.total of the summary. Default true.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub verify: Option<bool>,
+    /// Length of a wear step, or "adaptive". Default: "adaptive" on the surface fem and where wear may turn severe, otherwise 1/150 of the
+    /// duration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<StepFile>,
     /// Error of the wear depth allowed in µm, > 0, at least 0.0001; read with step = "adaptive". Default 0.05.

@@ -47,10 +47,14 @@ pub struct Scene {
     pub calibration_file: Option<String>,
     /// Tooth stiffness.
     pub stiffness: StiffnessSettings,
+    /// Whether the scene leaves the model of the stiffness open.
+    pub stiffness_by_default: bool,
     /// Data file of the stiffness, as named by the scene.
     pub stiffness_curve_file: Option<String>,
     /// Bodies of finite elements, where any are used.
     pub fem: BodySettings,
+    /// Elements in the half-width of contact of a wear run on them.
+    pub wear_elements_per_half_width: f64,
     /// Slices over the face width; none where all sections are alike.
     pub slices: Option<SliceSettings>,
     /// Contact temperatures; none where nothing asks for them.
@@ -59,6 +63,8 @@ pub struct Scene {
     pub wear: WearSettings,
     /// Resolution.
     pub numerics: Numerics,
+    /// Whether the run is checked by finite elements.
+    pub verify: bool,
 }
 
 impl Scene {

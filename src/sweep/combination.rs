@@ -51,6 +51,7 @@ impl Sweep {
         draft.remove("operation.snapshots_h");
         draft.remove("operation.snapshots_revolutions");
         draft.set("numerics.error_estimate", error_estimate);
+        draft.set_unless_given("numerics.verify", false);
         Ok(Self { identity, draft, pair: resolved.scene.pair.clone(), inputs })
     }
 

@@ -140,6 +140,8 @@ fn scene(run: &RunSpec, member: &Member, folder: &Path, calibrated: bool) -> Res
     if calibrated {
         draft.set("contact.calibration", "calibration.json");
     }
+    // A case holds a run against a reference of its own; one that is about verification asks for it.
+    draft.set_unless_given("numerics.verify", false);
     draft.resolve().map_err(refused)
 }
 

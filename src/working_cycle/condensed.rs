@@ -35,9 +35,9 @@ use crate::wear::{
 };
 
 /// Distance of positions over that of those which divide A–E evenly, away from the tip edges.
-const APART: f64 = 2.0;
+const APART: f64 = 4.0;
 /// The same where a tip edge touches.
-const APART_AT_TIP_EDGES: f64 = 0.5;
+const APART_AT_TIP_EDGES: f64 = 1.0;
 /// How far the path is looked at beyond A and E, over how far unworn tip edges reach their mates under the approach at the pitch point.
 const AMPLE_APPROACH: f64 = 1.3;
 /// How far within A–E a contact still feels the tip edge, in Hertz half-widths at the pitch point.

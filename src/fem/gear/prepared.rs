@@ -16,7 +16,7 @@ use super::facing::{Facing, Window};
 use super::flank_surface::FlankSurface;
 use super::position::CondensedPair;
 use super::ring::Between;
-use crate::fem::active_set::{ActiveSetError, Condensed, Equilibrium, FactoredSet};
+use crate::fem::active_set::{ActiveSetError, Condensed, Equilibrium, Kept};
 use crate::gear::{Gear, PerGear};
 
 /// Distance between the flanks within which they may come to touch, in units of line load over E*: an approach is some
@@ -43,7 +43,7 @@ pub struct Prepared {
     unworn_gap_mm: Vec<f64>,
     /// Where the next solution starts.
     pub(super) active: Option<Vec<bool>>,
-    factored: Option<FactoredSet>,
+    kept: Option<Kept>,
     /// How often it had to be looked wider.
     looks: usize,
 }
@@ -83,7 +83,7 @@ impl<'a> CondensedPair<'a> {
             facings,
             condensed,
             active: None,
-            factored: None,
+            kept: None,
             looks: 1,
         }
     }
@@ -101,7 +101,7 @@ impl<'a> CondensedPair<'a> {
         for look in 1..=MOST_LOOKS {
             prepared.open_gaps(opening);
             let last = look == MOST_LOOKS;
-            match prepared.condensed.solve_with(prepared.active.as_deref(), &mut prepared.factored) {
+            match prepared.condensed.solve_with(prepared.active.as_deref(), &mut prepared.kept) {
                 Ok(found) if last || !prepared.is_cramped(&found, &self.flanks) => {
                     prepared.active = Some(found.active.clone());
                     return Ok(found);
@@ -121,7 +121,7 @@ impl<'a> CondensedPair<'a> {
             let Window { beside, line_load_n_per_mm, .. } = prepared.window;
             *prepared = self.look(prepared.position_mm, self.first_window(beside, line_load_n_per_mm));
         } else {
-            (prepared.active, prepared.factored) = (None, None);
+            (prepared.active, prepared.kept) = (None, None);
         }
     }
 
@@ -175,13 +175,6 @@ impl Prepared {
     /// Number of tooth pairs that may touch.
     pub fn tooth_pairs(&self) -> usize {
         self.facings.len()
-    }
-
-    /// Pressure at each multiplier's node under their forces, MPa.
-    pub fn nodal_pressure_mpa(&self, force: &[f64], pressure_mpa: &mut Vec<f64>) {
-        pressure_mpa.clear();
-        let weights = self.facings.iter().flat_map(|facing| &facing.coupling.weight_mm);
-        pressure_mpa.extend(force.iter().zip(weights).map(|(force, weight)| force / weight));
     }
 
     /// The gaps of the unworn flanks with what `opening` adds.

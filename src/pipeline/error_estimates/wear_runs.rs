@@ -14,45 +14,27 @@
 //! The greatest depth lies on a curve that coarse points cut now here, now there. So that an estimate does not vanish where one
 //! difference happens to change its sign, it is the larger of the pinion's and the wheel's.
 //!
-//! On finite elements short waves of wear bound Euler's steps, and a companion on the same mesh M with four times the step
-//! may swing. Most companions are therefore on a mesh with elements twice as long, on which an equilibrium takes about half
-//! the time and steps may be twice as long; that mesh also tells the error of the size of the elements, which is what the
-//! contact surface has of it:
-//!
-//! ```text
-//! wear step        |h(M/2, N/4, S/2) − h(M/2, N/4, S/4)| / 2 / h
-//! discretisation   |h(M/2, N, S/4) − h(M/2, N/2, S/4)| / (2² − 1) / h
-//! surface model    |h(M, N/4, S/2) − h(M/2, N/4, S/2)| / (2² − 1) / h
-//! ```
-//!
 //! Adaptive steps estimate their own error: what they have accumulated where the wear is greatest. They need no companion for it,
-//! and as their companions may have the same steps, fewer points tell the discretisation by themselves, a quarter of them on the line of
-//! action, and on finite elements a half and a quarter on the coarse mesh,
+//! and as their companions may have the same steps, a quarter of the points and positions tells the discretisation by itself,
 //!
 //! ```text
-//! discretisation   |h(N) − h(N/4)| / (4ᵖ − 1) / h         on finite elements   |h(M/2, N/2) − h(M/2, N/4)| / (4² − 2²) / h
+//! discretisation   |h(N) − h(N/4)| / (4ᵖ − 1) / h
 //! ```
 //!
-//! with the same tolerance, on finite elements with four times it. Where wear is severe there is no such estimate: with fewer
+//! with the same tolerance. On finite elements, whose nodes wear, only the positions are fewer; what their size makes is in the
+//! verification on another mesh. Where wear is severe there is no such estimate: with fewer
 //! positions the switch is coarser, and adaptive steps take several times the work.
 //!
 //! Source: L. F. Richardson (1911); P. J. Roache, *Verification and Validation in Computational Science* (1998).
 
-use super::{Coarse, Companion, Estimate, LEAST_POINTS, peak_wear_of_both_mm, severe_switch};
+use super::{Companion, Estimate, LEAST_POINTS, peak_wear_of_both_mm, severe_switch};
 use crate::contact::settings::SurfaceKind;
-use crate::fem::gear::position::CondensedPair;
 use crate::gear::{Gear, PerGear};
 use crate::pipeline::Model;
 use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::settings::Numerics;
 use crate::simulation::wear_run::{Outcome, Progress, RunPhase, SimulationError, WearRun};
-
-/// Cost of an equilibrium on finite elements twice as long.
-const COST_ON_COARSE_MESH: f64 = 0.5;
-
-/// Longest safe step on finite elements twice as long over that on those of the run: waves between nodes are twice as long, and half
-/// as stiff.
-const SAFE_ON_COARSE_MESH: f64 = 2.0;
+use crate::working_cycle::sliced_teeth::SlicedTeeth;
 
 /// Least ratio of two wear steps of which anything is learned.
 const LEAST_STEP_RATIO: f64 = 1.5;
@@ -61,8 +43,6 @@ const LEAST_STEP_RATIO: f64 = 1.5;
 pub(super) struct FromRuns {
     pub discretisation: Estimate,
     pub wear_step: Estimate,
-    /// On finite elements alone.
-    pub surface_model: Option<Estimate>,
     pub cost: f64,
 }
 
@@ -75,20 +55,12 @@ struct Coarser {
     step: f64,
 }
 
-/// On which model of the contact a companion runs.
-#[derive(Clone, Copy)]
-enum Elements<'a> {
-    /// That of the run itself.
-    Own,
-    /// Finite elements twice as long.
-    Coarse(&'a CondensedPair<'a>),
-}
-
 /// Runs companions of one run.
 struct Companions<'a> {
     model: &'a Model<'a>,
     observer: &'a dyn Progress,
-    coarse: Coarse<'a>,
+    /// Half of the slices, of a run that has some.
+    coarse_slices: Option<&'a SlicedTeeth>,
     /// The run's step over the longest safe one.
     step_over_safe: f64,
     /// Of the run itself.
@@ -121,10 +93,10 @@ impl<'a> Companions<'a> {
     fn with_spacing(&self, contact: MeshContact<'a>, spacing: usize) -> MeshContact<'a> {
         match contact {
             MeshContact::LineOfAction { surface, teeth, tip_contact, .. } if spacing > 1 => {
-                MeshContact::LineOfAction { surface, teeth, tip_contact, sliced: self.coarse.slices }
+                MeshContact::LineOfAction { surface, teeth, tip_contact, sliced: self.coarse_slices }
             }
             MeshContact::Simplified { material, teeth, sliced } if spacing > 1 => {
-                MeshContact::Simplified { material, teeth, sliced: self.coarse.slices.unwrap_or(sliced) }
+                MeshContact::Simplified { material, teeth, sliced: self.coarse_slices.unwrap_or(sliced) }
             }
             other => other,
         }
@@ -138,7 +110,7 @@ impl<'a> Companions<'a> {
     /// "750 and 375 flank points, 400 and 200 positions, 20 and 10 slices".
     fn spacings(&self) -> String {
         let (fine, half) = (self.model.scene.numerics, self.numerics(Coarser { spacing: 2, step: 1.0 }));
-        let slices = self.model.sliced.zip(self.coarse.slices).map_or_else(String::new, |(fine, half)| {
+        let slices = self.model.sliced.zip(self.coarse_slices).map_or_else(String::new, |(fine, half)| {
             format!(", {} and {} slices", fine.settings.count, half.settings.count)
         });
         format!(
@@ -161,40 +133,28 @@ impl<'a> Companions<'a> {
     fn peaks_mm(
         &mut self,
         coarser: Coarser,
-        elements: Elements<'a>,
         (begin, end): (f64, f64),
     ) -> Result<PerGear<f64>, String> {
         if !self.allow(coarser.spacing) {
             return Err("too few flank points or positions to leave some out".to_owned());
         }
-        let safe = match elements {
-            Elements::Own => 1.0,
-            Elements::Coarse(_) => SAFE_ON_COARSE_MESH,
-        };
-        if coarser.step * self.step_over_safe > safe {
+        if coarser.step * self.step_over_safe > 1.0 {
             return Err(format!(
                 "a companion run with wear steps {} times as long would swing, as they would be longer than the longest safe step",
                 coarser.step
             ));
         }
         let numerics = self.numerics(coarser);
-        let of_phase = |phase: &RunPhase<'a>| {
-            let contact = match elements {
-                Elements::Own => phase.contact,
-                Elements::Coarse(model) => MeshContact::FiniteElements(model),
-            };
-            RunPhase { contact: self.with_spacing(contact, coarser.spacing), ..*phase }
+        let of_phase = |phase: &RunPhase<'a>| RunPhase {
+            contact: self.with_spacing(phase.contact, coarser.spacing),
+            ..*phase
         };
         let phases: Vec<RunPhase<'_>> = self.model.phases.iter().map(of_phase).collect();
         let run = WearRun { phases: &phases, numerics, snapshots_revolutions: &[], ..self.model.wear_run() };
         let failed = |error: SimulationError| format!("a companion run failed: {error}");
         let share = (begin, end - begin);
         let outcome = run.run(&Companion { observer: self.observer, share }).map_err(failed)?;
-        let weight = match elements {
-            Elements::Own => 1.0,
-            Elements::Coarse(_) => COST_ON_COARSE_MESH,
-        };
-        self.cost += weight * outcome.work.equilibria as f64;
+        self.cost += outcome.work.equilibria as f64;
         match outcome.failure.clone() {
             Some(error) => Err(failed(error)),
             None => Ok(peak_wear_of_both_mm(self.model, &outcome)),
@@ -206,23 +166,23 @@ impl<'a> Companions<'a> {
 pub(super) fn estimate<'a>(
     model: &'a Model<'a>,
     outcome: &Outcome,
-    coarse: Coarse<'a>,
+    coarse_slices: Option<&'a SlicedTeeth>,
     step_over_safe: f64,
     observer: &'a dyn Progress,
 ) -> FromRuns {
     let peaks_mm = peak_wear_of_both_mm(model, outcome);
-    let mut companions = Companions { model, observer, coarse, step_over_safe, peaks_mm, cost: 0.0 };
+    let mut companions = Companions { model, observer, coarse_slices, step_over_safe, peaks_mm, cost: 0.0 };
     let estimate = |difference: Difference| match difference {
         Ok((relative, how)) => Estimate { relative: Some(relative), how },
         Err(reason) => Estimate::none(&reason),
     };
     let embedded = outcome.step_error_mm.map(|error_mm| of_the_steps(&companions, error_mm));
-    let ([discretisation, wear_step], surface_model) = match (model.first().contact, coarse.elements) {
-        (MeshContact::LineOfAction { .. } | MeshContact::Simplified { .. }, _) if embedded.is_some() => {
+    let [discretisation, wear_step] = match embedded {
+        Some(embedded) => {
             let first_order = companions.first_order();
             let few = match severe_switch::felt(model, outcome) {
                 true => Err("where wear is severe, fewer points take adaptive steps more work and not less".to_owned()),
-                false => companions.peaks_mm(Coarser { spacing: 4, step: 1.0 }, Elements::Own, (0.0, 0.8)),
+                false => companions.peaks_mm(Coarser { spacing: 4, step: 1.0 }, (0.0, 0.8)),
             };
             let discretisation = few.map(|few| {
                 let (order, divisor) = if first_order { ("first", 3.0) } else { ("second", 15.0) };
@@ -231,28 +191,13 @@ pub(super) fn estimate<'a>(
                 );
                 (companions.relative(peaks_mm, few) / divisor, how)
             });
-            ([discretisation, Err(String::new())], None)
+            [discretisation, Ok(embedded)]
         }
-        (MeshContact::FiniteElements(_), Some(coarse)) if embedded.is_some() => {
-            let [discretisation, elements] = adaptively_on_finite_elements(&mut companions, coarse);
-            ([discretisation, Err(String::new())], Some(elements))
-        }
-        (MeshContact::LineOfAction { .. } | MeshContact::Simplified { .. }, _) => {
-            (on_the_line_of_action(&mut companions, peaks_mm), None)
-        }
-        (MeshContact::FiniteElements(_), Some(coarse)) => {
-            let [discretisation, wear_step, elements] = on_finite_elements(&mut companions, coarse);
-            ([discretisation, wear_step], Some(elements))
-        }
-        (MeshContact::FiniteElements(_), None) => {
-            let reason = || Err("the elements cannot be made twice as long".to_owned());
-            ([reason(), reason()], Some(reason()))
-        }
+        None => from_fixed_steps(&mut companions, peaks_mm),
     };
     FromRuns {
         discretisation: estimate(discretisation),
-        wear_step: estimate(embedded.map_or(wear_step, Ok)),
-        surface_model: surface_model.map(estimate),
+        wear_step: estimate(wear_step),
         cost: companions.cost / outcome.work.equilibria as f64,
     }
 }
@@ -267,42 +212,15 @@ fn of_the_steps(companions: &Companions<'_>, error_mm: PerGear<f64>) -> (f64, St
     )
 }
 
-/// Discretisation and size of the elements of adaptive runs.
-fn adaptively_on_finite_elements<'a>(
-    companions: &mut Companions<'a>,
-    coarse: &'a CondensedPair<'a>,
-) -> [Difference; 2] {
-    let on_mesh = "on a mesh with elements twice as long, with four times the tolerance";
-    let (few, coarse) = (Coarser { spacing: 4, step: 4.0 }, Elements::Coarse(coarse));
-    let quarter = companions.peaks_mm(few, coarse, (0.0, 0.2));
-    let discretisation = quarter.clone().and_then(|quarter| {
-        let half = companions.peaks_mm(Coarser { spacing: 2, ..few }, coarse, (0.2, 0.6))?;
-        let how = format!(
-            "Richardson, second order, from companion runs with one in two and one in four of the points {on_mesh}"
-        );
-        Ok((companions.relative(half, quarter) / 12.0, how))
-    });
-    let elements = quarter.and_then(|quarter| {
-        let fine = companions.peaks_mm(few, Elements::Own, (0.6, 1.0))?;
-        let how = format!(
-            "the surface is the finite-element one, whose error is the size of its elements: Richardson, second order, from \
-             companion runs with one in four of the points, on this mesh and {on_mesh}"
-        );
-        Ok((companions.relative(fine, quarter) / 3.0, how))
-    });
-    [discretisation, elements]
-}
-
-/// Discretisation and wear step.
-fn on_the_line_of_action(companions: &mut Companions<'_>, reference: PerGear<f64>) -> [Difference; 2] {
+/// Discretisation and wear step of Euler's method.
+fn from_fixed_steps(companions: &mut Companions<'_>, reference: PerGear<f64>) -> [Difference; 2] {
     let surface = companions.model.scene.contact.surface;
-    let longest = if surface == SurfaceKind::HalfSpace { 4.0 } else { 8.0 };
+    let longest = if surface == SurfaceKind::HalfSpace || surface == SurfaceKind::Fem { 4.0 } else { 8.0 };
     // Four times as long is dearer, but within the budget too.
     let step = if longest * companions.step_over_safe > 1.0 { 4.0 } else { longest };
-    let own = Elements::Own;
-    let stepped = companions.peaks_mm(Coarser { spacing: 1, step }, own, (0.0, 0.5));
+    let stepped = companions.peaks_mm(Coarser { spacing: 1, step }, (0.0, 0.5));
     let discretisation = stepped.clone().and_then(|stepped| {
-        let half = companions.peaks_mm(Coarser { spacing: 2, step }, own, (0.5, 0.75))?;
+        let half = companions.peaks_mm(Coarser { spacing: 2, step }, (0.5, 0.75))?;
         let (order, divisor) = if companions.first_order() { ("first", 1.0) } else { ("second", 3.0) };
         let how = format!("Richardson, {order} order, from companion runs with {}", companions.spacings());
         Ok((companions.relative(stepped, half) / divisor, how))
@@ -317,36 +235,4 @@ fn on_the_line_of_action(companions: &mut Companions<'_>, reference: PerGear<f64
         Ok((companions.relative(reference, stepped) / (ratio - 1.0), how))
     });
     [discretisation, wear_step]
-}
-
-/// Discretisation, wear step, and size of the elements.
-fn on_finite_elements<'a>(companions: &mut Companions<'a>, coarse: &'a CondensedPair<'a>) -> [Difference; 3] {
-    let (own, coarse) = (Elements::Own, Elements::Coarse(coarse));
-    let on_mesh = "on a mesh with elements twice as long";
-    let few = if companions.allow(4) { 4 } else { 2 };
-    let points = format!("one in {few} of the points and positions");
-
-    let short = companions.peaks_mm(Coarser { spacing: few, step: 2.0 }, coarse, (0.0, 0.15));
-    let wear_step = short.clone().and_then(|short| {
-        let long = companions.peaks_mm(Coarser { spacing: few, step: 4.0 }, coarse, (0.15, 0.22))?;
-        let how = format!(
-            "Richardson, first order, from companion runs with wear steps twice and four times as long, {points}, {on_mesh}"
-        );
-        Ok((companions.relative(short, long) / 2.0, how))
-    });
-    let elements = short.and_then(|short| {
-        let fine = companions.peaks_mm(Coarser { spacing: few, step: 2.0 }, own, (0.22, 0.55))?;
-        let how = format!(
-            "the surface is the finite-element one, whose error is the size of its elements: Richardson, second order, from \
-             companion runs with {points} and wear steps twice as long, on this mesh and {on_mesh}"
-        );
-        Ok((companions.relative(fine, short) / 3.0, how))
-    });
-    let discretisation =
-        companions.peaks_mm(Coarser { spacing: 1, step: 4.0 }, coarse, (0.55, 0.85)).and_then(|fine| {
-            let half = companions.peaks_mm(Coarser { spacing: 2, step: 4.0 }, coarse, (0.85, 1.0))?;
-            let how = format!("Richardson, second order, from companion runs with {} {on_mesh}", companions.spacings());
-            Ok((companions.relative(fine, half) / 3.0, how))
-        });
-    [discretisation, wear_step, elements]
 }

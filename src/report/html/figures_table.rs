@@ -118,10 +118,16 @@ fn contact(s: &Summary) -> String {
 
 /// The error estimates, each with how it was obtained.
 pub fn errors(error: &ErrorSummary) -> String {
+    let as_above = String::from("as above");
     let rows: String = [
+        ("Finite elements: pinion’s greatest wear", error.total.peak_wear.pinion, &error.total.how),
+        ("Finite elements: wheel’s greatest wear", error.total.peak_wear.wheel, &as_above),
+        ("Finite elements: pinion’s wear over the flank", error.total.profile.pinion, &as_above),
+        ("Finite elements: wheel’s wear over the flank", error.total.profile.wheel, &as_above),
+        ("Finite elements: transmission error", error.total.transmission_error_peak_to_peak, &as_above),
+        ("Finite elements: pressure between the tip edges", error.total.pressure_between_tips, &as_above),
         ("Points and positions", error.discretisation, &error.how.discretisation),
         ("Wear step", error.wear_step, &error.how.wear_step),
-        ("Contact surface", error.surface_model, &error.how.surface_model),
         ("Hard switch to severe wear against a band", error.severe_switch, &error.how.severe_switch),
     ]
     .into_iter()
@@ -134,7 +140,7 @@ pub fn errors(error: &ErrorSummary) -> String {
         format!("<p class=\"legend-note\">The estimates took {} of the work of the run itself.</p>\n", percent(cost))
     });
     format!(
-        "<table class=\"errors\">\n<caption>Estimated error of the pinion’s greatest wear</caption>\n\
+        "<table class=\"errors\">\n<caption>Error of the result: against finite elements, and estimates for the greatest wear</caption>\n\
          <thead><tr><td></td><th scope=\"col\">relative</th><th scope=\"col\" class=\"how\">how obtained</th></tr></thead>\n\
          <tbody>\n{rows}</tbody>\n</table>\n{cost}"
     )

@@ -1,10 +1,10 @@
 //! Plots over a flank whose sections are alike, from root to tip: wear at every snapshot, greatest pressure, modifications.
 
 use plotly::Plot;
-use plotly::common::DashType;
+use plotly::common::{DashType, Fill, HoverInfo};
 
 use super::active_flank::ActiveFlank;
-use super::number::{figure, given, plotted, revolutions};
+use super::number::{figure, given, percent, plotted, revolutions};
 use super::reading::{Extreme, greatest, place_on_flank, tip_edge_note};
 use super::theme::{self, Figure, axis, curve, layout, line, mark_path_points, new_and_worn};
 use crate::gear::Gear;
@@ -46,6 +46,9 @@ fn wear_of(record: &RunRecord, gear: Gear, depth_um: f64) -> Figure {
         }
         plot.add_trace(trace);
     }
+    if let Some(verified) = &flank.verified_wear_um {
+        add_verified(&mut plot, gear, &radius, &active.cut(&flank.wear_um), &active.cut(verified));
+    }
     let [_, bottom] = theme::from_zero(depth_um);
     plot.set_layout(mark_path_points(
         layout(400)
@@ -61,6 +64,22 @@ fn wear_of(record: &RunRecord, gear: Gear, depth_um: f64) -> Figure {
         plot,
         wide: false,
     }
+}
+
+/// The wear by the finite elements that vouch for the run, and the band between both answers.
+fn add_verified(plot: &mut Plot, gear: Gear, radius_mm: &[f64], own_um: &[f64], verified_um: &[f64]) {
+    let around = radius_mm.iter().chain(radius_mm.iter().rev()).copied();
+    let edges = own_um.iter().chain(verified_um.iter().rev()).copied();
+    let band = curve("difference", around, edges, line(theme::INK, 0.0, DashType::Solid))
+        .fill(Fill::ToSelf)
+        .fill_color(theme::gear_colour_at(gear, 0.4))
+        .opacity(0.45)
+        .hover_info(HoverInfo::Skip)
+        .show_legend(false);
+    plot.add_trace(band);
+    let verified =
+        curve("finite elements", radius_mm.iter().copied(), verified_um.iter().copied(), line(theme::INK, 1.4, DashType::Dash));
+    plot.add_trace(verified.hover_template("%{y:.3f} µm"));
 }
 
 fn wear_reading(record: &RunRecord, gear: Gear, drawn: usize) -> String {
@@ -79,6 +98,15 @@ fn wear_reading(record: &RunRecord, gear: Gear, drawn: usize) -> String {
         figure(wear.pitch_wear_um),
         figure(wear.root_wear_um),
     );
+    let total = &record.summary.error.total;
+    let profile = if gear == Gear::Pinion { total.profile.pinion } else { total.profile.wheel };
+    if let Some(off) = profile {
+        reading.push_str(&format!(
+            " Dashed: the same life on finite elements; over the flank the two differ by {} of the wear (root mean square), the \
+             uncertainty of the finite elements included.",
+            percent(off)
+        ));
+    }
     if drawn < record.history.len() {
         reading.push_str(&format!(" {drawn} of {} snapshots are drawn.", record.history.len()));
     }

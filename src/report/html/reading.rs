@@ -4,6 +4,7 @@ use super::number::{change, figure, given, percent, revolutions, significant};
 use super::theme::named;
 use crate::simulation::record::RunRecord;
 use crate::simulation::record::{FlankRecord, StopReason, Summary, WearSummary};
+use crate::gear::Gear;
 
 /// The greatest of some values and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -67,19 +68,17 @@ pub fn answer(record: &RunRecord) -> String {
     let s = &record.summary;
     let lost = match (s.pinion.peak_wear_um > 0.0, s.wheel.peak_wear_um > 0.0) {
         (false, false) => "neither flank has worn".into(),
-        (true, false) => {
-            format!("the pinion has lost {}; the wheel has not worn", depth(&record.flanks.pinion, &s.pinion))
+        (true, false) => format!("the pinion has lost {}; the wheel has not worn", depth(record, Gear::Pinion)),
+        (false, true) => format!("the wheel has lost {}; the pinion has not worn", depth(record, Gear::Wheel)),
+        (true, true) => {
+            format!("the pinion has lost {}, and the wheel {}", depth(record, Gear::Pinion), depth(record, Gear::Wheel))
         }
-        (false, true) => {
-            format!("the wheel has lost {}; the pinion has not worn", depth(&record.flanks.wheel, &s.wheel))
-        }
-        (true, true) => format!(
-            "the pinion has lost {}, and the wheel {}",
-            depth(&record.flanks.pinion, &s.pinion),
-            depth(&record.flanks.wheel, &s.wheel)
-        ),
     };
-    let mut text = format!("After {} {lost}.", duration(s));
+    let vouched = match s.error.total.peak_wear.pinion.or(s.error.total.peak_wear.wheel) {
+        Some(_) => " ± is the difference to the same life on finite elements, with their own uncertainty.",
+        None => "",
+    };
+    let mut text = format!("After {} {lost}.{vouched}", duration(s));
     if record.history.is_empty() {
         return text;
     }
@@ -119,8 +118,18 @@ fn place_of_pressure(record: &RunRecord) -> String {
     worn.map_or_else(String::new, |at| among(&positions, record.mesh_cycle[at.index].position_mm))
 }
 
-fn depth(flank: &FlankRecord, wear: &WearSummary) -> String {
-    format!("up to {} µm {}", significant(wear.peak_wear_um, 3), place_on_flank(flank, wear.peak_wear_radius_mm))
+fn depth(record: &RunRecord, gear: Gear) -> String {
+    let (s, flank) = (&record.summary, &record.flanks[gear]);
+    let (wear, off): (&WearSummary, _) = match gear {
+        Gear::Pinion => (&s.pinion, s.error.total.peak_wear.pinion),
+        Gear::Wheel => (&s.wheel, s.error.total.peak_wear.wheel),
+    };
+    let within = off.map_or_else(String::new, |off| format!(" ± {}", significant(off * wear.peak_wear_um, 1)));
+    format!(
+        "up to {}{within} µm {}",
+        significant(wear.peak_wear_um, 3),
+        place_on_flank(flank, wear.peak_wear_radius_mm)
+    )
 }
 
 /// What to say above everything else where the run did not reach its end.

@@ -25,7 +25,7 @@ pub const MUTED: &str = "var(--muted)";
 /// The path of contact.
 pub const PATH: &str = "var(--path)";
 
-const INK: &str = "var(--ink)";
+pub const INK: &str = "var(--ink)";
 const PAPER: &str = "var(--paper)";
 const GRID: &str = "var(--grid)";
 const RULE: &str = "var(--rule)";

@@ -16,8 +16,10 @@ mod wear;
 use toml::{Table, Value};
 
 use super::file::SceneFile;
+use crate::contact::settings::SurfaceKind;
 use super::findings::Findings;
 use super::problem::{Problem, ProblemKind};
+use super::resolve::settings::Teeth;
 use super::schema::{Node, schema};
 use super::shape::{self, Format};
 use super::{Resolved, Scene, presets, text, unit_slip};
@@ -119,7 +121,10 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let contact = settings::contact(&mut file.contact, findings);
     let calibration_file = file.contact.as_ref().and_then(|contact| contact.calibration.clone());
     let surface = contact.map(|contact| contact.surface);
-    let stiffness = settings::stiffness(&mut file.stiffness, surface, calibration_file.is_some(), findings);
+    let slices = pair.as_ref().and_then(|pair| slices::choose(&mut file.helical, pair, surface, findings));
+    let teeth = Teeth { surface, calibrated: calibration_file.is_some(), sliced: slices.is_some() };
+    let stiffness = settings::stiffness(&mut file.stiffness, teeth, findings);
+    let stiffness_by_default = file.stiffness.as_ref().is_none_or(|stiffness| stiffness.model.is_none());
     let stiffness_curve_file = file.stiffness.as_ref().and_then(|stiffness| stiffness.curve.clone());
     let wear = wear::choose(&mut file.wear, findings);
     let material = materials.map(|materials| materials.map(|(elastic, _)| elastic));
@@ -132,8 +137,9 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     );
     let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
     let (pair, operation) = (pair?, operation?);
-    let slices = slices::choose(&mut file.helical, &pair, surface, findings);
-    let numerics = settings::numerics(&mut file.numerics, operation.pinion_revolutions, findings);
+    let adaptive = surface == Some(SurfaceKind::Fem) || wear.is_some_and(|wear| wear.severe.is_some());
+    let numerics = settings::numerics(&mut file.numerics, operation.pinion_revolutions, adaptive, findings);
+    let verify = *file.numerics.get_or_insert_default().verify.get_or_insert(true);
     if let (Some(numerics), Some(surface)) = (&numerics, surface) {
         settings::memory(numerics, surface, slices.map_or(1, |slices| slices.count), findings);
     }
@@ -154,12 +160,15 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         contact: contact?,
         calibration_file,
         stiffness: stiffness?,
+        stiffness_by_default,
         stiffness_curve_file,
         fem: fem?,
+        wear_elements_per_half_width: fem::wear_elements_per_half_width(file.fem.as_ref()),
         slices,
         heat: heat?,
         wear: wear?,
         numerics: numerics?,
+        verify,
     };
     Some((scene, file))
 }

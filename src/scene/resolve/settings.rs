@@ -114,7 +114,7 @@ pub fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -> Optio
             .warnings
             .push("the K/H of contact.calibration is not used: contact.foundation_MPa_per_mm gives one".to_owned());
     }
-    let tip_contact = knows_the_gap && *file.tip_contact.get_or_insert(calibrated);
+    let tip_contact = knows_the_gap && *file.tip_contact.get_or_insert(true);
     if surface != SurfaceKind::Winkler {
         for (key, given) in [(keys[0], criterion.is_some()), (keys[1], given.is_some())] {
             if given {
@@ -133,11 +133,21 @@ pub fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -> Optio
     Some(ContactSettings { surface, foundation, tip_contact })
 }
 
-/// Chooses the tooth stiffness on a surface; `calibrated` says whether a calibration is given.
+/// What the choice of a stiffness model depends on.
+#[derive(Debug, Clone, Copy)]
+pub struct Teeth {
+    /// How the flanks touch.
+    pub surface: Option<SurfaceKind>,
+    /// Whether a calibration is given.
+    pub calibrated: bool,
+    /// Whether there are slices over the face width.
+    pub sliced: bool,
+}
+
+/// Chooses the tooth stiffness.
 pub fn stiffness(
     file: &mut Option<StiffnessFile>,
-    surface: Option<SurfaceKind>,
-    calibrated: bool,
+    Teeth { surface, calibrated, sliced }: Teeth,
     findings: &mut Findings,
 ) -> Option<StiffnessSettings> {
     let key = "stiffness.pair_N_per_mm_um";
@@ -147,11 +157,13 @@ pub fn stiffness(
             "stiffness.model is not used: the finite elements of the surface \"fem\" bend their own teeth".to_owned(),
         );
     }
-    let default = if calibrated { StiffnessModel::Fem } else { StiffnessModel::default() };
-    let model = match surface {
+    let model = match (surface, calibrated) {
         // Nothing reads it: what the user leaves out stays out.
-        Some(SurfaceKind::Fem) => file.model.unwrap_or(default),
-        _ => *file.model.get_or_insert(default),
+        (Some(SurfaceKind::Fem), _) => file.model.unwrap_or_default(),
+        (_, true) => *file.model.get_or_insert(StiffnessModel::Fem),
+        _ if sliced => *file.model.get_or_insert(StiffnessModel::WeberBanaschek),
+        // Left open, it is another where finite elements cannot be had: it stays open.
+        _ => file.model.unwrap_or(StiffnessModel::Fem),
     };
     let of_curve = matches!(model, StiffnessModel::Simon | StiffnessModel::WangCheng);
     if of_curve && file.curve.is_none() {
@@ -184,17 +196,25 @@ pub fn stiffness(
     Some(settings)
 }
 
-/// Chooses the resolution for a run of `duration` revolutions.
-pub fn numerics(file: &mut Option<NumericsFile>, duration: f64, findings: &mut Findings) -> Option<Numerics> {
+/// Chooses the resolution for a run of `duration` revolutions, with `adaptive` steps where the file does not say.
+pub fn numerics(
+    file: &mut Option<NumericsFile>,
+    duration: f64,
+    adaptive: bool,
+    findings: &mut Findings,
+) -> Option<Numerics> {
     let file = file.get_or_insert_default();
-    let stepping = stepping(file, duration, findings)?;
+    let stepping = stepping(file, duration, adaptive, findings)?;
     let flank_points = *file.flank_points.get_or_insert(FLANK_POINTS) as usize;
     let positions = *file.positions.get_or_insert(POSITIONS) as usize;
     Some(Numerics { flank_points, positions, stepping, error_estimate: *file.error_estimate.get_or_insert(true) })
 }
 
-fn stepping(file: &mut NumericsFile, duration: f64, findings: &mut Findings) -> Option<Stepping> {
-    let default = StepFile::fixed(Stepping::euler(duration).euler_revolutions(duration));
+fn stepping(file: &mut NumericsFile, duration: f64, adaptive: bool, findings: &mut Findings) -> Option<Stepping> {
+    let default = match adaptive {
+        true => StepFile::Named(NamedStep::Adaptive),
+        false => StepFile::fixed(Stepping::euler(duration).euler_revolutions(duration)),
+    };
     match *file.step.get_or_insert(default) {
         StepFile::Fixed(step) => {
             let revolutions = step.revolutions;

@@ -1,0 +1,244 @@
+//! The same life on finite elements: how far the run is from what vouches for it.
+//!
+//! Both gears are meshed with few elements and condensed, and the same operation wears their flanks by the same law in adaptive steps.
+//! Wear handed over conservatively ([`crate::fem::gear::load_transfer`]) needs no more: on the pairs of the case `verified-pairs` this life is within
+//! its stated uncertainty of one on elements, positions and steps four times as fine (docs/accuracy.md). The whole life is run and not a part of it, for worn
+//! flanks that fit one surface do not fit another, and what a short run says of a long one swings with its steps.
+//!
+//! With h the run's wear, h_f that of the finite elements and u their own uncertainty,
+//!
+//! ```text
+//! profile       √(∫ (h − h_f)² ds / ∫ h_f² ds) + u        of a flank
+//! peak wear     |max h − max h_f| / max h_f + u           of a flank
+//! transmission error   the same for its peak to peak on worn flanks
+//! pressure      √(mean of (p/p_f − 1)²) + u               of the greatest pressure at the positions between the tip edges, on worn flanks
+//! ```
+//!
+//! A run on finite elements is held against a finer mesh of them.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use super::guarded::guarded;
+use super::{Model, elastic};
+use crate::contact::settings::SurfaceKind;
+use crate::fem::gear::{model::ModelError, position::CondensedPair};
+use crate::gear::{Gear, GearPair, PerGear};
+use crate::mesh::settings::BodySettings;
+use crate::simulation::figures::WearFigures;
+use crate::simulation::mesh_contact::MeshContact;
+use crate::simulation::record::{ErrorPerGear, ErrorSummary, StopReason, TotalError};
+use crate::scene::Scene;
+use crate::simulation::settings::{AdaptiveMethod, Numerics, Phase, Stepping};
+use crate::simulation::wear_run::{Outcome, Progress, RunPhase, WearRun};
+use crate::working_cycle::CycleObservation;
+
+/// Positions from A to E.
+const POSITIONS: usize = 400;
+/// Error of the wear depth allowed, over the greatest depth.
+const TOLERANCE: f64 = 0.03;
+/// Least tolerance, mm: less is no wear.
+const LEAST_TOLERANCE_MM: f64 = 1e-9;
+/// Most wear steps: an ordinary life takes some fifteen.
+const MOST_STEPS: u64 = 200;
+/// Half-widths of contact at the pitch point from A and E within which the tip edges shape the pressure.
+const NEAR_TIP_EDGES: f64 = 3.0;
+
+/// The finite elements' own uncertainty: of the profile, the peak wear, the transmission error and the pressure.
+const OWN_PROFILE: f64 = 0.006;
+const OWN_PEAK: f64 = 0.006;
+const OWN_TRANSMISSION_ERROR: f64 = 0.005;
+const OWN_PRESSURE: f64 = 0.02;
+
+/// What the finite elements say.
+#[derive(Default)]
+pub(super) struct Verified {
+    /// How far the run is from them.
+    pub total: TotalError,
+    /// What the contact surface and the stiffness of the teeth make of the greatest wear.
+    surface_model: Option<f64>,
+    /// What the flank points have lost on them; none where there is no answer.
+    pub wear_mm: Option<PerGear<Vec<f64>>>,
+    /// Where the user must know that nothing vouches for the answer.
+    pub warning: Option<String>,
+}
+
+impl Verified {
+    /// There is no answer, for this reason.
+    pub fn none(reason: &str) -> Self {
+        Self { total: TotalError::none(reason), ..Self::default() }
+    }
+
+    /// Puts what is known into the errors of the run.
+    pub fn tell(&self, error: &mut ErrorSummary) {
+        error.total = self.total.clone();
+        error.surface_model = self.surface_model;
+        error.how.surface_model = match self.surface_model {
+            Some(_) => "difference of the greatest wear to the same life on finite elements, of both gears the larger".to_owned(),
+            None => self.total.how.clone(),
+        };
+    }
+
+    /// The same where that is worth a warning.
+    pub fn warned(reason: &str) -> Self {
+        let warning = Some(format!("not verified by finite elements: {reason}"));
+        Self { warning, ..Self::none(reason) }
+    }
+}
+
+/// Hears an interrupt, and stops a life that takes too many steps.
+struct Bounded<'a> {
+    observer: &'a dyn Progress,
+    steps: AtomicU64,
+}
+
+impl Progress for Bounded<'_> {
+    fn progress(&self, done: f64, total: f64) {
+        self.steps.fetch_add(1, Ordering::Relaxed);
+        self.observer.progress(done, total);
+    }
+
+    fn interrupted(&self) -> bool {
+        self.steps.load(Ordering::Relaxed) > MOST_STEPS || self.observer.interrupted()
+    }
+
+    fn gives_up(&self) -> bool {
+        self.observer.gives_up()
+    }
+}
+
+/// Finite elements for the greatest of the scene's loads.
+pub(super) fn elements<'a>(
+    scene: &Scene,
+    pair: &'a GearPair,
+    line_load_n_per_mm: impl Fn(&Phase) -> f64,
+) -> Result<CondensedPair<'a>, ModelError> {
+    let greatest_load = scene.operation.phases.iter().map(line_load_n_per_mm).fold(0.0, f64::max);
+    condensed(scene, pair, greatest_load, scene.wear_elements_per_half_width)
+}
+
+fn condensed<'a>(
+    scene: &Scene,
+    pair: &'a GearPair,
+    line_load_n_per_mm: f64,
+    elements_per_half_width: f64,
+) -> Result<CondensedPair<'a>, ModelError> {
+    let bodies = BodySettings { elements_per_half_width, ..scene.fem };
+    CondensedPair::build(pair, &elastic(&scene.material), line_load_n_per_mm, &bodies)
+}
+
+/// Verifies the completed run `outcome` on `elements`, or on others of its own. Whatever happens to the finite elements never costs
+/// the run its result.
+pub(super) fn verify<'a>(
+    model: &Model<'a>,
+    outcome: &Outcome,
+    elements: Option<Result<CondensedPair<'a>, ModelError>>,
+    observer: &dyn Progress,
+) -> Verified {
+    let other_mesh = || {
+        let greatest_load = model.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max);
+        let finer = model.scene.wear_elements_per_half_width + 1.0;
+        condensed(model.scene, model.pair, greatest_load, finer)
+    };
+    let life = || {
+        let elements = elements.unwrap_or_else(other_mesh).map_err(|error| error.to_string())?;
+        life(model, outcome, &elements, observer)
+    };
+    match guarded(life) {
+        Ok(Ok(life)) => compared(model, outcome, &life),
+        Ok(Err(reason)) | Err(reason) => Verified::warned(&reason),
+    }
+}
+
+/// The life on finite elements; where it does not come to its end, why.
+fn life(
+    model: &Model<'_>,
+    outcome: &Outcome,
+    elements: &CondensedPair<'_>,
+    observer: &dyn Progress,
+) -> Result<Outcome, String> {
+    let scene = model.scene;
+    let phases: Vec<RunPhase<'_>> = model
+        .phases
+        .iter()
+        .map(|phase| RunPhase { contact: MeshContact::FiniteElements(elements), ..*phase })
+        .collect();
+    let deepest = |gear: Gear| outcome.worn.wear_mm[gear].iter().copied().fold(0.0, f64::max);
+    let tolerance_mm = (TOLERANCE * deepest(Gear::Pinion).max(deepest(Gear::Wheel))).max(LEAST_TOLERANCE_MM);
+    let stepping = Stepping::Adaptive { tolerance_mm, method: AdaptiveMethod::RungeKuttaChebyshev };
+    let numerics = Numerics { positions: POSITIONS, stepping, ..scene.numerics };
+    let run = WearRun { phases: &phases, numerics, snapshots_revolutions: &[], ..model.wear_run() };
+    let bounded = Bounded { observer, steps: AtomicU64::new(0) };
+    let life = run.run(&bounded).map_err(|error| error.to_string())?;
+    match (life.stop, &life.failure) {
+        (StopReason::Completed, _) => Ok(life),
+        (_, Some(failure)) => Err(failure.to_string()),
+        _ if observer.interrupted() => Err("interrupted".to_owned()),
+        _ => Err(format!(
+            "after {MOST_STEPS} wear steps the finite elements had reached {:.0} % of the life",
+            100.0 * life.worn.revolutions / scene.operation.pinion_revolutions
+        )),
+    }
+}
+
+/// How far the run is from the finite elements.
+fn compared(model: &Model<'_>, run: &Outcome, life: &Outcome) -> Verified {
+    let per_gear = |of: &dyn Fn(Gear) -> Option<f64>| ErrorPerGear { pinion: of(Gear::Pinion), wheel: of(Gear::Wheel) };
+    let profile = per_gear(&|gear| {
+        let (own, truth) = (&run.worn.wear_mm[gear], &life.worn.wear_mm[gear]);
+        let square = |of: &dyn Fn(usize) -> f64| {
+            let squares: Vec<f64> = (0..own.len()).map(|i| of(i).powi(2)).collect();
+            run.grid[gear].integral(&squares)
+        };
+        let whole = square(&|i| truth[i]);
+        (whole > 0.0).then(|| (square(&|i| own[i] - truth[i]) / whole).sqrt() + OWN_PROFILE)
+    });
+    let peak = |gear: Gear, outcome: &Outcome| WearFigures::at(model.pair, gear, outcome, &outcome.worn).peak_mm;
+    let off = |gear: Gear| relative(peak(gear, run), peak(gear, life));
+    let peak_wear = per_gear(&|gear| off(gear).map(|off| off + OWN_PEAK));
+    let surface_model = match model.scene.contact.surface {
+        SurfaceKind::Fem => None,
+        _ => Gear::BOTH.into_iter().filter_map(off).reduce(f64::max),
+    };
+    let peak_to_peak = |outcome: &Outcome| {
+        let (low, high) = outcome.worn.cycle.transmission_error_mm();
+        high - low
+    };
+    let total = TotalError {
+        profile,
+        peak_wear,
+        transmission_error_peak_to_peak: relative(peak_to_peak(run), peak_to_peak(life))
+            .map(|off| off + OWN_TRANSMISSION_ERROR),
+        pressure_between_tips: pressure(model, &run.worn.cycle, &life.worn.cycle).map(|off| off + OWN_PRESSURE),
+        how: format!(
+            "the same life on finite elements ({} positions in a base pitch, {} wear steps, {} mesh cycles); their own uncertainty is added: \
+             {} % of the profile and {} % of the greatest wear",
+            life.work.equilibria / life.work.mesh_cycles.max(1),
+            life.steps.accepted,
+            life.work.mesh_cycles,
+            100.0 * OWN_PROFILE,
+            100.0 * OWN_PEAK,
+        ),
+    };
+    Verified { total, surface_model, wear_mm: Some(life.worn.wear_mm.clone()), warning: None }
+}
+
+/// |own − truth|/truth; none where there is nothing to be wrong about.
+fn relative(own: f64, truth: f64) -> Option<f64> {
+    (truth > 0.0).then(|| (own - truth).abs() / truth)
+}
+
+/// The difference of the greatest pressures between the tip edges.
+fn pressure(model: &Model<'_>, own: &CycleObservation, truth: &CycleObservation) -> Option<f64> {
+    let path = &model.pair.path;
+    let near_mm = NEAR_TIP_EDGES * model.at_pitch.contact.loaded(model.first().line_load_n_per_mm).half_width_mm;
+    let between = path.start_mm + near_mm..path.end_mm - near_mm;
+    let (mut sum, mut count) = (0.0, 0.0);
+    for at in own.positions.iter().filter(|at| between.contains(&at.position_mm)) {
+        let reference = truth.peak_pressure_at_mpa(at.position_mm);
+        if reference > 0.0 {
+            sum += (at.footprint.peak_pressure_mpa / reference - 1.0).powi(2);
+            count += 1.0;
+        }
+    }
+    (count > 0.0).then(|| f64::sqrt(sum / count))
+}
