@@ -34,10 +34,19 @@ use crate::wear::{
     heated_row::{HeatedContact, HeatedRow, RowOfPoints},
 };
 
-/// Distance of positions over that of those which divide A–E evenly, away from the tip edges.
-const APART: f64 = 4.0;
-/// The same where a tip edge touches.
-const APART_AT_TIP_EDGES: f64 = 1.0;
+/// How far positions are apart.
+#[derive(Clone, Copy)]
+struct Apart {
+    /// In Hertz half-widths at the pitch point: a contact must not move much farther than it is wide.
+    half_widths: f64,
+    /// Least and greatest distance over that of positions which divide A–E evenly.
+    limits: [f64; 2],
+}
+
+/// Away from the tip edges.
+const APART: Apart = Apart { half_widths: 0.5, limits: [0.5, 4.0] };
+/// Where a tip edge touches, and contact is narrower.
+const APART_AT_TIP_EDGES: Apart = Apart { half_widths: 0.15, limits: [0.25, 1.0] };
 /// How far the path is looked at beyond A and E, over how far unworn tip edges reach their mates under the approach at the pitch point.
 const AMPLE_APPROACH: f64 = 1.3;
 /// How far within A–E a contact still feels the tip edge, in Hertz half-widths at the pitch point.
@@ -134,8 +143,8 @@ fn stretches(model: &CondensedPair<'_>, positions: usize, line_load_n_per_mm: f6
     let (pair, path) = (model.pair, &model.pair.path);
     let (start, pitch) = (path.start_mm, path.base_pitch_mm);
     let even = (path.end_mm - start) / (positions - 1) as f64;
-    let within = WITHIN_HALF_WIDTHS
-        * hertz_half_width_mm(pair, model.contact_modulus_mpa, line_load_n_per_mm, path.pitch_point_mm);
+    let half_width = hertz_half_width_mm(pair, model.contact_modulus_mpa, line_load_n_per_mm, path.pitch_point_mm);
+    let within = WITHIN_HALF_WIDTHS * half_width;
     let approach = model
         .at(path.pitch_point_mm, line_load_n_per_mm, &Default::default())
         .map_or(0.0, |contact| contact.transmission_error_mm);
@@ -154,12 +163,13 @@ fn stretches(model: &CondensedPair<'_>, positions: usize, line_load_n_per_mm: f6
     at_edges.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut stretches = Vec::new();
     let mut reached = 0.0;
-    let mut divide = |reached: &mut f64, to: f64, apart: f64| {
+    let mut divide = |reached: &mut f64, to: f64, Apart { half_widths, limits: [least, most] }: Apart| {
         let length = to - *reached;
         if length <= 1e-9 * pitch {
             return;
         }
-        let count = (length / (apart * even) - 1e-9).ceil().max(1.0) as usize;
+        let apart = (half_widths * half_width).clamp(least * even, most * even);
+        let count = (length / apart - 1e-9).ceil().max(1.0) as usize;
         let at = |k: usize| start + *reached + length * k as f64 / count as f64;
         stretches.extend((0..count).map(|k| (at(k), at(k + 1))));
         *reached = to;
