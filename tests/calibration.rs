@@ -10,7 +10,7 @@ use gearwear::calibration::bodies::Setup;
 use gearwear::calibration::course::CourseOf;
 use gearwear::calibration::identity::Identity;
 use gearwear::calibration::single_contact::{Purpose, SingleContact, Touch};
-use gearwear::calibration::tooth_stiffness::{LoadedPair, curve};
+use gearwear::calibration::tooth_stiffness::LoadedPair;
 use gearwear::calibration::{Calibration, file::CalibrationFileError, foundation_fit, single_contact};
 use gearwear::contact::foundation::Bed;
 use gearwear::contact::hertz::{self, Hertz};
@@ -147,16 +147,17 @@ fn ver_the_curve_gives_springs_that_have_the_whole_compliance() {
     let pair = GearPair::new(&fzg_c()).unwrap();
     let load = calibration.line_load_n_per_mm;
     let surface = Hertz { material: steel(), expected_line_load_n_per_mm: load };
-    let compliance = curve(&pair, &calibration.deflection);
-    assert_eq!(compliance, calibration.pair_compliance);
-    let spring = TeethSpring::new(StiffnessSettings::Fem, Some(&compliance), &pair, &steel(), &surface, load);
+    let compliance = &calibration.pair_compliance;
+    let spring = TeethSpring::new(StiffnessSettings::Fem, Some(compliance), &pair, &steel(), &surface, load);
     for at in &calibration.deflection {
         let whole = spring.pair_n_per_mm2(at.position_mm).unwrap();
         assert_close("stiffness", 1e-3 * whole, at.pair_n_per_mm_um(), 1e-9);
     }
-    // It reaches from A to E.
-    assert_eq!(compliance.position_mm.first(), Some(&pair.path.start_mm));
-    assert_eq!(compliance.position_mm.last(), Some(&pair.path.end_mm));
+    // It reaches as far before A and after E as flanks are looked at.
+    let [before, after] = pair.farthest_touch_mm();
+    let (first, last) = compliance.ends_mm();
+    assert_close("first", first, pair.path.start_mm - before, 1e-12);
+    assert_close("last", last, pair.path.end_mm + after, 1e-12);
 }
 
 /// Wanted: converged to 0.2 %. A deeper body is softer, so is one with fewer neighbours whose sides are free;

@@ -4,14 +4,10 @@ mod common;
 
 use common::{Scene, assert_close, fzg_c, fzg_c_scene, pair};
 use gearwear::fem::gear::placement::{axis_mm, tooth_angle_rad};
-use gearwear::gear::{Gear, GearPair, conjugate::ConjugateFlanks};
+use gearwear::gear::{Gear, GearPair, conjugate::ConjugateFlanks, removed_material::tip_rounding_mm};
 use gearwear::simulation::wear_run::Outcome;
 use gearwear::stiffness::settings::StiffnessSettings;
-use gearwear::working_cycle::{
-    PositionObservation,
-    positions::positions_with_tip_contact,
-    tip_contact::{lever_ratio, reach_mm},
-};
+use gearwear::working_cycle::{PositionObservation, positions::positions_with_tip_contact, tip_contact::reach_mm};
 use nalgebra::{Rotation2, Vector2};
 
 /// fzg-c at 302 N·m with tip roundings of 0.1 mm and Weber and Banaschek's teeth; one mesh.
@@ -128,7 +124,7 @@ fn asked_mm2(pair: &GearPair, scene: &Scene, outcome: &Outcome) -> f64 {
         let lower = from + f64::from(k) * step;
         let middle = lower + 0.5 * step;
         // The share is that of the torque; after E the force has a shorter lever.
-        share(middle) / lever_ratio(pair, middle) * pair.sliding_mm(lower, lower + step)
+        share(middle) / pair.pinion_lever_ratio(&pair.touch(middle)) * pair.sliding_mm(lower, lower + step)
     };
     (0..parts).map(part).sum::<f64>() * scene.line_load() * scene.coefficient_mm2_per_n
 }
@@ -196,20 +192,87 @@ fn exact_touch_mm(pair: &GearPair, position_mm: f64) -> f64 {
     low
 }
 
-/// Gap along the normal and lever together give the approach at which a tip edge touches after E.
+/// Gap along the normal and lever together give the approach at which a sharp tip edge touches after E; what is left is that the edge
+/// moves on along the flank while it closes.
 #[test]
 fn val_lever_after_the_end_of_contact() {
     let pair = pair(&fzg_c());
-    assert_eq!(lever_ratio(&pair, pair.path.end_mm), 1.0);
-    assert_eq!(lever_ratio(&pair, pair.path.start_mm - 0.5), 1.0);
-    for beyond in [0.4, 0.8, 1.0] {
+    for beyond in [0.2, 0.4, 0.6, 0.8, 1.0] {
         let position = pair.path.end_mm + beyond;
-        let edge = pair.in_tangent_frame(Gear::Pinion, pair.teeth.pinion.tip_rho_mm(), position);
-        let gap = edge.drop_mm + pair.at_along(Gear::Wheel, -edge.along_mm, position).1;
-        let exact = exact_touch_mm(&pair, position);
-        // The edge moves on along the flank while it closes: 0.8, 1.7 and 2.1 % are left, 2.6, 5.2 and 6.6 % without the lever.
-        assert_close(&format!("{beyond} mm after E"), gap / lever_ratio(&pair, position), exact, 0.025 * beyond);
-        assert!((gap / exact - 1.0).abs() > 0.05 * beyond, "the lever matters: {gap} {exact}");
+        let touch = pair.touch(position);
+        let (approach, exact) = (touch.gap_mm / pair.pinion_lever_ratio(&touch), exact_touch_mm(&pair, position));
+        assert_close(&format!("{beyond} mm after E"), approach, exact, 1e-3);
+        assert!((touch.gap_mm / exact - 1.0).abs() > 0.05 * beyond, "the lever matters: {} {exact}", touch.gap_mm);
+    }
+}
+
+/// fzg-c with roundings of 0.1 mm, from an independent finite-element calculation
+/// (validation/tip-contact-independent): l/r_b1 at E + 0.2, 0.4, 0.6 mm, ε' at A − 0.6 and E + 0.6 mm. And the lever as what it is, the
+/// distance of the touching normal from the pinion's axis.
+#[test]
+fn val_normal_of_a_rounded_tip_edge() {
+    let pair = pair(&rounded("half-space").pair);
+    let path = &pair.path;
+    let (base, centre_distance_mm) = (path.involute.map(|flank| flank.base_radius_mm), pair.spec.centre_distance_mm);
+    for (beyond, ratio) in [(0.2, 0.983), (0.4, 0.970), (0.6, 0.957)] {
+        let touch = pair.touch(path.end_mm + beyond);
+        assert_eq!(touch.edge_of, Some(Gear::Pinion));
+        let found = pair.pinion_lever_ratio(&touch);
+        assert!((found - ratio).abs() < 5e-4, "{beyond}: {found}");
+        // The line of action touches both base circles; the normal has turned with it about the wheel's.
+        let lever_mm = centre_distance_mm * (pair.working_pressure_angle_rad + touch.turned_rad).cos() - base.wheel;
+        assert_close("lever", base.pinion * found, lever_mm, 1e-12);
+    }
+    for (tip_of, position, turned) in
+        [(Gear::Wheel, path.start_mm - 0.6, 0.092), (Gear::Pinion, path.end_mm + 0.6, 0.059)]
+    {
+        let touch = pair.touch(position);
+        assert_eq!(touch.edge_of, Some(tip_of));
+        let flank = pair.teeth[tip_of].load_line(touch.rho_mm[tip_of]);
+        let found = touch.load_line[tip_of].load_angle_rad - flank.load_angle_rad;
+        // 0.0598 after E.
+        assert!((found - turned).abs() < 1e-3, "{position}: {found}");
+        // Before A the normal is a tangent of the pinion's base circle.
+        assert_eq!(pair.pinion_lever_ratio(&touch) == 1.0, tip_of == Gear::Wheel);
+    }
+}
+
+/// From flank to rounding nothing jumps, and between the roundings the theoretical contact points touch.
+#[test]
+fn ver_flanks_hand_over_to_roundings_without_a_jump() {
+    let pair = pair(&rounded("half-space").pair);
+    let path = &pair.path;
+    for tip_of in Gear::BOTH {
+        let edge = path.rho_mm(tip_of, pair.rounding_start_rho_mm(tip_of));
+        let [inside, outside] =
+            [-1e-7, 1e-7].map(|beyond| pair.touch(edge + if tip_of == Gear::Wheel { -beyond } else { beyond }));
+        assert_eq!((inside.edge_of, outside.edge_of), (None, Some(tip_of)));
+        assert!(outside.turned_rad.abs() < 1e-7 && outside.gap_mm.abs() < 1e-12, "{outside:?}");
+        for gear in Gear::BOTH {
+            assert!((inside.rho_mm[gear] - outside.rho_mm[gear]).abs() < 1e-5);
+            let [before, after] = [inside, outside].map(|touch| touch.load_line[gear]);
+            assert!((before.centre_line_mm - after.centre_line_mm).abs() < 1e-5);
+            assert!((before.depth_mm - after.depth_mm).abs() < 1e-5);
+        }
+    }
+}
+
+/// The gap along the normal is the least gap of the tangent frame with its rounding, to 0.05 µm (the same independent calculation).
+#[test]
+fn val_the_tangent_frame_has_the_gap_of_the_rounded_edge() {
+    let pair = pair(&rounded("half-space").pair);
+    for position in [pair.path.start_mm - 0.6, pair.path.start_mm - 0.2, pair.path.end_mm + 0.2, pair.path.end_mm + 0.6]
+    {
+        let gap = |along: f64| {
+            Gear::BOTH.map(|gear| {
+                let along = if gear == Gear::Pinion { along } else { -along };
+                let (rho, drop) = pair.at_along(gear, along, position);
+                drop + tip_rounding_mm(0.1, &pair.teeth[gear], rho)
+            })
+        };
+        let least = (-10_000..10_000).map(|k| gap(1e-4 * f64::from(k)).iter().sum()).fold(f64::INFINITY, f64::min);
+        let touch = pair.touch(position);
+        assert!((least - touch.gap_mm).abs() < 5e-5, "{position}: {least} {}", touch.gap_mm);
     }
 }
 

@@ -24,7 +24,7 @@ use crate::fem::gear::flank_surface::FlankSurface;
 use crate::fem::gear::ring::{GearCompliance, ToothForce};
 use crate::fem::gear::sector::{Answer, Functional};
 use crate::fem::locate::locate;
-use crate::gear::tooth::Tooth;
+use crate::gear::tooth::{LoadLine, Tooth};
 
 /// Forces that stand for the ellipse.
 const SAMPLES: usize = 240;
@@ -64,7 +64,7 @@ impl<'a> LoadedTooth<'a> {
 
     /// Forces of `line_load_n_per_mm` on the tooth as an ellipse of half-width `half_width_mm` around ρ.
     pub fn ellipse(&self, rho_mm: f64, half_width_mm: f64, line_load_n_per_mm: f64) -> Option<ToothForce> {
-        let (centre_mm, direction) = (self.tooth.involute.arc_mm(rho_mm), self.direction(rho_mm));
+        let (centre_mm, direction) = (self.tooth.involute.arc_mm(rho_mm), direction(&self.tooth.load_line(rho_mm)));
         let mut forces = vec![0.0; 2 * self.body.sector.sector.candidates.len()];
         let step = PI / SAMPLES as f64;
         for k in 0..SAMPLES {
@@ -79,7 +79,7 @@ impl<'a> LoadedTooth<'a> {
 
     /// Displacement at ρ of tooth `p` in the direction of a load there, under `force` on tooth `q`, mm.
     pub fn surface_mm(&self, p: usize, rho_mm: f64, q: usize, force: &ToothForce) -> Option<f64> {
-        let point = self.along(self.tooth.involute.arc_mm(rho_mm), self.direction(rho_mm))?;
+        let point = self.along(self.tooth.involute.arc_mm(rho_mm), direction(&self.tooth.load_line(rho_mm)))?;
         let (rows, weights): (Vec<usize>, Vec<f64>) = point.into_iter().unzip();
         let (columns, forces): (Vec<usize>, Vec<f64>) = force.iter().copied().unzip();
         let entries = self.body.between(p, q).gathered(&rows, &columns);
@@ -93,8 +93,12 @@ impl<'a> LoadedTooth<'a> {
     /// The point inside where a load at ρ crosses the tooth's centre line, with its displacement in the direction of that
     /// load.
     pub fn inside(&self, rho_mm: f64) -> Option<Inside> {
-        let line = self.tooth.load_line(rho_mm);
-        let direction = self.direction(rho_mm);
+        self.inside_along(&self.tooth.load_line(rho_mm))
+    }
+
+    /// The same for a load along `line`.
+    fn inside_along(&self, line: &LoadLine) -> Option<Inside> {
+        let direction = direction(line);
         let sector = &self.body.sector;
         let place = locate(&sector.sector.solid, Vector2::new(0.0, line.centre_line_mm))?;
         let functional: Functional = place
@@ -112,6 +116,19 @@ impl<'a> LoadedTooth<'a> {
         own + cuts.iter().zip(&inside.answer.by_cut).map(|(u, by)| u * by).sum::<f64>()
     }
 
+    /// Displacement over load of the point inside where `line` crosses the centre line, under a concentrated load along it at ρ,
+    /// mm²/N. How a load is spread over the flank does not matter there, so that it may act on an edge; ρ counts up to where a
+    /// rounding begins.
+    pub fn bending_mm2_per_n(&self, rho_mm: f64, line: &LoadLine) -> Option<f64> {
+        let (first, last) = (self.stretches.first()?, self.stretches.last()?);
+        let arc_mm = self.tooth.involute.arc_mm(rho_mm).clamp(first.arc_mm[0], last.arc_mm[2]);
+        let mut force = self.along(arc_mm, direction(line))?;
+        force.sort_by_key(|&(column, _)| column);
+        let mut forces = vec![ToothForce::new(); self.teeth()];
+        forces[self.middle()] = force;
+        Some(self.inside_mm(&self.inside_along(line)?, self.middle(), &forces))
+    }
+
     /// Number of the tooth of the reference pair.
     pub fn middle(&self) -> usize {
         self.body.teeth() / 2
@@ -120,12 +137,6 @@ impl<'a> LoadedTooth<'a> {
     /// Number of fine teeth.
     pub fn teeth(&self) -> usize {
         self.body.teeth()
-    }
-
-    /// Unit vector of the load at ρ in the tooth's frame: into the tooth, whose working flank lies at x < 0.
-    fn direction(&self, rho_mm: f64) -> Vector2<f64> {
-        let (sin, cos) = self.tooth.load_line(rho_mm).load_angle_rad.sin_cos();
-        Vector2::new(cos, -sin)
     }
 
     /// Candidate columns and weights of the displacement along `direction` at an arc length.
@@ -140,6 +151,12 @@ impl<'a> LoadedTooth<'a> {
         }
         Some(columns)
     }
+}
+
+/// Unit vector of a load along `line` in the tooth's frame: into the tooth, whose working flank lies at x < 0.
+fn direction(line: &LoadLine) -> Vector2<f64> {
+    let (sin, cos) = line.load_angle_rad.sin_cos();
+    Vector2::new(cos, -sin)
 }
 
 /// A point inside a tooth.

@@ -13,8 +13,9 @@
 //! Next to them stand Weber and Banaschek's terms and the closed-form flattening at the same depth and load.
 //!
 //! Positions run evenly over the stretch on which the ellipse lies wholly on both flanks: it begins and ends about a
-//! half-width of flank inside A and E. The curve handed to the fast model ([`curve`]) is continued to A and E in straight
-//! lines.
+//! half-width of flank inside A and E. The curve handed to the fast model ([`LoadedPair::curve`]) goes on from there with what
+//! bending alone changes, under a concentrated load along the normal where the flanks touch ([`crate::gear::tip_touch`]): at A and E,
+//! and beyond them, where the load turns towards the axis of the tooth whose tip edge touches.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -31,6 +32,8 @@ use crate::stiffness::weber_banaschek::ToothCompliance;
 
 /// Turns after which the end of the stretch that is clear of an edge is found to round-off.
 const TURNS: usize = 12;
+/// Places of the curve on either side of what is clear of the edges.
+const CONTINUED_POSITIONS: usize = 16;
 /// A little more than the half-width is kept clear, so that round-off puts nothing over an edge.
 const CLEAR: f64 = 1.0 + 1e-6;
 
@@ -226,40 +229,49 @@ impl<'a> LoadedPair<'a> {
         let read = |&position_mm: &f64| self.deflection(position_mm, line_load_n_per_mm).ok_or_else(|| none.clone());
         positions.par_iter().map(read).collect()
     }
+
+    /// The curve for [`crate::stiffness::TeethSpring`], which adds the closed-form flattening again: the whole compliance of
+    /// the finite elements less that flattening, both under `line_load_n_per_mm`, so that the whole pair comes out right.
+    /// Beyond the outermost of `deflections` it changes as bending does.
+    pub fn curve(&self, deflections: &[PairDeflection]) -> PairCompliance {
+        let teeth = |at: &PairDeflection| {
+            (at.position_mm, at.sum(|tooth| tooth.whole_mm2_per_n - tooth.closed_form_flattening_mm2_per_n))
+        };
+        let inner: Vec<(f64, f64)> = deflections.iter().map(teeth).collect();
+        let path = &self.pair.path;
+        let [before, after] = self.pair.farthest_touch_mm();
+        let edge_mm = |gear| path.rho_mm(gear, self.pair.rounding_start_rho_mm(gear));
+        let mut points = self.continued(inner[0], edge_mm(Gear::Wheel), path.start_mm - before);
+        points.reverse();
+        points.extend_from_slice(&inner);
+        points.extend(self.continued(inner[inner.len() - 1], edge_mm(Gear::Pinion), path.end_mm + after));
+        let (position_mm, mm2_per_n) = points.into_iter().unzip();
+        // The coupling hardly depends on the position: the whole bodies yield.
+        let couplings: Vec<f64> =
+            deflections.iter().flat_map(|at| [at.ahead_mm2_per_n, at.behind_mm2_per_n]).flatten().collect();
+        let shared_mm2_per_n =
+            if couplings.is_empty() { 0.0 } else { couplings.iter().sum::<f64>() / couplings.len() as f64 };
+        PairCompliance { position_mm, mm2_per_n, stands_for: StandsFor::Teeth, shared_mm2_per_n }
+    }
+
+    /// The curve from `from` (position and compliance) on by what bending changes, to `to_mm` by way of `edge_mm`, where an edge takes
+    /// the contact over.
+    fn continued(&self, from: (f64, f64), edge_mm: f64, to_mm: f64) -> Vec<(f64, f64)> {
+        let Some(at_from) = self.bending_mm2_per_n(from.0) else { return Vec::new() };
+        let outer = evenly(edge_mm, to_mm, CONTINUED_POSITIONS);
+        let places = outer.into_iter().filter(|place| (place - from.0) * (to_mm - from.0) > 0.0);
+        places.map_while(|place| Some((place, from.1 + self.bending_mm2_per_n(place)? - at_from))).collect()
+    }
+
+    /// Bending of both teeth under a concentrated load where the flanks touch, over that load, mm²/N.
+    fn bending_mm2_per_n(&self, position_mm: f64) -> Option<f64> {
+        let touch = self.pair.touch(position_mm);
+        let of = |gear: Gear| self.teeth[gear].bending_mm2_per_n(touch.rho_mm[gear], &touch.load_line[gear]);
+        Some(of(Gear::Pinion)? + of(Gear::Wheel)?)
+    }
 }
 
 /// `count` (at least 2) places from `low` to `high`, both included.
 pub fn evenly(low: f64, high: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| low + (high - low) * k as f64 / (count - 1) as f64).collect()
-}
-
-/// The curve for [`crate::stiffness::TeethSpring`], which adds the closed-form flattening again: the whole compliance of
-/// the finite elements less that flattening, both under `line_load_n_per_mm`, so that the whole pair comes out right.
-/// Continued to A and E in straight lines.
-pub fn curve(pair: &GearPair, deflections: &[PairDeflection]) -> PairCompliance {
-    let mut position_mm: Vec<f64> = deflections.iter().map(|at| at.position_mm).collect();
-    let mut mm2_per_n: Vec<f64> = deflections
-        .iter()
-        .map(|at| at.sum(|tooth| tooth.whole_mm2_per_n - tooth.closed_form_flattening_mm2_per_n))
-        .collect();
-    let continued = |at: f64, k: usize, j: usize| {
-        let slope = (mm2_per_n[j] - mm2_per_n[k]) / (position_mm[j] - position_mm[k]);
-        (at, mm2_per_n[k] + slope * (at - position_mm[k]))
-    };
-    let n = position_mm.len();
-    let (first, last) = (continued(pair.path.start_mm, 0, 1), continued(pair.path.end_mm, n - 1, n - 2));
-    if first.0 < position_mm[0] {
-        position_mm.insert(0, first.0);
-        mm2_per_n.insert(0, first.1);
-    }
-    if last.0 > position_mm[position_mm.len() - 1] {
-        position_mm.push(last.0);
-        mm2_per_n.push(last.1);
-    }
-    // The coupling hardly depends on the position: the whole bodies yield.
-    let couplings: Vec<f64> =
-        deflections.iter().flat_map(|at| [at.ahead_mm2_per_n, at.behind_mm2_per_n]).flatten().collect();
-    let shared_mm2_per_n =
-        if couplings.is_empty() { 0.0 } else { couplings.iter().sum::<f64>() / couplings.len() as f64 };
-    PairCompliance { position_mm, mm2_per_n, stands_for: StandsFor::Teeth, shared_mm2_per_n }
 }

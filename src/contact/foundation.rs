@@ -20,6 +20,7 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
+use super::edge_bed::{EdgeBeds, EdgeSprings};
 use super::settings::MatchCriterion;
 use crate::reference::flattening::Flattening;
 
@@ -49,6 +50,8 @@ pub enum Bed {
         pressure: FoundationCurve,
         /// The bed with the approach of the elastic bodies.
         approach: FoundationCurve,
+        /// Where tip edges touch, if they are followed into contact.
+        edges: Option<EdgeBeds>,
     },
 }
 
@@ -58,6 +61,14 @@ impl Bed {
         match self {
             Self::Uniform { .. } => None,
             Self::Curve { approach, .. } => Some(approach.springs_at(position_mm)),
+        }
+    }
+
+    /// The springs at one position where a tip edge touches, if the bed knows them.
+    pub fn at_edge(&self, position_mm: f64) -> Option<EdgeSprings> {
+        match self {
+            Self::Curve { edges: Some(edges), .. } => edges.at(position_mm),
+            _ => None,
         }
     }
 
@@ -82,6 +93,11 @@ pub struct Springs {
 }
 
 impl Springs {
+    /// K = `mpa_per_mm` at w_ref = `reference`, and m.
+    pub(super) fn new(mpa_per_mm: f64, load_exponent: f64, reference: f64) -> Self {
+        Self { mpa_per_mm, load_exponent, reference }
+    }
+
     /// K/H under a line load (> 0 where it depends on it), MPa/mm.
     pub fn mpa_per_mm(&self, line_load_n_per_mm: f64) -> f64 {
         if self.load_exponent == 0.0 {
@@ -156,7 +172,7 @@ impl FoundationCurve {
     }
 
     /// The springs at one position.
-    fn springs_at(&self, position_mm: f64) -> Springs {
+    pub(super) fn springs_at(&self, position_mm: f64) -> Springs {
         let count = self.position_mm.len();
         let after = self.position_mm.partition_point(|&p| p <= position_mm).min(count - 1);
         let before = after.saturating_sub(1);
@@ -227,7 +243,7 @@ mod tests {
     #[test]
     fn ver_the_load_of_softening_springs_needs_no_iteration() {
         for position in [4.0, 9.0, 20.0, 24.0] {
-            let springs = Bed::Curve { pressure: curve(), approach: curve() }.at(position);
+            let springs = Bed::Curve { pressure: curve(), approach: curve(), edges: None }.at(position);
             // A parabola of radius R penetrated by δ: U = (4/3) δ √(2Rδ), U' = 2 √(2Rδ).
             let of_depth = |depth: f64| {
                 let half_width = (2.0 * 8.4 * depth).sqrt();

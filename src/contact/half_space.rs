@@ -9,7 +9,7 @@
 //! The pressure is uniform on evenly spaced cells ([`ElasticCells`]). There are at least [`CELLS_PER_HALF_WIDTH`] of them in
 //! the half-width of the plain contact under the whole load: the peak pressure of a parabolic gap is then within 0.1 % of
 //! Hertz's and the half-width within 0.5 % from a half of the load on. A flank point's pressure is the mean of the field
-//! ([`PressureField`]) over the stretch that the point moves while the contact stands for one loading position.
+//! ([`SweptField`]) over the stretch that the point moves while the contact stands for one loading position.
 //!
 //! Cells do not see waves of wear shorter than twice their width for what they are. So that such waves are never driven up,
 //! material removed counts in the gap of a cell with the same weights with which the pressure of the cell counts at flank
@@ -25,9 +25,9 @@ use super::{
     ContactSurface, Effort, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
     elastic_cells::ElasticCells,
     hertz,
-    pressure_field::PressureField,
     settings::Material,
-    strip::{ObservedPoints, Strip, Window, point_distance_mm},
+    strip::{Strip, Window, point_distance_mm},
+    swept_field::SweptField,
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 use crate::reference::{flattening::Flattening, half_plane::cell_compliance_mm_per_mpa};
@@ -109,15 +109,11 @@ struct Site<'a> {
     half_window_mm: f64,
 }
 
-/// The points of each flank that may touch, with their movement through the cell.
-type Observed = PerGear<(ObservedPoints, Vec<[f64; 2]>)>;
-
 /// What is seen through a window.
 struct Look {
     strip: Strip,
     cells: ElasticCells,
-    field: PressureField,
-    observed: Option<Observed>,
+    swept: SweptField,
 }
 
 impl Site<'_> {
@@ -128,22 +124,8 @@ impl Site<'_> {
         let strip = Strip::new(self.flanks, self.position_mm, window, 2 * count);
         let width = 2.0 * strip.spacing_mm;
         let compliance = cell_compliance_mm_per_mpa(&self.flattening.bodies, width, count);
-        let observed = self.cell.map(|cell| {
-            PerGear::from_fn(|gear| {
-                let points = ObservedPoints::new(self.flanks, gear, window, cell);
-                let shifts = points.shifts_to_ends_mm();
-                (points, shifts)
-            })
-        });
-        // A cell that an edge only moves away from during it lies to one side of its position.
-        let two_sided = |cell: PositionCell| cell.lower_mm < cell.position_mm && cell.position_mm < cell.upper_mm;
-        let mirrored = self.cell.is_some_and(two_sided);
-        Look {
-            strip,
-            cells: ElasticCells::new(width, compliance),
-            field: PressureField::new(window.lower_mm, width, mirrored),
-            observed,
-        }
+        let swept = SweptField::new(self.flanks, window, width, self.cell);
+        Look { strip, cells: ElasticCells::new(width, compliance), swept }
     }
 }
 
@@ -191,9 +173,9 @@ impl PairContact for HalfSpacePair<'_> {
     }
 
     fn settle(&mut self) -> bool {
-        let Look { strip, cells, field, .. } = &mut self.look;
-        field.fill(|pressure| cells.pressure_mpa(pressure));
-        let pressure = field.cells_mpa();
+        let Look { strip, cells, swept } = &mut self.look;
+        swept.field.fill(|pressure| cells.pressure_mpa(pressure));
+        let pressure = swept.field.cells_mpa();
         let free = |end: &[f64]| end.iter().all(|p| *p == 0.0);
         let cells = FREE_CELLS.min(pressure.len());
         let [real_below, real_above] = strip.window.ends_are_real;
@@ -214,64 +196,14 @@ impl PairContact for HalfSpacePair<'_> {
     }
 
     fn sweep(&self, gear: Gear, _removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
-        let Some(observed) = &self.look.observed else { return sweep.begin(0, &[]) };
-        let (points, shifts) = &observed[gear];
-        let near = self.touching(gear, points);
-        sweep.begin(points.first_point + near.start, &points.sliding_mm[near.clone()]);
-        let courses = points.at[1..][near.clone()].iter().zip(&shifts[near]);
-        for (pressure, (point, shift)) in sweep.pressure_mpa.iter_mut().zip(courses) {
-            // A point that faces nothing has no course.
-            *pressure = if shift[0] == shift[1] {
-                0.0
-            } else {
-                self.look.field.mean_mpa(shift.map(|shift| on_tangent(gear, point.along_mm + shift)))
-            };
-        }
+        self.look.swept.sweep(gear, sweep);
     }
 
     fn felt(&self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Vec<Felt> {
-        let Some(observed) = &self.look.observed else { return Vec::new() };
-        let (points, shifts) = &observed[gear];
-        let near = self.touching(gear, points);
-        let (lower, upper) = self.look.field.extent_mm();
-        let courses = points.at[1..][near.clone()].iter().zip(&shifts[near]);
-        courses
-            .map(|(point, shift)| {
-                let [low, high] = [shift[0].min(shift[1]), shift[0].max(shift[1])];
-                if low == high {
-                    return Felt::default();
-                }
-                let at = |shift: f64| on_tangent(gear, point.along_mm + shift);
-                let inside = |shift: f64| at(shift).clamp(lower, upper);
-                Felt {
-                    pressure_mpa: self.look.field.greatest_mpa([at(low), at(high)]),
-                    contact_fraction: (inside(high) - inside(low)).abs() / (high - low),
-                }
-            })
-            .collect()
+        self.look.swept.felt(gear)
     }
 
     fn footprint(&self) -> Footprint {
-        self.look.field.footprint()
-    }
-}
-
-impl HalfSpacePair<'_> {
-    /// The points of a flank that may touch: pressure goes half a cell beyond the cells in contact.
-    fn touching(&self, gear: Gear, points: &ObservedPoints) -> std::ops::Range<usize> {
-        let (lower, upper) = self.look.field.extent_mm();
-        let more = 4.0 * self.look.strip.spacing_mm;
-        match gear {
-            Gear::Pinion => points.between(lower - more, upper + more),
-            Gear::Wheel => points.between(-upper - more, more - lower),
-        }
-    }
-}
-
-/// Place on the common tangent, towards the pinion's tip, of a place in a gear's own direction.
-fn on_tangent(gear: Gear, along_mm: f64) -> f64 {
-    match gear {
-        Gear::Pinion => along_mm,
-        Gear::Wheel => -along_mm,
+        self.look.swept.field.footprint()
     }
 }

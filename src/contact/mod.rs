@@ -11,6 +11,7 @@
 //! | [`hertz`] | Hertz's ellipse on the nominal curvature | closed-form flattening |
 //! | [`hertz_mean`] | Hertz's mean pressure, closed-form sliding | closed-form flattening |
 
+pub mod edge_bed;
 pub mod elastic_cells;
 pub mod foundation;
 pub mod half_space;
@@ -19,6 +20,7 @@ pub mod hertz_mean;
 pub mod pressure_field;
 pub mod settings;
 pub mod strip;
+pub mod swept_field;
 pub mod winkler;
 
 use serde::{Deserialize, Serialize};

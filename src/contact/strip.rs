@@ -55,7 +55,7 @@ impl Window {
     /// `half_length_mm` to either side of the theoretical contact point, or of the tip edge next to it where the one flank
     /// ends before it, cut where a flank ends.
     pub fn new(flanks: Flanks<'_>, position_mm: f64, half_length_mm: f64) -> Self {
-        let (lower, upper) = common_extent_mm(flanks, position_mm);
+        let (lower, upper) = common_extent_mm(flanks.geometry, position_mm);
         let centre = 0.0_f64.min(upper).max(lower);
         let (from, to) = (centre - half_length_mm, centre + half_length_mm);
         Self { lower_mm: lower.max(from), upper_mm: upper.min(to), ends_are_real: [lower >= from, upper <= to] }
@@ -71,9 +71,9 @@ impl Window {
 const ROUND_OFF: f64 = 1e-9;
 
 /// Where along the tangent both flanks exist: before A and after E beside the theoretical contact point.
-fn common_extent_mm(flanks: Flanks<'_>, position_mm: f64) -> (f64, f64) {
-    let along = |gear: Gear, coordinate| flanks.geometry.in_tangent_frame(gear, coordinate, position_mm).along_mm;
-    let (p, w) = (flanks.geometry.flank_limits_mm(Gear::Pinion), flanks.geometry.flank_limits_mm(Gear::Wheel));
+pub(super) fn common_extent_mm(geometry: &dyn ConjugateFlanks, position_mm: f64) -> (f64, f64) {
+    let along = |gear: Gear, coordinate| geometry.in_tangent_frame(gear, coordinate, position_mm).along_mm;
+    let (p, w) = (geometry.flank_limits_mm(Gear::Pinion), geometry.flank_limits_mm(Gear::Wheel));
     // The wheel's tangent coordinate runs the other way. At A and E, where one limit is the contact point itself,
     // round-off must not put it outside.
     let round_off = ROUND_OFF * p.1.max(w.1);

@@ -19,7 +19,8 @@
 //! follows the load of the contact by a power law, which the load of the contact still solves in closed form. A bed with the
 //! half-width or the peak pressure of elastic bodies yields by a third or half as much as they do; a calibration knows the bed with
 //! their approach too, and what the one lacks of the other under a contact's load is added to the approach of the gears: flattening
-//! is softer under light load, where a tip edge begins to touch, and no spring of the teeth can stand for that.
+//! is softer under light load, where a tip edge begins to touch, and no spring of the teeth can stand for that. Where a tip edge does
+//! touch the gap has another curvature, and both follow from half-planes on that gap ([`edge_bed`](super::edge_bed)).
 //!
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.3; the thesis, section 3.2.
 
@@ -27,8 +28,10 @@ use std::ops::Range;
 
 use super::{
     ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
+    edge_bed::EdgeSprings,
     foundation::{Bed, Springs},
     strip::{GapAtPoints, ObservedPoints, Strip, Window, least_removed_mm, point_distance_mm},
+    swept_field::SweptField,
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 
@@ -48,6 +51,8 @@ const FIRST_WINDOW: f64 = 1.25;
 const POINTS_PER_SAMPLE: f64 = 2.0;
 /// Fewest intervals between samples.
 const LEAST_INTERVALS: usize = 8;
+/// The same where a tip edge touches over a part of the window.
+const LEAST_INTERVALS_AT_EDGE: usize = 200;
 
 impl ContactSurface for Winkler {
     fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
@@ -55,12 +60,14 @@ impl ContactSurface for Winkler {
         let springs = self.bed.at(position_mm);
         let half_width = springs.half_width_mm(radius_mm, self.expected_line_load_n_per_mm);
         let first_half_window_mm = FIRST_WINDOW * half_width;
-        let site = Site { flanks, position_mm, cell, half_window_mm: first_half_window_mm };
+        let edge = self.bed.at_edge(position_mm);
+        let site = Site { flanks, position_mm, cell, half_window_mm: first_half_window_mm, at_edge: edge.is_some() };
         let (strip, observed) = site.look();
         let first_foundation = springs.mpa_per_mm(self.expected_line_load_n_per_mm);
         Box::new(WinklerPair {
             springs,
             bodies: self.bed.approach_at(position_mm),
+            edge,
             foundation: first_foundation,
             first_foundation,
             radius_mm,
@@ -83,8 +90,14 @@ impl ContactSurface for Winkler {
     }
 }
 
-/// The points of each flank that may touch, with the gap they face.
-type Observed = PerGear<(ObservedPoints, GapAtPoints)>;
+/// The points of each flank that may touch.
+enum Observed {
+    /// With the gap they face.
+    Facing(PerGear<(ObservedPoints, GapAtPoints)>),
+    /// Moving through a pressure that stands still: an edge under load stands on one place of its tooth and moves off the other,
+    /// so that no gap is a parabola of the position.
+    Swept(SweptField),
+}
 
 /// Where a pair is, and how much of its flanks it looks at.
 struct Site<'a> {
@@ -92,6 +105,8 @@ struct Site<'a> {
     position_mm: f64,
     cell: Option<PositionCell>,
     half_window_mm: f64,
+    /// Whether a tip edge touches.
+    at_edge: bool,
 }
 
 impl Site<'_> {
@@ -99,14 +114,19 @@ impl Site<'_> {
     fn look(&self) -> (Strip, Option<Observed>) {
         let window = Window::new(self.flanks, self.position_mm, self.half_window_mm);
         let distance_mm = POINTS_PER_SAMPLE * point_distance_mm(self.flanks, self.position_mm);
-        let intervals = ((window.length_mm() / distance_mm).ceil() as usize).max(LEAST_INTERVALS);
+        let least = if self.at_edge { LEAST_INTERVALS_AT_EDGE } else { LEAST_INTERVALS };
+        let intervals = ((window.length_mm() / distance_mm).ceil() as usize).max(least);
         let strip = Strip::new(self.flanks, self.position_mm, window, intervals);
+        if self.at_edge {
+            let swept = SweptField::new(self.flanks, window, strip.spacing_mm, self.cell);
+            return (strip, Some(Observed::Swept(swept)));
+        }
         let observed = self.cell.map(|cell| {
-            PerGear::from_fn(|gear| {
+            Observed::Facing(PerGear::from_fn(|gear| {
                 let points = ObservedPoints::new(self.flanks, gear, window, cell);
                 let gap = GapAtPoints::new(self.flanks, gear, &points, self.position_mm);
                 (points, gap)
-            })
+            }))
         });
         (strip, observed)
     }
@@ -117,6 +137,8 @@ struct WinklerPair<'a> {
     springs: Springs,
     /// The springs with the approach of the elastic bodies, where they are known.
     bodies: Option<Springs>,
+    /// The springs in place of both where a tip edge touches.
+    edge: Option<EdgeSprings>,
     /// K/H under the last load, MPa/mm.
     foundation: f64,
     /// The same before any load.
@@ -171,14 +193,24 @@ impl PairContact for WinklerPair<'_> {
             before = here;
         }
         let spacing = self.strip.spacing_mm;
-        let (load, stiffness) = self.springs.load_and_stiffness(spacing * penetration, spacing * contact);
+        let (penetration, contact) = (spacing * penetration, spacing * contact);
+        let (load, stiffness) = match &self.edge {
+            Some(edge) => edge.load_and_stiffness(penetration, contact),
+            None => self.springs.load_and_stiffness(penetration, contact),
+        };
         if load > 0.0 {
-            self.foundation = self.springs.mpa_per_mm(load);
+            self.foundation = match &self.edge {
+                Some(edge) => edge.mpa_per_mm(load),
+                None => self.springs.mpa_per_mm(load),
+            };
         }
         Response { line_load_n_per_mm: load, stiffness_n_per_mm2: stiffness }
     }
 
     fn further_approach_mm(&self, line_load_n_per_mm: f64) -> (f64, f64) {
+        if let Some(edge) = &self.edge {
+            return edge.further_approach_mm(line_load_n_per_mm);
+        }
         let Some(bodies) = self.bodies else { return (0.0, 0.0) };
         let [whole, own] =
             [bodies, self.springs].map(|springs| springs.approach_and_compliance(self.radius_mm, line_load_n_per_mm));
@@ -193,6 +225,14 @@ impl PairContact for WinklerPair<'_> {
 
     fn settle(&mut self) -> bool {
         self.extent_mm = self.extent_mm();
+        if let Some(Observed::Swept(swept)) = &mut self.observed {
+            let (gap, depth_mm, foundation) = (&self.gap, self.depth, self.foundation);
+            let mean = |ends: &[f64]| foundation * mean_positive([depth_mm - ends[0], depth_mm - ends[1]]).0;
+            swept.field.fill(|pressure| {
+                pressure.clear();
+                pressure.extend(gap.windows(2).map(mean));
+            });
+        }
         !self.strip.may_touch_beyond(self.touch + self.depth, self.removed_everywhere)
     }
 
@@ -210,8 +250,11 @@ impl PairContact for WinklerPair<'_> {
     }
 
     fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
-        let Some(observed) = &self.observed else { return sweep.begin(0, &[]) };
-        let (points, faced) = &observed[gear];
+        let (points, faced) = match &self.observed {
+            None => return sweep.begin(0, &[]),
+            Some(Observed::Swept(swept)) => return swept.sweep(gear, sweep),
+            Some(Observed::Facing(facing)) => &facing[gear],
+        };
         let near = self.touching(gear, points);
         sweep.begin(points.first_point + near.start, &points.sliding_mm[near.clone()]);
         let approach_mm = self.touch + self.depth;
@@ -221,8 +264,11 @@ impl PairContact for WinklerPair<'_> {
     }
 
     fn felt(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<Felt> {
-        let Some(observed) = &self.observed else { return Vec::new() };
-        let (points, faced) = &observed[gear];
+        let (points, faced) = match &self.observed {
+            None => return Vec::new(),
+            Some(Observed::Swept(swept)) => return swept.felt(gear),
+            Some(Observed::Facing(facing)) => &facing[gear],
+        };
         let approach_mm = self.touch + self.depth;
         faced
             .faced(points, gear, removed_mm, self.touching(gear, points))
@@ -241,7 +287,7 @@ impl PairContact for WinklerPair<'_> {
 }
 
 /// Mean of the positive part of the straight course from u₀ to u₁, and the fraction of the way on which it is positive.
-fn mean_positive([u0, u1]: [f64; 2]) -> (f64, f64) {
+pub(super) fn mean_positive([u0, u1]: [f64; 2]) -> (f64, f64) {
     if u0 >= 0.0 && u1 >= 0.0 {
         (0.5 * (u0 + u1), 1.0)
     } else if u0 > 0.0 || u1 > 0.0 {

@@ -34,7 +34,7 @@ pub trait ConjugateFlanks: Sync {
     /// Distance the flanks slide on each other while the contact moves from one position to another: ∫ |v_s| dt.
     fn sliding_mm(&self, from_mm: f64, to_mm: f64) -> f64;
 
-    /// Depth from the flank to the tooth's centre line along the line of action.
+    /// Depth from the flank to the tooth's centre line along the normal of the contact.
     fn depth_mm(&self, gear: Gear, position_mm: f64) -> f64;
 
     /// Relative radius of curvature R: 1/R = 1/ρ1 + 1/ρ2.
@@ -82,6 +82,6 @@ impl ConjugateFlanks for GearPair {
     }
 
     fn depth_mm(&self, gear: Gear, position_mm: f64) -> f64 {
-        self.teeth[gear].load_line(self.path.rho_mm(gear, position_mm)).depth_mm
+        self.touch(position_mm).load_line[gear].depth_mm
     }
 }

@@ -16,6 +16,7 @@ pub mod removed_material;
 pub mod root_trochoid;
 pub mod slices;
 pub mod spec;
+pub mod tip_touch;
 pub mod tooth;
 
 pub use error::PairError;

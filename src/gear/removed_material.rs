@@ -77,7 +77,8 @@ fn relief_mm(relief: Relief, from_start_mm: f64) -> f64 {
         }
 }
 
-fn tip_rounding_mm(radius: f64, tooth: &Tooth, rho_mm: f64) -> f64 {
+/// Removed at radius of curvature `rho_mm` of `tooth` by a rounding of its tip edge.
+pub fn tip_rounding_mm(radius: f64, tooth: &Tooth, rho_mm: f64) -> f64 {
     let begins = tooth.involute.arc_mm(tooth.tip_rho_mm()) - tip_rounding_length_mm(radius, tooth);
     let into = tooth.involute.arc_mm(rho_mm) - begins;
     if radius <= 0.0 || into <= 0.0 {

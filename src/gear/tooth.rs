@@ -200,15 +200,31 @@ impl Tooth {
     }
 }
 
-/// How the line of action passes through a loaded tooth; the tooth's centre line is the y axis, from the gear's axis.
+/// How the line of a load passes through a tooth; the tooth's centre line is the y axis, from the gear's axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LoadLine {
     /// Angle of the load to the tooth's transverse, α_F = α − ψ.
     pub load_angle_rad: f64,
     /// Where the load crosses the centre line, from the gear's axis.
     pub centre_line_mm: f64,
-    /// From the flank to the centre line, along the line of action.
+    /// From the flank to the centre line, along the line of the load.
     pub depth_mm: f64,
+}
+
+impl LoadLine {
+    /// The same turned by `turn_rad` towards the tooth's axis, about a point `about_mm` deep below the flank: the line of a load on a
+    /// rounding of that radius that begins where this line leaves the flank.
+    pub fn turned(&self, about_mm: f64, turn_rad: f64) -> Self {
+        // The height of that point above where this line crosses the centre line, and its distance from the latter.
+        let (sin, cos) = self.load_angle_rad.sin_cos();
+        let (above_mm, beside_mm) = ((self.depth_mm - about_mm) * sin, (self.depth_mm - about_mm) * cos);
+        let load_angle_rad = self.load_angle_rad + turn_rad;
+        Self {
+            load_angle_rad,
+            centre_line_mm: self.centre_line_mm + above_mm - beside_mm * load_angle_rad.tan(),
+            depth_mm: about_mm + beside_mm / load_angle_rad.cos(),
+        }
+    }
 }
 
 impl Tooth {

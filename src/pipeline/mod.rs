@@ -22,6 +22,7 @@ use std::time::Instant;
 use crate::calibration::{self, CalibrationError};
 use crate::contact::{
     ContactSurface,
+    edge_bed::EdgeBeds,
     foundation::{Bed, matched_mpa_per_mm},
     half_space::HalfSpace,
     hertz::{self, Hertz},
@@ -424,9 +425,12 @@ fn load_case<'a>(
             if calibration.foundation.contains_key(&criterion)
                 && calibration.foundation.contains_key(&MatchCriterion::Approach) =>
         {
+            let approach = &calibration.foundation[&MatchCriterion::Approach];
+            let edges = || EdgeBeds::new(pair, &scene.material, line_load_n_per_mm, criterion, approach);
             Some(Bed::Curve {
                 pressure: calibration.foundation[&criterion].clone(),
-                approach: calibration.foundation[&MatchCriterion::Approach].clone(),
+                approach: approach.clone(),
+                edges: scene.contact.tip_contact.then(edges),
             })
         }
         (SurfaceKind::Winkler, Foundation::Matched(criterion) | Foundation::Calibrated(criterion), _) => {

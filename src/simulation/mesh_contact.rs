@@ -130,7 +130,7 @@ impl<'a> LoadedMesh<'a> {
         let springs = Springs {
             pair: self.pair,
             material,
-            along_path: SpringAlongPath::new(path, count, |at| teeth.own_n_per_mm2(at))?,
+            along_path: SpringAlongPath::new(path, count, [0.0; 2], |at| teeth.own_n_per_mm2(at))?,
             sliced,
             line_load_n_per_mm: line_load * sliced.slices.count() as f64,
         };
@@ -152,7 +152,7 @@ impl<'a> LoadedMesh<'a> {
         let (path, count) = (&self.pair.path, self.numerics.positions);
         let spring = |at| teeth.own_n_per_mm2(at);
         let bodies = teeth.shared_mm2_per_n() * line_load;
-        let lever_ratio = |at| tip_contact::lever_ratio(self.pair, at);
+        let lever_ratio = |at| self.pair.pinion_lever_ratio(&self.pair.touch(at));
         let beyond = if tip_contact {
             let pitch_point = path.pitch_point_mm;
             let surfaces = surface.plain_approach_mm(self.pair, pitch_point, line_load);
@@ -162,7 +162,7 @@ impl<'a> LoadedMesh<'a> {
             None
         };
         if let Some(sliced) = sliced {
-            let along = SpringAlongPath::new(path, count, spring)?;
+            let along = SpringAlongPath::new(path, count, beyond.unwrap_or_default(), spring)?;
             let phases = phases(path, &sliced.slices, count, beyond);
             let springs = SliceSprings { along_path: &along, lever_ratio: &lever_ratio };
             let cycle = SlicedCycle::new(flanks, surface, sliced, &phases, &springs, path, count, line_load);

@@ -131,9 +131,7 @@ impl<'a> OnFlankNodes<'a> {
 
     /// What `at_nodes` is at the flank points.
     fn at_points(&self, at_nodes: &PerGear<Vec<f64>>) -> PerGear<Vec<f64>> {
-        PerGear::from_fn(|gear| {
-            self.cycle.at_radii(gear, &at_nodes[gear], self.radius_mm[gear].iter().copied())
-        })
+        PerGear::from_fn(|gear| self.cycle.at_radii(gear, &at_nodes[gear], self.radius_mm[gear].iter().copied()))
     }
 }
 

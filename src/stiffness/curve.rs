@@ -35,6 +35,11 @@ pub enum StandsFor {
 }
 
 impl PairCompliance {
+    /// Its first and last position, mm.
+    pub fn ends_mm(&self) -> (f64, f64) {
+        (self.position_mm[0], self.position_mm[self.position_mm.len() - 1])
+    }
+
     /// Compliance at `position_mm`, mm²/N.
     pub fn at(&self, position_mm: f64) -> f64 {
         let after = self.position_mm.partition_point(|&p| p <= position_mm).clamp(1, self.position_mm.len() - 1);

@@ -19,6 +19,16 @@
 //! all teeth with them. That part, q_b, is taken out of the springs of the single pairs and put in series with all of them
 //! together: the gears approach each other by q_b F more, whoever carries F.
 //!
+//! Where a tip edge touches, before A and after E and where its rounding is the contact, the load meets the tooth under another
+//! angle and its mate at another height ([`crate::gear::tip_touch`]): it turns towards the axis of its tooth, which yields the less.
+//! `weber-banaschek` knows that for any load line, and a curve of finite elements has it in its values. The other models state
+//! nothing beyond A and E (a curve: beyond its ends); there their spring changes in the same proportion as the teeth of Weber and
+//! Banaschek,
+//!
+//! ```text
+//! q(ξ) = q(ξ_end) q_WB(ξ)/q_WB(ξ_end)
+//! ```
+//!
 //! Both flattening and the bed's approach are nonlinear in the load; what the split leaves over at other loads than the
 //! reference is reported ([`TeethSpring::split_remainder`]).
 
@@ -57,7 +67,7 @@ enum Curve<'a> {
     /// Spring of the teeth, N/mm².
     Teeth(f64),
     /// Bending, shear and bodies of each gear; flattening in closed form.
-    WeberBanaschek(Box<PerGear<ToothCompliance>>),
+    WeberBanaschek,
     /// Compliance of the whole pair, mm²/N.
     WholePair(f64),
     /// From finite elements or the user.
@@ -70,6 +80,7 @@ pub struct TeethSpring<'a> {
     material: PerGear<Material>,
     surface: &'a dyn ContactSurface,
     curve: Curve<'a>,
+    weber_banaschek: PerGear<ToothCompliance>,
     /// The load at which spring and surface together have the model's compliance, N/mm.
     pub reference_line_load_n_per_mm: f64,
 }
@@ -92,14 +103,15 @@ impl<'a> TeethSpring<'a> {
             }
             (StiffnessSettings::WeberBanaschek, _)
             | (StiffnessSettings::Fem | StiffnessSettings::Simon | StiffnessSettings::WangCheng, None) => {
-                let tooth = |gear| ToothCompliance::new(&pair.teeth[gear], &material[gear]);
-                Curve::WeberBanaschek(Box::new(PerGear::from_fn(tooth)))
+                Curve::WeberBanaschek
             }
             (StiffnessSettings::Iso6336, _) => {
                 Curve::WholePair(1.0 / iso6336::single_stiffness_n_per_mm2(&pair.spec, material, line_load_n_per_mm))
             }
         };
-        Self { pair, material: *material, surface, curve, reference_line_load_n_per_mm: line_load_n_per_mm }
+        let weber_banaschek = PerGear::from_fn(|gear| ToothCompliance::new(&pair.teeth[gear], &material[gear]));
+        let reference_line_load_n_per_mm = line_load_n_per_mm;
+        Self { pair, material: *material, surface, curve, weber_banaschek, reference_line_load_n_per_mm }
     }
 
     /// Stiffness of the spring with the theoretical contact point at `position_mm`, N per mm of approach and mm of face
@@ -108,6 +120,30 @@ impl<'a> TeethSpring<'a> {
     /// # Errors
     /// [`StiffnessError::SurfaceTooSoft`] where nothing of the pair's compliance is left for the teeth.
     pub fn n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
+        let (first_mm, last_mm) = self.stated_mm();
+        let end_mm = position_mm.clamp(first_mm, last_mm);
+        let stated = self.stated_n_per_mm2(end_mm)?;
+        if end_mm == position_mm {
+            return Ok(stated);
+        }
+        Ok(stated * self.weber_banaschek_mm2_per_n(end_mm) / self.weber_banaschek_mm2_per_n(position_mm))
+    }
+
+    /// The positions for which the model states something.
+    fn stated_mm(&self) -> (f64, f64) {
+        let path = &self.pair.path;
+        match &self.curve {
+            Curve::WeberBanaschek => (f64::NEG_INFINITY, f64::INFINITY),
+            Curve::Given(curve) => {
+                let (first_mm, last_mm) = curve.ends_mm();
+                (first_mm.min(path.start_mm), last_mm.max(path.end_mm))
+            }
+            Curve::Teeth(_) | Curve::WholePair(_) => (path.start_mm, path.end_mm),
+        }
+    }
+
+    /// The spring at a position for which the model states something.
+    fn stated_n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
         let Some(whole) = self.stated_pair_mm2_per_n(position_mm) else {
             let Curve::Teeth(spring) = self.curve else { unreachable!("only a given spring states no pair") };
             return Ok(spring);
@@ -126,7 +162,7 @@ impl<'a> TeethSpring<'a> {
     pub fn shared_mm2_per_n(&self) -> f64 {
         match &self.curve {
             Curve::Given(curve) => curve.shared_mm2_per_n,
-            Curve::Teeth(_) | Curve::WeberBanaschek(_) | Curve::WholePair(_) => 0.0,
+            Curve::Teeth(_) | Curve::WeberBanaschek | Curve::WholePair(_) => 0.0,
         }
     }
 
@@ -157,7 +193,7 @@ impl<'a> TeethSpring<'a> {
     /// How far the surface's share of the approach at `load_fraction` of the reference load is from what the model's own
     /// flattening would be there, relative to the pair's whole approach; `None` where the model states no flattening.
     pub fn split_remainder(&self, position_mm: f64, load_fraction: f64) -> Option<f64> {
-        let (Curve::WeberBanaschek(_) | Curve::Given(_)) = self.curve else { return None };
+        let (Curve::WeberBanaschek | Curve::Given(_)) = self.curve else { return None };
         let w = self.reference_line_load_n_per_mm;
         let flattening = |load| hertz::flattening(self.pair, &self.material, position_mm).approach_mm(load);
         let surface = |load| self.surface.plain_approach_mm(self.pair, position_mm, load);
@@ -174,7 +210,7 @@ impl<'a> TeethSpring<'a> {
         match &self.curve {
             Curve::Teeth(_) => None,
             Curve::WholePair(compliance) => Some(*compliance),
-            Curve::WeberBanaschek(_) | Curve::Given(_) => {
+            Curve::WeberBanaschek | Curve::Given(_) => {
                 let w = self.reference_line_load_n_per_mm;
                 Some(self.teeth_mm2_per_n(position_mm) + self.flattening_mm2_per_n(position_mm, w))
             }
@@ -190,10 +226,7 @@ impl<'a> TeethSpring<'a> {
     /// Compliance of both teeth and bodies; 0 for the models that do not tell it from flattening.
     fn teeth_mm2_per_n(&self, position_mm: f64) -> f64 {
         match &self.curve {
-            Curve::WeberBanaschek(gears) => {
-                let path = &self.pair.path;
-                PerGear::from_fn(|gear| gears[gear].mm2_per_n(path.rho_mm(gear, position_mm))).sum()
-            }
+            Curve::WeberBanaschek => self.weber_banaschek_mm2_per_n(position_mm),
             Curve::Given(curve) => match curve.stands_for {
                 StandsFor::Teeth => curve.at(position_mm),
                 StandsFor::WholePair { line_load_n_per_mm } => {
@@ -202,6 +235,12 @@ impl<'a> TeethSpring<'a> {
             },
             Curve::Teeth(_) | Curve::WholePair(_) => 0.0,
         }
+    }
+
+    /// Compliance of both teeth and bodies by Weber and Banaschek, for a load along the normal where the flanks touch.
+    fn weber_banaschek_mm2_per_n(&self, position_mm: f64) -> f64 {
+        let load_line = self.pair.touch(position_mm).load_line;
+        PerGear::from_fn(|gear| self.weber_banaschek[gear].along_mm2_per_n(&load_line[gear])).sum()
     }
 
     fn surface_mm2_per_n(&self, position_mm: f64) -> f64 {

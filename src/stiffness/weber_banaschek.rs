@@ -20,7 +20,7 @@ use nalgebra::{Rotation2, Vector2};
 
 use crate::contact::settings::Material;
 use crate::gear::half_profile::{half_profile, in_tooth_frame};
-use crate::gear::tooth::Tooth;
+use crate::gear::tooth::{LoadLine, Tooth};
 
 /// Samples of the profile on fillet and flank each; the trapezoidal rule is then exact to about 1e-6.
 const SAMPLES: usize = 1500;
@@ -82,7 +82,11 @@ impl ToothCompliance {
 
     /// Deflection of tooth and body over line load, for load on the flank point with radius of curvature `rho_mm`.
     pub fn mm2_per_n(&self, rho_mm: f64) -> f64 {
-        let load = self.tooth.load_line(rho_mm);
+        self.along_mm2_per_n(&self.tooth.load_line(rho_mm))
+    }
+
+    /// The same for any load.
+    pub fn along_mm2_per_n(&self, load: &LoadLine) -> f64 {
         let y_p = load.centre_line_mm - self.foot_mm;
         let nu = self.material.poisson_ratio;
         let (cos2, tan2) = (load.load_angle_rad.cos().powi(2), load.load_angle_rad.tan().powi(2));

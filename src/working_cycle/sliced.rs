@@ -35,24 +35,26 @@ pub struct SpringAlongPath {
 }
 
 impl SpringAlongPath {
-    /// At `count` (≥ 2) places from A to E.
+    /// At places as far apart as `count` (≥ 2) from A to E, from the last of them that lies no less than `beyond_mm` before A to the
+    /// first as far after E.
     ///
     /// # Errors
     /// The first error of `n_per_mm2`.
     pub fn new<E>(
         path: &PathOfContact,
         count: usize,
+        beyond_mm: [f64; 2],
         mut n_per_mm2: impl FnMut(f64) -> Result<f64, E>,
     ) -> Result<Self, E> {
-        let mm2_per_n = path.evenly_mm(count).into_iter().map(|at| n_per_mm2(at).map(|k| 1.0 / k));
-        Ok(Self {
-            start_mm: path.start_mm,
-            spacing_mm: (path.end_mm - path.start_mm) / (count - 1) as f64,
-            mm2_per_n: mm2_per_n.collect::<Result<_, E>>()?,
-        })
+        let spacing_mm = (path.end_mm - path.start_mm) / (count - 1) as f64;
+        let [before, after] = beyond_mm.map(|beyond| (beyond / spacing_mm).ceil() as usize);
+        let start_mm = path.start_mm - before as f64 * spacing_mm;
+        let at = |j: usize| path.start_mm + spacing_mm * (j as f64 - before as f64);
+        let mm2_per_n = (0..before + count + after).map(|j| n_per_mm2(at(j)).map(|k| 1.0 / k));
+        Ok(Self { start_mm, spacing_mm, mm2_per_n: mm2_per_n.collect::<Result<_, E>>()? })
     }
 
-    /// Compliance of the teeth with the theoretical contact point at `position_mm`, mm²/N; beyond A and E, that there.
+    /// Compliance of the teeth with the theoretical contact point at `position_mm`, mm²/N; beyond its places, that there.
     pub fn mm2_per_n(&self, position_mm: f64) -> f64 {
         let last = self.mm2_per_n.len() - 1;
         let place = ((position_mm - self.start_mm) / self.spacing_mm).clamp(0.0, last as f64);

@@ -12,17 +12,16 @@
 //! so that contact at a tip edge needs no model of its own: it is contact at the end of the strip, with the true gap, tip
 //! rounding, relief and wear included.
 //!
-//! The contact's normal is that of the mate's flank where the edge touches it. Before A that is a tangent of the pinion's base
-//! circle like any other, and the load's lever on the pinion is r_b1. After E it is a tangent of the wheel's base circle, turned
-//! from the line of action by ε = Δρ₂/r_b2, and its lever on the pinion is
+//! The contact's normal is that of the mate's flank where the edge touches it, turned from the line of action by ε
+//! ([`crate::gear::tip_touch`]). Before A it is a tangent of the pinion's base circle like any other, and the load's lever on the
+//! pinion is r_b1. After E it is a tangent of the wheel's base circle, and with its lever l on the pinion
 //!
 //! ```text
-//! l = r_b1 cos ε − ρ₁ sin ε          δ = (approach along the normal) r_b1/l          torque = F l
+//! δ = (approach along the normal) r_b1/l          torque = F l
 //! ```
 //!
-//! some hundredths less than r_b1 ([`lever_ratio`], [`OnLever`]). For sliding, the component along the tangent is (ω₁ + ω₂)(C − ξ)
-//! at every place of the frame, and that along the turned flank differs from it by along²/(ρ (C − ξ)) − ½ (along/ρ)², less than one
-//! hundredth.
+//! some hundredths less than r_b1 ([`OnLever`]). For sliding, the component along the tangent is (ω₁ + ω₂)(C − ξ) at every place of
+//! the frame, and that along the turned flank differs from it by along²/(ρ (C − ξ)) − ½ (along/ρ)², less than one hundredth.
 //!
 //! Source: R. G. Munro, L. Morrish and D. Palmer, "Gear transmission error outside the normal path of contact due to corner
 //! and top contact", *Proc. Inst. Mech. Eng. C* 213 (1999) 389–400, for the phenomenon.
@@ -30,10 +29,6 @@
 use crate::contact::{Felt, Footprint, PairContact, Response, Sweep};
 use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks};
 
-/// Greatest part of a base pitch looked at on either side.
-const MOST_BASE_PITCHES: f64 = 0.3;
-/// Least distance from T1 and T2, as part of the curvature at A and E.
-const LEAST_CURVATURE: f64 = 0.05;
 /// Steps in which the path is walked, per base pitch.
 const STEPS_IN_PITCH: f64 = 1000.0;
 
@@ -41,12 +36,11 @@ const STEPS_IN_PITCH: f64 = 1000.0;
 /// path.
 pub fn reach_mm(pair: &GearPair, approach_mm: f64) -> [f64; 2] {
     let path = &pair.path;
-    let most = MOST_BASE_PITCHES * path.base_pitch_mm;
-    let ends = [(Gear::Wheel, path.start_mm, -1.0), (Gear::Pinion, path.end_mm, 1.0)];
-    ends.map(|(tip_of, end_mm, outwards)| {
-        let room = (1.0 - LEAST_CURVATURE) * path.rho_mm(tip_of.mate(), end_mm);
+    let [before, after] = pair.farthest_touch_mm();
+    let ends = [(Gear::Wheel, path.start_mm, -1.0, before), (Gear::Pinion, path.end_mm, 1.0, after)];
+    ends.map(|(tip_of, end_mm, outwards, most)| {
         let step = path.base_pitch_mm / STEPS_IN_PITCH;
-        let steps = (most.min(room) / step) as usize;
+        let steps = (most / step) as usize;
         let touches = |k: &usize| tip_gap_mm(pair, tip_of, end_mm + outwards * *k as f64 * step) <= approach_mm;
         (1..=steps).take_while(touches).last().unwrap_or(0) as f64 * step
     })
@@ -58,19 +52,6 @@ fn tip_gap_mm(pair: &GearPair, tip_of: Gear, position_mm: f64) -> f64 {
     let (_, tip_rho) = pair.flank_limits_mm(tip_of);
     let edge = pair.in_tangent_frame(tip_of, tip_rho, position_mm);
     edge.drop_mm + pair.at_along(tip_of.mate(), -edge.along_mm, position_mm).1
-}
-
-/// l/r_b1: lever on the pinion of the contact with the theoretical contact point at `position_mm`, 1 from the first touch to E.
-pub fn lever_ratio(pair: &GearPair, position_mm: f64) -> f64 {
-    if position_mm <= pair.path.end_mm {
-        return 1.0;
-    }
-    let (_, tip_rho) = pair.flank_limits_mm(Gear::Pinion);
-    let edge = pair.in_tangent_frame(Gear::Pinion, tip_rho, position_mm);
-    let (touched_rho, _) = pair.at_along(Gear::Wheel, -edge.along_mm, position_mm);
-    let base = pair.path.involute.map(|involute| involute.base_radius_mm);
-    let turned = (touched_rho - pair.path.rho_mm(Gear::Wheel, position_mm)).abs() / base.wheel;
-    turned.cos() - position_mm / base.pinion * turned.sin()
 }
 
 /// A contact whose load has another lever on the pinion than r_b1: approach and load are reckoned as the transmission error and

@@ -288,12 +288,7 @@ impl CondensedPair<'_> {
 }
 
 /// Adds the means over `stretch_mm` while it moves by `moves_mm` to either side; answers the nodes that they reach.
-fn spread(
-    nodes: &FlankNodes,
-    stretch_mm: [f64; 2],
-    moves_mm: [f64; 2],
-    sums: &mut [f64],
-) -> std::ops::Range<usize> {
+fn spread(nodes: &FlankNodes, stretch_mm: [f64; 2], moves_mm: [f64; 2], sums: &mut [f64]) -> std::ops::Range<usize> {
     let (length, way) = (stretch_mm[1] - stretch_mm[0], moves_mm[1] - moves_mm[0]);
     let parts = ((2.0 * way / length.max(1e-9)).ceil()).clamp(1.0, MOST_PARTS as f64) as usize;
     let mut reached: Option<std::ops::Range<usize>> = None;

@@ -8,7 +8,7 @@ use std::time::Instant;
 use crate::calibration::bodies::Setup;
 use crate::calibration::identity::Identity;
 use crate::calibration::single_contact::SingleContact;
-use crate::calibration::tooth_stiffness::{LoadedPair, curve};
+use crate::calibration::tooth_stiffness::LoadedPair;
 use crate::calibration::{
     Calibration, CalibrationError, STIFFNESS_POSITIONS, course, foundation_fit, single_contact, tooth_family,
 };
@@ -132,7 +132,7 @@ pub fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Don
         elements_per_half_width: scene.fem.elements_per_half_width,
         line_load_n_per_mm: w,
         path_points_mm,
-        pair_compliance: curve(&pair, &deflection),
+        pair_compliance: loaded.curve(&deflection),
         foundation,
         foundation_fit,
         deflection_at_points: path_points_mm.map(|position_mm| loaded.deflection(position_mm, w)),
