@@ -137,5 +137,5 @@ pub fn pair_compliance(setup: &Setup<'_>) -> Result<PairCompliance, CalibrationE
     let condensed = setup.condensed(&setup.meshed()?)?;
     let loaded = LoadedPair::new(&condensed, &setup.material);
     let deflection = loaded.along_the_path(STIFFNESS_POSITIONS, setup.line_load_n_per_mm)?;
-    Ok(loaded.curve(&deflection))
+    Ok(loaded.curve(&deflection, setup.line_load_n_per_mm))
 }
