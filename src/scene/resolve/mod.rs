@@ -16,13 +16,13 @@ mod wear;
 use toml::{Table, Value};
 
 use super::file::SceneFile;
-use crate::contact::settings::SurfaceKind;
 use super::findings::Findings;
 use super::problem::{Problem, ProblemKind};
 use super::resolve::settings::Teeth;
 use super::schema::{Node, schema};
 use super::shape::{self, Format};
 use super::{Resolved, Scene, presets, text, unit_slip};
+use crate::contact::settings::SurfaceKind;
 
 /// Keys that other files have, and what to do with those.
 const OF_OTHER_FILES: &[(&str, &str)] =
@@ -142,6 +142,9 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let adaptive = finely_resolved && !sliced || wear.is_some_and(|wear| wear.severe.is_some());
     let numerics = settings::numerics(&mut file.numerics, operation.pinion_revolutions, adaptive, findings);
     let verify = *file.numerics.get_or_insert_default().verify.get_or_insert(true);
+    if !verify {
+        findings.warnings.push("numerics.verify is false: nothing vouches for the answer".to_owned());
+    }
     if let (Some(numerics), Some(surface)) = (&numerics, surface) {
         settings::memory(numerics, surface, slices.map_or(1, |slices| slices.count), findings);
     }
