@@ -8,7 +8,7 @@ use crate::scene::Resolved;
 use crate::simulation::figures::WearFigures;
 use crate::simulation::record::{
     ContactSummary, CycleSummary, ErrorSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, MeshCycleRow,
-    PathPoints, RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearSummary, WorkSummary,
+    PathPoints, RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary, WorkSummary,
 };
 use crate::simulation::wear_run::{Outcome, Snapshot};
 use crate::thermal::settings::TemperatureMethod;
@@ -87,6 +87,10 @@ pub(super) fn summary(
         worn: cycle(pair, &outcome.worn.cycle),
         pinion: wear(model, outcome, Gear::Pinion),
         wheel: wear(model, outcome, Gear::Wheel),
+        wear_balance: WearBalance {
+            new: wear_balance(outcome, &outcome.new),
+            worn: wear_balance(outcome, &outcome.worn),
+        },
         error,
         work: WorkSummary {
             wear_steps: outcome.steps.accepted,
@@ -101,6 +105,16 @@ pub(super) fn summary(
         },
         warnings,
     })
+}
+
+/// |V₁ − V₂| over the greater, V: what a flank loses in one mesh per mm of face width.
+fn wear_balance(outcome: &Outcome, snapshot: &Snapshot) -> f64 {
+    let lost = PerGear::from_fn(|gear| {
+        let (grid, depth) = (&outcome.grid[gear], &snapshot.depth_per_mesh_mm[gear]);
+        depth.chunks_exact(grid.len()).map(|slice| grid.integral(slice)).sum::<f64>()
+    });
+    let greater = lost.pinion.max(lost.wheel);
+    if greater > 0.0 { (lost.pinion - lost.wheel).abs() / greater } else { 0.0 }
 }
 
 pub(super) fn path_points(values: [f64; 5]) -> PathPoints {

@@ -69,6 +69,8 @@ pub struct Summary {
     pub pinion: WearSummary,
     /// Wear of one wheel flank.
     pub wheel: WearSummary,
+    /// How far what both flanks lose in one mesh is from balance.
+    pub wear_balance: WearBalance,
     /// Estimated errors.
     pub error: ErrorSummary,
     /// Work done by the simulation.
@@ -320,6 +322,16 @@ pub struct CycleSummary {
     pub transmission_error_um: RangeSummary,
     /// Greatest |Σ loads of the pairs / load to carry − 1| at any position.
     pub load_imbalance: f64,
+}
+
+/// Difference of what both flanks lose in one mesh, relative to the greater: what one flank of a contact loses the other does too,
+/// where both wear by the same coefficient.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct WearBalance {
+    /// The unworn pair.
+    pub new: f64,
+    /// The worn one.
+    pub worn: f64,
 }
 
 /// Extremes and their difference.

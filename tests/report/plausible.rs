@@ -263,6 +263,7 @@ fn summary() -> Summary {
         worn: cycle(1702.0, 26.5, 38.9),
         pinion: worn(Gear::Pinion, CURVATURE.A),
         wheel: worn(Gear::Wheel, CURVATURE.E),
+        wear_balance: WearBalance::default(),
         error: ErrorSummary {
             total: TotalError {
                 profile: ErrorPerGear { pinion: Some(0.03), wheel: Some(0.03) },

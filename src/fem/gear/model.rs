@@ -210,19 +210,30 @@ impl MeshedGear {
         Ok(probes)
     }
 
-    /// Condenses the gear onto the nodes of its working flanks.
+    /// Condenses the gear onto the nodes of its working flanks, with the stresses at its fillets.
     ///
     /// # Errors
     /// [`ModelError::Condense`].
     pub fn condense(&self, pair: &GearPair, material: Elastic) -> Result<(GearCompliance, FlankSurface), ModelError> {
+        self.condense_with(pair, material, true)
+    }
+
+    fn condense_with(
+        &self,
+        pair: &GearPair,
+        material: Elastic,
+        stresses: bool,
+    ) -> Result<(GearCompliance, FlankSurface), ModelError> {
         let flank = self.flank();
         let nodes = flank.surface.mesh_nodes.len();
         if nodes > MOST_FLANK_NODES {
             return Err(ModelError::TooFine { gear: self.gear, nodes, most: MOST_FLANK_NODES });
         }
         let mut fine = sector(&self.fine, half_angle_rad(pair, self.gear), flank.surface.mesh_nodes.clone());
-        fine.probes = self.fillet_probes(&fine.solid, material).map_err(|source| self.failed(source))?;
-        fine.working_side_probes = self.fine.working_fillet.len();
+        if stresses {
+            fine.probes = self.fillet_probes(&fine.solid, material).map_err(|source| self.failed(source))?;
+            fine.working_side_probes = self.fine.working_fillet.len();
+        }
         Ok((self.joined(pair, fine, material)?, flank))
     }
 
@@ -304,7 +315,7 @@ pub fn element(cell: &Cell, nodes: &[u32], material: u16) -> Element {
 
 impl<'a> CondensedPair<'a> {
     /// Meshes and condenses both gears of `pair` for contact under `line_load_n_per_mm`, at the same time where there are
-    /// threads for it.
+    /// threads for it; without stresses.
     ///
     /// # Errors
     /// [`ModelError`].
@@ -314,8 +325,10 @@ impl<'a> CondensedPair<'a> {
         line_load_n_per_mm: f64,
         settings: &BodySettings,
     ) -> Result<Self, ModelError> {
-        let condensed =
-            |gear| MeshedGear::new(pair, gear, material, line_load_n_per_mm, settings)?.condense(pair, material[gear]);
+        let condensed = |gear| {
+            let meshed = MeshedGear::new(pair, gear, material, line_load_n_per_mm, settings)?;
+            meshed.condense_with(pair, material[gear], false)
+        };
         Ok(Self::new(pair, material, PerGear::try_in_parallel(condensed)?))
     }
 
