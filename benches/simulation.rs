@@ -1,4 +1,4 @@
-//! How long a wear run takes: the fzg-c scene (750 points a flank, 400 positions, 150 wear steps) on each surface, and
+//! How long a wear run takes: the thesis-spur scene (750 points a flank, 400 positions, 150 wear steps) on each surface, and
 //! how the time grows with positions and wear steps. One thread; quote ratios, machines are noisy.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
@@ -12,9 +12,9 @@ use gearwear::sweep::combination::Sweep;
 use gearwear::sweep::journal::Journal;
 use gearwear::sweep::{axis, study};
 
-/// The fzg-c scene without snapshots and error estimates, some keys replaced.
+/// The thesis-spur scene without snapshots and error estimates, some keys replaced.
 fn scene(edits: &[(&str, &str)]) -> Resolved {
-    let mut text = presets::find("fzg-c").expect("fzg-c is a preset").text.to_owned();
+    let mut text = presets::find("thesis-spur").expect("thesis-spur is a preset").text.to_owned();
     for (from, to) in
         [("error_estimate = true", "error_estimate = false"), ("snapshots_h", "# snapshots_h")].iter().chain(edits)
     {
@@ -32,7 +32,7 @@ fn run(resolved: &Resolved) -> RunRecord {
 
 fn wear_run(criterion: &mut Criterion) {
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("the pool is not built yet");
-    let mut group = criterion.benchmark_group("fzg-c");
+    let mut group = criterion.benchmark_group("thesis-spur");
     group.sample_size(20);
     for surface in ["winkler", "half-space", "hertz", "hertz-mean"] {
         let scene = scene(&[("surface = \"winkler\"", &format!("surface = \"{surface}\""))]);
@@ -48,7 +48,7 @@ fn wear_run(criterion: &mut Criterion) {
         let step = format!("step = {{ revolutions = {} }}", 1_149_750.0 / f64::from(steps));
         let scene = scene(&[
             ("positions = 400 ", &format!("positions = {positions} ")),
-            ("# step = { revolutions = 1000.0 }", &step),
+            ("step = { revolutions = 7665.0 }", &step),
         ]);
         group.throughput(Throughput::Elements(run(&scene).summary.work.equilibria));
         group.bench_function(BenchmarkId::new("positions x steps", format!("{positions} x {steps}")), |bencher| {

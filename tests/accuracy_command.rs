@@ -21,17 +21,16 @@ fn gearwear() -> Command {
     Command::new(assert_cmd::cargo::cargo_bin!("gearwear"))
 }
 
-/// The fzg-c scene at a resolution as coarse as it can be, on elements of a quarter of a half-width, tips rounded, K/H given.
+/// The thesis-spur scene at a resolution as coarse as it can be, on elements of a quarter of a half-width, tips rounded, K/H given.
 fn coarse_scene() -> String {
-    let mut text = gearwear::scene::presets::find("fzg-c").unwrap().text.to_owned();
+    let mut text = gearwear::scene::presets::find("thesis-spur").unwrap().text.to_owned();
     for (from, to) in [
         ("flank_points = 750 ", "flank_points = 160 "),
         ("positions = 400 ", "positions = 80 "),
-        ("# step = { revolutions = 1000.0 }", "step = { revolutions = 100000.0 }"),
-        ("# tip_rounding_mm = 0.2", "tip_rounding_mm = 0.2"),
+        ("step = { revolutions = 7665.0 }", "step = { revolutions = 100000.0 }"),
+        ("[pair.pinion] ", "[pair.pinion]\ntip_rounding_mm = 0.2 "),
         ("[pair.wheel]", "[pair.wheel]\ntip_rounding_mm = 0.2"),
-        ("# [fem] ", "[fem] # "),
-        ("# elements_per_half_width = 10 ", "elements_per_half_width = 4 "),
+        ("[wear]", "[fem]\nelements_per_half_width = 4\n[wear]"),
     ] {
         assert!(text.contains(from), "{from}");
         text = text.replace(from, to);

@@ -6,9 +6,9 @@ use gearwear::scene::{Scene, presets};
 use gearwear::simulation::record::Summary;
 use gearwear::simulation::wear_run::Unwatched;
 
-/// The fzg-c scene with other lines.
+/// The thesis-spur scene with other lines.
 fn scene(edits: &[(&str, &str)]) -> String {
-    let mut text = presets::find("fzg-c").unwrap().text.to_owned();
+    let mut text = presets::find("thesis-spur").unwrap().text.to_owned();
     for (from, to) in edits {
         assert!(text.contains(from), "{from}");
         text = text.replace(from, to);
@@ -25,11 +25,11 @@ fn run(text: &str) -> Summary {
 
 const POINTS: &str = "flank_points = 750 ";
 const POSITIONS: &str = "positions = 400 ";
-const STEP: &str = "# step = { revolutions = 1000.0 }";
+const STEP: &str = "step = { revolutions = 7665.0 }";
 const SURFACE: &str = "surface = \"winkler\"";
 const MATCH: &str = "match = \"half-width\"";
 
-/// Steps of this many revolutions, points and positions of the fzg-c scene over `by`.
+/// Steps of this many revolutions, points and positions of the thesis-spur scene over `by`.
 fn resolution(by: usize, step_revolutions: f64) -> [(&'static str, String); 3] {
     [
         (POINTS, format!("flank_points = {} ", 750 / by)),
@@ -113,10 +113,10 @@ fn finite_elements_are_judged_by_longer_elements() {
     edits.extend([
         (SURFACE, "surface = \"fem\""),
         (MATCH, "# match = \"half-width\""),
-        ("# tip_rounding_mm = 0.2", "tip_rounding_mm = 0.1"),
+        ("tip_contact = false", "tip_contact = true"),
+        ("[pair.pinion] ", "[pair.pinion]\ntip_rounding_mm = 0.1 "),
         ("[pair.wheel]", "[pair.wheel]\ntip_rounding_mm = 0.1"),
-        ("# [fem] ", "[fem] # "),
-        ("# elements_per_half_width = 10 ", "elements_per_half_width = 4 "),
+        ("[wear]", "[fem]\nelements_per_half_width = 4\n[wear]"),
     ]);
     let text = scene(&edits);
     let error = run(&text).error;

@@ -5,9 +5,9 @@ use gearwear::plan::{Plan, StageKind};
 use gearwear::scene::{Scene, presets};
 use predicates::prelude::*;
 
-/// Names of the stages of the fzg-c scene with parts of its text exchanged, and of those left out.
+/// Names of the stages of the thesis-spur scene with parts of its text exchanged, and of those left out.
 fn plan(exchange: &[(&str, &str)]) -> (Vec<&'static str>, Vec<&'static str>) {
-    let mut text = presets::find("fzg-c").unwrap().text.to_owned();
+    let mut text = presets::find("thesis-spur").unwrap().text.to_owned();
     for (old, new) in exchange {
         assert!(text.contains(old), "{old}");
         text = text.replacen(old, new, 1);
@@ -61,10 +61,9 @@ fn given_foundation_and_hertz_surfaces_need_no_match() {
 /// Only fixed steps on a surface that answers to short waves of wear have a bound.
 #[test]
 fn the_step_bound_only_where_steps_have_one() {
-    for exchange in [
-        ("surface = \"winkler\"", "surface = \"hertz\""),
-        ("# step = { revolutions = 1000.0 }", "step = \"adaptive\" #"),
-    ] {
+    for exchange in
+        [("surface = \"winkler\"", "surface = \"hertz\""), ("step = { revolutions = 7665.0 }", "step = \"adaptive\" #")]
+    {
         let (stages, left_out) = plan(&[exchange]);
         assert!(!stages.contains(&"step-bound") && left_out.contains(&"step-bound"), "{exchange:?}");
     }
@@ -78,7 +77,7 @@ fn error_estimates_only_where_asked_for() {
 
 #[test]
 fn json_for_scripts_and_text_for_people() {
-    let scene = presets::find("fzg-c").unwrap().text;
+    let scene = presets::find("thesis-spur").unwrap().text;
     let gearwear = |format: &str| {
         let mut command = Command::cargo_bin("gearwear").unwrap();
         command.args(["plan", "-", "--format", format]).write_stdin(scene);

@@ -58,6 +58,7 @@ fn scene() -> impl Strategy<Value = Result<Resolved, String>> {
         draft.set("stiffness.model", "constant");
         draft.set("stiffness.pair_N_per_mm_um", stiffness);
         draft.set("contact.surface", surface);
+        draft.set("contact.tip_contact", false);
         match step {
             "adaptive" => {
                 draft.set("numerics.step", "adaptive");

@@ -25,7 +25,7 @@ fn gearwear() -> Command {
 
 /// The preset's scene with some lines replaced.
 fn scene(edits: &[(&str, &str)]) -> String {
-    let output = gearwear().args(["init", "fzg-c"]).output().unwrap();
+    let output = gearwear().args(["init", "thesis-spur"]).output().unwrap();
     let mut text = String::from_utf8(output.stdout).unwrap();
     for (from, to) in edits {
         assert!(text.contains(from), "{from}");
@@ -51,7 +51,7 @@ fn quick() -> String {
     scene(&[
         ("flank_points = 750 ", "flank_points = 200 "),
         ("positions = 400 ", "positions = 100 "),
-        ("# step = { revolutions = 1000.0 }", "step = { revolutions = 50000.0 }"),
+        ("step = { revolutions = 7665.0 }", "step = { revolutions = 50000.0 }"),
     ])
 }
 
@@ -164,7 +164,7 @@ fn an_interrupt_keeps_what_is_finished() {
     let file = dir.path().join("scene.toml");
     // A million steps: minutes of work, with an early snapshot.
     let text = scene(&[
-        ("# step = { revolutions = 1000.0 }", "step = { revolutions = 1.0 }"),
+        ("step = { revolutions = 7665.0 }", "step = { revolutions = 1.0 }"),
         ("snapshots_h = [0.25, 0.75, 1.75, 3.75, 7.75, 15.75, 31.75, 63.75, 127.75]", "snapshots_h = [0.001, 127.75]"),
     ]);
     fs::write(&file, text).unwrap();

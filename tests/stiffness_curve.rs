@@ -116,13 +116,14 @@ fn what_is_no_curve_is_refused_with_its_place() {
 #[test]
 fn the_program_reads_the_curve_beside_the_scene() {
     let folder = tempfile::tempdir().unwrap();
-    let preset = gearwear::scene::presets::find("fzg-c").unwrap().text;
+    let preset = gearwear::scene::presets::find("thesis-spur").unwrap().text;
     let scene: String = preset
         .lines()
         .map(|line| match line.split('=').next().unwrap().trim() {
             "pair_N_per_mm_um" => "curve = \"teeth.csv\"\n".to_owned(),
             "model" => "model = \"simon\"\n".to_owned(),
-            "positions" => "positions = 40\nstep = { revolutions = 200000 }\n".to_owned(),
+            "positions" => "positions = 40\n".to_owned(),
+            "step" => "step = { revolutions = 200000 }\n".to_owned(),
             "error_estimate" => "error_estimate = false\n".to_owned(),
             _ => format!("{line}\n"),
         })

@@ -23,15 +23,15 @@ fn gearwear() -> Command {
     Command::new(assert_cmd::cargo::cargo_bin!("gearwear"))
 }
 
-/// The fzg-c scene with a surface and a resolution at which a run takes about a millisecond.
+/// The thesis-spur scene with a surface and a resolution at which a run takes about a millisecond.
 fn coarse_scene() -> String {
-    let mut text = gearwear::scene::presets::find("fzg-c").unwrap().text.to_owned();
+    let mut text = gearwear::scene::presets::find("thesis-spur").unwrap().text.to_owned();
     for (from, to) in [
         ("surface = \"winkler\"", "surface = \"hertz-mean\""),
         ("match = \"half-width\"", "# match"),
         ("flank_points = 750 ", "flank_points = 60 "),
         ("positions = 400 ", "positions = 40 "),
-        ("# step = { revolutions = 1000.0 }", "step = { revolutions = 200000.0 }"),
+        ("step = { revolutions = 7665.0 }", "step = { revolutions = 200000.0 }"),
     ] {
         assert!(text.contains(from), "{from}");
         text = text.replace(from, to);

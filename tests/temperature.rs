@@ -28,13 +28,13 @@ fn settings(method: TemperatureMethod, velocity: HeatVelocity, partition: HeatPa
     }
 }
 
-/// The fzg-c scene over one wear step, with `more` at its end.
+/// The thesis-spur scene over one wear step, with `more` at its end.
 fn run(edits: &[(&str, &str)], more: &str) -> RunRecord {
-    let mut text = presets::find("fzg-c").unwrap().text.to_owned();
+    let mut text = presets::find("thesis-spur").unwrap().text.to_owned();
     let quick = [
         ("hours = 127.75 ", "hours = 1.0 "),
         ("snapshots_h", "# snapshots_h"),
-        ("# step = { revolutions = 1000.0 }", "step = { revolutions = 9000.0 }"),
+        ("step = { revolutions = 7665.0 }", "step = { revolutions = 9000.0 }"),
         ("error_estimate = true", "error_estimate = false"),
     ];
     for (from, to) in quick.iter().chain(edits) {
@@ -102,7 +102,7 @@ fn val_s6_three_methods_through_the_mesh() {
 fn val_tian_and_kennedy_at_a() {
     let record = run(&[], "");
     let line_load = record.summary.contact.line_load_N_per_mm;
-    let scene = Scene::from_toml(presets::find("fzg-c").unwrap().text).unwrap().scene;
+    let scene = Scene::from_toml(presets::find("thesis-spur").unwrap().text).unwrap().scene;
     let pair = gearwear::gear::GearPair::new(&scene.pair).unwrap();
     let a = pair.path.start_mm;
     let ratios = SpeedRatios::over(&pair, a, a);

@@ -20,9 +20,9 @@ requirement = "The pair has the base pitch of its module."
 
 [[run]]
 name = "short"
-scene = "fzg-c"
+scene = "thesis-spur"
 unset = ["operation.hours", "operation.snapshots_h"]
-set = {{ "operation.pinion_revolutions" = 1.0, "numerics.error_estimate" = false, "numerics.positions" = 40, "numerics.flank_points" = 100 }}
+set = {{ "operation.pinion_revolutions" = 1.0, "numerics.step" = {{ revolutions = 1.0 }}, "numerics.error_estimate" = false, "numerics.positions" = 40, "numerics.flank_points" = 100 }}
 
 {rest}"#
     )
@@ -92,7 +92,7 @@ fn a_missed_bound_is_exit_status_1_and_what_is_known_to_fail_is_not() {
 #[test]
 fn a_case_that_cannot_run_is_a_failure() {
     for (from, to) in [
-        ("scene = \"fzg-c\"", "scene = \"nowhere.toml\""),
+        ("scene = \"thesis-spur\"", "scene = \"nowhere.toml\""),
         ("\"numerics.positions\" = 40", "\"numerics.positions\" = 0"),
         ("short.summary.geometry.base_pitch_mm", "short.summary.geometry.nothing"),
         // What is no number holds nothing, and is no known failure either.

@@ -21,6 +21,7 @@ fn run_preset(preset: &str, edits: &[(&str, &str)], more: &str) -> RunRecord {
 const LAW: (&str, &str) = ("law = \"archard\"", "law = \"adsorption\"");
 const NO_ESTIMATE: (&str, &str) = ("error_estimate = true", "error_estimate = false");
 const HOURS: &str = "hours = 127.75 ";
+const STEP: &str = "step = { revolutions = 7665.0 }";
 
 /// S7, Fig 20: the adsorption law at 150 and 300 rpm beside the linear law, all below 6e-4 mm. The film's constants are the
 /// typical ones and k_r 1e-13 m²/N, so that the depth at the root is of the order of the linear law's with k = 1e-17 m²/N; the
@@ -35,10 +36,11 @@ fn val_s7_adsorption_beside_the_linear_law() {
             ("coefficient_m2_per_N = 1e-17 ", k),
             ("pinion_speed_rpm = 150.0", rpm),
             (HOURS, revolutions),
+            (STEP, "step = { revolutions = 266.6666666666667 }"),
             ("snapshots_h", "# snapshots_h"),
             NO_ESTIMATE,
         ];
-        run_preset("fzg-c", &edits, "")
+        run_preset("thesis-spur", &edits, "")
     };
     let linear = run(LAW.0, "coefficient_m2_per_N = 1e-17 ", "pinion_speed_rpm = 150.0");
     let adsorption =
@@ -87,21 +89,22 @@ fn val_s8_oxidation_outside_its_temperatures() {
         ("law = \"archard\"", "law = \"oxidation\""),
         ("coefficient_m2_per_N = 1e-17", "coefficient_m2_per_N = 1.5e-10"),
         (HOURS, "hours = 1.0 "),
+        (STEP, "step = { revolutions = 60.0 }"),
         ("snapshots_h", "# snapshots_h"),
         NO_ESTIMATE,
     ];
-    let cool = run_preset("fzg-c", &edits, "").summary;
+    let cool = run_preset("thesis-spur", &edits, "").summary;
     assert_eq!((cool.wear.work_outside_validity_new, cool.wear.work_outside_validity_worn), (Some(1.0), Some(1.0)));
     let warning = cool.warnings.iter().find(|warning| warning.contains("200 to 400 °C")).unwrap();
     assert!(warning.contains("100.0 % of the sliding work"), "{warning}");
 
-    let hot = run_preset("fzg-c", &edits, "[temperature]\nbulk_temperature_C = 250.0\n").summary;
+    let hot = run_preset("thesis-spur", &edits, "[temperature]\nbulk_temperature_C = 250.0\n").summary;
     assert_eq!(hot.wear.work_outside_validity_new, Some(0.0));
     assert!(hot.warnings.iter().all(|warning| !warning.contains("200 to 400 °C")));
     assert!(hot.pinion.peak_wear_um > 1e3 * cool.pinion.peak_wear_um);
 
     // Around the lower bound it is the part that flash temperatures leave below it.
-    let some = run_preset("fzg-c", &edits, "[temperature]\nbulk_temperature_C = 185.0\n").summary;
+    let some = run_preset("thesis-spur", &edits, "[temperature]\nbulk_temperature_C = 185.0\n").summary;
     let part = some.wear.work_outside_validity_new.unwrap();
     println!("at 185 °C {:.1} % of the work is below 200 °C", 100.0 * part);
     assert!((0.05..0.95).contains(&part), "{part}");
@@ -116,6 +119,7 @@ fn ver_every_surface_wears_by_the_mean_coefficient() {
         ("snapshots_h", "# snapshots_h"),
         NO_ESTIMATE,
         (HOURS, "pinion_revolutions = 10.0 "),
+        (STEP, "step = { revolutions = 0.06666666666666667 }"),
     ];
     for (surface, method, allowed) in [
         ("winkler", "tian-kennedy", 0.005),
@@ -129,7 +133,7 @@ fn ver_every_surface_wears_by_the_mean_coefficient() {
         let surface_line = format!("surface = \"{surface}\"");
         let run = |law: (&str, &str)| {
             let edits = [quick.as_slice(), &[law, ("surface = \"winkler\"", &surface_line)]].concat();
-            run_preset("fzg-c", &edits, &format!("[temperature]\nmethod = \"{method}\"\n"))
+            run_preset("thesis-spur", &edits, &format!("[temperature]\nmethod = \"{method}\"\n"))
         };
         check_mean_coefficient(&format!("{surface}, {method}"), &run((LAW.0, LAW.0)), &run(LAW), allowed);
     }
@@ -145,11 +149,12 @@ fn ver_slices_wear_by_the_mean_coefficient() {
                 law,
                 ("surface = \"hertz\"", &surface_line),
                 ("pinion_revolutions = 6e5", "pinion_revolutions = 10.0"),
+                ("flank_points = 750 ", "flank_points = 300 "),
+                ("positions = 400 ", "positions = 100 "),
+                ("step = { revolutions = 4000.0 }", "step = { revolutions = 0.06666666666666667 }"),
+                NO_ESTIMATE,
             ];
-            let more = format!(
-                "[numerics]\nflank_points = 300\npositions = 100\nerror_estimate = false\n[temperature]\nmethod = \"{method}\"\n"
-            );
-            run_preset("h951", &edits, &more)
+            run_preset("h951", &edits, &format!("[temperature]\nmethod = \"{method}\"\n"))
         };
         check_mean_coefficient(&format!("slices, {surface}, {method}"), &run((LAW.0, LAW.0)), &run(LAW), allowed);
     }
@@ -165,9 +170,11 @@ fn ver_finite_elements_wear_by_the_mean_coefficient() {
             ("snapshots_h", "# snapshots_h"),
             NO_ESTIMATE,
             (HOURS, "pinion_revolutions = 10.0 "),
+            (STEP, "step = { revolutions = 0.06666666666666667 }"),
             ("surface = \"winkler\"", "surface = \"fem\""),
+            ("tip_contact = false", "tip_contact = true"),
         ];
-        run_preset("fzg-c", &edits, "[fem]\nelements_per_half_width = 4\n")
+        run_preset("thesis-spur", &edits, "[fem]\nelements_per_half_width = 4\n")
     };
     check_mean_coefficient("finite elements", &run((LAW.0, LAW.0)), &run(LAW), 0.03);
 }

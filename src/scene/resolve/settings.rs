@@ -98,8 +98,13 @@ pub fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -> Optio
         return None;
     }
     let calibrated = file.calibration.is_some();
-    let knows_the_gap = matches!(surface, SurfaceKind::Winkler | SurfaceKind::HalfSpace);
-    if !knows_the_gap && file.tip_contact.is_some() {
+    // Finite elements touch wherever they touch; Hertz's closed forms hold where the theoretical contact point lies.
+    let tip_contact = match surface {
+        SurfaceKind::Winkler | SurfaceKind::HalfSpace => *file.tip_contact.get_or_insert(calibrated),
+        SurfaceKind::Fem => true,
+        SurfaceKind::Hertz | SurfaceKind::HertzMean => false,
+    };
+    if file.tip_contact.is_some_and(|asked| asked != tip_contact) {
         findings.warnings.push(
             "contact.tip_contact is not used: only the surfaces \"winkler\" and \"half-space\" read it".to_owned(),
         );
@@ -114,7 +119,6 @@ pub fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -> Optio
             .warnings
             .push("the K/H of contact.calibration is not used: contact.foundation_MPa_per_mm gives one".to_owned());
     }
-    let tip_contact = knows_the_gap && *file.tip_contact.get_or_insert(calibrated);
     if surface != SurfaceKind::Winkler {
         for (key, given) in [(keys[0], criterion.is_some()), (keys[1], given.is_some())] {
             if given {
