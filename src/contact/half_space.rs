@@ -252,7 +252,9 @@ impl PairContact for HalfSpacePair<'_> {
     }
 
     fn footprint(&self) -> Footprint {
-        self.look.field.footprint()
+        let Look { strip, field, .. } = &self.look;
+        let at_ends = [field.cells_mpa().first(), field.cells_mpa().last()].map(|end| end.is_some_and(|p| *p > 0.0));
+        Footprint { at_sharp_edge: strip.window.is_sharp_where(at_ends), ..field.footprint() }
     }
 }
 
