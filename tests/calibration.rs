@@ -268,7 +268,7 @@ fn val_calibrated_winkler_surface_in_single_contact() {
     let pair = GearPair::new(&fzg_c()).unwrap();
     let grids = PerGear::from_fn(|gear| FlankGrid::new(&pair, gear, 750));
     let unworn = PerGear::from_fn(|gear| vec![0.0; grids[gear].len()]);
-    let flanks = Flanks { geometry: &pair, grid: grids.as_ref() };
+    let flanks = Flanks::new(&pair, grids.as_ref());
     let mut compared = 0;
     for criterion in [MatchCriterion::HalfWidth, MatchCriterion::PeakPressure] {
         let surface = Winkler {

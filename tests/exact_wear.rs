@@ -91,7 +91,7 @@ fn disc_wear_over_exact(surface: impl Fn(f64, &TwoDiscs) -> Box<dyn ContactSurfa
     let (line_load, k, spacing) = (30.0, 1e-11, 2e-4);
     let arcs: Vec<f64> = (0..=15_000).map(|i| f64::from(i) * spacing).collect();
     let grid = FlankGrid { coordinate_mm: arcs.clone(), arc_mm: arcs };
-    let flanks = Flanks { geometry: &discs, grid: PerGear { pinion: &grid, wheel: &grid } };
+    let flanks = Flanks::new(&discs, PerGear { pinion: &grid, wheel: &grid });
     // Times from 0.8 to 1.6: the contact passes the middle of both discs completely.
     let (begin, step, count) = (0.8, 2e-4, 4000);
     let positions: Vec<LoadingPosition> = (0..count)

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{assert_close, fzg_c, pair, steel};
-use gearwear::contact::{Flanks, hertz};
+use gearwear::contact::hertz;
 use gearwear::fem::elastic::Elastic;
 use gearwear::fem::gear::position::{CondensedPair, WarmStart};
 use gearwear::gear::{

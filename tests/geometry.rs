@@ -6,6 +6,7 @@ use common::{assert_close, fzg_a, fzg_c, gear, pair, spur, steel};
 use gearwear::contact::hertz::flattening;
 use gearwear::gear::{
     Gear, PairError,
+    flank_zones::{FlankZone, FlankZones},
     modification::{Modification, Relief, ReliefShape},
     outline::{Curve, outline},
     removed_material::{removed_mm, tip_rounding_length_mm},
@@ -254,4 +255,28 @@ fn ver_modifications_remove_what_they_say() {
     assert_close("length", tip_rounding_length_mm(0.2, tooth), length, 1e-12);
     assert_close("at the tip", at(&rounded, tip), 0.2 - (0.04 - length * length).sqrt(), 1e-9);
     assert_eq!(at(&rounded, tip - 2.0), 0.0);
+}
+
+/// Length along the pinion's involute from r to the tip circle, s = (r_a² − r²)/(2 r_b): r_b = 36 cos 20°, r_a = 41.23 mm. Three half-widths
+/// of 0.1 mm are 0.3 mm; of 0.2452 mm (Hertz at C, 302 N·m) they would be more than 0.15 · 4.5 mm = 0.675 mm. A rounding of 0.1 mm takes
+/// ρ tan(γ/2) with γ = 90° − arccos(r_b/r_a).
+#[test]
+fn ver_the_tip_edge_zone_has_its_length_along_the_flank() {
+    let (base, tip): (f64, f64) = (36.0 * 20f64.to_radians().cos(), 41.23);
+    let rounding = 0.1 * (0.5 * (std::f64::consts::FRAC_PI_2 - (base / tip).acos())).tan();
+    for (rounding_mm, half_width_mm, length) in
+        [(0.0, 0.1, 0.3), (0.0, 0.2452, 0.675), (0.1, 0.1, 0.3 + rounding), (0.1, 0.2452, 0.675 + rounding)]
+    {
+        let mut spec = fzg_c();
+        spec.gears.pinion.modification.tip_rounding_mm = rounding_mm;
+        let pair = pair(&spec);
+        let zones = FlankZones::new(&pair, Gear::Pinion, half_width_mm);
+        let arc = (tip * tip - zones.tip_edge_radius_mm.powi(2)) / (2.0 * base);
+        assert!((arc - length).abs() < 1e-9, "{rounding_mm}, {half_width_mm}: {arc} instead of {length}");
+        assert_eq!(zones.active_start_radius_mm, pair.active_start_radius_mm(Gear::Pinion));
+        let (sap, edge) = (zones.active_start_radius_mm, zones.tip_edge_radius_mm);
+        let at = [sap - 1e-9, sap, edge - 1e-9, edge, tip].map(|radius| zones.at(radius));
+        let [below, active, tip_edge] = [FlankZone::BelowActive, FlankZone::Active, FlankZone::TipEdge];
+        assert_eq!(at, [below, active, active, tip_edge, tip_edge]);
+    }
 }

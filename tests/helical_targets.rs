@@ -39,7 +39,7 @@ fn slices_of(pair: &GearPair, gear: Gear, outcome: &Outcome, snapshot: &Snapshot
 
 /// What the slices lose in the first mesh.
 fn first_mesh(pair: &GearPair, gear: Gear, outcome: &Outcome) -> Vec<SliceFigures> {
-    WearFigures::new(pair, gear, &outcome.grid[gear], &outcome.new.depth_per_mesh_mm[gear]).slices
+    WearFigures::new(pair, gear, &outcome.grid[gear], &outcome.zones[gear], &outcome.new.depth_per_mesh_mm[gear]).slices
 }
 
 /// (first − last)/(first + last) of the root wear.
@@ -235,7 +235,14 @@ fn val_both_gears_lose_the_same_volume() {
         let scene = Scene { steps: 1.0, ..scene("hertz", coupling) };
         let (pair, outcome) = (pair(&scene.pair), scene.run());
         let areas = PerGear::from_fn(|gear| {
-            WearFigures::new(&pair, gear, &outcome.grid[gear], &outcome.new.depth_per_mesh_mm[gear]).area_mm2
+            WearFigures::new(
+                &pair,
+                gear,
+                &outcome.grid[gear],
+                &outcome.zones[gear],
+                &outcome.new.depth_per_mesh_mm[gear],
+            )
+            .area_mm2
         });
         common::assert_close("volume of a mesh", areas.wheel, areas.pinion, 1e-3);
     }

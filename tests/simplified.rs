@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Scene, assert_close, fzg_c, fzg_c_scene, pair, preset, steel};
+use common::{Scene, assert_close, fzg_c, fzg_c_scene, pair, preset, steel, zones};
 use gearwear::contact::{hertz::flattening, hertz_mean::HertzMean};
 use gearwear::gear::{
     Gear, PerGear,
@@ -57,8 +57,13 @@ fn run(scene: &Scene) -> Outcome {
         line_load_n_per_mm: line_load,
         end_revolutions: scene.revolutions,
     };
-    let run =
-        WearRun { pair: &pair, phases: &[phase], snapshots_revolutions: &scene.snapshots, numerics: scene.numerics() };
+    let run = WearRun {
+        pair: &pair,
+        zones: zones(&pair, line_load),
+        phases: &[phase],
+        snapshots_revolutions: &scene.snapshots,
+        numerics: scene.numerics(),
+    };
     run.run(&Unwatched).expect("the run of the test converges")
 }
 

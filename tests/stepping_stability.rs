@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{Scene, fzg_c, fzg_c_scene, pair, steel};
+use common::{Scene, fzg_c, fzg_c_scene, pair, steel, zones};
 use gearwear::fem::elastic::Elastic;
 use gearwear::fem::gear::position::CondensedPair;
 use gearwear::gear::{Gear, PerGear};
@@ -99,7 +99,8 @@ fn ver_eulers_steps_break_where_the_bound_says_on_finite_elements() {
         };
         let stepping = Stepping::Fixed { revolutions: step };
         let numerics = Numerics { flank_points: 300, positions: 40, stepping, error_estimate: false };
-        let run = WearRun { pair: &pair, phases: &[phase], snapshots_revolutions: snapshots, numerics };
+        let zones = zones(&pair, scene.line_load());
+        let run = WearRun { pair: &pair, zones, phases: &[phase], snapshots_revolutions: snapshots, numerics };
         match bound {
             true => Err(run.step_bound(&phase, false, &|| false).expect("the unworn pair has an equilibrium")),
             false => Ok(run.run(&Unwatched).expect("the run converges")),

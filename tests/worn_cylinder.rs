@@ -101,7 +101,7 @@ fn wear(
     let count = (2.0 * MIDDLE_MM / spacing) as usize;
     let arcs: Vec<f64> = (0..=count).map(|i| 2.0 * MIDDLE_MM * i as f64 / count as f64).collect();
     let grid = FlankGrid { coordinate_mm: arcs.clone(), arc_mm: arcs };
-    let flanks = Flanks { geometry: &CylinderOnFlat, grid: PerGear { pinion: &grid, wheel: &grid } };
+    let flanks = Flanks::new(&CylinderOnFlat, PerGear { pinion: &grid, wheel: &grid });
     let positions = [LoadingPosition {
         cell: PositionCell { position_mm: 0.0, lower_mm: -0.5 * CELL_MM, upper_mm: 0.5 * CELL_MM },
         pairs: vec![PairInMesh { position_mm: 0.0, teeth_n_per_mm2: 20e3, lever_ratio: 1.0 }],

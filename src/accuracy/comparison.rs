@@ -4,7 +4,7 @@
 //! with the surface of finite elements, which brings its own stiffness. Unlike the errors against the reference, these
 //! are differences of two runs of the same resolution.
 
-use super::measure::{greatest, profile_error};
+use super::measure::profile_error;
 use super::observed::Observed;
 use super::settings::{Setting, Surface};
 use super::sliced_comparison;
@@ -94,7 +94,7 @@ pub(super) fn row(name: String, run: &Run<'_>, baseline: &Run<'_>) -> Comparison
             profile_error(&run.observed.flanks[gear], &baseline.observed.flanks[gear])
         }),
         peak_wear: PerGear::from_fn(|gear| {
-            let peak = |run: &Run<'_>| greatest(&run.observed.flanks[gear].wear_um);
+            let peak = |run: &Run<'_>| run.observed.flanks[gear].peak_wear_um();
             if peak(run) == peak(baseline) { 0.0 } else { peak(run) / peak(baseline) - 1.0 }
         }),
         simulation_s: run.simulation_s,

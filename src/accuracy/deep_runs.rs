@@ -10,7 +10,7 @@
 //! revolutions: the error of Euler's method is of first order in the step and changes the greatest depth by some per cent; spikes
 //! change it by far more. A run is called stable where both gears' greatest depths change by less than [`STABLE_WITHIN`].
 
-use super::measure::{greatest, profile_error, ratio, relative_difference};
+use super::measure::{profile_error, ratio, relative_difference};
 use super::observed::{Observed, ObservedFlank};
 use super::settings::{Bed, Coarsening, Setting, Surface, coupling_name, euler_revolutions};
 use super::timed_run::{Finished, Observer, Within, measure};
@@ -148,7 +148,7 @@ fn deep_run((finished, simulation_s): &(Finished, f64)) -> DeepRun {
     DeepRun {
         wear_steps: finished.summary.work.wear_steps,
         simulation_s: *simulation_s,
-        peak_wear_um: PerGear::from_fn(|gear| greatest(&flanks[gear].wear_um)),
+        peak_wear_um: PerGear::from_fn(|gear| flanks[gear].peak_wear_um()),
         roughness: PerGear::from_fn(|gear| roughness(&flanks[gear])),
         warned: finished.summary.warnings.iter().any(|warning| warning.starts_with("numerics.step")),
     }
@@ -168,6 +168,7 @@ fn roughness(flank: &ObservedFlank) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gear::flank_zones::FlankZones;
 
     /// On a depth of 3 an alternation of 1 leaves ‖±1‖/‖3 ± 1‖ = √(1/10) but for the two ends; a straight profile leaves nothing.
     #[test]
@@ -177,6 +178,11 @@ mod tests {
             arc_mm: vec![0.0; 1000],
             width_mm: vec![1.0, 2.0],
             wear_um,
+            zones: FlankZones {
+                active_start_radius_mm: 0.0,
+                tip_edge_radius_mm: f64::INFINITY,
+                tip_radius_mm: f64::INFINITY,
+            },
         };
         let alternating = (0..2000).map(|i| 3.0 + if i % 2 == 0 { 1.0 } else { -1.0 }).collect();
         assert!((roughness(&flank(alternating)) - f64::sqrt(0.1 * 998.0 / 1000.0)).abs() < 1e-14);

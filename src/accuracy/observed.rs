@@ -1,7 +1,10 @@
 //! The curves of a run that errors are measured on, and how they are brought onto common coordinates.
 
 use super::over_width::{OverWidth, depths_at_widths, pressure_along_path_mpa};
-use crate::gear::{Gear, PerGear};
+use crate::gear::{
+    Gear, PerGear,
+    flank_zones::{FlankZone, FlankZones},
+};
 use crate::simulation::record::{FlankRecord, RunRecord};
 
 /// What errors are measured on.
@@ -26,6 +29,8 @@ pub struct ObservedFlank {
     pub width_mm: Vec<f64>,
     /// Wear depth, slice after slice.
     pub wear_um: Vec<f64>,
+    /// Its parts.
+    pub zones: FlankZones,
 }
 
 /// The reference pair over the path of contact.
@@ -135,7 +140,18 @@ impl ObservedFlank {
             arc_mm: flank.radius_mm.iter().zip(&flank.roll_angle_deg).map(arc).collect(),
             width_mm: flank.width_mm.clone(),
             wear_um: flank.wear_um.clone(),
+            zones: flank.zones,
         }
+    }
+
+    /// Greatest depth on the active profile, as in the summary of a run.
+    pub fn peak_wear_um(&self) -> f64 {
+        let of_slice = |slice: &[f64]| {
+            let active =
+                slice.iter().zip(&self.radius_mm).filter(|(_, radius)| self.zones.at(**radius) == FlankZone::Active);
+            active.map(|(depth, _)| *depth).fold(0.0, f64::max)
+        };
+        self.slices().map(of_slice).fold(0.0, f64::max)
     }
 
     /// The slices one after the other.

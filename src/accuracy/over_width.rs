@@ -156,6 +156,8 @@ mod tests {
             // The first slice at 5, 6, 7, 8 of its own path, the second at 3, 4, 5, 6.
             peak_pressure_new_MPa: vec![900.0, 0.0, 100.0, 0.0, 100.0, 200.0, 0.0, 300.0],
             peak_pressure_worn_MPa: vec![0.0; 8],
+            at_sharp_edge_new: vec![false; 8],
+            at_sharp_edge_worn: vec![false; 8],
         };
         assert_eq!(pressure_along_path_mpa(&slices, &[5.0, 6.0, 7.0]), [900.0, 300.0, 300.0]);
     }

@@ -63,14 +63,24 @@ impl Reference {
 mod tests {
     use super::*;
     use crate::accuracy::observed::{ObservedCycle, ObservedFlank};
-    use crate::gear::PerGear;
+    use crate::gear::{PerGear, flank_zones::FlankZones};
     use crate::simulation::record::PathPoints;
 
     /// A run whose curves are off from y = 3 + x by `error`(x).
     fn off_by(points: usize, error: impl Fn(f64) -> f64) -> Observed {
         let x: Vec<f64> = (0..=points).map(|i| i as f64 / points as f64).collect();
         let y: Vec<f64> = x.iter().map(|&x| 3.0 + x + error(x)).collect();
-        let flank = ObservedFlank { radius_mm: x.clone(), arc_mm: x.clone(), width_mm: vec![0.0], wear_um: y.clone() };
+        let flank = ObservedFlank {
+            radius_mm: x.clone(),
+            arc_mm: x.clone(),
+            width_mm: vec![0.0],
+            wear_um: y.clone(),
+            zones: FlankZones {
+                active_start_radius_mm: 0.0,
+                tip_edge_radius_mm: f64::INFINITY,
+                tip_radius_mm: f64::INFINITY,
+            },
+        };
         Observed {
             flanks: PerGear { pinion: flank.clone(), wheel: flank },
             over_width: None,

@@ -5,7 +5,7 @@ use std::time::Instant;
 use super::comparison::{self, Run};
 use super::deep_runs;
 use super::front::{Point, cheapest_within, on_front};
-use super::measure::{Windows, errors, greatest, peak_pressure_mpa, peak_to_peak};
+use super::measure::{Windows, errors, peak_pressure_mpa, peak_to_peak};
 use super::observed::Observed;
 use super::reference::{Correction, Reference};
 use super::selection::{Asked, Companions, Selection, Spacing};
@@ -275,7 +275,7 @@ fn reference_record(
         does_not_tell: observed.over_width.is_some().then(|| DOES_NOT_TELL.to_owned()),
         uncertainty,
         runs,
-        peak_wear_um: PerGear::from_fn(|gear| greatest(&observed.flanks[gear].wear_um)),
+        peak_wear_um: PerGear::from_fn(|gear| observed.flanks[gear].peak_wear_um()),
         peak_pressure_mpa: peak_pressure_mpa(&observed.cycle, windows),
         transmission_error_peak_to_peak_um: [
             peak_to_peak(&observed.cycle.transmission_error_um),

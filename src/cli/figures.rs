@@ -10,6 +10,8 @@ pub fn table(summary: &Summary) -> String {
     for (name, values) in [
         ("peak wear, µm", [pinion.peak_wear_um, wheel.peak_wear_um]),
         ("  at radius, mm", [pinion.peak_wear_radius_mm, wheel.peak_wear_radius_mm]),
+        ("wear of the tip edge, µm", [pinion.tip_edge_wear_um, wheel.tip_edge_wear_um]),
+        ("wear below the active profile, µm", [pinion.below_sap_wear_um, wheel.below_sap_wear_um]),
         ("wear near the root, µm", [pinion.root_wear_um, wheel.root_wear_um]),
         ("wear at the pitch circle, µm", [pinion.pitch_wear_um, wheel.pitch_wear_um]),
         ("worn mass, mg", [pinion.worn_mass_mg, wheel.worn_mass_mg]),
@@ -26,6 +28,11 @@ pub fn table(summary: &Summary) -> String {
         ),
     ] {
         text.push_str(&figures(name, values));
+    }
+    let sharp = [new.sharp_edge_pressure_MPa, worn.sharp_edge_pressure_MPa];
+    if sharp.iter().any(Option::is_some) {
+        let [new, worn] = sharp.map(|pressure| pressure.map_or_else(|| "–".to_owned(), digits));
+        text.push_str(&row("at sharp tip edges, not defined, MPa", [&new, &worn]));
     }
     text.push_str(&over_the_width(summary.helical.as_ref()));
     text.push_str(&verified(&summary.error.total));

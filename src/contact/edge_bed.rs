@@ -198,7 +198,7 @@ impl Bodies<'_> {
         let flattening = hertz::flattening(self.pair, self.material, position_mm);
         let load = GREATEST_LOAD * self.line_load_n_per_mm;
         let half_width_mm = WIDENED * flattening.contact.loaded(load).half_width_mm;
-        let (lower_mm, upper_mm) = common_extent_mm(self.pair, position_mm);
+        let ((lower_mm, upper_mm), _) = common_extent_mm(self.pair, position_mm);
         // About the theoretical contact point, or the edge beside it.
         let centre_mm = 0.0_f64.min(upper_mm).max(lower_mm);
         let mut window = (lower_mm.max(centre_mm - half_width_mm), upper_mm.min(centre_mm + half_width_mm));

@@ -204,6 +204,8 @@ impl PairContact for HalfSpacePair<'_> {
     }
 
     fn footprint(&self) -> Footprint {
-        self.look.swept.field.footprint()
+        let field = &self.look.swept.field;
+        let at_ends = [field.cells_mpa().first(), field.cells_mpa().last()].map(|end| end.is_some_and(|p| *p > 0.0));
+        Footprint { at_sharp_edge: self.look.strip.window.is_sharp_where(at_ends), ..field.footprint() }
     }
 }

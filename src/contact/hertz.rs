@@ -213,7 +213,7 @@ impl PairContact for HertzPair<'_> {
         let a = self.half_width_mm;
         let extent = self.extent.upper_mm.min(a) - self.extent.lower_mm.max(-a);
         let peak_pressure_mpa = self.closed_form.flattening.contact.loaded(self.strip_load).peak_pressure_mpa;
-        Footprint { peak_pressure_mpa, half_width_mm: 0.5 * extent }
+        Footprint { peak_pressure_mpa, half_width_mm: 0.5 * extent, at_sharp_edge: false }
     }
 }
 

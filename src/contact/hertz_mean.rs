@@ -97,7 +97,7 @@ impl PairContact for HertzMeanPair<'_> {
     fn sweep(&self, gear: Gear, _removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
         let Some(passed) = &self.passed else { return sweep.begin(0, &[]) };
         let points = &passed[gear];
-        let Footprint { peak_pressure_mpa, half_width_mm } = self.footprint();
+        let Footprint { peak_pressure_mpa, half_width_mm, .. } = self.footprint();
         sweep.begin(points.first_point, &points.specific_sliding);
         sweep.sliding_mm.iter_mut().for_each(|zeta| *zeta *= 2.0 * half_width_mm);
         sweep.pressure_mpa.fill(peak_pressure_mpa);
@@ -115,6 +115,6 @@ impl PairContact for HertzMeanPair<'_> {
     fn footprint(&self) -> Footprint {
         let half_width_mm = self.closed_form.flattening.contact.loaded(self.closed_form.line_load).half_width_mm;
         let mean = if half_width_mm > 0.0 { self.closed_form.line_load / (2.0 * half_width_mm) } else { 0.0 };
-        Footprint { peak_pressure_mpa: mean, half_width_mm }
+        Footprint { peak_pressure_mpa: mean, half_width_mm, at_sharp_edge: false }
     }
 }

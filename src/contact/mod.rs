@@ -34,6 +34,15 @@ pub struct Flanks<'a> {
     pub geometry: &'a dyn ConjugateFlanks,
     /// Their points.
     pub grid: PerGear<&'a FlankGrid>,
+    /// Whose tip edge may carry load and is mathematically sharp: contact that it cuts off has no pressure of its own.
+    pub sharp_edges: PerGear<bool>,
+}
+
+impl<'a> Flanks<'a> {
+    /// Flanks that end where their contact does: no tip edge carries load.
+    pub fn new(geometry: &'a dyn ConjugateFlanks, grid: PerGear<&'a FlankGrid>) -> Self {
+        Self { geometry, grid, sharp_edges: PerGear::default() }
+    }
 }
 
 /// A loading position and the stretch of the path of contact it stands for.
@@ -94,6 +103,8 @@ pub struct Footprint {
     pub peak_pressure_mpa: f64,
     /// Half the extent of the contact strip, mm.
     pub half_width_mm: f64,
+    /// Whether a sharp tip edge cuts the contact off: the pressure then is not defined, and what is found grows with every refinement.
+    pub at_sharp_edge: bool,
 }
 
 /// One tooth pair at one loading position.

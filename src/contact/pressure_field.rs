@@ -128,10 +128,10 @@ impl PressureField {
         (place(first as f64 + before), place((last + 1) as f64 - after))
     }
 
-    /// Greatest pressure, between the cells' centres, and half the extent.
+    /// Greatest pressure, between the cells' centres, and half the extent; a field knows no edges.
     pub fn footprint(&self) -> Footprint {
         let (lower, upper) = self.extent_mm();
-        Footprint { peak_pressure_mpa: self.peak_mpa(), half_width_mm: 0.5 * (upper - lower) }
+        Footprint { peak_pressure_mpa: self.peak_mpa(), half_width_mm: 0.5 * (upper - lower), at_sharp_edge: false }
     }
 
     /// The top of the parabola through the greatest pressure and its neighbours, or the pressure itself in the last cell.

@@ -49,37 +49,57 @@ pub struct Window {
     pub upper_mm: f64,
     /// Whether each end is where a flank really ends.
     pub ends_are_real: [bool; 2],
+    /// Whether it ends there in a sharp tip edge that may carry load: the wheel's below, the pinion's above.
+    pub ends_are_sharp: [bool; 2],
 }
 
 impl Window {
     /// `half_length_mm` to either side of the theoretical contact point, or of the tip edge next to it where the one flank
     /// ends before it, cut where a flank ends.
     pub fn new(flanks: Flanks<'_>, position_mm: f64, half_length_mm: f64) -> Self {
-        let (lower, upper) = common_extent_mm(flanks.geometry, position_mm);
+        let ((lower, upper), at_tips) = common_extent_mm(flanks.geometry, position_mm);
         let centre = 0.0_f64.min(upper).max(lower);
         let (from, to) = (centre - half_length_mm, centre + half_length_mm);
-        Self { lower_mm: lower.max(from), upper_mm: upper.min(to), ends_are_real: [lower >= from, upper <= to] }
+        let ends_are_real = [lower >= from, upper <= to];
+        let sharp = [flanks.sharp_edges.wheel, flanks.sharp_edges.pinion];
+        Self {
+            lower_mm: lower.max(from),
+            upper_mm: upper.min(to),
+            ends_are_real,
+            ends_are_sharp: [0, 1].map(|end| ends_are_real[end] && at_tips[end] && sharp[end]),
+        }
     }
 
     /// Its length.
     pub fn length_mm(&self) -> f64 {
         self.upper_mm - self.lower_mm
     }
+
+    /// Whether a sharp tip edge cuts off a contact that presses on these of the ends.
+    pub fn is_sharp_where(&self, pressed: [bool; 2]) -> bool {
+        self.ends_are_sharp.iter().zip(pressed).any(|(sharp, pressed)| *sharp && pressed)
+    }
 }
 
 /// Parts of the flank's length by which a limit may miss the theoretical contact point at A or E.
 const ROUND_OFF: f64 = 1e-9;
 
-/// Where along the tangent both flanks exist: before A and after E beside the theoretical contact point.
-pub(super) fn common_extent_mm(geometry: &dyn ConjugateFlanks, position_mm: f64) -> (f64, f64) {
+/// Where along the tangent both flanks exist, before A and after E beside the theoretical contact point; and whether it is a tip edge that
+/// ends it there, the wheel's below and the pinion's above.
+pub(super) fn common_extent_mm(geometry: &dyn ConjugateFlanks, position_mm: f64) -> ((f64, f64), [bool; 2]) {
     let along = |gear: Gear, coordinate| geometry.in_tangent_frame(gear, coordinate, position_mm).along_mm;
     let (p, w) = (geometry.flank_limits_mm(Gear::Pinion), geometry.flank_limits_mm(Gear::Wheel));
     // The wheel's tangent coordinate runs the other way. At A and E, where one limit is the contact point itself,
     // round-off must not put it outside.
     let round_off = ROUND_OFF * p.1.max(w.1);
-    let lower = along(Gear::Pinion, p.0).max(-along(Gear::Wheel, w.1));
-    let upper = along(Gear::Pinion, p.1).min(-along(Gear::Wheel, w.0));
-    (if lower < round_off { lower.min(0.0) } else { lower }, if upper > -round_off { upper.max(0.0) } else { upper })
+    let [lowers, uppers] =
+        [[along(Gear::Pinion, p.0), -along(Gear::Wheel, w.1)], [along(Gear::Pinion, p.1), -along(Gear::Wheel, w.0)]];
+    let (lower, upper) = (lowers[0].max(lowers[1]), uppers[0].min(uppers[1]));
+    let extent = (
+        if lower < round_off { lower.min(0.0) } else { lower },
+        if upper > -round_off { upper.max(0.0) } else { upper },
+    );
+    (extent, [lowers[1] >= lowers[0], uppers[0] <= uppers[1]])
 }
 
 /// Distance of the pinion's points at the theoretical contact point.

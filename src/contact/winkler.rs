@@ -282,7 +282,9 @@ impl PairContact for WinklerPair<'_> {
     fn footprint(&self) -> Footprint {
         let penetration = (self.depth - least(&self.gap)).max(0.0);
         let half_width_mm = 0.5 * (self.extent_mm.1 - self.extent_mm.0);
-        Footprint { peak_pressure_mpa: self.foundation * penetration, half_width_mm }
+        let at_ends = [self.gap.first(), self.gap.last()].map(|gap| gap.is_some_and(|gap| *gap < self.depth));
+        let at_sharp_edge = self.strip.window.is_sharp_where(at_ends);
+        Footprint { peak_pressure_mpa: self.foundation * penetration, half_width_mm, at_sharp_edge }
     }
 }
 

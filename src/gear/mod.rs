@@ -5,6 +5,7 @@ pub mod conjugate;
 pub mod error;
 pub mod flank;
 pub mod flank_surface;
+pub mod flank_zones;
 pub mod half_profile;
 pub mod involute;
 pub mod modification;

@@ -33,7 +33,7 @@ use crate::contact::{
 use crate::fem::elastic::Elastic;
 use crate::fem::gear::model::ModelError;
 use crate::fem::gear::position::CondensedPair;
-use crate::gear::{GearPair, PairError, PerGear};
+use crate::gear::{GearPair, PairError, PerGear, flank_zones::FlankZones};
 use crate::mesh::settings::BodySettings;
 use crate::plan::{Plan, StageKind};
 use crate::reference::flattening::Flattening;
@@ -150,10 +150,17 @@ impl Model<'_> {
     fn wear_run(&self) -> WearRun<'_> {
         WearRun {
             pair: self.pair,
+            zones: self.zones(),
             phases: &self.phases,
             snapshots_revolutions: &self.scene.operation.snapshots_revolutions,
             numerics: self.scene.numerics,
         }
+    }
+
+    /// The parts of both flanks, as wide as the greatest load of any phase asks for.
+    fn zones(&self) -> PerGear<FlankZones> {
+        let greatest = self.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max);
+        FlankZones::of_pair(self.pair, self.at_pitch.contact.loaded(greatest).half_width_mm)
     }
 
     /// The first phase.

@@ -49,12 +49,13 @@ pub(super) fn summaries(model: &Model<'_>, outcome: &Outcome) -> Vec<PhaseSummar
 
 /// What a gear lost from one state to another.
 fn wear(model: &Model<'_>, outcome: &Outcome, gear: Gear, [before, after]: [&Snapshot; 2]) -> PhaseWear {
-    let [from, to] = [before, after].map(|state| WearFigures::at(model.pair, gear, outcome, state).area_mm2);
-    let depths = after.wear_mm[gear].iter().zip(&before.wear_mm[gear]).map(|(after, before)| after - before);
+    let states = after.wear_mm[gear].iter().zip(&before.wear_mm[gear]);
+    let lost_mm: Vec<f64> = states.map(|(after, before)| after - before).collect();
+    let lost = WearFigures::new(model.pair, gear, &outcome.grid[gear], &outcome.zones[gear], &lost_mm);
     let spec = &model.scene.pair;
     PhaseWear {
-        greatest_depth_um: depths.fold(0.0, f64::max) * UM_PER_MM,
-        worn_volume_mm3: (to - from) * spec.face_width_mm * f64::from(spec.gears[gear].teeth),
+        greatest_depth_um: lost.peak_mm * UM_PER_MM,
+        worn_volume_mm3: lost.area_mm2 * spec.face_width_mm * f64::from(spec.gears[gear].teeth),
     }
 }
 

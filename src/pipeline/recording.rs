@@ -57,6 +57,7 @@ pub(super) fn summary(
     let mut warnings = resolved.warnings.clone();
     warnings.extend(temperature::warnings(&law));
     warnings.extend(judged.warnings);
+    warnings.extend(sharp_edge_warning(pair, outcome));
     warnings.extend(deep_wear_warning(pair, outcome));
     warnings.extend(slices::warning(outcome));
     warnings.extend(error_estimates::warnings(&error));
@@ -181,7 +182,8 @@ fn stiffness(model: &Model<'_>) -> Result<Option<StiffnessSummary>, RunError> {
 fn cycle(pair: &GearPair, cycle: &CycleObservation) -> CycleSummary {
     let (min, max) = cycle.transmission_error_mm();
     CycleSummary {
-        peak_pressure_MPa: cycle.peak_pressure_mpa(),
+        peak_pressure_MPa: cycle.greatest_pressure.defined_mpa,
+        sharp_edge_pressure_MPa: cycle.greatest_pressure.sharp_edge_mpa,
         load_imbalance: cycle.positions.iter().map(|p| p.load_imbalance.abs()).fold(0.0, f64::max),
         pitch_pressure_MPa: cycle.peak_pressure_at_mpa(pair.path.pitch_point_mm),
         transmission_error_um: RangeSummary {
@@ -199,6 +201,10 @@ fn wear(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> WearSummary {
     WearSummary {
         peak_wear_um: figures.peak_mm * UM_PER_MM,
         peak_wear_radius_mm: figures.peak_radius_mm,
+        tip_edge_wear_um: figures.tip_edge.depth_mm * UM_PER_MM,
+        tip_edge_wear_radius_mm: figures.tip_edge.radius_mm,
+        below_sap_wear_um: figures.below_active.depth_mm * UM_PER_MM,
+        below_sap_wear_radius_mm: figures.below_active.radius_mm,
         root_wear_um: figures.root_mm * UM_PER_MM,
         pitch_wear_um: figures.pitch_mm * UM_PER_MM,
         worn_volume_mm3: volume_mm3,
@@ -224,6 +230,7 @@ fn flank(model: &Model<'_>, Found { outcome, verified, .. }: Found<'_>, gear: Ge
         pressure_worn_MPa: outcome.worn.cycle.pressure_mpa[gear].clone(),
         snapshot_wear_um: outcome.snapshots.iter().map(|snapshot| um(&snapshot.wear_mm[gear])).collect(),
         path_point_radius_mm: path_points(pair.path.points_mm().map(|position| pair.radius_at_mm(gear, position))),
+        zones: outcome.zones[gear],
     }
 }
 
@@ -240,12 +247,15 @@ fn history_row(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> His
         pinion_root_wear_um: pinion.root_mm * UM_PER_MM,
         pinion_pitch_wear_um: pinion.pitch_mm * UM_PER_MM,
         wheel_peak_wear_um: wheel.peak_mm * UM_PER_MM,
-        peak_pressure_MPa: snapshot.cycle.peak_pressure_mpa(),
+        peak_pressure_MPa: snapshot.cycle.greatest_pressure.defined_mpa,
         transmission_error_peak_to_peak_um: (max - min) * UM_PER_MM,
         pinion_peak_wear_radius_mm: pinion.peak_radius_mm,
         pinion_sap_wear_um: pinion.active_start_mm * UM_PER_MM,
         pinion_sap_wear_rate_um_per_Mrev: rate * UM_PER_MM * 1e6,
         phase: phases::number_at(model, snapshot),
+        sharp_edge_pressure_MPa: snapshot.cycle.greatest_pressure.sharp_edge_mpa,
+        pinion_tip_edge_wear_um: pinion.tip_edge.depth_mm * UM_PER_MM,
+        wheel_tip_edge_wear_um: wheel.tip_edge.depth_mm * UM_PER_MM,
     }
 }
 
@@ -271,8 +281,26 @@ fn mesh_cycle(model: &Model<'_>, Found { outcome, heat, .. }: Found<'_>) -> Vec<
             temperature_rise_tian_kennedy_K: rise(k, TemperatureMethod::TianKennedy),
             peclet_pinion: peclet(k, Gear::Pinion),
             peclet_wheel: peclet(k, Gear::Wheel),
+            at_sharp_edge_new: new.footprint.at_sharp_edge,
+            at_sharp_edge_worn: worn.footprint.at_sharp_edge,
         })
         .collect()
+}
+
+/// Warns where a mathematically sharp tip edge carries load at any moment that is kept.
+fn sharp_edge_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
+    let mut states = [&outcome.new].into_iter().chain(&outcome.snapshots);
+    let is_loaded = states.any(|state| state.cycle.greatest_pressure.sharp_edge_mpa.is_some());
+    let is_sharp = |gear: &Gear| pair.spec.gears[*gear].modification.tip_rounding_mm == 0.0;
+    let sharp: Vec<&str> = Gear::BOTH.into_iter().filter(is_sharp).map(Gear::name).collect();
+    is_loaded.then(|| {
+        format!(
+            "the tip edge of {} is mathematically sharp and carries load: the pressure at the edge (sharp_edge_pressure_MPa, left out of \
+             peak_pressure_MPa) and the wear of the edge (tip_edge_wear_um, left out of peak_wear_um) are not defined, they depend on the \
+             resolution; give tip_rounding_mm",
+            sharp.join(" and ")
+        )
+    })
 }
 
 /// Warns where so much is worn that the nominal tooth no longer stands for the worn one.

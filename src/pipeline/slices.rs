@@ -77,7 +77,14 @@ fn line_of_contact(model: &Model<'_>, outcome: &Outcome, mesh: &SlicedMesh) -> L
 
 fn over_width(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> OverWidthSummary {
     let worn = WearFigures::at(model.pair, gear, outcome, &outcome.worn).slices;
-    let first = WearFigures::new(model.pair, gear, &outcome.grid[gear], &outcome.new.depth_per_mesh_mm[gear]).slices;
+    let first = WearFigures::new(
+        model.pair,
+        gear,
+        &outcome.grid[gear],
+        &outcome.zones[gear],
+        &outcome.new.depth_per_mesh_mm[gear],
+    )
+    .slices;
     let um = |slices: &[SliceFigures], of: fn(&SliceFigures) -> f64| -> Vec<f64> {
         slices.iter().map(|slice| of(slice) * UM_PER_MM).collect()
     };
@@ -111,5 +118,7 @@ pub(super) fn record(model: &Model<'_>, outcome: &Outcome) -> Option<SliceRecord
         line_load_worn_N_per_mm: worn.line_load_n_per_mm.clone(),
         peak_pressure_new_MPa: new.peak_pressure_mpa.clone(),
         peak_pressure_worn_MPa: worn.peak_pressure_mpa.clone(),
+        at_sharp_edge_new: new.at_sharp_edge.clone(),
+        at_sharp_edge_worn: worn.at_sharp_edge.clone(),
     })
 }

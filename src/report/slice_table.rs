@@ -8,7 +8,7 @@ use super::tables::{Column, Provenance, table};
 use crate::simulation::record::{PathPoints, SliceRecord};
 
 /// Columns; rows by position of the tooth, and there by slice: those that are between A and E, or loaded at a tip edge outside.
-pub const SLICES: [Column; 8] = [
+pub const SLICES: [Column; 10] = [
     (
         "position_mm",
         "position of the tooth in the middle of the face width: radius of curvature of the pinion's flank, also before A and \
@@ -21,6 +21,8 @@ pub const SLICES: [Column; 8] = [
     ("line_load_worn_N_per_mm", "the same, worn"),
     ("peak_pressure_new_MPa", "greatest pressure of the slice, new"),
     ("peak_pressure_worn_MPa", "the same, worn"),
+    ("at_sharp_edge_new", "whether a sharp tip edge cuts the contact off: its pressure is not defined, new"),
+    ("at_sharp_edge_worn", "the same, worn"),
 ];
 
 /// Positions are compared with A and E to this part of A–E.
@@ -37,6 +39,8 @@ struct Row {
     line_load_worn_N_per_mm: f64,
     peak_pressure_new_MPa: f64,
     peak_pressure_worn_MPa: f64,
+    at_sharp_edge_new: bool,
+    at_sharp_edge_worn: bool,
 }
 
 /// Writes it; `path` are the positions of A–E.
@@ -55,6 +59,8 @@ pub fn slices(out: &mut dyn Write, provenance: Provenance, record: &SliceRecord,
                 line_load_worn_N_per_mm: record.line_load_worn_N_per_mm[place],
                 peak_pressure_new_MPa: record.peak_pressure_new_MPa[place],
                 peak_pressure_worn_MPa: record.peak_pressure_worn_MPa[place],
+                at_sharp_edge_new: record.at_sharp_edge_new[place],
+                at_sharp_edge_worn: record.at_sharp_edge_worn[place],
             }
         })
     });

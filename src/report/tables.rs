@@ -35,19 +35,25 @@ pub const FLANK: [Column; 10] = [
 const PHASE: &str = "number of the phase of the operation, from 1; at the end of one, that one";
 
 /// Columns of `history.csv`; one row per snapshot reached.
-pub const HISTORY: [Column; 12] = [
+pub const HISTORY: [Column; 15] = [
     ("hours", "running time; empty where the scene gives no speed"),
     ("revolutions", "of the pinion"),
-    ("pinion_peak_wear_um", "greatest wear depth of the pinion's flank"),
+    ("pinion_peak_wear_um", "greatest wear depth on the pinion's active profile, its tip edge apart"),
     ("pinion_root_wear_um", "greatest wear depth in the first 2 mm of radius above the start of active profile"),
     ("pinion_pitch_wear_um", "wear depth at the working pitch circle"),
-    ("wheel_peak_wear_um", "greatest wear depth of the wheel's flank"),
-    ("peak_pressure_MPa", "greatest pressure anywhere during one mesh"),
+    ("wheel_peak_wear_um", "the same of the wheel"),
+    ("peak_pressure_MPa", "greatest pressure during one mesh, sharp tip edges under load apart"),
     ("transmission_error_peak_to_peak_um", "of the loaded pair, along the line of action"),
-    ("pinion_peak_wear_radius_mm", "radius of the greatest wear depth"),
+    ("pinion_peak_wear_radius_mm", "radius of the greatest wear depth on the active profile"),
     ("pinion_sap_wear_um", "wear depth at the start of active profile"),
     ("pinion_sap_wear_rate_um_per_Mrev", "growth there per million pinion revolutions"),
     ("phase", PHASE),
+    (
+        "sharp_edge_pressure_MPa",
+        "greatest pressure found at a sharp tip edge under load, which grows with every refinement; empty where there is none",
+    ),
+    ("pinion_tip_edge_wear_um", "greatest wear depth at the pinion's tip edge"),
+    ("wheel_tip_edge_wear_um", "the same of the wheel"),
 ];
 
 /// Columns of `profiles.csv`; both flanks at every snapshot.
@@ -63,7 +69,7 @@ pub const PROFILES: [Column; 8] = [
 ];
 
 /// Columns of `mesh_cycle.csv`; one row per loading position of the reference pair, from A to E.
-pub const MESH_CYCLE: [Column; 15] = [
+pub const MESH_CYCLE: [Column; 17] = [
     ("position_mm", "radius of curvature of the pinion's flank at the theoretical contact point"),
     ("load_share_new", "share of the whole load that the pair carries, new"),
     ("load_share_worn", "the same, worn"),
@@ -82,6 +88,8 @@ pub const MESH_CYCLE: [Column; 15] = [
     ("temperature_rise_tian_kennedy_K", "the same by Tian and Kennedy"),
     ("peclet_pinion", "Peclet number of the pinion's surface, new; empty where not computed"),
     ("peclet_wheel", "the same of the wheel's"),
+    ("at_sharp_edge_new", "whether a sharp tip edge cuts the contact off: its peak pressure is not defined, new"),
+    ("at_sharp_edge_worn", "the same, worn"),
 ];
 
 /// Where the figures of a table come from.

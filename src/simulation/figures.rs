@@ -1,21 +1,40 @@
 //! The figures an engineer asks of a worn flank.
 
 use super::wear_run::{Outcome, Snapshot};
-use crate::gear::{Gear, GearPair, flank::FlankGrid};
+use crate::gear::{
+    Gear, GearPair,
+    flank::FlankGrid,
+    flank_zones::{FlankZone, FlankZones},
+};
 
-/// Height in radius of what is called the root: from the start of active profile (SAP) upward, mm.
-pub const ROOT_ZONE_MM: f64 = 2.0;
-/// Height in radius of what is called the tip: from the tip circle downward, mm.
-pub const TIP_ZONE_MM: f64 = 2.0;
+/// The greatest depth of a part of a flank.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deepest {
+    /// The depth.
+    pub depth_mm: f64,
+    /// Radius where it is.
+    pub radius_mm: f64,
+}
+
+impl Deepest {
+    /// The deeper of both, the first of equals.
+    fn or(self, other: Self) -> Self {
+        if other.depth_mm > self.depth_mm { other } else { self }
+    }
+}
 
 /// Wear of one flank in figures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WearFigures {
-    /// Greatest depth anywhere.
+    /// Greatest depth on the active profile.
     pub peak_mm: f64,
     /// Radius where it is.
     pub peak_radius_mm: f64,
-    /// Greatest depth in the root zone.
+    /// Greatest depth at the tip edge.
+    pub tip_edge: Deepest,
+    /// Greatest depth below the start of active profile.
+    pub below_active: Deepest,
+    /// Greatest depth of the root.
     pub root_mm: f64,
     /// Depth at the working pitch circle, on average over the face width.
     pub pitch_mm: f64,
@@ -30,13 +49,15 @@ pub struct WearFigures {
 /// Wear of one slice of a flank in figures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SliceFigures {
-    /// Greatest depth anywhere.
-    pub peak_mm: f64,
-    /// Radius where it is.
-    pub peak_radius_mm: f64,
-    /// Greatest depth in the root zone.
+    /// Greatest depth on the active profile.
+    pub active: Deepest,
+    /// Greatest depth at the tip edge.
+    pub tip_edge: Deepest,
+    /// Greatest depth below the start of active profile.
+    pub below_active: Deepest,
+    /// Greatest depth of the root.
     pub root_mm: f64,
-    /// Greatest depth in the tip zone.
+    /// Greatest depth of the tip.
     pub tip_mm: f64,
     /// Depth at the working pitch circle.
     pub pitch_mm: f64,
@@ -48,23 +69,28 @@ pub struct SliceFigures {
 
 impl SliceFigures {
     /// Of `wear_mm` at the points of one slice of `gear`'s flank, which are at `radius_mm`.
-    fn new(pair: &GearPair, gear: Gear, grid: &FlankGrid, radius_mm: &[f64], wear_mm: &[f64]) -> Self {
-        let start_radius = pair.active_start_radius_mm(gear);
-        let tip_radius = pair.teeth[gear].tip_radius_mm;
-        let radius = |i: usize| radius_mm[i];
-        let greatest = |points: &mut dyn Iterator<Item = usize>| {
-            points.fold((0.0, 0), |best: (f64, usize), i| if wear_mm[i] > best.0 { (wear_mm[i], i) } else { best })
+    fn new(
+        pair: &GearPair,
+        gear: Gear,
+        grid: &FlankGrid,
+        zones: &FlankZones,
+        radius_mm: &[f64],
+        wear_mm: &[f64],
+    ) -> Self {
+        // Of a zone without wear or without points, where it begins.
+        let deepest = |begins_mm: f64, belongs: &dyn Fn(f64) -> bool| {
+            let points = radius_mm.iter().zip(wear_mm).filter(|(radius, _)| belongs(**radius));
+            points.fold(Deepest { depth_mm: 0.0, radius_mm: begins_mm }, |best, (&radius_mm, &depth_mm)| {
+                best.or(Deepest { depth_mm, radius_mm })
+            })
         };
-        let (peak_mm, peak_point) = greatest(&mut (0..grid.len()));
-        let in_root = |&i: &usize| (start_radius..=start_radius + ROOT_ZONE_MM).contains(&radius(i));
-        let in_tip = |&i: &usize| radius(i) >= tip_radius - TIP_ZONE_MM;
-        let (root_mm, _) = greatest(&mut (0..grid.len()).filter(in_root));
-        let (tip_mm, _) = greatest(&mut (0..grid.len()).filter(in_tip));
+        let of_zone = |begins_mm: f64, zone: FlankZone| deepest(begins_mm, &|radius| zones.at(radius) == zone);
         Self {
-            peak_mm,
-            peak_radius_mm: radius(peak_point),
-            root_mm,
-            tip_mm,
+            active: of_zone(zones.active_start_radius_mm, FlankZone::Active),
+            tip_edge: of_zone(zones.tip_edge_radius_mm, FlankZone::TipEdge),
+            below_active: of_zone(radius_mm[0], FlankZone::BelowActive),
+            root_mm: deepest(zones.active_start_radius_mm, &|radius| zones.is_root(radius)).depth_mm,
+            tip_mm: deepest(zones.tip_radius_mm, &|radius| zones.is_tip(radius)).depth_mm,
             pitch_mm: grid.value_at(wear_mm, pair.path.rho_mm(gear, pair.path.pitch_point_mm)),
             active_start_mm: grid.value_at(wear_mm, pair.active_start_rho_mm(gear)),
             area_mm2: grid.integral(wear_mm),
@@ -74,18 +100,19 @@ impl SliceFigures {
 
 impl WearFigures {
     /// Of `wear_mm` at the points of `gear`'s flank, slice after slice (at least one).
-    pub fn new(pair: &GearPair, gear: Gear, grid: &FlankGrid, wear_mm: &[f64]) -> Self {
+    pub fn new(pair: &GearPair, gear: Gear, grid: &FlankGrid, zones: &FlankZones, wear_mm: &[f64]) -> Self {
         let involute = pair.teeth[gear].involute;
         let radius_mm: Vec<f64> = grid.coordinate_mm.iter().map(|&rho| involute.radius_mm(rho)).collect();
-        let of_slice = |slice| SliceFigures::new(pair, gear, grid, &radius_mm, slice);
+        let of_slice = |slice| SliceFigures::new(pair, gear, grid, zones, &radius_mm, slice);
         let slices: Vec<_> = wear_mm.chunks_exact(grid.len()).map(of_slice).collect();
         let mean = |of: fn(&SliceFigures) -> f64| slices.iter().map(of).sum::<f64>() / slices.len() as f64;
-        // The first of equals, as the slices follow each other.
-        let worst =
-            slices.iter().fold(&slices[0], |best, slice| if slice.peak_mm > best.peak_mm { slice } else { best });
+        let deepest = |of: fn(&SliceFigures) -> Deepest| slices[1..].iter().map(of).fold(of(&slices[0]), Deepest::or);
+        let active = deepest(|slice| slice.active);
         Self {
-            peak_mm: worst.peak_mm,
-            peak_radius_mm: worst.peak_radius_mm,
+            peak_mm: active.depth_mm,
+            peak_radius_mm: active.radius_mm,
+            tip_edge: deepest(|slice| slice.tip_edge),
+            below_active: deepest(|slice| slice.below_active),
             root_mm: slices.iter().map(|slice| slice.root_mm).fold(0.0, f64::max),
             pitch_mm: mean(|slice| slice.pitch_mm),
             active_start_mm: mean(|slice| slice.active_start_mm),
@@ -96,7 +123,7 @@ impl WearFigures {
 
     /// Of a gear's flank at a snapshot of a run.
     pub fn at(pair: &GearPair, gear: Gear, outcome: &Outcome, snapshot: &Snapshot) -> Self {
-        Self::new(pair, gear, &outcome.grid[gear], &snapshot.wear_mm[gear])
+        Self::new(pair, gear, &outcome.grid[gear], &outcome.zones[gear], &snapshot.wear_mm[gear])
     }
 }
 

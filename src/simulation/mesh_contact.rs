@@ -152,6 +152,9 @@ impl<'a> LoadedMesh<'a> {
         let (path, count) = (&self.pair.path, self.numerics.positions);
         let spring = |at| teeth.own_n_per_mm2(at);
         let bodies = teeth.shared_mm2_per_n() * line_load;
+        let sharp_edges =
+            self.pair.spec.gears.as_ref().map(|gear| tip_contact && gear.modification.tip_rounding_mm == 0.0);
+        let flanks = Flanks { sharp_edges, ..flanks };
         let lever_ratio = |at| self.pair.pinion_lever_ratio(&self.pair.touch(at));
         let beyond = if tip_contact {
             let pitch_point = path.pitch_point_mm;

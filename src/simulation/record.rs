@@ -5,7 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::chemistry_record::{TemperatureSummary, WearLawSummary};
-use crate::gear::{PerGear, flank_surface::FlankSurface};
+use crate::gear::{PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
 
 /// A finished (or interrupted) run.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -114,7 +114,7 @@ pub struct PhaseSummary {
 /// What a gear wore off in a phase.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PhaseWear {
-    /// Greatest depth that any place of the flank lost.
+    /// Greatest depth that any place of the active profile lost, the zone of the tip edge apart.
     pub greatest_depth_um: f64,
     /// Worn off the whole gear: all teeth, whole width.
     pub worn_volume_mm3: f64,
@@ -314,8 +314,10 @@ pub struct StiffnessSummary {
 #[allow(non_snake_case, reason = "the contract's key names")]
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CycleSummary {
-    /// Greatest pressure anywhere on the flanks.
+    /// Greatest pressure of contact whose pressure is defined: not of that which a sharp tip edge cuts off.
     pub peak_pressure_MPa: f64,
+    /// Greatest pressure found at a mathematically sharp tip edge under load, which grows with every refinement; `None` where there is none.
+    pub sharp_edge_pressure_MPa: Option<f64>,
     /// Greatest pressure with the theoretical contact point at C.
     pub pitch_pressure_MPa: f64,
     /// Loaded transmission error over the cycle.
@@ -348,10 +350,18 @@ pub struct RangeSummary {
 /// Wear of a gear.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WearSummary {
-    /// Greatest wear depth on the flank.
+    /// Greatest wear depth on the active profile, the zone of the tip edge apart.
     pub peak_wear_um: f64,
     /// Radius where it is.
     pub peak_wear_radius_mm: f64,
+    /// Greatest wear depth at the tip edge: within three Hertz half-widths at C, at most 0.15 modules, of the edge or of its rounding.
+    pub tip_edge_wear_um: f64,
+    /// Radius where it is.
+    pub tip_edge_wear_radius_mm: f64,
+    /// Greatest wear depth below the start of active profile.
+    pub below_sap_wear_um: f64,
+    /// Radius where it is.
+    pub below_sap_wear_radius_mm: f64,
     /// Greatest wear depth in the first 2 mm of radius above the start of active profile.
     pub root_wear_um: f64,
     /// Wear depth at the working pitch circle.
@@ -488,6 +498,8 @@ pub struct FlankRecord {
     pub snapshot_wear_um: Vec<Vec<f64>>,
     /// Radii worth marking: start of active profile (A on the pinion, E on the wheel) to tip.
     pub path_point_radius_mm: PathPoints,
+    /// Its parts, of which figures speak.
+    pub zones: FlankZones,
 }
 
 /// A row of `history.csv`.
@@ -510,6 +522,9 @@ pub struct HistoryRow {
     pub pinion_sap_wear_rate_um_per_Mrev: f64,
     /// Number of the phase, from 1; at the end of one, that one.
     pub phase: usize,
+    pub sharp_edge_pressure_MPa: Option<f64>,
+    pub pinion_tip_edge_wear_um: f64,
+    pub wheel_tip_edge_wear_um: f64,
 }
 
 /// A row of `mesh_cycle.csv`: the reference pair at one loading position.
@@ -536,6 +551,8 @@ pub struct MeshCycleRow {
     pub temperature_rise_tian_kennedy_K: Option<f64>,
     pub peclet_pinion: Option<f64>,
     pub peclet_wheel: Option<f64>,
+    pub at_sharp_edge_new: bool,
+    pub at_sharp_edge_worn: bool,
 }
 
 /// The mesh of one tooth slice by slice, from its first touch to its last.
@@ -558,6 +575,10 @@ pub struct SliceRecord {
     pub peak_pressure_new_MPa: Vec<f64>,
     /// The same, worn.
     pub peak_pressure_worn_MPa: Vec<f64>,
+    /// Whether a sharp tip edge cuts off the contact of each slice at each position, new.
+    pub at_sharp_edge_new: Vec<bool>,
+    /// The same, worn.
+    pub at_sharp_edge_worn: Vec<bool>,
 }
 
 /// The pair in mesh in the transverse section, mm; the pinion's axis is the origin and the wheel's lies on +y.

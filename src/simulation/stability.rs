@@ -49,7 +49,7 @@ impl WearRun<'_> {
         let slices = phase.contact.slices(self.pair);
         let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));
         let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear], &slices));
-        let flanks = Flanks { geometry: self.pair, grid: grid.as_ref() };
+        let flanks = Flanks::new(self.pair, grid.as_ref());
         let mesh = LoadedMesh {
             pair: self.pair,
             contact: phase.contact,

@@ -61,7 +61,7 @@ pub const FIGURES: &[SweepFigure] = &[
         "pinion_peak_wear_um",
         "peak wear of the pinion",
         "µm",
-        "greatest wear depth of the pinion's flank",
+        "greatest wear depth on the pinion's active profile, its tip edge apart",
         |s| Some(s.pinion.peak_wear_um),
     ),
     wants_less(
@@ -89,7 +89,7 @@ pub const FIGURES: &[SweepFigure] = &[
         "wheel_peak_wear_um",
         "peak wear of the wheel",
         "µm",
-        "greatest wear depth of the wheel's flank",
+        "greatest wear depth on the wheel's active profile, its tip edge apart",
         |s| Some(s.wheel.peak_wear_um),
     ),
     wants_less(
@@ -117,14 +117,14 @@ pub const FIGURES: &[SweepFigure] = &[
         "peak_pressure_new_MPa",
         "peak pressure, new",
         "MPa",
-        "greatest pressure anywhere on the flanks, new",
+        "greatest pressure of contact whose pressure is defined, sharp tip edges under load apart, new",
         |s| Some(s.new.peak_pressure_MPa),
     ),
     wants_less(
         "peak_pressure_worn_MPa",
         "peak pressure, worn",
         "MPa",
-        "greatest pressure anywhere on the flanks, worn",
+        "greatest pressure of contact whose pressure is defined, sharp tip edges under load apart, worn",
         |s| Some(s.worn.peak_pressure_MPa),
     ),
     wants_less(
@@ -220,6 +220,34 @@ pub const FIGURES: &[SweepFigure] = &[
         "µm",
         "amplitude at the mesh frequency, worn; empty where there are no slices",
         |s| s.helical.as_ref()?.mesh_orders_worn_um.first().copied(),
+    ),
+    wants_less(
+        "pinion_tip_edge_wear_um",
+        "wear of the pinion’s tip edge",
+        "µm",
+        "greatest wear depth at the pinion's tip edge",
+        |s| Some(s.pinion.tip_edge_wear_um),
+    ),
+    wants_less(
+        "wheel_tip_edge_wear_um",
+        "wear of the wheel’s tip edge",
+        "µm",
+        "greatest wear depth at the wheel's tip edge",
+        |s| Some(s.wheel.tip_edge_wear_um),
+    ),
+    wants_less(
+        "pinion_below_sap_wear_um",
+        "wear below the pinion’s active profile",
+        "µm",
+        "greatest wear depth below the start of active profile",
+        |s| Some(s.pinion.below_sap_wear_um),
+    ),
+    wants_less(
+        "wheel_below_sap_wear_um",
+        "wear below the wheel’s active profile",
+        "µm",
+        "greatest wear depth below the start of active profile",
+        |s| Some(s.wheel.below_sap_wear_um),
     ),
 ];
 

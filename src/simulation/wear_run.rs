@@ -15,7 +15,9 @@ use super::record::StopReason;
 use super::settings::Numerics;
 use super::wearing_pair::WearingPair;
 use crate::contact::Flanks;
-use crate::gear::{GearPair, PerGear, flank::FlankGrid, removed_material::modifications_mm, slices::Slices};
+use crate::gear::{
+    GearPair, PerGear, flank::FlankGrid, flank_zones::FlankZones, removed_material::modifications_mm, slices::Slices,
+};
 use crate::stiffness::StiffnessError;
 use crate::wear::{WearModel, stepping::adaptive::StepCounts};
 use crate::working_cycle::{CycleObservation, Work, load_sharing::EquilibriumError};
@@ -57,6 +59,8 @@ pub struct RunPhase<'a> {
 pub struct WearRun<'a> {
     /// The gears.
     pub pair: &'a GearPair,
+    /// The parts of each flank that figures of its wear speak of.
+    pub zones: PerGear<FlankZones>,
     /// What they go through: one phase at least.
     pub phases: &'a [RunPhase<'a>],
     /// When the state is kept, in pinion revolutions; the end of the run is always kept.
@@ -87,6 +91,8 @@ pub struct Outcome {
     pub failure: Option<SimulationError>,
     /// The points of each flank, the same in every slice.
     pub grid: PerGear<FlankGrid>,
+    /// The parts of each flank that figures of its wear speak of.
+    pub zones: PerGear<FlankZones>,
     /// The slices over the face width: one where all sections are alike.
     pub slices: Slices,
     /// Material removed by the modifications, slice after slice as all fields of a flank.
@@ -188,7 +194,7 @@ impl WearRun<'_> {
         let slices = self.phases.first().map_or_else(|| Slices::new(self.pair, 1), |one| one.contact.slices(self.pair));
         let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));
         let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear], &slices));
-        let flanks = Flanks { geometry: self.pair, grid: grid.as_ref() };
+        let flanks = Flanks::new(self.pair, grid.as_ref());
         let mut course = match checkpoint {
             None => self.beginning(),
             Some(checkpoint) if checkpoint.fits(modification_mm.as_ref().map(Vec::len)) => self.resumed(checkpoint)?,
@@ -226,6 +232,7 @@ impl WearRun<'_> {
             stop,
             failure,
             grid,
+            zones: self.zones,
             slices,
             modification_mm,
             new,

@@ -18,7 +18,7 @@ use rayon::prelude::*;
 use super::collected::Collected;
 use super::load_sharing::EquilibriumError;
 use super::tip_contact;
-use super::{CycleObservation, GROUPS, LostMaterial, MeshCycle, PositionObservation, Work};
+use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, PositionObservation, Work};
 use crate::contact::Footprint;
 use crate::fem::active_set::Equilibrium;
 use crate::fem::gear::flank_nodes::{FlankNodes, Weights};
@@ -217,6 +217,7 @@ impl MeshCycle for CondensedCycle<'_> {
         let zeros = || PerGear::from_fn(|gear| vec![0.0; self.nodes[gear].len()]);
         let mut observation = CycleObservation {
             positions: self.along_the_path(),
+            greatest_pressure: self.greatest_pressure(),
             pressure_mpa: zeros(),
             sliding_mm: zeros(),
             slices: None,
@@ -247,6 +248,18 @@ impl MeshCycle for CondensedCycle<'_> {
 }
 
 impl CondensedCycle<'_> {
+    /// Of all pairs found in the base pitch.
+    fn greatest_pressure(&self) -> GreatestPressure {
+        let mut greatest = GreatestPressure::default();
+        for station in self.stations() {
+            let Some(equilibrium) = &station.found else { continue };
+            for pair in self.model.tooth_pairs(&station.prepared, equilibrium) {
+                greatest.note(pair.peak_pressure_mpa, pair.at_sharp_edge);
+            }
+        }
+        greatest
+    }
+
     /// The reference pair from A to E, from the pairs found in the base pitch.
     fn along_the_path(&self) -> Vec<PositionObservation> {
         let (path, load) = (&self.model.pair.path, self.line_load_n_per_mm);
@@ -268,6 +281,7 @@ impl CondensedCycle<'_> {
                     footprint: pair.map_or_else(Footprint::default, |pair| Footprint {
                         peak_pressure_mpa: pair.peak_pressure_mpa,
                         half_width_mm: pair.half_width_mm,
+                        at_sharp_edge: pair.at_sharp_edge,
                     }),
                 }
             }));
@@ -283,13 +297,22 @@ impl CondensedCycle<'_> {
         let (share, imbalance) = (course(&|at| at.load_share), course(&|at| at.load_imbalance));
         let (peak, half_width) =
             (course(&|at| at.footprint.peak_pressure_mpa), course(&|at| at.footprint.half_width_mm));
+        // Between two positions of which one is at a sharp edge, what is in between is too.
+        let at_sharp_edge = |at_mm: f64| {
+            let after = places.partition_point(|&place| place < at_mm);
+            found[after.saturating_sub(1)..(after + 1).min(found.len())].iter().any(|at| at.footprint.at_sharp_edge)
+        };
         (0..self.observation_mm.len())
             .map(|k| PositionObservation {
                 position_mm: self.observation_mm[k],
                 transmission_error_mm: transmission_error[k],
                 load_share: share[k],
                 load_imbalance: imbalance[k],
-                footprint: Footprint { peak_pressure_mpa: peak[k], half_width_mm: half_width[k] },
+                footprint: Footprint {
+                    peak_pressure_mpa: peak[k],
+                    half_width_mm: half_width[k],
+                    at_sharp_edge: at_sharp_edge(self.observation_mm[k]),
+                },
             })
             .collect()
     }

@@ -119,12 +119,42 @@ pub struct PositionObservation {
     pub footprint: Footprint,
 }
 
+/// The greatest pressure of a working cycle, before A and after E included.
+///
+/// Towards a mathematically sharp tip edge under load the pressure of elastic bodies grows without bound, and what a model finds there is
+/// a matter of its resolution: a contact that such an edge cuts off is kept apart from those whose pressure is defined.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct GreatestPressure {
+    /// Of contact whose pressure is defined, MPa.
+    pub defined_mpa: f64,
+    /// Of contact that a sharp tip edge cuts off, MPa; `None` where there is none.
+    pub sharp_edge_mpa: Option<f64>,
+}
+
+impl GreatestPressure {
+    /// Takes a contact's pressure into account.
+    pub fn note(&mut self, pressure_mpa: f64, at_sharp_edge: bool) {
+        if at_sharp_edge {
+            self.sharp_edge_mpa = Some(self.sharp_edge_mpa.map_or(pressure_mpa, |most| most.max(pressure_mpa)));
+        } else {
+            self.defined_mpa = self.defined_mpa.max(pressure_mpa);
+        }
+    }
+
+    /// Takes the pressures of all `positions` into account.
+    pub fn note_all(&mut self, positions: &[PositionObservation]) {
+        positions.iter().for_each(|at| self.note(at.footprint.peak_pressure_mpa, at.footprint.at_sharp_edge));
+    }
+}
+
 /// What was observed over a working cycle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CycleObservation {
     /// At each position, in order.
     pub positions: Vec<PositionObservation>,
-    /// Greatest pressure that each flank point felt, MPa.
+    /// Greatest pressure at any position and of any flank point.
+    pub greatest_pressure: GreatestPressure,
+    /// Greatest pressure that each flank point felt, also at sharp tip edges, MPa.
     pub pressure_mpa: PerGear<Vec<f64>>,
     /// How far each flank point slid while in contact, mm.
     pub sliding_mm: PerGear<Vec<f64>>,
@@ -217,8 +247,13 @@ impl MeshCycle for WorkingCycle<'_> {
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
         let removed_mm = lost.removed_mm;
         let zeros = || removed_mm.map(|flank| vec![0.0; flank.len()]);
-        let mut observation =
-            CycleObservation { positions: Vec::new(), pressure_mpa: zeros(), sliding_mm: zeros(), slices: None };
+        let mut observation = CycleObservation {
+            positions: Vec::new(),
+            greatest_pressure: GreatestPressure::default(),
+            pressure_mpa: zeros(),
+            sliding_mm: zeros(),
+            slices: None,
+        };
         let mut sweep = Sweep::default();
         for station in self.groups.iter().flat_map(|group| &group.stations) {
             if station.on_line_of_action {
@@ -226,14 +261,18 @@ impl MeshCycle for WorkingCycle<'_> {
             }
             for gear in Gear::BOTH {
                 let (pressure, sliding) = (&mut observation.pressure_mpa[gear], &mut observation.sliding_mm[gear]);
-                note_what_points_felt(&*station.pairs[0].contact, gear, removed_mm, &mut sweep, pressure, sliding);
+                let contact = &*station.pairs[0].contact;
+                let felt = note_what_points_felt(contact, gear, removed_mm, &mut sweep, pressure, sliding);
+                observation.greatest_pressure.note(felt, contact.footprint().at_sharp_edge);
             }
         }
+        observation.greatest_pressure.note_all(&observation.positions);
         Ok(observation)
     }
 }
 
-/// Raises `pressure_mpa` at the points of a flank to what they felt of `contact`, and adds to `sliding_mm` how far they slid in it.
+/// Raises `pressure_mpa` at the points of a flank to what they felt of `contact`, and adds to `sliding_mm` how far they slid in it; answers
+/// the greatest pressure that any of them felt.
 fn note_what_points_felt(
     contact: &dyn PairContact,
     gear: Gear,
@@ -241,17 +280,20 @@ fn note_what_points_felt(
     sweep: &mut Sweep,
     pressure_mpa: &mut [f64],
     sliding_mm: &mut [f64],
-) {
+) -> f64 {
     contact.sweep(gear, removed_mm, sweep);
     let range = sweep.first_point..sweep.first_point + sweep.sliding_mm.len();
     let felt = contact.felt(gear, removed_mm);
     let points = pressure_mpa[range.clone()].iter_mut().zip(&mut sliding_mm[range]);
+    let mut most_mpa = 0.0_f64;
     for ((greatest, slid), (felt, &sliding)) in points.zip(felt.iter().zip(&sweep.sliding_mm)) {
         if sliding > 0.0 {
             *greatest = greatest.max(felt.pressure_mpa);
             *slid += sliding * felt.contact_fraction;
+            most_mpa = most_mpa.max(felt.pressure_mpa);
         }
     }
+    most_mpa
 }
 
 impl Group<'_> {
@@ -325,11 +367,11 @@ impl<'a> Station<'a> {
 }
 
 impl CycleObservation {
-    /// Greatest pressure anywhere on either flank, at any position, also before A and after E, MPa.
+    /// Greatest pressure anywhere on either flank, at any position, also before A and after E and at sharp tip edges, MPa: what a wear law
+    /// meets.
     pub fn peak_pressure_mpa(&self) -> f64 {
-        let at_positions = self.positions.iter().map(|p| p.footprint.peak_pressure_mpa);
-        let on_flanks = Gear::BOTH.into_iter().flat_map(|gear| self.pressure_mpa[gear].iter().copied());
-        at_positions.chain(on_flanks).fold(0.0, f64::max)
+        let GreatestPressure { defined_mpa, sharp_edge_mpa } = self.greatest_pressure;
+        sharp_edge_mpa.map_or(defined_mpa, |sharp| sharp.max(defined_mpa))
     }
 
     /// Least and greatest transmission error, mm.

@@ -21,7 +21,7 @@ use super::slice_coupling::SliceCoupling;
 use super::sliced_mesh::{ObservedContact, ObservedPhase, SlicedMesh};
 use super::sliced_sharing::balance_on_teeth;
 use super::sliced_teeth::SlicedTeeth;
-use super::{CycleObservation, GROUPS, LostMaterial, MeshCycle, Work, note_what_points_felt};
+use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, note_what_points_felt};
 use crate::contact::{ContactSurface, Flanks, Sweep};
 use crate::gear::{Gear, PerGear, path_of_contact::PathOfContact};
 use crate::wear::{Rubbing, WearModel, heated_row::HeatedRow};
@@ -179,20 +179,23 @@ impl MeshCycle for SlicedCycle<'_> {
         let (mut pressure_mpa, mut sliding_mm) = (zeros(), zeros());
         let mut sweep = Sweep::default();
         let mut phases = Vec::new();
+        let mut greatest_pressure = GreatestPressure::default();
         for station in self.groups.iter().flat_map(|group| &group.stations) {
             for (contact, pair) in station.contacts.iter().zip(&station.pairs) {
                 let own = of_slice(removed_mm, self.points, contact.slice);
                 for gear in Gear::BOTH {
                     let range = contact.slice * self.points[gear]..(contact.slice + 1) * self.points[gear];
-                    let felt = (&mut pressure_mpa[gear][range.clone()], &mut sliding_mm[gear][range]);
-                    note_what_points_felt(&*pair.contact, gear, own, &mut sweep, felt.0, felt.1);
+                    let (pressure, sliding) = (&mut pressure_mpa[gear][range.clone()], &mut sliding_mm[gear][range]);
+                    let felt = note_what_points_felt(&*pair.contact, gear, own, &mut sweep, pressure, sliding);
+                    greatest_pressure.note(felt, pair.contact.footprint().at_sharp_edge);
                 }
             }
             phases.push(station.observe(load, self.bodies_mm));
         }
         let mesh = SlicedMesh::new(&phases, self.sliced.slices.count(), self.path.base_pitch_mm);
         let positions = mesh.along_path(self.path, self.positions, self.line_load_n_per_mm);
-        Ok(CycleObservation { positions, pressure_mpa, sliding_mm, slices: Some(mesh) })
+        greatest_pressure.note_all(&positions);
+        Ok(CycleObservation { positions, greatest_pressure, pressure_mpa, sliding_mm, slices: Some(mesh) })
     }
 }
 

@@ -48,6 +48,8 @@ pub struct SlicedMesh {
     pub peak_pressure_mpa: Vec<f64>,
     /// Half the extent of its contact strip, mm.
     pub half_width_mm: Vec<f64>,
+    /// Whether a sharp tip edge cuts its contact off.
+    pub at_sharp_edge: Vec<bool>,
     /// Transmission error over one base pitch, at evenly spaced phases: the first is that of `first_phase_mm`.
     pub transmission_error_mm: Vec<f64>,
     /// Position of the tooth at the first phase.
@@ -86,6 +88,7 @@ impl SlicedMesh {
             line_load_n_per_mm: field(),
             peak_pressure_mpa: field(),
             half_width_mm: field(),
+            at_sharp_edge: vec![false; rows * slices],
             transmission_error_mm: phases.iter().map(|phase| phase.transmission_error_mm).collect(),
             first_phase_mm: phases[0].position_mm,
             base_pitch_mm,
@@ -99,6 +102,7 @@ impl SlicedMesh {
                 mesh.line_load_n_per_mm[place] = contact.line_load_n_per_mm;
                 mesh.peak_pressure_mpa[place] = contact.footprint.peak_pressure_mpa;
                 mesh.half_width_mm[place] = contact.footprint.half_width_mm;
+                mesh.at_sharp_edge[place] = contact.footprint.at_sharp_edge;
             }
         }
         mesh.between(first_and_last(phases, first))
@@ -111,6 +115,7 @@ impl SlicedMesh {
         for field in [&mut self.line_load_n_per_mm, &mut self.peak_pressure_mpa, &mut self.half_width_mm] {
             *field = field[first * n..(last + 1) * n].to_vec();
         }
+        self.at_sharp_edge = self.at_sharp_edge[first * n..(last + 1) * n].to_vec();
         self
     }
 
@@ -180,6 +185,12 @@ impl SlicedMesh {
         };
         let slices = |row: usize| row * self.slices..(row + 1) * self.slices;
         let greatest = |field: &[f64], row: usize| field[slices(row)].iter().copied().fold(0.0, f64::max);
+        // The greatest pressure of a row is not defined where it is that of a slice at a sharp edge.
+        let is_sharp = |row: usize| {
+            let most = slices(row).max_by(|&a, &b| self.peak_pressure_mpa[a].total_cmp(&self.peak_pressure_mpa[b]));
+            most.is_some_and(|place| self.at_sharp_edge[place])
+        };
+        let sharp = |row: usize| if is_sharp(row) { 1.0 } else { 0.0 };
         let load = |row: usize| self.line_load_n_per_mm[slices(row)].iter().sum::<f64>() / self.slices as f64;
         PositionObservation {
             position_mm,
@@ -190,6 +201,7 @@ impl SlicedMesh {
             footprint: Footprint {
                 peak_pressure_mpa: between(&|row| greatest(&self.peak_pressure_mpa, row), row),
                 half_width_mm: between(&|row| greatest(&self.half_width_mm, row), row),
+                at_sharp_edge: between(&sharp, row) > 0.0,
             },
         }
     }

@@ -3,6 +3,7 @@
 
 use gearwear::gear::{
     GearPair, PerGear,
+    flank_zones::FlankZones,
     modification::Modification,
     spec::{BasicRack, GearSpec, PairSpec},
 };
@@ -57,6 +58,12 @@ pub fn preset(name: &str) -> PairSpec {
 /// A pair that can run.
 pub fn pair(spec: &PairSpec) -> GearPair {
     GearPair::new(spec).expect("the pair of the test is sound")
+}
+
+/// The parts of the flanks of a steel pair under this load.
+pub fn zones(pair: &GearPair, line_load_n_per_mm: f64) -> PerGear<FlankZones> {
+    let at_pitch = hertz::flattening(pair, &steel(), pair.path.pitch_point_mm);
+    FlankZones::of_pair(pair, at_pitch.contact.loaded(line_load_n_per_mm).half_width_mm)
 }
 
 /// Steel as in the scene's default.
@@ -204,7 +211,8 @@ impl Scene {
             end_revolutions: self.revolutions,
         };
         let (snapshots, numerics) = (&self.snapshots, self.numerics());
-        let run = WearRun { pair: &pair, phases: &[phase], snapshots_revolutions: snapshots, numerics };
+        let zones = zones(&pair, line_load);
+        let run = WearRun { pair: &pair, zones, phases: &[phase], snapshots_revolutions: snapshots, numerics };
         then(&run, &phase)
     }
 }

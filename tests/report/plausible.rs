@@ -1,6 +1,6 @@
 //! A run that never happened but looks like one: an FZG type C pair with a made-up wear that grows with time.
 
-use gearwear::gear::{Gear, PerGear};
+use gearwear::gear::{Gear, PerGear, flank_zones::FlankZones};
 use gearwear::simulation::chemistry_record::WearLawSummary;
 use gearwear::simulation::record::*;
 use gearwear::wear::regime::Regime;
@@ -43,6 +43,10 @@ pub fn interrupted() -> RunRecord {
         *wear = WearSummary {
             peak_wear_um: 0.0,
             peak_wear_radius_mm: wear.peak_wear_radius_mm,
+            tip_edge_wear_um: 0.0,
+            tip_edge_wear_radius_mm: wear.tip_edge_wear_radius_mm,
+            below_sap_wear_um: 0.0,
+            below_sap_wear_radius_mm: wear.below_sap_wear_radius_mm,
             root_wear_um: 0.0,
             pitch_wear_um: 0.0,
             worn_volume_mm3: 0.0,
@@ -118,6 +122,11 @@ fn flank(gear: Gear) -> FlankRecord {
         pressure_worn_MPa: within(&|p| pressure(p, true)),
         snapshot_wear_um: HOURS.iter().map(|&hours| within(&|p| wear(gear, p, hours))).collect(),
         path_point_radius_mm: path_points(gear),
+        zones: FlankZones {
+            active_start_radius_mm: [34.123, 51.998][gear as usize],
+            tip_edge_radius_mm: tip - 0.4,
+            tip_radius_mm: tip,
+        },
         radius_mm,
     }
 }
@@ -137,6 +146,9 @@ fn history_row(hours: f64) -> HistoryRow {
         pinion_sap_wear_um: peak,
         pinion_sap_wear_rate_um_per_Mrev: peak / (hours * REVOLUTIONS_PER_HOUR) * 1e6,
         phase: 1,
+        sharp_edge_pressure_MPa: None,
+        pinion_tip_edge_wear_um: 0.0,
+        wheel_tip_edge_wear_um: 0.0,
     }
 }
 
@@ -162,6 +174,8 @@ fn mesh_cycle() -> Vec<MeshCycleRow> {
                 temperature_rise_tian_kennedy_K: None,
                 peclet_pinion: None,
                 peclet_wheel: None,
+                at_sharp_edge_new: false,
+                at_sharp_edge_worn: false,
             }
         })
         .collect()
@@ -184,6 +198,7 @@ fn summary() -> Summary {
     };
     let cycle = |peak, te_min, te_max| CycleSummary {
         peak_pressure_MPa: peak,
+        sharp_edge_pressure_MPa: None,
         pitch_pressure_MPa: 1655.8,
         load_imbalance: 1e-12,
         transmission_error_um: RangeSummary { min: te_min, max: te_max, peak_to_peak: te_max - te_min },
@@ -191,6 +206,10 @@ fn summary() -> Summary {
     let worn = |gear, at: f64| WearSummary {
         peak_wear_um: wear(gear, at, 127.75),
         peak_wear_radius_mm: base(gear).hypot(curvature(gear, at)),
+        tip_edge_wear_um: 0.5,
+        tip_edge_wear_radius_mm: [41.2, 59.1][gear as usize],
+        below_sap_wear_um: 0.25,
+        below_sap_wear_radius_mm: [34.1, 51.9][gear as usize],
         root_wear_um: wear(gear, at, 127.75),
         pitch_wear_um: 0.002,
         worn_volume_mm3: 4.87,

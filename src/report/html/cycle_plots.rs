@@ -3,7 +3,7 @@
 use plotly::Plot;
 
 use super::number::{change, figure, percent, significant};
-use super::reading::{Extreme, among, greatest, tip_edge_note};
+use super::reading::{Extreme, among, defined_pressures, greatest, tip_edge_note};
 use super::theme::{Figure, axis, from_zero, layout, mark_path_points, named, new_and_worn, padded};
 use crate::simulation::record::{MeshCycleRow, PathPoints, RunRecord};
 
@@ -69,13 +69,16 @@ pub fn transmission_error(record: &RunRecord) -> Figure {
 
 fn pressure(record: &RunRecord) -> Figure {
     let rows = &record.mesh_cycle;
-    let column = |value: fn(&MeshCycleRow) -> f64| greatest(&rows.iter().map(value).collect::<Vec<_>>());
+    let column = |value: fn(&MeshCycleRow) -> (f64, bool)| greatest(&defined_pressures(rows, value));
     let place = |at: Extreme| {
         let position = rows[at.index].position_mm;
         let points = named(&record.summary.geometry.curvature_radius_mm);
         format!("at {} mm, {}", significant(position, 4), among(&points, position))
     };
-    let reading = match (column(|r| r.peak_pressure_new_MPa), column(|r| r.peak_pressure_worn_MPa)) {
+    let reading = match (
+        column(|r| (r.peak_pressure_new_MPa, r.at_sharp_edge_new)),
+        column(|r| (r.peak_pressure_worn_MPa, r.at_sharp_edge_worn)),
+    ) {
         (Some(new), Some(worn)) => format!(
             "New, the pressure peaks {} with {} MPa; worn, {} with {} MPa ({}).{}",
             place(new),

@@ -4,7 +4,7 @@ use super::law_table;
 use super::number::{change, figure, fixed, percent, significant};
 use super::page::escape;
 use super::sliced;
-use super::table::{row, table};
+use super::table::{Row, row, table};
 use crate::simulation::record::{ErrorSummary, GearSummary, RunRecord, Summary, WearSummary};
 
 /// All tables, in the order of the page.
@@ -19,17 +19,23 @@ fn new_and_worn(s: &Summary) -> String {
     let compare = |label, unit, new: f64, worn: f64| row(label, unit, [figure(new), figure(worn), change(new, worn)]);
     let (new, worn) = (&s.new, &s.worn);
     let (te_new, te_worn) = (&new.transmission_error_um, &worn.transmission_error_um);
-    table(
-        "Working cycle",
-        &["new", "worn", "change"],
-        &[
-            compare("Greatest pressure", "MPa", new.peak_pressure_MPa, worn.peak_pressure_MPa),
+    let greatest = compare("Greatest pressure", "MPa", new.peak_pressure_MPa, worn.peak_pressure_MPa);
+    let sharp = [new.sharp_edge_pressure_MPa, worn.sharp_edge_pressure_MPa];
+    let found = |pressure: Option<f64>| pressure.map_or_else(|| "–".to_owned(), figure);
+    let at_sharp_edge = sharp.iter().any(Option::is_some).then(|| {
+        row("Found at sharp tip edges, not defined", "MPa", [found(sharp[0]), found(sharp[1]), String::new()])
+    });
+    let rows: Vec<Row> = [greatest]
+        .into_iter()
+        .chain(at_sharp_edge)
+        .chain([
             compare("Pressure at the pitch point C", "MPa", new.pitch_pressure_MPa, worn.pitch_pressure_MPa),
             compare("Transmission error, peak to peak", "µm", te_new.peak_to_peak, te_worn.peak_to_peak),
             compare("Transmission error, least", "µm", te_new.min, te_worn.min),
             compare("Transmission error, greatest", "µm", te_new.max, te_worn.max),
-        ],
-    )
+        ])
+        .collect();
+    table("Working cycle", &["new", "worn", "change"], &rows)
 }
 
 fn wear(s: &Summary) -> String {
@@ -40,8 +46,10 @@ fn wear(s: &Summary) -> String {
         "Wear",
         &["pinion", "wheel"],
         &[
-            both("Greatest depth", "µm", |w| w.peak_wear_um),
+            both("Greatest depth of the active profile", "µm", |w| w.peak_wear_um),
             both("Radius of the greatest depth", "mm", |w| w.peak_wear_radius_mm),
+            both("Greatest at the tip edge", "µm", |w| w.tip_edge_wear_um),
+            both("Greatest below the active profile", "µm", |w| w.below_sap_wear_um),
             both("Greatest over the root", "µm", |w| w.root_wear_um),
             both("At the pitch circle", "µm", |w| w.pitch_wear_um),
             both("Volume, whole gear", "mm³", |w| w.worn_volume_mm3),

@@ -91,16 +91,19 @@ fn wear_reading(record: &RunRecord, gear: Gear, drawn: usize) -> String {
         return format!("No snapshot was reached, so the {}’s flank has no curve to show.", gear.name());
     }
     let (flank, wear) = (&record.flanks[gear], gear_wear(record, gear));
-    if wear.peak_wear_um <= 0.0 {
+    if [wear.peak_wear_um, wear.tip_edge_wear_um, wear.below_sap_wear_um].iter().all(|depth| *depth <= 0.0) {
         return format!("The {}’s flank has not worn.", gear.name());
     }
     let mut reading = format!(
-        "The {} wears most {}: {} µm, against {} µm at the pitch circle; over the root it reaches {} µm.",
+        "The active profile of the {} wears most {}: {} µm, against {} µm at the pitch circle; over the root it reaches {} µm, at the tip \
+         edge {} µm, below the active profile {} µm.",
         gear.name(),
         place_on_flank(flank, wear.peak_wear_radius_mm),
         figure(wear.peak_wear_um),
         figure(wear.pitch_wear_um),
         figure(wear.root_wear_um),
+        figure(wear.tip_edge_wear_um),
+        figure(wear.below_sap_wear_um),
     );
     let total = &record.summary.error.total;
     let profile = if gear == Gear::Pinion { total.profile.pinion } else { total.profile.wheel };

@@ -23,8 +23,8 @@ struct Series {
 
 const SERIES: [Series; 3] = [
     Series { name: "pinion, over the root", gear: Gear::Pinion, joined: true, value: |row| row.pinion_root_wear_um },
-    Series { name: "pinion, anywhere", gear: Gear::Pinion, joined: false, value: |row| row.pinion_peak_wear_um },
-    Series { name: "wheel, anywhere", gear: Gear::Wheel, joined: true, value: |row| row.wheel_peak_wear_um },
+    Series { name: "pinion, active profile", gear: Gear::Pinion, joined: false, value: |row| row.pinion_peak_wear_um },
+    Series { name: "wheel, active profile", gear: Gear::Wheel, joined: true, value: |row| row.wheel_peak_wear_um },
 ];
 
 /// Greatest root wear, and peak wear of both gears, against time.

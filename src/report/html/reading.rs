@@ -4,7 +4,7 @@ use super::number::{change, figure, given, percent, revolutions, significant};
 use super::theme::named;
 use crate::gear::Gear;
 use crate::simulation::record::RunRecord;
-use crate::simulation::record::{FlankRecord, StopReason, Summary, WearSummary};
+use crate::simulation::record::{FlankRecord, MeshCycleRow, StopReason, Summary, WearSummary};
 
 /// The greatest of some values and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -105,17 +105,30 @@ pub fn answer(record: &RunRecord) -> String {
     text
 }
 
-/// Where the pressure of the worn pair is greatest: on the pinion's flank where slices are at different places of the path.
+/// Where on the path of contact the pressure of the worn pair is greatest, of a pair with slices that of any slice.
 fn place_of_pressure(record: &RunRecord) -> String {
-    if record.slices.is_some() {
-        let flank = &record.flanks.pinion;
-        let at = greatest(&flank.pressure_worn_MPa);
-        return at
-            .map_or_else(String::new, |at| place_on_flank(flank, flank.radius_mm[at.index % flank.radius_mm.len()]));
-    }
+    let (pressures, position_mm) = match &record.slices {
+        Some(slices) => {
+            let own = slices.position_mm.iter().flat_map(|at| slices.ahead_mm.iter().map(move |ahead| at + ahead));
+            let defined = slices.peak_pressure_worn_MPa.iter().zip(&slices.at_sharp_edge_worn);
+            (defined.map(|(&pressure, &sharp)| defined_pressure(pressure, sharp)).collect(), own.collect())
+        }
+        None => (
+            defined_pressures(&record.mesh_cycle, |row| (row.peak_pressure_worn_MPa, row.at_sharp_edge_worn)),
+            record.mesh_cycle.iter().map(|row| row.position_mm).collect::<Vec<f64>>(),
+        ),
+    };
     let positions = named(&record.summary.geometry.curvature_radius_mm);
-    let worn = greatest(&record.mesh_cycle.iter().map(|row| row.peak_pressure_worn_MPa).collect::<Vec<_>>());
-    worn.map_or_else(String::new, |at| among(&positions, record.mesh_cycle[at.index].position_mm))
+    greatest(&pressures).map_or_else(String::new, |at| among(&positions, position_mm[at.index]))
+}
+
+/// The pressure of each row, and NaN where it is that of a sharp tip edge, which is not defined.
+pub fn defined_pressures(rows: &[MeshCycleRow], of: fn(&MeshCycleRow) -> (f64, bool)) -> Vec<f64> {
+    rows.iter().map(of).map(|(pressure, at_sharp_edge)| defined_pressure(pressure, at_sharp_edge)).collect()
+}
+
+fn defined_pressure(pressure_mpa: f64, at_sharp_edge: bool) -> f64 {
+    if at_sharp_edge { f64::NAN } else { pressure_mpa }
 }
 
 fn depth(record: &RunRecord, gear: Gear) -> String {
@@ -126,7 +139,7 @@ fn depth(record: &RunRecord, gear: Gear) -> String {
     };
     let within = off.map_or_else(String::new, |off| format!(" ± {}", significant(off * wear.peak_wear_um, 1)));
     format!(
-        "up to {}{within} µm {}",
+        "up to {}{within} µm of its active profile {}",
         significant(wear.peak_wear_um, 3),
         place_on_flank(flank, wear.peak_wear_radius_mm)
     )

@@ -39,7 +39,7 @@ use crate::contact::Footprint;
 use crate::gear::{Gear, PerGear, flank::FlankGrid};
 use crate::wear::WearModel;
 use crate::working_cycle::{
-    CycleObservation, Work,
+    CycleObservation, GreatestPressure, Work,
     load_sharing::EquilibriumError,
     phases::{Phase, SliceContact},
     sliced_mesh::{ObservedContact, ObservedPhase, SlicedMesh},
@@ -140,6 +140,7 @@ impl<'a> SimplifiedPair<'a> {
                         footprint: Footprint {
                             peak_pressure_mpa: state.pressure_mpa,
                             half_width_mm: state.half_width_mm,
+                            at_sharp_edge: false,
                         },
                     })
                     .collect();
@@ -247,7 +248,12 @@ impl WearingPair for SimplifiedPair<'_> {
         let mesh = self.mesh();
         let line_load = self.springs.line_load_n_per_mm / self.knots.len() as f64;
         let positions = mesh.along_path(&self.springs.pair.path, self.positions, line_load);
-        let cycle = CycleObservation { positions, pressure_mpa, sliding_mm, slices: Some(mesh) };
+        let mut greatest_pressure = GreatestPressure::default();
+        greatest_pressure.note_all(&positions);
+        // Closed forms know no tip edges.
+        let felt = Gear::BOTH.into_iter().flat_map(|gear| &pressure_mpa[gear]);
+        felt.for_each(|&pressure| greatest_pressure.note(pressure, false));
+        let cycle = CycleObservation { positions, greatest_pressure, pressure_mpa, sliding_mm, slices: Some(mesh) };
         Ok(Snapshot { revolutions, wear_mm, depth_per_mesh_mm: depth_mm, cycle })
     }
 }

@@ -1,0 +1,91 @@
+//! Which part of a flank a place belongs to: what figures of wear speak of.
+//!
+//! ```text
+//! base circle … SAP       below the start of active profile: strips of contact reach it, and the mate's tip edge before A or after E
+//! SAP … tip edge zone     active profile; its first 2 mm of radius are the root
+//! tip edge zone           from  l = min(3 a_C, 0.15 m)  below the tip edge, or below where its rounding begins, to the tip circle
+//! ```
+//!
+//! l is measured along the flank; a_C is Hertz's half-width at the pitch point under the whole load, m the normal module. Contact that
+//! reaches the tip edge is cut off there, and what it presses and wears is a matter of the edge: of its rounding, of how it is resolved.
+//! Three half-widths from it the active profile feels nothing of that, and has figures of its own.
+
+use serde::Serialize;
+
+use super::{Gear, GearPair, PerGear, removed_material::tip_rounding_length_mm};
+
+/// Height in radius of what is called the root: from the start of active profile (SAP) upward, mm.
+const ROOT_MM: f64 = 2.0;
+/// Height in radius of what is called the tip: from the tip circle downward, mm.
+const TIP_MM: f64 = 2.0;
+/// Length of the tip-edge zone below the edge or its rounding, in Hertz half-widths at the pitch point.
+const TIP_EDGE_HALF_WIDTHS: f64 = 3.0;
+/// Its greatest length, in normal modules.
+const MOST_TIP_EDGE_MODULES: f64 = 0.15;
+
+/// A part of the flank; each place belongs to one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FlankZone {
+    /// Below the start of active profile.
+    BelowActive,
+    /// Between the start of active profile and the tip-edge zone.
+    Active,
+    /// At the tip edge.
+    TipEdge,
+}
+
+/// Where the zones of one flank begin, by radius.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FlankZones {
+    /// Start of active profile (SAP).
+    pub active_start_radius_mm: f64,
+    /// Where the tip-edge zone begins.
+    pub tip_edge_radius_mm: f64,
+    /// The tip circle.
+    pub tip_radius_mm: f64,
+}
+
+impl FlankZones {
+    /// Of `gear`'s flank, where Hertz's half-width at the pitch point is `half_width_mm` under the whole load, of loads that change
+    /// under the greatest.
+    pub fn new(pair: &GearPair, gear: Gear, half_width_mm: f64) -> Self {
+        let (tooth, spec) = (&pair.teeth[gear], &pair.spec);
+        let rounding_mm = tip_rounding_length_mm(spec.gears[gear].modification.tip_rounding_mm, tooth);
+        let length_mm = (TIP_EDGE_HALF_WIDTHS * half_width_mm).min(MOST_TIP_EDGE_MODULES * spec.normal_module_mm);
+        let start = pair.active_start_rho_mm(gear);
+        let arc_mm = tooth.involute.arc_mm(tooth.tip_rho_mm()) - rounding_mm - length_mm;
+        // s = ρ²/(2 r_b); a flank shorter than its tip-edge zone has no other.
+        let rho_mm = (2.0 * tooth.involute.base_radius_mm * arc_mm.max(0.0)).sqrt().max(start);
+        Self {
+            active_start_radius_mm: pair.active_start_radius_mm(gear),
+            tip_edge_radius_mm: tooth.involute.radius_mm(rho_mm),
+            tip_radius_mm: tooth.tip_radius_mm,
+        }
+    }
+
+    /// Of both flanks.
+    pub fn of_pair(pair: &GearPair, half_width_mm: f64) -> PerGear<Self> {
+        PerGear::from_fn(|gear| Self::new(pair, gear, half_width_mm))
+    }
+
+    /// The zone at a radius.
+    pub fn at(&self, radius_mm: f64) -> FlankZone {
+        if radius_mm < self.active_start_radius_mm {
+            FlankZone::BelowActive
+        } else if radius_mm < self.tip_edge_radius_mm {
+            FlankZone::Active
+        } else {
+            FlankZone::TipEdge
+        }
+    }
+
+    /// Whether a radius is of the root: the first 2 mm above the start of active profile.
+    pub fn is_root(&self, radius_mm: f64) -> bool {
+        (self.active_start_radius_mm..=self.active_start_radius_mm + ROOT_MM).contains(&radius_mm)
+    }
+
+    /// Whether a radius is of the tip: the last 2 mm below the tip circle.
+    pub fn is_tip(&self, radius_mm: f64) -> bool {
+        radius_mm >= self.tip_radius_mm - TIP_MM
+    }
+}

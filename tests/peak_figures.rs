@@ -1,0 +1,190 @@
+//! Greatest wear and greatest pressure mean the same in every output: the active profile apart from the tip edge and from what lies below it,
+//! pressures that are defined apart from those at a sharp tip edge.
+
+use gearwear::gear::Gear;
+use gearwear::pipeline::{self, inputs::Inputs};
+use gearwear::plan::Plan;
+use gearwear::scene::{draft::Draft, presets};
+use gearwear::simulation::record::RunRecord;
+use gearwear::simulation::sweep_figures::FIGURES;
+use gearwear::simulation::wear_run::Unwatched;
+
+/// A preset with keys exchanged, at a resolution that takes a second.
+fn run(preset: &str, set: &[(&str, toml::Value)]) -> RunRecord {
+    let mut draft = Draft::parse(presets::find(preset).unwrap().text).unwrap();
+    draft.set("numerics.error_estimate", false);
+    for (key, value) in set {
+        draft.set(key, value.clone());
+    }
+    let resolved = draft.resolve().unwrap_or_else(|problems| panic!("{problems:?}"));
+    let done = pipeline::run(&resolved, &Plan::of(&resolved.scene), &Inputs::default(), &Unwatched).unwrap();
+    assert_eq!(done.failure, None);
+    done.record
+}
+
+fn rounded(radius_mm: f64) -> [(&'static str, toml::Value); 3] {
+    [
+        ("contact.tip_contact", true.into()),
+        ("pair.pinion.tip_rounding_mm", radius_mm.into()),
+        ("pair.wheel.tip_rounding_mm", radius_mm.into()),
+    ]
+}
+
+/// (depth, radius) of the deepest point between two radii, over all slices.
+fn deepest(record: &RunRecord, gear: Gear, from_mm: f64, below_mm: f64) -> (f64, f64) {
+    let flank = &record.flanks[gear];
+    let points = flank.wear_um.iter().zip(flank.radius_mm.iter().cycle());
+    let inside = points.filter(|(_, radius)| (from_mm..below_mm).contains(*radius));
+    inside.fold((0.0, f64::NAN), |best, (&depth, &radius)| if depth > best.0 { (depth, radius) } else { best })
+}
+
+/// The three figures of each gear are the greatest depths of its three zones, which follow from the geometry:
+/// the tip-edge zone begins 3 a_C ≤ 0.15 m below where the rounding does, along the flank.
+fn assert_zones(record: &RunRecord, rounding_mm: f64, normal_module_mm: f64) {
+    let s = &record.summary;
+    let length = (3.0 * s.contact.hertz_half_width_mm).min(0.15 * normal_module_mm);
+    for (gear, wear) in [(Gear::Pinion, &s.pinion), (Gear::Wheel, &s.wheel)] {
+        let of_gear = &s.geometry.gears[gear];
+        let [base, tip, sap] =
+            [of_gear.base_diameter_mm, of_gear.tip_diameter_mm, of_gear.start_of_active_profile_diameter_mm]
+                .map(|d| 0.5 * d);
+        let turn = std::f64::consts::FRAC_PI_2 - (base / tip).acos();
+        let edge = (tip * tip - 2.0 * base * (length + rounding_mm * (0.5 * turn).tan())).sqrt();
+        let found = [
+            (wear.peak_wear_um, wear.peak_wear_radius_mm),
+            (wear.tip_edge_wear_um, wear.tip_edge_wear_radius_mm),
+            (wear.below_sap_wear_um, wear.below_sap_wear_radius_mm),
+        ];
+        for (found, (from, below)) in found.into_iter().zip([(sap, edge), (edge, f64::INFINITY), (0.0, sap)]) {
+            let expected = deepest(record, gear, from, below);
+            assert!(found.0 == expected.0, "{gear:?} from {from} to {below}: {found:?} instead of {expected:?}");
+            assert!(found.0 == 0.0 || found.1 == expected.1, "{gear:?}: {found:?} instead of {expected:?}");
+        }
+    }
+    let last = record.history.last().unwrap();
+    assert_eq!(
+        [last.pinion_peak_wear_um, last.pinion_peak_wear_radius_mm, last.wheel_peak_wear_um],
+        [s.pinion.peak_wear_um, s.pinion.peak_wear_radius_mm, s.wheel.peak_wear_um]
+    );
+    assert_eq!(
+        [last.pinion_tip_edge_wear_um, last.wheel_tip_edge_wear_um],
+        [s.pinion.tip_edge_wear_um, s.wheel.tip_edge_wear_um]
+    );
+    let swept = |name: &str| (FIGURES.iter().find(|figure| figure.name == name).unwrap().of)(s).unwrap();
+    assert_eq!(swept("wheel_peak_wear_um"), s.wheel.peak_wear_um);
+    assert_eq!(swept("wheel_tip_edge_wear_um"), s.wheel.tip_edge_wear_um);
+    assert_eq!(swept("peak_pressure_worn_MPa"), s.worn.peak_pressure_MPa);
+}
+
+fn warns_of_sharp_edges(record: &RunRecord) -> bool {
+    record.summary.warnings.iter().any(|warning| warning.contains("mathematically sharp"))
+}
+
+/// With rounded tips that are followed into contact the wheel wears most at its tip edge: what stands for its flank is the active profile.
+#[test]
+fn the_greatest_wear_is_that_of_the_active_profile() {
+    let record = run("thesis-spur", &rounded(0.1));
+    let s = &record.summary;
+    println!("{:?}\n{:?}", s.pinion, s.wheel);
+    assert_zones(&record, 0.1, 4.5);
+    assert!(s.wheel.tip_edge_wear_um > s.wheel.peak_wear_um && s.wheel.peak_wear_um > 0.0);
+    assert!(s.pinion.below_sap_wear_um > 0.0);
+    // A rounded edge is none: its pressure is defined.
+    assert_eq!([s.new.sharp_edge_pressure_MPa, s.worn.sharp_edge_pressure_MPa], [None; 2]);
+    assert!(record.mesh_cycle.iter().all(|row| !row.at_sharp_edge_new && !row.at_sharp_edge_worn));
+    assert!(!warns_of_sharp_edges(&record));
+}
+
+/// Contact from A to E has no corner: nothing is said of edges, and the zones are the same.
+#[test]
+fn contact_from_a_to_e_knows_no_sharp_edges() {
+    let record = run("thesis-spur", &[]);
+    let s = &record.summary;
+    println!("{:?}\n{:?}", s.pinion, s.wheel);
+    assert_zones(&record, 0.0, 4.5);
+    assert_eq!([s.new.sharp_edge_pressure_MPa, s.worn.sharp_edge_pressure_MPa], [None; 2]);
+    assert!(!warns_of_sharp_edges(&record));
+}
+
+/// What a sharp edge shows grows as cells become finer, by Flamant's singularity without bound; what is called the greatest pressure
+/// does not, and positions at a sharp edge are those near A and E.
+#[test]
+fn pressure_at_a_sharp_edge_stands_apart() {
+    let with = |surface: &str, points: i64| {
+        let once = [
+            ("contact.surface", surface.into()),
+            ("numerics.flank_points", points.into()),
+            ("operation.pinion_revolutions", 1.0.into()),
+            ("operation.snapshots_h", toml::Value::Array(Vec::new())),
+            ("numerics.step.revolutions", 1.0.into()),
+        ];
+        run("thesis-spur", &[rounded(0.0).as_slice(), &once].concat())
+    };
+    for surface in ["winkler", "half-space"] {
+        let [coarse, fine] = [400, 1600].map(|points| with(surface, points));
+        let [(coarse_mpa, coarse_sharp), (fine_mpa, fine_sharp)] =
+            [&coarse, &fine].map(|r| (r.summary.new.peak_pressure_MPa, r.summary.new.sharp_edge_pressure_MPa.unwrap()));
+        println!("{surface}: {coarse_mpa:.1} and {fine_mpa:.1}, sharp {coarse_sharp:.1} and {fine_sharp:.1} MPa");
+        assert!((coarse_mpa / fine_mpa - 1.0).abs() < 1e-3);
+        assert!(fine_sharp > 2.0 * fine_mpa);
+        // Cells of half-planes are a sixteenth to a fortieth of the half-width; springs have no singularity.
+        assert!(surface != "half-space" || fine_sharp > 1.03 * coarse_sharp);
+        assert!(warns_of_sharp_edges(&fine));
+        let path = &fine.summary.geometry.curvature_radius_mm;
+        let (sharp, other): (Vec<_>, Vec<_>) = fine.mesh_cycle.iter().partition(|row| row.at_sharp_edge_new);
+        assert!(sharp.iter().all(|row| row.position_mm < path.A + 0.8 || row.position_mm > path.E - 0.8));
+        assert!(sharp.iter().any(|row| row.position_mm < path.B) && sharp.iter().any(|row| row.position_mm > path.D));
+        let greatest = other.iter().map(|row| row.peak_pressure_new_MPa).fold(0.0, f64::max);
+        assert!(fine_mpa >= greatest && fine_mpa < 1.01 * greatest, "{fine_mpa} {greatest}");
+        assert_eq!(fine.history.last().unwrap().peak_pressure_MPa, fine.summary.worn.peak_pressure_MPa);
+    }
+}
+
+/// Slices follow the same rules.
+#[test]
+fn slices_have_the_same_figures() {
+    let coarse = [
+        ("contact.surface", "winkler".into()),
+        ("helical.slices", 5.into()),
+        ("numerics.flank_points", 200.into()),
+        ("numerics.positions", 100.into()),
+        ("numerics.step.revolutions", 60_000.0.into()),
+    ];
+    for radius_mm in [0.0, 0.1] {
+        let record = run("helical", &[rounded(radius_mm).as_slice(), &coarse].concat());
+        assert_zones(&record, radius_mm, 4.5 * 15f64.to_radians().cos());
+        let slices = record.slices.as_ref().unwrap();
+        let is_sharp = slices.at_sharp_edge_new.iter().any(|sharp| *sharp);
+        let new = &record.summary.new;
+        assert_eq!(
+            [is_sharp, new.sharp_edge_pressure_MPa.is_some(), warns_of_sharp_edges(&record)],
+            [radius_mm == 0.0; 3]
+        );
+        assert!(new.sharp_edge_pressure_MPa.is_none_or(|sharp| sharp > 0.0));
+        // Most of the mesh lies between the edges.
+        assert!(new.peak_pressure_MPa > 500.0, "{}", new.peak_pressure_MPa);
+    }
+}
+
+/// Finite elements know their sharp edges themselves.
+#[test]
+fn finite_elements_have_the_same_figures() {
+    let quick = [
+        ("contact.surface", "fem".into()),
+        ("fem.body", "sector".into()),
+        ("fem.sector_teeth", 5.into()),
+        ("fem.elements_per_half_width", 3.0.into()),
+        ("numerics.flank_points", 200.into()),
+        ("numerics.positions", 24.into()),
+        ("numerics.step.revolutions", 200_000.0.into()),
+    ];
+    for radius_mm in [0.0, 0.2] {
+        let record = run("thesis-spur", &[rounded(radius_mm).as_slice(), &quick].concat());
+        assert_zones(&record, radius_mm, 4.5);
+        let new = &record.summary.new;
+        println!("{new:?}");
+        assert_eq!([new.sharp_edge_pressure_MPa.is_some(), warns_of_sharp_edges(&record)], [radius_mm == 0.0; 2]);
+        assert_eq!(record.mesh_cycle.iter().any(|row| row.at_sharp_edge_new), radius_mm == 0.0);
+        assert!(new.peak_pressure_MPa > new.pitch_pressure_MPa);
+    }
+}
