@@ -38,28 +38,23 @@ fn grid(pair: &GearPair, flank_points: usize) -> PerGear<FlankGrid> {
     PerGear::from_fn(|gear| FlankGrid::new(pair, gear, flank_points))
 }
 
-/// One mesh of flanks that have lost `wear`: the depth each point loses, what was observed, the work.
-fn mesh_once(
-    model: &CondensedPair<'_>,
-    grid: &PerGear<FlankGrid>,
+/// One mesh of flanks that have lost `wear` at their nodes: the depth each node loses, what was observed, the work, and the cycle.
+fn mesh_once<'a>(
+    model: &'a CondensedPair<'a>,
     positions: usize,
-    wear: &PerGear<Vec<f64>>,
-) -> (PerGear<Vec<f64>>, CycleObservation, Work) {
-    let flanks = Flanks { geometry: model.pair, grid: grid.as_ref() };
-    let mut cycle = CondensedCycle::new(model, flanks, positions, line_load(model.pair));
-    let wear_mm = wear.as_ref().map(Vec::as_slice);
+    wear: Option<&PerGear<Vec<f64>>>,
+) -> (PerGear<Vec<f64>>, CycleObservation, Work, CondensedCycle<'a>) {
+    let mut cycle = CondensedCycle::new(model, positions, line_load(model.pair));
+    let unworn = cycle.nodes().map(|nodes| vec![0.0; nodes.len()]);
+    let wear_mm = wear.unwrap_or(&unworn).as_ref().map(Vec::as_slice);
     let lost = LostMaterial { removed_mm: wear_mm, wear_mm };
     let law = gearwear::wear::of(&WearSettings::archard(COEFFICIENT));
-    let mut depth = none(grid);
+    let mut depth = unworn.clone();
     let work = cycle
         .evaluate(lost, &WearModel::cold(law.as_ref()), &mut depth, &|| false)
         .expect("the cycle has an equilibrium");
     let observed = cycle.observe(lost).expect("the cycle has an equilibrium");
-    (depth, observed, work)
-}
-
-fn none(grid: &PerGear<FlankGrid>) -> PerGear<Vec<f64>> {
-    grid.as_ref().map(|grid| vec![0.0; grid.len()])
+    (depth, observed, work, cycle)
 }
 
 fn relieved(spec: PairSpec, amount_mm: f64, length_mm: f64) -> PairSpec {
@@ -77,8 +72,7 @@ fn relieved(spec: PairSpec, amount_mm: f64, length_mm: f64) -> PairSpec {
 fn val_each_flank_loses_what_load_and_sliding_ask_for() {
     let pair = pair(&relieved(fzg_c(), 0.060, 5.0));
     let model = condensed(&pair, 6.0);
-    let grid = grid(&pair, 750);
-    let (depth, ..) = mesh_once(&model, &grid, 400, &none(&grid));
+    let (depth, .., cycle) = mesh_once(&model, 400, None);
     let path = &pair.path;
     let curvatures = path.involute.map(|involute| 1.0 / involute.base_radius_mm).sum();
     let count = 300;
@@ -101,18 +95,12 @@ fn val_each_flank_loses_what_load_and_sliding_ask_for() {
         warm = at.warm.clone();
     }
     asked *= COEFFICIENT;
-    // A flank that lies m behind the nominal one, along normals that meet at its centre of curvature, is shorter by m/ρ.
-    let lost = PerGear::from_fn(|gear| {
-        let removed = modifications_mm(&pair, gear, &grid[gear], &Slices::new(&pair, 1));
-        let shortened: Vec<f64> = (0..grid[gear].len())
-            .map(|i| depth[gear][i] * (1.0 - removed[i] / grid[gear].coordinate_mm[i].max(1.0)))
-            .collect();
-        grid[gear].integral(&shortened)
-    });
+    let lost = PerGear::from_fn(|gear| cycle.nodes()[gear].integral_mm2(&depth[gear]));
     for gear in Gear::BOTH {
         assert_close(&format!("{gear:?}"), lost[gear], asked, 1e-3);
     }
-    assert_close("pinion against wheel", lost.pinion, lost.wheel, 1e-3);
+    // What one flank loses the other does too, contact by contact.
+    assert_close("pinion against wheel", lost.pinion, lost.wheel, 1e-12);
 }
 
 /// Away from A–E, where load and speed change, each point wears like a disc: k w |ζ| within 1 %.
@@ -121,7 +109,12 @@ fn val_away_from_a_to_e_each_point_wears_like_a_disc() {
     let pair = pair(&fzg_c());
     let model = condensed(&pair, 8.0);
     let grid = grid(&pair, 750);
-    let (depth, observed, _) = mesh_once(&model, &grid, 400, &none(&grid));
+    let (at_nodes, observed, _, cycle) = mesh_once(&model, 400, None);
+    let depth = PerGear::from_fn(|gear| {
+        let involute = pair.path.involute[gear];
+        let radii = grid[gear].coordinate_mm.iter().map(|&rho| involute.radius_mm(rho));
+        cycle.at_radii(gear, &at_nodes[gear], radii)
+    });
     let at_pitch = hertz::flattening(&pair, &steel(), pair.path.pitch_point_mm);
     let half_width = at_pitch.contact.loaded(line_load(&pair)).half_width_mm;
     let mut compared = 0;
@@ -157,9 +150,16 @@ fn val_wear_opens_the_gap_as_a_relief_does() {
     }
     let (plain, modified) = (pair(&fzg_c()), pair(&spec));
     let grid = grid(&plain, 750);
-    let worn = PerGear::from_fn(|gear| modifications_mm(&modified, gear, &grid[gear], &Slices::new(&modified, 1)));
-    let (_, by_wear, _) = mesh_once(&condensed(&plain, 6.0), &grid, 60, &worn);
-    let (_, by_mesh, _) = mesh_once(&condensed(&modified, 6.0), &grid, 60, &none(&grid));
+    let (by_wear_model, by_mesh_model) = (condensed(&plain, 6.0), condensed(&modified, 6.0));
+    let (.., cycle) = mesh_once(&by_wear_model, 60, None);
+    let worn = PerGear::from_fn(|gear| {
+        let removed = modifications_mm(&modified, gear, &grid[gear], &Slices::new(&modified, 1));
+        let involute = plain.path.involute[gear];
+        let rho = |radius: &f64| involute.curvature_radius_mm(*radius);
+        cycle.radius_mm()[gear].iter().map(|radius| grid[gear].value_at(&removed, rho(radius))).collect()
+    });
+    let (_, by_wear, ..) = mesh_once(&by_wear_model, 60, Some(&worn));
+    let (_, by_mesh, ..) = mesh_once(&by_mesh_model, 60, None);
     for (worn, meshed) in by_wear.positions.iter().zip(&by_mesh.positions) {
         let what = format!("at {:.3}", worn.position_mm);
         assert_close(&what, worn.transmission_error_mm, meshed.transmission_error_mm, 1e-3);
@@ -172,20 +172,26 @@ fn val_wear_opens_the_gap_as_a_relief_does() {
     }
 }
 
-/// What is observed of the unworn pair is the finite-element contact as `gearwear fem` solves it.
+/// What is observed of the unworn pair is the finite-element contact as `gearwear fem` solves it, but for its interpolation between the
+/// positions of a base pitch.
 #[test]
 fn ver_the_unworn_cycle_is_the_finite_element_contact() {
     let pair = pair(&fzg_c());
     let model = condensed(&pair, 6.0);
-    let grid = grid(&pair, 200);
-    let (_, observed, _) = mesh_once(&model, &grid, 24, &none(&grid));
-    for position in &observed.positions {
+    let (_, observed, ..) = mesh_once(&model, 400, None);
+    for position in observed.positions.iter().step_by(17) {
         let found = model.at(position.position_mm, line_load(&pair), &WarmStart::default()).unwrap();
         let reference = found.pairs.iter().find(|contact| contact.pair == 0).unwrap();
         let what = format!("at {:.3}", position.position_mm);
-        assert_close(&what, position.transmission_error_mm, found.transmission_error_mm, 1e-9);
-        assert_close(&what, position.load_share * line_load(&pair), reference.line_load_n_per_mm, 1e-9);
-        assert_close(&what, position.footprint.peak_pressure_mpa, reference.peak_pressure_mpa, 1e-9);
+        assert_close(&what, position.transmission_error_mm, found.transmission_error_mm, 1e-3);
+        assert!(
+            (position.load_share * line_load(&pair) - reference.line_load_n_per_mm).abs() < 2e-3 * line_load(&pair),
+            "{what}"
+        );
+        // Sharp tip edges carry singular pressures about A and E.
+        if reference.line_load_n_per_mm > 0.99 * line_load(&pair) {
+            assert_close(&what, position.footprint.peak_pressure_mpa, reference.peak_pressure_mpa, 2e-2);
+        }
         assert!(position.load_imbalance.abs() < 1e-10);
     }
 }
@@ -195,22 +201,19 @@ fn ver_the_unworn_cycle_is_the_finite_element_contact() {
 fn ver_work_and_bits() {
     let pair = pair(&fzg_c());
     let model = condensed(&pair, 4.0);
-    let grid = grid(&pair, 200);
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
     let two = rayon::ThreadPoolBuilder::new().num_threads(2).build().unwrap();
-    let run = || mesh_once(&model, &grid, 40, &none(&grid));
-    let (first, second) = (one.install(run), two.install(run));
-    assert_eq!(first.0, second.0);
-    assert_eq!(first.1, second.1);
-    // 40 positions from A to E are 39/1.4375 = 27.1 intervals in a base pitch.
-    assert_eq!(first.2.equilibria, 27);
-    assert!(first.2.newton_iterations <= 12 * 27, "{:?}", first.2);
+    let run = || mesh_once(&model, 40, None);
+    let ((first, first_seen, work, mut cycle), (second, second_seen, ..)) = (one.install(run), two.install(run));
+    assert_eq!(first, second);
+    assert_eq!(first_seen, second_seen);
+    let positions = cycle.positions() as u64;
+    assert_eq!(work.equilibria, positions);
+    assert!(work.newton_iterations <= 12 * positions, "{work:?}");
 
-    let flanks = Flanks { geometry: &pair, grid: grid.as_ref() };
-    let mut cycle = CondensedCycle::new(&model, flanks, 40, line_load(&pair));
     let law = gearwear::wear::of(&WearSettings::archard(COEFFICIENT));
-    let mut wear = none(&grid);
-    let mut depth = none(&grid);
+    let mut wear = first.as_ref().map(|row| vec![0.0; row.len()]);
+    let mut depth = wear.clone();
     let mut later = 0;
     for step in 0..5 {
         let wear_mm = wear.as_ref().map(Vec::as_slice);
@@ -221,8 +224,8 @@ fn ver_work_and_bits() {
             wear[gear].iter_mut().zip(&depth[gear]).for_each(|(wear, depth)| *wear += 2000.0 * depth);
         }
     }
-    // Four warm evaluations of 27 positions: hardly more than one trial each.
-    assert!(later <= 2 * 4 * 27, "{later} trials");
+    // Four warm evaluations: hardly more than one trial for each position.
+    assert!(later <= 2 * 4 * positions, "{later} trials");
 }
 
 /// A node of an unmodified flank stands for the flank point at its own radius.

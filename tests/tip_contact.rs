@@ -2,13 +2,22 @@
 
 mod common;
 
-use common::{Scene, assert_close, fzg_c, fzg_c_scene, pair};
+use common::{Scene, assert_close, fzg_c, fzg_c_scene, pair, steel};
+use gearwear::contact::{
+    edge_bed::EdgeBeds,
+    foundation::{FoundationCurve, half_width_mm, matched_mpa_per_mm},
+    hertz,
+    settings::MatchCriterion,
+};
 use gearwear::fem::gear::placement::{axis_mm, tooth_angle_rad};
 use gearwear::gear::{Gear, GearPair, conjugate::ConjugateFlanks, removed_material::tip_rounding_mm};
 use gearwear::simulation::wear_run::Outcome;
 use gearwear::stiffness::settings::StiffnessSettings;
 use gearwear::working_cycle::{PositionObservation, positions::positions_with_tip_contact, tip_contact::reach_mm};
 use nalgebra::{Rotation2, Vector2};
+
+/// 302 N·m over base radius and face width.
+const LINE_LOAD_N_PER_MM: f64 = 637.66;
 
 /// fzg-c at 302 N·m with tip roundings of 0.1 mm and Weber and Banaschek's teeth; one mesh.
 fn rounded(surface: &'static str) -> Scene {
@@ -273,6 +282,39 @@ fn val_the_tangent_frame_has_the_gap_of_the_rounded_edge() {
         let least = (-10_000..10_000).map(|k| gap(1e-4 * f64::from(k)).iter().sum()).fold(f64::INFINITY, f64::min);
         let touch = pair.touch(position);
         assert!((least - touch.gap_mm).abs() < 5e-5, "{position}: {least} {}", touch.gap_mm);
+    }
+}
+
+/// Away from the edge the half-planes that a bed is matched to are Hertz's contact, whatever is matched; where the edge touches, K/H
+/// is many times as high, for the contact is a tenth as wide.
+#[test]
+fn ver_beds_at_edges_are_hertzs_where_no_edge_is() {
+    let pair = pair(&rounded("winkler").pair);
+    // The rounding begins 0.28 mm of flank beside the contact, whose half-width is 0.17 mm under the whole load.
+    let (at, load) = (pair.path.start_mm + 0.44, LINE_LOAD_N_PER_MM);
+    let flattening = hertz::flattening(&pair, &steel(), at);
+    let radius = flattening.contact.relative_radius_mm();
+    // A bed with the closed form's approach: nothing is left beside it.
+    let approach = FoundationCurve {
+        position_mm: vec![at - 0.1, at + 0.1],
+        mpa_per_mm: vec![matched_mpa_per_mm(MatchCriterion::Approach, &flattening, load); 2],
+        load_exponent: vec![0.5; 2],
+        reference_line_load_n_per_mm: load,
+    };
+    for criterion in MatchCriterion::ALL {
+        let beds = EdgeBeds::new(&pair, &steel(), load, criterion, &approach);
+        let springs = beds.at(at).unwrap();
+        for load in [0.3 * load, load] {
+            let expected = matched_mpa_per_mm(criterion, &flattening, load);
+            assert_close(criterion.name(), springs.mpa_per_mm(load), expected, 0.02);
+            let whole = flattening.approach_mm(load);
+            let bed = half_width_mm(expected, radius, load).powi(2) / (2.0 * radius);
+            let further = springs.further_approach_mm(load).0;
+            assert!((further - (whole - bed)).abs() < 0.02 * whole, "{}: {further}", criterion.name());
+        }
+        assert!(beds.at(pair.path.pitch_point_mm).is_none());
+        let edge = beds.at(pair.path.start_mm - 0.6).unwrap();
+        assert!(edge.mpa_per_mm(0.15 * load) > 5.0 * matched_mpa_per_mm(criterion, &flattening, 0.15 * load));
     }
 }
 

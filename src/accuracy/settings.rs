@@ -242,7 +242,6 @@ impl Setting {
             flank_points: Some(coarser(numerics.flank_points)),
             positions: Some(coarser(numerics.positions)),
             error_estimate: Some(false),
-            verify: Some(false),
             step: Some(StepFile::fixed(f64::from(self.coarsening.step) * euler_revolutions(&base.scene))),
             ..NumericsFile::default()
         });

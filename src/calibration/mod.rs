@@ -142,5 +142,5 @@ pub fn pair_compliance(
 ) -> Result<PairCompliance, CalibrationError> {
     let loaded = LoadedPair::new(condensed, material);
     let deflection = loaded.along_the_path(OWN_POSITIONS, line_load_n_per_mm)?;
-    Ok(loaded.curve(&deflection))
+    Ok(loaded.curve(&deflection, line_load_n_per_mm))
 }

@@ -32,8 +32,12 @@ use crate::stiffness::weber_banaschek::ToothCompliance;
 
 /// Turns after which the end of the stretch that is clear of an edge is found to round-off.
 const TURNS: usize = 12;
-/// Places of the curve on either side of what is clear of the edges.
-const CONTINUED_POSITIONS: usize = 16;
+/// Half-widths from an edge at which an ellipse no longer feels it.
+const CLEAR_OF_CORNERS: f64 = 2.0;
+/// Places of the curve from there to where the edge touches.
+const PLACES_TO_EDGE: usize = 5;
+/// Places of the curve from there on.
+const PLACES_BEYOND_EDGE: usize = 16;
 /// A little more than the half-width is kept clear, so that round-off puts nothing over an edge.
 const CLEAR: f64 = 1.0 + 1e-6;
 
@@ -232,12 +236,17 @@ impl<'a> LoadedPair<'a> {
 
     /// The curve for [`crate::stiffness::TeethSpring`], which adds the closed-form flattening again: the whole compliance of
     /// the finite elements less that flattening, both under `line_load_n_per_mm`, so that the whole pair comes out right.
-    /// Beyond the outermost of `deflections` it changes as bending does.
-    pub fn curve(&self, deflections: &[PairDeflection]) -> PairCompliance {
+    /// Next to the edges, and beyond, it changes as bending does: there an ellipse feels the corner, which half-planes do not.
+    pub fn curve(&self, deflections: &[PairDeflection], line_load_n_per_mm: f64) -> PairCompliance {
+        let clear = self.clear_of_the_edges_mm(line_load_n_per_mm, CLEAR_OF_CORNERS);
+        let counts = |at: &&PairDeflection| clear.is_none_or(|(low, high)| (low..=high).contains(&at.position_mm));
         let teeth = |at: &PairDeflection| {
             (at.position_mm, at.sum(|tooth| tooth.whole_mm2_per_n - tooth.closed_form_flattening_mm2_per_n))
         };
-        let inner: Vec<(f64, f64)> = deflections.iter().map(teeth).collect();
+        let mut inner: Vec<(f64, f64)> = deflections.iter().filter(counts).map(teeth).collect();
+        if inner.is_empty() {
+            inner = deflections.iter().map(teeth).collect();
+        }
         let path = &self.pair.path;
         let [before, after] = self.pair.farthest_touch_mm();
         let edge_mm = |gear| path.rho_mm(gear, self.pair.rounding_start_rho_mm(gear));
@@ -258,8 +267,10 @@ impl<'a> LoadedPair<'a> {
     /// the contact over.
     fn continued(&self, from: (f64, f64), edge_mm: f64, to_mm: f64) -> Vec<(f64, f64)> {
         let Some(at_from) = self.bending_mm2_per_n(from.0) else { return Vec::new() };
-        let outer = evenly(edge_mm, to_mm, CONTINUED_POSITIONS);
-        let places = outer.into_iter().filter(|place| (place - from.0) * (to_mm - from.0) > 0.0);
+        let mut places = evenly(from.0, edge_mm, PLACES_TO_EDGE);
+        places.pop();
+        places.extend(evenly(edge_mm, to_mm, PLACES_BEYOND_EDGE));
+        let places = places.into_iter().filter(|place| (place - from.0) * (to_mm - from.0) > 0.0);
         places.map_while(|place| Some((place, from.1 + self.bending_mm2_per_n(place)? - at_from))).collect()
     }
 

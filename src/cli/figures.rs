@@ -69,7 +69,11 @@ fn verified(total: &TotalError) -> String {
         row("within, of finite elements", ["pinion", "wheel"]),
         row("peak wear, %", [&pinion, &wheel]),
         row("wear over the flank (rms), %", [&pinion_profile, &wheel_profile]),
-        format!("  {:38}{:>12}\n", "transmission error, peak to peak, %", within(total.transmission_error_peak_to_peak)),
+        format!(
+            "  {:38}{:>12}\n",
+            "transmission error, peak to peak, %",
+            within(total.transmission_error_peak_to_peak)
+        ),
         format!("  {:38}{:>12}\n", "pressure between the tip edges, %", within(total.pressure_between_tips)),
     ]
     .concat()

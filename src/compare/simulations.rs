@@ -92,7 +92,7 @@ impl<'a> Simulations<'a> {
         observer: &'a dyn Observer,
     ) -> Self {
         let mut scene = resolved.scene.clone();
-        scene.numerics.error_estimate = false;
+        (scene.numerics.error_estimate, scene.verify) = (false, false);
         let operation = &mut scene.operation;
         operation.phases.truncate(operation.phase_at(revolutions) + 1);
         if let Some(last) = operation.phases.last_mut() {

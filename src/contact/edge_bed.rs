@@ -45,7 +45,7 @@ const WIDENED: f64 = 1.25;
 /// Cells of a window.
 const CELLS: usize = 60;
 /// Times that a window is fitted to the contact that it has shown.
-const FITTINGS: usize = 4;
+const FITTINGS: usize = 2;
 /// Part of the contact's width by which a window goes beyond it on either side.
 const MARGIN: f64 = 0.2;
 /// Halvings until the depth of the bed is found to round-off.
@@ -100,8 +100,9 @@ impl EdgeBeds {
             // By so far of the path the edge is within the contact.
             let within_mm = WIDENED * half_width_mm / pair.rolling_ratio(tip_of, edge_mm);
             let first_mm = edge_mm + within_mm.copysign(edge_mm - last_mm);
-            let places: Vec<f64> =
-                (0..PLACES).map(|k| first_mm + (last_mm - first_mm) * k as f64 / (PLACES - 1) as f64).collect();
+            // Closer together where flank and edge share the contact.
+            let along = |k: usize| (k as f64 / (PLACES - 1) as f64).powi(2);
+            let places: Vec<f64> = (0..PLACES).map(|k| first_mm + (last_mm - first_mm) * along(k)).collect();
             let bodies = Bodies { pair, material, line_load_n_per_mm, criterion, approach };
             places.into_par_iter().map(|at| Place { position_mm: at, springs: bodies.springs_at(at) }).collect()
         });
@@ -111,28 +112,32 @@ impl EdgeBeds {
     /// The springs at a position; none where no edge counts.
     pub fn at(&self, position_mm: f64) -> Option<EdgeSprings> {
         self.ends.iter().find_map(|places| {
-            let (inner, outer) = (places.first()?.position_mm, places.last()?.position_mm);
-            let along = (position_mm - inner) / (outer - inner);
-            if along < 0.0 {
+            let first_mm = places.first()?.position_mm;
+            let outwards = (places.last()?.position_mm - first_mm).signum();
+            let beyond = |at_mm: f64| outwards * (at_mm - first_mm);
+            if beyond(position_mm) < 0.0 {
                 return None;
             }
-            let place = (along * (PLACES - 1) as f64).min((PLACES - 1) as f64);
-            let before = (place as usize).min(PLACES - 2);
-            Some(places[before].springs.towards(&places[before + 1].springs, place - before as f64))
+            let passed = places.partition_point(|place| beyond(place.position_mm) <= beyond(position_mm));
+            let [low, high] = [passed.min(PLACES - 1) - 1, passed.min(PLACES - 1)].map(|k| &places[k]);
+            let weight = (position_mm - low.position_mm) / (high.position_mm - low.position_mm);
+            Some(low.springs.towards(&high.springs, weight.min(1.0))).filter(|springs| springs.points.len() > 1)
         })
     }
 }
 
 impl EdgeSprings {
-    /// A straight line, point by point.
+    /// A straight line, point by point from the greatest load on.
     fn towards(&self, other: &Self, weight: f64) -> Self {
         let between = |low: f64, high: f64| low + weight * (high - low);
-        let points = self.points.iter().zip(&other.points).map(|(low, high)| EdgePoint {
+        let points = self.points.iter().rev().zip(other.points.iter().rev()).map(|(low, high)| EdgePoint {
             ln_line_load: between(low.ln_line_load, high.ln_line_load),
             ln_mpa_per_mm: between(low.ln_mpa_per_mm, high.ln_mpa_per_mm),
             further_mm2_per_n: between(low.further_mm2_per_n, high.further_mm2_per_n),
         });
-        Self { points: points.collect() }
+        let mut points: Vec<EdgePoint> = points.collect();
+        points.reverse();
+        Self { points }
     }
 
     /// The power law that holds where `of` a point is about `value`, and the point it begins at with the next.

@@ -149,11 +149,7 @@ impl Condensed {
     ///
     /// # Errors
     /// See [`ActiveSetError`].
-    pub fn solve_with(
-        &self,
-        start: Option<&[bool]>,
-        kept: &mut Option<Kept>,
-    ) -> Result<Equilibrium, ActiveSetError> {
+    pub fn solve_with(&self, start: Option<&[bool]>, kept: &mut Option<Kept>) -> Result<Equilibrium, ActiveSetError> {
         let n = self.gap_mm.len();
         if self.gap_mm.iter().chain(&self.rigid_load).any(|value| !value.is_finite()) {
             return Err(ActiveSetError::NotFinite);

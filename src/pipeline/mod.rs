@@ -356,7 +356,6 @@ fn carry_out<R>(
         (StopReason::Completed, None) => {
             stages.run(StageKind::Verification, || verification::verify(&model, &outcome, elements, observer))
         }
-        (StopReason::Completed, Some(reason)) if !scene.verify => Verified::warned(reason),
         (StopReason::Completed, Some(reason)) => Verified::none(reason),
         _ => Verified::none(not_estimated_because(&outcome)),
     };
@@ -380,7 +379,8 @@ fn own_stiffness(
     setup: &calibration::bodies::Setup<'_>,
     stages: &mut Stages<'_>,
 ) -> Result<(StiffnessSettings, Option<PairCompliance>, Option<String>), RunError> {
-    let Some(elements) = elements.filter(|_| plan.has(StageKind::FiniteElementCalibration) && inputs.calibration.is_none())
+    let Some(elements) =
+        elements.filter(|_| plan.has(StageKind::FiniteElementCalibration) && inputs.calibration.is_none())
     else {
         return Ok((scene.stiffness, None, None));
     };

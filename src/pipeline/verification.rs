@@ -24,10 +24,10 @@ use crate::contact::settings::SurfaceKind;
 use crate::fem::gear::{model::ModelError, position::CondensedPair};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::mesh::settings::BodySettings;
+use crate::scene::Scene;
 use crate::simulation::figures::WearFigures;
 use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::record::{ErrorPerGear, ErrorSummary, StopReason, TotalError};
-use crate::scene::Scene;
 use crate::simulation::settings::{AdaptiveMethod, Numerics, Phase, Stepping};
 use crate::simulation::wear_run::{Outcome, Progress, RunPhase, WearRun};
 use crate::working_cycle::CycleObservation;
@@ -73,7 +73,8 @@ impl Verified {
         error.total = self.total.clone();
         error.surface_model = self.surface_model;
         error.how.surface_model = match self.surface_model {
-            Some(_) => "difference of the greatest wear to the same life on finite elements, of both gears the larger".to_owned(),
+            Some(_) => "difference of the greatest wear to the same life on finite elements, of both gears the larger"
+                .to_owned(),
             None => self.total.how.clone(),
         };
     }

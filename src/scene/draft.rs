@@ -66,12 +66,11 @@ impl Draft {
         set(&mut self.table, key, value);
     }
 
-    /// Gives the key at the path `key` this value, if the file does not.
-    pub fn set_unless_given(&mut self, key: &str, value: impl Into<Value>) {
-        let given = key.split('.').try_fold(&Value::Table(self.table.clone()), |value, part| value.get(part)).is_some();
-        if !given {
-            self.set(key, value);
-        }
+    /// Whether the file gives the key at the path `key`.
+    pub fn gives(&self, key: &str) -> bool {
+        let mut parts = key.split('.');
+        let first = parts.next().and_then(|part| self.table.get(part));
+        parts.try_fold(first, |value, part| value.map(|value| value.get(part))).flatten().is_some()
     }
 
     /// Takes the key at the path `key` away, if it is there.

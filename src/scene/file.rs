@@ -313,7 +313,7 @@ pub struct PhaseFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactFile {
-    /// Model of the surfaces in contact. Default: winkler.
+    /// Model of the surfaces in contact. Default: half-space; winkler with slices, and where a calibration or K/H is given or matched.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface: Option<SurfaceKind>,
     /// What the foundation shares with Hertz at the pitch point under the whole load; read by winkler.
@@ -456,8 +456,8 @@ pub struct NumericsFile {
     /// Whether the run is checked by the same life on finite elements, which gives error.total of the summary. Default true.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verify: Option<bool>,
-    /// Length of a wear step, or "adaptive". Default: "adaptive" on the surface fem and where wear may turn severe, otherwise 1/150 of the
-    /// duration.
+    /// Length of a wear step, or "adaptive". Default: "adaptive" on the surfaces half-space and fem of a pair without slices and where
+    /// wear may turn severe, otherwise 1/150 of the duration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<StepFile>,
     /// Error of the wear depth allowed in µm, > 0, at least 0.0001; read with step = "adaptive". Default 0.05.

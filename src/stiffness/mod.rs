@@ -21,7 +21,7 @@
 //!
 //! Where a tip edge touches, before A and after E and where its rounding is the contact, the load meets the tooth under another
 //! angle and its mate at another height ([`crate::gear::tip_touch`]): it turns towards the axis of its tooth, which yields the less.
-//! `weber-banaschek` knows that for any load line, and a curve of finite elements has it in its values. The other models state
+//! `weber-banaschek` knows that for any load line, and a curve of finite elements has it in its values. A constant spring holds everywhere. The other models state
 //! nothing beyond A and E (a curve: beyond its ends); there their spring changes in the same proportion as the teeth of Weber and
 //! Banaschek,
 //!
@@ -133,12 +133,13 @@ impl<'a> TeethSpring<'a> {
     fn stated_mm(&self) -> (f64, f64) {
         let path = &self.pair.path;
         match &self.curve {
-            Curve::WeberBanaschek => (f64::NEG_INFINITY, f64::INFINITY),
+            // What the user gives holds everywhere.
+            Curve::WeberBanaschek | Curve::Teeth(_) => (f64::NEG_INFINITY, f64::INFINITY),
             Curve::Given(curve) => {
                 let (first_mm, last_mm) = curve.ends_mm();
                 (first_mm.min(path.start_mm), last_mm.max(path.end_mm))
             }
-            Curve::Teeth(_) | Curve::WholePair(_) => (path.start_mm, path.end_mm),
+            Curve::WholePair(_) => (path.start_mm, path.end_mm),
         }
     }
 

@@ -51,7 +51,6 @@ impl Sweep {
         draft.remove("operation.snapshots_h");
         draft.remove("operation.snapshots_revolutions");
         draft.set("numerics.error_estimate", error_estimate);
-        draft.set_unless_given("numerics.verify", false);
         Ok(Self { identity, draft, pair: resolved.scene.pair.clone(), inputs })
     }
 
@@ -67,6 +66,8 @@ impl Sweep {
             draft.set(&axis.key, value);
         }
         let mut resolved = draft.resolve()?;
+        // Of many combinations, finite elements verify those of a scene that asks for it by name.
+        resolved.scene.verify &= draft.gives("numerics.verify");
         let operation = &mut resolved.scene.operation;
         operation.snapshots_revolutions = vec![operation.pinion_revolutions];
         Ok(resolved)

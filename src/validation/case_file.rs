@@ -197,6 +197,9 @@ pub struct MemberSpec {
 pub struct SampleSpec {
     /// How many.
     pub count: usize,
+    /// Another number draws others.
+    #[serde(default)]
+    pub seed: usize,
     /// What is drawn.
     pub of: Vec<VarySpec>,
 }

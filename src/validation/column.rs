@@ -13,8 +13,9 @@
 //! | `is_rising(x)`, `is_falling(x)` | every point beyond the one before |
 //! | `local_maxima(y)` | how many inner points are above both neighbours |
 //! | `count_above(x, level)`, `count_below(x, level)` | how many points |
-//! | `relative_l2(y, reference)`, `relative_max(y, reference)` | ‖y − r‖ / ‖r‖ in the 2-norm, in the greatest value |
+//! | `relative_l2(y, reference)`, `relative_max(y, reference)` | ‖y − r‖ / ‖r‖ in the 2-norm, in the greatest value; the first also of two lists of columns, a number for each |
 //! | `order(h, error)` | slope of log error over log h, least squares |
+//! | `share_within(claim, truth, above, low, high)` | of those whose truth is above a level, the share whose claim/truth lies from low to high |
 //! | `column([a, b, …])` | a column of these |
 
 use std::sync::Arc;
@@ -209,6 +210,29 @@ pub fn register(engine: &mut Engine) {
     });
     engine.register_fn("relative_l2", |y: Column, reference: Column| -> Result<f64, Failed> {
         Ok(y.zip(&reference, |y, r| y - r)?.norm() / reference.norm())
+    });
+    // Of those whose truth is above a level, the share whose claim over truth lies from low to high; 0 where none is.
+    engine.register_fn("share_within", |claim: Column, truth: Column, above: f64, low: f64, high: f64| {
+        claim.same_length(&truth)?;
+        let judged = claim.0.iter().zip(truth.0.iter()).filter(|(_, truth)| **truth > above);
+        let (within, all) = judged.fold((0, 0), |(within, all), (claim, truth)| {
+            (within + usize::from((low..=high).contains(&(claim / truth))), all + 1)
+        });
+        Ok::<f64, Failed>(if all > 0 { within as f64 / all as f64 } else { 0.0 })
+    });
+    // Of two lists of columns, such as one profile for each member of two families: a column of one number for each.
+    engine.register_fn("relative_l2", |rows: Array, references: Array| -> Result<Column, Failed> {
+        if rows.len() != references.len() {
+            return fault(format!("lists of different lengths, {} and {}", rows.len(), references.len()));
+        }
+        let pairs = rows.into_iter().zip(references);
+        let of_two =
+            |(row, reference): (Dynamic, Dynamic)| match (row.try_cast::<Column>(), reference.try_cast::<Column>()) {
+                (Some(row), Some(reference)) => Ok(row.zip(&reference, |y, r| y - r)?.norm() / reference.norm()),
+                // A member that did not run has no profile.
+                _ => Ok(f64::NAN),
+            };
+        pairs.map(of_two).collect::<Result<_, Failed>>().map(Column)
     });
     engine.register_fn("relative_max", |y: Column, reference: Column| -> Result<f64, Failed> {
         Ok(y.zip(&reference, |y, r| (y - r).abs())?.fold(f64::max)? / reference.map(f64::abs).fold(f64::max)?)

@@ -140,9 +140,10 @@ fn scene(run: &RunSpec, member: &Member, folder: &Path, calibrated: bool) -> Res
     if calibrated {
         draft.set("contact.calibration", "calibration.json");
     }
+    let mut resolved = draft.resolve().map_err(refused)?;
     // A case holds a run against a reference of its own; one that is about verification asks for it.
-    draft.set_unless_given("numerics.verify", false);
-    draft.resolve().map_err(refused)
+    resolved.scene.verify &= member.set.iter().any(|(key, _)| key == "numerics.verify");
+    Ok(resolved)
 }
 
 /// The tree of anything that can be written as JSON.

@@ -130,7 +130,7 @@ const PRIMES: [usize; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
 fn drawn(alone: &Member, sample: &SampleSpec, index: usize) -> Member {
     sample.of.iter().zip(PRIMES.iter().cycle()).fold(alone.clone(), |member, (varied, &base)| {
         // The first points of the sequence are all near 0.
-        with(&member, varied, varied.chosen(radical_inverse(index + 20, base)))
+        with(&member, varied, varied.chosen(radical_inverse(index + 20 + sample.seed * sample.count, base)))
     })
 }
 

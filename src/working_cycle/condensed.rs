@@ -122,6 +122,11 @@ impl<'a> CondensedCycle<'a> {
         self.nodes.as_ref()
     }
 
+    /// Nominal radii of the nodes, from root to tip.
+    pub fn radius_mm(&self) -> PerGear<&[f64]> {
+        self.radius_mm.as_ref().map(Vec::as_slice)
+    }
+
     /// Number of positions in a base pitch.
     pub fn positions(&self) -> usize {
         self.stations().count()

@@ -132,7 +132,7 @@ pub fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Don
         elements_per_half_width: scene.fem.elements_per_half_width,
         line_load_n_per_mm: w,
         path_points_mm,
-        pair_compliance: loaded.curve(&deflection),
+        pair_compliance: loaded.curve(&deflection, w),
         foundation,
         foundation_fit,
         deflection_at_points: path_points_mm.map(|position_mm| loaded.deflection(position_mm, w)),

@@ -130,11 +130,7 @@ impl<'a> Companions<'a> {
     }
 
     /// The peak wear of both gears by a coarser run; where it does not come to its end, why. Companions from `begin` on are still to come, as a share of all their work.
-    fn peaks_mm(
-        &mut self,
-        coarser: Coarser,
-        (begin, end): (f64, f64),
-    ) -> Result<PerGear<f64>, String> {
+    fn peaks_mm(&mut self, coarser: Coarser, (begin, end): (f64, f64)) -> Result<PerGear<f64>, String> {
         if !self.allow(coarser.spacing) {
             return Err("too few flank points or positions to leave some out".to_owned());
         }
@@ -145,10 +141,8 @@ impl<'a> Companions<'a> {
             ));
         }
         let numerics = self.numerics(coarser);
-        let of_phase = |phase: &RunPhase<'a>| RunPhase {
-            contact: self.with_spacing(phase.contact, coarser.spacing),
-            ..*phase
-        };
+        let of_phase =
+            |phase: &RunPhase<'a>| RunPhase { contact: self.with_spacing(phase.contact, coarser.spacing), ..*phase };
         let phases: Vec<RunPhase<'_>> = self.model.phases.iter().map(of_phase).collect();
         let run = WearRun { phases: &phases, numerics, snapshots_revolutions: &[], ..self.model.wear_run() };
         let failed = |error: SimulationError| format!("a companion run failed: {error}");

@@ -77,8 +77,12 @@ fn add_verified(plot: &mut Plot, gear: Gear, radius_mm: &[f64], own_um: &[f64], 
         .hover_info(HoverInfo::Skip)
         .show_legend(false);
     plot.add_trace(band);
-    let verified =
-        curve("finite elements", radius_mm.iter().copied(), verified_um.iter().copied(), line(theme::INK, 1.4, DashType::Dash));
+    let verified = curve(
+        "finite elements",
+        radius_mm.iter().copied(),
+        verified_um.iter().copied(),
+        line(theme::INK, 1.4, DashType::Dash),
+    );
     plot.add_trace(verified.hover_template("%{y:.3f} µm"));
 }
 

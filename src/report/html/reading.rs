@@ -2,9 +2,9 @@
 
 use super::number::{change, figure, given, percent, revolutions, significant};
 use super::theme::named;
+use crate::gear::Gear;
 use crate::simulation::record::RunRecord;
 use crate::simulation::record::{FlankRecord, StopReason, Summary, WearSummary};
-use crate::gear::Gear;
 
 /// The greatest of some values and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]

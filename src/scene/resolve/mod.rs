@@ -16,13 +16,13 @@ mod wear;
 use toml::{Table, Value};
 
 use super::file::SceneFile;
-use crate::contact::settings::SurfaceKind;
 use super::findings::Findings;
 use super::problem::{Problem, ProblemKind};
 use super::resolve::settings::Teeth;
 use super::schema::{Node, schema};
 use super::shape::{self, Format};
 use super::{Resolved, Scene, presets, text, unit_slip};
+use crate::contact::settings::SurfaceKind;
 
 /// Keys that other files have, and what to do with those.
 const OF_OTHER_FILES: &[(&str, &str)] =
@@ -118,11 +118,12 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let pair = pair::choose(&mut file.pair, findings);
     let materials = settings::material(&mut file.material, findings);
     let operation = operation::choose(&mut file.operation, findings);
-    let contact = settings::contact(&mut file.contact, findings);
+    let sliced = pair.as_ref().is_some_and(|pair| !pair.is_alike_over_width());
+    let contact = settings::contact(&mut file.contact, sliced, findings);
     let calibration_file = file.contact.as_ref().and_then(|contact| contact.calibration.clone());
     let surface = contact.map(|contact| contact.surface);
     let slices = pair.as_ref().and_then(|pair| slices::choose(&mut file.helical, pair, surface, findings));
-    let teeth = Teeth { surface, calibrated: calibration_file.is_some(), sliced: slices.is_some() };
+    let teeth = Teeth { surface, calibrated: calibration_file.is_some(), sliced };
     let stiffness = settings::stiffness(&mut file.stiffness, teeth, findings);
     let stiffness_by_default = file.stiffness.as_ref().is_none_or(|stiffness| stiffness.model.is_none());
     let stiffness_curve_file = file.stiffness.as_ref().and_then(|stiffness| stiffness.curve.clone());
@@ -137,9 +138,13 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     );
     let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
     let (pair, operation) = (pair?, operation?);
-    let adaptive = surface == Some(SurfaceKind::Fem) || wear.is_some_and(|wear| wear.severe.is_some());
+    let finely_resolved = matches!(surface, Some(SurfaceKind::Fem | SurfaceKind::HalfSpace));
+    let adaptive = finely_resolved && !sliced || wear.is_some_and(|wear| wear.severe.is_some());
     let numerics = settings::numerics(&mut file.numerics, operation.pinion_revolutions, adaptive, findings);
     let verify = *file.numerics.get_or_insert_default().verify.get_or_insert(true);
+    if !verify {
+        findings.warnings.push("numerics.verify is false: nothing vouches for the answer".to_owned());
+    }
     if let (Some(numerics), Some(surface)) = (&numerics, surface) {
         settings::memory(numerics, surface, slices.map_or(1, |slices| slices.count), findings);
     }

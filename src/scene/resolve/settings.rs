@@ -88,10 +88,16 @@ fn properties(file: &GearMaterialFile) -> Option<(Material, ThermalMaterial)> {
     Some((elastic, thermal))
 }
 
-/// Chooses the contact surface.
-pub fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -> Option<ContactSettings> {
+/// Chooses the contact surface of a pair, which may be cut into slices over the face width: elastic half-planes, unless there are slices
+/// or something is given that only a Winkler foundation reads.
+pub fn contact(file: &mut Option<ContactFile>, sliced: bool, findings: &mut Findings) -> Option<ContactSettings> {
     let file = file.get_or_insert_default();
-    let surface = *file.surface.get_or_insert_default();
+    let of_foundation = file.foundation_MPa_per_mm.is_some() || file.match_criterion.is_some();
+    let default = match sliced || of_foundation || file.calibration.is_some() {
+        true => SurfaceKind::Winkler,
+        false => SurfaceKind::HalfSpace,
+    };
+    let surface = *file.surface.get_or_insert(default);
     let (given, criterion) = (file.foundation_MPa_per_mm, file.match_criterion);
     let keys = ["contact.match", "contact.foundation_MPa_per_mm"];
     if findings.said_twice(&[(keys[0], criterion.is_some()), (keys[1], given.is_some())]) {
