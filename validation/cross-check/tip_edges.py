@@ -189,7 +189,7 @@ def write_rows(rows, version):
                for pair in ("behind", "reference", "ahead")]
     table.write(HERE / "fzg-c-tip-edges.csv", [
         f"CalculiX {version}, made by validation/cross-check/run.sh (tip_edges.py)",
-        "hours: 0 new; 127.75 with the wear of gearwear run in the mesh",
+        "hours: 0 new; 127.75 with the wear of gearwear run in the mesh (committed: that of revision 1e182ac)",
         "position_mm: radius of curvature of the pinion at the theoretical contact point of the reference pair",
         "behind, reference, ahead: tooth pairs -1, 0, 1; zeros without contact",
         "line_load: the pair's part of the torque over base radius and face width; peak_pressure: greatest at a node",
