@@ -34,6 +34,7 @@ class ContactForce:
 
 @dataclass
 class Results:
+    displacement_mm: dict  # node: (x, y)
     pressure_mpa: dict  # slave node: pressure
     reaction_n_per_mm: dict  # node whose reaction was asked for: (x, y)
     contacts: dict  # name of the slave surface: ContactForce
@@ -81,7 +82,9 @@ class Deck:
         """The whole deck; it asks for the reactions of the nodes on a group of edges."""
         lines = self.lines + ["*NSET,NSET=REACTIONS"] + [f"{node}," for node in self.mesh.nodes_of(reactions_of)]
         lines += ["*STEP", "*CONTROLS,PARAMETERS=FIELD", TOLERANCES, "*STATIC,DIRECT", "1.,1."] + self.step
-        lines += ["*NODE PRINT,NSET=REACTIONS", "RF", "*CONTACT FILE", "CSTR"]
+        lines += ["*NODE PRINT,NSET=REACTIONS", "RF", "*NODE FILE", "U"]
+        if self.contacts:
+            lines += ["*CONTACT FILE", "CSTR"]
         for number in range(len(self.contacts)):
             lines += [f"*CONTACT PRINT,SLAVE=SLAVE{number},MASTER=MASTER{number}", "CF"]
         return "\n".join([*lines, "*END STEP", ""])
@@ -96,9 +99,10 @@ class Deck:
         status = [line.split() for line in (folder / f"{name}.sta").read_text(encoding="ascii").splitlines()[2:]]
         if len(status) != 1 or status[0][5:] != ["0.100000E+01"] * 2:
             raise SystemExit(f"{folder / name}: CalculiX did not converge in one increment; see {name}.log and {name}.sta")
+        displacement = {node: row[:2] for node, row in _nodal(folder / f"{name}.frd", "DISP").items()}
         pressure = {node: row[3] for node, row in _nodal(folder / f"{name}.frd", "CONTACT").items()}
         reactions, contacts = _printed((folder / f"{name}.dat").read_text(encoding="ascii"), self.contacts)
-        return Results(pressure, reactions, contacts, int(status[0][3]))
+        return Results(displacement, pressure, reactions, contacts, int(status[0][3]))
 
 
 def program():

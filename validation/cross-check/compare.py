@@ -11,6 +11,7 @@ import sys
 import fzg_c_pair
 import pressure_course
 import table
+import tip_edges
 
 HERE = pathlib.Path(__file__).parent
 # The course of the pressure is compared up to this part of gearwear's fitted half-width; see pressure_course.py.
@@ -74,8 +75,7 @@ def cylinder(folder):
 
 
 def gear_pair(folder):
-    scene = folder / "fzg-c.toml"
-    scene.write_bytes(subprocess.run([fzg_c_pair.gearwear(), "init", "fzg-c"], capture_output=True, check=True).stdout)
+    scene = fzg_c_pair.scene_file(folder)
     their_courses = table.read(HERE / "fzg-c-pair-pressure.csv")
     for theirs, position_mm in zip(table.read(HERE / "fzg-c-pair.csv"), fzg_c_pair.POSITIONS_MM, strict=True):
         out = solve(folder / f"at-{position_mm}", scene, "--position", position_mm)
@@ -105,10 +105,31 @@ def gear_pair(folder):
         print(f"\npressure along the contact: {', '.join(differences)} of the peak (root mean square)")
 
 
+def rounded_tips(folder):
+    """Transmission error and line loads where tip edges touch; the run lies in the folder, new and worn in its mesh_cycle.csv."""
+    cycle = table.read(folder / "worn" / "mesh_cycle.csv")
+    places = [float(row["position_mm"]) for row in cycle]
+    whole = 1e3 * fzg_c_pair.TORQUE_NM / (fzg_c_pair.BASE_RADIUS_MM * fzg_c_pair.FACE_WIDTH_MM)
+    for row in table.read(HERE / "fzg-c-tip-edges.csv"):
+        theirs = {name: float(word) for name, word in row.items()}
+        state = "worn" if theirs["hours"] > 0.0 else "new"
+
+        at_mm, to_whole = theirs["position_mm"], fzg_c_pair.TORQUE_NM / theirs["torque_Nm"]
+        error_um, share = (tip_edges.interpolated(places, [float(line[column]) for line in cycle], at_mm)
+                           for column in (f"transmission_error_{state}_um", f"load_share_{state}"))
+        lines = [("transmission error, µm", 3, theirs["transmission_error_um"] * to_whole, error_um)]
+        for name, own in (("behind", 1.0 - share), ("reference", share), ("ahead", 1.0 - share)):
+            load = theirs[f"line_load_{name}_N_per_mm"] * to_whole
+            if load > 0.0:
+                lines.append((f"line load {name}, N/mm", 2, load, own * whole))
+        print_table(f"rounded tips at {at_mm:g} mm, {state}", lines)
+
+
 def main():
     folder = pathlib.Path(sys.argv[1])
     cylinder(folder)
     gear_pair(folder)
+    rounded_tips(folder)
 
 
 if __name__ == "__main__":

@@ -38,11 +38,16 @@ def gearwear():
     return os.environ.get("GEARWEAR", "gearwear")
 
 
-def pair_mesh(folder, position_mm):
-    """The mesh of the pair with the reference pair in contact at the position."""
+def scene_file(folder):
+    """The pair with sharp tips as a file."""
     scene = folder / "fzg-c.toml"
-    scene.write_bytes(subprocess.run([gearwear(), "init", "fzg-c"], capture_output=True, check=True).stdout)
-    path = folder / f"pair-{position_mm}.inp"
+    scene.write_bytes(subprocess.run([gearwear(), "init", "thesis-spur"], capture_output=True, check=True).stdout)
+    return scene
+
+
+def pair_mesh(scene, position_mm):
+    """The mesh of a scene's pair with the reference pair in contact at the position."""
+    path = scene.with_name(f"pair-{position_mm}.inp")
     command = [gearwear(), "mesh", scene, "--position", position_mm, "--out", path]
     subprocess.run(command, stdout=subprocess.DEVNULL, check=True)
     return mesh_files.read_abaqus(path)
@@ -53,15 +58,19 @@ def flank(gear, pair):
     return f"{gear}-flank{pair:+d}" if pair else f"{gear}-flank-0"
 
 
-def solve(folder, name, mesh, transmission_error_um, penalty_mpa_per_mm):
+# Slave and master of each tooth pair.
+PINION_ON_WHEEL = [(flank("pinion", pair), flank("wheel", pair)) for pair in PAIRS]
+
+
+def solve(folder, name, mesh, transmission_error_um, penalty_mpa_per_mm, contacts=PINION_ON_WHEEL):
     """The results at an angle, and the torque in N·m."""
     angle_rad = 1e-3 * transmission_error_um / BASE_RADIUS_MM
     deck = calculix.Deck(mesh)
     for body in mesh.bodies:
         deck.material(body, YOUNG_MODULUS_MPA, POISSON_RATIO)
     deck.penalty(penalty_mpa_per_mm)
-    for pair in PAIRS:
-        deck.contact(flank("pinion", pair), flank("wheel", pair))
+    for slave, master in contacts:
+        deck.contact(slave, master)
     for node in mesh.nodes_of("wheel-clamp"):
         deck.displace(node, 1)
         deck.displace(node, 2)
@@ -75,13 +84,13 @@ def solve(folder, name, mesh, transmission_error_um, penalty_mpa_per_mm):
     return results, 1e-3 * moment_n * FACE_WIDTH_MM
 
 
-def at_torque(folder, name, mesh, error_um):
+def at_torque(folder, name, mesh, error_um, contacts=PINION_ON_WHEEL, tolerance=TORQUE_TOLERANCE):
     """The transmission error in µm that gives the torque, with the results there: secant steps from the origin."""
     before = (0.0, 0.0)
     for _ in range(8):
-        results, torque_nm = solve(folder, name, mesh, error_um, PENALTY_MPA_PER_MM)
+        results, torque_nm = solve(folder, name, mesh, error_um, PENALTY_MPA_PER_MM, contacts)
         print(f"{name}: {error_um:.5f} µm, {torque_nm:.5f} N·m, {results.iterations} iterations", flush=True)
-        if abs(torque_nm - TORQUE_NM) < TORQUE_TOLERANCE * TORQUE_NM:
+        if abs(torque_nm - TORQUE_NM) < tolerance * TORQUE_NM:
             return error_um, torque_nm, results
         slope = (error_um - before[0]) / (torque_nm - before[1])
         before = (error_um, torque_nm)
@@ -117,9 +126,9 @@ def figures(results, points, torque_nm, pair):
 def main():
     folder = pathlib.Path(sys.argv[1])
     made_by = f"CalculiX {calculix.version()}, made by validation/cross-check/run.sh (fzg_c_pair.py)"
-    rows, pressures = [], []
+    scene, rows, pressures = scene_file(folder), [], []
     for position_mm, guess_um in POSITIONS_MM.items():
-        mesh = pair_mesh(folder, position_mm)
+        mesh = pair_mesh(scene, position_mm)
         error_um, torque_nm, results = at_torque(folder, f"pair-at-{position_mm}", mesh, guess_um)
         courses = [course(mesh, results, pair) for pair in PAIRS]
         of_pairs = [figures(results, points, torque_nm, pair) for pair, points in zip(PAIRS, courses)]

@@ -1,6 +1,7 @@
 #!/bin/sh
-# Solves the NAFEMS cylinder and the fzg-c pair with CalculiX, writes the results beside this file and prints them beside
-# gearwear's. Needs Python 3.10, ccx (or CCX=…) and gearwear (or GEARWEAR=…); about a quarter of an hour.
+# Solves the NAFEMS cylinder and the fzg-c pair with CalculiX, with sharp tips and with rounded ones that touch, writes the
+# results beside this file and prints them beside gearwear's. Needs Python 3.10, ccx (or CCX=…) and gearwear (or GEARWEAR=…);
+# about three quarters of an hour.
 set -eu
 here=$(dirname "$0")
 for program in "${CCX:-ccx}" "${GEARWEAR:-gearwear}"; do
@@ -11,4 +12,5 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 python3 "$here"/nafems_cylinder.py "$work"
 python3 "$here"/fzg_c_pair.py "$work"
+python3 "$here"/tip_edges.py "$work"
 python3 "$here"/compare.py "$work"
