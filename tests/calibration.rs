@@ -275,6 +275,7 @@ fn val_calibrated_winkler_surface_in_single_contact() {
             bed: Bed::Curve {
                 pressure: calibration.foundation[&criterion].clone(),
                 approach: calibration.foundation[&MatchCriterion::Approach].clone(),
+                edges: None,
             },
             expected_line_load_n_per_mm: calibration.line_load_n_per_mm,
         };

@@ -152,7 +152,7 @@ impl<'a> LoadedMesh<'a> {
         let (path, count) = (&self.pair.path, self.numerics.positions);
         let spring = |at| teeth.own_n_per_mm2(at);
         let bodies = teeth.shared_mm2_per_n() * line_load;
-        let lever_ratio = |at| self.pair.pinion_lever_ratio(&self.pair.touch(at));
+        let lever_ratio = |at| tip_contact::approach_ratio(self.pair, at);
         let beyond = if tip_contact {
             let pitch_point = path.pitch_point_mm;
             let surfaces = surface.plain_approach_mm(self.pair, pitch_point, line_load);
