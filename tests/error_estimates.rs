@@ -73,15 +73,20 @@ fn val_estimates_tell_the_errors_that_finer_runs_show() {
     }
 }
 
-/// Short runs tell what the whole run on the truer surface shows: Hertz's ellipse, which knows no worn gap, and the Winkler
-/// bed, against the elastic half-plane at the same resolution.
+/// The surface model is what a whole run on finite elements differs by, on another mesh than the verification's.
 #[test]
 fn val_the_surface_model_tells_the_difference_of_whole_runs() {
-    let half_plane = run(&with("half-space", 1, 7_665.0).replace("error_estimate = true", "error_estimate = false"));
-    for surface in ["hertz", "hertz-mean", "winkler"] {
+    let elements = run(&with("fem", 1, 7_665.0)
+        .replace("[wear]", "[fem]\nelements_per_half_width = 5\n[wear]")
+        .replace("step = { revolutions = 7665.0 }", "step = \"adaptive\"\nverify = false")
+        .replace("tip_contact = false", "# tip_contact"));
+    for surface in ["hertz", "winkler"] {
         let own = run(&with(surface, 1, 7_665.0));
-        let truth = (own.pinion.peak_wear_um / half_plane.pinion.peak_wear_um - 1.0).abs();
-        assert_tells(surface, own.error.surface_model, truth, 0.02);
+        let off = |own: f64, truth: f64| (own / truth - 1.0).abs();
+        let truth = off(own.pinion.peak_wear_um, elements.pinion.peak_wear_um)
+            .max(off(own.wheel.peak_wear_um, elements.wheel.peak_wear_um));
+        let told = own.error.surface_model.expect("verified");
+        assert!((told - truth).abs() < 0.015, "{surface}: {told} {truth}");
     }
 }
 
@@ -105,9 +110,9 @@ fn companions_cost_at_most_half_of_the_run() {
     }
 }
 
-/// On finite elements all three are estimated, on elements twice as long.
+/// A run on finite elements is verified on a finer mesh of them: three elements and four in a half-width of contact wear alike.
 #[test]
-fn finite_elements_are_judged_by_longer_elements() {
+fn finite_elements_are_verified_on_a_finer_mesh() {
     let edits = resolution(4, 40_000.0);
     let mut edits: Vec<(&str, &str)> = edits.iter().map(|(from, to)| (*from, to.as_str())).collect();
     edits.extend([
@@ -116,23 +121,56 @@ fn finite_elements_are_judged_by_longer_elements() {
         ("tip_contact = false", "tip_contact = true"),
         ("[pair.pinion] ", "[pair.pinion]\ntip_rounding_mm = 0.1 "),
         ("[pair.wheel]", "[pair.wheel]\ntip_rounding_mm = 0.1"),
-        ("[wear]", "[fem]\nelements_per_half_width = 4\n[wear]"),
     ]);
     let text = scene(&edits);
     let error = run(&text).error;
-    let cost = error.companions_cost.expect("estimates were made");
-    assert!(cost > 0.0 && cost <= 0.5, "{cost}");
-    let estimates = [error.discretisation, error.wear_step, error.surface_model];
-    assert!(estimates.iter().all(|e| e.is_some_and(|e| e.is_finite() && e < 0.5)), "{error:?}");
+    let total = &error.total;
+    let errors = [total.profile.pinion, total.profile.wheel, total.peak_wear.pinion, total.peak_wear.wheel];
+    // The uncertainty that the finite elements claim is 0.6 %; a coarse path of 100 positions leaves some more.
+    assert!(errors.iter().all(|error| error.is_some_and(|error| error < 0.04)), "{total:?}");
+    assert_eq!(error.surface_model, None, "finite elements are their own reference");
+}
+
+/// A run is held against the same life on finite elements: the thesis's model, which stops at A and E, misses the wear at the tips by
+/// far, and half-planes with contact at tip edges do not; without verification nothing is claimed, and that is said.
+#[test]
+fn runs_are_verified_by_finite_elements() {
+    let rounded = [
+        ("[pair.pinion] ", "[pair.pinion]\ntip_rounding_mm = 0.1 "),
+        ("[pair.wheel]", "[pair.wheel]\ntip_rounding_mm = 0.1"),
+    ];
+    let profile = |edits: &[(&str, &str)]| run(&scene(edits)).error.total.profile;
+    let thesis = profile(&rounded);
+    let half_planes = profile(
+        &[
+            &rounded[..],
+            &[
+                (SURFACE, "surface = \"half-space\""),
+                (MATCH, "# none"),
+                ("tip_contact = false", "tip_contact = true"),
+                ("model = \"constant\"", "model = \"fem\""),
+                ("pair_N_per_mm_um", "# pair_N_per_mm_um"),
+            ],
+        ]
+        .concat(),
+    );
+    for (coarse, fine) in [(thesis.pinion, half_planes.pinion), (thesis.wheel, half_planes.wheel)] {
+        let (coarse, fine) = (coarse.expect("verified"), fine.expect("verified"));
+        assert!(coarse > 0.15 && fine < 0.06, "{coarse} {fine}");
+    }
+    let unverified = run(&scene(&[("error_estimate = true", "error_estimate = true\nverify = false")]));
+    assert_eq!(unverified.error.total.peak_wear.pinion, None);
+    assert!(unverified.error.total.how.contains("numerics.verify is false"), "{:?}", unverified.error.total);
+    assert!(unverified.warnings.iter().any(|warning| warning.contains("nothing vouches")), "{:?}", unverified.warnings);
 }
 
 /// Left out where the scene says so, with the reason.
 #[test]
 fn no_estimates_where_the_scene_wants_none() {
-    let text = with("winkler", 4, 100_000.0).replace("error_estimate = true", "error_estimate = false");
+    let text = with("winkler", 4, 100_000.0).replace("error_estimate = true", "error_estimate = false\nverify = false");
     let error = run(&text).error;
     assert_eq!([error.discretisation, error.wear_step, error.surface_model, error.companions_cost], [None; 4]);
-    assert_eq!(error.how.surface_model, "not estimated: numerics.error_estimate is false");
+    assert_eq!(error.how.discretisation, "not estimated: numerics.error_estimate is false");
     assert!(
         Plan::of(&Scene::from_toml(&text).unwrap().scene).left_out.iter().any(|s| s.kind.name() == "error-estimates")
     );

@@ -53,9 +53,8 @@ impl Windows {
 /// Errors of `observed`, at the coordinates of `reference`, in every quantity.
 pub fn errors(observed: &Observed, reference: &Observed, windows: &Windows) -> BTreeMap<Quantity, f64> {
     let profile = PerGear::from_fn(|gear| profile_error(&observed.flanks[gear], &reference.flanks[gear]));
-    let peak = |gear: Gear| {
-        relative_difference(observed.flanks[gear].peak_wear_um(), reference.flanks[gear].peak_wear_um())
-    };
+    let peak =
+        |gear: Gear| relative_difference(observed.flanks[gear].peak_wear_um(), reference.flanks[gear].peak_wear_um());
     let over_path = |curve: fn(&ObservedCycle) -> &[f64]| {
         relative_l2(&reference.cycle.position_mm, curve(&observed.cycle), curve(&reference.cycle))
     };

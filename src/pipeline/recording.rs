@@ -8,7 +8,8 @@ use crate::scene::Resolved;
 use crate::simulation::figures::WearFigures;
 use crate::simulation::record::{
     ContactSummary, CycleSummary, ErrorSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, MeshCycleRow,
-    PathPoints, RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary, WorkSummary,
+    PathPoints, RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary,
+    WorkSummary,
 };
 use crate::simulation::wear_run::{Outcome, Snapshot};
 use crate::thermal::settings::TemperatureMethod;

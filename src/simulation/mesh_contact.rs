@@ -155,7 +155,7 @@ impl<'a> LoadedMesh<'a> {
         let sharp_edges =
             self.pair.spec.gears.as_ref().map(|gear| tip_contact && gear.modification.tip_rounding_mm == 0.0);
         let flanks = Flanks { sharp_edges, ..flanks };
-        let lever_ratio = |at| self.pair.pinion_lever_ratio(&self.pair.touch(at));
+        let lever_ratio = |at| tip_contact::approach_ratio(self.pair, at);
         let beyond = if tip_contact {
             let pitch_point = path.pitch_point_mm;
             let surfaces = surface.plain_approach_mm(self.pair, pitch_point, line_load);

@@ -132,10 +132,17 @@ impl<'a> CondensedCycle<'a> {
         self.stations().count()
     }
 
-    /// What `at_nodes` of `gear`'s flank is at the nominal radii `radius_mm`; beyond the nodes, what it is at the last of them.
+    /// What `at_nodes` of `gear`'s flank is at the nominal radii `radius_mm`: in straight lines between the nodes, as the wear itself is,
+    /// and beyond them what it is at the last.
     pub fn at_radii(&self, gear: Gear, at_nodes: &[f64], radius_mm: impl Iterator<Item = f64>) -> Vec<f64> {
-        let curve = MonotoneCubic::new(&self.radius_mm[gear], at_nodes);
-        radius_mm.map(|radius| curve.at(radius)).collect()
+        let nodes = &self.radius_mm[gear];
+        let at = |radius: f64| {
+            let after = nodes.partition_point(|&node| node <= radius).clamp(1, nodes.len() - 1);
+            let length = nodes[after] - nodes[after - 1];
+            let weight = if length > 0.0 { ((radius - nodes[after - 1]) / length).clamp(0.0, 1.0) } else { 0.0 };
+            at_nodes[after - 1] + weight * (at_nodes[after] - at_nodes[after - 1])
+        };
+        radius_mm.map(at).collect()
     }
 
     fn stations(&self) -> impl Iterator<Item = &Station> {

@@ -41,7 +41,7 @@ pub struct PairInMesh {
     pub position_mm: f64,
     /// Spring of its teeth, N/mm².
     pub teeth_n_per_mm2: f64,
-    /// Lever of its load on the pinion over the base radius: 1 on the line of action.
+    /// Approach in its tangent frame over the transmission error, as torque over load and base radius: 1 on the line of action.
     pub lever_ratio: f64,
 }
 

@@ -56,7 +56,7 @@ pub fn loading_positions<E>(
 }
 
 /// Positions as far apart as `count` (≥ 2) from A to E, these included, but beginning `beyond_mm` before A and ending as far
-/// after E; `lever_ratio` gives the lever of the load on the pinion.
+/// after E; `lever_ratio` gives [`PairInMesh::lever_ratio`].
 ///
 /// # Errors
 /// The first error of `teeth_n_per_mm2`.

@@ -68,7 +68,7 @@ impl SpringAlongPath {
 pub struct SliceSprings<'a> {
     /// Compliance of the teeth.
     pub along_path: &'a SpringAlongPath,
-    /// Lever of the load on the pinion over the base radius: 1 on the line of action.
+    /// Approach in its tangent frame over the transmission error, as torque over load and base radius: 1 on the line of action.
     pub lever_ratio: &'a (dyn Fn(f64) -> f64 + Sync),
 }
 

@@ -20,7 +20,8 @@
 //! δ = (approach along the normal) r_b1/l          torque = F l
 //! ```
 //!
-//! some hundredths less than r_b1 ([`OnLever`]). For sliding, the component along the tangent is (ω₁ + ω₂)(C − ξ) at every place of
+//! some hundredths less than r_b1 ([`OnLever`]). Gaps of the tangent frame are measured along the line of action, and are by 1/cos ε
+//! wider than along the normal ([`approach_ratio`]). For sliding, the component along the tangent is (ω₁ + ω₂)(C − ξ) at every place of
 //! the frame, and that along the turned flank differs from it by along²/(ρ (C − ξ)) − ½ (along/ρ)², less than one hundredth.
 //!
 //! Source: R. G. Munro, L. Morrish and D. Palmer, "Gear transmission error outside the normal path of contact due to corner
@@ -54,12 +55,18 @@ fn tip_gap_mm(pair: &GearPair, tip_of: Gear, position_mm: f64) -> f64 {
     edge.drop_mm + pair.at_along(tip_of.mate(), -edge.along_mm, position_mm).1
 }
 
+/// l/(r_b1 cos ε): approach in the tangent frame over transmission error with the theoretical contact point at `position_mm`.
+pub fn approach_ratio(pair: &GearPair, position_mm: f64) -> f64 {
+    let touch = pair.touch(position_mm);
+    pair.pinion_lever_ratio(&touch) / touch.turned_rad.cos()
+}
+
 /// A contact whose load has another lever on the pinion than r_b1: approach and load are reckoned as the transmission error and
 /// the load along the line of action that go with them.
 pub struct OnLever<'a> {
     /// The contact along its own normal.
     pub contact: Box<dyn PairContact + 'a>,
-    /// l/r_b1.
+    /// [`approach_ratio`].
     pub ratio: f64,
 }
 
