@@ -204,3 +204,17 @@ fn adaptive_steps_estimate_their_own_error() {
         }
     }
 }
+
+/// Where the contact is too narrow to be meshed, or the scene asks for slices, the run has its result, and says why nothing vouches
+/// for it.
+#[test]
+fn what_finite_elements_cannot_vouch_for_is_said() {
+    let light = run(&scene(&[("pinion_torque_Nm = 302.0", "pinion_torque_Nm = 0.1")]));
+    assert_eq!(light.error.total.peak_wear.pinion, None);
+    assert!(light.error.total.how.contains("too narrow to be meshed"), "{:?}", light.error.total);
+    assert!(light.warnings.iter().any(|warning| warning.contains("not verified")), "{:?}", light.warnings);
+    assert!(light.pinion.peak_wear_um > 0.0);
+    let crowned = run(&with("winkler", 4, 100_000.0).replace("[pair.pinion] ", "[pair.pinion]\nlead_crowning_um = 5.0 "));
+    assert_eq!(crowned.error.total.profile.wheel, None);
+    assert!(crowned.error.total.how.contains("over the face width"), "{:?}", crowned.error.total);
+}

@@ -50,7 +50,7 @@ use crate::wear::{self, FlankWear, WearModel, settings::WearSettings};
 use crate::working_cycle::sliced_teeth::SlicedTeeth;
 use inputs::Inputs;
 use recording::Found;
-use verification::Verified;
+use verification::{Elements, Verified};
 
 /// Told of progress; says whether to go on.
 pub trait Observer: Progress {
@@ -263,7 +263,9 @@ fn carry_out<R>(
     }
     // One model of finite elements serves the stiffness of the teeth and the verification.
     let elements = match plan.has(StageKind::FiniteElementModel) && scene.contact.surface != SurfaceKind::Fem {
-        true => Some(stages.run(StageKind::FiniteElementModel, || verification::elements(scene, &pair, line_load))),
+        true => Some(
+            stages.run(StageKind::FiniteElementModel, || verification::elements(scene, &pair, &at_pitch, line_load)),
+        ),
         false => None,
     };
     let (stiffness, computed, stiffness_warning) =
@@ -382,7 +384,7 @@ fn own_stiffness(
     scene: &Scene,
     plan: &Plan,
     inputs: &Inputs,
-    elements: Option<&Result<CondensedPair<'_>, ModelError>>,
+    elements: Option<&Result<Elements<'_>, ModelError>>,
     setup: &calibration::bodies::Setup<'_>,
     stages: &mut Stages<'_>,
 ) -> Result<(StiffnessSettings, Option<PairCompliance>, Option<String>), RunError> {
@@ -392,7 +394,10 @@ fn own_stiffness(
         return Ok((scene.stiffness, None, None));
     };
     let curve = stages.run(StageKind::FiniteElementCalibration, || match elements {
-        Ok(elements) => calibration::pair_compliance(elements, &setup.material, setup.line_load_n_per_mm),
+        Ok(elements) => {
+            let line_load_n_per_mm = setup.line_load_n_per_mm.max(elements.line_load_n_per_mm);
+            calibration::pair_compliance(&elements.condensed, &setup.material, line_load_n_per_mm)
+        }
         Err(error) => Err(CalibrationError::Model(error.clone())),
     });
     match curve {

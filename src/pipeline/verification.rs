@@ -24,6 +24,7 @@ use crate::contact::settings::SurfaceKind;
 use crate::fem::gear::{model::ModelError, position::CondensedPair};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::mesh::settings::BodySettings;
+use crate::reference::flattening::Flattening;
 use crate::scene::Scene;
 use crate::simulation::figures::WearFigures;
 use crate::simulation::mesh_contact::MeshContact;
@@ -32,6 +33,8 @@ use crate::simulation::settings::{AdaptiveMethod, Numerics, Phase, Stepping};
 use crate::simulation::wear_run::{Outcome, Progress, RunPhase, WearRun};
 use crate::working_cycle::CycleObservation;
 
+/// Least half-width of contact at the pitch point that is meshed, in modules: the flank then has some thousand nodes.
+const LEAST_HALF_WIDTH_MODULES: f64 = 0.015;
 /// Positions from A to E.
 const POSITIONS: usize = 400;
 /// Error of the wear depth allowed, over the greatest depth.
@@ -107,14 +110,30 @@ impl Progress for Bounded<'_> {
     }
 }
 
-/// Finite elements for the greatest of the scene's loads.
+/// Finite elements of the pair, and what they were meshed for.
+pub(super) struct Elements<'a> {
+    /// Both gears.
+    pub condensed: CondensedPair<'a>,
+    /// The load whose half-width of contact they resolve, N/mm.
+    pub line_load_n_per_mm: f64,
+    /// Half-width of contact at the pitch point under the scene's greatest load, mm, and the least that is meshed.
+    half_width_mm: (f64, f64),
+}
+
+/// Finite elements for the greatest of the scene's loads; where its contact is too narrow to be meshed, for the least that is.
 pub(super) fn elements<'a>(
     scene: &Scene,
     pair: &'a GearPair,
+    at_pitch: &Flattening,
     line_load_n_per_mm: impl Fn(&Phase) -> f64,
-) -> Result<CondensedPair<'a>, ModelError> {
+) -> Result<Elements<'a>, ModelError> {
     let greatest_load = scene.operation.phases.iter().map(line_load_n_per_mm).fold(0.0, f64::max);
-    condensed(scene, pair, greatest_load, scene.wear_elements_per_half_width)
+    let half_width_mm = at_pitch.contact.loaded(greatest_load).half_width_mm;
+    let least_mm = LEAST_HALF_WIDTH_MODULES * pair.spec.normal_module_mm;
+    // a² is proportional to the load.
+    let line_load_n_per_mm = greatest_load * (least_mm / half_width_mm).max(1.0).powi(2);
+    let condensed = condensed(scene, pair, line_load_n_per_mm, scene.wear_elements_per_half_width)?;
+    Ok(Elements { condensed, line_load_n_per_mm, half_width_mm: (half_width_mm, least_mm) })
 }
 
 fn condensed<'a>(
@@ -132,7 +151,7 @@ fn condensed<'a>(
 pub(super) fn verify<'a>(
     model: &Model<'a>,
     outcome: &Outcome,
-    elements: Option<Result<CondensedPair<'a>, ModelError>>,
+    elements: Option<Result<Elements<'a>, ModelError>>,
     observer: &dyn Progress,
 ) -> Verified {
     let other_mesh = || {
@@ -141,8 +160,17 @@ pub(super) fn verify<'a>(
         condensed(model.scene, model.pair, greatest_load, finer)
     };
     let life = || {
-        let elements = elements.unwrap_or_else(other_mesh).map_err(|error| error.to_string())?;
-        life(model, outcome, &elements, observer)
+        let condensed = match elements {
+            Some(Ok(Elements { half_width_mm: (half_width, least), .. })) if half_width < least => {
+                return Err(format!(
+                    "the contact is too narrow to be meshed: its half-width at the pitch point is {half_width:.2e} mm, \
+                     at least {least:.2e} mm is"
+                ));
+            }
+            Some(elements) => elements.map(|elements| elements.condensed),
+            None => other_mesh(),
+        };
+        life(model, outcome, &condensed.map_err(|error| error.to_string())?, observer)
     };
     match guarded(life) {
         Ok(Ok(life)) => compared(model, outcome, &life),
