@@ -214,7 +214,8 @@ fn what_finite_elements_cannot_vouch_for_is_said() {
     assert!(light.error.total.how.contains("too narrow to be meshed"), "{:?}", light.error.total);
     assert!(light.warnings.iter().any(|warning| warning.contains("not verified")), "{:?}", light.warnings);
     assert!(light.pinion.peak_wear_um > 0.0);
-    let crowned = run(&with("winkler", 4, 100_000.0).replace("[pair.pinion] ", "[pair.pinion]\nlead_crowning_um = 5.0 "));
+    let crowned =
+        run(&with("winkler", 4, 100_000.0).replace("[pair.pinion] ", "[pair.pinion]\nlead_crowning_um = 5.0 "));
     assert_eq!(crowned.error.total.profile.wheel, None);
     assert!(crowned.error.total.how.contains("over the face width"), "{:?}", crowned.error.total);
 }

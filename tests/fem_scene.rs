@@ -8,7 +8,7 @@ use serde_json::Value;
 
 /// A scene that is quickly solved: FZG type C, four elements along Hertz's half-width, twenty positions.
 fn coarse() -> String {
-    let output = gearwear().args(["init", "fzg-c"]).output().unwrap();
+    let output = gearwear().args(["init", "thesis-spur"]).output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
     let text = exchanged(&text, "positions = 400 ", "positions = 20 ");
     text + "\n[fem]\nelements_per_half_width = 4\n"

@@ -151,18 +151,24 @@ fn val_wear_opens_the_gap_as_a_relief_does() {
     let (plain, modified) = (pair(&fzg_c()), pair(&spec));
     let grid = grid(&plain, 750);
     let (by_wear_model, by_mesh_model) = (condensed(&plain, 6.0), condensed(&modified, 6.0));
-    let (.., cycle) = mesh_once(&by_wear_model, 60, None);
+    let (.., cycle) = mesh_once(&by_wear_model, 400, None);
     let worn = PerGear::from_fn(|gear| {
         let removed = modifications_mm(&modified, gear, &grid[gear], &Slices::new(&modified, 1));
         let involute = plain.path.involute[gear];
         let rho = |radius: &f64| involute.curvature_radius_mm(*radius);
         cycle.radius_mm()[gear].iter().map(|radius| grid[gear].value_at(&removed, rho(radius))).collect()
     });
-    let (_, by_wear, ..) = mesh_once(&by_wear_model, 60, Some(&worn));
-    let (_, by_mesh, ..) = mesh_once(&by_mesh_model, 60, None);
+    let (_, by_wear, ..) = mesh_once(&by_wear_model, 400, Some(&worn));
+    let (_, by_mesh, ..) = mesh_once(&by_mesh_model, 400, None);
+    let off = by_wear.positions.iter().zip(&by_mesh.positions);
+    let squares = off.map(|(worn, meshed)| (worn.transmission_error_mm / meshed.transmission_error_mm - 1.0).powi(2));
+    let off = (squares.sum::<f64>() / by_wear.positions.len() as f64).sqrt();
+    // The softness of the meshed tooth, and what lies between the positions.
+    assert!(off < 7e-4, "transmission error, root mean square: {off}");
     for (worn, meshed) in by_wear.positions.iter().zip(&by_mesh.positions) {
         let what = format!("at {:.3}", worn.position_mm);
-        assert_close(&what, worn.transmission_error_mm, meshed.transmission_error_mm, 1e-3);
+        // Rows lie between positions, which bend the kink where a tip edge takes over by some hundredths of a micrometre.
+        assert_close(&what, worn.transmission_error_mm, meshed.transmission_error_mm, 1.5e-3);
         // Where pairs take over from each other, 0.02 µm of that softness are 1e-3 of the load.
         assert!((worn.load_share - meshed.load_share).abs() < 2e-3, "{what}: {worn:?} {meshed:?}");
         // The pressure is resolved to a per cent by 6 elements in a half-width; the mesh of the relieved tooth is another one.

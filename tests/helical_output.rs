@@ -299,11 +299,11 @@ fn a_spur_run_in_the_same_folder_takes_the_files_away() {
     run(folder.path(), &quick_helical());
     assert!(out.join("slices.csv").is_file() && out.join("flank.vtu").is_file());
     let spur = init(
-        "fzg-c",
+        "thesis-spur",
         &[
             ("flank_points = 750 ", "flank_points = 200 "),
             ("positions = 400 ", "positions = 60 "),
-            ("# step = { revolutions = 1000.0 }", "step = { revolutions = 100000.0 }"),
+            ("step = { revolutions = 7665.0 }", "step = { revolutions = 100000.0 }"),
             ("error_estimate = true ", "error_estimate = false "),
         ],
     );

@@ -90,13 +90,13 @@ fn what_is_wrong_with_the_table_is_said_with_what_is_allowed() {
 }
 
 #[test]
-fn a_run_does_not_use_the_table() {
+fn the_plan_says_what_a_run_uses_the_table_for() {
     let folder = tempfile::tempdir().unwrap();
     let mut command = Command::cargo_bin("gearwear").unwrap();
     command.current_dir(folder.path()).args(["plan", "-"]).write_stdin(scene("body = \"ring\"")).assert().success();
     let mut command = Command::cargo_bin("gearwear").unwrap();
     let assert = command.args(["plan", "-"]).write_stdin(scene("body = \"ring\"")).assert().success();
-    assert.stdout(predicate::str::contains("[fem] is not used"));
+    assert.stdout(predicate::str::contains("the stiffness of the teeth and the verification"));
 }
 
 #[test]

@@ -22,9 +22,18 @@ fn plan(exchange: &[(&str, &str)]) -> (Vec<&'static str>, Vec<&'static str>) {
 #[test]
 fn given_stiffness_needs_no_stiffness_stage() {
     let (stages, left_out) = plan(&[]);
-    assert_eq!(stages, ["geometry", "contact-match", "step-bound", "simulation", "error-estimates", "report"]);
-    let fem = ["finite-element-calibration", "finite-element-model"];
-    assert_eq!(left_out, [fem.as_slice(), &["tooth-stiffness", "helical-slices", "contact-temperature"]].concat());
+    let of_springs = ["contact-match", "step-bound", "simulation", "error-estimates"];
+    let stages_with = |model: &[&'static str], check: &[&'static str]| {
+        [&["geometry"], model, &of_springs[..], check, &["report"]].concat()
+    };
+    assert_eq!(stages, stages_with(&["finite-element-model"], &["verification"]));
+    let spring = ["tooth-stiffness", "helical-slices", "contact-temperature"];
+    assert_eq!(left_out, [&["finite-element-calibration"], &spring[..]].concat());
+    // Nothing else asks for finite elements.
+    let (stages, left_out) = plan(&[("error_estimate = true", "error_estimate = true\nverify = false")]);
+    assert_eq!(stages, stages_with(&[], &[]));
+    let fem = ["finite-element-model", "finite-element-calibration"];
+    assert_eq!(left_out, [&fem[..], &spring[..], &["verification"]].concat());
 }
 
 #[test]
@@ -85,7 +94,7 @@ fn json_for_scripts_and_text_for_people() {
     };
     let json: serde_json::Value = serde_json::from_slice(&gearwear("json").get_output().stdout).unwrap();
     assert_eq!(json["stages"][0]["name"], "geometry");
-    assert_eq!(json["left_out"][2]["name"], "tooth-stiffness");
-    assert!(json["left_out"][2]["reason"].as_str().unwrap().contains("20 N/(mm·µm)"));
+    assert_eq!(json["left_out"][1]["name"], "tooth-stiffness");
+    assert!(json["left_out"][1]["reason"].as_str().unwrap().contains("20 N/(mm·µm)"));
     gearwear("text").stdout(predicate::str::contains("Left out").and(predicate::str::contains("simulation")));
 }

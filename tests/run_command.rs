@@ -70,15 +70,26 @@ fn the_preset_runs_and_writes_everything_the_contract_names() {
     assert!((number("/pinion/peak_wear_um") / 7.3 - 1.0).abs() < 0.05);
     assert!((number("/pinion/worn_mass_mg") / number("/wheel/worn_mass_mg") - 1.0).abs() < 1e-3);
     assert!(number("/error/discretisation") < 5e-3 && number("/error/wear_step") < 5e-3);
-    // The pinion's greatest wear, by one mesh, is a few per cent off that on an elastic half-plane.
-    assert!(number("/error/surface_model") < 0.1 && number("/error/companions_cost") <= 0.5);
+    // With contact from A to E alone the thesis's model misses what finite elements find at the tip edges' mates.
+    assert!((0.1..0.4).contains(&number("/error/surface_model")), "{}", number("/error/surface_model"));
+    assert!(number("/error/total/profile/pinion") > 0.1 && number("/error/companions_cost") <= 0.5);
+    assert!(number("/wear_balance/new") < 3e-3 && number("/wear_balance/worn") < 3e-3);
     assert_eq!(summary["stopped"], "completed");
     let names = |list: &Value| -> Vec<String> {
         list.as_array().unwrap().iter().map(|stage| stage["name"].as_str().unwrap().to_owned()).collect()
     };
     assert_eq!(
         names(&summary["stages"]),
-        ["geometry", "contact-match", "step-bound", "simulation", "error-estimates", "report"]
+        [
+            "geometry",
+            "finite-element-model",
+            "contact-match",
+            "step-bound",
+            "simulation",
+            "error-estimates",
+            "verification",
+            "report"
+        ]
     );
     assert!(names(&summary["left_out"]).contains(&"helical-slices".to_owned()));
 

@@ -41,7 +41,12 @@ fn thesis_spur_is_the_model_of_the_thesis() {
     let resolved = resolve(presets::find("thesis-spur").unwrap().text);
     assert_eq!(resolved.warnings, [""; 0]);
     let scene = resolved.scene;
-    assert_eq!(scene.pair, resolve(LEAST).scene.pair, "FZG type C");
+    let mut broken = resolve(LEAST).scene.pair;
+    for gear in Gear::BOTH {
+        // The edges of fzg-c are broken, by assumption; the thesis's are not.
+        assert_eq!(std::mem::take(&mut broken.gears[gear].modification.tip_rounding_mm), 0.1);
+    }
+    assert_eq!(scene.pair, broken, "FZG type C");
     assert!(!scene.contact.tip_contact);
     assert_eq!(scene.operation.pinion_torque_n_mm, 302e3);
     assert_eq!(scene.operation.pinion_revolutions, 127.75 * 60.0 * 150.0);
@@ -68,8 +73,10 @@ fn defaults_are_those_of_the_contract() {
         );
     }
     assert_eq!(scene.pair.rack, gearwear::gear::spec::BasicRack::default());
-    assert_eq!(scene.contact.foundation, Foundation::Matched(MatchCriterion::HalfWidth));
-    assert_eq!(scene.stiffness, StiffnessSettings::WeberBanaschek);
+    assert_eq!(scene.contact.surface, SurfaceKind::HalfSpace);
+    assert!(scene.contact.tip_contact && scene.verify);
+    assert_eq!((scene.stiffness, scene.stiffness_by_default), (StiffnessSettings::Fem, true));
+    assert!(matches!(scene.numerics.stepping, Stepping::Adaptive { .. }));
     assert_eq!(scene.operation.snapshots_revolutions, [100.0, 200.0, 400.0, 800.0, 1600.0, 3200.0, 6400.0]);
     assert!(scene.numerics.error_estimate);
     assert_eq!(scene.title, "Gear pair 16/24, module 4.5 mm");

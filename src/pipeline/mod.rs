@@ -255,12 +255,6 @@ fn carry_out<R>(
     let at_pitch = hertz::flattening(&pair, &scene.material, pair.path.pitch_point_mm);
     let (base_radius, width) = (pair.path.involute.pinion.base_radius_mm, scene.pair.face_width_mm);
     let line_load = |phase: &Phase| phase.pinion_torque_n_mm / base_radius / width;
-    let mut cases: Vec<LoadCase<'_>> = Vec::new();
-    for phase in &scene.operation.phases {
-        if cases.iter().all(|case| case.line_load_n_per_mm != line_load(phase)) {
-            cases.push(load_case(scene, &pair, inputs, &at_pitch, line_load(phase), &mut stages)?);
-        }
-    }
     // One model of finite elements serves the stiffness of the teeth and the verification.
     let elements = match plan.has(StageKind::FiniteElementModel) && scene.contact.surface != SurfaceKind::Fem {
         true => Some(
@@ -270,6 +264,12 @@ fn carry_out<R>(
     };
     let (stiffness, computed, stiffness_warning) =
         own_stiffness(scene, plan, inputs, elements.as_ref(), &calibrate::setup(scene, &pair), &mut stages)?;
+    let mut cases: Vec<LoadCase<'_>> = Vec::new();
+    for phase in &scene.operation.phases {
+        if cases.iter().all(|case| case.line_load_n_per_mm != line_load(phase)) {
+            cases.push(load_case(scene, &pair, inputs, &at_pitch, line_load(phase), &mut stages)?);
+        }
+    }
     let curve = match (stiffness, &inputs.calibration) {
         (StiffnessSettings::Fem, Some(calibration)) => Some(&calibration.pair_compliance),
         (StiffnessSettings::Fem, None) => computed.as_ref(),

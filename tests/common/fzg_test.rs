@@ -100,12 +100,13 @@ impl Estimate {
         products.dedup();
         let (last, list) = (products[products.len() - 1], format!("{products:?}"));
         let Self { torque_nm, contact, numerics, band_mpa, .. } = self;
+        let within = if contact.contains("tip_contact") { "" } else { "tip_contact = false" };
         let text = format!(
             "[pair]\npreset = \"fzg-test\"\n[operation]\npinion_torque_Nm = {torque_nm:?}\npinion_revolutions = {last:?}\n\
-             snapshots_revolutions = {list}\n[contact]\n{contact}\n[stiffness]\nmodel = \"constant\"\npair_N_per_mm_um = 20.0\n\
+             snapshots_revolutions = {list}\n[contact]\n{contact}\n{within}\n[stiffness]\nmodel = \"constant\"\npair_N_per_mm_um = 20.0\n\
              [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n\
              severe = {{ above_MPa = 2000.0, factor = 100.0, band_MPa = {band_mpa:?} }}\n\
-             [numerics]\nerror_estimate = false\n{numerics}\n"
+             [numerics]\nerror_estimate = false\nverify = false\n{numerics}\n"
         );
         (text, products)
     }

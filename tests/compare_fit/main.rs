@@ -10,11 +10,12 @@ use laboratory::{Laboratory, Noise, POINTS, asked, wave};
 /// fzg-c at coarse resolution, with a wear coefficient and a severe factor above 1600 MPa.
 fn scene(coefficient: f64, severe_factor: f64) -> String {
     format!(
-        "[pair]\npreset = \"fzg-c\"\n[operation]\npinion_torque_Nm = 302.0\npinion_speed_rpm = 150.0\nhours = 127.75\n\
+        "[pair]\npreset = \"thesis-spur\"\n[operation]\npinion_torque_Nm = 302.0\npinion_speed_rpm = 150.0\nhours = 127.75\n\
+         [contact]\nsurface = \"winkler\"\ntip_contact = false\n\
          [stiffness]\nmodel = \"constant\"\npair_N_per_mm_um = 20.0\n\
          [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = {coefficient:e}\n\
          severe = {{ above_MPa = 1600.0, factor = {severe_factor:?}, band_MPa = 200.0 }}\n\
-         [numerics]\nflank_points = 200\npositions = 100\nstep = {{ revolutions = 19162.5 }}\nerror_estimate = false\n"
+         [numerics]\nflank_points = 200\npositions = 100\nstep = {{ revolutions = 19162.5 }}\nerror_estimate = false\nverify = false\n"
     )
 }
 
