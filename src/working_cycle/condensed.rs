@@ -140,7 +140,8 @@ impl<'a> CondensedCycle<'a> {
             let after = nodes.partition_point(|&node| node <= radius).clamp(1, nodes.len() - 1);
             let length = nodes[after] - nodes[after - 1];
             let weight = if length > 0.0 { ((radius - nodes[after - 1]) / length).clamp(0.0, 1.0) } else { 0.0 };
-            at_nodes[after - 1] + weight * (at_nodes[after] - at_nodes[after - 1])
+            // In this form no rounding lets a value fall while those of the nodes rise.
+            (1.0 - weight) * at_nodes[after - 1] + weight * at_nodes[after]
         };
         radius_mm.map(at).collect()
     }
