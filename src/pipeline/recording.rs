@@ -5,11 +5,11 @@ use super::{Model, RunError, drawing, error_estimates, phases, slices, stability
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::plan::Plan;
 use crate::scene::Resolved;
+use crate::simulation::error_record::ErrorSummary;
 use crate::simulation::figures::WearFigures;
 use crate::simulation::record::{
-    ContactSummary, CycleSummary, ErrorSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, MeshCycleRow,
-    PathPoints, RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary,
-    WorkSummary,
+    ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, MeshCycleRow, PathPoints,
+    RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary, WorkSummary,
 };
 use crate::simulation::wear_run::{Outcome, Snapshot};
 use crate::thermal::settings::TemperatureMethod;

@@ -6,6 +6,7 @@ pub mod advance;
 pub mod checkpoint;
 pub mod chemistry_record;
 pub mod compare_record;
+pub mod error_record;
 pub mod fem_pair_record;
 pub mod fem_problem_record;
 pub mod figures;

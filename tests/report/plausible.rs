@@ -2,6 +2,7 @@
 
 use gearwear::gear::{Gear, PerGear, flank_zones::FlankZones};
 use gearwear::simulation::chemistry_record::WearLawSummary;
+use gearwear::simulation::error_record::*;
 use gearwear::simulation::record::*;
 use gearwear::wear::regime::Regime;
 

@@ -15,8 +15,8 @@ mod wear_runs;
 use super::Model;
 use crate::gear::PerGear;
 use crate::simulation::{
+    error_record::{ErrorSources, ErrorSummary},
     figures::WearFigures,
-    record::{ErrorSources, ErrorSummary},
     wear_run::{Outcome, Progress},
 };
 use crate::working_cycle::{settings::SliceSettings, sliced_teeth::SlicedTeeth};

@@ -5,7 +5,8 @@ use super::number::{change, figure, fixed, percent, significant};
 use super::page::escape;
 use super::sliced;
 use super::table::{Row, row, table};
-use crate::simulation::record::{ErrorSummary, GearSummary, RunRecord, Summary, WearSummary};
+use crate::simulation::error_record::ErrorSummary;
+use crate::simulation::record::{GearSummary, RunRecord, Summary, WearSummary};
 
 /// All tables, in the order of the page.
 pub fn tables(record: &RunRecord) -> String {

@@ -1,0 +1,77 @@
+//! What a run says of its own error: how far it is from the same life on finite elements, and the estimates of its companions.
+
+use serde::Serialize;
+
+/// How far the run is from the same life on finite elements, whose own uncertainty is added; relative. `None`: not known, and `how` says
+/// why.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct TotalError {
+    /// Of the wear over each flank, root mean square over that of the flank.
+    pub profile: ErrorPerGear,
+    /// Of each gear's greatest wear.
+    pub peak_wear: ErrorPerGear,
+    /// Of the worn pair.
+    pub transmission_error_peak_to_peak: Option<f64>,
+    /// Of the greatest pressure of the worn pair at positions between the tip edges, root mean square.
+    pub pressure_between_tips: Option<f64>,
+    /// How it was obtained, or why it was not.
+    pub how: String,
+}
+
+/// A relative error of each gear.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct ErrorPerGear {
+    /// The pinion's.
+    pub pinion: Option<f64>,
+    /// The wheel's.
+    pub wheel: Option<f64>,
+}
+
+impl TotalError {
+    /// It is not known, for this reason.
+    pub fn none(reason: &str) -> Self {
+        Self { how: format!("not verified: {reason}"), ..Self::default() }
+    }
+}
+
+/// Relative error estimates of the peak wear; `None`: not estimated.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct ErrorSummary {
+    /// Against the same life on finite elements.
+    pub total: TotalError,
+    /// From the spacing of flank points and positions.
+    pub discretisation: Option<f64>,
+    /// From the length of the wear step.
+    pub wear_step: Option<f64>,
+    /// From the contact surface and the stiffness of the teeth: difference to the same life on finite elements; of both gears the larger.
+    pub surface_model: Option<f64>,
+    /// Between a hard switch to severe wear and one over a band; `None` where no wear is severe. Not an error but a choice of the scene.
+    pub severe_switch: Option<f64>,
+    /// What the estimates cost over what the run itself did, counted in equilibria weighted by their time.
+    pub companions_cost: Option<f64>,
+    /// How each was obtained, or why it was not.
+    pub how: ErrorSources,
+}
+
+impl ErrorSummary {
+    /// Nothing was estimated, for this reason.
+    pub fn not_estimated(reason: &str) -> Self {
+        let how = ErrorSources {
+            discretisation: format!("not estimated: {reason}"),
+            wear_step: format!("not estimated: {reason}"),
+            surface_model: format!("not estimated: {reason}"),
+            severe_switch: format!("not estimated: {reason}"),
+        };
+        Self { how, ..Self::default() }
+    }
+}
+
+/// How the error estimates were obtained.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[allow(missing_docs, reason = "named as in ErrorSummary")]
+pub struct ErrorSources {
+    pub discretisation: String,
+    pub wear_step: String,
+    pub surface_model: String,
+    pub severe_switch: String,
+}
