@@ -164,6 +164,11 @@ impl<'a> MeshedPair<'a> {
         self.touch_mm + self.whole_depth_mm()
     }
 
+    /// The least change of depth that rounding leaves a meaning: that of the parts, which may nearly cancel in their sum.
+    pub(super) fn least_step_mm(&self) -> f64 {
+        8.0 * f64::EPSILON * self.touch_mm.abs().max(self.depth_mm.abs()).max(self.whole_depth_mm().abs())
+    }
+
     /// How much more this pair has approached than `other`; without loss where both touch at the same approach.
     fn ahead_of(&self, other: &Self) -> f64 {
         (self.touch_mm - other.touch_mm) + (self.whole_depth_mm() - other.whole_depth_mm())
@@ -259,7 +264,7 @@ pub fn balance(
         let settled = pairs.iter().all(|pair| {
             let step = step(pair, &pairs[0]).abs();
             step * pair.teeth_n_per_mm2.max(pair.response.stiffness_n_per_mm2) <= TOLERANCE * line_load
-                || step <= 8.0 * f64::EPSILON * pair.whole_approach_mm().abs().max(pairs[0].whole_approach_mm().abs())
+                || step <= pair.least_step_mm().max(pairs[0].least_step_mm())
         });
         if settled && (load - line_load).abs() <= TOLERANCE * line_load {
             let transmission_error_mm = pairs[0].whole_approach_mm() + beyond_first;

@@ -74,8 +74,7 @@ pub fn balance_on_teeth(
             let pair = &pairs[k];
             let step = step(pair, deflection_mm).abs();
             let stiffest = pair.response.stiffness_n_per_mm2.max(1.0 / mm2_per_n);
-            let least = 8.0 * f64::EPSILON * approach_mm(pair, base_mm).abs().max(delta_mm.abs());
-            settled &= step * stiffest <= tolerance * line_load || step <= least;
+            settled &= step * stiffest <= tolerance * line_load || step <= pair.least_step_mm();
             greatest = greatest.max(step * stiffest);
         }
         if settled {
