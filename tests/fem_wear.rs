@@ -246,3 +246,53 @@ fn ver_nodes_of_the_nominal_flank_stand_for_themselves() {
         }
     }
 }
+
+/// A flank that turns by θ turns the load on it, whose lever on the pinion is r_b + θ ρ: the surface there moves along itself by ρ/r_b of
+/// what the base circle moves.
+#[test]
+fn ver_tilt_changes_the_lever_by_the_radius_of_curvature() {
+    let pair = pair(&fzg_c());
+    let model = condensed(&pair, 6.0);
+    let path = &pair.path;
+    // Both pairs above the pitch point, or both below it: their multipliers are on flanks of one gear.
+    for (position_mm, tilted) in [(path.start_mm + 2.0, Gear::Wheel), (path.end_mm - 2.0, Gear::Pinion)] {
+        let mut prepared = model.prepare(position_mm, line_load(&pair));
+        let found = model.solve(&mut prepared, &mut |_, _| {}).expect("the contact is found");
+        let pairs = model.tooth_pairs(&prepared, &found);
+        let theta = 1e-3;
+        let change = prepared.lever_change(&found.force, |gear, _| if gear == tilted { theta } else { 0.0 });
+        let of_pair = |ahead: i32| {
+            let own = pairs.iter().find(|own| own.pair == ahead).expect("the pair is in contact");
+            let rho_mm = path.rho_mm(Gear::Pinion, position_mm + f64::from(ahead) * path.base_pitch_mm);
+            let others = 1.0 - own.line_load_n_per_mm / line_load(&pair);
+            theta * rho_mm / path.involute.pinion.base_radius_mm * others
+        };
+        let on_tilted = pairs.iter().filter(|own| own.slave == tilted).map(|own| of_pair(own.pair));
+        assert_close("change of the lever", change, on_tilted.fold(0.0, f64::max), 5e-3);
+    }
+}
+
+/// Flanks tilted alike everywhere: the transmission error changes with the tilt, and with its sign, and the load is carried with the lever
+/// that the tilted flanks have.
+#[test]
+fn ver_tilt_keeps_the_load_and_acts_in_proportion() {
+    let pair = pair(&fzg_c());
+    let model = condensed(&pair, 6.0);
+    let position_mm = pair.path.start_mm + 2.0;
+    let transmission_error_mm = |theta: f64| {
+        let mut prepared = model.prepare(position_mm, line_load(&pair));
+        model.tilt(&mut prepared, |_, _| theta);
+        let found = model.solve(&mut prepared, &mut |_, _| {}).expect("the contact is found");
+        (found.rigid[0], model.tooth_pairs(&prepared, &found).iter().map(|own| own.line_load_n_per_mm).sum::<f64>())
+    };
+    let (level, _) = transmission_error_mm(0.0);
+    let (clockwise, carried) = transmission_error_mm(2e-3);
+    let (anticlockwise, _) = transmission_error_mm(-2e-3);
+    assert_close("line load", carried, line_load(&pair), 1e-9);
+    let slope = (clockwise - anticlockwise) / 4e-3;
+    assert!(
+        (clockwise + anticlockwise - 2.0 * level).abs() < 2e-2 * (clockwise - anticlockwise).abs(),
+        "{level} {clockwise}"
+    );
+    assert!(slope.abs() > 1e-3 * level, "{slope}");
+}

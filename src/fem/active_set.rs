@@ -22,7 +22,7 @@
 //! Oper. Res.* 21 (1994) 587–596 (block principal pivoting and its backup).
 
 use faer::linalg::solvers::{Llt, Solve};
-use faer::{Mat, Side};
+use faer::{Mat, MatRef, Side};
 
 /// Full exchanges without a fall of the number of wrong signs before single exchanges take over.
 const PATIENCE: usize = 8;
@@ -111,6 +111,24 @@ pub enum ActiveSetError {
     NotFinite,
 }
 
+/// L Lᵀ x = b, for one side and few unknowns, where a blocked solution takes longer to begin than to end.
+fn solve_in_place(factor: &Llt<f64>, b: &mut [f64]) {
+    let l = factor.L();
+    for j in 0..b.len() {
+        let column = column(l, j);
+        b[j] /= column[j];
+        let x = b[j];
+        for (b, l) in b[j + 1..].iter_mut().zip(&column[j + 1..]) {
+            *b -= l * x;
+        }
+    }
+    for j in (0..b.len()).rev() {
+        let column = column(l, j);
+        let below: f64 = column[j + 1..].iter().zip(&b[j + 1..]).map(|(l, x)| l * x).sum();
+        b[j] = (b[j] - below) / column[j];
+    }
+}
+
 /// What solutions with the same compliance and rigid motions share.
 #[derive(Debug, Clone)]
 pub struct Kept {
@@ -125,6 +143,8 @@ struct FactoredSet {
     active: Vec<bool>,
     members: Vec<usize>,
     factor: Llt<f64>,
+    /// C⁻¹ applied to the columns of G.
+    by_motion: Mat<f64>,
 }
 
 struct Trial {
@@ -234,7 +254,8 @@ impl Condensed {
     }
 
     fn is_finite(&self) -> bool {
-        let finite = |matrix: &Mat<f64>| (0..matrix.ncols()).all(|j| column(matrix, j).iter().all(|v| v.is_finite()));
+        let finite =
+            |matrix: &Mat<f64>| (0..matrix.ncols()).all(|j| column(matrix.as_ref(), j).iter().all(|v| v.is_finite()));
         finite(&self.compliance) && finite(&self.rigid)
     }
 
@@ -272,28 +293,26 @@ impl Condensed {
                 self.factored(active)?
             }
         };
-        let FactoredSet { members, factor, .. } = &*factored.insert(set);
-        let (k, m) = (members.len(), self.rigid_load.len());
-        // C⁻¹ applied to −g⁰ and to the columns of G.
-        let mut sides = Mat::from_fn(k, m + 1, |i, j| match j {
-            0 => -self.gap_mm[members[i]],
-            _ => self.rigid[(members[i], j - 1)],
-        });
-        factor.solve_in_place(sides.as_mut());
-        let product = |j: usize, a: usize| -> f64 { (0..k).map(|i| self.rigid[(members[i], a)] * sides[(i, j)]).sum() };
-        let s = nalgebra::DMatrix::from_fn(m, m, |a, b| product(b + 1, a));
-        let load = nalgebra::DVector::from_fn(m, |a, _| product(0, a) - self.rigid_load[a]);
+        let FactoredSet { members, factor, by_motion, .. } = &*factored.insert(set);
+        let m = self.rigid_load.len();
+        let mut by_gap: Vec<f64> = members.iter().map(|&member| -self.gap_mm[member]).collect();
+        solve_in_place(factor, &mut by_gap);
+        let product = |a: usize, of: &dyn Fn(usize) -> f64| -> f64 {
+            members.iter().enumerate().map(|(i, &member)| self.rigid[(member, a)] * of(i)).sum()
+        };
+        let s = nalgebra::DMatrix::from_fn(m, m, |a, b| product(a, &|i| by_motion[(i, b)]));
+        let load = nalgebra::DVector::from_fn(m, |a, _| product(a, &|i| by_gap[i]) - self.rigid_load[a]);
         let (alpha, loose) = held_motion(&s, &load, resistance);
         let mut force = vec![0.0; active.len()];
         for (i, &member) in members.iter().enumerate() {
-            force[member] = sides[(i, 0)] - (0..m).map(|a| sides[(i, a + 1)] * alpha[a]).sum::<f64>();
+            force[member] = by_gap[i] - (0..m).map(|a| by_motion[(i, a)] * alpha[a]).sum::<f64>();
         }
         let mut gap_mm = self.gap_mm.clone();
         for &member in members {
-            add_scaled(&mut gap_mm, column(&self.compliance, member), force[member]);
+            add_scaled(&mut gap_mm, column(self.compliance.as_ref(), member), force[member]);
         }
         for (a, alpha) in alpha.iter().enumerate() {
-            add_scaled(&mut gap_mm, column(&self.rigid, a), *alpha);
+            add_scaled(&mut gap_mm, column(self.rigid.as_ref(), a), *alpha);
         }
         for &member in members {
             gap_mm[member] = 0.0;
@@ -307,7 +326,7 @@ impl Condensed {
         let k = members.len();
         let mut c = Mat::<f64>::zeros(k, k);
         for (j, &member) in members.iter().enumerate() {
-            let whole = column(&self.compliance, member);
+            let whole = column(self.compliance.as_ref(), member);
             // The factor reads the lower triangle alone.
             for (entry, &i) in column_mut(&mut c, j)[j..].iter_mut().zip(&members[j..]) {
                 *entry = whole[i];
@@ -317,7 +336,9 @@ impl Condensed {
             let faer::linalg::solvers::LltError::NonPositivePivot { index } = error;
             ActiveSetError::NotPositiveDefinite { index: members[index.min(k - 1)] }
         })?;
-        Ok(FactoredSet { active: active.to_vec(), members, factor })
+        let mut by_motion = Mat::from_fn(k, self.rigid_load.len(), |i, a| self.rigid[(members[i], a)]);
+        factor.solve_in_place(by_motion.as_mut());
+        Ok(FactoredSet { active: active.to_vec(), members, factor, by_motion })
     }
 
     /// Active multipliers that pull and others that overlap.
@@ -334,7 +355,7 @@ impl Condensed {
 }
 
 /// A column of a matrix that is stored column by column, as all here are.
-fn column(matrix: &Mat<f64>, j: usize) -> &[f64] {
+fn column(matrix: MatRef<'_, f64>, j: usize) -> &[f64] {
     matrix.col(j).try_as_col_major().map_or(&[], |column| column.as_slice())
 }
 

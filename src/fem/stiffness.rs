@@ -106,6 +106,27 @@ impl Stiffness {
         force
     }
 
+    /// The columns of `dofs`, which are also the rows: their entries as (degree of freedom, N/mm per mm).
+    pub fn columns(&self, dofs: &[u32]) -> Vec<Vec<(u32, f64)>> {
+        let mut place = vec![u32::MAX; self.dofs()];
+        (0..).zip(dofs).for_each(|(k, dof)| place[*dof as usize] = k);
+        let mut found = vec![Vec::new(); dofs.len()];
+        let mut note = |dof: u32, other: u32, value: f64| {
+            if let Some(column) = found.get_mut(place[dof as usize] as usize) {
+                column.push((other, value));
+            }
+        };
+        for (j, column) in (0..).zip(self.matrix.outer_iterator()) {
+            for (i, value) in column.iter() {
+                note(j, i as u32, *value);
+                if i as u32 != j {
+                    note(i as u32, j, *value);
+                }
+            }
+        }
+        found
+    }
+
     fn assemble(&mut self, solid: &Solid, materials: &[Elastic], patches: &[Patch]) -> Result<(), ElementError> {
         let d_mpa: Vec<_> = materials.iter().map(|material| material.stiffness_mpa(self.analysis)).collect();
         let plane_strain = self.analysis == Analysis::PlaneStrain;

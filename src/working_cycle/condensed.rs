@@ -26,6 +26,7 @@ use crate::fem::gear::load_transfer::LoadTransfer;
 use crate::fem::gear::model::hertz_half_width_mm;
 use crate::fem::gear::position::CondensedPair;
 use crate::fem::gear::prepared::Prepared;
+use crate::fem::gear::tilted::Worn;
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 use crate::reference::monotone_cubic::MonotoneCubic;
 use crate::thermal::{ContactHeat, SpeedRatios};
@@ -52,6 +53,14 @@ const AMPLE_APPROACH: f64 = 1.3;
 /// How far within A–E a contact still feels the tip edge, in Hertz half-widths at the pitch point.
 const WITHIN_HALF_WIDTHS: f64 = 2.0;
 
+/// By how much of itself the lever of a tooth pair's load may differ from that on the worn flanks, over the part of the load that other
+/// pairs carry: a load share changes by some three times that.
+const LEAST_LEVER_CHANGE: f64 = 1e-3;
+/// By how much, in rad and over the tilt itself, a tip edge under load may have tilted since.
+const LEAST_TILT: (f64, f64) = (0.02, 0.2);
+/// Times that a position is made to follow its tilted flanks before its contact is taken as it is.
+const MOST_TILTS: usize = 3;
+
 /// One position and how its load reaches the nodes.
 struct Station {
     prepared: Prepared,
@@ -61,6 +70,8 @@ struct Station {
     transfers: Vec<LoadTransfer>,
     /// For how many looks that holds.
     looks: usize,
+    /// The tilt of the worn flanks that it is about; new ones if there is none.
+    about_rad: Option<PerGear<Vec<f64>>>,
     found: Option<Equilibrium>,
 }
 
@@ -203,7 +214,9 @@ impl MeshCycle for CondensedCycle<'_> {
         depth_mm: &mut PerGear<Vec<f64>>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
-        let step = Step { model: self.model, lost_mm: lost.wear_mm, nodes: self.nodes.as_ref(), wear, stopped };
+        let tilt_rad = PerGear::from_fn(|gear| self.nodes[gear].tilt_rad(lost.wear_mm[gear]));
+        let worn = Worn { depth_mm: lost.wear_mm, tilt_rad: &tilt_rad };
+        let step = Step { model: self.model, worn, nodes: self.nodes.as_ref(), wear, stopped };
         self.groups.par_iter_mut().for_each(|group| group.evaluate(&step));
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
@@ -213,9 +226,8 @@ impl MeshCycle for CondensedCycle<'_> {
         self.groups.par_iter_mut().flat_map(|group| &mut group.stations).for_each(|station| {
             model.forget(&mut station.prepared);
             station.found = None;
-            if station.looks != station.prepared.looks() {
-                station.transfers = model.load_transfers(&station.prepared, station.stretch_mm, nodes);
-                station.looks = station.prepared.looks();
+            if station.looks != station.prepared.looks() || station.about_rad.is_some() {
+                station.look(model, nodes);
             }
         });
     }
@@ -329,8 +341,7 @@ impl CondensedCycle<'_> {
 /// What the evaluation of a wear step is made of.
 struct Step<'a> {
     model: &'a CondensedPair<'a>,
-    /// At the nodes.
-    lost_mm: PerGear<&'a [f64]>,
+    worn: Worn<'a>,
     nodes: PerGear<&'a FlankNodes>,
     wear: &'a WearModel<'a>,
     stopped: &'a (dyn Fn() -> bool + Sync),
@@ -357,32 +368,75 @@ impl Station {
         nodes: PerGear<&FlankNodes>,
     ) -> Self {
         let prepared = model.prepare(stretch_mm.0.midpoint(stretch_mm.1), line_load_n_per_mm);
-        let transfers = model.load_transfers(&prepared, stretch_mm, nodes);
-        let looks = prepared.looks();
-        Self { prepared, stretch_mm, transfers, looks, found: None }
+        let mut station = Self { prepared, stretch_mm, transfers: Vec::new(), looks: 0, about_rad: None, found: None };
+        station.look(model, nodes);
+        station
+    }
+
+    /// Reckons with new flanks where it looks now.
+    fn look(&mut self, model: &CondensedPair<'_>, nodes: PerGear<&FlankNodes>) {
+        self.transfers = model.load_transfers(&self.prepared, self.stretch_mm, nodes, None);
+        (self.looks, self.about_rad) = (self.prepared.looks(), None);
     }
 
     fn solve(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
+        let mut work = Work { equilibria: 1, ..Work::default() };
+        for tilts in 0..=MOST_TILTS {
+            let found = self.solve_as_reckoned(step)?;
+            let iterations = found.log.steps.len() as u64;
+            work.newton_iterations += iterations;
+            work.pair_evaluations += iterations * self.prepared.tooth_pairs() as u64;
+            let follows = tilts < MOST_TILTS && self.follow_tilt(step, &found);
+            self.found = Some(found);
+            if !follows {
+                break;
+            }
+        }
+        Ok(work)
+    }
+
+    /// The contact on the flanks as they are, in the directions that the position was made for.
+    fn solve_as_reckoned(&mut self, step: &Step<'_>) -> Result<Equilibrium, EquilibriumError> {
         let position_mm = self.prepared.position_mm;
-        let Self { prepared, stretch_mm, transfers, looks, found } = self;
+        let Self { prepared, stretch_mm, transfers, looks, about_rad, .. } = self;
         let mut opening = |prepared: &Prepared, gap_mm: &mut [f64]| {
             if *looks != prepared.looks() {
-                *transfers = step.model.load_transfers(prepared, *stretch_mm, step.nodes);
-                *looks = prepared.looks();
+                *transfers = step.model.load_transfers(prepared, *stretch_mm, step.nodes, None);
+                (*looks, *about_rad) = (prepared.looks(), None);
             }
-            transfers.iter().for_each(|contact| contact.open_gaps(step.lost_mm, gap_mm));
+            transfers.iter().for_each(|contact| contact.open_gaps(step.worn.depth_mm, gap_mm));
         };
-        let solved = step
-            .model
-            .solve(prepared, &mut opening)
-            .map_err(|source| EquilibriumError::Contact { position_mm, source })?;
-        let iterations = solved.log.steps.len() as u64;
-        *found = Some(solved);
-        Ok(Work {
-            mesh_cycles: 0,
-            equilibria: 1,
-            newton_iterations: iterations,
-            pair_evaluations: iterations * self.prepared.tooth_pairs() as u64,
+        let solved = step.model.solve(prepared, &mut opening);
+        solved.map_err(|source| EquilibriumError::Contact { position_mm, source })
+    }
+
+    /// Makes the position follow its worn flanks where the load acts in another direction, or on a tip edge worn to another shape, than
+    /// it was made for; answers whether there is anything to follow.
+    fn follow_tilt(&mut self, step: &Step<'_>, found: &Equilibrium) -> bool {
+        let tilt_rad = |gear: Gear, node: usize| step.worn.tilt_rad[gear][step.nodes[gear].place[node]];
+        let turns = self.prepared.lever_change(&found.force, tilt_rad) > LEAST_LEVER_CHANGE;
+        if turns {
+            step.model.tilt(&mut self.prepared, tilt_rad);
+        }
+        let reshapes = self.has_reshaped(step, found);
+        if reshapes {
+            self.transfers = step.model.load_transfers(&self.prepared, self.stretch_mm, step.nodes, Some(step.worn));
+            self.about_rad = Some(step.worn.tilt_rad.clone());
+        }
+        turns || reshapes
+    }
+
+    /// Whether a tip edge under load has another shape.
+    fn has_reshaped(&self, step: &Step<'_>, found: &Equilibrium) -> bool {
+        self.transfers.iter().any(|contact| {
+            let mate = contact.slave.mate();
+            let force = &found.force[contact.first_row..contact.first_row + contact.len()];
+            let [turn, tilt] = contact.mean_on(mate, force, |place| {
+                let now = step.worn.tilt_rad[mate][place];
+                let known = self.about_rad.as_ref().map_or(0.0, |about| about[mate][place]);
+                [(now - known).abs(), now.abs()]
+            });
+            turn > LEAST_TILT.0.max(LEAST_TILT.1 * tilt)
         })
     }
 

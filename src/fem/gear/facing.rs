@@ -22,6 +22,15 @@ const FREE_ROWS: usize = 3;
 /// Parts of a base pitch before A and after E in which contact outside the line of action is looked for.
 pub const OUTSIDE_BASE_PITCHES: f64 = 0.3;
 
+/// Which way a displacement of the flanks is looked at.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Direction {
+    /// Along the normals: what opens gaps.
+    AcrossFlank,
+    /// From root to tip.
+    AlongFlank,
+}
+
 /// How far around the expected contact multipliers are looked for.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Window {
@@ -52,6 +61,8 @@ pub(super) struct Facing {
     pub pinion_axis_mm: Vector2<f64>,
     /// Whether the window's ends are inner ones: towards the tip, towards the root.
     pub inner_ends: (bool, bool),
+    /// Its rows from tip to root.
+    pub from_tip: Vec<usize>,
     pub first_row: usize,
 }
 
@@ -100,6 +111,9 @@ impl CondensedPair<'_> {
         if coupling.is_empty() {
             return None;
         }
+        let from_tip_mm = |row: &usize| self.flanks[slave].from_tip_mm[coupling.nodes[*row]];
+        let mut from_tip: Vec<usize> = (0..coupling.len()).collect();
+        from_tip.sort_by(|a, b| from_tip_mm(a).total_cmp(&from_tip_mm(b)));
         let of_master = turned(&coupling.master, turn.inverse());
         let operator = match slave {
             Gear::Pinion => PerGear { pinion: coupling.slave.clone(), wheel: of_master },
@@ -118,6 +132,7 @@ impl CondensedPair<'_> {
             expected_mm: expected[slave],
             pinion_axis_mm: from_slave(axis_mm(self.pair, Gear::Pinion)),
             inner_ends,
+            from_tip,
             first_row: 0,
         })
     }
@@ -145,17 +160,28 @@ impl CondensedPair<'_> {
         }
     }
 
-    /// Change of each gap of a pair per transmission error.
-    pub(super) fn by_rotation<'b>(&'b self, facing: &'b Facing) -> impl Iterator<Item = f64> + 'b {
-        let turned = |row: sprs::CsVecView<'_, f64>| row.iter().map(|(column, b)| b * self.rotation(column)).sum();
+    /// Change of each gap of a pair, or of its place along the flank from root to tip, per transmission error.
+    pub(super) fn by_rotation<'b>(
+        &'b self,
+        facing: &'b Facing,
+        direction: Direction,
+    ) -> impl Iterator<Item = f64> + 'b {
+        let turned = move |row: sprs::CsVecView<'_, f64>| {
+            row.iter().map(|(column, b)| b * self.rotation(column, direction)).sum()
+        };
         facing.operator.pinion.outer_iterator().map(turned)
     }
 
-    /// Displacement of a candidate column of the pinion per transmission error.
-    fn rotation(&self, column: usize) -> f64 {
+    /// Displacement of a candidate column of the pinion per transmission error, `direction` being that of the column's normal.
+    fn rotation(&self, column: usize, direction: Direction) -> f64 {
         let point = self.flanks.pinion.surface.points_mm[column / 2];
         let r_b = self.pair.path.involute.pinion.base_radius_mm;
-        if column.is_multiple_of(2) { -point.y / r_b } else { point.x / r_b }
+        let [x, y] = match direction {
+            Direction::AcrossFlank => [-point.y, point.x],
+            // Along R(−90°) n.
+            Direction::AlongFlank => [-point.x, -point.y],
+        };
+        if column.is_multiple_of(2) { x / r_b } else { y / r_b }
     }
 }
 
@@ -167,18 +193,16 @@ impl Facing {
     }
 
     /// Whether load comes close to an inner end of the window, so that it may have been cut off.
-    pub fn is_cramped(&self, force: &[f64], slave: &FlankSurface) -> bool {
-        let from_tip = |row: usize| slave.from_tip_mm[self.coupling.nodes[row]];
-        let mut rows: Vec<usize> = (0..self.coupling.len()).collect();
-        rows.sort_by(|&a, &b| from_tip(a).total_cmp(&from_tip(b)));
+    pub fn is_cramped(&self, force: &[f64]) -> bool {
         let loaded = |row: &usize| force[self.first_row + row] > 0.0;
-        let (first, last) = (rows.iter().take(FREE_ROWS), rows.iter().rev().take(FREE_ROWS));
-        (self.inner_ends.0 && first.clone().any(loaded)) || (self.inner_ends.1 && last.clone().any(loaded))
+        let rows = &self.from_tip;
+        let (mut first, mut last) = (rows.iter().take(FREE_ROWS), rows.iter().rev().take(FREE_ROWS));
+        (self.inner_ends.0 && first.any(loaded)) || (self.inner_ends.1 && last.any(loaded))
     }
 }
 
 /// B with each pair of columns turned into another frame.
-fn turned(operator: &CsMat<f64>, turn: Rotation2<f64>) -> CsMat<f64> {
+pub(super) fn turned(operator: &CsMat<f64>, turn: Rotation2<f64>) -> CsMat<f64> {
     let mut triplets = sprs::TriMat::new(operator.shape());
     for (i, row) in operator.outer_iterator().enumerate() {
         for (column, value) in row.iter() {

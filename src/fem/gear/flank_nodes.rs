@@ -14,6 +14,9 @@ use super::flank_surface::FlankSurface;
 /// The part of an edge from a corner node that the corner's multiplier carries: ∫ψ of a quadratic edge is 1/6, 4/6 and 1/6 of it.
 const CORNER_SHARE: f64 = 1.0 / 6.0;
 
+/// Nodes to either side over which a slope is taken: those of an edge.
+const NODES_TO_A_SIDE: usize = 2;
+
 /// Nodes of one flank, from root to tip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlankNodes {
@@ -108,6 +111,23 @@ impl FlankNodes {
         let begin = if from_mm < low { 0 } else { first };
         let end = if to_mm > high { last } else { k.min(last) };
         begin..end + 1
+    }
+
+    /// How far depths at the nodes tilt the profile there, rad: dh/ds from root to tip, over an element to either side, so that waves
+    /// between neighbouring nodes are no tilt.
+    pub fn tilt_rad(&self, depth_mm: &[f64]) -> Vec<f64> {
+        let slope = |place: usize| {
+            let (from, to) = (place.saturating_sub(NODES_TO_A_SIDE), (place + NODES_TO_A_SIDE).min(self.len() - 1));
+            (depth_mm[to] - depth_mm[from]) / (self.along_mm[to] - self.along_mm[from])
+        };
+        (0..self.len()).map(slope).collect()
+    }
+
+    /// Depth at a place of the flank, mm.
+    pub fn depth_at_mm(&self, along_mm: f64, depth_mm: &[f64]) -> f64 {
+        let k = self.along_mm.partition_point(|&x| x <= along_mm).clamp(1, self.len() - 1);
+        let t = ((along_mm - self.along_mm[k - 1]) / (self.along_mm[k] - self.along_mm[k - 1])).clamp(0.0, 1.0);
+        (1.0 - t) * depth_mm[k - 1] + t * depth_mm[k]
     }
 
     /// ∫ h ds of depths at the nodes, mm².

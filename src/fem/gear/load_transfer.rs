@@ -13,6 +13,10 @@
 //! of a surface seen askew. Both flanks lose what the contact gives, whatever the nodes, the multipliers or the positions, and as
 //! one rule is the transpose of the other, wear levels out what it can see: waves of wear decay or stay as they are, and none grows.
 //!
+//! All this is about the flanks as they are new, or about worn ones ([`super::tilted`]): then n_k · n_i is that of the worn flank, and what
+//! the gaps differ by from the rule at that wear is added to them. A tip edge whose wear tilts it by a tenth touches elsewhere on its
+//! rounding, where the rule for new flanks is off by a hundredth of the depth.
+//!
 //! Both flanks slide on each other at
 //!
 //! ```text
@@ -29,6 +33,7 @@ use super::flank_nodes::{FlankNodes, Weights};
 use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
 use super::position::CondensedPair;
 use super::prepared::Prepared;
+use super::tilted::Worn;
 use crate::gear::{Gear, PerGear};
 
 /// Most parts into which the movement of a contact is divided.
@@ -41,6 +46,8 @@ const LEAST_COSINE: f64 = 0.3;
 pub struct LoadTransfer {
     /// Base pitches by which the pair is ahead of the reference pair.
     pub pair: i32,
+    /// The gear whose flank has the multipliers.
+    pub slave: Gear,
     /// Its first row among the multipliers of the position.
     pub first_row: usize,
     /// w_i of each row, mm.
@@ -51,6 +58,8 @@ pub struct LoadTransfer {
     pub along_mm: Vec<f64>,
     /// M for each gear.
     pub means: PerGear<Means>,
+    /// What the gap of each row differs by from the rule at the wear that it is about, mm.
+    beyond_rule_mm: Vec<f64>,
 }
 
 /// M_ik of one flank: row by row, consecutive nodes.
@@ -73,6 +82,7 @@ impl Means {
     }
 
     /// M_ik of row `i`.
+    #[inline]
     pub fn row(&self, i: usize) -> Weights<'_> {
         let begin = if i > 0 { self.ends[i - 1] } else { 0 };
         Weights { first: self.first[i], weights: &self.weights[begin..self.ends[i]] }
@@ -100,8 +110,23 @@ impl LoadTransfer {
     /// Adds to the gaps of the position's rows what flanks that have lost `depth_mm` at their nodes open them by.
     pub fn open_gaps(&self, depth_mm: PerGear<&[f64]>, gap_mm: &mut [f64]) {
         for (i, gap) in gap_mm[self.first_row..self.first_row + self.len()].iter_mut().enumerate() {
-            *gap += self.means.pinion.opening_mm(i, depth_mm.pinion) + self.means.wheel.opening_mm(i, depth_mm.wheel);
+            let opening_mm = |gear: Gear| self.means[gear].opening_mm(i, depth_mm[gear]);
+            *gap += opening_mm(Gear::Pinion) + opening_mm(Gear::Wheel) + self.beyond_rule_mm[i];
         }
+    }
+
+    /// Means over a load of `force` on the rows of what each node of `gear` is.
+    pub fn mean_on<const N: usize>(&self, gear: Gear, force: &[f64], at_node: impl Fn(usize) -> [f64; N]) -> [f64; N] {
+        let (mut sums, mut whole) = ([0.0; N], 0.0);
+        for (i, &force) in force.iter().enumerate().filter(|(_, force)| **force > 0.0) {
+            let Weights { first, weights } = self.means[gear].row(i);
+            whole += force;
+            for (k, m) in weights.iter().enumerate().filter(|(_, m)| **m > 0.0) {
+                let own = at_node(first + k);
+                sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += force * m * own);
+            }
+        }
+        sums.map(|sum| sum / whole)
     }
 
     /// Adds to the depths at the nodes of a flank what the rows lose: `depth_mm` each.
@@ -125,7 +150,9 @@ impl LoadTransfer {
 struct Foot {
     /// Distance from the master's root end, mm.
     along_mm: f64,
-    /// n · −n_m.
+    /// Across the gap, mm.
+    gap_mm: f64,
+    /// n · −n_m; on a worn flank over that of its normal with the new one's.
     cosine: f64,
 }
 
@@ -142,15 +169,16 @@ impl CondensedPair<'_> {
     }
 
     /// How each tooth pair that may touch at a position hands its load over, with the position standing for the path from
-    /// `stretch_mm.0` to `stretch_mm.1`.
+    /// `stretch_mm.0` to `stretch_mm.1`; about the `worn` flanks where there are such.
     pub fn load_transfers(
         &self,
         prepared: &Prepared,
         stretch_mm: (f64, f64),
         nodes: PerGear<&FlankNodes>,
+        worn: Option<Worn<'_>>,
     ) -> Vec<LoadTransfer> {
         let at = prepared.position_mm;
-        prepared.facings.iter().map(|facing| self.load_transfer(at, stretch_mm, facing, nodes)).collect()
+        prepared.facings.iter().map(|facing| self.load_transfer(at, stretch_mm, facing, nodes, worn)).collect()
     }
 
     fn load_transfer(
@@ -159,10 +187,24 @@ impl CondensedPair<'_> {
         stretch_mm: (f64, f64),
         facing: &Facing,
         nodes: PerGear<&FlankNodes>,
+        worn: Option<Worn<'_>>,
     ) -> LoadTransfer {
         let slave = facing.slave;
         let (own, mate) = (nodes[slave], nodes[slave.mate()]);
-        let feet = self.feet(position_mm, facing, nodes);
+        let feet = self.feet(position_mm, facing, nodes, worn);
+        let beyond_rule_mm = match worn {
+            Some(Worn { depth_mm, .. }) => {
+                let unworn = self.feet(position_mm, facing, nodes, None);
+                let beyond = |node: &usize| {
+                    let place = own.place[*node];
+                    let (Some(from), Some(to)) = (unworn.get(&place), feet.get(&place)) else { return 0.0 };
+                    let mates_mm = mate.depth_at_mm(to.along_mm, depth_mm[slave.mate()]);
+                    to.gap_mm - from.gap_mm - depth_mm[slave][place] - mates_mm / to.cosine.max(LEAST_COSINE)
+                };
+                facing.coupling.nodes.iter().map(beyond).collect()
+            }
+            None => vec![0.0; facing.coupling.len()],
+        };
         let moves = PerGear::from_fn(|gear| self.contact_moves_mm(position_mm, stretch_mm, facing.pair, gear));
         let mut sums = PerGear::from_fn(|gear| vec![0.0; nodes[gear].len()]);
         let mut means: PerGear<Means> = PerGear::default();
@@ -186,11 +228,13 @@ impl CondensedPair<'_> {
         along_mm.iter_mut().for_each(|at| *at -= first);
         LoadTransfer {
             pair: facing.pair,
+            slave,
             first_row: facing.first_row,
             weight_mm: facing.coupling.weight_mm.clone(),
             sliding_mm,
             along_mm,
             means,
+            beyond_rule_mm,
         }
     }
 
@@ -205,12 +249,13 @@ impl CondensedPair<'_> {
         if slave == Gear::Pinion { along_normal } else { -along_normal }
     }
 
-    /// Where the slave's nodes in the window meet the master, by their place on the slave's flank.
+    /// Where the slave's nodes in the window meet the master, by their place on the slave's flank; `worn` or new.
     fn feet(
         &self,
         position_mm: f64,
         facing: &Facing,
         nodes: PerGear<&FlankNodes>,
+        worn: Option<Worn<'_>>,
     ) -> std::collections::BTreeMap<usize, Foot> {
         let (slave, master) = (facing.slave, facing.slave.mate());
         let angle_rad = |gear| tooth_angle_rad(self.pair, gear, position_mm, facing.pair);
@@ -225,33 +270,41 @@ impl CondensedPair<'_> {
             window
         };
         let (own, mate) = (&self.flanks[slave].surface, &self.flanks[master].surface);
+        let depth_mm = |gear: Gear, place: usize| worn.map_or(0.0, |worn| worn.depth_mm[gear][place]);
         let mates: Vec<_> = of_window(master)
             .into_iter()
             .map(|node| {
-                let along_mm = nodes[master].along_mm[nodes[master].place[node]];
-                (turn * mate.points_mm[node] + moved, turn * mate.normals[node], along_mm)
+                let (place, normal) = (nodes[master].place[node], mate.normals[node]);
+                let along_mm = nodes[master].along_mm[place];
+                let point = mate.points_mm[node] - depth_mm(master, place) * normal;
+                // As long as 1/(n · n_worn).
+                let slope = worn.map_or(0.0, |worn| worn.tilt_rad[master][place]);
+                let worn_normal = normal + slope * Vector2::new(normal.y, -normal.x);
+                (turn * point + moved, turn * worn_normal, along_mm)
             })
             .collect();
         let mut feet = std::collections::BTreeMap::new();
         for node in of_window(slave) {
-            let (point, normal) = (own.points_mm[node], own.normals[node]);
+            let (place, normal) = (nodes[slave].place[node], own.normals[node]);
+            let point = own.points_mm[node] - depth_mm(slave, place) * normal;
             let beside = |k: usize| (mates[k].0 - point).perp(&normal);
-            let mut nearest: Option<(f64, Foot)> = None;
+            let mut nearest: Option<Foot> = None;
             let mut before = beside(0);
             for k in 0..mates.len() - 1 {
                 let after = beside(k + 1);
                 if (before <= 0.0) != (after <= 0.0) {
                     let t = before / (before - after);
                     let ((x0, n0, s0), (x1, n1, s1)) = (mates[k], mates[k + 1]);
-                    let gap = (x0 + t * (x1 - x0) - point).dot(&normal).abs();
-                    let cosine = -(n0 + t * (n1 - n0)).normalize().dot(&normal);
-                    if cosine > 0.0 && nearest.is_none_or(|(least, _)| gap < least) {
-                        nearest = Some((gap, Foot { along_mm: s0 + t * (s1 - s0), cosine }));
+                    let gap_mm = (x0 + t * (x1 - x0) - point).dot(&normal);
+                    let length = n0.norm() + t * (n1.norm() - n0.norm());
+                    let cosine = -(n0 + t * (n1 - n0)).normalize().dot(&normal) * length;
+                    if cosine > 0.0 && nearest.is_none_or(|foot: Foot| gap_mm.abs() < foot.gap_mm.abs()) {
+                        nearest = Some(Foot { along_mm: s0 + t * (s1 - s0), gap_mm, cosine });
                     }
                 }
                 before = after;
             }
-            feet.extend(nearest.map(|(_, foot)| (nodes[slave].place[node], foot)));
+            feet.extend(nearest.map(|foot| (place, foot)));
         }
         feet
     }

@@ -12,3 +12,4 @@ pub mod position;
 pub mod prepared;
 pub mod ring;
 pub mod sector;
+pub mod tilted;

@@ -132,7 +132,7 @@ impl<'a> CondensedPair<'a> {
     pub fn tooth_pairs(&self, prepared: &Prepared, found: &Equilibrium) -> Vec<ToothPairContact> {
         let loaded = prepared.facings.iter().filter_map(|facing| {
             let force = &found.force[facing.first_row..facing.first_row + facing.coupling.len()];
-            force.iter().any(|f| *f > 0.0).then(|| self.tooth_pair(facing, force).0)
+            force.iter().any(|f| *f > 0.0).then(|| self.tooth_pair(prepared, facing, force).0)
         });
         loaded.collect()
     }
@@ -152,7 +152,7 @@ impl<'a> CondensedPair<'a> {
             for gear in Gear::BOTH {
                 forces[gear][facing.tooth[gear]] = transpose_times(&facing.operator[gear], force);
             }
-            let (contact, stretch) = self.tooth_pair(facing, force);
+            let (contact, stretch) = self.tooth_pair(prepared, facing, force);
             warm.push((facing.pair, stretch.0, stretch.1));
             pairs.push(contact);
         }
@@ -195,7 +195,7 @@ impl<'a> CondensedPair<'a> {
     }
 
     /// One pair's figures and the loaded stretch, from the expected contact towards the pinion's tip.
-    fn tooth_pair(&self, facing: &Facing, force: &[f64]) -> (ToothPairContact, (f64, f64)) {
+    fn tooth_pair(&self, prepared: &Prepared, facing: &Facing, force: &[f64]) -> (ToothPairContact, (f64, f64)) {
         let (flank, coupling) = (&self.flanks[facing.slave], &facing.coupling);
         let mut rows: Vec<usize> = (0..coupling.len()).collect();
         let place = |row: usize| facing.towards_pinion_tip_mm(flank, coupling.nodes[row]);
@@ -215,7 +215,7 @@ impl<'a> CondensedPair<'a> {
         });
         let contact = ToothPairContact {
             pair: facing.pair,
-            line_load_n_per_mm: self.by_rotation(facing).zip(force).map(|(change, f)| -f * change).sum(),
+            line_load_n_per_mm: prepared.carried_n_per_mm(facing.first_row, force),
             peak_pressure_mpa: pressure.iter().copied().fold(0.0, f64::max),
             half_width_mm,
             pinion_radius_mm: mean(&radius),

@@ -7,17 +7,18 @@
 //! g⁰(h) = g⁰ − B₁ (n₁ h₁) − B₂ (n₂ h₂)
 //! ```
 //!
-//! as a displacement of the nodes into their bodies would. So a position is prepared once and solved many times.
+//! as a displacement of the nodes into their bodies would. So a position is prepared once and solved many times; where wear has tilted
+//! the flanks so far that the direction of the load matters, it is corrected for that ([`super::tilted`]).
 
 use faer::Mat;
 use sprs::CsMat;
 
-use super::facing::{Facing, Window};
-use super::flank_surface::FlankSurface;
+use super::facing::{Direction, Facing, Window};
 use super::position::CondensedPair;
 use super::ring::Between;
+use super::tilted::Sideways;
 use crate::fem::active_set::{ActiveSetError, Condensed, Equilibrium, Kept};
-use crate::gear::{Gear, PerGear};
+use crate::gear::Gear;
 
 /// Distance between the flanks within which they may come to touch, in units of line load over E*: an approach is some
 /// ten of these.
@@ -39,11 +40,16 @@ pub struct Prepared {
     pub position_mm: f64,
     window: Window,
     pub(super) facings: Vec<Facing>,
-    condensed: Condensed,
+    pub(super) condensed: Condensed,
+    /// Change of each row's place along the flank, from root to tip, per transmission error.
+    pub(super) along_rotation: Vec<f64>,
+    pub(super) sideways: Option<Sideways>,
+    /// Of each row, as it is tilted; empty: not at all.
+    pub(super) tilt_rad: Vec<f64>,
     unworn_gap_mm: Vec<f64>,
     /// Where the next solution starts.
     pub(super) active: Option<Vec<bool>>,
-    kept: Option<Kept>,
+    pub(super) kept: Option<Kept>,
     /// How often it had to be looked wider.
     looks: usize,
 }
@@ -76,12 +82,17 @@ impl<'a> CondensedPair<'a> {
     fn look(&self, position_mm: f64, window: Window) -> Prepared {
         let facings = self.facings(position_mm, &window);
         let condensed = self.condensed(&facings, window.line_load_n_per_mm);
+        let along_rotation =
+            facings.iter().flat_map(|facing| self.by_rotation(facing, Direction::AlongFlank)).collect();
         Prepared {
             position_mm,
             window,
             unworn_gap_mm: condensed.gap_mm.clone(),
             facings,
             condensed,
+            along_rotation,
+            sideways: None,
+            tilt_rad: Vec::new(),
             active: None,
             kept: None,
             looks: 1,
@@ -102,7 +113,7 @@ impl<'a> CondensedPair<'a> {
             prepared.open_gaps(opening);
             let last = look == MOST_LOOKS;
             match prepared.condensed.solve_with(prepared.active.as_deref(), &mut prepared.kept) {
-                Ok(found) if last || !prepared.is_cramped(&found, &self.flanks) => {
+                Ok(found) if last || !prepared.is_cramped(&found) => {
                     prepared.active = Some(found.active.clone());
                     return Ok(found);
                 }
@@ -121,7 +132,7 @@ impl<'a> CondensedPair<'a> {
             let Window { beside, line_load_n_per_mm, .. } = prepared.window;
             *prepared = self.look(prepared.position_mm, self.first_window(beside, line_load_n_per_mm));
         } else {
-            (prepared.active, prepared.kept) = (None, None);
+            prepared.level();
         }
     }
 
@@ -141,14 +152,16 @@ impl<'a> CondensedPair<'a> {
         let mut gap_mm = Vec::with_capacity(rows);
         for (a, facing) in facings.iter().enumerate() {
             gap_mm.extend_from_slice(&facing.coupling.gap_mm);
-            for (i, change) in self.by_rotation(facing).enumerate() {
+            for (i, change) in self.by_rotation(facing, Direction::AcrossFlank).enumerate() {
                 rigid[(facing.first_row + i, 0)] = change;
             }
             for other in &facings[..=a] {
                 let places = (facing.first_row, other.first_row);
                 for gear in Gear::BOTH {
                     let between = self.gears[gear].between(other.tooth[gear], facing.tooth[gear]);
-                    add_sandwich(&mut compliance, places, &facing.operator[gear], between, &other.operator[gear]);
+                    // Symmetric: what lies above the diagonal follows below.
+                    let half = facing.first_row == other.first_row;
+                    add_sandwich(&mut compliance, places, &facing.operator[gear], between, &other.operator[gear], half);
                 }
             }
         }
@@ -162,6 +175,11 @@ impl<'a> CondensedPair<'a> {
 }
 
 impl Prepared {
+    /// What part of the line load `force` on the multipliers from `first_row` on carries, with the lever that it has, N/mm.
+    pub(super) fn carried_n_per_mm(&self, first_row: usize, force: &[f64]) -> f64 {
+        force.iter().enumerate().map(|(k, f)| -f * self.condensed.rigid[(first_row + k, 0)]).sum()
+    }
+
     /// w.
     pub fn line_load_n_per_mm(&self) -> f64 {
         self.window.line_load_n_per_mm
@@ -191,9 +209,9 @@ impl Prepared {
     }
 
     /// Whether contact may reach beyond what is looked at.
-    fn is_cramped(&self, found: &Equilibrium, flanks: &PerGear<FlankSurface>) -> bool {
+    fn is_cramped(&self, found: &Equilibrium) -> bool {
         found.rigid[0] > REACH_USED * self.window.reach_mm
-            || self.facings.iter().any(|facing| facing.is_cramped(&found.force, &flanks[facing.slave]))
+            || self.facings.iter().any(|facing| facing.is_cramped(&found.force))
     }
 }
 
@@ -209,19 +227,24 @@ fn carried_over(before: &[Facing], active: &[bool], after: &[Facing]) -> Vec<boo
     rows.map(|(pair, node)| was_active(pair, node)).collect()
 }
 
-/// Adds `left · Cᵀ · rightᵀ` at `places` of `sum`; `compliance` is C, a row for a column of `right`.
-fn add_sandwich(
+/// Adds `left · Cᵀ · rightᵀ`, or the `half` of it on and below the diagonal, at `places` of `sum`; `compliance` is C, a row for a
+/// column of `right`.
+pub(super) fn add_sandwich(
     sum: &mut Mat<f64>,
     places: (usize, usize),
     left: &CsMat<f64>,
     compliance: Between<'_>,
     right: &CsMat<f64>,
+    half: bool,
 ) {
     let (left_columns, left_place) = used_columns(left);
     let (right_columns, right_place) = used_columns(right);
-    // Each entry of C is read once, into columns that lie together.
+    // Each entry of C is read once, into columns that lie together, and so are those of the right.
     let width = right_columns.len();
     let gathered = compliance.gathered(&right_columns, &left_columns);
+    let right_entries: Vec<(usize, f64)> =
+        right.indices().iter().zip(right.data()).map(|(&column, &value)| (right_place[column], value)).collect();
+    let right_rows = right.indptr();
     let mut carried = vec![0.0; width];
     for (i, row) in left.outer_iterator().enumerate() {
         carried.fill(0.0);
@@ -231,8 +254,9 @@ fn add_sandwich(
                 *sum += value * c;
             }
         }
-        for (j, other) in right.outer_iterator().enumerate() {
-            let product: f64 = other.iter().map(|(column, value)| value * carried[right_place[column]]).sum();
+        let count = if half { i + 1 } else { right.rows() };
+        for (j, row) in right_rows.iter_outer_sz().take(count).enumerate() {
+            let product: f64 = right_entries[row].iter().map(|&(place, value)| value * carried[place]).sum();
             sum[(places.0 + i, places.1 + j)] += product;
         }
     }

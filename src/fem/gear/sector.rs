@@ -108,9 +108,15 @@ impl Sector {
 
         let directions = self.cut_directions();
         let cuts = directions.len();
+        // Two directions of each node, and as many degrees of freedom.
+        let cut_dofs: Vec<u32> = directions.iter().step_by(2).flat_map(|(node, _)| [2 * node, 2 * node + 1]).collect();
+        let held_columns = stiffness.columns(&cut_dofs);
+        let along = |a: usize| [(a - a % 2, directions[a].1.x), (a - a % 2 + 1, directions[a].1.y)];
         let mut moved = vec![0.0; dofs * cuts];
-        for ((node, direction), column) in directions.iter().zip(moved.chunks_exact_mut(dofs)) {
-            factor.subtract_held(&stiffness, &given(*node, *direction), column);
+        for (a, column) in moved.chunks_exact_mut(dofs).enumerate() {
+            for (held, part) in along(a) {
+                held_columns[held].iter().for_each(|(dof, value)| column[*dof as usize] -= part * value);
+            }
         }
         factor.solve(cuts, &mut moved);
         for ((node, direction), column) in directions.iter().zip(moved.chunks_exact_mut(dofs)) {
@@ -126,10 +132,11 @@ impl Sector {
         });
         let mut cut_stiffness = Mat::zeros(cuts, cuts);
         for (b, column) in moved.chunks_exact(dofs).enumerate() {
-            let force = stiffness.multiply(column);
-            for (a, (node, direction)) in directions.iter().enumerate() {
-                let dof = 2 * *node as usize;
-                cut_stiffness[(a, b)] = direction.x * force[dof] + direction.y * force[dof + 1];
+            let force =
+                |row: &Vec<(u32, f64)>| -> f64 { row.iter().map(|(dof, value)| value * column[*dof as usize]).sum() };
+            let force: Vec<f64> = held_columns.iter().map(force).collect();
+            for a in 0..cuts {
+                cut_stiffness[(a, b)] = along(a).iter().map(|&(held, part)| part * force[held]).sum();
             }
         }
         let columns: Vec<Functional> =
