@@ -89,6 +89,8 @@ struct Unheard;
 impl study::Observer for Unheard {
     fn row(&self, _done: usize, _total: usize, _failed: usize) {}
 
+    fn verified(&self, _done: usize, _total: usize) {}
+
     fn interrupted(&self) -> bool {
         false
     }

@@ -137,6 +137,22 @@ fn wait_for_rows(out: &Path, count: usize) {
     }
 }
 
+/// The coarse scene, which asks by name for the verification.
+fn verified_scene() -> String {
+    let (text, numerics) = (coarse_scene(), "[numerics]\n");
+    assert!(text.contains(numerics));
+    text.replace(numerics, "[numerics]\nverify = true\n")
+}
+
+/// Names of the columns of claims, which are the paths of the same in the summary of a run.
+fn claims(out: &Path) -> Vec<String> {
+    let (names, _) = table(out);
+    let claims: Vec<String> =
+        names.into_iter().filter(|name| name.starts_with("error.total.") && name != "error.total.how").collect();
+    assert_eq!(claims.len(), 6);
+    claims
+}
+
 const WIDTHS: &str = "pair.face_width_mm=10:30:5";
 const TORQUES: &str = "operation.pinion_torque_Nm=100:300:3";
 
@@ -566,4 +582,96 @@ fn a_curve_of_the_scene_belongs_to_its_pair() {
     fs::write(bench.out("curve.csv"), curve.replace("1,18", "1,17")).unwrap();
     let again = bench.sweep("out", &[WIDTHS, "pair.centre_distance_mm=91.5:91.7:2"], &["--quiet"]);
     refused(&again, &["another sweep", "files that the scene names"]);
+}
+
+/// The best three and both ends are verified and no other; they say what `gearwear run` says of the same scenes.
+#[test]
+fn the_best_rows_and_the_corners_are_verified() {
+    let bench = Bench::of(&verified_scene());
+    let output = bench.sweep("out", &[WIDTHS], &["--threads", "1"]);
+    done(&output);
+    assert!(said(&output).contains("the best (3, by peak_wear_um) and the corners (2) of what is varied, at most 5"));
+    let out = bench.out("out");
+    // The wider the gears, the less they wear.
+    let wear = numbers(&out, "peak_wear_um");
+    assert!(wear.windows(2).all(|pair| pair[1] < pair[0]), "{wear:?}");
+    assert_eq!(column(&out, "verified"), ["corner", "", "best", "best", "best and corner"]);
+
+    let scene = verified_scene()
+        .replace("face_width_mm = 14.0", "face_width_mm = 20.0")
+        .replace("snapshots_h = [0.25, 0.75, 1.75, 3.75, 7.75, 15.75, 31.75, 63.75, 127.75]", "snapshots_h = [127.75]");
+    fs::write(bench.out("one.toml"), scene).unwrap();
+    done(&gearwear().arg("run").arg(bench.out("one.toml")).arg("--out").arg(bench.out("one")).output().unwrap());
+    let run = json(&bench.out("one").join("summary.json"));
+    let summary = json(&out.join("sweep.json"));
+    let verification = &summary["verification"];
+    for claim in claims(&out) {
+        let of_run = run.pointer(&format!("/{}", claim.replace('.', "/"))).unwrap().as_f64().unwrap();
+        let cells = column(&out, &claim);
+        assert_eq!(cells[2].parse::<f64>().unwrap(), of_run, "{claim}");
+        assert_eq!(cells[1], "");
+        let worst = cells.iter().filter_map(|cell| cell.parse().ok()).fold(0.0, f64::max);
+        let stated = verification["worst"].as_array().unwrap().iter().find(|worst| worst["claim"] == *claim).unwrap();
+        assert_eq!(stated["value"], worst, "{claim}");
+    }
+    assert_eq!(column(&out, "error.total.how")[2], run["error"]["total"]["how"]);
+    assert_eq!((&verification["chosen"], &verification["verified"]), (&4.into(), &4.into()));
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(page.contains("Finite elements verified 4 of them: the greatest wear of each is within"));
+
+    // Two threads, and a start that was stopped between two verifications: the same bits.
+    let journal = fs::read_to_string(out.join("rows.jsonl")).unwrap();
+    assert_eq!(journaled(&out), 5 + 4);
+    fs::create_dir(bench.out("torn")).unwrap();
+    let kept: String = journal.lines().take(1 + 5 + 1).map(|line| format!("{line}\n")).collect();
+    fs::write(bench.out("torn").join("rows.jsonl"), kept).unwrap();
+    done(&bench.sweep("torn", &[WIDTHS], &["--threads", "2", "--quiet"]));
+    assert_eq!(table(&bench.out("torn")), table(&out));
+    assert_eq!(journaled(&bench.out("torn")), 5 + 4);
+}
+
+/// The best of all rows are known when the shards are merged: then the sweep's own command verifies them.
+#[test]
+fn shards_are_verified_when_they_are_merged() {
+    let bench = Bench::of(&verified_scene());
+    // Of loads so small that the contact is too narrow to be meshed, finite elements say why they have no answer.
+    let vary = ["operation.pinion_torque_Nm=1:2:2"];
+    for (name, shard) in [("s1", "1/2"), ("s2", "2/2")] {
+        let output = bench.sweep(name, &vary, &["--shard", shard]);
+        done(&output);
+        assert!(said(&output).contains("verify none of a shard"), "{}", said(&output));
+        assert_eq!(json(&bench.out(name).join("sweep.json"))["verification"], Value::Null);
+    }
+    let merged = bench.merge(&["s1", "s2"], "all");
+    done(&merged);
+    assert!(String::from_utf8_lossy(&merged.stdout).contains("2 are not verified yet"));
+    let open = |folder: &str| json(&bench.out(folder).join("sweep.json"))["verification"]["open"].clone();
+    assert_eq!((open("all"), column(&bench.out("all"), "verified")), (2.into(), vec![String::new(); 2]));
+    done(&bench.sweep("all", &vary, &["--quiet"]));
+    done(&bench.sweep("whole", &vary, &["--quiet"]));
+    assert_eq!(table(&bench.out("all")), table(&bench.out("whole")));
+    let out = bench.out("whole");
+    assert_eq!((open("whole"), column(&out, "verified")), (0.into(), vec!["best and corner".to_owned(); 2]));
+    assert!(column(&out, "error.total.how").iter().all(|how| how.contains("too narrow to be meshed")));
+    assert!(claims(&out).iter().all(|claim| column(&out, claim) == ["", ""]));
+    assert_eq!(json(&out.join("sweep.json"))["verification"]["unanswered"], 2);
+    // A shard that stands beside the verified whole takes nothing away from it.
+    done(&bench.merge(&["all", "s1"], "again"));
+    assert_eq!(table(&bench.out("again")), table(&out));
+}
+
+/// Slices have no finite elements; a scene that does not ask for the verification by name gets none.
+#[test]
+fn rows_that_cannot_be_verified_say_why() {
+    let bench = Bench::of(&verified_scene());
+    done(&bench.sweep("out", &["pair.pinion.lead_crowning_um=5:10:2"], &["--quiet"]));
+    let how = column(&bench.out("out"), "error.total.how");
+    assert!(how.iter().all(|how| how == "not verified: plane finite elements vouch for nothing over the face width"));
+    let unasked = Bench::new();
+    let output = unasked.sweep("out", &[WIDTHS], &[]);
+    done(&output);
+    assert!(said(&output).contains("none is verified by finite elements"), "{}", said(&output));
+    assert!(column(&unasked.out("out"), "verified").iter().all(String::is_empty));
+    let summary = json(&unasked.out("out").join("sweep.json"));
+    assert_eq!((&summary["verify"], &summary["verification"]), (&false.into(), &Value::Null));
 }

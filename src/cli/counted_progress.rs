@@ -23,9 +23,17 @@ enum Display {
 
 /// What the log remembers.
 struct Log {
-    /// When the first run of this start was begun, and how many there were before.
-    began: Option<(Instant, usize)>,
+    counted: Option<Counted>,
     last: Instant,
+}
+
+/// What is being counted.
+struct Counted {
+    things: &'static str,
+    /// When the first of this start was begun.
+    start: Instant,
+    /// How many there were before.
+    before: usize,
 }
 
 /// Watches the runs for the user, who may interrupt them.
@@ -42,7 +50,7 @@ impl CountedProgress {
         } else if std::io::stderr().is_terminal() {
             Display::Bar(progress::bar())
         } else {
-            Display::Log(Mutex::new(Log { began: None, last: Instant::now() }))
+            Display::Log(Mutex::new(Log { counted: None, last: Instant::now() }))
         };
         Self { display, interrupted }
     }
@@ -55,30 +63,32 @@ impl CountedProgress {
     }
 
     /// `done` of `total` are finished; `things` is what they are called, `beside` what else is to be said.
-    fn tell(&self, done: usize, total: usize, things: &str, beside: &str) {
+    fn tell(&self, done: usize, total: usize, things: &'static str, beside: &str) {
         match &self.display {
             Display::Quiet => {}
             Display::Log(log) => {
                 let Ok(mut log) = log.lock() else { return };
                 let now = Instant::now();
-                let &mut (start, before) = log.began.get_or_insert((now, done));
+                let of_this_start = log.counted.take().filter(|counted| counted.things == things);
+                let counted = of_this_start.unwrap_or(Counted { things, start: now, before: done });
+                let (elapsed, finished) = (now.duration_since(counted.start), done.saturating_sub(counted.before));
+                log.counted = Some(counted);
                 if done < total && now.duration_since(log.last) < BETWEEN_LINES {
                     return;
                 }
                 log.last = now;
-                let finished = done.saturating_sub(before);
-                let left = remaining_s(now.duration_since(start).as_secs_f64(), finished, total - done);
+                let left = remaining_s(elapsed.as_secs_f64(), finished, total - done);
                 say(&format!("{done} of {total} {things}{beside}{left}"));
             }
             Display::Bar(bar) => {
-                if bar.length() != Some(total as u64) {
-                    // Runs of an earlier start took no time of this one.
+                if bar.length() != Some(total as u64) || (done as u64) < bar.position() {
+                    // Something else is counted from here on, and runs of an earlier start took no time of this one.
                     bar.set_length(total as u64);
                     bar.set_position(done as u64);
                     bar.reset_eta();
                 }
                 bar.set_position(done as u64);
-                bar.set_message(format!("{done} of {total}{beside}"));
+                bar.set_message(format!("{done} of {total} {things}{beside}"));
             }
         }
     }
@@ -91,6 +101,10 @@ impl CountedProgress {
 impl sweep::study::Observer for CountedProgress {
     fn row(&self, done: usize, total: usize, failed: usize) {
         self.tell(done, total, "combinations", &with_failed(failed));
+    }
+
+    fn verified(&self, done: usize, total: usize) {
+        self.tell(done, total, "verified", "");
     }
 
     fn interrupted(&self) -> bool {

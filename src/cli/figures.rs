@@ -105,7 +105,7 @@ fn estimated_errors(error: &ErrorSummary) -> String {
 }
 
 /// An estimate with two significant digits: more it does not have.
-fn two_digits(value: f64) -> String {
+pub fn two_digits(value: f64) -> String {
     let magnitude = value.abs();
     let decimals = if magnitude > 0.0 { (1 - magnitude.log10().floor() as i32).clamp(0, 4) as usize } else { 0 };
     format!("{value:.decimals$}")

@@ -9,6 +9,7 @@ use std::time::Instant;
 use gearwear::report;
 use gearwear::scene::draft::Draft;
 use gearwear::simulation::sweep_record::{Shard, SweepRecord};
+use gearwear::simulation::sweep_verification::{SweepVerification, intention};
 use gearwear::sweep::axis::{self, AxisError};
 use gearwear::sweep::combination::Sweep;
 use gearwear::sweep::journal::{self, Contents, Journal, JournalError};
@@ -17,7 +18,7 @@ use gearwear::sweep::study::{self, Ended};
 
 use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError, SceneProblems};
-use super::figures::digits;
+use super::figures::{digits, two_digits};
 use super::run::{thread_count, watch_for_interrupt};
 use super::{say, scene_source, stdout, warn};
 
@@ -124,8 +125,12 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
     progress.finish();
     if ended.map_err(InputError::Journal)? == Ended::Interrupted {
         let (finished, out) = (journal.rows.len(), args.out.display());
+        let verified = match journal.rows.values().filter(|row| row.verification.is_some()).count() {
+            0 => String::new(),
+            verified => format!(", {verified} of them verified,"),
+        };
         say(&format!(
-            "interrupted: {finished} of {total} combinations are finished and kept in {out}; the same command goes on there"
+            "interrupted: {finished} of {total} combinations are finished{verified} and kept in {out}; the same command goes on there"
         ));
         return Err(Failure::Interrupted);
     }
@@ -151,7 +156,16 @@ fn begun(sweep: &Sweep, args: &RunArgs, total: usize, finished: usize) -> String
     } else {
         "; errors are not estimated (--error-estimate does it)".to_owned()
     };
-    format!("{total} combinations{part}{before}{estimates}")
+    let verification = match (sweep.identity.verify, args.shard) {
+        (true, None) => format!("; finite elements then verify {}", intention(&sweep.identity)),
+        (true, Some(_)) => {
+            "; finite elements verify none of a shard: the best of all rows are known when it is merged".to_owned()
+        }
+        (false, _) => {
+            "; none is verified by finite elements (numerics.verify = true in the scene does it for a few)".to_owned()
+        }
+    };
+    format!("{total} combinations{part}{before}{estimates}{verification}")
 }
 
 fn merge_shards(args: &MergeArgs) -> Result<(), Failure> {
@@ -231,7 +245,32 @@ fn table(record: &SweepRecord, out: &Path) -> String {
         let place = record.identity.in_words(best.index);
         text.push_str(&format!("  {:42}{:>12}   {place}\n", best.figure, digits(best.value)));
     }
+    if let Some(verification) = &summary.verification {
+        text.push_str(&verified(record, verification));
+    }
     let file = out.join(if record.shard.is_none() { "report.html" } else { "sweep.csv" });
     text.push_str(&format!("\n{}: {}\n", if record.shard.is_none() { "report" } else { "table" }, file.display()));
+    text
+}
+
+/// What finite elements say of the chosen rows, for the terminal.
+fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> String {
+    let SweepVerification { intention, chosen, verified, unanswered, open, .. } = verification;
+    let mut text = format!("\nverified by finite elements: {verified} of {chosen} chosen\n  {intention}\n");
+    if !verification.worst.is_empty() {
+        text.push_str("the worst of them within, %\n");
+    }
+    for worst in &verification.worst {
+        let place = record.identity.in_words(worst.index);
+        text.push_str(&format!("  {:42}{:>12}   {place}\n", worst.title, two_digits(100.0 * worst.value)));
+    }
+    if let Some(reason) = verification.first_reason() {
+        text.push_str(&format!("  {unanswered} without an answer, the first {reason}\n"));
+    }
+    if *open > 0 {
+        text.push_str(&format!(
+            "  {open} are not verified yet: gearwear sweep of the same scene and keys with this --out does it\n"
+        ));
+    }
     text
 }

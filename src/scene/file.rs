@@ -453,7 +453,8 @@ pub struct NumericsFile {
     /// Whether the summary estimates the errors of the answer, which costs extra runs. Default true.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_estimate: Option<bool>,
-    /// Whether the run is checked by the same life on finite elements, which gives error.total of the summary. Default true.
+    /// Whether the run is checked by the same life on finite elements, which gives error.total of the summary. Default true; in a sweep
+    /// false, and true by name verifies its best rows and its corners.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verify: Option<bool>,
     /// Length of a wear step, or "adaptive". Default: "adaptive" on the surfaces half-space and fem of a pair without slices and where

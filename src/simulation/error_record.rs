@@ -1,10 +1,10 @@
 //! What a run says of its own error: how far it is from the same life on finite elements, and the estimates of its companions.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// How far the run is from the same life on finite elements, whose own uncertainty is added; relative. `None`: not known, and `how` says
 /// why.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct TotalError {
     /// Of the wear over each flank, root mean square over that of the flank.
     pub profile: ErrorPerGear,
@@ -19,7 +19,7 @@ pub struct TotalError {
 }
 
 /// A relative error of each gear.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct ErrorPerGear {
     /// The pinion's.
     pub pinion: Option<f64>,

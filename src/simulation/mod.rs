@@ -18,6 +18,7 @@ pub mod simplified;
 pub mod stability;
 pub mod sweep_figures;
 pub mod sweep_record;
+pub mod sweep_verification;
 pub mod validation_record;
 pub mod wear_run;
 pub mod wearing_pair;

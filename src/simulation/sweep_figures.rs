@@ -44,6 +44,15 @@ const fn wants_less(
     SweepFigure { name, title, unit, meaning, less_is_better: true, of }
 }
 
+/// The greatest wear of the pair: which gear it is of may change from one combination to the next.
+pub const PEAK_WEAR: SweepFigure = wants_less(
+    "peak_wear_um",
+    "peak wear of either gear",
+    "µm",
+    "greatest wear depth on the active profiles of both gears, their tip edges apart",
+    |s| Some(s.pinion.peak_wear_um.max(s.wheel.peak_wear_um)),
+);
+
 /// All figures, in the order of the columns. Add at the end.
 pub const FIGURES: &[SweepFigure] = &[
     describes("transverse_contact_ratio", "transverse contact ratio", "", "ε_α", |s| {
@@ -249,6 +258,7 @@ pub const FIGURES: &[SweepFigure] = &[
         "greatest wear depth below the start of active profile",
         |s| Some(s.wheel.below_sap_wear_um),
     ),
+    PEAK_WEAR,
 ];
 
 impl SweepFigure {

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::sweep_figures::{FIGURES, SweepFigure};
+use super::sweep_verification::{RowVerification, SweepVerification};
 
 /// Digits of a value between the ends of a range.
 const DIGITS: i32 = 12;
@@ -81,6 +82,8 @@ pub struct SweepIdentity {
     pub inputs_hash: String,
     /// Whether errors are estimated.
     pub error_estimate: bool,
+    /// Whether the scene asks by name for the verification, which the best rows and the corners then get.
+    pub verify: bool,
     /// What is varied; the first key changes slowest.
     pub axes: Vec<SweepAxis>,
     /// Names of the figures of a row, in order.
@@ -162,8 +165,11 @@ pub struct SweepRow {
     pub warnings: Option<usize>,
     /// Wall time of the wear run alone, s.
     pub simulation_s: Option<f64>,
-    /// Wall time of the whole combination, s.
+    /// Wall time of the whole combination, its verification apart, s.
     pub wall_s: f64,
+    /// What finite elements say of it; `None` where it is not verified.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verification: Option<RowVerification>,
 }
 
 impl SweepRow {
@@ -178,10 +184,11 @@ impl SweepRow {
         if self.error.is_none() { "ok" } else { "failed" }
     }
 
-    /// Whether everything but the wall times is the same.
+    /// Whether everything but the wall times is the same, the verification where both have one.
     pub fn same_result(&self, other: &Self) -> bool {
-        let timeless = |row: &Self| Self { simulation_s: None, wall_s: 0.0, ..row.clone() };
-        timeless(self) == timeless(other)
+        let timeless = |row: &Self| Self { simulation_s: None, wall_s: 0.0, verification: None, ..row.clone() };
+        let verifications = self.verification.as_ref().zip(other.verification.as_ref());
+        timeless(self) == timeless(other) && verifications.is_none_or(|(mine, theirs)| mine.total == theirs.total)
     }
 }
 
@@ -218,7 +225,10 @@ pub struct SweepSummary<'a> {
     pub failed: usize,
     /// The best combination by each figure that has a best.
     pub best: Vec<BestCombination>,
-    /// Wall times of all combinations together, s.
+    /// What finite elements say of the best rows and the corners; null where the scene does not ask for it, and in a shard, which
+    /// does not know the best of all rows.
+    pub verification: Option<SweepVerification<'a>>,
+    /// Wall times of all combinations together, their verifications apart, s.
     pub combinations_wall_s: f64,
     /// Wall time since the command was started, s.
     pub wall_s: f64,
@@ -251,6 +261,12 @@ impl SweepRecord {
         self.rows.iter().filter(|row| row.error.is_some()).count()
     }
 
+    /// What finite elements say; `None` where they are not asked.
+    pub fn verification(&self) -> Option<SweepVerification<'_>> {
+        let asked = self.identity.verify && self.shard.is_none();
+        asked.then(|| SweepVerification::of(&self.identity, &self.rows))
+    }
+
     /// What `sweep.json` holds.
     pub fn summary(&self) -> SweepSummary<'_> {
         let failed = self.failed();
@@ -268,6 +284,7 @@ impl SweepRecord {
                     Some(BestCombination { figure: figure.name, value, index: row.index, values: row.values.clone() })
                 })
                 .collect(),
+            verification: self.verification(),
             combinations_wall_s: self.rows.iter().map(|row| row.wall_s).sum(),
             wall_s: self.wall_s,
             threads: self.threads,
@@ -305,6 +322,7 @@ mod tests {
             given_hash: String::new(),
             inputs_hash: String::new(),
             error_estimate: false,
+            verify: false,
             axes: vec![axis("a", 0.0, 1.0, 2), axis("b", 5.0, 7.0, 3)],
             figures: Vec::new(),
         };

@@ -7,9 +7,11 @@ use crate::pipeline::{self, Done, Observer, guarded::guarded, inputs::Inputs};
 use crate::plan::{Plan, StageKind};
 use crate::scene::draft::Draft;
 use crate::scene::{Problem, Resolved, short_hash};
+use crate::simulation::error_record::TotalError;
 use crate::simulation::record::{StopReason, Summary};
 use crate::simulation::sweep_figures::FIGURES;
 use crate::simulation::sweep_record::{SweepAxis, SweepIdentity, SweepRow};
+use crate::simulation::sweep_verification::{Chosen, RowVerification};
 
 /// A sweep that can be run.
 #[derive(Debug, Clone)]
@@ -26,7 +28,8 @@ pub struct Sweep {
 impl Sweep {
     /// The sweep of the scene in `text`, which resolves to `resolved` and names the files `inputs`.
     ///
-    /// Snapshots are left out, as a row keeps only the end of the run; errors are estimated only where asked for.
+    /// Snapshots are left out, as a row keeps only the end of the run; errors are estimated only where asked for, and rows verified
+    /// only where the scene asks for it by name.
     ///
     /// # Errors
     /// Text that is not TOML.
@@ -45,6 +48,7 @@ impl Sweep {
             given_hash: draft.hash(),
             inputs_hash: hash_of(&inputs),
             error_estimate,
+            verify: resolved.scene.verify && draft.gives("numerics.verify"),
             axes,
             figures: FIGURES.iter().map(|figure| figure.name.to_owned()).collect(),
         };
@@ -54,7 +58,7 @@ impl Sweep {
         Ok(Self { identity, draft, pair: resolved.scene.pair.clone(), inputs })
     }
 
-    /// The scene of combination `index`.
+    /// The scene of combination `index`, which is not verified.
     ///
     /// # Errors
     /// Everything that is wrong with it.
@@ -66,8 +70,7 @@ impl Sweep {
             draft.set(&axis.key, value);
         }
         let mut resolved = draft.resolve()?;
-        // Of many combinations, finite elements verify those of a scene that asks for it by name.
-        resolved.scene.verify &= draft.gives("numerics.verify");
+        resolved.scene.verify = false;
         let operation = &mut resolved.scene.operation;
         operation.snapshots_revolutions = vec![operation.pinion_revolutions];
         Ok(resolved)
@@ -96,6 +99,7 @@ impl Sweep {
             warnings: None,
             simulation_s: None,
             wall_s: 0.0,
+            verification: None,
         };
         let row = match run {
             Ok(summary) if summary.stopped == StopReason::Interrupted => return None,
@@ -114,10 +118,41 @@ impl Sweep {
     fn run(&self, index: usize, observer: &dyn Observer) -> Result<Summary, String> {
         let resolved = self.scene(index).map_err(|problems| in_words(&problems))?;
         self.inputs_belong_to(&resolved)?;
-        match pipeline::summarise(&resolved, &Plan::of(&resolved.scene), &self.inputs, observer) {
+        self.carry_out(&resolved, &Plan::of(&resolved.scene), observer)
+    }
+
+    fn carry_out(&self, resolved: &Resolved, plan: &Plan, observer: &dyn Observer) -> Result<Summary, String> {
+        match pipeline::summarise(resolved, plan, &self.inputs, observer) {
             Ok(Done { failure: Some(failure), .. }) => Err(failure.to_string()),
             Ok(Done { record: summary, failure: None }) => Ok(summary),
             Err(failure) => Err(failure.to_string()),
+        }
+    }
+
+    /// The finished row `row`, verified by finite elements; `None` where that was interrupted.
+    ///
+    /// Its run is done again and comes to the same bits: which rows are the best is known when all are there, and what a verification
+    /// starts from would be much to keep of each until then.
+    pub fn verified(&self, row: &SweepRow, chosen: Chosen, observer: &dyn Observer) -> Option<SweepRow> {
+        let start = Instant::now();
+        let total = guarded(|| self.total_error(row.index, observer));
+        let total = total.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
+        if observer.interrupted() {
+            return None;
+        }
+        let total = total.unwrap_or_else(|reason| TotalError::none(&one_line(&reason)));
+        let verification = RowVerification { chosen, total, wall_s: start.elapsed().as_secs_f64() };
+        Some(SweepRow { verification: Some(verification), ..row.clone() })
+    }
+
+    fn total_error(&self, index: usize, observer: &dyn Observer) -> Result<TotalError, String> {
+        let mut resolved = self.scene(index).map_err(|problems| in_words(&problems))?;
+        resolved.scene.verify = true;
+        resolved.scene.numerics.error_estimate = false;
+        let plan = Plan::of(&resolved.scene);
+        match plan.left_out_because(StageKind::Verification) {
+            Some(reason) => Err(reason.to_owned()),
+            None => self.carry_out(&resolved, &plan, observer).map(|summary| summary.error.total),
         }
     }
 

@@ -1,6 +1,7 @@
 //! The rows finished so far, on disk: `rows.jsonl`, one JSON object per line, the first of which says whose rows they are.
 //!
-//! A line is written with one call as soon as its combination is finished. Whatever ends the program, what is lost is at most
+//! A line is written with one call as soon as its combination is finished. A row that is verified stands there once more, and
+//! the later line counts. Whatever ends the program, what is lost is at most
 //! the combinations that were running; a last line that was cut short is dropped when the journal is opened again. While a
 //! sweep runs it holds a lock on the file, so that a second start in the same folder is refused, where the file system
 //! has locks.
@@ -148,7 +149,7 @@ fn parse(path: &Path, text: &str) -> Result<Option<Contents>, JournalError> {
         if row.index >= combinations || row.figures.len() != head.identity.figures.len() {
             return Err(damaged(line, format!("a row of another sweep, combination {}", row.index)));
         }
-        rows.entry(row.index).or_insert(row);
+        rows.insert(row.index, row);
     }
     Ok(Some(Contents { identity: head.identity, shard: head.shard, rows, whole_bytes: whole_bytes as u64 }))
 }
@@ -191,7 +192,7 @@ impl Journal {
         Ok(Self { path, file, head, rows })
     }
 
-    /// Appends a finished row.
+    /// Appends a finished row, or one that was verified since.
     ///
     /// # Errors
     /// A full disk, or a folder that was taken away meanwhile: its rows are then written anew.
@@ -200,13 +201,16 @@ impl Journal {
         let failed = |path: &Path, source| JournalError::Write { path: path.to_owned(), kept, source };
         let line = line_of(&row).map_err(|source| failed(&self.path, source))?;
         let index = row.index;
-        self.rows.insert(index, row);
+        let before = self.rows.insert(index, row);
         // A file that was unlinked could still be written to, for nobody.
         if !self.path.exists() {
             return Err(self.write_anew());
         }
         if let Err(source) = self.file.write_all(&line) {
-            self.rows.remove(&index);
+            match before {
+                Some(row) => self.rows.insert(index, row),
+                None => self.rows.remove(&index),
+            };
             return Err(failed(&self.path, source));
         }
         Ok(())

@@ -74,8 +74,8 @@ pub fn merge(folders: &[PathBuf]) -> Result<Contents, MergeError> {
                     let combination = identity.in_words(index);
                     return Err(MergeError::Contradiction { folder: folder.to_path_buf(), combination });
                 }
-                Some(_) => {}
-                None => {
+                Some(known) if known.verification.is_some() => {}
+                _ => {
                     rows.insert(index, row.clone());
                 }
             }

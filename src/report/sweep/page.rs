@@ -7,10 +7,11 @@ use crate::report::html::page::{Page, escape, plots, section, sources_list};
 use crate::report::html::theme::Figure;
 use crate::simulation::sweep_figures::{FIGURES, SweepFigure};
 use crate::simulation::sweep_record::SweepRecord;
+use crate::simulation::sweep_verification::SweepVerification;
 
 /// The data files named in the page, which lie beside it.
 const DATA_FILES: &[(&str, &str)] = &[
-    ("sweep.csv", "one row per combination: varied values, figures, times, errors"),
+    ("sweep.csv", "one row per combination: varied values, figures, times, errors, verification"),
     #[cfg(feature = "parquet")]
     ("sweep.parquet", "the same table as Parquet"),
     ("sweep.json", "the sweep, its counts and the best combinations"),
@@ -28,6 +29,7 @@ pub fn page(record: &SweepRecord) -> String {
     let identity = &record.identity;
     let sections = [
         section("figures", "Main figures", &[best_tables::best(record), best_tables::failed(record)].concat()),
+        record.verification().map_or_else(String::new, |verification| verified(record, &verification)),
         drawn,
         section("work", "How it was computed", &work(record)),
         section("sources", "Data and scene", &sources_list(DATA_FILES, "The scene as given", &record.scene_toml)),
@@ -93,7 +95,40 @@ fn answer(record: &SweepRecord) -> String {
             place.join(" and ")
         ));
     }
+    text.push_str(&vouched(record));
     text
+}
+
+/// How far finite elements vouch for the sweep, in a sentence.
+fn vouched(record: &SweepRecord) -> String {
+    let Some(verification) = record.verification() else {
+        return " None of them is verified by finite elements.".to_owned();
+    };
+    match (verification.verified, verification.worst_of_peak_wear()) {
+        (0, _) | (_, None) => " Finite elements verify none of them.".to_owned(),
+        (n, Some(worst)) => format!(
+            " Finite elements verified {} of them: the greatest wear of each is within {}.",
+            count(n as u64),
+            best_tables::within(worst)
+        ),
+    }
+}
+
+fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> String {
+    let SweepVerification { intention, chosen, verified, open, .. } = verification;
+    let open = match open {
+        0 => String::new(),
+        n => format!(
+            " {n} are not verified yet: gearwear sweep of the same scene and keys, with the folder of this page as --out, does it."
+        ),
+    };
+    let text = format!(
+        "<p>Finite elements verify {}. Of the {chosen} chosen, {verified} have an answer.{}</p>\n",
+        escape(intention),
+        escape(&open)
+    );
+    let tables = if verification.rows.is_empty() { String::new() } else { best_tables::verified(record, verification) };
+    section("verification", "Verification", &[text, tables].concat())
 }
 
 fn work(record: &SweepRecord) -> String {
@@ -108,10 +143,17 @@ fn work(record: &SweepRecord) -> String {
     } else {
         "Error estimates and snapshots were left out; gearwear run of one combination has them."
     };
+    let verification = match &summary.verification {
+        Some(verification) => format!("The verifications took {} s together.", significant(verification.wall_s, 3)),
+        None => "No combination was verified by finite elements; numerics.verify = true in the scene has the best and the corners \
+                 verified, and gearwear run any one of them."
+            .to_owned(),
+    };
     format!(
         "<p>Each combination is the scene with the varied values exchanged, run by itself on one thread; together they took {} s. \
-         {threads} {}</p>\n",
+         {} {threads} {}</p>\n",
         significant(summary.combinations_wall_s, 3),
+        escape(&verification),
         escape(estimates)
     )
 }

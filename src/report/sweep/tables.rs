@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::report::tables::{Provenance, table};
 use crate::simulation::sweep_figures::FIGURES;
 use crate::simulation::sweep_record::{SweepRecord, SweepRow, plain};
+use crate::simulation::sweep_verification::CLAIMS;
 
 /// A cell of the table; empty where there is nothing to say.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -44,7 +45,7 @@ impl SweepColumn {
     }
 }
 
-/// The columns of a sweep: combination, varied keys, status, figures, times, error.
+/// The columns of a sweep: combination, varied keys, status, figures, times, error, verification.
 pub fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
     let whole = |count: usize| Cell::Whole(i64::try_from(count).ok());
     let mut columns = vec![SweepColumn::new("index", "number of the combination, from 0", move |row| whole(row.index))];
@@ -69,9 +70,29 @@ pub fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
     columns.push(SweepColumn::new("simulation_s", "wall time of the wear run alone", |row| {
         Cell::Number(row.simulation_s)
     }));
-    columns
-        .push(SweepColumn::new("wall_s", "wall time of the whole combination", |row| Cell::Number(Some(row.wall_s))));
+    columns.push(SweepColumn::new("wall_s", "wall time of the whole combination, its verification apart", |row| {
+        Cell::Number(Some(row.wall_s))
+    }));
     columns.push(SweepColumn::new("error", "why there are no figures", |row| Cell::Text(row.error.as_deref())));
+    let meaning = "why finite elements verified this row: best, corner, or best and corner; empty: nothing verified it";
+    columns.push(SweepColumn::new("verified", meaning, |row| {
+        Cell::Text(row.verification.as_ref().map(|verification| verification.chosen.name()))
+    }));
+    for claim in CLAIMS {
+        let meaning = format!(
+            "{}: relative difference to the same life on finite elements, their own uncertainty added; as in summary.json of a run; \
+             empty where not verified",
+            claim.title
+        );
+        columns.push(SweepColumn::new(claim.name, meaning, move |row| {
+            Cell::Number(row.verification.as_ref().and_then(|verification| (claim.of)(&verification.total)))
+        }));
+    }
+    columns.push(SweepColumn::new(
+        "error.total.how",
+        "how the row was verified, or why that was not possible",
+        |row| Cell::Text(row.verification.as_ref().map(|verification| verification.total.how.as_str())),
+    ));
     columns
 }
 
