@@ -260,7 +260,8 @@ fn ver_tilt_changes_the_lever_by_the_radius_of_curvature() {
         let found = model.solve(&mut prepared, &mut |_, _| {}).expect("the contact is found");
         let pairs = model.tooth_pairs(&prepared, &found);
         let theta = 1e-3;
-        let change = prepared.lever_change(&found.force, |gear, _| if gear == tilted { theta } else { 0.0 });
+        let tilts = prepared.mean_tilts(&found.force, |gear, _| if gear == tilted { theta } else { 0.0 });
+        let change = prepared.lever_change(&found.force, &tilts);
         let of_pair = |ahead: i32| {
             let own = pairs.iter().find(|own| own.pair == ahead).expect("the pair is in contact");
             let rho_mm = path.rho_mm(Gear::Pinion, position_mm + f64::from(ahead) * path.base_pitch_mm);
@@ -281,7 +282,8 @@ fn ver_tilt_keeps_the_load_and_acts_in_proportion() {
     let position_mm = pair.path.start_mm + 2.0;
     let transmission_error_mm = |theta: f64| {
         let mut prepared = model.prepare(position_mm, line_load(&pair));
-        model.tilt(&mut prepared, |_, _| theta);
+        let pairs = prepared.tooth_pairs();
+        model.tilt(&mut prepared, vec![theta; pairs]);
         let found = model.solve(&mut prepared, &mut |_, _| {}).expect("the contact is found");
         (found.rigid[0], model.tooth_pairs(&prepared, &found).iter().map(|own| own.line_load_n_per_mm).sum::<f64>())
     };

@@ -34,6 +34,9 @@ pub struct Flanks<'a> {
     pub geometry: &'a dyn ConjugateFlanks,
     /// Their points.
     pub grid: PerGear<&'a FlankGrid>,
+    /// What of the removed material is no wear but the modification of the profile, but for a constant; none where that is not told
+    /// apart.
+    pub modification_mm: Option<PerGear<&'a [f64]>>,
     /// Whose tip edge may carry load and is mathematically sharp: contact that it cuts off has no pressure of its own.
     pub sharp_edges: PerGear<bool>,
 }
@@ -41,7 +44,7 @@ pub struct Flanks<'a> {
 impl<'a> Flanks<'a> {
     /// Flanks that end where their contact does: no tip edge carries load.
     pub fn new(geometry: &'a dyn ConjugateFlanks, grid: PerGear<&'a FlankGrid>) -> Self {
-        Self { geometry, grid, sharp_edges: PerGear::default() }
+        Self { geometry, grid, modification_mm: None, sharp_edges: PerGear::default() }
     }
 }
 

@@ -11,6 +11,7 @@ use std::ops::Range;
 
 use super::{Flanks, PositionCell};
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid, involute::TangentFramePoint};
+use crate::reference::linear_means::add_means;
 
 /// Removed material of one flank at samples between its points.
 #[derive(Debug, Clone, Default)]
@@ -35,6 +36,36 @@ impl Interpolation {
         self.index[first..].iter().zip(&self.weight[first..]).map(|(&i, &weight)| {
             let ends = &values[i as usize..i as usize + 2];
             ends[0] + weight * (ends[1] - ends[0])
+        })
+    }
+}
+
+/// Removed material of one flank at samples: its mean over the stretch that passes each while the contact stands for its position.
+#[derive(Debug, Clone, Default)]
+struct PassingMean {
+    first: Vec<u32>,
+    ends: Vec<u32>,
+    weights: Vec<f64>,
+    /// A row for all points, empty again after every sample.
+    sums: Vec<f64>,
+}
+
+impl PassingMean {
+    fn push(&mut self, grid: &FlankGrid, stretch_mm: [f64; 2]) {
+        self.sums.resize(grid.len(), 0.0);
+        let reached = add_means(&grid.coordinate_mm, stretch_mm, 1.0, &mut self.sums);
+        self.first.push(reached.start as u32);
+        self.weights.extend_from_slice(&self.sums[reached.clone()]);
+        self.ends.push(self.weights.len() as u32);
+        self.sums[reached].fill(0.0);
+    }
+
+    fn of<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        let mut begin = 0;
+        self.first.iter().zip(&self.ends).map(move |(&first, &end)| {
+            let weights = &self.weights[begin as usize..end as usize];
+            begin = end;
+            weights.iter().zip(&values[first as usize..]).map(|(weight, value)| weight * value).sum()
         })
     }
 }
@@ -118,7 +149,16 @@ pub struct Strip {
     pub spacing_mm: f64,
     /// Geometric gap at each sample, mm.
     pub geometric_gap_mm: Vec<f64>,
-    interpolation: PerGear<Interpolation>,
+    removed: Removed,
+}
+
+/// How the removed material is read at the samples.
+#[derive(Debug, Clone)]
+enum Removed {
+    /// At the place of each.
+    Here(PerGear<Interpolation>),
+    /// As it passes each.
+    Passing(PerGear<PassingMean>),
 }
 
 impl Strip {
@@ -129,24 +169,60 @@ impl Strip {
             window,
             spacing_mm,
             geometric_gap_mm: Vec::with_capacity(intervals + 1),
-            interpolation: PerGear::default(),
+            removed: Removed::Here(PerGear::default()),
         };
+        let mut here: PerGear<Interpolation> = PerGear::default();
         for k in 0..=intervals {
             let along = window.lower_mm + k as f64 * spacing_mm;
             let mut gap = 0.0;
             for (gear, along) in [(Gear::Pinion, along), (Gear::Wheel, -along)] {
                 let (coordinate, drop) = flanks.geometry.at_along(gear, along, position_mm);
                 gap += drop;
-                strip.interpolation[gear].push(flanks.grid[gear], coordinate);
+                here[gear].push(flanks.grid[gear], coordinate);
             }
             strip.geometric_gap_mm.push(gap);
         }
+        strip.removed = Removed::Here(here);
         strip
+    }
+
+    /// The same where the pressure stands still while the flanks pass under it during `cell`: each sample then sees the mean wear of what
+    /// passes it, as all that passes it feels its pressure. Seen at one place alone, a wave of wear as long as the positions are apart
+    /// would meet each of them alike, and grow.
+    pub fn passed_by(self, flanks: Flanks<'_>, cell: PositionCell) -> Self {
+        let (Removed::Here(here), Some(modification_mm)) = (&self.removed, flanks.modification_mm) else { return self };
+        let mut passing: PerGear<PassingMean> = PerGear::default();
+        let mut geometric_gap_mm = self.geometric_gap_mm.clone();
+        for gear in Gear::BOTH {
+            let grid = flanks.grid[gear];
+            let spacing_mm = grid.arc_mm[grid.len() - 1] - grid.arc_mm[grid.len() - 2];
+            for k in 0..geometric_gap_mm.len() {
+                let along = self.window.lower_mm + k as f64 * self.spacing_mm;
+                let own = if gear == Gear::Pinion { along } else { -along };
+                let at = |along: f64| flanks.geometry.at_along(gear, along, cell.position_mm).0;
+                let passes = passes_to_ends_mm(flanks.geometry, gear, at(own), cell, spacing_mm);
+                let ends = passes.map(|shift| at(own - shift));
+                passing[gear].push(grid, [ends[0].min(ends[1]), ends[0].max(ends[1])]);
+            }
+            // A modification stays what it is at the sample.
+            let own = modification_mm[gear];
+            let beside = here[gear].of(own, 0).zip(passing[gear].of(own));
+            geometric_gap_mm.iter_mut().zip(beside).for_each(|(gap, (here, mean))| *gap += here - mean);
+        }
+        Self { removed: Removed::Passing(passing), geometric_gap_mm, ..self }
     }
 
     /// The gap with `removed_mm` of material gone, into `gap_mm`, and its least value.
     pub fn gap_mm(&self, removed_mm: PerGear<&[f64]>, gap_mm: &mut Vec<f64>) -> f64 {
-        let [pinion, wheel] = Gear::BOTH.map(|gear| self.interpolation[gear].of(removed_mm[gear], 0));
+        match &self.removed {
+            Removed::Here(here) => self.opened_mm(Gear::BOTH.map(|gear| here[gear].of(removed_mm[gear], 0)), gap_mm),
+            Removed::Passing(passing) => {
+                self.opened_mm(Gear::BOTH.map(|gear| passing[gear].of(removed_mm[gear])), gap_mm)
+            }
+        }
+    }
+
+    fn opened_mm(&self, [pinion, wheel]: [impl Iterator<Item = f64>; 2], gap_mm: &mut Vec<f64>) -> f64 {
         gap_mm.resize(self.geometric_gap_mm.len(), 0.0);
         let mut least = f64::INFINITY;
         for (((gap, geometric), pinion), wheel) in gap_mm.iter_mut().zip(&self.geometric_gap_mm).zip(pinion).zip(wheel)
@@ -260,6 +336,30 @@ impl ObservedPoints {
 }
 
 impl ObservedPoints {
+    /// The same under a pressure that stands still during the cell, or with a tip edge ([`passes_to_ends_mm`]): where an edge stands, its
+    /// mate passes it all the time.
+    pub fn under_standing_pressure(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
+        let mut points = Self::new(flanks, gear, window, cell);
+        if edge_under_load(flanks.geometry, cell.position_mm).is_some() {
+            let sliding = flanks.geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
+            points.partly_exposed.retain(|point| point.from == point.to);
+            points.sliding_mm.fill(sliding);
+            points.partly_exposed.iter().for_each(|point| points.sliding_mm[point.sample] = 0.0);
+            let middle = flanks.grid[gear].coordinate_mm[points.first_point + points.sliding_mm.len() / 2];
+            points.shift_to_ends_mm = passes_to_ends_mm(flanks.geometry, gear, middle, cell, points.spacing_mm);
+        }
+        points
+    }
+
+    /// How far each point moves along the tangent from the cell's position to both ends of the part of the cell in which it faces the
+    /// mate; nothing of points that do not.
+    pub fn courses_mm(&self) -> Vec<Option<[f64; 2]>> {
+        let mut courses: Vec<_> = self.shifts_to_ends_mm().into_iter().map(Some).collect();
+        let unexposed = self.partly_exposed.iter().filter(|point| point.from == point.to);
+        unexposed.for_each(|point| courses[point.sample] = None);
+        courses
+    }
+
     /// How far each point moves along the tangent from the cell's position to the beginning and to the end of the part of
     /// the cell in which it faces the mate.
     pub fn shifts_to_ends_mm(&self) -> Vec<[f64; 2]> {
@@ -292,6 +392,39 @@ fn shift_to_ends_mm(geometry: &dyn ConjugateFlanks, gear: Gear, coordinate_mm: f
         Gear::Pinion => rolling * (cell.position_mm - end),
         Gear::Wheel => rolling * (end - cell.position_mm),
     })
+}
+
+/// The gear whose tip edge carries the load with the theoretical contact point at `position_mm`: before A and after E.
+pub(super) fn edge_under_load(geometry: &dyn ConjugateFlanks, position_mm: f64) -> Option<Gear> {
+    let at_tip = |gear: Gear| geometry.position_at_mm(gear, geometry.flank_limits_mm(gear).1);
+    let round_off = ROUND_OFF * at_tip(Gear::Pinion);
+    match position_mm {
+        before if before < at_tip(Gear::Wheel) - round_off => Some(Gear::Wheel),
+        after if after > at_tip(Gear::Pinion) + round_off => Some(Gear::Pinion),
+        _ => None,
+    }
+}
+
+/// How far the flank of `gear` around `coordinate_mm` passes its contact from the cell's position to its ends. On the line of action the
+/// contact stands still in the tangent frame; before A and after E it stands on the tip edge, which the mate passes as far as it slides. Its
+/// points, `spacing_mm` apart, then each feel what presses on their part of the edge.
+fn passes_to_ends_mm(
+    geometry: &dyn ConjugateFlanks,
+    gear: Gear,
+    coordinate_mm: f64,
+    cell: PositionCell,
+    spacing_mm: f64,
+) -> [f64; 2] {
+    let own = shift_to_ends_mm(geometry, gear, coordinate_mm, cell);
+    match edge_under_load(geometry, cell.position_mm) {
+        None => own,
+        Some(edge) if edge == gear => [-0.5 * spacing_mm, 0.5 * spacing_mm],
+        Some(edge) => {
+            let at = geometry.contact_coordinate_mm(edge, cell.position_mm);
+            let edges = shift_to_ends_mm(geometry, edge, at, cell);
+            [own[0] + edges[0], own[1] + edges[1]]
+        }
+    }
 }
 
 /// By this part of its course the theoretical contact point may miss a point and still passes it: where it passes between two

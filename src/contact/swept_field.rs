@@ -1,4 +1,5 @@
-//! A pressure that stands still in the tangent frame of its position while flank points move through it.
+//! A pressure that stands still in the tangent frame of its position, or on the tip edge that carries it, while flank points move through
+//! it.
 //!
 //! While the contact stands for one loading position, a flank point moves along the tangent from where it is at the beginning of the
 //! cell to where it is at its end, and feels the mean of the field ([`PressureField`]) over the part of that way on which it faces
@@ -6,7 +7,7 @@
 
 use std::ops::Range;
 
-use super::strip::{ObservedPoints, Window};
+use super::strip::{ObservedPoints, Window, edge_under_load};
 use super::{Felt, Flanks, PositionCell, Sweep, pressure_field::PressureField};
 use crate::gear::{Gear, PerGear};
 
@@ -15,64 +16,62 @@ pub struct SweptField {
     /// Pressure along the tangent.
     pub field: PressureField,
     width_mm: f64,
-    /// With how far each point moves to the ends of its course; none where nothing is collected.
-    observed: Option<PerGear<(ObservedPoints, Vec<[f64; 2]>)>>,
+    /// With the course of each point; none where nothing is collected.
+    observed: Option<PerGear<(ObservedPoints, Vec<Option<[f64; 2]>>)>>,
 }
 
 impl SweptField {
     /// A field of cells of `width_mm` over `window`, without pressure so far; with a `cell`, points are collected.
     pub fn new(flanks: Flanks<'_>, window: Window, width_mm: f64, cell: Option<PositionCell>) -> Self {
-        // A cell that an edge only moves away from during it lies to one side of its position.
-        let two_sided = |cell: PositionCell| cell.lower_mm < cell.position_mm && cell.position_mm < cell.upper_mm;
+        // An edge moves to both sides of where it is, but where the cell lies to one side of its position, or the field goes with the edge.
+        let both_ways = |cell: PositionCell| {
+            let two_sided = cell.lower_mm < cell.position_mm && cell.position_mm < cell.upper_mm;
+            two_sided && edge_under_load(flanks.geometry, cell.position_mm).is_none()
+        };
         let observed = cell.map(|cell| {
             PerGear::from_fn(|gear| {
-                let points = ObservedPoints::new(flanks, gear, window, cell);
-                let shifts = points.shifts_to_ends_mm();
-                (points, shifts)
+                let points = ObservedPoints::under_standing_pressure(flanks, gear, window, cell);
+                let courses = points.courses_mm();
+                (points, courses)
             })
         });
-        let field = PressureField::new(window.lower_mm, width_mm, cell.is_some_and(two_sided));
+        let field = PressureField::new(window.lower_mm, width_mm, cell.is_some_and(both_ways));
         Self { field, width_mm, observed }
     }
 
     /// Fills in what the points of a flank felt.
     pub fn sweep(&self, gear: Gear, sweep: &mut Sweep) {
         let Some(observed) = &self.observed else { return sweep.begin(0, &[]) };
-        let (points, shifts) = &observed[gear];
+        let (points, courses) = &observed[gear];
         let near = self.touching(gear, points);
         sweep.begin(points.first_point + near.start, &points.sliding_mm[near.clone()]);
-        let courses = points.at[1..][near.clone()].iter().zip(&shifts[near]);
-        for (pressure, (point, shift)) in sweep.pressure_mpa.iter_mut().zip(courses) {
-            // A point that faces nothing has no course.
-            *pressure = if shift[0] == shift[1] {
-                0.0
-            } else {
-                self.field.mean_mpa(shift.map(|shift| on_tangent(gear, point.along_mm + shift)))
-            };
+        let near = points.at[1..][near.clone()].iter().zip(&courses[near]);
+        for (pressure, (point, course)) in sweep.pressure_mpa.iter_mut().zip(near) {
+            let mean = |course: [f64; 2]| self.field.mean_mpa(course.map(|by| on_tangent(gear, point.along_mm + by)));
+            *pressure = course.map_or(0.0, mean);
         }
     }
 
     /// What each point of that [`Sweep`] felt.
     pub fn felt(&self, gear: Gear) -> Vec<Felt> {
         let Some(observed) = &self.observed else { return Vec::new() };
-        let (points, shifts) = &observed[gear];
+        let (points, courses) = &observed[gear];
         let near = self.touching(gear, points);
         let (lower, upper) = self.field.extent_mm();
-        let courses = points.at[1..][near.clone()].iter().zip(&shifts[near]);
-        courses
-            .map(|(point, shift)| {
-                let [low, high] = [shift[0].min(shift[1]), shift[0].max(shift[1])];
-                if low == high {
-                    return Felt::default();
-                }
-                let at = |shift: f64| on_tangent(gear, point.along_mm + shift);
-                let inside = |shift: f64| at(shift).clamp(lower, upper);
-                Felt {
-                    pressure_mpa: self.field.greatest_mpa([at(low), at(high)]),
-                    contact_fraction: (inside(high) - inside(low)).abs() / (high - low),
-                }
-            })
-            .collect()
+        let near = points.at[1..][near.clone()].iter().zip(&courses[near]);
+        near.map(|(point, course)| {
+            let Some([begin, end]) = course.map(|course| course.map(|by| on_tangent(gear, point.along_mm + by))) else {
+                return Felt::default();
+            };
+            let (low, high) = (begin.min(end), begin.max(end));
+            let inside = high.min(upper) - low.max(lower);
+            Felt {
+                pressure_mpa: self.field.greatest_mpa([low, high]),
+                // One that stands is in contact all the time or not at all.
+                contact_fraction: if high > low { inside.max(0.0) / (high - low) } else { f64::from(inside >= 0.0) },
+            }
+        })
+        .collect()
     }
 
     /// The points of a flank that may touch: pressure goes half a cell beyond the cells in contact.

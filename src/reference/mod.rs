@@ -1,10 +1,11 @@
-//! Closed forms with their sources, shared by the code, the tests and the validation.
+//! Closed forms and rules of interpolation with their sources, shared by the code, the tests and the validation.
 
 pub mod cantilever;
 pub mod flattening;
 pub mod half_plane;
 pub mod hertz_line;
 pub mod lame_cylinder;
+pub mod linear_means;
 pub mod monotone_cubic;
 pub mod moving_heat_band;
 pub mod persson;

@@ -100,6 +100,9 @@ impl<'a> LoadedMesh<'a> {
         let (count, line_load) = (self.numerics.positions, self.line_load_n_per_mm);
         let cycle: Box<dyn MeshCycle + 'b> = match self.contact {
             MeshContact::LineOfAction { surface, teeth, tip_contact, sliced } => {
+                // In every slice the profile is modified alike, but for a constant.
+                let of_profile = PerGear::from_fn(|gear| &modification_mm[gear][..flanks.grid[gear].len()]);
+                let flanks = Flanks { modification_mm: Some(of_profile), ..flanks };
                 self.on_line_of_action(flanks, surface, teeth, tip_contact, sliced)?
             }
             MeshContact::Simplified { material, teeth, sliced } => {

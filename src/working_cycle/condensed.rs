@@ -414,7 +414,8 @@ impl Station {
     /// it was made for; answers whether there is anything to follow.
     fn follow_tilt(&mut self, step: &Step<'_>, found: &Equilibrium) -> bool {
         let tilt_rad = |gear: Gear, node: usize| step.worn.tilt_rad[gear][step.nodes[gear].place[node]];
-        let turns = self.prepared.lever_change(&found.force, tilt_rad) > LEAST_LEVER_CHANGE;
+        let tilt_rad = self.prepared.mean_tilts(&found.force, tilt_rad);
+        let turns = self.prepared.lever_change(&found.force, &tilt_rad) > LEAST_LEVER_CHANGE;
         if turns {
             step.model.tilt(&mut self.prepared, tilt_rad);
         }

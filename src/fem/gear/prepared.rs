@@ -44,7 +44,7 @@ pub struct Prepared {
     /// Change of each row's place along the flank, from root to tip, per transmission error.
     pub(super) along_rotation: Vec<f64>,
     pub(super) sideways: Option<Sideways>,
-    /// Of each row, as it is tilted; empty: not at all.
+    /// Of each tooth pair's flanks; empty: not at all.
     pub(super) tilt_rad: Vec<f64>,
     unworn_gap_mm: Vec<f64>,
     /// Where the next solution starts.

@@ -7,7 +7,8 @@
 //! B(θ) = B + Θ B⊥      B(θ) C B(θ)ᵀ = B C Bᵀ + Θ B⊥ C Bᵀ + (Θ B⊥ C Bᵀ)ᵀ      B(θ) r = B r + Θ B⊥ r
 //! ```
 //!
-//! but for θ², with Θ the tilt at every multiplier. B⊥ C Bᵀ is found once for a position, and only where the tilt matters.
+//! but for θ². Θ is the same for all multipliers of a tooth pair, the mean of the tilt under its load: the flanks in contact have one
+//! direction, whatever waves of wear there are in it. B⊥ C Bᵀ is found once for a position, and only where the tilt matters.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -37,22 +38,21 @@ pub(super) struct Sideways {
 }
 
 impl CondensedPair<'_> {
-    /// Takes the flanks with the multipliers to be tilted by `tilt_rad`, by gear and local node; contact goes on from where it is.
-    pub fn tilt(&self, prepared: &mut Prepared, tilt_rad: impl Fn(Gear, usize) -> f64) {
-        let rows =
-            prepared.facings.iter().flat_map(|facing| facing.coupling.nodes.iter().map(|&node| (facing.slave, node)));
-        let tilt_rad: Vec<f64> = rows.map(|(slave, node)| tilt_rad(slave, node)).collect();
+    /// Takes the flanks of each tooth pair in contact to be tilted by `tilt_rad`; contact goes on from where it is.
+    pub fn tilt(&self, prepared: &mut Prepared, tilt_rad: Vec<f64>) {
         if prepared.sideways.is_none() {
             prepared.sideways = Some(self.sideways(prepared));
         }
         let Some(Sideways { compliance, level_compliance, level_rigid }) = &prepared.sideways else { return };
+        let of_rows = prepared.facings.iter().zip(&tilt_rad);
+        let of_rows: Vec<f64> = of_rows.flat_map(|(facing, tilt)| vec![*tilt; facing.coupling.len()]).collect();
         let condensed = &mut prepared.condensed;
-        for j in 0..tilt_rad.len() {
-            for i in 0..tilt_rad.len() {
-                let turned = tilt_rad[i] * compliance[(i, j)] + tilt_rad[j] * compliance[(j, i)];
+        for j in 0..of_rows.len() {
+            for i in 0..of_rows.len() {
+                let turned = of_rows[i] * compliance[(i, j)] + of_rows[j] * compliance[(j, i)];
                 condensed.compliance[(i, j)] = level_compliance[(i, j)] + turned;
             }
-            condensed.rigid[(j, 0)] = level_rigid[(j, 0)] + tilt_rad[j] * prepared.along_rotation[j];
+            condensed.rigid[(j, 0)] = level_rigid[(j, 0)] + of_rows[j] * prepared.along_rotation[j];
         }
         (prepared.tilt_rad, prepared.kept) = (tilt_rad, None);
     }
@@ -89,25 +89,37 @@ impl Prepared {
         }
     }
 
-    /// How much the levers of the tooth pairs' loads change on the pinion under `force` where the flanks tilt to `tilt_rad`, by gear and local node, each
-    /// over itself and times the part of the load that the others carry: where one pair carries all, nothing changes but its lever.
-    pub fn lever_change(&self, force: &[f64], tilt_rad: impl Fn(Gear, usize) -> f64) -> f64 {
-        let known = |row: usize| self.tilt_rad.get(row).unwrap_or(&0.0);
-        let of_pair = |facing: &Facing| {
-            let (mut own, mut change) = (0.0, 0.0);
-            for (i, &node) in facing.coupling.nodes.iter().enumerate() {
-                let row = facing.first_row + i;
-                if force[row] > 0.0 {
-                    own -= force[row] * self.condensed.rigid[(row, 0)];
-                    change -= force[row] * (tilt_rad(facing.slave, node) - known(row)) * self.along_rotation[row];
+    /// How far each tooth pair's flank is tilted in the mean over the load of `force`, where it is tilted by `tilt_rad` at the local nodes
+    /// of a gear; none without load.
+    pub fn mean_tilts(&self, force: &[f64], tilt_rad: impl Fn(Gear, usize) -> f64) -> Vec<f64> {
+        let mean = |facing: &Facing| {
+            let (mut whole, mut sum) = (0.0, 0.0);
+            for (&node, force) in facing.coupling.nodes.iter().zip(&force[facing.first_row..]) {
+                if *force > 0.0 {
+                    whole += force;
+                    sum += force * tilt_rad(facing.slave, node);
                 }
+            }
+            if whole > 0.0 { sum / whole } else { 0.0 }
+        };
+        self.facings.iter().map(mean).collect()
+    }
+
+    /// How much the levers of the tooth pairs' loads change on the pinion under `force` where the flanks tilt to `tilt_rad`, each
+    /// over itself and times the part of the load that the others carry: where one pair carries all, nothing changes but its lever.
+    pub fn lever_change(&self, force: &[f64], tilt_rad: &[f64]) -> f64 {
+        let of_pair = |(pair, facing): (usize, &Facing)| {
+            let turn = tilt_rad[pair] - self.tilt_rad.get(pair).unwrap_or(&0.0);
+            let (mut own, mut change) = (0.0, 0.0);
+            for row in facing.first_row..facing.first_row + facing.coupling.len() {
+                own -= force[row] * self.condensed.rigid[(row, 0)];
+                change -= force[row] * turn * self.along_rotation[row];
             }
             (own, change)
         };
-        let pairs: Vec<(f64, f64)> = self.facings.iter().map(of_pair).collect();
+        let pairs: Vec<(f64, f64)> = self.facings.iter().enumerate().map(of_pair).collect();
         let whole: f64 = pairs.iter().map(|(own, _)| own).sum();
-        let shared =
-            pairs.iter().filter(|(own, _)| *own > 0.0).map(|(own, change)| (change / own).abs() * (1.0 - own / whole));
-        shared.fold(0.0, f64::max)
+        let loaded = pairs.iter().filter(|(own, _)| *own > 0.0);
+        loaded.map(|(own, change)| (change / own).abs() * (1.0 - own / whole)).fold(0.0, f64::max)
     }
 }
