@@ -55,7 +55,8 @@ fn ver_one_phase_is_the_plain_run_to_the_bit() {
     assert_eq!(plain.summary.phases.len(), 1);
 }
 
-/// Two equal phases are one run, on every kind of contact: the steps divide the phases, and only the starts of equilibria differ.
+/// Two equal phases are one run, on every kind of contact: the steps divide the phases, and only the starts of equilibria differ. Finite
+/// elements also follow the tilt of the flanks from where the second phase begins, which they know to 1e-3 of the levers.
 #[test]
 fn ver_two_equal_phases_are_one_run() {
     let half = "pinion_revolutions = 200000.0";
@@ -79,7 +80,8 @@ fn ver_two_equal_phases_are_one_run() {
         let greatest = plain.summary.pinion.peak_wear_um;
         let differs = wear(&plain).iter().zip(wear(&two)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         // Equilibria are found to 1e-11 of the load (load_sharing::TOLERANCE, the simplified model to 2e-10), and pressure to that.
-        assert!(differs <= 1e-8 * greatest, "{contact} {more}: {differs} of {greatest}");
+        let known = if contact.contains("fem") { 1e-3 } else { 1e-8 };
+        assert!(differs <= known * greatest, "{contact} {more}: {differs} of {greatest}");
         assert!(greatest > 0.1, "{contact} {more}: {greatest}");
     }
 }

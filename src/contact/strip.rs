@@ -46,18 +46,16 @@ struct PassingMean {
     first: Vec<u32>,
     ends: Vec<u32>,
     weights: Vec<f64>,
-    /// A row for all points, empty again after every sample.
-    sums: Vec<f64>,
 }
 
 impl PassingMean {
-    fn push(&mut self, grid: &FlankGrid, stretch_mm: [f64; 2]) {
-        self.sums.resize(grid.len(), 0.0);
-        let reached = add_means(&grid.coordinate_mm, stretch_mm, 1.0, &mut self.sums);
+    /// `sums` is a row for all points, empty again afterwards.
+    fn push(&mut self, grid: &FlankGrid, stretch_mm: [f64; 2], sums: &mut [f64]) {
+        let reached = add_means(&grid.coordinate_mm, stretch_mm, 1.0, sums);
         self.first.push(reached.start as u32);
-        self.weights.extend_from_slice(&self.sums[reached.clone()]);
+        self.weights.extend_from_slice(&sums[reached.clone()]);
         self.ends.push(self.weights.len() as u32);
-        self.sums[reached].fill(0.0);
+        sums[reached].fill(0.0);
     }
 
     fn of<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
@@ -189,12 +187,14 @@ impl Strip {
     /// The same where the pressure stands still while the flanks pass under it during `cell`: each sample then sees the mean wear of what
     /// passes it, as all that passes it feels its pressure. Seen at one place alone, a wave of wear as long as the positions are apart
     /// would meet each of them alike, and grow.
-    pub fn passed_by(self, flanks: Flanks<'_>, cell: PositionCell) -> Self {
-        let (Removed::Here(here), Some(modification_mm)) = (&self.removed, flanks.modification_mm) else { return self };
+    pub fn passed_by(self, flanks: Flanks<'_>, cell: Option<PositionCell>) -> Self {
+        let (Some(modification_mm), Some(cell)) = (flanks.modification_mm, cell) else { return self };
+        let Removed::Here(here) = &self.removed else { return self };
         let mut passing: PerGear<PassingMean> = PerGear::default();
         let mut geometric_gap_mm = self.geometric_gap_mm.clone();
         for gear in Gear::BOTH {
             let grid = flanks.grid[gear];
+            let mut sums = vec![0.0; grid.len()];
             let spacing_mm = grid.arc_mm[grid.len() - 1] - grid.arc_mm[grid.len() - 2];
             for k in 0..geometric_gap_mm.len() {
                 let along = self.window.lower_mm + k as f64 * self.spacing_mm;
@@ -202,7 +202,7 @@ impl Strip {
                 let at = |along: f64| flanks.geometry.at_along(gear, along, cell.position_mm).0;
                 let passes = passes_to_ends_mm(flanks.geometry, gear, at(own), cell, spacing_mm);
                 let ends = passes.map(|shift| at(own - shift));
-                passing[gear].push(grid, [ends[0].min(ends[1]), ends[0].max(ends[1])]);
+                passing[gear].push(grid, [ends[0].min(ends[1]), ends[0].max(ends[1])], &mut sums);
             }
             // A modification stays what it is at the sample.
             let own = modification_mm[gear];
@@ -275,6 +275,8 @@ pub struct ObservedPoints {
     pub sliding_mm: Vec<f64>,
     /// How far the points move along the tangent from the cell's position to its lower and to its upper end, mm.
     shift_to_ends_mm: [f64; 2],
+    /// Where the flank ends that stands under the pressure, along the tangent, mm.
+    standing_to_mm: Option<f64>,
     /// The points that an end of the mate's flank passes within the cell, or that face nothing.
     partly_exposed: Vec<PartlyExposed>,
 }
@@ -329,6 +331,7 @@ impl ObservedPoints {
             spacing_mm,
             sliding_mm,
             partly_exposed,
+            standing_to_mm: None,
             at,
             shift_to_ends_mm: shift_to_ends_mm(geometry, gear, middle, cell),
         }
@@ -340,12 +343,16 @@ impl ObservedPoints {
     /// mate passes it all the time.
     pub fn under_standing_pressure(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
         let mut points = Self::new(flanks, gear, window, cell);
-        if edge_under_load(flanks.geometry, cell.position_mm).is_some() {
+        if let Some(edge) = edge_under_load(flanks.geometry, cell.position_mm) {
             let sliding = flanks.geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
             points.partly_exposed.retain(|point| point.from == point.to);
             points.sliding_mm.fill(sliding);
             points.partly_exposed.iter().for_each(|point| points.sliding_mm[point.sample] = 0.0);
             let middle = flanks.grid[gear].coordinate_mm[points.first_point + points.sliding_mm.len() / 2];
+            if edge == gear {
+                let tip = flanks.geometry.flank_limits_mm(gear).1;
+                points.standing_to_mm = Some(flanks.geometry.in_tangent_frame(gear, tip, cell.position_mm).along_mm);
+            }
             points.shift_to_ends_mm = passes_to_ends_mm(flanks.geometry, gear, middle, cell, points.spacing_mm);
         }
         points
@@ -355,6 +362,12 @@ impl ObservedPoints {
     /// mate; nothing of points that do not.
     pub fn courses_mm(&self) -> Vec<Option<[f64; 2]>> {
         let mut courses: Vec<_> = self.shifts_to_ends_mm().into_iter().map(Some).collect();
+        if let Some(tip_mm) = self.standing_to_mm {
+            // The part of the last point ends with the edge.
+            for (point, course) in self.at[1..].iter().zip(&mut courses) {
+                *course = course.map(|ends| ends.map(|by| by.min((tip_mm - point.along_mm).max(0.0))));
+            }
+        }
         let unexposed = self.partly_exposed.iter().filter(|point| point.from == point.to);
         unexposed.for_each(|point| courses[point.sample] = None);
         courses

@@ -17,8 +17,11 @@ pub struct SweptField {
     pub field: PressureField,
     width_mm: f64,
     /// With the course of each point; none where nothing is collected.
-    observed: Option<PerGear<(ObservedPoints, Vec<Option<[f64; 2]>>)>>,
+    observed: Option<PerGear<(ObservedPoints, Courses)>>,
 }
+
+/// How far each point moves from the cell's position to both ends of its course, mm; none of points that face nothing.
+type Courses = Vec<Option<[f64; 2]>>;
 
 impl SweptField {
     /// A field of cells of `width_mm` over `window`, without pressure so far; with a `cell`, points are collected.

@@ -119,10 +119,7 @@ impl Site<'_> {
         let strip = Strip::new(self.flanks, self.position_mm, window, intervals);
         if self.at_edge {
             let swept = SweptField::new(self.flanks, window, strip.spacing_mm, self.cell);
-            let strip = match self.cell {
-                Some(cell) => strip.passed_by(self.flanks, cell),
-                None => strip,
-            };
+            let strip = strip.passed_by(self.flanks, self.cell);
             return (strip, Some(Observed::Swept(swept)));
         }
         let observed = self.cell.map(|cell| {

@@ -111,9 +111,10 @@ impl Prepared {
         let of_pair = |(pair, facing): (usize, &Facing)| {
             let turn = tilt_rad[pair] - self.tilt_rad.get(pair).unwrap_or(&0.0);
             let (mut own, mut change) = (0.0, 0.0);
-            for row in facing.first_row..facing.first_row + facing.coupling.len() {
-                own -= force[row] * self.condensed.rigid[(row, 0)];
-                change -= force[row] * turn * self.along_rotation[row];
+            let rows = facing.first_row..facing.first_row + facing.coupling.len();
+            for ((row, force), along) in rows.clone().zip(&force[rows.clone()]).zip(&self.along_rotation[rows]) {
+                own -= force * self.condensed.rigid[(row, 0)];
+                change -= force * turn * along;
             }
             (own, change)
         };
