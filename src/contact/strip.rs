@@ -339,7 +339,7 @@ impl ObservedPoints {
 }
 
 impl ObservedPoints {
-    /// The same under a pressure that stands still during the cell, or with a tip edge ([`passes_to_ends_mm`]): where an edge stands, its
+    /// The same under a pressure that stands still during the cell, or goes with a tip edge: where an edge stands, its
     /// mate passes it all the time.
     pub fn under_standing_pressure(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
         let mut points = Self::new(flanks, gear, window, cell);
