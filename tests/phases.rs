@@ -86,6 +86,23 @@ fn ver_two_equal_phases_are_one_run() {
     }
 }
 
+/// Phases of different loads wear the same nodes of finite elements: they run to their end, and wear more than the first alone.
+#[test]
+fn ver_phases_of_different_loads_on_finite_elements() {
+    let fem = "[fem]\nbody = \"sector\"\nsector_teeth = 5\nelements_per_half_width = 3";
+    let of = |torques: &[f64]| {
+        let each = torques.iter().map(|torque| format!("pinion_revolutions = 1e5\npinion_torque_Nm = {torque:?}"));
+        let each: Vec<String> = each.collect();
+        let each: Vec<&str> = each.iter().map(String::as_str).collect();
+        run(&scene(&format!("{OPERATION}{}", phases(&each)), "surface = \"fem\"", 2e-17, fem))
+            .summary
+            .pinion
+            .peak_wear_um
+    };
+    let (light, both) = (of(&[100.0]), of(&[100.0, 300.0]));
+    assert!(both > 2.0 * light && light > 0.1, "{light} {both}");
+}
+
 /// While wear changes no pressure, depths add up: k Δn of each phase, whatever their order; volume in proportion to k n.
 #[test]
 fn ver_negligible_wear_adds_up_whatever_the_order() {

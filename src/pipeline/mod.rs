@@ -129,6 +129,10 @@ impl Stages<'_> {
     }
 }
 
+/// Part of the greatest load whose contact is still resolved by the elements that wear: half as wide as that of the whole. Phases under
+/// less load see fewer elements, and wear little.
+const LEAST_MESHED_LOAD: f64 = 0.25;
+
 /// What a run is made of, beyond the scene's own data. Where loads of phases differ, figures of one load are of the first phase.
 struct Model<'a> {
     scene: &'a Scene,
@@ -171,12 +175,11 @@ impl Model<'_> {
 }
 
 /// How the gears touch under one load.
-struct LoadCase<'a> {
+struct LoadCase {
     line_load_n_per_mm: f64,
     foundation_mpa_per_mm: Option<f64>,
     /// None with finite elements.
     surface: Option<Box<dyn ContactSurface>>,
-    finite_elements: Option<CondensedPair<'a>>,
 }
 
 /// Where a run goes on, and who keeps its checkpoints.
@@ -265,7 +268,17 @@ fn carry_out<R>(
     };
     let (stiffness, computed, stiffness_warning) =
         own_stiffness(scene, plan, inputs, elements.as_ref(), &calibrate::setup(scene, &pair), &mut stages)?;
-    let mut cases: Vec<LoadCase<'_>> = Vec::new();
+    // All phases wear the nodes of one mesh.
+    let worn_elements = match scene.contact.surface {
+        SurfaceKind::Fem => Some(stages.run(StageKind::FiniteElementModel, || {
+            let loads = || scene.operation.phases.iter().map(line_load);
+            let (least, greatest) = (loads().fold(f64::INFINITY, f64::min), loads().fold(0.0, f64::max));
+            let bodies = BodySettings { elements_per_half_width: scene.wear_elements_per_half_width, ..scene.fem };
+            CondensedPair::build(&pair, &elastic(&scene.material), least.max(LEAST_MESHED_LOAD * greatest), &bodies)
+        })?),
+        _ => None,
+    };
+    let mut cases: Vec<LoadCase> = Vec::new();
     for phase in &scene.operation.phases {
         if cases.iter().all(|case| case.line_load_n_per_mm != line_load(phase)) {
             cases.push(load_case(scene, &pair, inputs, &at_pitch, line_load(phase), &mut stages)?);
@@ -291,7 +304,7 @@ fn carry_out<R>(
     let sliced = scene
         .slices
         .map(|settings| stages.run(StageKind::HelicalSlices, || SlicedTeeth::new(&pair, &scene.material, settings)));
-    let contact = |case: usize| match (&cases[case].finite_elements, cases[case].surface.as_deref(), &teeth[case]) {
+    let contact = |case: usize| match (&worn_elements, cases[case].surface.as_deref(), &teeth[case]) {
         (Some(model), ..) => MeshContact::FiniteElements(model),
         (None, Some(surface), Some(teeth)) => match (scene.contact.surface, sliced.as_ref()) {
             (SurfaceKind::HertzMean, Some(sliced)) => {
@@ -422,14 +435,14 @@ fn not_estimated_because(outcome: &Outcome) -> &'static str {
 }
 
 /// Prepares the contact under one load.
-fn load_case<'a>(
+fn load_case(
     scene: &Scene,
-    pair: &'a GearPair,
+    pair: &GearPair,
     inputs: &Inputs,
     at_pitch: &Flattening,
     line_load_n_per_mm: f64,
     stages: &mut Stages<'_>,
-) -> Result<LoadCase<'a>, RunError> {
+) -> Result<LoadCase, RunError> {
     let bed = match (scene.contact.surface, scene.contact.foundation, &inputs.calibration) {
         (SurfaceKind::Winkler, Foundation::Given { foundation_mpa_per_mm }, _) => {
             Some(Bed::Uniform { mpa_per_mm: foundation_mpa_per_mm })
@@ -454,15 +467,8 @@ fn load_case<'a>(
     };
     let springs_at_pitch = bed.as_ref().map(|bed| bed.at(pair.path.pitch_point_mm));
     let foundation_mpa_per_mm = springs_at_pitch.map(|springs| springs.mpa_per_mm(line_load_n_per_mm));
-    let finite_elements = match scene.contact.surface {
-        SurfaceKind::Fem => Some(stages.run(StageKind::FiniteElementModel, || {
-            let bodies = BodySettings { elements_per_half_width: scene.wear_elements_per_half_width, ..scene.fem };
-            CondensedPair::build(pair, &elastic(&scene.material), line_load_n_per_mm, &bodies)
-        })?),
-        _ => None,
-    };
     let surface = surface(scene, bed, line_load_n_per_mm);
-    Ok(LoadCase { line_load_n_per_mm, foundation_mpa_per_mm, surface, finite_elements })
+    Ok(LoadCase { line_load_n_per_mm, foundation_mpa_per_mm, surface })
 }
 
 /// Elastic constants alone.
