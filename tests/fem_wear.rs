@@ -254,7 +254,7 @@ fn ver_tilt_changes_the_lever_by_the_radius_of_curvature() {
     let pair = pair(&fzg_c());
     let model = condensed(&pair, 6.0);
     let path = &pair.path;
-    // Both pairs above the pitch point, or both below it: their multipliers are on flanks of one gear.
+    // One pair is below the pitch point and one above it: each has its multipliers on the flank of another gear.
     for (position_mm, tilted) in [(path.start_mm + 2.0, Gear::Wheel), (path.end_mm - 2.0, Gear::Pinion)] {
         let mut prepared = model.prepare(position_mm, line_load(&pair));
         let found = model.solve(&mut prepared, &mut |_, _| {}).expect("the contact is found");

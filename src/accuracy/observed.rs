@@ -5,6 +5,7 @@ use crate::gear::{
     Gear, PerGear,
     flank_zones::{FlankZone, FlankZones},
 };
+use crate::reference::linear_means::value_at;
 use crate::simulation::record::{FlankRecord, RunRecord};
 
 /// What errors are measured on.
@@ -174,11 +175,7 @@ pub fn interpolated(x: &[f64], values: &[f64], at: &[f64]) -> Vec<f64> {
         .map(|&place| match (x.len(), values) {
             (0, _) => 0.0,
             (1, values) => values[0],
-            (count, values) => {
-                let after = x.partition_point(|&known| known <= place).clamp(1, count - 1);
-                let weight = ((place - x[after - 1]) / (x[after] - x[after - 1])).clamp(0.0, 1.0);
-                values[after - 1] + weight * (values[after] - values[after - 1])
-            }
+            (_, values) => value_at(x, values, place),
         })
         .collect()
 }

@@ -121,8 +121,7 @@ impl Site<'_> {
         let window = Window::new(self.flanks, self.position_mm, self.half_window_mm);
         let widest = self.cell_mm.max(window.length_mm() / MOST_CELLS);
         let count = ((window.length_mm() / widest).ceil() as usize).max(LEAST_CELLS);
-        let strip = Strip::new(self.flanks, self.position_mm, window, 2 * count);
-        let strip = strip.passed_by(self.flanks, self.cell);
+        let strip = Strip::new(self.flanks, self.position_mm, window, 2 * count, self.cell);
         let width = 2.0 * strip.spacing_mm;
         let compliance = cell_compliance_mm_per_mpa(&self.flattening.bodies, width, count);
         let swept = SweptField::new(self.flanks, window, width, self.cell);

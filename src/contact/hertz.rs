@@ -19,8 +19,7 @@ use std::f64::consts::PI;
 
 use super::{
     ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
-    settings::Material,
-    strip::{ObservedPoints, Window},
+    observed_points::ObservedPoints, settings::Material, strip::Window,
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 use crate::reference::{

@@ -13,10 +13,13 @@
 
 pub mod edge_bed;
 pub mod elastic_cells;
+mod flank_motion;
 pub mod foundation;
+pub mod gap_at_points;
 pub mod half_space;
 pub mod hertz;
 pub mod hertz_mean;
+pub mod observed_points;
 pub mod pressure_field;
 pub mod settings;
 pub mod strip;

@@ -4,9 +4,10 @@
 //! cells. Each cell then counts with its whole width, so that the field carries the load of the cells exactly. Its integral
 //! P(x) is kept at the centres; a flank point that moves from x₁ to x₂ feels (P(x₂) − P(x₁))/(x₂ − x₁) on average.
 //!
-//! Beyond a tip edge under pressure the field is its own mirror image. While the contact stands for one position the edge
-//! moves to either side of where it is there: what it uncovers on the one side is then what it covers on the other, and the
-//! flank feels the load of the cells on average. At A and E, where the edge only moves away, there is nothing beyond it.
+//! Beyond a tip edge under pressure the field is its own mirror image between A and E. While the contact stands for one position the
+//! edge moves to either side of where it is there: what it uncovers on the one side is then what it covers on the other, and the
+//! flank feels the load of the cells on average. At A and E, where the edge only moves away, and before A and after E, where the field
+//! goes with it, there is nothing beyond it.
 //!
 //! Where a contact ends by itself, pressure begins as √s with the distance s from its end, and the load within s as s^{3/2}.
 //! So P^{2/3} is a straight line there, and its zero, from the loads of the two and of the three outermost cells, is the end

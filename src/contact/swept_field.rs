@@ -7,7 +7,9 @@
 
 use std::ops::Range;
 
-use super::strip::{ObservedPoints, Window, edge_under_load};
+use super::flank_motion::{edge_under_load, on_tangent};
+use super::observed_points::ObservedPoints;
+use super::strip::Window;
 use super::{Felt, Flanks, PositionCell, Sweep, pressure_field::PressureField};
 use crate::gear::{Gear, PerGear};
 
@@ -85,13 +87,5 @@ impl SweptField {
             Gear::Pinion => points.between(lower - more, upper + more),
             Gear::Wheel => points.between(-upper - more, more - lower),
         }
-    }
-}
-
-/// Place on the common tangent, towards the pinion's tip, of a place in a gear's own direction.
-fn on_tangent(gear: Gear, along_mm: f64) -> f64 {
-    match gear {
-        Gear::Pinion => along_mm,
-        Gear::Wheel => -along_mm,
     }
 }

@@ -30,7 +30,9 @@ use super::{
     ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
     edge_bed::EdgeSprings,
     foundation::{Bed, Springs},
-    strip::{GapAtPoints, ObservedPoints, Strip, Window, least_removed_mm, point_distance_mm},
+    gap_at_points::GapAtPoints,
+    observed_points::ObservedPoints,
+    strip::{Strip, Window, least_removed_mm, point_distance_mm},
     swept_field::SweptField,
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
@@ -116,10 +118,11 @@ impl Site<'_> {
         let distance_mm = POINTS_PER_SAMPLE * point_distance_mm(self.flanks, self.position_mm);
         let least = if self.at_edge { LEAST_INTERVALS_AT_EDGE } else { LEAST_INTERVALS };
         let intervals = ((window.length_mm() / distance_mm).ceil() as usize).max(least);
-        let strip = Strip::new(self.flanks, self.position_mm, window, intervals);
+        // Elsewhere points carry their own wear through the contact.
+        let passed_during = self.cell.filter(|_| self.at_edge);
+        let strip = Strip::new(self.flanks, self.position_mm, window, intervals, passed_during);
         if self.at_edge {
             let swept = SweptField::new(self.flanks, window, strip.spacing_mm, self.cell);
-            let strip = strip.passed_by(self.flanks, self.cell);
             return (strip, Some(Observed::Swept(swept)));
         }
         let observed = self.cell.map(|cell| {

@@ -32,9 +32,7 @@ use crate::contact::{
 };
 use crate::fem::elastic::Elastic;
 use crate::fem::gear::model::ModelError;
-use crate::fem::gear::position::CondensedPair;
 use crate::gear::{GearPair, PairError, PerGear, flank_zones::FlankZones};
-use crate::mesh::settings::BodySettings;
 use crate::plan::{Plan, StageKind};
 use crate::reference::flattening::Flattening;
 use crate::scene::{Resolved, Scene};
@@ -273,8 +271,8 @@ fn carry_out<R>(
         SurfaceKind::Fem => Some(stages.run(StageKind::FiniteElementModel, || {
             let loads = || scene.operation.phases.iter().map(line_load);
             let (least, greatest) = (loads().fold(f64::INFINITY, f64::min), loads().fold(0.0, f64::max));
-            let bodies = BodySettings { elements_per_half_width: scene.wear_elements_per_half_width, ..scene.fem };
-            CondensedPair::build(&pair, &elastic(&scene.material), least.max(LEAST_MESHED_LOAD * greatest), &bodies)
+            let load = least.max(LEAST_MESHED_LOAD * greatest);
+            verification::condensed(scene, &pair, load, scene.wear_elements_per_half_width)
         })?),
         _ => None,
     };

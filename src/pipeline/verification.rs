@@ -137,7 +137,8 @@ pub(super) fn elements<'a>(
     Ok(Elements { condensed, line_load_n_per_mm, half_width_mm: (half_width_mm, least_mm) })
 }
 
-fn condensed<'a>(
+/// The scene's gears with so many elements in the half-width of contact under a load.
+pub(super) fn condensed<'a>(
     scene: &Scene,
     pair: &'a GearPair,
     line_load_n_per_mm: f64,

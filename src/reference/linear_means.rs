@@ -1,4 +1,4 @@
-//! Means of what is given at places along a line, linear between them and beyond the ends what it is there:
+//! Values and means of what is given at places along a line, linear between them and beyond the ends what it is there:
 //!
 //! ```text
 //! 1/(b − a) ∫ h ds over [a, b] = Σ_k m_k h_k          m_k = 1/(b − a) ∫ N_k ds over [a, b]
@@ -7,6 +7,15 @@
 //! with the hat functions N_k of the places.
 
 use std::ops::Range;
+
+/// The value at a place of what is given at `places` (rising, at least two).
+pub fn value_at(places: &[f64], values: &[f64], at: f64) -> f64 {
+    let after = places.partition_point(|&place| place <= at).clamp(1, places.len() - 1);
+    let length = places[after] - places[after - 1];
+    let weight = if length > 0.0 { ((at - places[after - 1]) / length).clamp(0.0, 1.0) } else { 0.0 };
+    // In this form no rounding lets a value fall while those given rise.
+    (1.0 - weight) * values[after - 1] + weight * values[after]
+}
 
 /// Adds to `sums`, a row for all `places` (rising, at least two), `weight` times the m_k of the stretch from `from` to `to` (≥ `from`);
 /// answers the places that it reaches. A stretch without length is a point.

@@ -206,7 +206,8 @@ pub struct WorstClaim {
 impl<'a> SweepVerification<'a> {
     /// Of the whole sweep with these rows.
     pub fn of(identity: &SweepIdentity, rows: &'a [SweepRow]) -> Self {
-        let chosen = chosen(identity, rows.iter()).len();
+        let chosen = chosen(identity, rows.iter());
+        let open = rows.iter().filter(|row| chosen.contains_key(&row.index) && row.verification.is_none()).count();
         let rows: Vec<VerifiedRow<'a>> = rows
             .iter()
             .filter_map(|row| {
@@ -224,10 +225,10 @@ impl<'a> SweepVerification<'a> {
         let verified = rows.iter().filter(|row| row.verification.has_answer()).count();
         Self {
             intention: intention(identity),
-            chosen,
+            chosen: chosen.len(),
             verified,
             unanswered: rows.len() - verified,
-            open: chosen - rows.len(),
+            open,
             worst: worst.collect(),
             wall_s: rows.iter().map(|row| row.verification.wall_s).sum(),
             rows,

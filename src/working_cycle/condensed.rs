@@ -28,7 +28,7 @@ use crate::fem::gear::position::CondensedPair;
 use crate::fem::gear::prepared::Prepared;
 use crate::fem::gear::tilted::Worn;
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
-use crate::reference::monotone_cubic::MonotoneCubic;
+use crate::reference::{linear_means::value_at, monotone_cubic::MonotoneCubic};
 use crate::thermal::{ContactHeat, SpeedRatios};
 use crate::wear::{
     Rubbing, Surroundings, WearModel,
@@ -147,14 +147,7 @@ impl<'a> CondensedCycle<'a> {
     /// and beyond them what it is at the last.
     pub fn at_radii(&self, gear: Gear, at_nodes: &[f64], radius_mm: impl Iterator<Item = f64>) -> Vec<f64> {
         let nodes = &self.radius_mm[gear];
-        let at = |radius: f64| {
-            let after = nodes.partition_point(|&node| node <= radius).clamp(1, nodes.len() - 1);
-            let length = nodes[after] - nodes[after - 1];
-            let weight = if length > 0.0 { ((radius - nodes[after - 1]) / length).clamp(0.0, 1.0) } else { 0.0 };
-            // In this form no rounding lets a value fall while those of the nodes rise.
-            (1.0 - weight) * at_nodes[after - 1] + weight * at_nodes[after]
-        };
-        radius_mm.map(at).collect()
+        radius_mm.map(|radius| value_at(nodes, at_nodes, radius)).collect()
     }
 
     fn stations(&self) -> impl Iterator<Item = &Station> {

@@ -10,7 +10,7 @@
 //! so that Σ W_k h_k grows by V, whatever the stretch; and the mean depth on the stretch is Σ m_k h_k.
 
 use super::flank_surface::FlankSurface;
-use crate::reference::linear_means::add_means;
+use crate::reference::linear_means::{add_means, value_at};
 
 /// The part of an edge from a corner node that the corner's multiplier carries: ∫ψ of a quadratic edge is 1/6, 4/6 and 1/6 of it.
 const CORNER_SHARE: f64 = 1.0 / 6.0;
@@ -96,9 +96,7 @@ impl FlankNodes {
 
     /// Depth at a place of the flank, mm.
     pub fn depth_at_mm(&self, along_mm: f64, depth_mm: &[f64]) -> f64 {
-        let k = self.along_mm.partition_point(|&x| x <= along_mm).clamp(1, self.len() - 1);
-        let t = ((along_mm - self.along_mm[k - 1]) / (self.along_mm[k] - self.along_mm[k - 1])).clamp(0.0, 1.0);
-        (1.0 - t) * depth_mm[k - 1] + t * depth_mm[k]
+        value_at(&self.along_mm, depth_mm, along_mm)
     }
 
     /// ∫ h ds of depths at the nodes, mm².

@@ -115,7 +115,7 @@ impl LoadTransfer {
         }
     }
 
-    /// Means over a load of `force` on the rows of what each node of `gear` is.
+    /// Means over a load of `force` on the rows of what each node of `gear` is; 0 without load.
     pub fn mean_on<const N: usize>(&self, gear: Gear, force: &[f64], at_node: impl Fn(usize) -> [f64; N]) -> [f64; N] {
         let (mut sums, mut whole) = ([0.0; N], 0.0);
         for (i, &force) in force.iter().enumerate().filter(|(_, force)| **force > 0.0) {
@@ -126,7 +126,7 @@ impl LoadTransfer {
                 sums.iter_mut().zip(own).for_each(|(sum, own)| *sum += force * m * own);
             }
         }
-        sums.map(|sum| sum / whole)
+        if whole > 0.0 { sums.map(|sum| sum / whole) } else { sums }
     }
 
     /// Adds to the depths at the nodes of a flank what the rows lose: `depth_mm` each.

@@ -16,7 +16,6 @@ use sprs::CsMat;
 use super::facing::{Direction, Facing, Window};
 use super::position::CondensedPair;
 use super::ring::Between;
-use super::tilted::Sideways;
 use crate::fem::active_set::{ActiveSetError, Condensed, Equilibrium, Kept};
 use crate::gear::Gear;
 
@@ -52,6 +51,14 @@ pub struct Prepared {
     pub(super) kept: Option<Kept>,
     /// How often it had to be looked wider.
     looks: usize,
+}
+
+/// A position along the flanks ([`super::tilted`]), and as it was before it was tilted.
+pub(super) struct Sideways {
+    /// B⊥ C Bᵀ.
+    pub compliance: Mat<f64>,
+    pub level_compliance: Mat<f64>,
+    pub level_rigid: Mat<f64>,
 }
 
 impl<'a> CondensedPair<'a> {
@@ -175,6 +182,16 @@ impl<'a> CondensedPair<'a> {
 }
 
 impl Prepared {
+    /// Is again as if its flanks had never been tilted, and never been solved.
+    fn level(&mut self) {
+        (self.active, self.kept) = (None, None);
+        if let Some(Sideways { level_compliance, level_rigid, .. }) = &self.sideways {
+            self.condensed.compliance.copy_from(level_compliance);
+            self.condensed.rigid.copy_from(level_rigid);
+            self.tilt_rad.clear();
+        }
+    }
+
     /// What part of the line load `force` on the multipliers from `first_row` on carries, with the lever that it has, N/mm.
     pub(super) fn carried_n_per_mm(&self, first_row: usize, force: &[f64]) -> f64 {
         force.iter().enumerate().map(|(k, f)| -f * self.condensed.rigid[(first_row + k, 0)]).sum()

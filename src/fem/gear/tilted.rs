@@ -17,7 +17,7 @@ use nalgebra::Rotation2;
 
 use super::facing::{Facing, turned};
 use super::position::CondensedPair;
-use super::prepared::{Prepared, add_sandwich};
+use super::prepared::{Prepared, Sideways, add_sandwich};
 use crate::gear::{Gear, PerGear};
 
 /// What flanks have lost and how that tilts them.
@@ -27,14 +27,6 @@ pub struct Worn<'a> {
     pub depth_mm: PerGear<&'a [f64]>,
     /// dh/ds there, rad.
     pub tilt_rad: &'a PerGear<Vec<f64>>,
-}
-
-/// A position along the flanks, and as it was before it was tilted.
-pub(super) struct Sideways {
-    /// B⊥ C Bᵀ.
-    compliance: Mat<f64>,
-    level_compliance: Mat<f64>,
-    level_rigid: Mat<f64>,
 }
 
 impl CondensedPair<'_> {
@@ -79,16 +71,6 @@ impl CondensedPair<'_> {
 }
 
 impl Prepared {
-    /// Is again as if its flanks had never been tilted, and never been solved.
-    pub(super) fn level(&mut self) {
-        (self.active, self.kept) = (None, None);
-        if let Some(Sideways { level_compliance, level_rigid, .. }) = &self.sideways {
-            self.condensed.compliance.copy_from(level_compliance);
-            self.condensed.rigid.copy_from(level_rigid);
-            self.tilt_rad.clear();
-        }
-    }
-
     /// How far each tooth pair's flank is tilted in the mean over the load of `force`, where it is tilted by `tilt_rad` at the local nodes
     /// of a gear; none without load.
     pub fn mean_tilts(&self, force: &[f64], tilt_rad: impl Fn(Gear, usize) -> f64) -> Vec<f64> {
