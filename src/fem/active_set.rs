@@ -381,6 +381,9 @@ fn held_motion(
     if load.is_empty() {
         return (unit, None);
     }
+    if load.len() == 1 && s[0] * unit[0] * unit[0] > SINGULAR {
+        return (load / s[0], None);
+    }
     let scaled = nalgebra::DMatrix::from_fn(load.len(), load.len(), |a, b| s[(a, b)] * unit[a] * unit[b]);
     let eigen = scaled.symmetric_eigen();
     let weakest = eigen.eigenvalues.imin();

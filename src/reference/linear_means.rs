@@ -17,6 +17,20 @@ pub fn value_at(places: &[f64], values: &[f64], at: f64) -> f64 {
     (1.0 - weight) * values[after - 1] + weight * values[after]
 }
 
+/// Σ m_k h_k over as many values as there are weights: four sums side by side, which a processor adds at once.
+pub fn weighted_sum(weights: &[f64], values: &[f64]) -> f64 {
+    let values = &values[..weights.len()];
+    let (weights, values) = (weights.as_chunks::<4>(), values.as_chunks::<4>());
+    let mut sums = [0.0; 4];
+    for (m, h) in weights.0.iter().zip(values.0) {
+        for k in 0..4 {
+            sums[k] += m[k] * h[k];
+        }
+    }
+    let rest: f64 = weights.1.iter().zip(values.1).map(|(m, h)| m * h).sum();
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
+}
+
 /// Adds to `sums`, a row for all `places` (rising, at least two), `weight` times the m_k of the stretch from `from` to `to` (≥ `from`);
 /// answers the places that it reaches. A stretch without length is a point.
 pub fn add_means(places: &[f64], [from, to]: [f64; 2], weight: f64, sums: &mut [f64]) -> Range<usize> {

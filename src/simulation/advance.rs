@@ -161,7 +161,11 @@ impl Stepper {
         if stretch.clean_start {
             pair.forget();
         }
-        Advanced { revolutions, evaluated: pair.evaluate(wear, stopped) }
+        let evaluated = pair.evaluate(wear, stopped).and_then(|mut work| {
+            work += pair.linearise_anew(wear, stopped)?.unwrap_or_default();
+            Ok(work)
+        });
+        Advanced { revolutions, evaluated }
     }
 }
 
@@ -244,7 +248,7 @@ struct OnRows<'a, 'b> {
     rate: PairRate<'a>,
     wear_mm: &'b mut PerGear<Vec<f64>>,
     depth_mm: &'b mut PerGear<Vec<f64>>,
-    /// Whether the end of a step is evaluated from a clean start.
+    /// Whether the next step begins from a clean start.
     clean_start: bool,
 }
 
@@ -261,11 +265,16 @@ impl Rate for OnRows<'_, '_> {
         Ok(())
     }
 
-    fn evaluate_end(&mut self, state: &[f64], slope: &mut [f64]) -> Result<(), EquilibriumError> {
+    fn begin_step(&mut self, state: &[f64], slope: &mut [f64]) -> Result<u64, EquilibriumError> {
         if self.clean_start {
             self.rate.pair.forget();
+            return self.evaluate(state, slope).map(|()| 1);
         }
-        self.evaluate(state, slope)
+        if let Some(work) = self.rate.pair.linearise_anew(self.rate.wear, self.rate.stopped)? {
+            self.rate.work += work;
+            self.rate.read_slope(self.depth_mm, slope);
+        }
+        Ok(0)
     }
 
     fn may_succeed_nearer(&self, failure: &EquilibriumError) -> bool {

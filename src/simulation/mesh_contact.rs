@@ -54,7 +54,7 @@ const EFFORT_BETWEEN_CLEAN_STARTS: f64 = 100_000.0;
 const SHARE_OF_CLEAN_STARTS: f64 = 0.05;
 /// Measured on the presets `helical` and `fzg-c`, rounded.
 const SIMPLIFIED: Effort = Effort { of_equilibrium: 0.005, of_clean_start: 5.0 };
-const FINITE_ELEMENTS: Effort = Effort { of_equilibrium: 80.0, of_clean_start: 4.0 };
+const FINITE_ELEMENTS: Effort = Effort { of_equilibrium: 4.0, of_clean_start: 15.0 };
 
 /// A pair under a load, at some resolution.
 pub(super) struct LoadedMesh<'a> {

@@ -18,6 +18,18 @@ pub trait WearingPair {
     fn evaluate(&mut self, wear: &WearModel<'_>, stopped: &(dyn Fn() -> bool + Sync))
     -> Result<Work, EquilibriumError>;
 
+    /// What [`CondensedCycle::linearise_anew`] says, after an evaluation on the same flanks.
+    ///
+    /// # Errors
+    /// [`EquilibriumError`] of the first position without equilibrium.
+    fn linearise_anew(
+        &mut self,
+        _wear: &WearModel<'_>,
+        _stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Work>, EquilibriumError> {
+        Ok(None)
+    }
+
     /// Lets the flanks lose that in so many meshes of each gear's teeth.
     fn wear_for(&mut self, meshes: PerGear<f64>);
 
@@ -142,6 +154,14 @@ impl WearingPair for OnFlankNodes<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
         self.cycle.evaluate(lost(&self.wear_mm, &self.wear_mm), wear, &mut self.depth_mm, stopped)
+    }
+
+    fn linearise_anew(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Work>, EquilibriumError> {
+        self.cycle.linearise_anew(lost(&self.wear_mm, &self.wear_mm), wear, &mut self.depth_mm, stopped)
     }
 
     fn wear_for(&mut self, meshes: PerGear<f64>) {

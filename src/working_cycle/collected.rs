@@ -28,6 +28,11 @@ impl Collected {
         (self.work, self.failure) = (Work::default(), None);
     }
 
+    /// The depths stay as they are, and there is no new work.
+    pub fn keep(&mut self) {
+        (self.work, self.failure) = (Work::default(), None);
+    }
+
     /// Takes the work of a position, or its failure; says whether to go on.
     pub fn take(&mut self, solved: Result<Work, EquilibriumError>) -> bool {
         match solved {

@@ -207,11 +207,7 @@ impl MeshCycle for CondensedCycle<'_> {
         depth_mm: &mut PerGear<Vec<f64>>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
-        let tilt_rad = PerGear::from_fn(|gear| self.nodes[gear].tilt_rad(lost.wear_mm[gear]));
-        let worn = Worn { depth_mm: lost.wear_mm, tilt_rad: &tilt_rad };
-        let step = Step { model: self.model, worn, nodes: self.nodes.as_ref(), wear, stopped };
-        self.groups.par_iter_mut().for_each(|group| group.evaluate(&step));
-        Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
+        self.evaluate_by(|group, step| group.evaluate(step), lost, wear, depth_mm, stopped)
     }
 
     fn forget(&mut self) {
@@ -261,6 +257,40 @@ impl MeshCycle for CondensedCycle<'_> {
 }
 
 impl CondensedCycle<'_> {
+    /// Makes the positions follow the flanks as they are where the last evaluation, on the same `lost`, found that the load acts in
+    /// another direction, or on a tip edge worn to another shape, than they were made for. In between they are linear in what is lost,
+    /// and so the rate of wear is smooth within a step. Answers what work that took and what each point wears then; nothing, where
+    /// there is nothing to follow.
+    ///
+    /// # Errors
+    /// [`EquilibriumError`] of the first position without equilibrium.
+    pub fn linearise_anew(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Work>, EquilibriumError> {
+        let work = self.evaluate_by(|group, step| group.follow_tilt(step), lost, wear, depth_mm, stopped)?;
+        Ok((work.newton_iterations > 0).then_some(Work { mesh_cycles: 0, equilibria: 0, ..work }))
+    }
+
+    /// Lets each group do its part on flanks that have lost `lost`, and collects what they lose.
+    fn evaluate_by(
+        &mut self,
+        part: impl Fn(&mut Group, &Step<'_>) + Sync,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        let tilt_rad = PerGear::from_fn(|gear| self.nodes[gear].tilt_rad(lost.wear_mm[gear]));
+        let worn = Worn { depth_mm: lost.wear_mm, tilt_rad: &tilt_rad };
+        let step = Step { model: self.model, worn, nodes: self.nodes.as_ref(), wear, stopped };
+        self.groups.par_iter_mut().for_each(|group| part(group, &step));
+        Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
+    }
+
     /// Of all pairs found in the base pitch.
     fn greatest_pressure(&self) -> GreatestPressure {
         let mut greatest = GreatestPressure::default();
@@ -351,6 +381,26 @@ impl Group {
             station.wear(step, &mut self.rows, &mut self.collected.depth_mm);
         }
     }
+
+    /// Lets the positions follow the tilt of the worn flanks.
+    fn follow_tilt(&mut self, step: &Step<'_>) {
+        let mut followed = Ok(Work::default());
+        for station in &mut self.stations {
+            followed = followed.and_then(|mut work| {
+                work += if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { station.follow_tilt(step) }?;
+                Ok(work)
+            });
+        }
+        if followed.as_ref().is_ok_and(|work| *work == Work::default()) {
+            return self.collected.keep();
+        }
+        self.collected.clear();
+        if self.collected.take(followed) {
+            for station in &self.stations {
+                station.wear(step, &mut self.rows, &mut self.collected.depth_mm);
+            }
+        }
+    }
 }
 
 impl Station {
@@ -373,23 +423,28 @@ impl Station {
     }
 
     fn solve(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
-        let mut work = Work { equilibria: 1, ..Work::default() };
-        for tilts in 0..=MOST_TILTS {
-            let found = self.solve_as_reckoned(step)?;
-            let iterations = found.log.steps.len() as u64;
-            work.newton_iterations += iterations;
-            work.pair_evaluations += iterations * self.prepared.tooth_pairs() as u64;
-            let follows = tilts < MOST_TILTS && self.follow_tilt(step, &found);
-            self.found = Some(found);
-            if !follows {
+        let (is_new, looks) = (self.found.is_none(), self.looks);
+        let mut work = self.solve_as_reckoned(step)?;
+        if is_new || looks != self.looks {
+            work += self.follow_tilt(step)?;
+        }
+        Ok(Work { equilibria: 1, ..work })
+    }
+
+    /// Follows the tilt of the worn flanks, and finds the contact again as long as that moves it; answers the work that took.
+    fn follow_tilt(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
+        let mut work = Work::default();
+        for _ in 0..MOST_TILTS {
+            if !self.is_tilted_anew(step) {
                 break;
             }
+            work += self.solve_as_reckoned(step)?;
         }
         Ok(work)
     }
 
-    /// The contact on the flanks as they are, in the directions that the position was made for.
-    fn solve_as_reckoned(&mut self, step: &Step<'_>) -> Result<Equilibrium, EquilibriumError> {
+    /// Finds the contact on the flanks as they are, in the directions that the position was made for.
+    fn solve_as_reckoned(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
         let position_mm = self.prepared.position_mm;
         let Self { prepared, stretch_mm, transfers, looks, about_rad, .. } = self;
         let mut opening = |prepared: &Prepared, gap_mm: &mut [f64]| {
@@ -400,12 +455,17 @@ impl Station {
             transfers.iter().for_each(|contact| contact.open_gaps(step.worn.depth_mm, gap_mm));
         };
         let solved = step.model.solve(prepared, &mut opening);
-        solved.map_err(|source| EquilibriumError::Contact { position_mm, source })
+        let found = solved.map_err(|source| EquilibriumError::Contact { position_mm, source })?;
+        let newton_iterations = found.log.steps.len() as u64;
+        let pair_evaluations = newton_iterations * prepared.tooth_pairs() as u64;
+        self.found = Some(found);
+        Ok(Work { newton_iterations, pair_evaluations, ..Work::default() })
     }
 
-    /// Makes the position follow its worn flanks where the load acts in another direction, or on a tip edge worn to another shape, than
-    /// it was made for; answers whether there is anything to follow.
-    fn follow_tilt(&mut self, step: &Step<'_>, found: &Equilibrium) -> bool {
+    /// Makes the position for its worn flanks where the load acts in another direction, or on a tip edge worn to another shape, than
+    /// it was made for; answers whether that was so.
+    fn is_tilted_anew(&mut self, step: &Step<'_>) -> bool {
+        let Some(found) = &self.found else { return false };
         let tilt_rad = |gear: Gear, node: usize| step.worn.tilt_rad[gear][step.nodes[gear].place[node]];
         let tilt_rad = self.prepared.mean_tilts(&found.force, tilt_rad);
         let turns = self.prepared.lever_change(&found.force, &tilt_rad) > LEAST_LEVER_CHANGE;

@@ -47,7 +47,7 @@ pub fn node_place(local: usize) -> f64 {
 
 /// Σ N_i v_i.
 pub fn interpolate(shape: &[f64; MOST_NODES], values: &[Vector2<f64>]) -> Vector2<f64> {
-    values.iter().zip(shape).map(|(value, n)| value * *n).sum()
+    values.iter().zip(shape).fold(Vector2::zeros(), |sum, (value, n)| sum + value * *n)
 }
 
 /// Quarter turn clockwise: from a tangent with the body on its left to the outward normal.

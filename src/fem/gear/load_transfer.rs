@@ -35,6 +35,7 @@ use super::position::CondensedPair;
 use super::prepared::Prepared;
 use super::tilted::Worn;
 use crate::gear::{Gear, PerGear};
+use crate::reference::linear_means::weighted_sum;
 
 /// Most parts into which the movement of a contact is divided.
 const MOST_PARTS: usize = 24;
@@ -91,8 +92,7 @@ impl Means {
     /// How far depths at the nodes open the gap of row `i`, mm.
     fn opening_mm(&self, i: usize, depth_mm: &[f64]) -> f64 {
         let Weights { first, weights } = self.row(i);
-        let mean: f64 = weights.iter().zip(&depth_mm[first..]).map(|(m, h)| m * h).sum();
-        self.askew[i] * mean
+        self.askew[i] * weighted_sum(weights, &depth_mm[first..])
     }
 }
 

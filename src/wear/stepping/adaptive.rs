@@ -54,7 +54,7 @@ pub struct StepCounts {
     pub rejected: u64,
     /// Steps taken at the shortest length in spite of their error.
     pub at_floor: u64,
-    /// Evaluations of the rate in all steps together.
+    /// Evaluations of the rate in all steps and at their beginnings together.
     pub stages: u64,
     /// Evaluations that went into the spectral radius, the diagonal or the first length.
     pub probes: u64,
@@ -136,7 +136,7 @@ impl Adaptive {
     }
 
     /// Takes one step of at most `room` from `state`, where the rate is `slope`; both are those of its end then, and `rate` was
-    /// last evaluated there. Answers its length.
+    /// last evaluated there and may have been made anew. Answers its length.
     ///
     /// # Errors
     /// Of the rate, where no shorter step mends it.
@@ -185,6 +185,7 @@ impl Adaptive {
             self.accumulated.iter_mut().zip(&self.error).for_each(|(sum, e)| *sum += e);
             std::mem::swap(state, &mut self.end);
             std::mem::swap(slope, &mut self.end_slope);
+            self.counts.stages += rate.begin_step(state, slope)?;
             return Ok(length);
         }
     }
@@ -233,7 +234,7 @@ impl Adaptive {
         };
         self.end.iter_mut().zip(state).for_each(|(end, start)| *end = end.max(*start));
         self.end_slope.resize(state.len(), 0.0);
-        rate.evaluate_end(&self.end, &mut self.end_slope)?;
+        rate.evaluate(&self.end, &mut self.end_slope)?;
         self.error.clear();
         let rates = slope.iter().zip(&self.end_slope);
         let ends = state.iter().zip(&self.end);

@@ -43,12 +43,13 @@ pub trait Rate {
     /// Where there is no rate at this state.
     fn evaluate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Self::Error>;
 
-    /// The same at the end of a trial step: where a run may go on from another time, if the step is taken.
+    /// A step to `state`, where `rate` was just found, is taken: the next one may begin with a rate made anew there, as long as within
+    /// a step it remains one smooth function of the state. Answers the evaluations that took.
     ///
     /// # Errors
     /// Where there is no rate at this state.
-    fn evaluate_end(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Self::Error> {
-        self.evaluate(state, rate)
+    fn begin_step(&mut self, _state: &[f64], _rate: &mut [f64]) -> Result<u64, Self::Error> {
+        Ok(0)
     }
 
     /// Whether a state nearer to the last good one may have a rate where this failed.

@@ -66,7 +66,7 @@ impl SpectralRadius {
         }
         let mut probed = vec![0.0; state.len()];
         let mut image = vec![0.0; state.len()];
-        let (mut radius, mut evaluations): (f64, u64) = (0.0, 0);
+        let (mut radius, mut greatest_found, mut evaluations): (f64, f64, u64) = (0.0, 0.0, 0);
         for _ in 0..MOST_ITERATIONS {
             let height = greatest(&self.vector);
             if !(height > 0.0 && height.is_finite()) {
@@ -83,11 +83,15 @@ impl SpectralRadius {
             let (before, found) = (radius, norm(&image) / norm(&self.vector));
             std::mem::swap(&mut self.vector, &mut image);
             radius = found;
+            // The first image is of noise.
+            greatest_found = if evaluations > 1 { greatest_found.max(found) } else { 0.0 };
             if evaluations > 1 && (found - before).abs() <= CONVERGED * found {
                 break;
             }
         }
-        self.value = Some(SAFETY * radius);
+        // Where it wanders, for a rate that is not linear over the probe, no smaller radius is safe.
+        let is_found = evaluations < MOST_ITERATIONS as u64;
+        self.value = Some(SAFETY * if is_found { radius } else { greatest_found });
         Ok(evaluations)
     }
 }

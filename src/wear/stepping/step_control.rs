@@ -64,8 +64,8 @@ impl StepControl {
         let error = error.max(NEGLIGIBLE);
         let mut factor = SAFETY * error.powf(-EXPONENT);
         if let Some((before, error_before)) = self.last {
-            // The trend may shorten a step, or lengthen one a little.
-            factor *= ((length / before) * (error_before / error).powf(EXPONENT)).min(1.25);
+            // The trend may shorten a step. It never lengthens one: that would aim at the tolerance itself, and be rejected.
+            factor *= ((length / before) * (error_before / error).powf(EXPONENT)).min(1.0);
         }
         let most = if self.rejected_before { 1.0 } else { MOST_FACTOR };
         let planned = length * factor.clamp(LEAST_FACTOR, most);
