@@ -69,6 +69,7 @@ fn verified(total: &TotalError) -> String {
     let within = |error: Option<f64>| error.map_or_else(|| "–".to_owned(), |error| two_digits(100.0 * error));
     let both = |errors: &ErrorPerGear| [within(errors.pinion), within(errors.wheel)];
     let [pinion, wheel] = both(&total.peak_wear);
+    let [pinion_tip_edge, wheel_tip_edge] = both(&total.tip_edge_wear);
     let [pinion_profile, wheel_profile] = both(&total.profile);
     if total.peak_wear.pinion.or(total.peak_wear.wheel).is_none() {
         return format!("\n  {}\n", total.how);
@@ -76,6 +77,7 @@ fn verified(total: &TotalError) -> String {
     [
         row("within, of finite elements", ["pinion", "wheel"]),
         row("peak wear, %", [&pinion, &wheel]),
+        row("wear of the tip edge, %", [&pinion_tip_edge, &wheel_tip_edge]),
         row("wear over the flank (rms), %", [&pinion_profile, &wheel_profile]),
         format!(
             "  {:38}{:>12}\n",

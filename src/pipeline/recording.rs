@@ -18,6 +18,8 @@ use crate::working_cycle::CycleObservation;
 pub(super) const UM_PER_MM: f64 = 1e3;
 /// Pitch point index of the contract: on a flank of this many points.
 const INDEX_POINTS: f64 = 750.0;
+/// Difference of the volumes that both flanks of a contact lose, over the greater, that is worth a warning.
+const IMBALANCE: f64 = 0.02;
 /// Wear beyond this part of the module is no longer small against the tooth.
 const SMALL_WEAR_MODULES: f64 = 0.05;
 
@@ -60,6 +62,8 @@ pub(super) fn summary(
     warnings.extend(judged.warnings);
     warnings.extend(sharp_edge_warning(pair, outcome));
     warnings.extend(deep_wear_warning(pair, outcome));
+    let wear_balance = WearBalance { new: imbalance(outcome, &outcome.new), worn: imbalance(outcome, &outcome.worn) };
+    warnings.extend(imbalance_warning(&wear_balance));
     warnings.extend(slices::warning(outcome));
     warnings.extend(error_estimates::warnings(&error));
     warnings.extend(found.verified.and_then(|verified| verified.warning.clone()));
@@ -89,10 +93,7 @@ pub(super) fn summary(
         worn: cycle(pair, &outcome.worn.cycle),
         pinion: wear(model, outcome, Gear::Pinion),
         wheel: wear(model, outcome, Gear::Wheel),
-        wear_balance: WearBalance {
-            new: wear_balance(outcome, &outcome.new),
-            worn: wear_balance(outcome, &outcome.worn),
-        },
+        wear_balance,
         error,
         work: WorkSummary {
             wear_steps: outcome.steps.accepted,
@@ -110,13 +111,24 @@ pub(super) fn summary(
 }
 
 /// |V₁ − V₂| over the greater, V: what a flank loses in one mesh per mm of face width.
-fn wear_balance(outcome: &Outcome, snapshot: &Snapshot) -> f64 {
+fn imbalance(outcome: &Outcome, snapshot: &Snapshot) -> f64 {
     let lost = PerGear::from_fn(|gear| {
         let (grid, depth) = (&outcome.grid[gear], &snapshot.depth_per_mesh_mm[gear]);
         depth.chunks_exact(grid.len()).map(|slice| grid.integral(slice)).sum::<f64>()
     });
     let greater = lost.pinion.max(lost.wheel);
     if greater > 0.0 { (lost.pinion - lost.wheel).abs() / greater } else { 0.0 }
+}
+
+/// Warns where the flanks of a contact do not lose the same.
+fn imbalance_warning(balance: &WearBalance) -> Option<String> {
+    let greatest = balance.new.max(balance.worn);
+    (greatest > IMBALANCE).then(|| {
+        format!(
+            "in one mesh the flanks of pinion and wheel lose volumes that differ by {:.1} %, where both should lose the same: more              numerics.flank_points and numerics.positions, or contact.surface = \"fem\", bring them together",
+            100.0 * greatest
+        )
+    })
 }
 
 pub(super) fn path_points(values: [f64; 5]) -> PathPoints {

@@ -393,8 +393,8 @@ pub struct FemFile {
     /// Radii in mm at which the bodies are held or turned rigidly, rim or bore.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clamp_radius_mm: Option<ClampRadiusFile>,
-    /// Elements in the half-width of contact under the whole load, 2 to 60: the resolution. Default 10, and 3 in a wear run, whose wear
-    /// they resolve as well.
+    /// Elements in the half-width of contact under the whole load, 2 to 60: the resolution. Default 10, and 3 in a wear run (5 with
+    /// severe wear), whose wear they resolve as well.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 2, max = 60))]
     pub elements_per_half_width: Option<f64>,

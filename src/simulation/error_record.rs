@@ -10,6 +10,8 @@ pub struct TotalError {
     pub profile: ErrorPerGear,
     /// Of each gear's greatest wear.
     pub peak_wear: ErrorPerGear,
+    /// Of each gear's greatest wear of the tip edge.
+    pub tip_edge_wear: ErrorPerGear,
     /// Of the worn pair.
     pub transmission_error_peak_to_peak: Option<f64>,
     /// Of the greatest pressure of the worn pair at positions between the tip edges, root mean square.

@@ -288,6 +288,7 @@ fn summary() -> Summary {
             total: TotalError {
                 profile: ErrorPerGear { pinion: Some(0.03), wheel: Some(0.03) },
                 peak_wear: ErrorPerGear { pinion: Some(0.031), wheel: Some(0.029) },
+                tip_edge_wear: ErrorPerGear { pinion: Some(0.034), wheel: Some(0.041) },
                 transmission_error_peak_to_peak: Some(0.012),
                 pressure_between_tips: Some(0.04),
                 how: "the same life on finite elements".into(),

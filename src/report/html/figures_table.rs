@@ -131,6 +131,8 @@ pub fn errors(error: &ErrorSummary) -> String {
     let rows: String = [
         ("Finite elements: pinion’s greatest wear", error.total.peak_wear.pinion, &error.total.how),
         ("Finite elements: wheel’s greatest wear", error.total.peak_wear.wheel, &as_above),
+        ("Finite elements: wear of the pinion’s tip edge", error.total.tip_edge_wear.pinion, &as_above),
+        ("Finite elements: wear of the wheel’s tip edge", error.total.tip_edge_wear.wheel, &as_above),
         ("Finite elements: pinion’s wear over the flank", error.total.profile.pinion, &as_above),
         ("Finite elements: wheel’s wear over the flank", error.total.profile.wheel, &as_above),
         ("Finite elements: transmission error", error.total.transmission_error_peak_to_peak, &as_above),

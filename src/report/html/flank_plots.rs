@@ -4,7 +4,7 @@ use plotly::Plot;
 use plotly::common::{DashType, Fill, HoverInfo};
 
 use super::active_flank::ActiveFlank;
-use super::number::{figure, given, percent, plotted, revolutions};
+use super::number::{figure, given, percent, plotted, revolutions, significant};
 use super::reading::{Extreme, greatest, place_on_flank, tip_edge_note};
 use super::theme::{self, Figure, axis, curve, layout, line, mark_path_points, new_and_worn};
 use crate::gear::Gear;
@@ -94,9 +94,16 @@ fn wear_reading(record: &RunRecord, gear: Gear, drawn: usize) -> String {
     if [wear.peak_wear_um, wear.tip_edge_wear_um, wear.below_sap_wear_um].iter().all(|depth| *depth <= 0.0) {
         return format!("The {}’s flank has not worn.", gear.name());
     }
+    let total = &record.summary.error.total;
+    let (profile, tip_edge) = match gear {
+        Gear::Pinion => (total.profile.pinion, total.tip_edge_wear.pinion),
+        Gear::Wheel => (total.profile.wheel, total.tip_edge_wear.wheel),
+    };
+    let of_tip_edge =
+        tip_edge.map_or_else(String::new, |off| format!(" ± {}", significant(off * wear.tip_edge_wear_um, 1)));
     let mut reading = format!(
         "The active profile of the {} wears most {}: {} µm, against {} µm at the pitch circle; over the root it reaches {} µm, at the tip \
-         edge {} µm, below the active profile {} µm.",
+         edge {}{of_tip_edge} µm, below the active profile {} µm.",
         gear.name(),
         place_on_flank(flank, wear.peak_wear_radius_mm),
         figure(wear.peak_wear_um),
@@ -105,8 +112,6 @@ fn wear_reading(record: &RunRecord, gear: Gear, drawn: usize) -> String {
         figure(wear.tip_edge_wear_um),
         figure(wear.below_sap_wear_um),
     );
-    let total = &record.summary.error.total;
-    let profile = if gear == Gear::Pinion { total.profile.pinion } else { total.profile.wheel };
     if let Some(off) = profile {
         reading.push_str(&format!(
             " Dashed: the same life on finite elements; over the flank the two differ by {} of the wear (root mean square), the \

@@ -139,7 +139,8 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
     let (pair, operation) = (pair?, operation?);
     let finely_resolved = matches!(surface, Some(SurfaceKind::Fem | SurfaceKind::HalfSpace));
-    let adaptive = finely_resolved && !sliced || wear.is_some_and(|wear| wear.severe.is_some());
+    let is_severe = wear.is_some_and(|wear| wear.severe.is_some());
+    let adaptive = finely_resolved && !sliced || is_severe;
     let numerics = settings::numerics(&mut file.numerics, operation.pinion_revolutions, adaptive, findings);
     let verify = *file.numerics.get_or_insert_default().verify.get_or_insert(true);
     if !verify {
@@ -168,7 +169,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         stiffness_by_default,
         stiffness_curve_file,
         fem: fem?,
-        wear_elements_per_half_width: fem::wear_elements_per_half_width(file.fem.as_ref()),
+        wear_elements_per_half_width: fem::wear_elements_per_half_width(file.fem.as_ref(), is_severe),
         slices,
         heat: heat?,
         wear: wear?,
