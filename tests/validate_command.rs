@@ -123,7 +123,7 @@ fn wrong_cases_are_refused_with_their_line() {
     for (from, to, said) in [
         ("kind = \"code-verification\"", "kind = \"verification\"", &["line 3", "verification", "regression"][..]),
         ("tier = \"smoke\"", "tire = \"smoke\"", &["line 4", "tire"]),
-        ("name = \"short\"", "name = \"match\"", &["line 8", "name \"match\"", "no word of the expression language"]),
+        ("name = \"short\"", "name = \"true\"", &["line 8", "name \"true\"", "no word of the expression language"]),
         ("source = \"ISO 21771\"\n", "", &["quantity \"base pitch\"", "no source"]),
         ("near = ", "at_least = 1\nnear = ", &["line 14", "more than one of near, at_least"]),
         ("[[quantity]]", "[[quantities]]", &["quantities"]),

@@ -2,8 +2,11 @@
 //!
 //! | expression | meaning |
 //! |---|---|
-//! | `x + y`, `2.0 * x`, `-x`, `abs(x)`, `sqrt(x)`, `ln(x)`, `exp(x)`, `sin(x)` | point by point |
-//! | `x[3]`, `x.len`, `first(x)`, `last(x)` | points of a column |
+//! | `x + y`, `2 * x`, `-x`, `x ** 2`, `x % 1` | point by point; of two numbers likewise |
+//! | `abs(x)`, `sqrt(x)`, `exp(x)`, `ln(x)`, `log(x)`, `sin(x)`, `cos(x)`, `tan(x)`, `asin(x)`, `acos(x)`, `atan(x)`, `sinh(x)`, `cosh(x)`, `tanh(x)`, `floor(x)`, `ceiling(x)`, `round(x)` | the same; `log` is to base 10, angles are in radians |
+//! | `PI()`, `E()`, `max(a, b)`, `min(a, b)`, `is_nan(a)`, `is_finite(a)` | of numbers |
+//! | `a == b`, `a != b`, `a < b`, `a <= b`, `a > b`, `a >= b`, `text.contains(part)` | truths; the first two also of texts and truths |
+//! | `x[3]`, `x.len`, `first(x)`, `last(x)` | points of a column; `len` and an index also of a list or a text |
 //! | `max(x)`, `min(x)`, `mean(x)`, `sum(x)`, `rms(x)`, `quantile(x, q)` | figures of a column |
 //! | `at(x, y, x0)`, `resample(x, y, places)` | y at x0 (at places), linear between the points |
 //! | `place_of_max(x, y)`, `place_of_min(x, y)` | the x where y is greatest, least |
@@ -18,233 +21,313 @@
 //! | `share_within(claim, truth, above, low, high)` | of those whose truth is above a level, the share whose claim/truth lies from low to high |
 //! | `column([a, b, …])` | a column of these |
 
+use std::f64::consts;
 use std::sync::Arc;
 
-use rhai::{Array, Dynamic, Engine, EvalAltResult, Position};
+use super::value::Value;
 
-/// Why a function has no value.
-pub type Failed = Box<EvalAltResult>;
-
-/// A column in an expression.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Column(pub Arc<[f64]>);
-
-/// A function that has no value, and why.
-pub fn fault<T>(text: String) -> Result<T, Failed> {
-    Err(EvalAltResult::ErrorRuntime(text.into(), Position::NONE).into())
+/// Why a function of columns has no value.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ColumnError {
+    /// Columns that do not go together.
+    #[error("columns of {0} and {1} points do not go together")]
+    Lengths(usize, usize),
+    /// Lists that do not go together.
+    #[error("lists of different lengths, {0} and {1}")]
+    ListLengths(usize, usize),
+    /// A figure of nothing.
+    #[error("the column has no points")]
+    Empty,
+    /// A value beyond the ends.
+    #[error("{place} lies outside the column, {from} to {to}")]
+    Outside {
+        /// Where it is asked for.
+        place: f64,
+        /// The first place of the column.
+        from: f64,
+        /// The last one.
+        to: f64,
+    },
+    /// A level that is nowhere crossed.
+    #[error("the column never passes {0}")]
+    NeverPasses(f64),
+    /// A column of anything else.
+    #[error("a column is made of numbers")]
+    NotNumbers,
+    /// A profile over places that do not rise.
+    #[error("the places of a profile must rise")]
+    NotRising,
+    /// A profile with too few points for its form.
+    #[error("a profile of {0} points has no cubic form")]
+    NoForm(usize),
 }
 
-/// A number of either kind.
-fn number(value: &Dynamic) -> Option<f64> {
-    value.as_float().ok().or_else(|| value.as_int().ok().map(|whole| whole as f64))
+/// Refuses columns that do not go together.
+pub fn same_length(x: &[f64], y: &[f64]) -> Result<(), ColumnError> {
+    if x.len() == y.len() { Ok(()) } else { Err(ColumnError::Lengths(x.len(), y.len())) }
 }
 
-impl Column {
-    fn map(&self, f: impl Fn(f64) -> f64) -> Self {
-        Self(self.0.iter().map(|&x| f(x)).collect())
-    }
+fn map(x: &[f64], f: impl Fn(f64) -> f64) -> Arc<[f64]> {
+    x.iter().map(|&x| f(x)).collect()
+}
 
-    fn zip(&self, other: &Self, f: impl Fn(f64, f64) -> f64) -> Result<Self, Failed> {
-        self.same_length(other)?;
-        Ok(Self(self.0.iter().zip(other.0.iter()).map(|(&x, &y)| f(x, y)).collect()))
-    }
+fn zip(x: &[f64], y: &[f64], f: impl Fn(f64, f64) -> f64) -> Result<Arc<[f64]>, ColumnError> {
+    same_length(x, y)?;
+    Ok(x.iter().zip(y).map(|(&x, &y)| f(x, y)).collect())
+}
 
-    /// Refuses columns that do not go together.
-    pub fn same_length(&self, other: &Self) -> Result<(), Failed> {
-        match (self.0.len(), other.0.len()) {
-            (one, same) if one == same => Ok(()),
-            (one, two) => fault(format!("columns of {one} and {two} points do not go together")),
-        }
-    }
+fn not_empty(x: &[f64]) -> Result<&[f64], ColumnError> {
+    if x.is_empty() { Err(ColumnError::Empty) } else { Ok(x) }
+}
 
-    fn not_empty(&self) -> Result<&[f64], Failed> {
-        if self.0.is_empty() { fault("the column has no points".to_owned()) } else { Ok(&self.0) }
-    }
+/// A figure that a number that is none spoils.
+fn fold(x: &[f64], f: impl Fn(f64, f64) -> f64) -> Result<f64, ColumnError> {
+    let spoilt = |a: f64, b: f64| if a.is_nan() || b.is_nan() { f64::NAN } else { f(a, b) };
+    Ok(not_empty(x)?.iter().copied().reduce(spoilt).unwrap_or(f64::NAN))
+}
 
-    /// A figure that a number that is none spoils.
-    fn fold(&self, f: impl Fn(f64, f64) -> f64) -> Result<f64, Failed> {
-        let points = self.not_empty()?;
-        Ok(points
-            .iter()
-            .copied()
-            .reduce(|a, b| if a.is_nan() || b.is_nan() { f64::NAN } else { f(a, b) })
-            .unwrap_or(f64::NAN))
-    }
+fn sum(x: &[f64]) -> f64 {
+    x.iter().sum()
+}
 
-    fn sum(&self) -> f64 {
-        self.0.iter().sum()
-    }
-
-    fn norm(&self) -> f64 {
-        self.0.iter().map(|x| x * x).sum::<f64>().sqrt()
-    }
-
-    fn get(&self, index: i64) -> Result<f64, Failed> {
-        let from_end = if index < 0 { index + self.0.len() as i64 } else { index };
-        let point = usize::try_from(from_end).ok().and_then(|index| self.0.get(index));
-        point.copied().map_or_else(|| fault(format!("a column of {} points has no point {index}", self.0.len())), Ok)
-    }
+fn norm(x: &[f64]) -> f64 {
+    x.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
 /// y at `place`, linear between the points of ascending or descending `x`.
-fn at(x: &Column, y: &Column, place: f64) -> Result<f64, Failed> {
-    x.same_length(y)?;
-    let found = x.0.windows(2).zip(y.0.windows(2)).find_map(|(x, y)| {
+fn at(x: &[f64], y: &[f64], place: f64) -> Result<f64, ColumnError> {
+    same_length(x, y)?;
+    let found = x.windows(2).zip(y.windows(2)).find_map(|(x, y)| {
         let (low, high) = (x[0].min(x[1]), x[0].max(x[1]));
         ((low..=high).contains(&place) && low < high).then(|| y[0] + (y[1] - y[0]) * (place - x[0]) / (x[1] - x[0]))
     });
-    let [from, to] = [x.0.first(), x.0.last()].map(|end| end.copied().unwrap_or(f64::NAN));
-    found.map_or_else(|| fault(format!("{place} lies outside the column, {from} to {to}")), Ok)
+    let [from, to] = [x.first(), x.last()].map(|end| end.copied().unwrap_or(f64::NAN));
+    found.ok_or(ColumnError::Outside { place, from, to })
 }
 
-fn place_of(x: &Column, y: &Column, better: fn(&f64, &f64) -> bool) -> Result<f64, Failed> {
-    x.same_length(y)?;
+fn place_of(x: &[f64], y: &[f64], better: fn(&f64, &f64) -> bool) -> Result<f64, ColumnError> {
+    same_length(x, y)?;
     let mut best: Option<(f64, f64)> = None;
-    for (&x, &y) in x.0.iter().zip(y.0.iter()) {
+    for (&x, &y) in x.iter().zip(y) {
         if best.is_none_or(|(_, so_far)| better(&y, &so_far)) {
             best = Some((x, y));
         }
     }
-    best.map_or_else(|| fault("the column has no points".to_owned()), |(x, _)| Ok(x))
+    best.map(|(x, _)| x).ok_or(ColumnError::Empty)
 }
 
-fn crossing(x: &Column, y: &Column, level: f64) -> Result<f64, Failed> {
-    x.same_length(y)?;
-    let found = x.0.windows(2).zip(y.0.windows(2)).find_map(|(x, y)| {
+fn crossing(x: &[f64], y: &[f64], level: f64) -> Result<f64, ColumnError> {
+    same_length(x, y)?;
+    let found = x.windows(2).zip(y.windows(2)).find_map(|(x, y)| {
         let (before, after) = (y[0] - level, y[1] - level);
         (before * after <= 0.0 && before != after).then(|| x[0] + (x[1] - x[0]) * before / (before - after))
     });
-    found.map_or_else(|| fault(format!("the column never passes {level}")), Ok)
+    found.ok_or(ColumnError::NeverPasses(level))
 }
 
-fn part(x: &Column, y: &Column, low: f64, high: f64) -> Result<Column, Failed> {
-    x.same_length(y)?;
-    Ok(Column(x.0.iter().zip(y.0.iter()).filter(|(x, _)| (low..=high).contains(*x)).map(|(_, &y)| y).collect()))
+fn part(x: &[f64], y: &[f64], low: f64, high: f64) -> Result<Arc<[f64]>, ColumnError> {
+    same_length(x, y)?;
+    Ok(x.iter().zip(y).filter(|(x, _)| (low..=high).contains(*x)).map(|(_, &y)| y).collect())
 }
 
-fn quantile(x: &Column, share: f64) -> Result<f64, Failed> {
-    let mut sorted = x.not_empty()?.to_vec();
+fn quantile(x: &[f64], share: f64) -> Result<f64, ColumnError> {
+    let mut sorted = not_empty(x)?.to_vec();
     sorted.sort_by(f64::total_cmp);
     let place = share.clamp(0.0, 1.0) * (sorted.len() - 1) as f64;
     let (below, above) = (place.floor() as usize, place.ceil() as usize);
     Ok(sorted[below] + (sorted[above] - sorted[below]) * place.fract())
 }
 
-fn order(h: &Column, error: &Column) -> Result<f64, Failed> {
-    h.same_length(error)?;
-    let (x, y) = (h.map(f64::ln), error.map(f64::ln));
-    let n = x.0.len() as f64;
-    let (x_mean, y_mean) = (x.sum() / n, y.sum() / n);
-    let (x, y) = (x.map(|x| x - x_mean), y.map(|y| y - y_mean));
-    Ok(x.zip(&y, |x, y| x * y)?.sum() / x.zip(&x, |a, b| a * b)?.sum())
+fn integral(x: &[f64], y: &[f64]) -> Result<f64, ColumnError> {
+    same_length(x, y)?;
+    Ok(x.windows(2).zip(y.windows(2)).map(|(x, y)| 0.5 * (x[1] - x[0]) * (y[0] + y[1])).sum())
 }
 
-fn column(items: Array) -> Result<Column, Failed> {
-    let numbers: Option<Arc<[f64]>> = items.iter().map(number).collect();
-    numbers.map_or_else(|| fault("a column is made of numbers".to_owned()), |numbers| Ok(Column(numbers)))
+fn order(h: &[f64], error: &[f64]) -> Result<f64, ColumnError> {
+    same_length(h, error)?;
+    let (x, y) = (map(h, f64::ln), map(error, f64::ln));
+    let n = x.len() as f64;
+    let (x_mean, y_mean) = (sum(&x) / n, sum(&y) / n);
+    let (x, y) = (map(&x, |x| x - x_mean), map(&y, |y| y - y_mean));
+    Ok(sum(&zip(&x, &y, |x, y| x * y)?) / sum(&zip(&x, &x, |a, b| a * b)?))
 }
 
-/// Whether every neighbour follows as `in_order` says.
-fn ordered(x: &Column, in_order: fn(&f64, &f64) -> bool) -> bool {
-    x.0.is_sorted_by(in_order)
+fn relative_l2(y: &[f64], reference: &[f64]) -> Result<f64, ColumnError> {
+    Ok(norm(&zip(y, reference, |y, r| y - r)?) / norm(reference))
 }
 
-/// Teaches the engine all of the above.
-pub fn register(engine: &mut Engine) {
-    engine.register_type_with_name::<Column>("column");
-    arithmetic(engine, "+", |a, b| a + b);
-    arithmetic(engine, "-", |a, b| a - b);
-    arithmetic(engine, "*", |a, b| a * b);
-    arithmetic(engine, "/", |a, b| a / b);
-    engine.register_fn("-", |x: Column| x.map(|x| -x));
-    for (name, f) in [
-        ("abs", f64::abs as fn(f64) -> f64),
-        ("sqrt", f64::sqrt),
-        ("ln", f64::ln),
-        ("exp", f64::exp),
-        ("sin", f64::sin),
-    ] {
-        engine.register_fn(name, move |x: Column| x.map(f));
+/// Of two lists of columns, such as one profile for each member of two families: a number for each.
+fn relative_l2_of_each(rows: &[Value], references: &[Value]) -> Result<Arc<[f64]>, ColumnError> {
+    if rows.len() != references.len() {
+        return Err(ColumnError::ListLengths(rows.len(), references.len()));
     }
-    engine.register_indexer_get(|x: &mut Column, index: i64| x.get(index));
-    engine.register_get("len", |x: &mut Column| x.0.len() as i64);
-    engine.register_fn("column", column);
+    let of_two = |(row, reference): (&Value, &Value)| match (row, reference) {
+        (Value::Column(row), Value::Column(reference)) => relative_l2(row, reference),
+        // A member that did not run has no profile.
+        _ => Ok(f64::NAN),
+    };
+    rows.iter().zip(references).map(of_two).collect()
+}
 
-    engine.register_fn("first", |x: Column| x.get(0));
-    engine.register_fn("last", |x: Column| x.get(-1));
-    engine.register_fn("max", |x: Column| x.fold(f64::max));
-    engine.register_fn("min", |x: Column| x.fold(f64::min));
-    engine.register_fn("sum", |x: Column| x.sum());
-    engine.register_fn("mean", |x: Column| -> Result<f64, Failed> { Ok(x.sum() / x.not_empty()?.len() as f64) });
-    engine
-        .register_fn("rms", |x: Column| -> Result<f64, Failed> { Ok(x.norm() / (x.not_empty()?.len() as f64).sqrt()) });
-    engine.register_fn("quantile", |x: Column, share: f64| quantile(&x, share));
-    engine.register_fn("differences", |x: Column| Column(x.0.windows(2).map(|two| two[1] - two[0]).collect()));
-    engine.register_fn("is_rising", |x: Column| ordered(&x, |a, b| a < b));
-    engine.register_fn("is_falling", |x: Column| ordered(&x, |a, b| a > b));
-    engine.register_fn("local_maxima", |y: Column| {
-        y.0.windows(3).filter(|three| three[1] > three[0] && three[1] > three[2]).count() as i64
+fn relative_max(y: &[f64], reference: &[f64]) -> Result<f64, ColumnError> {
+    let greatest = |x: &[f64]| fold(x, f64::max);
+    Ok(greatest(&zip(y, reference, |y, r| (y - r).abs())?)? / greatest(&map(reference, f64::abs))?)
+}
+
+/// Of those whose truth is above a level, the share whose claim over truth lies from low to high; 0 where none is.
+fn share_within(claim: &[f64], truth: &[f64], above: f64, low: f64, high: f64) -> Result<f64, ColumnError> {
+    same_length(claim, truth)?;
+    let judged = claim.iter().zip(truth).filter(|(_, truth)| **truth > above);
+    let (within, all) = judged.fold((0, 0), |(within, all), (claim, truth)| {
+        (within + usize::from((low..=high).contains(&(claim / truth))), all + 1)
     });
-    for name in ["count_above", "count_below"] {
-        let above = name == "count_above";
-        let count = move |x: &Column, level: f64| {
-            x.0.iter().filter(|&&x| if above { x > level } else { x < level }).count() as i64
-        };
-        engine.register_fn(name, move |x: Column, level: f64| count(&x, level));
-        engine.register_fn(name, move |x: Column, level: i64| count(&x, level as f64));
+    Ok(if all > 0 { within as f64 / all as f64 } else { 0.0 })
+}
+
+fn local_maxima(y: &[f64]) -> usize {
+    y.windows(3).filter(|three| three[1] > three[0] && three[1] > three[2]).count()
+}
+
+fn column(items: &[Value]) -> Result<Arc<[f64]>, ColumnError> {
+    let number = |item: &Value| if let Value::Number(number) = item { Some(*number) } else { None };
+    items.iter().map(number).collect::<Option<_>>().ok_or(ColumnError::NotNumbers)
+}
+
+fn count(x: &[f64], counted: impl Fn(f64) -> bool) -> Value {
+    Value::Number(x.iter().filter(|&&x| counted(x)).count() as f64)
+}
+
+/// Functions of a number, or of each point of a column.
+fn point_by_point(name: &str) -> Option<fn(f64) -> f64> {
+    Some(match name {
+        "abs" => f64::abs,
+        "sqrt" => f64::sqrt,
+        "exp" => f64::exp,
+        "ln" => f64::ln,
+        "log" => f64::log10,
+        "sin" => f64::sin,
+        "cos" => f64::cos,
+        "tan" => f64::tan,
+        "asin" => f64::asin,
+        "acos" => f64::acos,
+        "atan" => f64::atan,
+        "sinh" => f64::sinh,
+        "cosh" => f64::cosh,
+        "tanh" => f64::tanh,
+        "floor" => f64::floor,
+        "ceiling" => f64::ceil,
+        "round" => f64::round,
+        _ => return None,
+    })
+}
+
+/// How much is in a column, a list or a text.
+pub fn length(of: &Value) -> Option<Value> {
+    let length = match of {
+        Value::Column(x) => x.len(),
+        Value::List(items) => items.len(),
+        Value::Text(text) => text.chars().count(),
+        _ => return None,
+    };
+    Some(Value::Number(length as f64))
+}
+
+/// `left` and `right` with an operator between them; none where there is no such operator.
+///
+/// # Errors
+/// Columns that do not go together.
+pub fn operate(sign: &str, left: &Value, right: &Value) -> Result<Option<Value>, ColumnError> {
+    use Value::{Column, Number, Text, Truth};
+    let compared = match (sign, left, right) {
+        ("==", Number(a), Number(b)) => Some(a == b),
+        ("==", Truth(a), Truth(b)) => Some(a == b),
+        ("==", Text(a), Text(b)) => Some(a == b),
+        ("!=", Number(a), Number(b)) => Some(a != b),
+        ("!=", Truth(a), Truth(b)) => Some(a != b),
+        ("!=", Text(a), Text(b)) => Some(a != b),
+        ("<", Number(a), Number(b)) => Some(a < b),
+        ("<=", Number(a), Number(b)) => Some(a <= b),
+        (">", Number(a), Number(b)) => Some(a > b),
+        (">=", Number(a), Number(b)) => Some(a >= b),
+        _ => None,
+    };
+    if let Some(truth) = compared {
+        return Ok(Some(Truth(truth)));
     }
+    let f: fn(f64, f64) -> f64 = match sign {
+        "+" => |a, b| a + b,
+        "-" => |a, b| a - b,
+        "*" => |a, b| a * b,
+        "/" => |a, b| a / b,
+        "%" => |a, b| a % b,
+        "**" => f64::powf,
+        _ => return Ok(None),
+    };
+    Ok(Some(match (left, right) {
+        (Number(a), Number(b)) => Number(f(*a, *b)),
+        (Column(x), Column(y)) => Column(zip(x, y, f)?),
+        (Column(x), Number(b)) => Column(map(x, |x| f(x, *b))),
+        (Number(a), Column(y)) => Column(map(y, |y| f(*a, y))),
+        _ => return Ok(None),
+    }))
+}
 
-    engine.register_fn("at", |x: Column, y: Column, place: f64| at(&x, &y, place));
-    engine.register_fn("at", |x: Column, y: Column, place: i64| at(&x, &y, place as f64));
-    engine.register_fn("resample", |x: Column, y: Column, places: Column| -> Result<Column, Failed> {
-        let found: Result<Arc<[f64]>, Failed> = places.0.iter().map(|&place| at(&x, &y, place)).collect();
-        found.map(Column)
-    });
-    engine.register_fn("place_of_max", |x: Column, y: Column| place_of(&x, &y, |a, b| a > b));
-    engine.register_fn("place_of_min", |x: Column, y: Column| place_of(&x, &y, |a, b| a < b));
-    engine.register_fn("crossing", |x: Column, y: Column, level: f64| crossing(&x, &y, level));
-    engine.register_fn("part", |x: Column, y: Column, low: f64, high: f64| part(&x, &y, low, high));
-    engine.register_fn("integral", |x: Column, y: Column| -> Result<f64, Failed> {
-        x.same_length(&y)?;
-        Ok(x.0.windows(2).zip(y.0.windows(2)).map(|(x, y)| 0.5 * (x[1] - x[0]) * (y[0] + y[1])).sum())
-    });
-    engine.register_fn("relative_l2", |y: Column, reference: Column| -> Result<f64, Failed> {
-        Ok(y.zip(&reference, |y, r| y - r)?.norm() / reference.norm())
-    });
-    // Of those whose truth is above a level, the share whose claim over truth lies from low to high; 0 where none is.
-    engine.register_fn("share_within", |claim: Column, truth: Column, above: f64, low: f64, high: f64| {
-        claim.same_length(&truth)?;
-        let judged = claim.0.iter().zip(truth.0.iter()).filter(|(_, truth)| **truth > above);
-        let (within, all) = judged.fold((0, 0), |(within, all), (claim, truth)| {
-            (within + usize::from((low..=high).contains(&(claim / truth))), all + 1)
+/// The value of a function; none where there is no such function of these.
+///
+/// # Errors
+/// [`ColumnError`]
+pub fn call(name: &str, arguments: &[&Value]) -> Result<Option<Value>, ColumnError> {
+    use Value::{Column, List, Number, Text, Truth};
+    if let ([of], Some(f)) = (arguments, point_by_point(name)) {
+        return Ok(match of {
+            Number(a) => Some(Number(f(*a))),
+            Column(x) => Some(Column(map(x, f))),
+            _ => None,
         });
-        Ok::<f64, Failed>(if all > 0 { within as f64 / all as f64 } else { 0.0 })
-    });
-    // Of two lists of columns, such as one profile for each member of two families: a column of one number for each.
-    engine.register_fn("relative_l2", |rows: Array, references: Array| -> Result<Column, Failed> {
-        if rows.len() != references.len() {
-            return fault(format!("lists of different lengths, {} and {}", rows.len(), references.len()));
-        }
-        let pairs = rows.into_iter().zip(references);
-        let of_two =
-            |(row, reference): (Dynamic, Dynamic)| match (row.try_cast::<Column>(), reference.try_cast::<Column>()) {
-                (Some(row), Some(reference)) => Ok(row.zip(&reference, |y, r| y - r)?.norm() / reference.norm()),
-                // A member that did not run has no profile.
-                _ => Ok(f64::NAN),
-            };
-        pairs.map(of_two).collect::<Result<_, Failed>>().map(Column)
-    });
-    engine.register_fn("relative_max", |y: Column, reference: Column| -> Result<f64, Failed> {
-        Ok(y.zip(&reference, |y, r| (y - r).abs())?.fold(f64::max)? / reference.map(f64::abs).fold(f64::max)?)
-    });
-    engine.register_fn("order", |h: Column, error: Column| order(&h, &error));
-}
+    }
+    Ok(Some(match (name, arguments) {
+        ("PI", []) => Number(consts::PI),
+        ("E", []) => Number(consts::E),
+        ("max", [Number(a), Number(b)]) => Number(if a >= b { *a } else { *b }),
+        ("min", [Number(a), Number(b)]) => Number(if a <= b { *a } else { *b }),
+        ("is_nan", [Number(a)]) => Truth(a.is_nan()),
+        ("is_finite", [Number(a)]) => Truth(a.is_finite()),
+        ("contains", [Text(text), Text(part)]) => Truth(text.contains(part.as_str())),
+        ("len", [of]) => return Ok(length(of)),
 
-/// An operator between columns and numbers in either order.
-fn arithmetic(engine: &mut Engine, name: &str, f: fn(f64, f64) -> f64) {
-    engine.register_fn(name, move |x: Column, y: Column| x.zip(&y, f));
-    engine.register_fn(name, move |x: Column, y: f64| x.map(|x| f(x, y)));
-    engine.register_fn(name, move |x: f64, y: Column| y.map(|y| f(x, y)));
-    engine.register_fn(name, move |x: Column, y: i64| x.map(|x| f(x, y as f64)));
-    engine.register_fn(name, move |x: i64, y: Column| y.map(|y| f(x as f64, y)));
+        ("column", [List(items)]) => Column(column(items)?),
+        ("column", [Column(x)]) => Column(x.clone()),
+        ("first", [Column(x)]) => Number(not_empty(x)?[0]),
+        ("last", [Column(x)]) => Number(not_empty(x)?[x.len() - 1]),
+        ("max", [Column(x)]) => Number(fold(x, f64::max)?),
+        ("min", [Column(x)]) => Number(fold(x, f64::min)?),
+        ("sum", [Column(x)]) => Number(sum(x)),
+        ("mean", [Column(x)]) => Number(sum(x) / not_empty(x)?.len() as f64),
+        ("rms", [Column(x)]) => Number(norm(x) / (not_empty(x)?.len() as f64).sqrt()),
+        ("quantile", [Column(x), Number(share)]) => Number(quantile(x, *share)?),
+        ("differences", [Column(x)]) => Value::column(x.windows(2).map(|two| two[1] - two[0])),
+        ("is_rising", [Column(x)]) => Truth(x.is_sorted_by(|a, b| a < b)),
+        ("is_falling", [Column(x)]) => Truth(x.is_sorted_by(|a, b| a > b)),
+        ("local_maxima", [Column(y)]) => Number(local_maxima(y) as f64),
+        ("count_above", [Column(x), Number(level)]) => count(x, |x| x > *level),
+        ("count_below", [Column(x), Number(level)]) => count(x, |x| x < *level),
+
+        ("at", [Column(x), Column(y), Number(place)]) => Number(at(x, y, *place)?),
+        ("resample", [Column(x), Column(y), Column(places)]) => {
+            Column(places.iter().map(|&place| at(x, y, place)).collect::<Result<_, _>>()?)
+        }
+        ("place_of_max", [Column(x), Column(y)]) => Number(place_of(x, y, |a, b| a > b)?),
+        ("place_of_min", [Column(x), Column(y)]) => Number(place_of(x, y, |a, b| a < b)?),
+        ("crossing", [Column(x), Column(y), Number(level)]) => Number(crossing(x, y, *level)?),
+        ("part", [Column(x), Column(y), Number(low), Number(high)]) => Column(part(x, y, *low, *high)?),
+        ("integral", [Column(x), Column(y)]) => Number(integral(x, y)?),
+        ("relative_l2", [Column(y), Column(reference)]) => Number(relative_l2(y, reference)?),
+        ("relative_l2", [List(rows), List(references)]) => Column(relative_l2_of_each(rows, references)?),
+        ("relative_max", [Column(y), Column(reference)]) => Number(relative_max(y, reference)?),
+        ("order", [Column(h), Column(error)]) => Number(order(h, error)?),
+        ("share_within", [Column(claim), Column(truth), Number(above), Number(low), Number(high)]) => {
+            Number(share_within(claim, truth, *above, *low, *high)?)
+        }
+        _ => return Ok(None),
+    }))
 }

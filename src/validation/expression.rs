@@ -1,25 +1,19 @@
 //! Expressions of a case: numbers, truths and columns computed from what its runs left behind.
 //!
-//! The language is that of the `rhai` crate restricted to expressions: arithmetic, comparisons, `&&`, `||`, `!`, calls, `.name`
-//! and `[index]`; no statements, loops or functions of its own. Numbers with and without a decimal point mix, but two whole
-//! numbers divide as whole numbers do. `new` is a word of the language: what the outputs call `summary.new` is `summary.unworn`
-//! here. Beside `sqrt`, `sin`, `exp`, `ln`, `PI()` and the like there are the functions of
-//! [`super::column`] and [`super::profile`].
+//! There is arithmetic, comparisons, `&&`, `||`, `!`, lists, calls, `.name` and `[index]` ([`super::syntax`]); no statements, loops
+//! or functions of one's own. All numbers are floating-point: `7 / 2` is 3.5. `&&` and `||` look at their second term only where the
+//! first one does not decide; an index below zero counts from the end. What the outputs call `summary.new` may also be said
+//! `summary.unworn`. The functions are those of [`super::column`] and [`super::profile`].
 
-use rhai::{Array, Dynamic, Engine, Map, Scope};
+use std::borrow::Cow;
 
-use super::column::{self, Column};
+use super::column;
 use super::profile;
+use super::syntax::{self, Node, SyntaxError, Term};
 use super::value::Value;
 
-/// Operations of one expression: far more than any needs, so that none runs for ever.
-const MOST_OPERATIONS: u64 = 1_000_000;
-/// Items of a list and letters of a text that an expression makes; columns of results may be longer.
+/// Items of a list that an expression makes, lists in it included; columns of results may be longer.
 const MOST_ITEMS: usize = 100_000;
-/// What prints, reads the clock, or makes expressions of texts.
-const NOT_FOR_CASES: [&str; 6] = ["eval", "print", "debug", "timestamp", "sleep", "blob"];
-/// Depth of nested terms.
-const MOST_DEPTH: usize = 128;
 
 /// Why an expression has no value.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -31,64 +25,84 @@ pub struct ExpressionError {
     pub reason: String,
 }
 
-/// Evaluates expressions over names.
-pub struct Evaluator {
-    engine: Engine,
-    scope: Scope<'static>,
+/// Why a term has no value.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum Fault {
+    /// A name that stands for nothing.
+    #[error("found `{0}`, which stands for nothing")]
+    UnknownName(String),
+    /// A name that a group has not.
+    #[error("found no `{name}` in {of}")]
+    NoMember {
+        /// The name.
+        name: String,
+        /// What was looked in.
+        of: &'static str,
+    },
+    /// An index where nothing is.
+    #[error("a {what} of {points} {parts} has no {part} {index}")]
+    NoItem {
+        /// A column or a list.
+        what: &'static str,
+        /// What it has.
+        parts: &'static str,
+        /// One of those.
+        part: &'static str,
+        /// How many.
+        points: usize,
+        /// The index.
+        index: f64,
+    },
+    /// An operator or function for other things.
+    #[error("found {0}, which there is not")]
+    NoFunction(String),
+    /// A list too long to be kept.
+    #[error("found a list too large; allowed: {MOST_ITEMS} items, those of lists in it included")]
+    TooLarge,
+    /// A function of columns that has no value.
+    #[error(transparent)]
+    Column(#[from] column::ColumnError),
 }
 
-impl Default for Evaluator {
-    fn default() -> Self {
-        let mut engine = Engine::new();
-        engine.set_max_operations(MOST_OPERATIONS);
-        engine.set_max_expr_depths(MOST_DEPTH, MOST_DEPTH);
-        engine.set_max_array_size(MOST_ITEMS);
-        engine.set_max_map_size(MOST_ITEMS);
-        engine.set_max_string_size(MOST_ITEMS);
-        for symbol in NOT_FOR_CASES {
-            engine.disable_symbol(symbol);
-        }
-        engine.set_fail_on_invalid_map_property(true);
-        engine.set_strict_variables(true);
-        column::register(&mut engine);
-        profile::register(&mut engine);
-        Self { engine, scope: Scope::new() }
-    }
+/// Evaluates expressions over names.
+#[derive(Default)]
+pub struct Evaluator {
+    names: Vec<(String, Value)>,
 }
 
 impl Evaluator {
     /// Lets `name` stand for `value` from now on.
     pub fn name(&mut self, name: &str, value: &Value) {
-        self.scope.push_constant_dynamic(name.to_owned(), dynamic(value));
+        self.names.push((name.to_owned(), value.clone()));
     }
 
     /// Carries out `work` with `name` standing for `value` only there.
     pub fn with<T>(&mut self, name: &str, value: &Value, work: impl FnOnce(&mut Self) -> T) -> T {
-        let before = self.scope.len();
+        let before = self.names.len();
         self.name(name, value);
         let done = work(self);
-        self.scope.rewind(before);
+        self.names.truncate(before);
         done
     }
 
     /// Whether `name` can stand for something: words of the language cannot.
     pub fn can_name(name: &str) -> bool {
-        Engine::new_raw().compile_expression(name).is_ok()
+        syntax::parse(name).is_ok_and(|node| matches!(node.term, Term::Name(_)))
     }
 
     /// The value of an expression.
     ///
     /// # Errors
     /// [`ExpressionError`]
-    pub fn value(&mut self, expression: &str) -> Result<Value, ExpressionError> {
+    pub fn value(&self, expression: &str) -> Result<Value, ExpressionError> {
         let error = |reason: String| ExpressionError { expression: expression.to_owned(), reason };
-        let found = self.engine.eval_expression_with_scope::<Dynamic>(&mut self.scope, expression);
-        let found = found.map_err(|failure| error(failure.to_string()))?;
-        value(found).map_err(|kind| error(format!("found {kind}; allowed: a number, a truth, a text or a column")))
+        let node = syntax::parse(expression).map_err(|wrong: SyntaxError| error(wrong.to_string()))?;
+        let found = self.evaluate(&node).map_err(|(fault, place)| error(format!("{fault} (character {place})")))?;
+        Ok(found.into_owned())
     }
 
     /// The same, which must be a number; a truth is 1 or 0.
-    pub fn number(&mut self, expression: &str) -> Result<f64, ExpressionError> {
+    pub fn number(&self, expression: &str) -> Result<f64, ExpressionError> {
         match self.value(expression)? {
             Value::Number(number) => Ok(number),
             Value::Truth(truth) => Ok(f64::from(u8::from(truth))),
@@ -97,75 +111,155 @@ impl Evaluator {
     }
 
     /// The same, which must be a column.
-    pub fn column(&mut self, expression: &str) -> Result<Vec<f64>, ExpressionError> {
+    pub fn column(&self, expression: &str) -> Result<Vec<f64>, ExpressionError> {
         match self.value(expression)? {
             Value::Column(numbers) => Ok(numbers.to_vec()),
             other => Err(unfit(expression, &other, "a column")),
         }
     }
+
+    /// The value of a term, or why it has none and the place of the term to blame.
+    fn evaluate(&self, node: &Node) -> Result<Cow<'_, Value>, (Fault, usize)> {
+        let blame = |fault: Fault| (fault, node.place);
+        let found = match &node.term {
+            Term::Number(number) => Value::Number(*number),
+            Term::Truth(truth) => Value::Truth(*truth),
+            Term::Text(text) => Value::Text(text.clone()),
+            Term::Name(name) => {
+                let named = self.names.iter().rev().find(|(known, _)| known == name);
+                return named
+                    .map(|(_, value)| Cow::Borrowed(value))
+                    .ok_or_else(|| blame(Fault::UnknownName(name.clone())));
+            }
+            Term::List(items) => {
+                let items = items.iter().map(|item| Ok(self.evaluate(item)?.into_owned()));
+                let list = Value::List(items.collect::<Result<_, _>>()?);
+                if items_of(&list) > MOST_ITEMS {
+                    return Err(blame(Fault::TooLarge));
+                }
+                list
+            }
+            Term::Minus(of) => match self.evaluate(of)?.as_ref() {
+                Value::Number(number) => Value::Number(-number),
+                Value::Column(x) => Value::column(x.iter().map(|x| -x)),
+                other => return Err(blame(no_function("-", &[other]))),
+            },
+            Term::Not(of) => Value::Truth(!self.truth(of)?),
+            Term::Both(terms) => Value::Truth(self.truth(&terms[0])? && self.truth(&terms[1])?),
+            Term::Either(terms) => Value::Truth(self.truth(&terms[0])? || self.truth(&terms[1])?),
+            Term::Binary(sign, terms) => {
+                let (left, right) = (self.evaluate(&terms[0])?, self.evaluate(&terms[1])?);
+                column::operate(sign, &left, &right)
+                    .map_err(|error| blame(error.into()))?
+                    .ok_or_else(|| blame(no_function(sign, &[&left, &right])))?
+            }
+            Term::Member(of, name) => return member(self.evaluate(of)?, name).map_err(blame),
+            Term::Index(terms) => {
+                let (of, index) = (self.evaluate(&terms[0])?, self.evaluate(&terms[1])?);
+                return item(of, &index).map_err(blame);
+            }
+            Term::Call(name, arguments) => {
+                let arguments: Vec<_> = arguments.iter().map(|node| self.evaluate(node)).collect::<Result<_, _>>()?;
+                let arguments: Vec<&Value> = arguments.iter().map(AsRef::as_ref).collect();
+                let found = match column::call(name, &arguments).map_err(|error| blame(error.into()))? {
+                    None => profile::call(name, &arguments).map_err(|error| blame(error.into()))?,
+                    found => found,
+                };
+                found.ok_or_else(|| blame(no_function(name, &arguments)))?
+            }
+        };
+        Ok(Cow::Owned(found))
+    }
+
+    fn truth(&self, node: &Node) -> Result<bool, (Fault, usize)> {
+        match self.evaluate(node)?.as_ref() {
+            Value::Truth(truth) => Ok(*truth),
+            other => Err((no_function("a statement", &[other]), node.place)),
+        }
+    }
+}
+
+/// What has the name `name` in `of`.
+fn member<'v>(of: Cow<'v, Value>, name: &str) -> Result<Cow<'v, Value>, Fault> {
+    let missing = |of: &Value| Fault::NoMember { name: name.to_owned(), of: kind(of) };
+    let known = |entries: &std::collections::BTreeMap<String, Value>| {
+        if name == "unworn" && !entries.contains_key(name) { "new" } else { name }.to_owned()
+    };
+    match of {
+        Cow::Borrowed(Value::Group(entries)) => {
+            entries.get(&known(entries)).map(Cow::Borrowed).ok_or_else(|| missing(&of))
+        }
+        Cow::Owned(Value::Group(mut entries)) => match entries.remove(&known(&entries)) {
+            Some(value) => Ok(Cow::Owned(value)),
+            None => Err(missing(&Value::Group(entries))),
+        },
+        other if name == "len" => column::length(&other).map(Cow::Owned).ok_or_else(|| missing(&other)),
+        other => Err(missing(&other)),
+    }
+}
+
+/// The item of a column or list with an index, or what a group has under a text.
+fn item<'v>(of: Cow<'v, Value>, index: &Value) -> Result<Cow<'v, Value>, Fault> {
+    let index = match (of.as_ref(), index) {
+        (_, Value::Text(name)) => return member(of, name),
+        (Value::Column(_) | Value::List(_), Value::Number(index)) => *index,
+        (other, index) => return Err(no_function("[ ]", &[other, index])),
+    };
+    match of {
+        Cow::Borrowed(Value::List(items)) => {
+            Ok(Cow::Borrowed(&items[place_of_item(index, items.len(), ["list", "items", "item"])?]))
+        }
+        Cow::Owned(Value::List(mut items)) => {
+            let place = place_of_item(index, items.len(), ["list", "items", "item"])?;
+            Ok(Cow::Owned(items.swap_remove(place)))
+        }
+        other => match other.as_ref() {
+            Value::Column(x) => {
+                Ok(Cow::Owned(Value::Number(x[place_of_item(index, x.len(), ["column", "points", "point"])?])))
+            }
+            other => Err(no_function("[ ]", &[other])),
+        },
+    }
+}
+
+fn place_of_item(index: f64, points: usize, [what, parts, part]: [&'static str; 3]) -> Result<usize, Fault> {
+    let from_start = if index < 0.0 { index + points as f64 } else { index };
+    if from_start.fract() == 0.0 && from_start >= 0.0 && from_start < points as f64 {
+        Ok(from_start as usize)
+    } else {
+        Err(Fault::NoItem { what, parts, part, points, index })
+    }
+}
+
+/// Items of a list, those of lists in it included.
+fn items_of(value: &Value) -> usize {
+    match value {
+        Value::List(items) => items.iter().map(|item| 1 + items_of(item)).sum(),
+        Value::Group(entries) => entries.values().map(|item| 1 + items_of(item)).sum(),
+        _ => 0,
+    }
+}
+
+fn no_function(name: &str, of: &[&Value]) -> Fault {
+    let kinds: Vec<&str> = of.iter().map(|value| kind(value)).collect();
+    Fault::NoFunction(format!("`{name}` of ({})", kinds.join(", ")))
 }
 
 fn unfit(expression: &str, found: &Value, allowed: &str) -> ExpressionError {
-    let found = match found {
+    let reason = format!("found {}; allowed: {allowed}", kind(found));
+    ExpressionError { expression: expression.to_owned(), reason }
+}
+
+fn kind(value: &Value) -> &'static str {
+    match value {
         Value::Number(_) => "a number",
         Value::Truth(_) => "a truth",
         Value::Text(_) => "a text",
         Value::Column(_) => "a column",
         Value::List(_) => "a list",
         Value::Group(_) => "a group of names",
-    };
-    ExpressionError { expression: expression.to_owned(), reason: format!("found {found}; allowed: {allowed}") }
-}
-
-/// A value as expressions handle it.
-fn dynamic(value: &Value) -> Dynamic {
-    match value {
-        Value::Number(number) => (*number).into(),
-        Value::Truth(truth) => (*truth).into(),
-        Value::Text(text) => text.clone().into(),
-        Value::Column(numbers) => Dynamic::from(Column(numbers.clone())),
-        Value::List(items) => items.iter().map(dynamic).collect::<Array>().into(),
-        Value::Group(entries) => {
-            entries.iter().map(|(name, value)| (speakable(name).into(), dynamic(value))).collect::<Map>().into()
-        }
     }
 }
-
-/// A name as expressions may say it.
-fn speakable(name: &str) -> &str {
-    if name == "new" { "unworn" } else { name }
-}
-
-/// Back again; otherwise the name of what it is.
-fn value(found: Dynamic) -> Result<Value, String> {
-    if let Some(column) = found.clone().try_cast::<Column>() {
-        return Ok(Value::Column(column.0));
-    }
-    if let Ok(number) = found.as_float() {
-        return Ok(Value::Number(number));
-    }
-    if let Ok(whole) = found.as_int() {
-        return Ok(Value::Number(whole as f64));
-    }
-    if let Ok(truth) = found.as_bool() {
-        return Ok(Value::Truth(truth));
-    }
-    if found.is_string() {
-        return Ok(Value::Text(found.into_string().unwrap_or_default()));
-    }
-    if let Some(entries) = found.clone().try_cast::<Map>() {
-        return entries
-            .into_iter()
-            .map(|(name, item)| Ok((name.to_string(), value(item)?)))
-            .collect::<Result<_, String>>()
-            .map(Value::Group);
-    }
-    match found.clone().try_cast::<Array>() {
-        Some(items) => items.into_iter().map(value).collect::<Result<_, String>>().map(Value::List),
-        None => Err(found.type_name().to_owned()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -183,7 +277,7 @@ mod tests {
 
     #[test]
     fn ver_figures_of_columns() {
-        let mut e = evaluator();
+        let e = evaluator();
         for (expression, expected) in [
             ("max(r.pinion.y)", 8.0),
             ("min(r.pinion.y) + 1", 2.0),
@@ -202,35 +296,73 @@ mod tests {
             ("rms(column([3, 4.0]))", 12.5_f64.sqrt()),
             ("relative_max(r.pinion.y, 2 * r.pinion.y)", 0.5),
             ("order(column([1.0, 0.5, 0.25]), column([3.0, 0.75, 0.1875]))", 2.0),
-            ("2 ** 3 + sqrt(16.0) + 7 / 2.0", 15.5),
+            ("2 ** 3 + sqrt(16.0) + 7 / 2", 15.5),
+            ("2 - 3 - 4 * 2 ** 3 ** 2", -2049.0),
+            ("-2 ** 2 + 7 % 4", 7.0),
+            ("max(2, r.n) + min(r.n, 1)", 3.0),
+            ("r[\"n\"] + r.pinion.x.len + [1, [2, 3],].len() + r.name.len()", 9.0),
+            ("[r.pinion, 5][0].y[1]", 3.0),
         ] {
             let found = e.number(expression).unwrap();
             assert!((found - expected).abs() < 1e-12, "{expression}: {found}, expected {expected}");
+        }
+        for (statement, expected) in [
+            ("1 < 2 && 2 <= 2 && !(1 > 2) && 2 >= 2 || false", 1.0),
+            ("r.name != \"b\" && \"quo\\\"te\".contains(\"\\\"\") && true != false", 1.0),
+            ("false && nothing", 0.0),
+            ("true || nothing", 1.0),
+            ("is_nan(0 / 0) && !is_finite(1 / 0) && 0 / 0 != 0 / 0", 1.0),
+        ] {
+            assert_eq!(e.number(statement).unwrap(), expected, "{statement}");
         }
         assert_eq!(e.number("is_rising(r.pinion.x) && !is_rising(r.pinion.y) && r.name == \"a\"").unwrap(), 1.0);
     }
 
     #[test]
     fn what_is_wrong_with_an_expression_is_said() {
-        let mut e = evaluator();
+        let e = evaluator();
         for (expression, said) in [
             ("r.pinion.z", "z"),
             ("nothing + 1", "nothing"),
             ("r.pinion.y[9]", "has no point 9"),
             ("at(r.pinion.x, r.pinion.y, 9.0)", "9 lies outside the column, 0 to 4"),
             ("r.pinion.x + column([1.0])", "columns of 4 and 1 points"),
-            ("let x = 1", "let"),
-            ("print(1)", "print"),
-            ("timestamp()", "timestamp"),
-            ("[].pad(1000000000, 1).len()", "large"),
-            ("\"a\".pad(1000000000, \"b\")", "l"),
-            ("max(r.pinion.y", ")"),
+            ("let x = 1", "found `=` at character 7"),
+            ("print(1)", "found `print` of (a number), which there is not (character 1)"),
+            ("max(r.name)", "found `max` of (a text), which there is not"),
+            ("1 + (r.name + 1)", "found `+` of (a text, a number), which there is not (character 13)"),
+            ("r.n && true", "found `a statement` of (a number)"),
+            ("max(r.pinion.y", "found the end at character 15"),
             ("r.pinion.y", "found a column; allowed: a number"),
             ("r", "allowed: a number"),
         ] {
             let message = e.number(expression).unwrap_err().to_string();
             assert!(message.starts_with(expression) && message.contains(said), "{message}");
         }
+    }
+
+    /// A chain of definitions, each a list of the one before twice.
+    #[test]
+    fn lists_are_not_made_too_large() {
+        let mut e = evaluator();
+        let mut list = e.value("[1]").unwrap();
+        let failure = loop {
+            e.name("a", &list);
+            match e.value("[a, a]") {
+                Ok(larger) => list = larger,
+                Err(failure) => break failure.to_string(),
+            }
+        };
+        assert!(failure.contains("too large; allowed: 100000 items"), "{failure}");
+    }
+
+    /// Outputs have names of their own; words of an expression are no names.
+    #[test]
+    fn names_are_those_of_the_outputs() {
+        let mut e = evaluator();
+        e.name("s", &Value::group([("new", Value::Number(4.0))]));
+        assert_eq!(e.number("s.new + s.unworn").unwrap(), 8.0);
+        assert!(Evaluator::can_name("match") && !Evaluator::can_name("true") && !Evaluator::can_name("a.b"));
     }
 
     #[test]

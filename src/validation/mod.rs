@@ -21,6 +21,7 @@ mod members;
 pub mod profile;
 pub mod schedule;
 mod soundness;
+pub mod syntax;
 mod value;
 
 use std::collections::BTreeMap;

@@ -8,39 +8,45 @@
 //!
 //! A peak is separate where the profile falls by `share` of its height on both sides before it rises above the peak.
 
-use rhai::Engine;
-
-use super::column::{Column, Failed, fault};
+use super::column::{ColumnError, same_length};
+use super::value::Value;
 use crate::measurement::form::{Form, FormRemoval};
 use crate::measurement::roughness;
 
-/// Teaches the engine all of the above.
-pub fn register(engine: &mut Engine) {
-    engine.register_fn("form_removed", |x: Column, y: Column| form_removed(&x, &y));
-    engine.register_fn("mean_deviation", |x: Column, y: Column| -> Result<f64, Failed> {
-        rising(&x, &y)?;
-        Ok(roughness::mean_deviation(&x.0, &y.0))
-    });
-    engine.register_fn("separate_peaks", |x: Column, y: Column, share: f64| -> Result<Column, Failed> {
-        rising(&x, &y)?;
-        Ok(Column(separate_peaks(&y.0, share).into()))
-    });
+/// The value of a function of profiles; none where there is no such function of these.
+///
+/// # Errors
+/// What is no profile.
+pub fn call(name: &str, arguments: &[&Value]) -> Result<Option<Value>, ColumnError> {
+    use Value::{Column, Number};
+    Ok(Some(match (name, arguments) {
+        ("form_removed", [Column(x), Column(y)]) => Value::column(form_removed(x, y)?),
+        ("mean_deviation", [Column(x), Column(y)]) => {
+            rising(x, y)?;
+            Number(roughness::mean_deviation(x, y))
+        }
+        ("separate_peaks", [Column(x), Column(y), Number(share)]) => {
+            rising(x, y)?;
+            Value::column(separate_peaks(y, *share))
+        }
+        _ => return Ok(None),
+    }))
 }
 
 /// Refuses what is no profile over the rising places `x`.
-fn rising(x: &Column, y: &Column) -> Result<(), Failed> {
-    x.same_length(y)?;
-    if x.0.is_sorted_by(|a, b| a < b) { Ok(()) } else { fault("the places of a profile must rise".to_owned()) }
+fn rising(x: &[f64], y: &[f64]) -> Result<(), ColumnError> {
+    same_length(x, y)?;
+    if x.is_sorted_by(|a, b| a < b) { Ok(()) } else { Err(ColumnError::NotRising) }
 }
 
-fn form_removed(x: &Column, y: &Column) -> Result<Column, Failed> {
+fn form_removed(x: &[f64], y: &[f64]) -> Result<Vec<f64>, ColumnError> {
     rising(x, y)?;
-    if x.0.len() <= Form::Cubic.parameters() {
-        return fault(format!("a profile of {} points has no cubic form", x.0.len()));
+    if x.len() <= Form::Cubic.parameters() {
+        return Err(ColumnError::NoForm(x.len()));
     }
-    let mut left = y.0.to_vec();
-    FormRemoval::new(Form::Cubic, &x.0).remove(&mut left);
-    Ok(Column(left.into()))
+    let mut left = y.to_vec();
+    FormRemoval::new(Form::Cubic, x).remove(&mut left);
+    Ok(left)
 }
 
 /// The points of a profile that are separate peaks, 0 elsewhere: those from which it falls by `share` of their height on both
@@ -76,7 +82,7 @@ mod tests {
     /// The mean of |sin| is 2/π; a cubic has no form left, and a short wave hardly loses any.
     #[test]
     fn ver_form_and_mean_deviation() {
-        let mut e = evaluator();
+        let e = evaluator();
         for (expression, expected, allowed) in [
             ("max(abs(form_removed(x, cubic)))", 0.0, 1e-12),
             ("mean_deviation(x, wave)", 2.0 / std::f64::consts::PI, 2e-2),
@@ -90,14 +96,14 @@ mod tests {
     /// Of 9, 5, 8, 7.5, 7.9, 3, 4 the 8 alone falls by a tenth on both sides; ends are no peaks, and 7.9 is a shoulder of 8.
     #[test]
     fn ver_separate_peaks() {
-        let mut e = evaluator();
+        let e = evaluator();
         assert_eq!(e.column("separate_peaks(at, depth, 0.1)").unwrap(), [0.0, 0.0, 8.0, 0.0, 0.0, 0.0, 0.0]);
         assert_eq!(e.column("separate_peaks(at, depth, 0.05)").unwrap(), [0.0, 0.0, 8.0, 0.0, 7.9, 0.0, 0.0]);
     }
 
     #[test]
     fn what_is_no_profile_is_refused() {
-        let mut e = evaluator();
+        let e = evaluator();
         for (expression, said) in [
             ("form_removed(at - at, depth)", "must rise"),
             ("form_removed(column([0.0, 1.0, 2.0, 3.0]), column([0.0, 1.0, 2.0, 3.0]))", "no cubic form"),
