@@ -13,6 +13,7 @@
 
 pub mod accuracy;
 pub mod calibration;
+pub mod chart;
 pub mod compare;
 pub mod fem;
 pub mod fem_pair;

@@ -2,9 +2,9 @@
 //!
 //! Colours and shapes are the surfaces; of pairs with slices, full marks are coupled slices and open ones uncoupled.
 
-use plotly::Plot;
-use plotly::common::{DashType, Marker, MarkerSymbol, Mode};
-use plotly::layout::{AxisType, HoverMode};
+use crate::report::chart::{
+    AxisType, DashType, ExponentFormat, HoverInfo, HoverMode, Marker, MarkerSymbol, Mode, Plot,
+};
 
 use crate::report::html::number::{percent, significant};
 use crate::report::html::theme::{Figure, MUTED, axis, curve, layout, line};
@@ -102,11 +102,11 @@ fn front(record: &AccuracyRecord, quantity: Quantity) -> Figure {
             line(MUTED, 8.0, DashType::Solid),
         )
         .opacity(0.35)
-        .hover_info(plotly::common::HoverInfo::Skip),
+        .hover_info(HoverInfo::Skip),
     );
     for kind in &KINDS {
         let [coupled, uncoupled] = (kind.symbols)();
-        let groups = [(None, coupled.clone()), (Some("slicing"), coupled), (Some("none"), uncoupled)];
+        let groups = [(None, coupled), (Some("slicing"), coupled), (Some("none"), uncoupled)];
         for (coupling, symbol) in groups {
             let of_kind: Vec<_> =
                 runs(kind.holds).filter(|(v, ..)| v.settings.coupling.as_deref() == coupling).collect();
@@ -131,7 +131,7 @@ fn front(record: &AccuracyRecord, quantity: Quantity) -> Figure {
                     line(kind.colour, 1.0, DashType::Solid),
                 )
                 .mode(Mode::Markers)
-                .marker(Marker::new().color(kind.colour).symbol(symbol).size_array(sizes))
+                .marker(Marker::new().color(kind.colour).symbol(symbol).size(sizes))
                 .hover_text_array(text)
                 .hover_template("%{hovertext}<extra></extra>"),
             );
@@ -148,8 +148,7 @@ fn front(record: &AccuracyRecord, quantity: Quantity) -> Figure {
             plot.add_trace(curve(name, ends, [shown(level); 2], line(MUTED, 1.4, dash)).hover_template("%{y:.3~%}"));
         }
     }
-    let logarithmic =
-        |title: &str| axis(title).type_(AxisType::Log).exponent_format(plotly::common::ExponentFormat::Power);
+    let logarithmic = |title: &str| axis(title).type_(AxisType::Log).exponent_format(ExponentFormat::Power);
     plot.set_layout(
         layout(430)
             .show_legend(true)
@@ -157,8 +156,8 @@ fn front(record: &AccuracyRecord, quantity: Quantity) -> Figure {
             .x_axis(logarithmic("wall time of the wear run, s"))
             .y_axis(
                 logarithmic("relative error")
-                    .tick_values(TICKS.map(|(level, _)| level).into())
-                    .tick_text(TICKS.map(|(_, text)| text).into()),
+                    .tick_values(TICKS.map(|(level, _)| level))
+                    .tick_text(TICKS.map(|(_, text)| text.to_owned())),
             ),
     );
     Figure {

@@ -3,8 +3,7 @@
 //! Of pairs with slices the profiles are those in the middle of the face width, and the root wear over the face width is shown
 //! beside them.
 
-use plotly::Plot;
-use plotly::common::{DashType, Visible};
+use crate::report::chart::{DashType, Plot, Visible};
 
 use super::has_slices;
 use crate::gear::Gear;

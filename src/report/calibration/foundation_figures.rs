@@ -1,7 +1,6 @@
 //! K/H by finite elements against Hertz and against its fit.
 
-use plotly::common::{DashType, Marker, MarkerSymbol, Mode};
-use plotly::{Plot, Scatter};
+use crate::report::chart::{DashType, Marker, MarkerSymbol, Mode, Plot, Trace};
 
 use super::path_points;
 use crate::calibration::Calibration;
@@ -71,13 +70,13 @@ fn against_curvature(calibration: &Calibration, criterion: MatchCriterion) -> Fi
         for (side, symbol) in [(false, MarkerSymbol::Circle), (true, MarkerSymbol::DiamondOpen)] {
             let points = || own().filter(|contact| (contact.position_mm > top_mm.1) == side);
             plot.add_trace(
-                Scatter::new(
+                Trace::scatter(
                     points().map(|c| plotted(c.relative_radius_mm)).collect(),
                     points().map(|c| plotted(c.mpa_per_mm(criterion))).collect(),
                 )
                 .name(format!("{group}, towards {}", if side { "E" } else { "A" }))
                 .mode(Mode::Markers)
-                .marker(Marker::new().symbol(symbol.clone()).size(6).color(colour.clone()))
+                .marker(Marker::new().symbol(symbol).size(6).color(colour.clone()))
                 .legend_group(&group)
                 .hover_template("%{y:.4g} MPa/mm"),
             );
@@ -153,7 +152,7 @@ fn errors(calibration: &Calibration, criterion: MatchCriterion) -> Figure {
     {
         let rows = || fit.into_iter().flat_map(|fit| &fit.rows).filter(|row| row.fitted == fitted);
         plot.add_trace(
-            Scatter::new(
+            Trace::scatter(
                 rows().map(|row| plotted(row.position_mm)).collect(),
                 rows().map(|row| plotted(100.0 * row.matched_error(criterion))).collect(),
             )

@@ -1,7 +1,6 @@
 //! Stiffness of the teeth over the path of contact, and by their number.
 
-use plotly::common::DashType;
-use plotly::{Layout, Plot};
+use crate::report::chart::{DashType, Layout, Plot};
 
 use super::path_points;
 use crate::calibration::Calibration;

@@ -1,7 +1,6 @@
 //! What one mesh of unworn flanks wears.
 
-use plotly::Plot;
-use plotly::common::DashType;
+use crate::report::chart::{DashType, Plot};
 
 use crate::calibration::Calibration;
 use crate::gear::Gear;

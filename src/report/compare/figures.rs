@@ -1,8 +1,6 @@
 //! The plots of a comparison: profiles with their form removed, wear depths, and what is left between them.
 
-use plotly::Plot;
-use plotly::common::DashType;
-use plotly::layout::{Axis, Layout};
+use crate::report::chart::{Axis, DashType, Layout, Plot};
 
 use crate::report::html::number::{figure, significant};
 use crate::report::html::reading::{among, greatest};

@@ -1,8 +1,6 @@
 //! The model, and the von Mises stress over the bodies: whole, and around each contact.
 
-use plotly::Plot;
-use plotly::common::{HoverInfo, Marker, MarkerSymbol, Mode};
-use plotly::{Scatter, layout::DragMode};
+use crate::report::chart::{DragMode, HoverInfo, Marker, MarkerSymbol, Mode, Plot, Trace};
 
 use crate::fem::problem::Edge;
 use crate::report::html::field_plot::{self, Bodies, MOST_SIDES, Quantity, Window, segments, sides, to_scale};
@@ -81,11 +79,11 @@ fn along(edges: &[Edge]) -> Vec<Vec<u32>> {
         .collect()
 }
 
-fn marks(name: &str, symbol: MarkerSymbol, nodes: &[u32], points: &[[f64; 2]]) -> Box<Scatter<f64, f64>> {
+fn marks(name: &str, symbol: MarkerSymbol, nodes: &[u32], points: &[[f64; 2]]) -> Trace {
     let step = nodes.len().div_ceil(MOST_MARKS);
     let [x, y] =
         [0, 1].map(|axis| nodes.iter().step_by(step).map(|&node| plotted(points[node as usize][axis])).collect());
-    Scatter::new(x, y)
+    Trace::scatter(x, y)
         .name(name)
         .mode(Mode::Markers)
         .marker(Marker::new().symbol(symbol).size(8).color(MUTED))

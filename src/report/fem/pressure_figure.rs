@@ -1,7 +1,6 @@
 //! Pressure along a contact, beside Hertz's.
 
-use plotly::Plot;
-use plotly::common::{DashType, Marker, Mode};
+use crate::report::chart::{DashType, Marker, Mode, Plot};
 
 use crate::reference::hertz_line::LineContact;
 use crate::report::html::number::{change, figure, significant};

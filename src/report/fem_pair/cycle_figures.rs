@@ -1,7 +1,6 @@
 //! Over the path of contact from A to E: load sharing, pressure, transmission error, stress at the roots.
 
-use plotly::common::{DashType, Marker, MarkerSymbol, Mode};
-use plotly::{Plot, Scatter};
+use crate::report::chart::{DashType, Marker, MarkerSymbol, Mode, Plot, Trace};
 
 use crate::gear::Gear;
 use crate::report::html::number::{figure, percent, plotted, significant};
@@ -87,9 +86,8 @@ fn load_sharing(record: &FemPairRecord) -> Figure {
     for (pair, (colour, width, dash)) in pairs(record).into_iter().zip(styles.into_iter().cycle()) {
         let (x, y) = with_gaps(record, pair, |row| row.load_share);
         plot.add_trace(
-            Scatter::new(x, y)
+            Trace::lines_with_gaps(x, y)
                 .name(pair_name(pair))
-                .mode(Mode::Lines)
                 .connect_gaps(false)
                 .line(line(colour, width, dash))
                 .hover_template("%{y:.3f}"),
@@ -114,14 +112,11 @@ fn pressure(record: &FemPairRecord) -> Figure {
     let rows = of_pair(record, 0);
     let mut plot = Plot::new();
     // A gap where the edge carries load: the line is of finite pressures only.
-    let (x, y) = (
-        rows.iter().map(|row| plotted(row.position_mm)).collect(),
-        rows.iter().map(|row| (!row.at_sharp_edge).then(|| plotted(row.peak_pressure_MPa))).collect(),
-    );
+    let x: Vec<f64> = rows.iter().map(|row| plotted(row.position_mm)).collect();
+    let y = rows.iter().map(|row| (!row.at_sharp_edge).then(|| plotted(row.peak_pressure_MPa))).collect();
     plot.add_trace(
-        Scatter::new(x, y)
+        Trace::lines_with_gaps(x, y)
             .name("finite elements")
-            .mode(Mode::Lines)
             .connect_gaps(false)
             .line(line(PATH, 2.4, DashType::Solid))
             .hover_template("%{y:.1f} MPa"),
@@ -150,7 +145,7 @@ fn pressure(record: &FemPairRecord) -> Figure {
     let [_, frame] = from_zero(1.25 * top);
     if !sharp.is_empty() {
         plot.add_trace(
-            Scatter::new(
+            Trace::scatter(
                 sharp.iter().map(|row| plotted(row.position_mm)).collect(),
                 sharp.iter().map(|row| plotted(row.peak_pressure_MPa.min(0.98 * frame))).collect(),
             )

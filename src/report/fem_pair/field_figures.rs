@@ -1,7 +1,6 @@
 //! The teeth in contact as finite elements, and the von Mises stress in them.
 
-use plotly::Plot;
-use plotly::layout::DragMode;
+use crate::report::chart::{DragMode, Plot};
 
 use crate::fem::solid::Element;
 use crate::gear::Gear;

@@ -1,7 +1,6 @@
 //! Pressure along the flank beside Hertz's, at A to E or at the position asked for.
 
-use plotly::Plot;
-use plotly::common::{DashType, Marker, Mode};
+use crate::report::chart::{DashType, Marker, Mode, Plot};
 
 use super::tables::hertz;
 use crate::report::html::number::{change, figure, percent, significant};

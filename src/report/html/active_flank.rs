@@ -1,5 +1,6 @@
 //! The part of a flank that plots show.
 
+use crate::report::chart::Axis;
 use std::ops::RangeInclusive;
 
 use super::theme::{self, axis, padded};
@@ -30,7 +31,7 @@ impl ActiveFlank {
     }
 
     /// The axis of the radius.
-    pub fn axis(&self, gear: Gear) -> plotly::layout::Axis {
+    pub fn axis(&self, gear: Gear) -> Axis {
         axis(&format!("radius on the {}, mm", gear.name()))
             .range(padded(*self.radius_mm.start(), *self.radius_mm.end()))
             .hover_format(".3f")

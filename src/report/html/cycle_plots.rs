@@ -1,6 +1,6 @@
 //! Plots over the working cycle of the reference pair, from A to E: load sharing, transmission error, pressure.
 
-use plotly::Plot;
+use crate::report::chart::Plot;
 
 use super::number::{change, figure, percent, significant};
 use super::reading::{Extreme, among, defined_pressures, greatest, tip_edge_note};

@@ -2,9 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use plotly::common::{Anchor, DashType, Fill, Font, HoverInfo, Marker, Mode, Position};
-use plotly::layout::{Annotation, AxisConstrain, DragMode, HoverMode};
-use plotly::{Layout, Plot, Scatter};
+use crate::report::chart::{
+    Anchor, Annotation, AxisConstrain, DashType, DragMode, Fill, Font, HoverInfo, HoverMode, Layout, Marker, Mode,
+    Plot, Position, Trace,
+};
 
 use super::number::{figure, significant};
 use super::theme::{Figure, MUTED, PATH, axis, gear_colour, layout, line};
@@ -38,12 +39,12 @@ pub fn pair(record: &RunRecord) -> Figure {
     Figure { id: "pair".into(), title: "The pair in mesh, to scale".into(), reading: reading(record), plot, wide: true }
 }
 
-fn polyline(name: &str, points: &[[f64; 2]]) -> Box<Scatter<f64, f64>> {
+fn polyline(name: &str, points: &[[f64; 2]]) -> Trace {
     let [x, y] = [0, 1].map(|axis| points.iter().map(|p| to_scale(p[axis])).collect());
-    Scatter::new(x, y).name(name).mode(Mode::Lines)
+    Trace::scatter(x, y).name(name).mode(Mode::Lines)
 }
 
-fn outline(drawing: &PairDrawing, gear: Gear) -> Box<Scatter<f64, f64>> {
+fn outline(drawing: &PairDrawing, gear: Gear) -> Trace {
     let mut points = drawing.outline[gear].clone();
     points.extend(points.first().copied());
     let fill = match gear {
@@ -88,9 +89,9 @@ fn circle(centre: [f64; 2], radius_mm: f64) -> Vec<[f64; 2]> {
         .collect()
 }
 
-fn path_of_contact(drawing: &PairDrawing) -> Box<Scatter<f64, f64>> {
+fn path_of_contact(drawing: &PairDrawing) -> Trace {
     let points: Vec<[f64; 2]> = drawing.path_of_contact.iter().map(|(_, point)| *point).collect();
-    let names = drawing.path_of_contact.iter().map(|(name, _)| name.clone()).collect();
+    let names: Vec<String> = drawing.path_of_contact.iter().map(|(name, _)| name.clone()).collect();
     polyline("path of contact A–E", &points)
         .mode(Mode::LinesMarkersText)
         .line(line(PATH, 4.5, DashType::Solid))

@@ -4,9 +4,9 @@
 //! What lies outside the bodies stays empty. Over the raster lie the bodies' outlines and, where they can be told apart,
 //! the sides of the elements.
 
-use plotly::common::{ColorBar, ColorScale, ColorScalePalette, DashType, Font, HoverInfo, Mode, Title};
-use plotly::layout::{AxisConstrain, DragMode, HoverMode};
-use plotly::{HeatMap, Layout, Plot, Scatter};
+use crate::report::chart::{
+    AxisConstrain, ColorBar, ColorScale, DashType, DragMode, Font, HoverInfo, HoverMode, Layout, Plot, Title, Trace,
+};
 
 use super::number::plotted;
 use super::theme::{axis, layout, line};
@@ -101,9 +101,9 @@ pub fn field(bodies: Bodies<'_>, quantity: Quantity<'_>, window: Window) -> Plot
     let unit = quantity.unit;
     let mut plot = Plot::new();
     plot.add_trace(
-        HeatMap::new(raster.x_mm, raster.y_mm, raster.values)
-            .color_scale(ColorScale::Palette(ColorScalePalette::Viridis))
-            .color_bar(ColorBar::new().title(Title::with_text(quantity.name).font(Font::new().size(12))).thickness(14))
+        Trace::heat_map(raster.x_mm, raster.y_mm, raster.values)
+            .color_scale(ColorScale::Viridis)
+            .color_bar(ColorBar::new().title(Title::new().text(quantity.name).font(Font::new().size(12))).thickness(14))
             .hover_on_gaps(false)
             .hover_template(format!("x %{{x:.5~g}} mm, y %{{y:.5~g}} mm<br>%{{z:.4~g}} {unit}<extra></extra>")),
     );
@@ -135,13 +135,7 @@ pub fn to_scale(window: Window) -> Layout {
 }
 
 /// Sides of elements as one line with gaps.
-pub fn segments(
-    name: &str,
-    bodies: Bodies<'_>,
-    sides: &[Vec<u32>],
-    colour: &str,
-    width_px: f64,
-) -> Box<Scatter<Option<f64>, Option<f64>>> {
+pub fn segments(name: &str, bodies: Bodies<'_>, sides: &[Vec<u32>], colour: &str, width_px: f64) -> Trace {
     let mut coordinates: [Vec<Option<f64>>; 2] = Default::default();
     for side in sides {
         for (axis, coordinates) in coordinates.iter_mut().enumerate() {
@@ -150,9 +144,8 @@ pub fn segments(
         }
     }
     let [x, y] = coordinates;
-    Scatter::new(x, y)
+    Trace::lines_with_gaps(x, y)
         .name(name)
-        .mode(Mode::Lines)
         .line(line(colour.to_owned(), width_px, DashType::Solid))
         .hover_info(HoverInfo::Skip)
 }

@@ -1,7 +1,6 @@
 //! Plots over a flank whose sections are alike, from root to tip: wear at every snapshot, greatest pressure, modifications.
 
-use plotly::Plot;
-use plotly::common::{DashType, Fill, HoverInfo};
+use crate::report::chart::{DashType, Fill, HoverInfo, Plot};
 
 use super::active_flank::ActiveFlank;
 use super::number::{figure, given, percent, plotted, revolutions, significant};

@@ -1,7 +1,6 @@
 //! Plot of wear against time.
 
-use plotly::Plot;
-use plotly::common::{DashType, Marker, MarkerSymbol, Mode};
+use crate::report::chart::{DashType, Marker, MarkerSymbol, Mode, Plot};
 
 use super::number::{figure, significant};
 use super::reading::duration;

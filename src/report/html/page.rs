@@ -1,10 +1,10 @@
 //! What every report page is made of: the page itself, its sections, its figures.
 
-use plotly::Plot;
+use crate::report::chart::{self, Plot};
 
 use super::number;
 use super::reading;
-use super::theme::{self, Figure};
+use super::theme::Figure;
 use crate::simulation::record::StageTime;
 
 /// A page.
@@ -48,7 +48,7 @@ impl Page<'_> {
             self.main,
             "</main>\n",
             &format!("<footer>{}</footer>\n", escape(self.footer)),
-            &format!("<script>{}</script>\n<script>\n{}{script}</script>\n", plotly_js(), include_str!("page.js")),
+            &format!("<script>{}</script>\n<script>\n{}{script}</script>\n", chart::script(), include_str!("page.js")),
             "</body>\n</html>\n",
         ]
         .concat()
@@ -128,8 +128,6 @@ fn figure_html(number: usize, figure: &Figure) -> String {
 
 /// The plot as JSON that may stand inside a script element: nothing in it can end that element.
 fn plot_json(plot: &Plot) -> String {
-    let mut plot = plot.clone();
-    plot.set_configuration(theme::configuration());
     plot.to_json().replace('<', "\\u003c")
 }
 
@@ -149,34 +147,9 @@ pub fn escape(text: &str) -> String {
     html
 }
 
-/// plotly.js alone. The `plotly` crate hands out its scripts as elements one after another, MathJax among them, which
-/// this page does not need.
-fn plotly_js() -> String {
-    Plot::offline_js_sources()
-        .split("</script>")
-        .filter_map(|element| element.split_once('>'))
-        .map(|(_, script)| script)
-        .find(|script| is_plotly(script))
-        .unwrap_or_default()
-        .to_owned()
-}
-
-/// Whether a script is plotly.js: it says so in the comment at its head.
-fn is_plotly(script: &str) -> bool {
-    script.lines().take(5).any(|line| line.contains("plotly.js v"))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn plotly_is_found_whole_and_without_mathjax() {
-        let script = plotly_js();
-        assert!(script.len() > 3_000_000, "{} bytes", script.len());
-        assert!(script.trim_end().ends_with(';') || script.trim_end().ends_with('}'), "cut short");
-        assert!(!script.contains("<script"));
-    }
 
     #[test]
     fn markup_in_text_is_defused() {

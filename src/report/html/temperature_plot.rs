@@ -1,7 +1,6 @@
 //! Plots of the contact's temperature and of its Peclet numbers over the working cycle, new.
 
-use plotly::Plot;
-use plotly::common::DashType;
+use crate::report::chart::{Axis, DashType, Plot};
 
 use super::number::{figure, significant};
 use super::reading::among;
@@ -84,7 +83,7 @@ struct Words {
     reading: String,
 }
 
-fn finish(record: &RunRecord, mut plot: Plot, y: plotly::layout::Axis, words: Words) -> Figure {
+fn finish(record: &RunRecord, mut plot: Plot, y: Axis, words: Words) -> Figure {
     let points = &record.summary.geometry.curvature_radius_mm;
     let x = axis("contact position, mm").range(padded(points.A, points.E)).hover_format(".3f");
     plot.set_layout(mark_path_points(layout(380).show_legend(true).x_axis(x).y_axis(y), points));

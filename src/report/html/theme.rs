@@ -4,13 +4,10 @@
 //! properties of `page.css` in force, so that one place holds the palette and plots follow the light, dark or printed
 //! page.
 
-use plotly::color::Color;
-use plotly::common::{Anchor, DashType, Font, Label, Line, Mode, Orientation, Title};
-use plotly::configuration::{DisplayModeBar, DoubleClick, ModeBarButtonName};
-use plotly::layout::{
-    Annotation, Axis, HoverMode, Legend, Margin, ModeBar, Shape, ShapeLayer, ShapeLine, ShapeType, TicksDirection,
+use crate::report::chart::{
+    Anchor, Annotation, Axis, DashType, Font, HoverMode, Label, Layout, Legend, Line, Margin, Mode, ModeBar,
+    Orientation, Plot, Shape, ShapeLayer, ShapeType, TicksDirection, Title, Trace,
 };
-use plotly::{Configuration, Layout, Plot, Scatter};
 
 use super::number::plotted;
 use crate::gear::Gear;
@@ -83,7 +80,7 @@ pub fn layout(height_px: usize) -> Layout {
 /// An axis named `title`, unit included.
 pub fn axis(title: &str) -> Axis {
     Axis::new()
-        .title(Title::with_text(title).font(Font::new().size(13)))
+        .title(Title::new().text(title).font(Font::new().size(13)))
         .auto_margin(true)
         .grid_color(GRID)
         .zero_line(false)
@@ -95,18 +92,13 @@ pub fn axis(title: &str) -> Axis {
 }
 
 /// A line, through all its points: plotly would leave some out, which puts corners into smooth curves.
-pub fn line(colour: impl Color, width_px: f64, dash: DashType) -> Line {
+pub fn line(colour: impl Into<String>, width_px: f64, dash: DashType) -> Line {
     Line::new().color(colour).width(width_px).dash(dash).simplify(false)
 }
 
 /// A curve through the points, its values rounded to what a plot needs.
-pub fn curve(
-    name: &str,
-    x: impl IntoIterator<Item = f64>,
-    y: impl IntoIterator<Item = f64>,
-    line: Line,
-) -> Box<Scatter<f64, f64>> {
-    Scatter::new(x.into_iter().map(plotted).collect(), y.into_iter().map(plotted).collect())
+pub fn curve(name: &str, x: impl IntoIterator<Item = f64>, y: impl IntoIterator<Item = f64>, line: Line) -> Trace {
+    Trace::scatter(x.into_iter().map(plotted).collect(), y.into_iter().map(plotted).collect())
         .name(name)
         .mode(Mode::Lines)
         .line(line)
@@ -160,7 +152,7 @@ fn mark_with(
                 .x1(x)
                 .y0(0.0)
                 .y1(1.0)
-                .line(ShapeLine::new().color(MUTED).width(width).dash(dash)),
+                .line(Line::new().color(MUTED).width(width).dash(dash)),
         );
         letters.push(
             Annotation::new()
@@ -175,21 +167,6 @@ fn mark_with(
         );
     }
     layout.shapes(shapes).annotations(letters)
-}
-
-/// How the reader may handle a plot.
-pub fn configuration() -> Configuration {
-    Configuration::new()
-        .typeset_math(false)
-        .display_logo(false)
-        .display_mode_bar(DisplayModeBar::Hover)
-        .double_click(DoubleClick::ResetAutoSize)
-        .mode_bar_buttons_to_remove(vec![
-            ModeBarButtonName::Select2d,
-            ModeBarButtonName::Lasso2d,
-            ModeBarButtonName::AutoScale2d,
-            ModeBarButtonName::ToggleSpikelines,
-        ])
 }
 
 /// Range from 0 to somewhat above `greatest`; from 0 to 1 where nothing is above zero.

@@ -1,9 +1,8 @@
 //! A figure over two varied keys: contours, with the combination where it is least.
 
-use plotly::common::{ColorBar, ColorScale, ColorScalePalette, DashType, Font, Marker, MarkerSymbol, Mode, Title};
-use plotly::contour::Contours;
-use plotly::layout::HoverMode;
-use plotly::{Contour, Plot};
+use crate::report::chart::{
+    ColorBar, ColorScale, Contours, DashType, Font, HoverMode, Marker, MarkerSymbol, Mode, Plot, Title, Trace,
+};
 
 use super::section_plane::{self, ShownAxis, range};
 use crate::report::html::number::{figure as shown_number, given, plotted};
@@ -28,16 +27,16 @@ pub fn contour(record: &SweepRecord, figure: &SweepFigure, x: &ShownAxis<'_>, y:
         .collect();
     let mut plot = Plot::new();
     plot.add_trace(
-        Contour::new(x.values(), y.values(), z)
+        Trace::contour(x.values(), y.values(), z)
             .name(figure.title)
-            .color_scale(ColorScale::Palette(ColorScalePalette::Viridis))
-            .color_bar(ColorBar::new().title(Title::with_text(figure.unit).font(Font::new().size(12))).thickness(14))
+            .color_scale(ColorScale::Viridis)
+            .color_bar(ColorBar::new().title(Title::new().text(figure.unit).font(Font::new().size(12))).thickness(14))
             .contours(Contours::new().show_labels(true).label_font(Font::new().size(11).color("#ffffff")))
             .n_contours(16)
             .connect_gaps(false)
             .hover_on_gaps(false)
             .show_legend(false)
-            .hover_template(&format!(
+            .hover_template(format!(
                 "{} %{{x}}<br>{} %{{y}}<br>%{{z:.5~g}} {}<extra></extra>",
                 x.axis.key, y.axis.key, figure.unit
             )),

@@ -1,8 +1,6 @@
 //! A figure over one varied key: a line, with the value where it is least.
 
-use plotly::Plot;
-use plotly::common::{DashType, Marker, MarkerSymbol, Mode};
-use plotly::layout::HoverMode;
+use crate::report::chart::{DashType, HoverMode, Marker, MarkerSymbol, Mode, Plot};
 
 use super::contour_figures::{capitalised, reading};
 use super::section_plane::{self, ShownAxis};

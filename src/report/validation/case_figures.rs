@@ -1,8 +1,9 @@
 //! The plots of a case.
 
-use plotly::common::{DashType, ErrorData, ErrorType, ExponentFormat, Fill, HoverInfo, Marker, MarkerSymbol, Mode};
-use plotly::layout::{AxisType, HoverMode};
-use plotly::{Plot, Scatter};
+use crate::report::chart::{
+    Axis, AxisType, DashType, ErrorBars, ExponentFormat, Fill, HoverInfo, HoverMode, Marker, MarkerSymbol, Mode, Plot,
+    Trace,
+};
 
 use super::markup::identifier;
 use crate::report::html::number::plotted;
@@ -29,7 +30,7 @@ pub(super) fn look(number: usize) -> Look {
         MarkerSymbol::TriangleDown,
         MarkerSymbol::X,
     ];
-    let symbol = symbols[number % symbols.len()].clone();
+    let symbol = symbols[number % symbols.len()];
     Look { colour: COLOURS[number % COLOURS.len()], symbol }
 }
 
@@ -75,12 +76,12 @@ fn figure(case: &CaseRecord, number: usize, of: &CasePlot) -> Figure {
     }
 }
 
-fn plot_axis(of: &PlotAxis) -> plotly::layout::Axis {
+fn plot_axis(of: &PlotAxis) -> Axis {
     let axis = axis(&of.title).exponent_format(ExponentFormat::Power);
     if of.log { axis.type_(AxisType::Log) } else { axis }
 }
 
-fn trace(number: usize, of: &PlotCurve) -> Box<Scatter<f64, f64>> {
+fn trace(number: usize, of: &PlotCurve) -> Trace {
     let look = look(number);
     let xy = || (of.x.iter().copied(), of.y.iter().copied());
     let drawn = |width_px, dash| curve(&of.name, xy().0, xy().1, line(look.colour, width_px, dash));
@@ -100,8 +101,8 @@ fn trace(number: usize, of: &PlotCurve) -> Box<Scatter<f64, f64>> {
             if of.uncertainty.is_empty() {
                 points
             } else {
-                let half = of.uncertainty.iter().copied().map(plotted).collect();
-                points.error_y(ErrorData::new(ErrorType::Data).array(half).color(look.colour).thickness(1.2).width(4))
+                let half: Vec<f64> = of.uncertainty.iter().copied().map(plotted).collect();
+                points.error_y(ErrorBars::new().type_("data").array(half).color(look.colour).thickness(1.2).width(4))
             }
         }
         CurveStyle::Band => drawn(0.8, DashType::Solid)

@@ -1,8 +1,6 @@
 //! Error against run time of the cases that ask for it: one plot a case, one curve a series, both axes logarithmic.
 
-use plotly::Plot;
-use plotly::common::{DashType, ExponentFormat, Marker, Mode};
-use plotly::layout::{AxisType, HoverMode};
+use crate::report::chart::{AxisType, DashType, ExponentFormat, HoverMode, Marker, Mode, Plot};
 
 use super::case_figures::look;
 use super::markup::identifier;

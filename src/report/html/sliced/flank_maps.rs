@@ -3,9 +3,9 @@
 //! A line of contact is straight in the radius of curvature, ρ_c(z), and therefore a little bent over the radius
 //! r = √(r_b² + ρ²). It crosses the flank from one side of the map to the other while the tooth goes through the mesh.
 
-use plotly::common::{Anchor, ColorBar, ColorScale, ColorScalePalette, DashType, Font, HoverInfo, Mode, Title};
-use plotly::layout::{Annotation, HoverMode};
-use plotly::{HeatMap, Plot, Scatter};
+use crate::report::chart::{
+    Anchor, Annotation, ColorBar, ColorScale, DashType, Font, HoverInfo, HoverMode, Plot, Title, Trace,
+};
 
 use super::raster::SlicedRaster;
 use super::{SlicedRun, slice_name};
@@ -102,11 +102,11 @@ fn map(run: SlicedRun<'_>, gear: Gear, quantity: Quantity<'_>) -> Figure {
     let unit = quantity.unit;
     let mut plot = Plot::new();
     plot.add_trace(
-        HeatMap::new(edges(&raster.across.edges), edges(&raster.along.edges), values)
+        Trace::heat_map(edges(&raster.across.edges), edges(&raster.along.edges), values)
             .zmin(0.0)
             .zmax(if quantity.top > 0.0 { quantity.top } else { 1.0 })
-            .color_scale(ColorScale::Palette(ColorScalePalette::Viridis))
-            .color_bar(ColorBar::new().title(Title::with_text(unit).font(Font::new().size(12))).thickness(12).x(1.05))
+            .color_scale(ColorScale::Viridis)
+            .color_bar(ColorBar::new().title(Title::new().text(unit).font(Font::new().size(12))).thickness(12).x(1.05))
             .hover_template(format!("width %{{x:.2f}} mm, radius %{{y:.2f}} mm<br>%{{z:.4~g}} {unit}<extra></extra>")),
     );
     plot.add_trace(lines_of_contact(run, gear));
@@ -153,7 +153,7 @@ fn path_points(flank: &FlankRecord) -> Vec<Annotation> {
 }
 
 /// Lines of contact at evenly spaced positions of the tooth between its first and its last touch, as one line with gaps.
-fn lines_of_contact(run: SlicedRun<'_>, gear: Gear) -> Box<Scatter<Option<f64>, Option<f64>>> {
+fn lines_of_contact(run: SlicedRun<'_>, gear: Gear) -> Trace {
     let (mut width, mut radius) = (Vec::new(), Vec::new());
     for points in lines_mm(run, gear) {
         width.extend(points.iter().map(|[z, _]| Some(plotted(*z))));
@@ -161,9 +161,8 @@ fn lines_of_contact(run: SlicedRun<'_>, gear: Gear) -> Box<Scatter<Option<f64>, 
         width.push(None);
         radius.push(None);
     }
-    Scatter::new(width, radius)
+    Trace::lines_with_gaps(width, radius)
         .name("lines of contact")
-        .mode(Mode::Lines)
         .line(line("rgba(255,255,255,0.8)", 1.3, DashType::Solid))
         .hover_info(HoverInfo::Skip)
 }

@@ -1,8 +1,6 @@
 //! Load of every slice while the tooth goes through the mesh, new and worn.
 
-use plotly::common::{ColorBar, ColorScale, ColorScalePalette, Font, Title};
-use plotly::layout::HoverMode;
-use plotly::{HeatMap, Plot};
+use crate::report::chart::{ColorBar, ColorScale, Font, HoverMode, Plot, Title, Trace};
 
 use super::raster::SlicedRaster;
 use super::{SlicedRun, slice_name};
@@ -25,11 +23,11 @@ fn map(run: SlicedRun<'_>, when: &str, loads: &[f64], top: f64) -> Figure {
     let edges = |edges: &[f64]| edges.iter().map(|&edge| plotted(edge)).collect::<Vec<f64>>();
     let mut plot = Plot::new();
     plot.add_trace(
-        HeatMap::new(edges(&raster.along.edges), edges(&raster.across.edges), values)
+        Trace::heat_map(edges(&raster.along.edges), edges(&raster.across.edges), values)
             .zmin(0.0)
             .zmax(if top > 0.0 { top } else { 1.0 })
-            .color_scale(ColorScale::Palette(ColorScalePalette::Viridis))
-            .color_bar(ColorBar::new().title(Title::with_text("N/mm").font(Font::new().size(12))).thickness(12))
+            .color_scale(ColorScale::Viridis)
+            .color_bar(ColorBar::new().title(Title::new().text("N/mm").font(Font::new().size(12))).thickness(12))
             .hover_template("position %{x:.3f} mm, width %{y:.2f} mm<br>%{z:.4~g} N/mm<extra></extra>"),
     );
     plot.set_layout(mark_path_points(

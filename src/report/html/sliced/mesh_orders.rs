@@ -1,8 +1,6 @@
 //! The first mesh orders of the loaded transmission error, new and worn.
 
-use plotly::common::Marker;
-use plotly::layout::BarMode;
-use plotly::{Bar, Plot};
+use crate::report::chart::{BarMode, Marker, Plot, Trace};
 
 use super::SlicedRun;
 use crate::report::html::number::{change, figure, plotted};
@@ -15,7 +13,7 @@ pub fn new_and_worn(run: SlicedRun<'_>) -> Figure {
     for ((name, colour), amplitudes) in [("new", NEW), ("worn", WORN)].into_iter().zip(orders) {
         let names = (1..=amplitudes.len()).map(|order| format!("{order}×")).collect();
         plot.add_trace(
-            Bar::new(names, amplitudes.iter().map(|&um| plotted(um)).collect::<Vec<f64>>())
+            Trace::bar(names, amplitudes.iter().map(|&um| plotted(um)).collect())
                 .name(name)
                 .marker(Marker::new().color(colour))
                 .hover_template("%{y:.4~g} µm"),

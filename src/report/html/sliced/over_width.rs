@@ -2,8 +2,7 @@
 //!
 //! One mesh wears a millionth of what a run does; both are shown over their mean, so that their shapes can be compared.
 
-use plotly::Plot;
-use plotly::common::{DashType, Mode};
+use crate::report::chart::{DashType, Mode, Plot};
 
 use super::SlicedRun;
 use crate::gear::Gear;

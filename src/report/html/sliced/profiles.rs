@@ -1,7 +1,6 @@
 //! Wear and pressure from root to tip in the first, the middle and the last slice.
 
-use plotly::Plot;
-use plotly::common::DashType;
+use crate::report::chart::{Axis, DashType, Plot};
 
 use super::{SlicedRun, slice_name};
 use crate::gear::Gear;
@@ -34,7 +33,7 @@ struct Series<'a> {
     values: &'a [f64],
 }
 
-fn plot(flank: &FlankRecord, gear: Gear, series: &[Series<'_>], y: plotly::layout::Axis, hover: &str) -> Plot {
+fn plot(flank: &FlankRecord, gear: Gear, series: &[Series<'_>], y: Axis, hover: &str) -> Plot {
     let active = ActiveFlank::of(flank);
     let radius = active.cut(&flank.radius_mm);
     let mut plot = Plot::new();

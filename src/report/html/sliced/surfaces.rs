@@ -1,9 +1,9 @@
 //! Wear and pressure as surfaces over the flank, to be turned and read; buttons choose which one is shown.
 
-use plotly::common::{Anchor, ColorBar, ColorScale, ColorScalePalette, Font, Pad, Title, Visible};
-use plotly::layout::update_menu::{Button, ButtonMethod, UpdateMenu, UpdateMenuDirection, UpdateMenuType};
-use plotly::layout::{AspectMode, AspectRatio, Axis, Camera, CameraCenter, DragMode3D, Eye, LayoutScene, Margin};
-use plotly::{Plot, Surface};
+use crate::report::chart::{
+    Anchor, AspectMode, Axis, Button, ButtonMethod, Camera, ColorBar, ColorScale, DragMode, Font, LayoutScene, Margin,
+    Pad, Plot, Title, Trace, UpdateMenu, UpdateMenuDirection, UpdateMenuType, Visible,
+};
 use serde_json::{Value, json};
 
 use super::SlicedRun;
@@ -50,9 +50,9 @@ pub fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Figure {
         .y_axis(scene_axis("radius, mm"))
         .z_axis(scene_axis(shown[0].axis).range(vec![0.0, shown[0].top]))
         .aspect_mode(AspectMode::Manual)
-        .aspect_ratio(AspectRatio::from((1.7, 1.2, 0.55)))
-        .camera(Camera::new().center(CameraCenter::from((0.0, 0.0, -0.15))).eye(Eye::from((-0.95, -1.55, 1.5))))
-        .drag_mode(DragMode3D::Turntable);
+        .aspect_ratio([1.7, 1.2, 0.55])
+        .camera(Camera::new().center([0.0, 0.0, -0.15]).eye([-0.95, -1.55, 1.5]))
+        .drag_mode(DragMode::Turntable);
     plot.set_layout(
         layout(560)
             .margin(Margin::new().left(4).right(4).top(36).bottom(8))
@@ -76,7 +76,7 @@ pub fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Figure {
 }
 
 /// The surface, drawn on to both end faces with the values of the first and the last slice.
-fn surface(run: SlicedRun<'_>, gear: Gear, shown: &Shown<'_>, visible: bool) -> Box<Surface<f64, f64, f64>> {
+fn surface(run: SlicedRun<'_>, gear: Gear, shown: &Shown<'_>, visible: bool) -> Trace {
     let flank = &run.record.flanks[gear];
     let face_width = run.slices.surface[gear].face_width_mm;
     let raster = SlicedRaster::of_flank(flank, face_width);
@@ -88,20 +88,19 @@ fn surface(run: SlicedRun<'_>, gear: Gear, shown: &Shown<'_>, visible: bool) -> 
     let values = raster.rows(|point, slice| shown.values[slice * points + point]).into_iter().map(to_ends).collect();
     let width = std::iter::once(0.0).chain(raster.across.middles()).chain([face_width]);
     let unit = shown.unit;
-    Surface::new(values)
-        .x(width.map(plotted).collect())
-        .y(raster.along.middles().into_iter().map(plotted).collect())
+    let radius = raster.along.middles().into_iter().map(plotted).collect();
+    Trace::surface(width.map(plotted).collect(), radius, values)
         .name(shown.label)
         .visible(if visible { Visible::True } else { Visible::False })
         .cmin(0.0)
         .cmax(shown.top)
-        .color_scale(ColorScale::Palette(ColorScalePalette::Viridis))
-        .color_bar(ColorBar::new().title(Title::with_text(unit).font(Font::new().size(12))).thickness(12))
+        .color_scale(ColorScale::Viridis)
+        .color_bar(ColorBar::new().title(Title::new().text(unit).font(Font::new().size(12))).thickness(12))
         .hover_template(format!("width %{{x:.2f}} mm, radius %{{y:.2f}} mm<br>%{{z:.4~g}} {unit}<extra></extra>"))
 }
 
 fn scene_axis(title: &str) -> Axis {
-    Axis::new().title(Title::with_text(title).font(Font::new().size(12))).grid_color("var(--rule)").zero_line(false)
+    Axis::new().title(Title::new().text(title).font(Font::new().size(12))).grid_color("var(--rule)").zero_line(false)
 }
 
 fn buttons(shown: &[Shown<'_>]) -> UpdateMenu {
@@ -117,13 +116,13 @@ fn buttons(shown: &[Shown<'_>]) -> UpdateMenu {
             .args(json!([{ "visible": visible }, layout]))
     };
     UpdateMenu::new()
-        .ty(UpdateMenuType::Buttons)
+        .type_(UpdateMenuType::Buttons)
         .direction(UpdateMenuDirection::Right)
-        .buttons((0..shown.len()).map(button).collect())
+        .buttons((0..shown.len()).map(button).collect::<Vec<_>>())
         .background_color("var(--panel)")
         .border_color("var(--rule)")
         .font(Font::new().size(12).color("var(--ink)"))
-        .pad(Pad::new(0, 0, 0))
+        .pad(Pad::new().top(0).bottom(0).left(0))
         .x(0.0)
         .x_anchor(Anchor::Left)
         .y(1.0)

@@ -1,8 +1,7 @@
 //! The tooth as a whole from the first touch of its first slice to the last of its last: its share of the load, and the greatest
 //! pressure anywhere on it.
 
-use plotly::Plot;
-use plotly::layout::Axis;
+use crate::report::chart::{Axis, Plot};
 
 use super::{SlicedRun, slice_name};
 use crate::report::html::cycle_plots::{ALONE, NOT_COMPUTED};
