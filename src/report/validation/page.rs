@@ -13,9 +13,10 @@ use crate::report::html::page::{Page, escape, plots, section};
 use crate::simulation::validation_record::{Change, Changes, ValidationRecord};
 
 /// The data files named in the page, which lie beside it.
-const DATA_FILES: [(&str, &str); 4] = [
+const DATA_FILES: &[(&str, &str)] = &[
     ("validation.json", "the whole record but the plots: what a later run is compared with"),
     ("work_precision.json", "error against cost of every setting"),
+    #[cfg(feature = "program")]
     ("junit.xml", "a test for each quantity, for services that collect test results"),
     ("summary.md", "the summary for a comment"),
 ];
