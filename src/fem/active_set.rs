@@ -381,6 +381,7 @@ fn held_motion(
     if load.is_empty() {
         return (unit, None);
     }
+    // One motion is its own eigenvector.
     if load.len() == 1 && s[0] * unit[0] * unit[0] > SINGULAR {
         return (load / s[0], None);
     }

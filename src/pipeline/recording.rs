@@ -125,7 +125,8 @@ fn imbalance_warning(balance: &WearBalance) -> Option<String> {
     let greatest = balance.new.max(balance.worn);
     (greatest > IMBALANCE).then(|| {
         format!(
-            "in one mesh the flanks of pinion and wheel lose volumes that differ by {:.1} %, where both should lose the same: more              numerics.flank_points and numerics.positions, or contact.surface = \"fem\", bring them together",
+            "in one mesh the flanks of pinion and wheel lose volumes that differ by {:.1} %, where both should lose the same: more \
+             numerics.flank_points and numerics.positions, or contact.surface = \"fem\", bring them together",
             100.0 * greatest
         )
     })

@@ -25,7 +25,7 @@ impl Collected {
         for gear in Gear::BOTH {
             self.depth_mm[gear].fill(0.0);
         }
-        (self.work, self.failure) = (Work::default(), None);
+        self.keep();
     }
 
     /// The depths stay as they are, and there is no new work.

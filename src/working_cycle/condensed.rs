@@ -384,14 +384,11 @@ impl Group {
 
     /// Lets the positions follow the tilt of the worn flanks.
     fn follow_tilt(&mut self, step: &Step<'_>) {
-        let mut followed = Ok(Work::default());
-        for station in &mut self.stations {
-            followed = followed.and_then(|mut work| {
-                work += if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { station.follow_tilt(step) }?;
-                Ok(work)
-            });
-        }
-        if followed.as_ref().is_ok_and(|work| *work == Work::default()) {
+        let followed = self.stations.iter_mut().try_fold(Work::default(), |mut work, station| {
+            work += if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { station.follow_tilt(step) }?;
+            Ok(work)
+        });
+        if followed == Ok(Work::default()) {
             return self.collected.keep();
         }
         self.collected.clear();
