@@ -10,7 +10,7 @@ use gearwear::fem::gear::cycle::cycle;
 use gearwear::fem::gear::model::MeshedGear;
 use gearwear::fem::gear::position::CondensedPair;
 use gearwear::gear::{Gear, GearPair, PerGear};
-use gearwear::mesh::settings::{Body, BodySettings};
+use gearwear::gear_mesh::settings::{Body, BodySettings};
 use gearwear::scene::{Scene, presets};
 
 const POSITIONS: usize = 400;

@@ -8,8 +8,8 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use gearwear::pipeline;
 use gearwear::pipeline::inputs::Inputs;
 use gearwear::plan::Plan;
+use gearwear::results::run::RunRecord;
 use gearwear::scene::{Resolved, Scene, presets};
-use gearwear::simulation::record::RunRecord;
 use gearwear::simulation::wear_run::Unwatched;
 
 /// The preset `helical` without snapshots and error estimates, some keys replaced.

@@ -5,12 +5,12 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use gearwear::pipeline;
 use gearwear::pipeline::inputs::Inputs;
 use gearwear::plan::Plan;
+use gearwear::results::run::RunRecord;
 use gearwear::scene::{Resolved, Scene, presets};
-use gearwear::simulation::record::RunRecord;
 use gearwear::simulation::wear_run::Unwatched;
-use gearwear::sweep::combination::Sweep;
-use gearwear::sweep::journal::Journal;
-use gearwear::sweep::{axis, study};
+use gearwear::studies::sweep::combination::Sweep;
+use gearwear::studies::sweep::journal::Journal;
+use gearwear::studies::sweep::{axis, study};
 
 /// The thesis-spur scene without snapshots and error estimates, some keys replaced.
 fn scene(edits: &[(&str, &str)]) -> Resolved {

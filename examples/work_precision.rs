@@ -1,4 +1,4 @@
-//! Error of the wear against working cycles evaluated: Euler's method and both adaptive ones on the fzg-c scene after 128 h, half of
+//! Error of the wear against mesh cycles evaluated: Euler's method and both adaptive ones on the fzg-c scene after 128 h, half of
 //! the points and positions, without severe wear, with a factor of 100 above 2000 MPa over a band of 100 MPa, and with the hard switch.
 //! Prints the tables of docs/stepping.md; `work_precision winkler` does so for one surface alone.
 

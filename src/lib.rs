@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! scene (what is asked) → plan (which stages it needs) → gear geometry → stiffness and contact
-//!       → working cycle (who carries how much, where) → wear law and stepping → results → report
+//!       → mesh cycle (who carries how much, where) → wear law and stepping → results → report
 //! ```
 //!
 //! Inside the program one consistent system of units is used: mm, N, MPa, s, K; angles are in radians. Public names
@@ -13,26 +13,30 @@
 //!
 //! `ARCHITECTURE.md` is the map of the code, `docs/theory.md` the derivations that the modules cite.
 
-pub mod accuracy;
+// The program, the tests and the examples name the library alike.
+extern crate self as gearwear;
+
 pub mod calibration;
-pub mod compare;
+#[cfg(feature = "program")]
+pub mod cli;
 pub mod contact;
 pub mod data_table;
 pub mod fem;
 pub mod gear;
+pub mod gear_mesh;
 pub mod measurement;
 pub mod mesh;
+pub mod mesh_cycle;
 pub mod pipeline;
 pub mod plan;
 pub mod reference;
 pub mod report;
+pub mod results;
 pub mod resume;
 pub mod scene;
 pub mod simulation;
 pub mod stiffness;
-pub mod sweep;
+pub mod studies;
 pub mod thermal;
-pub mod validation;
 pub mod wear;
 mod whole_file;
-pub mod working_cycle;

@@ -1,7 +1,5 @@
-//! The program `gearwear`: a thin shell over the library of the same name.
-
-mod cli;
+//! The program `gearwear`: the command line of the library of the same name.
 
 fn main() -> std::process::ExitCode {
-    cli::main()
+    gearwear::cli::main()
 }

@@ -23,7 +23,7 @@ use gearwear::gear::conjugate::ConjugateFlanks;
 use gearwear::gear::modification::{Relief, ReliefShape};
 use gearwear::gear::spec::PairSpec;
 use gearwear::gear::{Gear, GearPair, PerGear, flank::FlankGrid};
-use gearwear::mesh::settings::{Body, BodySettings, SectorSides};
+use gearwear::gear_mesh::settings::{Body, BodySettings, SectorSides};
 use gearwear::pipeline::calibrate::{self, Extent};
 use gearwear::scene::Scene;
 use gearwear::simulation::wear_run::Unwatched;

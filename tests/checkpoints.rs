@@ -5,9 +5,9 @@ use std::sync::Mutex;
 
 use gearwear::pipeline::{self, Resumption, RunError, inputs::Inputs};
 use gearwear::plan::Plan;
+use gearwear::results::run::RunRecord;
 use gearwear::scene::Scene;
 use gearwear::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
-use gearwear::simulation::record::RunRecord;
 use gearwear::simulation::wear_run::{SimulationError, Unwatched};
 
 /// Keeps every checkpoint there is, as it would be in a file.

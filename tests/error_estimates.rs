@@ -2,8 +2,8 @@
 
 use gearwear::pipeline::{self, inputs::Inputs};
 use gearwear::plan::Plan;
+use gearwear::results::run::Summary;
 use gearwear::scene::{Scene, presets};
-use gearwear::simulation::record::Summary;
 use gearwear::simulation::wear_run::Unwatched;
 
 /// The thesis-spur scene with other lines.

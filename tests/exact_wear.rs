@@ -20,9 +20,9 @@ use gearwear::gear::{
     flank::FlankGrid,
     involute::{TangentFramePoint, inv, inverse_inv},
 };
+use gearwear::mesh_cycle::{LineOfActionCycle, LoadingPosition, LostMaterial, MeshCycle, PairInMesh};
 use gearwear::simulation::wear_run::Outcome;
 use gearwear::wear::{WearModel, settings::WearSettings};
-use gearwear::working_cycle::{LoadingPosition, LostMaterial, MeshCycle, PairInMesh, WorkingCycle};
 
 /// Two discs rolling and sliding on each other: coordinates are arc lengths, the position is the time.
 struct TwoDiscs {
@@ -105,7 +105,7 @@ fn disc_wear_over_exact(surface: impl Fn(f64, &TwoDiscs) -> Box<dyn ContactSurfa
         })
         .collect();
     let surface = surface(line_load, &discs);
-    let mut cycle = WorkingCycle::new(flanks, surface.as_ref(), &positions, line_load);
+    let mut cycle = LineOfActionCycle::new(flanks, surface.as_ref(), &positions, line_load);
     let zeros = vec![0.0; grid.len()];
     let mut depth = PerGear { pinion: zeros.clone(), wheel: zeros.clone() };
     let law = gearwear::wear::of(&WearSettings::archard(k));
@@ -196,7 +196,7 @@ fn val_each_flank_loses_what_load_and_sliding_ask_for() {
 }
 
 /// ∫ w v_s over an interval in which the load jumps at B or D.
-fn jump_share(pair: &GearPair, two: &[gearwear::working_cycle::PositionObservation], line_load: f64) -> f64 {
+fn jump_share(pair: &GearPair, two: &[gearwear::mesh_cycle::PositionObservation], line_load: f64) -> f64 {
     let jumps = [pair.path.lower_single_contact_mm(), pair.path.upper_single_contact_mm()];
     let at = jumps.into_iter().find(|&at| at >= two[0].position_mm - 1e-9 && at <= two[1].position_mm + 1e-9).unwrap();
     line_load

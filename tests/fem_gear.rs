@@ -10,7 +10,7 @@ use gearwear::fem::gear::model::MeshedGear;
 use gearwear::fem::gear::position::{CondensedPair, PositionContact, ToothPairContact, WarmStart};
 use gearwear::gear::spec::PairSpec;
 use gearwear::gear::{GearPair, PerGear};
-use gearwear::mesh::settings::{Body, BodySettings, SectorSides};
+use gearwear::gear_mesh::settings::{Body, BodySettings, SectorSides};
 use gearwear::reference::hertz_line::HertzLine;
 
 /// Steel; contact modulus of two such bodies.

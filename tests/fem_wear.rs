@@ -15,9 +15,9 @@ use gearwear::gear::{
     slices::Slices,
     spec::PairSpec,
 };
-use gearwear::mesh::settings::{Body, BodySettings, default_clamp};
+use gearwear::gear_mesh::settings::{Body, BodySettings, default_clamp};
+use gearwear::mesh_cycle::{CycleObservation, LostMaterial, MeshCycle, Work, condensed::CondensedCycle};
 use gearwear::wear::{WearModel, settings::WearSettings};
-use gearwear::working_cycle::{CycleObservation, LostMaterial, MeshCycle, Work, condensed::CondensedCycle};
 
 const TORQUE_N_MM: f64 = 302e3;
 const COEFFICIENT: f64 = 1e-11;

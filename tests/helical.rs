@@ -13,12 +13,13 @@ use gearwear::gear::{
     slices::Slices,
     spec::PairSpec,
 };
-use gearwear::simulation::{figures::WearFigures, wear_run::Outcome};
-use gearwear::stiffness::settings::StiffnessSettings;
-use gearwear::working_cycle::{
+use gearwear::mesh_cycle::{
     phases::phases,
     settings::{Coupling, SliceSettings},
 };
+use gearwear::simulation::figures::WearFigures;
+use gearwear::simulation::wear_run::Outcome;
+use gearwear::stiffness::settings::StiffnessSettings;
 use proptest::prelude::*;
 
 fn slices(count: usize, coupling: Coupling) -> Option<SliceSettings> {

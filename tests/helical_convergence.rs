@@ -5,9 +5,9 @@ mod common;
 
 use common::{Scene, fzg_c_scene, pair, preset};
 use gearwear::gear::Gear;
+use gearwear::mesh_cycle::settings::{Coupling, SliceSettings};
 use gearwear::simulation::figures::WearFigures;
 use gearwear::stiffness::settings::StiffnessSettings;
-use gearwear::working_cycle::settings::{Coupling, SliceSettings};
 
 const BOTH: [Coupling; 2] = [Coupling::None, Coupling::Slicing];
 

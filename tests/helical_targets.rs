@@ -5,15 +5,13 @@ mod common;
 
 use common::{Scene, fzg_c_scene, pair, preset};
 use gearwear::gear::{Gear, GearPair, PerGear, spec::PairSpec};
+use gearwear::mesh_cycle::settings::{Coupling, SliceSettings};
 use gearwear::pipeline::{self, inputs::Inputs};
 use gearwear::plan::Plan;
-use gearwear::simulation::{
-    figures::{SliceFigures, WearFigures, variation},
-    record::RunRecord,
-    wear_run::{Outcome, Snapshot, Unwatched},
-};
+use gearwear::results::run::RunRecord;
+use gearwear::simulation::figures::{SliceFigures, WearFigures, variation};
+use gearwear::simulation::wear_run::{Outcome, Snapshot, Unwatched};
 use gearwear::stiffness::settings::StiffnessSettings;
-use gearwear::working_cycle::settings::{Coupling, SliceSettings};
 
 const SLICES: usize = 20;
 const REVOLUTIONS: f64 = 6e5;

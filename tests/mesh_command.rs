@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use assert_cmd::Command;
+use gearwear::gear_mesh::settings::{Body, SectorSides};
 use gearwear::mesh;
-use gearwear::mesh::settings::{Body, SectorSides};
 use gearwear::scene::{Scene, presets};
 use predicates::prelude::*;
 

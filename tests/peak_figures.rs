@@ -4,10 +4,10 @@
 use gearwear::gear::Gear;
 use gearwear::pipeline::{self, inputs::Inputs};
 use gearwear::plan::Plan;
+use gearwear::results::run::RunRecord;
 use gearwear::scene::{draft::Draft, presets};
-use gearwear::simulation::record::RunRecord;
-use gearwear::simulation::sweep_figures::FIGURES;
 use gearwear::simulation::wear_run::Unwatched;
+use gearwear::studies::sweep::figures::FIGURES;
 
 /// A preset with keys exchanged, at a resolution that takes a second.
 fn run(preset: &str, set: &[(&str, toml::Value)]) -> RunRecord {

@@ -5,8 +5,8 @@ use std::process::{Command, Output};
 
 use gearwear::pipeline::{self, inputs::Inputs};
 use gearwear::plan::Plan;
+use gearwear::results::run::RunRecord;
 use gearwear::scene::Scene;
-use gearwear::simulation::record::RunRecord;
 use gearwear::simulation::wear_run::Unwatched;
 
 const OPERATION: &str = "pinion_torque_Nm = 302.0\npinion_speed_rpm = 150.0\n";

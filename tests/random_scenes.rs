@@ -4,8 +4,8 @@
 use gearwear::gear::Gear;
 use gearwear::pipeline::{self, inputs::Inputs};
 use gearwear::plan::Plan;
+use gearwear::results::run::{RunRecord, StopReason};
 use gearwear::scene::{Resolved, draft::Draft, presets};
-use gearwear::simulation::record::{RunRecord, StopReason};
 use gearwear::simulation::wear_run::Unwatched;
 use proptest::prelude::*;
 

@@ -10,22 +10,20 @@ use gearwear::gear::{
     modification::{Modification, Relief, ReliefShape},
     spec::PairSpec,
 };
-use gearwear::simulation::{
-    figures::WearFigures,
-    mesh_contact::MeshContact,
-    simplified::closed_form::{AMPLE_LOADS, ContactForms, RANGES},
-    wear_run::{Outcome, RunPhase, Snapshot, Unwatched, WearRun},
-};
-use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
-use gearwear::wear::{
-    WearModel,
-    settings::{SevereTransition, WearSettings},
-};
-use gearwear::working_cycle::{
+use gearwear::mesh_cycle::simplified::closed_form::{AMPLE_LOADS, ContactForms, RANGES};
+use gearwear::mesh_cycle::{
     phases::phases,
     settings::{Coupling, SliceSettings},
     sliced_mesh::SlicedMesh,
     sliced_teeth::SlicedTeeth,
+};
+use gearwear::simulation::figures::WearFigures;
+use gearwear::simulation::mesh_contact::MeshContact;
+use gearwear::simulation::wear_run::{Outcome, RunPhase, Snapshot, Unwatched, WearRun};
+use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
+use gearwear::wear::{
+    WearModel,
+    settings::{SevereTransition, WearSettings},
 };
 
 /// The preset `helical` on the simplified surface.
@@ -84,7 +82,7 @@ fn differences(a: &SlicedMesh, b: &SlicedMesh, line_load: f64) -> [f64; 2] {
     ]
 }
 
-/// Unworn flanks: the same load sharing and transmission error as the general working cycle.
+/// Unworn flanks: the same load sharing and transmission error as the general mesh cycle.
 fn assert_same_mesh(what: &str, scene: &Scene, allowed: f64) {
     let scene = Scene { steps: 1.0, revolutions: 1.0, ..scene.clone() };
     let (simplified, general) = (run(&scene), scene.run());
@@ -125,7 +123,7 @@ fn ver_prepared_form_is_the_closed_form() {
     assert_eq!(hardest, 3, "the widest range is tried too");
 }
 
-/// The general working cycle with the surface `hertz-mean` solves the same equations on unworn flanks; the least load leaves
+/// The general mesh cycle with the surface `hertz-mean` solves the same equations on unworn flanks; the least load leaves
 /// contacts of the crowned flanks without load.
 #[test]
 fn val_unworn_flanks_share_the_load_as_on_the_general_cycle() {

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{assert_close, fzg_c, pair, steel};
-use gearwear::working_cycle::slice_coupling::{Factors, Reach, SliceCoupling};
+use gearwear::mesh_cycle::slice_coupling::{Factors, Reach, SliceCoupling};
 
 const NU: f64 = 0.3;
 

@@ -6,12 +6,10 @@ use common::{Scene, fzg_c, fzg_c_scene, pair, steel, zones};
 use gearwear::fem::elastic::Elastic;
 use gearwear::fem::gear::position::CondensedPair;
 use gearwear::gear::{Gear, PerGear};
-use gearwear::mesh::settings::{Body, BodySettings, default_clamp};
-use gearwear::simulation::{
-    mesh_contact::MeshContact,
-    settings::{AdaptiveMethod, Numerics, Stepping},
-    wear_run::{Outcome, RunPhase, Unwatched, WearRun},
-};
+use gearwear::gear_mesh::settings::{Body, BodySettings, default_clamp};
+use gearwear::simulation::mesh_contact::MeshContact;
+use gearwear::simulation::settings::{AdaptiveMethod, Numerics, Stepping};
+use gearwear::simulation::wear_run::{Outcome, RunPhase, Unwatched, WearRun};
 use gearwear::wear::{WearModel, settings::SevereTransition, settings::WearSettings};
 
 /// Steps of Euler's method: a wave that grows by 1.5 · 2 − 1 a step rises from rounding to its full height in them.

@@ -9,10 +9,8 @@ use gearwear::gear::{
     Gear, GearPair,
     modification::{Relief, ReliefShape},
 };
-use gearwear::simulation::{
-    figures::WearFigures,
-    wear_run::{Outcome, Snapshot},
-};
+use gearwear::simulation::figures::WearFigures;
+use gearwear::simulation::wear_run::{Outcome, Snapshot};
 use gearwear::wear::settings::SevereTransition;
 
 /// Load stage 6, at which S3 and S5 are asked.

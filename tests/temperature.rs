@@ -4,8 +4,9 @@ use gearwear::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 use gearwear::pipeline::{self, inputs::Inputs};
 use gearwear::plan::Plan;
 use gearwear::reference::moving_heat_band;
+use gearwear::results::run::RunRecord;
 use gearwear::scene::{Scene, presets};
-use gearwear::simulation::{record::RunRecord, wear_run::Unwatched};
+use gearwear::simulation::wear_run::Unwatched;
 use gearwear::thermal::{
     ContactHeat, SpeedRatios,
     band::Spread,
@@ -53,7 +54,7 @@ fn val_s6_three_methods_through_the_mesh() {
     let record = run(&[], "[temperature]\n");
     let points = record.summary.geometry.curvature_radius_mm;
     let rows = &record.mesh_cycle;
-    let rises = |row: &gearwear::simulation::record::MeshCycleRow| {
+    let rises = |row: &gearwear::results::run::MeshCycleRow| {
         [
             row.temperature_rise_heat_equation_K.unwrap(),
             row.temperature_rise_williams_K.unwrap(),

@@ -11,12 +11,10 @@ use gearwear::contact::{
 };
 use gearwear::fem::gear::placement::{axis_mm, tooth_angle_rad};
 use gearwear::gear::{Gear, GearPair, conjugate::ConjugateFlanks, removed_material::tip_rounding_mm};
-use gearwear::simulation::{
-    settings::{AdaptiveMethod, Stepping},
-    wear_run::Outcome,
-};
+use gearwear::mesh_cycle::{PositionObservation, positions::positions_with_tip_contact, tip_contact::reach_mm};
+use gearwear::simulation::settings::{AdaptiveMethod, Stepping};
+use gearwear::simulation::wear_run::Outcome;
 use gearwear::stiffness::settings::StiffnessSettings;
-use gearwear::working_cycle::{PositionObservation, positions::positions_with_tip_contact, tip_contact::reach_mm};
 use nalgebra::{Rotation2, Vector2};
 
 /// 302 N·m over base radius and face width.

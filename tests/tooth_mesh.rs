@@ -11,11 +11,11 @@ use gearwear::gear::modification::{Modification, Relief, ReliefShape};
 use gearwear::gear::removed_material::removed_mm;
 use gearwear::gear::spec::PairSpec;
 use gearwear::gear::{Gear, GearPair, PerGear};
-use gearwear::mesh::quality::{self, MeshQuality};
-use gearwear::mesh::settings::{Body, BodySettings, SectorSides, default_clamp};
-use gearwear::mesh::tooth::{
+use gearwear::gear_mesh::settings::{Body, BodySettings, SectorSides, default_clamp};
+use gearwear::gear_mesh::{
     self, FlankResolution, PairSectors, SectorSettings, ToothMeshError, ToothSector, ToothShape,
 };
+use gearwear::mesh::quality::{self, MeshQuality};
 use gearwear::mesh::{CellBlock, CellKind, Mesh};
 use nalgebra::{Rotation2, Vector2};
 use proptest::prelude::*;
@@ -33,7 +33,7 @@ fn sectors(pair: &GearPair, settings: &BodySettings) -> PairSectors {
     // The load grows with the module, so that the half-width stays the same part of the tooth.
     let load = LINE_LOAD * pair.spec.normal_module_mm / 4.5;
     let half_width = |xi: f64| hertz::flattening(pair, &steel(), xi).contact.loaded(load).half_width_mm;
-    tooth::pair_sectors(pair, settings, &half_width).expect("the teeth of the test can be meshed")
+    gear_mesh::pair_sectors(pair, settings, &half_width).expect("the teeth of the test can be meshed")
 }
 
 fn as_mesh(sector: &ToothSector) -> Mesh {
@@ -383,7 +383,7 @@ fn the_same_tooth_gives_the_same_bits() {
 fn pair_mesh(pair: &GearPair, body: Body, position_mm: f64) -> Mesh {
     let settings = BodySettings { body, ..settings(pair, 6.0) };
     let sectors = sectors(pair, &settings);
-    tooth::pair_mesh(pair, &settings, &sectors, &tooth::touching_pairs(pair), position_mm).unwrap()
+    gear_mesh::pair_mesh(pair, &settings, &sectors, &gear_mesh::touching_pairs(pair), position_mm).unwrap()
 }
 
 /// Nodes of a set of lines.
@@ -486,7 +486,7 @@ fn what_cannot_be_meshed_is_refused() {
             margin_mm: 3.0 * half_width_mm,
             depth_half_widths: 1.0,
         };
-        tooth::sector(&shape, &SectorSettings { clamp_radius_mm, fillet_elements: 24, flank: Some(flank) })
+        gear_mesh::sector(&shape, &SectorSettings { clamp_radius_mm, fillet_elements: 24, flank: Some(flank) })
     };
     assert!(mesh(20.0, 0.25, 10.0).is_ok());
     // r_f = 36 + 0.1817·4.5 − 5.625 = 31.1927 mm less a tenth of the module.
@@ -500,7 +500,7 @@ fn what_cannot_be_meshed_is_refused() {
     let settings = BodySettings { body: Body::Sector { teeth: 4, sides: SectorSides::Free }, ..settings(&pair, 6.0) };
     let sectors = sectors(&pair, &settings);
     assert!(matches!(
-        tooth::pair_mesh(&pair, &settings, &sectors, &[0], 14.0),
+        gear_mesh::pair_mesh(&pair, &settings, &sectors, &[0], 14.0),
         Err(ToothMeshError::SectorTeeth { sector_teeth: 4, teeth: 16 })
     ));
 }
@@ -520,7 +520,7 @@ fn any_load_gives_a_mesh() {
             };
             let clamp_radius_mm = pair.teeth[g].root_radius_mm - 11.25;
             let settings = SectorSettings { clamp_radius_mm, fillet_elements: 24, flank: Some(flank) };
-            let sector = tooth::sector(&ToothShape::of(&pair, g), &settings).unwrap();
+            let sector = gear_mesh::sector(&ToothShape::of(&pair, g), &settings).unwrap();
             let quality = quality::of_mesh(&as_mesh(&sector)).unwrap();
             assert_well_shaped(&format!("{} a = {half_width_mm}", g.name()), &quality, &ANY);
         }
@@ -553,7 +553,7 @@ proptest! {
         let settings = settings(&pair, 4.0);
         let load = LINE_LOAD * module / 4.5;
         let half_width = |xi: f64| hertz::flattening(&pair, &steel(), xi).contact.loaded(load).half_width_mm;
-        match tooth::pair_sectors(&pair, &settings, &half_width) {
+        match gear_mesh::pair_sectors(&pair, &settings, &half_width) {
             Ok(sectors) => {
                 for g in Gear::BOTH {
                     for sector in [&sectors.fine[g], &sectors.coarse[g]] {

@@ -3,8 +3,9 @@
 use gearwear::gear::Gear;
 use gearwear::pipeline::{self, inputs::Inputs};
 use gearwear::plan::Plan;
+use gearwear::results::run::RunRecord;
 use gearwear::scene::{Scene, presets};
-use gearwear::simulation::{record::RunRecord, wear_run::Unwatched};
+use gearwear::simulation::wear_run::Unwatched;
 use gearwear::wear::regime::Regime;
 
 /// Lines exchanged in a preset that runs an hour in one step, with `more` at its end.

@@ -8,7 +8,8 @@ use gearwear::gear::{
     involute::{inv, inverse_inv},
     modification::{Relief, ReliefShape},
 };
-use gearwear::simulation::{figures::WearFigures, wear_run::Outcome};
+use gearwear::simulation::figures::WearFigures;
+use gearwear::simulation::wear_run::Outcome;
 use gearwear::stiffness::settings::StiffnessSettings;
 
 fn peak_wear_mm(scene: &Scene) -> f64 {

@@ -1,4 +1,4 @@
-//! How many working cycles a given accuracy of the wear takes, by Euler's method and by adaptive steps.
+//! How many mesh cycles a given accuracy of the wear takes, by Euler's method and by adaptive steps.
 
 mod common;
 

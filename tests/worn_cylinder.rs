@@ -12,9 +12,9 @@ use gearwear::contact::{
     winkler::Winkler,
 };
 use gearwear::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid, involute::TangentFramePoint};
+use gearwear::mesh_cycle::{LineOfActionCycle, LoadingPosition, LostMaterial, MeshCycle, PairInMesh};
 use gearwear::reference::worn_cylinder::WornCylinder;
 use gearwear::wear::{WearModel, settings::WearSettings};
-use gearwear::working_cycle::{LoadingPosition, LostMaterial, MeshCycle, PairInMesh, WorkingCycle};
 
 /// A cylinder (the pinion) in the middle of a flat (the wheel) that slides; positions are sliding distances around 0, and what the
 /// contact moves meanwhile on either surface is far less than the distance of points.
@@ -107,7 +107,7 @@ fn wear(
         pairs: vec![PairInMesh { position_mm: 0.0, teeth_n_per_mm2: 20e3, lever_ratio: 1.0 }],
         on_line_of_action: true,
     }];
-    let mut cycle = WorkingCycle::new(flanks, surface, &positions, load);
+    let mut cycle = LineOfActionCycle::new(flanks, surface, &positions, load);
     let law = gearwear::wear::of(&WearSettings::archard(CYLINDER.coefficient_mm2_per_n));
     let zeros = vec![0.0; grid.len()];
     let mut worn = zeros.clone();

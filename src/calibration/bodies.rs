@@ -15,7 +15,7 @@ use crate::fem::gear::model::MeshedGear;
 use crate::fem::gear::position::CondensedPair;
 use crate::fem::gear::ring::ToothForce;
 use crate::gear::{Gear, GearPair, PerGear};
-use crate::mesh::settings::{Body, BodySettings, SectorSides, greatest_clamp_mm};
+use crate::gear_mesh::settings::{Body, BodySettings, SectorSides, greatest_clamp_mm};
 
 /// Elements in a half-width that the tables of rim and neighbours are made with; the convergence table shows that it is
 /// enough.

@@ -10,7 +10,7 @@ use serde_json::Value;
 use crate::contact::settings::Material;
 use crate::gear::modification::{Relief, ReliefShape};
 use crate::gear::{Gear, GearPair, PerGear};
-use crate::mesh::settings::{Body, BodySettings, SectorSides};
+use crate::gear_mesh::settings::{Body, BodySettings, SectorSides};
 
 /// Relative difference of two numbers below which they are the same: round-off of units.
 const SAME: f64 = 1e-9;

@@ -31,8 +31,8 @@ use crate::fem::gear::ring::{GearCompliance, Surroundings, ToothForce};
 use crate::gear::modification::Modification;
 use crate::gear::spec::{GearSpec, PairSpec};
 use crate::gear::{Gear, tooth::Tooth};
-use crate::mesh::settings::default_clamp;
-use crate::mesh::tooth::{self as tooth_mesh, FlankResolution, SectorSettings, ToothSector, ToothShape};
+use crate::gear_mesh::settings::default_clamp;
+use crate::gear_mesh::{self as tooth_mesh, FlankResolution, SectorSettings, ToothSector, ToothShape};
 use crate::stiffness::weber_banaschek::ToothCompliance;
 
 const TEETH: [u32; 11] = [10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30];

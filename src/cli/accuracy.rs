@@ -4,11 +4,11 @@ use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use gearwear::accuracy::selection::Asked;
-use gearwear::accuracy::study::{self, AccuracyError};
-use gearwear::report;
-use gearwear::simulation::accuracy_record::{AccuracyRecord, Quantity, VariantRecord};
-use gearwear::simulation::record::StopReason;
+use crate::report;
+use crate::results::run::StopReason;
+use crate::studies::accuracy::record::{AccuracyRecord, Quantity, VariantRecord};
+use crate::studies::accuracy::selection::Asked;
+use crate::studies::accuracy::study::{self, AccuracyError};
 
 use super::failure::Failure;
 use super::figures::digits;
@@ -62,7 +62,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         }
         failed => Failure::Accuracy(failed),
     })?;
-    report::accuracy::write(&record, &args.out)?;
+    crate::studies::accuracy::report::write(&record, &args.out)?;
     if !args.quiet {
         let report = args.out.join("report.html");
         stdout::print(&format!("{}report: {}\n", table(&record), report.display()))?;

@@ -5,12 +5,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use gearwear::report;
-use gearwear::resume::file::{self, CheckpointFile};
-use gearwear::resume::folder::{self, Contents};
-use gearwear::resume::identity::Identity;
-use gearwear::simulation::checkpoint::{Checkpoint, Keeper};
-use gearwear::simulation::record::StopReason;
+use crate::report;
+use crate::results::run::StopReason;
+use crate::resume::file::{self, CheckpointFile};
+use crate::resume::folder::{self, Contents};
+use crate::resume::identity::Identity;
+use crate::simulation::checkpoint::{Checkpoint, Keeper};
 
 use super::failure::{Failure, InputError};
 use super::say;

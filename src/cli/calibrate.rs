@@ -3,11 +3,11 @@
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use gearwear::calibration::CalibrationError;
-use gearwear::contact::settings::MatchCriterion;
-use gearwear::pipeline::calibrate::{self, CalibrateError, Done, Extent, Observer};
-use gearwear::plan::calibration::CalibrationStage;
-use gearwear::report;
+use crate::calibration::CalibrationError;
+use crate::contact::settings::MatchCriterion;
+use crate::pipeline::calibrate::{self, CalibrateError, Done, Extent, Observer};
+use crate::plan::calibration::CalibrationStage;
+use crate::report;
 
 use super::failure::{Failure, InputError};
 use super::progress::Progress;

@@ -3,11 +3,11 @@
 use std::fs;
 use std::path::Path;
 
-use gearwear::calibration::Calibration;
-use gearwear::gear::GearPair;
-use gearwear::pipeline::inputs;
-use gearwear::resume::identity::InputFile;
-use gearwear::scene::Problem;
+use crate::calibration::Calibration;
+use crate::gear::GearPair;
+use crate::pipeline::inputs;
+use crate::resume::identity::InputFile;
+use crate::scene::Problem;
 
 use super::failure::{Failure, SceneProblems};
 use super::scene_source::Source;

@@ -4,16 +4,16 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use gearwear::compare::question::{Asked, FitKind, Question, QuestionError};
-use gearwear::compare::run_folder::RunFolder;
-use gearwear::compare::study::{self, CompareError};
-use gearwear::gear::{Gear, GearPair};
-use gearwear::measurement::file;
-use gearwear::measurement::fit::FitStop;
-use gearwear::measurement::form::Form;
-use gearwear::pipeline::RunError;
-use gearwear::report;
-use gearwear::simulation::compare_record::{CompareRecord, Estimate};
+use crate::gear::{Gear, GearPair};
+use crate::measurement::file;
+use crate::measurement::fit::FitStop;
+use crate::measurement::form::Form;
+use crate::pipeline::RunError;
+use crate::report;
+use crate::studies::compare::question::{Asked, FitKind, Question, QuestionError};
+use crate::studies::compare::record::{CompareRecord, Estimate};
+use crate::studies::compare::run_folder::RunFolder;
+use crate::studies::compare::study::{self, CompareError};
 
 use super::failure::{Failure, InputError};
 use super::figures::digits;
@@ -157,7 +157,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         }
         CompareError::Run(error) => Failure::Run(error),
     })?;
-    report::compare::write(&record, &out)?;
+    crate::studies::compare::report::write(&record, &out)?;
     if !args.quiet {
         let report = out.join("report.html");
         stdout::print(&format!("{}report: {}\n", table(&record), report.display()))?;
@@ -202,7 +202,7 @@ fn table(record: &CompareRecord) -> String {
     }
     let runs = if fit.runs == 1 { "run" } else { "runs" };
     text.push_str(&format!(
-        "\nform {}, {} {runs} of the scene ({} working cycles)\n",
+        "\nform {}, {} {runs} of the scene ({} mesh cycles)\n",
         record.form, fit.runs, fit.mesh_cycles
     ));
     text

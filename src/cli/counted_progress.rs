@@ -5,8 +5,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use gearwear::simulation::wear_run;
-use gearwear::{sweep, validation};
+use crate::simulation::wear_run;
+use crate::studies::sweep;
+use crate::studies::validation;
 use indicatif::ProgressBar;
 
 use super::{progress, say};

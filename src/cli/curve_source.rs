@@ -3,12 +3,12 @@
 use std::fs;
 use std::path::Path;
 
-use gearwear::gear::GearPair;
-use gearwear::resume::identity::InputFile;
-use gearwear::scene::Problem;
-use gearwear::stiffness::curve::PairCompliance;
-use gearwear::stiffness::curve_file;
-use gearwear::stiffness::settings::StiffnessSettings;
+use crate::gear::GearPair;
+use crate::resume::identity::InputFile;
+use crate::scene::Problem;
+use crate::stiffness::curve::PairCompliance;
+use crate::stiffness::curve_file;
+use crate::stiffness::settings::StiffnessSettings;
 
 use super::failure::{Failure, InputError, SceneProblems};
 use super::scene_source::Source;

@@ -4,12 +4,13 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use gearwear::pipeline::fem_problem::{self, FemProblemError};
-use gearwear::report::{self, ReportError};
-use gearwear::scene::Problem;
-use gearwear::scene::fem_problem::FemProblem;
-use gearwear::simulation::fem_problem_record::{FemRecord, FemSummary};
-use gearwear::simulation::record::StageTime;
+use crate::pipeline::fem_problem::{self, FemProblemError};
+use crate::report;
+use crate::report::ReportError;
+use crate::results::fem_problem::{FemRecord, FemSummary};
+use crate::results::run::StageTime;
+use crate::scene::Problem;
+use crate::scene::fem_problem::FemProblem;
 
 use super::failure::{Failure, InputError, SceneProblems};
 use super::scene_source::{self, Text};

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use gearwear::pipeline::fem_scene::{self, Asked, Done, FemPairError, Observer};
-use gearwear::plan::fem_pair::FemPairStage;
-use gearwear::report::{self, ReportError};
-use gearwear::simulation::fem_pair_record::{FemPairRecord, FemPairSummary};
-use gearwear::simulation::record::{StageTime, StopReason};
+use crate::pipeline::fem_scene::{self, Asked, Done, FemPairError, Observer};
+use crate::plan::fem_pair::FemPairStage;
+use crate::report;
+use crate::report::ReportError;
+use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
+use crate::results::run::{StageTime, StopReason};
 
 use super::failure::{Failure, InputError};
 use super::fem::Args;

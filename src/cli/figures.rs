@@ -1,7 +1,7 @@
 //! The main figures of a run, as a table for the terminal.
 
-use gearwear::simulation::error_record::{ErrorPerGear, ErrorSummary, TotalError};
-use gearwear::simulation::record::{HelicalSummary, OverWidthSummary, Summary};
+use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError};
+use crate::results::run::{HelicalSummary, OverWidthSummary, Summary};
 
 /// The table.
 pub fn table(summary: &Summary) -> String {

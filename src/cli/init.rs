@@ -1,6 +1,6 @@
 //! `gearwear init`: a commented scene to start from.
 
-use gearwear::scene::presets;
+use crate::scene::presets;
 
 use super::failure::{Failure, InputError};
 use super::stdout;

@@ -3,12 +3,12 @@
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-use gearwear::gear::Gear;
-use gearwear::mesh::quality::Worst;
-use gearwear::mesh::settings::{Body, SectorSides};
-use gearwear::mesh::{self, CellKind, Format};
-use gearwear::pipeline::pair_mesh::{self, PairMesh};
-use gearwear::scene::Scene;
+use crate::gear::Gear;
+use crate::gear_mesh::settings::{Body, SectorSides};
+use crate::mesh::quality::Worst;
+use crate::mesh::{self, CellKind, Format};
+use crate::pipeline::pair_mesh::{self, PairMesh};
+use crate::scene::Scene;
 
 use super::failure::{Failure, InputError};
 use super::{scene_source, stdout, warn};

@@ -1,7 +1,7 @@
 //! Finite-element models that cannot be made: what the input is to blame for.
 
-use gearwear::fem::gear::model::ModelError;
-use gearwear::scene::Problem;
+use crate::fem::gear::model::ModelError;
+use crate::scene::Problem;
 
 use super::failure::{Failure, InputError, SceneProblems};
 use super::scene_source::Source;

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::plan::{Plan, Stage};
 use clap::ValueEnum;
-use gearwear::plan::{Plan, Stage};
 
 use super::failure::Failure;
 use super::{scene_source, stdout, warn};

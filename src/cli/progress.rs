@@ -6,13 +6,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
-use gearwear::accuracy::study;
-use gearwear::compare;
-use gearwear::pipeline::{Observer, calibrate, fem_scene};
-use gearwear::plan::StageKind;
-use gearwear::plan::calibration::CalibrationStage;
-use gearwear::plan::fem_pair::FemPairStage;
-use gearwear::simulation::wear_run;
+use crate::pipeline::{Observer, calibrate, fem_scene};
+use crate::plan::StageKind;
+use crate::plan::calibration::CalibrationStage;
+use crate::plan::fem_pair::FemPairStage;
+use crate::simulation::wear_run;
+use crate::studies::accuracy::study;
+use crate::studies::compare;
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// How long an interrupted run may take to finish its wear step.

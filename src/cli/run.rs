@@ -6,14 +6,15 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use gearwear::pipeline::{self, Done, Observer, Resumption, RunError};
-use gearwear::plan::{Plan, StageKind};
-use gearwear::report::{self, ReportError};
-use gearwear::resume::folder;
-use gearwear::scene::Problem;
-use gearwear::simulation::checkpoint::Checkpoint;
-use gearwear::simulation::record::{RunRecord, StageTime, StopReason};
-use gearwear::simulation::settings::Operation;
+use crate::pipeline::{self, Done, Observer, Resumption, RunError};
+use crate::plan::{Plan, StageKind};
+use crate::report;
+use crate::report::ReportError;
+use crate::results::run::{RunRecord, StageTime, StopReason};
+use crate::resume::folder;
+use crate::scene::Problem;
+use crate::simulation::checkpoint::Checkpoint;
+use crate::simulation::settings::Operation;
 
 use super::begun_run::{self, BegunRun, FolderKeeper};
 use super::failure::{Failure, InputError, SceneProblems};

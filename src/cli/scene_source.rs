@@ -4,9 +4,9 @@ use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
 
-use gearwear::pipeline::inputs::Inputs;
-use gearwear::resume::identity::InputFile;
-use gearwear::scene::{Resolved, Scene};
+use crate::pipeline::inputs::Inputs;
+use crate::resume::identity::InputFile;
+use crate::scene::{Resolved, Scene};
 
 use super::failure::{Failure, InputError, SceneProblems};
 use super::{calibration_source, curve_source};

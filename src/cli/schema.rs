@@ -1,6 +1,6 @@
 //! `gearwear schema`: the JSON schema of the scene, or of a finite-element problem, for editors.
 
-use gearwear::scene::{fem_problem, schema::schema};
+use crate::scene::{fem_problem, schema::schema};
 
 use super::failure::Failure;
 use super::stdout;

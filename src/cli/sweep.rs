@@ -6,15 +6,15 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-use gearwear::report;
-use gearwear::scene::draft::Draft;
-use gearwear::simulation::sweep_record::{Shard, SweepRecord};
-use gearwear::simulation::sweep_verification::{SweepVerification, intention};
-use gearwear::sweep::axis::{self, AxisError};
-use gearwear::sweep::combination::Sweep;
-use gearwear::sweep::journal::{self, Contents, Journal, JournalError};
-use gearwear::sweep::merge::merge;
-use gearwear::sweep::study::{self, Ended};
+use crate::report;
+use crate::scene::draft::Draft;
+use crate::studies::sweep::axis::{self, AxisError};
+use crate::studies::sweep::combination::Sweep;
+use crate::studies::sweep::journal::{self, Contents, Journal, JournalError};
+use crate::studies::sweep::merge::merge;
+use crate::studies::sweep::record::{Shard, SweepRecord};
+use crate::studies::sweep::study::{self, Ended};
+use crate::studies::sweep::verification::{SweepVerification, intention};
 
 use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError, SceneProblems};
@@ -115,7 +115,7 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
     let start = Instant::now();
     let interrupted = watch_for_interrupt();
     let mut journal = Journal::open(&args.out, &sweep.identity, args.shard).map_err(InputError::Journal)?;
-    report::sweep::begin(&source.text, &args.out)?;
+    crate::studies::sweep::report::begin(&source.text, &args.out)?;
     let total = study::part(sweep.identity.combinations(), args.shard).count();
     if !args.quiet {
         say(&begun(&sweep, args, total, journal.rows.len()));
@@ -208,13 +208,13 @@ fn not_another_sweep(whole: &Contents, out: &Path) -> Result<(), JournalError> {
 /// The scene of the sweep, from the first folder that has it.
 fn scene_of(whole: &Contents, folders: &[PathBuf]) -> Result<String, InputError> {
     let of_sweep = |text: &String| Draft::parse(text).is_ok_and(|draft| draft.hash() == whole.identity.given_hash);
-    let read = |folder: &PathBuf| fs::read_to_string(folder.join(report::sweep::SCENE)).ok();
+    let read = |folder: &PathBuf| fs::read_to_string(folder.join(crate::studies::sweep::report::SCENE)).ok();
     folders.iter().filter_map(read).find(of_sweep).ok_or(InputError::MergeWithoutScene)
 }
 
 /// Writes the outputs and says what came out.
 fn finish(record: &SweepRecord, out: &Path, quiet: bool) -> Result<(), Failure> {
-    report::sweep::write(record, out)?;
+    crate::studies::sweep::report::write(record, out)?;
     if !quiet {
         stdout::print(&table(record, out))?;
     }

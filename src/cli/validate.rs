@@ -5,10 +5,10 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use gearwear::report;
-use gearwear::simulation::validation_record::{Changes, Tier, ValidationRecord};
-use gearwear::validation::library::{self, Library};
-use gearwear::validation::{self, against};
+use crate::report;
+use crate::studies::validation::library::{self, Library};
+use crate::studies::validation::record::{Changes, Tier, ValidationRecord};
+use crate::studies::validation::{self, against};
 
 use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError};
@@ -76,7 +76,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let record = validation::run(&library.cases, tier, thread_count(args.threads), &progress);
     progress.finish();
     let changes = earlier.map(|earlier| against::changes(&earlier, &record));
-    report::validation::write(&record, changes.as_ref(), out)?;
+    crate::studies::validation::report::write(&record, changes.as_ref(), out)?;
     if !args.quiet {
         stdout::print(&in_words(&record, changes.as_ref(), out))?;
     }
@@ -94,7 +94,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 fn in_words(record: &ValidationRecord, changes: Option<&Changes>, out: &Path) -> String {
     // As wide as the terminal; `None` where the output goes elsewhere.
     let width = comfy_table::Table::new().width();
-    let verdicts = report::validation::terminal(record, changes, width);
+    let verdicts = crate::studies::validation::report::terminal(record, changes, width);
     format!("{verdicts}report: {}\n", out.join("report.html").display())
 }
 

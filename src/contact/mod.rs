@@ -1,7 +1,7 @@
 //! Contact surfaces: how a tooth pair answers when its flanks are pressed together.
 //!
 //! One interface for all models. A [`ContactSurface`] prepares a [`PairContact`] for each tooth pair at each loading
-//! position; the working cycle then presses it and reads load and stiffness, and the wear collects what
+//! position; the mesh cycle then presses it and reads load and stiffness, and the wear collects what
 //! each flank point felt ([`Sweep`]). A contact reads the flank only as *removed material*: modifications and wear alike.
 //!
 //! | surface | pressure | load against approach |
@@ -115,7 +115,7 @@ pub struct Footprint {
 
 /// One tooth pair at one loading position.
 ///
-/// Order of use: [`read`](Self::read) the flanks, [`press`](Self::press) until the working cycle is in equilibrium,
+/// Order of use: [`read`](Self::read) the flanks, [`press`](Self::press) until the mesh cycle is in equilibrium,
 /// [`settle`](Self::settle), then [`sweep`](Self::sweep) and [`footprint`](Self::footprint) of the last approach pressed.
 pub trait PairContact: Send {
     /// Takes the material removed at each flank point, mm.

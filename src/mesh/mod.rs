@@ -20,8 +20,6 @@ pub mod gmsh;
 mod json;
 mod numbering;
 pub mod quality;
-pub mod settings;
-pub mod tooth;
 pub mod vtu;
 
 pub use cell_kind::CellKind;

@@ -10,7 +10,7 @@
 use nalgebra::{Rotation2, Vector2};
 
 use crate::gear::{Gear, GearPair, PerGear, outline::polyline};
-use crate::simulation::record::{GearCircles, PairDrawing};
+use crate::results::run::{GearCircles, PairDrawing};
 
 /// Points on each fillet and flank.
 const POINTS_PER_PIECE: usize = 20;

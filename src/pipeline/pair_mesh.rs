@@ -2,16 +2,16 @@
 
 use crate::contact::hertz;
 use crate::gear::{Gear, GearPair, PairError, PerGear};
+use crate::gear_mesh::settings::Body;
+use crate::gear_mesh::{self, ToothMeshError};
 use crate::mesh::quality::{self, MeshQuality, QualityError};
-use crate::mesh::settings::Body;
-use crate::mesh::tooth::{self, ToothMeshError};
 use crate::mesh::{CellKind, Mesh};
 use crate::scene::Scene;
 
 /// A mesh and what it was made with.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairMesh {
-    /// The mesh, see [`tooth::pair_mesh`].
+    /// The mesh, see [`gear_mesh::pair_mesh`].
     pub mesh: Mesh,
     /// How well shaped its cells are.
     pub quality: MeshQuality,
@@ -71,12 +71,12 @@ pub fn build(scene: &Scene, position_mm: Option<f64>) -> Result<PairMesh, PairMe
     let half_width_mm = |position_mm: f64| {
         hertz::flattening(&pair, &scene.material, position_mm).contact.loaded(line_load_n_per_mm).half_width_mm
     };
-    let sectors = tooth::pair_sectors(&pair, &scene.fem, &half_width_mm)?;
-    let mut fine_teeth = tooth::touching_pairs(&pair);
+    let sectors = gear_mesh::pair_sectors(&pair, &scene.fem, &half_width_mm)?;
+    let mut fine_teeth = gear_mesh::touching_pairs(&pair);
     if let Body::Sector { teeth, .. } = scene.fem.body {
         fine_teeth.retain(|index| 2 * index.unsigned_abs() < teeth);
     }
-    let mesh = tooth::pair_mesh(&pair, &scene.fem, &sectors, &fine_teeth, position_mm)?;
+    let mesh = gear_mesh::pair_mesh(&pair, &scene.fem, &sectors, &fine_teeth, position_mm)?;
     let quality = quality::of_mesh(&mesh)?;
     let at_pitch_mm = half_width_mm(pair.path.pitch_point_mm.clamp(from_mm, to_mm));
     Ok(PairMesh {

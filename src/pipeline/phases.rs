@@ -4,8 +4,8 @@ use super::Model;
 use super::recording::UM_PER_MM;
 use super::temperature;
 use crate::gear::Gear;
+use crate::results::run::{PhaseSummary, PhaseWear};
 use crate::simulation::figures::WearFigures;
-use crate::simulation::record::{PhaseSummary, PhaseWear};
 use crate::simulation::wear_run::{Outcome, Snapshot};
 
 /// 1 m²/N in mm²/N.

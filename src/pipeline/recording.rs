@@ -3,17 +3,17 @@
 use super::temperature::{self, ObservedHeat};
 use super::{Model, RunError, drawing, error_estimates, phases, slices, stability::Judged, verification::Verified};
 use crate::gear::{Gear, GearPair, PerGear};
+use crate::mesh_cycle::CycleObservation;
 use crate::plan::Plan;
-use crate::scene::Resolved;
-use crate::simulation::error_record::ErrorSummary;
-use crate::simulation::figures::WearFigures;
-use crate::simulation::record::{
+use crate::results::error::ErrorSummary;
+use crate::results::run::{
     ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, MeshCycleRow, PathPoints,
     RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary, WorkSummary,
 };
+use crate::scene::Resolved;
+use crate::simulation::figures::WearFigures;
 use crate::simulation::wear_run::{Outcome, Snapshot};
 use crate::thermal::settings::TemperatureMethod;
-use crate::working_cycle::CycleObservation;
 
 pub(super) const UM_PER_MM: f64 = 1e3;
 /// Pitch point index of the contract: on a flank of this many points.

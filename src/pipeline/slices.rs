@@ -3,10 +3,10 @@
 use super::Model;
 use super::recording::UM_PER_MM;
 use crate::gear::{Gear, PerGear, flank_surface::FlankSurface};
+use crate::mesh_cycle::sliced_mesh::SlicedMesh;
+use crate::results::run::{HelicalSummary, LineOfContactSummary, OverWidthSummary, SliceRecord};
 use crate::simulation::figures::{SliceFigures, WearFigures, variation};
-use crate::simulation::record::{HelicalSummary, LineOfContactSummary, OverWidthSummary, SliceRecord};
 use crate::simulation::wear_run::Outcome;
-use crate::working_cycle::sliced_mesh::SlicedMesh;
 
 /// Mesh orders that are kept.
 const MESH_ORDERS: usize = 5;

@@ -6,7 +6,7 @@ use crate::simulation::stability::StepBound;
 use crate::simulation::wear_run::RunPhase;
 use crate::wear::{self, WearModel, settings::WearSettings};
 
-/// What is said of the steps, and the working cycles that it took to know.
+/// What is said of the steps, and the mesh cycles that it took to know.
 #[derive(Default)]
 pub(super) struct Judged {
     pub warnings: Vec<String>,

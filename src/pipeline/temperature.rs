@@ -2,7 +2,7 @@
 
 use super::Model;
 use crate::contact::settings::SurfaceKind;
-use crate::simulation::chemistry_record::{GreatestRise, RisesByMethod, TemperatureSummary, WearLawSummary};
+use crate::results::chemistry::{GreatestRise, RisesByMethod, TemperatureSummary, WearLawSummary};
 use crate::simulation::heat_observation::{HeatObservation, HeatObserver};
 use crate::simulation::wear_run::{Outcome, Snapshot};
 use crate::thermal::band::Spread;

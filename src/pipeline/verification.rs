@@ -23,16 +23,16 @@ use super::{Model, elastic};
 use crate::contact::settings::SurfaceKind;
 use crate::fem::gear::{model::ModelError, position::CondensedPair};
 use crate::gear::{Gear, GearPair, PerGear};
-use crate::mesh::settings::BodySettings;
+use crate::gear_mesh::settings::BodySettings;
+use crate::mesh_cycle::CycleObservation;
 use crate::reference::flattening::Flattening;
+use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError};
+use crate::results::run::StopReason;
 use crate::scene::Scene;
-use crate::simulation::error_record::{ErrorPerGear, ErrorSummary, TotalError};
 use crate::simulation::figures::WearFigures;
 use crate::simulation::mesh_contact::MeshContact;
-use crate::simulation::record::StopReason;
 use crate::simulation::settings::{AdaptiveMethod, Numerics, Phase, Stepping};
 use crate::simulation::wear_run::{Outcome, Progress, RunPhase, Snapshot, WearRun};
-use crate::working_cycle::CycleObservation;
 
 /// Least half-width of contact at the pitch point that is meshed, in modules: the flank then has some thousand nodes.
 const LEAST_HALF_WIDTH_MODULES: f64 = 0.015;

@@ -6,11 +6,11 @@ pub mod fem_pair;
 use serde::{Serialize, Serializer};
 
 use crate::contact::settings::{Foundation, SurfaceKind};
+use crate::mesh_cycle::settings::Coupling;
 use crate::scene::Scene;
 use crate::simulation::settings::{AdaptiveMethod, Operation, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::wear::settings::LawSettings;
-use crate::working_cycle::settings::Coupling;
 
 /// Phases that are listed one by one.
 const PHASES_LISTED: usize = 8;
@@ -241,7 +241,7 @@ fn step_bound(scene: &Scene) -> Result<String, String> {
             Err(format!("on the surface {} no wave of wear can swing", scene.contact.surface.name()))
         }
         (Stepping::Fixed { .. }, _) => {
-            Ok("how long a step of Euler's method may be: the spectral radius of the working cycle".to_owned())
+            Ok("how long a step of Euler's method may be: the spectral radius of the mesh cycle".to_owned())
         }
     }
 }

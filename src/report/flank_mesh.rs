@@ -11,7 +11,7 @@ use std::io::{self, Write};
 use crate::gear::Gear;
 use crate::mesh::vtu::VtuEncoding;
 use crate::mesh::{CellBlock, CellKind, DataArray, Format, Mesh, Values, to_bytes};
-use crate::simulation::record::{FlankRecord, RunRecord, SliceRecord};
+use crate::results::run::{FlankRecord, RunRecord, SliceRecord};
 
 /// Writes it in the form ParaView reads.
 pub fn write(out: &mut dyn Write, record: &RunRecord, slices: &SliceRecord) -> io::Result<()> {

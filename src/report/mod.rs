@@ -11,19 +11,15 @@
 //! Each file is written under a temporary name in the same folder and then renamed: a reader sees the whole file or
 //! the one before it. `summary.json` comes last, so that its presence says the others are complete.
 
-pub mod accuracy;
 pub mod calibration;
 pub mod chart;
-pub mod compare;
 pub mod fem;
 pub mod fem_pair;
 pub mod flank_mesh;
 pub mod html;
 pub mod slice_table;
 pub mod summary;
-pub mod sweep;
 pub mod tables;
-pub mod validation;
 
 use std::fs;
 use std::io::{self, Write};
@@ -32,7 +28,7 @@ use std::path::{Path, PathBuf};
 use tempfile::NamedTempFile;
 
 use crate::gear::Gear;
-use crate::simulation::record::{RunRecord, Summary};
+use crate::results::run::{RunRecord, Summary};
 use crate::whole_file;
 
 /// What keeps a report from being written.
@@ -104,7 +100,7 @@ pub fn remove_summary(dir: &Path) -> Result<(), ReportError> {
 }
 
 /// Takes away `dir/name`, if it is there.
-fn remove(dir: &Path, name: &str) -> Result<(), ReportError> {
+pub(crate) fn remove(dir: &Path, name: &str) -> Result<(), ReportError> {
     let path = dir.join(name);
     match fs::remove_file(&path) {
         Err(source) if source.kind() != io::ErrorKind::NotFound => Err(ReportError::WriteFile { path, source }),
@@ -134,7 +130,11 @@ pub fn create_folder(dir: &Path) -> Result<(), ReportError> {
 }
 
 /// Writes `dir/name` with `fill`, whole or not at all.
-fn place(dir: &Path, name: &str, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<PathBuf, ReportError> {
+pub(crate) fn place(
+    dir: &Path,
+    name: &str,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<PathBuf, ReportError> {
     let path = dir.join(name);
     match whole_file::write(&path, fill) {
         Ok(()) => Ok(path),

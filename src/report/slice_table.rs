@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use super::tables::{Column, Provenance, table};
-use crate::simulation::record::{PathPoints, SliceRecord};
+use crate::results::run::{PathPoints, SliceRecord};
 
 /// Columns; rows by position of the tooth, and there by slice: those that are between A and E, or loaded at a tip edge outside.
 pub const SLICES: [Column; 10] = [

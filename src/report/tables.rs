@@ -8,12 +8,12 @@ use std::io::{self, Write};
 use serde::Serialize;
 
 use crate::gear::Gear;
-use crate::simulation::accuracy_record::AccuracyRecord;
-use crate::simulation::compare_record::CompareRecord;
-use crate::simulation::fem_pair_record::FemPairSummary;
-use crate::simulation::fem_problem_record::FemSummary;
-use crate::simulation::record::{FlankRecord, HistoryRow, MeshCycleRow, RunRecord, Summary};
-use crate::simulation::sweep_record::SweepRecord;
+use crate::results::fem_pair::FemPairSummary;
+use crate::results::fem_problem::FemSummary;
+use crate::results::run::{FlankRecord, HistoryRow, MeshCycleRow, RunRecord, Summary};
+use crate::studies::accuracy::record::AccuracyRecord;
+use crate::studies::compare::record::CompareRecord;
+use crate::studies::sweep::record::SweepRecord;
 
 /// Name and meaning of a column.
 pub type Column = (&'static str, &'static str);
@@ -218,7 +218,7 @@ pub fn mesh_cycle(out: &mut dyn Write, provenance: Provenance, rows: &[MeshCycle
 }
 
 /// The opening lines, the header and the rows. The header is written from `columns`, so that a table without rows has it.
-pub(super) fn table<R: Serialize>(
+pub(crate) fn table<R: Serialize>(
     out: &mut dyn Write,
     provenance: Provenance,
     columns: &[(&str, &str)],

@@ -145,8 +145,8 @@ fn parse(bytes: &[u8]) -> Result<CheckpointFile, CheckpointError> {
 mod tests {
     use super::*;
     use crate::gear::PerGear;
+    use crate::mesh_cycle::Work;
     use crate::simulation::advance::StepperState;
-    use crate::working_cycle::Work;
 
     fn written() -> (Vec<u8>, CheckpointFile) {
         let identity = Identity::new("title = \"x\"\n".to_owned(), &[]);

@@ -14,8 +14,8 @@ use serde::Deserialize;
 use super::file::{self, CheckpointError, CheckpointFile};
 use super::identity::{Identity, InputFile, between_scenes};
 use crate::report::ReportError;
+use crate::results::run::StopReason;
 use crate::scene::Resolved;
-use crate::simulation::record::StopReason;
 use crate::whole_file;
 
 /// The resolved scene.

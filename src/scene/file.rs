@@ -13,9 +13,9 @@ use super::presets;
 use super::wear_file::{TemperatureFile, WearFile};
 use crate::contact::settings::{MatchCriterion, SurfaceKind};
 use crate::gear::modification::ReliefShape;
-use crate::mesh::settings::SectorSides;
+use crate::gear_mesh::settings::SectorSides;
+use crate::mesh_cycle::settings::Coupling;
 use crate::simulation::settings::AdaptiveMethod;
-use crate::working_cycle::settings::Coupling;
 
 /// A gear pair, its load and how its wear is to be computed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -20,12 +20,12 @@ use sha2::{Digest, Sha256};
 
 use crate::contact::settings::{ContactSettings, Material};
 use crate::gear::{PerGear, spec::PairSpec};
-use crate::mesh::settings::BodySettings;
+use crate::gear_mesh::settings::BodySettings;
+use crate::mesh_cycle::settings::SliceSettings;
 use crate::simulation::settings::{Numerics, Operation};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::thermal::settings::HeatSettings;
 use crate::wear::settings::WearSettings;
-use crate::working_cycle::settings::SliceSettings;
 
 pub use file::SceneFile;
 pub use problem::{Problem, ProblemKind};

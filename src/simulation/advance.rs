@@ -13,15 +13,15 @@
 use serde::{Deserialize, Serialize};
 
 use super::settings::{AdaptiveMethod, Stepping};
-use super::wearing_pair::WearingPair;
 use crate::gear::{Gear, PerGear};
+use crate::mesh_cycle::wearing_pair::WearingPair;
+use crate::mesh_cycle::{Work, load_sharing::EquilibriumError};
 use crate::wear::WearModel;
 use crate::wear::stepping::{
     Rate,
     adaptive::{Adaptive, StepCounts},
     spectral_radius::SpectralRadius,
 };
-use crate::working_cycle::{Work, load_sharing::EquilibriumError};
 
 /// A remainder of a step shorter than this part of it is not worth a step of its own.
 const NEGLIGIBLE_STEP: f64 = 1e-9;
@@ -224,7 +224,7 @@ pub(super) fn fastest_decay(
     Ok((radius.found(), evaluations))
 }
 
-/// A wearing pair whose working cycles are counted.
+/// A wearing pair whose mesh cycles are counted.
 struct PairRate<'a> {
     pair: &'a mut dyn WearingPair,
     wear: &'a WearModel<'a>,

@@ -7,7 +7,7 @@
 //! lost, the counters and the state of the step control are all there is, and only then a [`Checkpoint`] may be taken: a run that goes on from one
 //! evaluates the same flanks from the same clean start as the unbroken run did.
 //!
-//! [`WearingPair::forget`]: super::wearing_pair::WearingPair::forget
+//! [`WearingPair::forget`]: crate::mesh_cycle::wearing_pair::WearingPair::forget
 //! [`MeshContact::evaluations_between_clean_starts`]: super::mesh_contact::MeshContact::evaluations_between_clean_starts
 
 use serde::{Deserialize, Serialize};
@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 use super::advance::StepperState;
 use super::wear_run::Snapshot;
 use crate::gear::PerGear;
-use crate::working_cycle::Work;
+use crate::mesh_cycle::Work;
 
 /// A run at a clean start: evaluated, and what was due there kept.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -12,13 +12,13 @@
 //! and so does the part of it that is done outside the temperatures for which a law holds.
 
 use crate::gear::{Gear, GearPair, PerGear};
+use crate::mesh_cycle::{CycleObservation, sliced_mesh::SlicedMesh};
 use crate::thermal::{
     ContactHeat, SpeedRatios,
     band::{HeatedBand, Spread},
     settings::TemperatureMethod,
 };
 use crate::wear::{FlankWear, Surroundings};
-use crate::working_cycle::{CycleObservation, sliced_mesh::SlicedMesh};
 
 /// Places across a contact at which its work is weighed.
 const PLACES: usize = 32;
@@ -115,7 +115,7 @@ impl HeatObserver<'_> {
     fn whole(&self, cycle: &CycleObservation, sums: &mut Sums) -> Vec<HeatAtPosition> {
         let places: Vec<f64> = cycle.positions.iter().map(|at| at.position_mm).collect();
         let last = places.len().saturating_sub(1);
-        let seen = |(k, at): (usize, &crate::working_cycle::PositionObservation)| {
+        let seen = |(k, at): (usize, &crate::mesh_cycle::PositionObservation)| {
             let length_mm = 0.5 * (places[(k + 1).min(last)] - places[k.saturating_sub(1)]);
             let contact = Seen {
                 position_mm: at.position_mm,

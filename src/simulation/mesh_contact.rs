@@ -1,14 +1,13 @@
 //! The elastic model of a pair in mesh, and the pair that wears by it.
 
 use super::settings::Numerics;
-use super::simplified::{SimplifiedPair, exact::Springs};
-use super::wearing_pair::{OnFlankNodes, OnFlankPoints, WearingPair};
 use crate::contact::{ContactSurface, Effort, Flanks, settings::Material};
 use crate::fem::gear::position::CondensedPair;
 use crate::gear::{GearPair, PerGear, slices::Slices};
-use crate::stiffness::{StiffnessError, TeethSpring};
-use crate::working_cycle::{
-    MeshCycle, WorkingCycle,
+use crate::mesh_cycle::simplified::{SimplifiedPair, exact::Springs};
+use crate::mesh_cycle::wearing_pair::{OnFlankNodes, OnFlankPoints, WearingPair};
+use crate::mesh_cycle::{
+    LineOfActionCycle, MeshCycle,
     condensed::CondensedCycle,
     phases::phases,
     positions::{loading_positions, positions_with_tip_contact},
@@ -16,6 +15,7 @@ use crate::working_cycle::{
     sliced_teeth::SlicedTeeth,
     tip_contact,
 };
+use crate::stiffness::{StiffnessError, TeethSpring};
 
 /// The elastic model of the pair in mesh.
 #[derive(Clone, Copy)]
@@ -178,7 +178,7 @@ impl<'a> LoadedMesh<'a> {
             Some(beyond) => positions_with_tip_contact(path, count, beyond, lever_ratio, spring)?,
             None => loading_positions(path, count, spring)?,
         };
-        let cycle = WorkingCycle::new(flanks, surface, &positions, line_load);
+        let cycle = LineOfActionCycle::new(flanks, surface, &positions, line_load);
         Ok(Box::new(cycle.on_bodies_that_yield_by(bodies)))
     }
 }

@@ -11,7 +11,7 @@
 //! K is that of the shortest wave that the surface tells apart: K/H on a Winkler bed, E* π/(2 Δx) on elastic half-planes with
 //! cells Δx, and on finite elements that of their nodes, for which there is no closed form. Positions, points and cells between them
 //! damp what lies between; on half-planes the closed form is off by more than that is worth. So the largest of all these rates is
-//! measured, as the spectral radius of the working cycle itself, on the unworn flanks, in some ten evaluations
+//! measured, as the spectral radius of the mesh cycle itself, on the unworn flanks, in some ten evaluations
 //! ([`crate::wear::stepping::spectral_radius`]).
 
 use super::advance;
@@ -30,7 +30,7 @@ pub struct StepBound {
     pub revolutions: f64,
     /// Greatest pressure on the unworn flanks, MPa; `None` where it was not asked for.
     pub peak_pressure_mpa: Option<f64>,
-    /// Working cycles evaluated to find it.
+    /// Mesh cycles evaluated to find it.
     pub evaluations: u64,
 }
 

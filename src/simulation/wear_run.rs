@@ -1,6 +1,6 @@
 //! The wear run: from the unworn pair through all phases of its operation.
 //!
-//! One evaluation of the working cycle on the flanks as they are gives the depth each point loses per mesh; [`super::advance`] takes
+//! One evaluation of the mesh cycle on the flanks as they are gives the depth each point loses per mesh; [`super::advance`] takes
 //! the flanks from there to where they are evaluated next. Snapshots and ends of phases are hit exactly. A phase begins with the
 //! flanks that the one before has worn.
 //!
@@ -11,16 +11,16 @@ use serde::{Deserialize, Serialize};
 use super::advance::{Stepper, Stretch};
 use super::checkpoint::{Checkpoint, Keeper, NothingKept};
 use super::mesh_contact::{LoadedMesh, MeshContact};
-use super::record::StopReason;
 use super::settings::Numerics;
-use super::wearing_pair::WearingPair;
 use crate::contact::Flanks;
 use crate::gear::{
     GearPair, PerGear, flank::FlankGrid, flank_zones::FlankZones, removed_material::modifications_mm, slices::Slices,
 };
+use crate::mesh_cycle::wearing_pair::WearingPair;
+use crate::mesh_cycle::{CycleObservation, Work, load_sharing::EquilibriumError};
+use crate::results::run::StopReason;
 use crate::stiffness::StiffnessError;
 use crate::wear::{WearModel, stepping::adaptive::StepCounts};
-use crate::working_cycle::{CycleObservation, Work, load_sharing::EquilibriumError};
 
 /// Why a wear run could not go on.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -78,7 +78,7 @@ pub struct Snapshot {
     pub wear_mm: PerGear<Vec<f64>>,
     /// What each flank point loses in the next mesh.
     pub depth_per_mesh_mm: PerGear<Vec<f64>>,
-    /// The working cycle of the flanks as they are.
+    /// The mesh cycle of the flanks as they are.
     pub cycle: CycleObservation,
 }
 

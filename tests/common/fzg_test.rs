@@ -15,10 +15,10 @@
 
 use gearwear::pipeline::{self, Done, inputs::Inputs};
 use gearwear::plan::Plan;
+use gearwear::results::run::FlankRecord;
 use gearwear::scene::Scene;
-use gearwear::simulation::record::FlankRecord;
 use gearwear::simulation::wear_run::Unwatched;
-use gearwear::validation::profile::separate_peaks;
+use gearwear::studies::validation::profile::separate_peaks;
 
 /// The stops of the test, h.
 pub const STOPS_H: [f64; 9] = [0.25, 0.75, 1.75, 3.75, 7.75, 15.75, 31.75, 63.75, 127.75];

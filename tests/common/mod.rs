@@ -84,18 +84,16 @@ use gearwear::contact::{
     settings::MatchCriterion,
     winkler::Winkler,
 };
-use gearwear::simulation::{
-    mesh_contact::MeshContact,
-    settings::{Numerics, Stepping},
-    stability::StepBound,
-    wear_run::{Outcome, RunPhase, Unwatched, WearRun},
-};
+use gearwear::mesh_cycle::{settings::SliceSettings, sliced_teeth::SlicedTeeth};
+use gearwear::simulation::mesh_contact::MeshContact;
+use gearwear::simulation::settings::{Numerics, Stepping};
+use gearwear::simulation::stability::StepBound;
+use gearwear::simulation::wear_run::{Outcome, RunPhase, Unwatched, WearRun};
 use gearwear::stiffness::{TeethSpring, curve::PairCompliance, settings::StiffnessSettings};
 use gearwear::wear::{
     WearModel,
     settings::{SevereTransition, WearSettings},
 };
-use gearwear::working_cycle::{settings::SliceSettings, sliced_teeth::SlicedTeeth};
 
 /// A wear run in the making; the default is the fzg-c scene.
 #[derive(Clone)]

@@ -2,18 +2,18 @@
 
 use std::f64::consts::{PI, TAU};
 
-use gearwear::compare::question::{Asked, FitKind, Question};
-use gearwear::compare::run_folder::RunFolder;
-use gearwear::compare::study;
 use gearwear::gear::{Gear, GearPair};
 use gearwear::measurement::file;
 use gearwear::pipeline::{self, inputs::Inputs};
 use gearwear::plan::Plan;
 use gearwear::report;
+use gearwear::results::run::RunRecord;
 use gearwear::scene::{Resolved, Scene};
-use gearwear::simulation::compare_record::CompareRecord;
-use gearwear::simulation::record::RunRecord;
 use gearwear::simulation::wear_run::Unwatched;
+use gearwear::studies::compare::question::{Asked, FitKind, Question};
+use gearwear::studies::compare::record::CompareRecord;
+use gearwear::studies::compare::run_folder::RunFolder;
+use gearwear::studies::compare::study;
 
 /// A run in a folder, the noiseless trace of another one with other coefficients, and where its points are.
 pub struct Laboratory {

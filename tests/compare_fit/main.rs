@@ -2,9 +2,9 @@
 
 mod laboratory;
 
-use gearwear::compare::question::{Asked, FitKind};
 use gearwear::measurement::fit::FitStop;
 use gearwear::measurement::form::Form;
+use gearwear::studies::compare::question::{Asked, FitKind};
 use laboratory::{Laboratory, Noise, POINTS, asked, wave};
 
 /// fzg-c at coarse resolution, with a wear coefficient and a severe factor above 1600 MPa.

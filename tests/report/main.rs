@@ -6,8 +6,10 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use gearwear::report::{self, ReportError, tables};
-use gearwear::simulation::record::RunRecord;
+use gearwear::report;
+use gearwear::report::ReportError;
+use gearwear::report::tables;
+use gearwear::results::run::RunRecord;
 
 const FILES: [&str; 8] = [
     "history.csv",

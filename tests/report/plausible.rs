@@ -1,9 +1,9 @@
 //! A run that never happened but looks like one: an FZG type C pair with a made-up wear that grows with time.
 
 use gearwear::gear::{Gear, PerGear, flank_zones::FlankZones};
-use gearwear::simulation::chemistry_record::WearLawSummary;
-use gearwear::simulation::error_record::*;
-use gearwear::simulation::record::*;
+use gearwear::results::chemistry::WearLawSummary;
+use gearwear::results::error::*;
+use gearwear::results::run::*;
 use gearwear::wear::regime::Regime;
 
 const HOURS: [f64; 9] = [0.25, 0.75, 1.75, 3.75, 7.75, 15.75, 31.75, 63.75, 127.75];

@@ -23,7 +23,7 @@ use crate::fem::problem::Edge;
 use crate::fem::solid::Solid;
 use crate::fem::stiffness::Stiffness;
 use crate::gear::{Gear, GearPair, PerGear};
-use crate::mesh::tooth::{ToothMeshError, gear_mesh};
+use crate::gear_mesh::{ToothMeshError, gear_mesh};
 
 /// How far from the places loaded in the condensed solution multipliers are put, in units of the loaded half-width.
 const WINDOW: f64 = 3.0;

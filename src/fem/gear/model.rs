@@ -10,9 +10,9 @@ use crate::fem::equilibrium::SolveError;
 use crate::fem::solid::{Element, ElementKind, Solid};
 use crate::fem::stress::{StressComponent, StressRecovery};
 use crate::gear::{Gear, GearPair, PerGear};
+use crate::gear_mesh::settings::{Body, BodySettings, SectorSides};
+use crate::gear_mesh::{Cell, ToothMeshError, ToothSector, gear_sector, touching_pairs};
 use crate::mesh::CellKind;
-use crate::mesh::settings::{Body, BodySettings, SectorSides};
-use crate::mesh::tooth::{Cell, ToothMeshError, ToothSector, gear_sector, touching_pairs};
 use crate::reference::hertz_line::{self, HertzLine};
 
 /// Nodes of one flank whose compliance among three teeth takes some 4 GB.

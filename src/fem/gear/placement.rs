@@ -14,7 +14,7 @@ use std::f64::consts::{PI, TAU};
 use nalgebra::{Rotation2, Vector2};
 
 use crate::gear::{Gear, GearPair};
-use crate::mesh::tooth::turn_rad;
+use crate::gear_mesh::turn_rad;
 
 /// Angle of the centre line of tooth `tooth` of a gear from +y, anticlockwise.
 pub fn tooth_angle_rad(pair: &GearPair, gear: Gear, position_mm: f64, tooth: i32) -> f64 {

@@ -15,12 +15,12 @@ use crate::calibration::{
 use crate::fem::gear::position::CondensedPair;
 use crate::gear::modification::Modification;
 use crate::gear::{Gear, GearPair, PairError};
+use crate::mesh_cycle::load_sharing::EquilibriumError;
 use crate::plan::calibration::CalibrationStage;
+use crate::results::run::StageTime;
 use crate::scene::Scene;
-use crate::simulation::record::StageTime;
 use crate::simulation::wear_run::{Progress, Unwatched};
 use crate::stiffness::iso6336;
-use crate::working_cycle::load_sharing::EquilibriumError;
 
 /// Told of progress; says whether to go on.
 pub trait Observer: Progress {

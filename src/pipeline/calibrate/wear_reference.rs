@@ -4,10 +4,10 @@ use super::CalibrateError;
 use crate::calibration::wear_reference::{FLANK_POINTS, FlankWear, LOADS, POSITIONS, WearReference};
 use crate::fem::gear::position::CondensedPair;
 use crate::gear::{Gear, PerGear, flank::FlankGrid};
+use crate::mesh_cycle::condensed::CondensedCycle;
+use crate::mesh_cycle::load_sharing::EquilibriumError;
+use crate::mesh_cycle::{LostMaterial, MeshCycle};
 use crate::wear::{self, WearModel, settings::WearSettings};
-use crate::working_cycle::condensed::CondensedCycle;
-use crate::working_cycle::load_sharing::EquilibriumError;
-use crate::working_cycle::{LostMaterial, MeshCycle};
 
 /// The references of all loads, each a multiple of `line_load_n_per_mm`.
 pub(super) fn references(

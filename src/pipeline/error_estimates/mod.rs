@@ -14,12 +14,10 @@ mod wear_runs;
 
 use super::Model;
 use crate::gear::PerGear;
-use crate::simulation::{
-    error_record::{ErrorSources, ErrorSummary},
-    figures::WearFigures,
-    wear_run::{Outcome, Progress},
-};
-use crate::working_cycle::{settings::SliceSettings, sliced_teeth::SlicedTeeth};
+use crate::mesh_cycle::{settings::SliceSettings, sliced_teeth::SlicedTeeth};
+use crate::results::error::{ErrorSources, ErrorSummary};
+use crate::simulation::figures::WearFigures;
+use crate::simulation::wear_run::{Outcome, Progress};
 
 /// Fewest points and positions of a companion: with fewer nothing can be learned.
 const LEAST_POINTS: usize = 20;

@@ -30,11 +30,11 @@
 use super::{Companion, Estimate, LEAST_POINTS, peak_wear_of_both_mm, severe_switch};
 use crate::contact::settings::SurfaceKind;
 use crate::gear::{Gear, PerGear};
+use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::pipeline::Model;
 use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::settings::Numerics;
 use crate::simulation::wear_run::{Outcome, Progress, RunPhase, SimulationError, WearRun};
-use crate::working_cycle::sliced_teeth::SlicedTeeth;
 
 /// Least ratio of two wear steps of which anything is learned.
 const LEAST_STEP_RATIO: f64 = 1.5;

@@ -16,7 +16,7 @@ use nalgebra::{DMatrix, DVector, Vector2};
 use crate::fem::elastic::{Analysis, Elastic};
 use crate::fem::problem::{ContactPair, Edge, Problem};
 use crate::reference::hertz_line::HertzLine;
-use crate::simulation::fem_problem_record::HertzSummary;
+use crate::results::fem_problem::HertzSummary;
 
 /// Half-widths on either side over which surfaces must be round.
 const REACH: f64 = 2.0;

@@ -8,11 +8,11 @@ use std::time::Instant;
 
 use crate::fem::{self, SolveError};
 use crate::mesh::{self, Format, MeshFileError};
+use crate::results::fem_problem::FemRecord;
+use crate::results::run::StageTime;
 use crate::scene::Problem;
 use crate::scene::fem_problem::FemProblem;
 use crate::scene::short_hash;
-use crate::simulation::fem_problem_record::FemRecord;
-use crate::simulation::record::StageTime;
 
 /// Why a problem was not solved.
 #[derive(Debug, thiserror::Error)]

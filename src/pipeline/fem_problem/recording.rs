@@ -7,10 +7,10 @@ use crate::fem::element::ElementError;
 use crate::fem::problem::{ContactPair, ContactState, Problem, Solution};
 use crate::fem::stress::{self, StressRecovery};
 use crate::mesh::quality;
-use crate::scene::fem_problem::{FemProblem, Posed};
-use crate::simulation::fem_problem_record::{
+use crate::results::fem_problem::{
     ContactCurve, ContactRow, ContactSummary, FemRecord, FemSummary, MeshSummary, NodalStress,
 };
+use crate::scene::fem_problem::{FemProblem, Posed};
 
 const UM_PER_MM: f64 = 1e3;
 /// Elements along the half-width from which on pressures are trusted.

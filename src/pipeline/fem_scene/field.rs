@@ -13,8 +13,8 @@ use crate::fem::gear::position::{CondensedPair, PositionContact};
 use crate::fem::solid::{Element, Solid};
 use crate::fem::stress::StressRecovery;
 use crate::gear::{Gear, PerGear};
-use crate::simulation::fem_pair_record::{ContactPlace, PairSolution};
-use crate::simulation::fem_problem_record::NodalStress;
+use crate::results::fem_pair::{ContactPlace, PairSolution};
+use crate::results::fem_problem::NodalStress;
 
 /// Nodes and elements of both gears' teeth as they gather, with the displacement of each node.
 #[derive(Default)]

@@ -22,9 +22,9 @@ use crate::gear::path_of_contact::PathOfContact;
 use crate::gear::{Gear, GearPair, PairError, PerGear};
 use crate::mesh::quality::QualityError;
 use crate::plan::fem_pair::FemPairStage;
+use crate::results::fem_pair::{FemPairRecord, FullModelSummary};
+use crate::results::run::{StageTime, StopReason};
 use crate::scene::Resolved;
-use crate::simulation::fem_pair_record::{FemPairRecord, FullModelSummary};
-use crate::simulation::record::{StageTime, StopReason};
 use crate::simulation::wear_run::{Progress, Unwatched};
 
 /// Positions solved between two looks at the observer.

@@ -6,18 +6,18 @@ use crate::fem::gear::model::{MeshedGear, solid};
 use crate::fem::gear::position::{CondensedPair, PositionContact, ToothPairContact};
 use crate::fem::gear::ring::Surroundings;
 use crate::gear::{Gear, GearPair, PerGear};
+use crate::gear_mesh::ToothSector;
+use crate::gear_mesh::settings::{Body, BodySettings, SectorSides, default_clamp};
 use crate::mesh::quality::{self, MeshQuality};
-use crate::mesh::settings::{Body, BodySettings, SectorSides, default_clamp};
-use crate::mesh::tooth::ToothSector;
 use crate::mesh::{CellBlock, CellKind, Mesh};
 use crate::pipeline::recording::{geometry, path_points};
 use crate::reference::hertz_line::LineContact;
-use crate::scene::Resolved;
-use crate::simulation::fem_pair_record::{
+use crate::results::fem_pair::{
     ChecksSummary, FemCycleRow, FemCycleSummary, FemPairRecord, FemPairSummary, GearModelSummary, ModelSummary,
     PairSolution, PathPointsSummary, PressureCurve, RootSummary,
 };
-use crate::simulation::record::{ContactSummary, PathPoints, RangeSummary};
+use crate::results::run::{ContactSummary, PathPoints, RangeSummary};
+use crate::scene::Resolved;
 
 const UM_PER_MM: f64 = 1e3;
 /// What the torque ratio says.

@@ -8,7 +8,7 @@ use crate::fem::gear::full;
 use crate::fem::gear::model::MeshedGear;
 use crate::fem::gear::position::PositionContact;
 use crate::gear::{GearPair, PerGear};
-use crate::simulation::fem_pair_record::FullModelSummary;
+use crate::results::fem_pair::FullModelSummary;
 
 const UM_PER_MM: f64 = 1e3;
 

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use super::{ReportError, create_folder};
 use crate::calibration::Calibration;
-use crate::simulation::record::{PathPoints, StageTime};
+use crate::results::run::{PathPoints, StageTime};
 use crate::whole_file;
 
 /// The folder of a file.

@@ -5,7 +5,7 @@ use crate::calibration::Calibration;
 use crate::contact::settings::MatchCriterion;
 use crate::report::html::number::{figure, percent};
 use crate::report::html::page::{Page, plots, section, sources_list, stages_table};
-use crate::simulation::record::StageTime;
+use crate::results::run::StageTime;
 
 const LEGEND: &str = "<p class=\"legend-note\">A to E are the points of the path of contact: contact begins at A and ends at E, \
      a tooth pair carries the load alone between B and D where no more than two pairs share it, and C is the pitch point. The \

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use crate::report::tables::{self, Column, Provenance};
-use crate::simulation::fem_problem_record::ContactCurve;
+use crate::results::fem_problem::ContactCurve;
 
 /// Columns of `contact.csv`; one row per node of a slave surface, in the order of the surface.
 pub const CONTACT: [Column; 10] = [

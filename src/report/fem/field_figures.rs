@@ -7,7 +7,7 @@ use crate::report::html::field_plot::{self, Bodies, MOST_SIDES, Quantity, Window
 use crate::report::html::number::{count, figure, plotted, significant};
 use crate::report::html::reading::greatest;
 use crate::report::html::theme::{Figure, MUTED};
-use crate::simulation::fem_problem_record::{ContactCurve, ContactSummary, FemRecord};
+use crate::results::fem_problem::{ContactCurve, ContactSummary, FemRecord};
 
 /// Half the height of the picture of a contact, in half-widths.
 const AROUND: f64 = 2.0;

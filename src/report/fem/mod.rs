@@ -2,7 +2,7 @@
 //!
 //! | file | from |
 //! |---|---|
-//! | `summary.json` | [`crate::simulation::fem_problem_record::FemSummary`] |
+//! | `summary.json` | [`crate::results::fem_problem::FemSummary`] |
 //! | `contact.csv` | `contact_table` |
 //! | `solution.vtu` | `solution_mesh`: displacements and stresses, for ParaView |
 //! | `problem.toml` | the resolved problem |
@@ -17,7 +17,7 @@ mod solution_mesh;
 use std::path::{Path, PathBuf};
 
 use super::{ReportError, create_folder, place, summary, tables::Provenance};
-use crate::simulation::fem_problem_record::{FemRecord, FemSummary};
+use crate::results::fem_problem::{FemRecord, FemSummary};
 
 pub use contact_table::{CONTACT, write as contact_table};
 

@@ -6,7 +6,7 @@ use crate::fem::problem::Stop;
 use crate::report::html::number::{change, count, figure, significant};
 use crate::report::html::page::{Page, escape, plots, section, sources_list, stages_table};
 use crate::report::html::table::{Row, row, table};
-use crate::simulation::fem_problem_record::{ContactSummary, FemRecord, FemSummary};
+use crate::results::fem_problem::{ContactSummary, FemRecord, FemSummary};
 
 /// The data files named in the page, which lie beside it.
 const DATA_FILES: [(&str, &str); 4] = [

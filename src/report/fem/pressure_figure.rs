@@ -5,7 +5,7 @@ use crate::report::chart::{DashType, Marker, Mode, Plot};
 use crate::reference::hertz_line::LineContact;
 use crate::report::html::number::{change, figure, significant};
 use crate::report::html::theme::{Figure, MUTED, PATH, axis, curve, from_zero, layout, line};
-use crate::simulation::fem_problem_record::{ContactCurve, ContactRow, ContactSummary};
+use crate::results::fem_problem::{ContactCurve, ContactRow, ContactSummary};
 
 /// Half-widths shown on either side.
 const SHOWN: f64 = 1.8;

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use crate::mesh::vtu::VtuEncoding;
 use crate::mesh::{DataArray, Format, Mesh, Values, to_bytes};
-use crate::simulation::fem_problem_record::FemRecord;
+use crate::results::fem_problem::FemRecord;
 
 /// Writes the mesh in the form ParaView reads.
 pub fn write(out: &mut dyn Write, record: &FemRecord) -> io::Result<()> {

@@ -7,7 +7,7 @@ use crate::report::html::number::{figure, percent, plotted, significant};
 use crate::report::html::theme::{
     Figure, MUTED, NEW, PATH, WORN, axis, curve, from_zero, gear_colour, layout, line, mark_path_points, padded,
 };
-use crate::simulation::fem_pair_record::{FemCycleRow, FemPairRecord, RootSummary};
+use crate::results::fem_pair::{FemCycleRow, FemPairRecord, RootSummary};
 
 /// All figures over the path.
 pub fn all(record: &FemPairRecord) -> Vec<Figure> {

@@ -7,7 +7,7 @@ use crate::gear::Gear;
 use crate::report::html::field_plot::{self, Bodies, MOST_SIDES, Quantity, Window, segments, sides, to_scale};
 use crate::report::html::number::{count, figure, significant};
 use crate::report::html::theme::{Figure, gear_colour};
-use crate::simulation::fem_pair_record::{ContactPlace, FemPairSummary, PairSolution};
+use crate::results::fem_pair::{ContactPlace, FemPairSummary, PairSolution};
 
 /// Half the height of the picture of a contact, in half-widths.
 const AROUND: f64 = 2.0;

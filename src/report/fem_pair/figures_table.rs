@@ -4,8 +4,8 @@ use crate::gear::PerGear;
 use crate::report::html::number::{change, count, figure, fixed, percent, significant};
 use crate::report::html::page::escape;
 use crate::report::html::table::{Row, row, table};
-use crate::simulation::fem_pair_record::{FemPairSummary, GearModelSummary, PathPointsSummary, RootSummary};
-use crate::simulation::record::PathPoints;
+use crate::results::fem_pair::{FemPairSummary, GearModelSummary, PathPointsSummary, RootSummary};
+use crate::results::run::PathPoints;
 
 /// All tables of figures, in the order of the page.
 pub fn tables(s: &FemPairSummary) -> String {
@@ -38,7 +38,7 @@ fn cycle(s: &FemPairSummary) -> String {
         ]);
     }
     rows.push(one("Line load, whole torque", "N/mm", s.contact.line_load_N_per_mm));
-    table(if s.position_mm.is_some() { "Contact" } else { "Working cycle" }, &["value"], &rows)
+    table(if s.position_mm.is_some() { "Contact" } else { "Mesh cycle" }, &["value"], &rows)
 }
 
 fn roots(s: &FemPairSummary) -> String {

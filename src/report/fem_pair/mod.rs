@@ -2,7 +2,7 @@
 //!
 //! | file | from |
 //! |---|---|
-//! | `summary.json` | [`crate::simulation::fem_pair_record::FemPairSummary`] |
+//! | `summary.json` | [`crate::results::fem_pair::FemPairSummary`] |
 //! | `mesh_cycle.csv`, `pressure.csv` | [`tables`] |
 //! | `solution.vtu` | `solution_mesh`: displacement and stress of the teeth in contact, for ParaView |
 //! | `scene.toml` | the resolved scene |
@@ -20,7 +20,7 @@ use std::path::{Path, PathBuf};
 
 use super::tables::Provenance;
 use super::{ReportError, create_folder, place, summary};
-use crate::simulation::fem_pair_record::{FemPairRecord, FemPairSummary};
+use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
 
 /// Writes all files of `record` but `summary.json` into `dir`, which is made if need be; returns their paths in the order
 /// written.

@@ -5,8 +5,8 @@ use crate::report::html::number::{figure, significant};
 use crate::report::html::page::{Page, plots, section, sources_list, stages_table};
 use crate::report::html::reading::among;
 use crate::report::html::theme::named;
-use crate::simulation::fem_pair_record::{FemPairRecord, FemPairSummary};
-use crate::simulation::record::StopReason;
+use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
+use crate::results::run::StopReason;
 
 /// The data files named in the page, which lie beside it.
 const DATA_FILES: [(&str, &str); 5] = [

@@ -5,7 +5,7 @@ use crate::report::chart::{DashType, Marker, Mode, Plot};
 use super::tables::hertz;
 use crate::report::html::number::{change, figure, percent, significant};
 use crate::report::html::theme::{Figure, MUTED, PATH, axis, curve, from_zero, layout, line};
-use crate::simulation::fem_pair_record::{FemPairRecord, PressureCurve};
+use crate::results::fem_pair::{FemPairRecord, PressureCurve};
 
 /// Half-widths shown on either side.
 const SHOWN: f64 = 1.6;

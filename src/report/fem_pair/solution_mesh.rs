@@ -7,7 +7,7 @@ use nalgebra::Vector2;
 use crate::fem::solid::Solid;
 use crate::mesh::vtu::VtuEncoding;
 use crate::mesh::{DataArray, Format, Mesh, Values, to_bytes};
-use crate::simulation::fem_pair_record::PairSolution;
+use crate::results::fem_pair::PairSolution;
 
 /// Writes the mesh in the form ParaView reads.
 pub fn write(out: &mut dyn Write, solution: &PairSolution) -> io::Result<()> {

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::reference::hertz_line::LineContact;
 use crate::report::tables::{Column, Provenance, table};
-use crate::simulation::fem_pair_record::{FemCycleRow, PressureCurve};
+use crate::results::fem_pair::{FemCycleRow, PressureCurve};
 
 /// Columns of `mesh_cycle.csv`; one row per position and tooth pair in contact.
 pub const MESH_CYCLE: [Column; 17] = [

@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 
 use super::theme::{self, axis, padded};
 use crate::gear::Gear;
-use crate::simulation::record::FlankRecord;
+use crate::results::run::FlankRecord;
 
 /// From a little below the start of active profile up to the tip.
 pub struct ActiveFlank {

@@ -1,11 +1,11 @@
-//! Plots over the working cycle of the reference pair, from A to E: load sharing, transmission error, pressure.
+//! Plots over the mesh cycle of the reference pair, from A to E: load sharing, transmission error, pressure.
 
 use crate::report::chart::Plot;
 
 use super::number::{change, figure, percent, significant};
 use super::reading::{Extreme, among, defined_pressures, greatest, tip_edge_note};
 use super::theme::{Figure, axis, from_zero, layout, mark_path_points, named, new_and_worn, padded};
-use crate::simulation::record::{MeshCycleRow, PathPoints, RunRecord};
+use crate::results::run::{MeshCycleRow, PathPoints, RunRecord};
 
 /// A pair that carries at least this share of the load counts as carrying it alone.
 pub const ALONE: f64 = 0.9995;
@@ -105,8 +105,8 @@ fn pressure(record: &RunRecord) -> Figure {
     )
 }
 
-/// What to say of a run without a working cycle.
-pub const NOT_COMPUTED: &str = "The run ended before a working cycle was evaluated.";
+/// What to say of a run without a mesh cycle.
+pub const NOT_COMPUTED: &str = "The run ended before a mesh cycle was evaluated.";
 
 /// What a plot over the cycle is called.
 struct Words {

@@ -10,7 +10,7 @@ use crate::report::chart::{
 use super::number::{figure, significant};
 use super::theme::{Figure, MUTED, PATH, axis, gear_colour, layout, line};
 use crate::gear::Gear;
-use crate::simulation::record::{GearCircles, PairDrawing, RunRecord};
+use crate::results::run::{GearCircles, PairDrawing, RunRecord};
 
 /// Points of a drawn circle: its sagitta stays below 1e-4 of the radius.
 const CIRCLE_POINTS: usize = 240;

@@ -5,8 +5,8 @@ use super::number::{change, figure, fixed, percent, significant};
 use super::page::escape;
 use super::sliced;
 use super::table::{Row, row, table};
-use crate::simulation::error_record::ErrorSummary;
-use crate::simulation::record::{GearSummary, RunRecord, Summary, WearSummary};
+use crate::results::error::ErrorSummary;
+use crate::results::run::{GearSummary, RunRecord, Summary, WearSummary};
 
 /// All tables, in the order of the page.
 pub fn tables(record: &RunRecord) -> String {
@@ -36,7 +36,7 @@ fn new_and_worn(s: &Summary) -> String {
             compare("Transmission error, greatest", "µm", te_new.max, te_worn.max),
         ])
         .collect();
-    table("Working cycle", &["new", "worn", "change"], &rows)
+    table("Mesh cycle", &["new", "worn", "change"], &rows)
 }
 
 fn wear(s: &Summary) -> String {

@@ -7,7 +7,7 @@ use super::number::{figure, given, percent, plotted, revolutions, significant};
 use super::reading::{Extreme, greatest, place_on_flank, tip_edge_note};
 use super::theme::{self, Figure, axis, curve, layout, line, mark_path_points, new_and_worn};
 use crate::gear::Gear;
-use crate::simulation::record::{HistoryRow, RunRecord};
+use crate::results::run::{HistoryRow, RunRecord};
 
 /// At most so many snapshots are drawn, evenly chosen: more curves than that cannot be told apart.
 const CURVES: usize = 12;
@@ -216,7 +216,7 @@ fn modifications_of(record: &RunRecord, gear: Gear) -> Figure {
     }
 }
 
-fn gear_wear(record: &RunRecord, gear: Gear) -> &crate::simulation::record::WearSummary {
+fn gear_wear(record: &RunRecord, gear: Gear) -> &crate::results::run::WearSummary {
     match gear {
         Gear::Pinion => &record.summary.pinion,
         Gear::Wheel => &record.summary.wheel,

@@ -6,7 +6,7 @@ use super::number::{figure, significant};
 use super::reading::duration;
 use super::theme::{Figure, axis, curve, from_zero, gear_colour, layout, line, mark};
 use crate::gear::Gear;
-use crate::simulation::record::{HistoryRow, PhaseSummary, RunRecord};
+use crate::results::run::{HistoryRow, PhaseSummary, RunRecord};
 
 /// Phases whose ends are marked at the most: more would hide the curves.
 const MOST_MARKED: usize = 20;

@@ -3,8 +3,8 @@
 use super::number::{figure, percent, significant};
 use super::page::escape;
 use super::table::{row, table};
-use crate::simulation::chemistry_record::{TemperatureSummary, WearLawSummary};
-use crate::simulation::record::Summary;
+use crate::results::chemistry::{TemperatureSummary, WearLawSummary};
+use crate::results::run::Summary;
 
 /// The tables.
 pub fn tables(s: &Summary) -> String {
@@ -29,7 +29,7 @@ fn law(w: &WearLawSummary) -> String {
 
 fn temperature(t: &TemperatureSummary) -> String {
     let by = &t.by_method;
-    let both = |label, of: &crate::simulation::chemistry_record::GreatestRise| {
+    let both = |label, of: &crate::results::chemistry::GreatestRise| {
         row(label, "K", [figure(of.greatest_rise_new_K), figure(of.greatest_rise_worn_K)])
     };
     table(

@@ -3,28 +3,28 @@
 //! The page is its words and tables in plain HTML, one JSON description per plot, plotly.js, and a short script
 //! (`page.js`) that draws the plots in the colours of the style sheet (`page.css`) for light, dark and paper.
 
-mod active_flank;
+pub mod active_flank;
 mod cycle_plots;
 mod drawing_plot;
-pub(super) mod field_plot;
-mod figures_table;
+pub mod field_plot;
+pub mod figures_table;
 mod flank_plots;
 mod history_plot;
-mod law_table;
-pub(super) mod number;
-pub(super) mod page;
+pub mod law_table;
+pub mod number;
+pub mod page;
 mod phase_table;
-pub(super) mod reading;
+pub mod reading;
 mod sliced;
-pub(super) mod table;
+pub mod table;
 mod temperature_plot;
-pub(super) mod theme;
+pub mod theme;
 
 use self::page::{Page, escape, plots, section, sources_list, stages_table};
 use self::sliced::SlicedRun;
 use self::sliced::raster::{MOST_ACROSS, MOST_ALONG};
 use self::theme::Figure;
-use crate::simulation::record::{RunRecord, Summary};
+use crate::results::run::{RunRecord, Summary};
 
 /// The data files named in the page, which lie beside it; two more where sections differ.
 const DATA_FILES: [(&str, &str); 7] = [
@@ -33,7 +33,7 @@ const DATA_FILES: [(&str, &str); 7] = [
     ("wheel.csv", "the wheel’s flank, point by point"),
     ("history.csv", "the snapshots"),
     ("profiles.csv", "both flanks at every snapshot"),
-    ("mesh_cycle.csv", "the working cycle"),
+    ("mesh_cycle.csv", "the mesh cycle"),
     ("scene.toml", "the resolved scene"),
 ];
 const SLICED_FILES: [(&str, &str); 2] =
@@ -120,8 +120,8 @@ fn work(s: &Summary) -> String {
     let counts: String = [
         ("Wear steps", w.wear_steps),
         ("Rejected steps", w.rejected_steps),
-        ("Working cycles to learn the stiffness", w.jacobian_probes),
-        ("Working cycles", w.mesh_cycles),
+        ("Mesh cycles to learn the stiffness", w.jacobian_probes),
+        ("Mesh cycles", w.mesh_cycles),
         ("Equilibria", w.equilibria),
         ("Newton iterations", w.newton_iterations),
         ("Contact evaluations", w.pair_evaluations),

@@ -5,7 +5,7 @@ use crate::report::chart::{self, Plot};
 use super::number;
 use super::reading;
 use super::theme::Figure;
-use crate::simulation::record::StageTime;
+use crate::results::run::StageTime;
 
 /// A page.
 pub struct Page<'a> {

@@ -1,7 +1,7 @@
 //! The table of a run's phases; none where there is only one.
 
 use super::number::{figure, significant};
-use crate::simulation::record::{PhaseSummary, Summary};
+use crate::results::run::{PhaseSummary, Summary};
 
 /// Phases that are shown one by one.
 const MOST_SHOWN: usize = 60;

@@ -3,8 +3,8 @@
 use super::number::{change, figure, given, percent, revolutions, significant};
 use super::theme::named;
 use crate::gear::Gear;
-use crate::simulation::record::RunRecord;
-use crate::simulation::record::{FlankRecord, MeshCycleRow, StopReason, Summary, WearSummary};
+use crate::results::run::RunRecord;
+use crate::results::run::{FlankRecord, MeshCycleRow, StopReason, Summary, WearSummary};
 
 /// The greatest of some values and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,7 +63,7 @@ pub fn duration(summary: &Summary) -> String {
     }
 }
 
-/// The run in one sentence or two: how much each gear has lost, where, and what it did to the working cycle.
+/// The run in one sentence or two: how much each gear has lost, where, and what it did to the mesh cycle.
 pub fn answer(record: &RunRecord) -> String {
     let s = &record.summary;
     let lost = match (s.pinion.peak_wear_um > 0.0, s.wheel.peak_wear_um > 0.0) {

@@ -1,4 +1,4 @@
-//! Plots of the contact's temperature and of its Peclet numbers over the working cycle, new.
+//! Plots of the contact's temperature and of its Peclet numbers over the mesh cycle, new.
 
 use crate::report::chart::{Axis, DashType, Plot};
 
@@ -8,8 +8,8 @@ use super::theme::{
     Figure, MUTED, PATH, WORN, axis, curve, from_zero, gear_colour, layout, line, mark_path_points, named, padded,
 };
 use crate::gear::Gear;
-use crate::simulation::chemistry_record::{HeatVelocity, TemperatureMethod};
-use crate::simulation::record::{MeshCycleRow, RunRecord};
+use crate::results::chemistry::{HeatVelocity, TemperatureMethod};
+use crate::results::run::{MeshCycleRow, RunRecord};
 
 /// A column of the mesh cycle that may be empty.
 type Column = fn(&MeshCycleRow) -> Option<f64>;

@@ -11,7 +11,7 @@ use crate::report::chart::{
 
 use super::number::plotted;
 use crate::gear::Gear;
-use crate::simulation::record::PathPoints;
+use crate::results::run::PathPoints;
 
 /// Unworn.
 pub const NEW: &str = "var(--new)";
@@ -22,7 +22,7 @@ pub const MUTED: &str = "var(--muted)";
 /// The path of contact.
 pub const PATH: &str = "var(--path)";
 
-pub const INK: &str = "var(--ink)";
+pub(crate) const INK: &str = "var(--ink)";
 const PAPER: &str = "var(--paper)";
 const GRID: &str = "var(--grid)";
 const RULE: &str = "var(--rule)";

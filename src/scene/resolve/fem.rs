@@ -1,7 +1,7 @@
 //! The bodies that finite elements are made of.
 
 use crate::gear::{Gear, PerGear, spec::PairSpec};
-use crate::mesh::settings::{Body, BodySettings, DefaultClamp, default_clamp, greatest_clamp_mm};
+use crate::gear_mesh::settings::{Body, BodySettings, DefaultClamp, default_clamp, greatest_clamp_mm};
 use crate::scene::file::{BodyKind, ClampRadiusFile, FemFile};
 use crate::scene::findings::Findings;
 use crate::scene::problem::{ProblemKind, number};

@@ -3,9 +3,9 @@
 use crate::gear::pair::GearPair;
 use crate::gear::spec::PairSpec;
 use crate::gear::{Gear, PairError};
+use crate::mesh_cycle::settings::SliceSettings;
 use crate::scene::findings::Findings;
 use crate::scene::problem::{ProblemKind, number};
-use crate::working_cycle::settings::SliceSettings;
 
 /// Where a geometry error belongs, and what to do about it.
 struct Place {

@@ -2,10 +2,10 @@
 
 use crate::contact::settings::SurfaceKind;
 use crate::gear::spec::PairSpec;
+use crate::mesh_cycle::settings::SliceSettings;
 use crate::scene::file::HelicalFile;
 use crate::scene::findings::Findings;
 use crate::scene::problem::ProblemKind;
-use crate::working_cycle::settings::SliceSettings;
 
 const SLICES: u32 = 20;
 

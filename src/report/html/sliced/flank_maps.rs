@@ -14,7 +14,7 @@ use crate::report::html::active_flank::ActiveFlank;
 use crate::report::html::number::{figure, plotted, significant};
 use crate::report::html::reading::{greatest, place_on_flank};
 use crate::report::html::theme::{self, Figure, MUTED, axis, layout, line};
-use crate::simulation::record::FlankRecord;
+use crate::results::run::FlankRecord;
 
 /// Positions of the tooth whose lines of contact are drawn.
 const LINES_OF_CONTACT: usize = 7;

@@ -47,7 +47,7 @@ fn map(run: SlicedRun<'_>, when: &str, loads: &[f64], top: f64) -> Figure {
             significant(slices.position_mm[peak.index / count], 4),
             figure(run.record.summary.contact.line_load_N_per_mm),
         ),
-        None => "The run ended before a working cycle was evaluated.".into(),
+        None => "The run ended before a mesh cycle was evaluated.".into(),
     };
     Figure {
         id: format!("slice-load-{when}"),

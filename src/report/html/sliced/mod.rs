@@ -14,7 +14,7 @@ use super::number::given;
 use super::theme::Figure;
 use super::{cycle_plots, drawing_plot, history_plot, temperature_plot};
 use crate::gear::Gear;
-use crate::simulation::record::{FlankRecord, HelicalSummary, RunRecord, SliceRecord};
+use crate::results::run::{FlankRecord, HelicalSummary, RunRecord, SliceRecord};
 
 /// A run with slices: the whole record, and the parts of it that are there.
 #[derive(Clone, Copy)]

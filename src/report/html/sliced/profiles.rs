@@ -8,7 +8,7 @@ use crate::report::html::active_flank::ActiveFlank;
 use crate::report::html::number::{figure, significant};
 use crate::report::html::reading::greatest;
 use crate::report::html::theme::{self, Figure, curve, from_zero, layout, line, mark_path_points};
-use crate::simulation::record::FlankRecord;
+use crate::results::run::FlankRecord;
 
 /// First, middle and last of `count` slices; fewer where there are fewer.
 fn shown(count: usize) -> Vec<usize> {

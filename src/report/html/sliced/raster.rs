@@ -6,7 +6,7 @@
 use std::ops::Range;
 
 use crate::report::html::active_flank::ActiveFlank;
-use crate::simulation::record::FlankRecord;
+use crate::results::run::FlankRecord;
 
 /// Cells at most from root to tip, or along the path.
 pub const MOST_ALONG: usize = 200;

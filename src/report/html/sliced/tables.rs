@@ -4,11 +4,11 @@ use crate::gear::PerGear;
 use crate::report::html::number::{change, figure, fixed, percent, significant};
 use crate::report::html::page::escape;
 use crate::report::html::table::{row, table};
-use crate::simulation::record::{HelicalSummary, OverWidthSummary};
+use crate::results::run::{HelicalSummary, OverWidthSummary};
 
 /// Lines of contact, load over the face width, mesh orders, evenness of wear.
 pub fn tables(helical: &HelicalSummary) -> String {
-    [slices(helical), working_cycle(helical), evenness(&helical.wear)].concat()
+    [slices(helical), mesh_cycle(helical), evenness(&helical.wear)].concat()
 }
 
 fn slices(h: &HelicalSummary) -> String {
@@ -30,7 +30,7 @@ fn slices(h: &HelicalSummary) -> String {
     table("Face width and slices", &["value"], &rows)
 }
 
-fn working_cycle(h: &HelicalSummary) -> String {
+fn mesh_cycle(h: &HelicalSummary) -> String {
     let compare =
         |label: String, unit, new: f64, worn: f64| row(label, unit, [figure(new), figure(worn), change(new, worn)]);
     let mut rows = vec![compare("Face load factor K<sub>Hβ</sub>".into(), "", h.K_Hbeta_new, h.K_Hbeta_worn)];

@@ -1,0 +1,68 @@
+//! What the positions of a group collect: wear and work, and the first failure.
+//!
+//! Groups run independently of each other; what they collected is added in their order, so that sums always run the same way.
+
+use super::Work;
+use super::load_sharing::EquilibriumError;
+use crate::gear::{Gear, PerGear};
+
+/// The collection of one group.
+pub struct Collected {
+    /// Depth that each flank point wears in one mesh, mm.
+    pub depth_mm: PerGear<Vec<f64>>,
+    work: Work,
+    failure: Option<EquilibriumError>,
+}
+
+impl Collected {
+    /// Room for flanks of so many points.
+    pub fn new(points: PerGear<usize>) -> Self {
+        Self { depth_mm: points.map(|points| vec![0.0; points]), work: Work::default(), failure: None }
+    }
+
+    /// Begins anew.
+    pub fn clear(&mut self) {
+        for gear in Gear::BOTH {
+            self.depth_mm[gear].fill(0.0);
+        }
+        self.keep();
+    }
+
+    /// The depths stay as they are, and there is no new work.
+    pub fn keep(&mut self) {
+        (self.work, self.failure) = (Work::default(), None);
+    }
+
+    /// Takes the work of a position, or its failure; says whether to go on.
+    pub fn take(&mut self, solved: Result<Work, EquilibriumError>) -> bool {
+        match solved {
+            Ok(work) => self.work += work,
+            Err(failure) => self.failure = Some(failure),
+        }
+        self.failure.is_none()
+    }
+
+    /// The depths of all groups together into `depth_mm`, and the work of one mesh cycle.
+    ///
+    /// # Errors
+    /// The first failure.
+    pub fn sum<'a>(
+        groups: impl Iterator<Item = &'a Self>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+    ) -> Result<Work, EquilibriumError> {
+        let mut work = Work { mesh_cycles: 1, ..Work::default() };
+        for gear in Gear::BOTH {
+            depth_mm[gear].fill(0.0);
+        }
+        for group in groups {
+            if let Some(failure) = &group.failure {
+                return Err(failure.clone());
+            }
+            work += group.work;
+            for gear in Gear::BOTH {
+                depth_mm[gear].iter_mut().zip(&group.depth_mm[gear]).for_each(|(sum, part)| *sum += part);
+            }
+        }
+        Ok(work)
+    }
+}

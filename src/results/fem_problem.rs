@@ -1,0 +1,165 @@
+//! Everything that a finite-element problem leaves behind, as plain data in the units of the output files: what its
+//! report reads.
+//!
+//! Field names are the contract's column and key names, so that serialising a record is writing the file.
+
+#![allow(non_snake_case, reason = "the contract's key names end in their unit as engineers write it")]
+
+use serde::Serialize;
+
+use super::run::StageTime;
+use crate::fem::elastic::Analysis;
+use crate::fem::problem::{Problem, Stop, Work};
+use crate::mesh::quality::MeshQuality;
+
+/// A solved problem.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FemRecord {
+    /// What `summary.json` holds.
+    pub summary: FemSummary,
+    /// The resolved problem as TOML.
+    pub problem_toml: String,
+    /// Bodies, supports, loads and surfaces as the solver took them; the material is the number of the body.
+    pub problem: Problem,
+    /// Groups of the bodies.
+    pub bodies: Vec<String>,
+    /// Displacement [x, y] of every node, mm.
+    pub displacement_mm: Vec<[f64; 2]>,
+    /// Stress of every node: the mean over the elements of its body, and over bodies that are joined there.
+    pub stress: Vec<NodalStress>,
+    /// The pressure along each contact, in the order of the summary.
+    pub contacts: Vec<ContactCurve>,
+}
+
+/// `summary.json` of a finite-element problem.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FemSummary {
+    /// The user's title.
+    pub title: String,
+    /// Version of the program.
+    pub program_version: String,
+    /// First 16 hexadecimal digits of the SHA-256 of the resolved problem.
+    pub problem_hash: String,
+    /// The mesh.
+    pub mesh: MeshSummary,
+    /// Plane strain or plane stress.
+    pub analysis: Analysis,
+    /// Why the solver stopped.
+    pub stopped: Stop,
+    /// Degrees of freedom, supports included.
+    pub dofs: usize,
+    /// Elements.
+    pub elements: usize,
+    /// Active sets tried.
+    pub iterations: usize,
+    /// Largest unbalanced nodal force over the largest force that acts.
+    pub residual: f64,
+    /// Unbalance of all external forces, reactions included, over the largest of them.
+    pub force_balance: f64,
+    /// Work done.
+    pub work: Work,
+    /// What was carried out, with its times.
+    pub stages: Vec<StageTime>,
+    /// Time from the beginning to the end of the last stage, s.
+    pub wall_s: f64,
+    /// The contacts, in the order of the problem.
+    pub contact: Vec<ContactSummary>,
+    /// Greatest von Mises stress at a node, MPa.
+    pub peak_von_mises_MPa: f64,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// The mesh of a problem.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MeshSummary {
+    /// Its file, as the problem names it.
+    pub file: String,
+    /// First 16 hexadecimal digits of the SHA-256 of that file.
+    pub hash: String,
+    /// Nodes that belong to a body.
+    pub nodes: usize,
+    /// Its worst elements.
+    pub quality: Option<MeshQuality>,
+}
+
+/// What one contact came to.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ContactSummary {
+    /// Group of the surface that carries the pressure.
+    pub slave: String,
+    /// Group of the surface opposite.
+    pub master: String,
+    /// Greatest pressure, MPa.
+    pub peak_pressure_MPa: f64,
+    /// Half-width a of the widest zone, mm.
+    pub half_width_mm: f64,
+    /// Length of surface under pressure in the modelled part, mm.
+    pub contact_width_mm: f64,
+    /// Resultant of the pressure on the slave in the modelled part, [x, y] in N/mm.
+    pub force_N_per_mm: [f64; 2],
+    /// Largest penetration that is left, µm.
+    pub max_penetration_um: f64,
+    /// Where the resultant acts, [x, y] in mm.
+    pub centre_mm: [f64; 2],
+    /// Whether the zone ends on a line of symmetry, so that the model holds half of it.
+    pub half_model: bool,
+    /// Edges of the slave along a; none where there is no contact.
+    pub elements_per_half_width: Option<f64>,
+    /// Hertz's line contact of the same force and curvature; none where the surfaces are not round there.
+    pub hertz: Option<HertzSummary>,
+}
+
+/// Hertz's line contact that a contact compares with.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct HertzSummary {
+    /// Relative radius of curvature R of the surfaces, fitted to their nodes, mm.
+    pub relative_radius_mm: f64,
+    /// a, mm.
+    pub half_width_mm: f64,
+    /// p₀, MPa.
+    pub peak_pressure_MPa: f64,
+}
+
+/// A row of `contact.csv`: a node of a slave surface.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ContactRow {
+    /// Where it lies before deformation, mm.
+    pub x_mm: f64,
+    /// Where it lies before deformation, mm.
+    pub y_mm: f64,
+    /// Weighted gap, mm; none where the node faces nothing.
+    pub gap_mm: Option<f64>,
+    /// Contact pressure, MPa.
+    pub pressure_MPa: f64,
+    /// Tangential traction, MPa.
+    pub traction_MPa: f64,
+    /// Which contact of the problem, from 0.
+    pub contact: usize,
+    /// Place along the undeformed slave surface, from its first node, mm.
+    pub along_mm: f64,
+    /// Displacement along x, mm.
+    pub displacement_x_mm: f64,
+    /// Displacement along y, mm.
+    pub displacement_y_mm: f64,
+    /// Number of the node among those of the bodies, from 0.
+    pub node: u32,
+}
+
+/// The pressure along a contact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ContactCurve {
+    /// Nodes of the slave in the order of its surface.
+    pub rows: Vec<ContactRow>,
+    /// Place of the middle of the contact along the surface: the line of symmetry in a half model, mm.
+    pub centre_along_mm: f64,
+}
+
+/// Stress at a node.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct NodalStress {
+    /// σ_x, σ_y, σ_z (across the plane) and τ_xy, MPa.
+    pub components_MPa: [f64; 4],
+    /// von Mises, MPa.
+    pub von_mises_MPa: f64,
+}

@@ -1,0 +1,9 @@
+//! What was found, as plain records in the units of the output files: what reports, tables and tests read.
+//!
+//! The records of the studies (accuracy, sweep, compare, validation) are with them in [`crate::studies`].
+
+pub mod chemistry;
+pub mod error;
+pub mod fem_pair;
+pub mod fem_problem;
+pub mod run;

@@ -1,0 +1,535 @@
+//! Everything a run leaves behind, as plain data in the units of the output files: what the reports read.
+//!
+//! Field names are the contract's column and key names, so that serialising a record is writing the file.
+
+use serde::{Deserialize, Serialize};
+
+use super::chemistry::{TemperatureSummary, WearLawSummary};
+use super::error::ErrorSummary;
+use crate::gear::{PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
+
+/// A finished (or interrupted) run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RunRecord {
+    /// What `summary.json` holds.
+    pub summary: Summary,
+    /// The resolved scene as TOML.
+    pub scene_toml: String,
+    /// Both flanks, point by point.
+    pub flanks: PerGear<FlankRecord>,
+    /// One row per snapshot reached.
+    pub history: Vec<HistoryRow>,
+    /// One row per loading position.
+    pub mesh_cycle: Vec<MeshCycleRow>,
+    /// The mesh of one tooth slice by slice; `None` where all sections are alike.
+    pub slices: Option<SliceRecord>,
+    /// The pair in mesh, to scale.
+    pub drawing: PairDrawing,
+}
+
+/// `summary.json`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Summary {
+    /// The scene's title.
+    pub title: String,
+    /// Version of the program.
+    pub program_version: String,
+    /// First 16 hexadecimal digits of the SHA-256 of the resolved scene.
+    pub scene_hash: String,
+    /// Why the run ended.
+    pub stopped: StopReason,
+    /// Hours reached; `None` where the scene gives no speed.
+    pub hours: Option<f64>,
+    /// Pinion revolutions reached.
+    pub revolutions: f64,
+    /// The stages carried out, in order, with their wall time.
+    pub stages: Vec<StageTime>,
+    /// The stages left out, with the reason.
+    pub left_out: Vec<StageLeftOut>,
+    /// Wall time of the whole run until the report is written, s.
+    pub wall_s: f64,
+    /// Of the pair.
+    pub geometry: GeometrySummary,
+    /// Of the slices over the face width; `None` where all sections are alike.
+    pub helical: Option<HelicalSummary>,
+    /// Of the contact at the pitch point with the whole load of the first phase.
+    pub contact: ContactSummary,
+    /// The phases that the run came to, in order; one where the operation has none of its own.
+    pub phases: Vec<PhaseSummary>,
+    /// Of the tooth pair as a spring; `None` with finite elements, whose teeth are no springs.
+    pub stiffness: Option<StiffnessSummary>,
+    /// Of the wear law.
+    pub wear: WearLawSummary,
+    /// Of the contact's temperatures; `None` where nobody asks for them.
+    pub temperature: Option<TemperatureSummary>,
+    /// The mesh cycle of the unworn pair, under the load of the first phase.
+    pub new: CycleSummary,
+    /// The mesh cycle of the worn pair, under the load of the last phase.
+    pub worn: CycleSummary,
+    /// Wear of one pinion flank.
+    pub pinion: WearSummary,
+    /// Wear of one wheel flank.
+    pub wheel: WearSummary,
+    /// How far what both flanks lose in one mesh is from balance.
+    pub wear_balance: WearBalance,
+    /// Estimated errors.
+    pub error: ErrorSummary,
+    /// Work done by the simulation.
+    pub work: WorkSummary,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+}
+
+/// A phase of the operation.
+#[allow(non_snake_case, reason = "the contract's key names")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PhaseSummary {
+    /// Its number, from 1.
+    pub number: usize,
+    /// How long it was run; `None` without a speed.
+    pub hours: Option<f64>,
+    /// The same in pinion revolutions.
+    pub revolutions: f64,
+    /// Torque on the pinion.
+    pub pinion_torque_Nm: f64,
+    /// Speed of the pinion, where given.
+    pub pinion_speed_rpm: Option<f64>,
+    /// Whole torque over base radius and face width.
+    pub line_load_N_per_mm: f64,
+    /// K/H, where the surface has one.
+    pub foundation_MPa_per_mm: Option<f64>,
+    /// Hertz's greatest pressure at the pitch point under the whole load.
+    pub hertz_peak_pressure_MPa: f64,
+    /// Its wear coefficient.
+    pub coefficient_m2_per_N: f64,
+    /// Greatest rise of the contact temperature at its end, by the chosen method; `None` where nobody asks for temperatures.
+    pub greatest_rise_K: Option<f64>,
+    /// Part of the sliding work at its end that is outside the temperatures for which the wear law holds, where it names some.
+    pub work_outside_validity: Option<f64>,
+    /// What the pinion wore off in it.
+    pub pinion: PhaseWear,
+    /// What the wheel wore off in it.
+    pub wheel: PhaseWear,
+}
+
+/// What a gear wore off in a phase.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PhaseWear {
+    /// Greatest depth that any place of the active profile lost, the zone of the tip edge apart.
+    pub greatest_depth_um: f64,
+    /// Worn off the whole gear: all teeth, whole width.
+    pub worn_volume_mm3: f64,
+}
+
+/// Why a wear run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum StopReason {
+    /// The whole duration was run.
+    Completed,
+    /// The user interrupted it; what was finished is kept.
+    Interrupted,
+    /// The tooth pairs found no equilibrium; what was finished is kept.
+    NotConverged,
+}
+
+/// A stage and how long it took.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StageTime {
+    /// Name of the stage.
+    pub name: String,
+    /// Wall time, s.
+    pub wall_s: f64,
+}
+
+/// A stage that the scene does not need.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StageLeftOut {
+    /// Name of the stage.
+    pub name: String,
+    /// Why it is left out.
+    pub reason: String,
+}
+
+/// Geometry of the pair.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct GeometrySummary {
+    /// ε_α.
+    pub transverse_contact_ratio: f64,
+    /// ε_β.
+    pub overlap_ratio: f64,
+    /// Transverse base pitch p_bt, mm.
+    pub base_pitch_mm: f64,
+    /// Transverse working pressure angle α_wt, degrees.
+    pub working_pressure_angle_deg: f64,
+    /// Radius of curvature of the pinion's flank at A–E, mm.
+    pub curvature_radius_mm: PathPoints,
+    /// Index of the pinion's pitch circle on a flank of 750 points.
+    pub pitch_point_index: f64,
+    /// Length T1T2 of the line of action between the base circles, mm.
+    pub line_of_action_mm: f64,
+    /// Circumferential backlash on the working circles, transverse, mm.
+    pub backlash_mm: f64,
+    /// Diameters and other data of each gear.
+    pub gears: PerGear<GearSummary>,
+}
+
+/// A value at each of the points A–E of the path of contact.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[allow(non_snake_case, reason = "the points' names")]
+pub struct PathPoints {
+    /// Start of contact.
+    pub A: f64,
+    /// Lower point of single-pair contact on the pinion.
+    pub B: f64,
+    /// Pitch point.
+    pub C: f64,
+    /// Upper point of single-pair contact on the pinion.
+    pub D: f64,
+    /// End of contact.
+    pub E: f64,
+}
+
+/// Diameters and other data of one gear, mm.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names of ISO 21771 say it")]
+pub struct GearSummary {
+    pub teeth: u32,
+    pub reference_diameter_mm: f64,
+    pub base_diameter_mm: f64,
+    pub working_pitch_diameter_mm: f64,
+    pub tip_diameter_mm: f64,
+    pub root_diameter_mm: f64,
+    /// Where the involute begins.
+    pub root_form_diameter_mm: f64,
+    /// Start of active profile (SAP): where contact ends towards the root.
+    pub start_of_active_profile_diameter_mm: f64,
+    /// Transverse, at the reference circle.
+    pub tooth_thickness_mm: f64,
+    /// Transverse, at the tip circle.
+    pub tip_thickness_mm: f64,
+    pub tip_clearance_mm: f64,
+    pub undercut: bool,
+}
+
+/// The pair slice by slice.
+#[allow(non_snake_case, reason = "names that end in their unit, and symbols of the standards")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct HelicalSummary {
+    /// Slices over the face width.
+    pub slices: usize,
+    /// Name of their coupling.
+    pub coupling: String,
+    /// ℓ₁ and ℓ₂ of the coupling: how far a deflection reaches along a tooth; `None` without coupling.
+    pub coupling_reach_mm: Option<[f64; 2]>,
+    /// β at the reference cylinder.
+    pub helix_angle_deg: f64,
+    /// β_b.
+    pub base_helix_angle_deg: f64,
+    /// ε_γ = ε_α + ε_β.
+    pub total_contact_ratio: f64,
+    /// Place of each slice over the face width.
+    pub width_mm: Vec<f64>,
+    /// Least, greatest and mean length of all lines of contact together.
+    pub line_of_contact_mm: LineOfContactSummary,
+    /// Face load factor K_Hβ: greatest over mean of the slices' loads, averaged over the mesh; new.
+    pub K_Hbeta_new: f64,
+    /// The same, worn.
+    pub K_Hbeta_worn: f64,
+    /// The first five mesh orders of the transmission error: amplitudes, new.
+    pub mesh_orders_new_um: Vec<f64>,
+    /// The same, worn.
+    pub mesh_orders_worn_um: Vec<f64>,
+    /// Wear over the face width of each gear.
+    pub wear: PerGear<OverWidthSummary>,
+}
+
+/// All lines of contact together over a mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LineOfContactSummary {
+    /// Least length.
+    pub min: f64,
+    /// Greatest length.
+    pub max: f64,
+    /// Mean length, ε_α b / cos β_b.
+    pub mean: f64,
+}
+
+/// How wear varies over the face width of a flank.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct OverWidthSummary {
+    /// Greatest depth in the root zone of each slice.
+    pub root_wear_um: Vec<f64>,
+    /// Greatest depth in the tip zone (the last 2 mm of radius) of each slice.
+    pub tip_wear_um: Vec<f64>,
+    /// Depth lost at the root by each slice in the first mesh of the unworn pair.
+    pub root_wear_first_mesh_um: Vec<f64>,
+    /// The same at the tip.
+    pub tip_wear_first_mesh_um: Vec<f64>,
+    /// Greatest less least root wear, over its mean.
+    pub root_variation: f64,
+    /// The same at the tip.
+    pub tip_variation: f64,
+    /// Of root and tip together: greatest less least over the mean of both zones of all slices.
+    pub root_tip_variation: f64,
+    /// (first slice − last slice) / (first + last) of the root wear, after the first mesh.
+    pub root_asymmetry_first_mesh: f64,
+    /// The same at the end of the run.
+    pub root_asymmetry: f64,
+}
+
+/// Contact at the pitch point with the whole load.
+#[allow(non_snake_case, reason = "the contract's key names")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ContactSummary {
+    /// Name of the surface model.
+    pub surface: String,
+    /// Whole torque over base radius and face width.
+    pub line_load_N_per_mm: f64,
+    /// K/H, where the surface has one.
+    pub foundation_MPa_per_mm: Option<f64>,
+    /// Hertz's half-width a.
+    pub hertz_half_width_mm: f64,
+    /// Hertz's greatest pressure.
+    pub hertz_peak_pressure_MPa: f64,
+}
+
+/// Stiffness of a tooth pair per mm of face width.
+#[allow(non_snake_case, reason = "the contract's key names")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StiffnessSummary {
+    /// Name of the stiffness model.
+    pub model: String,
+    /// Line load at which the spring of the teeth and the contact surface together have the model's compliance.
+    pub reference_line_load_N_per_mm: f64,
+    /// Whole pair with flattening, at C and the reference load.
+    pub pair_at_pitch_N_per_mm_um: f64,
+    /// Tooth spring alone, at C.
+    pub teeth_at_pitch_N_per_mm_um: f64,
+    /// What the split leaves over: relative difference between the surface's and the true flattening's share of the
+    /// pair's approach at C at half the reference load; `None` where the model states no flattening.
+    pub split_remainder_at_half_load: Option<f64>,
+}
+
+/// One mesh cycle in figures.
+#[allow(non_snake_case, reason = "the contract's key names")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CycleSummary {
+    /// Greatest pressure of contact whose pressure is defined: not of that which a sharp tip edge cuts off.
+    pub peak_pressure_MPa: f64,
+    /// Greatest pressure found at a mathematically sharp tip edge under load, which grows with every refinement; `None` where there is none.
+    pub sharp_edge_pressure_MPa: Option<f64>,
+    /// Greatest pressure with the theoretical contact point at C.
+    pub pitch_pressure_MPa: f64,
+    /// Loaded transmission error over the cycle.
+    pub transmission_error_um: RangeSummary,
+    /// Greatest |Σ loads of the pairs / load to carry − 1| at any position.
+    pub load_imbalance: f64,
+}
+
+/// Difference of what both flanks lose in one mesh, relative to the greater: what one flank of a contact loses the other does too,
+/// where both wear by the same coefficient.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct WearBalance {
+    /// The unworn pair.
+    pub new: f64,
+    /// The worn one.
+    pub worn: f64,
+}
+
+/// Extremes and their difference.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RangeSummary {
+    /// Least value.
+    pub min: f64,
+    /// Greatest value.
+    pub max: f64,
+    /// Difference.
+    pub peak_to_peak: f64,
+}
+
+/// Wear of a gear.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WearSummary {
+    /// Greatest wear depth on the active profile, the zone of the tip edge apart.
+    pub peak_wear_um: f64,
+    /// Radius where it is.
+    pub peak_wear_radius_mm: f64,
+    /// Greatest wear depth at the tip edge: within three Hertz half-widths at C, at most 0.15 modules, of the edge or of its rounding.
+    pub tip_edge_wear_um: f64,
+    /// Radius where it is.
+    pub tip_edge_wear_radius_mm: f64,
+    /// Greatest wear depth below the start of active profile.
+    pub below_sap_wear_um: f64,
+    /// Radius where it is.
+    pub below_sap_wear_radius_mm: f64,
+    /// Greatest wear depth in the first 2 mm of radius above the start of active profile.
+    pub root_wear_um: f64,
+    /// Wear depth at the working pitch circle.
+    pub pitch_wear_um: f64,
+    /// Worn off the whole gear: all teeth, whole width.
+    pub worn_volume_mm3: f64,
+    /// Worn off the whole gear: all teeth, whole width.
+    pub worn_mass_mg: f64,
+}
+
+/// Work done by the wear simulation alone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct WorkSummary {
+    /// Wear steps taken.
+    pub wear_steps: u64,
+    /// Trial steps that were not taken: their error was too large, or the pair had no equilibrium at their end.
+    pub rejected_steps: u64,
+    /// Mesh cycles evaluated in wear steps, rejected ones included.
+    pub stages: u64,
+    /// Mesh cycles evaluated to learn how stiff the wear is: spectral radius, Jacobian, length of the first step.
+    pub jacobian_probes: u64,
+    /// Mesh cycles evaluated before the run, to learn how long a step of Euler's method may be; not among those of the run.
+    pub stability_probes: u64,
+    /// Mesh cycles evaluated in all: with Euler's method one per wear step, and one at the end.
+    pub mesh_cycles: u64,
+    /// Equilibria solved: mesh cycles × positions.
+    pub equilibria: u64,
+    /// Newton iterations in all equilibria together.
+    pub newton_iterations: u64,
+    /// Evaluations of a tooth pair's contact.
+    pub pair_evaluations: u64,
+}
+
+/// One flank: slices one after the other over the face width (one where all sections are alike), each from root to tip.
+///
+/// Radius and roll angle have one value a point; the other fields of the flank one a point and slice, slice after slice.
+#[allow(non_snake_case, reason = "the contract's column names")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FlankRecord {
+    /// Distance from the gear's axis, from base circle to tip circle.
+    pub radius_mm: Vec<f64>,
+    /// Roll angle ρ/r_b of the transverse involute.
+    pub roll_angle_deg: Vec<f64>,
+    /// Place of each slice over the face width: its middle.
+    pub width_mm: Vec<f64>,
+    /// Material removed by the modifications.
+    pub removed_um: Vec<f64>,
+    /// Distance the point slides against the other flank during one mesh, new.
+    pub sliding_mm_per_mesh: Vec<f64>,
+    /// Wear depth at the end of the run.
+    pub wear_um: Vec<f64>,
+    /// The same by the finite elements that vouch for it; none where none do. Not a column of its own.
+    #[serde(skip)]
+    pub verified_wear_um: Option<Vec<f64>>,
+    /// Greatest pressure during one mesh, new.
+    pub pressure_new_MPa: Vec<f64>,
+    /// Greatest pressure during one mesh, worn.
+    pub pressure_worn_MPa: Vec<f64>,
+    /// Wear depth at each snapshot of the history.
+    pub snapshot_wear_um: Vec<Vec<f64>>,
+    /// Radii worth marking: start of active profile (A on the pinion, E on the wheel) to tip.
+    pub path_point_radius_mm: PathPoints,
+    /// Its parts, of which figures speak.
+    pub zones: FlankZones,
+}
+
+/// A row of `history.csv`.
+#[allow(non_snake_case, reason = "the contract's column names")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct HistoryRow {
+    pub hours: Option<f64>,
+    pub revolutions: f64,
+    pub pinion_peak_wear_um: f64,
+    pub pinion_root_wear_um: f64,
+    pub pinion_pitch_wear_um: f64,
+    pub wheel_peak_wear_um: f64,
+    pub peak_pressure_MPa: f64,
+    pub transmission_error_peak_to_peak_um: f64,
+    pub pinion_peak_wear_radius_mm: f64,
+    /// At the start of active profile.
+    pub pinion_sap_wear_um: f64,
+    /// Wear per million pinion revolutions at the start of active profile.
+    pub pinion_sap_wear_rate_um_per_Mrev: f64,
+    /// Number of the phase, from 1; at the end of one, that one.
+    pub phase: usize,
+    pub sharp_edge_pressure_MPa: Option<f64>,
+    pub pinion_tip_edge_wear_um: f64,
+    pub wheel_tip_edge_wear_um: f64,
+}
+
+/// A row of `mesh_cycle.csv`: the reference pair at one loading position.
+#[allow(non_snake_case, reason = "the contract's column names")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct MeshCycleRow {
+    /// The pinion's radius of curvature at the theoretical contact point.
+    pub position_mm: f64,
+    pub load_share_new: f64,
+    pub load_share_worn: f64,
+    pub peak_pressure_new_MPa: f64,
+    pub peak_pressure_worn_MPa: f64,
+    /// Half the extent of the contact strip, new.
+    pub half_width_mm: f64,
+    pub transmission_error_new_um: f64,
+    pub transmission_error_worn_um: f64,
+    /// Greatest rise by the chosen method, new; `None` where no temperature is computed, as with those that follow.
+    pub temperature_rise_K: Option<f64>,
+    /// Half the extent of the contact strip, worn.
+    pub half_width_worn_mm: f64,
+    pub temperature_rise_heat_equation_K: Option<f64>,
+    pub temperature_rise_williams_K: Option<f64>,
+    pub temperature_rise_tian_kennedy_K: Option<f64>,
+    pub peclet_pinion: Option<f64>,
+    pub peclet_wheel: Option<f64>,
+    pub at_sharp_edge_new: bool,
+    pub at_sharp_edge_worn: bool,
+}
+
+/// The mesh of one tooth slice by slice, from its first touch to its last.
+#[allow(non_snake_case, reason = "names that end in their unit")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SliceRecord {
+    /// Place of each slice over the face width.
+    pub width_mm: Vec<f64>,
+    /// How far the theoretical contact point of each slice is ahead of that in the middle of the face width.
+    pub ahead_mm: Vec<f64>,
+    /// Each gear's working flank in space.
+    pub surface: PerGear<FlankSurface>,
+    /// Position of the tooth in the middle of the face width: the pinion's radius of curvature, also before A and after E.
+    pub position_mm: Vec<f64>,
+    /// Load of each slice at each position, position after position, N per mm of face width; new.
+    pub line_load_new_N_per_mm: Vec<f64>,
+    /// The same, worn.
+    pub line_load_worn_N_per_mm: Vec<f64>,
+    /// Greatest pressure of each slice at each position, new.
+    pub peak_pressure_new_MPa: Vec<f64>,
+    /// The same, worn.
+    pub peak_pressure_worn_MPa: Vec<f64>,
+    /// Whether a sharp tip edge cuts off the contact of each slice at each position, new.
+    pub at_sharp_edge_new: Vec<bool>,
+    /// The same, worn.
+    pub at_sharp_edge_worn: Vec<bool>,
+}
+
+/// The pair in mesh in the transverse section, mm; the pinion's axis is the origin and the wheel's lies on +y.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PairDrawing {
+    /// Closed outline of each whole gear in its place.
+    pub outline: PerGear<Vec<[f64; 2]>>,
+    /// Axis of each gear.
+    pub axis: PerGear<[f64; 2]>,
+    /// Bore radius of each gear, where given.
+    pub bore_radius_mm: PerGear<Option<f64>>,
+    /// Base, working pitch and tip radius of each gear.
+    pub circles_mm: PerGear<GearCircles>,
+    /// Where the line of action touches the base circles: T1, T2.
+    pub line_of_action: [[f64; 2]; 2],
+    /// Points A–E with their names, in the order of contact.
+    pub path_of_contact: Vec<(String, [f64; 2])>,
+}
+
+/// Radii of the circles drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[allow(missing_docs, reason = "the names say it")]
+pub struct GearCircles {
+    pub base: f64,
+    pub working_pitch: f64,
+    pub tip: f64,
+}

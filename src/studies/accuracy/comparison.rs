@@ -1,0 +1,102 @@
+//! Runs that differ in one respect only, side by side: how much a choice matters by itself.
+//!
+//! The tooth stiffness is compared on one surface with the stiffness of finite elements; the contact surfaces are compared
+//! with the surface of finite elements, which brings its own stiffness. Unlike the errors against the reference, these
+//! are differences of two runs of the same resolution.
+
+use super::measure::profile_error;
+use super::observed::Observed;
+use super::settings::{Setting, Surface};
+use super::sliced_comparison;
+use crate::gear::PerGear;
+use crate::scene::Resolved;
+use crate::scene::file::StiffnessModel;
+use crate::studies::accuracy::record::{Comparison, ComparisonRow};
+
+/// A run to compare.
+#[derive(Debug, Clone, Copy)]
+pub struct Run<'a> {
+    /// Its setting.
+    pub setting: &'a Setting,
+    /// Its curves, at the reference's coordinates.
+    pub observed: &'a Observed,
+    /// Wall time of the wear run.
+    pub simulation_s: f64,
+}
+
+/// Tooth stiffnesses on the scene's surface, and contact surfaces with the best stiffness there is; where sections differ over the
+/// face width also the coupling of slices (`sliced_comparison`).
+pub fn comparisons(resolved: &Resolved, runs: &[Run<'_>]) -> Vec<Comparison> {
+    if resolved.scene.slices.is_some() {
+        return sliced_comparison::comparisons(resolved, runs);
+    }
+    let Some(finest) = runs.iter().map(|run| run.setting.coarsening.spacing).min() else { return Vec::new() };
+    let even: Vec<Run<'_>> = runs
+        .iter()
+        .copied()
+        .filter(|run| run.setting.coarsening.spacing == finest && run.setting.coarsening.step == finest)
+        .collect();
+    stiffnesses(resolved, &even).into_iter().chain(surfaces(&even)).collect()
+}
+
+/// All stiffnesses on one surface; none where only one was run.
+pub(super) fn stiffnesses(resolved: &Resolved, runs: &[Run<'_>]) -> Option<Comparison> {
+    let surface = Surface::of_scene(resolved);
+    let on_it: Vec<Run<'_>> = runs.iter().copied().filter(|run| run.setting.surface == surface).collect();
+    let model = |run: &Run<'_>| run.setting.stiffness.as_ref().and_then(|stiffness| stiffness.file.model);
+    let with = |wanted| on_it.iter().copied().find(|run| model(run) == Some(wanted));
+    let baseline = with(StiffnessModel::Fem).or_else(|| with(StiffnessModel::WeberBanaschek))?;
+    let name = |run: &Run<'_>| run.setting.stiffness.as_ref().map_or_else(String::new, |s| s.name.clone());
+    let rows: Vec<ComparisonRow> = on_it
+        .iter()
+        .filter(|run| run.setting.tip_contact == baseline.setting.tip_contact && name(run) != name(&baseline))
+        .map(|run| row(name(run), run, &baseline))
+        .collect();
+    (!rows.is_empty()).then(|| Comparison {
+        title: "Tooth stiffness".to_owned(),
+        common: format!("surface {}", surface.name()),
+        baseline: format!("stiffness {}", name(&baseline)),
+        rows,
+    })
+}
+
+/// All surfaces with one stiffness against finite elements; none where there are none.
+fn surfaces(runs: &[Run<'_>]) -> Option<Comparison> {
+    let is_fem = |run: &&Run<'_>| matches!(run.setting.surface, Surface::Fem { .. });
+    let baseline = runs.iter().find(is_fem)?;
+    let rank = |run: &Run<'_>| match run.setting.stiffness.as_ref().and_then(|stiffness| stiffness.file.model) {
+        Some(StiffnessModel::Fem) => 2,
+        Some(StiffnessModel::WeberBanaschek) => 1,
+        _ => 0,
+    };
+    let best = runs.iter().map(rank).max()?;
+    let others: Vec<&Run<'_>> = runs.iter().filter(|run| !is_fem(run) && rank(run) == best).collect();
+    let stiffness = others.iter().find_map(|run| run.setting.stiffness.as_ref())?;
+    let rows = others
+        .iter()
+        .map(|run| {
+            let tip = if run.setting.tip_contact { ", tip contact" } else { "" };
+            row(format!("{}{tip}", run.setting.surface.name()), run, baseline)
+        })
+        .collect();
+    Some(Comparison {
+        title: "Contact surface".to_owned(),
+        common: format!("stiffness {} on the line of action", stiffness.name),
+        baseline: format!("surface {}", baseline.setting.surface.name()),
+        rows,
+    })
+}
+
+pub(super) fn row(name: String, run: &Run<'_>, baseline: &Run<'_>) -> ComparisonRow {
+    ComparisonRow {
+        name,
+        wear_profile: PerGear::from_fn(|gear| {
+            profile_error(&run.observed.flanks[gear], &baseline.observed.flanks[gear])
+        }),
+        peak_wear: PerGear::from_fn(|gear| {
+            let peak = |run: &Run<'_>| run.observed.flanks[gear].peak_wear_um();
+            if peak(run) == peak(baseline) { 0.0 } else { peak(run) / peak(baseline) - 1.0 }
+        }),
+        simulation_s: run.simulation_s,
+    }
+}

@@ -1,0 +1,192 @@
+//! The models run to a greater depth, with the scene's number of wear steps and with fewer.
+//!
+//! Euler's explicit step is stable while what a point loses in one step does not relieve it of more than its load: with K the
+//! pressure that a depth takes off the surface, Δn k K s < 2. Surfaces that read the worn gap have a K, the stiffer the shorter
+//! the waves they resolve; surfaces that only know the gap at the theoretical contact point have none. Where the bound is passed,
+//! wear alternates from step to step and spikes grow out of the profile.
+//!
+//! Whether a run has oscillated is not read off its profile alone, which has jumps of its own where the load changes. Each model
+//! is run twice, with the number of steps of the scene and with a [`FEWER_STEPS`]th of it, to [`DEEPER`] times the scene's
+//! revolutions: the error of Euler's method is of first order in the step and changes the greatest depth by some per cent; spikes
+//! change it by far more. A run is called stable where both gears' greatest depths change by less than [`STABLE_WITHIN`].
+
+use super::measure::{profile_error, ratio, relative_difference};
+use super::observed::{Observed, ObservedFlank};
+use super::settings::{Bed, Coarsening, Setting, Surface, coupling_name, euler_revolutions};
+use super::timed_run::{Finished, Observer, Within, measure};
+use crate::contact::settings::MatchCriterion;
+use crate::gear::{Gear, PerGear};
+use crate::mesh_cycle::settings::{Coupling, SliceSettings};
+use crate::pipeline::inputs::Inputs;
+use crate::scene::file::StepFile;
+use crate::scene::{Problem, Resolved, Scene};
+use crate::studies::accuracy::record::{DeepRow, DeepRun, DeepRuns};
+
+/// The scene's revolutions times this.
+const DEEPER: f64 = 10.0;
+/// The number of wear steps over this.
+const FEWER_STEPS: u32 = 10;
+/// Beyond this change of the greatest depth a run has oscillated.
+const STABLE_WITHIN: f64 = 0.1;
+/// Least ratio of the numbers of steps of which anything is learned.
+const LEAST_STEP_RATIO: f64 = 2.0;
+/// The models, the baseline first.
+const MODELS: [(Surface, Coupling); 5] = [
+    (Surface::HalfSpace, Coupling::Slicing),
+    (Surface::Winkler(Bed::Matched(MatchCriterion::HalfWidth)), Coupling::Slicing),
+    (Surface::Hertz, Coupling::Slicing),
+    (Surface::HertzMean, Coupling::Slicing),
+    (Surface::HertzMean, Coupling::None),
+];
+
+/// How many runs the comparison has.
+pub(super) const RUNS: usize = 2 * MODELS.len();
+
+/// Runs the models that `like`, a setting with slices, stands beside; `first` of `count` runs are done. `None` without slices, or
+/// where the user interrupted it.
+pub(super) fn run(
+    resolved: &Resolved,
+    like: &Setting,
+    inputs: &Inputs,
+    observer: &dyn Observer,
+    first: usize,
+    count: usize,
+) -> Option<DeepRuns> {
+    let slices = resolved.scene.slices?;
+    let deeper = deeper(resolved);
+    let mut rows = Vec::new();
+    let mut baseline: Option<Observed> = None;
+    for (index, (surface, coupling)) in MODELS.into_iter().enumerate() {
+        let tip = if surface.may_follow_tip() { ", tip contact" } else { "" };
+        let mut row = DeepRow {
+            name: format!("{}{tip} · {}", surface.name(), coupling_name(coupling)),
+            usual: None,
+            fewer_steps: None,
+            wear_profile: None,
+            peak_wear_change: None,
+            stable: None,
+            failure: None,
+        };
+        let base = match &deeper {
+            Ok(base) => base,
+            Err(problems) => {
+                row.failure = Some(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "));
+                rows.push(row);
+                continue;
+            }
+        };
+        let mut ran = Vec::new();
+        for (number, step) in [1, FEWER_STEPS].into_iter().enumerate() {
+            let number = first + 2 * index + number;
+            observer.variant(number, count, &format!("{DEEPER} times the revolutions: {}, steps {step}", row.name));
+            let coarsening = Coarsening { spacing: like.coarsening.spacing, step };
+            let slices = Some(SliceSettings { coupling, ..slices });
+            let setting =
+                Setting { surface, tip_contact: surface.may_follow_tip(), slices, coarsening, ..like.clone() };
+            let measured = measure(&setting, base, inputs, &Within { observer, number, count })?;
+            row.failure = row.failure.or(measured.record.failure);
+            ran.push(measured.finished.zip(measured.record.simulation_s));
+        }
+        let [usual, fewer] = [0, 1].map(|k| ran.get(k).and_then(Option::as_ref));
+        row.usual = usual.map(deep_run);
+        row.fewer_steps = fewer.map(deep_run);
+        row.wear_profile = usual.zip(baseline.as_ref()).map(|((own, _), baseline)| {
+            let own = own.observed.at_coordinates_of(baseline);
+            larger(|gear| profile_error(&own.flanks[gear], &baseline.flanks[gear]))
+        });
+        if index == 0 {
+            baseline = usual.map(|(run, _)| run.observed.clone());
+        }
+        if let (Some(usual), Some(fewer)) = (&row.usual, &row.fewer_steps)
+            && usual.wear_steps as f64 >= LEAST_STEP_RATIO * fewer.wear_steps as f64
+        {
+            let change = larger(|gear| relative_difference(fewer.peak_wear_um[gear], usual.peak_wear_um[gear]));
+            row.peak_wear_change = Some(change);
+            row.stable = Some(change <= STABLE_WITHIN);
+        }
+        rows.push(row);
+    }
+    let stiffness = like.stiffness.as_ref().map_or("", |stiffness| &stiffness.name);
+    Some(DeepRuns {
+        common: format!(
+            "{DEEPER} times the scene's revolutions, {} slices, stiffness {stiffness}, points and positions 1/{} of the scene's",
+            slices.count, like.coarsening.spacing
+        ),
+        revolutions_factor: DEEPER,
+        baseline: rows.first().map_or_else(String::new, |row| row.name.clone()),
+        stable_within: STABLE_WITHIN,
+        rows,
+    })
+}
+
+/// The scene run to a greater depth with the same number of wear steps.
+fn deeper(resolved: &Resolved) -> Result<Resolved, Vec<Problem>> {
+    let mut file = resolved.file.clone();
+    let operation = &mut file.operation;
+    operation.hours = None;
+    operation.pinion_revolutions = Some(DEEPER * resolved.scene.operation.pinion_revolutions);
+    if let Some(phases) = &mut operation.phases {
+        operation.pinion_revolutions = None;
+        for phase in phases {
+            phase.hours = phase.hours.map(|hours| DEEPER * hours);
+            phase.pinion_revolutions = phase.pinion_revolutions.map(|revolutions| DEEPER * revolutions);
+        }
+    }
+    operation.snapshots_h = None;
+    // The end alone: a snapshot shortens the step before it.
+    operation.snapshots_revolutions = Some(vec![DEEPER * resolved.scene.operation.pinion_revolutions]);
+    file.numerics.get_or_insert_default().step = Some(StepFile::fixed(DEEPER * euler_revolutions(&resolved.scene)));
+    Scene::from_toml(&file.to_toml())
+}
+
+fn larger(of: impl Fn(Gear) -> f64) -> f64 {
+    of(Gear::Pinion).max(of(Gear::Wheel))
+}
+
+fn deep_run((finished, simulation_s): &(Finished, f64)) -> DeepRun {
+    let flanks = &finished.observed.flanks;
+    DeepRun {
+        wear_steps: finished.summary.work.wear_steps,
+        simulation_s: *simulation_s,
+        peak_wear_um: PerGear::from_fn(|gear| flanks[gear].peak_wear_um()),
+        roughness: PerGear::from_fn(|gear| roughness(&flanks[gear])),
+        warned: finished.summary.warnings.iter().any(|warning| warning.starts_with("numerics.step")),
+    }
+}
+
+/// ‖h − S h‖/‖h‖ where S averages each point with its neighbours on the same slice, (1/4, 1/2, 1/4): of a depth that alternates
+/// from point to point nothing is left by S.
+fn roughness(flank: &ObservedFlank) -> f64 {
+    let square = |value: f64| value * value;
+    let jumps = |slice: &[f64]| -> f64 { slice.windows(3).map(|h| square(0.5 * h[1] - 0.25 * (h[0] + h[2]))).sum() };
+    let (jumps, size) = flank.slices().fold((0.0, 0.0), |(jumping, size), slice| {
+        (jumping + jumps(slice), size + slice.iter().map(|&h| square(h)).sum::<f64>())
+    });
+    ratio(jumps.sqrt(), size.sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gear::flank_zones::FlankZones;
+
+    /// On a depth of 3 an alternation of 1 leaves ‖±1‖/‖3 ± 1‖ = √(1/10) but for the two ends; a straight profile leaves nothing.
+    #[test]
+    fn ver_the_roughness_of_an_alternating_profile() {
+        let flank = |wear_um: Vec<f64>| ObservedFlank {
+            radius_mm: vec![0.0; 1000],
+            arc_mm: vec![0.0; 1000],
+            width_mm: vec![1.0, 2.0],
+            wear_um,
+            zones: FlankZones {
+                active_start_radius_mm: 0.0,
+                tip_edge_radius_mm: f64::INFINITY,
+                tip_radius_mm: f64::INFINITY,
+            },
+        };
+        let alternating = (0..2000).map(|i| 3.0 + if i % 2 == 0 { 1.0 } else { -1.0 }).collect();
+        assert!((roughness(&flank(alternating)) - f64::sqrt(0.1 * 998.0 / 1000.0)).abs() < 1e-14);
+        let straight = (0..2000).map(|i| f64::from(i % 1000)).collect();
+        assert!(roughness(&flank(straight)) < 1e-14);
+    }
+}

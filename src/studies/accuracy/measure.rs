@@ -1,0 +1,205 @@
+//! Errors of one run's curves against another's.
+//!
+//! Curves are compared in the relative L2 norm over their coordinate, by the trapezoidal rule at the reference's points,
+//!
+//! ```text
+//! e = √( ∫ (y − y_ref)² dx / ∫ y_ref² dx ),
+//! ```
+//!
+//! depths over the whole flank in the same norm over its area, arc length times face width, and single figures by their
+//! relative difference |y − y_ref|/|y_ref|. Where the reference is zero everywhere the error is zero if the other is zero too,
+//! and infinite otherwise.
+//!
+//! The pressure at a sharp tip edge is singular: its peak grows with every refinement and has no value that a model
+//! could meet. Positions within [`EDGE_HALF_WIDTHS`] Hertz half-widths of A or E are left out of the comparison of peak
+//! pressures where the tip edge that ends contact there is sharp, and out of that of pressures away from tip edges always.
+
+use std::collections::BTreeMap;
+
+use super::observed::{Observed, ObservedCycle, ObservedFlank};
+use crate::gear::{Gear, PerGear};
+use crate::results::run::PathPoints;
+use crate::studies::accuracy::record::Quantity;
+
+/// Length of the path of contact at a sharp tip edge without a comparable pressure, in half-widths of Hertz at the pitch
+/// point.
+pub const EDGE_HALF_WIDTHS: f64 = 3.0;
+
+/// Where on the path of contact the quantities are compared.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Windows {
+    /// From A to E less what a sharp tip edge spoils.
+    pub pressure_mm: [f64; 2],
+    /// From A to E less what any tip edge takes part in.
+    pub flank_mm: [f64; 2],
+    /// Where one pair carries the load alone.
+    pub single_contact_mm: [f64; 2],
+}
+
+impl Windows {
+    /// For a pair with these points A–E and sharp tip edges; `half_width_mm` is Hertz's at the pitch point.
+    pub fn new(points: &PathPoints, sharp: PerGear<bool>, half_width_mm: f64) -> Self {
+        let spoilt = |sharp: bool| if sharp { EDGE_HALF_WIDTHS * half_width_mm } else { 0.0 };
+        let single = if points.B < points.D { [points.B, points.D] } else { [points.A, points.E] };
+        Self {
+            // At A the wheel's tip is in contact, at E the pinion's.
+            pressure_mm: [points.A + spoilt(sharp.wheel), points.E - spoilt(sharp.pinion)],
+            flank_mm: [points.A + spoilt(true), points.E - spoilt(true)],
+            single_contact_mm: single,
+        }
+    }
+}
+
+/// Errors of `observed`, at the coordinates of `reference`, in every quantity.
+pub fn errors(observed: &Observed, reference: &Observed, windows: &Windows) -> BTreeMap<Quantity, f64> {
+    let profile = PerGear::from_fn(|gear| profile_error(&observed.flanks[gear], &reference.flanks[gear]));
+    let peak =
+        |gear: Gear| relative_difference(observed.flanks[gear].peak_wear_um(), reference.flanks[gear].peak_wear_um());
+    let over_path = |curve: fn(&ObservedCycle) -> &[f64]| {
+        relative_l2(&reference.cycle.position_mm, curve(&observed.cycle), curve(&reference.cycle))
+    };
+    let between = |curve: fn(&ObservedCycle) -> &[f64]| {
+        relative_difference(peak_to_peak(curve(&observed.cycle)), peak_to_peak(curve(&reference.cycle)))
+    };
+    let half_width = || {
+        let [x, own, other] =
+            [&reference.cycle.position_mm, &observed.cycle.half_width_mm, &reference.cycle.half_width_mm]
+                .map(|values| within(&reference.cycle.position_mm, values, windows.single_contact_mm));
+        relative_l2(&x, &own, &other)
+    };
+    let mut errors = BTreeMap::from([
+        (Quantity::WearProfile, profile.pinion.max(profile.wheel)),
+        (Quantity::PinionWearProfile, profile.pinion),
+        (Quantity::WheelWearProfile, profile.wheel),
+        (Quantity::PinionPeakWear, peak(Gear::Pinion)),
+        (Quantity::WheelPeakWear, peak(Gear::Wheel)),
+        (
+            Quantity::PeakPressure,
+            relative_difference(
+                peak_pressure_mpa(&observed.cycle, windows),
+                peak_pressure_mpa(&reference.cycle, windows),
+            ),
+        ),
+        (
+            Quantity::FlankPressure,
+            relative_difference(
+                greatest_within(&observed.cycle, windows.flank_mm),
+                greatest_within(&reference.cycle, windows.flank_mm),
+            ),
+        ),
+        (Quantity::TransmissionError, over_path(|c| &c.transmission_error_um)),
+        (Quantity::TransmissionErrorPeakToPeak, between(|c| &c.transmission_error_um)),
+        (Quantity::WornTransmissionError, over_path(|c| &c.worn_transmission_error_um)),
+        (Quantity::WornTransmissionErrorPeakToPeak, between(|c| &c.worn_transmission_error_um)),
+    ]);
+    match (&observed.over_width, &reference.over_width) {
+        (Some(own), Some(of_reference)) => errors.extend(own.errors(of_reference)),
+        // Where slices of one tooth enter while others leave, no pair ever carries the load alone.
+        _ => errors.extend([(Quantity::HalfWidth, half_width())]),
+    }
+    errors
+}
+
+/// Relative L2 error of the depth over the whole flank; both at the same points and widths. Slices are as wide as each other.
+pub fn profile_error(observed: &ObservedFlank, reference: &ObservedFlank) -> f64 {
+    let arc = &reference.arc_mm;
+    let over_flank = |square: &dyn Fn(&[f64], &[f64]) -> f64| -> f64 {
+        observed.slices().zip(reference.slices()).map(|(own, there)| square(own, there)).sum()
+    };
+    let difference = over_flank(&|own, there| integral(arc, |i| (own[i] - there[i]).powi(2)));
+    ratio(difference.sqrt(), over_flank(&|_, there| integral(arc, |i| there[i].powi(2))).sqrt())
+}
+
+/// Greatest pressure away from sharp tip edges.
+pub fn peak_pressure_mpa(cycle: &ObservedCycle, windows: &Windows) -> f64 {
+    greatest_within(cycle, windows.pressure_mm)
+}
+
+fn greatest_within(cycle: &ObservedCycle, window_mm: [f64; 2]) -> f64 {
+    greatest(&within(&cycle.position_mm, &cycle.peak_pressure_mpa, window_mm))
+}
+
+/// Greatest less least value.
+pub fn peak_to_peak(values: &[f64]) -> f64 {
+    let (low, high) =
+        values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &y| (low.min(y), high.max(y)));
+    if high >= low { high - low } else { 0.0 }
+}
+
+/// The greatest value, 0 where there is none above.
+pub fn greatest(values: &[f64]) -> f64 {
+    values.iter().copied().fold(0.0, f64::max)
+}
+
+/// |y − y_ref|/|y_ref|.
+pub fn relative_difference(value: f64, reference: f64) -> f64 {
+    ratio((value - reference).abs(), reference.abs())
+}
+
+/// √(∫(y − y_ref)² dx / ∫y_ref² dx) by the trapezoidal rule.
+pub fn relative_l2(x: &[f64], values: &[f64], reference: &[f64]) -> f64 {
+    let difference = integral(x, |i| (values[i] - reference[i]).powi(2));
+    ratio(difference.sqrt(), integral(x, |i| reference[i].powi(2)).sqrt())
+}
+
+/// ∫ y dx by the trapezoidal rule.
+fn integral(x: &[f64], value: impl Fn(usize) -> f64) -> f64 {
+    (1..x.len()).map(|i| 0.5 * (x[i] - x[i - 1]) * (value(i - 1) + value(i))).sum()
+}
+
+/// `difference` over `size`, where nothing over nothing is nothing.
+pub fn ratio(difference: f64, size: f64) -> f64 {
+    if difference == 0.0 { 0.0 } else { difference / size }
+}
+
+/// The values at places of `x` in the window.
+fn within(x: &[f64], values: &[f64], [from, to]: [f64; 2]) -> Vec<f64> {
+    x.iter().zip(values).filter(|(place, _)| (from..=to).contains(*place)).map(|(_, value)| *value).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// ∫₀¹(x − 1.1 x)² / ∫x² = 0.01: a curve off by a tenth everywhere has an error of a tenth.
+    #[test]
+    fn ver_a_curve_off_by_a_tenth_has_an_error_of_a_tenth() {
+        let x: Vec<f64> = (0..=100).map(|i| f64::from(i) / 100.0).collect();
+        let tenth: Vec<f64> = x.iter().map(|y| 1.1 * y).collect();
+        assert!((relative_l2(&x, &tenth, &x) - 0.1).abs() < 1e-14);
+    }
+
+    /// ∫₀^π sin² = ∫₀^π cos² = π/2, sin and cos are orthogonal: ‖sin − cos‖/‖cos‖ = √2. The spacing is uneven on purpose.
+    #[test]
+    fn ver_the_norm_is_the_integrals() {
+        let n = 4000;
+        let x: Vec<f64> = (0..=n).map(|i| std::f64::consts::PI * (f64::from(i) / f64::from(n)).powf(1.5)).collect();
+        let (sin, cos): (Vec<f64>, Vec<f64>) = x.iter().map(|x| x.sin_cos()).unzip();
+        assert!((relative_l2(&x, &sin, &cos) - std::f64::consts::SQRT_2).abs() < 1e-5);
+    }
+
+    #[test]
+    fn nothing_against_nothing_is_no_error() {
+        assert_eq!(relative_l2(&[0.0, 1.0], &[0.0, 0.0], &[0.0, 0.0]), 0.0);
+        assert_eq!(relative_difference(0.0, 0.0), 0.0);
+        assert_eq!(relative_difference(1.0, 0.0), f64::INFINITY);
+    }
+
+    /// Only the ends with a sharp edge are left out: A where the wheel's tip is sharp, E where the pinion's is.
+    #[test]
+    fn sharp_edges_are_left_out_at_their_own_end() {
+        let points = PathPoints { A: 4.0, B: 10.0, C: 14.0, D: 18.0, E: 24.0 };
+        let windows = Windows::new(&points, PerGear { pinion: false, wheel: true }, 0.2);
+        assert_eq!(windows.pressure_mm, [4.0 + 3.0 * 0.2, 24.0]);
+        assert_eq!(windows.single_contact_mm, [10.0, 18.0]);
+        assert_eq!(windows.flank_mm, [4.0 + 3.0 * 0.2, 24.0 - 3.0 * 0.2]);
+        let cycle = ObservedCycle {
+            position_mm: vec![4.0, 5.0, 24.0],
+            peak_pressure_mpa: vec![9000.0, 1500.0, 2000.0],
+            half_width_mm: vec![0.2; 3],
+            transmission_error_um: vec![30.0; 3],
+            worn_transmission_error_um: vec![30.0; 3],
+        };
+        assert_eq!(peak_pressure_mpa(&cycle, &windows), 2000.0);
+    }
+}

@@ -1,0 +1,195 @@
+//! The curves of a run that errors are measured on, and how they are brought onto common coordinates.
+
+use super::over_width::{OverWidth, depths_at_widths, pressure_along_path_mpa};
+use crate::gear::{
+    Gear, PerGear,
+    flank_zones::{FlankZone, FlankZones},
+};
+use crate::reference::linear_means::value_at;
+use crate::results::run::{FlankRecord, RunRecord};
+
+/// What errors are measured on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Observed {
+    /// Both flanks.
+    pub flanks: PerGear<ObservedFlank>,
+    /// The mesh cycle.
+    pub cycle: ObservedCycle,
+    /// Over the face width; none where all sections are alike.
+    pub over_width: Option<OverWidth>,
+}
+
+/// Wear over one flank.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ObservedFlank {
+    /// Distance from the gear's axis, increasing.
+    pub radius_mm: Vec<f64>,
+    /// Arc length of the involute from the base circle.
+    pub arc_mm: Vec<f64>,
+    /// Place of each slice over the face width: one where all sections are alike.
+    pub width_mm: Vec<f64>,
+    /// Wear depth, slice after slice.
+    pub wear_um: Vec<f64>,
+    /// Its parts.
+    pub zones: FlankZones,
+}
+
+/// The reference pair over the path of contact.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ObservedCycle {
+    /// Radius of curvature of the pinion at the theoretical contact point, increasing.
+    pub position_mm: Vec<f64>,
+    /// Greatest pressure, new; of a pair with slices the greatest of any slice whose own contact point is there.
+    pub peak_pressure_mpa: Vec<f64>,
+    /// Half-width, new.
+    pub half_width_mm: Vec<f64>,
+    /// Loaded transmission error, new.
+    pub transmission_error_um: Vec<f64>,
+    /// Loaded transmission error, worn.
+    pub worn_transmission_error_um: Vec<f64>,
+}
+
+impl Observed {
+    /// The curves of a run.
+    pub fn of(record: &RunRecord) -> Self {
+        let column = |value: fn(&crate::results::run::MeshCycleRow) -> f64| {
+            record.mesh_cycle.iter().map(value).collect::<Vec<f64>>()
+        };
+        let position_mm = column(|row| row.position_mm);
+        let peak_pressure_mpa = match &record.slices {
+            Some(slices) => pressure_along_path_mpa(slices, &position_mm),
+            None => column(|row| row.peak_pressure_new_MPa),
+        };
+        Self {
+            flanks: PerGear::from_fn(|gear| ObservedFlank::of(&record.flanks[gear])),
+            over_width: OverWidth::of(record),
+            cycle: ObservedCycle {
+                position_mm,
+                peak_pressure_mpa,
+                half_width_mm: column(|row| row.half_width_mm),
+                transmission_error_um: column(|row| row.transmission_error_new_um),
+                worn_transmission_error_um: column(|row| row.transmission_error_worn_um),
+            },
+        }
+    }
+
+    /// The same curves at the coordinates of `other`, linear in between.
+    pub fn at_coordinates_of(&self, other: &Self) -> Self {
+        let flank = |gear: Gear| {
+            let (own, common) = (&self.flanks[gear], &other.flanks[gear]);
+            ObservedFlank { wear_um: own.wear_at(&common.radius_mm, &common.width_mm), ..common.clone() }
+        };
+        let (own, at) = (&self.cycle, &other.cycle.position_mm);
+        let there = |values: &[f64]| interpolated(&own.position_mm, values, at);
+        Self {
+            flanks: PerGear::from_fn(flank),
+            over_width: self.over_width.as_ref().map(|own| own.at_widths(&other.flanks.pinion.width_mm)),
+            cycle: ObservedCycle {
+                position_mm: at.clone(),
+                peak_pressure_mpa: there(&own.peak_pressure_mpa),
+                half_width_mm: there(&own.half_width_mm),
+                transmission_error_um: there(&own.transmission_error_um),
+                worn_transmission_error_um: there(&own.worn_transmission_error_um),
+            },
+        }
+    }
+
+    /// self + factor · (fine − coarse), value by value; all three at the same coordinates.
+    pub fn corrected(&self, factor: f64, fine: &Self, coarse: &Self) -> Self {
+        let corrected = |own: &[f64], fine: &[f64], coarse: &[f64]| -> Vec<f64> {
+            own.iter().zip(fine.iter().zip(coarse)).map(|(x, (f, c))| x + factor * (f - c)).collect()
+        };
+        let of_cycle = |curve: fn(&ObservedCycle) -> &[f64]| {
+            corrected(curve(&self.cycle), curve(&fine.cycle), curve(&coarse.cycle))
+        };
+        Self {
+            flanks: PerGear::from_fn(|gear| {
+                let wear = |of: &Self| of.flanks[gear].wear_um.clone();
+                ObservedFlank {
+                    // Wear is never negative, also where a correction would have it so.
+                    wear_um: corrected(&wear(self), &wear(fine), &wear(coarse))
+                        .into_iter()
+                        .map(|depth| depth.max(0.0))
+                        .collect(),
+                    ..self.flanks[gear].clone()
+                }
+            }),
+            over_width: match (&self.over_width, &fine.over_width, &coarse.over_width) {
+                (Some(own), Some(fine), Some(coarse)) => Some(own.corrected(factor, fine, coarse)),
+                _ => self.over_width.clone(),
+            },
+            cycle: ObservedCycle {
+                position_mm: self.cycle.position_mm.clone(),
+                peak_pressure_mpa: of_cycle(|c| &c.peak_pressure_mpa),
+                half_width_mm: of_cycle(|c| &c.half_width_mm),
+                transmission_error_um: of_cycle(|c| &c.transmission_error_um),
+                worn_transmission_error_um: of_cycle(|c| &c.worn_transmission_error_um),
+            },
+        }
+    }
+}
+
+impl ObservedFlank {
+    fn of(flank: &FlankRecord) -> Self {
+        // r = r_b √(1 + φ²) and s = r_b φ²/2 with the roll angle φ.
+        let arc = |(radius, roll_deg): (&f64, &f64)| {
+            let roll = roll_deg.to_radians();
+            0.5 * roll * roll * radius / (1.0 + roll * roll).sqrt()
+        };
+        Self {
+            radius_mm: flank.radius_mm.clone(),
+            arc_mm: flank.radius_mm.iter().zip(&flank.roll_angle_deg).map(arc).collect(),
+            width_mm: flank.width_mm.clone(),
+            wear_um: flank.wear_um.clone(),
+            zones: flank.zones,
+        }
+    }
+
+    /// Greatest depth on the active profile, as in the summary of a run.
+    pub fn peak_wear_um(&self) -> f64 {
+        let of_slice = |slice: &[f64]| {
+            let active =
+                slice.iter().zip(&self.radius_mm).filter(|(_, radius)| self.zones.at(**radius) == FlankZone::Active);
+            active.map(|(depth, _)| *depth).fold(0.0, f64::max)
+        };
+        self.slices().map(of_slice).fold(0.0, f64::max)
+    }
+
+    /// The slices one after the other.
+    pub fn slices(&self) -> impl Iterator<Item = &[f64]> {
+        self.wear_um.chunks_exact(self.radius_mm.len())
+    }
+
+    /// Depth at other radii and widths, slice after slice.
+    pub fn wear_at(&self, radius_mm: &[f64], width_mm: &[f64]) -> Vec<f64> {
+        let at_radii: Vec<Vec<f64>> =
+            self.slices().map(|slice| interpolated(&self.radius_mm, slice, radius_mm)).collect();
+        let slices: Vec<&[f64]> = at_radii.iter().map(Vec::as_slice).collect();
+        depths_at_widths(&self.width_mm, &slices, width_mm)
+    }
+}
+
+/// Values given at increasing `x`, at other places; beyond the ends the value there, 0 where there is none at all.
+pub fn interpolated(x: &[f64], values: &[f64], at: &[f64]) -> Vec<f64> {
+    at.iter()
+        .map(|&place| match (x.len(), values) {
+            (0, _) => 0.0,
+            (1, values) => values[0],
+            (_, values) => value_at(x, values, place),
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A straight line is met exactly between its points, and held beyond them.
+    #[test]
+    fn ver_interpolation_is_exact_for_straight_lines() {
+        let found = interpolated(&[0.0, 1.0, 3.0], &[1.0, 3.0, 7.0], &[-1.0, 0.5, 2.0, 3.0, 9.0]);
+        assert_eq!(found, [1.0, 2.0, 5.0, 7.0, 7.0]);
+        assert_eq!(interpolated(&[], &[], &[1.0]), [0.0]);
+        assert_eq!(interpolated(&[2.0], &[5.0], &[1.0, 3.0]), [5.0, 5.0]);
+    }
+}

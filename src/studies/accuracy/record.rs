@@ -1,0 +1,281 @@
+//! What the comparison of models by error and run time leaves behind, as plain data in the units of the output files.
+//!
+//! Field names are the key names of `accuracy.json`.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+pub use super::quantity::Quantity;
+use crate::gear::PerGear;
+use crate::results::run::{PathPoints, StopReason, WorkSummary};
+
+/// Name of the calibration beside the results.
+pub const CALIBRATION_FILE: &str = "calibration.json";
+
+/// A finished (or interrupted) comparison.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct AccuracyRecord {
+    /// The scene's title.
+    pub title: String,
+    /// Version of the program.
+    pub program_version: String,
+    /// First 16 hexadecimal digits of the SHA-256 of the resolved scene.
+    pub scene_hash: String,
+    /// Why it ended.
+    pub stopped: StopReason,
+    /// Wall time of everything until the report is written, s.
+    pub wall_s: f64,
+    /// Wall time of the calibration, s; `None` where the scene brings one, or none could be made.
+    pub calibration_s: Option<f64>,
+    /// Threads that every run could use.
+    pub threads: usize,
+    /// The relative error that the recommendations ask for.
+    pub within: f64,
+    /// What the others are measured against.
+    pub reference: ReferenceRecord,
+    /// Every run, in the order of the work.
+    pub variants: Vec<VariantRecord>,
+    /// What was not run, and why.
+    pub left_out: Vec<LeftOut>,
+    /// The cheapest setting for each quantity.
+    pub recommendations: Vec<Recommendation>,
+    /// Runs that differ in one respect only, side by side.
+    pub comparisons: Vec<Comparison>,
+    /// Runs to a greater depth; `None` where the scene has no slices.
+    pub deep_runs: Option<DeepRuns>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    /// The resolved scene as TOML.
+    #[serde(skip)]
+    pub scene_toml: String,
+    /// The scene of the recommended run of the wear profile, with errors estimated again.
+    #[serde(skip)]
+    pub recommended_toml: Option<String>,
+    /// The calibration that the runs were made with, as its file.
+    #[serde(skip)]
+    pub calibration_json: Option<String>,
+}
+
+/// The solution that the errors are measured against.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ReferenceRecord {
+    /// How it was obtained.
+    pub how: String,
+    /// What the errors against it do not tell; `None` where it is a finite-element solution of the whole pair.
+    pub does_not_tell: Option<String>,
+    /// What remains uncertain of each quantity, relative: errors below this are not told apart.
+    pub uncertainty: BTreeMap<Quantity, f64>,
+    /// The runs it was extrapolated from; indices of `variants`.
+    pub runs: Vec<usize>,
+    /// Greatest wear depth of each gear, µm.
+    pub peak_wear_um: PerGear<f64>,
+    /// Greatest pressure of the unworn pair away from sharp tip edges, MPa.
+    #[serde(rename = "peak_pressure_MPa")]
+    pub peak_pressure_mpa: f64,
+    /// Peak-to-peak transmission error, new and worn, µm.
+    pub transmission_error_peak_to_peak_um: [f64; 2],
+    /// Both flanks.
+    #[serde(skip)]
+    pub flanks: PerGear<ReferenceFlank>,
+}
+
+/// The reference's wear over one flank.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ReferenceFlank {
+    /// Distance from the gear's axis, mm.
+    pub radius_mm: Vec<f64>,
+    /// Place of each slice over the face width, mm: one where all sections are alike.
+    pub width_mm: Vec<f64>,
+    /// Wear depth, slice after slice, µm.
+    pub wear_um: Vec<f64>,
+    /// Greatest depth in the root zone of each slice, µm; empty where all sections are alike.
+    pub root_wear_um: Vec<f64>,
+    /// Radii of the points A–E.
+    pub path_point_radius_mm: Option<PathPoints>,
+}
+
+impl ReferenceFlank {
+    /// The slices that stand for all: the first, the middle and the last.
+    pub fn shown_slices(&self) -> Vec<usize> {
+        let last = self.width_mm.len().saturating_sub(1);
+        let mut shown = vec![0, self.width_mm.len() / 2, last];
+        shown.dedup();
+        shown
+    }
+
+    /// The values of `field`, given slice after slice at the points of this flank, on one slice.
+    pub fn slice<'a>(&self, field: &'a [f64], slice: usize) -> &'a [f64] {
+        let points = self.radius_mm.len();
+        field.get(slice * points..(slice + 1) * points).unwrap_or_default()
+    }
+}
+
+/// A run: what it was made of, what it took, and how far it is from the reference.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VariantRecord {
+    /// What it is called in tables and plots.
+    pub name: String,
+    /// What it is made of.
+    pub settings: VariantSettings,
+    /// Wall time of the wear run alone, s: the least of the repeats.
+    pub simulation_s: Option<f64>,
+    /// Wall time of everything before it (meshing, condensation, calibration, stiffness), s.
+    pub setup_s: Option<f64>,
+    /// How often it was run for its time.
+    pub repeats: u32,
+    /// Work done by the wear run.
+    pub work: Option<WorkSummary>,
+    /// Greatest wear depth of each gear, µm.
+    pub peak_wear_um: Option<PerGear<f64>>,
+    /// Error of each quantity.
+    pub errors: BTreeMap<Quantity, MeasuredError>,
+    /// Why there is no result, where there is none.
+    pub failure: Option<String>,
+    /// Whether the reference was extrapolated from it.
+    pub part_of_reference: bool,
+    /// Wear depth at the reference's radii and widths, slice after slice, µm; kept where it is shown.
+    #[serde(skip)]
+    pub wear_um: Option<PerGear<Vec<f64>>>,
+    /// Greatest depth in the root zone at the reference's widths, µm; kept where it is shown.
+    #[serde(skip)]
+    pub root_wear_um: Option<PerGear<Vec<f64>>>,
+}
+
+/// What a run was made of.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VariantSettings {
+    /// Name of the contact surface.
+    pub surface: String,
+    /// What K/H shares with Hertz or the calibration; `None` where the surface has no K/H.
+    #[serde(rename = "match")]
+    pub match_criterion: Option<String>,
+    /// Whether K/H is the calibration's, for every position and load.
+    pub calibrated: bool,
+    /// Whether a tip edge is followed into contact before A and after E.
+    pub tip_contact: bool,
+    /// Name of the stiffness model; `None` for `fem`, which has none.
+    pub stiffness: Option<String>,
+    /// Elements in the half-width of contact, of surface `fem`.
+    pub elements_per_half_width: Option<f64>,
+    /// Slices over the face width; `None` where all sections are alike.
+    pub slices: Option<usize>,
+    /// Name of their coupling.
+    pub coupling: Option<String>,
+    /// Intervals of a flank.
+    pub flank_points: usize,
+    /// Loading positions.
+    pub positions: usize,
+    /// Pinion revolutions a wear step.
+    pub step_revolutions: f64,
+    /// The scene's numbers of flank points and positions over these.
+    pub spacing_coarsening: u32,
+    /// This wear step over the scene's.
+    pub step_coarsening: u32,
+}
+
+/// An error and what it means beside run time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct MeasuredError {
+    /// Relative.
+    pub relative: f64,
+    /// Whether no faster run has a smaller error, the reference's uncertainty considered.
+    pub on_front: bool,
+}
+
+/// Something that was not run.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct LeftOut {
+    /// What.
+    pub what: String,
+    /// Why.
+    pub reason: String,
+}
+
+/// The cheapest setting whose error is within the one wanted.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Recommendation {
+    /// Of what.
+    pub quantity: Quantity,
+    /// Index of the run in `variants`; the one with the least error where none is within.
+    pub variant: usize,
+    /// Whether its error is within the one wanted.
+    pub is_within: bool,
+}
+
+/// Runs that differ in one respect only.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Comparison {
+    /// What they differ in.
+    pub title: String,
+    /// What they have in common.
+    pub common: String,
+    /// Name of the run that the others are compared with.
+    pub baseline: String,
+    /// The others.
+    pub rows: Vec<ComparisonRow>,
+}
+
+/// A run beside the baseline.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ComparisonRow {
+    /// The setting in which it differs.
+    pub name: String,
+    /// Relative L2 difference of the wear profile of each gear.
+    pub wear_profile: PerGear<f64>,
+    /// Relative difference of the greatest depth of each gear, signed.
+    pub peak_wear: PerGear<f64>,
+    /// Wall time of the wear run, s.
+    pub simulation_s: f64,
+}
+
+/// The models run to a greater depth, once with the scene's number of wear steps and once with fewer: a model whose wear
+/// oscillates from step to step then finds other depths, one that does not hardly notices.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DeepRuns {
+    /// What they have in common.
+    pub common: String,
+    /// The scene's revolutions times this.
+    pub revolutions_factor: f64,
+    /// The run that the profiles are compared with.
+    pub baseline: String,
+    /// Beyond this change of the greatest depth with the wear step a run is said to be unstable.
+    pub stable_within: f64,
+    /// The runs.
+    pub rows: Vec<DeepRow>,
+}
+
+/// One model run to a greater depth.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DeepRow {
+    /// The model.
+    pub name: String,
+    /// With the scene's number of wear steps.
+    pub usual: Option<DeepRun>,
+    /// With fewer wear steps.
+    pub fewer_steps: Option<DeepRun>,
+    /// Relative L2 difference of the wear profile from the baseline's, the larger of both gears'; `None` for the baseline.
+    pub wear_profile: Option<f64>,
+    /// Relative change of the greatest depth by the longer steps, the larger of both gears'.
+    pub peak_wear_change: Option<f64>,
+    /// Whether that is within what stable runs change.
+    pub stable: Option<bool>,
+    /// Why there is no result, where there is none.
+    pub failure: Option<String>,
+}
+
+/// One of its runs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DeepRun {
+    /// Wear steps taken.
+    pub wear_steps: u64,
+    /// Wall time of the wear run, s.
+    pub simulation_s: f64,
+    /// Greatest depth of each gear, µm.
+    pub peak_wear_um: PerGear<f64>,
+    /// ‖h − S h‖/‖h‖ of each gear, where S averages each point with its neighbours (1/4, 1/2, 1/4): what of the depth jumps
+    /// from point to point.
+    pub roughness: PerGear<f64>,
+    /// Whether the run warned of its wear step.
+    pub warned: bool,
+}

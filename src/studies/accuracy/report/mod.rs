@@ -1,0 +1,60 @@
+//! The files of a comparison of models by error and run time, written from its [`AccuracyRecord`] alone.
+//!
+//! | file | from |
+//! |---|---|
+//! | `accuracy.json` | [`AccuracyRecord`] |
+//! | `accuracy.csv`, `wear_profiles.csv` | [`tables`] |
+//! | `over_width.csv` | [`tables`]; of pairs with slices |
+//! | `scene.toml` | the resolved scene |
+//! | `recommended.toml`, `calibration.json` | the scene of the recommended run, ready for `gearwear run`, and what it reads |
+//! | `report.html` | `page` |
+
+mod front_figures;
+mod page;
+mod profile_figures;
+mod run_tables;
+pub mod tables;
+
+use std::path::{Path, PathBuf};
+
+use crate::report::tables::Provenance;
+use crate::report::{ReportError, create_folder, place, remove, summary};
+use crate::studies::accuracy::record::{AccuracyRecord, CALIBRATION_FILE};
+
+/// The file that is written last: its presence says that the others are complete.
+const LAST: &str = "accuracy.json";
+const RECOMMENDED: &str = "recommended.toml";
+const OVER_WIDTH: &str = "over_width.csv";
+
+/// Whether the pair was cut into slices over the face width.
+fn has_slices(record: &AccuracyRecord) -> bool {
+    record.variants.iter().any(|variant| variant.settings.slices.is_some())
+}
+
+/// Writes all files of `record` into `dir`, which is made if need be; returns their paths in the order written.
+pub fn write(record: &AccuracyRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+    create_folder(dir)?;
+    remove(dir, LAST)?;
+    // What an earlier comparison recommended must not pass for this one's.
+    remove(dir, RECOMMENDED)?;
+    remove(dir, OVER_WIDTH)?;
+    let provenance = Provenance::of_accuracy(record);
+    let mut written = vec![place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?];
+    for (name, text) in [(CALIBRATION_FILE, &record.calibration_json), (RECOMMENDED, &record.recommended_toml)] {
+        if let Some(text) = text {
+            written.push(place(dir, name, |out| out.write_all(text.as_bytes()))?);
+        }
+    }
+    written.extend([
+        place(dir, "accuracy.csv", |out| tables::runs(out, provenance, record))?,
+        place(dir, "wear_profiles.csv", |out| tables::profiles(out, provenance, record))?,
+    ]);
+    if has_slices(record) {
+        written.push(place(dir, OVER_WIDTH, |out| tables::over_width(out, provenance, record))?);
+    }
+    written.extend([
+        place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?,
+        place(dir, LAST, |out| summary::write(out, record))?,
+    ]);
+    Ok(written)
+}

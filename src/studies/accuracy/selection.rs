@@ -1,0 +1,291 @@
+//! Which settings are run, in which order, and which are not, with the reason.
+//!
+//! Not every combination tells something. The plan is
+//!
+//! * the finite-element surface on meshes of three sizes, each at every resolution of points, positions and steps; the
+//!   finest and some companions of it make the reference and come first;
+//! * every other surface with every stiffness at the finest resolution;
+//! * every other surface at the coarser resolutions, with the scene's own stiffness and with that of finite elements;
+//! * tip edges followed outside A to E, and not, with one stiffness only.
+//!
+//! A scene with slices over the face width has another plan: `sliced_selection`.
+
+use super::settings::{Bed, Coarsening, Setting, Stiffness, Surface};
+use super::sliced_selection;
+use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
+use crate::scene::Resolved;
+use crate::scene::file::StiffnessModel;
+use crate::studies::accuracy::record::LeftOut;
+
+/// Usual stiffness of a tooth pair of steel without flattening, where the scene gives none, N/(mm·µm).
+const USUAL_STIFFNESS_N_PER_MM_UM: f64 = 20.0;
+/// Sizes of the finite-element mesh beside the scene's: this share of its elements in a half-width.
+const COARSER_MESHES: [f64; 2] = [0.6, 0.4];
+/// Fewest elements in a half-width.
+const LEAST_ELEMENTS: f64 = 2.0;
+/// How much longer the wear steps of the reference's companions are. On a fine mesh Euler's steps are bounded by short
+/// waves of wear; much longer ones would not be of the order that is extrapolated with.
+pub(super) const COMPANION_STEP: u32 = 2;
+
+/// What is asked of the comparison beside the scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Asked {
+    /// The relative error that recommendations stay within.
+    pub within: f64,
+    /// Whether to leave the finest resolution out.
+    pub quick: bool,
+}
+
+/// Two runs of the reference that differ in one spacing; indices of the settings.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Companions {
+    /// The finer one.
+    pub fine: usize,
+    /// The coarser one.
+    pub coarse: usize,
+    /// Their spacings' ratio.
+    pub spacing: Spacing,
+}
+
+/// What differs between two companions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Spacing {
+    /// The size of elements, by this ratio.
+    Elements(f64),
+    /// The spacing of flank points and positions, by this ratio.
+    Points(f64),
+    /// The width of the slices, by this ratio.
+    Slices(f64),
+    /// The length of the wear step; the ratio follows from the steps taken.
+    Step,
+}
+
+/// What is run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Selection {
+    /// Every setting, in the order of the work; the first is the finest.
+    pub settings: Vec<Setting>,
+    /// From which of them the reference is extrapolated, beside the first.
+    pub companions: Vec<Companions>,
+    /// What is not run.
+    pub left_out: Vec<LeftOut>,
+}
+
+impl Selection {
+    /// The settings that fit the scene; `calibrated` says for which criteria there is a calibration, empty where there is
+    /// none, for `no_calibration`'s reason.
+    pub fn new(resolved: &Resolved, asked: Asked, calibrated: &[MatchCriterion], no_calibration: &str) -> Self {
+        let scene = &resolved.scene;
+        let finest = if asked.quick { 2 } else { 1 };
+        let mut levels = vec![finest];
+        let mut selection = Self { settings: Vec::new(), companions: Vec::new(), left_out: Vec::new() };
+        if asked.quick {
+            selection
+                .leave_out("the scene's own resolution", "--quick: half of its points, positions and steps at most");
+        }
+        for by in [2 * finest, 4 * finest] {
+            if Setting::fits(Coarsening::even(by), scene) {
+                levels.push(by);
+            } else {
+                selection.leave_out(
+                    &format!("1/{by} of the scene's points and positions"),
+                    "fewer than 20 points or positions would be left",
+                );
+            }
+        }
+        let stiffnesses = Stiffnesses::new(resolved, calibrated);
+        match scene.slices {
+            Some(slices) => sliced_selection::add(&mut selection, resolved, slices, &levels, calibrated, &stiffnesses),
+            None => {
+                selection.finite_elements(scene.fem.elements_per_half_width, &levels);
+                selection.line_of_action(resolved, &levels, calibrated, &stiffnesses);
+            }
+        }
+        selection.leave_out_of_all(resolved, calibrated, no_calibration);
+        selection
+    }
+
+    /// The finest setting with half of its points and positions, where it was run with that.
+    pub fn second_resolution(&self) -> Setting {
+        let finest = &self.settings[0];
+        let by = 2 * finest.coarsening.spacing;
+        let half = self.settings.iter().find(|setting| setting.coarsening.spacing == by);
+        half.unwrap_or(finest).clone()
+    }
+
+    pub(super) fn leave_out(&mut self, what: &str, reason: &str) {
+        self.left_out.push(LeftOut { what: what.to_owned(), reason: reason.to_owned() });
+    }
+
+    pub(super) fn add(&mut self, setting: Setting) -> usize {
+        if let Some(there) = self.settings.iter().position(|other| *other == setting) {
+            return there;
+        }
+        self.settings.push(setting);
+        self.settings.len() - 1
+    }
+
+    /// The reference with its companions, then the finite elements of other sizes.
+    fn finite_elements(&mut self, elements: f64, levels: &[u32]) {
+        let fem = |elements_per_half_width: f64, coarsening: Coarsening| Setting {
+            surface: Surface::Fem { elements_per_half_width },
+            tip_contact: false,
+            stiffness: None,
+            slices: None,
+            coarsening,
+        };
+        let mut meshes = vec![elements];
+        for share in COARSER_MESHES {
+            let coarser = (elements * share).round();
+            if coarser >= LEAST_ELEMENTS && !meshes.contains(&coarser) {
+                meshes.push(coarser);
+            } else {
+                self.leave_out(
+                    &format!("finite elements with {share} of the scene's {elements} elements in a half-width"),
+                    "too few elements",
+                );
+            }
+        }
+        let finest = levels[0];
+        let long_steps = Coarsening { spacing: finest, step: COMPANION_STEP * finest };
+        self.add(fem(elements, Coarsening::even(finest)));
+        let long = self.add(fem(elements, long_steps));
+        self.companions.push(Companions { fine: 0, coarse: long, spacing: Spacing::Step });
+        if let Some(&coarser) = meshes.get(1) {
+            let coarse = self.add(fem(coarser, long_steps));
+            self.companions.push(Companions { fine: long, coarse, spacing: Spacing::Elements(elements / coarser) });
+        }
+        let cheapest = meshes.get(1).copied().unwrap_or(elements);
+        if let Some(&wider) = levels.get(1) {
+            let fine = self.add(fem(cheapest, long_steps));
+            let coarse = self.add(fem(cheapest, Coarsening { spacing: wider, ..long_steps }));
+            let ratio = f64::from(wider) / f64::from(finest);
+            self.companions.push(Companions { fine, coarse, spacing: Spacing::Points(ratio) });
+        }
+        for mesh in meshes {
+            for &by in levels {
+                self.add(fem(mesh, Coarsening::even(by)));
+            }
+        }
+    }
+
+    /// Everything on the theoretical line of action.
+    fn line_of_action(
+        &mut self,
+        resolved: &Resolved,
+        levels: &[u32],
+        calibrated: &[MatchCriterion],
+        with: &Stiffnesses,
+    ) {
+        let has_calibration = !calibrated.is_empty();
+        let Stiffnesses { all: stiffnesses, tried } = with;
+        let best = &with.best().name;
+        let finest = levels[0];
+        for surface in surfaces(resolved, calibrated) {
+            for &by in levels {
+                for stiffness in stiffnesses {
+                    if by != finest && !tried.contains(&stiffness.name) {
+                        continue;
+                    }
+                    let setting = |tip_contact| Setting {
+                        surface,
+                        tip_contact,
+                        stiffness: Some(stiffness.clone()),
+                        slices: None,
+                        coarsening: Coarsening::even(by),
+                    };
+                    let follows = follows_tip(surface, has_calibration);
+                    self.add(setting(follows));
+                    if surface.may_follow_tip() && by == finest && stiffness.name == *best {
+                        self.add(setting(!follows));
+                    }
+                }
+            }
+        }
+        if levels.len() > 1 && stiffnesses.len() > tried.len() {
+            self.leave_out(
+                &format!("coarser resolutions with other stiffnesses than {}", tried.join(" and ")),
+                "the resolution's error hardly depends on the stiffness",
+            );
+        }
+        if stiffnesses.len() > 1 {
+            self.leave_out(
+                &format!("tip edges followed, and not, with another stiffness than {best}"),
+                "what the tip edge changes hardly depends on the stiffness",
+            );
+        }
+    }
+
+    /// What no scene is run with.
+    fn leave_out_of_all(&mut self, resolved: &Resolved, calibrated: &[MatchCriterion], no_calibration: &str) {
+        let own = resolved.file.stiffness.as_ref().and_then(|stiffness| stiffness.model);
+        for (model, name) in [(StiffnessModel::Simon, "simon"), (StiffnessModel::WangCheng, "wang-cheng")] {
+            if own != Some(model) {
+                self.leave_out(&format!("stiffness {name}"), "a curve of the user's; the scene gives none");
+            }
+        }
+        if calibrated.is_empty() {
+            self.leave_out("stiffness fem and calibrated winkler", no_calibration);
+        }
+        self.leave_out("several resolutions of points, positions and steps in one run", "they are refined together");
+    }
+}
+
+/// The stiffnesses that fit a scene.
+pub(super) struct Stiffnesses {
+    /// All of them, each once.
+    pub all: Vec<Stiffness>,
+    /// Names of those that more than one resolution is tried with, the best last.
+    pub tried: Vec<String>,
+}
+
+impl Stiffnesses {
+    fn new(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Self {
+        let has_calibration = !calibrated.is_empty();
+        let own = (resolved.scene.contact.surface != SurfaceKind::Fem).then(|| Stiffness::of_scene(resolved));
+        let own = own.filter(|own| has_calibration || own.file.model != Some(StiffnessModel::Fem));
+        let of_fem = has_calibration.then(|| Stiffness::of_model(StiffnessModel::Fem, "fem"));
+        let own_is_constant = own.as_ref().is_some_and(|own| own.file.model == Some(StiffnessModel::Constant));
+        let usual = (!own_is_constant).then(|| Stiffness::constant(USUAL_STIFFNESS_N_PER_MM_UM));
+        let weber_banaschek = Stiffness::of_model(StiffnessModel::WeberBanaschek, "weber-banaschek");
+        let mut tried: Vec<String> = own.iter().chain(&of_fem).map(|stiffness| stiffness.name.clone()).collect();
+        if tried.is_empty() {
+            tried.push(weber_banaschek.name.clone());
+        }
+        let closed_forms = [weber_banaschek, Stiffness::of_model(StiffnessModel::Iso6336, "iso6336")];
+        let mut all: Vec<Stiffness> = Vec::new();
+        for stiffness in own.into_iter().chain(of_fem).chain(closed_forms).chain(usual) {
+            if all.iter().all(|other| other.name != stiffness.name) {
+                all.push(stiffness);
+            }
+        }
+        Self { all, tried }
+    }
+
+    /// The one that tip edges are tried with: that of finite elements where there is one.
+    pub fn best(&self) -> &Stiffness {
+        let name = self.tried.last();
+        self.all.iter().find(|stiffness| Some(&stiffness.name) == name).unwrap_or(&self.all[0])
+    }
+}
+
+/// The surfaces on the line of action, from cheap to true.
+pub(super) fn surfaces(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Vec<Surface> {
+    let mut surfaces = vec![Surface::HertzMean, Surface::Hertz];
+    if let Foundation::Given { foundation_mpa_per_mm } = resolved.scene.contact.foundation {
+        surfaces.push(Surface::Winkler(Bed::Given { foundation_mpa_per_mm }));
+    }
+    surfaces.extend(MatchCriterion::ALL.map(|criterion| Surface::Winkler(Bed::Matched(criterion))));
+    surfaces.extend(calibrated.iter().map(|&criterion| Surface::Winkler(Bed::Calibrated(criterion))));
+    surfaces.push(Surface::HalfSpace);
+    surfaces
+}
+
+/// Whether a surface follows tip edges where nothing else is tried: the calibrated and the true ones do.
+fn follows_tip(surface: Surface, has_calibration: bool) -> bool {
+    match surface {
+        Surface::Winkler(Bed::Calibrated(_)) => true,
+        Surface::HalfSpace => has_calibration,
+        _ => false,
+    }
+}

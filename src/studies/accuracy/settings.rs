@@ -1,0 +1,279 @@
+//! A setting of the models and their resolution, and the scene it stands for.
+//!
+//! The scene is the user's file with some keys changed, resolved again: what was measured can be repeated by
+//! `gearwear run` on that file, and the checks of scenes hold for settings as well.
+
+use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
+use crate::mesh_cycle::settings::{Coupling, SliceSettings};
+use crate::scene::file::{HelicalFile, NumericsFile, StepFile, StiffnessFile, StiffnessModel};
+use crate::scene::{Problem, Resolved, Scene};
+use crate::studies::accuracy::record::VariantSettings;
+
+/// Fewest points and positions of a setting: the least that a scene may ask for.
+pub const LEAST_POINTS: usize = 20;
+
+/// Where the Winkler bed gets its K/H from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bed {
+    /// By hand, MPa/mm.
+    Given {
+        /// K/H.
+        foundation_mpa_per_mm: f64,
+    },
+    /// One value, matched to Hertz at the pitch point.
+    Matched(MatchCriterion),
+    /// For every position and load, from the calibration.
+    Calibrated(MatchCriterion),
+}
+
+/// A contact surface with what it needs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Surface {
+    /// Mean Hertz pressure.
+    HertzMean,
+    /// Hertz's ellipse.
+    Hertz,
+    /// Independent springs.
+    Winkler(Bed),
+    /// Elastic half-planes.
+    HalfSpace,
+    /// Finite elements.
+    Fem {
+        /// Elements in the half-width of contact.
+        elements_per_half_width: f64,
+    },
+}
+
+/// How much coarser than the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Coarsening {
+    /// The scene's numbers of flank points and positions are divided by this.
+    pub spacing: u32,
+    /// The scene's wear step is multiplied by this.
+    pub step: u32,
+}
+
+impl Coarsening {
+    /// Points, positions and steps alike.
+    pub fn even(by: u32) -> Self {
+        Self { spacing: by, step: by }
+    }
+
+    /// "1", "1/2", "points 1, steps 1/4".
+    fn name(self) -> String {
+        let part = |by: u32| if by == 1 { "1".to_owned() } else { format!("1/{by}") };
+        if self.spacing == self.step {
+            part(self.spacing)
+        } else {
+            format!("points {}, steps {}", part(self.spacing), part(self.step))
+        }
+    }
+}
+
+/// A tooth stiffness as a scene asks for it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stiffness {
+    /// The scene's section.
+    pub file: StiffnessFile,
+    /// What it is called: `constant 20`, `weber-banaschek`.
+    pub name: String,
+}
+
+/// One setting.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setting {
+    /// How the flanks touch.
+    pub surface: Surface,
+    /// Whether a tip edge is followed outside A to E, by the surfaces that can.
+    pub tip_contact: bool,
+    /// How the teeth yield; `None` for finite elements.
+    pub stiffness: Option<Stiffness>,
+    /// The slices over the face width; none where all sections are alike.
+    pub slices: Option<SliceSettings>,
+    /// How finely.
+    pub coarsening: Coarsening,
+}
+
+impl Surface {
+    /// The scene's own, with the scene's own K/H.
+    pub fn of_scene(resolved: &Resolved) -> Self {
+        let contact = &resolved.scene.contact;
+        match (contact.surface, contact.foundation) {
+            (SurfaceKind::HertzMean, _) => Self::HertzMean,
+            (SurfaceKind::Hertz, _) => Self::Hertz,
+            (SurfaceKind::HalfSpace, _) => Self::HalfSpace,
+            (_, Foundation::Given { foundation_mpa_per_mm }) => Self::Winkler(Bed::Given { foundation_mpa_per_mm }),
+            (_, Foundation::Matched(criterion)) => Self::Winkler(Bed::Matched(criterion)),
+            (_, Foundation::Calibrated(criterion)) => Self::Winkler(Bed::Calibrated(criterion)),
+        }
+    }
+
+    /// `winkler peak-pressure, calibrated`, `fem 10`.
+    pub fn name(self) -> String {
+        match self {
+            Self::HertzMean => "hertz-mean".to_owned(),
+            Self::Hertz => "hertz".to_owned(),
+            Self::Winkler(Bed::Given { .. }) => "winkler, K/H given".to_owned(),
+            Self::Winkler(Bed::Matched(criterion)) => format!("winkler {}", criterion.name()),
+            Self::Winkler(Bed::Calibrated(criterion)) => format!("winkler {}, calibrated", criterion.name()),
+            Self::HalfSpace => "half-space".to_owned(),
+            Self::Fem { elements_per_half_width } => format!("fem {elements_per_half_width}"),
+        }
+    }
+
+    /// Whether it knows the gap of the flanks beside the line of action, and so may follow a tip edge.
+    pub fn may_follow_tip(self) -> bool {
+        matches!(self, Self::Winkler(_) | Self::HalfSpace)
+    }
+
+    /// The model.
+    pub fn kind(self) -> SurfaceKind {
+        match self {
+            Self::HertzMean => SurfaceKind::HertzMean,
+            Self::Hertz => SurfaceKind::Hertz,
+            Self::Winkler(_) => SurfaceKind::Winkler,
+            Self::HalfSpace => SurfaceKind::HalfSpace,
+            Self::Fem { .. } => SurfaceKind::Fem,
+        }
+    }
+}
+
+impl Stiffness {
+    /// A model without data of its own.
+    pub fn of_model(model: StiffnessModel, name: &str) -> Self {
+        Self { file: StiffnessFile { model: Some(model), ..StiffnessFile::default() }, name: name.to_owned() }
+    }
+
+    /// One value for the spring of the teeth, N/(mm·µm).
+    pub fn constant(pair_n_per_mm_um: f64) -> Self {
+        let file = StiffnessFile {
+            model: Some(StiffnessModel::Constant),
+            pair_N_per_mm_um: Some(pair_n_per_mm_um),
+            ..StiffnessFile::default()
+        };
+        Self { file, name: format!("constant {pair_n_per_mm_um}") }
+    }
+
+    /// The scene's own.
+    pub fn of_scene(resolved: &Resolved) -> Self {
+        let file = resolved.file.stiffness.clone().unwrap_or_default();
+        match file.pair_N_per_mm_um.filter(|_| file.model == Some(StiffnessModel::Constant)) {
+            Some(value) => Self::constant(value),
+            None => Self { file, name: resolved.scene.stiffness.name().to_owned() },
+        }
+    }
+}
+
+/// The wear step that everything is compared with: Euler's.
+pub fn euler_revolutions(scene: &Scene) -> f64 {
+    scene.numerics.stepping.euler_revolutions(scene.operation.pinion_revolutions)
+}
+
+/// `coupled`, `uncoupled`.
+pub fn coupling_name(coupling: Coupling) -> &'static str {
+    match coupling {
+        Coupling::None => "uncoupled",
+        Coupling::Slicing => "coupled",
+    }
+}
+
+impl Setting {
+    /// What it is called in tables and plots.
+    pub fn name(&self) -> String {
+        let mut name = self.surface.name();
+        if self.surface.may_follow_tip() && self.tip_contact {
+            name.push_str(", tip contact");
+        }
+        if let Some(stiffness) = &self.stiffness {
+            name.push_str(&format!(" · {}", stiffness.name));
+        }
+        if let Some(SliceSettings { count, coupling }) = self.slices {
+            name.push_str(&format!(" · {count} slices, {}", coupling_name(coupling)));
+        }
+        name.push_str(&format!(" · {}", self.coarsening.name()));
+        name
+    }
+
+    /// Whether `scene` is fine enough to be coarsened like this.
+    pub fn fits(coarsening: Coarsening, scene: &Scene) -> bool {
+        let numerics = scene.numerics;
+        coarsening.spacing == 1
+            || numerics.flank_points.min(numerics.positions) / coarsening.spacing as usize >= LEAST_POINTS
+    }
+
+    /// The scene it stands for. `calibration` is the name of the calibration file where there is a calibration.
+    ///
+    /// # Errors
+    /// What the checks of scenes find.
+    pub fn scene(&self, base: &Resolved, calibration: Option<&str>) -> Result<Resolved, Vec<Problem>> {
+        let mut file = base.file.clone();
+        let contact = file.contact.get_or_insert_default();
+        contact.surface = Some(self.surface.kind());
+        contact.tip_contact = self.surface.may_follow_tip().then_some(self.tip_contact);
+        contact.match_criterion = None;
+        contact.foundation_MPa_per_mm = None;
+        contact.calibration = None;
+        // A calibration that is given makes every Winkler bed a calibrated one.
+        let reads_calibration = self.stiffness.as_ref().is_some_and(|s| s.file.model == Some(StiffnessModel::Fem));
+        match self.surface {
+            Surface::Winkler(Bed::Given { foundation_mpa_per_mm }) => {
+                contact.foundation_MPa_per_mm = Some(foundation_mpa_per_mm);
+            }
+            Surface::Winkler(Bed::Matched(criterion)) => contact.match_criterion = Some(criterion),
+            Surface::Winkler(Bed::Calibrated(criterion)) => {
+                contact.match_criterion = Some(criterion);
+                contact.calibration = calibration.map(str::to_owned);
+            }
+            Surface::Hertz | Surface::HertzMean | Surface::HalfSpace if reads_calibration => {
+                contact.calibration = calibration.map(str::to_owned);
+            }
+            Surface::Hertz | Surface::HertzMean | Surface::HalfSpace => {}
+            Surface::Fem { elements_per_half_width } => {
+                file.fem.get_or_insert_default().elements_per_half_width = Some(elements_per_half_width);
+            }
+        }
+        if let Some(SliceSettings { count, coupling }) = self.slices {
+            file.helical = Some(HelicalFile { slices: Some(count as u32), coupling: Some(coupling) });
+        }
+        file.stiffness = self.stiffness.as_ref().map(|stiffness| stiffness.file.clone());
+        let numerics = base.scene.numerics;
+        let coarser = |count: usize| (count as u32 / self.coarsening.spacing).max(LEAST_POINTS as u32);
+        file.numerics = Some(NumericsFile {
+            flank_points: Some(coarser(numerics.flank_points)),
+            positions: Some(coarser(numerics.positions)),
+            error_estimate: Some(false),
+            step: Some(StepFile::fixed(f64::from(self.coarsening.step) * euler_revolutions(&base.scene))),
+            ..NumericsFile::default()
+        });
+        Scene::from_toml(&file.to_toml())
+    }
+
+    /// What the record says of it.
+    pub fn record(&self, scene: &Scene) -> VariantSettings {
+        let (match_criterion, calibrated) = match self.surface {
+            Surface::Winkler(Bed::Matched(criterion)) => (Some(criterion.name().to_owned()), false),
+            Surface::Winkler(Bed::Calibrated(criterion)) => (Some(criterion.name().to_owned()), true),
+            Surface::Winkler(Bed::Given { .. }) => (Some("given".to_owned()), false),
+            _ => (None, false),
+        };
+        let elements_per_half_width = match self.surface {
+            Surface::Fem { elements_per_half_width } => Some(elements_per_half_width),
+            _ => None,
+        };
+        VariantSettings {
+            surface: self.surface.kind().name().to_owned(),
+            match_criterion,
+            calibrated,
+            tip_contact: self.tip_contact || elements_per_half_width.is_some(),
+            stiffness: self.stiffness.as_ref().map(|stiffness| stiffness.name.clone()),
+            elements_per_half_width,
+            slices: self.slices.map(|slices| slices.count),
+            coupling: self.slices.map(|slices| slices.coupling.name().to_owned()),
+            flank_points: scene.numerics.flank_points,
+            positions: scene.numerics.positions,
+            step_revolutions: euler_revolutions(scene),
+            spacing_coarsening: self.coarsening.spacing,
+            step_coarsening: self.coarsening.step,
+        }
+    }
+}

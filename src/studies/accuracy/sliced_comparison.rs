@@ -1,0 +1,110 @@
+//! Runs of a pair with slices that differ in one respect only, side by side.
+//!
+//! | table | differs in | against |
+//! |---|---|---|
+//! | coupling | whether slices are coupled | the same surface, coupled |
+//! | simplified model | mean pressure in place of Hertz's ellipse | `hertz` with the same coupling |
+//! | contact surface | the surface, all of them coupled | `half-space`, tip edges followed |
+//! | tooth stiffness | the stiffness, on the scene's surface | that of finite elements |
+
+use super::comparison::{Run, row, stiffnesses};
+use super::settings::{Setting, Surface, coupling_name};
+use crate::mesh_cycle::settings::{Coupling, SliceSettings};
+use crate::scene::Resolved;
+use crate::studies::accuracy::record::Comparison;
+
+/// All tables that have rows.
+pub(super) fn comparisons(resolved: &Resolved, runs: &[Run<'_>]) -> Vec<Comparison> {
+    let Some(own) = resolved.scene.slices else { return Vec::new() };
+    let on_own_slices = runs.iter().copied().filter(|run| run.setting.slices.is_some_and(|s| s.count == own.count));
+    let even: Vec<Run<'_>> =
+        on_own_slices.filter(|run| run.setting.coarsening.spacing == run.setting.coarsening.step).collect();
+    let Some(finest) = even.iter().map(|run| run.setting.coarsening.spacing).min() else { return Vec::new() };
+    let at =
+        |by: u32| -> Vec<Run<'_>> { even.iter().copied().filter(|run| run.setting.coarsening.spacing == by).collect() };
+    let runs = at(finest);
+    // Stiffnesses are tried at the second resolution where there is one.
+    let scenes_own: Vec<Run<'_>> = [2 * finest, finest]
+        .into_iter()
+        .map(|by| at(by).into_iter().filter(|run| run.setting.slices == Some(own)).collect::<Vec<_>>())
+        .find(|runs| !runs.is_empty())
+        .unwrap_or_default();
+    [
+        coupling(&runs, own.count),
+        simplified(&runs, own.count),
+        surfaces(&runs, own.count),
+        stiffnesses(resolved, &scenes_own),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// The run that differs from `run` in what `change` does to its setting only.
+fn counterpart<'a>(runs: &[Run<'a>], run: &Run<'_>, change: impl Fn(&mut Setting)) -> Option<Run<'a>> {
+    let mut wanted = run.setting.clone();
+    change(&mut wanted);
+    runs.iter().copied().find(|other| *other.setting == wanted)
+}
+
+fn coupling_of(run: &Run<'_>) -> Coupling {
+    run.setting.slices.map_or(Coupling::None, |slices| slices.coupling)
+}
+
+fn table(
+    title: &str,
+    common: String,
+    baseline: &str,
+    rows: Vec<crate::studies::accuracy::record::ComparisonRow>,
+) -> Option<Comparison> {
+    (!rows.is_empty()).then(|| Comparison { title: title.to_owned(), common, baseline: baseline.to_owned(), rows })
+}
+
+/// Every surface uncoupled, against itself coupled.
+fn coupling(runs: &[Run<'_>], slices: usize) -> Option<Comparison> {
+    let rows = runs
+        .iter()
+        .filter(|run| coupling_of(run) == Coupling::None)
+        .filter_map(|run| {
+            let coupled = counterpart(runs, run, |setting| {
+                setting.slices = setting.slices.map(|s| SliceSettings { coupling: Coupling::Slicing, ..s });
+            })?;
+            Some(row(format!("{}, uncoupled", surface_name(run)), run, &coupled))
+        })
+        .collect();
+    table("Coupling of slices", format!("{slices} slices, each surface by itself"), "the same surface, coupled", rows)
+}
+
+/// The simplified model against the distributed pressure it stands for.
+fn simplified(runs: &[Run<'_>], slices: usize) -> Option<Comparison> {
+    let rows = runs
+        .iter()
+        .filter(|run| run.setting.surface == Surface::HertzMean)
+        .filter_map(|run| {
+            let hertz = counterpart(runs, run, |setting| setting.surface = Surface::Hertz)?;
+            Some(row(format!("hertz-mean, {}", coupling_name(coupling_of(run))), run, &hertz))
+        })
+        .collect();
+    table("Simplified model", format!("{slices} slices, coupling alike"), "surface hertz", rows)
+}
+
+/// All coupled surfaces against elastic half-planes.
+fn surfaces(runs: &[Run<'_>], slices: usize) -> Option<Comparison> {
+    let coupled: Vec<&Run<'_>> = runs.iter().filter(|run| coupling_of(run) == Coupling::Slicing).collect();
+    let baseline =
+        coupled.iter().find(|run| run.setting.surface == Surface::HalfSpace && run.setting.tip_contact).copied()?;
+    let stiffness = &baseline.setting.stiffness;
+    let rows = coupled
+        .iter()
+        .filter(|run| run.setting.stiffness == *stiffness && run.setting != baseline.setting)
+        .map(|run| row(surface_name(run), run, baseline))
+        .collect();
+    let name = stiffness.as_ref().map_or("", |stiffness| &stiffness.name);
+    let common = format!("{slices} slices, coupled, stiffness {name}");
+    table("Contact surface", common, "surface half-space, tip contact", rows)
+}
+
+fn surface_name(run: &Run<'_>) -> String {
+    let tip = if run.setting.tip_contact { ", tip contact" } else { "" };
+    format!("{}{tip}", run.setting.surface.name())
+}

@@ -1,0 +1,292 @@
+//! The comparison itself: run every setting, build the reference, measure errors, recommend.
+
+use std::time::Instant;
+
+use super::comparison::{self, Run};
+use super::deep_runs;
+use super::front::{Point, cheapest_within, on_front};
+use super::measure::{Windows, errors, peak_pressure_mpa, peak_to_peak};
+use super::observed::Observed;
+use super::reference::{Correction, Reference};
+use super::selection::{Asked, Companions, Selection, Spacing};
+use super::settings::Setting;
+pub use super::timed_run::Observer;
+use super::timed_run::{Finished, Measured, Within, measure};
+use crate::calibration::Calibration;
+use crate::contact::settings::MatchCriterion;
+use crate::gear::{Gear, PerGear};
+use crate::pipeline::calibrate::{self, CalibrateError, Extent};
+use crate::pipeline::inputs::Inputs;
+use crate::results::run::StopReason;
+use crate::scene::Resolved;
+use crate::studies::accuracy::record::{
+    AccuracyRecord, CALIBRATION_FILE, MeasuredError, Quantity, Recommendation, ReferenceFlank, ReferenceRecord,
+    VariantRecord,
+};
+
+/// Least ratio of the wear steps taken of which anything is learned.
+const LEAST_STEP_RATIO: f64 = 1.2;
+/// What a reference without finite elements over the face width leaves open.
+const DOES_NOT_TELL: &str = "There is no three-dimensional finite-element solution of the pair: the finite elements are plane. \
+                             The errors are those of the contact surface, of the coupling of slices against that of the reference, \
+                             and of the resolution; how true the coupling itself is they do not tell.";
+
+/// Why there is nothing to compare.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum AccuracyError {
+    /// A run of the reference failed.
+    #[error("the reference, {name}: {reason}")]
+    Reference {
+        /// Which run.
+        name: String,
+        /// Why.
+        reason: String,
+    },
+    /// The user interrupted before the reference was finished.
+    #[error("interrupted before the reference was finished")]
+    Interrupted,
+}
+
+/// Runs every setting that fits the scene and compares them.
+///
+/// A setting that fails is a row with its failure; an interrupt ends the comparison with what is finished by then.
+///
+/// # Errors
+/// [`AccuracyError`] where the reference is not finished.
+pub fn run(
+    resolved: &Resolved,
+    inputs: &Inputs,
+    asked: Asked,
+    observer: &dyn Observer,
+) -> Result<AccuracyRecord, AccuracyError> {
+    let start = Instant::now();
+    let calibration = calibration(resolved, inputs, observer)?;
+    let inputs = &Inputs { calibration: calibration.made, ..inputs.clone() };
+    let calibrated: Vec<MatchCriterion> =
+        inputs.calibration.as_ref().map_or_else(Vec::new, |made| made.foundation.keys().copied().collect());
+    let selection = Selection::new(resolved, asked, &calibrated, &calibration.why_none);
+    let settings = selection.settings.len();
+    let count = settings + if resolved.scene.slices.is_some() { deep_runs::RUNS } else { 0 };
+    let mut measured: Vec<Measured> = Vec::with_capacity(settings);
+    for (number, setting) in selection.settings.iter().enumerate() {
+        observer.variant(number, count, &setting.name());
+        match measure(setting, resolved, inputs, &Within { observer, number, count }) {
+            Some(one) => measured.push(one),
+            None => break,
+        }
+    }
+    let deep_runs = match measured.len() == settings {
+        true => deep_runs::run(resolved, &selection.second_resolution(), inputs, observer, settings, count),
+        false => None,
+    };
+    let all_deep_runs = deep_runs.is_some() == resolved.scene.slices.is_some();
+    let stopped =
+        if measured.len() == settings && all_deep_runs { StopReason::Completed } else { StopReason::Interrupted };
+    let windows = windows(resolved, &measured)?;
+    let (reference, runs) = reference(&selection, &measured, &windows)?;
+    let at_reference: Vec<Option<Observed>> = measured
+        .iter()
+        .map(|one| one.finished.as_ref().map(|run| run.observed.at_coordinates_of(&reference.observed)))
+        .collect();
+    let mut variants: Vec<VariantRecord> = measured.iter().map(|one| one.record.clone()).collect();
+    for &index in &runs {
+        variants[index].part_of_reference = true;
+    }
+    add_errors(&mut variants, &at_reference, &reference, &windows);
+    let finest = selection.settings[0].coarsening;
+    for ((variant, observed), setting) in variants.iter_mut().zip(&at_reference).zip(&selection.settings) {
+        // The reference's own slices would show the same curves once more.
+        let own_slices = setting.slices.map(|s| s.count) == resolved.scene.slices.map(|s| s.count);
+        if setting.coarsening == finest && own_slices {
+            variant.wear_um = observed.as_ref().map(|o| PerGear::from_fn(|gear| o.flanks[gear].wear_um.clone()));
+            let over_width = observed.as_ref().and_then(|o| o.over_width.as_ref());
+            variant.root_wear_um = over_width.map(|o| o.root_wear_um.clone());
+        }
+    }
+    let compared: Vec<Run<'_>> = selection
+        .settings
+        .iter()
+        .zip(&at_reference)
+        .zip(&variants)
+        .filter_map(|((setting, observed), variant)| {
+            Some(Run { setting, observed: observed.as_ref()?, simulation_s: variant.simulation_s? })
+        })
+        .collect();
+    let recommendations = recommendations(&variants, asked.within);
+    Ok(AccuracyRecord {
+        recommended_toml: recommended_toml(&recommendations, &selection.settings, resolved),
+        calibration_json: inputs.calibration.as_ref().map(Calibration::to_json),
+        calibration_s: calibration.wall_s,
+        title: resolved.scene.title.clone(),
+        program_version: env!("CARGO_PKG_VERSION").to_owned(),
+        scene_hash: resolved.scene_hash(),
+        stopped,
+        threads: rayon::current_num_threads(),
+        within: asked.within,
+        recommendations,
+        comparisons: comparison::comparisons(resolved, &compared),
+        deep_runs,
+        reference: reference_record(&selection, &measured, reference, runs, &windows),
+        variants,
+        left_out: selection.left_out,
+        warnings: resolved.warnings.clone(),
+        scene_toml: resolved.to_toml(),
+        wall_s: start.elapsed().as_secs_f64(),
+    })
+}
+
+/// The calibration that the runs read.
+struct Calibrated {
+    made: Option<Calibration>,
+    wall_s: Option<f64>,
+    /// Why there is none.
+    why_none: String,
+}
+
+/// The scene's own, or one made now.
+fn calibration(resolved: &Resolved, inputs: &Inputs, observer: &dyn Observer) -> Result<Calibrated, AccuracyError> {
+    if let Some(given) = &inputs.calibration {
+        return Ok(Calibrated { made: Some(given.clone()), wall_s: None, why_none: String::new() });
+    }
+    observer.calibration();
+    match calibrate::run(&resolved.scene, Extent::FastModel, &Within { observer, number: 0, count: usize::MAX }) {
+        Ok(done) => Ok(Calibrated { made: Some(done.calibration), wall_s: Some(done.wall_s), why_none: String::new() }),
+        Err(CalibrateError::Interrupted) => Err(AccuracyError::Interrupted),
+        Err(error) => Ok(Calibrated { made: None, wall_s: None, why_none: format!("no calibration: {error}") }),
+    }
+}
+
+/// The scene of the recommended run of the wear profile, with errors estimated again.
+fn recommended_toml(recommendations: &[Recommendation], settings: &[Setting], resolved: &Resolved) -> Option<String> {
+    let chosen = recommendations.iter().find(|r| r.quantity == Quantity::WearProfile)?;
+    let mut file = settings.get(chosen.variant)?.scene(resolved, Some(CALIBRATION_FILE)).ok()?.file;
+    file.numerics.get_or_insert_default().error_estimate = Some(true);
+    Some(file.to_toml())
+}
+
+/// A run of the reference, which must be there.
+fn finished(measured: &[Measured], index: usize) -> Result<&Finished, AccuracyError> {
+    let one = measured.get(index).ok_or(AccuracyError::Interrupted)?;
+    one.finished.as_ref().ok_or_else(|| AccuracyError::Reference {
+        name: one.record.name.clone(),
+        reason: one.record.failure.clone().unwrap_or_default(),
+    })
+}
+
+fn windows(resolved: &Resolved, measured: &[Measured]) -> Result<Windows, AccuracyError> {
+    let summary = &finished(measured, 0)?.summary;
+    let sharp = PerGear::from_fn(|gear| resolved.scene.pair.gears[gear].modification.tip_rounding_mm == 0.0);
+    Ok(Windows::new(&summary.geometry.curvature_radius_mm, sharp, summary.contact.hertz_half_width_mm))
+}
+
+/// The reference, and the indices of the runs it was made from.
+fn reference(
+    selection: &Selection,
+    measured: &[Measured],
+    windows: &Windows,
+) -> Result<(Reference, Vec<usize>), AccuracyError> {
+    let finest = &finished(measured, 0)?.observed;
+    let mut corrections = Vec::new();
+    let mut runs = vec![0];
+    for &Companions { fine, coarse, spacing } in &selection.companions {
+        let (fine_run, coarse_run) = (finished(measured, fine)?, finished(measured, coarse)?);
+        let steps = |run: &Finished| run.summary.work.wear_steps as f64;
+        let (ratio, order) = match spacing {
+            Spacing::Elements(ratio) | Spacing::Points(ratio) => (ratio, 2),
+            Spacing::Slices(ratio) => (ratio, 1),
+            Spacing::Step => (steps(fine_run) / steps(coarse_run), 1),
+        };
+        runs.extend([fine, coarse]);
+        if ratio >= LEAST_STEP_RATIO {
+            corrections.push(Correction { fine: &fine_run.observed, coarse: &coarse_run.observed, ratio, order });
+        }
+    }
+    runs.sort_unstable();
+    runs.dedup();
+    Ok((Reference::extrapolated(finest, &corrections, windows), runs))
+}
+
+/// Measures every run against the reference, and marks the fronts.
+fn add_errors(variants: &mut [VariantRecord], at: &[Option<Observed>], reference: &Reference, windows: &Windows) {
+    let all: Vec<_> =
+        at.iter().map(|observed| observed.as_ref().map(|o| errors(o, &reference.observed, windows))).collect();
+    for quantity in Quantity::ALL {
+        let points: Vec<Point> = variants
+            .iter()
+            .zip(&all)
+            .map(|(variant, errors)| Point {
+                wall_s: variant.simulation_s.unwrap_or(f64::NAN),
+                error: errors.as_ref().and_then(|errors| errors.get(&quantity)).copied().unwrap_or(f64::NAN),
+            })
+            .collect();
+        let uncertainty = reference.uncertainty.get(&quantity).copied().unwrap_or(0.0);
+        let front = on_front(&points, uncertainty);
+        for ((variant, point), on_front) in variants.iter_mut().zip(points).zip(front) {
+            if !point.error.is_nan() {
+                variant.errors.insert(quantity, MeasuredError { relative: point.error, on_front });
+            }
+        }
+    }
+}
+
+fn recommendations(variants: &[VariantRecord], within: f64) -> Vec<Recommendation> {
+    Quantity::ALL
+        .into_iter()
+        .filter_map(|quantity| {
+            let points: Vec<Point> = variants
+                .iter()
+                .map(|variant| Point {
+                    wall_s: variant.simulation_s.unwrap_or(f64::NAN),
+                    error: variant.errors.get(&quantity).map_or(f64::NAN, |error| error.relative),
+                })
+                .collect();
+            let (variant, is_within) = cheapest_within(&points, within)?;
+            Some(Recommendation { quantity, variant, is_within })
+        })
+        .collect()
+}
+
+fn reference_record(
+    selection: &Selection,
+    measured: &[Measured],
+    reference: Reference,
+    runs: Vec<usize>,
+    windows: &Windows,
+) -> ReferenceRecord {
+    let parts: Vec<String> = selection
+        .companions
+        .iter()
+        .map(|companions| match companions.spacing {
+            Spacing::Elements(ratio) => format!("size of elements, second order, ratio {ratio:.3}"),
+            Spacing::Points(ratio) => format!("spacing of flank points and positions, second order, ratio {ratio}"),
+            Spacing::Slices(ratio) => format!("width of the slices, first order, ratio {ratio}"),
+            Spacing::Step => "length of the wear step, first order".to_owned(),
+        })
+        .collect();
+    let how = format!(
+        "{}, extrapolated by Richardson's method in {}; the uncertainty stated is the size of the whole correction",
+        measured[0].record.name,
+        if parts.is_empty() { "nothing".to_owned() } else { parts.join("; ") }
+    );
+    let points = measured[0].finished.as_ref().map(|run| run.path_point_radius_mm);
+    let Reference { observed, uncertainty } = reference;
+    ReferenceRecord {
+        how,
+        does_not_tell: observed.over_width.is_some().then(|| DOES_NOT_TELL.to_owned()),
+        uncertainty,
+        runs,
+        peak_wear_um: PerGear::from_fn(|gear| observed.flanks[gear].peak_wear_um()),
+        peak_pressure_mpa: peak_pressure_mpa(&observed.cycle, windows),
+        transmission_error_peak_to_peak_um: [
+            peak_to_peak(&observed.cycle.transmission_error_um),
+            peak_to_peak(&observed.cycle.worn_transmission_error_um),
+        ],
+        flanks: PerGear::from_fn(|gear: Gear| ReferenceFlank {
+            radius_mm: observed.flanks[gear].radius_mm.clone(),
+            width_mm: observed.flanks[gear].width_mm.clone(),
+            wear_um: observed.flanks[gear].wear_um.clone(),
+            root_wear_um: observed.over_width.as_ref().map_or_else(Vec::new, |o| o.root_wear_um[gear].clone()),
+            path_point_radius_mm: points.map(|points| points[gear]),
+        }),
+    }
+}

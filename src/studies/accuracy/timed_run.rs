@@ -1,0 +1,146 @@
+//! One setting, run for its result and its time.
+//!
+//! Each is carried out alone by the pipeline, so that its wall time means something; a short run is repeated and its least
+//! time counts.
+
+use super::observed::Observed;
+use super::settings::Setting;
+use crate::gear::PerGear;
+use crate::pipeline::{self, Done, RunError, calibrate, inputs::Inputs};
+use crate::plan::calibration::CalibrationStage;
+use crate::plan::{Plan, StageKind};
+use crate::results::run::{PathPoints, RunRecord, StopReason, Summary};
+use crate::scene::Resolved;
+use crate::simulation::wear_run::Progress;
+use crate::studies::accuracy::record::{CALIBRATION_FILE, VariantRecord};
+
+/// Runs shorter than this are repeated, and their least time counts.
+const LONG_ENOUGH_S: f64 = 0.2;
+/// Repeats at the most.
+const MOST_REPEATS: u32 = 20;
+
+/// Told what is run; says whether to go on.
+pub trait Observer: Progress {
+    /// The calibration begins.
+    fn calibration(&self);
+
+    /// The run `number` of `count` begins.
+    fn variant(&self, number: usize, count: usize, name: &str);
+}
+
+/// What one setting came to.
+pub(super) struct Measured {
+    pub record: VariantRecord,
+    pub finished: Option<Finished>,
+}
+
+/// What is kept of a run: far less than its record, of which there would be a hundred.
+pub(super) struct Finished {
+    pub observed: Observed,
+    pub summary: Summary,
+    /// Radii of the points A–E.
+    pub path_point_radius_mm: PerGear<PathPoints>,
+}
+
+/// Hears an interrupt and scales the progress of one run into that of all.
+pub(super) struct Within<'a> {
+    pub observer: &'a dyn Observer,
+    pub number: usize,
+    pub count: usize,
+}
+
+impl Progress for Within<'_> {
+    fn progress(&self, done: f64, total: f64) {
+        self.observer.progress(self.number as f64 + done / total, self.count as f64);
+    }
+
+    fn interrupted(&self) -> bool {
+        self.observer.interrupted()
+    }
+
+    fn gives_up(&self) -> bool {
+        self.observer.gives_up()
+    }
+}
+
+impl calibrate::Observer for Within<'_> {
+    fn stage(&self, _stage: CalibrationStage) {}
+}
+
+impl pipeline::Observer for Within<'_> {
+    fn stage(&self, _kind: StageKind) {}
+}
+
+/// Runs one setting, a short one several times; `None` where the user interrupted it.
+pub(super) fn measure(setting: &Setting, base: &Resolved, inputs: &Inputs, observer: &Within<'_>) -> Option<Measured> {
+    if observer.interrupted() {
+        return None;
+    }
+    let mut record = VariantRecord {
+        name: setting.name(),
+        settings: setting.record(&base.scene),
+        simulation_s: None,
+        setup_s: None,
+        repeats: 0,
+        work: None,
+        peak_wear_um: None,
+        errors: Default::default(),
+        failure: None,
+        part_of_reference: false,
+        wear_um: None,
+        root_wear_um: None,
+    };
+    let failed = |record: VariantRecord, failure: String| {
+        Some(Measured { record: VariantRecord { failure: Some(failure), ..record }, finished: None })
+    };
+    let mut resolved = match setting.scene(base, Some(CALIBRATION_FILE)) {
+        Ok(resolved) => resolved,
+        Err(problems) => {
+            let all: Vec<String> = problems.iter().map(ToString::to_string).collect();
+            return failed(record, all.join("; "));
+        }
+    };
+    // It is held against a reference of its own.
+    resolved.scene.verify = false;
+    record.settings = setting.record(&resolved.scene);
+    let plan = Plan::of(&resolved.scene);
+    let mut kept = None;
+    let mut spent_s = 0.0;
+    while record.repeats == 0 || (spent_s < LONG_ENOUGH_S && record.repeats < MOST_REPEATS) {
+        let done = match pipeline::run(&resolved, &plan, inputs, observer) {
+            Ok(Done { record: done, failure: None }) if done.summary.stopped == StopReason::Completed => done,
+            Ok(Done { failure: Some(failure), .. }) => return failed(record, failure.to_string()),
+            Ok(_) => return None,
+            Err(_) if observer.interrupted() => return None,
+            Err(failure) => return failed(record, RunError::to_string(&failure)),
+        };
+        let (simulation_s, setup_s) = times(&done);
+        record.repeats += 1;
+        spent_s += simulation_s;
+        record.simulation_s = Some(record.simulation_s.map_or(simulation_s, |least: f64| least.min(simulation_s)));
+        record.setup_s = Some(record.setup_s.map_or(setup_s, |least: f64| least.min(setup_s)));
+        kept = Some(done);
+    }
+    let run = kept?;
+    record.work = Some(run.summary.work);
+    record.peak_wear_um =
+        Some(PerGear { pinion: run.summary.pinion.peak_wear_um, wheel: run.summary.wheel.peak_wear_um });
+    let finished = Finished {
+        observed: Observed::of(&run),
+        path_point_radius_mm: PerGear::from_fn(|gear| run.flanks[gear].path_point_radius_mm),
+        summary: run.summary,
+    };
+    Some(Measured { record, finished: Some(finished) })
+}
+
+/// Wall times of the wear run and of everything before it, s.
+fn times(run: &RunRecord) -> (f64, f64) {
+    let simulation = StageKind::Simulation.name();
+    run.summary.stages.iter().fold((0.0, 0.0), |(simulation_s, setup_s), stage| {
+        if stage.name == simulation {
+            (simulation_s + stage.wall_s, setup_s)
+        } else {
+            (simulation_s, setup_s + stage.wall_s)
+        }
+    })
+}

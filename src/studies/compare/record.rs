@@ -1,0 +1,131 @@
+//! What a comparison of a measured profile with a run leaves behind, as plain data: what its reports read.
+
+use serde::Serialize;
+
+use crate::gear::Gear;
+use crate::measurement::fit::FitStop;
+use crate::results::run::PathPoints;
+
+/// A finished comparison.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CompareRecord {
+    /// The title of the run.
+    pub title: String,
+    /// Version of the program.
+    pub program_version: String,
+    /// First 16 hexadecimal digits of the SHA-256 of the scene of the run.
+    pub scene_hash: String,
+    /// Name of the measured file.
+    pub measured: String,
+    /// Whose flank.
+    pub gear: Gear,
+    /// Where over the face width; `None` where all sections are alike.
+    pub width_mm: Option<f64>,
+    /// When it was measured; `None` where the scene gives no speed.
+    pub hours: Option<f64>,
+    /// The same in pinion revolutions.
+    pub revolutions: f64,
+    /// What was taken for the form: `cubic`, `involute`, `none`.
+    pub form: String,
+    /// What was fitted.
+    pub fit: FitRecord,
+    /// Figures of the profiles.
+    pub figures: CompareFigures,
+    /// Radii of the points A–E on the gear.
+    pub path_point_radius_mm: PathPoints,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    /// The points; in `compare.csv`.
+    #[serde(skip)]
+    pub rows: Vec<CompareRow>,
+    /// The resolved scene as TOML.
+    #[serde(skip)]
+    pub scene_toml: String,
+}
+
+/// A fitted value with its interval.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Estimate {
+    /// The value.
+    pub value: f64,
+    /// Lower end of the 95 % interval; `None` where the residuals give none.
+    pub low: Option<f64>,
+    /// Its upper end.
+    pub high: Option<f64>,
+    /// The run's own value.
+    pub of_run: f64,
+}
+
+/// What was fitted, and how.
+#[allow(non_snake_case, reason = "names that end in their unit")]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FitRecord {
+    /// Why the search ended.
+    pub stopped: FitStop,
+    /// What is to blame where it did not converge.
+    pub blamed: Option<String>,
+    /// Factor on the wear coefficients of the scene; `None` where it was not fitted.
+    pub coefficient_factor: Option<Estimate>,
+    /// The wear coefficient of the scene's law times that factor.
+    pub coefficient_m2_per_N: Option<Estimate>,
+    /// Factor of severe wear; `None` where it was not fitted.
+    pub severe_factor: Option<Estimate>,
+    /// Shift of the measured profile towards the tip; `None` where none was allowed.
+    pub shift_mm: Option<Estimate>,
+    /// Points measured.
+    pub points: usize,
+    /// Points that count, given the autocorrelation of the residuals; `None` where too few do for an interval.
+    pub effective_points: Option<f64>,
+    /// Those less the values fitted, form included.
+    pub degrees_of_freedom: Option<f64>,
+    /// Runs of the scene it took.
+    pub runs: u64,
+    /// Mesh cycles evaluated in them.
+    pub mesh_cycles: u64,
+    /// How the interval was obtained, or why there is none.
+    pub how: String,
+}
+
+/// Figures of the profiles, form removed.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct CompareFigures {
+    /// Arithmetic mean deviation of the measured profile (of one trace; Sa where it stands for an area).
+    pub mean_deviation_um: f64,
+    /// That of the simulated profile.
+    pub simulated_mean_deviation_um: f64,
+    /// Ra of the measured profile after a Gaussian filter; `None` where it is too short or its points too far apart.
+    pub roughness_um: Option<f64>,
+    /// λc of that filter.
+    pub cutoff_mm: f64,
+    /// Root mean square of measured less simulated, as the run has it (its place along the flank fitted, where allowed).
+    pub as_run_difference_um: f64,
+    /// The same after the fit.
+    pub difference_um: f64,
+    /// Greatest absolute difference after the fit.
+    pub greatest_difference_um: f64,
+    /// Radius where it is.
+    pub greatest_difference_radius_mm: f64,
+    /// Standard deviation of a height, as the file says.
+    pub uncertainty_um: Option<f64>,
+}
+
+/// A row of `compare.csv`: a measured point where it lies on the flank.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct CompareRow {
+    /// Radius of the point, shifted.
+    pub radius_mm: f64,
+    /// Arc length from the base circle, shifted.
+    pub arc_mm: f64,
+    /// Measured height, form removed.
+    pub measured_um: f64,
+    /// Simulated height, form removed in the same way, after the fit.
+    pub simulated_um: f64,
+    /// Measured less simulated.
+    pub difference_um: f64,
+    /// Simulated height as the run has it, form removed.
+    pub as_run_um: f64,
+    /// Simulated wear depth after the fit.
+    pub wear_um: f64,
+    /// The wear depth that the measured profile has if its form is what the simulation says: simulated depth less the difference.
+    pub measured_wear_um: f64,
+}

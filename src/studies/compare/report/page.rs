@@ -1,0 +1,126 @@
+//! `report.html` of a comparison with a measured profile.
+
+use super::figures;
+use crate::measurement::fit::FitStop;
+use crate::report::html::number::{count, figure, given, revolutions, significant};
+use crate::report::html::page::{Page, escape, plots, section, sources_list};
+use crate::report::html::table::{Row, row, table};
+use crate::studies::compare::record::{CompareRecord, Estimate};
+
+/// The data files named in the page, which lie beside it.
+const DATA_FILES: [(&str, &str); 2] = [
+    ("compare.json", "the figures and what was fitted"),
+    ("compare.csv", "measured and simulated profile, point by point"),
+];
+
+/// The whole page.
+pub fn page(record: &CompareRecord) -> String {
+    let sections = [
+        section("fit", "What the profile says", &tables(record)),
+        section("plots", "Profiles", &plots(&figures::all(record))),
+        section(
+            "sources",
+            "Data and scene",
+            &sources_list(&DATA_FILES, "The resolved scene of the run", &record.scene_toml),
+        ),
+    ];
+    Page {
+        kind: "Measured profile against a run",
+        title: &format!("{} – {}", record.title, record.measured),
+        answer: &answer(record),
+        interruption: None,
+        warnings: &record.warnings,
+        main: &sections.concat(),
+        footer: &format!("gearwear {} · scene {}", record.program_version, record.scene_hash),
+    }
+    .html()
+}
+
+/// The result in a sentence or two.
+fn answer(record: &CompareRecord) -> String {
+    let when = match record.hours {
+        Some(hours) => format!("{} h", given(hours)),
+        None => format!("{} pinion revolutions", revolutions(record.revolutions)),
+    };
+    let whose = format!("The {}’s profile after {when}", record.gear.name());
+    let difference = figure(record.figures.difference_um);
+    match record.fit.stopped {
+        FitStop::MaxIterations | FitStop::NotFinite => {
+            return format!("{whose} was compared, but the fit did not converge.");
+        }
+        FitStop::AtBound | FitStop::Undetermined if record.fit.blamed.as_deref() != Some("the shift") => {
+            return format!("{whose} does not give what was to be fitted to it.");
+        }
+        _ => {}
+    }
+    let of = |estimate: &Option<Estimate>, what: &str| {
+        let e = estimate.as_ref()?;
+        Some(format!("{what} of {}{}", significant(e.value, 3), interval(e)))
+    };
+    let found: Vec<String> = [
+        of(&record.fit.coefficient_m2_per_N, "a wear coefficient k (in m²/N)"),
+        of(&record.fit.severe_factor, "a severe factor"),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    if found.is_empty() {
+        return format!("{whose} differs from the simulated one by {difference} µm (root mean square).");
+    }
+    format!(
+        "{whose} is explained best by {}; {difference} µm (root mean square) are left unexplained.",
+        found.join(" and ")
+    )
+}
+
+/// ", 95 % interval … to …".
+fn interval(estimate: &Estimate) -> String {
+    match (estimate.low, estimate.high) {
+        (Some(low), Some(high)) => {
+            format!(", 95 % interval {} to {}", significant(low, 3), significant(high, 3))
+        }
+        _ => ", without an interval".to_owned(),
+    }
+}
+
+fn tables(record: &CompareRecord) -> String {
+    let (fit, f) = (&record.fit, &record.figures);
+    let cells = |e: &Estimate| {
+        let end = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| significant(value, 4));
+        [significant(e.of_run, 4), significant(e.value, 4), end(e.low), end(e.high)]
+    };
+    let fitted: Vec<Row> = [
+        ("wear coefficient k", "m²/N", &fit.coefficient_m2_per_N),
+        ("factor on the scene’s coefficients", "", &fit.coefficient_factor),
+        ("factor of severe wear", "", &fit.severe_factor),
+        ("shift of the profile towards the tip", "mm", &fit.shift_mm),
+    ]
+    .into_iter()
+    .filter_map(|(name, unit, estimate)| Some(row(name, unit, cells(estimate.as_ref()?))))
+    .collect();
+    let fitted = match fitted.is_empty() {
+        true => String::new(),
+        false => table("Fitted", &["run", "fitted", "from", "to"], &fitted),
+    };
+    let roughness = f.roughness_um.map_or_else(|| "–".to_owned(), figure);
+    let profile = [
+        row("arithmetic mean deviation, measured", "µm", [figure(f.mean_deviation_um)]),
+        row("the same, simulated", "µm", [figure(f.simulated_mean_deviation_um)]),
+        row(format!("Ra, cutoff {} mm, measured", given(f.cutoff_mm)), "µm", [roughness]),
+        row("difference as run, root mean square", "µm", [figure(f.as_run_difference_um)]),
+        row("difference after the fit", "µm", [figure(f.difference_um)]),
+        row("runs of the scene", "", [count(fit.runs)]),
+        row("mesh cycles in them", "", [count(fit.mesh_cycles)]),
+    ];
+    format!(
+        "{fitted}<p>{}</p>\n{}",
+        escape(&sentence(&fit.how)),
+        table(&format!("Profile, form removed ({})", record.form), &[""], &profile)
+    )
+}
+
+/// With a capital and a full stop.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
+}

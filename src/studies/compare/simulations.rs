@@ -1,0 +1,251 @@
+//! Runs of the scene with other wear coefficients, and other factors of severe wear.
+//!
+//! Depth grows with k p ds in every law, and pressure knows nothing of k: under one load and speed, wear depends on the
+//! coefficient k and the revolutions n only through k n. Thus one run that goes on for c times as long holds the wear of every
+//! coefficient up to c k, at its snapshots; its wear steps are as long as the scene's up to c = 4, and longer beyond. Where loads or
+//! speeds follow one another in phases that is not so, and each coefficient is a run of its own.
+//!
+//! Whatever lies between such profiles is interpolated; what is fitted in the end is checked by a run with just that coefficient.
+
+use std::f64::consts::LN_2;
+
+use super::course::Course;
+use super::study::{CompareError, Observer};
+use crate::gear::Gear;
+use crate::pipeline::{self, inputs::Inputs};
+use crate::plan::{Plan, StageKind};
+use crate::results::run::{FlankRecord, StopReason};
+use crate::scene::{Resolved, Scene};
+use crate::simulation::wear_run::Progress;
+
+/// Snapshots of the run that holds all coefficients, at squares of even steps: dense where little is worn.
+const SNAPSHOTS: u32 = 40;
+/// The same where each is a run of its own.
+const SEPARATE_RUNS: u32 = 6;
+/// Longer runs have no more wear steps than one of this factor.
+const AS_FINE_UP_TO: f64 = 4.0;
+/// A course reaches this much further than the factor it is made for.
+const AHEAD: f64 = 2.0;
+/// Factors of severe wear whose courses are computed are this far apart, as a logarithm; between them it is interpolated.
+const SEVERE_STEP: f64 = LN_2;
+
+/// How the scene is changed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Change {
+    /// On the wear coefficient.
+    pub coefficient_factor: f64,
+    /// The factor of severe wear; `None`: the scene's.
+    pub severe_factor: Option<f64>,
+}
+
+impl Change {
+    /// The scene as it is.
+    pub const NOTHING: Self = Self { coefficient_factor: 1.0, severe_factor: None };
+}
+
+/// Hears an interrupt, and shows the progress of each run by itself.
+struct Within<'a>(&'a dyn Observer);
+
+impl Progress for Within<'_> {
+    fn progress(&self, done: f64, total: f64) {
+        self.0.progress(done, total);
+    }
+
+    fn interrupted(&self) -> bool {
+        self.0.interrupted()
+    }
+
+    fn gives_up(&self) -> bool {
+        self.0.gives_up()
+    }
+}
+
+impl pipeline::Observer for Within<'_> {
+    fn stage(&self, _kind: StageKind) {}
+}
+
+/// Runs of one scene until the profile was measured.
+pub struct Simulations<'a> {
+    resolved: &'a Resolved,
+    inputs: &'a Inputs,
+    gear: Gear,
+    width_mm: Option<f64>,
+    /// The scene, ending when the profile was measured, without error estimates.
+    until_measured: Scene,
+    observer: &'a dyn Observer,
+    /// Courses of the scene's factor of severe wear times 2ⁿ, by n.
+    courses: Vec<(i32, Course)>,
+    /// Runs carried out.
+    pub runs: u64,
+    /// Mesh cycles evaluated in them.
+    pub mesh_cycles: u64,
+}
+
+impl<'a> Simulations<'a> {
+    /// Runs of `resolved` for `revolutions` of the pinion, of which the wear of `gear` at `width_mm` is wanted.
+    pub fn new(
+        resolved: &'a Resolved,
+        inputs: &'a Inputs,
+        gear: Gear,
+        width_mm: Option<f64>,
+        revolutions: f64,
+        observer: &'a dyn Observer,
+    ) -> Self {
+        let mut scene = resolved.scene.clone();
+        (scene.numerics.error_estimate, scene.verify) = (false, false);
+        let operation = &mut scene.operation;
+        operation.phases.truncate(operation.phase_at(revolutions) + 1);
+        if let Some(last) = operation.phases.last_mut() {
+            last.end_revolutions = revolutions;
+        }
+        operation.pinion_revolutions = revolutions;
+        // Those of the scene stay: steps end at them.
+        operation.snapshots_revolutions.retain(|&at| at < revolutions);
+        operation.snapshots_revolutions.push(revolutions);
+        Self {
+            resolved,
+            inputs,
+            gear,
+            width_mm,
+            until_measured: scene,
+            observer,
+            courses: Vec::new(),
+            runs: 0,
+            mesh_cycles: 0,
+        }
+    }
+
+    /// The factor of severe wear of the scene; 1 where there is none.
+    pub fn severe_factor(&self) -> f64 {
+        self.until_measured.wear.severe.map_or(1.0, |severe| severe.factor)
+    }
+
+    /// Wear of one row of flank points, by a run with just this change, µm.
+    pub fn exactly(&mut self, change: Change) -> Result<Vec<f64>, CompareError> {
+        let scene = changed(&self.until_measured, change);
+        let wear = self.run(scene)?.pop();
+        Ok(wear.map(|(_, wear)| wear).unwrap_or_default())
+    }
+
+    /// The same, interpolated between profiles that are computed where they are first needed.
+    pub fn about(&mut self, change: Change) -> Result<Vec<f64>, CompareError> {
+        let factor = change.coefficient_factor;
+        let Some(severe) = change.severe_factor else { return Ok(self.course(0, factor)?.at(factor)) };
+        let place = (severe / self.severe_factor()).ln() / SEVERE_STEP;
+        let before = place.floor();
+        // Lagrange's cubic through the courses at −1, 0, 1 and 2.
+        let t = place - before;
+        let weights = [
+            -t * (t - 1.0) * (t - 2.0) / 6.0,
+            (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
+            -(t + 1.0) * t * (t - 2.0) / 2.0,
+            (t + 1.0) * t * (t - 1.0) / 6.0,
+        ];
+        let mut sum: Vec<f64> = Vec::new();
+        for (step, weight) in (-1..).zip(weights) {
+            let wear = self.course(before as i32 + step, factor)?.at(factor);
+            sum.resize(wear.len(), 0.0);
+            sum.iter_mut().zip(&wear).for_each(|(sum, wear)| *sum += weight * wear);
+        }
+        Ok(sum)
+    }
+
+    /// The course with 2ⁿ times the scene's factor of severe wear, up to this factor at least.
+    fn course(&mut self, n: i32, up_to: f64) -> Result<&Course, CompareError> {
+        let known = self.courses.iter().position(|(of, _)| *of == n);
+        let index = match known {
+            Some(index) if self.courses[index].1.reach() >= up_to => index,
+            _ => {
+                let longest = self.courses.iter().map(|(_, course)| course.reach()).fold(AHEAD * up_to, f64::max);
+                let reach = if known.is_some() { AHEAD * up_to } else { longest };
+                let course = self.compute(n, reach)?;
+                match known {
+                    Some(index) => {
+                        self.courses[index].1 = course;
+                        index
+                    }
+                    None => {
+                        self.courses.push((n, course));
+                        self.courses.len() - 1
+                    }
+                }
+            }
+        };
+        Ok(&self.courses[index].1)
+    }
+
+    fn compute(&mut self, n: i32, reach: f64) -> Result<Course, CompareError> {
+        let severe_factor = (n != 0).then(|| self.severe_factor() * (f64::from(n) * SEVERE_STEP).exp());
+        let squares = |count: u32| (1..=count).map(move |i| reach * (f64::from(i) / f64::from(count)).powi(2));
+        if self.until_measured.operation.phases.len() > 1 {
+            let mut profiles = Vec::new();
+            for coefficient_factor in squares(SEPARATE_RUNS) {
+                profiles.push((coefficient_factor, self.exactly(Change { coefficient_factor, severe_factor })?));
+            }
+            return Ok(Course::new(profiles));
+        }
+        let mut scene = changed(&self.until_measured, Change { coefficient_factor: 1.0, severe_factor });
+        let duration = scene.operation.pinion_revolutions;
+        let operation = &mut scene.operation;
+        operation.pinion_revolutions = reach * duration;
+        operation.phases.iter_mut().for_each(|phase| phase.end_revolutions = reach * duration);
+        operation.snapshots_revolutions = squares(SNAPSHOTS).map(|factor| factor * duration).collect();
+        scene.numerics.stepping = scene.numerics.stepping.coarser((reach / AS_FINE_UP_TO).max(1.0));
+        let profiles = self.run(scene)?;
+        Ok(Course::new(profiles.into_iter().map(|(revolutions, wear)| (revolutions / duration, wear))))
+    }
+
+    /// Carries a scene out: the wear of the row of points at each snapshot.
+    fn run(&mut self, scene: Scene) -> Result<Vec<(f64, Vec<f64>)>, CompareError> {
+        self.runs += 1;
+        self.observer.run(self.runs);
+        let resolved = Resolved { scene, file: self.resolved.file.clone(), warnings: Vec::new() };
+        let plan = Plan::of(&resolved.scene);
+        let done = pipeline::run(&resolved, &plan, self.inputs, &Within(self.observer));
+        if self.observer.interrupted() {
+            return Err(CompareError::Interrupted);
+        }
+        let done = done?;
+        if let Some(failure) = done.failure {
+            return Err(failure.into());
+        }
+        if done.record.summary.stopped != StopReason::Completed {
+            return Err(CompareError::Interrupted);
+        }
+        self.mesh_cycles += done.record.summary.work.mesh_cycles;
+        let flank = &done.record.flanks[self.gear];
+        let rows = done.record.history.iter().zip(&flank.snapshot_wear_um);
+        Ok(rows.map(|(row, wear)| (row.revolutions, self.row(flank, wear))).collect())
+    }
+
+    /// The row of points at the place over the face width, between the middles of slices by straight lines.
+    fn row(&self, flank: &FlankRecord, wear_um: &[f64]) -> Vec<f64> {
+        over_width(wear_um, &flank.width_mm, flank.radius_mm.len(), self.width_mm)
+    }
+}
+
+/// The row of `points` at `width_mm` out of rows in slices at `slices_mm`: between their middles by straight lines, outside them
+/// that of the outermost.
+pub fn over_width(wear_um: &[f64], slices_mm: &[f64], points: usize, width_mm: Option<f64>) -> Vec<f64> {
+    let rows: Vec<&[f64]> = wear_um.chunks_exact(points.max(1)).collect();
+    let (Some(width), true) = (width_mm, rows.len() > 1) else {
+        return rows.first().map(|row| row.to_vec()).unwrap_or_default();
+    };
+    let after = slices_mm.partition_point(|&middle| middle <= width).clamp(1, rows.len() - 1);
+    let (low, high) = (slices_mm[after - 1], slices_mm[after]);
+    let t = ((width - low) / (high - low)).clamp(0.0, 1.0);
+    rows[after - 1].iter().zip(rows[after]).map(|(a, b)| a + t * (b - a)).collect()
+}
+
+/// `scene` with other coefficients.
+fn changed(scene: &Scene, change: Change) -> Scene {
+    let mut scene = scene.clone();
+    scene.wear.coefficient_mm2_per_n *= change.coefficient_factor;
+    for phase in &mut scene.operation.phases {
+        phase.coefficient_mm2_per_n = phase.coefficient_mm2_per_n.map(|own| own * change.coefficient_factor);
+    }
+    if let (Some(severe), Some(factor)) = (&mut scene.wear.severe, change.severe_factor) {
+        severe.factor = factor;
+    }
+    scene
+}

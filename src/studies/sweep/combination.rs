@@ -1,0 +1,193 @@
+//! The scene of a combination, and the row it comes to.
+
+use std::time::Instant;
+
+use crate::gear::spec::PairSpec;
+use crate::pipeline::{self, Done, Observer, guarded::guarded, inputs::Inputs};
+use crate::plan::{Plan, StageKind};
+use crate::results::error::TotalError;
+use crate::results::run::{StopReason, Summary};
+use crate::scene::draft::Draft;
+use crate::scene::{Problem, Resolved, short_hash};
+use crate::studies::sweep::figures::FIGURES;
+use crate::studies::sweep::record::{SweepAxis, SweepIdentity, SweepRow};
+use crate::studies::sweep::verification::{Chosen, RowVerification};
+
+/// A sweep that can be run.
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    /// Which sweep.
+    pub identity: SweepIdentity,
+    /// The scene without what a sweep leaves out.
+    draft: Draft,
+    /// The pair as the scene gives it.
+    pair: PairSpec,
+    inputs: Inputs,
+}
+
+impl Sweep {
+    /// The sweep of the scene in `text`, which resolves to `resolved` and names the files `inputs`.
+    ///
+    /// Snapshots are left out, as a row keeps only the end of the run; errors are estimated only where asked for, and rows verified
+    /// only where the scene asks for it by name.
+    ///
+    /// # Errors
+    /// Text that is not TOML.
+    pub fn new(
+        text: &str,
+        resolved: &Resolved,
+        inputs: Inputs,
+        axes: Vec<SweepAxis>,
+        error_estimate: bool,
+    ) -> Result<Self, Vec<Problem>> {
+        let mut draft = Draft::parse(text)?;
+        let identity = SweepIdentity {
+            title: resolved.scene.title.clone(),
+            program_version: env!("CARGO_PKG_VERSION").to_owned(),
+            scene_hash: resolved.scene_hash(),
+            given_hash: draft.hash(),
+            inputs_hash: hash_of(&inputs),
+            error_estimate,
+            verify: resolved.scene.verify && draft.gives("numerics.verify"),
+            axes,
+            figures: FIGURES.iter().map(|figure| figure.name.to_owned()).collect(),
+        };
+        draft.remove("operation.snapshots_h");
+        draft.remove("operation.snapshots_revolutions");
+        draft.set("numerics.error_estimate", error_estimate);
+        Ok(Self { identity, draft, pair: resolved.scene.pair.clone(), inputs })
+    }
+
+    /// The scene of combination `index`, which is not verified.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it.
+    pub fn scene(&self, index: usize) -> Result<Resolved, Vec<Problem>> {
+        let mut draft = self.draft.clone();
+        for (axis, value) in self.identity.axes.iter().zip(self.identity.values(index)) {
+            // Whole numbers were checked to be whole; a cast keeps any that are of a size that a scene allows.
+            let value = if axis.whole { toml::Value::Integer(value as i64) } else { toml::Value::Float(value) };
+            draft.set(&axis.key, value);
+        }
+        let mut resolved = draft.resolve()?;
+        resolved.scene.verify = false;
+        let operation = &mut resolved.scene.operation;
+        operation.snapshots_revolutions = vec![operation.pinion_revolutions];
+        Ok(resolved)
+    }
+
+    /// Where not a single combination makes a scene, what is wrong with the first.
+    pub fn unbuildable(&self) -> Option<String> {
+        let problems = |index| self.scene(index).err();
+        let first = problems(0)?;
+        let all = (1..self.identity.combinations()).all(|index| problems(index).is_some());
+        all.then(|| in_words(&first))
+    }
+
+    /// Runs combination `index`; `None` where it was interrupted.
+    ///
+    /// Whatever goes wrong with it is its row's error, a defect of the program included.
+    pub fn row(&self, index: usize, observer: &dyn Observer) -> Option<SweepRow> {
+        let start = Instant::now();
+        let run = guarded(|| self.run(index, observer));
+        let run = run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
+        let row = SweepRow {
+            index,
+            values: self.identity.values(index),
+            error: None,
+            figures: vec![None; FIGURES.len()],
+            warnings: None,
+            simulation_s: None,
+            wall_s: 0.0,
+            verification: None,
+        };
+        let row = match run {
+            Ok(summary) if summary.stopped == StopReason::Interrupted => return None,
+            Ok(summary) => SweepRow {
+                figures: FIGURES.iter().map(|f| (f.of)(&summary).filter(|value| value.is_finite())).collect(),
+                warnings: Some(summary.warnings.len()),
+                simulation_s: simulation_s(&summary),
+                ..row
+            },
+            Err(_) if observer.interrupted() => return None,
+            Err(error) => SweepRow { error: Some(one_line(&error)), ..row },
+        };
+        Some(SweepRow { wall_s: start.elapsed().as_secs_f64(), ..row })
+    }
+
+    fn run(&self, index: usize, observer: &dyn Observer) -> Result<Summary, String> {
+        let resolved = self.scene(index).map_err(|problems| in_words(&problems))?;
+        self.inputs_belong_to(&resolved)?;
+        self.carry_out(&resolved, &Plan::of(&resolved.scene), observer)
+    }
+
+    fn carry_out(&self, resolved: &Resolved, plan: &Plan, observer: &dyn Observer) -> Result<Summary, String> {
+        match pipeline::summarise(resolved, plan, &self.inputs, observer) {
+            Ok(Done { failure: Some(failure), .. }) => Err(failure.to_string()),
+            Ok(Done { record: summary, failure: None }) => Ok(summary),
+            Err(failure) => Err(failure.to_string()),
+        }
+    }
+
+    /// The finished row `row`, verified by finite elements; `None` where that was interrupted.
+    ///
+    /// Its run is done again and comes to the same bits: which rows are the best is known when all are there, and what a verification
+    /// starts from would be much to keep of each until then.
+    pub fn verified(&self, row: &SweepRow, chosen: Chosen, observer: &dyn Observer) -> Option<SweepRow> {
+        let start = Instant::now();
+        let total = guarded(|| self.total_error(row.index, observer));
+        let total = total.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
+        if observer.interrupted() {
+            return None;
+        }
+        let total = total.unwrap_or_else(|reason| TotalError::none(&one_line(&reason)));
+        let verification = RowVerification { chosen, total, wall_s: start.elapsed().as_secs_f64() };
+        Some(SweepRow { verification: Some(verification), ..row.clone() })
+    }
+
+    fn total_error(&self, index: usize, observer: &dyn Observer) -> Result<TotalError, String> {
+        let mut resolved = self.scene(index).map_err(|problems| in_words(&problems))?;
+        resolved.scene.verify = true;
+        resolved.scene.numerics.error_estimate = false;
+        let plan = Plan::of(&resolved.scene);
+        match plan.left_out_because(StageKind::Verification) {
+            Some(reason) => Err(reason.to_owned()),
+            None => self.carry_out(&resolved, &plan, observer).map(|summary| summary.error.total),
+        }
+    }
+
+    /// Whether the files that the scene names were made for the pair of this combination.
+    fn inputs_belong_to(&self, resolved: &Resolved) -> Result<(), String> {
+        let differences = self.inputs.foreign_to(resolved);
+        if !differences.is_empty() {
+            return Err(format!("contact.calibration belongs to another pair: {}", differences.join("; ")));
+        }
+        let same_section =
+            |own: &PairSpec| PairSpec { face_width_mm: self.pair.face_width_mm, ..own.clone() } == self.pair;
+        if self.inputs.stiffness_curve.is_some() && !same_section(&resolved.scene.pair) {
+            return Err("stiffness.curve belongs to the pair of the scene as given".to_owned());
+        }
+        Ok(())
+    }
+}
+
+/// Of the files that a scene names; empty where it names none.
+fn hash_of(inputs: &Inputs) -> String {
+    let calibration = inputs.calibration.as_ref().map(|calibration| calibration.to_json());
+    let curve = inputs.stiffness_curve.as_ref().map(|curve| format!("{curve:?}"));
+    let all: String = calibration.into_iter().chain(curve).collect();
+    if all.is_empty() { all } else { short_hash(all.as_bytes()) }
+}
+
+fn simulation_s(summary: &Summary) -> Option<f64> {
+    let name = StageKind::Simulation.name();
+    summary.stages.iter().find(|stage| stage.name == name).map(|stage| stage.wall_s)
+}
+
+fn in_words(problems: &[Problem]) -> String {
+    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

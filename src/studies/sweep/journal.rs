@@ -1,0 +1,267 @@
+//! The rows finished so far, on disk: `rows.jsonl`, one JSON object per line, the first of which says whose rows they are.
+//!
+//! A line is written with one call as soon as its combination is finished. A row that is verified stands there once more, and
+//! the later line counts. Whatever ends the program, what is lost is at most
+//! the combinations that were running; a last line that was cut short is dropped when the journal is opened again. While a
+//! sweep runs it holds a lock on the file, so that a second start in the same folder is refused, where the file system
+//! has locks.
+
+use std::collections::BTreeMap;
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use crate::studies::sweep::record::{Shard, SweepIdentity, SweepRow};
+use crate::whole_file;
+
+/// Name of the journal in the folder of a sweep.
+pub const FILE_NAME: &str = "rows.jsonl";
+
+/// The first line.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Head {
+    identity: SweepIdentity,
+    shard: Option<Shard>,
+}
+
+/// What a journal holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Contents {
+    /// Whose rows.
+    pub identity: SweepIdentity,
+    /// Which part of the sweep; `None`: all of it.
+    pub shard: Option<Shard>,
+    /// Finished rows by index.
+    pub rows: BTreeMap<usize, SweepRow>,
+    /// Bytes up to the end of the last whole line.
+    whole_bytes: u64,
+}
+
+/// A journal that rows are appended to.
+#[derive(Debug)]
+pub struct Journal {
+    path: PathBuf,
+    file: File,
+    head: Head,
+    /// Rows finished so far, by index.
+    pub rows: BTreeMap<usize, SweepRow>,
+}
+
+/// What keeps rows from being read or kept.
+#[derive(Debug, thiserror::Error)]
+pub enum JournalError {
+    /// There is none.
+    #[error("{} holds no sweep: there is no {FILE_NAME} in it", folder.display())]
+    NoSweep {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// The file cannot be read or made.
+    #[error("cannot open {}: {source}", path.display())]
+    Open {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A line that no sweep wrote.
+    #[error("{}, line {line}: {found}; allowed: what gearwear sweep wrote", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// Number of the line, from 1.
+        line: usize,
+        /// What is wrong with it.
+        found: String,
+    },
+    /// The rows are those of another sweep.
+    #[error("{} holds the rows of another sweep: {}", path.display(), differences.join("; "))]
+    OtherSweep {
+        /// The file.
+        path: PathBuf,
+        /// What differs, there and here.
+        differences: Vec<String>,
+    },
+    /// Another sweep is writing the file.
+    #[error("{} is being written by another gearwear sweep", path.display())]
+    InUse {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A row cannot be appended.
+    #[error("cannot write {}: {source}; {kept} finished rows are kept in it", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Rows that were written before.
+        kept: usize,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The folder was taken away while the sweep ran; the rows were written anew.
+    #[error("{} was removed while the sweep ran; its {kept} finished rows were written there anew", path.display())]
+    Removed {
+        /// The file.
+        path: PathBuf,
+        /// Rows that were written anew.
+        kept: usize,
+    },
+    /// The folder was taken away, and cannot be made again.
+    #[error("{} was removed while the sweep ran, and cannot be written anew: {source}", path.display())]
+    Lost {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+}
+
+/// Reads the journal in `folder` without holding it.
+///
+/// # Errors
+/// [`JournalError`] where there is none, or one that no sweep wrote.
+pub fn read(folder: &Path) -> Result<Contents, JournalError> {
+    let path = folder.join(FILE_NAME);
+    let text = match fs::read_to_string(&path) {
+        Ok(text) => text,
+        Err(source) if source.kind() == io::ErrorKind::NotFound => {
+            return Err(JournalError::NoSweep { folder: folder.to_owned() });
+        }
+        Err(source) => return Err(JournalError::Open { path, source }),
+    };
+    let contents = parse(&path, &text)?;
+    contents.ok_or_else(|| JournalError::NoSweep { folder: folder.to_owned() })
+}
+
+/// The contents of a journal's text; `None` where not even its first line was finished.
+fn parse(path: &Path, text: &str) -> Result<Option<Contents>, JournalError> {
+    let whole_bytes = text.rfind('\n').map_or(0, |end| end + 1);
+    let mut lines = text[..whole_bytes].lines().enumerate();
+    let damaged = |line: usize, found: String| JournalError::Damaged { path: path.to_owned(), line: line + 1, found };
+    let Some((_, first)) = lines.next() else { return Ok(None) };
+    let head: Head = serde_json::from_str(first).map_err(|error| damaged(0, error.to_string()))?;
+    let combinations = head.identity.combinations();
+    let mut rows = BTreeMap::new();
+    for (line, text) in lines {
+        let row: SweepRow = serde_json::from_str(text).map_err(|error| damaged(line, error.to_string()))?;
+        if row.index >= combinations || row.figures.len() != head.identity.figures.len() {
+            return Err(damaged(line, format!("a row of another sweep, combination {}", row.index)));
+        }
+        rows.insert(row.index, row);
+    }
+    Ok(Some(Contents { identity: head.identity, shard: head.shard, rows, whole_bytes: whole_bytes as u64 }))
+}
+
+impl Journal {
+    /// Opens the journal of a sweep in `folder`, which is made if need be, and reads the rows it holds already.
+    ///
+    /// # Errors
+    /// [`JournalError`] where it cannot be written, is written by another program now, or is another sweep's.
+    pub fn open(folder: &Path, identity: &SweepIdentity, shard: Option<Shard>) -> Result<Self, JournalError> {
+        let path = folder.join(FILE_NAME);
+        let at = |source| JournalError::Open { path: path.clone(), source };
+        fs::create_dir_all(folder).map_err(at)?;
+        let mut file =
+            OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path).map_err(at)?;
+        // A file system without locks is no reason not to run.
+        if let Err(TryLockError::WouldBlock) = file.try_lock() {
+            return Err(JournalError::InUse { path });
+        }
+        let mut text = String::new();
+        file.read_to_string(&mut text).map_err(at)?;
+        let head = Head { identity: identity.clone(), shard };
+        let found = parse(&path, &text)?;
+        let (rows, whole_bytes) = match found {
+            Some(found) => {
+                let differences = differences(&found, &head);
+                if !differences.is_empty() {
+                    return Err(JournalError::OtherSweep { path, differences });
+                }
+                (found.rows, found.whole_bytes)
+            }
+            None => (BTreeMap::new(), 0),
+        };
+        file.set_len(whole_bytes).map_err(at)?;
+        file.seek(SeekFrom::End(0)).map_err(at)?;
+        if whole_bytes == 0 {
+            let line = line_of(&head).map_err(at)?;
+            file.write_all(&line).map_err(at)?;
+        }
+        Ok(Self { path, file, head, rows })
+    }
+
+    /// Appends a finished row, or one that was verified since.
+    ///
+    /// # Errors
+    /// A full disk, or a folder that was taken away meanwhile: its rows are then written anew.
+    pub fn append(&mut self, row: SweepRow) -> Result<(), JournalError> {
+        let kept = self.rows.len();
+        let failed = |path: &Path, source| JournalError::Write { path: path.to_owned(), kept, source };
+        let line = line_of(&row).map_err(|source| failed(&self.path, source))?;
+        let index = row.index;
+        let before = self.rows.insert(index, row);
+        // A file that was unlinked could still be written to, for nobody.
+        if !self.path.exists() {
+            return Err(self.write_anew());
+        }
+        if let Err(source) = self.file.write_all(&line) {
+            match before {
+                Some(row) => self.rows.insert(index, row),
+                None => self.rows.remove(&index),
+            };
+            return Err(failed(&self.path, source));
+        }
+        Ok(())
+    }
+
+    /// Writes all rows into a new file of the old name.
+    fn write_anew(&self) -> JournalError {
+        let folder = self.path.parent().unwrap_or(Path::new("."));
+        let contents = Contents {
+            identity: self.head.identity.clone(),
+            shard: self.head.shard,
+            rows: self.rows.clone(),
+            whole_bytes: 0,
+        };
+        match write(folder, &contents) {
+            Ok(()) => JournalError::Removed { path: self.path.clone(), kept: self.rows.len() },
+            Err(source) => JournalError::Lost { path: self.path.clone(), source },
+        }
+    }
+}
+
+/// Writes a journal whole, its rows in the order of the combinations, into `folder`, which is made if need be.
+pub fn write(folder: &Path, contents: &Contents) -> io::Result<()> {
+    fs::create_dir_all(folder)?;
+    whole_file::write(&folder.join(FILE_NAME), |out| {
+        out.write_all(&line_of(&Head { identity: contents.identity.clone(), shard: contents.shard })?)?;
+        contents.rows.values().try_for_each(|row| out.write_all(&line_of(row)?))
+    })
+}
+
+fn line_of(item: &impl Serialize) -> io::Result<Vec<u8>> {
+    let mut line = serde_json::to_vec(item)?;
+    line.push(b'\n');
+    Ok(line)
+}
+
+/// What the journal and the sweep that is to be run do not have in common, there and here.
+fn differences(found: &Contents, head: &Head) -> Vec<String> {
+    let mut differences = found.identity.differences(&head.identity);
+    if found.shard != head.shard {
+        let words = |shard: Option<Shard>| {
+            shard.map_or_else(|| "all of it".to_owned(), |s| format!("shard {}/{}", s.number, s.of))
+        };
+        differences.push(format!("the part that is run: {} and {}", words(found.shard), words(head.shard)));
+    }
+    differences
+}
+
+impl Contents {
+    /// Rows that were not read from one file.
+    pub fn new(identity: SweepIdentity, shard: Option<Shard>, rows: BTreeMap<usize, SweepRow>) -> Self {
+        Self { identity, shard, rows, whole_bytes: 0 }
+    }
+}

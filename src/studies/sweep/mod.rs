@@ -1,0 +1,24 @@
+//! Sweeps: the scene's run for all combinations of some varied keys.
+//!
+//! Each combination is a scene like any other: the user's file with some values exchanged, resolved anew. It is carried
+//! out by [`crate::pipeline`] on one thread, and leaves one row of figures. Rows are kept in a journal as they are finished,
+//! so that a sweep which was stopped goes on where it was; parts of a sweep that ran elsewhere are merged from their
+//! journals.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`axis`] | a varied key as the user writes it, checked |
+//! | [`combination`] | the scene of a combination, and its row |
+//! | [`journal`] | the rows finished so far, kept on disk |
+//! | [`study`] | runs what is missing on all threads |
+//! | [`mod@merge`] | one sweep from its parts |
+
+pub mod axis;
+pub mod combination;
+pub mod figures;
+pub mod journal;
+pub mod merge;
+pub mod record;
+pub mod report;
+pub mod study;
+pub mod verification;

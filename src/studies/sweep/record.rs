@@ -1,0 +1,335 @@
+//! Everything a sweep leaves behind, as plain data in the units of the output files: what its reports read.
+
+use serde::{Deserialize, Serialize};
+
+use super::figures::{FIGURES, SweepFigure};
+use super::verification::{RowVerification, SweepVerification};
+
+/// Digits of a value between the ends of a range.
+const DIGITS: i32 = 12;
+
+/// A key of the scene with the values it takes, evenly spaced, both ends included.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SweepAxis {
+    /// Path of the key, such as `pair.face_width_mm`.
+    pub key: String,
+    /// First value.
+    pub from: f64,
+    /// Last value.
+    pub to: f64,
+    /// How many there are.
+    pub count: usize,
+    /// Whether the key takes whole numbers.
+    pub whole: bool,
+}
+
+impl SweepAxis {
+    /// The value number `index`, from 0:
+    ///
+    /// ```text
+    /// x_i = ((n − 1 − i) from + i to) / (n − 1)
+    /// ```
+    ///
+    /// Values between the ends are rounded to twelve digits of the larger end, so that they read as one would write them.
+    pub fn value(&self, index: usize) -> f64 {
+        let last = self.count.saturating_sub(1);
+        if index == 0 {
+            self.from
+        } else if index >= last {
+            self.to
+        } else {
+            let between = ((last - index) as f64 * self.from + index as f64 * self.to) / last as f64;
+            let largest = self.from.abs().max(self.to.abs());
+            let decimals = (DIGITS - 1 - largest.log10().floor() as i32).max(0) as usize;
+            // Adding zero takes the sign of a negative zero away.
+            format!("{between:.decimals$}").parse().unwrap_or(between) + 0.0
+        }
+    }
+
+    /// All values in order.
+    pub fn values(&self) -> Vec<f64> {
+        (0..self.count).map(|index| self.value(index)).collect()
+    }
+}
+
+/// A number as one would write it: `10`, `0.5`, `1e-17`.
+pub fn plain(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
+}
+
+/// A part of a sweep that is run by itself: every `of`-th combination, beginning with `number`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Shard {
+    /// Which part, from 1.
+    pub number: usize,
+    /// How many parts there are.
+    pub of: usize,
+}
+
+/// What makes a sweep this sweep: rows of two sweeps may stand in one table where all of this is the same.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SweepIdentity {
+    /// The scene's title.
+    pub title: String,
+    /// Version of the program.
+    pub program_version: String,
+    /// First 16 hexadecimal digits of the SHA-256 of the scene as given, resolved.
+    pub scene_hash: String,
+    /// The same of what the file itself says: what it leaves open is chosen anew for each combination.
+    pub given_hash: String,
+    /// The same of the calibration and the stiffness curve that the scene names; empty where it names none.
+    pub inputs_hash: String,
+    /// Whether errors are estimated.
+    pub error_estimate: bool,
+    /// Whether the scene asks by name for the verification, which the best rows and the corners then get.
+    pub verify: bool,
+    /// What is varied; the first key changes slowest.
+    pub axes: Vec<SweepAxis>,
+    /// Names of the figures of a row, in order.
+    pub figures: Vec<String>,
+}
+
+impl SweepIdentity {
+    /// Number of combinations.
+    pub fn combinations(&self) -> usize {
+        self.axes.iter().map(|axis| axis.count).product()
+    }
+
+    /// The varied values of combination `index`, in the order of the axes.
+    pub fn values(&self, index: usize) -> Vec<f64> {
+        let mut rest = index;
+        let mut values: Vec<f64> = self
+            .axes
+            .iter()
+            .rev()
+            .map(|axis| {
+                let value = axis.value(rest % axis.count);
+                rest /= axis.count;
+                value
+            })
+            .collect();
+        values.reverse();
+        values
+    }
+
+    /// The combination in words: `pair.helix_angle_deg = 15, pair.face_width_mm = 20`.
+    pub fn in_words(&self, index: usize) -> String {
+        let values = self.values(index);
+        let said: Vec<String> =
+            self.axes.iter().zip(values).map(|(axis, value)| format!("{} = {}", axis.key, plain(value))).collect();
+        said.join(", ")
+    }
+
+    /// What is not the same in `other`, in words; empty where both are one sweep.
+    pub fn differences(&self, other: &Self) -> Vec<String> {
+        let axes = |of: &Self| {
+            let said: Vec<String> =
+                of.axes.iter().map(|a| format!("{}={}:{}:{}", a.key, plain(a.from), plain(a.to), a.count)).collect();
+            said.join(" ")
+        };
+        let yes = |is: bool| if is { "yes" } else { "no" }.to_owned();
+        let all = [
+            ("program version", self.program_version.clone(), other.program_version.clone()),
+            ("what is varied", axes(self), axes(other)),
+            ("scene", self.given_hash.clone(), other.given_hash.clone()),
+            ("the resolved scene", self.scene_hash.clone(), other.scene_hash.clone()),
+            ("files that the scene names", self.inputs_hash.clone(), other.inputs_hash.clone()),
+            ("errors estimated", yes(self.error_estimate), yes(other.error_estimate)),
+            ("figures of a row", self.figures.join(" "), other.figures.join(" ")),
+        ];
+        let mut differences: Vec<String> = Vec::new();
+        for (what, mine, theirs) in all {
+            // The resolved scene differs wherever the scene does.
+            let said_before = what == "the resolved scene" && self.given_hash != other.given_hash;
+            if mine != theirs && !said_before {
+                differences.push(format!("{what}: {mine} and {theirs}"));
+            }
+        }
+        differences
+    }
+}
+
+/// What one combination came to.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SweepRow {
+    /// Which combination, from 0.
+    pub index: usize,
+    /// The varied values, in the order of the axes.
+    pub values: Vec<f64>,
+    /// Why there are no figures, on one line; `None` where the run was completed.
+    pub error: Option<String>,
+    /// The figures, in the order of [`FIGURES`]; `None` where the scene does not have one.
+    pub figures: Vec<Option<f64>>,
+    /// Number of warnings.
+    pub warnings: Option<usize>,
+    /// Wall time of the wear run alone, s.
+    pub simulation_s: Option<f64>,
+    /// Wall time of the whole combination, its verification apart, s.
+    pub wall_s: f64,
+    /// What finite elements say of it; `None` where it is not verified.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub verification: Option<RowVerification>,
+}
+
+impl SweepRow {
+    /// Its figure.
+    pub fn figure(&self, figure: &SweepFigure) -> Option<f64> {
+        let at = FIGURES.iter().position(|known| known.name == figure.name)?;
+        self.figures.get(at).copied().flatten()
+    }
+
+    /// `ok` or `failed`.
+    pub fn status(&self) -> &'static str {
+        if self.error.is_none() { "ok" } else { "failed" }
+    }
+
+    /// Whether everything but the wall times is the same, the verification where both have one.
+    pub fn same_result(&self, other: &Self) -> bool {
+        let timeless = |row: &Self| Self { simulation_s: None, wall_s: 0.0, verification: None, ..row.clone() };
+        let verifications = self.verification.as_ref().zip(other.verification.as_ref());
+        timeless(self) == timeless(other) && verifications.is_none_or(|(mine, theirs)| mine.total == theirs.total)
+    }
+}
+
+/// A finished sweep, or a finished part of one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SweepRecord {
+    /// Which sweep.
+    pub identity: SweepIdentity,
+    /// Which part of it; `None`: all of it.
+    pub shard: Option<Shard>,
+    /// The scene, as the user gave it.
+    pub scene_toml: String,
+    /// One row per combination, in the order of the combinations.
+    pub rows: Vec<SweepRow>,
+    /// Threads it was run on; 0 where it was merged from parts.
+    pub threads: usize,
+    /// Wall time since the command was started, s: rows of an earlier start are not in it.
+    pub wall_s: f64,
+}
+
+/// `sweep.json`.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SweepSummary<'a> {
+    /// Which sweep.
+    #[serde(flatten)]
+    pub identity: &'a SweepIdentity,
+    /// Which part of it; null: all of it.
+    pub shard: Option<Shard>,
+    /// Combinations of the whole sweep.
+    pub combinations: usize,
+    /// Rows that were completed.
+    pub ok: usize,
+    /// Rows with an error.
+    pub failed: usize,
+    /// The best combination by each figure that has a best.
+    pub best: Vec<BestCombination>,
+    /// What finite elements say of the best rows and the corners; null where the scene does not ask for it, and in a shard, which
+    /// does not know the best of all rows.
+    pub verification: Option<SweepVerification<'a>>,
+    /// Wall times of all combinations together, their verifications apart, s.
+    pub combinations_wall_s: f64,
+    /// Wall time since the command was started, s.
+    pub wall_s: f64,
+    /// Threads; 0 where it was merged from parts.
+    pub threads: usize,
+}
+
+/// The best combination by one figure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BestCombination {
+    /// Name of the figure.
+    pub figure: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Which combination.
+    pub index: usize,
+    /// The varied values, in the order of the axes.
+    pub values: Vec<f64>,
+}
+
+impl SweepRecord {
+    /// The row with the least value of `figure`, the first of equals.
+    pub fn least(&self, figure: &SweepFigure) -> Option<(&SweepRow, f64)> {
+        let valued = self.rows.iter().filter_map(|row| Some((row, row.figure(figure)?)));
+        valued.min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// Rows with an error.
+    pub fn failed(&self) -> usize {
+        self.rows.iter().filter(|row| row.error.is_some()).count()
+    }
+
+    /// What finite elements say; `None` where they are not asked.
+    pub fn verification(&self) -> Option<SweepVerification<'_>> {
+        let asked = self.identity.verify && self.shard.is_none();
+        asked.then(|| SweepVerification::of(&self.identity, &self.rows))
+    }
+
+    /// What `sweep.json` holds.
+    pub fn summary(&self) -> SweepSummary<'_> {
+        let failed = self.failed();
+        SweepSummary {
+            identity: &self.identity,
+            shard: self.shard,
+            combinations: self.identity.combinations(),
+            ok: self.rows.len() - failed,
+            failed,
+            best: FIGURES
+                .iter()
+                .filter(|figure| figure.less_is_better)
+                .filter_map(|figure| {
+                    let (row, value) = self.least(figure)?;
+                    Some(BestCombination { figure: figure.name, value, index: row.index, values: row.values.clone() })
+                })
+                .collect(),
+            verification: self.verification(),
+            combinations_wall_s: self.rows.iter().map(|row| row.wall_s).sum(),
+            wall_s: self.wall_s,
+            threads: self.threads,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn axis(key: &str, from: f64, to: f64, count: usize) -> SweepAxis {
+        SweepAxis { key: key.to_owned(), from, to, count, whole: false }
+    }
+
+    /// Ends are as given, and the values between them as one would write them.
+    #[test]
+    fn ver_values_are_evenly_spaced() {
+        assert_eq!(axis("k", 0.1, 0.7, 7).values(), [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]);
+        assert_eq!(axis("k", -1.0, 1.0, 3).values(), [-1.0, 0.0, 1.0]);
+        assert_eq!(axis("k", 14.0, 14.0, 1).values(), [14.0]);
+        assert_eq!(axis("k", 0.0, 1.0, 4).values()[1], 0.333_333_333_33);
+        assert_eq!(axis("k", -0.1, 0.6, 15).values()[1..4], [-0.05, 0.0, 0.05]);
+        assert_eq!(axis("k", 1e-18, 3e-18, 3).values(), [1e-18, 2e-18, 3e-18]);
+        assert_eq!(axis("k", 0.0, 3e15, 4).values(), [0.0, 1e15, 2e15, 3e15]);
+    }
+
+    /// The first key changes slowest.
+    #[test]
+    fn combinations_are_counted_like_digits() {
+        let identity = SweepIdentity {
+            title: String::new(),
+            program_version: String::new(),
+            scene_hash: String::new(),
+            given_hash: String::new(),
+            inputs_hash: String::new(),
+            error_estimate: false,
+            verify: false,
+            axes: vec![axis("a", 0.0, 1.0, 2), axis("b", 5.0, 7.0, 3)],
+            figures: Vec::new(),
+        };
+        assert_eq!(identity.combinations(), 6);
+        let all: Vec<Vec<f64>> = (0..6).map(|index| identity.values(index)).collect();
+        assert_eq!(all, [[0.0, 5.0], [0.0, 6.0], [0.0, 7.0], [1.0, 5.0], [1.0, 6.0], [1.0, 7.0]]);
+        assert_eq!(identity.in_words(4), "a = 1, b = 6");
+        assert_eq!([10.0, -0.25, 1e-17].map(plain), ["10", "-0.25", "1e-17"]);
+    }
+}

@@ -1,0 +1,60 @@
+//! The files of a sweep, written from its [`SweepRecord`] alone.
+//!
+//! | file | from |
+//! |---|---|
+//! | `sweep.csv` | [`tables`] |
+//! | `sweep.parquet` | the same table, with the feature `parquet` |
+//! | `report.html` | `page` |
+//! | `scene.toml` | the scene as the user gave it |
+//! | `sweep.json` | [`SweepSummary`](crate::studies::sweep::record::SweepSummary) |
+//!
+//! A shard has neither Parquet table nor page: those are of the whole, which is merged from the shards.
+
+mod best_tables;
+mod contour_figures;
+mod line_figures;
+mod page;
+#[cfg(feature = "parquet")]
+pub mod parquet_table;
+mod section_plane;
+pub mod tables;
+
+use std::path::{Path, PathBuf};
+
+use crate::report::tables::Provenance;
+use crate::report::{ReportError, create_folder, place, remove, summary};
+use crate::studies::sweep::record::SweepRecord;
+
+/// The file that is written last: its presence says that the others are complete.
+const LAST: &str = "sweep.json";
+/// The scene of the sweep.
+pub const SCENE: &str = "scene.toml";
+const PARQUET: &str = "sweep.parquet";
+
+/// Prepares `dir` for a sweep: its scene is written, and what an earlier sweep said of all its rows is taken away.
+///
+/// # Errors
+/// [`ReportError`] where the folder cannot be made or written.
+pub fn begin(scene_toml: &str, dir: &Path) -> Result<(), ReportError> {
+    create_folder(dir)?;
+    remove(dir, LAST)?;
+    place(dir, SCENE, |out| out.write_all(scene_toml.as_bytes())).map(drop)
+}
+
+/// Writes all files of `record` into `dir`, which is made if need be; returns their paths in the order written.
+///
+/// # Errors
+/// [`ReportError`] where the folder cannot be made or written.
+pub fn write(record: &SweepRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+    begin(&record.scene_toml, dir)?;
+    remove(dir, PARQUET)?;
+    let provenance = Provenance::of_sweep(record);
+    let mut written = vec![dir.join(SCENE), place(dir, "sweep.csv", |out| tables::rows(out, provenance, record))?];
+    if record.shard.is_none() {
+        #[cfg(feature = "parquet")]
+        written.push(place(dir, PARQUET, |out| out.write_all(&parquet_table::bytes(record)?))?);
+        written.push(place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?);
+    }
+    written.push(place(dir, LAST, |out| summary::write(out, &record.summary()))?);
+    Ok(written)
+}

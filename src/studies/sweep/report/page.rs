@@ -1,0 +1,159 @@
+//! `report.html` of a sweep.
+
+use super::section_plane::{differs, varied};
+use super::{best_tables, contour_figures, line_figures};
+use crate::report::html::number::{count, figure as shown_number, given, significant};
+use crate::report::html::page::{Page, escape, plots, section, sources_list};
+use crate::report::html::theme::Figure;
+use crate::studies::sweep::figures::{FIGURES, SweepFigure};
+use crate::studies::sweep::record::SweepRecord;
+use crate::studies::sweep::verification::SweepVerification;
+
+/// The data files named in the page, which lie beside it.
+const DATA_FILES: &[(&str, &str)] = &[
+    ("sweep.csv", "one row per combination: varied values, figures, times, errors, verification"),
+    #[cfg(feature = "parquet")]
+    ("sweep.parquet", "the same table as Parquet"),
+    ("sweep.json", "the sweep, its counts and the best combinations"),
+    ("rows.jsonl", "the rows as they were finished; a restart reads it"),
+    ("scene.toml", "the scene as given"),
+];
+
+/// Figures whose least value is said at the top of the page, where there is one.
+const HEADLINES: [&str; 2] = ["pinion_root_tip_wear_variation", "pinion_peak_wear_um"];
+
+/// The whole page.
+pub fn page(record: &SweepRecord) -> String {
+    let figures = figures(record);
+    let drawn = if figures.is_empty() { String::new() } else { section("plots", "Plots", &plots(&figures)) };
+    let identity = &record.identity;
+    let sections = [
+        section("figures", "Main figures", &[best_tables::best(record), best_tables::failed(record)].concat()),
+        record.verification().map_or_else(String::new, |verification| verified(record, &verification)),
+        drawn,
+        section("work", "How it was computed", &work(record)),
+        section("sources", "Data and scene", &sources_list(DATA_FILES, "The scene as given", &record.scene_toml)),
+    ];
+    Page {
+        kind: "Sweep",
+        title: &identity.title,
+        answer: &answer(record),
+        interruption: None,
+        warnings: &[],
+        main: &sections.concat(),
+        footer: &format!("gearwear {} · scene {}", identity.program_version, identity.scene_hash),
+    }
+    .html()
+}
+
+/// The figures that one wants to be small and that are not the same everywhere.
+fn shown(record: &SweepRecord) -> impl Iterator<Item = &'static SweepFigure> + '_ {
+    FIGURES.iter().filter(|figure| figure.less_is_better && differs(record, figure))
+}
+
+fn figures(record: &SweepRecord) -> Vec<Figure> {
+    match varied(record).as_slice() {
+        [] => Vec::new(),
+        [x] => shown(record).filter_map(|figure| line_figures::along(record, figure, x)).collect(),
+        [x, y, ..] => shown(record).filter_map(|figure| contour_figures::contour(record, figure, x, y)).collect(),
+    }
+}
+
+fn answer(record: &SweepRecord) -> String {
+    let identity = &record.identity;
+    let keys: Vec<String> = identity
+        .axes
+        .iter()
+        .map(|axis| match axis.count {
+            1 => format!("{} = {}", axis.key, given(axis.from)),
+            n => format!("{} from {} to {} ({n} values)", axis.key, given(axis.from), given(axis.to)),
+        })
+        .collect();
+    let failed = record.failed();
+    let without = match failed {
+        0 => String::new(),
+        _ => format!(", {} of them without a result", count(failed as u64)),
+    };
+    let mut text =
+        format!("{} combinations of {}{without}.", count(identity.combinations() as u64), keys.join(" and "));
+    for (figure, row, least) in shown(record)
+        .filter(|figure| HEADLINES.contains(&figure.name))
+        .filter_map(|figure| record.least(figure).map(|(row, least)| (figure, row, least)))
+    {
+        let place: Vec<String> = identity
+            .axes
+            .iter()
+            .zip(&row.values)
+            .map(|(axis, &value)| format!("{} = {}", axis.key, given(value)))
+            .collect();
+        text.push_str(&format!(
+            " The {} is least, {}{}{}, at {}.",
+            figure.title,
+            shown_number(least),
+            if figure.unit.is_empty() { "" } else { " " },
+            figure.unit,
+            place.join(" and ")
+        ));
+    }
+    text.push_str(&vouched(record));
+    text
+}
+
+/// How far finite elements vouch for the sweep, in a sentence.
+fn vouched(record: &SweepRecord) -> String {
+    let Some(verification) = record.verification() else {
+        return " None of them is verified by finite elements.".to_owned();
+    };
+    match (verification.verified, verification.worst_of_peak_wear()) {
+        (0, _) | (_, None) => " Finite elements verify none of them.".to_owned(),
+        (n, Some(worst)) => format!(
+            " Finite elements verified {} of them: the greatest wear of each is within {}.",
+            count(n as u64),
+            best_tables::within(worst)
+        ),
+    }
+}
+
+fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> String {
+    let SweepVerification { intention, chosen, verified, open, .. } = verification;
+    let open = match open {
+        0 => String::new(),
+        n => format!(
+            " {n} are not verified yet: gearwear sweep of the same scene and keys, with the folder of this page as --out, does it."
+        ),
+    };
+    let text = format!(
+        "<p>Finite elements verify {}. Of the {chosen} chosen, {verified} have an answer.{}</p>\n",
+        escape(intention),
+        escape(&open)
+    );
+    let tables = if verification.rows.is_empty() { String::new() } else { best_tables::verified(record, verification) };
+    section("verification", "Verification", &[text, tables].concat())
+}
+
+fn work(record: &SweepRecord) -> String {
+    let summary = record.summary();
+    let threads = match record.threads {
+        0 => "It was merged from parts that were run elsewhere.".to_owned(),
+        1 => format!("The last start took {} s on one thread.", significant(record.wall_s, 3)),
+        n => format!("The last start took {} s on {n} threads.", significant(record.wall_s, 3)),
+    };
+    let estimates = if record.identity.error_estimate {
+        "Errors were estimated in each."
+    } else {
+        "Error estimates and snapshots were left out; gearwear run of one combination has them."
+    };
+    let verification = match &summary.verification {
+        Some(verification) => format!("The verifications took {} s together.", significant(verification.wall_s, 3)),
+        None => "No combination was verified by finite elements; numerics.verify = true in the scene has the best and the corners \
+                 verified, and gearwear run any one of them."
+            .to_owned(),
+    };
+    format!(
+        "<p>Each combination is the scene with the varied values exchanged, run by itself on one thread; together they took {} s. \
+         {} {threads} {}</p>\n",
+        significant(summary.combinations_wall_s, 3),
+        escape(&verification),
+        escape(estimates)
+    )
+}

@@ -1,0 +1,106 @@
+//! `sweep.csv`: one row per combination. `sweep.parquet` has the same columns.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+use crate::report::tables::{Provenance, table};
+use crate::studies::sweep::figures::FIGURES;
+use crate::studies::sweep::record::{SweepRecord, SweepRow, plain};
+use crate::studies::sweep::verification::CLAIMS;
+
+/// A cell of the table; empty where there is nothing to say.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Cell<'a> {
+    /// A whole number.
+    Whole(Option<i64>),
+    /// A number.
+    Number(Option<f64>),
+    /// A text.
+    Text(Option<&'a str>),
+}
+
+/// A column of the table.
+pub struct SweepColumn {
+    /// Its name, with its unit.
+    pub name: String,
+    /// What it holds.
+    pub meaning: String,
+    cell: Box<dyn for<'a> Fn(&'a SweepRow) -> Cell<'a>>,
+}
+
+impl SweepColumn {
+    fn new(
+        name: impl Into<String>,
+        meaning: impl Into<String>,
+        cell: impl for<'a> Fn(&'a SweepRow) -> Cell<'a> + 'static,
+    ) -> Self {
+        Self { name: name.into(), meaning: meaning.into(), cell: Box::new(cell) }
+    }
+
+    /// Its cell in `row`.
+    pub fn cell<'a>(&self, row: &'a SweepRow) -> Cell<'a> {
+        (self.cell)(row)
+    }
+}
+
+/// The columns of a sweep: combination, varied keys, status, figures, times, error, verification.
+pub fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
+    let whole = |count: usize| Cell::Whole(i64::try_from(count).ok());
+    let mut columns = vec![SweepColumn::new("index", "number of the combination, from 0", move |row| whole(row.index))];
+    for (at, axis) in record.identity.axes.iter().enumerate() {
+        let meaning = format!("varied from {} to {} in {} values", plain(axis.from), plain(axis.to), axis.count);
+        let is_whole = axis.whole;
+        columns.push(SweepColumn::new(&axis.key, meaning, move |row| {
+            let value = row.values.get(at).copied();
+            // Whole numbers were checked to be whole.
+            if is_whole { Cell::Whole(value.map(|value| value as i64)) } else { Cell::Number(value) }
+        }));
+    }
+    columns.push(SweepColumn::new("status", "ok, or failed: then the figures are empty and error says why", |row| {
+        Cell::Text(Some(row.status()))
+    }));
+    for figure in FIGURES {
+        columns.push(SweepColumn::new(figure.name, figure.meaning, |row| Cell::Number(row.figure(figure))));
+    }
+    columns.push(SweepColumn::new("warnings", "number of warnings of the run", move |row| {
+        row.warnings.map_or(Cell::Whole(None), whole)
+    }));
+    columns.push(SweepColumn::new("simulation_s", "wall time of the wear run alone", |row| {
+        Cell::Number(row.simulation_s)
+    }));
+    columns.push(SweepColumn::new("wall_s", "wall time of the whole combination, its verification apart", |row| {
+        Cell::Number(Some(row.wall_s))
+    }));
+    columns.push(SweepColumn::new("error", "why there are no figures", |row| Cell::Text(row.error.as_deref())));
+    let meaning = "why finite elements verified this row: best, corner, or best and corner; empty: nothing verified it";
+    columns.push(SweepColumn::new("verified", meaning, |row| {
+        Cell::Text(row.verification.as_ref().map(|verification| verification.chosen.name()))
+    }));
+    for claim in CLAIMS {
+        let meaning = format!(
+            "{}: relative difference to the same life on finite elements, their own uncertainty added; as in summary.json of a run; \
+             empty where not verified",
+            claim.title
+        );
+        columns.push(SweepColumn::new(claim.name, meaning, move |row| {
+            Cell::Number(row.verification.as_ref().and_then(|verification| (claim.of)(&verification.total)))
+        }));
+    }
+    columns.push(SweepColumn::new(
+        "error.total.how",
+        "how the row was verified, or why that was not possible",
+        |row| Cell::Text(row.verification.as_ref().map(|verification| verification.total.how.as_str())),
+    ));
+    columns
+}
+
+/// Writes `sweep.csv`.
+pub fn rows(out: &mut dyn Write, provenance: Provenance, record: &SweepRecord) -> io::Result<()> {
+    let columns = columns(record);
+    let names: Vec<(&str, &str)> =
+        columns.iter().map(|column| (column.name.as_str(), column.meaning.as_str())).collect();
+    let rows = record.rows.iter().map(|row| columns.iter().map(|column| column.cell(row)).collect::<Vec<_>>());
+    table(out, provenance, &names, rows)
+}

@@ -1,0 +1,202 @@
+//! Runs what is missing of a sweep on all threads, one combination a thread.
+//!
+//! A combination is run by one thread from beginning to end: with many combinations that loses nothing to waiting, and a row
+//! depends neither on the number of threads nor on the order in which they finish. Where the sweep is verified, the same is done once
+//! more with the rows that are chosen for it, which are known when all rows are.
+
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+
+use super::combination::Sweep;
+use super::journal::{Journal, JournalError};
+use crate::pipeline;
+use crate::plan::StageKind;
+use crate::simulation::wear_run;
+use crate::studies::sweep::record::{Shard, SweepRow};
+use crate::studies::sweep::verification::{Chosen, chosen};
+
+/// Told of rows as they are finished; says whether to go on.
+pub trait Observer: Sync {
+    /// `done` of `total` combinations are finished, those of an earlier start included; `failed` of them have an error.
+    fn row(&self, done: usize, total: usize, failed: usize);
+
+    /// `done` of the `total` rows that were chosen are verified, or have a reason why they are not.
+    fn verified(&self, done: usize, total: usize);
+
+    /// Whether the user wants it to stop: rows that are finished are kept, the others are given up.
+    fn interrupted(&self) -> bool;
+}
+
+/// How a sweep ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ended {
+    /// Every combination has its row.
+    Completed,
+    /// The user interrupted it.
+    Interrupted,
+}
+
+/// The combinations of a part of a sweep, in order: every `of`-th, beginning with `number`; `None`: all.
+pub fn part(combinations: usize, shard: Option<Shard>) -> impl Iterator<Item = usize> {
+    let (first, step) = shard.map_or((0, 1), |shard| (shard.number.saturating_sub(1), shard.of.max(1)));
+    (first..combinations).step_by(step)
+}
+
+/// A run within a sweep: it stops when the sweep does.
+struct Within<'a> {
+    observer: &'a dyn Observer,
+    stopped: &'a AtomicBool,
+}
+
+impl wear_run::Progress for Within<'_> {
+    fn progress(&self, _done: f64, _total: f64) {}
+
+    fn interrupted(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed) || self.observer.interrupted()
+    }
+
+    fn gives_up(&self) -> bool {
+        self.interrupted()
+    }
+}
+
+impl pipeline::Observer for Within<'_> {
+    fn stage(&self, _kind: StageKind) {}
+}
+
+/// What the threads share.
+struct Kept<'a, F> {
+    journal: &'a mut Journal,
+    /// Rows kept by now.
+    count: usize,
+    /// Told of each row that is kept.
+    tell: F,
+    /// Why no row can be kept any more.
+    error: Option<JournalError>,
+}
+
+impl<F: FnMut(&SweepRow)> Kept<'_, F> {
+    /// Keeps a finished row, if rows can still be kept: what follows a line that was not written whole could not be read again.
+    fn keep(&mut self, row: SweepRow) -> bool {
+        if self.error.is_some() {
+            return false;
+        }
+        let index = row.index;
+        self.error = self.journal.append(row).err();
+        if let (None, Some(row)) = (&self.error, self.journal.rows.get(&index)) {
+            self.count += 1;
+            (self.tell)(row);
+        }
+        self.error.is_none()
+    }
+}
+
+/// Runs the combinations of `shard` that `journal` does not hold yet, on `threads` threads; of a whole sweep that asks for it,
+/// verifies the rows that are chosen.
+///
+/// # Errors
+/// A row that cannot be kept; the rows before it are.
+pub fn run(
+    sweep: &Sweep,
+    shard: Option<Shard>,
+    journal: &mut Journal,
+    threads: usize,
+    observer: &dyn Observer,
+) -> Result<Ended, JournalError> {
+    let all: Vec<usize> = part(sweep.identity.combinations(), shard).collect();
+    let missing: Vec<usize> = all.iter().copied().filter(|index| !journal.rows.contains_key(index)).collect();
+    let mut done = journal.rows.len();
+    let mut failed = journal.rows.values().filter(|row| row.error.is_some()).count();
+    observer.row(done, all.len(), failed);
+    let tell = |row: &SweepRow| {
+        done += 1;
+        failed += usize::from(row.error.is_some());
+        observer.row(done, all.len(), failed);
+    };
+    let ended = spread(&missing, journal, threads, observer, |&index, within| sweep.row(index, within), tell)?;
+    match ended {
+        Ended::Completed if sweep.identity.verify && shard.is_none() => verify(sweep, journal, threads, observer),
+        _ => Ok(ended),
+    }
+}
+
+/// Verifies those of the chosen rows that are not yet.
+fn verify(
+    sweep: &Sweep,
+    journal: &mut Journal,
+    threads: usize,
+    observer: &dyn Observer,
+) -> Result<Ended, JournalError> {
+    let chosen = chosen(&sweep.identity, journal.rows.values());
+    let of_row = |(index, chosen): (&usize, &Chosen)| Some((journal.rows.get(index)?.clone(), *chosen));
+    let due: Vec<(SweepRow, Chosen)> =
+        chosen.iter().filter_map(of_row).filter(|(row, _)| row.verification.is_none()).collect();
+    let mut done = chosen.len() - due.len();
+    observer.verified(done, chosen.len());
+    let tell = |_: &SweepRow| {
+        done += 1;
+        observer.verified(done, chosen.len());
+    };
+    spread(&due, journal, threads, observer, |(row, chosen), within| sweep.verified(row, *chosen, within), tell)
+}
+
+/// Does `work` for each of `tasks` on all threads, keeps the rows it comes to in `journal`, and tells of each.
+fn spread<T: Sync>(
+    tasks: &[T],
+    journal: &mut Journal,
+    threads: usize,
+    observer: &dyn Observer,
+    work: impl Fn(&T, &Within<'_>) -> Option<SweepRow> + Sync,
+    tell: impl FnMut(&SweepRow) + Send,
+) -> Result<Ended, JournalError> {
+    let next = AtomicUsize::new(0);
+    let stopped = AtomicBool::new(false);
+    let kept = Mutex::new(Kept { journal, count: 0, tell, error: None });
+    let within = Within { observer, stopped: &stopped };
+    let take = || {
+        while let Some(task) = tasks.get(next.fetch_add(1, Ordering::Relaxed)) {
+            if wear_run::Progress::interrupted(&within) {
+                break;
+            }
+            let Some(row) = work(task, &within) else { break };
+            // Nothing panics with the lock held that would leave the journal half changed: it only appends.
+            if !kept.lock().unwrap_or_else(PoisonError::into_inner).keep(row) {
+                stopped.store(true, Ordering::Relaxed);
+                break;
+            }
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..threads.min(tasks.len()) {
+            scope.spawn(|| on_one_thread(take));
+        }
+    });
+    let Kept { count, error, .. } = kept.into_inner().unwrap_or_else(PoisonError::into_inner);
+    match error {
+        Some(reason) => Err(reason),
+        None if count == tasks.len() => Ok(Ended::Completed),
+        None => Ok(Ended::Interrupted),
+    }
+}
+
+/// Does `work` with everything in it that is parallel on this thread alone.
+fn on_one_thread(work: impl Fn()) {
+    // Without a pool of its own, its parallel parts would use the program's, which gives the same results.
+    let _own = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+    work();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The parts of a sweep are disjoint, and together all of it.
+    #[test]
+    fn shards_take_turns() {
+        let of = |number| part(10, Some(Shard { number, of: 4 })).collect::<Vec<_>>();
+        assert_eq!([of(1), of(2), of(3), of(4)], [vec![0, 4, 8], vec![1, 5, 9], vec![2, 6], vec![3, 7]]);
+        assert_eq!(part(3, None).collect::<Vec<_>>(), [0, 1, 2]);
+        assert_eq!(part(2, Some(Shard { number: 3, of: 3 })).count(), 0);
+    }
+}

@@ -1,0 +1,352 @@
+//! The rows of a sweep that finite elements verify, and what they say of them.
+//!
+//! A verification ([`TotalError`]) takes as long as a row on elastic half-planes and several times as long as one on springs, so
+//! that it is spent where the answer is read: on the rows one would choose, which are those with the least [`OBJECTIVE`], and on the
+//! corners of the box that is swept, where the pair is furthest from the middle of it.
+//!
+//! A corner has every varied key at its first or at its last value. k keys have 2^k of them; of more than [`MOST_CORNERS`] an
+//! orthogonal array is taken, in which each key is at its last value in one half, and any two keys have each of their four
+//! pairs of ends equally often. With r the number of the corner and m_j the mask of key j, both in binary digits,
+//!
+//! ```text
+//! key j is at its last value where the number of ones in r ∧ m_j is odd
+//! ```
+//!
+//! The masks of the first four keys are single digits, so that up to four keys have all of their corners. Source: G. E. P. Box,
+//! J. S. Hunter, W. G. Hunter, *Statistics for Experimenters* (2005), ch. 6: fractional factorial designs at two levels.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::{Deserialize, Serialize};
+
+use super::figures::{PEAK_WEAR, SweepFigure};
+use super::record::{SweepIdentity, SweepRow};
+use crate::results::error::TotalError;
+
+/// The figure by which rows are best: a sweep states no goal of its own, and the program is about wear.
+pub const OBJECTIVE: SweepFigure = PEAK_WEAR;
+/// Best rows that are verified: the least is one that somebody will use, and two more tell whether it is least by more than its
+/// error.
+pub const MOST_BEST: usize = 3;
+/// Corners that are verified: all of four keys, which take about half a minute on one thread; each key more would double it.
+pub const MOST_CORNERS: usize = 16;
+
+/// Of each varied key, in which corners it is at its last value; four digits, as there are 16 corners. Those of three digits come
+/// before the others: with up to eight keys any three have all eight triples of their ends.
+const MASKS: [usize; 15] = [1, 2, 4, 8, 7, 11, 13, 14, 15, 3, 5, 6, 9, 10, 12];
+
+/// Why a row is verified.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Chosen {
+    /// It is one of the best.
+    pub best: bool,
+    /// It is a corner.
+    pub corner: bool,
+}
+
+impl Chosen {
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match (self.best, self.corner) {
+            (true, true) => "best and corner",
+            (true, false) => "best",
+            (false, _) => "corner",
+        }
+    }
+}
+
+/// What finite elements say of a row.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RowVerification {
+    /// Why the row was verified.
+    pub chosen: Chosen,
+    /// How far it is from them, or why that is not known.
+    pub total: TotalError,
+    /// Wall time, s.
+    pub wall_s: f64,
+}
+
+impl RowVerification {
+    /// Whether there is an answer.
+    pub fn has_answer(&self) -> bool {
+        CLAIMS.iter().any(|claim| (claim.of)(&self.total).is_some())
+    }
+}
+
+/// One of the relative errors that a verification states.
+#[derive(Debug, Clone, Copy)]
+pub struct Claim {
+    /// Its path in the summary of a run, which is the name of its column.
+    pub name: &'static str,
+    /// Of what it is.
+    pub title: &'static str,
+    /// Where it stands.
+    pub of: fn(&TotalError) -> Option<f64>,
+}
+
+const fn claim(name: &'static str, title: &'static str, of: fn(&TotalError) -> Option<f64>) -> Claim {
+    Claim { name, title, of }
+}
+
+/// All claims, in the order of the columns.
+pub const CLAIMS: [Claim; 8] = [
+    claim("error.total.peak_wear.pinion", "peak wear of the pinion", |total| total.peak_wear.pinion),
+    claim("error.total.peak_wear.wheel", "peak wear of the wheel", |total| total.peak_wear.wheel),
+    claim("error.total.tip_edge_wear.pinion", "wear of the pinion’s tip edge", |total| total.tip_edge_wear.pinion),
+    claim("error.total.tip_edge_wear.wheel", "wear of the wheel’s tip edge", |total| total.tip_edge_wear.wheel),
+    claim("error.total.profile.pinion", "wear over the pinion’s flank (rms)", |total| total.profile.pinion),
+    claim("error.total.profile.wheel", "wear over the wheel’s flank (rms)", |total| total.profile.wheel),
+    claim("error.total.transmission_error_peak_to_peak", "transmission error, peak to peak", |total| {
+        total.transmission_error_peak_to_peak
+    }),
+    claim("error.total.pressure_between_tips", "pressure between the tip edges (rms)", |total| {
+        total.pressure_between_tips
+    }),
+];
+
+/// The corners of the box that is swept, at most [`MOST_CORNERS`], by index.
+pub fn corners(identity: &SweepIdentity) -> BTreeSet<usize> {
+    (0..corner_count(identity))
+        .map(|corner| {
+            let mut masks = MASKS.iter().cycle();
+            identity.axes.iter().fold(0, |index, axis| {
+                let is_last = axis.count > 1 && masks.next().is_some_and(|mask| (corner & mask).count_ones() % 2 == 1);
+                index * axis.count + if is_last { axis.count - 1 } else { 0 }
+            })
+        })
+        .collect()
+}
+
+fn corner_count(identity: &SweepIdentity) -> usize {
+    all_corners(identity).min(MOST_CORNERS)
+}
+
+/// 2^k corners of k keys that take more than one value: no more than there are combinations.
+fn all_corners(identity: &SweepIdentity) -> usize {
+    identity.axes.iter().map(|axis| axis.count.min(2)).product()
+}
+
+/// What will be verified and why, before any row is known.
+pub fn intention(identity: &SweepIdentity) -> String {
+    let (all, taken) = (all_corners(identity), corner_count(identity));
+    let best = MOST_BEST.min(identity.combinations());
+    let corners = if taken < all { format!("{taken} of the {all} corners") } else { format!("the corners ({taken})") };
+    let most = (best + taken).min(identity.combinations());
+    let by = OBJECTIVE.name;
+    format!("the best ({best}, by {by}) and {corners} of what is varied, at most {most} combinations")
+}
+
+/// Which of all `rows` are to be verified: the best and the corners, of those that have figures.
+pub fn chosen<'a>(identity: &SweepIdentity, rows: impl Iterator<Item = &'a SweepRow>) -> BTreeMap<usize, Chosen> {
+    let corners = corners(identity);
+    let mut chosen: BTreeMap<usize, Chosen> = BTreeMap::new();
+    let mut ranked: Vec<(f64, usize)> = Vec::new();
+    for row in rows.filter(|row| row.error.is_none()) {
+        if corners.contains(&row.index) {
+            chosen.entry(row.index).or_default().corner = true;
+        }
+        ranked.extend(row.figure(&OBJECTIVE).map(|value| (value, row.index)));
+    }
+    ranked.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
+    for &(_, index) in ranked.iter().take(MOST_BEST) {
+        chosen.entry(index).or_default().best = true;
+    }
+    chosen
+}
+
+/// What the verification of a sweep comes to, over its rows.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SweepVerification<'a> {
+    /// Which rows were chosen, and why.
+    pub intention: String,
+    /// Rows that were chosen: fewer than intended where the best are corners or a corner has no figures.
+    pub chosen: usize,
+    /// Those with an answer of the finite elements.
+    pub verified: usize,
+    /// Those without one, for the reason in their `total.how`.
+    pub unanswered: usize,
+    /// Those that were not verified yet: of merged shards, none of which knows the best of all rows.
+    pub open: usize,
+    /// The greatest of each claim over the verified rows.
+    pub worst: Vec<WorstClaim>,
+    /// The chosen rows but the open ones, in the order of the combinations.
+    pub rows: Vec<VerifiedRow<'a>>,
+    /// Wall times of all verifications together, s.
+    pub wall_s: f64,
+}
+
+/// A row with what finite elements say of it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct VerifiedRow<'a> {
+    /// Which combination.
+    pub index: usize,
+    /// The varied values, in the order of the axes.
+    pub values: &'a [f64],
+    /// The figure by which rows are best.
+    pub peak_wear_um: Option<f64>,
+    /// What they say.
+    #[serde(flatten)]
+    pub verification: &'a RowVerification,
+}
+
+/// The greatest of one claim.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct WorstClaim {
+    /// Name of the claim.
+    pub claim: &'static str,
+    /// Of what it is.
+    #[serde(skip)]
+    pub title: &'static str,
+    /// The relative error.
+    pub value: f64,
+    /// Which combination it is of, the first of equals.
+    pub index: usize,
+    /// The varied values, in the order of the axes.
+    pub values: Vec<f64>,
+}
+
+impl<'a> SweepVerification<'a> {
+    /// Of the whole sweep with these rows.
+    pub fn of(identity: &SweepIdentity, rows: &'a [SweepRow]) -> Self {
+        let chosen = chosen(identity, rows.iter());
+        let open = rows.iter().filter(|row| chosen.contains_key(&row.index) && row.verification.is_none()).count();
+        let rows: Vec<VerifiedRow<'a>> = rows
+            .iter()
+            .filter_map(|row| {
+                let verification = row.verification.as_ref()?;
+                let peak_wear_um = row.figure(&OBJECTIVE);
+                Some(VerifiedRow { index: row.index, values: &row.values, peak_wear_um, verification })
+            })
+            .collect();
+        let worst = CLAIMS.iter().filter_map(|claim| {
+            let stated = rows.iter().filter_map(|row| Some((row, (claim.of)(&row.verification.total)?)));
+            let (row, value) = stated.reduce(|worst, other| if other.1 > worst.1 { other } else { worst })?;
+            let (index, values) = (row.index, row.values.to_vec());
+            Some(WorstClaim { claim: claim.name, title: claim.title, value, index, values })
+        });
+        let verified = rows.iter().filter(|row| row.verification.has_answer()).count();
+        Self {
+            intention: intention(identity),
+            chosen: chosen.len(),
+            verified,
+            unanswered: rows.len() - verified,
+            open,
+            worst: worst.collect(),
+            wall_s: rows.iter().map(|row| row.verification.wall_s).sum(),
+            rows,
+        }
+    }
+
+    /// The worst claim about the greatest wear of a gear.
+    pub fn worst_of_peak_wear(&self) -> Option<f64> {
+        let peaks = self.rows.iter().map(|row| row.verification.total.peak_wear);
+        peaks.flat_map(|peak| [peak.pinion, peak.wheel]).flatten().reduce(f64::max)
+    }
+
+    /// Why the first row without an answer has none.
+    pub fn first_reason(&self) -> Option<&'a str> {
+        let unanswered = self.rows.iter().find(|row| !row.verification.has_answer());
+        unanswered.map(|row| row.verification.total.how.as_str())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::studies::sweep::figures::FIGURES;
+    use crate::studies::sweep::record::SweepAxis;
+
+    fn identity(counts: &[usize]) -> SweepIdentity {
+        let axis = |&count| SweepAxis { key: "k".to_owned(), from: 0.0, to: 1.0, count, whole: false };
+        SweepIdentity {
+            title: String::new(),
+            program_version: String::new(),
+            scene_hash: String::new(),
+            given_hash: String::new(),
+            inputs_hash: String::new(),
+            error_estimate: false,
+            verify: true,
+            axes: counts.iter().map(axis).collect(),
+            figures: Vec::new(),
+        }
+    }
+
+    /// A row whose every figure is `wear`; failed where there is none.
+    fn row(index: usize, wear: Option<f64>) -> SweepRow {
+        SweepRow {
+            index,
+            values: Vec::new(),
+            error: wear.is_none().then(|| "no".to_owned()),
+            figures: vec![wear; FIGURES.len()],
+            warnings: None,
+            simulation_s: None,
+            wall_s: 0.0,
+            verification: None,
+        }
+    }
+
+    #[test]
+    fn ver_few_keys_have_all_their_corners() {
+        assert_eq!(corners(&identity(&[])), BTreeSet::from([0]));
+        assert_eq!(corners(&identity(&[1, 5])), BTreeSet::from([0, 4]));
+        assert_eq!(corners(&identity(&[3, 4])), BTreeSet::from([0, 3, 8, 11]));
+        let four = corners(&identity(&[2, 3, 2, 3]));
+        assert_eq!((four.len(), four.first(), four.last()), (16, Some(&0), Some(&35)));
+    }
+
+    /// An orthogonal array: any two keys have each of the four pairs of their ends in a quarter of the corners.
+    #[test]
+    fn ver_corners_of_many_keys_are_balanced() {
+        for keys in 5..=15 {
+            let identity = identity(&vec![2; keys]);
+            let corners = corners(&identity);
+            assert_eq!(corners.len(), MOST_CORNERS);
+            let ends: Vec<Vec<f64>> = corners.iter().map(|&index| identity.values(index)).collect();
+            for (one, other) in (0..keys).flat_map(|one| (0..one).map(move |other| (one, other))) {
+                for pair in [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]] {
+                    assert_eq!(ends.iter().filter(|ends| [ends[one], ends[other]] == pair).count(), MOST_CORNERS / 4);
+                }
+            }
+        }
+        // More keys than a sweep of two values each can have.
+        assert_eq!(corners(&identity(&[2; 19])).len(), MOST_CORNERS);
+    }
+
+    #[test]
+    fn the_best_and_the_corners_are_chosen() {
+        let identity = identity(&[3, 3]);
+        // The centre is least; two are equal, of which the first counts; one corner failed.
+        let wear = [Some(9.0), Some(3.0), None, Some(4.0), Some(1.0), Some(3.0), Some(2.0), Some(5.0), Some(8.0)];
+        let rows: Vec<SweepRow> = wear.into_iter().enumerate().map(|(index, wear)| row(index, wear)).collect();
+        let names: Vec<(usize, &str)> =
+            chosen(&identity, rows.iter()).into_iter().map(|(index, chosen)| (index, chosen.name())).collect();
+        assert_eq!(names, [(0, "corner"), (1, "best"), (4, "best"), (6, "best and corner"), (8, "corner")]);
+        let intended = intention(&identity);
+        assert_eq!(
+            intended,
+            "the best (3, by peak_wear_um) and the corners (4) of what is varied, at most 7 combinations"
+        );
+        assert!(intention(&self::identity(&[2; 5])).contains("16 of the 32 corners"));
+        assert!(intention(&self::identity(&[2, 1])).ends_with("at most 2 combinations"));
+    }
+
+    #[test]
+    fn the_worst_claims_are_over_the_verified_rows() {
+        let identity = identity(&[4]);
+        let mut rows: Vec<SweepRow> = (0..4).map(|index| row(index, Some(index as f64))).collect();
+        let verified = |peak: Option<f64>| {
+            let mut total = TotalError::none("the contact is too narrow");
+            total.peak_wear.wheel = peak;
+            Some(RowVerification { chosen: Chosen::default(), total, wall_s: 1.0 })
+        };
+        for (row, peak) in rows.iter_mut().zip([Some(0.01), Some(0.03), None]) {
+            row.verification = verified(peak);
+        }
+        let found = SweepVerification::of(&identity, &rows);
+        assert_eq!((found.chosen, found.verified, found.unanswered, found.open), (4, 2, 1, 1));
+        let worst: Vec<(&str, f64, usize)> = found.worst.iter().map(|w| (w.claim, w.value, w.index)).collect();
+        assert_eq!(worst, [("error.total.peak_wear.wheel", 0.03, 1)]);
+        assert_eq!(found.first_reason(), Some("not verified: the contact is too narrow"));
+        assert_eq!((found.worst_of_peak_wear(), found.wall_s), (Some(0.03), 3.0));
+    }
+}

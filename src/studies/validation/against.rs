@@ -1,0 +1,384 @@
+//! What became of the suite since an earlier run of it.
+//!
+//! Compared are verdicts, errors and counts of work, each with a threshold that rounding on another machine stays below:
+//! a share of a tolerance by 0.05 of the tolerance, a number that is held against a bound by 1 % of itself, a count by 1 %.
+//! Wall times are never compared: they say as much of the machine as of the program.
+
+use std::collections::BTreeMap;
+
+use crate::studies::validation::record::{
+    CaseRecord, Change, Changes, Criterion, QuantityRecord, StabilityPoint, Standing, State, ValidationRecord,
+};
+
+/// A share of a tolerance has changed from this difference on.
+const SHARE: f64 = 0.05;
+/// A number held against a bound, or a count of work, has changed from this relative difference on.
+const RELATIVE: f64 = 0.01;
+/// Below this share of its bound a number is as good as zero, and its relative change says nothing.
+const NOTHING: f64 = 1e-6;
+
+/// What changed from `old` to `new`. A case that only one of them has is named, not judged: a suite may be run in part.
+pub fn changes(old: &ValidationRecord, new: &ValidationRecord) -> Changes {
+    let before: BTreeMap<&str, &CaseRecord> = by_name(old);
+    let now: BTreeMap<&str, &CaseRecord> = by_name(new);
+    let missing_in = |other: &BTreeMap<&str, &CaseRecord>, record: &ValidationRecord| {
+        let names = record.cases.iter().map(|case| case.name.clone());
+        names.filter(|name| !other.contains_key(name.as_str())).collect()
+    };
+    let mut found = Found::default();
+    for case in &new.cases {
+        if let Some(earlier) = before.get(case.name.as_str()) {
+            found.compare(earlier, case);
+        }
+    }
+    Changes {
+        against_version: old.program_version.clone(),
+        worse: found.worse,
+        better: found.better,
+        added: missing_in(&before, new),
+        gone: missing_in(&now, old),
+    }
+}
+
+fn by_name(record: &ValidationRecord) -> BTreeMap<&str, &CaseRecord> {
+    record.cases.iter().map(|case| (case.name.as_str(), case)).collect()
+}
+
+/// Which way something went.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Way {
+    Worse,
+    Better,
+}
+
+impl Way {
+    /// Worse where `worse`, else better.
+    fn worse_if(worse: bool) -> Self {
+        if worse { Self::Worse } else { Self::Better }
+    }
+}
+
+#[derive(Debug, Default)]
+struct Found {
+    worse: Vec<Change>,
+    better: Vec<Change>,
+}
+
+impl Found {
+    fn add(&mut self, way: Way, case: &CaseRecord, what: &str, before: State, now: State) {
+        let change = Change { case: case.name.clone(), what: what.to_owned(), before, now };
+        match way {
+            Way::Worse => self.worse.push(change),
+            Way::Better => self.better.push(change),
+        }
+    }
+
+    fn compare(&mut self, before: &CaseRecord, now: &CaseRecord) {
+        if before.failure.is_some() != now.failure.is_some() {
+            let ran = |case: &CaseRecord| State::Ran(case.failure.is_none());
+            self.add(Way::worse_if(now.failure.is_some()), now, "verdict", ran(before), ran(now));
+        }
+        for quantity in &now.quantities {
+            match before.quantities.iter().find(|earlier| earlier.name == quantity.name) {
+                Some(earlier) => self.compare_quantity(now, earlier, quantity),
+                // A quantity that is new is no change of the program, unless it fails.
+                None if !quantity.as_expected() => {
+                    self.add(Way::Worse, now, &quantity.name, State::Absent, State::Stands(quantity.standing));
+                }
+                None => {}
+            }
+        }
+        // A check that is gone, where the case ran, is a check lost.
+        if now.failure.is_none() {
+            for earlier in &before.quantities {
+                if now.quantities.iter().all(|quantity| quantity.name != earlier.name) {
+                    self.add(Way::Worse, now, &earlier.name, State::Stands(earlier.standing), State::Absent);
+                }
+            }
+        }
+        self.compare_stability(before, now);
+        self.compare_work(before, now);
+    }
+
+    fn compare_quantity(&mut self, case: &CaseRecord, before: &QuantityRecord, now: &QuantityRecord) {
+        if before.standing != now.standing {
+            let way = Way::worse_if(rank(now.standing) < rank(before.standing));
+            self.add(way, case, &now.name, State::Stands(before.standing), State::Stands(now.standing));
+            return;
+        }
+        if let Some(way) = limit_moved(before.criterion, now.criterion) {
+            // A share of another tolerance says nothing: what is compared is the error, in the tolerance as it was.
+            let what = format!("{}: what it is held against", now.name);
+            self.add(way, case, &what, State::Against(before.criterion), State::Against(now.criterion));
+            if let (Some(earlier), Some(error), Criterion::Near { tolerance, .. }) =
+                (before.error, now.error, before.criterion)
+                && (error - earlier).abs() > SHARE * tolerance
+            {
+                let errs = |error: f64| State::Errs(error, now.unit.clone());
+                self.add(Way::worse_if(error > earlier), case, &now.name, errs(earlier), errs(error));
+            }
+            return;
+        }
+        match (before.share, now.share) {
+            (Some(earlier), Some(share)) if !now.counts_work => {
+                if (share - earlier).abs() > SHARE {
+                    let way = Way::worse_if(share > earlier);
+                    self.add(way, case, &now.name, State::Uses(earlier), State::Uses(share));
+                }
+            }
+            _ => {
+                if let Some(way) = towards_bound(before, now) {
+                    let is = |quantity: &QuantityRecord| State::Is(quantity.value, quantity.unit.clone());
+                    self.add(way, case, &now.name, is(before), is(now));
+                }
+            }
+        }
+    }
+
+    /// Each value of a parameter that both tried: whether it ended as expected.
+    fn compare_stability(&mut self, before: &CaseRecord, now: &CaseRecord) {
+        for point in &now.stability {
+            let same = |p: &&StabilityPoint| p.parameter == point.parameter && p.setting == point.setting;
+            let Some(earlier) = before.stability.iter().find(same) else { continue };
+            let (was, is) = (earlier.outcome == earlier.expected, point.outcome == point.expected);
+            if was != is {
+                let what = format!("{}: {}", point.parameter, point.setting);
+                self.add(Way::worse_if(was), now, &what, State::Ended(earlier.outcome), State::Ended(point.outcome));
+            }
+        }
+    }
+
+    fn compare_work(&mut self, before: &CaseRecord, now: &CaseRecord) {
+        for (name, &count) in &now.work {
+            let Some(&earlier) = before.work.get(name) else { continue };
+            if count.abs_diff(earlier) as f64 > RELATIVE * earlier as f64 {
+                self.add(Way::worse_if(count > earlier), now, name, State::Counted(earlier), State::Counted(count));
+            }
+        }
+    }
+}
+
+/// The higher, the better.
+fn rank(standing: Standing) -> u8 {
+    match standing {
+        Standing::Fails => 0,
+        Standing::CannotBeCompared => 1,
+        Standing::Holds => 2,
+    }
+}
+
+/// Whether a quantity is held against something else than before: worse where that is looser, or another reference.
+fn limit_moved(before: Criterion, now: Criterion) -> Option<Way> {
+    let differs = |before: f64, now: f64, scale: f64| (now - before).abs() > RELATIVE * scale.abs();
+    let (moved, looser) = match (before, now) {
+        (Criterion::Near { reference: r0, tolerance: t0 }, Criterion::Near { reference: r1, tolerance: t1 }) => {
+            let another = differs(r0, r1, t0);
+            (another || differs(t0, t1, t0), another || t1 > t0)
+        }
+        (Criterion::AtMost { bound: b0 }, Criterion::AtMost { bound: b1 }) => (differs(b0, b1, b0), b1 > b0),
+        (Criterion::AtLeast { bound: b0 }, Criterion::AtLeast { bound: b1 }) => (differs(b0, b1, b0), b1 < b0),
+        (Criterion::Between { low: l0, high: h0 }, Criterion::Between { low: l1, high: h1 }) => {
+            (differs(l0, l1, h0 - l0) || differs(h0, h1, h0 - l0), l1 < l0 || h1 > h0)
+        }
+        (Criterion::True, Criterion::True) | (Criterion::Reported, Criterion::Reported) => return None,
+        _ => (true, true),
+    };
+    moved.then_some(Way::worse_if(looser))
+}
+
+/// Which way a number without a tolerance went, seen from its bound; `None` where it did not move, or has no bound.
+fn towards_bound(before: &QuantityRecord, now: &QuantityRecord) -> Option<Way> {
+    let (earlier, value) = (before.value?, now.value?);
+    let moved = |bound: f64| (value - earlier).abs() > RELATIVE * earlier.abs().max(NOTHING * bound.abs());
+    let (moved, worse) = match now.criterion {
+        Criterion::AtMost { bound } => (moved(bound), value > earlier),
+        Criterion::AtLeast { bound } => (moved(bound), value < earlier),
+        Criterion::Between { low, high } => {
+            let room = |value: f64| (value - low).min(high - value);
+            (moved(high - low), room(value) < room(earlier))
+        }
+        Criterion::Near { reference, .. } => {
+            (moved(reference), (value - reference).abs() > (earlier - reference).abs())
+        }
+        Criterion::True | Criterion::Reported => return None,
+    };
+    moved.then_some(Way::worse_if(worse))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::studies::validation::record::{CaseKind, RunOutcome, Tier};
+
+    fn quantity(criterion: Criterion, value: f64, share: Option<f64>) -> QuantityRecord {
+        QuantityRecord {
+            unit: "MPa".to_owned(),
+            value: Some(value),
+            criterion,
+            share,
+            standing: Standing::Holds,
+            ..QuantityRecord::named("q")
+        }
+    }
+
+    fn case(name: &str, quantities: Vec<QuantityRecord>) -> CaseRecord {
+        CaseRecord {
+            name: name.to_owned(),
+            title: String::new(),
+            group: String::new(),
+            targets: Vec::new(),
+            requirement: String::new(),
+            kind: CaseKind::Regression,
+            tier: Tier::Smoke,
+            says: None,
+            rests_on: Vec::new(),
+            runs: Vec::new(),
+            quantities,
+            work_precision: Vec::new(),
+            stability: Vec::new(),
+            plots: Vec::new(),
+            failure: None,
+            wall_s: 1.0,
+            work: BTreeMap::from([("equilibria".to_owned(), 1000)]),
+        }
+    }
+
+    fn record(cases: Vec<CaseRecord>) -> ValidationRecord {
+        ValidationRecord {
+            program_version: "0.1.0".to_owned(),
+            tier: Some(Tier::Smoke),
+            threads: 1,
+            cases,
+            wall_s: 1.0,
+            not_run: Vec::new(),
+        }
+    }
+
+    /// Worse and better, by what changed.
+    fn between(old: CaseRecord, new: CaseRecord) -> [Vec<String>; 2] {
+        let changes = changes(&record(vec![old]), &record(vec![new]));
+        [changes.worse, changes.better].map(|all| all.into_iter().map(|change| change.what).collect())
+    }
+
+    const SAME: [Vec<String>; 2] = [Vec::new(), Vec::new()];
+
+    fn near(share: f64) -> CaseRecord {
+        let criterion = Criterion::Near { reference: 100.0, tolerance: 10.0 };
+        case("a", vec![quantity(criterion, 100.0 + 10.0 * share, Some(share))])
+    }
+
+    fn of_value(criterion: Criterion, value: f64) -> CaseRecord {
+        case("a", vec![quantity(criterion, value, None)])
+    }
+
+    #[test]
+    fn a_share_that_moves_by_more_than_a_twentieth_is_a_change() {
+        assert_eq!(between(near(0.2), near(0.24)), SAME);
+        assert_eq!(between(near(0.2), near(0.26)), [vec!["q".to_owned()], vec![]]);
+        assert_eq!(between(near(0.26), near(0.2)), [vec![], vec!["q".to_owned()]]);
+    }
+
+    #[test]
+    fn a_number_without_a_tolerance_is_judged_by_its_way_to_the_bound() {
+        let least = Criterion::AtLeast { bound: 10.0 };
+        assert_eq!(between(of_value(least, 100.0), of_value(least, 99.5)), SAME);
+        assert_eq!(between(of_value(least, 100.0), of_value(least, 98.0)), [vec!["q".to_owned()], vec![]]);
+        let most = Criterion::AtMost { bound: 200.0 };
+        assert_eq!(between(of_value(most, 100.0), of_value(most, 98.0)), [vec![], vec!["q".to_owned()]]);
+        let between_ends = Criterion::Between { low: 1.0, high: 3.0 };
+        assert_eq!(between(of_value(between_ends, 1.5), of_value(between_ends, 2.0)), [vec![], vec!["q".to_owned()]]);
+        assert_eq!(between(of_value(between_ends, 2.0), of_value(between_ends, 2.5)), [vec!["q".to_owned()], vec![]]);
+    }
+
+    #[test]
+    fn a_looser_tolerance_is_worse_whatever_share_of_it_is_used() {
+        let held = |tolerance: f64, error: f64| {
+            let mut quantity =
+                quantity(Criterion::Near { reference: 1.0, tolerance }, 1.0 + error, Some(error / tolerance));
+            quantity.error = Some(error);
+            case("a", vec![quantity])
+        };
+        let limit = "q: what it is held against".to_owned();
+        assert_eq!(between(held(1.0, 0.5), held(10.0, 0.9)), [vec![limit.clone(), "q".to_owned()], vec![]]);
+        assert_eq!(between(held(1.0, 0.5), held(10.0, 0.5)), [vec![limit.clone()], vec![]]);
+        assert_eq!(between(held(1.0, 0.1), held(0.2, 0.1)), [vec![], vec![limit]]);
+    }
+
+    #[test]
+    fn rounding_about_zero_is_no_change() {
+        let least = Criterion::AtLeast { bound: -5.0 };
+        assert_eq!(between(of_value(least, 0.0), of_value(least, -1e-17)), SAME);
+    }
+
+    #[test]
+    fn a_count_with_a_bound_is_judged_as_a_count() {
+        let gate = |value, share| {
+            let mut case = case("a", vec![quantity(Criterion::AtMost { bound: 1000.0 }, value, Some(share))]);
+            case.quantities[0].counts_work = true;
+            case
+        };
+        assert_eq!(between(gate(500.0, 0.5), gate(520.0, 0.52)), [vec!["q".to_owned()], vec![]]);
+    }
+
+    #[test]
+    fn a_verdict_that_changed_is_told_once() {
+        let mut failing = near(1.3);
+        failing.quantities[0].standing = Standing::Fails;
+        assert_eq!(between(near(0.2), failing.clone()), [vec!["q".to_owned()], vec![]]);
+        assert_eq!(between(failing, near(0.2)), [vec![], vec!["q".to_owned()]]);
+    }
+
+    #[test]
+    fn a_case_that_cannot_run_any_more_is_worse_and_its_quantities_are_not_told_again() {
+        let mut broken = case("a", Vec::new());
+        broken.failure = Some("no such preset".to_owned());
+        assert_eq!(between(near(0.2), broken.clone()), [vec!["verdict".to_owned()], vec![]]);
+        assert_eq!(between(broken, near(0.2)), [vec![], vec!["verdict".to_owned()]]);
+    }
+
+    #[test]
+    fn a_check_that_is_gone_is_worse() {
+        assert_eq!(between(near(0.2), case("a", Vec::new())), [vec!["q".to_owned()], vec![]]);
+    }
+
+    #[test]
+    fn work_counts_from_one_per_cent_on_and_wall_time_never() {
+        let with = |count, wall_s| {
+            let mut case = near(0.2);
+            case.work.insert("equilibria".to_owned(), count);
+            case.wall_s = wall_s;
+            case
+        };
+        assert_eq!(between(with(1000, 1.0), with(1010, 900.0)), SAME);
+        assert_eq!(between(with(1000, 1.0), with(1011, 1.0)), [vec!["equilibria".to_owned()], vec![]]);
+        assert_eq!(between(with(1000, 1.0), with(900, 1.0)), [vec![], vec!["equilibria".to_owned()]]);
+        // Work where there was none before.
+        assert_eq!(between(with(0, 1.0), with(1, 1.0)), [vec!["equilibria".to_owned()], vec![]]);
+    }
+
+    #[test]
+    fn a_value_of_a_parameter_that_fails_now_is_worse() {
+        let with = |outcome| {
+            let mut case = near(0.2);
+            case.stability.push(StabilityPoint {
+                parameter: "torque, N·m".to_owned(),
+                value: 1e7,
+                setting: "1e7".to_owned(),
+                outcome,
+                expected: RunOutcome::Sound,
+                said: None,
+            });
+            case
+        };
+        let what = "torque, N·m: 1e7".to_owned();
+        assert_eq!(between(with(RunOutcome::Sound), with(RunOutcome::Panicked)), [vec![what.clone()], vec![]]);
+        assert_eq!(between(with(RunOutcome::Refused), with(RunOutcome::Sound)), [vec![], vec![what]]);
+    }
+
+    #[test]
+    fn cases_of_only_one_record_are_named() {
+        let found = changes(&record(vec![case("a", vec![])]), &record(vec![case("b", vec![])]));
+        assert_eq!((found.added, found.gone), (vec!["b".to_owned()], vec!["a".to_owned()]));
+        assert!(found.worse.is_empty() && found.better.is_empty());
+    }
+}

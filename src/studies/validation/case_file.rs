@@ -1,0 +1,387 @@
+//! `case.toml`: a validation case as its author writes it.
+//!
+//! A case is data. It names runs of the program (scenes, with keys exchanged, alone or in families), quantities as expressions
+//! over what the runs left behind ([`super::expression`]), and what each quantity is held against, with source, uncertainty and
+//! the reason for the tolerance. Numbers may be written as expressions wherever a reference follows from a closed form.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use crate::studies::validation::record::{CaseKind, CurveStyle, RunOutcome, Standing, Tier};
+
+/// A case.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CaseFile {
+    /// Title.
+    pub title: String,
+    /// The group it is shown in.
+    pub group: String,
+    /// One sentence: what must be so.
+    pub requirement: String,
+    /// What it shows.
+    pub kind: CaseKind,
+    /// The first tier that holds it.
+    pub tier: Tier,
+    /// The targets it speaks to, such as `S1`.
+    #[serde(default)]
+    pub targets: Vec<String>,
+    /// What the source says, in the project's own words.
+    pub says: Option<String>,
+    /// Estimates it rests on.
+    #[serde(default)]
+    pub rests_on: Vec<String>,
+    /// Runs of the program.
+    #[serde(default)]
+    pub run: Vec<RunSpec>,
+    /// Files of numbers beside the case.
+    #[serde(default)]
+    pub data: Vec<DataSpec>,
+    /// Names for expressions that are used more than once, in order.
+    #[serde(default)]
+    pub define: Vec<Definition>,
+    /// What is judged.
+    pub quantity: Vec<QuantitySpec>,
+    /// What is drawn.
+    #[serde(default)]
+    pub plot: Vec<PlotSpec>,
+    /// Error against cost.
+    #[serde(default)]
+    pub work_precision: Vec<WorkPrecisionSpec>,
+    /// Outcomes over a range of a parameter.
+    #[serde(default)]
+    pub stability: Vec<StabilitySpec>,
+}
+
+/// A run, or a family of runs.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunSpec {
+    /// By which expressions know it.
+    pub name: String,
+    /// What is run.
+    #[serde(default)]
+    pub command: Command,
+    /// A preset, or a file beside the case.
+    pub scene: String,
+    /// With `fem` of a gear pair: the one position; without it the mesh cycle.
+    pub position_mm: Option<f64>,
+    /// With `fem` of a gear pair: the whole model without condensation beside it.
+    #[serde(default)]
+    pub full: bool,
+    /// Keys of the scene, as paths with dots, and their values.
+    #[serde(default)]
+    pub set: toml::Table,
+    /// Keys of the scene that are taken away, so that their defaults hold.
+    #[serde(default)]
+    pub unset: Vec<String>,
+    /// A run with the command `calibrate` whose calibration this one reads.
+    pub calibration: Option<String>,
+    /// Keys that are varied: every combination is a member of the family.
+    #[serde(default)]
+    pub vary: Vec<VarySpec>,
+    /// Members one by one.
+    #[serde(default)]
+    pub each: Vec<MemberSpec>,
+    /// Members drawn from ranges.
+    pub sample: Option<SampleSpec>,
+    /// How it must end, members of `each` that say otherwise apart.
+    #[serde(default = "sound")]
+    pub expect: RunOutcome,
+    /// Other ways in which members may end, where nobody can say beforehand which of them are refused.
+    #[serde(default)]
+    pub accept: Vec<RunOutcome>,
+    /// Of a family: expressions for every member, in which `run` is the member; each becomes a column of the family.
+    #[serde(default)]
+    pub take: BTreeMap<String, String>,
+}
+
+fn sound() -> RunOutcome {
+    RunOutcome::Sound
+}
+
+impl RunSpec {
+    /// Whether it is a family of runs.
+    pub fn is_family(&self) -> bool {
+        !self.vary.is_empty() || !self.each.is_empty() || self.sample.is_some()
+    }
+}
+
+/// The command that does the same from a terminal.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Command {
+    /// The wear simulation.
+    #[default]
+    Run,
+    /// Finite-element contact, of a gear pair or of a problem with its own mesh.
+    Fem,
+    /// K/H and tooth stiffness from finite elements.
+    Calibrate,
+}
+
+impl Command {
+    /// As the user writes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Run => "run",
+            Self::Fem => "fem",
+            Self::Calibrate => "calibrate",
+        }
+    }
+}
+
+/// A key that is varied.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct VarySpec {
+    /// The key, or several that take the same value.
+    pub key: OneOrMore,
+    /// The column of its values in the family; default: the last part of the first key.
+    pub name: Option<String>,
+    /// Its values …
+    pub values: Option<Vec<toml::Value>>,
+    /// … or from this number …
+    pub from: Option<f64>,
+    /// … to this one …
+    pub to: Option<f64>,
+    /// … so many.
+    pub count: Option<usize>,
+    /// Evenly in the logarithm.
+    #[serde(default)]
+    pub log: bool,
+}
+
+/// One text or several.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(untagged)]
+pub enum OneOrMore {
+    /// One.
+    One(String),
+    /// Several.
+    More(Vec<String>),
+}
+
+impl OneOrMore {
+    /// All of them.
+    pub fn all(&self) -> &[String] {
+        match self {
+            Self::One(one) => std::slice::from_ref(one),
+            Self::More(more) => more,
+        }
+    }
+}
+
+/// A member of a family.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MemberSpec {
+    /// What it is called in plots and messages; default: what it sets.
+    pub label: Option<String>,
+    /// Its place on an axis: the column `value` of the family.
+    pub value: Option<f64>,
+    /// Keys and values beside those of the run.
+    #[serde(default)]
+    pub set: toml::Table,
+    /// Keys that are taken away.
+    #[serde(default)]
+    pub unset: Vec<String>,
+    /// How it must end.
+    pub expect: Option<RunOutcome>,
+}
+
+/// Members drawn from ranges, evenly (the points of Halton's sequence).
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SampleSpec {
+    /// How many.
+    pub count: usize,
+    /// Another number draws others.
+    #[serde(default)]
+    pub seed: usize,
+    /// What is drawn.
+    pub of: Vec<VarySpec>,
+}
+
+/// A file of numbers beside the case: CSV with a line of column names.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DataSpec {
+    /// By which expressions know it.
+    pub name: String,
+    /// The file.
+    pub file: String,
+    /// The columns that it must have.
+    pub columns: Vec<String>,
+    /// Why it may be missing, and what is then not known; without this it must be there.
+    pub missing: Option<String>,
+}
+
+/// A name for an expression.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Definition {
+    /// The name.
+    pub name: String,
+    /// The expression.
+    pub value: String,
+}
+
+/// A number, or an expression for one.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum Formula {
+    /// A number.
+    Number(f64),
+    /// An expression.
+    Expression(String),
+}
+
+/// How far from a reference, or how uncertain one is.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Extent {
+    /// A share of the reference.
+    Relative(Formula),
+    /// In the quantity's unit.
+    Absolute(Formula),
+}
+
+/// What is judged.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct QuantitySpec {
+    /// What it is.
+    pub name: String,
+    /// The one target of the case that it speaks to; without it, all of them.
+    pub target: Option<String>,
+    /// Its unit.
+    #[serde(default)]
+    pub unit: String,
+    /// The expression for it.
+    pub value: Option<Formula>,
+    /// The reference it must be near.
+    pub near: Option<Formula>,
+    /// How near.
+    pub within: Option<Extent>,
+    /// Its least value.
+    pub at_least: Option<Formula>,
+    /// Its greatest value; with `at_least`, both hold.
+    pub at_most: Option<Formula>,
+    /// `true`: the expression is a statement that must be true.
+    pub is_true: Option<bool>,
+    /// Where reference or bound come from.
+    #[serde(default)]
+    pub source: String,
+    /// Of the reference.
+    pub uncertainty: Option<Extent>,
+    /// What the spacing of the computation contributes.
+    pub discretisation: Option<Extent>,
+    /// Why the tolerance or bound is what it is.
+    pub because: Option<String>,
+    /// `fails`: known not to hold.
+    pub stands: Option<Standing>,
+    /// Why it is known not to hold, or why it cannot be compared.
+    pub remark: Option<String>,
+    /// The file of numbers without which it cannot be compared.
+    pub needs: Option<String>,
+    /// It counts work.
+    #[serde(default)]
+    pub work: bool,
+}
+
+/// A plot.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlotSpec {
+    /// Heading.
+    pub title: String,
+    /// What one sees, in a sentence.
+    pub reading: String,
+    /// Title of the abscissa, unit included.
+    pub x: String,
+    /// Title of the ordinate, unit included.
+    pub y: String,
+    /// Whether the abscissa is logarithmic.
+    #[serde(default)]
+    pub log_x: bool,
+    /// Whether the ordinate is logarithmic.
+    #[serde(default)]
+    pub log_y: bool,
+    /// The curves.
+    pub curve: Vec<CurveSpec>,
+    /// Lines across the plot.
+    #[serde(default)]
+    pub level: Vec<LineSpec>,
+    /// Lines up the plot.
+    #[serde(default)]
+    pub mark: Vec<LineSpec>,
+}
+
+/// A curve.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CurveSpec {
+    /// Its name; with `each`, before the member's own.
+    #[serde(default)]
+    pub name: String,
+    /// Expression for the abscissae.
+    pub x: String,
+    /// Expression for the ordinates.
+    pub y: String,
+    /// With `style = "band"`: expression for the upper edge; `y` is the lower one.
+    pub upper: Option<String>,
+    /// Expression for half the height of error bars.
+    pub uncertainty: Option<String>,
+    /// How it is drawn.
+    #[serde(default = "line")]
+    pub style: CurveStyle,
+    /// A family: one curve a member, in whose expressions `run` is the member.
+    pub each: Option<String>,
+    /// The file of numbers without which it is left out.
+    pub needs: Option<String>,
+}
+
+fn line() -> CurveStyle {
+    CurveStyle::Line
+}
+
+/// A line across or up a plot.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LineSpec {
+    /// Its name.
+    pub name: String,
+    /// Where.
+    pub at: Formula,
+}
+
+/// Error against cost of a family.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WorkPrecisionSpec {
+    /// The family.
+    pub family: String,
+    /// The column of the family that names the curves.
+    pub series: String,
+    /// What else is said of them, such as `with tip edges`.
+    #[serde(default)]
+    pub name: String,
+    /// Expression for the relative error of a member, `run`.
+    pub error: String,
+    /// What is counted, as in the summary's `work`.
+    pub counted: String,
+}
+
+/// Outcomes of a family over a range of a parameter.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StabilitySpec {
+    /// The family.
+    pub family: String,
+    /// The parameter, unit included.
+    pub parameter: String,
+    /// Its column in the family.
+    pub value: String,
+}

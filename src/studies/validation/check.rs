@@ -1,0 +1,172 @@
+//! What a case file must be beyond its shape: names that are known and used once, criteria that say one thing, sources.
+
+use std::collections::BTreeSet;
+
+use super::case_file::{CaseFile, Command, QuantitySpec, RunSpec, VarySpec};
+use super::expression::Evaluator;
+use crate::studies::validation::record::{RunOutcome, Standing};
+
+/// Greatest number of members of a family.
+pub const MOST_MEMBERS: usize = 10_000;
+
+/// What is wrong with a case.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{place}: found {found}; allowed: {allowed}")]
+pub struct CaseFault {
+    /// Which run, quantity or plot, by its name.
+    pub place: String,
+    /// What it says.
+    pub found: String,
+    /// What it may say.
+    pub allowed: String,
+    /// The name to look for in the file.
+    name: String,
+}
+
+impl CaseFault {
+    /// The line of `text` that names what is wrong, from 1.
+    pub fn line(&self, text: &str) -> usize {
+        let quoted = format!("\"{}\"", self.name);
+        text.lines().position(|line| line.contains(&quoted)).map_or(1, |line| line + 1)
+    }
+}
+
+fn fault(kind: &str, name: &str, found: impl Into<String>, allowed: impl Into<String>) -> CaseFault {
+    CaseFault { place: format!("{kind} {name:?}"), found: found.into(), allowed: allowed.into(), name: name.to_owned() }
+}
+
+/// The first thing that is wrong with a case.
+///
+/// # Errors
+/// [`CaseFault`]
+pub fn check(case: &CaseFile) -> Result<(), CaseFault> {
+    let mut names = BTreeSet::from(["run"]);
+    let all = case.run.iter().map(|run| run.name.as_str()).chain(case.data.iter().map(|data| data.name.as_str()));
+    for name in all.chain(case.define.iter().map(|definition| definition.name.as_str())) {
+        let plain = name.starts_with(|c: char| c.is_ascii_lowercase())
+            && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+        if !plain || !Evaluator::can_name(name) {
+            let allowed = "a small letter, then letters, digits and underscores; no word of the expression language";
+            return Err(fault("name", name, "it", allowed));
+        }
+        if !names.insert(name) {
+            return Err(fault(
+                "name",
+                name,
+                "it twice, or the name of every member",
+                "each name once, and not \"run\"",
+            ));
+        }
+    }
+    case.run.iter().try_for_each(|run| check_run(run, case))?;
+    if case.quantity.is_empty() {
+        return Err(fault("case", &case.title, "no quantity", "at least one [[quantity]]"));
+    }
+    let mut quantities = BTreeSet::new();
+    if let Some(twice) = case.quantity.iter().find(|quantity| !quantities.insert(quantity.name.as_str())) {
+        return Err(fault("quantity", &twice.name, "it twice", "each name once"));
+    }
+    case.quantity.iter().try_for_each(|quantity| check_quantity(quantity, case))?;
+    let families: BTreeSet<&str> = case.run.iter().filter(|r| r.is_family()).map(|r| r.name.as_str()).collect();
+    let of_plots = case.plot.iter().flat_map(|plot| &plot.curve).filter_map(|curve| curve.each.as_deref());
+    let others =
+        case.work_precision.iter().map(|w| w.family.as_str()).chain(case.stability.iter().map(|s| s.family.as_str()));
+    for family in of_plots.chain(others) {
+        if !families.contains(family) {
+            return Err(fault("family", family, "no such family", "the name of a run with vary, each or sample"));
+        }
+    }
+    Ok(())
+}
+
+fn check_run(run: &RunSpec, case: &CaseFile) -> Result<(), CaseFault> {
+    let wrong = |found: &str, allowed: &str| Err(fault("run", &run.name, found, allowed));
+    let ways = [!run.vary.is_empty(), !run.each.is_empty(), run.sample.is_some()];
+    if ways.iter().filter(|&&way| way).count() > 1 {
+        return wrong("more than one of vary, each and sample", "one of them");
+    }
+    if !run.is_family() && !run.take.is_empty() {
+        return wrong("take without a family", "take beside vary, each or sample");
+    }
+    if run.command != Command::Fem && run.position_mm.is_some() {
+        return wrong("position_mm", "it with command = \"fem\" alone");
+    }
+    if run.command == Command::Run && run.full {
+        return wrong("full", "it with command = \"fem\" or \"calibrate\" alone");
+    }
+    let is_defect = |outcome: &RunOutcome| matches!(outcome, RunOutcome::Unsound | RunOutcome::Panicked);
+    if run.accept.iter().any(is_defect) {
+        return wrong("accept of a defect", "accept of \"sound\", \"refused\" and \"not-converged\" alone");
+    }
+    for varied in run.vary.iter().chain(run.sample.iter().flat_map(|sample| &sample.of)) {
+        check_varied(varied).map_err(|(found, allowed)| fault("run", &run.name, found, allowed))?;
+    }
+    let members = run.vary.iter().map(VarySpec::count).try_fold(1usize, usize::checked_mul);
+    let members = members.map(|members| run.sample.as_ref().map_or(members, |sample| sample.count));
+    if members.is_none_or(|members| members > MOST_MEMBERS || members == 0) {
+        return wrong("no members, or more than can be kept", "1 to 10000 members");
+    }
+    if let Some(name) = &run.calibration {
+        let made = |other: &RunSpec| other.name == *name && other.command == Command::Calibrate && !other.is_family();
+        if !case.run.iter().any(made) || run.command == Command::Calibrate {
+            return wrong(&format!("calibration = {name:?}"), "the name of a single run with command = \"calibrate\"");
+        }
+    }
+    Ok(())
+}
+
+fn check_varied(varied: &VarySpec) -> Result<(), (String, &'static str)> {
+    let key = || varied.key.all().first().cloned().unwrap_or_default();
+    if varied.key.all().is_empty() {
+        return Err(("no key".to_owned(), "at least one"));
+    }
+    match (&varied.values, varied.from, varied.to) {
+        (Some(values), None, None) if !values.is_empty() => Ok(()),
+        (None, Some(from), Some(to)) if !varied.log || (from > 0.0 && to > 0.0) => Ok(()),
+        (None, Some(_), Some(_)) => Err((format!("{}: ends not above 0 with log", key()), "ends above 0")),
+        _ => Err((format!("{}: neither values nor from and to, or both", key()), "values = […], or from and to")),
+    }
+}
+
+fn check_quantity(quantity: &QuantitySpec, case: &CaseFile) -> Result<(), CaseFault> {
+    let wrong = |found: &str, allowed: &str| Err(fault("quantity", &quantity.name, found, allowed));
+    let bounded = quantity.at_least.is_some() || quantity.at_most.is_some();
+    if quantity.is_true == Some(false) {
+        return wrong("is_true = false", "is_true = true, with ! before a statement that must not be true");
+    }
+    let blank = |text: &Option<String>| text.as_ref().is_some_and(|text| text.trim().is_empty());
+    if blank(&quantity.because) || blank(&quantity.remark) {
+        return wrong("because or remark without a word", "the reason");
+    }
+    let criteria = [quantity.near.is_some(), bounded, quantity.is_true.is_some()];
+    let cannot = quantity.stands == Some(Standing::CannotBeCompared);
+    if criteria.iter().filter(|&&given| given).count() > 1 {
+        return wrong("more than one of near, at_least or at_most, and is_true", "one of them");
+    }
+    if quantity.near.is_some() != quantity.within.is_some() {
+        return wrong("only one of near and within", "both or none");
+    }
+    if criteria.contains(&true) && quantity.source.is_empty() && !quantity.work {
+        return wrong("no source", "where reference or bound come from");
+    }
+    if quantity.value.is_none() && !cannot {
+        return wrong("no value", "an expression, or stands = \"cannot-be-compared\"");
+    }
+    if bounded && quantity.because.is_none() && !quantity.work {
+        return wrong("a bound without because", "the reason for it");
+    }
+    if (cannot || quantity.stands == Some(Standing::Fails)) && quantity.remark.is_none() {
+        return wrong("stands without remark", "the reason");
+    }
+    if let Some(target) = &quantity.target
+        && !case.targets.contains(target)
+    {
+        return wrong(&format!("target = {target:?}"), "one of the case's targets");
+    }
+    if let Some(name) = &quantity.needs
+        && !case.data.iter().any(|data| data.name == *name && data.missing.is_some())
+    {
+        return wrong(&format!("needs = {name:?}"), "the name of a [[data]] that may be missing");
+    }
+    Ok(())
+}

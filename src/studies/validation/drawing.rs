@@ -1,0 +1,138 @@
+//! What a case draws: plots, error against cost, outcomes over a range.
+
+use std::collections::BTreeMap;
+
+use super::case_file::{CurveSpec, PlotSpec, StabilitySpec, WorkPrecisionSpec};
+use super::execution::Executed;
+use super::expression::{Evaluator, ExpressionError};
+use super::judge::number;
+use super::members::Member;
+use super::schedule::Members;
+use super::value::Value;
+use crate::studies::validation::record::{
+    CasePlot, CurveStyle, PlotAxis, PlotCurve, RunOutcome, StabilityPoint, WorkPrecisionPoint,
+};
+
+/// The members of a family that left something behind.
+fn finished(family: &Members) -> impl Iterator<Item = (&Member, &Executed)> {
+    let both = family.members.iter().zip(&family.executed);
+    both.filter_map(|(member, executed)| executed.as_ref().map(|run| (member, run)))
+        .filter(|(_, run)| run.outcome == RunOutcome::Sound)
+}
+
+/// A plot; `families` finds one by its name.
+///
+/// # Errors
+/// An expression without a value.
+pub fn plot<'a>(
+    spec: &PlotSpec,
+    absent: &BTreeMap<&str, &str>,
+    families: &impl Fn(&str) -> Option<&'a Members>,
+    e: &mut Evaluator,
+) -> Result<CasePlot, ExpressionError> {
+    let mut curves = Vec::new();
+    for of in spec.curve.iter().filter(|of| of.needs.as_deref().is_none_or(|name| !absent.contains_key(name))) {
+        match of.each.as_deref().and_then(families) {
+            None => curves.push(curve(of, of.name.clone(), e)?),
+            Some(family) => {
+                for (member, run) in finished(family) {
+                    let name = [of.name.as_str(), member.label.as_str()].join(" ").trim().to_owned();
+                    curves.push(e.with("run", &run.as_value(), |e| curve(of, name, e))?);
+                }
+            }
+        }
+    }
+    let mut lines = |specs: &[super::case_file::LineSpec]| {
+        specs.iter().map(|line| Ok((line.name.clone(), number(&line.at, e)?))).collect::<Result<Vec<_>, _>>()
+    };
+    Ok(CasePlot {
+        title: spec.title.clone(),
+        reading: spec.reading.clone(),
+        levels: lines(&spec.level)?,
+        marks: lines(&spec.mark)?,
+        x: PlotAxis { title: spec.x.clone(), log: spec.log_x },
+        y: PlotAxis { title: spec.y.clone(), log: spec.log_y },
+        curves,
+    })
+}
+
+fn curve(of: &CurveSpec, name: String, e: &mut Evaluator) -> Result<PlotCurve, ExpressionError> {
+    let (mut x, mut y) = (e.column(&of.x)?, e.column(&of.y)?);
+    if let (CurveStyle::Band, Some(upper)) = (of.style, &of.upper) {
+        let upper = e.column(upper)?;
+        x = x.iter().chain(x.iter().rev()).copied().collect();
+        y.extend(upper.into_iter().rev());
+    }
+    if x.len() != y.len() {
+        let reason = format!("{} ordinates for {} abscissae of {:?}", y.len(), x.len(), of.x);
+        return Err(ExpressionError { expression: of.y.clone(), reason });
+    }
+    let uncertainty = of.uncertainty.as_ref().map(|expression| e.column(expression)).transpose()?.unwrap_or_default();
+    Ok(PlotCurve { name, x, y, uncertainty, style: of.style })
+}
+
+/// Error against cost of the members of a family.
+///
+/// # Errors
+/// An expression without a value.
+pub fn work_precision(
+    spec: &WorkPrecisionSpec,
+    family: &Members,
+    e: &mut Evaluator,
+) -> Result<Vec<WorkPrecisionPoint>, ExpressionError> {
+    let mut points = Vec::new();
+    for (member, run) in finished(family) {
+        let error = e.with("run", &run.as_value(), |e| e.number(&spec.error))?;
+        if !error.is_finite() {
+            let reason = format!("found {error} for {:?}; allowed: a finite error", member.label);
+            return Err(ExpressionError { expression: spec.error.clone(), reason });
+        }
+        let named = member.values.iter().find(|(name, _)| *name == spec.series);
+        points.push(WorkPrecisionPoint {
+            series: [named.map_or_else(String::new, |(_, value)| in_words(value)), spec.name.clone()]
+                .join(" ")
+                .trim()
+                .to_owned(),
+            setting: member.label.clone(),
+            error,
+            wall_s: run.wall_s,
+            work: run.work.get(&spec.counted).map_or(0.0, |&count| count as f64),
+            counted: spec.counted.clone(),
+        });
+    }
+    Ok(points)
+}
+
+/// Outcomes of the members of a family over its parameter.
+///
+/// # Errors
+/// In words: a member without a number for it.
+pub fn stability(spec: &StabilitySpec, family: &Members) -> Result<Vec<StabilityPoint>, String> {
+    let both = family.members.iter().zip(&family.executed);
+    both.filter_map(|(member, executed)| executed.as_ref().map(|run| (member, run)))
+        .map(|(member, run)| {
+            let value = member.values.iter().find(|(name, _)| *name == spec.value).map(|(_, value)| value);
+            let Some(Value::Number(value)) = value.filter(|value| matches!(value, Value::Number(x) if x.is_finite()))
+            else {
+                let (parameter, name) = (&spec.parameter, &spec.value);
+                return Err(format!("stability over {parameter}: {name} of a member is no number; allowed: numbers"));
+            };
+            Ok(StabilityPoint {
+                parameter: spec.parameter.clone(),
+                value: *value,
+                setting: member.label.clone(),
+                outcome: run.outcome,
+                expected: if member.may_end(run.outcome) { run.outcome } else { member.expected },
+                said: run.said.clone(),
+            })
+        })
+        .collect()
+}
+
+fn in_words(value: &Value) -> String {
+    match value {
+        Value::Text(text) => text.clone(),
+        Value::Number(number) => number.to_string(),
+        other => format!("{other:?}"),
+    }
+}

@@ -1,0 +1,74 @@
+//! A family of runs as expressions see it: one column for each key varied, for each figure taken, and for how members ended.
+
+use std::collections::BTreeMap;
+
+use super::execution::Executed;
+use super::expression::{Evaluator, ExpressionError};
+use super::schedule::Members;
+use super::value::Value;
+use crate::studies::validation::record::RunOutcome;
+
+/// A group with the columns of the family; `take` gives the expressions for every member, which it knows as `run`.
+///
+/// # Errors
+/// An expression that has no value for a member that ended sound.
+pub fn columns(family: &Members, take: &BTreeMap<String, String>, e: &mut Evaluator) -> Result<Value, ExpressionError> {
+    let executed: Vec<&Executed> = family.executed.iter().flatten().collect();
+    let number_of = |of: fn(&Executed) -> f64| Value::column(executed.iter().map(|run| of(run)));
+    let mut group = BTreeMap::from([
+        ("count".to_owned(), Value::Number(executed.len() as f64)),
+        ("wall_s".to_owned(), number_of(|run| run.wall_s)),
+        ("sound".to_owned(), number_of(|run| f64::from(u8::from(run.outcome == RunOutcome::Sound)))),
+        (
+            "outcome".to_owned(),
+            Value::List(executed.iter().map(|run| Value::Text(run.outcome.name().to_owned())).collect()),
+        ),
+        (
+            "message".to_owned(),
+            Value::List(executed.iter().map(|run| Value::Text(run.said.clone().unwrap_or_default())).collect()),
+        ),
+        ("work".to_owned(), work(&executed)),
+    ]);
+    let names = family.members.first().map(|member| member.values.iter().map(|(name, _)| name.clone()));
+    for (place, name) in names.into_iter().flatten().enumerate() {
+        let values = family.members.iter().map(|member| member.values[place].1.clone()).collect();
+        group.insert(name, in_a_row(values));
+    }
+    let mut taken: Vec<Vec<Value>> = vec![Vec::with_capacity(executed.len()); take.len()];
+    for run in &executed {
+        // A member is laid out for the expressions once, whatever is taken of it.
+        e.with("run", &run.as_value(), |e| -> Result<(), ExpressionError> {
+            for (column, expression) in taken.iter_mut().zip(take.values()) {
+                column.push(match e.value(expression) {
+                    Err(_) if run.outcome != RunOutcome::Sound => Value::Number(f64::NAN),
+                    found => found?,
+                });
+            }
+            Ok(())
+        })?;
+    }
+    group.extend(take.keys().cloned().zip(taken.into_iter().map(in_a_row)));
+    Ok(Value::Group(group))
+}
+
+/// What was counted by all members, each as a column.
+fn work(executed: &[&Executed]) -> Value {
+    let Some(counted) = executed.iter().find(|run| !run.work.is_empty()) else { return Value::Group(BTreeMap::new()) };
+    let count = |run: &Executed, name: &str| run.work.get(name).map_or(f64::NAN, |&count| count as f64);
+    Value::group(
+        counted.work.keys().map(|name| (name.clone(), Value::column(executed.iter().map(|run| count(run, name))))),
+    )
+}
+
+/// Values one after another: a column where they are numbers or truths.
+fn in_a_row(values: Vec<Value>) -> Value {
+    let number = |value: &Value| match value {
+        Value::Number(number) => Some(*number),
+        Value::Truth(truth) => Some(f64::from(u8::from(*truth))),
+        _ => None,
+    };
+    match values.iter().map(number).collect::<Option<Vec<f64>>>() {
+        Some(numbers) => Value::column(numbers),
+        None => Value::List(values),
+    }
+}

@@ -1,0 +1,201 @@
+//! Holds the quantities of a case against what they must be.
+//!
+//! A tolerance is honest where it is no wider than the reference is uncertain plus what the spacing of the computation
+//! contributes; a wider one must come with a sentence that says why, or the case does not count.
+
+use std::collections::BTreeMap;
+
+use super::case_file::{Extent, Formula, QuantitySpec};
+use super::execution::Executed;
+use super::expression::{Evaluator, ExpressionError};
+use super::schedule::Members;
+use crate::studies::validation::record::{Criterion, QuantityRecord, RunOutcome, Standing};
+
+/// Rounding of a sum of allowances.
+const ROUNDING: f64 = 1e-9;
+
+/// Why a quantity could not be judged.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum JudgeError {
+    /// One of its expressions has no value.
+    #[error("{quantity}: {error}")]
+    Expression {
+        /// Its name.
+        quantity: String,
+        /// What is wrong.
+        error: ExpressionError,
+    },
+    /// A reference, bound or tolerance that is no finite number.
+    #[error("{quantity}: found {found} for {what}; allowed: a finite number")]
+    NotFinite {
+        /// Its name.
+        quantity: String,
+        /// Which.
+        what: &'static str,
+        /// What it came to.
+        found: f64,
+    },
+    /// A tolerance that nothing justifies.
+    #[error(
+        "{quantity}: found a tolerance of {tolerance:e}, wider than the uncertainty of the reference and the discretisation \
+         together, {allowed:e}; allowed: one as narrow, or a sentence because = \"…\""
+    )]
+    TooWide {
+        /// Its name.
+        quantity: String,
+        /// The tolerance.
+        tolerance: f64,
+        /// Uncertainty and discretisation together.
+        allowed: f64,
+    },
+}
+
+/// Judges one quantity; `absent` holds the names of the files of numbers that are not there, with what is then not known.
+///
+/// # Errors
+/// [`JudgeError`]
+pub fn judge(
+    spec: &QuantitySpec,
+    absent: &BTreeMap<&str, &str>,
+    e: &mut Evaluator,
+) -> Result<QuantityRecord, JudgeError> {
+    let missing = spec.needs.as_deref().and_then(|name| absent.get(name));
+    let expected = if missing.is_some() { Standing::CannotBeCompared } else { spec.stands.unwrap_or(Standing::Holds) };
+    let mut record = QuantityRecord {
+        target: spec.target.clone(),
+        unit: spec.unit.clone(),
+        source: spec.source.clone(),
+        because: spec.because.clone(),
+        expected,
+        remark: spec.remark.clone().or_else(|| missing.map(|reason| (*reason).to_owned())),
+        counts_work: spec.work,
+        ..QuantityRecord::named(&spec.name)
+    };
+    if missing.is_some() {
+        return Ok(record);
+    }
+    let wrong = |error| JudgeError::Expression { quantity: spec.name.clone(), error };
+    let Some(value) = spec.value.as_ref().map(|formula| number(formula, e)).transpose().map_err(wrong)? else {
+        return Ok(record);
+    };
+    record.value = Some(value).filter(|value| value.is_finite());
+    let finite = |what: &'static str, found: Option<f64>| match found {
+        Some(found) if !found.is_finite() => Err(JudgeError::NotFinite { quantity: spec.name.clone(), what, found }),
+        found => Ok(found),
+    };
+    let mut of = |what: &'static str, formula: &Option<Formula>| {
+        finite(what, formula.as_ref().map(|f| number(f, e)).transpose().map_err(wrong)?)
+    };
+    let near = of("near", &spec.near)?;
+    let (at_least, at_most) = (of("at_least", &spec.at_least)?, of("at_most", &spec.at_most)?);
+    let holds = match (near, &spec.within, at_least, at_most) {
+        (Some(reference), Some(within), ..) => {
+            let scale = reference.abs();
+            let mut of = |what: &'static str, extent: Option<&Extent>| {
+                finite(what, extent.map(|x| size(x, scale, e)).transpose().map_err(wrong)?)
+            };
+            let tolerance = of("within", Some(within))?.unwrap_or_default();
+            record.uncertainty = of("uncertainty", spec.uncertainty.as_ref())?;
+            record.discretisation = of("discretisation", spec.discretisation.as_ref())?;
+            let allowed = record.uncertainty.unwrap_or_default() + record.discretisation.unwrap_or_default();
+            if tolerance > allowed * (1.0 + ROUNDING) && spec.because.is_none() {
+                return Err(JudgeError::TooWide { quantity: spec.name.clone(), tolerance, allowed });
+            }
+            let error = (value - reference).abs();
+            record.criterion = Criterion::Near { reference, tolerance };
+            record.error = Some(error).filter(|error| error.is_finite());
+            record.relative_error = Some(error / scale).filter(|relative| relative.is_finite());
+            record.share = Some(error / tolerance).filter(|share| share.is_finite());
+            Some(error <= tolerance)
+        }
+        (_, _, Some(low), Some(high)) => {
+            record.criterion = Criterion::Between { low, high };
+            Some(value >= low && value <= high)
+        }
+        (_, _, Some(bound), None) => {
+            record.criterion = Criterion::AtLeast { bound };
+            Some(value >= bound)
+        }
+        (_, _, None, Some(bound)) => {
+            record.criterion = Criterion::AtMost { bound };
+            // How much of a bound is used says something where zero is perfect.
+            record.share = Some(value / bound).filter(|share| bound > 0.0 && *share >= 0.0);
+            Some(value <= bound)
+        }
+        _ if spec.is_true.is_some() => {
+            record.criterion = Criterion::True;
+            Some(value == 1.0)
+        }
+        _ => None,
+    };
+    record.standing = match holds {
+        // No number fulfils nothing; where a failure is expected it is not that failure either.
+        _ if record.value.is_none() && expected == Standing::Fails => Standing::CannotBeCompared,
+        _ if record.value.is_none() => Standing::Fails,
+        Some(true) => Standing::Holds,
+        Some(false) => Standing::Fails,
+        None => Standing::CannotBeCompared,
+    };
+    if holds.is_none() && record.value.is_some() {
+        record.expected = Standing::CannotBeCompared;
+    }
+    Ok(record)
+}
+
+/// That every member of a run ended as it should.
+pub fn endings(run: &str, family: &Members) -> QuantityRecord {
+    let ended = family.executed.iter().zip(&family.members);
+    let as_expected =
+        ended.filter(|(executed, member)| executed.as_ref().is_some_and(|e| member.may_end(e.outcome))).count();
+    let (count, all) = (as_expected as f64, family.members.len() as f64);
+    let refusals = family.members.iter().filter(|member| member.expected != RunOutcome::Sound).count();
+    let may_be_refused = family.members.iter().any(|member| !member.accepted.is_empty());
+    let name = match (family.members.len(), refusals) {
+        _ if may_be_refused => format!("{run}: members that end sound or in another way that is accepted"),
+        (1, 0) => format!("{run}: ends sound"),
+        (_, 0) => format!("{run}: members that end sound"),
+        _ => format!("{run}: members that end as they should, {refusals} of them not with a result"),
+    };
+    // Refusals that are accepted beside results prove nothing where there is no result.
+    let sound = |executed: &Option<Executed>| executed.as_ref().is_some_and(|e| e.outcome == RunOutcome::Sound);
+    let any_result = !may_be_refused || family.executed.iter().any(sound);
+    let standing = if as_expected == family.members.len() && any_result { Standing::Holds } else { Standing::Fails };
+    QuantityRecord {
+        value: Some(count),
+        criterion: Criterion::Near { reference: all, tolerance: 0.0 },
+        source: "every run: finite numbers, no negative wear or pressure, loads in equilibrium within 1e-6".to_owned(),
+        error: Some(all - count),
+        relative_error: Some((all - count) / all),
+        standing,
+        remark: first_surprise(family),
+        ..QuantityRecord::named(&name)
+    }
+}
+
+/// What the first member that did not end as it should has said.
+fn first_surprise(family: &Members) -> Option<String> {
+    let (executed, member) = family
+        .executed
+        .iter()
+        .zip(&family.members)
+        .find(|(executed, member)| executed.as_ref().is_some_and(|e| !member.may_end(e.outcome)))?;
+    let executed = executed.as_ref()?;
+    let said = executed.said.as_deref().unwrap_or("nothing");
+    let place = if member.label.is_empty() { String::new() } else { format!("{}: ", member.label) };
+    Some(format!("{place}{}: {said}", executed.outcome.title()))
+}
+
+/// The number a formula stands for.
+pub fn number(formula: &Formula, e: &mut Evaluator) -> Result<f64, ExpressionError> {
+    match formula {
+        Formula::Number(number) => Ok(*number),
+        Formula::Expression(expression) => e.number(expression),
+    }
+}
+
+fn size(extent: &Extent, scale: f64, e: &mut Evaluator) -> Result<f64, ExpressionError> {
+    match extent {
+        Extent::Relative(share) => Ok(number(share, e)? * scale),
+        Extent::Absolute(size) => number(size, e),
+    }
+}

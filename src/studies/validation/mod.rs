@@ -1,0 +1,162 @@
+//! The validation suite: every claim of the program, held against its reference, with what it costs.
+//!
+//! A case is a folder of data with a file `case.toml` ([`case_file`]); adding one adds no code. [`library`] finds cases, built in or
+//! on disk; [`schedule`] hands their runs to the threads; [`execution`] carries each out through the pipeline and reads it back
+//! under the names of its output files (and, of each flank, `snapshot_wear_um[row of the history]` and `path_point_radius_mm.A` to
+//! `.E`); [`judge`] holds quantities, which are expressions over those names ([`expression`]), against
+//! references and bounds; [`drawing`] evaluates plots. The result is a plain record that reports are written from.
+
+pub mod against;
+pub mod case_file;
+mod check;
+pub mod column;
+mod data_file;
+pub mod drawing;
+pub mod execution;
+pub mod expression;
+mod family;
+pub mod judge;
+pub mod library;
+mod members;
+pub mod profile;
+pub mod record;
+pub mod report;
+pub mod schedule;
+mod soundness;
+pub mod syntax;
+mod value;
+
+use std::collections::BTreeMap;
+use std::time::Instant;
+
+use crate::studies::validation::record::{CaseRecord, CaseRun, RunOutcome, Tier, ValidationRecord};
+use expression::Evaluator;
+use library::Case;
+use schedule::{Members, Observer};
+
+/// Carries out those of `cases` that belong to `tier` (all of them where there is none), on so many threads.
+pub fn run(cases: &[Case], tier: Option<Tier>, threads: usize, observer: &dyn Observer) -> ValidationRecord {
+    let start = Instant::now();
+    let chosen: Vec<&Case> = cases.iter().filter(|case| tier.is_none_or(|tier| case.file.tier <= tier)).collect();
+    let executed = schedule::carry_out(&chosen, threads, observer);
+    let whole = |runs: &[Members]| runs.iter().all(|run| run.executed.iter().all(Option::is_some));
+    let mut records: Vec<CaseRecord> =
+        chosen.iter().zip(&executed).filter(|(_, runs)| whole(runs)).map(|(case, runs)| record(case, runs)).collect();
+    records.sort_by(|a, b| (&a.group, &a.name).cmp(&(&b.group, &b.name)));
+    ValidationRecord {
+        program_version: env!("CARGO_PKG_VERSION").to_owned(),
+        tier,
+        threads,
+        not_run: chosen
+            .iter()
+            .zip(&executed)
+            .filter(|(_, runs)| !whole(runs))
+            .map(|(case, _)| case.name.clone())
+            .collect(),
+        cases: records,
+        wall_s: start.elapsed().as_secs_f64(),
+    }
+}
+
+/// The case with everything judged.
+fn record(case: &Case, runs: &[Members]) -> CaseRecord {
+    let file = &case.file;
+    let runs_of_case: Vec<CaseRun> = file.run.iter().zip(runs).map(|(spec, family)| of_run(spec, family)).collect();
+    let work = together(runs_of_case.iter().map(|run| &run.work));
+    let mut record = CaseRecord {
+        name: case.name.clone(),
+        title: file.title.clone(),
+        group: file.group.clone(),
+        targets: file.targets.clone(),
+        requirement: file.requirement.clone(),
+        kind: file.kind,
+        tier: file.tier,
+        says: file.says.clone(),
+        rests_on: file.rests_on.clone(),
+        wall_s: runs_of_case.iter().map(|run| run.wall_s).sum(),
+        runs: runs_of_case,
+        quantities: Vec::new(),
+        work_precision: Vec::new(),
+        stability: Vec::new(),
+        plots: Vec::new(),
+        failure: None,
+        work,
+    };
+    record.quantities = file.run.iter().zip(runs).map(|(spec, family)| judge::endings(&spec.name, family)).collect();
+    record.failure = fill(&mut record, case, runs).err();
+    record
+}
+
+/// Judges and draws; what keeps it from that is said in words.
+fn fill(record: &mut CaseRecord, case: &Case, runs: &[Members]) -> Result<(), String> {
+    let file = &case.file;
+    // Outcomes come first: they are worth knowing of a case that fails.
+    let of_family = |name: &str| file.run.iter().position(|run| run.name == name).map(|index| &runs[index]);
+    for spec in &file.stability {
+        if let Some(family) = of_family(&spec.family) {
+            record.stability.extend(drawing::stability(spec, family)?);
+        }
+    }
+    let mut e = Evaluator::default();
+    let mut absent = BTreeMap::new();
+    for spec in &file.data {
+        match data_file::read(spec, &case.folder)? {
+            Some(columns) => e.name(&spec.name, &columns),
+            None => {
+                absent.insert(spec.name.as_str(), spec.missing.as_deref().unwrap_or_default());
+            }
+        }
+    }
+    let said = |error: expression::ExpressionError| error.to_string();
+    let (families, single): (Vec<_>, Vec<_>) = file.run.iter().zip(runs).partition(|(spec, _)| spec.is_family());
+    for (spec, members) in single {
+        if let [Some(executed)] = members.executed.as_slice() {
+            e.name(&spec.name, &executed.as_value());
+        }
+    }
+    for (spec, members) in families {
+        let columns = family::columns(members, &spec.take, &mut e).map_err(said)?;
+        e.name(&spec.name, &columns);
+    }
+    for definition in &file.define {
+        let value = e.value(&definition.value).map_err(said)?;
+        e.name(&definition.name, &value);
+    }
+    for spec in &file.quantity {
+        record.quantities.push(judge::judge(spec, &absent, &mut e).map_err(|error| error.to_string())?);
+    }
+    for spec in &file.work_precision {
+        if let Some(family) = of_family(&spec.family) {
+            record.work_precision.extend(drawing::work_precision(spec, family, &mut e).map_err(said)?);
+        }
+    }
+    for spec in &file.plot {
+        record.plots.push(drawing::plot(spec, &absent, &of_family, &mut e).map_err(said)?);
+    }
+    Ok(())
+}
+
+fn of_run(spec: &case_file::RunSpec, family: &Members) -> CaseRun {
+    let executed: Vec<_> = family.executed.iter().flatten().collect();
+    let mut outcomes: BTreeMap<RunOutcome, usize> = BTreeMap::new();
+    for run in &executed {
+        *outcomes.entry(run.outcome).or_default() += 1;
+    }
+    CaseRun {
+        name: spec.name.clone(),
+        command: spec.command.name().to_owned(),
+        members: executed.len(),
+        outcomes,
+        wall_s: executed.iter().map(|run| run.wall_s).sum(),
+        work: together(executed.iter().map(|run| &run.work)),
+    }
+}
+
+/// Counts of work, added by their names.
+fn together<'a>(counts: impl Iterator<Item = &'a BTreeMap<String, u64>>) -> BTreeMap<String, u64> {
+    let mut all = BTreeMap::new();
+    for (name, count) in counts.flatten() {
+        *all.entry(name.clone()).or_insert(0) += count;
+    }
+    all
+}

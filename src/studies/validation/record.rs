@@ -1,0 +1,457 @@
+//! What the validation suite came to: the plain data that its reports are written from, and that a later run is compared
+//! with.
+//!
+//! Two judgements stand side by side. A quantity *holds* or does not, against its reference or bound: that is physics, and
+//! it is computed. A case *passes* where every quantity stands as the case file says it does: that is what the exit status
+//! reports. A statement that is known not to hold is thus shown as one, and a change of it, either way, is noticed.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+/// The whole suite, or the part of it that was asked for.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ValidationRecord {
+    /// Version of the program.
+    pub program_version: String,
+    /// The tier that was asked for; `None` where cases were named.
+    pub tier: Option<Tier>,
+    /// Threads that runs were spread over; each run has one of its own.
+    pub threads: usize,
+    /// The cases, in the order of their names within their groups.
+    pub cases: Vec<CaseRecord>,
+    /// From the first run to the last verdict.
+    pub wall_s: f64,
+    /// Cases that an interrupt left out.
+    pub not_run: Vec<String>,
+}
+
+/// How long a suite may take: each tier holds those before it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Tier {
+    /// Below three minutes on two cores: for every change.
+    Smoke,
+    /// Below fifteen minutes on two cores: for every release.
+    Full,
+    /// As long as it takes.
+    Long,
+}
+
+impl Tier {
+    /// All of them, shortest first.
+    pub const ALL: [Self; 3] = [Self::Smoke, Self::Full, Self::Long];
+
+    /// As the user writes it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Smoke => "smoke",
+            Self::Full => "full",
+            Self::Long => "long",
+        }
+    }
+}
+
+/// What a case shows (after ASME V&V 10).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CaseKind {
+    /// The equations are solved right: against closed forms and orders of convergence.
+    CodeVerification,
+    /// This solution is resolved: against finer ones.
+    SolutionVerification,
+    /// The right equations are solved: against a standard, a publication, another program, a measurement.
+    Validation,
+    /// It has not changed: against our own earlier result.
+    Regression,
+}
+
+impl CaseKind {
+    /// In words.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::CodeVerification => "code verification",
+            Self::SolutionVerification => "solution verification",
+            Self::Validation => "validation",
+            Self::Regression => "regression",
+        }
+    }
+}
+
+/// A case.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CaseRecord {
+    /// Name of its folder.
+    pub name: String,
+    /// Title.
+    pub title: String,
+    /// The group it is shown in, such as `FZG test gears`.
+    pub group: String,
+    /// The targets it speaks to, such as `S1`; may be none.
+    pub targets: Vec<String>,
+    /// One sentence: what must be so.
+    pub requirement: String,
+    /// What it shows.
+    pub kind: CaseKind,
+    /// The first tier that holds it.
+    pub tier: Tier,
+    /// What the source of the requirement says, in our own words, where there is something to compare by eye.
+    pub says: Option<String>,
+    /// The estimates it rests on, such as a torque that no text gives.
+    pub rests_on: Vec<String>,
+    /// The runs it is made of.
+    pub runs: Vec<CaseRun>,
+    /// What was computed and judged.
+    pub quantities: Vec<QuantityRecord>,
+    /// Error against cost, of the cases that ask for it.
+    pub work_precision: Vec<WorkPrecisionPoint>,
+    /// Outcomes over a range of a parameter, of the cases that ask for it.
+    pub stability: Vec<StabilityPoint>,
+    /// What is drawn; not kept as JSON.
+    #[serde(skip)]
+    pub plots: Vec<CasePlot>,
+    /// Why it could not be carried out to its end: a failure, never a skip.
+    pub failure: Option<String>,
+    /// Wall time of its runs together: on several threads the suite takes less.
+    pub wall_s: f64,
+    /// Work of its runs together, by the name of what was counted.
+    pub work: BTreeMap<String, u64>,
+}
+
+impl CaseRecord {
+    /// Whether everything stands as the case says.
+    pub fn passed(&self) -> bool {
+        self.failure.is_none() && self.quantities.iter().all(QuantityRecord::as_expected)
+    }
+
+    /// The quantities that speak to a target: those that name it, or else those that name none.
+    pub fn speaking_to(&self, target: &str) -> Vec<&QuantityRecord> {
+        let named = |name: Option<&str>| self.quantities.iter().filter(|q| q.target.as_deref() == name).collect();
+        let own: Vec<&QuantityRecord> = named(Some(target));
+        if own.is_empty() { named(None) } else { own }
+    }
+}
+
+/// What a comparison says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Standing {
+    /// Within its bound.
+    Holds,
+    /// Outside it.
+    Fails,
+    /// There is nothing to compare with.
+    CannotBeCompared,
+}
+
+impl Standing {
+    /// In words.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Fails => "fails",
+            Self::CannotBeCompared => "cannot be compared",
+        }
+    }
+}
+
+/// A run of a case, or a family of runs that differ in some keys.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CaseRun {
+    /// Its name in the case.
+    pub name: String,
+    /// The command that does the same, such as `run`, `fem`, `calibrate`.
+    pub command: String,
+    /// How many runs: 1, or the members of the family.
+    pub members: usize,
+    /// How many ended in which way.
+    pub outcomes: BTreeMap<RunOutcome, usize>,
+    /// Wall time of all together.
+    pub wall_s: f64,
+    /// Work of all together, by the name of what was counted.
+    pub work: BTreeMap<String, u64>,
+}
+
+/// How a run ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum RunOutcome {
+    /// Complete, every number finite, no negative wear, every position in equilibrium.
+    Sound,
+    /// The input was refused with a message.
+    Refused,
+    /// The solver said that it did not converge.
+    NotConverged,
+    /// Complete, but not sound.
+    Unsound,
+    /// A defect of the program.
+    Panicked,
+}
+
+impl RunOutcome {
+    /// As case files, expressions and style sheets write it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sound => "sound",
+            Self::Refused => "refused",
+            Self::NotConverged => "not-converged",
+            Self::Unsound => "unsound",
+            Self::Panicked => "panicked",
+        }
+    }
+
+    /// In words.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Sound => "sound",
+            Self::Refused => "refused with a message",
+            Self::NotConverged => "did not converge and says so",
+            Self::Unsound => "unsound",
+            Self::Panicked => "panicked",
+        }
+    }
+}
+
+/// A number with what it is held against.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct QuantityRecord {
+    /// What it is.
+    pub name: String,
+    /// The one target of its case that it speaks to; `None`: all of them.
+    pub target: Option<String>,
+    /// Its unit; empty for a ratio.
+    pub unit: String,
+    /// The number; `None` where it could not be computed.
+    pub value: Option<f64>,
+    /// What it is held against.
+    pub criterion: Criterion,
+    /// Where reference or bound come from.
+    pub source: String,
+    /// Uncertainty of the reference, in the quantity's unit.
+    pub uncertainty: Option<f64>,
+    /// What the spacing of the computation contributes, in the quantity's unit.
+    pub discretisation: Option<f64>,
+    /// Why the tolerance or the bound is what it is.
+    pub because: Option<String>,
+    /// |value − reference|, in the quantity's unit.
+    pub error: Option<f64>,
+    /// The same over |reference|.
+    pub relative_error: Option<f64>,
+    /// Share of the tolerance that the error uses: at most 1 where it holds.
+    pub share: Option<f64>,
+    /// What the comparison says.
+    pub standing: Standing,
+    /// What the case says that it should.
+    pub expected: Standing,
+    /// Why it is not expected to hold, or what is missing to compare it.
+    pub remark: Option<String>,
+    /// Whether it counts work: iterations, factorisations, mesh cycles.
+    pub counts_work: bool,
+}
+
+impl QuantityRecord {
+    /// A quantity that is expected to hold, without a value and held against nothing yet.
+    pub fn named(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            target: None,
+            unit: String::new(),
+            value: None,
+            criterion: Criterion::Reported,
+            source: String::new(),
+            uncertainty: None,
+            discretisation: None,
+            because: None,
+            error: None,
+            relative_error: None,
+            share: None,
+            standing: Standing::CannotBeCompared,
+            expected: Standing::Holds,
+            remark: None,
+            counts_work: false,
+        }
+    }
+
+    /// Whether it stands as the case says.
+    pub fn as_expected(&self) -> bool {
+        self.standing == self.expected
+    }
+}
+
+/// What a quantity is held against.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", tag = "is")]
+pub enum Criterion {
+    /// Within a tolerance of a reference, in the quantity's unit.
+    Near {
+        /// The reference.
+        reference: f64,
+        /// How far from it.
+        tolerance: f64,
+    },
+    /// At least.
+    AtLeast {
+        /// The bound.
+        bound: f64,
+    },
+    /// At most.
+    AtMost {
+        /// The bound.
+        bound: f64,
+    },
+    /// Between, ends included.
+    Between {
+        /// Least.
+        low: f64,
+        /// Greatest.
+        high: f64,
+    },
+    /// A statement: 1 where it is true, 0 where it is not.
+    True,
+    /// Nothing: it is only reported, or there is nothing to compare with.
+    Reported,
+}
+
+/// A setting of a scene: what it costs and how far off it is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct WorkPrecisionPoint {
+    /// The curve it belongs to, such as the contact surface.
+    pub series: String,
+    /// The setting, such as `200 positions, 40 steps`.
+    pub setting: String,
+    /// Relative error.
+    pub error: f64,
+    /// Wall time of the run.
+    pub wall_s: f64,
+    /// Work, in what the case counts.
+    pub work: f64,
+    /// What is counted.
+    pub counted: String,
+}
+
+/// How the program behaves at one value of a parameter.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct StabilityPoint {
+    /// The parameter, unit included.
+    pub parameter: String,
+    /// Its value, to be placed on an axis.
+    pub value: f64,
+    /// The value as text, with whatever goes with it.
+    pub setting: String,
+    /// How the run ended.
+    pub outcome: RunOutcome,
+    /// How it should have ended.
+    pub expected: RunOutcome,
+    /// What the program said, where it refused or did not converge, or what is unsound.
+    pub said: Option<String>,
+}
+
+/// A plot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CasePlot {
+    /// Heading.
+    pub title: String,
+    /// What one sees, in a sentence.
+    pub reading: String,
+    /// Title of the abscissa, unit included.
+    pub x: PlotAxis,
+    /// Title of the ordinate, unit included.
+    pub y: PlotAxis,
+    /// The curves.
+    pub curves: Vec<PlotCurve>,
+    /// Lines across the plot at a value of the ordinate, with their names: references and bounds.
+    pub levels: Vec<(String, f64)>,
+    /// Lines up the plot at a value of the abscissa, with their names.
+    pub marks: Vec<(String, f64)>,
+}
+
+/// An axis of a plot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlotAxis {
+    /// Title, unit included.
+    pub title: String,
+    /// Whether it is logarithmic.
+    pub log: bool,
+}
+
+/// A curve of a plot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlotCurve {
+    /// Its name.
+    pub name: String,
+    /// Abscissae.
+    pub x: Vec<f64>,
+    /// Ordinates.
+    pub y: Vec<f64>,
+    /// Half the height of error bars, one for each point; empty: none.
+    pub uncertainty: Vec<f64>,
+    /// How it is drawn.
+    pub style: CurveStyle,
+}
+
+/// How a curve is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CurveStyle {
+    /// A line.
+    Line,
+    /// A dashed line: a reference.
+    Dashed,
+    /// Points: single results or measurements.
+    Points,
+    /// Lower and upper edge of a band: the ordinates are the lower edges in the order of the abscissae, then the upper ones
+    /// in the opposite order, so that the points go round it.
+    Band,
+}
+
+/// What became of the suite since an earlier run of it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Changes {
+    /// Version of the program that made the earlier record.
+    pub against_version: String,
+    /// What got worse: a verdict, an error, work.
+    pub worse: Vec<Change>,
+    /// What got better.
+    pub better: Vec<Change>,
+    /// Cases that only the new record has.
+    pub added: Vec<String>,
+    /// Cases that only the old record has.
+    pub gone: Vec<String>,
+}
+
+/// One change.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Change {
+    /// The case.
+    pub case: String,
+    /// What of it: the name of a quantity or of what is counted, or `verdict`.
+    pub what: String,
+    /// As it was.
+    pub before: State,
+    /// As it is.
+    pub now: State,
+}
+
+/// What is compared of two records.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum State {
+    /// Whether the case could be carried out.
+    Ran(bool),
+    /// The quantity is not there.
+    Absent,
+    /// What the comparison says.
+    Stands(Standing),
+    /// How a run ended.
+    Ended(RunOutcome),
+    /// The share of its tolerance that a quantity uses.
+    Uses(f64),
+    /// The value of a quantity, with its unit.
+    Is(Option<f64>, String),
+    /// The error of a quantity, with its unit.
+    Errs(f64, String),
+    /// What a quantity is held against.
+    Against(Criterion),
+    /// A count of work.
+    Counted(u64),
+}

@@ -1,0 +1,56 @@
+//! The files of the validation suite, written from its [`ValidationRecord`] alone.
+//!
+//! | file | for |
+//! |---|---|
+//! | `report.html` | readers: what holds, by what margin, what it cost, what rests on estimates |
+//! | `junit.xml` | services that collect test results; with the feature `program` |
+//! | `summary.md` | the summary or a comment of a CI service, as Markdown |
+//! | `work_precision.json` | plots of the history of error against run time |
+//! | `validation.json` | the next run, to be compared with: the whole record but its plots |
+
+mod case_figures;
+mod case_section;
+#[cfg(feature = "program")]
+mod junit;
+mod markdown;
+mod markup;
+mod overview;
+mod page;
+mod stability_map;
+#[cfg(all(test, feature = "program"))]
+mod synthetic;
+mod targets_table;
+#[cfg(feature = "program")]
+mod terminal;
+#[cfg(all(test, feature = "program"))]
+mod tests;
+mod totals;
+mod verdict;
+mod words;
+mod work_precision_figures;
+mod work_precision_file;
+
+use std::path::{Path, PathBuf};
+
+#[cfg(feature = "program")]
+pub use self::terminal::terminal;
+use self::work_precision_file::WorkPrecisionFile;
+use crate::report::{ReportError, create_folder, place, remove, summary};
+use crate::studies::validation::record::{Changes, ValidationRecord};
+
+/// The file that is written last: its presence says that the others are complete.
+const LAST: &str = "validation.json";
+
+/// Writes all files of `record` into `dir`, which is made if need be; returns their paths in the order written.
+pub fn write(record: &ValidationRecord, changes: Option<&Changes>, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+    create_folder(dir)?;
+    remove(dir, LAST)?;
+    Ok(vec![
+        place(dir, "report.html", |out| out.write_all(page::page(record, changes).as_bytes()))?,
+        #[cfg(feature = "program")]
+        place(dir, "junit.xml", |out| junit::write(out, record))?,
+        place(dir, "summary.md", |out| out.write_all(markdown::text(record, changes).as_bytes()))?,
+        place(dir, "work_precision.json", |out| summary::write(out, &WorkPrecisionFile::of(record)))?,
+        place(dir, LAST, |out| summary::write(out, record))?,
+    ])
+}

@@ -1,0 +1,90 @@
+//! The statements of the thesis, one a row: whether they hold, by what margin, and which cases speak to them.
+
+use super::markup::{badge, link, margin_bar, table};
+use super::verdict::Verdict;
+use super::words;
+use crate::report::html::page::escape;
+use crate::studies::validation::record::{CaseRecord, ValidationRecord};
+
+/// The targets in their order, each in a few words of our own.
+const TARGETS: [(&str, &str); 24] = [
+    ("S1", "the pitch point’s number on the pinion’s flank"),
+    ("S2", "wear greatest near the root, least at the pitch line, more again at the tip"),
+    ("S3", "wear at the very root comes to a stop; its place moves towards the pitch point"),
+    ("S4", "the simplified model is pointed where the pairs in mesh change, the integrated one smooth"),
+    ("S5", "the pressure below the pitch point rises with the depth worn there"),
+    ("S6", "contact temperatures: nil at the pitch point, three methods alike"),
+    ("S7", "wear by adsorption at two speeds beside the linear law"),
+    ("S8", "wear by oxidation is outside its range of temperature"),
+    ("S9", "a constant tooth stiffness costs little accuracy"),
+    ("S10", "the contact surface matters less than the sliding distance"),
+    ("S11", "points that meet slide different distances on the two flanks"),
+    ("S12", "a tooth shaped for least transmission error shows more of it once worn"),
+    ("D1", "FZG test: root wear against time"),
+    ("D2", "FZG test: profile near the root and the place of its peak"),
+    ("D3", "FZG test: severity at five places of the flank"),
+    ("D4", "form removed from a measured profile"),
+    ("K1", "deflection against the number of teeth"),
+    ("K2", "stiffness over the path of contact"),
+    ("H1", "first cycle: more wear on the slice that enters first"),
+    ("H2", "root wear evens out over the face width"),
+    ("H3", "where the pressure is greatest, new and worn"),
+    ("H4", "the transmission error varies less after wear"),
+    ("H5", "helix angle and face width of least variation"),
+    ("H6", "the simplified model wears deeper without instability, and faster"),
+];
+
+/// The table, and the targets that no case of this run speaks to; empty where no case speaks to any target.
+pub(super) fn html(record: &ValidationRecord) -> String {
+    if record.cases.iter().all(|case| case.targets.is_empty()) {
+        return String::new();
+    }
+    let (mut rows, mut absent) = (Vec::new(), Vec::new());
+    for (id, words) in TARGETS {
+        let cases: Vec<&CaseRecord> =
+            record.cases.iter().filter(|case| case.targets.iter().any(|target| target == id)).collect();
+        match verdict(id, &cases) {
+            Some(verdict) => rows.push(row(id, words, &cases, verdict)),
+            None => absent.push(id),
+        }
+    }
+    let absent = match absent.as_slice() {
+        [] => String::new(),
+        absent => format!("<p class=\"muted\">No case of this run speaks to {}.</p>\n", absent.join(", ")),
+    };
+    format!("{}{absent}", table("targets", &["statement", "verdict", "of tolerance used", "rests on", "cases"], rows))
+}
+
+fn row(id: &str, words: &str, cases: &[&CaseRecord], verdict: String) -> Vec<String> {
+    let speaking: Vec<_> = cases.iter().flat_map(|case| case.speaking_to(id)).collect();
+    let used = words::tightest(speaking.into_iter()).map(|(_, share)| share);
+    let links: Vec<String> = cases.iter().map(|case| link(case, &case.name)).collect();
+    vec![
+        format!("<b>{id}</b> {}", escape(words)),
+        verdict,
+        margin_bar(used),
+        if cases.iter().any(|case| !case.rests_on.is_empty()) { "estimate" } else { "" }.to_owned(),
+        links.join("<br>"),
+    ]
+}
+
+/// What becomes of a target: the most urgent of its cases, with how many of its quantities hold where not all do; `None`
+/// where no case speaks to it.
+fn verdict(id: &str, cases: &[&CaseRecord]) -> Option<String> {
+    let of_case = |case: &&CaseRecord| match case.failure {
+        Some(_) => Verdict::CouldNotRun,
+        None => Verdict::of_quantities(&case.speaking_to(id)),
+    };
+    let worst = cases.iter().map(of_case).min()?;
+    let compared: Vec<Verdict> = cases
+        .iter()
+        .flat_map(|case| case.speaking_to(id).into_iter().map(Verdict::of_quantity))
+        .filter(|verdict| !matches!(verdict, Verdict::Reported))
+        .collect();
+    let hold = compared.iter().filter(|verdict| matches!(verdict, Verdict::Holds | Verdict::NowHolds)).count();
+    Some(if hold < compared.len() {
+        format!("{} <span class=\"muted\">{hold} of {} hold</span>", badge(worst), compared.len())
+    } else {
+        badge(worst)
+    })
+}

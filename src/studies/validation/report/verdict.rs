@@ -1,0 +1,119 @@
+//! In which of a few ways a case or a quantity came out, with the word and the sign that each is shown with.
+//!
+//! The record keeps apart what *holds* (physics) and what is *as expected* (the exit status). Readers need one word for
+//! both: a statement that does not hold and is not expected to is no news, the same one holding all of a sudden is.
+
+use crate::studies::validation::record::{CaseRecord, Criterion, QuantityRecord, Standing};
+
+/// How a case or a quantity came out, the most urgent first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Verdict {
+    /// The case could not be carried out to its end.
+    CouldNotRun,
+    /// It should hold, or be comparable, and does not or is not.
+    Missed,
+    /// It was not expected to hold and does.
+    NowHolds,
+    /// It does not hold, as the case says.
+    KnownNot,
+    /// There is nothing to compare with, as the case says.
+    CannotBeCompared,
+    /// It holds, as it should.
+    Holds,
+    /// A number that nothing is held against.
+    Reported,
+}
+
+impl Verdict {
+    /// All of them, the most urgent first.
+    pub(super) const ALL: [Self; 7] = [
+        Self::CouldNotRun,
+        Self::Missed,
+        Self::NowHolds,
+        Self::KnownNot,
+        Self::CannotBeCompared,
+        Self::Holds,
+        Self::Reported,
+    ];
+
+    /// That of a quantity.
+    pub(super) fn of_quantity(quantity: &QuantityRecord) -> Self {
+        match (quantity.as_expected(), quantity.standing) {
+            (true, Standing::Holds) => Self::Holds,
+            (true, Standing::Fails) => Self::KnownNot,
+            (true, Standing::CannotBeCompared) if is_only_reported(quantity) => Self::Reported,
+            (true, Standing::CannotBeCompared) => Self::CannotBeCompared,
+            (false, Standing::Holds) => Self::NowHolds,
+            (false, Standing::Fails | Standing::CannotBeCompared) => Self::Missed,
+        }
+    }
+
+    /// That of a case: the most urgent of its quantities.
+    pub(super) fn of_case(case: &CaseRecord) -> Self {
+        if case.failure.is_some() {
+            return Self::CouldNotRun;
+        }
+        Self::of_quantities(&case.quantities.iter().collect::<Vec<_>>())
+    }
+
+    /// That of several quantities: the most urgent of theirs.
+    pub(super) fn of_quantities(quantities: &[&QuantityRecord]) -> Self {
+        let each = || quantities.iter().map(|quantity| Self::of_quantity(quantity));
+        let worst = each().min().unwrap_or(Self::Reported);
+        // What cannot be compared beside something that holds is a mark on the whole, not what became of it.
+        if worst == Self::CannotBeCompared && each().any(|verdict| verdict == Self::Holds) {
+            Self::Holds
+        } else {
+            worst
+        }
+    }
+
+    /// In words.
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::CouldNotRun => "could not run",
+            Self::Missed => "missed",
+            Self::NowHolds => "holds unexpectedly",
+            Self::KnownNot => "known not to hold",
+            Self::CannotBeCompared => "cannot be compared",
+            Self::Holds => "holds",
+            Self::Reported => "reported",
+        }
+    }
+
+    /// A sign of one letter, told apart without colour.
+    pub(super) fn sign(self) -> &'static str {
+        match self {
+            Self::CouldNotRun => "‼",
+            Self::Missed => "✗",
+            Self::NowHolds => "↑",
+            Self::KnownNot => "≠",
+            Self::CannotBeCompared => "?",
+            Self::Holds => "✓",
+            Self::Reported => "·",
+        }
+    }
+
+    /// Its name in the page's style sheet and script.
+    pub(super) fn class(self) -> &'static str {
+        match self {
+            Self::CouldNotRun => "could-not-run",
+            Self::Missed => "missed",
+            Self::NowHolds => "now-holds",
+            Self::KnownNot => "known-not",
+            Self::CannotBeCompared => "not-comparable",
+            Self::Holds => "holds",
+            Self::Reported => "reported",
+        }
+    }
+
+    /// Whether it fails the suite.
+    pub(super) fn is_failure(self) -> bool {
+        matches!(self, Self::CouldNotRun | Self::Missed | Self::NowHolds)
+    }
+}
+
+/// Whether nothing is missing to compare the number: nobody asked for a comparison.
+fn is_only_reported(quantity: &QuantityRecord) -> bool {
+    quantity.criterion == Criterion::Reported && quantity.value.is_some() && quantity.remark.is_none()
+}

@@ -1,0 +1,199 @@
+//! What the reports say of a quantity, in plain text: its value, what it is held against, how far off it is and why.
+
+use super::verdict::Verdict;
+use crate::report::html::number::{count, figure, given, percent, significant};
+use crate::studies::validation::record::{CaseRecord, Criterion, QuantityRecord, Standing, State};
+
+/// Stands where there is no number.
+pub(super) const NONE: &str = "–";
+
+/// The value with its unit; a statement's in words.
+pub(super) fn value(quantity: &QuantityRecord) -> String {
+    match (quantity.value, quantity.criterion) {
+        (None, _) => NONE.to_owned(),
+        (Some(value), Criterion::True) => if value == 0.0 { "no" } else { "yes" }.to_owned(),
+        (Some(value), Criterion::Near { tolerance, .. }) => with_unit(&resolved(value, tolerance), &quantity.unit),
+        (Some(value), _) => with_unit(&digits(value), &quantity.unit),
+    }
+}
+
+/// Four digits or so; whole numbers keep all of theirs.
+fn digits(value: f64) -> String {
+    if value.fract() == 0.0 && value.abs() < 1e6 { given(value) } else { figure(value) }
+}
+
+/// As many digits as it takes to see a tenth of the tolerance.
+fn resolved(value: f64, tolerance: f64) -> String {
+    let needed = (10.0 * value / tolerance).abs().log10().ceil();
+    if needed > 4.0 && needed < 12.0 { significant(value, needed as usize) } else { digits(value) }
+}
+
+/// Two digits, which is what is known of an uncertainty.
+pub(super) fn rough(value: f64) -> String {
+    as_written(format!("{value:.1e}").parse().unwrap_or(value))
+}
+
+/// A bound or a setting as a person writes it: no digits that say nothing, powers of ten as such.
+pub(super) fn as_written(value: f64) -> String {
+    let text = given(value);
+    match text.split_once('\u{2009}') {
+        Some((mantissa, power)) if power.starts_with('×') => {
+            let power = power.trim_start_matches(['×', '\u{2009}']);
+            match mantissa.trim_start_matches('−').trim_end_matches('0').trim_end_matches('.') {
+                "1" => format!("{}{power}", if value < 0.0 { "−" } else { "" }),
+                short => format!("{}{short}\u{2009}×\u{2009}{power}", if value < 0.0 { "−" } else { "" }),
+            }
+        }
+        _ => text,
+    }
+}
+
+fn with_unit(text: &str, unit: &str) -> String {
+    if unit.is_empty() { text.to_owned() } else { format!("{text} {unit}") }
+}
+
+/// What it is held against, with the unit.
+pub(super) fn criterion(quantity: &QuantityRecord) -> String {
+    match quantity.criterion {
+        Criterion::True | Criterion::Reported => limit(quantity.criterion),
+        other => with_unit(&limit(other), &quantity.unit),
+    }
+}
+
+/// A criterion without its unit.
+fn limit(criterion: Criterion) -> String {
+    match criterion {
+        Criterion::Near { reference, tolerance: 0.0 } => format!("exactly {}", as_written(reference)),
+        Criterion::Near { reference, tolerance } => {
+            format!("{} ± {}", resolved(reference, tolerance), rough(tolerance))
+        }
+        Criterion::AtLeast { bound } => format!("≥ {}", as_written(bound)),
+        Criterion::AtMost { bound } => format!("≤ {}", as_written(bound)),
+        Criterion::Between { low, high } => format!("{} to {}", as_written(low), as_written(high)),
+        Criterion::True => "must be so".to_owned(),
+        Criterion::Reported => NONE.to_owned(),
+    }
+}
+
+/// One side of a change.
+pub(super) fn state(state: &State) -> String {
+    match state {
+        State::Ran(true) => "ran".to_owned(),
+        State::Ran(false) => "could not run".to_owned(),
+        State::Absent => "not there".to_owned(),
+        State::Stands(standing) => standing.title().to_owned(),
+        State::Ended(outcome) => outcome.title().to_owned(),
+        State::Uses(used) => format!("{} of the tolerance", share(Some(*used))),
+        State::Is(value, unit) => value.map_or_else(|| NONE.to_owned(), |value| with_unit(&digits(value), unit)),
+        State::Errs(error, unit) => format!("an error of {}", with_unit(&significant(*error, 2), unit)),
+        State::Against(criterion) => limit(*criterion),
+        State::Counted(number) => count(*number),
+    }
+}
+
+/// How far it is from its reference: relative where that makes sense.
+pub(super) fn error(quantity: &QuantityRecord) -> String {
+    match (quantity.relative_error, quantity.error) {
+        (Some(relative), _) if relative.is_finite() => percent(relative),
+        (_, Some(error)) => with_unit(&significant(error, 2), &quantity.unit),
+        (_, None) => NONE.to_owned(),
+    }
+}
+
+/// The share of its tolerance that it uses.
+pub(super) fn share(share: Option<f64>) -> String {
+    let Some(share) = share.filter(|share| share.is_finite()) else { return NONE.to_owned() };
+    if share >= 10.0 {
+        format!("{} ×", significant(share, 2))
+    } else {
+        format!("{}\u{202f}%", given((100.0 * share).round()))
+    }
+}
+
+/// Everything about a quantity that is not as it should be, in a line.
+pub(super) fn deviation(quantity: &QuantityRecord) -> String {
+    let mut text = match (quantity.value, quantity.criterion) {
+        (None, _) => "could not be computed".to_owned(),
+        (Some(_), Criterion::Reported) => value(quantity),
+        (Some(_), _) => format!("{}, held against {}", value(quantity), criterion(quantity)),
+    };
+    if quantity.share.is_some_and(|share| share > 1.0) && matches!(quantity.criterion, Criterion::Near { .. }) {
+        text.push_str(&format!(" ({} of the tolerance)", share(quantity.share)));
+    }
+    if quantity.expected != Standing::Holds && Verdict::of_quantity(quantity).is_failure() {
+        text.push_str(&format!("; expected: {}", quantity.expected.title()));
+    }
+    for remark in [&quantity.remark, &quantity.because].into_iter().flatten() {
+        text.push_str(&format!("; {}", remark.trim_end_matches('.')));
+    }
+    text
+}
+
+/// The share of its tolerance or bound that a quantity uses: 1 is where it stops to hold.
+///
+/// Beside the record's own shares, of references and of upper bounds: of a lower bound as bound ÷ value, of a range by the way
+/// from its middle.
+pub(super) fn used(quantity: &QuantityRecord) -> Option<f64> {
+    let of_bound = |value: f64| match quantity.criterion {
+        Criterion::AtLeast { bound } if bound > 0.0 && value > 0.0 => Some(bound / value),
+        Criterion::Between { low, high } if low < high => Some((2.0 * value - low - high).abs() / (high - low)),
+        _ => None,
+    };
+    // Of a number of things one more or less is no margin.
+    let counts_things = |limit: f64| {
+        quantity.unit.is_empty() && limit.fract() == 0.0 && quantity.value.is_some_and(|value| value.fract() == 0.0)
+    };
+    if let Criterion::AtLeast { bound } | Criterion::AtMost { bound } = quantity.criterion
+        && counts_things(bound)
+        && !quantity.counts_work
+    {
+        return None;
+    }
+    quantity.share.or_else(|| quantity.value.and_then(of_bound)).filter(|share| share.is_finite())
+}
+
+/// The quantity that uses most of its tolerance, and how much: of those that are missed, if there are any. Counts of work are
+/// kept close to what they are, and say nothing of accuracy: they are named only where one is missed.
+pub(super) fn tightest<'a>(
+    quantities: impl Iterator<Item = &'a QuantityRecord> + Clone,
+) -> Option<(&'a QuantityRecord, f64)> {
+    let among = |wanted: Verdict| {
+        quantities
+            .clone()
+            .filter(|quantity| Verdict::of_quantity(quantity) == wanted)
+            .filter(|quantity| wanted == Verdict::Missed || !quantity.counts_work)
+            .filter_map(|quantity| Some((quantity, used(quantity)?)))
+            .reduce(|most, next| if next.1 > most.1 { next } else { most })
+    };
+    among(Verdict::Missed).or_else(|| among(Verdict::Holds))
+}
+
+/// The greatest of the work counts: what the time went into.
+pub(super) fn main_work(case: &CaseRecord) -> String {
+    let most = case.work.iter().reduce(|most, next| if next.1 > most.1 { next } else { most });
+    most.map_or_else(|| NONE.to_owned(), |(name, &counted)| format!("{} {}", count(counted), counted_thing(name)))
+}
+
+/// What was counted, as words.
+pub(super) fn counted_thing(name: &str) -> String {
+    name.replace('_', " ")
+}
+
+/// A wall time, unit included.
+pub(super) fn time(wall_s: f64) -> String {
+    if wall_s < 0.001 {
+        "< 1 ms".to_owned()
+    } else if wall_s < 1.0 {
+        format!("{} ms", significant(1000.0 * wall_s, 2))
+    } else if wall_s < 120.0 {
+        format!("{} s", significant(wall_s, 3))
+    } else {
+        let whole = wall_s.round() as u64;
+        format!("{} min {:02} s", whole / 60, whole % 60)
+    }
+}
+
+/// `1 case`, `2 cases`.
+pub(super) fn counted(number: usize, one: &str, many: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { many })
+}
