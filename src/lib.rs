@@ -27,6 +27,7 @@ pub mod gear_mesh;
 pub mod measurement;
 pub mod mesh;
 pub mod mesh_cycle;
+pub mod observer;
 pub mod pipeline;
 pub mod plan;
 pub mod reference;

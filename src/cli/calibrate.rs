@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use crate::calibration::CalibrationError;
 use crate::contact::settings::MatchCriterion;
-use crate::pipeline::calibrate::{self, CalibrateError, Done, Extent, Observer};
+use crate::observer::Observer;
+use crate::pipeline::calibrate::{self, CalibrateError, Calibrated, Extent};
 use crate::plan::calibration::CalibrationStage;
 use crate::report;
 
@@ -41,10 +42,10 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     check_out(&args.out)?;
     let pool = pool(args.threads)?;
     let progress = Progress::new(args.quiet, watch_for_interrupt());
-    let done = pool.install(|| -> Result<Done, Failure> {
+    let done = pool.install(|| -> Result<Calibrated, Failure> {
         let done =
             calibrate::run(&resolved.scene, Extent::Whole, &progress).map_err(|error| refused(error, &source))?;
-        progress.stage(CalibrationStage::Report);
+        progress.stage(CalibrationStage::Report.name());
         report::calibration::write(&done.calibration, &done.stages, &resolved.scene.title, &args.out)?;
         Ok(done)
     });
@@ -96,7 +97,7 @@ fn refused(error: CalibrateError, source: &Source) -> Failure {
 }
 
 /// The main figures, for the terminal.
-fn table(title: &str, done: &Done, out: &Path) -> String {
+fn table(title: &str, done: &Calibrated, out: &Path) -> String {
     let calibration = &done.calibration;
     let mut text = format!("{title}\n\n{}", figures::row("stiffness of the pair, N/(mm·µm)", ["fem", "W.-B."]));
     for (name, at) in ["A", "B", "C", "D", "E"].iter().zip(&calibration.deflection_at_points) {

@@ -5,9 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use crate::simulation::wear_run;
-use crate::studies::sweep;
-use crate::studies::validation;
+use crate::observer::Observer;
 use indicatif::ProgressBar;
 
 use super::{progress, say};
@@ -62,9 +60,10 @@ impl CountedProgress {
             bar.finish_and_clear();
         }
     }
+}
 
-    /// `done` of `total` are finished; `things` is what they are called, `beside` what else is to be said.
-    fn tell(&self, done: usize, total: usize, things: &'static str, beside: &str) {
+impl Observer for CountedProgress {
+    fn counted(&self, done: usize, total: usize, things: &'static str, beside: &str) {
         match &self.display {
             Display::Quiet => {}
             Display::Log(log) => {
@@ -94,45 +93,9 @@ impl CountedProgress {
         }
     }
 
-    fn is_interrupted(&self) -> bool {
+    fn interrupted(&self) -> bool {
         self.interrupted.load(Ordering::Relaxed)
     }
-}
-
-impl sweep::study::Observer for CountedProgress {
-    fn row(&self, done: usize, total: usize, failed: usize) {
-        self.tell(done, total, "combinations", &with_failed(failed));
-    }
-
-    fn verified(&self, done: usize, total: usize) {
-        self.tell(done, total, "verified", "");
-    }
-
-    fn interrupted(&self) -> bool {
-        self.is_interrupted()
-    }
-}
-
-impl wear_run::Progress for CountedProgress {
-    fn progress(&self, _done: f64, _total: f64) {}
-
-    fn interrupted(&self) -> bool {
-        self.is_interrupted()
-    }
-
-    fn gives_up(&self) -> bool {
-        self.is_interrupted()
-    }
-}
-
-impl validation::schedule::Observer for CountedProgress {
-    fn run(&self, done: usize, total: usize, case: &str) {
-        self.tell(done, total, "runs", &format!(", the last of {case}"));
-    }
-}
-
-fn with_failed(failed: usize) -> String {
-    if failed == 0 { String::new() } else { format!(", {failed} failed") }
 }
 
 /// The remaining time, from what the finished ones took; empty at the ends.

@@ -2,6 +2,7 @@
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 use crate::pipeline::fem_problem::{self, FemProblemError};
@@ -13,8 +14,9 @@ use crate::scene::Problem;
 use crate::scene::fem_problem::FemProblem;
 
 use super::failure::{Failure, InputError, SceneProblems};
+use super::progress::Progress;
 use super::scene_source::{self, Text};
-use super::{fem_scene, figures, say, stdout, warn};
+use super::{fem_scene, figures, stdout, warn};
 
 /// Arguments of `fem`.
 #[derive(Debug, clap::Args)]
@@ -74,15 +76,13 @@ fn problem(args: &Args, text: Text) -> Result<(), Failure> {
     report::writable(&args.out)?;
     report::remove_summary(&args.out)?;
     let folder = args.file.parent().unwrap_or(Path::new(""));
-    let told = |stage: &str| {
-        if !args.quiet {
-            say(&format!("{stage} …"));
-        }
-    };
-    let mut record = fem_problem::run(&problem, folder, &told).map_err(|error| match error {
+    let progress = Progress::new(args.quiet, Arc::default());
+    let record = fem_problem::run(&problem, folder, &progress).map_err(|error| match error {
         FemProblemError::Input(problems) => refused(problems),
         FemProblemError::Solve(error) => Failure::Solve(error),
-    })?;
+    });
+    progress.finish();
+    let mut record = record?;
     warn(&record.summary.warnings);
     write(&mut record, &args.out)?;
     if !args.quiet {

@@ -5,7 +5,9 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use crate::pipeline::fem_scene::{self, Asked, Done, FemPairError, Observer};
+use crate::observer::Observer;
+use crate::pipeline::Done;
+use crate::pipeline::fem_scene::{self, Asked, FemPairError};
 use crate::plan::fem_pair::FemPairStage;
 use crate::report;
 use crate::report::ReportError;
@@ -28,7 +30,7 @@ pub fn run(args: &Args, text: Text) -> Result<(), Failure> {
     let interrupted = watch_for_interrupt();
     let progress = Progress::new(args.quiet, Arc::clone(&interrupted));
     let asked = Asked { position_mm: args.position, full: args.full };
-    let done = pool.install(|| -> Result<Done, Failure> {
+    let done = pool.install(|| -> Result<Done<FemPairRecord, FemPairError>, Failure> {
         let mut done = fem_scene::run(resolved, asked, &progress).map_err(|error| refused(error, &source))?;
         if done.record.summary.positions > 0 {
             write(&mut done.record, &args.out, &progress)?;
@@ -75,7 +77,7 @@ fn refused(error: FemPairError, source: &Source) -> Failure {
 
 /// The last stage: the output folder. Its own time is in the summary, which is therefore written last.
 fn write(record: &mut FemPairRecord, out: &Path, progress: &Progress) -> Result<(), ReportError> {
-    Observer::stage(progress, FemPairStage::Report);
+    progress.stage(FemPairStage::Report.name());
     let start = Instant::now();
     // Files of an earlier run are about to be replaced; its summary must not vouch for a mixture.
     report::remove_summary(out)?;

@@ -6,13 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
-use crate::pipeline::{Observer, calibrate, fem_scene};
-use crate::plan::StageKind;
-use crate::plan::calibration::CalibrationStage;
-use crate::plan::fem_pair::FemPairStage;
-use crate::simulation::wear_run;
-use crate::studies::accuracy::study;
-use crate::studies::compare;
+use crate::observer::Observer;
 use indicatif::{ProgressBar, ProgressStyle};
 
 /// How long an interrupted run may take to finish its wear step.
@@ -68,8 +62,31 @@ impl Progress {
 }
 
 impl Observer for Progress {
-    fn stage(&self, kind: StageKind) {
-        self.begin(kind.name());
+    fn stage(&self, name: &str) {
+        match &self.display {
+            Display::Quiet => {}
+            Display::Log(stage) => log_end(stage, Some((name.to_owned(), Instant::now()))),
+            Display::Bar(bar) => {
+                bar.reset();
+                bar.set_message(name.to_owned());
+            }
+        }
+    }
+
+    fn run_of(&self, number: usize, count: usize, name: &str) {
+        match &self.display {
+            Display::Quiet => {}
+            Display::Log(_) => self.stage(&format!("{} of {count}: {name}", number + 1)),
+            Display::Bar(bar) => bar.set_message(format!("{} of {count}", number + 1)),
+        }
+    }
+
+    fn progress(&self, done: f64, total: f64) {
+        if let Display::Bar(bar) = &self.display
+            && total > 0.0
+        {
+            bar.set_position((done / total * PARTS as f64) as u64);
+        }
     }
 
     fn warning(&self, text: &str) {
@@ -80,63 +97,6 @@ impl Observer for Progress {
         match &self.display {
             Display::Bar(bar) => bar.suspend(say),
             Display::Log(_) | Display::Quiet => say(),
-        }
-    }
-}
-
-impl fem_scene::Observer for Progress {
-    fn stage(&self, stage: FemPairStage) {
-        self.begin(stage.name());
-    }
-}
-
-impl study::Observer for Progress {
-    fn calibration(&self) {
-        self.begin("calibration");
-    }
-
-    fn variant(&self, number: usize, count: usize, name: &str) {
-        match &self.display {
-            Display::Quiet => {}
-            Display::Log(_) => self.begin(&format!("{} of {count}: {name}", number + 1)),
-            Display::Bar(bar) => bar.set_message(format!("{} of {count}", number + 1)),
-        }
-    }
-}
-
-impl compare::study::Observer for Progress {
-    fn run(&self, number: u64) {
-        self.begin(&format!("run {number}"));
-    }
-}
-
-impl calibrate::Observer for Progress {
-    fn stage(&self, stage: CalibrationStage) {
-        self.begin(stage.name());
-    }
-}
-
-impl Progress {
-    /// A stage begins.
-    fn begin(&self, name: &str) {
-        let name = name.to_owned();
-        match &self.display {
-            Display::Quiet => {}
-            Display::Log(stage) => log_end(stage, Some((name, Instant::now()))),
-            Display::Bar(bar) => {
-                bar.reset();
-                bar.set_message(name);
-            }
-        }
-    }
-}
-
-impl wear_run::Progress for Progress {
-    fn progress(&self, done: f64, total: f64) {
-        if let Display::Bar(bar) = &self.display
-            && total > 0.0
-        {
-            bar.set_position((done / total * PARTS as f64) as u64);
         }
     }
 

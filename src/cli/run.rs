@@ -6,7 +6,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use crate::pipeline::{self, Done, Observer, Resumption, RunError};
+use crate::observer::Observer;
+use crate::pipeline::{self, Done, Resumption, RunError};
 use crate::plan::{Plan, StageKind};
 use crate::report;
 use crate::report::ReportError;
@@ -121,7 +122,7 @@ fn in_the_scene(error: RunError, source: &Source) -> Failure {
 
 /// The last stage: the output folder. Its own time is in the summary, which is therefore written last.
 fn write(record: &mut RunRecord, out: &Path, progress: &Progress) -> Result<(), ReportError> {
-    progress.stage(StageKind::Report);
+    progress.stage(StageKind::Report.name());
     let start = Instant::now();
     report::write_data_and_page(record, out)?;
     let wall_s = start.elapsed().as_secs_f64();

@@ -14,6 +14,7 @@ mod phases;
 mod recording;
 mod slices;
 mod stability;
+mod stage_clock;
 mod temperature;
 mod verification;
 
@@ -34,35 +35,24 @@ use crate::fem::elastic::Elastic;
 use crate::fem::gear::model::ModelError;
 use crate::gear::{GearPair, PairError, PerGear, flank_zones::FlankZones};
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
+use crate::observer::Observer;
 use crate::plan::{Plan, StageKind};
 use crate::reference::flattening::Flattening;
 use crate::results::error::ErrorSummary;
-use crate::results::run::{RunRecord, StageTime, StopReason, Summary};
+use crate::results::run::{RunRecord, StopReason, Summary};
 use crate::scene::{Resolved, Scene};
 use crate::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
 use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::settings::Phase;
-use crate::simulation::wear_run::{Outcome, Progress, RunPhase, SimulationError, Unwatched, WearRun};
+use crate::simulation::wear_run::{Outcome, RunPhase, SimulationError, WearRun};
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
 use crate::thermal::ContactHeat;
 use crate::wear::{self, FlankWear, WearModel, settings::WearSettings};
 use inputs::Inputs;
 use recording::Found;
+use stage_clock::StageClock;
 use verification::{Elements, Verified};
-
-/// Told of progress; says whether to go on.
-pub trait Observer: Progress {
-    /// A stage begins.
-    fn stage(&self, kind: StageKind);
-
-    /// Something the user should know before the work is done; the summary has it too.
-    fn warning(&self, _text: &str) {}
-}
-
-impl Observer for Unwatched {
-    fn stage(&self, _kind: StageKind) {}
-}
 
 /// Why a plan could not be carried out.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -102,29 +92,13 @@ impl RunError {
     }
 }
 
-/// What a plan came to.
+/// What a computation came to.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Done<R = RunRecord> {
+pub struct Done<R = RunRecord, E = RunError> {
     /// Everything that was finished, or what is wanted of it.
     pub record: R,
     /// Why that is not all.
-    pub failure: Option<RunError>,
-}
-
-/// Times the stages and tells the observer of them.
-struct Stages<'a> {
-    observer: &'a dyn Observer,
-    times: Vec<StageTime>,
-}
-
-impl Stages<'_> {
-    fn run<T>(&mut self, kind: StageKind, work: impl FnOnce() -> T) -> T {
-        self.observer.stage(kind);
-        let start = Instant::now();
-        let result = work();
-        self.times.push(StageTime { name: kind.name().to_owned(), wall_s: start.elapsed().as_secs_f64() });
-        result
-    }
+    pub failure: Option<E>,
 }
 
 /// Part of the greatest load whose contact is still resolved by the elements that wear: half as wide as that of the whole. Phases under
@@ -251,24 +225,25 @@ fn carry_out<R>(
     keep: impl FnOnce(&Model<'_>, Found<'_>, Summary) -> R,
 ) -> Result<Done<R>, RunError> {
     let scene = &resolved.scene;
-    let mut stages = Stages { observer, times: Vec::new() };
+    let mut stages = StageClock::new(observer);
 
-    let pair = stages.run(StageKind::Geometry, || GearPair::new(&scene.pair))?;
+    let pair = stages.run(StageKind::Geometry.name(), || GearPair::new(&scene.pair))?;
     let at_pitch = hertz::flattening(&pair, &scene.material, pair.path.pitch_point_mm);
     let (base_radius, width) = (pair.path.involute.pinion.base_radius_mm, scene.pair.face_width_mm);
     let line_load = |phase: &Phase| phase.pinion_torque_n_mm / base_radius / width;
     // One model of finite elements serves the stiffness of the teeth and the verification.
-    let elements = match plan.has(StageKind::FiniteElementModel) && scene.contact.surface != SurfaceKind::Fem {
-        true => Some(
-            stages.run(StageKind::FiniteElementModel, || verification::elements(scene, &pair, &at_pitch, line_load)),
-        ),
-        false => None,
-    };
+    let elements =
+        match plan.has(StageKind::FiniteElementModel) && scene.contact.surface != SurfaceKind::Fem {
+            true => Some(stages.run(StageKind::FiniteElementModel.name(), || {
+                verification::elements(scene, &pair, &at_pitch, line_load)
+            })),
+            false => None,
+        };
     let (stiffness, computed, stiffness_warning) =
         own_stiffness(scene, plan, inputs, elements.as_ref(), &calibrate::setup(scene, &pair), &mut stages)?;
     // All phases wear the nodes of one mesh.
     let worn_elements = match scene.contact.surface {
-        SurfaceKind::Fem => Some(stages.run(StageKind::FiniteElementModel, || {
+        SurfaceKind::Fem => Some(stages.run(StageKind::FiniteElementModel.name(), || {
             let loads = || scene.operation.phases.iter().map(line_load);
             let (least, greatest) = (loads().fold(f64::INFINITY, f64::min), loads().fold(0.0, f64::max));
             let load = least.max(LEAST_MESHED_LOAD * greatest);
@@ -295,13 +270,13 @@ fn carry_out<R>(
         }));
     };
     if plan.has(StageKind::ToothStiffness) {
-        stages.run(StageKind::ToothStiffness, springs);
+        stages.run(StageKind::ToothStiffness.name(), springs);
     } else {
         springs();
     }
-    let sliced = scene
-        .slices
-        .map(|settings| stages.run(StageKind::HelicalSlices, || SlicedTeeth::new(&pair, &scene.material, settings)));
+    let sliced = scene.slices.map(|settings| {
+        stages.run(StageKind::HelicalSlices.name(), || SlicedTeeth::new(&pair, &scene.material, settings))
+    });
     let contact = |case: usize| match (&worn_elements, cases[case].surface.as_deref(), &teeth[case]) {
         (Some(model), ..) => MeshContact::FiniteElements(model),
         (None, Some(surface), Some(teeth)) => match (scene.contact.surface, sliced.as_ref()) {
@@ -356,26 +331,26 @@ fn carry_out<R>(
     };
 
     let judged = match plan.has(StageKind::StepBound) {
-        true => stages.run(StageKind::StepBound, || stability::judge(&model, observer)),
+        true => stages.run(StageKind::StepBound.name(), || stability::judge(&model, observer)),
         false => stability::Judged::default(),
     };
     let Resumption { from, keeper } = resumption;
-    let outcome = stages.run(StageKind::Simulation, || model.wear_run().run_from(from, keeper, observer))?;
+    let outcome = stages.run(StageKind::Simulation.name(), || model.wear_run().run_from(from, keeper, observer))?;
     let heat = match plan.has(StageKind::ContactTemperature) {
-        true => stages.run(StageKind::ContactTemperature, || temperature::observe(&model, &outcome)),
+        true => stages.run(StageKind::ContactTemperature.name(), || temperature::observe(&model, &outcome)),
         false => None,
     };
     let found = Found { outcome: &outcome, heat: heat.as_ref(), verified: None };
     let mut error = if plan.has(StageKind::ErrorEstimates) && outcome.stop == StopReason::Completed {
         let estimate = || error_estimates::estimate(&model, &outcome, judged.step_over_safe, observer);
-        stages.run(StageKind::ErrorEstimates, estimate)
+        stages.run(StageKind::ErrorEstimates.name(), estimate)
     } else {
         ErrorSummary::not_estimated(not_estimated_because(&outcome))
     };
 
     let verified = match (outcome.stop, plan.left_out_because(StageKind::Verification)) {
         (StopReason::Completed, None) => {
-            stages.run(StageKind::Verification, || verification::verify(&model, &outcome, elements, observer))
+            stages.run(StageKind::Verification.name(), || verification::verify(&model, &outcome, elements, observer))
         }
         (StopReason::Completed, Some(reason)) => Verified::none(reason),
         _ => Verified::none(not_estimated_because(&outcome)),
@@ -398,14 +373,14 @@ fn own_stiffness(
     inputs: &Inputs,
     elements: Option<&Result<Elements<'_>, ModelError>>,
     setup: &calibration::bodies::Setup<'_>,
-    stages: &mut Stages<'_>,
+    stages: &mut StageClock<'_>,
 ) -> Result<(StiffnessSettings, Option<PairCompliance>, Option<String>), RunError> {
     let Some(elements) =
         elements.filter(|_| plan.has(StageKind::FiniteElementCalibration) && inputs.calibration.is_none())
     else {
         return Ok((scene.stiffness, None, None));
     };
-    let curve = stages.run(StageKind::FiniteElementCalibration, || match elements {
+    let curve = stages.run(StageKind::FiniteElementCalibration.name(), || match elements {
         Ok(elements) => {
             let line_load_n_per_mm = setup.line_load_n_per_mm.max(elements.line_load_n_per_mm);
             calibration::pair_compliance(&elements.condensed, &setup.material, line_load_n_per_mm)
@@ -439,7 +414,7 @@ fn load_case(
     inputs: &Inputs,
     at_pitch: &Flattening,
     line_load_n_per_mm: f64,
-    stages: &mut Stages<'_>,
+    stages: &mut StageClock<'_>,
 ) -> Result<LoadCase, RunError> {
     let bed = match (scene.contact.surface, scene.contact.foundation, &inputs.calibration) {
         (SurfaceKind::Winkler, Foundation::Given { foundation_mpa_per_mm }, _) => {
@@ -459,7 +434,7 @@ fn load_case(
         }
         (SurfaceKind::Winkler, Foundation::Matched(criterion) | Foundation::Calibrated(criterion), _) => {
             let matched = || matched_mpa_per_mm(criterion, at_pitch, line_load_n_per_mm);
-            Some(Bed::Uniform { mpa_per_mm: stages.run(StageKind::ContactMatch, matched) })
+            Some(Bed::Uniform { mpa_per_mm: stages.run(StageKind::ContactMatch.name(), matched) })
         }
         _ => None,
     };

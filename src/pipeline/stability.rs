@@ -1,6 +1,7 @@
 //! Whether Euler's steps are short enough, asked before the first of them.
 
-use super::{Model, Observer};
+use super::Model;
+use crate::observer::Observer;
 use crate::simulation::settings::Stepping;
 use crate::simulation::stability::StepBound;
 use crate::simulation::wear_run::RunPhase;

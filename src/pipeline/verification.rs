@@ -25,6 +25,7 @@ use crate::fem::gear::{model::ModelError, position::CondensedPair};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::BodySettings;
 use crate::mesh_cycle::CycleObservation;
+use crate::observer::Observer;
 use crate::reference::flattening::Flattening;
 use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError};
 use crate::results::run::StopReason;
@@ -32,7 +33,7 @@ use crate::scene::Scene;
 use crate::simulation::figures::WearFigures;
 use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::settings::{AdaptiveMethod, Numerics, Phase, Stepping};
-use crate::simulation::wear_run::{Outcome, Progress, RunPhase, Snapshot, WearRun};
+use crate::simulation::wear_run::{Outcome, RunPhase, Snapshot, WearRun};
 
 /// Least half-width of contact at the pitch point that is meshed, in modules: the flank then has some thousand nodes.
 const LEAST_HALF_WIDTH_MODULES: f64 = 0.015;
@@ -96,11 +97,11 @@ impl Verified {
 
 /// Hears an interrupt, and stops a life that takes too many steps.
 struct Bounded<'a> {
-    observer: &'a dyn Progress,
+    observer: &'a dyn Observer,
     steps: AtomicU64,
 }
 
-impl Progress for Bounded<'_> {
+impl Observer for Bounded<'_> {
     fn progress(&self, done: f64, total: f64) {
         self.steps.fetch_add(1, Ordering::Relaxed);
         self.observer.progress(done, total);
@@ -158,7 +159,7 @@ pub(super) fn verify<'a>(
     model: &Model<'a>,
     outcome: &Outcome,
     elements: Option<Result<Elements<'a>, ModelError>>,
-    observer: &dyn Progress,
+    observer: &dyn Observer,
 ) -> Verified {
     let other_mesh = || {
         let greatest_load = model.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max);
@@ -189,7 +190,7 @@ fn life(
     model: &Model<'_>,
     outcome: &Outcome,
     elements: &CondensedPair<'_>,
-    observer: &dyn Progress,
+    observer: &dyn Observer,
 ) -> Result<Outcome, String> {
     let scene = model.scene;
     let phases: Vec<RunPhase<'_>> = model

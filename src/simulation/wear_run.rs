@@ -18,6 +18,7 @@ use crate::gear::{
 };
 use crate::mesh_cycle::wearing_pair::WearingPair;
 use crate::mesh_cycle::{CycleObservation, Work, load_sharing::EquilibriumError};
+use crate::observer::Observer;
 use crate::results::run::StopReason;
 use crate::stiffness::StiffnessError;
 use crate::wear::{WearModel, stepping::adaptive::StepCounts};
@@ -111,33 +112,6 @@ pub struct Outcome {
     pub work: Work,
 }
 
-/// Told how far a run has come; says whether to go on.
-pub trait Progress: Sync {
-    /// `done` of `total` pinion revolutions are run.
-    fn progress(&self, done: f64, total: f64);
-
-    /// Whether the user wants it to stop: it does at the end of the wear step, whose state is kept.
-    fn interrupted(&self) -> bool;
-
-    /// Whether the user has waited for that long enough: it then stops at once, and what is kept is the last snapshot.
-    fn gives_up(&self) -> bool;
-}
-
-/// Nobody watches, nobody interrupts.
-pub struct Unwatched;
-
-impl Progress for Unwatched {
-    fn progress(&self, _done: f64, _total: f64) {}
-
-    fn interrupted(&self) -> bool {
-        false
-    }
-
-    fn gives_up(&self) -> bool {
-        false
-    }
-}
-
 /// A run on its way.
 struct Course {
     /// Number of its phase.
@@ -169,7 +143,7 @@ enum PhaseEnd {
 #[derive(Clone, Copy)]
 struct Attendants<'a> {
     keeper: &'a dyn Keeper,
-    progress: &'a dyn Progress,
+    progress: &'a dyn Observer,
 }
 
 impl WearRun<'_> {
@@ -177,7 +151,7 @@ impl WearRun<'_> {
     ///
     /// # Errors
     /// [`SimulationError`].
-    pub fn run(&self, progress: &dyn Progress) -> Result<Outcome, SimulationError> {
+    pub fn run(&self, progress: &dyn Observer) -> Result<Outcome, SimulationError> {
         self.run_from(None, &NothingKept, progress)
     }
 
@@ -189,7 +163,7 @@ impl WearRun<'_> {
         &self,
         checkpoint: Option<Checkpoint>,
         keeper: &dyn Keeper,
-        progress: &dyn Progress,
+        progress: &dyn Observer,
     ) -> Result<Outcome, SimulationError> {
         let slices = self.phases.first().map_or_else(|| Slices::new(self.pair, 1), |one| one.contact.slices(self.pair));
         let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));

@@ -16,21 +16,12 @@ use crate::fem::gear::position::CondensedPair;
 use crate::gear::modification::Modification;
 use crate::gear::{Gear, GearPair, PairError};
 use crate::mesh_cycle::load_sharing::EquilibriumError;
+use crate::observer::Observer;
+use crate::pipeline::stage_clock::StageClock;
 use crate::plan::calibration::CalibrationStage;
 use crate::results::run::StageTime;
 use crate::scene::Scene;
-use crate::simulation::wear_run::{Progress, Unwatched};
 use crate::stiffness::iso6336;
-
-/// Told of progress; says whether to go on.
-pub trait Observer: Progress {
-    /// A stage begins.
-    fn stage(&self, stage: CalibrationStage);
-}
-
-impl Observer for Unwatched {
-    fn stage(&self, _stage: CalibrationStage) {}
-}
 
 /// Why there is no calibration.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -56,7 +47,7 @@ pub enum CalibrateError {
 
 /// A calibration and how it came about.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Done {
+pub struct Calibrated {
     /// The calibration, hash filled in.
     pub calibration: Calibration,
     /// Stages with their times.
@@ -65,11 +56,8 @@ pub struct Done {
     pub wall_s: f64,
 }
 
-/// Times the stages, tells the observer of them and listens to it between them.
-struct Stages<'a> {
-    observer: &'a dyn Observer,
-    times: Vec<StageTime>,
-}
+/// Listens to the observer between the stages.
+struct Stages<'a>(StageClock<'a>);
 
 impl Stages<'_> {
     fn run<T, E: Into<CalibrateError>>(
@@ -77,14 +65,10 @@ impl Stages<'_> {
         stage: CalibrationStage,
         work: impl FnOnce() -> Result<T, E>,
     ) -> Result<T, CalibrateError> {
-        if self.observer.interrupted() {
+        if self.0.observer.interrupted() {
             return Err(CalibrateError::Interrupted);
         }
-        self.observer.stage(stage);
-        let start = Instant::now();
-        let result = work().map_err(Into::into);
-        self.times.push(StageTime { name: stage.name().to_owned(), wall_s: start.elapsed().as_secs_f64() });
-        result
+        self.0.run(stage.name(), work).map_err(Into::into)
     }
 }
 
@@ -101,10 +85,10 @@ pub enum Extent {
 ///
 /// # Errors
 /// [`CalibrateError`]
-pub fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Done, CalibrateError> {
+pub fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Calibrated, CalibrateError> {
     use CalibrationStage as Stage;
     let start = Instant::now();
-    let mut stages = Stages { observer, times: Vec::new() };
+    let mut stages = Stages(StageClock::new(observer));
     let pair = stages.run(Stage::Geometry, || GearPair::new(&scene.pair))?;
     let setup = setup(scene, &pair);
     let w = setup.line_load_n_per_mm;
@@ -147,7 +131,7 @@ pub fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Don
         wear_reference,
     };
     calibration.hash = calibration.content_hash();
-    Ok(Done { calibration, stages: stages.times, wall_s: start.elapsed().as_secs_f64() })
+    Ok(Calibrated { calibration, stages: stages.0.times, wall_s: start.elapsed().as_secs_f64() })
 }
 
 /// The pair alone in contact, without relief and crowning: K/H belongs to the curvature of the involute, and a relief changes

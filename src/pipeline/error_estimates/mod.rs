@@ -15,9 +15,10 @@ mod wear_runs;
 use super::Model;
 use crate::gear::PerGear;
 use crate::mesh_cycle::{settings::SliceSettings, sliced_teeth::SlicedTeeth};
+use crate::observer::Observer;
 use crate::results::error::{ErrorSources, ErrorSummary};
 use crate::simulation::figures::WearFigures;
-use crate::simulation::wear_run::{Outcome, Progress};
+use crate::simulation::wear_run::Outcome;
 
 /// Fewest points and positions of a companion: with fewer nothing can be learned.
 const LEAST_POINTS: usize = 20;
@@ -40,34 +41,13 @@ impl Estimate {
     }
 }
 
-/// Hides how far the companions have come, but hears an interrupt.
-struct Companion<'a> {
-    observer: &'a dyn Progress,
-    /// Share of the companions' work done before this one, and its own share.
-    share: (f64, f64),
-}
-
-impl Progress for Companion<'_> {
-    fn progress(&self, done: f64, total: f64) {
-        self.observer.progress(self.share.0 + self.share.1 * done / total, 1.0);
-    }
-
-    fn interrupted(&self) -> bool {
-        self.observer.interrupted()
-    }
-
-    fn gives_up(&self) -> bool {
-        self.observer.gives_up()
-    }
-}
-
 /// Estimates the errors of the pinion's peak wear in `outcome`. A companion that fails leaves its estimate out, never the
 /// result of the run. `step_over_safe` is the run's step over the longest safe one, 0 where nothing can swing.
 pub(super) fn estimate(
     model: &Model<'_>,
     outcome: &Outcome,
     step_over_safe: f64,
-    observer: &dyn Progress,
+    observer: &dyn Observer,
 ) -> ErrorSummary {
     let slices = coarse_slices(model);
     let runs = wear_runs::estimate(model, outcome, slices.as_ref(), step_over_safe, observer);

@@ -12,11 +12,12 @@
 //! differences of the peak wear the larger. Where that many steps cost more than the budget, there is no estimate: longer ones would
 //! tell the swing of the steps and not the switch.
 
-use super::{Companion, Estimate, LEAST_POINTS, peak_wear_of_both_mm};
+use super::{Estimate, LEAST_POINTS, peak_wear_of_both_mm};
 use crate::gear::{Gear, PerGear};
+use crate::observer::{Observer, PartOf};
 use crate::pipeline::Model;
 use crate::simulation::settings::{Numerics, Stepping};
-use crate::simulation::wear_run::{Outcome, Progress, RunPhase, WearRun};
+use crate::simulation::wear_run::{Outcome, RunPhase, WearRun};
 use crate::wear::{self, FlankWear, WearModel, settings::SevereTransition, settings::WearSettings};
 
 /// Band that a hard switch is compared with, over its limit.
@@ -37,7 +38,7 @@ pub(super) fn felt(model: &Model<'_>, outcome: &Outcome) -> bool {
 }
 
 /// The estimate and its cost over that of the run, within `budget`.
-pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observer: &dyn Progress) -> (Estimate, f64) {
+pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observer: &dyn Observer) -> (Estimate, f64) {
     let scene = model.scene;
     let Some(own) = scene.wear.severe else {
         return (Estimate::none("the scene has no transition to severe wear"), 0.0);
@@ -90,7 +91,8 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
             .map(|(phase, law)| RunPhase { wear: WearModel { law: law.as_ref(), ..phase.wear }, ..*phase })
             .collect();
         let run = WearRun { phases: &phases, ..coarse(positions, revolutions) };
-        let outcome = run.run(&Companion { observer, share: (0.9, 0.1) }).map_err(|error| error.to_string())?;
+        let outcome =
+            run.run(&PartOf { observer, before: 0.9, share: 0.1, of: 1.0 }).map_err(|error| error.to_string())?;
         equilibria += outcome.work.equilibria;
         match &outcome.failure {
             Some(failure) => Err(failure.to_string()),

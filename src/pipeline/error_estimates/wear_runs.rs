@@ -27,14 +27,15 @@
 //!
 //! Source: L. F. Richardson (1911); P. J. Roache, *Verification and Validation in Computational Science* (1998).
 
-use super::{Companion, Estimate, LEAST_POINTS, peak_wear_of_both_mm, severe_switch};
+use super::{Estimate, LEAST_POINTS, peak_wear_of_both_mm, severe_switch};
 use crate::contact::settings::SurfaceKind;
 use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
+use crate::observer::{Observer, PartOf};
 use crate::pipeline::Model;
 use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::settings::Numerics;
-use crate::simulation::wear_run::{Outcome, Progress, RunPhase, SimulationError, WearRun};
+use crate::simulation::wear_run::{Outcome, RunPhase, SimulationError, WearRun};
 
 /// Least ratio of two wear steps of which anything is learned.
 const LEAST_STEP_RATIO: f64 = 1.5;
@@ -58,7 +59,7 @@ struct Coarser {
 /// Runs companions of one run.
 struct Companions<'a> {
     model: &'a Model<'a>,
-    observer: &'a dyn Progress,
+    observer: &'a dyn Observer,
     /// Half of the slices, of a run that has some.
     coarse_slices: Option<&'a SlicedTeeth>,
     /// The run's step over the longest safe one.
@@ -146,8 +147,8 @@ impl<'a> Companions<'a> {
         let phases: Vec<RunPhase<'_>> = self.model.phases.iter().map(of_phase).collect();
         let run = WearRun { phases: &phases, numerics, snapshots_revolutions: &[], ..self.model.wear_run() };
         let failed = |error: SimulationError| format!("a companion run failed: {error}");
-        let share = (begin, end - begin);
-        let outcome = run.run(&Companion { observer: self.observer, share }).map_err(failed)?;
+        let part = PartOf { observer: self.observer, before: begin, share: end - begin, of: 1.0 };
+        let outcome = run.run(&part).map_err(failed)?;
         self.cost += outcome.work.equilibria as f64;
         match outcome.failure.clone() {
             Some(error) => Err(failed(error)),
@@ -162,7 +163,7 @@ pub(super) fn estimate<'a>(
     outcome: &Outcome,
     coarse_slices: Option<&'a SlicedTeeth>,
     step_over_safe: f64,
-    observer: &'a dyn Progress,
+    observer: &'a dyn Observer,
 ) -> FromRuns {
     let peaks_mm = peak_wear_of_both_mm(model, outcome);
     let mut companions = Companions { model, observer, coarse_slices, step_over_safe, peaks_mm, cost: 0.0 };

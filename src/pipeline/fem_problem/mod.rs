@@ -8,8 +8,9 @@ use std::time::Instant;
 
 use crate::fem::{self, SolveError};
 use crate::mesh::{self, Format, MeshFileError};
+use crate::observer::Observer;
+use crate::pipeline::stage_clock::StageClock;
 use crate::results::fem_problem::FemRecord;
-use crate::results::run::StageTime;
 use crate::scene::Problem;
 use crate::scene::fem_problem::FemProblem;
 use crate::scene::short_hash;
@@ -25,29 +26,13 @@ pub enum FemProblemError {
     Solve(#[from] SolveError),
 }
 
-/// Times what is carried out, one stage after the other.
-struct Stages<'a> {
-    told: &'a dyn Fn(&str),
-    times: Vec<StageTime>,
-}
-
-impl Stages<'_> {
-    fn run<T>(&mut self, name: &str, work: impl FnOnce() -> T) -> T {
-        (self.told)(name);
-        let start = Instant::now();
-        let result = work();
-        self.times.push(StageTime { name: name.to_owned(), wall_s: start.elapsed().as_secs_f64() });
-        result
-    }
-}
-
-/// Solves `problem`, whose mesh file is named relative to `folder`; `told` hears of every stage.
+/// Solves `problem`, whose mesh file is named relative to `folder`.
 ///
 /// # Errors
 /// Everything that is wrong with problem and mesh, or why the solver failed.
-pub fn run(problem: &FemProblem, folder: &Path, told: &dyn Fn(&str)) -> Result<FemRecord, FemProblemError> {
+pub fn run(problem: &FemProblem, folder: &Path, observer: &dyn Observer) -> Result<FemRecord, FemProblemError> {
     let start = Instant::now();
-    let mut stages = Stages { told, times: Vec::new() };
+    let mut stages = StageClock::new(observer);
     let unreadable = |reason: String| FemProblemError::Input(problem.mesh_unreadable(&reason));
     let (mesh, mesh_hash) = stages.run("mesh", || -> Result<_, FemProblemError> {
         let path = folder.join(&problem.file.mesh.file);

@@ -21,24 +21,16 @@ use crate::fem::gear::position::{CondensedPair, PositionContact};
 use crate::gear::path_of_contact::PathOfContact;
 use crate::gear::{Gear, GearPair, PairError, PerGear};
 use crate::mesh::quality::QualityError;
+use crate::observer::Observer;
+use crate::pipeline::Done;
+use crate::pipeline::stage_clock::StageClock;
 use crate::plan::fem_pair::FemPairStage;
 use crate::results::fem_pair::{FemPairRecord, FullModelSummary};
-use crate::results::run::{StageTime, StopReason};
+use crate::results::run::StopReason;
 use crate::scene::Resolved;
-use crate::simulation::wear_run::{Progress, Unwatched};
 
 /// Positions solved between two looks at the observer.
 const BATCH: usize = 64;
-
-/// Told of progress, in positions; says whether to go on.
-pub trait Observer: Progress {
-    /// A stage begins.
-    fn stage(&self, stage: FemPairStage);
-}
-
-impl Observer for Unwatched {
-    fn stage(&self, _stage: FemPairStage) {}
-}
 
 /// Why there is no result, or not the whole.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -83,31 +75,6 @@ pub enum FemPairError {
     Stress(#[from] ElementError),
 }
 
-/// What a computation came to.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Done {
-    /// Everything that was finished.
-    pub record: FemPairRecord,
-    /// Why that is not all.
-    pub failure: Option<FemPairError>,
-}
-
-/// Times the stages and tells the observer of them.
-struct Stages<'a> {
-    observer: &'a dyn Observer,
-    times: Vec<StageTime>,
-}
-
-impl Stages<'_> {
-    fn run<T>(&mut self, stage: FemPairStage, work: impl FnOnce() -> T) -> T {
-        self.observer.stage(stage);
-        let start = Instant::now();
-        let result = work();
-        self.times.push(StageTime { name: stage.name().to_owned(), wall_s: start.elapsed().as_secs_f64() });
-        result
-    }
-}
-
 /// What is asked beside the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Asked {
@@ -134,12 +101,16 @@ struct Solved {
 ///
 /// # Errors
 /// [`FemPairError`] where nothing was finished.
-pub fn run(resolved: &Resolved, asked: Asked, observer: &dyn Observer) -> Result<Done, FemPairError> {
+pub fn run(
+    resolved: &Resolved,
+    asked: Asked,
+    observer: &dyn Observer,
+) -> Result<Done<FemPairRecord, FemPairError>, FemPairError> {
     let start = Instant::now();
     let scene = &resolved.scene;
-    let mut stages = Stages { observer, times: Vec::new() };
+    let mut stages = StageClock::new(observer);
 
-    let pair = stages.run(FemPairStage::Geometry, || GearPair::new(&scene.pair))?;
+    let pair = stages.run(FemPairStage::Geometry.name(), || GearPair::new(&scene.pair))?;
     let path = &pair.path;
     let position_mm = asked.position_mm.map(|given_mm| on_path(path, given_mm)).transpose()?;
     let line_load_n_per_mm =
@@ -147,11 +118,11 @@ pub fn run(resolved: &Resolved, asked: Asked, observer: &dyn Observer) -> Result
     let material = scene
         .material
         .map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio });
-    let meshed = stages.run(FemPairStage::Meshing, || {
+    let meshed = stages.run(FemPairStage::Meshing.name(), || {
         let mesh = |gear| MeshedGear::new(&pair, gear, &material, line_load_n_per_mm, &scene.fem);
         PerGear::try_in_parallel(mesh)
     })?;
-    let gears = stages.run(FemPairStage::Condensation, || {
+    let gears = stages.run(FemPairStage::Condensation.name(), || {
         PerGear::try_in_parallel(|gear| meshed[gear].condense(&pair, material[gear]))
     })?;
     let model = CondensedPair::new(&pair, &material, gears);
@@ -161,7 +132,7 @@ pub fn run(resolved: &Resolved, asked: Asked, observer: &dyn Observer) -> Result
         None => path.evenly_mm(scene.numerics.positions),
     };
     let (positions, mut failure) =
-        stages.run(FemPairStage::Cycle, || solve(&model, &positions_mm, line_load_n_per_mm, observer));
+        stages.run(FemPairStage::Cycle.name(), || solve(&model, &positions_mm, line_load_n_per_mm, observer));
     let mut stop = match (&failure, positions.len() == positions_mm.len()) {
         (Some(_), _) => StopReason::NotConverged,
         (None, true) => StopReason::Completed,
@@ -172,7 +143,7 @@ pub fn run(resolved: &Resolved, asked: Asked, observer: &dyn Observer) -> Result
     }
     let mut points = None;
     if stop == StopReason::Completed && position_mm.is_none() {
-        match stages.run(FemPairStage::PathPoints, || cycle(&model, &path.points_mm(), line_load_n_per_mm)) {
+        match stages.run(FemPairStage::PathPoints.name(), || cycle(&model, &path.points_mm(), line_load_n_per_mm)) {
             Ok(found) => points = <[PositionContact; 5]>::try_from(found).ok(),
             Err(error) => {
                 failure = Some(error.into());
@@ -184,7 +155,7 @@ pub fn run(resolved: &Resolved, asked: Asked, observer: &dyn Observer) -> Result
     if asked.full && stop == StopReason::Completed {
         let at: &[PositionContact] = points.as_ref().map_or(&positions, |points| points);
         let whole = WholeModel { pair: &pair, meshed: &meshed, material: &material, line_load_n_per_mm };
-        full = Some(stages.run(FemPairStage::FullModel, || {
+        full = Some(stages.run(FemPairStage::FullModel.name(), || {
             at.iter().map(|condensed| whole.against(condensed)).collect::<Result<Vec<_>, _>>()
         })?);
     }
@@ -193,7 +164,9 @@ pub fn run(resolved: &Resolved, asked: Asked, observer: &dyn Observer) -> Result
         None => positions.first().filter(|_| position_mm.is_some()),
     };
     let solution = match shown {
-        Some(found) => Some(stages.run(FemPairStage::Stresses, || field::solution(&model, &meshed, &material, found))?),
+        Some(found) => {
+            Some(stages.run(FemPairStage::Stresses.name(), || field::solution(&model, &meshed, &material, found))?)
+        }
         None => None,
     };
     let solved = Solved { positions, points, full, stop };

@@ -13,10 +13,11 @@
 use super::measure::{profile_error, ratio, relative_difference};
 use super::observed::{Observed, ObservedFlank};
 use super::settings::{Bed, Coarsening, Setting, Surface, coupling_name, euler_revolutions};
-use super::timed_run::{Finished, Observer, Within, measure};
+use super::timed_run::{Finished, measure};
 use crate::contact::settings::MatchCriterion;
 use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
+use crate::observer::{Observer, PartOf};
 use crate::pipeline::inputs::Inputs;
 use crate::scene::file::StepFile;
 use crate::scene::{Problem, Resolved, Scene};
@@ -78,12 +79,12 @@ pub(super) fn run(
         let mut ran = Vec::new();
         for (number, step) in [1, FEWER_STEPS].into_iter().enumerate() {
             let number = first + 2 * index + number;
-            observer.variant(number, count, &format!("{DEEPER} times the revolutions: {}, steps {step}", row.name));
+            observer.run_of(number, count, &format!("{DEEPER} times the revolutions: {}, steps {step}", row.name));
             let coarsening = Coarsening { spacing: like.coarsening.spacing, step };
             let slices = Some(SliceSettings { coupling, ..slices });
             let setting =
                 Setting { surface, tip_contact: surface.may_follow_tip(), slices, coarsening, ..like.clone() };
-            let measured = measure(&setting, base, inputs, &Within { observer, number, count })?;
+            let measured = measure(&setting, base, inputs, &PartOf::new(observer, number, count))?;
             row.failure = row.failure.or(measured.record.failure);
             ran.push(measured.finished.zip(measured.record.simulation_s));
         }

@@ -10,11 +10,11 @@ use super::observed::Observed;
 use super::reference::{Correction, Reference};
 use super::selection::{Asked, Companions, Selection, Spacing};
 use super::settings::Setting;
-pub use super::timed_run::Observer;
-use super::timed_run::{Finished, Measured, Within, measure};
+use super::timed_run::{Finished, Measured, measure};
 use crate::calibration::Calibration;
 use crate::contact::settings::MatchCriterion;
 use crate::gear::{Gear, PerGear};
+use crate::observer::{Observer, PartOf};
 use crate::pipeline::calibrate::{self, CalibrateError, Extent};
 use crate::pipeline::inputs::Inputs;
 use crate::results::run::StopReason;
@@ -69,8 +69,8 @@ pub fn run(
     let count = settings + if resolved.scene.slices.is_some() { deep_runs::RUNS } else { 0 };
     let mut measured: Vec<Measured> = Vec::with_capacity(settings);
     for (number, setting) in selection.settings.iter().enumerate() {
-        observer.variant(number, count, &setting.name());
-        match measure(setting, resolved, inputs, &Within { observer, number, count }) {
+        observer.run_of(number, count, &setting.name());
+        match measure(setting, resolved, inputs, &PartOf::new(observer, number, count)) {
             Some(one) => measured.push(one),
             None => break,
         }
@@ -148,8 +148,8 @@ fn calibration(resolved: &Resolved, inputs: &Inputs, observer: &dyn Observer) ->
     if let Some(given) = &inputs.calibration {
         return Ok(Calibrated { made: Some(given.clone()), wall_s: None, why_none: String::new() });
     }
-    observer.calibration();
-    match calibrate::run(&resolved.scene, Extent::FastModel, &Within { observer, number: 0, count: usize::MAX }) {
+    observer.stage("calibration");
+    match calibrate::run(&resolved.scene, Extent::FastModel, &PartOf::new(observer, 0, usize::MAX)) {
         Ok(done) => Ok(Calibrated { made: Some(done.calibration), wall_s: Some(done.wall_s), why_none: String::new() }),
         Err(CalibrateError::Interrupted) => Err(AccuracyError::Interrupted),
         Err(error) => Ok(Calibrated { made: None, wall_s: None, why_none: format!("no calibration: {error}") }),

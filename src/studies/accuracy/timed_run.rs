@@ -6,27 +6,17 @@
 use super::observed::Observed;
 use super::settings::Setting;
 use crate::gear::PerGear;
-use crate::pipeline::{self, Done, RunError, calibrate, inputs::Inputs};
-use crate::plan::calibration::CalibrationStage;
+use crate::observer::{Observer, PartOf};
+use crate::pipeline::{self, Done, RunError, inputs::Inputs};
 use crate::plan::{Plan, StageKind};
 use crate::results::run::{PathPoints, RunRecord, StopReason, Summary};
 use crate::scene::Resolved;
-use crate::simulation::wear_run::Progress;
 use crate::studies::accuracy::record::{CALIBRATION_FILE, VariantRecord};
 
 /// Runs shorter than this are repeated, and their least time counts.
 const LONG_ENOUGH_S: f64 = 0.2;
 /// Repeats at the most.
 const MOST_REPEATS: u32 = 20;
-
-/// Told what is run; says whether to go on.
-pub trait Observer: Progress {
-    /// The calibration begins.
-    fn calibration(&self);
-
-    /// The run `number` of `count` begins.
-    fn variant(&self, number: usize, count: usize, name: &str);
-}
 
 /// What one setting came to.
 pub(super) struct Measured {
@@ -42,37 +32,8 @@ pub(super) struct Finished {
     pub path_point_radius_mm: PerGear<PathPoints>,
 }
 
-/// Hears an interrupt and scales the progress of one run into that of all.
-pub(super) struct Within<'a> {
-    pub observer: &'a dyn Observer,
-    pub number: usize,
-    pub count: usize,
-}
-
-impl Progress for Within<'_> {
-    fn progress(&self, done: f64, total: f64) {
-        self.observer.progress(self.number as f64 + done / total, self.count as f64);
-    }
-
-    fn interrupted(&self) -> bool {
-        self.observer.interrupted()
-    }
-
-    fn gives_up(&self) -> bool {
-        self.observer.gives_up()
-    }
-}
-
-impl calibrate::Observer for Within<'_> {
-    fn stage(&self, _stage: CalibrationStage) {}
-}
-
-impl pipeline::Observer for Within<'_> {
-    fn stage(&self, _kind: StageKind) {}
-}
-
 /// Runs one setting, a short one several times; `None` where the user interrupted it.
-pub(super) fn measure(setting: &Setting, base: &Resolved, inputs: &Inputs, observer: &Within<'_>) -> Option<Measured> {
+pub(super) fn measure(setting: &Setting, base: &Resolved, inputs: &Inputs, observer: &PartOf<'_>) -> Option<Measured> {
     if observer.interrupted() {
         return None;
     }

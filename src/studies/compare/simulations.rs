@@ -10,13 +10,13 @@
 use std::f64::consts::LN_2;
 
 use super::course::Course;
-use super::study::{CompareError, Observer};
+use super::study::CompareError;
 use crate::gear::Gear;
+use crate::observer::{Observer, PartOf};
 use crate::pipeline::{self, inputs::Inputs};
-use crate::plan::{Plan, StageKind};
+use crate::plan::Plan;
 use crate::results::run::{FlankRecord, StopReason};
 use crate::scene::{Resolved, Scene};
-use crate::simulation::wear_run::Progress;
 
 /// Snapshots of the run that holds all coefficients, at squares of even steps: dense where little is worn.
 const SNAPSHOTS: u32 = 40;
@@ -41,27 +41,6 @@ pub struct Change {
 impl Change {
     /// The scene as it is.
     pub const NOTHING: Self = Self { coefficient_factor: 1.0, severe_factor: None };
-}
-
-/// Hears an interrupt, and shows the progress of each run by itself.
-struct Within<'a>(&'a dyn Observer);
-
-impl Progress for Within<'_> {
-    fn progress(&self, done: f64, total: f64) {
-        self.0.progress(done, total);
-    }
-
-    fn interrupted(&self) -> bool {
-        self.0.interrupted()
-    }
-
-    fn gives_up(&self) -> bool {
-        self.0.gives_up()
-    }
-}
-
-impl pipeline::Observer for Within<'_> {
-    fn stage(&self, _kind: StageKind) {}
 }
 
 /// Runs of one scene until the profile was measured.
@@ -198,10 +177,10 @@ impl<'a> Simulations<'a> {
     /// Carries a scene out: the wear of the row of points at each snapshot.
     fn run(&mut self, scene: Scene) -> Result<Vec<(f64, Vec<f64>)>, CompareError> {
         self.runs += 1;
-        self.observer.run(self.runs);
+        self.observer.stage(&format!("run {}", self.runs));
         let resolved = Resolved { scene, file: self.resolved.file.clone(), warnings: Vec::new() };
         let plan = Plan::of(&resolved.scene);
-        let done = pipeline::run(&resolved, &plan, self.inputs, &Within(self.observer));
+        let done = pipeline::run(&resolved, &plan, self.inputs, &PartOf::whole(self.observer));
         if self.observer.interrupted() {
             return Err(CompareError::Interrupted);
         }

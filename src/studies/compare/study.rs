@@ -8,26 +8,16 @@ use crate::gear::{GearPair, flank::FlankGrid, slices::Slices};
 use crate::measurement::fit::FitStop;
 use crate::measurement::interval::CONFIDENCE;
 use crate::measurement::roughness::{CUTOFF_MM, mean_deviation, roughness};
+use crate::observer::Observer;
 use crate::pipeline::{RunError, inputs::Inputs};
 use crate::results::run::PathPoints;
 use crate::scene::Resolved;
-use crate::simulation::wear_run::{Progress, Unwatched};
 use crate::studies::compare::record::{CompareFigures, CompareRecord, CompareRow, Estimate, FitRecord};
 
 /// mm²/N to m²/N.
 const M2_PER_MM2: f64 = 1e-6;
 /// Residuals this many times the uncertainty of the heights say that the simulation does not describe the profile.
 const NOT_DESCRIBED: f64 = 2.0;
-
-/// Told of the runs; says whether to go on.
-pub trait Observer: Progress {
-    /// The run `number` begins; how many it takes is not known.
-    fn run(&self, number: u64);
-}
-
-impl Observer for Unwatched {
-    fn run(&self, _number: u64) {}
-}
 
 /// Why there is no comparison.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -3,7 +3,8 @@
 use std::time::Instant;
 
 use crate::gear::spec::PairSpec;
-use crate::pipeline::{self, Done, Observer, guarded::guarded, inputs::Inputs};
+use crate::observer::Observer;
+use crate::pipeline::{self, Done, guarded::guarded, inputs::Inputs};
 use crate::plan::{Plan, StageKind};
 use crate::results::error::TotalError;
 use crate::results::run::{StopReason, Summary};

@@ -10,23 +10,9 @@ use std::thread;
 
 use super::combination::Sweep;
 use super::journal::{Journal, JournalError};
-use crate::pipeline;
-use crate::plan::StageKind;
-use crate::simulation::wear_run;
+use crate::observer::Observer;
 use crate::studies::sweep::record::{Shard, SweepRow};
 use crate::studies::sweep::verification::{Chosen, chosen};
-
-/// Told of rows as they are finished; says whether to go on.
-pub trait Observer: Sync {
-    /// `done` of `total` combinations are finished, those of an earlier start included; `failed` of them have an error.
-    fn row(&self, done: usize, total: usize, failed: usize);
-
-    /// `done` of the `total` rows that were chosen are verified, or have a reason why they are not.
-    fn verified(&self, done: usize, total: usize);
-
-    /// Whether the user wants it to stop: rows that are finished are kept, the others are given up.
-    fn interrupted(&self) -> bool;
-}
 
 /// How a sweep ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,20 +35,10 @@ struct Within<'a> {
     stopped: &'a AtomicBool,
 }
 
-impl wear_run::Progress for Within<'_> {
-    fn progress(&self, _done: f64, _total: f64) {}
-
+impl Observer for Within<'_> {
     fn interrupted(&self) -> bool {
         self.stopped.load(Ordering::Relaxed) || self.observer.interrupted()
     }
-
-    fn gives_up(&self) -> bool {
-        self.interrupted()
-    }
-}
-
-impl pipeline::Observer for Within<'_> {
-    fn stage(&self, _kind: StageKind) {}
 }
 
 /// What the threads share.
@@ -108,17 +84,21 @@ pub fn run(
     let missing: Vec<usize> = all.iter().copied().filter(|index| !journal.rows.contains_key(index)).collect();
     let mut done = journal.rows.len();
     let mut failed = journal.rows.values().filter(|row| row.error.is_some()).count();
-    observer.row(done, all.len(), failed);
+    observer.counted(done, all.len(), "combinations", &with_failed(failed));
     let tell = |row: &SweepRow| {
         done += 1;
         failed += usize::from(row.error.is_some());
-        observer.row(done, all.len(), failed);
+        observer.counted(done, all.len(), "combinations", &with_failed(failed));
     };
     let ended = spread(&missing, journal, threads, observer, |&index, within| sweep.row(index, within), tell)?;
     match ended {
         Ended::Completed if sweep.identity.verify && shard.is_none() => verify(sweep, journal, threads, observer),
         _ => Ok(ended),
     }
+}
+
+fn with_failed(failed: usize) -> String {
+    if failed == 0 { String::new() } else { format!(", {failed} failed") }
 }
 
 /// Verifies those of the chosen rows that are not yet.
@@ -133,10 +113,10 @@ fn verify(
     let due: Vec<(SweepRow, Chosen)> =
         chosen.iter().filter_map(of_row).filter(|(row, _)| row.verification.is_none()).collect();
     let mut done = chosen.len() - due.len();
-    observer.verified(done, chosen.len());
+    observer.counted(done, chosen.len(), "verified", "");
     let tell = |_: &SweepRow| {
         done += 1;
-        observer.verified(done, chosen.len());
+        observer.counted(done, chosen.len(), "verified", "");
     };
     spread(&due, journal, threads, observer, |(row, chosen), within| sweep.verified(row, *chosen, within), tell)
 }
@@ -156,7 +136,7 @@ fn spread<T: Sync>(
     let within = Within { observer, stopped: &stopped };
     let take = || {
         while let Some(task) = tasks.get(next.fetch_add(1, Ordering::Relaxed)) {
-            if wear_run::Progress::interrupted(&within) {
+            if within.interrupted() {
                 break;
             }
             let Some(row) = work(task, &within) else { break };

@@ -14,6 +14,7 @@ use super::soundness;
 use super::value::Value;
 use crate::calibration::Calibration;
 use crate::gear::Gear;
+use crate::observer::Observer;
 use crate::pipeline::calibrate::{self, CalibrateError, Extent};
 use crate::pipeline::fem_problem::{self, FemProblemError};
 use crate::pipeline::fem_scene::{self, FemPairError};
@@ -28,7 +29,6 @@ use crate::results::run::StopReason;
 use crate::scene::draft::{self, Draft};
 use crate::scene::fem_problem::FemProblem;
 use crate::scene::{Problem, Resolved, presets};
-use crate::simulation::wear_run::Progress;
 use crate::studies::validation::record::RunOutcome;
 
 /// What a run came to.
@@ -92,7 +92,7 @@ pub fn execute(
     member: &Member,
     folder: &Path,
     calibration: Option<&Calibration>,
-    watch: &dyn Progress,
+    watch: &dyn Observer,
 ) -> Executed {
     let start = Instant::now();
     let work = || match run.command {
@@ -189,7 +189,7 @@ fn wear_run(
     member: &Member,
     folder: &Path,
     calibration: Option<&Calibration>,
-    watch: &dyn Progress,
+    watch: &dyn Observer,
 ) -> Result<Found, Failed> {
     let resolved = scene(run, member, folder, calibration.is_some())?;
     let inputs = Inputs { calibration: calibration.cloned(), ..Inputs::default() };
@@ -197,13 +197,10 @@ fn wear_run(
     if !foreign.is_empty() {
         return Err(Failed::Refused(format!("contact.calibration belongs to another pair: {}", foreign.join("; "))));
     }
-    let done =
-        pipeline::run(&resolved, &Plan::of(&resolved.scene), &inputs, &Watch(watch)).map_err(|error| match &error {
-            RunError::Pair(_) | RunError::Stiffness(_) | RunError::FiniteElements(_) => {
-                Failed::Refused(error.to_string())
-            }
-            _ => Failed::NotConverged(error.to_string()),
-        })?;
+    let done = pipeline::run(&resolved, &Plan::of(&resolved.scene), &inputs, watch).map_err(|error| match &error {
+        RunError::Pair(_) | RunError::Stiffness(_) | RunError::FiniteElements(_) => Failed::Refused(error.to_string()),
+        _ => Failed::NotConverged(error.to_string()),
+    })?;
     let record = done.record;
     let provenance = tables::Provenance::of(&record.summary);
     let summary = tree(&record.summary)?;
@@ -233,7 +230,7 @@ fn wear_run(
     })
 }
 
-fn finite_elements(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Progress) -> Result<Found, Failed> {
+fn finite_elements(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Observer) -> Result<Found, Failed> {
     let given = text(run, folder)?;
     let mut file: toml::Table = given.parse().map_err(|error: toml::de::Error| Failed::Refused(error.to_string()))?;
     if file.contains_key("pair") {
@@ -243,7 +240,7 @@ fn finite_elements(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Pr
         draft::set(&mut file, key, value.clone());
     }
     let problem = FemProblem::from_toml(&file.to_string()).map_err(refused)?;
-    let record = fem_problem::run(&problem, folder, &|_| ()).map_err(|error| match error {
+    let record = fem_problem::run(&problem, folder, watch).map_err(|error| match error {
         FemProblemError::Input(problems) => refused(problems),
         FemProblemError::Solve(error) => Failed::NotConverged(error.to_string()),
     })?;
@@ -257,10 +254,10 @@ fn finite_elements(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Pr
     })
 }
 
-fn finite_element_pair(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Progress) -> Result<Found, Failed> {
+fn finite_element_pair(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Observer) -> Result<Found, Failed> {
     let resolved = scene(run, member, folder, false)?;
     let asked = fem_scene::Asked { position_mm: run.position_mm, full: run.full };
-    let done = fem_scene::run(&resolved, asked, &Watch(watch)).map_err(|error| match &error {
+    let done = fem_scene::run(&resolved, asked, watch).map_err(|error| match &error {
         FemPairError::Position { .. }
         | FemPairError::Pair(_)
         | FemPairError::Quality { .. }
@@ -284,10 +281,10 @@ fn finite_element_pair(run: &RunSpec, member: &Member, folder: &Path, watch: &dy
     })
 }
 
-fn calibrated(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Progress) -> Result<Found, Failed> {
+fn calibrated(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Observer) -> Result<Found, Failed> {
     let resolved = scene(run, member, folder, false)?;
     let extent = if run.full { Extent::Whole } else { Extent::FastModel };
-    let done = calibrate::run(&resolved.scene, extent, &Watch(watch)).map_err(|error| match &error {
+    let done = calibrate::run(&resolved.scene, extent, watch).map_err(|error| match &error {
         CalibrateError::Pair(_) => Failed::Refused(error.to_string()),
         _ => Failed::NotConverged(error.to_string()),
     })?;
@@ -299,31 +296,4 @@ fn calibrated(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Progres
         calibration: Some(calibration),
         ..Found::default()
     })
-}
-
-/// Hands the question whether to stop on, and tells nobody of stages.
-struct Watch<'a>(&'a dyn Progress);
-
-impl Progress for Watch<'_> {
-    fn progress(&self, _done: f64, _total: f64) {}
-
-    fn interrupted(&self) -> bool {
-        self.0.interrupted()
-    }
-
-    fn gives_up(&self) -> bool {
-        self.0.interrupted()
-    }
-}
-
-impl pipeline::Observer for Watch<'_> {
-    fn stage(&self, _kind: crate::plan::StageKind) {}
-}
-
-impl fem_scene::Observer for Watch<'_> {
-    fn stage(&self, _stage: crate::plan::fem_pair::FemPairStage) {}
-}
-
-impl calibrate::Observer for Watch<'_> {
-    fn stage(&self, _stage: crate::plan::calibration::CalibrationStage) {}
 }

@@ -29,10 +29,11 @@ mod value;
 use std::collections::BTreeMap;
 use std::time::Instant;
 
+use crate::observer::Observer;
 use crate::studies::validation::record::{CaseRecord, CaseRun, RunOutcome, Tier, ValidationRecord};
 use expression::Evaluator;
 use library::Case;
-use schedule::{Members, Observer};
+use schedule::Members;
 
 /// Carries out those of `cases` that belong to `tier` (all of them where there is none), on so many threads.
 pub fn run(cases: &[Case], tier: Option<Tier>, threads: usize, observer: &dyn Observer) -> ValidationRecord {

@@ -9,13 +9,7 @@ use super::execution::{Executed, execute};
 use super::library::Case;
 use super::members::{Member, members};
 use crate::calibration::Calibration;
-use crate::simulation::wear_run::Progress;
-
-/// Told how far the suite is; says whether to go on.
-pub trait Observer: Progress {
-    /// `done` of `total` runs are finished, the last one of this case.
-    fn run(&self, done: usize, total: usize, case: &str);
-}
+use crate::observer::{Observer, PartOf};
 
 /// A run, one or a family, with its members.
 #[derive(Debug)]
@@ -72,9 +66,14 @@ pub fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer) -> Ve
             let calibration = spec.calibration.as_ref().and_then(|name| made_by(case, &all[job.case], name));
             let executed = match (&spec.calibration, &calibration) {
                 (Some(name), None) => Executed::without_calibration(name),
-                _ => execute(spec, &family.members[job.member], &case.folder, calibration, observer),
+                _ => execute(spec, &family.members[job.member], &case.folder, calibration, &PartOf::whole(observer)),
             };
-            observer.run(done.fetch_add(1, Ordering::Relaxed) + 1, total, &case.name);
+            observer.counted(
+                done.fetch_add(1, Ordering::Relaxed) + 1,
+                total,
+                "runs",
+                &format!(", the last of {}", case.name),
+            );
             // What was running when the user stopped it is not its result.
             (!observer.interrupted()).then_some(executed)
         });

@@ -1,0 +1,27 @@
+//! Times the stages of a computation and tells its observer of them.
+
+use std::time::Instant;
+
+use crate::observer::Observer;
+use crate::results::run::StageTime;
+
+/// The stages so far, with their times.
+pub(crate) struct StageClock<'a> {
+    pub observer: &'a dyn Observer,
+    pub times: Vec<StageTime>,
+}
+
+impl<'a> StageClock<'a> {
+    pub(crate) fn new(observer: &'a dyn Observer) -> Self {
+        Self { observer, times: Vec::new() }
+    }
+
+    /// Carries out the stage `name`.
+    pub(crate) fn run<T>(&mut self, name: &str, work: impl FnOnce() -> T) -> T {
+        self.observer.stage(name);
+        let start = Instant::now();
+        let result = work();
+        self.times.push(StageTime { name: name.to_owned(), wall_s: start.elapsed().as_secs_f64() });
+        result
+    }
+}
