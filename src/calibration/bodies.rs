@@ -76,7 +76,7 @@ pub struct NeighbourRow {
 impl<'a> Setup<'a> {
     /// The elastic constants.
     pub fn elastic(&self) -> PerGear<Elastic> {
-        self.material.map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio })
+        self.material.map(Material::elastic)
     }
 
     /// One gear, meshed.

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use crate::report;
 use crate::results::run::StopReason;
+use crate::scene::loaded::LoadedScene;
 use crate::studies::accuracy::record::{AccuracyRecord, Quantity, VariantRecord};
 use crate::studies::accuracy::selection::Asked;
 use crate::studies::accuracy::study::{self, AccuracyError};
@@ -14,7 +15,7 @@ use super::failure::Failure;
 use super::figures::digits;
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
-use super::{say, scene_source, stdout, warn};
+use super::{say, stdout, warn};
 
 /// Arguments of `accuracy`.
 #[derive(Debug, clap::Args)]
@@ -46,14 +47,13 @@ fn per_cent(text: &str) -> Result<f64, String> {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let source = scene_source::resolve(&args.scene)?;
-    let resolved = &source.resolved;
-    warn(&resolved.warnings);
+    let scene = LoadedScene::open(&args.scene)?;
+    warn(scene.warnings());
     report::writable(&args.out)?;
     let pool = pool(args.threads)?;
     let progress = Progress::new(args.quiet, Arc::clone(&watch_for_interrupt()));
     let asked = Asked { within: args.within / 100.0, quick: args.quick };
-    let done = pool.install(|| study::run(resolved, &source.inputs, asked, &progress));
+    let done = pool.install(|| study::run(&scene, asked, &progress));
     progress.finish();
     let record = done.map_err(|error| match error {
         AccuracyError::Interrupted => {

@@ -2,7 +2,7 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use crate::report;
@@ -10,11 +10,11 @@ use crate::results::run::StopReason;
 use crate::resume::file::{self, CheckpointFile};
 use crate::resume::folder::{self, Contents};
 use crate::resume::identity::Identity;
+use crate::scene::loaded::LoadedScene;
 use crate::simulation::checkpoint::{Checkpoint, Keeper};
 
 use super::failure::{Failure, InputError};
 use super::say;
-use super::scene_source::{self, Source};
 
 /// Least time between two checkpoints.
 const LEAST_INTERVAL: Duration = Duration::from_millis(250);
@@ -24,7 +24,7 @@ const INTERVAL_OVER_WRITING: u32 = 20;
 /// A run that can begin.
 pub struct BegunRun {
     /// Its scene, with input files as they lie in the folder.
-    pub source: Source,
+    pub scene: LoadedScene,
     /// Its folder, which holds the scene and the input files.
     pub out: PathBuf,
     /// Scene and input files.
@@ -35,9 +35,9 @@ pub struct BegunRun {
 
 /// Begins the run of `scene` in the folder `out`.
 pub fn begin(scene: &Path, out: &Path) -> Result<BegunRun, Failure> {
-    let (source, identity) = named_as_copied(scene_source::resolve(scene)?);
+    let (scene, identity) = named_as_copied(LoadedScene::open(scene)?);
     report::writable(out)?;
-    begin_anew(source, identity, out)
+    begin_anew(scene, identity, out)
 }
 
 /// Goes on with the run in the folder `out`: that of `scene`, or, without one, of the scene that lies there. None where it is complete.
@@ -46,32 +46,32 @@ pub fn resume(scene: Option<&Path>, out: &Path) -> Result<Option<BegunRun>, Fail
     if scene.is_none() && !own.exists() {
         return Err(InputError::NothingToResume { folder: out.display().to_string() }.into());
     }
-    let (mut source, identity) = named_as_copied(scene_source::resolve(scene.unwrap_or(&own))?);
+    let (mut scene, identity) = named_as_copied(LoadedScene::open(scene.unwrap_or(&own))?);
     report::writable(out)?;
-    let contents = folder::look(out, &identity, &source.resolved.scene_hash())
+    let contents = folder::look(out, &identity, &scene.resolved.scene_hash())
         .map_err(|error| InputError::Resume(Box::new(error)))?;
     match contents {
-        Contents::Nothing | Contents::Begun => begin_anew(source, identity, out).map(Some),
+        Contents::Nothing | Contents::Begun => begin_anew(scene, identity, out).map(Some),
         Contents::Checkpoint(found) => {
             let CheckpointFile { warnings, checkpoint, .. } = *found;
-            source.resolved.warnings = warnings;
-            Ok(Some(BegunRun { source, out: out.to_owned(), identity, from: Some(checkpoint) }))
+            scene.resolved.warnings = warnings;
+            Ok(Some(BegunRun { scene, out: out.to_owned(), identity, from: Some(checkpoint) }))
         }
         Contents::Ended(StopReason::Completed) => Ok(None),
         Contents::Ended(_) => Err(InputError::NothingLeft { folder: out.display().to_string() }.into()),
     }
 }
 
-fn named_as_copied(mut source: Source) -> (Source, Identity) {
-    folder::name_inputs_as_copied(&mut source.resolved, &mut source.files);
-    let identity = Identity::new(source.resolved.to_toml(), &source.files);
-    (source, identity)
+fn named_as_copied(mut scene: LoadedScene) -> (LoadedScene, Identity) {
+    folder::name_inputs_as_copied(&mut scene.resolved, &mut Arc::make_mut(&mut scene.files).as_read);
+    let identity = Identity::new(scene.resolved.to_toml(), &scene.files.as_read);
+    (scene, identity)
 }
 
-fn begin_anew(source: Source, identity: Identity, out: &Path) -> Result<BegunRun, Failure> {
+fn begin_anew(scene: LoadedScene, identity: Identity, out: &Path) -> Result<BegunRun, Failure> {
     report::create_folder(out)?;
-    folder::begin(out, &identity, &source.files)?;
-    Ok(BegunRun { source, out: out.to_owned(), identity, from: None })
+    folder::begin(out, &identity, &scene.files.as_read)?;
+    Ok(BegunRun { scene, out: out.to_owned(), identity, from: None })
 }
 
 /// Writes checkpoints into the folder of a run, so rarely that it costs nothing. That a checkpoint cannot be written is no reason to

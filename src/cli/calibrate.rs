@@ -9,11 +9,11 @@ use crate::observer::Observer;
 use crate::pipeline::calibrate::{self, CalibrateError, Calibrated, Extent};
 use crate::plan::calibration::CalibrationStage;
 use crate::report;
+use crate::scene::loaded::SceneText;
 
 use super::failure::{Failure, InputError};
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
-use super::scene_source::{self, Source};
 use super::{figures, model_failure, say, stdout, warn};
 
 /// Arguments of `calibrate`.
@@ -34,8 +34,8 @@ pub struct Args {
 
 pub fn run(args: &Args) -> Result<(), Failure> {
     // A calibration that the scene names may not be there yet: it is about to be made.
-    let source = scene_source::resolve_alone(&args.scene)?;
-    let resolved = &source.resolved;
+    let text = SceneText::read(&args.scene)?;
+    let resolved = &text.resolve()?;
     warn(&resolved.warnings);
     warn(resolved.scene.plane_section_warning().as_slice());
     warn(resolved.scene.one_load_warning().as_slice());
@@ -43,8 +43,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let pool = pool(args.threads)?;
     let progress = Progress::new(args.quiet, watch_for_interrupt());
     let done = pool.install(|| -> Result<Calibrated, Failure> {
-        let done =
-            calibrate::run(&resolved.scene, Extent::Whole, &progress).map_err(|error| refused(error, &source))?;
+        let done = calibrate::run(&resolved.scene, Extent::Whole, &progress).map_err(|error| refused(error, &text))?;
         progress.stage(CalibrationStage::Report.name());
         report::calibration::write(&done.calibration, &done.stages, &resolved.scene.title, &args.out)?;
         Ok(done)
@@ -80,9 +79,9 @@ fn check_out(out: &Path) -> Result<(), Failure> {
 }
 
 /// A failure, told apart by who is to blame: the input, with its place where it has one, or the solver.
-fn refused(error: CalibrateError, source: &Source) -> Failure {
+fn refused(error: CalibrateError, text: &SceneText) -> Failure {
     if let CalibrateError::Calibration(CalibrationError::Model(model)) = &error
-        && let Some(failure) = model_failure::in_the_scene(model, source)
+        && let Some(failure) = model_failure::in_the_scene(model, text)
     {
         return failure;
     }

@@ -10,6 +10,7 @@ use crate::measurement::fit::FitStop;
 use crate::measurement::form::Form;
 use crate::pipeline::RunError;
 use crate::report;
+use crate::scene::loaded::{LoadedScene, SceneText};
 use crate::studies::compare::question::{Asked, FitKind, Question, QuestionError};
 use crate::studies::compare::record::{CompareRecord, Estimate};
 use crate::studies::compare::run_folder::RunFolder;
@@ -19,7 +20,7 @@ use super::failure::{Failure, InputError};
 use super::figures::digits;
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
-use super::{say, scene_source, stdout, warn};
+use super::{say, stdout, warn};
 
 /// Longest shift along the flank, where nothing else is asked, mm.
 const SHIFT_WITHIN_MM: f64 = 0.1;
@@ -132,10 +133,10 @@ impl Args {
 
 pub fn run(args: &Args) -> Result<(), Failure> {
     let folder = RunFolder::read(&args.run).map_err(InputError::RunFolder)?;
-    let source = scene_source::resolve(&RunFolder::scene_path(&args.run))?;
-    let resolved = &source.resolved;
+    let scene = LoadedScene::open(RunFolder::scene_path(&args.run))?;
+    let resolved = &scene.resolved;
     folder.check_scene(resolved).map_err(InputError::RunFolder)?;
-    let text = scene_source::read(&args.measured)?;
+    let text = SceneText::read(&args.measured)?;
     let refused = |error: QuestionError| InputError::Measured { name: text.name.clone(), error };
     let file = file::parse(&text.text).map_err(|error| refused(error.into()))?;
     // The pair was checked when the scene was resolved.
@@ -148,7 +149,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let progress = Progress::new(args.quiet, Arc::clone(&watch_for_interrupt()));
     let name =
         Path::new(&text.name).file_name().map_or_else(|| text.name.clone(), |n| n.to_string_lossy().into_owned());
-    let done = pool.install(|| study::run(&question, &folder, resolved, &source.inputs, &name, &progress));
+    let done = pool.install(|| study::run(&question, &folder, &scene, &name, &progress));
     progress.finish();
     let record = done.map_err(|error| match error {
         CompareError::Interrupted => {

@@ -14,8 +14,8 @@ use crate::pipeline::pair_mesh::PairMeshError;
 use crate::report::ReportError;
 use crate::resume::file::CheckpointError;
 use crate::resume::folder::FolderError;
+use crate::scene::loaded::{LoadError, SceneError};
 use crate::scene::{Problem, ProblemKind, presets};
-use crate::stiffness::curve_file::CurveFileError;
 use crate::studies::accuracy::study::AccuracyError;
 use crate::studies::compare::question::QuestionError;
 use crate::studies::compare::run_folder::RunFolderError;
@@ -32,8 +32,8 @@ const MOST_SHOWN: usize = 20;
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
     /// The scene or problem file is wrong.
-    #[error("{} problems in {}", .0.problems.len(), .0.name)]
-    Scene(SceneProblems),
+    #[error(transparent)]
+    Scene(SceneError),
     /// Something else about the command is wrong.
     #[error(transparent)]
     Input(#[from] InputError),
@@ -80,17 +80,6 @@ pub enum Failure {
     Closed,
 }
 
-/// What is wrong with a scene file, with the text it stands in.
-#[derive(Debug)]
-pub struct SceneProblems {
-    /// Name of the file.
-    pub name: String,
-    /// Its text.
-    pub text: String,
-    /// At least one.
-    pub problems: Vec<Problem>,
-}
-
 /// What can be wrong with a command beside the scene's content.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 pub enum InputError {
@@ -113,6 +102,10 @@ pub enum InputError {
         /// What is wrong.
         reason: String,
     },
+    /// The file cannot be opened as a scene.
+    #[error("{0}")]
+    #[diagnostic(help("{}", load_help(.0)))]
+    Load(LoadError),
     /// The file cannot be read.
     #[error("{name} cannot be read: {reason}")]
     Unreadable {
@@ -120,17 +113,6 @@ pub enum InputError {
         name: String,
         /// The system's reason.
         reason: io::Error,
-    },
-    /// The file is no text.
-    #[error("{name} is not UTF-8 text: byte {byte}, line {line}")]
-    #[diagnostic(help("save the file as UTF-8"))]
-    NotUtf8 {
-        /// Name of the file.
-        name: String,
-        /// Offset of the first byte that is no text.
-        byte: usize,
-        /// Its line.
-        line: usize,
     },
     /// Not one combination of a sweep makes a scene.
     #[error("--vary: none of the combinations makes a scene; the first: {0}")]
@@ -168,15 +150,6 @@ pub enum InputError {
         name: String,
         /// What is wrong with it.
         what: &'static str,
-    },
-    /// A curve of tooth stiffness that cannot be read as one.
-    #[error("{name}: {error}")]
-    #[diagnostic(help("the file that stiffness.curve of the scene names; gearwear schema says what stands in it"))]
-    Curve {
-        /// Name of the file.
-        name: String,
-        /// What is wrong with it.
-        error: CurveFileError,
     },
     /// A folder that is not that of a finished run.
     #[error("RUN: {0}")]
@@ -263,9 +236,37 @@ pub enum InputError {
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 
+impl From<SceneError> for Failure {
+    fn from(error: SceneError) -> Self {
+        Failure::Scene(error)
+    }
+}
+
+impl From<LoadError> for Failure {
+    fn from(error: LoadError) -> Self {
+        match error {
+            LoadError::Scene(error) => Failure::Scene(error),
+            other => Failure::Input(InputError::Load(other)),
+        }
+    }
+}
+
 impl From<ReportError> for Failure {
     fn from(error: ReportError) -> Self {
         Failure::Input(InputError::Out(error))
+    }
+}
+
+/// What to do about a file that cannot be opened as a scene.
+fn load_help(error: &LoadError) -> &'static str {
+    match error {
+        LoadError::NotUtf8 { .. } => "save the file as UTF-8",
+        LoadError::Curve { .. } => {
+            "the file that stiffness.curve of the scene names; gearwear schema says what stands in it"
+        }
+        LoadError::Unreadable { .. } | LoadError::Scene(_) => {
+            "give the name of a file you may read, or - for standard input"
+        }
     }
 }
 
@@ -330,7 +331,7 @@ impl Failure {
     /// Says on standard error what is wrong.
     pub fn print(self) {
         match self {
-            Failure::Scene(scene) => scene.print(),
+            Failure::Scene(scene) => print_problems(scene),
             Failure::Input(error) => say(&format!("{:?}", Report::new(error))),
             Failure::Solve(error) => say(&format!("{:?}", Report::msg(error))),
             Failure::FemPair(error) => say(&format!("{:?}", Report::msg(error))),
@@ -362,20 +363,18 @@ impl Failure {
     }
 }
 
-impl SceneProblems {
-    fn print(self) {
-        let Self { name, text, problems } = self;
-        let count = problems.len();
-        let source = Arc::new(NamedSource::new(&name, text));
-        for problem in problems.into_iter().take(MOST_SHOWN) {
-            let labels = label(&problem);
-            let mut diagnostic = MietteDiagnostic::new(problem.to_string()).with_labels(labels);
-            diagnostic.help = problem.help;
-            say(&format!("{:?}", Report::new(diagnostic).with_source_code(Arc::clone(&source))));
-        }
-        if count > 1 {
-            say(&format!("{count} problems in {name}"));
-        }
+/// Says every problem of a scene, at its place in the text.
+fn print_problems(SceneError { given, problems }: SceneError) {
+    let count = problems.len();
+    let source = Arc::new(NamedSource::new(&given.name, given.text));
+    for problem in problems.into_iter().take(MOST_SHOWN) {
+        let labels = label(&problem);
+        let mut diagnostic = MietteDiagnostic::new(problem.to_string()).with_labels(labels);
+        diagnostic.help = problem.help;
+        say(&format!("{:?}", Report::new(diagnostic).with_source_code(Arc::clone(&source))));
+    }
+    if count > 1 {
+        say(&format!("{count} problems in {}", given.name));
     }
 }
 

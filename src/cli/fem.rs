@@ -12,10 +12,10 @@ use crate::results::fem_problem::{FemRecord, FemSummary};
 use crate::results::run::StageTime;
 use crate::scene::Problem;
 use crate::scene::fem_problem::FemProblem;
+use crate::scene::loaded::SceneText;
 
-use super::failure::{Failure, InputError, SceneProblems};
+use super::failure::{Failure, InputError};
 use super::progress::Progress;
-use super::scene_source::{self, Text};
 use super::{fem_scene, figures, stdout, warn};
 
 /// Arguments of `fem`.
@@ -54,7 +54,7 @@ impl Args {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let text = scene_source::read(&args.file)?;
+    let text = SceneText::read(&args.file)?;
     // Text that is no TOML is refused, with its place, by whoever reads it next.
     let table: toml::Table = text.text.parse().unwrap_or_default();
     match (table.contains_key("mesh"), table.contains_key("pair")) {
@@ -68,10 +68,8 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// A problem with its own mesh.
-fn problem(args: &Args, text: Text) -> Result<(), Failure> {
-    let refused = |problems: Vec<Problem>| {
-        Failure::Scene(SceneProblems { name: text.name.clone(), text: text.text.clone(), problems })
-    };
+fn problem(args: &Args, text: SceneText) -> Result<(), Failure> {
+    let refused = |problems: Vec<Problem>| Failure::from(text.refused(problems));
     let problem = FemProblem::from_toml(&text.text).map_err(refused)?;
     report::writable(&args.out)?;
     report::remove_summary(&args.out)?;

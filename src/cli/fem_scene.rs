@@ -13,17 +13,16 @@ use crate::report;
 use crate::report::ReportError;
 use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
 use crate::results::run::{StageTime, StopReason};
+use crate::scene::loaded::SceneText;
 
 use super::failure::{Failure, InputError};
 use super::fem::Args;
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
-use super::scene_source::{self, Source, Text};
 use super::{figures, model_failure, say, stdout, warn};
 
-pub fn run(args: &Args, text: Text) -> Result<(), Failure> {
-    let source = scene_source::resolve_text(text)?;
-    let resolved = &source.resolved;
+pub fn run(args: &Args, text: SceneText) -> Result<(), Failure> {
+    let resolved = &text.resolve()?;
     warn(&resolved.warnings);
     report::writable(&args.out)?;
     let pool = pool(args.threads)?;
@@ -31,7 +30,7 @@ pub fn run(args: &Args, text: Text) -> Result<(), Failure> {
     let progress = Progress::new(args.quiet, Arc::clone(&interrupted));
     let asked = Asked { position_mm: args.position, full: args.full };
     let done = pool.install(|| -> Result<Done<FemPairRecord, FemPairError>, Failure> {
-        let mut done = fem_scene::run(resolved, asked, &progress).map_err(|error| refused(error, &source))?;
+        let mut done = fem_scene::run(resolved, asked, &progress).map_err(|error| refused(error, &text))?;
         if done.record.summary.positions > 0 {
             write(&mut done.record, &args.out, &progress)?;
         }
@@ -62,9 +61,9 @@ pub fn run(args: &Args, text: Text) -> Result<(), Failure> {
 }
 
 /// A failure, told apart by who is to blame: the input, with its place where it has one, or the solver.
-fn refused(error: FemPairError, source: &Source) -> Failure {
+fn refused(error: FemPairError, text: &SceneText) -> Failure {
     let of_model = match &error {
-        FemPairError::Model(model) => model_failure::in_the_scene(model, source),
+        FemPairError::Model(model) => model_failure::in_the_scene(model, text),
         _ => None,
     };
     of_model.unwrap_or_else(|| match error {

@@ -9,9 +9,10 @@ use crate::mesh::quality::Worst;
 use crate::mesh::{self, CellKind, Format};
 use crate::pipeline::pair_mesh::{self, PairMesh};
 use crate::scene::Scene;
+use crate::scene::loaded::SceneText;
 
 use super::failure::{Failure, InputError};
-use super::{scene_source, stdout, warn};
+use super::{stdout, warn};
 
 /// Arguments of `mesh`.
 #[derive(Debug, clap::Args)]
@@ -27,7 +28,7 @@ pub struct Args {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let resolved = scene_source::resolve_alone(&args.scene)?.resolved;
+    let resolved = SceneText::read(&args.scene)?.resolve()?;
     warn(&resolved.warnings);
     warn(resolved.scene.plane_section_warning().as_slice());
     warn(resolved.scene.one_load_warning().as_slice());

@@ -2,18 +2,16 @@
 
 use crate::fem::gear::model::ModelError;
 use crate::scene::Problem;
+use crate::scene::loaded::SceneText;
 
-use super::failure::{Failure, InputError, SceneProblems};
-use super::scene_source::Source;
+use super::failure::{Failure, InputError};
 
 /// The failure that `error` is, if the scene is to blame: at its key, where it has one.
-pub fn in_the_scene(error: &ModelError, source: &Source) -> Option<Failure> {
+pub fn in_the_scene(error: &ModelError, text: &SceneText) -> Option<Failure> {
     match *error {
-        ModelError::TooFewTeeth { teeth, least, .. } => Some(Failure::Scene(SceneProblems {
-            name: source.name.clone(),
-            text: source.text.clone(),
-            problems: vec![Problem::of_sector_teeth(&source.text, teeth, least)],
-        })),
+        ModelError::TooFewTeeth { teeth, least, .. } => {
+            Some(text.refused(vec![Problem::of_sector_teeth(&text.text, teeth, least)]).into())
+        }
         ModelError::Mesh { .. } | ModelError::TooFine { .. } => Some(InputError::Model(error.clone()).into()),
         ModelError::Condense { .. } => None,
     }

@@ -5,8 +5,10 @@ use std::path::PathBuf;
 use crate::plan::{Plan, Stage};
 use clap::ValueEnum;
 
+use crate::scene::loaded::SceneText;
+
 use super::failure::Failure;
-use super::{scene_source, stdout, warn};
+use super::{stdout, warn};
 
 /// Arguments of `plan`.
 #[derive(Debug, clap::Args)]
@@ -28,7 +30,7 @@ enum Format {
 }
 
 pub fn run(args: &Args) -> Result<(), Failure> {
-    let resolved = scene_source::resolve_alone(&args.scene)?.resolved;
+    let resolved = SceneText::read(&args.scene)?.resolve()?;
     warn(&resolved.warnings);
     let plan = Plan::of(&resolved.scene);
     stdout::print(&match args.format {

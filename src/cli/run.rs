@@ -8,19 +8,19 @@ use std::time::Instant;
 
 use crate::observer::Observer;
 use crate::pipeline::{self, Done, Resumption, RunError};
-use crate::plan::{Plan, StageKind};
+use crate::plan::StageKind;
 use crate::report;
 use crate::report::ReportError;
 use crate::results::run::{RunRecord, StageTime, StopReason};
 use crate::resume::folder;
 use crate::scene::Problem;
+use crate::scene::loaded::LoadedScene;
 use crate::simulation::checkpoint::Checkpoint;
 use crate::simulation::settings::Operation;
 
 use super::begun_run::{self, BegunRun, FolderKeeper};
-use super::failure::{Failure, InputError, SceneProblems};
+use super::failure::{Failure, InputError};
 use super::progress::Progress;
-use super::scene_source::Source;
 use super::{figures, model_failure, say, stdout, warn};
 
 /// The exit status after an interrupt: 128 and the number of the signal.
@@ -59,13 +59,12 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         (Some(scene), Some(out), None) => begun_run::begin(scene, out)?,
         (_, _, None) => unreachable!("clap demands both"),
     };
-    let BegunRun { source, out, identity, from } = begun;
-    let resolved = &source.resolved;
+    let BegunRun { scene, out, identity, from } = begun;
+    let resolved = &scene.resolved;
     warn(&resolved.warnings);
     if let Some(from) = &from {
         say_where_it_goes_on(from, &resolved.scene.operation, args.quiet);
     }
-    let plan = Plan::of(&resolved.scene);
 
     let interrupted = watch_for_interrupt();
     let progress = Progress::new(args.quiet, Arc::clone(&interrupted));
@@ -74,7 +73,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
     let keeper = FolderKeeper::new(&out, &identity, &resolved.warnings);
     let done = pool.install(|| -> Result<Done, Failure> {
         let resumption = Resumption { from, keeper: &keeper };
-        let mut done = pipeline::run_from(resolved, &plan, &source.inputs, resumption, &progress)?;
+        let mut done = pipeline::run_from(&scene, resumption, &progress)?;
         write(&mut done.record, &out, &progress)?;
         if done.record.summary.stopped != StopReason::Interrupted {
             folder::remove_checkpoint(&out)?;
@@ -88,7 +87,7 @@ pub fn run(args: &Args) -> Result<(), Failure> {
         return Err(Failure::Interrupted);
     }
     let Done { record, failure } = done.map_err(|failure| match failure {
-        Failure::Run(error) => in_the_scene(error, &source),
+        Failure::Run(error) => in_the_scene(error, &scene),
         other => other,
     })?;
     warn(&progress.not_yet_told(&record.summary.warnings[resolved.warnings.len()..]));
@@ -107,16 +106,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// Puts a failure that the scene is to blame for at its key.
-fn in_the_scene(error: RunError, source: &Source) -> Failure {
+fn in_the_scene(error: RunError, scene: &LoadedScene) -> Failure {
     if let Some(stiffness) = error.stiffness() {
-        let problem = Problem::of_stiffness(&source.text, stiffness);
-        return Failure::Scene(SceneProblems {
-            name: source.name.clone(),
-            text: source.text.clone(),
-            problems: vec![problem],
-        });
+        return scene.given.refused(vec![Problem::of_stiffness(&scene.given.text, stiffness)]).into();
     }
-    let of_model = error.model().and_then(|model| model_failure::in_the_scene(model, source));
+    let of_model = error.model().and_then(|model| model_failure::in_the_scene(model, &scene.given));
     of_model.unwrap_or(Failure::Run(error))
 }
 

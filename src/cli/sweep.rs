@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use crate::report;
 use crate::scene::draft::Draft;
+use crate::scene::loaded::LoadedScene;
 use crate::studies::sweep::axis::{self, AxisError};
 use crate::studies::sweep::combination::Sweep;
 use crate::studies::sweep::journal::{self, Contents, Journal, JournalError};
@@ -17,10 +18,10 @@ use crate::studies::sweep::study::{self, Ended};
 use crate::studies::sweep::verification::{SweepVerification, intention};
 
 use super::counted_progress::CountedProgress;
-use super::failure::{Failure, InputError, SceneProblems};
+use super::failure::{Failure, InputError};
 use super::figures::{digits, two_digits};
 use super::run::{thread_count, watch_for_interrupt};
-use super::{say, scene_source, stdout, warn};
+use super::{say, stdout, warn};
 
 /// Arguments of `sweep`.
 #[derive(Debug, clap::Args)]
@@ -98,14 +99,11 @@ pub fn run(args: &Args) -> Result<(), Failure> {
 }
 
 fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
-    let source = scene_source::resolve(&args.scene)?;
-    warn(&source.resolved.warnings);
+    let scene = LoadedScene::open(&args.scene)?;
+    warn(scene.warnings());
     let axes = axis::parse_all(args.vary.iter().map(String::as_str)).map_err(InputError::Vary)?;
     warn(&axes.iter().filter_map(axis::partly_not_allowed).collect::<Vec<_>>());
-    let sweep = Sweep::new(&source.text, &source.resolved, source.inputs.clone(), axes, args.error_estimate);
-    let sweep = sweep.map_err(|problems| {
-        Failure::Scene(SceneProblems { name: source.name.clone(), text: source.text.clone(), problems })
-    })?;
+    let sweep = Sweep::new(&scene, axes, args.error_estimate).map_err(|problems| scene.given.refused(problems))?;
     if let Some(problems) = sweep.unbuildable() {
         return Err(InputError::NothingToVary(problems).into());
     }
@@ -115,7 +113,7 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
     let start = Instant::now();
     let interrupted = watch_for_interrupt();
     let mut journal = Journal::open(&args.out, &sweep.identity, args.shard).map_err(InputError::Journal)?;
-    crate::studies::sweep::report::begin(&source.text, &args.out)?;
+    crate::studies::sweep::report::begin(&scene.given.text, &args.out)?;
     let total = study::part(sweep.identity.combinations(), args.shard).count();
     if !args.quiet {
         say(&begun(&sweep, args, total, journal.rows.len()));
@@ -137,7 +135,7 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
     let record = SweepRecord {
         identity: sweep.identity,
         shard: args.shard,
-        scene_toml: source.text,
+        scene_toml: scene.given.text.clone(),
         rows: std::mem::take(&mut journal.rows).into_values().collect(),
         threads,
         wall_s: start.elapsed().as_secs_f64(),

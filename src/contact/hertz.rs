@@ -21,10 +21,11 @@ use super::{
     ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
     observed_points::ObservedPoints, settings::Material, strip::Window,
 };
+use crate::fem::elastic;
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 use crate::reference::{
     flattening::{Body, Flattening},
-    hertz_line::{self, HertzLine},
+    hertz_line::HertzLine,
 };
 
 /// Hertz's distributed pressure.
@@ -38,9 +39,7 @@ pub struct Hertz {
 
 /// Contact modulus E* of both gears.
 pub fn contact_modulus_mpa(material: &PerGear<Material>) -> f64 {
-    hertz_line::contact_modulus_mpa(
-        Gear::BOTH.map(|gear| (material[gear].young_modulus_mpa, material[gear].poisson_ratio)),
-    )
+    elastic::contact_modulus_mpa(&material.map(Material::elastic))
 }
 
 /// The closed-form contact of two flanks at `position_mm`, flattening measured to the teeth's centre lines.

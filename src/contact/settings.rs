@@ -1,5 +1,6 @@
 //! What is asked of the contact surface.
 
+use crate::fem::elastic::Elastic;
 use serde::{Deserialize, Serialize};
 
 /// The model of the surfaces in contact, from cheap to true.
@@ -99,4 +100,11 @@ pub struct Material {
     pub poisson_ratio: f64,
     /// Density, kg/m³; used for the worn mass.
     pub density_kg_per_m3: f64,
+}
+
+impl Material {
+    /// The elastic constants alone.
+    pub fn elastic(self) -> Elastic {
+        Elastic { young_modulus_mpa: self.young_modulus_mpa, poisson_ratio: self.poisson_ratio }
+    }
 }

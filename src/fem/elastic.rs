@@ -11,6 +11,9 @@ use nalgebra::Matrix3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::gear::{Gear, PerGear};
+use crate::reference::hertz_line;
+
 /// What the third direction does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -29,6 +32,13 @@ pub struct Elastic {
     pub young_modulus_mpa: f64,
     /// ν, −1 < ν < 0.5.
     pub poisson_ratio: f64,
+}
+
+/// Contact modulus E* of two gears, MPa: 1/E* = Σ (1 − ν²)/E.
+pub fn contact_modulus_mpa(material: &PerGear<Elastic>) -> f64 {
+    hertz_line::contact_modulus_mpa(
+        Gear::BOTH.map(|gear| (material[gear].young_modulus_mpa, material[gear].poisson_ratio)),
+    )
 }
 
 impl Elastic {

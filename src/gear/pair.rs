@@ -38,6 +38,11 @@ pub struct GearPair {
 }
 
 impl GearPair {
+    /// Normal load in the transverse plane per mm of face width under this torque on the pinion, N/mm: w = T₁/(r_b1 b).
+    pub fn line_load_n_per_mm(&self, pinion_torque_n_mm: f64) -> f64 {
+        pinion_torque_n_mm / self.path.involute.pinion.base_radius_mm / self.spec.face_width_mm
+    }
+
     /// Derives the pair.
     ///
     /// # Errors

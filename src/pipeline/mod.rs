@@ -8,7 +8,6 @@ mod error_estimates;
 pub mod fem_problem;
 pub mod fem_scene;
 pub mod guarded;
-pub mod inputs;
 pub mod pair_mesh;
 mod phases;
 mod recording;
@@ -28,10 +27,9 @@ use crate::contact::{
     half_space::HalfSpace,
     hertz::{self, Hertz},
     hertz_mean::HertzMean,
-    settings::{Foundation, MatchCriterion, Material, SurfaceKind},
+    settings::{Foundation, MatchCriterion, SurfaceKind},
     winkler::Winkler,
 };
-use crate::fem::elastic::Elastic;
 use crate::fem::gear::model::ModelError;
 use crate::gear::{GearPair, PairError, PerGear, flank_zones::FlankZones};
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
@@ -40,7 +38,8 @@ use crate::plan::{Plan, StageKind};
 use crate::reference::flattening::Flattening;
 use crate::results::error::ErrorSummary;
 use crate::results::run::{RunRecord, StopReason, Summary};
-use crate::scene::{Resolved, Scene};
+use crate::scene::Scene;
+use crate::scene::loaded::{LoadedScene, NamedFiles};
 use crate::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
 use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::settings::Phase;
@@ -48,8 +47,7 @@ use crate::simulation::wear_run::{Outcome, RunPhase, SimulationError, WearRun};
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
 use crate::thermal::ContactHeat;
-use crate::wear::{self, FlankWear, WearModel, settings::WearSettings};
-use inputs::Inputs;
+use crate::wear::{self, FlankWear, WearModel};
 use recording::Found;
 use stage_clock::StageClock;
 use verification::{Elements, Verified};
@@ -78,7 +76,9 @@ impl RunError {
     /// The scene's contradiction between stiffness model and contact surface, if that is what is wrong.
     pub fn stiffness(&self) -> Option<&StiffnessError> {
         match self {
-            RunError::Stiffness(error) | RunError::Simulation(SimulationError::Stiffness(error)) => Some(error),
+            RunError::Stiffness(error) | RunError::Simulation(SimulationError::Stiffness(error)) => {
+                Some(error).filter(|error| matches!(error, StiffnessError::SurfaceTooSoft { .. }))
+            }
             _ => None,
         }
     }
@@ -169,31 +169,25 @@ impl Resumption<'_> {
     }
 }
 
-/// Carries out `plan`, the report apart: that is left to the caller, who knows where it goes.
+/// Runs `scene` as its plan says, the report apart: that is left to the caller, who knows where it goes.
 ///
 /// A run that is interrupted or does not converge gives the record of what it had finished, and its failure in the latter
 /// case.
 ///
 /// # Errors
 /// [`RunError`] where nothing was finished.
-pub fn run(resolved: &Resolved, plan: &Plan, inputs: &Inputs, observer: &dyn Observer) -> Result<Done, RunError> {
-    run_from(resolved, plan, inputs, Resumption::none(), observer)
+pub fn run(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done, RunError> {
+    run_from(scene, Resumption::none(), observer)
 }
 
 /// The same for a run that may go on from a checkpoint, and gives new ones.
 ///
 /// # Errors
 /// [`RunError`] where nothing was finished.
-pub fn run_from(
-    resolved: &Resolved,
-    plan: &Plan,
-    inputs: &Inputs,
-    resumption: Resumption<'_>,
-    observer: &dyn Observer,
-) -> Result<Done, RunError> {
+pub fn run_from(scene: &LoadedScene, resumption: Resumption<'_>, observer: &dyn Observer) -> Result<Done, RunError> {
     let start = Instant::now();
-    let mut done = carry_out(resolved, plan, inputs, resumption, observer, |model, found, summary| {
-        recording::record(resolved, model, found, summary)
+    let mut done = carry_out(scene, resumption, observer, |model, found, summary| {
+        recording::record(&scene.resolved, model, found, summary)
     })?;
     done.record.summary.wall_s = start.elapsed().as_secs_f64();
     Ok(done)
@@ -203,34 +197,28 @@ pub fn run_from(
 ///
 /// # Errors
 /// [`RunError`] where nothing was finished.
-pub fn summarise(
-    resolved: &Resolved,
-    plan: &Plan,
-    inputs: &Inputs,
-    observer: &dyn Observer,
-) -> Result<Done<Summary>, RunError> {
+pub fn summarise(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done<Summary>, RunError> {
     let start = Instant::now();
-    let mut done = carry_out(resolved, plan, inputs, Resumption::none(), observer, |_, _, summary| summary)?;
+    let mut done = carry_out(scene, Resumption::none(), observer, |_, _, summary| summary)?;
     done.record.wall_s = start.elapsed().as_secs_f64();
     Ok(done)
 }
 
-/// Carries out `plan` and hands its outcome to `keep`, with a summary that lacks only the whole wall time.
+/// Carries out the plan of `loaded` and hands the outcome to `keep`, with a summary that lacks only the whole wall time.
 fn carry_out<R>(
-    resolved: &Resolved,
-    plan: &Plan,
-    inputs: &Inputs,
+    loaded: &LoadedScene,
     resumption: Resumption<'_>,
     observer: &dyn Observer,
     keep: impl FnOnce(&Model<'_>, Found<'_>, Summary) -> R,
 ) -> Result<Done<R>, RunError> {
-    let scene = &resolved.scene;
+    let LoadedScene { resolved, files, .. } = loaded;
+    let (scene, plan) = (&resolved.scene, &loaded.plan());
     let mut stages = StageClock::new(observer);
 
     let pair = stages.run(StageKind::Geometry.name(), || GearPair::new(&scene.pair))?;
     let at_pitch = hertz::flattening(&pair, &scene.material, pair.path.pitch_point_mm);
-    let (base_radius, width) = (pair.path.involute.pinion.base_radius_mm, scene.pair.face_width_mm);
-    let line_load = |phase: &Phase| phase.pinion_torque_n_mm / base_radius / width;
+    let line_load = |phase: &Phase| pair.line_load_n_per_mm(phase.pinion_torque_n_mm);
+    let base_radius = pair.path.involute.pinion.base_radius_mm;
     // One model of finite elements serves the stiffness of the teeth and the verification.
     let elements =
         match plan.has(StageKind::FiniteElementModel) && scene.contact.surface != SurfaceKind::Fem {
@@ -240,7 +228,7 @@ fn carry_out<R>(
             false => None,
         };
     let (stiffness, computed, stiffness_warning) =
-        own_stiffness(scene, plan, inputs, elements.as_ref(), &calibrate::setup(scene, &pair), &mut stages)?;
+        own_stiffness(scene, plan, files, elements.as_ref(), &calibrate::setup(scene, &pair), &mut stages)?;
     // All phases wear the nodes of one mesh.
     let worn_elements = match scene.contact.surface {
         SurfaceKind::Fem => Some(stages.run(StageKind::FiniteElementModel.name(), || {
@@ -251,29 +239,36 @@ fn carry_out<R>(
         })?),
         _ => None,
     };
+    // Phases under the same load share a case.
     let mut cases: Vec<LoadCase> = Vec::new();
-    for phase in &scene.operation.phases {
-        if cases.iter().all(|case| case.line_load_n_per_mm != line_load(phase)) {
-            cases.push(load_case(scene, &pair, inputs, &at_pitch, line_load(phase), &mut stages)?);
+    let mut case_of_phase: Vec<usize> = Vec::with_capacity(scene.operation.phases.len());
+    for load in scene.operation.phases.iter().map(line_load) {
+        let known = cases.iter().position(|case| case.line_load_n_per_mm.total_cmp(&load).is_eq());
+        case_of_phase.push(known.unwrap_or(cases.len()));
+        if known.is_none() {
+            cases.push(load_case(scene, &pair, files, &at_pitch, load, &mut stages)?);
         }
     }
-    let curve = match (stiffness, &inputs.calibration) {
+    let curve = match (stiffness, &files.calibration) {
         (StiffnessSettings::Fem, Some(calibration)) => Some(&calibration.pair_compliance),
         (StiffnessSettings::Fem, None) => computed.as_ref(),
-        _ => inputs.stiffness_curve.as_ref(),
+        _ => files.stiffness_curve.as_ref(),
     };
-    let mut teeth = Vec::with_capacity(cases.len());
-    let mut springs = || {
-        teeth.extend(cases.iter().map(|case| {
-            let (surface, load) = (case.surface.as_deref()?, case.line_load_n_per_mm);
-            Some(TeethSpring::new(stiffness, curve, &pair, &scene.material, surface, load))
-        }));
+    let springs = || -> Result<Vec<_>, StiffnessError> {
+        let mut springs = Vec::with_capacity(cases.len());
+        for LoadCase { surface, line_load_n_per_mm, .. } in &cases {
+            let spring = match surface.as_deref() {
+                Some(on) => Some(TeethSpring::new(stiffness, curve, &pair, &scene.material, on, *line_load_n_per_mm)?),
+                None => None,
+            };
+            springs.push(spring);
+        }
+        Ok(springs)
     };
-    if plan.has(StageKind::ToothStiffness) {
-        stages.run(StageKind::ToothStiffness.name(), springs);
-    } else {
-        springs();
-    }
+    let teeth = match plan.has(StageKind::ToothStiffness) {
+        true => stages.run(StageKind::ToothStiffness.name(), springs),
+        false => springs(),
+    }?;
     let sliced = scene.slices.map(|settings| {
         stages.run(StageKind::HelicalSlices.name(), || SlicedTeeth::new(&pair, &scene.material, settings))
     });
@@ -292,31 +287,25 @@ fn carry_out<R>(
         .phases
         .iter()
         .map(|phase| {
-            let coefficient_mm2_per_n = phase.coefficient_mm2_per_n.unwrap_or(scene.wear.coefficient_mm2_per_n);
             let heat = scene
                 .heat
                 .zip(phase.pinion_speed_rpm)
                 .map(|(settings, rpm)| ContactHeat::new(settings, base_radius * std::f64::consts::TAU * rpm / 60.0));
-            (wear::of(&WearSettings { coefficient_mm2_per_n, ..scene.wear }), heat)
+            (wear::of(&scene.wear_in(phase)), heat)
         })
         .collect();
-    // Every load has its case.
-    let case_of = |load: f64| cases.iter().position(|case| case.line_load_n_per_mm == load).unwrap_or_default();
-    let of_phase = |phase: &Phase| cases[case_of(line_load(phase))].foundation_mpa_per_mm;
-    let foundations_mpa_per_mm = scene.operation.phases.iter().map(of_phase).collect();
+    let foundations_mpa_per_mm = case_of_phase.iter().map(|&case| cases[case].foundation_mpa_per_mm).collect();
     let phases = scene
         .operation
         .phases
         .iter()
+        .zip(&case_of_phase)
         .zip(&laws)
-        .map(|(phase, (law, heat))| {
-            let load = line_load(phase);
-            RunPhase {
-                contact: contact(case_of(load)),
-                wear: WearModel { law: law.as_ref(), heat: heat.as_ref() },
-                line_load_n_per_mm: load,
-                end_revolutions: phase.end_revolutions,
-            }
+        .map(|((phase, &case), (law, heat))| RunPhase {
+            contact: contact(case),
+            wear: WearModel { law: law.as_ref(), heat: heat.as_ref() },
+            line_load_n_per_mm: cases[case].line_load_n_per_mm,
+            end_revolutions: phase.end_revolutions,
         })
         .collect();
     let model = Model {
@@ -370,13 +359,13 @@ fn carry_out<R>(
 fn own_stiffness(
     scene: &Scene,
     plan: &Plan,
-    inputs: &Inputs,
+    files: &NamedFiles,
     elements: Option<&Result<Elements<'_>, ModelError>>,
     setup: &calibration::bodies::Setup<'_>,
     stages: &mut StageClock<'_>,
 ) -> Result<(StiffnessSettings, Option<PairCompliance>, Option<String>), RunError> {
     let Some(elements) =
-        elements.filter(|_| plan.has(StageKind::FiniteElementCalibration) && inputs.calibration.is_none())
+        elements.filter(|_| plan.has(StageKind::FiniteElementCalibration) && files.calibration.is_none())
     else {
         return Ok((scene.stiffness, None, None));
     };
@@ -411,19 +400,16 @@ fn not_estimated_because(outcome: &Outcome) -> &'static str {
 fn load_case(
     scene: &Scene,
     pair: &GearPair,
-    inputs: &Inputs,
+    files: &NamedFiles,
     at_pitch: &Flattening,
     line_load_n_per_mm: f64,
     stages: &mut StageClock<'_>,
 ) -> Result<LoadCase, RunError> {
-    let bed = match (scene.contact.surface, scene.contact.foundation, &inputs.calibration) {
+    let bed = match (scene.contact.surface, scene.contact.foundation, &files.calibration) {
         (SurfaceKind::Winkler, Foundation::Given { foundation_mpa_per_mm }, _) => {
             Some(Bed::Uniform { mpa_per_mm: foundation_mpa_per_mm })
         }
-        (SurfaceKind::Winkler, Foundation::Calibrated(criterion), Some(calibration))
-            if calibration.foundation.contains_key(&criterion)
-                && calibration.foundation.contains_key(&MatchCriterion::Approach) =>
-        {
+        (SurfaceKind::Winkler, Foundation::Calibrated(criterion), Some(calibration)) => {
             let approach = &calibration.foundation[&MatchCriterion::Approach];
             let edges = || EdgeBeds::new(pair, &scene.material, line_load_n_per_mm, criterion, approach);
             Some(Bed::Curve {
@@ -432,7 +418,8 @@ fn load_case(
                 edges: scene.contact.tip_contact.then(edges),
             })
         }
-        (SurfaceKind::Winkler, Foundation::Matched(criterion) | Foundation::Calibrated(criterion), _) => {
+        (SurfaceKind::Winkler, Foundation::Calibrated(_), None) => unreachable!("a loaded scene has its calibration"),
+        (SurfaceKind::Winkler, Foundation::Matched(criterion), _) => {
             let matched = || matched_mpa_per_mm(criterion, at_pitch, line_load_n_per_mm);
             Some(Bed::Uniform { mpa_per_mm: stages.run(StageKind::ContactMatch.name(), matched) })
         }
@@ -442,11 +429,6 @@ fn load_case(
     let foundation_mpa_per_mm = springs_at_pitch.map(|springs| springs.mpa_per_mm(line_load_n_per_mm));
     let surface = surface(scene, bed, line_load_n_per_mm);
     Ok(LoadCase { line_load_n_per_mm, foundation_mpa_per_mm, surface })
-}
-
-/// Elastic constants alone.
-fn elastic(material: &PerGear<Material>) -> PerGear<Elastic> {
-    material.map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio })
 }
 
 /// The surface of the springs on the line of action; none with finite elements, which are no springs.

@@ -66,8 +66,7 @@ pub fn build(scene: &Scene, position_mm: Option<f64>) -> Result<PairMesh, PairMe
     if !(position_mm >= from_mm - rounding_mm && position_mm <= to_mm + rounding_mm) {
         return Err(PairMeshError::Position { position_mm, from_mm, to_mm });
     }
-    let line_load_n_per_mm =
-        scene.operation.pinion_torque_n_mm / pair.path.involute.pinion.base_radius_mm / scene.pair.face_width_mm;
+    let line_load_n_per_mm = pair.line_load_n_per_mm(scene.operation.pinion_torque_n_mm);
     let half_width_mm = |position_mm: f64| {
         hertz::flattening(&pair, &scene.material, position_mm).contact.loaded(line_load_n_per_mm).half_width_mm
     };

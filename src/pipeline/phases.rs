@@ -25,7 +25,6 @@ pub(super) fn summaries(model: &Model<'_>, outcome: &Outcome) -> Vec<PhaseSummar
         // The ends of phases are among the snapshots.
         let after = outcome.snapshots.iter().rfind(|snapshot| snapshot.revolutions <= end).unwrap_or(before);
         let load = run.line_load_n_per_mm;
-        let coefficient = phase.coefficient_mm2_per_n.unwrap_or(model.scene.wear.coefficient_mm2_per_n);
         let heat = model.scene.heat.and_then(|asked| Some((asked, temperature::observe_at(model, outcome, after)?)));
         summaries.push(PhaseSummary {
             number: index + 1,
@@ -36,7 +35,7 @@ pub(super) fn summaries(model: &Model<'_>, outcome: &Outcome) -> Vec<PhaseSummar
             line_load_N_per_mm: load,
             foundation_MPa_per_mm: model.foundations_mpa_per_mm[index],
             hertz_peak_pressure_MPa: model.at_pitch.contact.loaded(load).peak_pressure_mpa,
-            coefficient_m2_per_N: coefficient / MM2_PER_N,
+            coefficient_m2_per_N: model.scene.wear_in(phase).coefficient_mm2_per_n / MM2_PER_N,
             greatest_rise_K: heat.as_ref().map(|(asked, found)| found.greatest_rise_k()[asked.method.index()]),
             work_outside_validity: heat.and_then(|(_, found)| found.law.work_outside_validity),
             pinion: wear(model, outcome, Gear::Pinion, [before, after]),

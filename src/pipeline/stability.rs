@@ -35,14 +35,14 @@ pub(super) fn judge(model: &Model<'_>, observer: &dyn Observer) -> Judged {
     for (index, (phase, asked)) in model.phases.iter().zip(&scene.operation.phases).enumerate() {
         let step = step.min(phase.end_revolutions - begin);
         begin = phase.end_revolutions;
-        let coefficient_mm2_per_n = asked.coefficient_mm2_per_n.unwrap_or(scene.wear.coefficient_mm2_per_n);
+        let own = scene.wear_in(asked);
         // The transition counts as a factor: its jump has no rate of its own.
-        let mild = wear::of(&WearSettings { coefficient_mm2_per_n, severe: None, ..scene.wear });
+        let mild = wear::of(&WearSettings { severe: None, ..own });
         let phase = RunPhase { wear: WearModel { law: mild.as_ref(), ..phase.wear }, ..*phase };
         let conditions = Conditions {
             line_load_n_per_mm: phase.line_load_n_per_mm,
             pinion_speed_rpm: asked.pinion_speed_rpm,
-            coefficient_mm2_per_n,
+            coefficient_mm2_per_n: own.coefficient_mm2_per_n,
         };
         let bound = match measured.iter().find(|(before, _)| *before == conditions) {
             Some(&(_, bound)) => bound,

@@ -18,9 +18,9 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use super::Model;
 use super::guarded::guarded;
-use super::{Model, elastic};
-use crate::contact::settings::SurfaceKind;
+use crate::contact::settings::{Material, SurfaceKind};
 use crate::fem::gear::{model::ModelError, position::CondensedPair};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::BodySettings;
@@ -150,7 +150,7 @@ pub(super) fn condensed<'a>(
     elements_per_half_width: f64,
 ) -> Result<CondensedPair<'a>, ModelError> {
     let bodies = BodySettings { elements_per_half_width, ..scene.fem };
-    CondensedPair::build(pair, &elastic(&scene.material), line_load_n_per_mm, &bodies)
+    CondensedPair::build(pair, &scene.material.map(Material::elastic), line_load_n_per_mm, &bodies)
 }
 
 /// Verifies the completed run `outcome` on `elements`, or on others of its own. Whatever happens to the finite elements never costs

@@ -12,10 +12,11 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use super::file::{self, CheckpointError, CheckpointFile};
-use super::identity::{Identity, InputFile, between_scenes};
+use super::identity::{Identity, between_scenes};
 use crate::report::ReportError;
 use crate::results::run::StopReason;
 use crate::scene::Resolved;
+use crate::scene::loaded::NamedFile;
 use crate::whole_file;
 
 /// The resolved scene.
@@ -68,7 +69,7 @@ pub enum FolderError {
 }
 
 /// Lets the scene name its input files as they lie in the folder of a run.
-pub fn name_inputs_as_copied(resolved: &mut Resolved, files: &mut [InputFile]) {
+pub fn name_inputs_as_copied(resolved: &mut Resolved, files: &mut [NamedFile]) {
     let mut taken: Vec<String> = Vec::new();
     for file in files {
         let base = Path::new(&file.name).file_name().and_then(OsStr::to_str).unwrap_or(file.key);
@@ -86,7 +87,7 @@ pub fn name_inputs_as_copied(resolved: &mut Resolved, files: &mut [InputFile]) {
 ///
 /// # Errors
 /// A file that cannot be written or taken away.
-pub fn begin(dir: &Path, identity: &Identity, files: &[InputFile]) -> Result<(), ReportError> {
+pub fn begin(dir: &Path, identity: &Identity, files: &[NamedFile]) -> Result<(), ReportError> {
     remove_checkpoint(dir)?;
     let place = |name: &str, bytes: &[u8]| {
         let path = dir.join(name);

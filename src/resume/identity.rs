@@ -6,16 +6,7 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 use toml::{Table, Value};
 
-/// A file that a scene names.
-#[derive(Debug, Clone, PartialEq)]
-pub struct InputFile {
-    /// The key that names it, such as `contact.calibration`.
-    pub key: &'static str,
-    /// Its name, as the scene gives it.
-    pub name: String,
-    /// What it holds.
-    pub bytes: Vec<u8>,
-}
+use crate::scene::loaded::NamedFile;
 
 /// What a run is made from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,7 +19,7 @@ pub struct Identity {
 
 impl Identity {
     /// Of a run of the resolved scene `scene_toml` with `files`.
-    pub fn new(scene_toml: String, files: &[InputFile]) -> Self {
+    pub fn new(scene_toml: String, files: &[NamedFile]) -> Self {
         Self { scene_toml, inputs: files.iter().map(|file| (file.key.to_owned(), sha256(&file.bytes))).collect() }
     }
 
@@ -103,7 +94,7 @@ mod tests {
     use super::*;
 
     fn identity(scene_toml: &str, bytes: &[u8]) -> Identity {
-        let file = InputFile { key: "stiffness.curve", name: "c.csv".to_owned(), bytes: bytes.to_vec() };
+        let file = NamedFile { key: "stiffness.curve", name: "c.csv".to_owned(), bytes: bytes.to_vec() };
         Identity::new(scene_toml.to_owned(), &[file])
     }
 

@@ -94,6 +94,11 @@ impl Draft {
         resolve::resolve_table(self.table.clone(), Findings::new(self.locator.clone()))
     }
 
+    /// What it says now, as text.
+    pub fn to_toml(&self) -> String {
+        self.table.to_string()
+    }
+
     /// First 16 hexadecimal digits of the SHA-256 of what it says; layout and comments of the text do not matter.
     pub fn hash(&self) -> String {
         short_hash(self.table.to_string().as_bytes())

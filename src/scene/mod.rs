@@ -5,6 +5,7 @@ pub mod fem_problem;
 pub mod file;
 mod findings;
 pub mod key;
+pub mod loaded;
 mod locate;
 pub(crate) mod nearest;
 pub mod presets;
@@ -22,7 +23,7 @@ use crate::contact::settings::{ContactSettings, Material};
 use crate::gear::{PerGear, spec::PairSpec};
 use crate::gear_mesh::settings::BodySettings;
 use crate::mesh_cycle::settings::SliceSettings;
-use crate::simulation::settings::{Numerics, Operation};
+use crate::simulation::settings::{Numerics, Operation, Phase};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::thermal::settings::HeatSettings;
 use crate::wear::settings::WearSettings;
@@ -74,6 +75,12 @@ impl Scene {
     /// Everything that is wrong with the scene, not only the first thing.
     pub fn from_toml(text: &str) -> Result<Resolved, Vec<Problem>> {
         resolve::resolve(text)
+    }
+
+    /// The wear law under the conditions of `phase`.
+    pub(crate) fn wear_in(&self, phase: &Phase) -> WearSettings {
+        let own = phase.coefficient_mm2_per_n.unwrap_or(self.wear.coefficient_mm2_per_n);
+        WearSettings { coefficient_mm2_per_n: own, ..self.wear }
     }
 
     /// What a command that looks at one load leaves out of a scene with phases under others; none where there are no others.

@@ -47,6 +47,9 @@ use weber_banaschek::ToothCompliance;
 /// Why a stiffness and a surface do not go together.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum StiffnessError {
+    /// The model is a curve, and there is none.
+    #[error("the stiffness model needs a curve along the path of contact, and none is given")]
+    NoCurve,
     /// The contact surface alone is softer than the whole pair is meant to be.
     #[error(
         "the contact surface alone yields {surface_um:.3} µm under the whole load at position {position_mm:.3} mm, \
@@ -88,6 +91,9 @@ pub struct TeethSpring<'a> {
 impl<'a> TeethSpring<'a> {
     /// Prepares the model for a pair on a surface; the reference load is the whole line load. `given` is the curve of the
     /// models that have one.
+    ///
+    /// # Errors
+    /// [`StiffnessError::NoCurve`]
     pub fn new(
         settings: StiffnessSettings,
         given: Option<&'a PairCompliance>,
@@ -95,23 +101,23 @@ impl<'a> TeethSpring<'a> {
         material: &PerGear<Material>,
         surface: &'a dyn ContactSurface,
         line_load_n_per_mm: f64,
-    ) -> Self {
+    ) -> Result<Self, StiffnessError> {
         let curve = match (settings, given) {
             (StiffnessSettings::Constant { pair_n_per_mm2 }, _) => Curve::Teeth(pair_n_per_mm2),
             (StiffnessSettings::Fem | StiffnessSettings::Simon | StiffnessSettings::WangCheng, Some(curve)) => {
                 Curve::Given(curve)
             }
-            (StiffnessSettings::WeberBanaschek, _)
-            | (StiffnessSettings::Fem | StiffnessSettings::Simon | StiffnessSettings::WangCheng, None) => {
-                Curve::WeberBanaschek
+            (StiffnessSettings::Fem | StiffnessSettings::Simon | StiffnessSettings::WangCheng, None) => {
+                return Err(StiffnessError::NoCurve);
             }
+            (StiffnessSettings::WeberBanaschek, _) => Curve::WeberBanaschek,
             (StiffnessSettings::Iso6336, _) => {
                 Curve::WholePair(1.0 / iso6336::single_stiffness_n_per_mm2(&pair.spec, material, line_load_n_per_mm))
             }
         };
         let weber_banaschek = PerGear::from_fn(|gear| ToothCompliance::new(&pair.teeth[gear], &material[gear]));
         let reference_line_load_n_per_mm = line_load_n_per_mm;
-        Self { pair, material: *material, surface, curve, weber_banaschek, reference_line_load_n_per_mm }
+        Ok(Self { pair, material: *material, surface, curve, weber_banaschek, reference_line_load_n_per_mm })
     }
 
     /// Stiffness of the spring with the theoretical contact point at `position_mm`, N per mm of approach and mm of face

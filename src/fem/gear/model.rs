@@ -5,7 +5,7 @@ use super::position::CondensedPair;
 use super::ring::{GearCompliance, Surroundings};
 use super::sector::{CondensedSector, Functional, Sector};
 use crate::fem::active_set::ActiveSetError;
-use crate::fem::elastic::{Analysis, Elastic};
+use crate::fem::elastic::{self, Analysis, Elastic};
 use crate::fem::equilibrium::SolveError;
 use crate::fem::solid::{Element, ElementKind, Solid};
 use crate::fem::stress::{StressComponent, StressRecovery};
@@ -13,7 +13,7 @@ use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::{Body, BodySettings, SectorSides};
 use crate::gear_mesh::{Cell, ToothMeshError, ToothSector, gear_sector, touching_pairs};
 use crate::mesh::CellKind;
-use crate::reference::hertz_line::{self, HertzLine};
+use crate::reference::hertz_line::HertzLine;
 
 /// Nodes of one flank whose compliance among three teeth takes some 4 GB.
 const MOST_FLANK_NODES: usize = 4000;
@@ -76,13 +76,6 @@ pub struct MeshedGear {
     pub sharp: bool,
     /// What it was meshed with.
     pub settings: BodySettings,
-}
-
-/// Contact modulus E*, MPa.
-fn contact_modulus_mpa(material: &PerGear<Elastic>) -> f64 {
-    hertz_line::contact_modulus_mpa(
-        Gear::BOTH.map(|gear| (material[gear].young_modulus_mpa, material[gear].poisson_ratio)),
-    )
 }
 
 /// Hertz half-width under the whole load at `position_mm`, taken at A or E where it lies outside.
@@ -155,7 +148,7 @@ impl MeshedGear {
                 }
             }
         };
-        let contact_modulus_mpa = contact_modulus_mpa(material);
+        let contact_modulus_mpa = elastic::contact_modulus_mpa(material);
         let half_width_mm =
             |position_mm: f64| hertz_half_width_mm(pair, contact_modulus_mpa, line_load_n_per_mm, position_mm);
         let mesh = |fine: bool| {
@@ -342,7 +335,7 @@ impl<'a> CondensedPair<'a> {
         let (wheel, wheel_flank) = gears.wheel;
         Self {
             pair,
-            contact_modulus_mpa: contact_modulus_mpa(material),
+            contact_modulus_mpa: elastic::contact_modulus_mpa(material),
             gears: PerGear { pinion, wheel },
             flanks: PerGear { pinion: pinion_flank, wheel: wheel_flank },
         }

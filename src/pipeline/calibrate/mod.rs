@@ -158,7 +158,6 @@ fn on_plain_flanks(
 
 /// The scene's pair with what finite elements need to know of it.
 pub(super) fn setup<'a>(scene: &Scene, pair: &'a GearPair) -> Setup<'a> {
-    let line_load_n_per_mm =
-        scene.operation.pinion_torque_n_mm / pair.path.involute.pinion.base_radius_mm / scene.pair.face_width_mm;
+    let line_load_n_per_mm = pair.line_load_n_per_mm(scene.operation.pinion_torque_n_mm);
     Setup { pair, material: scene.material, bodies: scene.fem, line_load_n_per_mm }
 }

@@ -16,7 +16,7 @@ use super::{Estimate, LEAST_POINTS, peak_wear_of_both_mm};
 use crate::gear::{Gear, PerGear};
 use crate::observer::{Observer, PartOf};
 use crate::pipeline::Model;
-use crate::simulation::settings::{Numerics, Stepping};
+use crate::simulation::settings::{Numerics, Phase, Stepping};
 use crate::simulation::wear_run::{Outcome, RunPhase, WearRun};
 use crate::wear::{self, FlankWear, WearModel, settings::SevereTransition, settings::WearSettings};
 
@@ -78,12 +78,8 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
     let mut equilibria = 0;
     let mut peaks_mm = |band_mpa: f64| -> Result<PerGear<f64>, String> {
         let severe = Some(SevereTransition { band_mpa, ..own });
-        let law = |coefficient: Option<f64>| {
-            let coefficient_mm2_per_n = coefficient.unwrap_or(scene.wear.coefficient_mm2_per_n);
-            wear::of(&WearSettings { coefficient_mm2_per_n, severe, ..scene.wear })
-        };
-        let laws: Vec<Box<dyn FlankWear>> =
-            scene.operation.phases.iter().map(|phase| law(phase.coefficient_mm2_per_n)).collect();
+        let law = |phase: &Phase| wear::of(&WearSettings { severe, ..scene.wear_in(phase) });
+        let laws: Vec<Box<dyn FlankWear>> = scene.operation.phases.iter().map(law).collect();
         let phases: Vec<RunPhase<'_>> = model
             .phases
             .iter()

@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use self::whole::WholeModel;
 
-use crate::fem::elastic::Elastic;
+use crate::contact::settings::Material;
 use crate::fem::element::ElementError;
 use crate::fem::gear::cycle::{CycleError, cycle};
 use crate::fem::gear::full::FullError;
@@ -113,11 +113,8 @@ pub fn run(
     let pair = stages.run(FemPairStage::Geometry.name(), || GearPair::new(&scene.pair))?;
     let path = &pair.path;
     let position_mm = asked.position_mm.map(|given_mm| on_path(path, given_mm)).transpose()?;
-    let line_load_n_per_mm =
-        scene.operation.pinion_torque_n_mm / path.involute.pinion.base_radius_mm / scene.pair.face_width_mm;
-    let material = scene
-        .material
-        .map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio });
+    let line_load_n_per_mm = pair.line_load_n_per_mm(scene.operation.pinion_torque_n_mm);
+    let material = scene.material.map(Material::elastic);
     let meshed = stages.run(FemPairStage::Meshing.name(), || {
         let mesh = |gear| MeshedGear::new(&pair, gear, &material, line_load_n_per_mm, &scene.fem);
         PerGear::try_in_parallel(mesh)

@@ -12,10 +12,9 @@
 //! may be meant, and the equilibrium of such a contact can still be found. Source: K. L. Johnson, *Contact Mechanics* (1985),
 //! sections 4.1 to 4.3.
 
-use crate::contact::settings::Foundation;
+use crate::contact::{foundation, hertz, settings::Foundation};
+use crate::gear::GearPair;
 use crate::gear::conjugate::ConjugateFlanks;
-use crate::gear::{Gear, GearPair};
-use crate::reference::hertz_line::{HertzLine, contact_modulus_mpa};
 use crate::scene::Scene;
 use crate::scene::problem::number;
 
@@ -26,15 +25,13 @@ const GREATEST_SMALL: f64 = 0.1;
 pub fn warnings(scene: &Scene, pair: &GearPair) -> Vec<String> {
     let torques = scene.operation.phases.iter().map(|phase| phase.pinion_torque_n_mm);
     let torque_n_mm = torques.fold(0.0, f64::max);
-    let line_load = torque_n_mm / pair.path.involute.pinion.base_radius_mm / scene.pair.face_width_mm;
+    let line_load = pair.line_load_n_per_mm(torque_n_mm);
     let radius = pair.relative_radius_mm(pair.path.pitch_point_mm);
-    let material = &scene.material;
-    let modulus =
-        contact_modulus_mpa(Gear::BOTH.map(|gear| (material[gear].young_modulus_mpa, material[gear].poisson_ratio)));
-    let of_hertz = HertzLine::of_relative_radius(radius, modulus).loaded(line_load).half_width_mm;
+    let of_hertz =
+        hertz::flattening(pair, &scene.material, pair.path.pitch_point_mm).contact.loaded(line_load).half_width_mm;
     let mut contacts = vec![("operation.pinion_torque_Nm", 1e-3 * torque_n_mm, "Hertz's contact", of_hertz)];
     if let Foundation::Given { foundation_mpa_per_mm } = scene.contact.foundation {
-        let half_width = (1.5 * line_load * radius / foundation_mpa_per_mm).cbrt();
+        let half_width = foundation::half_width_mm(foundation_mpa_per_mm, radius, line_load);
         let key = "contact.foundation_MPa_per_mm";
         contacts.push((key, foundation_mpa_per_mm, "the contact on the foundation", half_width));
     }

@@ -18,8 +18,8 @@ use crate::contact::settings::MatchCriterion;
 use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::observer::{Observer, PartOf};
-use crate::pipeline::inputs::Inputs;
 use crate::scene::file::StepFile;
+use crate::scene::loaded::LoadedScene;
 use crate::scene::{Problem, Resolved, Scene};
 use crate::studies::accuracy::record::{DeepRow, DeepRun, DeepRuns};
 
@@ -46,15 +46,14 @@ pub(super) const RUNS: usize = 2 * MODELS.len();
 /// Runs the models that `like`, a setting with slices, stands beside; `first` of `count` runs are done. `None` without slices, or
 /// where the user interrupted it.
 pub(super) fn run(
-    resolved: &Resolved,
+    given: &LoadedScene,
     like: &Setting,
-    inputs: &Inputs,
     observer: &dyn Observer,
     first: usize,
     count: usize,
 ) -> Option<DeepRuns> {
-    let slices = resolved.scene.slices?;
-    let deeper = deeper(resolved);
+    let slices = given.scene().slices?;
+    let deeper = deeper(&given.resolved).map(|resolved| LoadedScene { resolved, ..given.clone() });
     let mut rows = Vec::new();
     let mut baseline: Option<Observed> = None;
     for (index, (surface, coupling)) in MODELS.into_iter().enumerate() {
@@ -84,7 +83,7 @@ pub(super) fn run(
             let slices = Some(SliceSettings { coupling, ..slices });
             let setting =
                 Setting { surface, tip_contact: surface.may_follow_tip(), slices, coarsening, ..like.clone() };
-            let measured = measure(&setting, base, inputs, &PartOf::new(observer, number, count))?;
+            let measured = measure(&setting, base, &PartOf::new(observer, number, count))?;
             row.failure = row.failure.or(measured.record.failure);
             ran.push(measured.finished.zip(measured.record.simulation_s));
         }

@@ -16,9 +16,9 @@ use crate::contact::settings::MatchCriterion;
 use crate::gear::{Gear, PerGear};
 use crate::observer::{Observer, PartOf};
 use crate::pipeline::calibrate::{self, CalibrateError, Extent};
-use crate::pipeline::inputs::Inputs;
 use crate::results::run::StopReason;
 use crate::scene::Resolved;
+use crate::scene::loaded::LoadedScene;
 use crate::studies::accuracy::record::{
     AccuracyRecord, CALIBRATION_FILE, MeasuredError, Quantity, Recommendation, ReferenceFlank, ReferenceRecord,
     VariantRecord,
@@ -53,30 +53,25 @@ pub enum AccuracyError {
 ///
 /// # Errors
 /// [`AccuracyError`] where the reference is not finished.
-pub fn run(
-    resolved: &Resolved,
-    inputs: &Inputs,
-    asked: Asked,
-    observer: &dyn Observer,
-) -> Result<AccuracyRecord, AccuracyError> {
+pub fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) -> Result<AccuracyRecord, AccuracyError> {
     let start = Instant::now();
-    let calibration = calibration(resolved, inputs, observer)?;
-    let inputs = &Inputs { calibration: calibration.made, ..inputs.clone() };
-    let calibrated: Vec<MatchCriterion> =
-        inputs.calibration.as_ref().map_or_else(Vec::new, |made| made.foundation.keys().copied().collect());
+    let calibration = calibration(given, observer)?;
+    let given = &calibration.made.map_or_else(|| given.clone(), |made| given.calibrated(made));
+    let (resolved, made) = (&given.resolved, given.files.calibration.as_ref());
+    let calibrated: Vec<MatchCriterion> = made.map_or_else(Vec::new, |made| made.foundation.keys().copied().collect());
     let selection = Selection::new(resolved, asked, &calibrated, &calibration.why_none);
     let settings = selection.settings.len();
     let count = settings + if resolved.scene.slices.is_some() { deep_runs::RUNS } else { 0 };
     let mut measured: Vec<Measured> = Vec::with_capacity(settings);
     for (number, setting) in selection.settings.iter().enumerate() {
         observer.run_of(number, count, &setting.name());
-        match measure(setting, resolved, inputs, &PartOf::new(observer, number, count)) {
+        match measure(setting, given, &PartOf::new(observer, number, count)) {
             Some(one) => measured.push(one),
             None => break,
         }
     }
     let deep_runs = match measured.len() == settings {
-        true => deep_runs::run(resolved, &selection.second_resolution(), inputs, observer, settings, count),
+        true => deep_runs::run(given, &selection.second_resolution(), observer, settings, count),
         false => None,
     };
     let all_deep_runs = deep_runs.is_some() == resolved.scene.slices.is_some();
@@ -115,7 +110,7 @@ pub fn run(
     let recommendations = recommendations(&variants, asked.within);
     Ok(AccuracyRecord {
         recommended_toml: recommended_toml(&recommendations, &selection.settings, resolved),
-        calibration_json: inputs.calibration.as_ref().map(Calibration::to_json),
+        calibration_json: made.map(Calibration::to_json),
         calibration_s: calibration.wall_s,
         title: resolved.scene.title.clone(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
@@ -144,12 +139,12 @@ struct Calibrated {
 }
 
 /// The scene's own, or one made now.
-fn calibration(resolved: &Resolved, inputs: &Inputs, observer: &dyn Observer) -> Result<Calibrated, AccuracyError> {
-    if let Some(given) = &inputs.calibration {
-        return Ok(Calibrated { made: Some(given.clone()), wall_s: None, why_none: String::new() });
+fn calibration(given: &LoadedScene, observer: &dyn Observer) -> Result<Calibrated, AccuracyError> {
+    if let Some(own) = &given.files.calibration {
+        return Ok(Calibrated { made: Some(own.clone()), wall_s: None, why_none: String::new() });
     }
     observer.stage("calibration");
-    match calibrate::run(&resolved.scene, Extent::FastModel, &PartOf::new(observer, 0, usize::MAX)) {
+    match calibrate::run(given.scene(), Extent::FastModel, &PartOf::new(observer, 0, usize::MAX)) {
         Ok(done) => Ok(Calibrated { made: Some(done.calibration), wall_s: Some(done.wall_s), why_none: String::new() }),
         Err(CalibrateError::Interrupted) => Err(AccuracyError::Interrupted),
         Err(error) => Ok(Calibrated { made: None, wall_s: None, why_none: format!("no calibration: {error}") }),

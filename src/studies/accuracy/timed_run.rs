@@ -7,10 +7,10 @@ use super::observed::Observed;
 use super::settings::Setting;
 use crate::gear::PerGear;
 use crate::observer::{Observer, PartOf};
-use crate::pipeline::{self, Done, RunError, inputs::Inputs};
-use crate::plan::{Plan, StageKind};
+use crate::pipeline::{self, Done, RunError};
+use crate::plan::StageKind;
 use crate::results::run::{PathPoints, RunRecord, StopReason, Summary};
-use crate::scene::Resolved;
+use crate::scene::loaded::LoadedScene;
 use crate::studies::accuracy::record::{CALIBRATION_FILE, VariantRecord};
 
 /// Runs shorter than this are repeated, and their least time counts.
@@ -33,13 +33,13 @@ pub(super) struct Finished {
 }
 
 /// Runs one setting, a short one several times; `None` where the user interrupted it.
-pub(super) fn measure(setting: &Setting, base: &Resolved, inputs: &Inputs, observer: &PartOf<'_>) -> Option<Measured> {
+pub(super) fn measure(setting: &Setting, base: &LoadedScene, observer: &PartOf<'_>) -> Option<Measured> {
     if observer.interrupted() {
         return None;
     }
     let mut record = VariantRecord {
         name: setting.name(),
-        settings: setting.record(&base.scene),
+        settings: setting.record(base.scene()),
         simulation_s: None,
         setup_s: None,
         repeats: 0,
@@ -54,7 +54,7 @@ pub(super) fn measure(setting: &Setting, base: &Resolved, inputs: &Inputs, obser
     let failed = |record: VariantRecord, failure: String| {
         Some(Measured { record: VariantRecord { failure: Some(failure), ..record }, finished: None })
     };
-    let mut resolved = match setting.scene(base, Some(CALIBRATION_FILE)) {
+    let mut resolved = match setting.scene(&base.resolved, Some(CALIBRATION_FILE)) {
         Ok(resolved) => resolved,
         Err(problems) => {
             let all: Vec<String> = problems.iter().map(ToString::to_string).collect();
@@ -64,11 +64,14 @@ pub(super) fn measure(setting: &Setting, base: &Resolved, inputs: &Inputs, obser
     // It is held against a reference of its own.
     resolved.scene.verify = false;
     record.settings = setting.record(&resolved.scene);
-    let plan = Plan::of(&resolved.scene);
+    let scene = match base.variant(resolved) {
+        Ok(scene) => scene,
+        Err(problem) => return failed(record, problem.to_string()),
+    };
     let mut kept = None;
     let mut spent_s = 0.0;
     while record.repeats == 0 || (spent_s < LONG_ENOUGH_S && record.repeats < MOST_REPEATS) {
-        let done = match pipeline::run(&resolved, &plan, inputs, observer) {
+        let done = match pipeline::run(&scene, observer) {
             Ok(Done { record: done, failure: None }) if done.summary.stopped == StopReason::Completed => done,
             Ok(Done { failure: Some(failure), .. }) => return failed(record, failure.to_string()),
             Ok(_) => return None,

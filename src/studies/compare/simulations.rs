@@ -13,9 +13,9 @@ use super::course::Course;
 use super::study::CompareError;
 use crate::gear::Gear;
 use crate::observer::{Observer, PartOf};
-use crate::pipeline::{self, inputs::Inputs};
-use crate::plan::Plan;
+use crate::pipeline;
 use crate::results::run::{FlankRecord, StopReason};
+use crate::scene::loaded::LoadedScene;
 use crate::scene::{Resolved, Scene};
 
 /// Snapshots of the run that holds all coefficients, at squares of even steps: dense where little is worn.
@@ -45,8 +45,7 @@ impl Change {
 
 /// Runs of one scene until the profile was measured.
 pub struct Simulations<'a> {
-    resolved: &'a Resolved,
-    inputs: &'a Inputs,
+    given: &'a LoadedScene,
     gear: Gear,
     width_mm: Option<f64>,
     /// The scene, ending when the profile was measured, without error estimates.
@@ -61,16 +60,15 @@ pub struct Simulations<'a> {
 }
 
 impl<'a> Simulations<'a> {
-    /// Runs of `resolved` for `revolutions` of the pinion, of which the wear of `gear` at `width_mm` is wanted.
+    /// Runs of `given` for `revolutions` of the pinion, of which the wear of `gear` at `width_mm` is wanted.
     pub fn new(
-        resolved: &'a Resolved,
-        inputs: &'a Inputs,
+        given: &'a LoadedScene,
         gear: Gear,
         width_mm: Option<f64>,
         revolutions: f64,
         observer: &'a dyn Observer,
     ) -> Self {
-        let mut scene = resolved.scene.clone();
+        let mut scene = given.resolved.scene.clone();
         (scene.numerics.error_estimate, scene.verify) = (false, false);
         let operation = &mut scene.operation;
         operation.phases.truncate(operation.phase_at(revolutions) + 1);
@@ -81,17 +79,7 @@ impl<'a> Simulations<'a> {
         // Those of the scene stay: steps end at them.
         operation.snapshots_revolutions.retain(|&at| at < revolutions);
         operation.snapshots_revolutions.push(revolutions);
-        Self {
-            resolved,
-            inputs,
-            gear,
-            width_mm,
-            until_measured: scene,
-            observer,
-            courses: Vec::new(),
-            runs: 0,
-            mesh_cycles: 0,
-        }
+        Self { given, gear, width_mm, until_measured: scene, observer, courses: Vec::new(), runs: 0, mesh_cycles: 0 }
     }
 
     /// The factor of severe wear of the scene; 1 where there is none.
@@ -178,9 +166,9 @@ impl<'a> Simulations<'a> {
     fn run(&mut self, scene: Scene) -> Result<Vec<(f64, Vec<f64>)>, CompareError> {
         self.runs += 1;
         self.observer.stage(&format!("run {}", self.runs));
-        let resolved = Resolved { scene, file: self.resolved.file.clone(), warnings: Vec::new() };
-        let plan = Plan::of(&resolved.scene);
-        let done = pipeline::run(&resolved, &plan, self.inputs, &PartOf::whole(self.observer));
+        let resolved = Resolved { scene, file: self.given.resolved.file.clone(), warnings: Vec::new() };
+        let scene = LoadedScene { resolved, ..self.given.clone() };
+        let done = pipeline::run(&scene, &PartOf::whole(self.observer));
         if self.observer.interrupted() {
             return Err(CompareError::Interrupted);
         }

@@ -9,9 +9,10 @@ use crate::measurement::fit::FitStop;
 use crate::measurement::interval::CONFIDENCE;
 use crate::measurement::roughness::{CUTOFF_MM, mean_deviation, roughness};
 use crate::observer::Observer;
-use crate::pipeline::{RunError, inputs::Inputs};
+use crate::pipeline::RunError;
 use crate::results::run::PathPoints;
 use crate::scene::Resolved;
+use crate::scene::loaded::LoadedScene;
 use crate::studies::compare::record::{CompareFigures, CompareRecord, CompareRow, Estimate, FitRecord};
 
 /// mm²/N to m²/N.
@@ -30,26 +31,25 @@ pub enum CompareError {
     Interrupted,
 }
 
-/// Compares what was measured with the run in `folder`, whose scene is `resolved`; `measured` is the name of the file.
+/// Compares what was measured with the run in `folder`, whose scene is `given`; `measured` is the name of the file.
 ///
 /// # Errors
 /// [`CompareError`].
 pub fn run(
     question: &Question,
     folder: &RunFolder,
-    resolved: &Resolved,
-    inputs: &Inputs,
+    given: &LoadedScene,
     measured: &str,
     observer: &dyn Observer,
 ) -> Result<CompareRecord, CompareError> {
+    let resolved = &given.resolved;
     let scene = &resolved.scene;
     let pair = &GearPair::new(&scene.pair).map_err(RunError::from)?;
     let profile = &question.profile;
     let grid = FlankGrid::new(pair, profile.gear, scene.numerics.flank_points);
     let points = grid.len();
     let comparison = Comparison::new(question, pair, grid.arc_mm);
-    let mut simulations =
-        Simulations::new(resolved, inputs, profile.gear, question.width_mm, question.revolutions, observer);
+    let mut simulations = Simulations::new(given, profile.gear, question.width_mm, question.revolutions, observer);
     let as_run_um = match &question.as_run_um {
         Some(wear_um) => {
             let slices = Slices::new(pair, wear_um.len() / points);

@@ -4,11 +4,12 @@ use std::time::Instant;
 
 use crate::gear::spec::PairSpec;
 use crate::observer::Observer;
-use crate::pipeline::{self, Done, guarded::guarded, inputs::Inputs};
+use crate::pipeline::{self, Done, guarded::guarded};
 use crate::plan::{Plan, StageKind};
 use crate::results::error::TotalError;
 use crate::results::run::{StopReason, Summary};
 use crate::scene::draft::Draft;
+use crate::scene::loaded::{LoadedScene, NamedFiles};
 use crate::scene::{Problem, Resolved, short_hash};
 use crate::studies::sweep::figures::FIGURES;
 use crate::studies::sweep::record::{SweepAxis, SweepIdentity, SweepRow};
@@ -21,33 +22,27 @@ pub struct Sweep {
     pub identity: SweepIdentity,
     /// The scene without what a sweep leaves out.
     draft: Draft,
-    /// The pair as the scene gives it.
-    pair: PairSpec,
-    inputs: Inputs,
+    /// The scene as given, with the files it names.
+    given: LoadedScene,
 }
 
 impl Sweep {
-    /// The sweep of the scene in `text`, which resolves to `resolved` and names the files `inputs`.
+    /// The sweep of the scene `given`.
     ///
     /// Snapshots are left out, as a row keeps only the end of the run; errors are estimated only where asked for, and rows verified
     /// only where the scene asks for it by name.
     ///
     /// # Errors
     /// Text that is not TOML.
-    pub fn new(
-        text: &str,
-        resolved: &Resolved,
-        inputs: Inputs,
-        axes: Vec<SweepAxis>,
-        error_estimate: bool,
-    ) -> Result<Self, Vec<Problem>> {
-        let mut draft = Draft::parse(text)?;
+    pub fn new(given: &LoadedScene, axes: Vec<SweepAxis>, error_estimate: bool) -> Result<Self, Vec<Problem>> {
+        let mut draft = Draft::parse(&given.given.text)?;
+        let resolved = &given.resolved;
         let identity = SweepIdentity {
             title: resolved.scene.title.clone(),
             program_version: env!("CARGO_PKG_VERSION").to_owned(),
             scene_hash: resolved.scene_hash(),
             given_hash: draft.hash(),
-            inputs_hash: hash_of(&inputs),
+            inputs_hash: hash_of(&given.files),
             error_estimate,
             verify: resolved.scene.verify && draft.gives("numerics.verify"),
             axes,
@@ -56,7 +51,7 @@ impl Sweep {
         draft.remove("operation.snapshots_h");
         draft.remove("operation.snapshots_revolutions");
         draft.set("numerics.error_estimate", error_estimate);
-        Ok(Self { identity, draft, pair: resolved.scene.pair.clone(), inputs })
+        Ok(Self { identity, draft, given: given.clone() })
     }
 
     /// The scene of combination `index`, which is not verified.
@@ -119,11 +114,12 @@ impl Sweep {
     fn run(&self, index: usize, observer: &dyn Observer) -> Result<Summary, String> {
         let resolved = self.scene(index).map_err(|problems| in_words(&problems))?;
         self.inputs_belong_to(&resolved)?;
-        self.carry_out(&resolved, &Plan::of(&resolved.scene), observer)
+        self.carry_out(resolved, observer)
     }
 
-    fn carry_out(&self, resolved: &Resolved, plan: &Plan, observer: &dyn Observer) -> Result<Summary, String> {
-        match pipeline::summarise(resolved, plan, &self.inputs, observer) {
+    fn carry_out(&self, resolved: Resolved, observer: &dyn Observer) -> Result<Summary, String> {
+        let scene = self.given.variant(resolved).map_err(|problem| problem.to_string())?;
+        match pipeline::summarise(&scene, observer) {
             Ok(Done { failure: Some(failure), .. }) => Err(failure.to_string()),
             Ok(Done { record: summary, failure: None }) => Ok(summary),
             Err(failure) => Err(failure.to_string()),
@@ -153,19 +149,19 @@ impl Sweep {
         let plan = Plan::of(&resolved.scene);
         match plan.left_out_because(StageKind::Verification) {
             Some(reason) => Err(reason.to_owned()),
-            None => self.carry_out(&resolved, &plan, observer).map(|summary| summary.error.total),
+            None => self.carry_out(resolved, observer).map(|summary| summary.error.total),
         }
     }
 
     /// Whether the files that the scene names were made for the pair of this combination.
     fn inputs_belong_to(&self, resolved: &Resolved) -> Result<(), String> {
-        let differences = self.inputs.foreign_to(resolved);
+        let differences = self.given.files.foreign_to(resolved);
         if !differences.is_empty() {
             return Err(format!("contact.calibration belongs to another pair: {}", differences.join("; ")));
         }
-        let same_section =
-            |own: &PairSpec| PairSpec { face_width_mm: self.pair.face_width_mm, ..own.clone() } == self.pair;
-        if self.inputs.stiffness_curve.is_some() && !same_section(&resolved.scene.pair) {
+        let pair = &self.given.resolved.scene.pair;
+        let same_section = |own: &PairSpec| PairSpec { face_width_mm: pair.face_width_mm, ..own.clone() } == *pair;
+        if self.given.files.stiffness_curve.is_some() && !same_section(&resolved.scene.pair) {
             return Err("stiffness.curve belongs to the pair of the scene as given".to_owned());
         }
         Ok(())
@@ -173,9 +169,9 @@ impl Sweep {
 }
 
 /// Of the files that a scene names; empty where it names none.
-fn hash_of(inputs: &Inputs) -> String {
-    let calibration = inputs.calibration.as_ref().map(|calibration| calibration.to_json());
-    let curve = inputs.stiffness_curve.as_ref().map(|curve| format!("{curve:?}"));
+fn hash_of(files: &NamedFiles) -> String {
+    let calibration = files.calibration.as_ref().map(|calibration| calibration.to_json());
+    let curve = files.stiffness_curve.as_ref().map(|curve| format!("{curve:?}"));
     let all: String = calibration.into_iter().chain(curve).collect();
     if all.is_empty() { all } else { short_hash(all.as_bytes()) }
 }

@@ -1,6 +1,7 @@
 //! One run of a case, carried out as its command would, and read back as its output files would be.
 
 use std::collections::BTreeMap;
+use std::fmt::Display;
 use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
@@ -19,15 +20,14 @@ use crate::pipeline::calibrate::{self, CalibrateError, Extent};
 use crate::pipeline::fem_problem::{self, FemProblemError};
 use crate::pipeline::fem_scene::{self, FemPairError};
 use crate::pipeline::guarded::guarded;
-use crate::pipeline::inputs::Inputs;
 use crate::pipeline::{self, RunError};
-use crate::plan::Plan;
 use crate::report;
 use crate::report::slice_table;
 use crate::report::tables;
 use crate::results::run::StopReason;
 use crate::scene::draft::{self, Draft};
 use crate::scene::fem_problem::FemProblem;
+use crate::scene::loaded::{self, LoadedScene, NamedFiles, SceneText};
 use crate::scene::{Problem, Resolved, presets};
 use crate::studies::validation::record::RunOutcome;
 
@@ -131,7 +131,30 @@ fn text(run: &RunSpec, folder: &Path) -> Result<String, Failed> {
 }
 
 /// The scene of a member.
-fn scene(run: &RunSpec, member: &Member, folder: &Path, calibrated: bool) -> Result<Resolved, Failed> {
+fn scene(run: &RunSpec, member: &Member, folder: &Path) -> Result<Resolved, Failed> {
+    resolved(draft(run, member, folder)?, member)
+}
+
+/// The scene of a member with the files it names, which lie in `folder`, and with `calibration`, where the run names one.
+fn loaded_scene(
+    run: &RunSpec,
+    member: &Member,
+    folder: &Path,
+    calibration: Option<&Calibration>,
+) -> Result<LoadedScene, Failed> {
+    let mut draft = draft(run, member, folder)?;
+    let refused = |error: &dyn Display| Failed::Refused(error.to_string());
+    let given = SceneText { name: run.scene.clone(), text: draft.to_toml() };
+    let Some(calibration) = calibration else {
+        return LoadedScene::of(resolved(draft, member)?, given, folder).map_err(|error| refused(&error));
+    };
+    draft.set(loaded::CALIBRATION, "calibration.json");
+    let files = NamedFiles { calibration: Some(calibration.clone()), ..NamedFiles::default() };
+    LoadedScene::with_files(resolved(draft, member)?, given, files).map_err(|error| refused(&error))
+}
+
+/// The scene file of a member.
+fn draft(run: &RunSpec, member: &Member, folder: &Path) -> Result<Draft, Failed> {
     let mut draft = Draft::parse(&text(run, folder)?).map_err(refused)?;
     for key in &member.unset {
         draft.remove(key);
@@ -139,9 +162,10 @@ fn scene(run: &RunSpec, member: &Member, folder: &Path, calibrated: bool) -> Res
     for (key, value) in &member.set {
         draft.set(key, value.clone());
     }
-    if calibrated {
-        draft.set("contact.calibration", "calibration.json");
-    }
+    Ok(draft)
+}
+
+fn resolved(draft: Draft, member: &Member) -> Result<Resolved, Failed> {
     let mut resolved = draft.resolve().map_err(refused)?;
     // A case holds a run against a reference of its own; one that is about verification asks for it.
     resolved.scene.verify &= member.set.iter().any(|(key, _)| key == "numerics.verify");
@@ -191,13 +215,8 @@ fn wear_run(
     calibration: Option<&Calibration>,
     watch: &dyn Observer,
 ) -> Result<Found, Failed> {
-    let resolved = scene(run, member, folder, calibration.is_some())?;
-    let inputs = Inputs { calibration: calibration.cloned(), ..Inputs::default() };
-    let foreign = inputs.foreign_to(&resolved);
-    if !foreign.is_empty() {
-        return Err(Failed::Refused(format!("contact.calibration belongs to another pair: {}", foreign.join("; "))));
-    }
-    let done = pipeline::run(&resolved, &Plan::of(&resolved.scene), &inputs, watch).map_err(|error| match &error {
+    let scene = loaded_scene(run, member, folder, calibration)?;
+    let done = pipeline::run(&scene, watch).map_err(|error| match &error {
         RunError::Pair(_) | RunError::Stiffness(_) | RunError::FiniteElements(_) => Failed::Refused(error.to_string()),
         _ => Failed::NotConverged(error.to_string()),
     })?;
@@ -255,7 +274,7 @@ fn finite_elements(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Ob
 }
 
 fn finite_element_pair(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Observer) -> Result<Found, Failed> {
-    let resolved = scene(run, member, folder, false)?;
+    let resolved = scene(run, member, folder)?;
     let asked = fem_scene::Asked { position_mm: run.position_mm, full: run.full };
     let done = fem_scene::run(&resolved, asked, watch).map_err(|error| match &error {
         FemPairError::Position { .. }
@@ -282,7 +301,7 @@ fn finite_element_pair(run: &RunSpec, member: &Member, folder: &Path, watch: &dy
 }
 
 fn calibrated(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Observer) -> Result<Found, Failed> {
-    let resolved = scene(run, member, folder, false)?;
+    let resolved = scene(run, member, folder)?;
     let extent = if run.full { Extent::Whole } else { Extent::FastModel };
     let done = calibrate::run(&resolved.scene, extent, watch).map_err(|error| match &error {
         CalibrateError::Pair(_) => Failed::Refused(error.to_string()),

@@ -1,0 +1,403 @@
+//! A scene with every file it names: what a run is made from.
+//!
+//! A scene may name a calibration (`contact.calibration`) and a curve of tooth stiffness (`stiffness.curve`). A [`LoadedScene`] cannot lack
+//! one: it comes into being where they are read, or is a variant of one that has them.
+
+use std::fs;
+use std::io::{self, Read};
+use std::path::Path;
+use std::sync::Arc;
+
+use super::draft::Draft;
+use super::{Problem, ProblemKind, Resolved, Scene, presets};
+use crate::calibration::{Calibration, identity::Identity};
+use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
+use crate::gear::GearPair;
+use crate::plan::Plan;
+use crate::stiffness::curve::PairCompliance;
+use crate::stiffness::curve_file::{self, CurveFileError};
+use crate::stiffness::settings::StiffnessSettings;
+
+/// The key that names a calibration.
+pub(crate) const CALIBRATION: &str = "contact.calibration";
+/// The key that names a curve of tooth stiffness.
+pub(crate) const CURVE: &str = "stiffness.curve";
+/// Part of a load that counts as within a range.
+const ROUNDING: f64 = 1e-9;
+
+/// The text of a scene file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SceneText {
+    /// Name of the file, as messages give it.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+}
+
+/// What is wrong with a scene file, with the text it stands in.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{}", self.in_words())]
+pub struct SceneError {
+    /// The file.
+    pub given: SceneText,
+    /// At least one.
+    pub problems: Vec<Problem>,
+}
+
+impl SceneError {
+    fn in_words(&self) -> String {
+        let SceneText { name, text } = &self.given;
+        let line = |problem: &Problem| {
+            let begin = problem.span.as_ref().map_or(0, |span| span.start).min(text.len());
+            text.as_bytes()[..begin].iter().filter(|&&byte| byte == b'\n').count() + 1
+        };
+        let of = |problem: &Problem| format!("{name}, line {}: {problem}", line(problem));
+        self.problems.iter().map(of).collect::<Vec<_>>().join("\n")
+    }
+}
+
+/// Why a scene could not be opened.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// The file cannot be read.
+    #[error("{name} cannot be read: {reason}")]
+    Unreadable {
+        /// Name of the file.
+        name: String,
+        /// The system's reason.
+        reason: io::Error,
+    },
+    /// The file is no text.
+    #[error("{name} is not UTF-8 text: byte {byte}, line {line}")]
+    NotUtf8 {
+        /// Name of the file.
+        name: String,
+        /// Offset of the first byte that is no text.
+        byte: usize,
+        /// Its line.
+        line: usize,
+    },
+    /// The scene is wrong, or names a file that is not what it should be.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The curve of tooth stiffness that the scene names cannot be read as one.
+    #[error("{name}: {error}")]
+    Curve {
+        /// Name of the file.
+        name: String,
+        /// What is wrong with it.
+        error: CurveFileError,
+    },
+}
+
+/// A file that a scene names.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct NamedFile {
+    /// The key that names it, such as `contact.calibration`.
+    pub key: &'static str,
+    /// Its name, as the scene gives it.
+    pub name: String,
+    /// What it holds.
+    pub bytes: Vec<u8>,
+}
+
+/// The files a scene names, read.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct NamedFiles {
+    /// `contact.calibration`.
+    pub calibration: Option<Calibration>,
+    /// `stiffness.curve`.
+    pub stiffness_curve: Option<PairCompliance>,
+    /// The same as they were read.
+    pub as_read: Vec<NamedFile>,
+}
+
+/// A scene, checked and with every default filled in, and every file it names.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadedScene {
+    pub(crate) resolved: Resolved,
+    pub(crate) files: Arc<NamedFiles>,
+    pub(crate) given: Arc<SceneText>,
+}
+
+impl LoadedScene {
+    /// Opens the scene file at `path` (`-`: standard input). Files it names lie beside it, where their names are not absolute; those of
+    /// standard input in the current folder.
+    ///
+    /// # Errors
+    /// [`LoadError`], with everything that is wrong with the scene.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, LoadError> {
+        let path = path.as_ref();
+        Self::from_text(SceneText::read(path)?, folder_of(path))
+    }
+
+    /// The scene in a text; files it names lie in the current folder.
+    ///
+    /// # Errors
+    /// As [`Self::open`].
+    pub fn from_toml(text: &str) -> Result<Self, LoadError> {
+        let given = SceneText { name: "scene".to_owned(), text: text.to_owned() };
+        Self::from_text(given, Path::new(""))
+    }
+
+    /// A built-in scene, such as `fzg-c` ([`presets::names`]).
+    ///
+    /// # Errors
+    /// A name that is no preset.
+    pub fn preset(name: &str) -> Result<Self, LoadError> {
+        match presets::find(name) {
+            Some(preset) => Self::from_toml(preset.text),
+            None => {
+                let given = SceneText { name: name.to_owned(), text: String::new() };
+                let allowed = presets::names().join(", ");
+                let problem = Problem {
+                    kind: ProblemKind::NotAllowed,
+                    key: "preset".to_owned(),
+                    found: format!("{name:?}"),
+                    allowed,
+                    help: presets::nearest(name).map(|near| format!("did you mean {near}?")),
+                    span: None,
+                };
+                Err(SceneError { given, problems: vec![problem] }.into())
+            }
+        }
+    }
+
+    /// The same scene with `value` for `key`, such as `"pair.face_width_mm"`, as if the file said so.
+    ///
+    /// # Errors
+    /// What is wrong with the scene then; a calibration that does not belong to it.
+    pub fn with(&self, key: &str, value: impl Into<toml::Value>) -> Result<Self, LoadError> {
+        let refused = |problems| SceneError { given: (*self.given).clone(), problems };
+        let mut draft = Draft::parse(&self.given.text).map_err(refused)?;
+        draft.set(key, value);
+        let resolved = draft.resolve().map_err(refused)?;
+        let given = SceneText { name: self.given.name.clone(), text: draft.to_toml() };
+        Ok(Self::with_files(resolved, given, (*self.files).clone())?)
+    }
+
+    /// Resolves the scene in `given` and reads the files it names from `folder`.
+    pub(crate) fn from_text(given: SceneText, folder: &Path) -> Result<Self, LoadError> {
+        let resolved = given.resolve()?;
+        Self::of(resolved, given, folder)
+    }
+
+    /// The resolved scene of `given` with the files it names, which lie in `folder`.
+    pub(crate) fn of(mut resolved: Resolved, given: SceneText, folder: &Path) -> Result<Self, LoadError> {
+        let mut files = NamedFiles::default();
+        if let Some((calibration, file)) = calibration(folder, &given, &mut resolved)? {
+            files.calibration = Some(calibration);
+            files.as_read.push(file);
+        }
+        if let Some((curve, file)) = stiffness_curve(folder, &given, &resolved)? {
+            files.stiffness_curve = Some(curve);
+            files.as_read.push(file);
+        }
+        Ok(Self::with_files(resolved, given, files)?)
+    }
+
+    /// The resolved scene of `given` with `files`.
+    ///
+    /// # Errors
+    /// A file that it needs and that is not among them; a calibration of another pair.
+    pub(crate) fn with_files(resolved: Resolved, given: SceneText, files: NamedFiles) -> Result<Self, SceneError> {
+        let foreign = files.foreign_to(&resolved);
+        let name = resolved.scene.calibration_file.as_deref().unwrap_or_default();
+        let belongs = if foreign.is_empty() { Ok(()) } else { Err(of_another_pair(&given.text, name, &foreign)) };
+        belongs
+            .and_then(|()| files.complete(&given.text, &resolved.scene))
+            .map_err(|problem| given.refused(vec![problem]))?;
+        Ok(Self { resolved, files: Arc::new(files), given: Arc::new(given) })
+    }
+
+    /// Another scene with the files of this one.
+    ///
+    /// # Errors
+    /// A file that the other scene needs and this one does not have.
+    pub(crate) fn variant(&self, resolved: Resolved) -> Result<Self, Problem> {
+        self.files.complete(&self.given.text, &resolved.scene)?;
+        Ok(Self { resolved, files: Arc::clone(&self.files), given: Arc::clone(&self.given) })
+    }
+
+    /// The same with a calibration made for it.
+    pub(crate) fn calibrated(&self, calibration: Calibration) -> Self {
+        let files = NamedFiles { calibration: Some(calibration), ..(*self.files).clone() };
+        Self { files: Arc::new(files), ..self.clone() }
+    }
+
+    /// What it asks for.
+    pub fn scene(&self) -> &Scene {
+        &self.resolved.scene
+    }
+
+    /// What the user should know about it: likely slips of unit, settings that are not used.
+    pub fn warnings(&self) -> &[String] {
+        &self.resolved.warnings
+    }
+
+    /// The stages a run of it has, those left out, and why.
+    pub fn plan(&self) -> Plan {
+        Plan::of(&self.resolved.scene)
+    }
+
+    /// The scene as a file, every default filled in.
+    pub fn to_toml(&self) -> String {
+        self.resolved.to_toml()
+    }
+}
+
+impl SceneText {
+    /// Reads the text at `path` (`-`: standard input).
+    pub(crate) fn read(path: &Path) -> Result<Self, LoadError> {
+        let (name, bytes) = if path == Path::new("-") {
+            let mut bytes = Vec::new();
+            ("standard input".to_owned(), io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes))
+        } else {
+            (path.display().to_string(), fs::read(path))
+        };
+        let bytes = bytes.map_err(|reason| LoadError::Unreadable { name: name.clone(), reason })?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let byte = error.utf8_error().valid_up_to();
+            let line = error.as_bytes()[..byte].iter().filter(|&&b| b == b'\n').count() + 1;
+            LoadError::NotUtf8 { name: name.clone(), byte, line }
+        })?;
+        Ok(Self { name, text })
+    }
+
+    /// Resolves the scene it holds; the files it names stay unread.
+    pub(crate) fn resolve(&self) -> Result<Resolved, SceneError> {
+        Scene::from_toml(&self.text).map_err(|problems| self.refused(problems))
+    }
+
+    /// What is wrong with it.
+    pub(crate) fn refused(&self, problems: Vec<Problem>) -> SceneError {
+        SceneError { given: self.clone(), problems }
+    }
+}
+
+impl NamedFiles {
+    /// In what the pair of the calibration differs from that of `resolved`; empty where there is none, or none differs.
+    pub(crate) fn foreign_to(&self, resolved: &Resolved) -> Vec<String> {
+        self.calibration.as_ref().map_or_else(Vec::new, |calibration| foreign(calibration, resolved))
+    }
+
+    /// Whether they are all that `scene`, of the file with this text, needs.
+    fn complete(&self, text: &str, scene: &Scene) -> Result<(), Problem> {
+        if let (SurfaceKind::Winkler, Foundation::Calibrated(criterion)) =
+            (scene.contact.surface, scene.contact.foundation)
+        {
+            let has = |criterion| self.calibration.as_ref().is_some_and(|c| c.foundation.contains_key(criterion));
+            if let Some(lacking) = [&criterion, &MatchCriterion::Approach].into_iter().find(|one| !has(one)) {
+                let found = match self.calibration {
+                    None => "no file".to_owned(),
+                    Some(_) => format!("one without K/H for the {}", lacking.name()),
+                };
+                return Err(Problem::of_named_file(text, CALIBRATION, found, CALIBRATION_ALLOWED, MAKE_CALIBRATION));
+            }
+        }
+        if let StiffnessSettings::Simon | StiffnessSettings::WangCheng = scene.stiffness
+            && self.stiffness_curve.is_none()
+        {
+            return Err(Problem::of_named_file(text, CURVE, "no file".to_owned(), CURVE_ALLOWED, CURVE_HELP));
+        }
+        Ok(())
+    }
+}
+
+/// The folder that files named in the scene at `path` lie in.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    if path == Path::new("-") { Path::new("") } else { path.parent().unwrap_or(Path::new("")) }
+}
+
+const CALIBRATION_ALLOWED: &str = "a file that gearwear calibrate wrote for this pair";
+const MAKE_CALIBRATION: &str = "gearwear calibrate SCENE --out FILE makes one";
+const CURVE_ALLOWED: &str = "a data file (CSV) of the stiffness along the path of contact";
+const CURVE_HELP: &str = "the file lies beside the scene; gearwear schema says what stands in it";
+
+/// The calibration that the scene names, and its file. What the user should know of it joins the scene's warnings.
+fn calibration(
+    folder: &Path,
+    given: &SceneText,
+    resolved: &mut Resolved,
+) -> Result<Option<(Calibration, NamedFile)>, LoadError> {
+    let Some(name) = resolved.scene.calibration_file.clone() else { return Ok(None) };
+    let refused = |what: String, help: &str| {
+        let found = format!("{name:?}, {what}");
+        given.refused(vec![Problem::of_named_file(&given.text, CALIBRATION, found, CALIBRATION_ALLOWED, help)])
+    };
+    let bytes = fs::read(folder.join(&name))
+        .map_err(|reason| refused(format!("which cannot be read: {reason}"), MAKE_CALIBRATION))?;
+    let text = String::from_utf8(bytes).map_err(|error| {
+        refused(format!("which is not UTF-8 text: byte {}", error.utf8_error().valid_up_to()), MAKE_CALIBRATION)
+    })?;
+    let calibration = Calibration::from_json(&text)
+        .map_err(|error| refused(format!("which is no calibration: {error}"), "calibrate anew"))?;
+    let warnings = warnings(&name, &calibration, &resolved.scene);
+    resolved.warnings.extend(warnings);
+    Ok(Some((calibration, NamedFile { key: CALIBRATION, name, bytes: text.into_bytes() })))
+}
+
+fn of_another_pair(text: &str, name: &str, differences: &[String]) -> Problem {
+    let found = format!("{name:?}, which belongs to another pair: {}", differences.join("; "));
+    let help = "calibrate this scene, or name the calibration that belongs to it";
+    Problem::of_named_file(text, CALIBRATION, found, CALIBRATION_ALLOWED, help)
+}
+
+/// In what the pair of `calibration` differs from that of the scene. Bodies of finite elements count where the scene says
+/// what they are.
+fn foreign(calibration: &Calibration, resolved: &Resolved) -> Vec<String> {
+    match GearPair::new(&resolved.scene.pair) {
+        Ok(pair) => {
+            let own = Identity::of(&pair, &resolved.scene.material, &resolved.scene.fem);
+            calibration.belongs_to.differences(&own, resolved.file.fem.is_some())
+        }
+        Err(error) => vec![error.to_string()],
+    }
+}
+
+fn warnings(name: &str, calibration: &Calibration, scene: &Scene) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let version = env!("CARGO_PKG_VERSION");
+    if calibration.program_version != version {
+        let made = &calibration.program_version;
+        warnings.push(format!("{CALIBRATION}: {name} was made by gearwear {made}, this is {version}"));
+    }
+    let (least, greatest) = calibration.fitted_loads_n_per_mm();
+    let Ok(pair) = GearPair::new(&scene.pair) else { return warnings };
+    let loads = scene.operation.phases.iter().map(|phase| pair.line_load_n_per_mm(phase.pinion_torque_n_mm));
+    let is_outside = |load: &f64| *load < least * (1.0 - ROUNDING) || *load > greatest * (1.0 + ROUNDING);
+    if let Some(load) = loads.into_iter().find(is_outside) {
+        warnings.push(format!(
+            "{CALIBRATION}: the line load of {load:.1} N/mm lies outside the loads that {name} was fitted on, {least:.1} to \
+             {greatest:.1} N/mm"
+        ));
+    }
+    warnings
+}
+
+/// The curve of tooth stiffness that the scene names, where its stiffness model has one, and its file.
+fn stiffness_curve(
+    folder: &Path,
+    given: &SceneText,
+    resolved: &Resolved,
+) -> Result<Option<(PairCompliance, NamedFile)>, LoadError> {
+    let scene = &resolved.scene;
+    let (StiffnessSettings::Simon | StiffnessSettings::WangCheng, Some(name)) =
+        (scene.stiffness, &scene.stiffness_curve_file)
+    else {
+        return Ok(None);
+    };
+    let refused = |what: String| {
+        let found = format!("{name:?}, {what}");
+        given.refused(vec![Problem::of_named_file(&given.text, CURVE, found, CURVE_ALLOWED, CURVE_HELP)])
+    };
+    let path = folder.join(name);
+    let bytes = fs::read(&path).map_err(|reason| refused(format!("which cannot be read: {reason}")))?;
+    let text = String::from_utf8(bytes)
+        .map_err(|error| refused(format!("which is not UTF-8 text: byte {}", error.utf8_error().valid_up_to())))?;
+    // The pair was checked when the scene was resolved.
+    let pair = GearPair::new(&scene.pair).map_err(|error| refused(format!("but {error}")))?;
+    let curve = curve_file::parse(&text, &pair.path)
+        .map_err(|error| LoadError::Curve { name: path.display().to_string(), error })?;
+    Ok(Some((curve, NamedFile { key: CURVE, name: name.clone(), bytes: text.into_bytes() })))
+}
