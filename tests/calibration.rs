@@ -7,12 +7,12 @@ use std::sync::OnceLock;
 
 use common::{assert_close, fzg_a, fzg_c, steel};
 use gearwear::calibration::bodies::Setup;
-use gearwear::calibration::course::CourseOf;
 use gearwear::calibration::identity::Identity;
 use gearwear::calibration::single_contact::{Purpose, SingleContact, Touch};
+use gearwear::calibration::stiffness_variation::VariationOf;
 use gearwear::calibration::tooth_stiffness::LoadedPair;
 use gearwear::calibration::{Calibration, file::CalibrationFileError, foundation_fit, single_contact};
-use gearwear::contact::foundation::Bed;
+use gearwear::contact::foundation::WinklerFoundation;
 use gearwear::contact::hertz::{self, Hertz};
 use gearwear::contact::settings::MatchCriterion;
 use gearwear::contact::winkler::Winkler;
@@ -272,7 +272,7 @@ fn val_calibrated_winkler_surface_in_single_contact() {
     let mut compared = 0;
     for criterion in [MatchCriterion::HalfWidth, MatchCriterion::PeakPressure] {
         let surface = Winkler {
-            bed: Bed::Curve {
+            bed: WinklerFoundation::Curve {
                 pressure: calibration.foundation[&criterion].clone(),
                 approach: calibration.foundation[&MatchCriterion::Approach].clone(),
                 edges: None,
@@ -281,15 +281,15 @@ fn val_calibrated_winkler_surface_in_single_contact() {
         };
         for contact in calibration.single_contact.iter().filter(|c| c.purpose == Purpose::HeldOut) {
             let mut alone = surface.pair(flanks, contact.position_mm, None);
-            alone.read(unworn.as_ref().map(Vec::as_slice));
+            alone.set_removed(unworn.as_ref().map(Vec::as_slice));
             let load = contact.line_load_n_per_mm;
-            let (mut low, mut high) = (0.0, alone.ample_depth_mm(load));
+            let (mut low, mut high) = (0.0, alone.ample_indentation_mm(load));
             for _ in 0..60 {
                 let middle = 0.5 * (low + high);
-                if alone.press(middle).line_load_n_per_mm < load { low = middle } else { high = middle }
+                if alone.load_at(middle).line_load_n_per_mm < load { low = middle } else { high = middle }
             }
-            assert_close("load", alone.press(high).line_load_n_per_mm, load, 1e-9);
-            alone.settle();
+            assert_close("load", alone.load_at(high).line_load_n_per_mm, load, 1e-9);
+            alone.window_suffices();
             let found = alone.footprint();
             match criterion {
                 MatchCriterion::HalfWidth => {
@@ -330,9 +330,9 @@ fn val_families_of_curves() {
         assert!((member.profile_shift - least.max(0.0)).abs() < 1e-3, "{member:?}");
     }
     let course = |of| calibration.courses.iter().find(|course| course.of == of).unwrap();
-    let pair = course(CourseOf::PairWhole);
+    let pair = course(VariationOf::PairWhole);
     assert!((1.2..1.6).contains(&pair.max_over_min) && (1.0 / 3.0..2.0 / 3.0).contains(&pair.greatest_at), "{pair:?}");
-    assert!((3.0..5.0).contains(&course(CourseOf::PinionBending).max_over_min));
+    assert!((3.0..5.0).contains(&course(VariationOf::PinionBending).max_over_min));
 }
 
 #[test]

@@ -14,8 +14,8 @@ use gearwear::gear::{
     spec::PairSpec,
 };
 use gearwear::mesh_cycle::{
-    phases::phases,
     settings::{Coupling, SliceSettings},
+    sliced_positions::sliced_positions,
 };
 use gearwear::simulation::figures::WearFigures;
 use gearwear::simulation::wear_run::Outcome;
@@ -184,7 +184,7 @@ fn sliding_work(pair: &GearPair, outcome: &Outcome, positions: usize, slice: usi
     let mesh = outcome.new.cycle.slices.as_ref().unwrap();
     let spacing = mesh.base_pitch_mm / mesh.transmission_error_mm.len() as f64;
     let ahead = outcome.slices.ahead_mm[slice];
-    phases(&pair.path, &outcome.slices, positions, None)
+    sliced_positions(&pair.path, &outcome.slices, positions, None)
         .iter()
         .flat_map(|phase| phase.contacts.iter().map(move |contact| (phase.position_mm, contact)))
         .filter(|(_, contact)| contact.slice == slice)

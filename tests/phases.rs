@@ -48,7 +48,7 @@ const NEGLIGIBLE: f64 = 1e-24;
 fn ver_one_phase_is_the_plain_run_to_the_bit() {
     let snapshots = "snapshots_revolutions = [150000.0, 400000.0]\n";
     let plain = run(&scene(&format!("{OPERATION}pinion_revolutions = 4e5\n{snapshots}"), WINKLER, 2e-17, ""));
-    let one = format!("{OPERATION}{snapshots}{}", phases(&["pinion_revolutions = 4e5"]));
+    let one = format!("{OPERATION}{snapshots}{}", sliced_positions(&["pinion_revolutions = 4e5"]));
     let one = run(&scene(&one, WINKLER, 2e-17, ""));
     assert!(plain.flanks == one.flanks && plain.history == one.history && plain.mesh_cycle == one.mesh_cycle);
     assert_eq!(plain.summary.phases, one.summary.phases);
@@ -73,7 +73,7 @@ fn ver_two_equal_phases_are_one_run() {
     for (contact, more) in cases {
         let plain = format!("{OPERATION}pinion_revolutions = 4e5\nsnapshots_revolutions = [2e5, 4e5]\n");
         let plain = run(&scene(&plain, contact, 2e-17, more));
-        let two = format!("{OPERATION}snapshots_revolutions = [2e5, 4e5]\n{}", phases(&[half, half]));
+        let two = format!("{OPERATION}snapshots_revolutions = [2e5, 4e5]\n{}", sliced_positions(&[half, half]));
         let two = run(&scene(&two, contact, 2e-17, more));
         assert_eq!(two.summary.work.wear_steps, plain.summary.work.wear_steps, "{contact} {more}");
         let wear = |record: &RunRecord| record.flanks.pinion.wear_um.clone();
@@ -94,7 +94,7 @@ fn ver_phases_of_different_loads_on_finite_elements() {
         let each = torques.iter().map(|torque| format!("pinion_revolutions = 1e5\npinion_torque_Nm = {torque:?}"));
         let each: Vec<String> = each.collect();
         let each: Vec<&str> = each.iter().map(String::as_str).collect();
-        run(&scene(&format!("{OPERATION}{}", phases(&each)), "surface = \"fem\"", 2e-17, fem))
+        run(&scene(&format!("{OPERATION}{}", sliced_positions(&each)), "surface = \"fem\"", 2e-17, fem))
             .summary
             .pinion
             .peak_wear_um
@@ -163,7 +163,7 @@ fn val_each_phase_has_the_contact_of_its_own_load() {
 fn hours_over_phases_of_different_speed() {
     let operation = format!(
         "{OPERATION}hours = 15.0\nsnapshots_h = [5.0, 12.0]\n{}",
-        phases(&["hours = 10.0\npinion_speed_rpm = 100.0", "hours = 5.0\npinion_speed_rpm = 200.0"])
+        sliced_positions(&["hours = 10.0\npinion_speed_rpm = 100.0", "hours = 5.0\npinion_speed_rpm = 200.0"])
     );
     let record = run(&scene(&operation, WINKLER, 1e-18, ""));
     let rows: Vec<_> = record.history.iter().map(|row| (row.hours.unwrap(), row.revolutions, row.phase)).collect();
@@ -191,7 +191,7 @@ fn gearwear(command: &str, text: &str, more: &[&str]) -> (Output, tempfile::Temp
 fn tables_page_and_plan_show_the_phases() {
     let operation = format!(
         "{OPERATION}{}",
-        phases(&["pinion_revolutions = 20000\npinion_torque_Nm = 100.0", "pinion_revolutions = 10000"])
+        sliced_positions(&["pinion_revolutions = 20000\npinion_torque_Nm = 100.0", "pinion_revolutions = 10000"])
     );
     let text = scene(&operation, WINKLER, 1e-17, "");
     let (output, folder) = gearwear("run", &text, &["--out", "out"]);
@@ -214,7 +214,8 @@ fn tables_page_and_plan_show_the_phases() {
 /// Commands that look at one load say so.
 #[test]
 fn commands_of_one_load_warn() {
-    let operation = format!("{OPERATION}{}", phases(&["pinion_revolutions = 20000\npinion_torque_Nm = 100.0"]));
+    let operation =
+        format!("{OPERATION}{}", sliced_positions(&["pinion_revolutions = 20000\npinion_torque_Nm = 100.0"]));
     let (output, _folder) = gearwear("mesh", &scene(&operation, WINKLER, 1e-17, ""), &["--out", "pair.msh"]);
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.success(), "{said}");
@@ -259,7 +260,7 @@ fn what_is_refused() {
     // Snapshots beyond the last phase.
     refused(with("snapshots_h = [1.0, 5.0]", &two), &["operation.snapshots_h[1]: found 5", "up to the duration, 3"]);
     // Hours without a speed.
-    let slow = format!("pinion_torque_Nm = 302.0\n{}", phases(&["hours = 1.0"]));
+    let slow = format!("pinion_torque_Nm = 302.0\n{}", sliced_positions(&["hours = 1.0"]));
     refused(slow, &["operation.pinion_speed_rpm is missing", "operation.phases[0].hours needs the speed"]);
 }
 

@@ -4,7 +4,7 @@ mod common;
 
 use common::{Scene, assert_close, fzg_c, fzg_c_scene, pair, steel};
 use gearwear::contact::{
-    edge_bed::EdgeBeds,
+    edge_foundation::EdgeFoundations,
     foundation::{FoundationCurve, half_width_mm, matched_mpa_per_mm},
     hertz,
     settings::MatchCriterion,
@@ -336,7 +336,7 @@ fn ver_beds_at_edges_are_hertzs_where_no_edge_is() {
         reference_line_load_n_per_mm: load,
     };
     for criterion in [MatchCriterion::HalfWidth, MatchCriterion::PeakPressure] {
-        let beds = EdgeBeds::new(&pair, &steel(), load, criterion, &approach);
+        let beds = EdgeFoundations::new(&pair, &steel(), load, criterion, &approach);
         let springs = beds.at(at).unwrap();
         for load in [0.3 * load, load] {
             let expected = matched_mpa_per_mm(criterion, &flattening, load);

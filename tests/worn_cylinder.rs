@@ -5,7 +5,7 @@ mod common;
 use common::{assert_close, steel};
 use gearwear::contact::{
     ContactSurface, Flanks, PositionCell,
-    foundation::{Bed, matched_mpa_per_mm},
+    foundation::{WinklerFoundation, matched_mpa_per_mm},
     half_space::HalfSpace,
     hertz,
     settings::MatchCriterion,
@@ -142,14 +142,14 @@ fn val_a_flat_wears_a_cylinder_on_winklers_bed() {
     let load = CYLINDER.line_load_n_per_mm;
     let at = hertz::flattening(&CylinderOnFlat, &steel(), 0.0);
     let bed = matched_mpa_per_mm(MatchCriterion::HalfWidth, &at, load);
-    let surface = Winkler { bed: Bed::Uniform { mpa_per_mm: bed }, expected_line_load_n_per_mm: load };
+    let surface = Winkler { bed: WinklerFoundation::Uniform { mpa_per_mm: bed }, expected_line_load_n_per_mm: load };
     let unworn = at.contact.loaded(load).half_width_mm;
     let stages = wear(&surface, unworn, 8.0, 60.0, bed);
     let mut late = 0;
     for stage in &stages {
         let Stage { sliding_mm, half_width_mm, worn_area_mm2, middle_mpa } = *stage;
         let at = format!("after {sliding_mm:.3e} mm");
-        assert_close(&format!("{at}, bed"), half_width_mm, CYLINDER.half_width_on_bed_mm(sliding_mm, bed), 5e-3);
+        assert_close(&format!("{at}, bed"), half_width_mm, CYLINDER.half_width_on_foundation_mm(sliding_mm, bed), 5e-3);
         if sliding_mm > 0.0 {
             assert_close(&format!("{at}, area"), worn_area_mm2, CYLINDER.worn_area_mm2(sliding_mm), 1e-3);
         }

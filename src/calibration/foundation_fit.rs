@@ -7,7 +7,7 @@
 //! ```
 //!
 //! by least squares over the fitted loads. Hertz has m = ½ for half-width and peak pressure, whatever the position. One
-//! K/H meets one criterion: a bed that has the half-width of an elliptic pressure peaks 3π/8 = 1.178 times as high, one
+//! K/H meets one criterion: a foundation that has the half-width of an elliptic pressure peaks 3π/8 = 1.178 times as high, one
 //! that has its peak is 1.178 times as wide, and the approach of either is about a third of the true one. Every row
 //! therefore reports all three.
 
@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 use super::single_contact::{Purpose, SingleContact, Touch};
 use crate::contact::{foundation::FoundationCurve, settings::MatchCriterion};
 
-/// The fitted bed against finite elements at one position and load; errors relative to finite elements.
+/// The fitted foundation against finite elements at one position and load; errors relative to finite elements.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FitRow {
@@ -34,7 +34,7 @@ pub struct FitRow {
     pub hertz_mpa_per_mm: f64,
     /// K/H of the curve, MPa/mm.
     pub curve_mpa_per_mm: f64,
-    /// Half-width of the bed over that of finite elements, less 1.
+    /// Half-width of the foundation over that of finite elements, less 1.
     pub half_width_error: f64,
     /// The same of the peak pressure.
     pub peak_pressure_error: f64,
@@ -171,7 +171,7 @@ pub fn all(
 fn row(criterion: MatchCriterion, curve: &FoundationCurve, contact: &SingleContact) -> FitRow {
     let (w, radius, fem) = (contact.line_load_n_per_mm, contact.relative_radius_mm, &contact.fem);
     let curve_mpa_per_mm = curve.at_mpa_per_mm(contact.position_mm, w);
-    let bed = Touch::of_bed(curve_mpa_per_mm, radius, w);
+    let foundation = Touch::of_foundation(curve_mpa_per_mm, radius, w);
     FitRow {
         position_mm: contact.position_mm,
         line_load_n_per_mm: w,
@@ -179,9 +179,9 @@ fn row(criterion: MatchCriterion, curve: &FoundationCurve, contact: &SingleConta
         fem_mpa_per_mm: contact.mpa_per_mm(criterion),
         hertz_mpa_per_mm: contact.hertz_mpa_per_mm(criterion),
         curve_mpa_per_mm,
-        half_width_error: bed.half_width_mm / fem.half_width_mm - 1.0,
-        peak_pressure_error: bed.peak_pressure_mpa / fem.peak_pressure_mpa - 1.0,
-        approach_error: bed.approach_mm / fem.approach_mm - 1.0,
+        half_width_error: foundation.half_width_mm / fem.half_width_mm - 1.0,
+        peak_pressure_error: foundation.peak_pressure_mpa / fem.peak_pressure_mpa - 1.0,
+        approach_error: foundation.approach_mm / fem.approach_mm - 1.0,
     }
 }
 

@@ -6,19 +6,19 @@
 //! | [`bodies`] | the pair's stiffness at C as resolution, rim and neighbours change |
 //! | [`tooth_family`], [`course`] | the same as families of curves: by number of teeth, and over the path |
 //! | [`single_contact`] | the pair alone in contact: half-width, peak pressure, approach by position and load |
-//! | [`foundation_fit`] | K/H as a curve that a Winkler bed can use, with its error where it was not fitted |
+//! | [`foundation_fit`] | K/H as a curve that a Winkler foundation can use, with its error where it was not fitted |
 //! | [`wear_reference`] | what one mesh of unworn flanks wears |
 //! | [`identity`], [`mod@file`] | what the calibration belongs to, and the file it is kept in |
 //!
 //! Everything is per mm of face width, elastic, without friction, in plane strain.
 
 pub mod bodies;
-pub mod course;
 pub mod file;
 pub mod foundation_fit;
 pub mod identity;
 pub mod loaded_tooth;
 pub mod single_contact;
+pub mod stiffness_variation;
 pub mod tooth_family;
 pub mod tooth_stiffness;
 pub mod wear_reference;
@@ -28,10 +28,10 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use self::bodies::{NeighbourRow, ResolutionRow, RimRow};
-use self::course::Course;
 use self::foundation_fit::FoundationFit;
 use self::identity::Identity;
 use self::single_contact::SingleContact;
+use self::stiffness_variation::StiffnessVariation;
 use self::tooth_family::FamilyMember;
 use self::tooth_stiffness::{LoadedPair, PairDeflection};
 use self::wear_reference::WearReference;
@@ -118,7 +118,7 @@ pub struct Calibration {
     /// Deflection by number of teeth and height of the load.
     pub family: Vec<FamilyMember>,
     /// How the stiffness varies over the path.
-    pub courses: Vec<Course>,
+    pub courses: Vec<StiffnessVariation>,
     /// What one mesh of unworn flanks wears.
     pub wear_reference: Vec<WearReference>,
 }

@@ -85,14 +85,14 @@ pub struct Touch {
 }
 
 impl Touch {
-    /// A Winkler bed of stiffness K/H under w on a gap of radius R: a³ = 3wR/(2 K/H), p₀ = (K/H) a²/2R, δ = a²/2R.
-    pub fn of_bed(mpa_per_mm: f64, relative_radius_mm: f64, line_load_n_per_mm: f64) -> Self {
+    /// A Winkler foundation of stiffness K/H under w on a gap of radius R: a³ = 3wR/(2 K/H), p₀ = (K/H) a²/2R, δ = a²/2R.
+    pub fn of_foundation(mpa_per_mm: f64, relative_radius_mm: f64, line_load_n_per_mm: f64) -> Self {
         let half_width_mm = (1.5 * line_load_n_per_mm * relative_radius_mm / mpa_per_mm).cbrt();
         let approach_mm = half_width_mm * half_width_mm / (2.0 * relative_radius_mm);
         Self { half_width_mm, peak_pressure_mpa: mpa_per_mm * approach_mm, approach_mm }
     }
 
-    /// K/H of the bed that shares with this contact what `criterion` says.
+    /// K/H of the foundation that shares with this contact what `criterion` says.
     ///
     /// ```text
     /// half-width K/H = 3wR/(2a³)   peak pressure K/H = 32 R p₀³/(9 w²)   approach K/H = 3wR/(2 (2Rδ)^{3/2})
@@ -125,7 +125,7 @@ impl SingleContact {
 }
 
 /// A position to be solved, and whether the fit is made on it.
-struct Place {
+struct SolvedPosition {
     position_mm: f64,
     fitted: bool,
 }
@@ -148,16 +148,16 @@ pub fn solve(
     Ok(solved.into_iter().flatten().collect())
 }
 
-fn places(loaded: &LoadedPair<'_>, reference_n_per_mm: f64) -> Result<Vec<Place>, CalibrationError> {
+fn places(loaded: &LoadedPair<'_>, reference_n_per_mm: f64) -> Result<Vec<SolvedPosition>, CalibrationError> {
     let line_load_n_per_mm = FITTED_LOADS[0] * reference_n_per_mm;
     let path = &loaded.pair.path;
     let (low, high) = loaded
         .clear_of_the_edges_mm(line_load_n_per_mm, CLEAR)
         .ok_or(CalibrationError::NoClearPosition { line_load_n_per_mm })?;
-    let held_out = |position_mm| Place { position_mm, fitted: false };
-    let mut places: Vec<Place> = [path.start_mm, 0.5 * (path.start_mm + low)].map(held_out).into();
+    let held_out = |position_mm| SolvedPosition { position_mm, fitted: false };
+    let mut places: Vec<SolvedPosition> = [path.start_mm, 0.5 * (path.start_mm + low)].map(held_out).into();
     for (k, position_mm) in evenly(low, high, 2 * FITTED_POSITIONS - 1).into_iter().enumerate() {
-        places.push(Place { position_mm, fitted: k % 2 == 0 });
+        places.push(SolvedPosition { position_mm, fitted: k % 2 == 0 });
     }
     places.extend([0.5 * (path.end_mm + high), path.end_mm].map(held_out));
     Ok(places)
@@ -166,7 +166,7 @@ fn places(loaded: &LoadedPair<'_>, reference_n_per_mm: f64) -> Result<Vec<Place>
 fn at_all_loads(
     condensed: &CondensedPair<'_>,
     loaded: &LoadedPair<'_>,
-    place: &Place,
+    place: &SolvedPosition,
     reference_n_per_mm: f64,
 ) -> Result<Vec<SingleContact>, CalibrationError> {
     let position_mm = place.position_mm;

@@ -48,7 +48,7 @@ pub fn resume(scene: Option<&Path>, out: &Path) -> Result<Option<BegunRun>, Fail
     }
     let (mut scene, identity) = named_as_copied(LoadedScene::open(scene.unwrap_or(&own))?);
     report::writable(out)?;
-    let contents = folder::look(out, &identity, &scene.resolved.scene_hash())
+    let contents = folder::contents(out, &identity, &scene.resolved.scene_hash())
         .map_err(|error| InputError::Resume(Box::new(error)))?;
     match contents {
         Contents::Nothing | Contents::Begun => begin_anew(scene, identity, out).map(Some),

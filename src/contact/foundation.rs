@@ -1,6 +1,6 @@
 //! The stiffness K/H of an elastic (Winkler) foundation, matched to Hertz in one respect.
 //!
-//! On a bed of independent springs a parabolic gap x²/2R under line load w gives a parabolic pressure:
+//! On a foundation of independent springs a parabolic gap x²/2R under line load w gives a parabolic pressure:
 //!
 //! ```text
 //! a³ = 3 w R / (2 K/H)       p₀ = (K/H) a²/(2R)       δ = a²/(2R)
@@ -20,11 +20,11 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use super::edge_bed::{EdgeBeds, EdgeSprings};
+use super::edge_foundation::{EdgeFoundations, EdgeStiffness};
 use super::settings::MatchCriterion;
 use crate::reference::flattening::Flattening;
 
-/// K/H in MPa/mm that makes the bed agree with `hertz` under `line_load_n_per_mm`.
+/// K/H in MPa/mm that makes the foundation agree with `hertz` under `line_load_n_per_mm`.
 pub fn matched_mpa_per_mm(criterion: MatchCriterion, hertz: &Flattening, line_load_n_per_mm: f64) -> f64 {
     let (w, radius) = (line_load_n_per_mm, hertz.contact.relative_radius_mm());
     let a_hertz = hertz.contact.loaded(w).half_width_mm;
@@ -36,9 +36,9 @@ pub fn matched_mpa_per_mm(criterion: MatchCriterion, hertz: &Flattening, line_lo
     1.5 * w * radius / a_bed.powi(3)
 }
 
-/// The springs of a bed: one K/H everywhere, or a curve of it.
+/// The springs of a foundation: one K/H everywhere, or a curve of it.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Bed {
+pub enum WinklerFoundation {
     /// The same K/H at every position and load.
     Uniform {
         /// K/H, MPa/mm.
@@ -48,24 +48,24 @@ pub enum Bed {
     Curve {
         /// What the pressure spreads by.
         pressure: FoundationCurve,
-        /// The bed with the approach of the elastic bodies.
+        /// The foundation with the approach of the elastic bodies.
         approach: FoundationCurve,
         /// Where tip edges touch, if they are followed into contact.
-        edges: Option<EdgeBeds>,
+        edges: Option<EdgeFoundations>,
     },
 }
 
-impl Bed {
-    /// The springs at one position that have the approach of the elastic bodies, where the bed knows them.
-    pub fn approach_at(&self, position_mm: f64) -> Option<Springs> {
+impl WinklerFoundation {
+    /// The springs at one position that have the approach of the elastic bodies, where the foundation knows them.
+    pub fn approach_at(&self, position_mm: f64) -> Option<FoundationStiffness> {
         match self {
             Self::Uniform { .. } => None,
             Self::Curve { approach, .. } => Some(approach.springs_at(position_mm)),
         }
     }
 
-    /// The springs at one position where a tip edge touches, if the bed knows them.
-    pub fn at_edge(&self, position_mm: f64) -> Option<EdgeSprings> {
+    /// The springs at one position where a tip edge touches, if the foundation knows them.
+    pub fn at_edge(&self, position_mm: f64) -> Option<EdgeStiffness> {
         match self {
             Self::Curve { edges: Some(edges), .. } => edges.at(position_mm),
             _ => None,
@@ -73,9 +73,11 @@ impl Bed {
     }
 
     /// The springs at one position.
-    pub fn at(&self, position_mm: f64) -> Springs {
+    pub fn at(&self, position_mm: f64) -> FoundationStiffness {
         match self {
-            Self::Uniform { mpa_per_mm } => Springs { mpa_per_mm: *mpa_per_mm, load_exponent: 0.0, reference: 1.0 },
+            Self::Uniform { mpa_per_mm } => {
+                FoundationStiffness { mpa_per_mm: *mpa_per_mm, load_exponent: 0.0, reference: 1.0 }
+            }
             Self::Curve { pressure, .. } => pressure.springs_at(position_mm),
         }
     }
@@ -83,7 +85,7 @@ impl Bed {
 
 /// The springs at one position: K/H = K (w/w_ref)^(−m), all alike, softer under more load where m > 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Springs {
+pub struct FoundationStiffness {
     /// K, MPa/mm.
     mpa_per_mm: f64,
     /// m.
@@ -92,7 +94,7 @@ pub struct Springs {
     reference: f64,
 }
 
-impl Springs {
+impl FoundationStiffness {
     /// K = `mpa_per_mm` at w_ref = `reference`, and m.
     pub(super) fn new(mpa_per_mm: f64, load_exponent: f64, reference: f64) -> Self {
         Self { mpa_per_mm, load_exponent, reference }
@@ -140,7 +142,7 @@ impl Springs {
     }
 }
 
-/// Half-width of a bed of stiffness `foundation_mpa_per_mm` against a parabolic gap of radius `radius_mm`.
+/// Half-width of a foundation of stiffness `foundation_mpa_per_mm` against a parabolic gap of radius `radius_mm`.
 pub fn half_width_mm(foundation_mpa_per_mm: f64, radius_mm: f64, line_load_n_per_mm: f64) -> f64 {
     (1.5 * line_load_n_per_mm * radius_mm / foundation_mpa_per_mm).cbrt()
 }
@@ -172,14 +174,14 @@ impl FoundationCurve {
     }
 
     /// The springs at one position.
-    pub(super) fn springs_at(&self, position_mm: f64) -> Springs {
+    pub(super) fn springs_at(&self, position_mm: f64) -> FoundationStiffness {
         let count = self.position_mm.len();
         let after = self.position_mm.partition_point(|&p| p <= position_mm).min(count - 1);
         let before = after.saturating_sub(1);
         let (low, high) = (self.position_mm[before], self.position_mm[after]);
         let weight = if high > low { ((position_mm - low) / (high - low)).clamp(0.0, 1.0) } else { 0.0 };
         let between = |low: f64, high: f64| low + weight * (high - low);
-        Springs {
+        FoundationStiffness {
             mpa_per_mm: between(self.mpa_per_mm[before].ln(), self.mpa_per_mm[after].ln()).exp(),
             load_exponent: between(self.load_exponent[before], self.load_exponent[after]),
             reference: self.reference_line_load_n_per_mm,
@@ -192,7 +194,7 @@ mod tests {
     use super::*;
     use crate::reference::{flattening::Body, hertz_line::HertzLine};
 
-    /// Each criterion holds, checked through the bed's own closed form.
+    /// Each criterion holds, checked through the foundation's own closed form.
     #[test]
     fn ver_each_match_meets_hertz_in_its_respect() {
         let body = Body { young_modulus_mpa: 206e3, poisson_ratio: 0.3, depth_mm: 3.9 };
@@ -200,20 +202,20 @@ mod tests {
         let hertz = Flattening { contact: HertzLine::new([13.97, 20.96], modulus).unwrap(), bodies: [body; 2] };
         let (w, radius) = (637.66, hertz.contact.relative_radius_mm());
         let strip = hertz.contact.loaded(w);
-        let bed = |criterion| {
+        let foundation = |criterion| {
             let k = matched_mpa_per_mm(criterion, &hertz, w);
             let a = half_width_mm(k, radius, w);
             (k, a, k * a * a / (2.0 * radius), a * a / (2.0 * radius))
         };
-        let (k, a, p, _) = bed(MatchCriterion::HalfWidth);
+        let (k, a, p, _) = foundation(MatchCriterion::HalfWidth);
         assert!((a / strip.half_width_mm - 1.0).abs() < 1e-12);
         assert!((k * a / modulus - 3.0 * PI / 8.0).abs() < 1e-12);
         // The price of the match on half-width: peak pressure 3π/8 = 1.178 times Hertz's.
         assert!((p / strip.peak_pressure_mpa - 3.0 * PI / 8.0).abs() < 1e-12);
-        let (k, _, p, _) = bed(MatchCriterion::PeakPressure);
+        let (k, _, p, _) = foundation(MatchCriterion::PeakPressure);
         assert!((p / strip.peak_pressure_mpa - 1.0).abs() < 1e-12);
         assert!((k * strip.half_width_mm / modulus - 0.7205).abs() < 1e-4);
-        let (_, _, _, approach) = bed(MatchCriterion::Approach);
+        let (_, _, _, approach) = foundation(MatchCriterion::Approach);
         assert!((approach / hertz.approach_mm(w) - 1.0).abs() < 1e-12);
     }
 
@@ -243,16 +245,16 @@ mod tests {
     #[test]
     fn ver_the_load_of_softening_springs_needs_no_iteration() {
         for position in [4.0, 9.0, 20.0, 24.0] {
-            let springs = Bed::Curve { pressure: curve(), approach: curve(), edges: None }.at(position);
+            let stiffness = WinklerFoundation::Curve { pressure: curve(), approach: curve(), edges: None }.at(position);
             // A parabola of radius R penetrated by δ: U = (4/3) δ √(2Rδ), U' = 2 √(2Rδ).
             let of_depth = |depth: f64| {
                 let half_width = (2.0 * 8.4 * depth).sqrt();
-                (springs.load_and_stiffness(4.0 / 3.0 * depth * half_width, 2.0 * half_width), half_width)
+                (stiffness.load_and_stiffness(4.0 / 3.0 * depth * half_width, 2.0 * half_width), half_width)
             };
             let ((load, stiffness), half_width) = of_depth(4e-3);
-            let k = springs.mpa_per_mm(load);
+            let k = stiffness.mpa_per_mm(load);
             assert!((load / (k * 4.0 / 3.0 * 4e-3 * half_width) - 1.0).abs() < 1e-12);
-            assert!((springs.half_width_mm(8.4, load) / half_width - 1.0).abs() < 1e-12);
+            assert!((stiffness.half_width_mm(8.4, load) / half_width - 1.0).abs() < 1e-12);
             let slope = (of_depth(4e-3 + 1e-8).0.0 - of_depth(4e-3 - 1e-8).0.0) / 2e-8;
             assert!((stiffness / slope - 1.0).abs() < 1e-6);
         }

@@ -17,7 +17,7 @@ pub struct GapAtPoints {
     geometric_gap_mm: Vec<f64>,
     mate: Interpolation,
     /// How the gap of each point changes within the cell.
-    course: Vec<Course>,
+    course: Vec<GapWhilePassing>,
     growth: Vec<Growth>,
 }
 
@@ -25,7 +25,7 @@ pub struct GapAtPoints {
 ///
 /// At `x` along the tangent from where the point is at the cell's position, its gap has grown by slope · x + x²/(2R).
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Course {
+struct GapWhilePassing {
     /// Where the point begins to face the mate within the cell, or the cell begins; the lower of both ends, mm.
     from_mm: f64,
     /// Where that ends; the upper of both ends, mm.
@@ -35,7 +35,7 @@ struct Course {
     curvature: f64,
 }
 
-/// What the usual cases, a point in contact over its whole [`Course`] or nowhere on it, need of it.
+/// What the usual cases, a point in contact over its whole [`GapWhilePassing`] or nowhere on it, need of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Growth {
     /// Of the gap at both ends, mm.
@@ -52,7 +52,7 @@ pub struct FacedGap<'a> {
     /// Gap at the cell's position, mm.
     pub gap_mm: f64,
     growth: &'a Growth,
-    course: &'a Course,
+    course: &'a GapWhilePassing,
 }
 
 impl FacedGap<'_> {
@@ -78,7 +78,7 @@ impl FacedGap<'_> {
     }
 }
 
-impl Course {
+impl GapWhilePassing {
     fn growth(&self) -> Growth {
         Growth {
             at_ends_mm: [self.growth_at(self.from_mm), self.growth_at(self.to_mm)],
@@ -140,7 +140,7 @@ impl GapAtPoints {
         // what differences and a constant curvature miss would drown in the narrow contact of a light load. Nowhere do they dip
         // into each other.
         let bottoms_out = |k: usize| (2.0 * geometric_gap_mm[k + 1].max(0.0) * curvature).sqrt();
-        let (course, growth): (Vec<Course>, Vec<Growth>) = shifts
+        let (course, growth): (Vec<GapWhilePassing>, Vec<Growth>) = shifts
             .iter()
             .enumerate()
             .map(|(k, [begin, end])| {
@@ -148,13 +148,13 @@ impl GapAtPoints {
                 let along = points.at[k + 1].along_mm;
                 let slack = SLACK * (to_mm - from_mm);
                 let passed = (from_mm - slack..=to_mm + slack).contains(&-along);
-                let by_differences = Course { from_mm, to_mm, slope: slope(k), curvature };
+                let by_differences = GapWhilePassing { from_mm, to_mm, slope: slope(k), curvature };
                 let growth = by_differences.growth();
                 let dips = geometric_gap_mm[k + 1] + growth.least_mm < 0.0;
                 if !(passed || dips) {
                     return (by_differences, growth);
                 }
-                let course = Course { slope: bottoms_out(k).copysign(along), ..by_differences };
+                let course = GapWhilePassing { slope: bottoms_out(k).copysign(along), ..by_differences };
                 (course, course.growth())
             })
             .unzip();

@@ -22,7 +22,7 @@
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), sections 2.5 and 5.9.
 
 use super::{
-    ContactSurface, Effort, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
+    ContactSurface, Effort, Flanks, Footprint, PairContact, PointContact, PositionCell, Response, Sweep,
     elastic_cells::ElasticCells,
     hertz,
     settings::Material,
@@ -62,7 +62,7 @@ impl ContactSurface for HalfSpace {
     fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
         let flattening = hertz::flattening(flanks.geometry, &self.material, position_mm);
         let half_width = flattening.contact.loaded(self.expected_line_load_n_per_mm).half_width_mm;
-        let site = Site {
+        let stretch = ObservedStretch {
             flanks,
             position_mm,
             cell,
@@ -71,9 +71,9 @@ impl ContactSurface for HalfSpace {
             half_window_mm: FIRST_WINDOW * half_width,
         };
         Box::new(HalfSpacePair {
-            look: site.look(),
-            first_half_window_mm: site.half_window_mm,
-            site,
+            sampled: stretch.sample(),
+            first_half_window_mm: stretch.half_window_mm,
+            stretch,
             samples: Vec::new(),
             gap: Vec::new(),
             touch: 0.0,
@@ -100,7 +100,7 @@ impl HalfSpace {
 }
 
 /// Where a pair is, and how much of its flanks it looks at.
-struct Site<'a> {
+struct ObservedStretch<'a> {
     flanks: Flanks<'a>,
     position_mm: f64,
     cell: Option<PositionCell>,
@@ -110,14 +110,14 @@ struct Site<'a> {
 }
 
 /// What is seen through a window.
-struct Look {
+struct SampledStretch {
     strip: Strip,
     cells: ElasticCells,
     swept: SweptField,
 }
 
-impl Site<'_> {
-    fn look(&self) -> Look {
+impl ObservedStretch<'_> {
+    fn sample(&self) -> SampledStretch {
         let window = Window::new(self.flanks, self.position_mm, self.half_window_mm);
         let widest = self.cell_mm.max(window.length_mm() / MOST_CELLS);
         let count = ((window.length_mm() / widest).ceil() as usize).max(LEAST_CELLS);
@@ -125,16 +125,16 @@ impl Site<'_> {
         let width = 2.0 * strip.spacing_mm;
         let compliance = cell_compliance_mm_per_mpa(&self.flattening.bodies, width, count);
         let swept = SweptField::new(self.flanks, window, width, self.cell);
-        Look { strip, cells: ElasticCells::new(width, compliance), swept }
+        SampledStretch { strip, cells: ElasticCells::new(width, compliance), swept }
     }
 }
 
 /// One tooth pair on half-planes.
 struct HalfSpacePair<'a> {
-    site: Site<'a>,
+    stretch: ObservedStretch<'a>,
     /// Half-length of the window before it was ever too short.
     first_half_window_mm: f64,
-    look: Look,
+    sampled: SampledStretch,
     /// Real gap at the cells' boundaries and centres, mm.
     samples: Vec<f64>,
     /// Real gap of each cell less the least of them, mm.
@@ -144,11 +144,11 @@ struct HalfSpacePair<'a> {
 }
 
 impl PairContact for HalfSpacePair<'_> {
-    fn read(&mut self, removed_mm: PerGear<&[f64]>) {
-        let Look { strip, cells, .. } = &mut self.look;
+    fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
+        let SampledStretch { strip, cells, .. } = &mut self.sampled;
         strip.gap_mm(removed_mm, &mut self.samples);
         // What the weights add to the parabola at the centre: Δ²/16R.
-        let rise = strip.spacing_mm.powi(2) / (4.0 * self.site.flattening.contact.relative_radius_mm());
+        let rise = strip.spacing_mm.powi(2) / (4.0 * self.stretch.flattening.contact.relative_radius_mm());
         let of_cell = |ends: &[f64]| 0.25 * (ends[0] + ends[2]) + 0.5 * ends[1] - rise;
         self.gap.clear();
         self.gap.extend(self.samples.windows(3).step_by(2).map(of_cell));
@@ -156,24 +156,24 @@ impl PairContact for HalfSpacePair<'_> {
         // From the first touch on, nothing is lost where a light load meets a deep relief.
         self.gap.iter_mut().for_each(|gap| *gap -= touch);
         self.touch = touch;
-        cells.read(&self.gap);
+        cells.set_gap(&self.gap);
     }
 
     fn touch_mm(&self) -> f64 {
         self.touch
     }
 
-    fn press(&mut self, depth_mm: f64) -> Response {
-        self.look.cells.press(depth_mm)
+    fn load_at(&mut self, indentation_mm: f64) -> Response {
+        self.sampled.cells.load_at(indentation_mm)
     }
 
-    fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64 {
+    fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64 {
         // At a tip edge half of the strip carries the load, as if it were twice as large.
-        self.site.flattening.approach_mm(2.0 * line_load_n_per_mm)
+        self.stretch.flattening.approach_mm(2.0 * line_load_n_per_mm)
     }
 
-    fn settle(&mut self) -> bool {
-        let Look { strip, cells, swept } = &mut self.look;
+    fn window_suffices(&mut self) -> bool {
+        let SampledStretch { strip, cells, swept } = &mut self.sampled;
         swept.field.fill(|pressure| cells.pressure_mpa(pressure));
         let pressure = swept.field.cells_mpa();
         let free = |end: &[f64]| end.iter().all(|p| *p == 0.0);
@@ -183,29 +183,29 @@ impl PairContact for HalfSpacePair<'_> {
     }
 
     fn widen(&mut self) {
-        self.site.half_window_mm *= 1.5;
-        self.look = self.site.look();
+        self.stretch.half_window_mm *= 1.5;
+        self.sampled = self.stretch.sample();
     }
 
-    fn forget(&mut self) {
-        if self.site.half_window_mm != self.first_half_window_mm {
-            self.site.half_window_mm = self.first_half_window_mm;
-            self.look = self.site.look();
+    fn reset(&mut self) {
+        if self.stretch.half_window_mm != self.first_half_window_mm {
+            self.stretch.half_window_mm = self.first_half_window_mm;
+            self.sampled = self.stretch.sample();
         }
-        self.look.cells.forget();
+        self.sampled.cells.reset();
     }
 
     fn sweep(&self, gear: Gear, _removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
-        self.look.swept.sweep(gear, sweep);
+        self.sampled.swept.sweep(gear, sweep);
     }
 
-    fn felt(&self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Vec<Felt> {
-        self.look.swept.felt(gear)
+    fn contact_of_points(&self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Vec<PointContact> {
+        self.sampled.swept.contact_of_points(gear)
     }
 
     fn footprint(&self) -> Footprint {
-        let field = &self.look.swept.field;
+        let field = &self.sampled.swept.field;
         let at_ends = [field.cells_mpa().first(), field.cells_mpa().last()].map(|end| end.is_some_and(|p| *p > 0.0));
-        Footprint { at_sharp_edge: self.look.strip.window.is_sharp_where(at_ends), ..field.footprint() }
+        Footprint { at_sharp_edge: self.sampled.strip.window.is_sharp_where(at_ends), ..field.footprint() }
     }
 }

@@ -18,7 +18,7 @@
 use std::f64::consts::PI;
 
 use super::{
-    ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
+    ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, Response, Sweep,
     observed_points::ObservedPoints, settings::Material, strip::Window,
 };
 use crate::fem::elastic;
@@ -61,7 +61,7 @@ pub(super) struct ClosedFormPair<'a> {
     pub flattening: Flattening,
     /// Material removed at the theoretical contact point of both flanks together, mm.
     removed_mm: f64,
-    /// The load of the last depth pressed, N/mm.
+    /// The load of the last indentation, N/mm.
     pub line_load: f64,
 }
 
@@ -71,7 +71,7 @@ impl<'a> ClosedFormPair<'a> {
         Self { flanks, position_mm, flattening, removed_mm: 0.0, line_load: 0.0 }
     }
 
-    pub fn read(&mut self, removed_mm: PerGear<&[f64]>) {
+    pub fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
         let at_contact = |gear: Gear| {
             let coordinate = self.flanks.geometry.contact_coordinate_mm(gear, self.position_mm);
             self.flanks.grid[gear].value_at(removed_mm[gear], coordinate)
@@ -83,13 +83,13 @@ impl<'a> ClosedFormPair<'a> {
         self.removed_mm
     }
 
-    pub fn press(&mut self, depth_mm: f64) -> Response {
-        self.line_load = self.flattening.line_load_n_per_mm(depth_mm);
+    pub fn load_at(&mut self, indentation_mm: f64) -> Response {
+        self.line_load = self.flattening.line_load_n_per_mm(indentation_mm);
         let (_, compliance) = self.flattening.approach_and_compliance(self.line_load);
         Response { line_load_n_per_mm: self.line_load, stiffness_n_per_mm2: 1.0 / compliance }
     }
 
-    pub fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64 {
+    pub fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64 {
         self.flattening.approach_mm(line_load_n_per_mm)
     }
 }
@@ -136,23 +136,23 @@ struct HertzPair<'a> {
 }
 
 impl PairContact for HertzPair<'_> {
-    fn read(&mut self, removed_mm: PerGear<&[f64]>) {
-        self.closed_form.read(removed_mm);
+    fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
+        self.closed_form.set_removed(removed_mm);
     }
 
     fn touch_mm(&self) -> f64 {
         self.closed_form.touch_mm()
     }
 
-    fn press(&mut self, depth_mm: f64) -> Response {
-        self.closed_form.press(depth_mm)
+    fn load_at(&mut self, indentation_mm: f64) -> Response {
+        self.closed_form.load_at(indentation_mm)
     }
 
-    fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64 {
-        self.closed_form.ample_depth_mm(line_load_n_per_mm)
+    fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64 {
+        self.closed_form.ample_indentation_mm(line_load_n_per_mm)
     }
 
-    fn settle(&mut self) -> bool {
+    fn window_suffices(&mut self) -> bool {
         (self.strip_load, self.half_width_mm) = self.strip(self.closed_form.line_load);
         self.half_width_mm <= self.half_window_mm
     }
@@ -162,7 +162,7 @@ impl PairContact for HertzPair<'_> {
         self.look();
     }
 
-    fn forget(&mut self) {
+    fn reset(&mut self) {
         if self.half_window_mm != self.first_half_window_mm {
             self.half_window_mm = self.first_half_window_mm;
             self.look();
@@ -186,7 +186,7 @@ impl PairContact for HertzPair<'_> {
         }
     }
 
-    fn felt(&self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Vec<Felt> {
+    fn contact_of_points(&self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Vec<PointContact> {
         let Some(observed) = &self.observed else { return Vec::new() };
         let (points, shifts) = &observed[gear];
         let (a, ellipse) = (self.half_width_mm, self.closed_form.flattening.contact.loaded(self.strip_load));
@@ -195,11 +195,11 @@ impl PairContact for HertzPair<'_> {
             .map(|(point, shift)| {
                 let [low, high] = [shift[0].min(shift[1]), shift[0].max(shift[1])];
                 if self.strip_load <= 0.0 || low == high {
-                    return Felt::default();
+                    return PointContact::default();
                 }
                 let inside = |shift: f64| (point.along_mm + shift).clamp(-a, a);
                 let nearest_to_centre = 0.0_f64.clamp(point.along_mm + low, point.along_mm + high);
-                Felt {
+                PointContact {
                     pressure_mpa: ellipse.pressure_mpa(nearest_to_centre),
                     contact_fraction: (inside(high) - inside(low)) / (high - low),
                 }

@@ -14,7 +14,7 @@
 //! Source: S. Andersson (1975) and the thesis, section 3.4 and appendix 1 (papers A's comparison and E).
 
 use super::{
-    ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep, hertz::ClosedFormPair,
+    ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, Response, Sweep, hertz::ClosedFormPair,
     settings::Material,
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
@@ -78,20 +78,20 @@ struct HertzMeanPair<'a> {
 }
 
 impl PairContact for HertzMeanPair<'_> {
-    fn read(&mut self, removed_mm: PerGear<&[f64]>) {
-        self.closed_form.read(removed_mm);
+    fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
+        self.closed_form.set_removed(removed_mm);
     }
 
     fn touch_mm(&self) -> f64 {
         self.closed_form.touch_mm()
     }
 
-    fn press(&mut self, depth_mm: f64) -> Response {
-        self.closed_form.press(depth_mm)
+    fn load_at(&mut self, indentation_mm: f64) -> Response {
+        self.closed_form.load_at(indentation_mm)
     }
 
-    fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64 {
-        self.closed_form.ample_depth_mm(line_load_n_per_mm)
+    fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64 {
+        self.closed_form.ample_indentation_mm(line_load_n_per_mm)
     }
 
     fn sweep(&self, gear: Gear, _removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
@@ -107,9 +107,9 @@ impl PairContact for HertzMeanPair<'_> {
         false
     }
 
-    fn felt(&self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Vec<Felt> {
+    fn contact_of_points(&self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Vec<PointContact> {
         let points = self.passed.as_ref().map_or(0, |passed| passed[gear].specific_sliding.len());
-        vec![Felt { pressure_mpa: self.footprint().peak_pressure_mpa, contact_fraction: 1.0 }; points]
+        vec![PointContact { pressure_mpa: self.footprint().peak_pressure_mpa, contact_fraction: 1.0 }; points]
     }
 
     fn footprint(&self) -> Footprint {

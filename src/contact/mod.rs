@@ -11,7 +11,7 @@
 //! | [`hertz`] | Hertz's ellipse on the nominal curvature | closed-form flattening |
 //! | [`hertz_mean`] | Hertz's mean pressure, closed-form sliding | closed-form flattening |
 
-pub mod edge_bed;
+pub mod edge_foundation;
 pub mod elastic_cells;
 mod flank_motion;
 pub mod foundation;
@@ -67,7 +67,7 @@ pub struct PositionCell {
 pub struct Response {
     /// Load it carries, N per mm of face width.
     pub line_load_n_per_mm: f64,
-    /// Derivative of the load with respect to the depth, N/mm².
+    /// Derivative of the load with respect to the indentation, N/mm².
     pub stiffness_n_per_mm2: f64,
 }
 
@@ -95,7 +95,7 @@ impl Sweep {
 
 /// What an observer sees of one point of a [`Sweep`].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct Felt {
+pub struct PointContact {
     /// Greatest pressure while the contact moves through the cell and the point faces the other flank, MPa.
     pub pressure_mpa: f64,
     /// Part of the cell's sliding during which the point is in contact, 0 to 1.
@@ -115,30 +115,30 @@ pub struct Footprint {
 
 /// One tooth pair at one loading position.
 ///
-/// Order of use: [`read`](Self::read) the flanks, [`press`](Self::press) until the mesh cycle is in equilibrium,
-/// [`settle`](Self::settle), then [`sweep`](Self::sweep) and [`footprint`](Self::footprint) of the last approach pressed.
+/// Order of use: [`set_removed`](Self::set_removed) the flanks, [`load_at`](Self::load_at) until the mesh cycle is in equilibrium,
+/// [`window_suffices`](Self::window_suffices), then [`sweep`](Self::sweep) and [`footprint`](Self::footprint) of the last approach pressed.
 pub trait PairContact: Send {
     /// Takes the material removed at each flank point, mm.
-    fn read(&mut self, removed_mm: PerGear<&[f64]>);
+    fn set_removed(&mut self, removed_mm: PerGear<&[f64]>);
 
     /// Approach at which the flanks first touch: zero where they are unworn and unmodified.
     fn touch_mm(&self) -> f64;
 
-    /// Load and stiffness when the flanks are pressed together by `depth_mm` beyond their first touch.
-    fn press(&mut self, depth_mm: f64) -> Response;
+    /// Load and stiffness when the flanks are pressed together by `indentation_mm` beyond their first touch.
+    fn load_at(&mut self, indentation_mm: f64) -> Response;
 
-    /// Approach of the bodies under a line load beside the depth that is pressed, and its derivative by the load: what a model
+    /// Approach of the bodies under a line load beside the indentation, and its derivative by the load: what a model
     /// whose surface yields too little leaves out.
     fn further_approach_mm(&self, _line_load_n_per_mm: f64) -> (f64, f64) {
         (0.0, 0.0)
     }
 
-    /// A depth that should carry at least `line_load_n_per_mm`, to begin an iteration with.
-    fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64;
+    /// An indentation that should carry at least `line_load_n_per_mm`, to begin an iteration with.
+    fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64;
 
-    /// Told that the last depth pressed is the equilibrium; answers whether the stretch of flank this contact looks
+    /// Whether, at the last indentation, the stretch of flank this contact looks
     /// at holds all that touches then. If not, [`widen`](Self::widen) it, read and press again.
-    fn settle(&mut self) -> bool {
+    fn window_suffices(&mut self) -> bool {
         true
     }
 
@@ -147,7 +147,7 @@ pub trait PairContact: Send {
 
     /// Is again as it was when it was made: what it does then depends only on what it reads and how it is pressed from now on, to the
     /// bit. For contacts that keep something from one wear step to the next.
-    fn forget(&mut self) {}
+    fn reset(&mut self) {}
 
     /// Fills in what the points of a flank felt; nothing for a pair prepared without a [`PositionCell`].
     fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep);
@@ -159,7 +159,7 @@ pub trait PairContact: Send {
     }
 
     /// What each point of that [`Sweep`] felt, for an observer.
-    fn felt(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<Felt>;
+    fn contact_of_points(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<PointContact>;
 
     /// Extent and greatest pressure.
     fn footprint(&self) -> Footprint;

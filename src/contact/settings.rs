@@ -37,7 +37,7 @@ impl SurfaceKind {
     }
 }
 
-/// What a Winkler bed shares with Hertz at the pitch point under the whole load, or, calibrated, with the finite-element
+/// What a Winkler foundation shares with Hertz at the pitch point under the whole load, or, calibrated, with the finite-element
 /// contact everywhere.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]

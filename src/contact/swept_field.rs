@@ -10,7 +10,7 @@ use std::ops::Range;
 use super::flank_motion::{edge_under_load, on_tangent};
 use super::observed_points::ObservedPoints;
 use super::strip::Window;
-use super::{Felt, Flanks, PositionCell, Sweep, pressure_field::PressureField};
+use super::{Flanks, PointContact, PositionCell, Sweep, pressure_field::PressureField};
 use crate::gear::{Gear, PerGear};
 
 /// The field, and the points of both flanks that may feel it.
@@ -58,7 +58,7 @@ impl SweptField {
     }
 
     /// What each point of that [`Sweep`] felt.
-    pub fn felt(&self, gear: Gear) -> Vec<Felt> {
+    pub fn contact_of_points(&self, gear: Gear) -> Vec<PointContact> {
         let Some(observed) = &self.observed else { return Vec::new() };
         let (points, courses) = &observed[gear];
         let near = self.touching(gear, points);
@@ -66,11 +66,11 @@ impl SweptField {
         let near = points.at[1..][near.clone()].iter().zip(&courses[near]);
         near.map(|(point, course)| {
             let Some([begin, end]) = course.map(|course| course.map(|by| on_tangent(gear, point.along_mm + by))) else {
-                return Felt::default();
+                return PointContact::default();
             };
             let (low, high) = (begin.min(end), begin.max(end));
             let inside = high.min(upper) - low.max(lower);
-            Felt {
+            PointContact {
                 pressure_mpa: self.field.greatest_mpa([low, high]),
                 // One that stands is in contact all the time or not at all.
                 contact_fraction: if high > low { inside.max(0.0) / (high - low) } else { f64::from(inside >= 0.0) },

@@ -15,21 +15,21 @@
 //! exactly for the parabola that the point's penetration follows: so few positions suffice however narrow the contact,
 //! and load and wear agree.
 //!
-//! K/H is one constant, or a curve by position and load ([`Bed`]): it then is the same for all springs of a contact, and
-//! follows the load of the contact by a power law, which the load of the contact still solves in closed form. A bed with the
-//! half-width or the peak pressure of elastic bodies yields by a third or half as much as they do; a calibration knows the bed with
+//! K/H is one constant, or a curve by position and load ([`WinklerFoundation`]): it then is the same for all springs of a contact, and
+//! follows the load of the contact by a power law, which the load of the contact still solves in closed form. A foundation with the
+//! half-width or the peak pressure of elastic bodies yields by a third or half as much as they do; a calibration knows the foundation with
 //! their approach too, and what the one lacks of the other under a contact's load is added to the approach of the gears: flattening
 //! is softer under light load, where a tip edge begins to touch, and no spring of the teeth can stand for that. Where a tip edge does
-//! touch the gap has another curvature, and both follow from half-planes on that gap ([`edge_bed`](super::edge_bed)).
+//! touch the gap has another curvature, and both follow from half-planes on that gap ([`edge_foundation`](super::edge_foundation)).
 //!
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.3; the thesis, section 3.2.
 
 use std::ops::Range;
 
 use super::{
-    ContactSurface, Felt, Flanks, Footprint, PairContact, PositionCell, Response, Sweep,
-    edge_bed::EdgeSprings,
-    foundation::{Bed, Springs},
+    ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, Response, Sweep,
+    edge_foundation::EdgeStiffness,
+    foundation::{FoundationStiffness, WinklerFoundation},
     gap_at_points::GapAtPoints,
     observed_points::ObservedPoints,
     strip::{Strip, Window, least_removed_mm, point_distance_mm},
@@ -41,7 +41,7 @@ use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 #[derive(Debug, Clone, PartialEq)]
 pub struct Winkler {
     /// K/H.
-    pub bed: Bed,
+    pub foundation: WinklerFoundation,
     /// Load that the first window is cut for; a greater one only costs a widening, N/mm.
     pub expected_line_load_n_per_mm: f64,
 }
@@ -59,36 +59,42 @@ const LEAST_INTERVALS_AT_EDGE: usize = 200;
 impl ContactSurface for Winkler {
     fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
         let radius_mm = flanks.geometry.relative_radius_mm(position_mm);
-        let springs = self.bed.at(position_mm);
-        let half_width = springs.half_width_mm(radius_mm, self.expected_line_load_n_per_mm);
+        let stiffness = self.foundation.at(position_mm);
+        let half_width = stiffness.half_width_mm(radius_mm, self.expected_line_load_n_per_mm);
         let first_half_window_mm = FIRST_WINDOW * half_width;
-        let edge = self.bed.at_edge(position_mm);
-        let site = Site { flanks, position_mm, cell, half_window_mm: first_half_window_mm, at_edge: edge.is_some() };
-        let (strip, observed) = site.look();
-        let first_foundation = springs.mpa_per_mm(self.expected_line_load_n_per_mm);
+        let edge = self.foundation.at_edge(position_mm);
+        let stretch = ObservedStretch {
+            flanks,
+            position_mm,
+            cell,
+            half_window_mm: first_half_window_mm,
+            at_edge: edge.is_some(),
+        };
+        let (strip, observed) = stretch.sample();
+        let first_foundation = stiffness.mpa_per_mm(self.expected_line_load_n_per_mm);
         Box::new(WinklerPair {
-            springs,
-            bodies: self.bed.approach_at(position_mm),
+            stiffness,
+            bodies: self.foundation.approach_at(position_mm),
             edge,
             foundation: first_foundation,
             first_foundation,
             radius_mm,
             first_half_window_mm,
-            site,
+            stretch,
             strip,
             observed,
             gap: Vec::new(),
             touch: 0.0,
             removed_everywhere: 0.0,
-            depth: 0.0,
+            indentation_mm: 0.0,
             extent_mm: (0.0, 0.0),
         })
     }
 
     fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
         let radius = geometry.relative_radius_mm(position_mm);
-        let springs = self.bed.approach_at(position_mm).unwrap_or_else(|| self.bed.at(position_mm));
-        springs.approach_and_compliance(radius, line_load_n_per_mm).0
+        let stiffness = self.foundation.approach_at(position_mm).unwrap_or_else(|| self.foundation.at(position_mm));
+        stiffness.approach_and_compliance(radius, line_load_n_per_mm).0
     }
 }
 
@@ -102,7 +108,7 @@ enum Observed {
 }
 
 /// Where a pair is, and how much of its flanks it looks at.
-struct Site<'a> {
+struct ObservedStretch<'a> {
     flanks: Flanks<'a>,
     position_mm: f64,
     cell: Option<PositionCell>,
@@ -111,9 +117,9 @@ struct Site<'a> {
     at_edge: bool,
 }
 
-impl Site<'_> {
+impl ObservedStretch<'_> {
     /// Samples the flanks over the window.
-    fn look(&self) -> (Strip, Option<Observed>) {
+    fn sample(&self) -> (Strip, Option<Observed>) {
         let window = Window::new(self.flanks, self.position_mm, self.half_window_mm);
         let distance_mm = POINTS_PER_SAMPLE * point_distance_mm(self.flanks, self.position_mm);
         let least = if self.at_edge { LEAST_INTERVALS_AT_EDGE } else { LEAST_INTERVALS };
@@ -138,11 +144,11 @@ impl Site<'_> {
 
 /// One tooth pair on the foundation.
 struct WinklerPair<'a> {
-    springs: Springs,
+    stiffness: FoundationStiffness,
     /// The springs with the approach of the elastic bodies, where they are known.
-    bodies: Option<Springs>,
+    bodies: Option<FoundationStiffness>,
     /// The springs in place of both where a tip edge touches.
-    edge: Option<EdgeSprings>,
+    edge: Option<EdgeStiffness>,
     /// K/H under the last load, MPa/mm.
     foundation: f64,
     /// The same before any load.
@@ -150,7 +156,7 @@ struct WinklerPair<'a> {
     radius_mm: f64,
     /// Half-length of the window before it was ever too short.
     first_half_window_mm: f64,
-    site: Site<'a>,
+    stretch: ObservedStretch<'a>,
     strip: Strip,
     observed: Option<Observed>,
     /// Real gap at the strip's samples less the least of them, mm.
@@ -159,20 +165,20 @@ struct WinklerPair<'a> {
     touch: f64,
     /// The least that both flanks together have lost where they may touch, mm; 0 where that is little.
     removed_everywhere: f64,
-    /// The last depth pressed, mm.
-    depth: f64,
+    /// The last indentation, mm.
+    indentation_mm: f64,
     /// Outermost places in contact at equilibrium, along the tangent.
     extent_mm: (f64, f64),
 }
 
 impl PairContact for WinklerPair<'_> {
-    fn read(&mut self, removed_mm: PerGear<&[f64]>) {
+    fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
         let touch = self.strip.gap_mm(removed_mm, &mut self.gap);
         // From the first touch on, nothing is lost where a light load meets a deep relief.
         self.gap.iter_mut().for_each(|gap| *gap -= touch);
         self.touch = touch;
         // Where much is removed everywhere, as by a helix-slope deviation, the window need not reach as far as that is deep.
-        let Site { flanks, position_mm, half_window_mm, .. } = self.site;
+        let ObservedStretch { flanks, position_mm, half_window_mm, .. } = self.stretch;
         let at_end = half_window_mm * half_window_mm / (2.0 * self.radius_mm);
         self.removed_everywhere =
             if touch > 0.25 * at_end { least_removed_mm(flanks, position_mm, touch + at_end, removed_mm) } else { 0.0 };
@@ -182,15 +188,15 @@ impl PairContact for WinklerPair<'_> {
         self.touch
     }
 
-    fn press(&mut self, depth_mm: f64) -> Response {
-        self.depth = depth_mm;
+    fn load_at(&mut self, indentation_mm: f64) -> Response {
+        self.indentation_mm = indentation_mm;
         // The curvature of the gap between two samples, which the straight line misses, as its mean Δ²/12R.
         let bulge = self.strip.spacing_mm * self.strip.spacing_mm / (12.0 * self.radius_mm);
         // Sums over cells of mean penetration and of the fraction in contact, which is how fast the former grows.
         let (mut penetration, mut contact) = (0.0, 0.0);
-        let mut before = depth_mm + bulge - self.gap[0];
+        let mut before = indentation_mm + bulge - self.gap[0];
         for gap in &self.gap[1..] {
-            let here = depth_mm + bulge - gap;
+            let here = indentation_mm + bulge - gap;
             let (mean, fraction) = mean_positive([before, here]);
             penetration += mean;
             contact += fraction;
@@ -200,12 +206,12 @@ impl PairContact for WinklerPair<'_> {
         let (penetration, contact) = (spacing * penetration, spacing * contact);
         let (load, stiffness) = match &self.edge {
             Some(edge) => edge.load_and_stiffness(penetration, contact),
-            None => self.springs.load_and_stiffness(penetration, contact),
+            None => self.stiffness.load_and_stiffness(penetration, contact),
         };
         if load > 0.0 {
             self.foundation = match &self.edge {
                 Some(edge) => edge.mpa_per_mm(load),
-                None => self.springs.mpa_per_mm(load),
+                None => self.stiffness.mpa_per_mm(load),
             };
         }
         Response { line_load_n_per_mm: load, stiffness_n_per_mm2: stiffness }
@@ -216,39 +222,40 @@ impl PairContact for WinklerPair<'_> {
             return edge.further_approach_mm(line_load_n_per_mm);
         }
         let Some(bodies) = self.bodies else { return (0.0, 0.0) };
-        let [whole, own] =
-            [bodies, self.springs].map(|springs| springs.approach_and_compliance(self.radius_mm, line_load_n_per_mm));
+        let [whole, own] = [bodies, self.stiffness]
+            .map(|stiffness| stiffness.approach_and_compliance(self.radius_mm, line_load_n_per_mm));
         (whole.0 - own.0, whole.1 - own.1)
     }
 
-    fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64 {
+    fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64 {
         // At a tip edge half of the strip carries the load, as if it were twice as large.
-        let a = self.springs.half_width_mm(self.radius_mm, 2.0 * line_load_n_per_mm);
+        let a = self.stiffness.half_width_mm(self.radius_mm, 2.0 * line_load_n_per_mm);
         a * a / (2.0 * self.radius_mm)
     }
 
-    fn settle(&mut self) -> bool {
+    fn window_suffices(&mut self) -> bool {
         self.extent_mm = self.extent_mm();
         if let Some(Observed::Swept(swept)) = &mut self.observed {
-            let (gap, depth_mm, foundation) = (&self.gap, self.depth, self.foundation);
-            let mean = |ends: &[f64]| foundation * mean_positive([depth_mm - ends[0], depth_mm - ends[1]]).0;
+            let (gap, indentation_mm, foundation) = (&self.gap, self.indentation_mm, self.foundation);
+            let mean =
+                |ends: &[f64]| foundation * mean_positive([indentation_mm - ends[0], indentation_mm - ends[1]]).0;
             swept.field.fill(|pressure| {
                 pressure.clear();
                 pressure.extend(gap.windows(2).map(mean));
             });
         }
-        !self.strip.may_touch_beyond(self.touch + self.depth, self.removed_everywhere)
+        !self.strip.may_touch_beyond(self.touch + self.indentation_mm, self.removed_everywhere)
     }
 
     fn widen(&mut self) {
-        self.site.half_window_mm *= 1.5;
-        (self.strip, self.observed) = self.site.look();
+        self.stretch.half_window_mm *= 1.5;
+        (self.strip, self.observed) = self.stretch.sample();
     }
 
-    fn forget(&mut self) {
-        if self.site.half_window_mm != self.first_half_window_mm {
-            self.site.half_window_mm = self.first_half_window_mm;
-            (self.strip, self.observed) = self.site.look();
+    fn reset(&mut self) {
+        if self.stretch.half_window_mm != self.first_half_window_mm {
+            self.stretch.half_window_mm = self.first_half_window_mm;
+            (self.strip, self.observed) = self.stretch.sample();
         }
         self.foundation = self.first_foundation;
     }
@@ -261,22 +268,22 @@ impl PairContact for WinklerPair<'_> {
         };
         let near = self.touching(gear, points);
         sweep.begin(points.first_point + near.start, &points.sliding_mm[near.clone()]);
-        let approach_mm = self.touch + self.depth;
+        let approach_mm = self.touch + self.indentation_mm;
         for (pressure, faced) in sweep.pressure_mpa.iter_mut().zip(faced.faced(points, gear, removed_mm, near)) {
             *pressure = self.foundation * faced.mean_penetration(approach_mm).0;
         }
     }
 
-    fn felt(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<Felt> {
+    fn contact_of_points(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<PointContact> {
         let (points, faced) = match &self.observed {
             None => return Vec::new(),
-            Some(Observed::Swept(swept)) => return swept.felt(gear),
+            Some(Observed::Swept(swept)) => return swept.contact_of_points(gear),
             Some(Observed::Facing(facing)) => &facing[gear],
         };
-        let approach_mm = self.touch + self.depth;
+        let approach_mm = self.touch + self.indentation_mm;
         faced
             .faced(points, gear, removed_mm, self.touching(gear, points))
-            .map(|faced| Felt {
+            .map(|faced| PointContact {
                 pressure_mpa: self.foundation * faced.greatest_penetration_mm(approach_mm).max(0.0),
                 contact_fraction: faced.mean_penetration(approach_mm).1,
             })
@@ -284,9 +291,9 @@ impl PairContact for WinklerPair<'_> {
     }
 
     fn footprint(&self) -> Footprint {
-        let penetration = (self.depth - least(&self.gap)).max(0.0);
+        let penetration = (self.indentation_mm - least(&self.gap)).max(0.0);
         let half_width_mm = 0.5 * (self.extent_mm.1 - self.extent_mm.0);
-        let at_ends = [self.gap.first(), self.gap.last()].map(|gap| gap.is_some_and(|gap| *gap < self.depth));
+        let at_ends = [self.gap.first(), self.gap.last()].map(|gap| gap.is_some_and(|gap| *gap < self.indentation_mm));
         let at_sharp_edge = self.strip.window.is_sharp_where(at_ends);
         Footprint { peak_pressure_mpa: self.foundation * penetration, half_width_mm, at_sharp_edge }
     }
@@ -328,8 +335,8 @@ impl WinklerPair<'_> {
 
     /// Outermost places in contact, found between samples; empty at 0 without contact.
     fn extent_mm(&self) -> (f64, f64) {
-        let u = |k: usize| self.depth - self.gap[k];
-        let touches = |gap: &f64| *gap < self.depth;
+        let u = |k: usize| self.indentation_mm - self.gap[k];
+        let touches = |gap: &f64| *gap < self.indentation_mm;
         let (Some(first), Some(last)) = (self.gap.iter().position(touches), self.gap.iter().rposition(touches)) else {
             return (0.0, 0.0);
         };

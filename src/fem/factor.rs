@@ -74,7 +74,7 @@ pub enum FactorError {
 pub struct Factor {
     /// Number of a degree of freedom among the free ones, or [`HELD`].
     free_of_dof: Vec<u32>,
-    /// Place of each degree of freedom in the order of elimination, or [`HELD`].
+    /// ElementPoint of each degree of freedom in the order of elimination, or [`HELD`].
     place_of_dof: Vec<u32>,
     /// The degree of freedom at each place.
     dof_of_place: Vec<u32>,
@@ -235,7 +235,7 @@ impl Factor {
         SupernodalLltRef::new(self.supernodes(), &self.values)
     }
 
-    /// Place of each degree of freedom in the order of elimination, or [`HELD`].
+    /// ElementPoint of each degree of freedom in the order of elimination, or [`HELD`].
     pub(super) fn place_of_dof(&self) -> &[u32] {
         &self.place_of_dof
     }

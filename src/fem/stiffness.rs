@@ -243,7 +243,7 @@ impl NodeGraph {
         Self { start, above }
     }
 
-    /// Place of node i > j in the list of node j.
+    /// ElementPoint of node i > j in the list of node j.
     fn place(&self, j: usize, i: u32) -> Option<usize> {
         self.above[self.start[j]..self.start[j + 1]].binary_search(&i).ok()
     }

@@ -17,7 +17,7 @@ pub struct FlankGrid {
 
 /// A place between two points.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct GridPosition {
     /// The point before it.
     pub index: usize,
     /// Weight of the point after it, 0 to 1.
@@ -46,13 +46,13 @@ impl FlankGrid {
     }
 
     /// Where `coordinate_mm` falls; beyond the ends, the end itself.
-    pub fn place(&self, coordinate_mm: f64) -> Place {
+    pub fn place(&self, coordinate_mm: f64) -> GridPosition {
         let after = self.coordinate_mm.partition_point(|&c| c <= coordinate_mm).clamp(1, self.len() - 1);
         self.place_between(after - 1, coordinate_mm)
     }
 
     /// As [`Self::place`], for a coordinate not far from the point `index`.
-    pub fn place_near(&self, mut index: usize, coordinate_mm: f64) -> Place {
+    pub fn place_near(&self, mut index: usize, coordinate_mm: f64) -> GridPosition {
         while index + 2 < self.len() && self.coordinate_mm[index + 1] <= coordinate_mm {
             index += 1;
         }
@@ -62,14 +62,14 @@ impl FlankGrid {
         self.place_between(index, coordinate_mm)
     }
 
-    fn place_between(&self, index: usize, coordinate_mm: f64) -> Place {
+    fn place_between(&self, index: usize, coordinate_mm: f64) -> GridPosition {
         let (low, high) = (self.coordinate_mm[index], self.coordinate_mm[index + 1]);
-        Place { index, weight: ((coordinate_mm - low) / (high - low)).clamp(0.0, 1.0) }
+        GridPosition { index, weight: ((coordinate_mm - low) / (high - low)).clamp(0.0, 1.0) }
     }
 
     /// Value at `coordinate_mm` of something given at the points.
     pub fn value_at(&self, values: &[f64], coordinate_mm: f64) -> f64 {
-        let Place { index, weight } = self.place(coordinate_mm);
+        let GridPosition { index, weight } = self.place(coordinate_mm);
         values[index] + weight * (values[index + 1] - values[index])
     }
 

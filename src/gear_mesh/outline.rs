@@ -8,7 +8,7 @@
 use std::ops::Range;
 
 use super::profile::{Piece, Profile};
-use super::spacing::{OutlineNode, Part, Place, Run, Side, limit_growth};
+use super::spacing::{OutlineNode, OutlinePoint, Part, Run, Side, limit_growth};
 use super::{FlankResolution, GREATEST_MODULES, GROWTH, LEAST_MODULES, SectorSettings, ToothMeshError, ToothShape};
 use crate::gear_mesh::settings::ROUNDING_HALF_WIDTH;
 
@@ -83,7 +83,7 @@ impl Outline {
         outline.rho_mm = vec![f64::NAN; outline.nodes.len()];
         for side in [Side::Right, Side::Left] {
             for k in outline.part(side, Part::Flank) {
-                let Place { piece, u, .. } = outline.nodes[k].place;
+                let OutlinePoint { piece, u, .. } = outline.nodes[k].place;
                 // The flank's end nodes may have been placed by its neighbours.
                 outline.rho_mm[k] = match piece {
                     Piece::Flank => profile.rho_mm(u),

@@ -25,7 +25,7 @@ pub(super) enum Side {
 
 /// A place of the outline.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct OutlinePoint {
     pub side: Side,
     pub piece: Piece,
     /// Parameter of the piece.
@@ -44,7 +44,7 @@ pub(super) enum Part {
 
 #[derive(Debug, Clone, Copy)]
 struct Sample {
-    place: Place,
+    place: OutlinePoint,
     point_mm: Vector2<f64>,
     /// Arc length from the beginning of the run.
     s_mm: f64,
@@ -63,7 +63,7 @@ pub(super) struct Run {
 /// A node of the outline.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct OutlineNode {
-    pub place: Place,
+    pub place: OutlinePoint,
     pub point_mm: Vector2<f64>,
     /// Element length wanted there.
     pub length_mm: f64,
@@ -71,7 +71,7 @@ pub(super) struct OutlineNode {
 
 impl Profile<'_> {
     /// The point at `place`.
-    pub fn at_mm(&self, place: Place) -> Vector2<f64> {
+    pub fn at_mm(&self, place: OutlinePoint) -> Vector2<f64> {
         let point = self.point_mm(place.piece, place.u);
         match place.side {
             Side::Right => point,
@@ -88,7 +88,7 @@ impl Run {
         let mut s_mm = 0.0;
         for &(side, piece, [first, last]) in stretches {
             for k in 0..=per_stretch {
-                let place = Place { side, piece, u: first + (last - first) * k as f64 / per_stretch as f64 };
+                let place = OutlinePoint { side, piece, u: first + (last - first) * k as f64 / per_stretch as f64 };
                 let point_mm = profile.at_mm(place);
                 s_mm += samples.last().map_or(0.0, |before| (point_mm - before.point_mm).norm());
                 samples.push(Sample { place, point_mm, s_mm, length_mm: f64::INFINITY });
@@ -104,7 +104,7 @@ impl Run {
     }
 
     /// Lowers the wanted length to what `wanted` gives for a place and its point.
-    pub fn want(&mut self, wanted: impl Fn(Place, Vector2<f64>) -> f64) {
+    pub fn want(&mut self, wanted: impl Fn(OutlinePoint, Vector2<f64>) -> f64) {
         for sample in &mut self.samples {
             sample.length_mm = sample.length_mm.min(wanted(sample.place, sample.point_mm));
         }
@@ -192,7 +192,7 @@ impl Run {
         let weight = if interval > 0.0 { ((s_mm - a.s_mm) / interval).clamp(0.0, 1.0) } else { 0.0 };
         let between = |from: f64, to: f64| from + weight * (to - from);
         // Where two curves meet there are two samples at one place; no node falls between them.
-        let place = if weight < 1.0 { Place { u: between(a.place.u, b.place.u), ..a.place } } else { b.place };
+        let place = if weight < 1.0 { OutlinePoint { u: between(a.place.u, b.place.u), ..a.place } } else { b.place };
         OutlineNode { place, point_mm: profile.at_mm(place), length_mm: between(a.length_mm, b.length_mm) }
     }
 }

@@ -55,7 +55,7 @@ pub enum MeshFileError {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub struct Fault {
     /// Where in the file; `None` where no single place is at fault.
-    pub place: Option<Place>,
+    pub place: Option<FilePosition>,
     /// Section or element of the file, as the file calls it; empty where there is none.
     pub section: String,
     /// What is wrong.
@@ -64,7 +64,7 @@ pub struct Fault {
 
 /// A place in a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
+pub enum FilePosition {
     /// A line, counted from 1.
     Line(usize),
     /// An offset in bytes, counted from 0.
@@ -171,11 +171,11 @@ pub enum Unwritable {
     },
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FilePosition {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Place::Line(line) => write!(f, "line {line}"),
-            Place::Byte(byte) => write!(f, "byte {byte}"),
+            FilePosition::Line(line) => write!(f, "line {line}"),
+            FilePosition::Byte(byte) => write!(f, "byte {byte}"),
         }
     }
 }

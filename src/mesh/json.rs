@@ -11,12 +11,12 @@
 //! the shortest decimals that read back as the same bits.
 
 use super::Mesh;
-use super::error::{Fault, Place, Problem};
+use super::error::{Fault, FilePosition, Problem};
 
 /// Reads a mesh from JSON.
 pub(super) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
     serde_json::from_slice(bytes).map_err(|error| Fault {
-        place: Some(Place::Line(error.line())),
+        place: Some(FilePosition::Line(error.line())),
         section: "JSON".into(),
         problem: Problem::unexpected(&error.to_string(), "a mesh with `points`, `cells`, …"),
     })

@@ -11,8 +11,8 @@
 //! The matrix has two bands beside its diagonal, so that a step costs no more than pressing the contacts once. K v = √q w then holds for
 //! the corrected loads exactly: only the contacts are nonlinear.
 
-use super::phases::SliceContact;
 use super::slice_coupling::{Factors, SliceCoupling};
+use super::sliced_positions::SliceContact;
 
 /// A contact as a Newton step sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]

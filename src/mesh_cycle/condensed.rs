@@ -31,7 +31,7 @@ use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 use crate::reference::{linear_means::value_at, monotone_cubic::MonotoneCubic};
 use crate::thermal::{ContactHeat, SpeedRatios};
 use crate::wear::{
-    Rubbing, Surroundings, WearModel,
+    ContactConditions, SlidingRow, WearModel,
     heated_row::{HeatedContact, HeatedRow, RowOfPoints},
 };
 
@@ -62,14 +62,14 @@ const LEAST_TILT: (f64, f64) = (0.02, 0.2);
 const MOST_TILTS: usize = 3;
 
 /// One position and how its load reaches the nodes.
-struct Station {
+struct LoadedPosition {
     prepared: Prepared,
     /// The part of the path that it stands for.
     stretch_mm: (f64, f64),
     /// Of each tooth pair that may touch.
     transfers: Vec<LoadTransfer>,
-    /// For how many looks that holds.
-    looks: usize,
+    /// For how many windows that holds.
+    windows: usize,
     /// The tilt of the worn flanks that it is about; new ones if there is none.
     about_rad: Option<PerGear<Vec<f64>>>,
     found: Option<Equilibrium>,
@@ -77,7 +77,7 @@ struct Station {
 
 /// Positions that collect wear together.
 struct Group {
-    stations: Vec<Station>,
+    loaded_positions: Vec<LoadedPosition>,
     collected: Collected,
     rows: Rows,
 }
@@ -116,9 +116,9 @@ impl<'a> CondensedCycle<'a> {
         let groups = stretches
             .par_chunks(stretches.len().div_ceil(GROUPS))
             .map(|stretches| Group {
-                stations: stretches
+                loaded_positions: stretches
                     .iter()
-                    .map(|&stretch| Station::new(model, stretch, line_load_n_per_mm, nodes.as_ref()))
+                    .map(|&stretch| LoadedPosition::new(model, stretch, line_load_n_per_mm, nodes.as_ref()))
                     .collect(),
                 collected: Collected::new(nodes.as_ref().map(FlankNodes::len)),
                 rows: Rows::default(),
@@ -140,7 +140,7 @@ impl<'a> CondensedCycle<'a> {
 
     /// Number of positions in a base pitch.
     pub fn positions(&self) -> usize {
-        self.stations().count()
+        self.loaded_positions().count()
     }
 
     /// What `at_nodes` of `gear`'s flank is at the nominal radii `radius_mm`: in straight lines between the nodes, as the wear itself is,
@@ -150,8 +150,8 @@ impl<'a> CondensedCycle<'a> {
         radius_mm.map(|radius| value_at(nodes, at_nodes, radius)).collect()
     }
 
-    fn stations(&self) -> impl Iterator<Item = &Station> {
-        self.groups.iter().flat_map(|group| &group.stations)
+    fn loaded_positions(&self) -> impl Iterator<Item = &LoadedPosition> {
+        self.groups.iter().flat_map(|group| &group.loaded_positions)
     }
 }
 
@@ -210,13 +210,13 @@ impl MeshCycle for CondensedCycle<'_> {
         self.evaluate_by(|group, step| group.evaluate(step), lost, wear, depth_mm, stopped)
     }
 
-    fn forget(&mut self) {
+    fn reset(&mut self) {
         let (model, nodes) = (self.model, self.nodes.as_ref());
-        self.groups.par_iter_mut().flat_map(|group| &mut group.stations).for_each(|station| {
-            model.forget(&mut station.prepared);
-            station.found = None;
-            if station.looks != station.prepared.looks() || station.about_rad.is_some() {
-                station.look(model, nodes);
+        self.groups.par_iter_mut().flat_map(|group| &mut group.loaded_positions).for_each(|loaded| {
+            model.reset(&mut loaded.prepared);
+            loaded.found = None;
+            if loaded.windows != loaded.prepared.windows() || loaded.about_rad.is_some() {
+                loaded.observe(model, nodes);
             }
         });
     }
@@ -231,9 +231,9 @@ impl MeshCycle for CondensedCycle<'_> {
             sliding_mm: zeros(),
             slices: None,
         };
-        for station in self.stations() {
-            let Some(found) = &station.found else { continue };
-            for contact in &station.transfers {
+        for loaded in self.loaded_positions() {
+            let Some(found) = &loaded.found else { continue };
+            for contact in &loaded.transfers {
                 for i in 0..contact.len() {
                     let force = found.force[contact.first_row + i];
                     if force <= 0.0 {
@@ -294,9 +294,9 @@ impl CondensedCycle<'_> {
     /// Of all pairs found in the base pitch.
     fn greatest_pressure(&self) -> GreatestPressure {
         let mut greatest = GreatestPressure::default();
-        for station in self.stations() {
-            let Some(equilibrium) = &station.found else { continue };
-            for pair in self.model.tooth_pairs(&station.prepared, equilibrium) {
+        for loaded in self.loaded_positions() {
+            let Some(equilibrium) = &loaded.found else { continue };
+            for pair in self.model.tooth_pairs(&loaded.prepared, equilibrium) {
                 greatest.note(pair.peak_pressure_mpa, pair.at_sharp_edge);
             }
         }
@@ -307,10 +307,10 @@ impl CondensedCycle<'_> {
     fn along_the_path(&self) -> Vec<PositionObservation> {
         let (path, load) = (&self.model.pair.path, self.line_load_n_per_mm);
         let mut found: Vec<PositionObservation> = Vec::new();
-        for station in self.stations() {
-            let Some(equilibrium) = &station.found else { continue };
-            let at = station.prepared.position_mm;
-            let pairs = self.model.tooth_pairs(&station.prepared, equilibrium);
+        for loaded in self.loaded_positions() {
+            let Some(equilibrium) = &loaded.found else { continue };
+            let at = loaded.prepared.position_mm;
+            let pairs = self.model.tooth_pairs(&loaded.prepared, equilibrium);
             let total: f64 = pairs.iter().map(|pair| pair.line_load_n_per_mm).sum();
             let first = ((path.start_mm - at) / path.base_pitch_mm).floor() as i32;
             let last = ((path.end_mm - at) / path.base_pitch_mm).ceil() as i32;
@@ -373,19 +373,19 @@ struct Step<'a> {
 impl Group {
     fn evaluate(&mut self, step: &Step<'_>) {
         self.collected.clear();
-        for station in &mut self.stations {
-            let solved = if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { station.solve(step) };
+        for loaded in &mut self.loaded_positions {
+            let solved = if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { loaded.solve(step) };
             if !self.collected.take(solved) {
                 return;
             }
-            station.wear(step, &mut self.rows, &mut self.collected.depth_mm);
+            loaded.wear(step, &mut self.rows, &mut self.collected.depth_mm);
         }
     }
 
     /// Lets the positions follow the tilt of the worn flanks.
     fn follow_tilt(&mut self, step: &Step<'_>) {
-        let followed = self.stations.iter_mut().try_fold(Work::default(), |mut work, station| {
-            work += if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { station.follow_tilt(step) }?;
+        let followed = self.loaded_positions.iter_mut().try_fold(Work::default(), |mut work, loaded| {
+            work += if (step.stopped)() { Err(EquilibriumError::Interrupted) } else { loaded.follow_tilt(step) }?;
             Ok(work)
         });
         if followed == Ok(Work::default()) {
@@ -393,14 +393,14 @@ impl Group {
         }
         self.collected.clear();
         if self.collected.take(followed) {
-            for station in &self.stations {
-                station.wear(step, &mut self.rows, &mut self.collected.depth_mm);
+            for loaded in &self.loaded_positions {
+                loaded.wear(step, &mut self.rows, &mut self.collected.depth_mm);
             }
         }
     }
 }
 
-impl Station {
+impl LoadedPosition {
     fn new(
         model: &CondensedPair<'_>,
         stretch_mm: (f64, f64),
@@ -408,21 +408,21 @@ impl Station {
         nodes: PerGear<&FlankNodes>,
     ) -> Self {
         let prepared = model.prepare(stretch_mm.0.midpoint(stretch_mm.1), line_load_n_per_mm);
-        let mut station = Self { prepared, stretch_mm, transfers: Vec::new(), looks: 0, about_rad: None, found: None };
-        station.look(model, nodes);
-        station
+        let mut loaded = Self { prepared, stretch_mm, transfers: Vec::new(), windows: 0, about_rad: None, found: None };
+        loaded.observe(model, nodes);
+        loaded
     }
 
-    /// Reckons with new flanks where it looks now.
-    fn look(&mut self, model: &CondensedPair<'_>, nodes: PerGear<&FlankNodes>) {
+    /// Reckons with new flanks where it windows now.
+    fn observe(&mut self, model: &CondensedPair<'_>, nodes: PerGear<&FlankNodes>) {
         self.transfers = model.load_transfers(&self.prepared, self.stretch_mm, nodes, None);
-        (self.looks, self.about_rad) = (self.prepared.looks(), None);
+        (self.windows, self.about_rad) = (self.prepared.windows(), None);
     }
 
     fn solve(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
-        let (is_new, looks) = (self.found.is_none(), self.looks);
+        let (is_new, windows) = (self.found.is_none(), self.windows);
         let mut work = self.solve_as_reckoned(step)?;
-        if is_new || looks != self.looks {
+        if is_new || windows != self.windows {
             work += self.follow_tilt(step)?;
         }
         Ok(Work { equilibria: 1, ..work })
@@ -443,11 +443,11 @@ impl Station {
     /// Finds the contact on the flanks as they are, in the directions that the position was made for.
     fn solve_as_reckoned(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
         let position_mm = self.prepared.position_mm;
-        let Self { prepared, stretch_mm, transfers, looks, about_rad, .. } = self;
+        let Self { prepared, stretch_mm, transfers, windows, about_rad, .. } = self;
         let mut opening = |prepared: &Prepared, gap_mm: &mut [f64]| {
-            if *looks != prepared.looks() {
+            if *windows != prepared.windows() {
                 *transfers = step.model.load_transfers(prepared, *stretch_mm, step.nodes, None);
-                (*looks, *about_rad) = (prepared.looks(), None);
+                (*windows, *about_rad) = (prepared.windows(), None);
             }
             transfers.iter().for_each(|contact| contact.open_gaps(step.worn.depth_mm, gap_mm));
         };
@@ -502,15 +502,15 @@ impl Station {
             rows.pressure_mpa.clear();
             rows.pressure_mpa.extend(force.iter().zip(&contact.weight_mm).map(|(force, weight)| force / weight));
             for gear in Gear::BOTH {
-                let surroundings = step.wear.heat_of_law().map(|heat| {
+                let conditions = step.wear.heat_of_law().map(|heat| {
                     let place = HeatedPlace { model: step.model, contact, stretch_mm: self.stretch_mm, gear };
-                    rows.heated.surroundings(heat, place, &rows.pressure_mpa)
+                    rows.heated.conditions(heat, place, &rows.pressure_mpa)
                 });
-                let rubbing =
-                    Rubbing { pressure_mpa: &rows.pressure_mpa, sliding_mm: &contact.sliding_mm, surroundings };
+                let sliding_row =
+                    SlidingRow { pressure_mpa: &rows.pressure_mpa, sliding_mm: &contact.sliding_mm, conditions };
                 rows.depth_mm.clear();
                 rows.depth_mm.resize(contact.len(), 0.0);
-                step.wear.law.add_depth(&rubbing, &mut rows.depth_mm);
+                step.wear.law.add_depth(&sliding_row, &mut rows.depth_mm);
                 contact.wear_nodes(gear, step.nodes[gear], &rows.depth_mm, &mut depth_mm[gear]);
             }
         }
@@ -532,12 +532,12 @@ struct HeatedContactRows {
     even_mpa: Vec<f64>,
     even_sliding_mm: Vec<f64>,
     row: HeatedRow,
-    surroundings: Vec<Surroundings>,
+    conditions: Vec<ContactConditions>,
 }
 
 impl HeatedContactRows {
-    /// The surroundings of each row of a contact under `pressure_mpa`. The strip is as wide as Hertz's ellipse with the same second moment.
-    fn surroundings(&mut self, heat: &ContactHeat, place: HeatedPlace<'_>, pressure_mpa: &[f64]) -> &[Surroundings] {
+    /// The conditions of each row of a contact under `pressure_mpa`. The strip is as wide as Hertz's ellipse with the same second moment.
+    fn conditions(&mut self, heat: &ContactHeat, place: HeatedPlace<'_>, pressure_mpa: &[f64]) -> &[ContactConditions] {
         let HeatedPlace { model, contact, stretch_mm, gear } = place;
         let path = &model.pair.path;
         let length_mm = stretch_mm.1 - stretch_mm.0;
@@ -584,8 +584,8 @@ impl HeatedContactRows {
         let points = RowOfPoints { gear, spacing_mm, pressure_mpa: &self.even_mpa };
         let time_s = length_mm / heat.speed_mm_per_s;
         let even = self.row.across_sliding(&heated, points, &self.even_sliding_mm, time_s);
-        self.surroundings.clear();
-        self.surroundings.extend(contact.along_mm.iter().map(|&at| even[cell_of(at)]));
-        &self.surroundings
+        self.conditions.clear();
+        self.conditions.extend(contact.along_mm.iter().map(|&at| even[cell_of(at)]));
+        &self.conditions
     }
 }

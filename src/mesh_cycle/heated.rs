@@ -4,7 +4,7 @@ use crate::contact::{Flanks, PairContact, PositionCell, Sweep};
 use crate::gear::{Gear, PerGear};
 use crate::thermal::{ContactHeat, SpeedRatios};
 use crate::wear::{
-    Surroundings, WearModel,
+    ContactConditions, WearModel,
     heated_row::{HeatedContact, HeatedRow, RowOfPoints},
 };
 
@@ -60,8 +60,8 @@ impl HeatedPlace {
 }
 
 impl HeatedPair<'_> {
-    /// The surroundings of the points of `gear`'s flank in a sweep.
-    pub fn surroundings<'r>(&self, row: &'r mut HeatedRow, gear: Gear, sweep: &Sweep) -> &'r [Surroundings] {
+    /// The conditions of the points of `gear`'s flank in a sweep.
+    pub fn conditions<'r>(&self, row: &'r mut HeatedRow, gear: Gear, sweep: &Sweep) -> &'r [ContactConditions] {
         if self.across {
             let points = RowOfPoints { gear, spacing_mm: self.spacing_mm[gear], pressure_mpa: &sweep.pressure_mpa };
             row.across(&self.contact, points)

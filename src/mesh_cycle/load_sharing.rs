@@ -73,15 +73,15 @@ pub enum EquilibriumError {
 pub struct MeshedPair<'a> {
     /// Its contact surface.
     pub contact: Box<dyn PairContact + 'a>,
-    /// Its answer to the last depth.
+    /// Its answer to the last indentation.
     pub response: Response,
-    /// What its bodies approach beside that depth, and the derivative by the load.
+    /// What its bodies approach beside that indentation, and the derivative by the load.
     further: (f64, f64),
     teeth_n_per_mm2: f64,
     /// Approach at which the flanks first touch, mm.
     pub(super) touch_mm: f64,
     /// Approach of the flanks beyond their first touch, mm.
-    pub(super) depth_mm: f64,
+    pub(super) indentation_mm: f64,
     /// Depths at the last three equilibria, the newest first: the next one starts from their continuation.
     history_mm: [Option<f64>; 3],
 }
@@ -106,7 +106,7 @@ impl<'a> MeshedPair<'a> {
             further: (0.0, 0.0),
             teeth_n_per_mm2,
             touch_mm: 0.0,
-            depth_mm: 0.0,
+            indentation_mm: 0.0,
             history_mm: [None; 3],
         }
     }
@@ -121,27 +121,27 @@ impl<'a> MeshedPair<'a> {
     }
 
     /// Takes the material removed from both flanks.
-    pub fn read(&mut self, removed_mm: PerGear<&[f64]>) {
-        self.contact.read(removed_mm);
+    pub fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
+        self.contact.set_removed(removed_mm);
         self.touch_mm = self.contact.touch_mm();
     }
 
     /// Is again a pair that has not carried load yet.
-    pub(super) fn forget(&mut self) {
-        self.contact.forget();
+    pub(super) fn reset(&mut self) {
+        self.contact.reset();
         (self.response, self.further) = (Response::default(), (0.0, 0.0));
-        (self.touch_mm, self.depth_mm) = (0.0, 0.0);
+        (self.touch_mm, self.indentation_mm) = (0.0, 0.0);
         self.history_mm = [None; 3];
     }
 
-    /// Keeps the present depth as a start for later.
+    /// Keeps the present indentation as a start for later.
     fn remember(&mut self) {
-        self.history_mm = [Some(self.depth_mm), self.history_mm[0], self.history_mm[1]];
+        self.history_mm = [Some(self.indentation_mm), self.history_mm[0], self.history_mm[1]];
     }
 
-    pub(super) fn press(&mut self, depth_mm: f64) {
-        self.depth_mm = depth_mm;
-        self.response = self.contact.press(depth_mm);
+    pub(super) fn load_at(&mut self, indentation_mm: f64) {
+        self.indentation_mm = indentation_mm;
+        self.response = self.contact.load_at(indentation_mm);
         self.further = self.contact.further_approach_mm(self.response.line_load_n_per_mm);
     }
 
@@ -150,28 +150,28 @@ impl<'a> MeshedPair<'a> {
             [Some(last), Some(before), Some(first)] => 3.0 * (last - before) + first,
             [Some(last), Some(before), None] => 2.0 * last - before,
             [Some(last), ..] => last,
-            [None, ..] => self.contact.ample_depth_mm(line_load),
+            [None, ..] => self.contact.ample_indentation_mm(line_load),
         }
     }
 
     /// Approach of the whole pair beyond the first touch of its flanks, teeth included.
-    pub(super) fn whole_depth_mm(&self) -> f64 {
-        self.depth_mm + self.response.line_load_n_per_mm / self.teeth_n_per_mm2 + self.further.0
+    pub(super) fn beyond_touch_mm(&self) -> f64 {
+        self.indentation_mm + self.response.line_load_n_per_mm / self.teeth_n_per_mm2 + self.further.0
     }
 
     /// Approach of the whole pair.
     pub(super) fn whole_approach_mm(&self) -> f64 {
-        self.touch_mm + self.whole_depth_mm()
+        self.touch_mm + self.beyond_touch_mm()
     }
 
-    /// The least change of depth that rounding leaves a meaning: that of the parts, which may nearly cancel in their sum.
+    /// The least change of indentation that rounding leaves a meaning: that of the parts, which may nearly cancel in their sum.
     pub(super) fn least_step_mm(&self) -> f64 {
-        8.0 * f64::EPSILON * self.touch_mm.abs().max(self.depth_mm.abs()).max(self.whole_depth_mm().abs())
+        8.0 * f64::EPSILON * self.touch_mm.abs().max(self.indentation_mm.abs()).max(self.beyond_touch_mm().abs())
     }
 
     /// How much more this pair has approached than `other`; without loss where both touch at the same approach.
     fn ahead_of(&self, other: &Self) -> f64 {
-        (self.touch_mm - other.touch_mm) + (self.whole_depth_mm() - other.whole_depth_mm())
+        (self.touch_mm - other.touch_mm) + (self.beyond_touch_mm() - other.beyond_touch_mm())
     }
 
     /// c = w'/(1 + w'/k).
@@ -197,7 +197,7 @@ pub fn settled<'a, 'r>(
 ) -> Result<(Equilibrium, Work), EquilibriumError> {
     let mut work = Work { equilibria: 1, ..Work::default() };
     for (k, pair) in pairs.iter_mut().enumerate() {
-        pair.read(removed_mm(k));
+        pair.set_removed(removed_mm(k));
     }
     loop {
         let equilibrium = balance(pairs)?;
@@ -205,9 +205,9 @@ pub fn settled<'a, 'r>(
         work.pair_evaluations += equilibrium.pair_evaluations;
         let mut held = true;
         for (k, pair) in pairs.iter_mut().enumerate() {
-            if !pair.contact.settle() {
+            if !pair.contact.window_suffices() {
                 pair.contact.widen();
-                pair.read(removed_mm(k));
+                pair.set_removed(removed_mm(k));
                 held = false;
             }
         }
@@ -234,7 +234,7 @@ pub fn balance(
     let expected = line_load * (2.0 / pairs.len() as f64).min(1.0);
     for pair in pairs.iter_mut() {
         let start = pair.start_mm(expected);
-        pair.press(start);
+        pair.load_at(start);
         evaluations += 1;
     }
     for iterations in 1..=NEWTON_LIMIT {
@@ -251,8 +251,8 @@ pub fn balance(
         if stiffness <= 0.0 {
             // No pair touches: begin again from where each would carry the load alone.
             for pair in pairs.iter_mut() {
-                let ample = pair.contact.ample_depth_mm(expected);
-                pair.press(ample);
+                let ample = pair.contact.ample_indentation_mm(expected);
+                pair.load_at(ample);
                 evaluations += 1;
             }
             continue;
@@ -272,17 +272,17 @@ pub fn balance(
         }
         let (first, others) = pairs.split_at_mut(1);
         for pair in others {
-            let deeper = pair.depth_mm + step(pair, &first[0]);
-            pair.press(deeper);
+            let deeper = pair.indentation_mm + step(pair, &first[0]);
+            pair.load_at(deeper);
         }
-        let deeper = first[0].depth_mm + beyond_first / first[0].series();
-        first[0].press(deeper);
+        let deeper = first[0].indentation_mm + beyond_first / first[0].series();
+        first[0].load_at(deeper);
         evaluations += pairs.len() as u64;
     }
     bisect(pairs, line_load, position_mm, evaluations)
 }
 
-/// The equilibrium by bisection of δ, and of every depth within it.
+/// The equilibrium by bisection of δ, and of every indentation within it.
 fn bisect(
     pairs: &mut [MeshedPair<'_>],
     line_load: f64,
@@ -293,19 +293,19 @@ fn bisect(
         pairs
             .iter_mut()
             .map(|pair| {
-                // The teeth take up what the surface does not: the depth lies between none of δ and all of it.
+                // The teeth take up what the surface does not: the indentation lies between none of δ and all of it.
                 let whole = delta - pair.touch_mm;
                 let (mut low, mut high) = (whole.min(0.0), whole);
-                pair.press(high);
+                pair.load_at(high);
                 evaluations += 1;
                 for _ in 0..BISECTION_LIMIT {
                     let middle = low.midpoint(high);
                     if middle <= low || middle >= high {
                         break;
                     }
-                    pair.press(middle);
+                    pair.load_at(middle);
                     evaluations += 1;
-                    if pair.whole_depth_mm() > whole {
+                    if pair.beyond_touch_mm() > whole {
                         high = middle;
                     } else {
                         low = middle;
@@ -315,7 +315,7 @@ fn bisect(
             })
             .sum()
     };
-    let ample = |pair: &MeshedPair<'_>| pair.touch_mm + pair.contact.ample_depth_mm(line_load);
+    let ample = |pair: &MeshedPair<'_>| pair.touch_mm + pair.contact.ample_indentation_mm(line_load);
     let mut low = pairs.iter().map(|pair| pair.touch_mm).fold(f64::INFINITY, f64::min);
     let mut high = pairs.iter().map(ample).fold(low, f64::max);
     let mut carried = total(pairs, high);

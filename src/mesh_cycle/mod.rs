@@ -10,13 +10,13 @@ mod collected;
 pub mod condensed;
 mod heated;
 pub mod load_sharing;
-pub mod phases;
 pub mod positions;
 pub mod settings;
 pub mod simplified;
 pub mod slice_coupling;
 pub mod sliced;
 pub mod sliced_mesh;
+pub mod sliced_positions;
 pub mod sliced_sharing;
 pub mod sliced_teeth;
 pub mod tip_contact;
@@ -27,7 +27,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCell, Sweep};
 use crate::gear::{Gear, PerGear};
-use crate::wear::{Rubbing, WearModel, heated_row::HeatedRow};
+use crate::wear::{SlidingRow, WearModel, heated_row::HeatedRow};
 use collected::Collected;
 use heated::HeatedPlace;
 use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
@@ -81,7 +81,7 @@ impl std::ops::AddAssign for Work {
 }
 
 /// The state of one position.
-struct Station<'a> {
+struct LoadedPosition<'a> {
     cell: PositionCell,
     on_line_of_action: bool,
     heated_place: HeatedPlace,
@@ -92,7 +92,7 @@ struct Station<'a> {
 
 /// Positions that collect wear together.
 struct Group<'a> {
-    stations: Vec<Station<'a>>,
+    loaded_positions: Vec<LoadedPosition<'a>>,
     collected: Collected,
     sweep: Sweep,
     heated: HeatedRow,
@@ -191,7 +191,7 @@ pub trait MeshCycle {
 
     /// Is again as if never evaluated: the next evaluation depends only on what the flanks have lost, to the bit, and not on
     /// where the last one ended.
-    fn forget(&mut self);
+    fn reset(&mut self);
 
     /// What the last evaluation found, on the same `lost`.
     ///
@@ -212,7 +212,7 @@ impl<'a> LineOfActionCycle<'a> {
         let groups = positions
             .par_chunks(size)
             .map(|positions| Group {
-                stations: positions.iter().map(|p| Station::new(flanks, surface, p)).collect(),
+                loaded_positions: positions.iter().map(|p| LoadedPosition::new(flanks, surface, p)).collect(),
                 collected: Collected::new(flanks.grid.map(|grid| grid.len())),
                 sweep: Sweep::default(),
                 heated: HeatedRow::default(),
@@ -240,9 +240,9 @@ impl MeshCycle for LineOfActionCycle<'_> {
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
 
-    fn forget(&mut self) {
-        self.groups.par_iter_mut().flat_map(|group| &mut group.stations).for_each(|station| {
-            station.pairs.iter_mut().for_each(MeshedPair::forget);
+    fn reset(&mut self) {
+        self.groups.par_iter_mut().flat_map(|group| &mut group.loaded_positions).for_each(|loaded| {
+            loaded.pairs.iter_mut().for_each(MeshedPair::reset);
         });
     }
 
@@ -257,13 +257,13 @@ impl MeshCycle for LineOfActionCycle<'_> {
             slices: None,
         };
         let mut sweep = Sweep::default();
-        for station in self.groups.iter().flat_map(|group| &group.stations) {
-            if station.on_line_of_action {
-                observation.positions.push(station.observe(self.line_load_n_per_mm, self.bodies_mm));
+        for loaded in self.groups.iter().flat_map(|group| &group.loaded_positions) {
+            if loaded.on_line_of_action {
+                observation.positions.push(loaded.observe(self.line_load_n_per_mm, self.bodies_mm));
             }
             for gear in Gear::BOTH {
                 let (pressure, sliding) = (&mut observation.pressure_mpa[gear], &mut observation.sliding_mm[gear]);
-                let contact = &*station.pairs[0].contact;
+                let contact = &*loaded.pairs[0].contact;
                 let felt = note_what_points_felt(contact, gear, removed_mm, &mut sweep, pressure, sliding);
                 observation.greatest_pressure.note(felt, contact.footprint().at_sharp_edge);
             }
@@ -285,7 +285,7 @@ fn note_what_points_felt(
 ) -> f64 {
     contact.sweep(gear, removed_mm, sweep);
     let range = sweep.first_point..sweep.first_point + sweep.sliding_mm.len();
-    let felt = contact.felt(gear, removed_mm);
+    let felt = contact.contact_of_points(gear, removed_mm);
     let points = pressure_mpa[range.clone()].iter_mut().zip(&mut sliding_mm[range]);
     let mut most_mpa = 0.0_f64;
     for ((greatest, slid), (felt, &sliding)) in points.zip(felt.iter().zip(&sweep.sliding_mm)) {
@@ -307,30 +307,29 @@ impl Group<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) {
         self.collected.clear();
-        for station in &mut self.stations {
+        for loaded in &mut self.loaded_positions {
             let solved =
-                if stopped() { Err(EquilibriumError::Interrupted) } else { station.solve(removed_mm, line_load) };
+                if stopped() { Err(EquilibriumError::Interrupted) } else { loaded.solve(removed_mm, line_load) };
             if !self.collected.take(solved) {
                 return;
             }
-            let pair = &station.pairs[0];
+            let pair = &loaded.pairs[0];
             let load = pair.response.line_load_n_per_mm;
-            let heated = station.heated_place.under(wear, &*pair.contact, load);
+            let heated = loaded.heated_place.under(wear, &*pair.contact, load);
             for gear in Gear::BOTH {
                 let sweep = &mut self.sweep;
                 pair.contact.sweep(gear, removed_mm, sweep);
                 let points = sweep.first_point..sweep.first_point + sweep.sliding_mm.len();
                 let row = &mut self.heated;
-                let surroundings = heated.as_ref().map(|heated| heated.surroundings(row, gear, sweep));
-                let rubbing =
-                    Rubbing { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, surroundings };
-                wear.law.add_depth(&rubbing, &mut self.collected.depth_mm[gear][points]);
+                let conditions = heated.as_ref().map(|heated| heated.conditions(row, gear, sweep));
+                let row = SlidingRow { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, conditions };
+                wear.law.add_depth(&row, &mut self.collected.depth_mm[gear][points]);
             }
         }
     }
 }
 
-impl<'a> Station<'a> {
+impl<'a> LoadedPosition<'a> {
     fn new(flanks: Flanks<'a>, surface: &dyn ContactSurface, position: &LoadingPosition) -> Self {
         let pairs = position
             .pairs

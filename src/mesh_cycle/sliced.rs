@@ -16,15 +16,15 @@ use super::bent_tooth::BentTooth;
 use super::collected::Collected;
 use super::heated::HeatedPlace;
 use super::load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
-use super::phases::{Phase, SliceContact};
 use super::slice_coupling::SliceCoupling;
-use super::sliced_mesh::{ObservedContact, ObservedPhase, SlicedMesh};
+use super::sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh};
+use super::sliced_positions::{SliceContact, SlicedPosition};
 use super::sliced_sharing::balance_on_teeth;
 use super::sliced_teeth::SlicedTeeth;
 use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, note_what_points_felt};
 use crate::contact::{ContactSurface, Flanks, Sweep};
 use crate::gear::{Gear, PerGear, path_of_contact::PathOfContact};
-use crate::wear::{Rubbing, WearModel, heated_row::HeatedRow};
+use crate::wear::{SlidingRow, WearModel, heated_row::HeatedRow};
 
 /// The spring of the teeth along the path of contact, evaluated once for all slices.
 pub struct SpringAlongPath {
@@ -73,7 +73,7 @@ pub struct SliceSprings<'a> {
 }
 
 /// The state of one phase.
-struct Station<'a> {
+struct LoadedPosition<'a> {
     position_mm: f64,
     contacts: Vec<SliceContact>,
     pairs: Vec<MeshedPair<'a>>,
@@ -86,7 +86,7 @@ struct Station<'a> {
 
 /// Phases that collect wear together.
 struct Group<'a> {
-    stations: Vec<Station<'a>>,
+    loaded_positions: Vec<LoadedPosition<'a>>,
     collected: Collected,
     sweep: Sweep,
     heated: HeatedRow,
@@ -118,7 +118,7 @@ impl<'a> SlicedCycle<'a> {
         flanks: Flanks<'a>,
         surface: &dyn ContactSurface,
         sliced: &'a SlicedTeeth,
-        phases: &[Phase],
+        phases: &[SlicedPosition],
         springs: &SliceSprings<'_>,
         path: &'a PathOfContact,
         positions: usize,
@@ -129,7 +129,10 @@ impl<'a> SlicedCycle<'a> {
         let groups = phases
             .par_chunks(phases.len().div_ceil(GROUPS).max(1))
             .map(|phases| Group {
-                stations: phases.iter().map(|phase| Station::new(flanks, surface, sliced, phase, springs)).collect(),
+                loaded_positions: phases
+                    .iter()
+                    .map(|phase| LoadedPosition::new(flanks, surface, sliced, phase, springs))
+                    .collect(),
                 collected: Collected::new(points.map(|points| slices * points)),
                 sweep: Sweep::default(),
                 heated: HeatedRow::default(),
@@ -165,10 +168,10 @@ impl MeshCycle for SlicedCycle<'_> {
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
 
-    fn forget(&mut self) {
-        self.groups.par_iter_mut().flat_map(|group| &mut group.stations).for_each(|station| {
-            station.pairs.iter_mut().for_each(MeshedPair::forget);
-            station.teeth.iter_mut().for_each(BentTooth::straighten);
+    fn reset(&mut self) {
+        self.groups.par_iter_mut().flat_map(|group| &mut group.loaded_positions).for_each(|loaded| {
+            loaded.pairs.iter_mut().for_each(MeshedPair::reset);
+            loaded.teeth.iter_mut().for_each(BentTooth::straighten);
         });
     }
 
@@ -180,8 +183,8 @@ impl MeshCycle for SlicedCycle<'_> {
         let mut sweep = Sweep::default();
         let mut phases = Vec::new();
         let mut greatest_pressure = GreatestPressure::default();
-        for station in self.groups.iter().flat_map(|group| &group.stations) {
-            for (contact, pair) in station.contacts.iter().zip(&station.pairs) {
+        for loaded in self.groups.iter().flat_map(|group| &group.loaded_positions) {
+            for (contact, pair) in loaded.contacts.iter().zip(&loaded.pairs) {
                 let own = of_slice(removed_mm, self.points, contact.slice);
                 for gear in Gear::BOTH {
                     let range = contact.slice * self.points[gear]..(contact.slice + 1) * self.points[gear];
@@ -190,7 +193,7 @@ impl MeshCycle for SlicedCycle<'_> {
                     greatest_pressure.note(felt, pair.contact.footprint().at_sharp_edge);
                 }
             }
-            phases.push(station.observe(load, self.bodies_mm));
+            phases.push(loaded.observe(load, self.bodies_mm));
         }
         let mesh = SlicedMesh::new(&phases, self.sliced.slices.count(), self.path.base_pitch_mm);
         let positions = mesh.along_path(self.path, self.positions, self.line_load_n_per_mm);
@@ -210,17 +213,17 @@ impl Group<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) {
         self.collected.clear();
-        for station in &mut self.stations {
+        for loaded in &mut self.loaded_positions {
             let solved = if stopped() {
                 Err(EquilibriumError::Interrupted)
             } else {
-                station.solve(removed_mm, points, coupling, load)
+                loaded.solve(removed_mm, points, coupling, load)
             };
             if !self.collected.take(solved) {
                 return;
             }
-            let contacts = station.contacts.iter().zip(&station.heated_places);
-            for ((contact, place), pair) in contacts.zip(&station.pairs) {
+            let contacts = loaded.contacts.iter().zip(&loaded.heated_places);
+            for ((contact, place), pair) in contacts.zip(&loaded.pairs) {
                 let own = of_slice(removed_mm, points, contact.slice);
                 let heated = place.under(wear, &*pair.contact, pair.response.line_load_n_per_mm);
                 for gear in Gear::BOTH {
@@ -229,22 +232,22 @@ impl Group<'_> {
                     let first = contact.slice * points[gear] + sweep.first_point;
                     let depth = &mut self.collected.depth_mm[gear][first..first + sweep.sliding_mm.len()];
                     let row = &mut self.heated;
-                    let surroundings = heated.as_ref().map(|heated| heated.surroundings(row, gear, sweep));
-                    let rubbing =
-                        Rubbing { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, surroundings };
-                    wear.law.add_depth(&rubbing, depth);
+                    let conditions = heated.as_ref().map(|heated| heated.conditions(row, gear, sweep));
+                    let row =
+                        SlidingRow { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, conditions };
+                    wear.law.add_depth(&row, depth);
                 }
             }
         }
     }
 }
 
-impl<'a> Station<'a> {
+impl<'a> LoadedPosition<'a> {
     fn new(
         flanks: Flanks<'a>,
         surface: &dyn ContactSurface,
         sliced: &SlicedTeeth,
-        phase: &Phase,
+        phase: &SlicedPosition,
         springs: &SliceSprings<'_>,
     ) -> Self {
         let compliance = |contact: &SliceContact| springs.along_path.mm2_per_n(contact.cell.position_mm);
@@ -290,7 +293,7 @@ impl<'a> Station<'a> {
         Ok(work)
     }
 
-    fn observe(&self, load: f64, bodies_mm: f64) -> ObservedPhase {
+    fn observe(&self, load: f64, bodies_mm: f64) -> ObservedSlicedPosition {
         let total: f64 = self.pairs.iter().map(|pair| pair.response.line_load_n_per_mm).sum();
         let contacts = self.contacts.iter().zip(&self.pairs).map(|(contact, pair)| ObservedContact {
             tooth: contact.tooth,
@@ -298,7 +301,7 @@ impl<'a> Station<'a> {
             line_load_n_per_mm: pair.response.line_load_n_per_mm,
             footprint: pair.contact.footprint(),
         });
-        ObservedPhase {
+        ObservedSlicedPosition {
             position_mm: self.position_mm,
             transmission_error_mm: self.equilibrium.transmission_error_mm + bodies_mm,
             load_imbalance: total / load - 1.0,

@@ -24,7 +24,7 @@ pub struct ObservedContact {
 
 /// A phase, as observed.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ObservedPhase {
+pub struct ObservedSlicedPosition {
     /// Position of the reference tooth in the middle of the face width.
     pub position_mm: f64,
     /// Approach of the gears along the line of action.
@@ -63,7 +63,7 @@ pub struct SlicedMesh {
 }
 
 /// The first and the last row with a slice in contact, where the first tooth of the rows is `first_tooth`.
-fn first_and_last(phases: &[ObservedPhase], first_tooth: i32) -> [usize; 2] {
+fn first_and_last(phases: &[ObservedSlicedPosition], first_tooth: i32) -> [usize; 2] {
     let rows = phases.iter().enumerate().flat_map(|(j, phase)| {
         phase.contacts.iter().map(move |contact| (contact.tooth - first_tooth) as usize * phases.len() + j)
     });
@@ -72,7 +72,7 @@ fn first_and_last(phases: &[ObservedPhase], first_tooth: i32) -> [usize; 2] {
 
 impl SlicedMesh {
     /// From the phases of one base pitch, in order (at least one).
-    pub fn new(phases: &[ObservedPhase], slices: usize, base_pitch_mm: f64) -> Self {
+    pub fn new(phases: &[ObservedSlicedPosition], slices: usize, base_pitch_mm: f64) -> Self {
         let count = phases.len();
         let teeth = || phases.iter().flat_map(|phase| phase.contacts.iter().map(|contact| contact.tooth));
         let (first, last) = (teeth().min().unwrap_or(0), teeth().max().unwrap_or(0));

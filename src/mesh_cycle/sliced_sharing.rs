@@ -1,13 +1,13 @@
 //! Equilibrium of all slices in contact whose teeth hold their slices together.
 //!
 //! As in [`super::load_sharing`], but the teeth are no single springs ([`super::bent_tooth`]). With t_i the first touch of a contact,
-//! s_i its depth, f_i what its bodies approach beside that, and u_i the deflection of its tooth,
+//! s_i its indentation, f_i what its bodies approach beside that, and u_i the deflection of its tooth,
 //!
 //! ```text
 //! t_i + s_i + f_i(w_i) + u_i = δ          Σ w_i(s_i) = F          c_i = w_i'/(1 + w_i' f_i')
 //! ```
 //!
-//! Only the contacts are nonlinear, ever steeper with their depth: Newton converges from any start that carries too much, as for
+//! Only the contacts are nonlinear, ever steeper with their indentation: Newton converges from any start that carries too much, as for
 //! single springs.
 
 use super::bent_tooth::{BentTooth, ContactTangent, bend};
@@ -19,7 +19,7 @@ const NEWTON_LIMIT: u64 = 80;
 
 /// Approach of a pair beyond `base_mm`, the first touch of any: nothing is lost where a light load meets a deep relief.
 fn approach_mm(pair: &MeshedPair<'_>, base_mm: f64) -> f64 {
-    (pair.touch_mm - base_mm) + pair.whole_depth_mm()
+    (pair.touch_mm - base_mm) + pair.beyond_touch_mm()
 }
 
 /// Finds the equilibrium of `pairs`, whose own springs are infinitely stiff, on the teeth that they belong to, under the sum of
@@ -39,7 +39,7 @@ pub fn balance_on_teeth(
     let expected = line_load / pairs.len() as f64;
     for pair in pairs.iter_mut() {
         let start = pair.start_mm(expected);
-        pair.press(start);
+        pair.load_at(start);
         evaluations += 1;
     }
     let mut residual = f64::INFINITY;
@@ -58,13 +58,13 @@ pub fn balance_on_teeth(
         let Some(delta_mm) = bend(teeth, coupling, line_load, tangent) else {
             // No slice touches: begin again from where each would carry its part.
             for pair in pairs.iter_mut() {
-                let ample = pair.contact.ample_depth_mm(expected);
-                pair.press(ample);
+                let ample = pair.contact.ample_indentation_mm(expected);
+                pair.load_at(ample);
                 evaluations += 1;
             }
             continue;
         };
-        // What the depth of a contact on the bent teeth lacks.
+        // What the indentation of a contact on the bent teeth lacks.
         let step = |pair: &MeshedPair<'_>, deflection_mm: f64| {
             (delta_mm - approach_mm(pair, base_mm) - deflection_mm) / pair.series()
         };
@@ -83,8 +83,8 @@ pub fn balance_on_teeth(
         }
         residual = greatest / line_load;
         for (k, _, deflection_mm) in teeth.iter().flat_map(BentTooth::deflections_mm) {
-            let deeper = pairs[k].depth_mm + step(&pairs[k], deflection_mm);
-            pairs[k].press(deeper);
+            let deeper = pairs[k].indentation_mm + step(&pairs[k], deflection_mm);
+            pairs[k].load_at(deeper);
             evaluations += 1;
         }
     }

@@ -27,7 +27,7 @@
 //! Source: R. G. Munro, L. Morrish and D. Palmer, "Gear transmission error outside the normal path of contact due to corner
 //! and top contact", *Proc. Inst. Mech. Eng. C* 213 (1999) 389–400, for the phenomenon.
 
-use crate::contact::{Felt, Footprint, PairContact, Response, Sweep};
+use crate::contact::{Footprint, PairContact, PointContact, Response, Sweep};
 use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks};
 
 /// Steps in which the path is walked, per base pitch.
@@ -71,16 +71,16 @@ pub struct OnLever<'a> {
 }
 
 impl PairContact for OnLever<'_> {
-    fn read(&mut self, removed_mm: PerGear<&[f64]>) {
-        self.contact.read(removed_mm);
+    fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
+        self.contact.set_removed(removed_mm);
     }
 
     fn touch_mm(&self) -> f64 {
         self.contact.touch_mm() / self.ratio
     }
 
-    fn press(&mut self, depth_mm: f64) -> Response {
-        let along_normal = self.contact.press(self.ratio * depth_mm);
+    fn load_at(&mut self, indentation_mm: f64) -> Response {
+        let along_normal = self.contact.load_at(self.ratio * indentation_mm);
         Response {
             line_load_n_per_mm: self.ratio * along_normal.line_load_n_per_mm,
             stiffness_n_per_mm2: self.ratio * self.ratio * along_normal.stiffness_n_per_mm2,
@@ -92,28 +92,28 @@ impl PairContact for OnLever<'_> {
         (approach / self.ratio, compliance / (self.ratio * self.ratio))
     }
 
-    fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64 {
-        self.contact.ample_depth_mm(line_load_n_per_mm / self.ratio) / self.ratio
+    fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64 {
+        self.contact.ample_indentation_mm(line_load_n_per_mm / self.ratio) / self.ratio
     }
 
-    fn settle(&mut self) -> bool {
-        self.contact.settle()
+    fn window_suffices(&mut self) -> bool {
+        self.contact.window_suffices()
     }
 
     fn widen(&mut self) {
         self.contact.widen();
     }
 
-    fn forget(&mut self) {
-        self.contact.forget();
+    fn reset(&mut self) {
+        self.contact.reset();
     }
 
     fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
         self.contact.sweep(gear, removed_mm, sweep);
     }
 
-    fn felt(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<Felt> {
-        self.contact.felt(gear, removed_mm)
+    fn contact_of_points(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<PointContact> {
+        self.contact.contact_of_points(gear, removed_mm)
     }
 
     fn footprint(&self) -> Footprint {

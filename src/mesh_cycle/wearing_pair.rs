@@ -35,7 +35,7 @@ pub trait WearingPair {
 
     /// Is again as if never evaluated: the next evaluation finds, to the bit, what that of a pair made anew finds whose flanks have
     /// lost the same. Otherwise it depends in its last bits on where the last one ended.
-    fn forget(&mut self);
+    fn reset(&mut self);
 
     /// What each place of the flanks has lost, mm: as many places as [`Self::set_wear_mm`] takes and [`Self::depth_mm`] gives. Flank
     /// points of most models, but the contact points of some.
@@ -96,8 +96,8 @@ impl WearingPair for OnFlankPoints<'_> {
         }
     }
 
-    fn forget(&mut self) {
-        self.cycle.forget();
+    fn reset(&mut self) {
+        self.cycle.reset();
     }
 
     fn wear_mm(&self) -> PerGear<Vec<f64>> {
@@ -171,8 +171,8 @@ impl WearingPair for OnFlankNodes<'_> {
         }
     }
 
-    fn forget(&mut self) {
-        self.cycle.forget();
+    fn reset(&mut self) {
+        self.cycle.reset();
     }
 
     fn wear_mm(&self) -> PerGear<Vec<f64>> {

@@ -22,8 +22,8 @@ use std::time::Instant;
 use crate::calibration::{self, CalibrationError};
 use crate::contact::{
     ContactSurface,
-    edge_bed::EdgeBeds,
-    foundation::{Bed, matched_mpa_per_mm},
+    edge_foundation::EdgeFoundations,
+    foundation::{WinklerFoundation, matched_mpa_per_mm},
     half_space::HalfSpace,
     hertz::{self, Hertz},
     hertz_mean::HertzMean,
@@ -48,7 +48,7 @@ use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
 use crate::thermal::ContactHeat;
 use crate::wear::{self, FlankWear, WearModel};
-use recording::Found;
+use recording::RunFindings;
 use stage_clock::StageClock;
 use verification::{Elements, Verified};
 
@@ -114,7 +114,7 @@ struct Model<'a> {
     phases: Vec<RunPhase<'a>>,
     /// The slices over the face width; none where all sections are alike.
     sliced: Option<&'a SlicedTeeth>,
-    /// Springs of the teeth; none with finite elements.
+    /// FoundationStiffness of the teeth; none with finite elements.
     teeth: Option<&'a TeethSpring<'a>>,
     /// Hertz at the pitch point.
     at_pitch: Flattening,
@@ -209,7 +209,7 @@ fn carry_out<R>(
     loaded: &LoadedScene,
     resumption: Resumption<'_>,
     observer: &dyn Observer,
-    keep: impl FnOnce(&Model<'_>, Found<'_>, Summary) -> R,
+    keep: impl FnOnce(&Model<'_>, RunFindings<'_>, Summary) -> R,
 ) -> Result<Done<R>, RunError> {
     let LoadedScene { resolved, files, .. } = loaded;
     let (scene, plan) = (&resolved.scene, &loaded.plan());
@@ -329,7 +329,7 @@ fn carry_out<R>(
         true => stages.run(StageKind::ContactTemperature.name(), || temperature::observe(&model, &outcome)),
         false => None,
     };
-    let found = Found { outcome: &outcome, heat: heat.as_ref(), verified: None };
+    let found = RunFindings { outcome: &outcome, heat: heat.as_ref(), verified: None };
     let mut error = if plan.has(StageKind::ErrorEstimates) && outcome.stop == StopReason::Completed {
         let estimate = || error_estimates::estimate(&model, &outcome, judged.step_over_safe, observer);
         stages.run(StageKind::ErrorEstimates.name(), estimate)
@@ -346,7 +346,7 @@ fn carry_out<R>(
     };
     verified.tell(&mut error);
 
-    let found = Found { verified: Some(&verified), ..found };
+    let found = RunFindings { verified: Some(&verified), ..found };
     let mut summary = recording::summary(resolved, plan, &model, found, error, judged)?;
     summary.warnings.extend(stiffness_warning);
     summary.stages = stages.times;
@@ -405,14 +405,14 @@ fn load_case(
     line_load_n_per_mm: f64,
     stages: &mut StageClock<'_>,
 ) -> Result<LoadCase, RunError> {
-    let bed = match (scene.contact.surface, scene.contact.foundation, &files.calibration) {
+    let foundation = match (scene.contact.surface, scene.contact.foundation, &files.calibration) {
         (SurfaceKind::Winkler, Foundation::Given { foundation_mpa_per_mm }, _) => {
-            Some(Bed::Uniform { mpa_per_mm: foundation_mpa_per_mm })
+            Some(WinklerFoundation::Uniform { mpa_per_mm: foundation_mpa_per_mm })
         }
         (SurfaceKind::Winkler, Foundation::Calibrated(criterion), Some(calibration)) => {
             let approach = &calibration.foundation[&MatchCriterion::Approach];
-            let edges = || EdgeBeds::new(pair, &scene.material, line_load_n_per_mm, criterion, approach);
-            Some(Bed::Curve {
+            let edges = || EdgeFoundations::new(pair, &scene.material, line_load_n_per_mm, criterion, approach);
+            Some(WinklerFoundation::Curve {
                 pressure: calibration.foundation[&criterion].clone(),
                 approach: approach.clone(),
                 edges: scene.contact.tip_contact.then(edges),
@@ -421,22 +421,26 @@ fn load_case(
         (SurfaceKind::Winkler, Foundation::Calibrated(_), None) => unreachable!("a loaded scene has its calibration"),
         (SurfaceKind::Winkler, Foundation::Matched(criterion), _) => {
             let matched = || matched_mpa_per_mm(criterion, at_pitch, line_load_n_per_mm);
-            Some(Bed::Uniform { mpa_per_mm: stages.run(StageKind::ContactMatch.name(), matched) })
+            Some(WinklerFoundation::Uniform { mpa_per_mm: stages.run(StageKind::ContactMatch.name(), matched) })
         }
         _ => None,
     };
-    let springs_at_pitch = bed.as_ref().map(|bed| bed.at(pair.path.pitch_point_mm));
+    let springs_at_pitch = foundation.as_ref().map(|foundation| foundation.at(pair.path.pitch_point_mm));
     let foundation_mpa_per_mm = springs_at_pitch.map(|springs| springs.mpa_per_mm(line_load_n_per_mm));
-    let surface = surface(scene, bed, line_load_n_per_mm);
+    let surface = surface(scene, foundation, line_load_n_per_mm);
     Ok(LoadCase { line_load_n_per_mm, foundation_mpa_per_mm, surface })
 }
 
 /// The surface of the springs on the line of action; none with finite elements, which are no springs.
-fn surface(scene: &Scene, bed: Option<Bed>, expected_line_load_n_per_mm: f64) -> Option<Box<dyn ContactSurface>> {
+fn surface(
+    scene: &Scene,
+    foundation: Option<WinklerFoundation>,
+    expected_line_load_n_per_mm: f64,
+) -> Option<Box<dyn ContactSurface>> {
     let material = scene.material;
-    match (scene.contact.surface, bed) {
+    match (scene.contact.surface, foundation) {
         (SurfaceKind::Fem, _) => None,
-        (SurfaceKind::Winkler, Some(bed)) => Some(Box::new(Winkler { bed, expected_line_load_n_per_mm })),
+        (SurfaceKind::Winkler, Some(foundation)) => Some(Box::new(Winkler { foundation, expected_line_load_n_per_mm })),
         (SurfaceKind::HertzMean, _) => Some(Box::new(HertzMean { material })),
         (SurfaceKind::HalfSpace, _) => Some(Box::new(HalfSpace { material, expected_line_load_n_per_mm })),
         (SurfaceKind::Hertz, _) | (SurfaceKind::Winkler, None) => {

@@ -25,14 +25,14 @@ const SMALL_WEAR_MODULES: f64 = 0.05;
 
 /// What a run found, and what was seen of its temperatures.
 #[derive(Clone, Copy)]
-pub(super) struct Found<'a> {
+pub(super) struct RunFindings<'a> {
     pub outcome: &'a Outcome,
     pub heat: Option<&'a ObservedHeat>,
     pub verified: Option<&'a Verified>,
 }
 
 /// The record of a run.
-pub(super) fn record(resolved: &Resolved, model: &Model<'_>, found: Found<'_>, summary: Summary) -> RunRecord {
+pub(super) fn record(resolved: &Resolved, model: &Model<'_>, found: RunFindings<'_>, summary: Summary) -> RunRecord {
     let outcome = found.outcome;
     RunRecord {
         summary,
@@ -50,7 +50,7 @@ pub(super) fn summary(
     resolved: &Resolved,
     plan: &Plan,
     model: &Model<'_>,
-    found: Found<'_>,
+    found: RunFindings<'_>,
     error: ErrorSummary,
     judged: Judged,
 ) -> Result<Summary, RunError> {
@@ -227,7 +227,7 @@ fn wear(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> WearSummary {
     }
 }
 
-fn flank(model: &Model<'_>, Found { outcome, verified, .. }: Found<'_>, gear: Gear) -> FlankRecord {
+fn flank(model: &Model<'_>, RunFindings { outcome, verified, .. }: RunFindings<'_>, gear: Gear) -> FlankRecord {
     let pair = model.pair;
     let involute = pair.teeth[gear].involute;
     let um = |values: &[f64]| values.iter().map(|value| value * UM_PER_MM).collect::<Vec<_>>();
@@ -273,7 +273,7 @@ fn history_row(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> His
     }
 }
 
-fn mesh_cycle(model: &Model<'_>, Found { outcome, heat, .. }: Found<'_>) -> Vec<MeshCycleRow> {
+fn mesh_cycle(model: &Model<'_>, RunFindings { outcome, heat, .. }: RunFindings<'_>) -> Vec<MeshCycleRow> {
     let positions = outcome.new.cycle.positions.iter().zip(&outcome.worn.cycle.positions);
     let rise = |k: usize, method: TemperatureMethod| heat.map(|heat| heat.new.positions[k].rise_k[method.index()]);
     let peclet = |k: usize, gear: Gear| heat.map(|heat| heat.new.positions[k].peclet[gear]);

@@ -15,7 +15,7 @@
 //! (2/3) a³/R = k w s + ∫ (u(x) − u(a)) dx
 //! ```
 //!
-//! On a Winkler bed u = p/K, nothing at the edge, and ∫ u dx = w/K at every stage:
+//! On a Winkler foundation u = p/K, nothing at the edge, and ∫ u dx = w/K at every stage:
 //!
 //! ```text
 //! a³ = a₀³ + 1.5 R k w s          a₀³ = 1.5 w R/K, unworn
@@ -60,8 +60,8 @@ impl WornCylinder {
         self.cube_mm3(sliding_mm).cbrt()
     }
 
-    /// a on a Winkler bed of stiffness K, at every stage.
-    pub fn half_width_on_bed_mm(&self, sliding_mm: f64, bed_mpa_per_mm: f64) -> f64 {
+    /// a on a Winkler foundation of stiffness K, at every stage.
+    pub fn half_width_on_foundation_mm(&self, sliding_mm: f64, bed_mpa_per_mm: f64) -> f64 {
         let unworn = 1.5 * self.line_load_n_per_mm * self.radius_mm / bed_mpa_per_mm;
         (unworn + self.cube_mm3(sliding_mm)).cbrt()
     }
@@ -120,14 +120,19 @@ mod tests {
         assert!((integral / (2.0 * (2.0 * a * p) * a) - 1.0).abs() < 1e-6, "{integral}");
     }
 
-    /// Unworn, the bed gives its own half-width; late, all three agree.
+    /// Unworn, the foundation gives its own half-width; late, all three agree.
     #[test]
     fn ver_the_forms_agree_late() {
-        let (bed, unworn) = (5e5, 0.15);
-        assert!((CYLINDER.half_width_on_bed_mm(0.0, bed) - (1.5 * 100.0 * 20.0 / bed).cbrt()).abs() < 1e-15);
+        let (foundation, unworn) = (5e5, 0.15);
+        assert!(
+            (CYLINDER.half_width_on_foundation_mm(0.0, foundation) - (1.5 * 100.0 * 20.0 / foundation).cbrt()).abs()
+                < 1e-15
+        );
         let sliding = 1e12;
         let rigid = CYLINDER.half_width_mm(sliding);
-        for elastic in [CYLINDER.half_width_on_bed_mm(sliding, bed), CYLINDER.late_half_width_mm(sliding, unworn)] {
+        for elastic in
+            [CYLINDER.half_width_on_foundation_mm(sliding, foundation), CYLINDER.late_half_width_mm(sliding, unworn)]
+        {
             assert!((elastic / rigid - 1.0).abs() < 1e-4 && elastic > rigid);
         }
         // The root: a³ = 1.5 R k w s + ¾ a₀² a.

@@ -116,7 +116,7 @@ pub fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
 ///
 /// # Errors
 /// [`FolderError`] where it holds another run, or what cannot be read.
-pub fn look(dir: &Path, identity: &Identity, scene_hash: &str) -> Result<Contents, FolderError> {
+pub fn contents(dir: &Path, identity: &Identity, scene_hash: &str) -> Result<Contents, FolderError> {
     let Some(scene_toml) = read(&dir.join(SCENE))? else { return Ok(Contents::Nothing) };
     let other_run = |path: PathBuf, differences: Vec<String>| match differences.is_empty() {
         true => Ok(()),

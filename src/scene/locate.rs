@@ -8,7 +8,7 @@ use toml::de::{DeTable, DeValue};
 
 /// Byte ranges of one key and of its value.
 #[derive(Debug, Clone, PartialEq)]
-struct Place {
+struct KeySpan {
     key: Range<usize>,
     value: Range<usize>,
 }
@@ -16,7 +16,7 @@ struct Place {
 /// The places of all keys of a file, by path (`pair.pinion.teeth`, `operation.snapshots_h[2]`).
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Locator {
-    places: BTreeMap<String, Place>,
+    places: BTreeMap<String, KeySpan>,
     end: usize,
 }
 
@@ -74,7 +74,7 @@ impl Locator {
             }
             _ => {}
         }
-        self.places.insert(path.to_owned(), Place { key, value: value.span() });
+        self.places.insert(path.to_owned(), KeySpan { key, value: value.span() });
     }
 }
 

@@ -33,7 +33,7 @@ pub struct Stretch {
     pub from: f64,
     /// Greater than `from`.
     pub limit: f64,
-    /// Whether the pair must forget where it was ([`WearingPair::forget`]) before its evaluation at the end of the step: a run may go
+    /// Whether the pair must forget where it was ([`WearingPair::reset`]) before its evaluation at the end of the step: a run may go
     /// on from there another time.
     pub clean_start: bool,
 }
@@ -159,7 +159,7 @@ impl Stepper {
         self.euler_steps += 1;
         let revolutions = if arrives { stretch.limit } else { stretch.from + step };
         if stretch.clean_start {
-            pair.forget();
+            pair.reset();
         }
         let evaluated = pair.evaluate(wear, stopped).and_then(|mut work| {
             work += pair.linearise_anew(wear, stopped)?.unwrap_or_default();
@@ -267,7 +267,7 @@ impl Rate for OnRows<'_, '_> {
 
     fn begin_step(&mut self, state: &[f64], slope: &mut [f64]) -> Result<u64, EquilibriumError> {
         if self.clean_start {
-            self.rate.pair.forget();
+            self.rate.pair.reset();
             return self.evaluate(state, slope).map(|()| 1);
         }
         if let Some(work) = self.rate.pair.linearise_anew(self.rate.wear, self.rate.stopped)? {

@@ -18,7 +18,7 @@ use crate::thermal::{
     band::{HeatedBand, Spread},
     settings::TemperatureMethod,
 };
-use crate::wear::{FlankWear, Surroundings};
+use crate::wear::{ContactConditions, FlankWear};
 
 /// Places across a contact at which its work is weighed.
 const PLACES: usize = 32;
@@ -200,8 +200,10 @@ impl HeatObserver<'_> {
             let slid_mm = 2.0 * contact.half_width_mm * ratios.sliding / ratios.rolling[gear];
             for (pressure, rise) in pressure.iter().zip(rises) {
                 let temperature_k = self.heat.settings.bulk_temperature_k + rise;
-                let own =
-                    Surroundings { sliding_speed_mm_per_s: self.heat.sliding_speed_mm_per_s(&ratios), temperature_k };
+                let own = ContactConditions {
+                    sliding_speed_mm_per_s: self.heat.sliding_speed_mm_per_s(&ratios),
+                    temperature_k,
+                };
                 let k = self.law.mild_coefficient_mm2_per_n(Some(own));
                 let part = work * pressure / total;
                 sums.work += part;

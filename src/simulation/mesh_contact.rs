@@ -4,14 +4,14 @@ use super::settings::Numerics;
 use crate::contact::{ContactSurface, Effort, Flanks, settings::Material};
 use crate::fem::gear::position::CondensedPair;
 use crate::gear::{GearPair, PerGear, slices::Slices};
-use crate::mesh_cycle::simplified::{SimplifiedPair, exact::Springs};
+use crate::mesh_cycle::simplified::{SimplifiedPair, exact::SlicesInSeries};
 use crate::mesh_cycle::wearing_pair::{OnFlankNodes, OnFlankPoints, WearingPair};
 use crate::mesh_cycle::{
     LineOfActionCycle, MeshCycle,
     condensed::CondensedCycle,
-    phases::phases,
     positions::{loading_positions, positions_with_tip_contact},
     sliced::{SliceSprings, SlicedCycle, SpringAlongPath},
+    sliced_positions::sliced_positions,
     sliced_teeth::SlicedTeeth,
     tip_contact,
 };
@@ -130,19 +130,19 @@ impl<'a> LoadedMesh<'a> {
         sliced: &'b SlicedTeeth,
     ) -> Result<SimplifiedPair<'b>, StiffnessError> {
         let (path, count, line_load) = (&self.pair.path, self.numerics.positions, self.line_load_n_per_mm);
-        let springs = Springs {
+        let springs = SlicesInSeries {
             pair: self.pair,
             material,
             along_path: SpringAlongPath::new(path, count, [0.0; 2], |at| teeth.own_n_per_mm2(at))?,
             sliced,
             line_load_n_per_mm: line_load * sliced.slices.count() as f64,
         };
-        let phases = phases(path, &sliced.slices, count, None);
+        let phases = sliced_positions(path, &sliced.slices, count, None);
         let bodies_mm = teeth.shared_mm2_per_n() * line_load;
         Ok(SimplifiedPair::new(springs, phases, flanks.grid, modification_mm, count, bodies_mm))
     }
 
-    /// Springs on the line of action, at every loading position.
+    /// SlicesInSeries on the line of action, at every loading position.
     fn on_line_of_action<'b>(
         &'b self,
         flanks: Flanks<'b>,
@@ -169,7 +169,7 @@ impl<'a> LoadedMesh<'a> {
         };
         if let Some(sliced) = sliced {
             let along = SpringAlongPath::new(path, count, beyond.unwrap_or_default(), spring)?;
-            let phases = phases(path, &sliced.slices, count, beyond);
+            let phases = sliced_positions(path, &sliced.slices, count, beyond);
             let springs = SliceSprings { along_path: &along, lever_ratio: &lever_ratio };
             let cycle = SlicedCycle::new(flanks, surface, sliced, &phases, &springs, path, count, line_load);
             return Ok(Box::new(cycle.on_bodies_that_yield_by(bodies)));

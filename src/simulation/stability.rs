@@ -8,7 +8,7 @@
 //! Δn · max k K (s₁ + s₂ z1/z2) > 2
 //! ```
 //!
-//! K is that of the shortest wave that the surface tells apart: K/H on a Winkler bed, E* π/(2 Δx) on elastic half-planes with
+//! K is that of the shortest wave that the surface tells apart: K/H on a Winkler foundation, E* π/(2 Δx) on elastic half-planes with
 //! cells Δx, and on finite elements that of their nodes, for which there is no closed form. Positions, points and cells between them
 //! damp what lies between; on half-planes the closed form is off by more than that is worth. So the largest of all these rates is
 //! measured, as the spectral radius of the mesh cycle itself, on the unworn flanks, in some ten evaluations

@@ -113,7 +113,7 @@ pub struct Outcome {
 }
 
 /// A run on its way.
-struct Course {
+struct RunState {
     /// Number of its phase.
     phase: usize,
     revolutions: f64,
@@ -169,14 +169,14 @@ impl WearRun<'_> {
         let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));
         let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear], &slices));
         let flanks = Flanks::new(self.pair, grid.as_ref());
-        let mut course = match checkpoint {
+        let mut run_state = match checkpoint {
             None => self.beginning(),
             Some(checkpoint) if checkpoint.fits(modification_mm.as_ref().map(Vec::len)) => self.resumed(checkpoint)?,
             Some(_) => return Err(SimulationError::OtherRun),
         };
         let mut failure = None;
-        while course.phase < self.phases.len() {
-            let phase = &self.phases[course.phase];
+        while run_state.phase < self.phases.len() {
+            let phase = &self.phases[run_state.phase];
             let mesh = LoadedMesh {
                 pair: self.pair,
                 contact: phase.contact,
@@ -184,24 +184,24 @@ impl WearRun<'_> {
                 numerics: self.numerics,
             };
             let mut pair = mesh.wearing_pair(flanks, &modification_mm)?;
-            match self.through_phase(&mut course, &mut *pair, Attendants { keeper, progress })? {
-                PhaseEnd::Reached => course.wear_mm = Some(pair.wear_mm()),
+            match self.through_phase(&mut run_state, &mut *pair, Attendants { keeper, progress })? {
+                PhaseEnd::Reached => run_state.wear_mm = Some(pair.wear_mm()),
                 PhaseEnd::Stopped => break,
                 PhaseEnd::Failed(error) => {
                     failure = Some(error);
                     break;
                 }
             }
-            course.phase += 1;
+            run_state.phase += 1;
         }
         let stop = match &failure {
             Some(_) => StopReason::NotConverged,
-            None if self.due(course.passed).is_none() => StopReason::Completed,
+            None if self.due(run_state.passed).is_none() => StopReason::Completed,
             None => StopReason::Interrupted,
         };
-        let (steps, step_error_mm) = (course.stepper.counts(), course.stepper.error_mm());
-        let new = course.states.remove(0);
-        let worn = course.states.last().unwrap_or(&new).clone();
+        let (steps, step_error_mm) = (run_state.stepper.counts(), run_state.stepper.error_mm());
+        let new = run_state.states.remove(0);
+        let worn = run_state.states.last().unwrap_or(&new).clone();
         Ok(Outcome {
             stop,
             failure,
@@ -210,16 +210,16 @@ impl WearRun<'_> {
             slices,
             modification_mm,
             new,
-            snapshots: course.states,
+            snapshots: run_state.states,
             worn,
             steps,
             step_error_mm,
-            work: course.work,
+            work: run_state.work,
         })
     }
     /// A run that has not begun.
-    fn beginning(&self) -> Course {
-        Course {
+    fn beginning(&self) -> RunState {
+        RunState {
             phase: 0,
             revolutions: 0.0,
             stepper: Stepper::new(
@@ -236,8 +236,8 @@ impl WearRun<'_> {
     }
 
     /// A run that goes on.
-    fn resumed(&self, from: Checkpoint) -> Result<Course, SimulationError> {
-        let mut course = Course {
+    fn resumed(&self, from: Checkpoint) -> Result<RunState, SimulationError> {
+        let mut run_state = RunState {
             phase: from.phase,
             revolutions: from.revolutions,
             work: from.work,
@@ -246,12 +246,12 @@ impl WearRun<'_> {
             ..self.beginning()
         };
         let is_within = from.phase < self.phases.len() && (0.0..self.end_revolutions()).contains(&from.revolutions);
-        if !is_within || !course.stepper.resume(from.stepper, &from.wear_mm) {
+        if !is_within || !run_state.stepper.resume(from.stepper, &from.wear_mm) {
             return Err(SimulationError::OtherRun);
         }
-        course.wear_mm = Some(from.wear_mm);
-        self.pass_due(&mut course);
-        Ok(course)
+        run_state.wear_mm = Some(from.wear_mm);
+        self.pass_due(&mut run_state);
+        Ok(run_state)
     }
 
     fn end_revolutions(&self) -> f64 {
@@ -265,79 +265,79 @@ impl WearRun<'_> {
     }
 
     /// Passes over the snapshots that are reached.
-    fn pass_due(&self, course: &mut Course) {
-        while self.due(course.passed).is_some_and(|next| next <= course.revolutions) {
-            course.passed += 1;
+    fn pass_due(&self, run_state: &mut RunState) {
+        while self.due(run_state.passed).is_some_and(|next| next <= run_state.revolutions) {
+            run_state.passed += 1;
         }
     }
 
-    /// Runs to the end of the phase that `course` is in.
+    /// Runs to the end of the phase that `run_state` is in.
     ///
     /// # Errors
     /// [`SimulationError`] before anything is finished.
     fn through_phase(
         &self,
-        course: &mut Course,
+        run_state: &mut RunState,
         pair: &mut dyn WearingPair,
         Attendants { keeper, progress }: Attendants<'_>,
     ) -> Result<PhaseEnd, SimulationError> {
-        let phase = &self.phases[course.phase];
+        let phase = &self.phases[run_state.phase];
         let stopped: &(dyn Fn() -> bool + Sync) = &|| progress.gives_up();
-        if let Some(wear_mm) = &course.wear_mm {
+        if let Some(wear_mm) = &run_state.wear_mm {
             if wear_mm.as_ref().map(Vec::len) != pair.wear_mm().map(|row| row.len()) {
                 return Err(SimulationError::OtherRun);
             }
             pair.set_wear_mm(wear_mm);
         }
         let mut evaluated = pair.evaluate(&phase.wear, stopped);
-        if std::mem::take(&mut course.is_repeated) {
+        if std::mem::take(&mut run_state.is_repeated) {
             evaluated = evaluated.map(|_| Work::default());
         } else {
-            course.stepper.begin_phase();
+            run_state.stepper.begin_phase();
         }
         // A phase begins with a pair made anew, which is a clean start.
         let (mut is_clean, mut cleaned_at) = (true, 0);
         let clean_after = phase.contact.evaluations_between_clean_starts(self.numerics.positions);
         loop {
-            let revolutions = course.revolutions;
-            let is_due = self.due(course.passed).is_some_and(|next| revolutions >= next);
+            let revolutions = run_state.revolutions;
+            let is_due = self.due(run_state.passed).is_some_and(|next| revolutions >= next);
             let interrupted = progress.interrupted();
-            let keep = course.states.is_empty() || is_due || interrupted;
+            let keep = run_state.states.is_empty() || is_due || interrupted;
             let state = evaluated.and_then(|done| {
-                course.work += done;
+                run_state.work += done;
                 keep.then(|| pair.snapshot(revolutions)).transpose()
             });
             match state {
-                Ok(state) => course.states.extend(state),
+                Ok(state) => run_state.states.extend(state),
                 // Before anything is finished there is nothing to keep.
-                Err(source) if course.states.is_empty() => {
+                Err(source) if run_state.states.is_empty() => {
                     return Err(SimulationError::Equilibrium { revolutions, source });
                 }
                 Err(EquilibriumError::Interrupted) => return Ok(PhaseEnd::Stopped),
                 Err(source) => return Ok(PhaseEnd::Failed(SimulationError::Equilibrium { revolutions, source })),
             }
-            self.pass_due(course);
+            self.pass_due(run_state);
             progress.progress(revolutions, self.end_revolutions());
-            let Some(next) = self.due(course.passed).filter(|_| !interrupted) else { return Ok(PhaseEnd::Stopped) };
+            let Some(next) = self.due(run_state.passed).filter(|_| !interrupted) else { return Ok(PhaseEnd::Stopped) };
             if revolutions >= phase.end_revolutions {
                 return Ok(PhaseEnd::Reached);
             }
             if is_clean {
-                cleaned_at = course.work.mesh_cycles;
+                cleaned_at = run_state.work.mesh_cycles;
                 if revolutions > 0.0 && keeper.is_due() {
-                    keeper.keep(&course.checkpoint(pair.wear_mm()));
+                    keeper.keep(&run_state.checkpoint(pair.wear_mm()));
                 }
             }
-            is_clean = course.work.mesh_cycles - cleaned_at >= clean_after;
+            is_clean = run_state.work.mesh_cycles - cleaned_at >= clean_after;
             let limit = next.min(phase.end_revolutions);
             let stretch = Stretch { from: revolutions, limit, clean_start: is_clean };
-            let advanced = course.stepper.advance(pair, &phase.wear, stretch, stopped);
-            (course.revolutions, evaluated) = (advanced.revolutions, advanced.evaluated);
+            let advanced = run_state.stepper.advance(pair, &phase.wear, stretch, stopped);
+            (run_state.revolutions, evaluated) = (advanced.revolutions, advanced.evaluated);
         }
     }
 }
 
-impl Course {
+impl RunState {
     /// The run as it is, on flanks that have lost `wear_mm`.
     fn checkpoint(&self, wear_mm: PerGear<Vec<f64>>) -> Checkpoint {
         Checkpoint {

@@ -29,7 +29,7 @@
 //! q(ξ) = q(ξ_end) q_WB(ξ)/q_WB(ξ_end)
 //! ```
 //!
-//! Both flattening and the bed's approach are nonlinear in the load; what the split leaves over at other loads than the
+//! Both flattening and the foundation's approach are nonlinear in the load; what the split leaves over at other loads than the
 //! reference is reported ([`TeethSpring::split_remainder`]).
 
 pub mod curve;

@@ -9,7 +9,7 @@
 //!
 //! Source: E. P. Kingsbury (1958); S. Wu and H. S. Cheng (1991, 1993); the thesis, equations 13–19.
 
-use super::{Surroundings, WearLaw};
+use super::{ContactConditions, WearLaw};
 
 /// R, J/(mol·K).
 pub(super) const MOLAR_GAS_CONSTANT: f64 = 8.314_462_618;
@@ -40,7 +40,7 @@ impl AdsorptionConstants {
         Self { molecule_diameter_mm: 0.3 / 1e6, vibration_time_s: 3.0 / 1e12, heat_of_adsorption_j_per_mol: 48e3 };
 
     /// α, 0 to 1: the part of the contact that the film leaves unprotected.
-    pub fn unprotected(&self, Surroundings { sliding_speed_mm_per_s, temperature_k }: Surroundings) -> f64 {
+    pub fn unprotected(&self, ContactConditions { sliding_speed_mm_per_s, temperature_k }: ContactConditions) -> f64 {
         if sliding_speed_mm_per_s <= 0.0 {
             // Every molecule leaves before an asperity has passed its place.
             return 1.0;
@@ -52,10 +52,10 @@ impl AdsorptionConstants {
 }
 
 impl WearLaw for Adsorption {
-    const READS_SURROUNDINGS: bool = true;
+    const READS_CONDITIONS: bool = true;
 
-    fn coefficient_mm2_per_n(&self, surroundings: Option<Surroundings>) -> f64 {
-        let unprotected = surroundings.map_or(1.0, |surroundings| self.constants.unprotected(surroundings));
+    fn coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64 {
+        let unprotected = conditions.map_or(1.0, |conditions| self.constants.unprotected(conditions));
         self.coefficient_mm2_per_n * unprotected
     }
 
@@ -67,18 +67,18 @@ impl WearLaw for Adsorption {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wear::{FlankWear, Rubbing, WithTransition};
+    use crate::wear::{FlankWear, SlidingRow, WithTransition};
 
     /// Thesis eq 19 at 250 mm/s, 120 °C, 1000 MPa over 0.5 mm, by hand: t₀ exp(E/(R T)) = 3e-12 · exp(14.684 …).
     #[test]
     fn ver_equation_19() {
         let law = Adsorption { coefficient_mm2_per_n: 1e-7, constants: AdsorptionConstants::TYPICAL };
-        let own = Surroundings { sliding_speed_mm_per_s: 250.0, temperature_k: 393.15 };
+        let own = ContactConditions { sliding_speed_mm_per_s: 250.0, temperature_k: 393.15 };
         let stays = 3e-12 * (48e3 / (8.314_462_618 * 393.15_f64)).exp();
         let expected = 1e-7 * 1000.0 * (1.0 - (-3e-7 / (250.0 * stays)).exp()) * 0.5;
         let mut depth = [0.0];
-        let rubbing = Rubbing { pressure_mpa: &[1000.0], sliding_mm: &[0.5], surroundings: Some(&[own]) };
-        WithTransition { law, severe: None }.add_depth(&rubbing, &mut depth);
+        let row = SlidingRow { pressure_mpa: &[1000.0], sliding_mm: &[0.5], conditions: Some(&[own]) };
+        WithTransition { law, severe: None }.add_depth(&row, &mut depth);
         assert!((depth[0] / expected - 1.0).abs() < 1e-12, "{} {expected}", depth[0]);
     }
 
@@ -92,7 +92,7 @@ mod tests {
             ..AdsorptionConstants::TYPICAL
         };
         let at = |constants: AdsorptionConstants, sliding_speed_mm_per_s, temperature_k| {
-            constants.unprotected(Surroundings { sliding_speed_mm_per_s, temperature_k })
+            constants.unprotected(ContactConditions { sliding_speed_mm_per_s, temperature_k })
         };
         assert!((at(constants, 0.3, 300.0) - (1.0 - (-1.0_f64).exp())).abs() < 1e-15);
         let typical = AdsorptionConstants::TYPICAL;

@@ -6,7 +6,7 @@
 //!
 //! Source: J. F. Archard (1953); the thesis, equations 9–12.
 
-use super::{Surroundings, WearLaw};
+use super::{ContactConditions, WearLaw};
 
 /// dh = k p ds at every point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,9 +16,9 @@ pub struct Archard {
 }
 
 impl WearLaw for Archard {
-    const READS_SURROUNDINGS: bool = false;
+    const READS_CONDITIONS: bool = false;
 
-    fn coefficient_mm2_per_n(&self, _surroundings: Option<Surroundings>) -> f64 {
+    fn coefficient_mm2_per_n(&self, _surroundings: Option<ContactConditions>) -> f64 {
         self.coefficient_mm2_per_n
     }
 
@@ -30,7 +30,7 @@ impl WearLaw for Archard {
 #[cfg(test)]
 mod tests {
     use crate::wear::{
-        Rubbing,
+        SlidingRow,
         settings::{SevereTransition, WearSettings},
     };
 
@@ -40,8 +40,8 @@ mod tests {
         let severe = Some(SevereTransition { above_mpa: 2000.0, factor: 100.0, band_mpa: 0.0 });
         let law = crate::wear::of(&WearSettings { severe, ..WearSettings::archard(1e-11) });
         let mut depth = [0.0; 3];
-        let rubbing = Rubbing { pressure_mpa: &[1000.0, 2000.0, 2001.0], sliding_mm: &[0.7; 3], surroundings: None };
-        law.add_depth(&rubbing, &mut depth);
+        let row = SlidingRow { pressure_mpa: &[1000.0, 2000.0, 2001.0], sliding_mm: &[0.7; 3], conditions: None };
+        law.add_depth(&row, &mut depth);
         let expected = [1e-11 * 1000.0 * 0.7, 1e-11 * 2000.0 * 0.7, 1e-9 * 2001.0 * 0.7];
         for (d, e) in depth.iter().zip(expected) {
             assert!((d / e - 1.0).abs() < 1e-14);

@@ -1,6 +1,6 @@
-//! The surroundings of flank points in a heated contact, in rows that are filled anew for every contact.
+//! The conditions of flank points in a heated contact, in rows that are filled anew for every contact.
 
-use super::Surroundings;
+use super::ContactConditions;
 use crate::gear::Gear;
 use crate::thermal::{ContactHeat, SpeedRatios, band::Spread};
 
@@ -18,16 +18,16 @@ pub struct HeatedContact<'a> {
 }
 
 impl HeatedContact<'_> {
-    fn at(&self, rise_k: f64) -> Surroundings {
+    fn at(&self, rise_k: f64) -> ContactConditions {
         self.sliding_at(self.heat.sliding_speed_mm_per_s(&self.ratios), rise_k)
     }
 
-    fn sliding_at(&self, sliding_speed_mm_per_s: f64, rise_k: f64) -> Surroundings {
-        Surroundings { sliding_speed_mm_per_s, temperature_k: self.heat.settings.bulk_temperature_k + rise_k }
+    fn sliding_at(&self, sliding_speed_mm_per_s: f64, rise_k: f64) -> ContactConditions {
+        ContactConditions { sliding_speed_mm_per_s, temperature_k: self.heat.settings.bulk_temperature_k + rise_k }
     }
 
-    /// The surroundings where `gear`'s surface is hottest, with the heat spread in some way.
-    pub fn at_hottest(&self, gear: Gear, spread: Spread) -> Surroundings {
+    /// The conditions where `gear`'s surface is hottest, with the heat spread in some way.
+    pub fn at_hottest(&self, gear: Gear, spread: Spread) -> ContactConditions {
         let band = self.heat.band(&self.ratios, self.line_load_n_per_mm, self.half_width_mm);
         self.at(band.greatest_rise_k(gear, spread))
     }
@@ -44,20 +44,20 @@ pub struct RowOfPoints<'a> {
     pub pressure_mpa: &'a [f64],
 }
 
-/// A row of surroundings.
+/// A row of conditions.
 #[derive(Debug, Clone, Default)]
 pub struct HeatedRow {
     rise_k: Vec<f64>,
-    surroundings: Vec<Surroundings>,
+    conditions: Vec<ContactConditions>,
 }
 
 impl HeatedRow {
     /// Of points across the contact.
-    pub fn across(&mut self, contact: &HeatedContact<'_>, points: RowOfPoints<'_>) -> &[Surroundings] {
+    pub fn across(&mut self, contact: &HeatedContact<'_>, points: RowOfPoints<'_>) -> &[ContactConditions] {
         self.heat_up(contact, points);
-        self.surroundings.clear();
-        self.surroundings.extend(self.rise_k.iter().map(|&rise| contact.at(rise)));
-        &self.surroundings
+        self.conditions.clear();
+        self.conditions.extend(self.rise_k.iter().map(|&rise| contact.at(rise)));
+        &self.conditions
     }
 
     /// The same where each point slides `sliding_mm` of its own in the same time.
@@ -67,12 +67,12 @@ impl HeatedRow {
         points: RowOfPoints<'_>,
         sliding_mm: &[f64],
         time_s: f64,
-    ) -> &[Surroundings] {
+    ) -> &[ContactConditions] {
         self.heat_up(contact, points);
-        self.surroundings.clear();
+        self.conditions.clear();
         let points = self.rise_k.iter().zip(sliding_mm);
-        self.surroundings.extend(points.map(|(&rise, sliding)| contact.sliding_at(sliding / time_s, rise)));
-        &self.surroundings
+        self.conditions.extend(points.map(|(&rise, sliding)| contact.sliding_at(sliding / time_s, rise)));
+        &self.conditions
     }
 
     fn heat_up(&mut self, contact: &HeatedContact<'_>, points: RowOfPoints<'_>) {
@@ -82,9 +82,9 @@ impl HeatedRow {
     }
 
     /// Of `points` of `gear`'s flank that all feel the hottest place of an even contact.
-    pub fn even(&mut self, contact: &HeatedContact<'_>, gear: Gear, points: usize) -> &[Surroundings] {
-        self.surroundings.clear();
-        self.surroundings.resize(points, contact.at_hottest(gear, Spread::Even));
-        &self.surroundings
+    pub fn even(&mut self, contact: &HeatedContact<'_>, gear: Gear, points: usize) -> &[ContactConditions] {
+        self.conditions.clear();
+        self.conditions.resize(points, contact.at_hottest(gear, Spread::Even));
+        &self.conditions
     }
 }

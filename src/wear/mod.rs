@@ -22,7 +22,7 @@ use settings::{LawSettings, SevereTransition, WearSettings};
 
 /// What the chemistry of a flank point knows of the contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Surroundings {
+pub struct ContactConditions {
     /// Sliding speed, mm/s.
     pub sliding_speed_mm_per_s: f64,
     /// Contact temperature, K.
@@ -31,11 +31,11 @@ pub struct Surroundings {
 
 /// A local wear law.
 pub trait WearLaw: Sync {
-    /// Whether the coefficient depends on the [`Surroundings`].
-    const READS_SURROUNDINGS: bool;
+    /// Whether the coefficient depends on the [`ContactConditions`].
+    const READS_CONDITIONS: bool;
 
-    /// Depth per pressure and sliding distance, mm²/N. Laws that do not read the surroundings get none.
-    fn coefficient_mm2_per_n(&self, surroundings: Option<Surroundings>) -> f64;
+    /// Depth per pressure and sliding distance, mm²/N. Laws that do not read the conditions get none.
+    fn coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64;
 
     /// The greatest coefficient that the law can give, mm²/N: bounds the stable wear step.
     fn greatest_coefficient_mm2_per_n(&self) -> f64;
@@ -43,25 +43,25 @@ pub trait WearLaw: Sync {
 
 /// What consecutive points of a flank feel at one loading position, in rows of the same length.
 #[derive(Debug, Clone, Copy)]
-pub struct Rubbing<'a> {
+pub struct SlidingRow<'a> {
     /// Pressure on each, MPa.
     pub pressure_mpa: &'a [f64],
     /// How far each slides, mm.
     pub sliding_mm: &'a [f64],
     /// What its chemistry knows, where the law reads it.
-    pub surroundings: Option<&'a [Surroundings]>,
+    pub conditions: Option<&'a [ContactConditions]>,
 }
 
 /// Wear of a flank by some law, in rows of points: the law itself stays out of the inner loop's way.
 pub trait FlankWear: Sync {
-    /// Adds to each point's depth (mm) what it loses. Rows without surroundings are for laws that do not read them.
-    fn add_depth(&self, rubbing: &Rubbing<'_>, depth_mm: &mut [f64]);
+    /// Adds to each point's depth (mm) what it loses. Rows without conditions are for laws that do not read them.
+    fn add_depth(&self, row: &SlidingRow<'_>, depth_mm: &mut [f64]);
 
-    /// Whether rows must have surroundings.
-    fn reads_surroundings(&self) -> bool;
+    /// Whether rows must have conditions.
+    fn reads_conditions(&self) -> bool;
 
     /// Depth per pressure and sliding distance of mild wear, mm²/N.
-    fn mild_coefficient_mm2_per_n(&self, surroundings: Option<Surroundings>) -> f64;
+    fn mild_coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64;
 
     /// The greatest rate of depth per sliding distance and pressure, severe wear included, mm²/N.
     fn greatest_coefficient_mm2_per_n(&self) -> f64;
@@ -77,15 +77,15 @@ pub struct WithTransition<L> {
 }
 
 impl<L: WearLaw> FlankWear for WithTransition<L> {
-    fn add_depth(&self, rubbing: &Rubbing<'_>, depth_mm: &mut [f64]) {
-        let points = rubbing.pressure_mpa.iter().zip(rubbing.sliding_mm);
+    fn add_depth(&self, row: &SlidingRow<'_>, depth_mm: &mut [f64]) {
+        let points = row.pressure_mpa.iter().zip(row.sliding_mm);
         let add = |(depth, (&pressure, &sliding)): (&mut f64, (&f64, &f64)), k: f64| {
             let factor = self.severe.as_ref().map_or(1.0, |severe| severe.factor_at(pressure));
             *depth += factor * k * pressure * sliding;
         };
-        if L::READS_SURROUNDINGS {
-            let surroundings = rubbing.surroundings.unwrap_or_default();
-            for (point, own) in depth_mm.iter_mut().zip(points).zip(surroundings) {
+        if L::READS_CONDITIONS {
+            let conditions = row.conditions.unwrap_or_default();
+            for (point, own) in depth_mm.iter_mut().zip(points).zip(conditions) {
                 add(point, self.law.coefficient_mm2_per_n(Some(*own)));
             }
         } else {
@@ -94,12 +94,12 @@ impl<L: WearLaw> FlankWear for WithTransition<L> {
         }
     }
 
-    fn reads_surroundings(&self) -> bool {
-        L::READS_SURROUNDINGS
+    fn reads_conditions(&self) -> bool {
+        L::READS_CONDITIONS
     }
 
-    fn mild_coefficient_mm2_per_n(&self, surroundings: Option<Surroundings>) -> f64 {
-        self.law.coefficient_mm2_per_n(surroundings)
+    fn mild_coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64 {
+        self.law.coefficient_mm2_per_n(conditions)
     }
 
     fn greatest_coefficient_mm2_per_n(&self) -> f64 {
@@ -131,13 +131,13 @@ pub struct WearModel<'a> {
 }
 
 impl<'a> WearModel<'a> {
-    /// A law that reads no surroundings.
+    /// A law that reads no conditions.
     pub fn cold(law: &'a dyn FlankWear) -> Self {
         Self { law, heat: None }
     }
 
     /// The heat, where the law reads what it does to the contact.
     pub fn heat_of_law(&self) -> Option<&'a ContactHeat> {
-        self.heat.filter(|_| self.law.reads_surroundings())
+        self.heat.filter(|_| self.law.reads_conditions())
     }
 }

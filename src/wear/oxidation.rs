@@ -12,7 +12,7 @@
 //!
 //! Source: T. F. J. Quinn (1962); the thesis, equations 20–25, which hold for contact temperatures of about 200 to 400 °C.
 
-use super::{Surroundings, WearLaw, adsorption::MOLAR_GAS_CONSTANT};
+use super::{ContactConditions, WearLaw, adsorption::MOLAR_GAS_CONSTANT};
 
 /// M_Fe, g/mol.
 const IRON: f64 = 55.845;
@@ -85,12 +85,12 @@ impl OxidationConstants {
 }
 
 impl WearLaw for Oxidation {
-    const READS_SURROUNDINGS: bool = true;
+    const READS_CONDITIONS: bool = true;
 
-    fn coefficient_mm2_per_n(&self, surroundings: Option<Surroundings>) -> f64 {
-        match surroundings {
+    fn coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64 {
+        match conditions {
             // Speeds are means over the distance that a point slides, so that ds/v is the time it takes: none without sliding.
-            Some(Surroundings { sliding_speed_mm_per_s, temperature_k }) if sliding_speed_mm_per_s > 0.0 => {
+            Some(ContactConditions { sliding_speed_mm_per_s, temperature_k }) if sliding_speed_mm_per_s > 0.0 => {
                 self.coefficient_mm2_per_n * self.constants.growth_mm_per_s(temperature_k) / sliding_speed_mm_per_s
             }
             _ => 0.0,
@@ -105,15 +105,15 @@ impl WearLaw for Oxidation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wear::{FlankWear, Rubbing, WithTransition};
+    use crate::wear::{FlankWear, SlidingRow, WithTransition};
 
     fn depth(mass_ratio: MassRatio, sliding_mm: f64, sliding_speed_mm_per_s: f64) -> f64 {
         let constants = OxidationConstants { mass_ratio, ..OxidationConstants::TYPICAL };
         let law = Oxidation { coefficient_mm2_per_n: 1.5e-4, constants };
-        let own = Surroundings { sliding_speed_mm_per_s, temperature_k: 573.15 };
+        let own = ContactConditions { sliding_speed_mm_per_s, temperature_k: 573.15 };
         let mut depth = [0.0];
-        let rubbing = Rubbing { pressure_mpa: &[1000.0], sliding_mm: &[sliding_mm], surroundings: Some(&[own]) };
-        WithTransition { law, severe: None }.add_depth(&rubbing, &mut depth);
+        let row = SlidingRow { pressure_mpa: &[1000.0], sliding_mm: &[sliding_mm], conditions: Some(&[own]) };
+        WithTransition { law, severe: None }.add_depth(&row, &mut depth);
         depth[0]
     }
 

@@ -51,7 +51,7 @@ pub struct Estimate {
 }
 
 /// Wear of the pinion over product of coefficient and revolutions.
-pub struct Course {
+pub struct StiffnessVariation {
     flank: FlankRecord,
     products: Vec<f64>,
 }
@@ -63,7 +63,7 @@ pub struct Verdict {
     pub root_um: [f64; 2],
     /// Mean rate of the wear-in over that of the last 64 h, for each coefficient.
     pub fast_start: [f64; 2],
-    /// Place above SAP in mm, and height in µm, of the separate peak of each coefficient.
+    /// FilePosition above SAP in mm, and height in µm, of the separate peak of each coefficient.
     pub peak: [Option<(f64, f64)>; 2],
     /// Root, tip, B, C, D with the first coefficient, µm.
     pub places_um: [f64; 5],
@@ -112,18 +112,18 @@ impl Estimate {
     }
 
     /// Runs it.
-    pub fn run(&self) -> Course {
+    pub fn run(&self) -> StiffnessVariation {
         let (text, products) = self.scene();
         let resolved = Scene::from_toml(&text).expect("the scene of the test is sound");
         let Done { record, failure } =
             pipeline::run(&resolved, &Plan::of(&resolved.scene), &Inputs::default(), &Unwatched)
                 .expect("the run of the test has results");
         assert_eq!(failure, None);
-        Course { flank: record.flanks.pinion, products }
+        StiffnessVariation { flank: record.flanks.pinion, products }
     }
 }
 
-impl Course {
+impl StiffnessVariation {
     /// Profile at a stop, µm.
     fn profile_um(&self, speed_rpm: f64, coefficient: f64, hours: f64) -> &[f64] {
         let at = product(speed_rpm, coefficient, hours);

@@ -77,7 +77,7 @@ pub fn steel() -> PerGear<gearwear::contact::settings::Material> {
 
 use gearwear::contact::{
     ContactSurface,
-    foundation::{Bed, matched_mpa_per_mm},
+    foundation::{WinklerFoundation, matched_mpa_per_mm},
     half_space::HalfSpace,
     hertz::{self, Hertz},
     hertz_mean::HertzMean,
@@ -157,9 +157,10 @@ impl Scene {
     pub fn surface(&self) -> Box<dyn ContactSurface> {
         let expected_line_load_n_per_mm = self.line_load();
         match self.surface {
-            "winkler" => {
-                Box::new(Winkler { bed: Bed::Uniform { mpa_per_mm: self.foundation() }, expected_line_load_n_per_mm })
-            }
+            "winkler" => Box::new(Winkler {
+                bed: WinklerFoundation::Uniform { mpa_per_mm: self.foundation() },
+                expected_line_load_n_per_mm,
+            }),
             "half-space" => Box::new(HalfSpace { material: steel(), expected_line_load_n_per_mm }),
             "hertz" => Box::new(Hertz { material: steel(), expected_line_load_n_per_mm }),
             "hertz-mean" => Box::new(HertzMean { material: steel() }),

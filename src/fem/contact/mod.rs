@@ -17,7 +17,7 @@
 
 pub mod dual_basis;
 pub mod edge;
-pub mod facing;
+pub mod master_search;
 pub mod mortar;
 pub mod overlap;
 pub mod surface;

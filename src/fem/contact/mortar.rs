@@ -12,7 +12,7 @@ use sprs::{CsMat, TriMat};
 
 use super::dual_basis::{DualBasis, gauss_points};
 use super::edge::shape;
-use super::facing::{Facing, Segment};
+use super::master_search::{MasterSearch, Segment};
 use super::surface::Surface;
 
 /// Multipliers with less than this part of the weight of a fully faced node are slivers: their share of the pressure goes to
@@ -94,7 +94,7 @@ fn add(entries: &mut Vec<(usize, Vector2<f64>)>, node: usize, value: Vector2<f64
 impl Coupling {
     /// Couples `slave` to `master` where they lie within `reach_mm` of each other, along the slave's normals.
     pub fn new(slave: &Surface, master: &Surface, reach_mm: f64) -> Self {
-        let facing = Facing::new(master);
+        let facing = MasterSearch::new(master);
         let mut rows = vec![Row::default(); slave.points_mm.len()];
         for number in 0..slave.edges.len() {
             let segments = facing.segments(slave, number, reach_mm);
@@ -122,7 +122,7 @@ impl Coupling {
     }
 }
 
-fn integrate_edge(slave: &Surface, number: usize, facing: &Facing<'_>, segments: &[Segment], rows: &mut [Row]) {
+fn integrate_edge(slave: &Surface, number: usize, facing: &MasterSearch<'_>, segments: &[Segment], rows: &mut [Row]) {
     let edge = &slave.edges[number];
     let count = edge.nodes().len();
     let jacobian = |xi: f64| slave.point_and_tangent(edge, xi).1.norm();

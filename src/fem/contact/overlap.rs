@@ -14,7 +14,7 @@ use nalgebra::Vector2;
 
 use super::dual_basis::gauss_points;
 use super::edge::{interpolate, shape};
-use super::facing::Facing;
+use super::master_search::MasterSearch;
 use super::surface::Surface;
 
 /// A surface with the displacements of its local nodes, mm.
@@ -39,7 +39,7 @@ impl Moved<'_> {
 /// The largest overlap of `slave` and `master` at the integration points, mm; zero where they nowhere overlap. Surfaces
 /// farther apart than `reach_mm` do not face each other.
 pub fn largest_overlap_mm(slave: Moved<'_>, master: Moved<'_>, reach_mm: f64) -> f64 {
-    let facing = Facing::new(master.surface);
+    let facing = MasterSearch::new(master.surface);
     let mut largest_mm = 0.0_f64;
     for (number, edge) in slave.surface.edges.iter().enumerate() {
         for segment in facing.segments(slave.surface, number, reach_mm) {

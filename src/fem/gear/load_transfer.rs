@@ -28,7 +28,7 @@
 
 use nalgebra::{Rotation2, Vector2};
 
-use super::facing::Facing;
+use super::facing_teeth::FacingTeeth;
 use super::flank_nodes::{FlankNodes, Weights};
 use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
 use super::position::CondensedPair;
@@ -185,7 +185,7 @@ impl CondensedPair<'_> {
         &self,
         position_mm: f64,
         stretch_mm: (f64, f64),
-        facing: &Facing,
+        facing: &FacingTeeth,
         nodes: PerGear<&FlankNodes>,
         worn: Option<Worn<'_>>,
     ) -> LoadTransfer {
@@ -239,7 +239,7 @@ impl CondensedPair<'_> {
     }
 
     /// (x − C)·n at a node of the slave, n away from the pinion, mm.
-    fn lever_mm(&self, position_mm: f64, facing: &Facing, node: usize) -> f64 {
+    fn lever_mm(&self, position_mm: f64, facing: &FacingTeeth, node: usize) -> f64 {
         let (slave, surface) = (facing.slave, &self.flanks[facing.slave].surface);
         let in_place = in_place_mm(self.pair, slave, position_mm, facing.pair, surface.points_mm[node]);
         let pitch_point = Vector2::new(0.0, self.pair.working_pitch_radius_mm(Gear::Pinion));
@@ -253,7 +253,7 @@ impl CondensedPair<'_> {
     fn feet(
         &self,
         position_mm: f64,
-        facing: &Facing,
+        facing: &FacingTeeth,
         nodes: PerGear<&FlankNodes>,
         worn: Option<Worn<'_>>,
     ) -> std::collections::BTreeMap<usize, Foot> {
@@ -366,7 +366,7 @@ fn faced_mm(
     place: usize,
     loaded_mm: [f64; 2],
 ) -> [f64; 2] {
-    // Facing flanks run against each other at equal lengths, but for their curvature.
+    // FacingTeeth flanks run against each other at equal lengths, but for their curvature.
     let foot = |k: usize| feet.get(&k).map(|foot| foot.along_mm);
     let neighbour = |k: Option<usize>| k.and_then(|k| Some((own.along_mm.get(k).copied()?, foot(k)?)));
     let (before, after) = (neighbour(place.checked_sub(1)), neighbour(Some(place + 1)));

@@ -1,7 +1,7 @@
 //! Finite-element contact of a gear pair: each gear condensed once, every position a small contact problem.
 
 pub mod cycle;
-mod facing;
+mod facing_teeth;
 pub mod flank_nodes;
 pub mod flank_surface;
 pub mod full;

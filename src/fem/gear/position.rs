@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 
 use sprs::CsMat;
 
-use super::facing::Facing;
+use super::facing_teeth::FacingTeeth;
 use super::flank_surface::FlankSurface;
 use super::prepared::Prepared;
 use super::ring::{GearCompliance, ToothForce};
@@ -195,7 +195,7 @@ impl<'a> CondensedPair<'a> {
     }
 
     /// One pair's figures and the loaded stretch, from the expected contact towards the pinion's tip.
-    fn tooth_pair(&self, prepared: &Prepared, facing: &Facing, force: &[f64]) -> (ToothPairContact, (f64, f64)) {
+    fn tooth_pair(&self, prepared: &Prepared, facing: &FacingTeeth, force: &[f64]) -> (ToothPairContact, (f64, f64)) {
         let (flank, coupling) = (&self.flanks[facing.slave], &facing.coupling);
         let mut rows: Vec<usize> = (0..coupling.len()).collect();
         let place = |row: usize| facing.towards_pinion_tip_mm(flank, coupling.nodes[row]);
@@ -226,7 +226,7 @@ impl<'a> CondensedPair<'a> {
         (contact, stretch)
     }
 
-    fn is_at_sharp_edge(&self, facing: &Facing, force: &[f64]) -> bool {
+    fn is_at_sharp_edge(&self, facing: &FacingTeeth, force: &[f64]) -> bool {
         Gear::BOTH.into_iter().any(|gear| {
             let (operator, flank) = (&facing.operator[gear], &self.flanks[gear]);
             let tip = flank.tip_node();
@@ -237,7 +237,7 @@ impl<'a> CondensedPair<'a> {
 }
 
 /// The active set expected from the position before.
-fn start(facings: &[Facing], flanks: &PerGear<FlankSurface>, warm: &WarmStart) -> Option<Vec<bool>> {
+fn start(facings: &[FacingTeeth], flanks: &PerGear<FlankSurface>, warm: &WarmStart) -> Option<Vec<bool>> {
     if warm.0.is_empty() {
         return None;
     }

@@ -13,7 +13,7 @@
 use faer::Mat;
 use sprs::CsMat;
 
-use super::facing::{Direction, Facing, Window};
+use super::facing_teeth::{Direction, FacingTeeth, Window};
 use super::position::CondensedPair;
 use super::ring::Between;
 use crate::fem::active_set::{ActiveSetError, Condensed, Equilibrium, Kept};
@@ -31,14 +31,14 @@ const WIDER: f64 = 1.6;
 /// How much farther each further look across the gap is.
 const FARTHER: f64 = 3.0;
 /// Looks before giving up.
-const MOST_LOOKS: usize = 8;
+const MOST_WINDOWS: usize = 8;
 
 /// A position with its couplings and compliance.
 pub struct Prepared {
     /// ξ.
     pub position_mm: f64,
     window: Window,
-    pub(super) facings: Vec<Facing>,
+    pub(super) facings: Vec<FacingTeeth>,
     pub(super) condensed: Condensed,
     /// Change of each row's place along the flank, from root to tip, per transmission error.
     pub(super) along_rotation: Vec<f64>,
@@ -50,7 +50,7 @@ pub struct Prepared {
     pub(super) active: Option<Vec<bool>>,
     pub(super) kept: Option<Kept>,
     /// How often it had to be looked wider.
-    looks: usize,
+    windows: usize,
 }
 
 /// A position along the flanks ([`super::tilted`]), and as it was before it was tilted.
@@ -73,7 +73,7 @@ impl<'a> CondensedPair<'a> {
     }
 
     fn prepare_among(&self, beside: i32, position_mm: f64, line_load_n_per_mm: f64) -> Prepared {
-        self.look(position_mm, self.first_window(beside, line_load_n_per_mm))
+        self.observe(position_mm, self.first_window(beside, line_load_n_per_mm))
     }
 
     /// Where contact is looked for first.
@@ -86,7 +86,7 @@ impl<'a> CondensedPair<'a> {
         }
     }
 
-    fn look(&self, position_mm: f64, window: Window) -> Prepared {
+    fn observe(&self, position_mm: f64, window: Window) -> Prepared {
         let facings = self.facings(position_mm, &window);
         let condensed = self.condensed(&facings, window.line_load_n_per_mm);
         let along_rotation =
@@ -102,12 +102,12 @@ impl<'a> CondensedPair<'a> {
             tilt_rad: Vec::new(),
             active: None,
             kept: None,
-            looks: 1,
+            windows: 1,
         }
     }
 
-    /// Solves a prepared position; looks wider where contact comes close to the end of what is looked at. `opening` adds to the gaps
-    /// of the unworn flanks what these are opened by: each time anew where the position looks wider, and so has other multipliers.
+    /// Solves a prepared position; windows wider where contact comes close to the end of what is looked at. `opening` adds to the gaps
+    /// of the unworn flanks what these are opened by: each time anew where the position windows wider, and so has other multipliers.
     ///
     /// # Errors
     /// See [`ActiveSetError`].
@@ -116,9 +116,9 @@ impl<'a> CondensedPair<'a> {
         prepared: &mut Prepared,
         opening: &mut dyn FnMut(&Prepared, &mut [f64]),
     ) -> Result<Equilibrium, ActiveSetError> {
-        for look in 1..=MOST_LOOKS {
+        for attempt in 1..=MOST_WINDOWS {
             prepared.open_gaps(opening);
-            let last = look == MOST_LOOKS;
+            let last = attempt == MOST_WINDOWS;
             match prepared.condensed.solve_with(prepared.active.as_deref(), &mut prepared.kept) {
                 Ok(found) if last || !prepared.is_cramped(&found) => {
                     prepared.active = Some(found.active.clone());
@@ -132,12 +132,12 @@ impl<'a> CondensedPair<'a> {
         unreachable!("the last look returns")
     }
 
-    /// Makes a prepared position as if it had never been solved, and its wear never seen: it starts from no contact, and looks no
+    /// Makes a prepared position as if it had never been solved, and its wear never seen: it starts from no contact, and windows no
     /// wider than at first.
-    pub fn forget(&self, prepared: &mut Prepared) {
-        if prepared.looks > 1 {
+    pub fn reset(&self, prepared: &mut Prepared) {
+        if prepared.windows > 1 {
             let Window { beside, line_load_n_per_mm, .. } = prepared.window;
-            *prepared = self.look(prepared.position_mm, self.first_window(beside, line_load_n_per_mm));
+            *prepared = self.observe(prepared.position_mm, self.first_window(beside, line_load_n_per_mm));
         } else {
             prepared.level();
         }
@@ -146,13 +146,13 @@ impl<'a> CondensedPair<'a> {
     fn widen(&self, prepared: &mut Prepared) {
         let Window { half_widths, reach_mm, .. } = prepared.window;
         let wider = Window { half_widths: WIDER * half_widths, reach_mm: FARTHER * reach_mm, ..prepared.window };
-        let mut next = self.look(prepared.position_mm, wider);
+        let mut next = self.observe(prepared.position_mm, wider);
         next.active = prepared.active.as_ref().map(|active| carried_over(&prepared.facings, active, &next.facings));
-        next.looks = prepared.looks + 1;
+        next.windows = prepared.windows + 1;
         *prepared = next;
     }
 
-    fn condensed(&self, facings: &[Facing], line_load_n_per_mm: f64) -> Condensed {
+    fn condensed(&self, facings: &[FacingTeeth], line_load_n_per_mm: f64) -> Condensed {
         let rows = facings.iter().map(|facing| facing.coupling.len()).sum();
         let mut compliance = Mat::zeros(rows, rows);
         let mut rigid = Mat::zeros(rows, 1);
@@ -203,8 +203,8 @@ impl Prepared {
     }
 
     /// How often the flanks around the contact had to be looked at, wider each time.
-    pub fn looks(&self) -> usize {
-        self.looks
+    pub fn windows(&self) -> usize {
+        self.windows
     }
 
     /// Number of tooth pairs that may touch.
@@ -233,7 +233,7 @@ impl Prepared {
 }
 
 /// The active set of `before` on the rows of `after`.
-fn carried_over(before: &[Facing], active: &[bool], after: &[Facing]) -> Vec<bool> {
+fn carried_over(before: &[FacingTeeth], active: &[bool], after: &[FacingTeeth]) -> Vec<bool> {
     let was_active = |pair: i32, node: usize| {
         before.iter().filter(|facing| facing.pair == pair).any(|facing| {
             let row = facing.coupling.nodes.iter().position(|&other| other == node);

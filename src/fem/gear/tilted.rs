@@ -15,7 +15,7 @@ use std::f64::consts::FRAC_PI_2;
 use faer::Mat;
 use nalgebra::Rotation2;
 
-use super::facing::{Facing, turned};
+use super::facing_teeth::{FacingTeeth, turned};
 use super::position::CondensedPair;
 use super::prepared::{Prepared, Sideways, add_sandwich};
 use crate::gear::{Gear, PerGear};
@@ -74,7 +74,7 @@ impl Prepared {
     /// How far each tooth pair's flank is tilted in the mean over the load of `force`, where it is tilted by `tilt_rad` at the local nodes
     /// of a gear; none without load.
     pub fn mean_tilts(&self, force: &[f64], tilt_rad: impl Fn(Gear, usize) -> f64) -> Vec<f64> {
-        let mean = |facing: &Facing| {
+        let mean = |facing: &FacingTeeth| {
             let (mut whole, mut sum) = (0.0, 0.0);
             for (&node, force) in facing.coupling.nodes.iter().zip(&force[facing.first_row..]) {
                 if *force > 0.0 {
@@ -90,7 +90,7 @@ impl Prepared {
     /// How much the levers of the tooth pairs' loads change on the pinion under `force` where the flanks tilt to `tilt_rad`, each
     /// over itself and times the part of the load that the others carry: where one pair carries all, nothing changes but its lever.
     pub fn lever_change(&self, force: &[f64], tilt_rad: &[f64]) -> f64 {
-        let of_pair = |(pair, facing): (usize, &Facing)| {
+        let of_pair = |(pair, facing): (usize, &FacingTeeth)| {
             let turn = tilt_rad[pair] - self.tilt_rad.get(pair).unwrap_or(&0.0);
             let (mut own, mut change) = (0.0, 0.0);
             let rows = facing.first_row..facing.first_row + facing.coupling.len();

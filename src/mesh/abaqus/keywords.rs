@@ -1,6 +1,6 @@
 //! Lines of an Abaqus file: keywords with their parameters, and data.
 
-use crate::mesh::error::{Fault, Place, Problem};
+use crate::mesh::error::{Fault, FilePosition, Problem};
 
 /// A keyword line with its data lines.
 #[derive(Debug)]
@@ -27,7 +27,7 @@ pub struct Name {
 impl Keyword<'_> {
     /// A fault in `line` of this keyword's.
     pub fn fault(&self, line: usize, problem: Problem) -> Fault {
-        Fault { place: Some(Place::Line(line)), section: format!("*{}", self.name), problem }
+        Fault { place: Some(FilePosition::Line(line)), section: format!("*{}", self.name), problem }
     }
 
     /// Whether there is a parameter of this name.
@@ -71,7 +71,7 @@ pub fn keywords(text: &str) -> Result<Vec<Keyword<'_>>, Fault> {
                 Some(keyword) => keyword.data.push((number, line)),
                 None => {
                     let problem = Problem::unexpected(line, "a keyword, `*NODE` for example");
-                    return Err(Fault { place: Some(Place::Line(number)), section: String::new(), problem });
+                    return Err(Fault { place: Some(FilePosition::Line(number)), section: String::new(), problem });
                 }
             }
         }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::elements;
 use super::keywords::{Keyword, Name, keywords, split};
 use super::sets::{Sets, Targets, members, refer};
-use crate::mesh::error::{Fault, Place, Problem};
+use crate::mesh::error::{Fault, FilePosition, Problem};
 use crate::mesh::numbering::{Allowance, CellList, Numbering, close_cell_sets, close_point_sets};
 use crate::mesh::{CellKind, Mesh};
 
@@ -49,7 +49,7 @@ pub fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let line = 1 + bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count();
         let problem = Problem::unexpected("other bytes", "text in UTF-8");
-        Fault { place: Some(Place::Line(line)), section: String::new(), problem }
+        Fault { place: Some(FilePosition::Line(line)), section: String::new(), problem }
     })?;
     let keywords = keywords(text)?;
     let mut allowance = Allowance::of(bytes.len());

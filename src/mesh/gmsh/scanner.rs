@@ -1,6 +1,6 @@
 //! Reading values off a Gmsh file, ASCII or binary, never past its end.
 
-use crate::mesh::error::{Fault, Place, Problem};
+use crate::mesh::error::{Fault, FilePosition, Problem};
 use crate::mesh::numbering::Allowance;
 
 /// How numbers stand in the file.
@@ -41,8 +41,10 @@ impl<'a> Scanner<'a> {
     /// A fault at the value read last.
     pub fn fault(&self, problem: impl Into<Problem>) -> Fault {
         let place = match self.encoding {
-            Encoding::Ascii => Place::Line(1 + self.bytes[..self.before].iter().filter(|&&byte| byte == b'\n').count()),
-            Encoding::Binary { .. } => Place::Byte(self.before),
+            Encoding::Ascii => {
+                FilePosition::Line(1 + self.bytes[..self.before].iter().filter(|&&byte| byte == b'\n').count())
+            }
+            Encoding::Binary { .. } => FilePosition::Byte(self.before),
         };
         Fault { place: Some(place), section: self.section.clone(), problem: problem.into() }
     }

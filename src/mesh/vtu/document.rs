@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use quick_xml::events::{BytesStart, Event};
 use quick_xml::{Reader, XmlVersion};
 
-use crate::mesh::error::{Fault, Place, Problem};
+use crate::mesh::error::{Fault, FilePosition, Problem};
 
 /// A VTU file.
 #[derive(Debug, Default)]
@@ -187,5 +187,5 @@ fn attributes(tag: &BytesStart, byte: usize) -> Result<BTreeMap<String, String>,
 
 /// A fault at an offset.
 pub fn fault(byte: usize, section: &str, problem: Problem) -> Fault {
-    Fault { place: Some(Place::Byte(byte)), section: section.into(), problem }
+    Fault { place: Some(FilePosition::Byte(byte)), section: section.into(), problem }
 }

@@ -11,18 +11,18 @@
 
 use super::bending::BentTeeth;
 use super::closed_form::ContactForms;
-use super::exact::Springs;
+use super::exact::SlicesInSeries;
 use super::lanes::{LANES, Lanes};
-use super::station::{Attempt, Common, Pack, Station, Tangent, UNUSED_GAP_MM};
+use super::loaded_position::{Attempt, Common, LoadedPosition, Pack, Tangent, UNUSED_GAP_MM};
 use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::{
     Work,
     bent_tooth::BentTooth,
     load_sharing::EquilibriumError,
-    phases::{Phase, SliceContact},
+    sliced_positions::{SliceContact, SlicedPosition},
 };
 use crate::thermal::{SpeedRatios, band::Spread};
-use crate::wear::{Rubbing, Surroundings, WearModel, heated_row::HeatedContact};
+use crate::wear::{ContactConditions, SlidingRow, WearModel, heated_row::HeatedContact};
 
 /// What a contact's load does to the flanks, over its square root.
 #[derive(Debug, Clone, Copy, Default)]
@@ -40,9 +40,9 @@ type Row = Vec<[f64; LANES]>;
 
 /// Some phases in rows.
 pub struct Batch {
-    phases: Vec<Phase>,
+    phases: Vec<SlicedPosition>,
     /// Their states.
-    pub stations: Vec<Station>,
+    pub loaded_positions: Vec<LoadedPosition>,
     packs: Vec<Pack>,
     /// Gap of the unworn flanks.
     modification_mm: Vec<Lanes>,
@@ -59,7 +59,7 @@ pub struct Batch {
     tangents: Vec<Tangent>,
     pressure_mpa: Row,
     sliding_mm: [Row; 2],
-    surroundings: Vec<Surroundings>,
+    conditions: Vec<ContactConditions>,
     begun: bool,
     outcome: Result<Work, EquilibriumError>,
 }
@@ -80,13 +80,13 @@ pub struct ContactState {
 impl Batch {
     /// Prepares the contacts of `phases`, on flanks modified by `modification_mm` there.
     pub fn new(
-        phases: Vec<Phase>,
+        phases: Vec<SlicedPosition>,
         forms: &ContactForms<'_>,
-        springs: &Springs<'_>,
+        springs: &SlicesInSeries<'_>,
         modification_mm: impl Fn(&SliceContact) -> f64,
     ) -> Self {
         let path = &springs.pair.path;
-        let packs_of = |phase: &Phase| phase.contacts.len().div_ceil(LANES);
+        let packs_of = |phase: &SlicedPosition| phase.contacts.len().div_ceil(LANES);
         let count: usize = phases.iter().map(packs_of).sum();
         let unused = Pack { rigid: Lanes::splat(1.0), gap_mm: Lanes::splat(UNUSED_GAP_MM), ..Pack::default() };
         let (mut packs, mut per_root) = (vec![unused; count], vec![PerRoot::default(); count]);
@@ -96,7 +96,7 @@ impl Batch {
             log_compliance_mm2_per_n: forms.log_compliance_mm2_per_n(),
             line_load_n_per_mm: springs.line_load_n_per_mm,
         };
-        let (mut stations, mut bent, mut first) = (Vec::with_capacity(phases.len()), Vec::new(), 0);
+        let (mut loaded_positions, mut bent, mut first) = (Vec::with_capacity(phases.len()), Vec::new(), 0);
         for phase in &phases {
             let range = first..first + packs_of(phase);
             let mean = springs.line_load_n_per_mm / phase.contacts.len() as f64;
@@ -126,7 +126,7 @@ impl Batch {
                 let compliance = |contact: &SliceContact| springs.along_path.mm2_per_n(contact.cell.position_mm);
                 bent.push(BentTooth::of_phase(&phase.contacts, springs.sliced.slices.count(), compliance));
             }
-            stations.push(Station {
+            loaded_positions.push(LoadedPosition {
                 position_mm: phase.position_mm,
                 transmission_error_mm: 0.0,
                 contacts: phase.contacts.len(),
@@ -135,11 +135,11 @@ impl Batch {
             });
             first = range.end;
         }
-        let longest = stations.iter().map(|station| station.packs.len()).max().unwrap_or(0);
+        let longest = loaded_positions.iter().map(|loaded| loaded.packs.len()).max().unwrap_or(0);
         let row = |packs: usize| vec![[0.0; LANES]; packs];
         Self {
             phases,
-            stations,
+            loaded_positions,
             modification_mm: packs.iter().map(|pack| pack.gap_mm).collect(),
             packs,
             per_root,
@@ -151,7 +151,7 @@ impl Batch {
             tangents: vec![Tangent::default(); longest],
             pressure_mpa: row(longest),
             sliding_mm: [row(longest), row(longest)],
-            surroundings: Vec::new(),
+            conditions: Vec::new(),
             begun: false,
             outcome: Ok(Work::default()),
         }
@@ -161,12 +161,12 @@ impl Batch {
     pub fn evaluate(
         &mut self,
         meshes: PerGear<f64>,
-        springs: &Springs<'_>,
+        springs: &SlicesInSeries<'_>,
         wear: &WearModel<'_>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) {
         let mut work = Work::default();
-        for index in 0..self.stations.len() {
+        for index in 0..self.loaded_positions.len() {
             if stopped() {
                 self.outcome = Err(EquilibriumError::Interrupted);
                 return;
@@ -176,7 +176,7 @@ impl Batch {
                 Ok(iterations) => {
                     work.equilibria += 1;
                     work.newton_iterations += iterations;
-                    work.pair_evaluations += iterations * self.stations[index].contacts as u64;
+                    work.pair_evaluations += iterations * self.loaded_positions[index].contacts as u64;
                 }
                 Err(failure) => {
                     self.outcome = Err(failure);
@@ -198,8 +198,8 @@ impl Batch {
     }
 
     /// h ← h + meshes · dh of both flanks, and their gap.
-    fn wear(&mut self, station: usize, meshes: PerGear<f64>) {
-        let range = self.stations[station].packs.clone();
+    fn wear(&mut self, loaded: usize, meshes: PerGear<f64>) {
+        let range = self.loaded_positions[loaded].packs.clone();
         for gear in Gear::BOTH {
             let (wear, depth) = (&mut self.wear_mm[gear][range.clone()], &self.depth_mm[gear][range.clone()]);
             for (pack, (h, dh)) in self.packs[range.clone()].iter_mut().zip(wear.iter_mut().zip(depth)) {
@@ -210,40 +210,40 @@ impl Batch {
         }
     }
 
-    /// Newton steps to the equilibrium of a station.
-    fn balance(&mut self, index: usize, springs: &Springs<'_>) -> Result<u64, EquilibriumError> {
-        let station = &mut self.stations[index];
-        let packs = &mut self.packs[station.packs.clone()];
+    /// Newton steps to the equilibrium of a loaded.
+    fn balance(&mut self, index: usize, springs: &SlicesInSeries<'_>) -> Result<u64, EquilibriumError> {
+        let loaded = &mut self.loaded_positions[index];
+        let packs = &mut self.packs[loaded.packs.clone()];
         let tangents = &mut self.tangents[..packs.len()];
         let teeth = self.bent.get_mut(index).map(Vec::as_mut_slice);
         let coupled = teeth.zip(springs.sliced.coupling.as_ref());
         let mut bent = coupled.map(|(teeth, coupling)| BentTeeth { teeth, coupling });
         let mut iterations = 0;
         if self.begun {
-            match station.follow(packs, tangents, bent.as_mut(), &self.common) {
+            match loaded.follow(packs, tangents, bent.as_mut(), &self.common) {
                 Attempt::Settled(steps) => return Ok(steps),
                 Attempt::Lost(steps) => iterations += steps,
             }
         }
-        match station.settle(packs, tangents, bent.as_mut(), &self.common) {
+        match loaded.settle(packs, tangents, bent.as_mut(), &self.common) {
             Attempt::Settled(steps) => return Ok(iterations + steps),
             Attempt::Lost(steps) => iterations += steps,
         }
         let gaps = packs.iter().flat_map(|pack| pack.gap_mm.0);
-        let (loads, equilibrium) = springs.balance(&self.phases[index].contacts, gaps, station.position_mm)?;
+        let (loads, equilibrium) = springs.balance(&self.phases[index].contacts, gaps, loaded.position_mm)?;
         for (at, load) in loads.into_iter().enumerate() {
             let (pack, k) = (&mut packs[at / LANES], at % LANES);
             pack.load.0[k] = load;
             pack.log_load.0[k] = if load > 0.0 { load.ln() } else { 0.0 };
             (pack.correction.0[k], pack.change.0[k]) = (0.0, 0.0);
         }
-        station.transmission_error_mm = equilibrium.transmission_error_mm;
+        loaded.transmission_error_mm = equilibrium.transmission_error_mm;
         Ok(iterations + equilibrium.iterations)
     }
 
-    /// What both flanks lose in one mesh at the contacts of a station.
+    /// What both flanks lose in one mesh at the contacts of a loaded.
     fn lose(&mut self, index: usize, wear: &WearModel<'_>) {
-        let range = self.stations[index].packs.clone();
+        let range = self.loaded_positions[index].packs.clone();
         let [sliding_1, sliding_2] = &mut self.sliding_mm;
         let rows = self.pressure_mpa.iter_mut().zip(sliding_1.iter_mut().zip(&mut *sliding_2));
         let contacts = self.packs[range.clone()].iter().zip(&self.per_root[range.clone()]);
@@ -259,8 +259,8 @@ impl Batch {
             depth.fill(0.0);
             let sliding_mm = sliding[..range.len()].as_flattened();
             let (row, contacts) =
-                (&mut self.surroundings, self.packs[range.clone()].iter().zip(&self.per_root[range.clone()]));
-            let surroundings = wear.heat_of_law().map(|heat| {
+                (&mut self.conditions, self.packs[range.clone()].iter().zip(&self.per_root[range.clone()]));
+            let conditions = wear.heat_of_law().map(|heat| {
                 let lanes = contacts.flat_map(|(pack, per_root)| {
                     let (load, half_width) = (pack.loads(), pack.loads().sqrt() * per_root.half_width);
                     load.0.into_iter().zip(half_width.0)
@@ -272,13 +272,13 @@ impl Batch {
                 }));
                 &**row
             });
-            wear.law.add_depth(&Rubbing { pressure_mpa: pressure, sliding_mm, surroundings }, depth);
+            wear.law.add_depth(&SlidingRow { pressure_mpa: pressure, sliding_mm, conditions }, depth);
         }
     }
 
-    /// Each contact of a station with its lane and its state.
+    /// Each contact of a loaded with its lane and its state.
     pub fn contacts(&self, index: usize) -> impl Iterator<Item = (&SliceContact, usize, ContactState)> {
-        let first = LANES * self.stations[index].packs.start;
+        let first = LANES * self.loaded_positions[index].packs.start;
         self.phases[index].contacts.iter().enumerate().map(move |(at, contact)| {
             let lane = first + at;
             (contact, lane, self.contact(lane))
@@ -310,12 +310,12 @@ impl Batch {
     }
 
     /// Is again as if never evaluated, on the flanks as they are.
-    pub fn forget(&mut self) {
-        for station in &mut self.stations {
-            let mean = self.common.line_load_n_per_mm / station.contacts as f64;
-            station.transmission_error_mm = 0.0;
-            for (at, pack) in self.packs[station.packs.clone()].iter_mut().enumerate() {
-                let used = |lane: usize| at * LANES + lane < station.contacts;
+    pub fn reset(&mut self) {
+        for loaded in &mut self.loaded_positions {
+            let mean = self.common.line_load_n_per_mm / loaded.contacts as f64;
+            loaded.transmission_error_mm = 0.0;
+            for (at, pack) in self.packs[loaded.packs.clone()].iter_mut().enumerate() {
+                let used = |lane: usize| at * LANES + lane < loaded.contacts;
                 pack.load = Lanes(std::array::from_fn(|lane| if used(lane) { mean } else { 0.0 }));
                 (pack.log_load, pack.correction, pack.change) = Default::default();
             }

@@ -1,8 +1,8 @@
 //! The teeth of a phase where their slices hold each other, for contacts side by side: [`crate::mesh_cycle::bent_tooth`] on the
-//! tangents of [`super::station`].
+//! tangents of [`super::loaded`].
 
 use super::lanes::LANES;
-use super::station::{Pack, Tangent};
+use super::loaded_position::{Pack, Tangent};
 use crate::mesh_cycle::bent_tooth::{BentTooth, ContactTangent, bend};
 use crate::mesh_cycle::slice_coupling::SliceCoupling;
 

@@ -3,13 +3,13 @@
 //! Every contact becomes a [`PairContact`] of the closed form itself, whose gap is given; teeth and their coupling are those of the
 //! general mesh cycle ([`crate::mesh_cycle::sliced`]).
 
-use crate::contact::{Felt, Footprint, PairContact, Response, Sweep, hertz, settings::Material};
+use crate::contact::{Footprint, PairContact, PointContact, Response, Sweep, hertz, settings::Material};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::mesh_cycle::{
     bent_tooth::BentTooth,
     load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance},
-    phases::SliceContact,
     sliced::SpringAlongPath,
+    sliced_positions::SliceContact,
     sliced_sharing::balance_on_teeth,
     sliced_teeth::SlicedTeeth,
 };
@@ -23,19 +23,19 @@ struct GivenGap {
 }
 
 impl PairContact for GivenGap {
-    fn read(&mut self, _removed_mm: PerGear<&[f64]>) {}
+    fn set_removed(&mut self, _removed_mm: PerGear<&[f64]>) {}
 
     fn touch_mm(&self) -> f64 {
         self.gap_mm
     }
 
-    fn press(&mut self, depth_mm: f64) -> Response {
-        let line_load_n_per_mm = self.flattening.line_load_n_per_mm(depth_mm);
+    fn load_at(&mut self, indentation_mm: f64) -> Response {
+        let line_load_n_per_mm = self.flattening.line_load_n_per_mm(indentation_mm);
         let (_, compliance) = self.flattening.approach_and_compliance(line_load_n_per_mm);
         Response { line_load_n_per_mm, stiffness_n_per_mm2: 1.0 / compliance }
     }
 
-    fn ample_depth_mm(&self, line_load_n_per_mm: f64) -> f64 {
+    fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64 {
         self.flattening.approach_mm(line_load_n_per_mm)
     }
 
@@ -43,7 +43,7 @@ impl PairContact for GivenGap {
         *sweep = Sweep::default();
     }
 
-    fn felt(&self, _gear: Gear, _removed_mm: PerGear<&[f64]>) -> Vec<Felt> {
+    fn contact_of_points(&self, _gear: Gear, _removed_mm: PerGear<&[f64]>) -> Vec<PointContact> {
         Vec::new()
     }
 
@@ -53,7 +53,7 @@ impl PairContact for GivenGap {
 }
 
 /// What the general solver is told of a phase beside its gaps.
-pub struct Springs<'a> {
+pub struct SlicesInSeries<'a> {
     /// The gears.
     pub pair: &'a GearPair,
     /// What they are made of.
@@ -66,7 +66,7 @@ pub struct Springs<'a> {
     pub line_load_n_per_mm: f64,
 }
 
-impl Springs<'_> {
+impl SlicesInSeries<'_> {
     /// Line load of every contact with its gap, and the equilibrium.
     ///
     /// # Errors
@@ -87,7 +87,7 @@ impl Springs<'_> {
                 let teeth = if coupling.is_some() { f64::INFINITY } else { 1.0 / compliance(contact) };
                 let mut pair = MeshedPair::new(Box::new(GivenGap { flattening, gap_mm }), teeth);
                 let nothing = PerGear { pinion: &[][..], wheel: &[][..] };
-                pair.read(nothing);
+                pair.set_removed(nothing);
                 pair
             })
             .collect();

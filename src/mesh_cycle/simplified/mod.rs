@@ -1,6 +1,6 @@
 //! The simplified model of helical gears, at full speed: wear kept at the contact points themselves.
 //!
-//! With Hertz's mean pressure the model is pointwise. Slice i of tooth k at a phase of the mesh ([`crate::mesh_cycle::phases`]) touches
+//! With Hertz's mean pressure the model is pointwise. Slice i of tooth k at a phase of the mesh ([`crate::mesh_cycle::sliced_positions`]) touches
 //! in the same point of the pinion's flank and of the wheel's in every mesh, so that nothing moves between points: gap, load, and
 //! wear are rows with one entry a contact,
 //!
@@ -15,7 +15,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`closed_form`] | approach of a contact under its load, prepared |
-//! | [`station`] | equilibrium of a phase from one wear step to the next |
+//! | [`loaded_position`] | equilibrium of a phase from one wear step to the next |
 //! | [`bending`] | the same where the slices of a tooth hold each other |
 //! | [`exact`] | the general solver, where that one gives up |
 //! | [`batch`] | rows of contacts, from equilibrium to wear |
@@ -28,8 +28,8 @@ pub mod bending;
 pub mod closed_form;
 pub mod exact;
 pub mod lanes;
+pub mod loaded_position;
 pub mod on_flanks;
-pub mod station;
 
 use rayon::prelude::*;
 
@@ -39,14 +39,14 @@ use crate::gear::{Gear, PerGear, flank::FlankGrid};
 use crate::mesh_cycle::{
     CycleObservation, GreatestPressure, Work,
     load_sharing::EquilibriumError,
-    phases::{Phase, SliceContact},
-    sliced_mesh::{ObservedContact, ObservedPhase, SlicedMesh},
+    sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh},
+    sliced_positions::{SliceContact, SlicedPosition},
 };
 use crate::simulation::wear_run::Snapshot;
 use crate::wear::WearModel;
 use batch::Batch;
 use closed_form::ContactForms;
-use exact::Springs;
+use exact::SlicesInSeries;
 use on_flanks::{FlankPoints, Knot};
 
 /// Contacts of a batch: enough that handing it to another thread costs nothing beside it, about 0.1 ms.
@@ -56,8 +56,8 @@ const BATCH: usize = 16_000;
 fn knots(batches: &[Batch], slices: usize) -> Vec<Vec<Knot>> {
     let mut knots = vec![Vec::new(); slices];
     for (number, batch) in batches.iter().enumerate() {
-        for station in 0..batch.stations.len() {
-            for (contact, lane, _) in batch.contacts(station) {
+        for loaded in 0..batch.loaded_positions.len() {
+            for (contact, lane, _) in batch.contacts(loaded) {
                 let (position_mm, upper_mm) = (contact.cell.position_mm, contact.cell.upper_mm);
                 knots[contact.slice].push(Knot { position_mm, upper_mm, at: (number, lane) });
             }
@@ -71,7 +71,7 @@ fn knots(batches: &[Batch], slices: usize) -> Vec<Vec<Knot>> {
 
 /// A pair that wears by the simplified model.
 pub struct SimplifiedPair<'a> {
-    springs: Springs<'a>,
+    springs: SlicesInSeries<'a>,
     grid: PerGear<&'a FlankGrid>,
     batches: Vec<Batch>,
     /// Meshes that the flanks have been through since the last evaluation.
@@ -89,8 +89,8 @@ impl<'a> SimplifiedPair<'a> {
     /// Unworn flanks with their modifications; `positions` rows from A to E are observed, on gear bodies that yield by `bodies_mm`
     /// under the whole load.
     pub fn new(
-        springs: Springs<'a>,
-        mut phases: Vec<Phase>,
+        springs: SlicesInSeries<'a>,
+        mut phases: Vec<SlicedPosition>,
         grid: PerGear<&'a FlankGrid>,
         modification_mm: &PerGear<Vec<f64>>,
         positions: usize,
@@ -130,7 +130,7 @@ impl<'a> SimplifiedPair<'a> {
         let load = self.springs.line_load_n_per_mm;
         let mut phases = Vec::new();
         for batch in &self.batches {
-            for (index, station) in batch.stations.iter().enumerate() {
+            for (index, loaded) in batch.loaded_positions.iter().enumerate() {
                 let contacts: Vec<ObservedContact> = batch
                     .contacts(index)
                     .map(|(contact, _, state)| ObservedContact {
@@ -145,9 +145,9 @@ impl<'a> SimplifiedPair<'a> {
                     })
                     .collect();
                 let total: f64 = contacts.iter().map(|contact| contact.line_load_n_per_mm).sum();
-                phases.push(ObservedPhase {
-                    position_mm: station.position_mm,
-                    transmission_error_mm: station.transmission_error_mm + self.bodies_mm,
+                phases.push(ObservedSlicedPosition {
+                    position_mm: loaded.position_mm,
+                    transmission_error_mm: loaded.transmission_error_mm + self.bodies_mm,
                     load_imbalance: total / load - 1.0,
                     contacts,
                 });
@@ -182,11 +182,11 @@ impl WearingPair for SimplifiedPair<'_> {
         }
     }
 
-    fn forget(&mut self) {
+    fn reset(&mut self) {
         // The gaps are kept up step by step; summed anew they differ in their last bits.
         let wear_mm = self.wear_mm();
         self.set_wear_mm(&wear_mm);
-        self.batches.iter_mut().for_each(Batch::forget);
+        self.batches.iter_mut().for_each(Batch::reset);
     }
 
     fn wear_mm(&self) -> PerGear<Vec<f64>> {

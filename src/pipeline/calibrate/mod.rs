@@ -10,7 +10,8 @@ use crate::calibration::identity::Identity;
 use crate::calibration::single_contact::SingleContact;
 use crate::calibration::tooth_stiffness::LoadedPair;
 use crate::calibration::{
-    Calibration, CalibrationError, STIFFNESS_POSITIONS, course, foundation_fit, single_contact, tooth_family,
+    Calibration, CalibrationError, STIFFNESS_POSITIONS, foundation_fit, single_contact, stiffness_variation,
+    tooth_family,
 };
 use crate::fem::gear::position::CondensedPair;
 use crate::gear::modification::Modification;
@@ -121,7 +122,7 @@ pub fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Cal
         foundation_fit,
         deflection_at_points: path_points_mm.map(|position_mm| loaded.deflection(position_mm, w)),
         iso6336_n_per_mm_um: 1e-3 * iso6336::single_stiffness_n_per_mm2(&scene.pair, &scene.material, w),
-        courses: course::courses(&pair, &deflection),
+        courses: stiffness_variation::courses(&pair, &deflection),
         deflection,
         single_contact,
         convergence,

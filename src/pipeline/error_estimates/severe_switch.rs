@@ -31,7 +31,7 @@ const POSITIONS_SPACINGS: [usize; 2] = [2, 4];
 const LEAST_STEPS: f64 = 40.0;
 
 /// Whether any wear of the run is severe.
-pub(super) fn felt(model: &Model<'_>, outcome: &Outcome) -> bool {
+pub(super) fn is_severe_anywhere(model: &Model<'_>, outcome: &Outcome) -> bool {
     let Some(severe) = model.scene.wear.severe else { return false };
     let mut states = outcome.snapshots.iter().chain([&outcome.new]);
     states.any(|state| severe.factor_at(state.cycle.peak_pressure_mpa()) > 1.0)
@@ -43,7 +43,7 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
     let Some(own) = scene.wear.severe else {
         return (Estimate::none("the scene has no transition to severe wear"), 0.0);
     };
-    if !felt(model, outcome) {
+    if !is_severe_anywhere(model, outcome) {
         return (Estimate::none("no pressure reaches the transition to severe wear"), 0.0);
     }
     let fine = scene.numerics;

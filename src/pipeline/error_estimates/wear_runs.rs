@@ -175,7 +175,7 @@ pub(super) fn estimate<'a>(
     let [discretisation, wear_step] = match embedded {
         Some(embedded) => {
             let first_order = companions.first_order();
-            let few = match severe_switch::felt(model, outcome) {
+            let few = match severe_switch::is_severe_anywhere(model, outcome) {
                 true => Err("where wear is severe, fewer points take adaptive steps more work and not less".to_owned()),
                 false => companions.peaks_mm(Coarser { spacing: 4, step: 1.0 }, (0.0, 0.8)),
             };

@@ -4,7 +4,7 @@ use crate::report::chart::{DashType, Layout, Plot};
 
 use super::path_points;
 use crate::calibration::Calibration;
-use crate::calibration::course::{Course, CourseOf};
+use crate::calibration::stiffness_variation::{StiffnessVariation, VariationOf};
 use crate::calibration::tooth_stiffness::{PairDeflection, ToothDeflection};
 use crate::gear::Gear;
 use crate::report::html::number::{figure, percent, significant};
@@ -211,10 +211,10 @@ fn course(calibration: &Calibration) -> Figure {
         top = top.max(greatest(calibration, relative));
     }
     plot.set_layout(over_the_path(calibration, "stiffness over its mean", top));
-    let of = |wanted: CourseOf| calibration.courses.iter().find(|course| course.of == wanted);
-    let words = |course: &Course| format!("{} {}", course.of.words(), figure(course.max_over_min));
-    let ratios: Vec<String> = CourseOf::ALL.into_iter().filter_map(of).map(words).collect();
-    let place = of(CourseOf::PairWhole).map_or_else(String::new, |course| {
+    let of = |wanted: VariationOf| calibration.courses.iter().find(|course| course.of == wanted);
+    let words = |course: &StiffnessVariation| format!("{} {}", course.of.words(), figure(course.max_over_min));
+    let ratios: Vec<String> = VariationOf::ALL.into_iter().filter_map(of).map(words).collect();
+    let place = of(VariationOf::PairWhole).map_or_else(String::new, |course| {
         format!(" The pair is stiffest at {} of the way from A to E.", percent(course.greatest_at))
     });
     Figure {

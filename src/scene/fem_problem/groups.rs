@@ -32,7 +32,7 @@ pub struct Groups<'a> {
 
 /// Groups, bodies and the sides of their elements: where the other tables of a problem look.
 #[derive(Clone, Copy)]
-pub struct Place<'a> {
+pub struct MeshedGroups<'a> {
     /// The groups.
     pub groups: &'a Groups<'a>,
     /// The bodies.
@@ -111,7 +111,7 @@ impl Group {
     }
 }
 
-impl Place<'_> {
+impl MeshedGroups<'_> {
     /// The nodes of bodies in the group that `key` names, in increasing order; reported where there are none, or where the
     /// name stands for cells of several dimensions, of which one was meant.
     pub fn nodes(&self, name: &str, key: &str, findings: &mut Findings) -> Vec<u32> {

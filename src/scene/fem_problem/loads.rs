@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use nalgebra::Vector2;
 
 use super::file::{Component, FemProblemFile, LoadFile};
-use super::groups::Place;
+use super::groups::MeshedGroups;
 use crate::fem::loads::add_spread_force;
 use crate::fem::problem::{Edge, Held};
 use crate::scene::findings::Findings;
@@ -14,11 +14,11 @@ use crate::scene::problem::{ProblemKind, number};
 /// Given displacements by degree of freedom, each with the table that gives it.
 struct Given<'a> {
     by_dof: BTreeMap<u32, (f64, String)>,
-    place: Place<'a>,
+    place: MeshedGroups<'a>,
 }
 
 /// All supports and given displacements, no degree of freedom twice.
-pub fn held(file: &FemProblemFile, place: Place<'_>, findings: &mut Findings) -> Vec<Held> {
+pub fn held(file: &FemProblemFile, place: MeshedGroups<'_>, findings: &mut Findings) -> Vec<Held> {
     let mut given = Given { by_dof: BTreeMap::new(), place };
     for (i, fixed) in file.fixed.iter().enumerate() {
         let nodes = place.nodes(&fixed.group, &format!("fixed[{i}].group"), findings);
@@ -74,7 +74,7 @@ impl Given<'_> {
 }
 
 /// Nodal forces of all loads, N/mm, one for each degree of freedom.
-pub fn forces(file: &FemProblemFile, place: Place<'_>, held: &[Held], findings: &mut Findings) -> Vec<f64> {
+pub fn forces(file: &FemProblemFile, place: MeshedGroups<'_>, held: &[Held], findings: &mut Findings) -> Vec<f64> {
     let held: BTreeSet<u32> = held.iter().map(|held| held.dof).collect();
     let mut forces = vec![0.0; place.meshed.solid.dofs()];
     for (i, load) in file.load.iter().enumerate() {
@@ -126,7 +126,7 @@ fn say_what_is_lost(
 }
 
 /// The share of the force that each node of the load's group takes; together 1.
-fn shares(load: &LoadFile, key: &str, place: Place<'_>, findings: &mut Findings) -> Option<BTreeMap<u32, f64>> {
+fn shares(load: &LoadFile, key: &str, place: MeshedGroups<'_>, findings: &mut Findings) -> Option<BTreeMap<u32, f64>> {
     let group = place.groups.find(&load.group, key, findings)?;
     let [points, lines, surfaces, _] = &group.cells;
     if lines.is_empty() && (!surfaces.is_empty() || points.is_empty() && group.nodes.is_empty()) {

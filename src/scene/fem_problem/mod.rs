@@ -193,7 +193,7 @@ fn pose(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) -> Option<P
     let groups = groups::Groups::new(mesh);
     let meshed = bodies::mesh_bodies(file, mesh, &groups, findings)?;
     let sides = sides::Sides::of(&meshed.solid);
-    let place = groups::Place { groups: &groups, meshed: &meshed, sides: &sides };
+    let place = groups::MeshedGroups { groups: &groups, meshed: &meshed, sides: &sides };
     let mut problem = fem::problem::Problem {
         analysis: file.analysis.unwrap_or_default(),
         contacts: surfaces::contacts(file, place, findings),

@@ -3,14 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::file::FemProblemFile;
-use super::groups::Place;
+use super::groups::MeshedGroups;
 use super::sides::Side;
 use crate::fem::problem::{ContactPair, Edge};
 use crate::scene::findings::Findings;
 use crate::scene::problem::ProblemKind;
 
 /// All pairs of surfaces.
-pub fn contacts(file: &FemProblemFile, place: Place<'_>, findings: &mut Findings) -> Vec<ContactPair> {
+pub fn contacts(file: &FemProblemFile, place: MeshedGroups<'_>, findings: &mut Findings) -> Vec<ContactPair> {
     let mut slaves: BTreeMap<[u32; 2], usize> = BTreeMap::new();
     let mut pairs = Vec::new();
     for (i, contact) in file.contact.iter().enumerate() {
@@ -37,7 +37,7 @@ pub fn contacts(file: &FemProblemFile, place: Place<'_>, findings: &mut Findings
 
 /// The edges of the group that `key` names: its lines, or, of a set of nodes, the sides on the surface all of whose nodes
 /// it holds.
-fn surface(name: &str, key: &str, place: Place<'_>, findings: &mut Findings) -> Vec<Edge> {
+fn surface(name: &str, key: &str, place: MeshedGroups<'_>, findings: &mut Findings) -> Vec<Edge> {
     let Some(group) = place.groups.find(name, key, findings) else { return Vec::new() };
     let lines = &group.cells[1];
     if lines.is_empty() {
@@ -76,7 +76,7 @@ fn surface(name: &str, key: &str, place: Place<'_>, findings: &mut Findings) -> 
 }
 
 /// Inside which body a side lies, or between which two.
-fn where_inside(side: &Side, place: Place<'_>) -> String {
+fn where_inside(side: &Side, place: MeshedGroups<'_>) -> String {
     let body = |element: Option<usize>| element.map(|number| place.meshed.solid.elements[number].material);
     match side.elements.map(body) {
         [Some(one), Some(other)] if one != other => "between bodies that are joined there".to_owned(),

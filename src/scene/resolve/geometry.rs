@@ -8,7 +8,7 @@ use crate::scene::findings::Findings;
 use crate::scene::problem::{ProblemKind, number};
 
 /// Where a geometry error belongs, and what to do about it.
-struct Place {
+struct Cause {
     key: String,
     found: String,
     allowed: String,
@@ -25,7 +25,7 @@ pub fn check(spec: &PairSpec, slices: Option<SliceSettings>, findings: &mut Find
             Some(pair)
         }
         Err(error) => {
-            let Place { key, found, allowed, help } = place(&error, spec, findings);
+            let Cause { key, found, allowed, help } = place(&error, spec, findings);
             findings.problem(ProblemKind::Geometry(error), &key, found, allowed);
             findings.help(help);
             None
@@ -54,7 +54,7 @@ fn check_slices(pair: &GearPair, count: usize, findings: &mut Findings) {
     }
 }
 
-fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Place {
+fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
     let key_of = |gear: Gear, name: &str| format!("pair.{}.{name}", gear.name());
     // The tip is mended where the file gives it; otherwise the profile shift decides.
     let tip_key = |gear: Gear| {
@@ -66,7 +66,7 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Place {
         }
     };
     let tip_found = |gear: Gear, tip_mm: f64| format!("tip diameter {} of the {}", short(tip_mm), gear.name());
-    let centre = |least_mm: f64, help: &str| Place {
+    let centre = |least_mm: f64, help: &str| Cause {
         key: "pair.centre_distance_mm".to_owned(),
         found: number(spec.centre_distance_mm),
         allowed: format!("a centre distance of at least {least_mm:.4} mm"),
@@ -78,7 +78,7 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Place {
             least_mm,
             "or smaller profile shifts, or thinner teeth by a negative tooth_thickness_allowance_um on a gear",
         ),
-        PairError::ContactRatioBelowOne { contact_ratio, overlap_ratio } if overlap_ratio > 0.0 => Place {
+        PairError::ContactRatioBelowOne { contact_ratio, overlap_ratio } if overlap_ratio > 0.0 => Cause {
             key: "pair.face_width_mm".to_owned(),
             found: format!(
                 "{}, transverse contact ratio {contact_ratio:.4}, overlap ratio {overlap_ratio:.4}",
@@ -89,26 +89,26 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Place {
                    raise the transverse contact ratio"
                 .to_owned(),
         },
-        PairError::ContactRatioBelowOne { contact_ratio, .. } => Place {
+        PairError::ContactRatioBelowOne { contact_ratio, .. } => Cause {
             key: "pair.centre_distance_mm".to_owned(),
             found: format!("{}, contact ratio {contact_ratio:.4}", number(spec.centre_distance_mm)),
             allowed: "a transverse contact ratio of at least 1".to_owned(),
             help: "a smaller centre distance, larger tip diameters, more teeth or a smaller pressure angle raise it"
                 .to_owned(),
         },
-        PairError::PointedTooth { gear, tip_diameter_mm, pointed_diameter_mm, .. } => Place {
+        PairError::PointedTooth { gear, tip_diameter_mm, pointed_diameter_mm, .. } => Cause {
             key: tip_key(gear),
             found: tip_found(gear, tip_diameter_mm),
             allowed: format!("a tip diameter below {pointed_diameter_mm:.4} mm, where the flanks meet"),
             help: format!("give {} or a smaller profile shift", key_of(gear, "tip_diameter_mm")),
         },
-        PairError::TipBelowBase { gear, tip_diameter_mm, base_diameter_mm } => Place {
+        PairError::TipBelowBase { gear, tip_diameter_mm, base_diameter_mm } => Cause {
             key: tip_key(gear),
             found: tip_found(gear, tip_diameter_mm),
             allowed: format!("a tip diameter above the base circle, {base_diameter_mm:.4} mm"),
             help: "check tip diameter, module and number of teeth".to_owned(),
         },
-        PairError::Interference { gear, form_diameter_mm, .. } => Place {
+        PairError::Interference { gear, form_diameter_mm, .. } => Cause {
             key: match tip_key(gear.mate()) {
                 tip if tip.ends_with("tip_diameter_mm") => tip,
                 _ => key_of(gear, "profile_shift"),
@@ -129,31 +129,31 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Place {
                 gear.name()
             ),
         },
-        PairError::NoTipClearance { gear, clearance_mm } => Place {
+        PairError::NoTipClearance { gear, clearance_mm } => Cause {
             key: tip_key(gear),
             found: spec.gears[gear].tip_diameter_mm.map_or_else(|| "a tip from the rack".to_owned(), number),
             allowed: format!("a tip diameter smaller by at least {:.4} mm", 2.0 * clearance_mm.abs()),
             help: "or a larger centre distance, or a larger pair.basic_rack.dedendum_factor".to_owned(),
         },
-        PairError::RackTipPointed { greatest } => Place {
+        PairError::RackTipPointed { greatest } => Cause {
             key: "pair.basic_rack.fillet_radius_factor".to_owned(),
             found: number(spec.rack.fillet_radius_factor),
             allowed: format!("at most {greatest:.4}"),
             help: "or a smaller pair.basic_rack.dedendum_factor".to_owned(),
         },
-        PairError::NoTooth { gear } => Place {
+        PairError::NoTooth { gear } => Cause {
             key: key_of(gear, "profile_shift"),
             found: number(spec.gears[gear].profile_shift),
             allowed: "a profile shift that leaves a flank above the base circle".to_owned(),
             help: format!("a larger profile shift or more teeth on the {}", gear.name()),
         },
-        PairError::BoreTooLarge { gear, bore_diameter_mm, root_diameter_mm } => Place {
+        PairError::BoreTooLarge { gear, bore_diameter_mm, root_diameter_mm } => Cause {
             key: key_of(gear, "bore_diameter_mm"),
             found: number(bore_diameter_mm),
             allowed: format!("less than the root diameter, {root_diameter_mm:.4} mm"),
             help: "leave the bore out where it does not matter".to_owned(),
         },
-        PairError::ModificationTooLong { gear, modification, length_mm, available_mm } => Place {
+        PairError::ModificationTooLong { gear, modification, length_mm, available_mm } => Cause {
             key: key_of(gear, &format!("{}.length_mm", modification.replace(' ', "_"))),
             found: number(length_mm),
             allowed: format!("at most {available_mm:.4} mm"),
@@ -163,7 +163,7 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Place {
             }
             .to_owned(),
         },
-        PairError::ModificationTooDeep { gear, modification, amount_mm, greatest_mm } => Place {
+        PairError::ModificationTooDeep { gear, modification, amount_mm, greatest_mm } => Cause {
             key: key_of(
                 gear,
                 &match modification {
@@ -177,7 +177,7 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Place {
             allowed: format!("at most {:.0} µm, a quarter of the module", 1e3 * greatest_mm),
             help: "amounts are in µm".to_owned(),
         },
-        PairError::TipRoundingTooLarge { gear, radius_mm, greatest_mm } => Place {
+        PairError::TipRoundingTooLarge { gear, radius_mm, greatest_mm } => Cause {
             key: key_of(gear, "tip_rounding_mm"),
             found: number(radius_mm),
             allowed: format!("at most {:.4} mm", (greatest_mm * 1e4).floor() / 1e4),

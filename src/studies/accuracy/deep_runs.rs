@@ -12,7 +12,7 @@
 
 use super::measure::{profile_error, ratio, relative_difference};
 use super::observed::{Observed, ObservedFlank};
-use super::settings::{Bed, Coarsening, Setting, Surface, coupling_name, euler_revolutions};
+use super::settings::{Coarsening, FoundationChoice, Setting, Surface, coupling_name, euler_revolutions};
 use super::timed_run::{Finished, measure};
 use crate::contact::settings::MatchCriterion;
 use crate::gear::{Gear, PerGear};
@@ -34,7 +34,7 @@ const LEAST_STEP_RATIO: f64 = 2.0;
 /// The models, the baseline first.
 const MODELS: [(Surface, Coupling); 5] = [
     (Surface::HalfSpace, Coupling::Slicing),
-    (Surface::Winkler(Bed::Matched(MatchCriterion::HalfWidth)), Coupling::Slicing),
+    (Surface::Winkler(FoundationChoice::Matched(MatchCriterion::HalfWidth)), Coupling::Slicing),
     (Surface::Hertz, Coupling::Slicing),
     (Surface::HertzMean, Coupling::Slicing),
     (Surface::HertzMean, Coupling::None),

@@ -10,7 +10,7 @@
 //!
 //! A scene with slices over the face width has another plan: `sliced_selection`.
 
-use super::settings::{Bed, Coarsening, Setting, Stiffness, Surface};
+use super::settings::{Coarsening, FoundationChoice, Setting, Stiffness, Surface};
 use super::sliced_selection;
 use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use crate::scene::Resolved;
@@ -273,10 +273,10 @@ impl Stiffnesses {
 pub(super) fn surfaces(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Vec<Surface> {
     let mut surfaces = vec![Surface::HertzMean, Surface::Hertz];
     if let Foundation::Given { foundation_mpa_per_mm } = resolved.scene.contact.foundation {
-        surfaces.push(Surface::Winkler(Bed::Given { foundation_mpa_per_mm }));
+        surfaces.push(Surface::Winkler(FoundationChoice::Given { foundation_mpa_per_mm }));
     }
-    surfaces.extend(MatchCriterion::ALL.map(|criterion| Surface::Winkler(Bed::Matched(criterion))));
-    surfaces.extend(calibrated.iter().map(|&criterion| Surface::Winkler(Bed::Calibrated(criterion))));
+    surfaces.extend(MatchCriterion::ALL.map(|criterion| Surface::Winkler(FoundationChoice::Matched(criterion))));
+    surfaces.extend(calibrated.iter().map(|&criterion| Surface::Winkler(FoundationChoice::Calibrated(criterion))));
     surfaces.push(Surface::HalfSpace);
     surfaces
 }
@@ -284,7 +284,7 @@ pub(super) fn surfaces(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Ve
 /// Whether a surface follows tip edges where nothing else is tried: the calibrated and the true ones do.
 fn follows_tip(surface: Surface, has_calibration: bool) -> bool {
     match surface {
-        Surface::Winkler(Bed::Calibrated(_)) => true,
+        Surface::Winkler(FoundationChoice::Calibrated(_)) => true,
         Surface::HalfSpace => has_calibration,
         _ => false,
     }

@@ -12,9 +12,9 @@ use crate::studies::accuracy::record::VariantSettings;
 /// Fewest points and positions of a setting: the least that a scene may ask for.
 pub const LEAST_POINTS: usize = 20;
 
-/// Where the Winkler bed gets its K/H from.
+/// Where the Winkler foundation gets its K/H from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Bed {
+pub enum FoundationChoice {
     /// By hand, MPa/mm.
     Given {
         /// K/H.
@@ -34,7 +34,7 @@ pub enum Surface {
     /// Hertz's ellipse.
     Hertz,
     /// Independent springs.
-    Winkler(Bed),
+    Winkler(FoundationChoice),
     /// Elastic half-planes.
     HalfSpace,
     /// Finite elements.
@@ -102,9 +102,11 @@ impl Surface {
             (SurfaceKind::HertzMean, _) => Self::HertzMean,
             (SurfaceKind::Hertz, _) => Self::Hertz,
             (SurfaceKind::HalfSpace, _) => Self::HalfSpace,
-            (_, Foundation::Given { foundation_mpa_per_mm }) => Self::Winkler(Bed::Given { foundation_mpa_per_mm }),
-            (_, Foundation::Matched(criterion)) => Self::Winkler(Bed::Matched(criterion)),
-            (_, Foundation::Calibrated(criterion)) => Self::Winkler(Bed::Calibrated(criterion)),
+            (_, Foundation::Given { foundation_mpa_per_mm }) => {
+                Self::Winkler(FoundationChoice::Given { foundation_mpa_per_mm })
+            }
+            (_, Foundation::Matched(criterion)) => Self::Winkler(FoundationChoice::Matched(criterion)),
+            (_, Foundation::Calibrated(criterion)) => Self::Winkler(FoundationChoice::Calibrated(criterion)),
         }
     }
 
@@ -113,9 +115,11 @@ impl Surface {
         match self {
             Self::HertzMean => "hertz-mean".to_owned(),
             Self::Hertz => "hertz".to_owned(),
-            Self::Winkler(Bed::Given { .. }) => "winkler, K/H given".to_owned(),
-            Self::Winkler(Bed::Matched(criterion)) => format!("winkler {}", criterion.name()),
-            Self::Winkler(Bed::Calibrated(criterion)) => format!("winkler {}, calibrated", criterion.name()),
+            Self::Winkler(FoundationChoice::Given { .. }) => "winkler, K/H given".to_owned(),
+            Self::Winkler(FoundationChoice::Matched(criterion)) => format!("winkler {}", criterion.name()),
+            Self::Winkler(FoundationChoice::Calibrated(criterion)) => {
+                format!("winkler {}, calibrated", criterion.name())
+            }
             Self::HalfSpace => "half-space".to_owned(),
             Self::Fem { elements_per_half_width } => format!("fem {elements_per_half_width}"),
         }
@@ -213,14 +217,14 @@ impl Setting {
         contact.match_criterion = None;
         contact.foundation_MPa_per_mm = None;
         contact.calibration = None;
-        // A calibration that is given makes every Winkler bed a calibrated one.
+        // A calibration that is given makes every Winkler foundation a calibrated one.
         let reads_calibration = self.stiffness.as_ref().is_some_and(|s| s.file.model == Some(StiffnessModel::Fem));
         match self.surface {
-            Surface::Winkler(Bed::Given { foundation_mpa_per_mm }) => {
+            Surface::Winkler(FoundationChoice::Given { foundation_mpa_per_mm }) => {
                 contact.foundation_MPa_per_mm = Some(foundation_mpa_per_mm);
             }
-            Surface::Winkler(Bed::Matched(criterion)) => contact.match_criterion = Some(criterion),
-            Surface::Winkler(Bed::Calibrated(criterion)) => {
+            Surface::Winkler(FoundationChoice::Matched(criterion)) => contact.match_criterion = Some(criterion),
+            Surface::Winkler(FoundationChoice::Calibrated(criterion)) => {
                 contact.match_criterion = Some(criterion);
                 contact.calibration = calibration.map(str::to_owned);
             }
@@ -251,9 +255,9 @@ impl Setting {
     /// What the record says of it.
     pub fn record(&self, scene: &Scene) -> VariantSettings {
         let (match_criterion, calibrated) = match self.surface {
-            Surface::Winkler(Bed::Matched(criterion)) => (Some(criterion.name().to_owned()), false),
-            Surface::Winkler(Bed::Calibrated(criterion)) => (Some(criterion.name().to_owned()), true),
-            Surface::Winkler(Bed::Given { .. }) => (Some("given".to_owned()), false),
+            Surface::Winkler(FoundationChoice::Matched(criterion)) => (Some(criterion.name().to_owned()), false),
+            Surface::Winkler(FoundationChoice::Calibrated(criterion)) => (Some(criterion.name().to_owned()), true),
+            Surface::Winkler(FoundationChoice::Given { .. }) => (Some("given".to_owned()), false),
             _ => (None, false),
         };
         let elements_per_half_width = match self.surface {

@@ -10,7 +10,7 @@
 //! * other tooth stiffnesses on the scene's own surface, and tip edges that are not followed.
 
 use super::selection::{COMPANION_STEP, Companions, Selection, Spacing, Stiffnesses, surfaces};
-use super::settings::{Bed, Coarsening, Setting, Stiffness, Surface};
+use super::settings::{Coarsening, FoundationChoice, Setting, Stiffness, Surface};
 use crate::contact::settings::MatchCriterion;
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::scene::Resolved;
@@ -47,9 +47,12 @@ pub(super) fn add(
         }
     }
     for count in other_counts(selection, own.count) {
-        for surface in
-            [Surface::HertzMean, Surface::Hertz, Surface::Winkler(Bed::Matched(CRITERION)), Surface::HalfSpace]
-        {
+        for surface in [
+            Surface::HertzMean,
+            Surface::Hertz,
+            Surface::Winkler(FoundationChoice::Matched(CRITERION)),
+            Surface::HalfSpace,
+        ] {
             for coupling in COUPLINGS {
                 selection.add(setting(surface, best, SliceSettings { count, coupling }, Coarsening::even(second)));
             }
@@ -59,7 +62,9 @@ pub(super) fn add(
         selection.add(setting(Surface::of_scene(resolved), stiffness, own, Coarsening::even(second)));
     }
     let coupled = SliceSettings { coupling: Coupling::Slicing, ..own };
-    for (surface, by) in [(Surface::Winkler(Bed::Matched(CRITERION)), finest), (Surface::HalfSpace, second)] {
+    for (surface, by) in
+        [(Surface::Winkler(FoundationChoice::Matched(CRITERION)), finest), (Surface::HalfSpace, second)]
+    {
         let followed = setting(surface, best, coupled, Coarsening::even(by));
         selection.add(Setting { tip_contact: false, ..followed });
     }
@@ -113,11 +118,13 @@ fn setting(surface: Surface, stiffness: &Stiffness, slices: SliceSettings, coars
     }
 }
 
-/// Whether a surface is tried at every resolution and coupling: of the Winkler beds, those matched on half-width.
+/// Whether a surface is tried at every resolution and coupling: of the Winkler foundations, those matched on half-width.
 fn stands_for_others(surface: Surface) -> bool {
     match surface {
-        Surface::Winkler(Bed::Given { .. }) => true,
-        Surface::Winkler(Bed::Matched(criterion) | Bed::Calibrated(criterion)) => criterion == CRITERION,
+        Surface::Winkler(FoundationChoice::Given { .. }) => true,
+        Surface::Winkler(FoundationChoice::Matched(criterion) | FoundationChoice::Calibrated(criterion)) => {
+            criterion == CRITERION
+        }
         _ => true,
     }
 }
@@ -127,11 +134,11 @@ fn leave_out(selection: &mut Selection) {
         ("surface fem", "the finite elements are plane: they calibrate the slices, but are no slices themselves"),
         ("half-width", "where slices of one tooth enter while others leave, no pair ever carries the load alone"),
         (
-            "Winkler beds on peak pressure and approach uncoupled, and at coarser resolutions",
+            "Winkler foundations on peak pressure and approach uncoupled, and at coarser resolutions",
             "coupling and resolution change them as they change the one on half-width",
         ),
         (
-            "other numbers of slices with calibrated beds, and at other resolutions",
+            "other numbers of slices with calibrated foundations, and at other resolutions",
             "the slices' error hardly depends on them",
         ),
         ("other tooth stiffnesses than the best on other surfaces than the scene's", "the difference is the same"),

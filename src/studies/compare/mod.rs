@@ -13,7 +13,6 @@
 //! | `search` | the parameters that fit best |
 //! | [`study`] | all of it, in order |
 
-mod course;
 pub mod question;
 pub mod record;
 pub mod report;
@@ -21,3 +20,4 @@ pub mod run_folder;
 mod search;
 mod simulations;
 pub mod study;
+mod wear_by_coefficient;

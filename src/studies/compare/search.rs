@@ -62,7 +62,7 @@ pub struct Comparison<'a> {
 }
 
 /// What the search found.
-pub struct Found {
+pub struct FittedCoefficients {
     /// Which parameters.
     pub unknowns: Vec<Unknown>,
     /// Their values.
@@ -89,7 +89,7 @@ struct Settled {
     unsettled: Option<f64>,
 }
 
-impl Found {
+impl FittedCoefficients {
     /// The value of a parameter and half the width of its interval.
     pub fn of(&self, unknown: Unknown) -> Option<(f64, Option<f64>)> {
         let index = self.unknowns.iter().position(|&own| own == unknown)?;
@@ -164,7 +164,11 @@ impl<'a> Comparison<'a> {
     }
 
     /// The parameters that fit best, beginning with the run's own wear.
-    pub fn search(&self, as_run_um: &[f64], simulations: &mut Simulations<'_>) -> Result<Found, CompareError> {
+    pub fn search(
+        &self,
+        as_run_um: &[f64],
+        simulations: &mut Simulations<'_>,
+    ) -> Result<FittedCoefficients, CompareError> {
         let (fit, within) = (self.question.fit, self.question.shift_within_mm);
         let (shift, factor) = self.begin(as_run_um, fit.coefficient());
         let mut unknowns = Vec::new();
@@ -211,7 +215,7 @@ impl<'a> Comparison<'a> {
         let Settled { parameters, residuals, jacobian, wear_um, stop, unsettled } = found;
         // Beside the best value that was searched no interval means anything.
         let uncertainty = (stop == FitStop::Converged).then(|| uncertainty(&jacobian, &residuals, also)).flatten();
-        Ok(Found { unknowns, parameters, stop, blamed, uncertainty, wear_um, unsettled })
+        Ok(FittedCoefficients { unknowns, parameters, stop, blamed, uncertainty, wear_um, unsettled })
     }
 
     /// Gauss–Newton steps on the residuals of exact runs, until they no longer matter.

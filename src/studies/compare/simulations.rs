@@ -9,8 +9,8 @@
 
 use std::f64::consts::LN_2;
 
-use super::course::Course;
 use super::study::CompareError;
+use super::wear_by_coefficient::WearByCoefficient;
 use crate::gear::Gear;
 use crate::observer::{Observer, PartOf};
 use crate::pipeline;
@@ -52,7 +52,7 @@ pub struct Simulations<'a> {
     until_measured: Scene,
     observer: &'a dyn Observer,
     /// Courses of the scene's factor of severe wear times 2ⁿ, by n.
-    courses: Vec<(i32, Course)>,
+    courses: Vec<(i32, WearByCoefficient)>,
     /// Runs carried out.
     pub runs: u64,
     /// Mesh cycles evaluated in them.
@@ -118,7 +118,7 @@ impl<'a> Simulations<'a> {
     }
 
     /// The course with 2ⁿ times the scene's factor of severe wear, up to this factor at least.
-    fn course(&mut self, n: i32, up_to: f64) -> Result<&Course, CompareError> {
+    fn course(&mut self, n: i32, up_to: f64) -> Result<&WearByCoefficient, CompareError> {
         let known = self.courses.iter().position(|(of, _)| *of == n);
         let index = match known {
             Some(index) if self.courses[index].1.reach() >= up_to => index,
@@ -141,7 +141,7 @@ impl<'a> Simulations<'a> {
         Ok(&self.courses[index].1)
     }
 
-    fn compute(&mut self, n: i32, reach: f64) -> Result<Course, CompareError> {
+    fn compute(&mut self, n: i32, reach: f64) -> Result<WearByCoefficient, CompareError> {
         let severe_factor = (n != 0).then(|| self.severe_factor() * (f64::from(n) * SEVERE_STEP).exp());
         let squares = |count: u32| (1..=count).map(move |i| reach * (f64::from(i) / f64::from(count)).powi(2));
         if self.until_measured.operation.phases.len() > 1 {
@@ -149,7 +149,7 @@ impl<'a> Simulations<'a> {
             for coefficient_factor in squares(SEPARATE_RUNS) {
                 profiles.push((coefficient_factor, self.exactly(Change { coefficient_factor, severe_factor })?));
             }
-            return Ok(Course::new(profiles));
+            return Ok(WearByCoefficient::new(profiles));
         }
         let mut scene = changed(&self.until_measured, Change { coefficient_factor: 1.0, severe_factor });
         let duration = scene.operation.pinion_revolutions;
@@ -159,7 +159,7 @@ impl<'a> Simulations<'a> {
         operation.snapshots_revolutions = squares(SNAPSHOTS).map(|factor| factor * duration).collect();
         scene.numerics.stepping = scene.numerics.stepping.coarser((reach / AS_FINE_UP_TO).max(1.0));
         let profiles = self.run(scene)?;
-        Ok(Course::new(profiles.into_iter().map(|(revolutions, wear)| (revolutions / duration, wear))))
+        Ok(WearByCoefficient::new(profiles.into_iter().map(|(revolutions, wear)| (revolutions / duration, wear))))
     }
 
     /// Carries a scene out: the wear of the row of points at each snapshot.

@@ -2,7 +2,7 @@
 
 use super::question::Question;
 use super::run_folder::RunFolder;
-use super::search::{Comparison, Found, Unknown};
+use super::search::{Comparison, FittedCoefficients, Unknown};
 use super::simulations::{Change, Simulations, over_width};
 use crate::gear::{GearPair, flank::FlankGrid, slices::Slices};
 use crate::measurement::fit::FitStop;
@@ -87,7 +87,7 @@ fn rows(
     question: &Question,
     pair: &GearPair,
     comparison: &Comparison<'_>,
-    found: &Found,
+    found: &FittedCoefficients,
     as_run_um: &[f64],
 ) -> Vec<CompareRow> {
     let shift = found.shift_mm();
@@ -114,7 +114,12 @@ fn rows(
         .collect()
 }
 
-fn fit(question: &Question, resolved: &Resolved, found: &Found, simulations: &Simulations<'_>) -> FitRecord {
+fn fit(
+    question: &Question,
+    resolved: &Resolved,
+    found: &FittedCoefficients,
+    simulations: &Simulations<'_>,
+) -> FitRecord {
     let of_logarithm = |unknown, of_run: f64, unit: f64| {
         let (value, half) = found.of(unknown)?;
         let at = |by: f64| unit * (value + by).exp();

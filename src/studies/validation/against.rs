@@ -25,7 +25,7 @@ pub fn changes(old: &ValidationRecord, new: &ValidationRecord) -> Changes {
         let names = record.cases.iter().map(|case| case.name.clone());
         names.filter(|name| !other.contains_key(name.as_str())).collect()
     };
-    let mut found = Found::default();
+    let mut found = ChangesSoFar::default();
     for case in &new.cases {
         if let Some(earlier) = before.get(case.name.as_str()) {
             found.compare(earlier, case);
@@ -59,12 +59,12 @@ impl Way {
 }
 
 #[derive(Debug, Default)]
-struct Found {
+struct ChangesSoFar {
     worse: Vec<Change>,
     better: Vec<Change>,
 }
 
-impl Found {
+impl ChangesSoFar {
     fn add(&mut self, way: Way, case: &CaseRecord, what: &str, before: State, now: State) {
         let change = Change { case: case.name.clone(), what: what.to_owned(), before, now };
         match way {

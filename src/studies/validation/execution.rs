@@ -78,7 +78,7 @@ enum Failed {
 
 /// What a run left behind, before it is judged.
 #[derive(Default)]
-struct Found {
+struct RunOutput {
     value: BTreeMap<String, Value>,
     fault: Option<String>,
     not_converged: Option<String>,
@@ -102,7 +102,7 @@ pub fn execute(
     };
     let done = guarded(work);
     let wall_s = start.elapsed().as_secs_f64();
-    let nothing = |outcome, said: String| (outcome, Some(said), Found::default());
+    let nothing = |outcome, said: String| (outcome, Some(said), RunOutput::default());
     let (outcome, said, found) = match done {
         Err(said) => nothing(RunOutcome::Panicked, said),
         Ok(Err(Failed::Refused(said))) => nothing(RunOutcome::Refused, said),
@@ -214,7 +214,7 @@ fn wear_run(
     folder: &Path,
     calibration: Option<&Calibration>,
     watch: &dyn Observer,
-) -> Result<Found, Failed> {
+) -> Result<RunOutput, Failed> {
     let scene = loaded_scene(run, member, folder, calibration)?;
     let done = pipeline::run(&scene, watch).map_err(|error| match &error {
         RunError::Pair(_) | RunError::Stiffness(_) | RunError::FiniteElements(_) => Failed::Refused(error.to_string()),
@@ -240,7 +240,7 @@ fn wear_run(
         let path = &record.summary.geometry.curvature_radius_mm;
         value.insert("slices".to_owned(), table(|out| slice_table::slices(out, provenance, slices, path))?);
     }
-    Ok(Found {
+    Ok(RunOutput {
         value,
         fault: soundness::fault(&record),
         not_converged: done.failure.map(|failure| failure.to_string()).or_else(|| of_stop(record.summary.stopped)),
@@ -249,7 +249,7 @@ fn wear_run(
     })
 }
 
-fn finite_elements(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Observer) -> Result<Found, Failed> {
+fn finite_elements(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Observer) -> Result<RunOutput, Failed> {
     let given = text(run, folder)?;
     let mut file: toml::Table = given.parse().map_err(|error: toml::de::Error| Failed::Refused(error.to_string()))?;
     if file.contains_key("pair") {
@@ -266,14 +266,19 @@ fn finite_elements(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Ob
     let provenance = tables::Provenance::of_fem(&record.summary);
     let contact = table(|out| report::fem::contact_table(out, provenance, &record.contacts))?;
     let work = counts(&tree(&record.summary.work)?);
-    Ok(Found {
+    Ok(RunOutput {
         value: BTreeMap::from([("summary".to_owned(), tree(&record.summary)?), ("contact".to_owned(), contact)]),
         work,
-        ..Found::default()
+        ..RunOutput::default()
     })
 }
 
-fn finite_element_pair(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Observer) -> Result<Found, Failed> {
+fn finite_element_pair(
+    run: &RunSpec,
+    member: &Member,
+    folder: &Path,
+    watch: &dyn Observer,
+) -> Result<RunOutput, Failed> {
     let resolved = scene(run, member, folder)?;
     let asked = fem_scene::Asked { position_mm: run.position_mm, full: run.full };
     let done = fem_scene::run(&resolved, asked, watch).map_err(|error| match &error {
@@ -288,7 +293,7 @@ fn finite_element_pair(run: &RunSpec, member: &Member, folder: &Path, watch: &dy
     let mesh_cycle = table(|out| report::fem_pair::tables::mesh_cycle(out, provenance, &record.mesh_cycle))?;
     let pressure = table(|out| report::fem_pair::tables::pressure(out, provenance, &record.pressure))?;
     let work = [("iterations", record.summary.iterations as u64), ("positions", record.summary.positions as u64)];
-    Ok(Found {
+    Ok(RunOutput {
         value: BTreeMap::from([
             ("summary".to_owned(), tree(&record.summary)?),
             ("mesh_cycle".to_owned(), mesh_cycle),
@@ -296,11 +301,11 @@ fn finite_element_pair(run: &RunSpec, member: &Member, folder: &Path, watch: &dy
         ]),
         not_converged: done.failure.map(|failure| failure.to_string()).or_else(|| of_stop(record.summary.stopped)),
         work: work.map(|(name, count)| (name.to_owned(), count)).into(),
-        ..Found::default()
+        ..RunOutput::default()
     })
 }
 
-fn calibrated(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Observer) -> Result<Found, Failed> {
+fn calibrated(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Observer) -> Result<RunOutput, Failed> {
     let resolved = scene(run, member, folder)?;
     let extent = if run.full { Extent::Whole } else { Extent::FastModel };
     let done = calibrate::run(&resolved.scene, extent, watch).map_err(|error| match &error {
@@ -309,10 +314,10 @@ fn calibrated(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Observe
     })?;
     let calibration = done.calibration;
     let positions = (calibration.deflection.len() + calibration.single_contact.len()) as u64;
-    Ok(Found {
+    Ok(RunOutput {
         value: BTreeMap::from([("calibration".to_owned(), tree(&calibration)?)]),
         work: BTreeMap::from([("loaded positions".to_owned(), positions)]),
         calibration: Some(calibration),
-        ..Found::default()
+        ..RunOutput::default()
     })
 }

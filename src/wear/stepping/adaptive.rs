@@ -130,7 +130,7 @@ impl Adaptive {
 
     fn forget_jacobian(&mut self) {
         match &mut self.method {
-            Method::Chebyshev { radius, .. } => radius.forget(),
+            Method::Chebyshev { radius, .. } => radius.reset(),
             Method::Implicit { diagonal, .. } => diagonal.clear(),
         }
     }

@@ -46,7 +46,7 @@ impl SpectralRadius {
     }
 
     /// Takes it for out of date; the vector is kept.
-    pub fn forget(&mut self) {
+    pub fn reset(&mut self) {
         self.value = None;
     }
 

@@ -45,7 +45,7 @@ pub(super) struct Window {
 }
 
 /// A tooth pair prepared for contact.
-pub(super) struct Facing {
+pub(super) struct FacingTeeth {
     pub pair: i32,
     pub slave: Gear,
     /// Places of its teeth among the fine ones.
@@ -68,7 +68,7 @@ pub(super) struct Facing {
 
 impl CondensedPair<'_> {
     /// All tooth pairs that may touch with the reference pair at `position_mm`, rows numbered through.
-    pub(super) fn facings(&self, position_mm: f64, window: &Window) -> Vec<Facing> {
+    pub(super) fn facings(&self, position_mm: f64, window: &Window) -> Vec<FacingTeeth> {
         let mut first_row = 0;
         (-window.beside..=window.beside)
             .filter_map(|pair| {
@@ -80,7 +80,7 @@ impl CondensedPair<'_> {
             .collect()
     }
 
-    fn facing(&self, position_mm: f64, pair: i32, window: &Window) -> Option<Facing> {
+    fn facing(&self, position_mm: f64, pair: i32, window: &Window) -> Option<FacingTeeth> {
         let path = &self.pair.path;
         let own_mm = position_mm + f64::from(pair) * path.base_pitch_mm;
         let outside_mm = OUTSIDE_BASE_PITCHES * path.base_pitch_mm;
@@ -122,7 +122,7 @@ impl CondensedPair<'_> {
         let middle = (self.gears.pinion.teeth() / 2) as i32;
         // The pair ahead is the next anticlockwise tooth of the pinion, and the next clockwise one of the wheel.
         let tooth = PerGear { pinion: (middle + pair) as usize, wheel: (middle - pair) as usize };
-        Some(Facing {
+        Some(FacingTeeth {
             pair,
             slave,
             tooth,
@@ -163,7 +163,7 @@ impl CondensedPair<'_> {
     /// Change of each gap of a pair, or of its place along the flank from root to tip, per transmission error.
     pub(super) fn by_rotation<'b>(
         &'b self,
-        facing: &'b Facing,
+        facing: &'b FacingTeeth,
         direction: Direction,
     ) -> impl Iterator<Item = f64> + 'b {
         let turned = move |row: sprs::CsVecView<'_, f64>| {
@@ -185,7 +185,7 @@ impl CondensedPair<'_> {
     }
 }
 
-impl Facing {
+impl FacingTeeth {
     /// Distance of a node of the slave from the expected contact, towards the pinion's tip.
     pub fn towards_pinion_tip_mm(&self, slave: &FlankSurface, node: usize) -> f64 {
         let from_tip_mm = slave.from_tip_mm[node] - self.expected_mm;

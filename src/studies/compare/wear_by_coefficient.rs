@@ -5,12 +5,12 @@
 
 /// Wear profiles at increasing factors on the wear coefficient, the first of them 0.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Course {
+pub struct WearByCoefficient {
     factors: Vec<f64>,
     wear_um: Vec<Vec<f64>>,
 }
 
-impl Course {
+impl WearByCoefficient {
     /// From profiles at increasing factors above 0, two at least.
     pub fn new(profiles: impl IntoIterator<Item = (f64, Vec<f64>)>) -> Self {
         let (mut factors, mut wear_um): (Vec<f64>, Vec<Vec<f64>>) = profiles.into_iter().unzip();
@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn ver_it_meets_its_profiles_and_parabolas_between_them() {
         let parabola = |f: f64| vec![3.0 * f - 0.5 * f * f, f];
-        let course = Course::new([0.3, 0.5, 1.1, 2.0].map(|f| (f, parabola(f))));
+        let course = WearByCoefficient::new([0.3, 0.5, 1.1, 2.0].map(|f| (f, parabola(f))));
         assert_eq!((course.at(0.0), course.at(1.1), course.reach()), (vec![0.0, 0.0], parabola(1.1), 2.0));
         for factor in [0.31, 0.4, 0.7, 1.0] {
             let found = course.at(factor);

@@ -36,7 +36,7 @@ pub struct SliceContact {
 
 /// A place of the gears and everything that touches there.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Phase {
+pub struct SlicedPosition {
     /// Position of the reference tooth in the middle of the face width: from A on, less than a base pitch.
     pub position_mm: f64,
     /// The contacts, tooth by tooth and slice by slice.
@@ -45,11 +45,16 @@ pub struct Phase {
 
 /// Phases of one base pitch, no farther apart than `positions` (≥ 2) from A to E would be. With `beyond_mm`, slices may touch so
 /// far before A and after E, where they begin and end without a jump, and no stretch is cut.
-pub fn phases(path: &PathOfContact, slices: &Slices, positions: usize, beyond_mm: Option<[f64; 2]>) -> Vec<Phase> {
+pub fn sliced_positions(
+    path: &PathOfContact,
+    slices: &Slices,
+    positions: usize,
+    beyond_mm: Option<[f64; 2]>,
+) -> Vec<SlicedPosition> {
     let pitch = path.base_pitch_mm;
     let count = (((positions - 1) as f64 / path.contact_ratio() * (1.0 - SAME_PLACE)).ceil() as usize).max(1);
     let [before, after] = beyond_mm.unwrap_or_default();
-    let course = Course {
+    let passage = SlicePassage {
         first_mm: path.start_mm - before,
         last_mm: path.end_mm + after,
         pitch_mm: pitch,
@@ -62,7 +67,7 @@ pub fn phases(path: &PathOfContact, slices: &Slices, positions: usize, beyond_mm
         let bounds = places.iter().map(|place| [place - 0.5 * spacing, place + 0.5 * spacing]).collect();
         (places.clone(), bounds)
     } else {
-        zones(&places, pitch, &course.changes_mm(path.start_mm))
+        zones(&places, pitch, &passage.changes_mm(path.start_mm))
     };
     (0..count)
         .map(|j| {
@@ -71,14 +76,14 @@ pub fn phases(path: &PathOfContact, slices: &Slices, positions: usize, beyond_mm
                 let turns = k.div_euclid(count as i32);
                 decided_at[k.rem_euclid(count as i32) as usize] + f64::from(turns) * pitch
             };
-            let contacts = course.contacts(bounds[j], [neighbour(-1), decided_at[j], neighbour(1)]);
-            Phase { position_mm: places[j], contacts }
+            let contacts = passage.contacts(bounds[j], [neighbour(-1), decided_at[j], neighbour(1)]);
+            SlicedPosition { position_mm: places[j], contacts }
         })
         .collect()
 }
 
 /// How slices go through the mesh.
-struct Course<'a> {
+struct SlicePassage<'a> {
     /// First touch of a slice.
     first_mm: f64,
     /// Its last.
@@ -87,7 +92,7 @@ struct Course<'a> {
     ahead_mm: &'a [f64],
 }
 
-impl Course<'_> {
+impl SlicePassage<'_> {
     /// Positions of the reference tooth, from `start_mm` on within a base pitch, at which a slice enters or leaves; in order.
     fn changes_mm(&self, start_mm: f64) -> Vec<f64> {
         let mut changes: Vec<f64> = self

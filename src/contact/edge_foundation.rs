@@ -1,15 +1,15 @@
-//! The springs of a bed where a tip edge touches, matched to half-planes.
+//! The springs of a foundation where a tip edge touches, matched to half-planes.
 //!
 //! K/H that shares something with elastic bodies on the plain gap of two involutes does not share it where a tip edge touches: the
 //! gap there has the radius of the rounding on one side, a slope on the other, and a contact a tenth as wide asks for springs many
-//! times as stiff. So there the bed is matched on the gap itself. At places along the path around A and E the half-planes of
-//! [`half_space`](super::half_space) are pressed against each other by depths δ on the unworn gap
+//! times as stiff. So there the foundation is matched on the gap itself. At places along the path around A and E the half-planes of
+//! [`half_space`](super::half_space) are pressed against each other by indentations δ on the unworn gap
 //!
 //! ```text
 //! g(x) = drop₁ + drop₂ + roundings
 //! ```
 //!
-//! and carry a load w over a strip of half-width a. The bed with the same half-width has the depth d_a on the same gap, and with
+//! and carry a load w over a strip of half-width a. The foundation with the same half-width has the indentation d_a on the same gap, and with
 //! U(d) = ∫ max(0, d − g) dx
 //!
 //! ```text
@@ -17,7 +17,7 @@
 //! ```
 //!
 //! κ: K/H of the criterion in use over that of equal half-width in Hertz's contact under the same load, 1 for the half-width. By δ − d
-//! the bodies approach each other more than the bed. K/H is a power of the load between those loads, the compliance (δ − d)/w a straight line of its logarithm, and both are straight
+//! the bodies approach each other more than the foundation. K/H is a power of the load between those loads, the compliance (δ − d)/w a straight line of its logarithm, and both are straight
 //! lines of the position between the places. On the plain gap all of this is Hertz's contact.
 //!
 //! Limits: the gap is that of unworn flanks without relief; half-planes do not know where the tooth ends.
@@ -25,7 +25,7 @@
 use rayon::prelude::*;
 
 use super::elastic_cells::ElasticCells;
-use super::foundation::{FoundationCurve, Springs, matched_mpa_per_mm};
+use super::foundation::{FoundationCurve, FoundationStiffness, matched_mpa_per_mm};
 use super::hertz;
 use super::pressure_field::PressureField;
 use super::settings::{MatchCriterion, Material};
@@ -48,26 +48,26 @@ const CELLS: usize = 60;
 const FITTINGS: usize = 2;
 /// Part of the contact's width by which a window goes beyond it on either side.
 const MARGIN: f64 = 0.2;
-/// Halvings until the depth of the bed is found to round-off.
+/// Halvings until the indentation of the foundation is found to round-off.
 const HALVINGS: usize = 60;
 
-/// The beds around A and E.
+/// The foundations around A and E.
 #[derive(Debug, Clone, PartialEq)]
-pub struct EdgeBeds {
+pub struct EdgeFoundations {
     /// From within the path outwards, before A and after E.
-    ends: [Vec<Place>; 2],
+    ends: [Vec<EdgePosition>; 2],
 }
 
 /// A position and the springs there.
 #[derive(Debug, Clone, PartialEq)]
-struct Place {
+struct EdgePosition {
     position_mm: f64,
-    springs: EdgeSprings,
+    stiffness: EdgeStiffness,
 }
 
-/// Springs at one position: by load, increasing.
+/// FoundationStiffness at one position: by load, increasing.
 #[derive(Debug, Clone, PartialEq)]
-pub struct EdgeSprings {
+pub struct EdgeStiffness {
     points: Vec<EdgePoint>,
 }
 
@@ -80,9 +80,9 @@ struct EdgePoint {
     further_mm2_per_n: f64,
 }
 
-impl EdgeBeds {
+impl EdgeFoundations {
     /// Matched by `criterion` where the tip edges of `pair` touch under loads about `line_load_n_per_mm`. What the approach of a
-    /// calibrated bed, `approach`, has under that load beside the closed-form flattening is kept in proportion to the load: the spring
+    /// calibrated foundation, `approach`, has under that load beside the closed-form flattening is kept in proportion to the load: the spring
     /// of the teeth lacks it.
     pub fn new(
         pair: &GearPair,
@@ -104,13 +104,16 @@ impl EdgeBeds {
             let along = |k: usize| (k as f64 / (PLACES - 1) as f64).powi(2);
             let places: Vec<f64> = (0..PLACES).map(|k| first_mm + (last_mm - first_mm) * along(k)).collect();
             let bodies = Bodies { pair, material, line_load_n_per_mm, criterion, approach };
-            places.into_par_iter().map(|at| Place { position_mm: at, springs: bodies.springs_at(at) }).collect()
+            places
+                .into_par_iter()
+                .map(|at| EdgePosition { position_mm: at, stiffness: bodies.springs_at(at) })
+                .collect()
         });
         Self { ends }
     }
 
     /// The springs at a position; none where no edge counts.
-    pub fn at(&self, position_mm: f64) -> Option<EdgeSprings> {
+    pub fn at(&self, position_mm: f64) -> Option<EdgeStiffness> {
         self.ends.iter().find_map(|places| {
             let first_mm = places.first()?.position_mm;
             let outwards = (places.last()?.position_mm - first_mm).signum();
@@ -121,12 +124,12 @@ impl EdgeBeds {
             let passed = places.partition_point(|place| beyond(place.position_mm) <= beyond(position_mm));
             let [low, high] = [passed.min(PLACES - 1) - 1, passed.min(PLACES - 1)].map(|k| &places[k]);
             let weight = (position_mm - low.position_mm) / (high.position_mm - low.position_mm);
-            Some(low.springs.towards(&high.springs, weight.min(1.0))).filter(|springs| springs.points.len() > 1)
+            Some(low.stiffness.towards(&high.stiffness, weight.min(1.0))).filter(|stiffness| stiffness.points.len() > 1)
         })
     }
 }
 
-impl EdgeSprings {
+impl EdgeStiffness {
     /// A straight line, point by point from the greatest load on.
     fn towards(&self, other: &Self, weight: f64) -> Self {
         let between = |low: f64, high: f64| low + weight * (high - low);
@@ -146,9 +149,9 @@ impl EdgeSprings {
         [self.points[after - 1], self.points[after]]
     }
 
-    fn power_law([low, high]: [EdgePoint; 2]) -> Springs {
+    fn power_law([low, high]: [EdgePoint; 2]) -> FoundationStiffness {
         let load_exponent = -(high.ln_mpa_per_mm - low.ln_mpa_per_mm) / (high.ln_line_load - low.ln_line_load);
-        Springs::new(low.ln_mpa_per_mm.exp(), load_exponent, low.ln_line_load.exp())
+        FoundationStiffness::new(low.ln_mpa_per_mm.exp(), load_exponent, low.ln_line_load.exp())
     }
 
     /// K/H under a line load (> 0), MPa/mm.
@@ -156,7 +159,7 @@ impl EdgeSprings {
         Self::power_law(self.segment(line_load_n_per_mm.ln(), |p| p.ln_line_load)).mpa_per_mm(line_load_n_per_mm)
     }
 
-    /// As [`Springs::load_and_stiffness`].
+    /// As [`FoundationStiffness::load_and_stiffness`].
     pub fn load_and_stiffness(&self, penetration_mm2: f64, contact_mm: f64) -> (f64, f64) {
         // U = w/(K/H) tells the segment.
         let segment = self.segment(penetration_mm2.ln(), |p| p.ln_line_load - p.ln_mpa_per_mm);
@@ -186,7 +189,7 @@ struct Bodies<'a> {
 
 /// Half-planes in contact: δ, w, a, and the gap from its least value on at even distances.
 struct Pressed {
-    depth_mm: f64,
+    indentation_mm: f64,
     line_load_n_per_mm: f64,
     half_width_mm: f64,
     gap_mm: Vec<f64>,
@@ -194,7 +197,7 @@ struct Pressed {
 }
 
 impl Bodies<'_> {
-    fn springs_at(&self, position_mm: f64) -> EdgeSprings {
+    fn springs_at(&self, position_mm: f64) -> EdgeStiffness {
         let flattening = hertz::flattening(self.pair, self.material, position_mm);
         let load = GREATEST_LOAD * self.line_load_n_per_mm;
         let half_width_mm = WIDENED * flattening.contact.loaded(load).half_width_mm;
@@ -202,12 +205,12 @@ impl Bodies<'_> {
         // About the theoretical contact point, or the edge beside it.
         let centre_mm = 0.0_f64.min(upper_mm).max(lower_mm);
         let mut window = (lower_mm.max(centre_mm - half_width_mm), upper_mm.min(centre_mm + half_width_mm));
-        let mut depth_mm = flattening.approach_mm(load);
+        let mut indentation_mm = flattening.approach_mm(load);
         let mut points = Vec::with_capacity(DEPTHS);
         for _ in 0..DEPTHS {
             let mut pressed = None;
             for _ in 0..FITTINGS {
-                let found = self.pressed(position_mm, window, depth_mm);
+                let found = self.pressed(position_mm, window, indentation_mm);
                 let Some((found, (from_mm, to_mm))) = found else { break };
                 let margin_mm = MARGIN * (to_mm - from_mm);
                 window = (lower_mm.max(from_mm - margin_mm), upper_mm.min(to_mm + margin_mm));
@@ -217,7 +220,7 @@ impl Bodies<'_> {
                 let matched = |criterion| matched_mpa_per_mm(criterion, &flattening, pressed.line_load_n_per_mm);
                 pressed.matched(matched(self.criterion) / matched(MatchCriterion::HalfWidth))
             }));
-            depth_mm *= 0.5;
+            indentation_mm *= 0.5;
         }
         points.reverse();
         let w = self.line_load_n_per_mm;
@@ -228,11 +231,11 @@ impl Bodies<'_> {
             .0;
         let beside_mm2_per_n = (calibrated - flattening.approach_mm(w)) / w;
         points.iter_mut().for_each(|point: &mut EdgePoint| point.further_mm2_per_n += beside_mm2_per_n);
-        EdgeSprings { points }
+        EdgeStiffness { points }
     }
 
-    /// Half-planes pressed together by `depth_mm` in a window of the tangent, and where their contact lies.
-    fn pressed(&self, position_mm: f64, window: (f64, f64), depth_mm: f64) -> Option<(Pressed, (f64, f64))> {
+    /// Half-planes pressed together by `indentation_mm` in a window of the tangent, and where their contact lies.
+    fn pressed(&self, position_mm: f64, window: (f64, f64), indentation_mm: f64) -> Option<(Pressed, (f64, f64))> {
         let (from_mm, to_mm) = window;
         let spacing_mm = (to_mm - from_mm) / (2 * CELLS) as f64;
         let mut gap_mm: Vec<f64> =
@@ -244,14 +247,14 @@ impl Bodies<'_> {
         let mut cells = ElasticCells::new(width_mm, cell_compliance_mm_per_mpa(&flattening.bodies, width_mm, CELLS));
         // The mean of each cell.
         let of_cells: Vec<f64> = gap_mm.windows(3).step_by(2).map(|g| (g[0] + 4.0 * g[1] + g[2]) / 6.0).collect();
-        cells.read(&of_cells);
-        let response = cells.press(depth_mm);
+        cells.set_gap(&of_cells);
+        let response = cells.load_at(indentation_mm);
         let mut field = PressureField::new(from_mm, width_mm, false);
         field.fill(|pressure| cells.pressure_mpa(pressure));
         let (lower_mm, upper_mm) = field.extent_mm();
         let touches = response.line_load_n_per_mm > 0.0 && upper_mm > lower_mm;
         let pressed = Pressed {
-            depth_mm,
+            indentation_mm,
             line_load_n_per_mm: response.line_load_n_per_mm,
             half_width_mm: 0.5 * (upper_mm - lower_mm),
             gap_mm,
@@ -272,22 +275,24 @@ impl Bodies<'_> {
 }
 
 impl Pressed {
-    /// The bed whose K/H is `stiffer` times that of the bed with the same half-width.
+    /// The foundation whose K/H is `stiffer` times that of the foundation with the same half-width.
     fn matched(&self, stiffer: f64) -> EdgePoint {
         let w = self.line_load_n_per_mm;
-        let as_wide_mm = self.depth_where(|depth| self.sum(depth, |(_, length)| length) >= 2.0 * self.half_width_mm);
+        let as_wide_mm = self
+            .indentation_where(|indentation| self.sum(indentation, |(_, length)| length) >= 2.0 * self.half_width_mm);
         let penetration_mm2 = self.sum(as_wide_mm, |(mean, _)| mean) / stiffer;
-        let bed_mm = self.depth_where(|depth| self.sum(depth, |(mean, _)| mean) >= penetration_mm2);
+        let foundation_mm =
+            self.indentation_where(|indentation| self.sum(indentation, |(mean, _)| mean) >= penetration_mm2);
         EdgePoint {
             ln_line_load: w.ln(),
             ln_mpa_per_mm: (w / penetration_mm2).ln(),
-            further_mm2_per_n: (self.depth_mm - bed_mm) / w,
+            further_mm2_per_n: (self.indentation_mm - foundation_mm) / w,
         }
     }
 
-    /// The least depth of the bed at which `reached` holds, no more than twice that of the half-planes.
-    fn depth_where(&self, reached: impl Fn(f64) -> bool) -> f64 {
-        let (mut low, mut high) = (0.0, 2.0 * self.depth_mm);
+    /// The least indentation of the foundation at which `reached` holds, no more than twice that of the half-planes.
+    fn indentation_where(&self, reached: impl Fn(f64) -> bool) -> f64 {
+        let (mut low, mut high) = (0.0, 2.0 * self.indentation_mm);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
             if reached(middle) { high = middle } else { low = middle }
@@ -296,8 +301,9 @@ impl Pressed {
     }
 
     /// U or |{g < d}|: the sum over the samples of `of` mean penetration and fraction in contact, the gap straight between them.
-    fn sum(&self, depth_mm: f64, of: impl Fn((f64, f64)) -> f64) -> f64 {
-        let parts = self.gap_mm.windows(2).map(|ends| of(mean_positive([depth_mm - ends[0], depth_mm - ends[1]])));
+    fn sum(&self, indentation_mm: f64, of: impl Fn((f64, f64)) -> f64) -> f64 {
+        let parts =
+            self.gap_mm.windows(2).map(|ends| of(mean_positive([indentation_mm - ends[0], indentation_mm - ends[1]])));
         self.spacing_mm * parts.sum::<f64>()
     }
 }

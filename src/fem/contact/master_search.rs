@@ -40,14 +40,14 @@ pub struct Segment {
 /// Where a slave point meets a master edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Meeting {
-    /// Place on the master edge.
+    /// ElementPoint on the master edge.
     pub eta: f64,
     /// n · (x_m − x_s), mm: negative where the surfaces overlap.
     pub gap_mm: f64,
 }
 
 /// The edges of a master surface, sorted in space.
-pub struct Facing<'a> {
+pub struct MasterSearch<'a> {
     /// The master surface.
     pub master: &'a Surface,
     boxes: Bvh,
@@ -83,7 +83,7 @@ fn falling_root(f: impl Fn(f64) -> (f64, f64)) -> f64 {
     xi
 }
 
-impl<'a> Facing<'a> {
+impl<'a> MasterSearch<'a> {
     /// Sorts the edges of `master`.
     pub fn new(master: &'a Surface) -> Self {
         let boxes: Vec<Aabb> = master.edges.iter().map(|edge| aabb(master.edge_box(edge))).collect();

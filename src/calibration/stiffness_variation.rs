@@ -8,9 +8,9 @@ use crate::gear::GearPair;
 /// The course of one stiffness.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Course {
+pub struct StiffnessVariation {
     /// Of what.
-    pub of: CourseOf,
+    pub of: VariationOf,
     /// Mean over the positions, N/(mm·µm).
     pub mean_n_per_mm_um: f64,
     /// Greatest over least.
@@ -22,7 +22,7 @@ pub struct Course {
 /// What the course is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum CourseOf {
+pub enum VariationOf {
     /// The pair, flattening included.
     PairWhole,
     /// The pair's teeth and bodies alone.
@@ -33,7 +33,7 @@ pub enum CourseOf {
     PinionBending,
 }
 
-impl CourseOf {
+impl VariationOf {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::PairWhole, Self::PairBending, Self::PinionWhole, Self::PinionBending];
 
@@ -59,9 +59,9 @@ impl CourseOf {
 }
 
 /// The courses over the positions of `deflections` (at least one).
-pub fn courses(pair: &GearPair, deflections: &[PairDeflection]) -> Vec<Course> {
+pub fn courses(pair: &GearPair, deflections: &[PairDeflection]) -> Vec<StiffnessVariation> {
     let path = &pair.path;
-    CourseOf::ALL
+    VariationOf::ALL
         .into_iter()
         .map(|of| {
             let mut least = f64::INFINITY;
@@ -75,7 +75,7 @@ pub fn courses(pair: &GearPair, deflections: &[PairDeflection]) -> Vec<Course> {
                     (greatest, at_mm) = (stiffness, at.position_mm);
                 }
             }
-            Course {
+            StiffnessVariation {
                 of,
                 mean_n_per_mm_um: sum / deflections.len() as f64,
                 max_over_min: greatest / least,

@@ -22,7 +22,7 @@
 //! correction is above [`SETTLED`] of its load. Otherwise another one follows.
 //!
 //! Whatever does not fit that picture (a contact comes or goes, or changes its load by more than [`GREATEST_SHIFT`] allows) is
-//! solved with true logarithms, contacts coming and going ([`Station::settle`]).
+//! solved with true logarithms, contacts coming and going ([`LoadedPosition::settle`]).
 
 use super::bending::BentTeeth;
 use super::lanes::{LANES, Lanes};
@@ -143,7 +143,7 @@ impl Sums {
 
 /// A phase.
 #[derive(Debug, Clone)]
-pub struct Station {
+pub struct LoadedPosition {
     /// Position of the reference tooth in the middle of the face width.
     pub position_mm: f64,
     /// δ.
@@ -156,7 +156,7 @@ pub struct Station {
     pub packs: std::ops::Range<usize>,
 }
 
-impl Station {
+impl LoadedPosition {
     /// Follows the equilibrium over a wear step.
     pub fn follow(
         &mut self,
