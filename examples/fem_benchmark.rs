@@ -1,6 +1,6 @@
 //! The NAFEMS cylinder on a block over four meshes, the finest with about 70,000 unknowns: one thread, times of this machine.
 
-#[path = "../tests/common/grid.rs"]
+#[path = "../tests/inside/common/grid.rs"]
 mod grid;
 
 use std::time::Instant;

@@ -1,7 +1,7 @@
 //! Searches what the thesis's text leaves open of its FZG wear test (torque, speed, stiffness of the contact) for settings that meet
 //! D1, D2 and D3 together: the tables of docs/fzg-test.md. Takes minutes.
 
-#[path = "../tests/common/fzg_test.rs"]
+#[path = "../tests/inside/common/fzg_test.rs"]
 mod fzg_test;
 
 use fzg_test::{Estimate, Verdict};

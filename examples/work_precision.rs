@@ -2,7 +2,7 @@
 //! the points and positions, without severe wear, with a factor of 100 above 2000 MPa over a band of 100 MPa, and with the hard switch.
 //! Prints the tables of docs/stepping.md; `work_precision winkler` does so for one surface alone.
 
-#[path = "../tests/common/mod.rs"]
+#[path = "../tests/inside/common/mod.rs"]
 mod common;
 
 use common::{Scene, fzg_c_scene};

@@ -41,3 +41,7 @@ pub mod studies;
 pub mod thermal;
 pub mod wear;
 mod whole_file;
+
+#[cfg(test)]
+#[path = "../tests/inside/mod.rs"]
+mod inside;

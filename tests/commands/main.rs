@@ -1,0 +1,16 @@
+//! The commands about one pair, from the outside.
+
+mod bad_input;
+mod calibrate;
+mod fem_pair;
+mod fem_problem;
+mod helical_output;
+mod init;
+mod mesh;
+mod phases;
+mod plan;
+#[path = "../program/mod.rs"]
+mod program;
+mod resume;
+mod run;
+mod stiffness_curve;

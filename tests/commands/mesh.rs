@@ -1,0 +1,93 @@
+//! `gearwear mesh`: the mesh it writes, what it says of it, what it refuses.
+
+use std::path::Path;
+
+use assert_cmd::Command;
+use gearwear::mesh;
+use predicates::prelude::*;
+
+use crate::program::preset;
+
+/// The fzg-c scene with a `[fem]` table.
+fn scene(fem: &str) -> String {
+    format!("{}\n[fem]\n{fem}\n", preset("fzg-c"))
+}
+
+fn gearwear(folder: &Path, scene: &str, out: &str, more: &[&str]) -> assert_cmd::assert::Assert {
+    let mut command = Command::cargo_bin("gearwear").unwrap();
+    command.current_dir(folder).args(["mesh", "-", "--out", out]).args(more).write_stdin(scene.to_owned()).assert()
+}
+
+#[test]
+fn the_plan_says_what_a_run_uses_the_table_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut command = Command::cargo_bin("gearwear").unwrap();
+    command.current_dir(folder.path()).args(["plan", "-"]).write_stdin(scene("body = \"ring\"")).assert().success();
+    let mut command = Command::cargo_bin("gearwear").unwrap();
+    let assert = command.args(["plan", "-"]).write_stdin(scene("body = \"ring\"")).assert().success();
+    assert.stdout(predicate::str::contains("the stiffness of the teeth and the verification"));
+}
+
+#[test]
+fn the_mesh_is_written_and_described() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = scene("body = \"sector\"\nsector_teeth = 3\nelements_per_half_width = 8");
+    let assert = gearwear(folder.path(), &text, "pair.json", &["--position", "13.0"]).success().stderr("");
+    assert
+        .stdout(predicate::str::contains("sectors of 3 teeth, sides free").and(predicate::str::contains("13.0000 mm")))
+        .stdout(predicate::str::contains("least angle").and(predicate::str::contains("degrees of freedom")));
+    let mesh = mesh::read(folder.path().join("pair.json")).unwrap();
+    for set in [
+        "pinion",
+        "wheel",
+        "pinion-flanks",
+        "wheel-fillets",
+        "pinion-tips",
+        "wheel-clamp",
+        "pinion-sides",
+        "wheel-flank-0",
+        "pinion-flank+1",
+        "pinion-flank-1",
+    ] {
+        assert!(mesh.cell_sets.contains_key(set), "{set}: {:?}", mesh.cell_sets.keys());
+    }
+}
+
+/// The formats that other programs read hold the same mesh, sets included.
+#[test]
+fn every_format_holds_the_mesh() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = scene("body = \"sector\"\nelements_per_half_width = 2");
+    let read = |name: &str| {
+        gearwear(folder.path(), &text, name, &[]).success();
+        mesh::read(folder.path().join(name)).unwrap()
+    };
+    let [json, msh, vtu] = ["pair.json", "pair.msh", "pair.vtu"].map(read);
+    assert_eq!(json.points, vtu.points);
+    assert_eq!(json.points.len(), msh.points.len());
+    assert!(json.cell_sets.keys().eq(msh.cell_sets.keys()), "{:?}", msh.cell_sets.keys());
+    assert!(json.cell_sets.keys().eq(vtu.cell_sets.keys()), "{:?}", vtu.cell_sets.keys());
+}
+
+#[test]
+fn a_position_off_the_path_is_refused_with_what_is_allowed() {
+    let folder = tempfile::tempdir().unwrap();
+    for position in ["4.0", "-1", "24", "nan"] {
+        // A and E of fzg-c: 4.4723 and 23.5695 mm, ISO 21771 on the data of ISO 14635-1.
+        gearwear(folder.path(), &scene(""), "pair.json", &["--position", position])
+            .code(2)
+            .stderr(predicate::str::contains("--position").and(predicate::str::contains("(A) to")));
+    }
+    assert!(!folder.path().join("pair.json").exists());
+}
+
+#[test]
+fn a_mesh_file_that_cannot_be_written_is_said() {
+    let folder = tempfile::tempdir().unwrap();
+    gearwear(folder.path(), &scene("body = \"sector\"\nelements_per_half_width = 8"), "nowhere/pair.json", &[])
+        .code(2)
+        .stderr(predicate::str::contains("--out"));
+    gearwear(folder.path(), &scene(""), "pair.obj", &[])
+        .code(2)
+        .stderr(predicate::str::contains("--out").and(predicate::str::contains(".msh")));
+}

@@ -1,0 +1,96 @@
+//! The cylinder on a block of the other tests, as a mesh with named groups and a problem file.
+
+use gearwear::fem::problem::{Edge, Problem};
+use gearwear::fem::solid::{Element, ElementKind};
+use gearwear::mesh::{CellBlock, CellKind, Mesh};
+
+/// The half model of the NAFEMS cylinder on a block.
+pub const TEXT: &str = r#"title = "cylinder on a block"
+
+[mesh]
+file = "mesh.json"
+
+[[body]]
+group = "cylinder"
+young_modulus_GPa = 210.0
+poisson_ratio = 0.3
+
+[[body]]
+group = "block"
+young_modulus_GPa = 70.0
+poisson_ratio = 0.3
+
+[[fixed]]
+group = "symmetry"
+components = ["x"]
+
+[[fixed]]
+group = "base"
+components = ["y"]
+
+[[load]]
+group = "top"
+force_N_per_mm = [0.0, -17500.0]
+
+[[contact]]
+slave = "round"
+master = "flat"
+friction = 0.0
+"#;
+
+fn corners(element: &Element) -> usize {
+    if matches!(element.kind, ElementKind::Triangle3 | ElementKind::Triangle6) { 3 } else { 4 }
+}
+
+/// The sides of an element.
+fn sides(element: &Element) -> impl Iterator<Item = Edge> + '_ {
+    let (nodes, n) = (element.nodes(), corners(element));
+    (0..n).map(move |i| Edge { ends: [nodes[i], nodes[(i + 1) % n]], middle: nodes.get(n + i).copied() })
+}
+
+/// The mesh of a problem with two bodies, its surfaces, supports and load named as [`TEXT`] names them.
+pub fn mesh_of(problem: &Problem) -> Mesh {
+    let mut mesh =
+        Mesh { points: problem.solid.points_mm.iter().map(|p| [p.x, p.y, 0.0]).collect(), ..Mesh::default() };
+    for (material, name) in [(0, "cylinder"), (1, "block")] {
+        let own: Vec<&Element> = problem.solid.elements.iter().filter(|e| e.material == material).collect();
+        let nodes = own.iter().flat_map(|e| e.nodes()).map(|&n| n as usize).collect();
+        add_block(&mut mesh, own[0].kind.cell_kind(), nodes, name);
+    }
+    let loaded = |node: u32| {
+        let dof = 2 * node as usize;
+        problem.forces_n_per_mm[dof] != 0.0 || problem.forces_n_per_mm[dof + 1] != 0.0
+    };
+    let top: Vec<Edge> =
+        problem.solid.elements.iter().flat_map(sides).filter(|side| side.nodes().all(&loaded)).collect();
+    for (edges, name) in [(&problem.contacts[0].slave, "round"), (&problem.contacts[0].master, "flat"), (&top, "top")] {
+        // Every second line the other way round: a mesh does not say on which side its body lies.
+        let nodes = edges.iter().enumerate().flat_map(|(i, edge)| {
+            let [a, b] = edge.ends;
+            let ends = if i % 2 == 0 { [a, b] } else { [b, a] };
+            ends.into_iter().chain(edge.middle).map(|n| n as usize).collect::<Vec<_>>()
+        });
+        let kind = if edges[0].middle.is_some() { CellKind::Line3 } else { CellKind::Line };
+        let nodes = nodes.collect();
+        add_block(&mut mesh, kind, nodes, name);
+    }
+    for (component, name) in [(0, "symmetry"), (1, "base")] {
+        let held = problem.held.iter().filter(|held| held.dof % 2 == component).map(|held| (held.dof / 2) as usize);
+        let mut nodes: Vec<usize> = held.collect();
+        nodes.sort_unstable();
+        mesh.point_sets.insert(name.to_owned(), nodes);
+    }
+    mesh
+}
+
+/// Adds a block of cells, all of which are the set `name`.
+fn add_block(mesh: &mut Mesh, kind: CellKind, nodes: Vec<usize>, name: &str) {
+    let count = nodes.len() / kind.node_count();
+    mesh.cells.push(CellBlock { kind, nodes });
+    for set in mesh.cell_sets.values_mut() {
+        set.push(Vec::new());
+    }
+    let mut set = vec![Vec::new(); mesh.cells.len()];
+    set[mesh.cells.len() - 1] = (0..count).collect();
+    mesh.cell_sets.insert(name.to_owned(), set);
+}

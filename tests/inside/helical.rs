@@ -1,0 +1,378 @@
+//! Pairs with slices over the face width: geometry, lines of contact, equilibrium, wear.
+
+use std::f64::consts::PI;
+
+use gearwear::gear::{
+    Gear, GearPair, PairError,
+    conjugate::ConjugateFlanks,
+    modification::{EndRelief, Modification, ReliefShape},
+    removed_material::lead_removed_mm,
+    slices::Slices,
+    spec::PairSpec,
+};
+use gearwear::mesh_cycle::{
+    settings::{Coupling, SliceSettings},
+    sliced_positions::sliced_positions,
+};
+use gearwear::simulation::figures::WearFigures;
+use gearwear::simulation::wear_run::Outcome;
+use gearwear::stiffness::settings::StiffnessSettings;
+use proptest::prelude::*;
+
+use super::common::{Scene, assert_close, fzg_c, fzg_c_scene, pair, preset};
+
+fn slices(count: usize, coupling: Coupling) -> Option<SliceSettings> {
+    Some(SliceSettings { count, coupling })
+}
+
+/// The preset `helical`, coarse, for one step; 302 N·m.
+fn helical_scene(surface: &'static str, count: usize, coupling: Coupling) -> Scene {
+    Scene {
+        pair: preset("helical"),
+        revolutions: 6e5,
+        surface,
+        stiffness: StiffnessSettings::WeberBanaschek,
+        flank_points: 400,
+        positions: 200,
+        steps: 1.0,
+        slices: slices(count, coupling),
+        ..fzg_c_scene()
+    }
+}
+
+/// The public FEUP pairs: full tip clearance kept (d_a = d + 2 m_n (1 + x − k), k = Σx − (a − a_d)/m_n, ISO 21771), profile shifts
+/// of the normal module; overlap ratios from b sin β/(π m_n). H951 has its face width for an overlap of 1, and a transverse
+/// contact ratio below 1.
+#[test]
+fn val_feup_pairs() {
+    for (name, module, teeth, shifts, width) in [
+        ("h501", 3.5, [20.0, 30.0], [0.1809, 0.0891], 23.0),
+        ("h701", 2.5, [28.0, 42.0], [0.2290, 0.1489], 17.0),
+        ("h951", 1.75, [38.0, 57.0], [1.6915, 2.0003], 21.2418),
+    ] {
+        let pair = pair(&preset(name));
+        let beta = 15f64.to_radians();
+        let reference = teeth.map(|z| module * z / beta.cos());
+        let shortening = shifts[0] + shifts[1] - (91.5 - 0.5 * (reference[0] + reference[1])) / module;
+        for (k, gear) in Gear::BOTH.into_iter().enumerate() {
+            let tip = reference[k] + 2.0 * module * (1.0 + shifts[k] - shortening);
+            assert_close(&format!("{name} {gear:?} tip diameter"), 2.0 * pair.teeth[gear].tip_radius_mm, tip, 1e-12);
+            assert_close(&format!("{name} {gear:?} tip clearance"), pair.tip_clearance_mm[gear], 0.25 * module, 1e-9);
+        }
+        assert_close(&format!("{name} overlap"), pair.overlap_ratio(), width * beta.sin() / (PI * module), 1e-12);
+        // Working pressure angle from the profile shifts: inv α_wt = inv α_t + 2 tan α_n Σx/Σz. The published shifts leave next to no
+        // backlash at 91.5 mm, so both ways agree.
+        let alpha_t = (20f64.to_radians().tan() / beta.cos()).atan();
+        let inv = |a: f64| a.tan() - a;
+        let from_shifts =
+            inv(alpha_t) + 2.0 * 20f64.to_radians().tan() * (shifts[0] + shifts[1]) / (teeth[0] + teeth[1]);
+        assert_close(&format!("{name} inv α_wt"), inv(pair.working_pressure_angle_rad), from_shifts, 2e-3);
+    }
+    assert_close("H951 overlap", pair(&preset("h951")).overlap_ratio(), 1.0, 1e-5);
+    assert!(pair(&preset("h951")).path.contact_ratio() < 1.0);
+}
+
+/// A normal profile shift is the same length as the transverse one of m_t; the preset keeps the transverse section of type C at
+/// any helix angle.
+#[test]
+fn val_the_preset_keeps_the_transverse_section() {
+    let spur = pair(&fzg_c());
+    for degrees in [0.0_f64, 15.0, 30.0, -20.0, 45.0] {
+        let text = gearwear::scene::presets::find("helical").unwrap().text;
+        let text = text.replace("helix_angle_deg = 15.0", &format!("helix_angle_deg = {degrees:?}"));
+        let spec = gearwear::scene::Scene::from_toml(&text).unwrap().scene.pair;
+        let helical = pair(&spec);
+        for (a, b) in helical.path.points_mm().into_iter().zip(spur.path.points_mm()) {
+            assert_close("path", a, b, 1e-12);
+        }
+        for gear in Gear::BOTH {
+            let (a, b) = (&helical.teeth[gear], &spur.teeth[gear]);
+            assert_close("base radius", a.involute.base_radius_mm, b.involute.base_radius_mm, 1e-12);
+            assert_close("thickness", a.base_half_angle_rad, b.base_half_angle_rad, 1e-9);
+            assert_close("root radius", a.root_radius_mm, b.root_radius_mm, 1e-9);
+        }
+        // tan β_b = tan β cos α_t, and ε_β = b tan β_b / p_bt.
+        let beta_b = helical.base_helix_angle_rad();
+        let by_normal = (degrees.to_radians().sin() * spec.normal_pressure_angle_rad.cos()).asin();
+        assert!((beta_b - by_normal).abs() < 1e-12, "sin β_b = sin β cos α_n: {beta_b} {by_normal}");
+        let overlap = spec.face_width_mm * beta_b.tan().abs() / helical.path.base_pitch_mm;
+        assert!((helical.overlap_ratio() - overlap).abs() < 1e-12);
+    }
+}
+
+/// Least total length of the lines of contact (AGMA 908-B89, with n_a, n_r the fractional parts of ε_α, ε_β and p_x = π m_n/sin β):
+/// (ε_α b − n_a n_r p_x)/cos β_b where n_r ≤ 1 − n_a, else (ε_α b − (1 − n_a)(1 − n_r) p_x)/cos β_b.
+fn least_length_mm(pair: &GearPair) -> f64 {
+    let (alpha, beta) = (pair.path.contact_ratio(), pair.overlap_ratio());
+    let (n_a, n_r) = (alpha.fract(), beta.fract());
+    let axial_pitch = PI * pair.spec.normal_module_mm / pair.spec.helix_angle_rad.sin();
+    let missing = if n_r <= 1.0 - n_a { n_a * n_r } else { (1.0 - n_a) * (1.0 - n_r) };
+    (alpha * pair.spec.face_width_mm - missing * axial_pitch) / pair.base_helix_angle_rad().cos()
+}
+
+/// The stretches of every slice cover A–E without gap, so that all together have the length ε_α b / cos β_b of the lines of contact
+/// to round-off; the least length at any phase is the closed form's, as far as slices tell.
+#[test]
+fn ver_lines_of_contact_have_their_length() {
+    for name in ["helical", "h501", "h701", "h951"] {
+        let pair = pair(&preset(name));
+        let (path, cos) = (&pair.path, pair.base_helix_angle_rad().cos());
+        for (count, positions) in [(1, 50), (7, 37), (20, 400), (50, 23)] {
+            if path.contact_ratio() + pair.overlap_ratio() * (1.0 - 1.0 / count as f64) < 1.0 {
+                continue;
+            }
+            let slices = Slices::new(&pair, count);
+            let phases = phases(path, &slices, positions, None);
+            let cells = || phases.iter().flat_map(|phase| &phase.contacts);
+            let stretch: f64 = cells().map(|contact| contact.cell.upper_mm - contact.cell.lower_mm).sum();
+            let length = stretch * slices.slice_width_mm / path.base_pitch_mm / cos;
+            let expected = path.contact_ratio() * pair.spec.face_width_mm / cos;
+            assert_close(&format!("{name} {count} {positions}"), length, expected, 1e-12);
+
+            for slice in 0..count {
+                let mut own: Vec<_> = cells().filter(|contact| contact.slice == slice).map(|c| c.cell).collect();
+                own.sort_by(|a, b| a.lower_mm.total_cmp(&b.lower_mm));
+                assert!((own[0].lower_mm - path.start_mm).abs() < 1e-9);
+                assert!((own[own.len() - 1].upper_mm - path.end_mm).abs() < 1e-9);
+                assert!(own.windows(2).all(|two| (two[0].upper_mm - two[1].lower_mm).abs() < 1e-9), "{name} {slice}");
+                assert!(own.iter().all(|cell| cell.lower_mm <= cell.upper_mm));
+            }
+            let spacing = path.base_pitch_mm / phases.len() as f64;
+            assert!(spacing <= (path.end_mm - path.start_mm) / (positions - 1) as f64 * (1.0 + 1e-9));
+        }
+        let fine = Slices::new(&pair, 400);
+        let phases = phases(path, &fine, 800, None);
+        let least = phases.iter().map(|phase| phase.contacts.len()).min().unwrap();
+        let least_mm = least as f64 * fine.slice_width_mm / cos;
+        // Every end of a line may cut one slice.
+        let allowed = 4.0 * fine.slice_width_mm / cos;
+        let closed_form = least_length_mm(&pair);
+        assert!((least_mm - closed_form).abs() <= allowed, "{name}: {least_mm} {closed_form}");
+    }
+}
+
+/// Where no width is in contact at some position, the pair is refused; a transverse contact ratio below 1 alone is none.
+#[test]
+fn contact_everywhere_is_a_matter_of_both_ratios() {
+    let narrow = PairSpec { face_width_mm: 1.0, ..preset("h951") };
+    assert!(matches!(GearPair::new(&narrow), Err(PairError::ContactRatioBelowOne { .. })));
+    assert!(GearPair::new(&PairSpec { face_width_mm: 2.0, ..preset("h951") }).is_ok());
+}
+
+/// Lead crowning C (2z/b − 1)², end relief over its length, helix slope from one end to the other.
+#[test]
+fn ver_modifications_over_the_width() {
+    let at = |modification: &Modification, z: f64| lead_removed_mm(modification, 20.0, z);
+    let crowned = Modification { lead_crowning_mm: 0.01, ..Modification::default() };
+    for (z, expected) in [(0.0, 0.01), (5.0, 0.0025), (10.0, 0.0), (20.0, 0.01)] {
+        assert!((at(&crowned, z) - expected).abs() < 1e-15);
+    }
+    let end = EndRelief { amount_mm: 0.02, length_mm: 4.0, shape: ReliefShape::Parabolic };
+    let relieved = Modification { end_relief: Some(end), ..Modification::default() };
+    for (z, expected) in [(0.0, 0.02), (2.0, 0.005), (4.0, 0.0), (10.0, 0.0), (18.0, 0.005), (20.0, 0.02)] {
+        assert!((at(&relieved, z) - expected).abs() < 1e-15);
+    }
+    for (slope, first, last) in [(0.008, 0.0, 0.008), (-0.008, 0.008, 0.0)] {
+        let skew = Modification { helix_slope_mm: slope, ..Modification::default() };
+        assert!((at(&skew, 0.0) - first).abs() < 1e-15 && (at(&skew, 20.0) - last).abs() < 1e-15);
+    }
+}
+
+/// ∫ w v_s dt of one slice over the first mesh, by the loads that were observed.
+fn sliding_work(pair: &GearPair, outcome: &Outcome, positions: usize, slice: usize) -> f64 {
+    let mesh = outcome.new.cycle.slices.as_ref().unwrap();
+    let spacing = mesh.base_pitch_mm / mesh.transmission_error_mm.len() as f64;
+    let ahead = outcome.slices.ahead_mm[slice];
+    sliced_positions(&pair.path, &outcome.slices, positions, None)
+        .iter()
+        .flat_map(|phase| phase.contacts.iter().map(move |contact| (phase.position_mm, contact)))
+        .filter(|(_, contact)| contact.slice == slice)
+        .map(|(phase_mm, contact)| {
+            let at = phase_mm + f64::from(contact.tooth) * mesh.base_pitch_mm;
+            assert!((at + ahead - contact.cell.position_mm).abs() <= spacing);
+            let row = ((at - mesh.position_mm[0]) / spacing).round() as usize;
+            let load = mesh.line_load_n_per_mm[row * mesh.slices + slice];
+            load * pair.sliding_mm(contact.cell.lower_mm, contact.cell.upper_mm)
+        })
+        .sum()
+}
+
+/// The flank integral of every slice's first wear is k ∫ w v_s dt of its own loads, on both gears; all loads together are the torque.
+#[test]
+fn val_exact_wear_of_every_slice() {
+    for surface in ["winkler", "hertz", "half-space"] {
+        for coupling in [Coupling::None, Coupling::Slicing] {
+            let scene = Scene { flank_points: 750, positions: 400, ..helical_scene(surface, 6, coupling) };
+            let outcome = scene.run();
+            let pair = pair(&scene.pair);
+            let mesh = outcome.new.cycle.slices.as_ref().unwrap();
+            assert!(mesh.load_imbalance <= 1e-10, "{surface} {coupling:?}: {:.1e}", mesh.load_imbalance);
+            let worn = outcome.worn.cycle.slices.as_ref().unwrap();
+            assert!(worn.load_imbalance <= 1e-10, "{surface} {coupling:?}: {:.1e}", worn.load_imbalance);
+            for gear in Gear::BOTH {
+                let grid = &outcome.grid[gear];
+                for (slice, depth) in outcome.new.depth_per_mesh_mm[gear].chunks_exact(grid.len()).enumerate() {
+                    let expected = 1e-11 * sliding_work(&pair, &outcome, scene.positions, slice);
+                    let what = format!("{surface} {coupling:?} {gear:?} slice {slice}");
+                    assert_close(&what, grid.integral(depth), expected, 1e-3);
+                }
+            }
+        }
+    }
+}
+
+/// With a vanishing helix angle every slice is the spur pair: load sharing, transmission error, wear.
+#[test]
+fn val_without_helix_it_is_the_spur_pair() {
+    for surface in ["winkler", "hertz"] {
+        for coupling in [Coupling::None, Coupling::Slicing] {
+            let spur = Scene {
+                steps: 4.0,
+                stiffness: StiffnessSettings::WeberBanaschek,
+                surface,
+                positions: 400,
+                flank_points: 400,
+                ..fzg_c_scene()
+            };
+            let pair_spec = PairSpec { helix_angle_rad: 1e-6, ..fzg_c() };
+            let helical = Scene { pair: pair_spec, slices: slices(5, coupling), ..spur.clone() };
+            let (spur, helical) = (spur.run(), helical.run());
+            let spec = pair(&fzg_c());
+            for gear in Gear::BOTH {
+                let a = WearFigures::at(&spec, gear, &spur, &spur.worn);
+                for slice in WearFigures::at(&spec, gear, &helical, &helical.worn).slices {
+                    assert_close(&format!("{surface} {coupling:?} {gear:?} area"), slice.area_mm2, a.area_mm2, 1e-3);
+                    assert_close(&format!("{surface} {coupling:?} {gear:?} root"), slice.root_mm, a.root_mm, 5e-3);
+                }
+            }
+            let (a, b) = (spur.new.cycle.transmission_error_mm(), helical.new.cycle.transmission_error_mm());
+            // Slices enter and leave one after the other by less than round-off tells; rows lie between phases.
+            assert_close(&format!("{surface} {coupling:?} least transmission error"), b.0, a.0, 2e-3);
+            assert_close(&format!("{surface} {coupling:?} greatest transmission error"), b.1, a.1, 2e-3);
+        }
+    }
+}
+
+/// A negative helix angle is the mirror image: the last slice enters first.
+#[test]
+fn val_negative_helix_mirrors_the_width() {
+    let right = helical_scene("hertz", 6, Coupling::Slicing);
+    let helix_angle_rad = -right.pair.helix_angle_rad;
+    let left = Scene { pair: PairSpec { helix_angle_rad, ..right.pair.clone() }, ..right.clone() };
+    let (right, left) = (right.run(), left.run());
+    for gear in Gear::BOTH {
+        let points = right.grid[gear].len();
+        let peak = right.new.depth_per_mesh_mm[gear].iter().copied().fold(0.0, f64::max);
+        for slice in 0..6 {
+            let a = &right.new.depth_per_mesh_mm[gear][slice * points..(slice + 1) * points];
+            let b = &left.new.depth_per_mesh_mm[gear][(5 - slice) * points..(6 - slice) * points];
+            assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() <= 1e-7 * peak), "{gear:?} {slice}");
+        }
+    }
+}
+
+/// The same bits on one thread and on two.
+#[test]
+fn ver_threads_do_not_change_a_bit() {
+    let scene = helical_scene("winkler", 5, Coupling::Slicing);
+    let on =
+        |threads: usize| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| scene.run());
+    let (one, two) = (on(1), on(2));
+    for gear in Gear::BOTH {
+        let bits = |outcome: &Outcome| outcome.worn.wear_mm[gear].iter().map(|h| h.to_bits()).collect::<Vec<_>>();
+        assert_eq!(bits(&one), bits(&two));
+    }
+    assert_eq!(one.worn.cycle, two.worn.cycle);
+}
+
+/// Misalignment of a spur pair: with teeth so soft that flattening does not count, the load grows linearly over the width,
+/// K_Hβ = 1 + c f/(2 w_m) (ISO 6336-1, 7.2, where the whole width carries), with c the stiffness of all pairs in mesh; the mean over the mesh has
+/// ε_α pairs. Slices tell it at their middles, (1 − 1/n) of the way out.
+#[test]
+fn val_face_load_factor_of_a_misaligned_spur_pair() {
+    let (stiffness, slope_mm, count) = (200.0, 0.4, 20);
+    let mut spec = fzg_c();
+    spec.gears.pinion.modification.helix_slope_mm = slope_mm;
+    let scene = |coupling| Scene {
+        pair: spec.clone(),
+        surface: "hertz",
+        stiffness: StiffnessSettings::Constant { pair_n_per_mm2: stiffness },
+        slices: slices(count, coupling),
+        steps: 1.0,
+        positions: 400,
+        flank_points: 100,
+        ..fzg_c_scene()
+    };
+    let factor = |scene: &Scene| scene.run().new.cycle.slices.unwrap().face_load_factor();
+    let uncoupled = scene(Coupling::None);
+    let pair = pair(&spec);
+    let outwards = 1.0 - 1.0 / count as f64;
+    let expected = 1.0 + outwards * pair.path.contact_ratio() * stiffness * slope_mm / (2.0 * uncoupled.line_load());
+    assert_close("K_Hβ", factor(&uncoupled), expected, 5e-3);
+    // A tooth that holds its slices together resists the twist that the misalignment asks of it: its ends carry more.
+    let coupled = factor(&scene(Coupling::Slicing));
+    assert!(coupled > factor(&uncoupled), "{coupled}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 100, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Any helix, width, load and modification over the width: the loads balance, none pulls, and nothing but wear comes out.
+    #[test]
+    fn prop_slices_find_their_equilibrium(
+        degrees in -45.0..45.0_f64,
+        width_mm in 2.0..60.0_f64,
+        log_torque in 0.0..7.0_f64,
+        crowning_um in 0.0..300.0_f64,
+        slope_um in -300.0..300.0_f64,
+        count in 1_usize..25,
+        coupled in any::<bool>(),
+        surface in prop::sample::select(vec!["hertz", "winkler", "hertz-mean"]),
+    ) {
+        let text = gearwear::scene::presets::find("helical").unwrap().text;
+        let text = text
+            .replace("helix_angle_deg = 15.0", &format!("helix_angle_deg = {degrees:?}"))
+            .replace("face_width_mm = 20.0", &format!("face_width_mm = {width_mm:?}"));
+        let mut spec = gearwear::scene::Scene::from_toml(&text).unwrap().scene.pair;
+        spec.gears.pinion.modification.lead_crowning_mm = 1e-3 * crowning_um;
+        spec.gears.wheel.modification.helix_slope_mm = 1e-3 * slope_um;
+        let scene = Scene {
+            pair: spec,
+            torque_n_mm: 10f64.powf(log_torque),
+            surface,
+            revolutions: 10.0,
+            flank_points: 60,
+            positions: 25,
+            steps: 2.0,
+            slices: slices(count, if coupled { Coupling::Slicing } else { Coupling::None }),
+            ..helical_scene("hertz", 1, Coupling::None)
+        };
+        let outcome = scene.run();
+        prop_assert!(outcome.failure.is_none(), "{:?}", outcome.failure);
+        for snapshot in [&outcome.new, &outcome.worn] {
+            let mesh = snapshot.cycle.slices.as_ref().unwrap();
+            prop_assert!(mesh.load_imbalance <= 1e-10, "{:.1e}", mesh.load_imbalance);
+            prop_assert!(mesh.line_load_n_per_mm.iter().all(|load| *load >= 0.0 && load.is_finite()));
+            prop_assert!(mesh.transmission_error_mm.iter().all(|error| error.is_finite()));
+            for gear in Gear::BOTH {
+                prop_assert!(snapshot.wear_mm[gear].iter().all(|wear| *wear >= 0.0 && wear.is_finite()));
+            }
+        }
+    }
+}
+
+/// Where slices enter as others leave, the transmission error hardly varies but by their steps, and the run says so.
+#[test]
+fn steps_of_single_slices_are_told() {
+    let warnings = |name: &str| {
+        let text = gearwear::scene::presets::find(name).unwrap().text.replace("\"hertz\"", "\"hertz-mean\"");
+        let text = format!("{}\n", text.replace("error_estimate = true", "error_estimate = false"));
+        let resolved = gearwear::scene::Scene::from_toml(&text).unwrap();
+        let plan = gearwear::plan::Plan::of(&resolved.scene);
+        let inputs = gearwear::pipeline::inputs::Inputs::default();
+        let unwatched = &gearwear::simulation::wear_run::Unwatched;
+        gearwear::pipeline::run(&resolved, &plan, &inputs, unwatched).unwrap().record.summary.warnings
+    };
+    assert!(warnings("h951").iter().any(|warning| warning.starts_with("helical.slices: the transmission error")));
+    assert!(!warnings("helical").iter().any(|warning| warning.starts_with("helical.slices")));
+}

@@ -1,0 +1,83 @@
+//! The plan has what the scene needs, and nothing else.
+
+use gearwear::plan::{Plan, StageKind};
+use gearwear::scene::{Scene, presets};
+
+/// Names of the stages of the thesis-spur scene with parts of its text exchanged, and of those left out.
+fn plan(exchange: &[(&str, &str)]) -> (Vec<&'static str>, Vec<&'static str>) {
+    let mut text = presets::find("thesis-spur").unwrap().text.to_owned();
+    for (old, new) in exchange {
+        assert!(text.contains(old), "{old}");
+        text = text.replacen(old, new, 1);
+    }
+    let plan = Plan::of(&Scene::from_toml(&text).unwrap().scene);
+    let names = |stages: &[gearwear::plan::Stage]| stages.iter().map(|stage| stage.kind.name()).collect();
+    assert_eq!(plan.stages.len() + plan.left_out.len(), StageKind::ALL.len());
+    assert!(plan.stages.iter().chain(&plan.left_out).all(|stage| !stage.reason.is_empty()));
+    (names(&plan.stages), names(&plan.left_out))
+}
+
+#[test]
+fn given_stiffness_needs_no_stiffness_stage() {
+    let (stages, left_out) = plan(&[]);
+    let of_springs = ["contact-match", "step-bound", "simulation", "error-estimates"];
+    let stages_with = |model: &[&'static str], check: &[&'static str]| {
+        [&["geometry"], model, &of_springs[..], check, &["report"]].concat()
+    };
+    assert_eq!(stages, stages_with(&["finite-element-model"], &["verification"]));
+    let spring = ["tooth-stiffness", "helical-slices", "contact-temperature"];
+    assert_eq!(left_out, [&["finite-element-calibration"], &spring[..]].concat());
+    // Nothing else asks for finite elements.
+    let (stages, left_out) = plan(&[("error_estimate = true", "error_estimate = true\nverify = false")]);
+    assert_eq!(stages, stages_with(&[], &[]));
+    let fem = ["finite-element-model", "finite-element-calibration"];
+    assert_eq!(left_out, [&fem[..], &spring[..], &["verification"]].concat());
+}
+
+#[test]
+fn closed_form_stiffness_is_a_stage() {
+    for model in ["weber-banaschek", "iso6336"] {
+        let (stages, _) = plan(&[("model = \"constant\"", &format!("model = \"{model}\""))]);
+        assert!(stages.contains(&"tooth-stiffness"), "{model}");
+    }
+}
+
+#[test]
+fn a_stiffness_of_finite_elements_is_computed_unless_a_calibration_is_given() {
+    let model = ("model = \"constant\"", "model = \"fem\"");
+    assert!(plan(&[model]).0.contains(&"finite-element-calibration"));
+    let given = ("match = \"half-width\"", "match = \"half-width\"\ncalibration = \"fzg-c.json\"");
+    let (stages, left_out) = plan(&[model, given]);
+    assert!(stages.contains(&"tooth-stiffness") && left_out.contains(&"finite-element-calibration"), "{stages:?}");
+    // The surface fem bends its own teeth.
+    let (stages, _) = plan(&[model, ("surface = \"winkler\"", "surface = \"fem\"")]);
+    assert!(stages.contains(&"finite-element-model") && !stages.contains(&"finite-element-calibration"), "{stages:?}");
+}
+
+#[test]
+fn given_foundation_and_hertz_surfaces_need_no_match() {
+    for exchange in [
+        ("match = \"half-width\"", "foundation_MPa_per_mm = 5.4e5"),
+        ("surface = \"winkler\"", "surface = \"hertz\""),
+        ("surface = \"winkler\"", "surface = \"hertz-mean\""),
+    ] {
+        assert!(plan(&[exchange]).1.contains(&"contact-match"), "{exchange:?}");
+    }
+}
+
+/// Only fixed steps on a surface that answers to short waves of wear have a bound.
+#[test]
+fn the_step_bound_only_where_steps_have_one() {
+    for exchange in
+        [("surface = \"winkler\"", "surface = \"hertz\""), ("step = { revolutions = 7665.0 }", "step = \"adaptive\" #")]
+    {
+        let (stages, left_out) = plan(&[exchange]);
+        assert!(!stages.contains(&"step-bound") && left_out.contains(&"step-bound"), "{exchange:?}");
+    }
+}
+
+#[test]
+fn error_estimates_only_where_asked_for() {
+    let (stages, left_out) = plan(&[("error_estimate = true", "error_estimate = false")]);
+    assert!(!stages.contains(&"error-estimates") && left_out.contains(&"error-estimates"));
+}

@@ -1,0 +1,248 @@
+//! Scenes: presets, defaults, overrides, and the resolved scene that says it all.
+
+use gearwear::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
+use gearwear::gear::Gear;
+use gearwear::scene::{Resolved, Scene, presets, schema};
+use gearwear::simulation::settings::Stepping;
+use gearwear::stiffness::settings::StiffnessSettings;
+use proptest::prelude::*;
+
+/// The least a scene can say.
+const LEAST: &str = "pair.preset = \"fzg-c\"\n[operation]\npinion_torque_Nm = 302\npinion_revolutions = 6400\n\
+                     [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n";
+
+fn resolve(text: &str) -> Resolved {
+    Scene::from_toml(text).unwrap_or_else(|problems| panic!("{problems:#?}"))
+}
+
+/// ISO 14635-1: module 4.5, 20°, 16/24 teeth, centre distance 91.5, type C and type A.
+#[test]
+fn val_presets_are_the_fzg_gears() {
+    for (name, width, shifts, tips) in
+        [("fzg-c", 14.0, [0.1817, 0.1715], [82.46, 118.36]), ("fzg-a", 20.0, [0.8532, -0.5], [88.77, 112.5])]
+    {
+        let resolved = resolve(presets::find(name).unwrap().text);
+        assert_eq!(resolved.warnings, [""; 0]);
+        let pair = &resolved.scene.pair;
+        assert_eq!((pair.normal_module_mm, pair.centre_distance_mm, pair.face_width_mm), (4.5, 91.5, width));
+        assert_eq!(pair.normal_pressure_angle_rad, 20.0_f64.to_radians());
+        assert_eq!(pair.helix_angle_rad, 0.0);
+        assert_eq!(Gear::BOTH.map(|gear| pair.gears[gear].teeth), [16, 24]);
+        assert_eq!(Gear::BOTH.map(|gear| pair.gears[gear].profile_shift), shifts);
+        assert_eq!(Gear::BOTH.map(|gear| pair.gears[gear].tip_diameter_mm), tips.map(Some));
+    }
+}
+
+/// 302 N·m, 150 rpm, 127.75 h, Winkler matched on half-width from A to E, 20 N/(mm·µm), 1e-17 m²/N, 150 wear steps; whatever the
+/// defaults become.
+#[test]
+fn thesis_spur_is_the_model_of_the_thesis() {
+    let resolved = resolve(presets::find("thesis-spur").unwrap().text);
+    assert_eq!(resolved.warnings, [""; 0]);
+    let scene = resolved.scene;
+    let mut broken = resolve(LEAST).scene.pair;
+    for gear in Gear::BOTH {
+        // The edges of fzg-c are broken, by assumption; the thesis's are not.
+        assert_eq!(std::mem::take(&mut broken.gears[gear].modification.tip_rounding_mm), 0.1);
+    }
+    assert_eq!(scene.pair, broken, "FZG type C");
+    assert!(!scene.contact.tip_contact);
+    assert_eq!(scene.operation.pinion_torque_n_mm, 302e3);
+    assert_eq!(scene.operation.pinion_revolutions, 127.75 * 60.0 * 150.0);
+    assert_eq!(scene.operation.snapshots_revolutions.len(), 9);
+    assert_eq!(scene.operation.snapshots_revolutions.last(), Some(&scene.operation.pinion_revolutions));
+    assert_eq!(scene.contact.surface, SurfaceKind::Winkler);
+    assert_eq!(scene.contact.foundation, Foundation::Matched(MatchCriterion::HalfWidth));
+    assert_eq!(scene.stiffness, StiffnessSettings::Constant { pair_n_per_mm2: 20e3 });
+    assert!((scene.wear.coefficient_mm2_per_n / 1e-11 - 1.0).abs() < 1e-15);
+    assert_eq!(scene.wear.severe, None);
+    assert_eq!((scene.numerics.flank_points, scene.numerics.positions), (750, 400));
+    let revolutions = scene.operation.pinion_revolutions / 150.0;
+    assert_eq!(scene.numerics.stepping, Stepping::Fixed { revolutions });
+}
+
+#[test]
+fn defaults_are_those_of_the_contract() {
+    let scene = resolve(LEAST).scene;
+    for gear in Gear::BOTH {
+        let material = scene.material[gear];
+        assert_eq!(
+            (material.young_modulus_mpa, material.poisson_ratio, material.density_kg_per_m3),
+            (206e3, 0.3, 7830.0)
+        );
+    }
+    assert_eq!(scene.pair.rack, gearwear::gear::spec::BasicRack::default());
+    assert_eq!(scene.contact.surface, SurfaceKind::HalfSpace);
+    assert!(scene.contact.tip_contact && scene.verify);
+    assert_eq!((scene.stiffness, scene.stiffness_by_default), (StiffnessSettings::Fem, true));
+    assert!(matches!(scene.numerics.stepping, Stepping::Adaptive { .. }));
+    assert_eq!(scene.operation.snapshots_revolutions, [100.0, 200.0, 400.0, 800.0, 1600.0, 3200.0, 6400.0]);
+    assert!(scene.numerics.error_estimate);
+    assert_eq!(scene.title, "Gear pair 16/24, module 4.5 mm");
+}
+
+#[test]
+fn a_key_beside_a_preset_overrides_it() {
+    let text = LEAST.replace(
+        "pair.preset = \"fzg-c\"\n",
+        "[pair]\npreset = \"fzg-c\"\nface_width_mm = 20\ntransverse_module_mm = 4.5\n\
+         [pair.wheel]\ntip_relief = { amount_um = 20.0, length_mm = 2.0 }\n",
+    );
+    let resolved = resolve(&text);
+    let pair = &resolved.scene.pair;
+    assert_eq!((pair.face_width_mm, pair.normal_module_mm, pair.gears.wheel.teeth), (20.0, 4.5, 24));
+    assert_eq!(pair.gears.wheel.modification.tip_relief.unwrap().amount_mm, 20.0 * 1e-3);
+    assert_eq!(resolved.file.pair.normal_module_mm, None, "the preset's own module is replaced");
+}
+
+#[test]
+fn coefficient_in_either_unit_is_the_same() {
+    let other = LEAST.replace("coefficient_m2_per_N = 1e-17", "coefficient_mm3_per_Nm = 1e-8");
+    let [one, other] = [LEAST, &other].map(|text| resolve(text).scene.wear.coefficient_mm2_per_n);
+    assert!((one / other - 1.0).abs() < 1e-15, "{one} {other}");
+}
+
+#[test]
+fn the_end_of_the_run_is_always_kept() {
+    for (snapshots, kept) in [
+        ("snapshots_revolutions = [100.0]", vec![100.0, 6400.0]),
+        ("snapshots_revolutions = [6400.0]", vec![6400.0]),
+        ("snapshots_revolutions = []", vec![6400.0]),
+        ("pinion_speed_rpm = 10.0\nsnapshots_h = [1.0]", vec![600.0, 6400.0]),
+    ] {
+        let text = LEAST.replace("pinion_revolutions = 6400", &format!("pinion_revolutions = 6400\n{snapshots}"));
+        let resolved = resolve(&text);
+        assert_eq!(resolved.scene.operation.snapshots_revolutions, kept);
+        assert_eq!(resolve(&resolved.to_toml()).scene, resolved.scene);
+    }
+}
+
+#[test]
+fn extreme_but_meant_values_are_accepted() {
+    let text = presets::find("thesis-spur").unwrap().text.replace("step = ", "# step = ");
+    for (old, new) in [
+        ("pinion_torque_Nm = 302.0", "pinion_torque_Nm = 1e-6"),
+        ("pinion_torque_Nm = 302.0", "pinion_torque_Nm = 1e7"),
+        ("face_width_mm = 14.0", "face_width_mm = 0.1"),
+        ("face_width_mm = 14.0", "face_width_mm = 1000"),
+        ("young_modulus_GPa = 206.0", "young_modulus_GPa = 0.001"),
+        ("young_modulus_GPa = 206.0", "young_modulus_GPa = 1000"),
+        ("hours = 127.75  ", "pinion_revolutions = 1e12 #"),
+        ("pair_N_per_mm_um = 20.0", "pair_N_per_mm_um = 2e7"),
+        ("pair_N_per_mm_um = 20.0", "pair_N_per_mm_um = 2e-5"),
+        ("match = \"half-width\"", "foundation_MPa_per_mm = 0.54"),
+        ("match = \"half-width\"", "foundation_MPa_per_mm = 5.4e11"),
+        ("coefficient_m2_per_N = 1e-17", "coefficient_m2_per_N = 1e-8"),
+    ] {
+        assert!(text.contains(old), "{old}");
+        resolve(&text.replacen(old, new, 1));
+    }
+    let least = LEAST.replace("pinion_revolutions = 6400", "pinion_revolutions = 1");
+    assert_eq!(resolve(&least).scene.operation.pinion_revolutions, 1.0);
+}
+
+#[test]
+fn settings_that_are_not_used_are_named() {
+    let warnings = |surface: &str, tip_contact: bool| {
+        let text = presets::find("thesis-spur").unwrap().text.replace("match = ", "# match = ");
+        let text = text.replace("surface = \"winkler\"", &format!("surface = \"{surface}\""));
+        resolve(&text.replace("tip_contact = false", &format!("tip_contact = {tip_contact}"))).warnings
+    };
+    let text = presets::find("thesis-spur").unwrap().text.replace("surface = \"winkler\"", "surface = \"hertz\"");
+    assert_eq!(resolve(&text).warnings.len(), 1);
+    assert!(resolve(&text).warnings[0].starts_with("contact.match is not used"));
+    // Hertz's closed forms end at A and E, finite elements do not: only the opposite goes unheard.
+    for (surface, heard) in [("hertz", false), ("hertz-mean", false), ("fem", true)] {
+        let unheard = |asked| warnings(surface, asked).iter().any(|w| w.starts_with("contact.tip_contact is not used"));
+        assert_eq!([heard, !heard].map(unheard), [false, true], "{surface}");
+    }
+}
+
+#[test]
+fn the_resolved_scene_says_the_same_bit_for_bit() {
+    for text in presets::PRESETS.map(|preset| preset.text).into_iter().chain([LEAST]) {
+        let resolved = resolve(text);
+        let again = resolve(&resolved.to_toml());
+        assert_eq!(again.scene, resolved.scene);
+        assert_eq!(again.to_toml(), resolved.to_toml());
+        assert_eq!(again.scene_hash(), resolved.scene_hash());
+        assert_eq!(resolved.scene_hash().len(), 16);
+        assert!(!resolved.to_toml().contains("preset"));
+        assert!(resolved.to_toml().contains("coefficient_m2_per_N = 1e-17\n"));
+    }
+}
+
+#[test]
+fn wear_coefficients_of_any_size_survive_the_resolved_scene() {
+    for k in ["1e-17", "1.25e-19", "0.001", "1", "1e30"] {
+        let scene = resolve(&LEAST.replace("1e-17", k));
+        assert_eq!(resolve(&scene.to_toml()).scene, scene.scene, "{k}");
+    }
+}
+
+#[test]
+fn the_schema_holds_for_presets_and_resolved_scenes() {
+    let validator = jsonschema::validator_for(schema::schema()).unwrap();
+    for text in presets::PRESETS.map(|preset| preset.text).into_iter().chain([LEAST]) {
+        for text in [text.to_owned(), resolve(text).to_toml()] {
+            let scene: toml::Table = text.parse().unwrap();
+            let scene = serde_json::to_value(scene).unwrap();
+            assert!(
+                validator.is_valid(&scene),
+                "{:?}",
+                validator.iter_errors(&scene).map(|e| e.to_string()).collect::<Vec<_>>()
+            );
+        }
+    }
+    for wrong in ["{}", r#"{"pair": {"presett": "fzg-c"}}"#] {
+        assert!(!validator.is_valid(&serde_json::from_str(wrong).unwrap()));
+    }
+    assert_eq!(schema::schema()["additionalProperties"], false);
+}
+
+/// Every key has its meaning written beside it.
+#[test]
+fn the_schema_describes_every_key() {
+    fn walk(node: &serde_json::Value, path: &str) {
+        for (key, child) in node.get("properties").and_then(|p| p.as_object()).into_iter().flatten() {
+            assert!(child.get("description").is_some(), "{path}.{key}");
+            walk(child, &format!("{path}.{key}"));
+        }
+    }
+    walk(schema::schema(), "");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 512, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Whatever becomes of a scene's text, it is resolved or refused, and every span lies in the text.
+    #[test]
+    fn prop_no_text_makes_it_panic(
+        which in 0..presets::PRESETS.len(),
+        edits in prop::collection::vec((any::<prop::sample::Index>(), 0_usize..12, "[-=.\\[\\]{}\"#\\n0-9e a-zµ]{0,6}"), 0..6),
+        cut in proptest::option::of(any::<prop::sample::Index>()),
+    ) {
+        let mut text: Vec<char> = presets::PRESETS[which].text.chars().collect();
+        for (at, removed, inserted) in edits {
+            let at = at.index(text.len() + 1);
+            let end = (at + removed).min(text.len());
+            text.splice(at..end, inserted.chars());
+        }
+        if let Some(cut) = cut {
+            text.truncate(cut.index(text.len() + 1));
+        }
+        let text: String = text.into_iter().collect();
+        match Scene::from_toml(&text) {
+            Ok(resolved) => {
+                let again = Scene::from_toml(&resolved.to_toml()).map_err(|p| TestCaseError::fail(format!("{p:?}")))?;
+                prop_assert_eq!(again.scene, resolved.scene);
+            }
+            Err(problems) => {
+                prop_assert!(!problems.is_empty());
+                for problem in problems {
+                    prop_assert!(problem.span.is_none_or(|s| s.start <= s.end && s.end <= text.len()));
+                }
+            }
+        }
+    }
+}

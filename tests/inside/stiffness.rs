@@ -1,0 +1,73 @@
+//! Tooth stiffness against Weber and Banaschek's formulae evaluated independently, and against ISO 6336-1.
+
+use gearwear::contact::{foundation::Bed, hertz, winkler::Winkler};
+use gearwear::gear::Gear;
+use gearwear::stiffness::{TeethSpring, iso6336, settings::StiffnessSettings, weber_banaschek::ToothCompliance};
+
+use super::common::{STEEL, assert_close, fzg_a, fzg_c, pair, steel};
+
+/// Independent evaluation for the project with w = 400 N/mm: E·δ/w of pinion, wheel and flattening, pair in N/(µm·mm).
+const WEBER_BANASCHEK: [[f64; 4]; 5] = [
+    [3.24, 12.33, 4.04, 10.51],
+    [3.71, 6.26, 4.02, 14.73],
+    [4.58, 4.46, 3.99, 15.81],
+    [6.30, 3.37, 3.94, 15.14],
+    [12.71, 2.52, 3.63, 10.92],
+];
+
+#[test]
+fn val_weber_banaschek_terms_of_fzg_c() {
+    let pair = pair(&fzg_c());
+    let tooth = |g: Gear| ToothCompliance::new(&pair.teeth[g], &STEEL);
+    let (pinion, wheel) = (tooth(Gear::Pinion), tooth(Gear::Wheel));
+    assert_close("s_F1", pinion.root_chord_mm, 8.910, 1e-4);
+    assert_close("s_F2", wheel.root_chord_mm, 9.399, 1e-4);
+    for (row, position) in WEBER_BANASCHEK.iter().zip(pair.path.points_mm()) {
+        let e = STEEL.young_modulus_mpa;
+        let terms = [
+            e * pinion.mm2_per_n(pair.path.rho_mm(Gear::Pinion, position)),
+            e * wheel.mm2_per_n(pair.path.rho_mm(Gear::Wheel, position)),
+            e * hertz::flattening(&pair, &steel(), position).approach_mm(400.0) / 400.0,
+        ];
+        for (term, expected) in terms.iter().zip(row) {
+            // The table has two decimals, the last one not always rounded.
+            assert!((term - expected).abs() < 0.008, "{terms:?} against {row:?}");
+        }
+        let stiffness = e / terms.iter().sum::<f64>() / 1e3;
+        assert!((stiffness - row[3]).abs() < 0.012, "{stiffness} against {}", row[3]);
+    }
+}
+
+/// Whatever the surface, spring and surface together have the model's compliance at the reference load.
+#[test]
+fn ver_the_split_keeps_the_whole_compliance() {
+    let pair = pair(&fzg_c());
+    let bed = Winkler { bed: Bed::Uniform { mpa_per_mm: 5.4e5 }, expected_line_load_n_per_mm: 400.0 };
+    let on_bed = TeethSpring::new(StiffnessSettings::WeberBanaschek, None, &pair, &steel(), &bed, 400.0);
+    for (row, position) in WEBER_BANASCHEK.iter().zip(pair.path.points_mm()) {
+        let whole = on_bed.pair_n_per_mm2(position).unwrap() / 1e3;
+        assert!((whole - row[3]).abs() < 0.012, "{whole} against {}", row[3]);
+    }
+}
+
+#[test]
+fn val_iso_6336_of_both_fzg_pairs() {
+    let c = fzg_c();
+    assert_close("q'", 1.0 / iso6336::theoretical_single_stiffness_n_per_mm_um(&c), 0.063387, 1e-5);
+    assert_close("c'_th", iso6336::theoretical_single_stiffness_n_per_mm_um(&c), 15.776, 1e-4);
+    assert_close("c'", iso6336::single_stiffness_n_per_mm2(&c, &steel(), 600.0) / 1e3, 12.305, 1e-4);
+    let a = fzg_a();
+    assert_close("c'_th", iso6336::theoretical_single_stiffness_n_per_mm_um(&a), 15.066, 1e-4);
+    assert_close("c'", iso6336::single_stiffness_n_per_mm2(&a, &steel(), 600.0) / 1e3, 11.752, 1e-4);
+    // c_γα = c' (0.75 ε_α + 0.25), as tabulated for type C.
+    let mean = 12.305 * (0.75 * pair(&c).path.contact_ratio() + 0.25);
+    assert_close("c_gamma_alpha", mean, 16.343, 1e-4);
+}
+
+#[test]
+fn a_surface_softer_than_the_pair_is_refused() {
+    let pair = pair(&fzg_c());
+    let bed = Winkler { bed: Bed::Uniform { mpa_per_mm: 1e3 }, expected_line_load_n_per_mm: 400.0 };
+    let spring = TeethSpring::new(StiffnessSettings::WeberBanaschek, None, &pair, &steel(), &bed, 400.0);
+    assert!(spring.n_per_mm2(pair.path.pitch_point_mm).is_err());
+}

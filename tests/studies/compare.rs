@@ -1,0 +1,234 @@
+//! `gearwear compare`: what it writes, what it says, and what it refuses: exit status 2, one message with file, line, what was
+//! found and what is allowed, and nothing written.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use assert_cmd::Command;
+
+use crate::program::json;
+
+/// fzg-c at coarse resolution.
+const SCENE: &str = "title = \"coarse\"\n[pair]\npreset = \"thesis-spur\"\n\
+    [operation]\npinion_torque_Nm = 302.0\npinion_speed_rpm = 150.0\nhours = 127.75\nsnapshots_h = [31.75]\n\
+    [contact]\nsurface = \"winkler\"\ntip_contact = false\n[stiffness]\nmodel = \"constant\"\npair_N_per_mm_um = 20.0\n\
+    [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n\
+    [numerics]\nflank_points = 200\npositions = 100\nstep = { revolutions = 19162.5 }\nerror_estimate = false\n";
+
+fn gearwear() -> Command {
+    Command::cargo_bin("gearwear").unwrap()
+}
+
+fn finished_run(scene: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("given.toml");
+    fs::write(&path, scene).unwrap();
+    gearwear().args(["run", "--quiet", "--out"]).arg(folder.path().join("run")).arg(path).assert().success();
+    folder
+}
+
+/// A finished run that all tests share and none changes.
+fn shared_run() -> PathBuf {
+    static RUN: OnceLock<tempfile::TempDir> = OnceLock::new();
+    RUN.get_or_init(|| finished_run(SCENE)).path().join("run")
+}
+
+/// Columns of a CSV file by name.
+fn column(path: &Path, name: &str) -> Vec<f64> {
+    let text = fs::read_to_string(path).unwrap();
+    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+    let index = lines.next().unwrap().split(',').position(|n| n == name).unwrap_or_else(|| panic!("{name}"));
+    lines.map(|line| line.split(',').nth(index).unwrap().parse().unwrap()).collect()
+}
+
+/// A measured file of the run's own wear times `factor`, every point of the active flank of the pinion.
+fn measured(run: &Path, header: &str, factor: f64) -> String {
+    let flank = run.join("pinion.csv");
+    let rows = column(&flank, "radius_mm").into_iter().zip(column(&flank, "wear_um"));
+    // Radii of the start of active profile and of the tip: 34.1233 and 41.23 mm.
+    let rows: String =
+        rows.filter(|(r, _)| (34.2..41.1).contains(r)).map(|(r, wear)| format!("{r},{}\n", -factor * wear)).collect();
+    format!("{header}radius_mm,height_um\n{rows}")
+}
+
+/// A folder with a measured file.
+struct Trace {
+    folder: tempfile::TempDir,
+}
+
+impl Trace {
+    fn new(text: impl AsRef<[u8]>) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("trace.csv"), text).unwrap();
+        Self { folder }
+    }
+
+    fn out(&self) -> PathBuf {
+        self.folder.path().join("out")
+    }
+
+    fn compare(&self, run: &Path, options: &[&str]) -> Command {
+        let mut command = gearwear();
+        command.arg("compare").arg(run).arg(self.folder.path().join("trace.csv")).arg("--out").arg(self.out());
+        command.args(options);
+        command
+    }
+
+    /// The comparison must be refused with all of `words`, and leave nothing behind.
+    fn refused(&self, run: &Path, options: &[&str], words: &[&str]) {
+        let output = self.compare(run, options).output().unwrap();
+        let message = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        assert!(output.stdout.is_empty() && !self.out().exists(), "something was left behind");
+        for word in words.iter().chain(&["allowed: "]) {
+            assert!(message.contains(word), "no {word:?} in {message}");
+        }
+        assert_eq!(message.matches("allowed: ").count(), 1, "{message}");
+    }
+}
+
+/// Half as much wear again as the run has is half as great a coefficient again, up to what wear does to the pressure.
+#[test]
+fn it_fits_and_writes_everything() {
+    let run = shared_run();
+    let trace = Trace::new(measured(&run, "# gear = pinion\n# uncertainty_um = 0.05\n", 1.5));
+    let output = trace.compare(&run, &[]).output().unwrap();
+    let (said, stderr) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
+    assert_eq!(output.status.code(), Some(0), "{said}{stderr}");
+    assert!(said.contains("wear coefficient k") && said.contains("95 %") && said.contains("report.html"), "{said}");
+    let record = json(&trace.out().join("compare.json"));
+    let k = record["fit"]["coefficient_m2_per_N"]["value"].as_f64().unwrap();
+    assert!((1.4e-17..1.8e-17).contains(&k), "{k}");
+    assert_eq!((record["gear"].as_str(), record["form"].as_str()), (Some("pinion"), Some("cubic")));
+    assert_eq!(record["fit"]["stopped"], "converged");
+    assert_eq!(record["hours"].as_f64(), Some(127.75));
+    let rows = column(&trace.out().join("compare.csv"), "difference_um").len();
+    assert_eq!(record["fit"]["points"].as_u64(), Some(rows as u64));
+    let page = fs::read_to_string(trace.out().join("report.html")).unwrap();
+    assert!(page.contains("Measured and simulated profile") && page.contains("95 % interval"));
+}
+
+/// The same bits again, on any number of threads, and no run of the scene where nothing is fitted.
+#[test]
+fn the_same_again_and_nothing_run_where_nothing_is_fitted() {
+    let run = shared_run();
+    let trace = Trace::new(measured(&run, "# gear = pinion\n", 1.2));
+    let mut written = Vec::new();
+    for threads in ["1", "2"] {
+        trace.compare(&run, &["--quiet", "--threads", threads]).assert().success();
+        written
+            .push(["compare.json", "compare.csv", "report.html"].map(|name| fs::read(trace.out().join(name)).unwrap()));
+    }
+    assert_eq!(written[0], written[1]);
+    trace.compare(&run, &["--fit", "none", "--form", "none", "--shift-within", "0"]).assert().success();
+    let record = json(&trace.out().join("compare.json"));
+    assert_eq!(record["fit"]["runs"].as_u64(), Some(0));
+    // Measured less simulated is −0.2 of the wear, at every point.
+    let (wear, difference) = (trace.out().join("compare.csv"), trace.out().join("compare.csv"));
+    for (wear, difference) in column(&wear, "wear_um").into_iter().zip(column(&difference, "difference_um")) {
+        assert!((difference + 0.2 * wear).abs() < 1e-9, "{wear} {difference}");
+    }
+}
+
+/// Results lie beside the run where no other place is named; a moment between snapshots is run for.
+#[test]
+fn results_lie_beside_the_run_and_any_moment_will_do() {
+    let folder = finished_run(SCENE);
+    let run = folder.path().join("run");
+    let trace = Trace::new(measured(&run, "# gear = pinion\n# hours = 64\n", 0.5));
+    gearwear()
+        .args(["compare", "--quiet", "--fit", "none", "--shift-within", "0"])
+        .arg(&run)
+        .arg(trace.folder.path().join("trace.csv"))
+        .assert()
+        .success();
+    let record = json(&run.join("compare/trace/compare.json"));
+    assert_eq!((record["hours"].as_f64(), record["fit"]["runs"].as_u64()), (Some(64.0), Some(1)));
+    // Load and sliding take as much off the flank in every hour, wherever it is: half of the time, half of the area.
+    let area = |path: &Path, x: &str| {
+        let (x, wear) = (column(path, x), column(path, "wear_um"));
+        let inside = |r: f64| (34.2..41.1).contains(&r);
+        let pairs = x.windows(2).zip(wear.windows(2)).filter(|(x, _)| inside(x[0]) && inside(x[1]));
+        pairs.map(|(x, wear)| 0.5 * (wear[0] + wear[1]) * (x[1] - x[0])).sum::<f64>()
+    };
+    let ratio = area(&run.join("compare/trace/compare.csv"), "radius_mm") / area(&run.join("pinion.csv"), "radius_mm");
+    assert!((ratio / (64.0 / 127.75) - 1.0).abs() < 0.05, "{ratio}");
+}
+
+#[test]
+fn wrong_measured_files_are_refused() {
+    let run = shared_run();
+    let rows: String = (0..40).map(|i| format!("{},{}\n", 34.3 + 0.1 * f64::from(i), -0.1 * f64::from(i))).collect();
+    let with = |header: &str| Trace::new(format!("{header}radius_mm,height_um\n{rows}"));
+    let refused = |trace: Trace, words: &[&str]| trace.refused(&run, &[], &[&["trace.csv"], words].concat());
+
+    let nan = format!("# gear = pinion\nradius_mm,height_um\n34.2,1.0\n34.25,NaN\n{rows}");
+    refused(Trace::new(nan), &["line 4", "height_um", "found NaN", "a finite number"]);
+    refused(
+        Trace::new(format!("# gear = pinion\nradius,height\n{rows}")),
+        &["line 2", "found radius,height", "with units"],
+    );
+    refused(Trace::new(format!("# gear = pinion\nradius_inch,height_um\n{rows}")), &["line 2", "found radius_inch"]);
+    let few = "# gear = pinion\nradius_mm,height_um\n35,0\n36,-1\n37,0\n38,0\n39,0\n40,0\n41,0\n";
+    refused(Trace::new(few), &["found 7 points", "at least 8", "4 of a form (cubic)"]);
+    refused(
+        Trace::new(format!("# gear = pinion\nradius_mm,height_um\n{rows}36,1\n")),
+        &["line 43", "found 36", "increase"],
+    );
+    refused(
+        Trace::new(format!("# gear = pinion\nradius_mm,height_um\n{rows}52,1\n")),
+        &["line 43", "found 52", "41.2300"],
+    );
+    refused(
+        Trace::new(format!("# gear = pinion\nradius_mm,height_um\n20,1\n{rows}")),
+        &["line 3", "found 20", "pinion's flank"],
+    );
+    refused(with(""), &["gear is missing", "--gear"]);
+    refused(with("# gear = planet\n"), &["line 1", "found planet", "pinion or wheel"]);
+    refused(with("# gear = pinion\n# hours = 200\n"), &["line 2", "hours", "found 200", "at most 127.75"]);
+    refused(with("# gear = pinion\n# revolutions = 2e6\n"), &["line 2", "revolutions", "found 2000000", "1149750"]);
+    refused(with("# gear = pinion\n# width_mm = 15\n"), &["line 2", "width_mm", "found 15", "0 to 14"]);
+    refused(Trace::new(""), &["column names is missing"]);
+    with("# gear = pinion\n").refused(&run, &["--gear", "wheel"], &["found pinion in the file and --gear wheel"]);
+    with("# gear = pinion\n").refused(&run, &["--fit", "both"], &["--fit", "found both", "wear.severe"]);
+    let line = with("# gear = pinion\n# height_from = line\n");
+    line.refused(&run, &["--form", "none"], &["--form", "cubic or involute"]);
+}
+
+#[test]
+fn folders_that_are_no_finished_run_are_refused() {
+    let trace = Trace::new(measured(&shared_run(), "# gear = pinion\n", 1.0));
+    trace.refused(Path::new("/nowhere"), &[], &["RUN", "summary.json", "the folder of a finished gearwear run"]);
+    let folder = finished_run(SCENE);
+    let run = folder.path().join("run");
+    let change = |name: &str, from: &str, to: &str| {
+        let text = fs::read_to_string(run.join(name)).unwrap();
+        assert!(text.contains(from), "{name}: no {from}");
+        fs::write(run.join(name), text.replacen(from, to, 1)).unwrap();
+    };
+    change("summary.json", "\"completed\"", "\"interrupted\"");
+    trace.refused(&run, &[], &["summary.json", "found interrupted", "allowed: completed"]);
+    change("summary.json", "\"interrupted\"", "\"completed\"");
+    change("scene.toml", "302.0", "301.0");
+    trace.refused(&run, &[], &["scene.toml", "found a scene with hash"]);
+    change("scene.toml", "301.0", "302.0");
+    change("profiles.csv", "5,pinion,", "5,sun,");
+    let text = fs::read_to_string(run.join("profiles.csv")).unwrap();
+    let line = 1 + text.lines().position(|line| line.contains("5,sun,")).unwrap();
+    trace.refused(&run, &[], &["profiles.csv", &format!("line {line}"), "sun"]);
+    fs::remove_file(run.join("profiles.csv")).unwrap();
+    trace.refused(&run, &[], &["profiles.csv", "cannot be read"]);
+}
+
+/// A profile that shows no wear gives no coefficient: the comparison is written, and the exit status says so.
+#[test]
+fn a_profile_without_wear_gives_no_coefficient() {
+    let run = shared_run();
+    let trace = Trace::new(measured(&run, "# gear = pinion\n", 0.0));
+    let output = trace.compare(&run, &["--quiet"]).output().unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(3), "{message}");
+    assert!(message.contains("the fit failed") && message.contains("the wear coefficient"), "{message}");
+    assert_eq!(json(&trace.out().join("compare.json"))["fit"]["stopped"], "at-bound");
+}
