@@ -7,12 +7,13 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum SurfaceKind {
-    /// Independent springs of stiffness K/H against the worn gap.
+    /// Winkler foundation of stiffness K/H against the worn gap.
     #[default]
     Winkler,
-    /// Hertz's elliptic pressure, swept over the flank points.
+    /// Hertz's elliptic pressure on the nominal curvature, swept over the flank points.
     Hertz,
-    /// Hertz's mean pressure with closed-form sliding distances.
+    /// Hertz's mean pressure with closed-form sliding distances; its wear has cusps where the number of tooth pairs in
+    /// mesh changes.
     HertzMean,
     /// Two elastic half-planes against the worn gap.
     HalfSpace,

@@ -32,21 +32,25 @@ pub struct SceneFile {
     pub material: Option<MaterialFile>,
     /// Load, speed and duration.
     pub operation: OperationFile,
-    /// How the flanks touch. Default: Winkler, matched on half-width.
+    /// Contact of the flanks. Default: elastic half-planes; with slices, a Winkler foundation matched on half-width.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactFile>,
-    /// How far the teeth bend. Default: by finite elements; with slices, Weber and Banaschek.
+    /// Stiffness of the teeth. Default: by finite elements; with slices, Weber and Banaschek.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<StiffnessFile>,
-    /// The finite-element bodies, read only where finite elements are used. Default: whole rings.
+    /// The finite-element bodies: read by contact.surface = "fem", by the stiffness of the teeth, by the verification of
+    /// a run, and by gearwear fem, mesh and calibrate. Default: whole rings.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fem: Option<FemFile>,
-    /// Contact temperatures. Default: found only where the wear law reads them.
+    /// Contact temperatures, which need the speed. Default: found only where the wear law reads them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub temperature: Option<TemperatureFile>,
     /// The wear law.
     pub wear: WearFile,
-    /// Slices over the face width, read only where sections differ: with a helix angle, or a modification over the face width.
+    /// Slices over the face width, read only where sections differ: with a helix angle, or a modification over the face
+    /// width. With slices, contact.surface = "hertz-mean" is the simplified model of the thesis, whose wear is kept at
+    /// the contact points themselves. The surface "fem" is plane and has no slices; gearwear mesh, fem and calibrate take
+    /// the transverse section of a helical pair, and its calibration serves every slice.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub helical: Option<HelicalFile>,
     /// Resolution in space and time.
@@ -58,11 +62,15 @@ pub struct SceneFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PairFile {
-    /// A pair of the library; a key given beside it overrides the preset's.
+    /// A pair of the library; a key given beside it overrides the preset's. fzg-c and fzg-a: gears of ISO 14635-1, FZG
+    /// type C (face width 14 mm) and A (20 mm). thesis-spur, fzg-test: type C again; the scenes of these names are the
+    /// thesis's model of it with every choice written out, and its wear test. helical: the transverse section of type C
+    /// with a helix of 15°, 20 mm wide. h501, h701, h951: the public helical pairs of FEUP. Default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("enum" = presets::names()))]
     pub preset: Option<String>,
-    /// Normal module m_n in mm, > 0. Profile shifts and rack factors are then factors of it.
+    /// Normal module m_n in mm, > 0. Profile shifts and rack factors are then factors of it. Required without a preset,
+    /// or transverse_module_mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub normal_module_mm: Option<f64>,
@@ -70,7 +78,7 @@ pub struct PairFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub transverse_module_mm: Option<f64>,
-    /// Normal pressure angle α_n in degrees, 5 to 45.
+    /// Normal pressure angle α_n in degrees, 5 to 45. Required without a preset, or transverse_pressure_angle_deg.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 5, max = 45))]
     pub pressure_angle_deg: Option<f64>,
@@ -83,21 +91,21 @@ pub struct PairFile {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -45, max = 45))]
     pub helix_angle_deg: Option<f64>,
-    /// Working centre distance in mm, > 0.
+    /// Working centre distance a in mm, > 0; sets working pressure angle and backlash. Required without a preset.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub centre_distance_mm: Option<f64>,
-    /// Common face width in mm, > 0.
+    /// Common face width b in mm, > 0. Required without a preset.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub face_width_mm: Option<f64>,
     /// The rack that generates the teeth. Default: profile A of ISO 53.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub basic_rack: Option<BasicRackFile>,
-    /// The driving gear.
+    /// The driving gear. Required without a preset.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pinion: Option<GearFile>,
-    /// The driven gear.
+    /// The driven gear. Required without a preset.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wheel: Option<GearFile>,
 }
@@ -125,11 +133,11 @@ pub struct BasicRackFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GearFile {
-    /// Number of teeth z, 5 to 10000.
+    /// Number of teeth z, 5 to 10000. Required without a preset.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 5, max = 10000))]
     pub teeth: Option<u32>,
-    /// Profile shift coefficient x of the module that is given, −5 to 5.
+    /// Profile shift coefficient x of the module that is given, −5 to 5; 0 for none. Required without a preset.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -5, max = 5))]
     pub profile_shift: Option<f64>,
@@ -140,15 +148,18 @@ pub struct GearFile {
     /// Tooth thickness allowance E_sn in µm in the normal section; negative thins the tooth. Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tooth_thickness_allowance_um: Option<f64>,
-    /// Bore diameter in mm, > 0. Default: not given.
+    /// Bore diameter in mm, > 0: drawn, and the least clamp radius of the finite-element body. The body must be larger.
+    /// Default: not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub bore_diameter_mm: Option<f64>,
-    /// Height of the profile crowning in µm, 0 or more: a parabola over the active profile. Default 0.
+    /// Height of the profile crowning in µm, 0 or more: a parabola over the active profile, nothing removed at its
+    /// middle. Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub profile_crowning_um: Option<f64>,
-    /// Height of the lead crowning in µm, 0 or more: a parabola over the face width. Default 0.
+    /// Height of the lead crowning in µm, 0 or more: a parabola over the face width, nothing removed at its middle.
+    /// Default 0.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub lead_crowning_um: Option<f64>,
@@ -175,7 +186,7 @@ pub struct GearFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReliefFile {
-    /// Removed at the end of the flank, along its normal, in µm, 0 or more.
+    /// Material removed at the end of the flank along its normal in µm, 0 or more.
     #[schemars(range(min = 0))]
     pub amount_um: f64,
     /// Length over which it runs out in mm, > 0: roll length, along the path of contact, of tip and root relief; along the face
@@ -252,29 +263,30 @@ pub struct OperationFile {
     /// Torque on the pinion in N·m, > 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion_torque_Nm: f64,
-    /// Speed of the pinion in revolutions per minute, > 0. Needed with hours.
+    /// Speed of the pinion in revolutions per minute, > 0. Needed with hours, with snapshots_h and with contact
+    /// temperatures.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion_speed_rpm: Option<f64>,
-    /// Duration of the run in hours, > 0; or give pinion_revolutions.
+    /// Duration of the run in hours, > 0. Required, or pinion_revolutions.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub hours: Option<f64>,
-    /// Duration of the run in revolutions of the pinion, > 0; or give hours.
+    /// Duration of the run in revolutions of the pinion, > 0. Required, or hours.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion_revolutions: Option<f64>,
-    /// When the state is kept, in hours: increasing, up to the duration (which is added where missing).
-    /// Default: 1/64, 1/32, … 1/2 and the whole of the duration.
+    /// When the state is kept in hours: increasing, up to the duration (which is added where missing). Default: 1/64,
+    /// 1/32, … 1/2 and the whole of the duration.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("items" = { "type": "number", "exclusiveMinimum": 0 }))]
     pub snapshots_h: Option<Vec<f64>>,
-    /// The same in revolutions of the pinion.
+    /// When the state is kept in revolutions of the pinion, instead of hours.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("items" = { "type": "number", "exclusiveMinimum": 0 }))]
     pub snapshots_revolutions: Option<Vec<f64>>,
-    /// A load spectrum: phases that follow each other, each with its own duration; hours or pinion_revolutions of the whole may
-    /// be left out then, and must be their sum where given. Default: one phase.
+    /// A load spectrum or running-in: phases that follow each other, each with its own duration; hours or
+    /// pinion_revolutions of the whole may be left out then, and must be their sum where given. Default: one phase.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub phases: Option<Vec<PhaseFile>>,
 }
@@ -283,11 +295,11 @@ pub struct OperationFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PhaseFile {
-    /// Duration of the phase in hours, > 0; or give pinion_revolutions.
+    /// Duration of the phase in hours, > 0. Required, or pinion_revolutions.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub hours: Option<f64>,
-    /// Duration of the phase in revolutions of the pinion, > 0; or give hours.
+    /// Duration of the phase in revolutions of the pinion, > 0. Required, or hours.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion_revolutions: Option<f64>,
@@ -309,32 +321,33 @@ pub struct PhaseFile {
     pub coefficient_mm3_per_Nm: Option<f64>,
 }
 
-/// How the flanks touch.
+/// Contact of the flanks.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactFile {
     /// Model of the surfaces in contact. Default: half-space; winkler with slices, and where a calibration or K/H is given or matched.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface: Option<SurfaceKind>,
-    /// What the foundation shares with Hertz at the pitch point under the whole load; read by winkler.
-    /// Default: half-width.
+    /// What the Winkler foundation shares with Hertz's contact at the pitch point under the whole load: one of them,
+    /// never all; read by winkler. With half-width the peak pressure at the pitch point is 1.178 times Hertz's. Default:
+    /// half-width.
     #[serde(rename = "match", skip_serializing_if = "Option::is_none")]
     pub match_criterion: Option<MatchCriterion>,
-    /// Stiffness K/H of the foundation by hand in MPa/mm, > 0, instead of match; read by winkler.
+    /// Stiffness K/H of the Winkler foundation by hand in MPa/mm, > 0, instead of match; read by winkler.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub foundation_MPa_per_mm: Option<f64>,
     /// File of gearwear calibrate, beside the scene: gives winkler its K/H for every position and load, and the tooth
-    /// stiffness of finite elements. It must belong to this pair.
+    /// stiffness of finite elements. It must belong to this pair. Default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub calibration: Option<String>,
-    /// Whether a tip edge is followed into contact before A and after E; read by winkler and half-space, always so with
-    /// fem. Default true; false is the thesis's model.
+    /// Whether a tip edge is followed into contact before A and after E, where loaded teeth touch early; read by winkler
+    /// and half-space, always so with fem. Default true; false is the thesis's model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tip_contact: Option<bool>,
 }
 
-/// How far the teeth bend.
+/// Stiffness of the teeth.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StiffnessFile {
@@ -363,10 +376,10 @@ pub struct StiffnessFile {
 pub enum StiffnessModel {
     /// The value of pair_N_per_mm_um everywhere.
     Constant,
-    /// Weber and Banaschek's tooth and body terms on the generated profile.
+    /// Weber and Banaschek's tooth and body terms on the generated profile, varying along the path of contact.
     #[default]
     WeberBanaschek,
-    /// The single stiffness c' of ISO 6336-1.
+    /// The single stiffness c' of ISO 6336-1, one value.
     Iso6336,
     /// From finite elements: the calibration's, or computed where none is given.
     Fem,
@@ -390,11 +403,12 @@ pub struct FemFile {
     /// What holds the cut sides of a sector; read with body = "sector". Default: free.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sector_sides: Option<SectorSides>,
-    /// Radii in mm at which the bodies are held or turned rigidly, rim or bore.
+    /// Radii at which the bodies are held or turned rigidly, rim or bore. Default: root radius less 2.5 normal modules,
+    /// or the bore where that is larger.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clamp_radius_mm: Option<ClampRadiusFile>,
-    /// Elements in the half-width of contact under the whole load, 2 to 60: the resolution. Default 10, and 3 in a wear run (5 with
-    /// severe wear), whose wear they resolve as well.
+    /// Elements in the half-width of contact under the whole load, 2 to 60: the resolution. Default 10, and 3 in a wear
+    /// run (5 with severe wear), which resolve its wear as well.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 2, max = 60))]
     pub elements_per_half_width: Option<f64>,
@@ -429,11 +443,11 @@ pub struct ClampRadiusFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HelicalFile {
-    /// Slices over the face width, 1 to 2000. Default 20.
+    /// Slices over the face width, 1 to 2000: thin spur pairs, each in its own transverse section. Default 20.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 2000))]
     pub slices: Option<u32>,
-    /// How neighbouring slices of a tooth hold each other. Default: none.
+    /// How neighbouring slices of a tooth are coupled. Default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<Coupling>,
 }
@@ -442,30 +456,32 @@ pub struct HelicalFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NumericsFile {
-    /// Intervals of a flank from base to tip circle, 20 to 100000. Default 750.
+    /// Intervals of a flank, evenly in radius from base to tip circle, 20 to 100000. Default 750.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 20, max = 100000))]
     pub flank_points: Option<u32>,
-    /// Loading positions from A to E, 20 to 1000000. Default 400.
+    /// Loading positions, evenly from A to E, 20 to 1000000. Default 400.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 20, max = 1000000))]
     pub positions: Option<u32>,
-    /// Whether the summary estimates the errors of the answer, which costs extra runs. Default true.
+    /// Whether the summary estimates the numerical errors of the answer, which costs extra runs. Default true.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub error_estimate: Option<bool>,
-    /// Whether the run is checked by the same life on finite elements, which gives error.total of the summary. Default true; in a sweep
-    /// false, and true by name verifies its best rows and its corners.
+    /// Whether the run is checked by the same duration on finite elements, which gives error.total of the summary.
+    /// Default true; in a sweep false, and true by name verifies its best rows and its corners.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verify: Option<bool>,
-    /// Length of a wear step, or "adaptive". Default: "adaptive" on the surfaces half-space and fem of a pair without slices and where
-    /// wear may turn severe, otherwise 1/150 of the duration.
+    /// Length of a wear step as a table for Euler's method (a warning says when it is too long to be stable), or
+    /// "adaptive": as long as the error allows, stable in any case. Default: "adaptive" on the surfaces half-space and
+    /// fem of a pair without slices and where wear may turn severe, otherwise 1/150 of the duration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<StepFile>,
     /// Error of the wear depth allowed in µm, > 0, at least 0.0001; read with step = "adaptive". Default 0.05.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub tolerance_um: Option<f64>,
-    /// How the wear is integrated; read with step = "adaptive". Default: runge-kutta-chebyshev, the better one by far.
+    /// How the wear is integrated; read with step = "adaptive". Default: runge-kutta-chebyshev, the better one by far;
+    /// linearly-implicit is to compare with.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<AdaptiveMethod>,
 }

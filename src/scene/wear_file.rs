@@ -38,20 +38,24 @@ pub struct WearFile {
     /// The law.
     pub law: WearLaw,
     /// Wear coefficient k in m²/N, > 0: depth per pressure and sliding distance. Mild wear of steel: 1e-19 to 1e-16.
+    /// Required, or coefficient_mm3_per_Nm.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub coefficient_m2_per_N: Option<f64>,
-    /// The same in mm³/(N·m), > 0: volume per force and sliding distance. 1e-8 mm³/(N·m) is 1e-17 m²/N.
+    /// The same in mm³/(N·m), > 0: volume per force and sliding distance. 1e-8 mm³/(N·m) is 1e-17 m²/N. Required, or
+    /// coefficient_m2_per_N.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub coefficient_mm3_per_Nm: Option<f64>,
     /// Transition from mild to severe wear. Default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub severe: Option<SevereFile>,
-    /// Constants of law = "adsorption". Default: typical orders of magnitude, not those of any lubricant.
+    /// Constants of law = "adsorption". Default: typical orders of magnitude, not those of any lubricant; the run says
+    /// which constants are typical ones.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub adsorption: Option<AdsorptionFile>,
-    /// Constants of law = "oxidation". Default: typical orders of magnitude, not those of any steel.
+    /// Constants of law = "oxidation". Default: typical orders of magnitude, not those of any steel; the run says which
+    /// constants are typical ones.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub oxidation: Option<OxidationFile>,
 }
@@ -60,12 +64,14 @@ pub struct WearFile {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum WearLaw {
-    /// Depth in proportion to pressure and sliding distance.
+    /// Depth = k · pressure · sliding distance.
     Archard,
-    /// The same where an adsorbed film leaves the surface unprotected. Its coefficient is that of the bare surface.
+    /// The same where an adsorbed film leaves the surface bare. Its coefficient is that of the bare surface, about 1e-13
+    /// to 1e-12 m²/N.
     Adsorption,
-    /// An oxide that grows with temperature and time is rubbed off. Its coefficient is the part of the area in real contact over
-    /// the pressure, about one over the hardness.
+    /// An oxide that grows linearly with time is removed by sliding; holds for contact temperatures of about 200 to 400
+    /// °C. Its coefficient is the part of the area in real contact over the pressure, about one over the hardness, 1e-10
+    /// m²/N.
     Oxidation,
 }
 
@@ -91,11 +97,11 @@ pub struct AdsorptionFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OxidationFile {
-    /// Arrhenius constant A_l of linear oxidation in kg/(m²·s), > 0: oxygen taken up.
+    /// Arrhenius constant A_l of linear oxidation in kg/(m²·s), > 0: oxygen taken up. Default 1000 (typical).
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub arrhenius_constant_kg_per_m2s: Option<f64>,
-    /// Activation energy Q_l in kJ/mol, 0 or more.
+    /// Activation energy Q_l in kJ/mol, 0 or more. Default 100 (typical).
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub activation_energy_kJ_per_mol: Option<f64>,
@@ -118,8 +124,8 @@ pub struct SevereFile {
     /// Factor on the wear coefficient there, > 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub factor: f64,
-    /// Pressure in MPa over which the factor rises, half of it to either side of above_MPa, 0 or more. Default 0: at once, as in the
-    /// thesis.
+    /// Pressure in MPa over which the factor rises, half of it to either side of above_MPa, 0 or more; adaptive steps
+    /// resolve such a band cheaply. Default 0: at once, as in the thesis.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub band_MPa: Option<f64>,

@@ -48,7 +48,7 @@ pub struct MeshFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BodyFile {
-    /// Physical group or element set of the mesh.
+    /// Physical group or element set of the mesh: triangles or quadrilaterals, linear or quadratic.
     pub group: String,
     /// Young's modulus E in GPa, > 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
