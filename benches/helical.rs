@@ -5,12 +5,10 @@
 use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use gearwear::observer::Unwatched;
 use gearwear::pipeline;
-use gearwear::pipeline::inputs::Inputs;
-use gearwear::plan::Plan;
 use gearwear::results::run::RunRecord;
 use gearwear::scene::{Resolved, Scene, presets};
-use gearwear::simulation::wear_run::Unwatched;
 
 /// The preset `helical` without snapshots and error estimates, some keys replaced.
 fn scene(edits: &[(&str, &str)]) -> Resolved {
@@ -29,7 +27,7 @@ fn scene(edits: &[(&str, &str)]) -> Resolved {
 }
 
 fn run(resolved: &Resolved) -> RunRecord {
-    pipeline::run(resolved, &Plan::of(&resolved.scene), &Inputs::default(), &Unwatched).expect("the preset runs").record
+    pipeline::run(scene, &Unwatched).expect("the preset runs").record
 }
 
 /// Wall time of the wear run alone, in `times` runs.

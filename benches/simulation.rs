@@ -2,12 +2,10 @@
 //! how the time grows with positions and wear steps. One thread; quote ratios, machines are noisy.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use gearwear::observer::Unwatched;
 use gearwear::pipeline;
-use gearwear::pipeline::inputs::Inputs;
-use gearwear::plan::Plan;
 use gearwear::results::run::RunRecord;
 use gearwear::scene::{Resolved, Scene, presets};
-use gearwear::simulation::wear_run::Unwatched;
 use gearwear::studies::sweep::combination::Sweep;
 use gearwear::studies::sweep::journal::Journal;
 use gearwear::studies::sweep::{axis, study};
@@ -27,7 +25,7 @@ fn scene(edits: &[(&str, &str)]) -> Resolved {
 }
 
 fn run(resolved: &Resolved) -> RunRecord {
-    pipeline::run(resolved, &Plan::of(&resolved.scene), &Inputs::default(), &Unwatched).expect("the preset runs").record
+    pipeline::run(scene, &Unwatched).expect("the preset runs").record
 }
 
 fn wear_run(criterion: &mut Criterion) {

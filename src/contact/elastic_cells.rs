@@ -181,7 +181,7 @@ mod tests {
 
     /// FZG type C at the pitch point, 302 N·m, the bodies so deep that the half-planes' own curvature is all there is.
     fn hertz(indentation_mm: f64) -> (Flattening, f64, LineContact) {
-        let body = Body { young_modulus_mpa: 206e3, poisson_ratio: 0.3, indentation_mm };
+        let body = Body { young_modulus_mpa: 206e3, poisson_ratio: 0.3, depth_mm: indentation_mm };
         let contact = HertzLine::new([13.9701, 20.9551], 206e3 / 0.91 / 2.0).unwrap();
         (Flattening { contact, bodies: [body; 2] }, 637.66, contact.loaded(637.66))
     }

@@ -251,12 +251,12 @@ mod tests {
                 let half_width = (2.0 * 8.4 * depth).sqrt();
                 (stiffness.load_and_stiffness(4.0 / 3.0 * depth * half_width, 2.0 * half_width), half_width)
             };
-            let ((load, stiffness), half_width) = of_depth(4e-3);
+            let ((load, rise), half_width) = of_depth(4e-3);
             let k = stiffness.mpa_per_mm(load);
             assert!((load / (k * 4.0 / 3.0 * 4e-3 * half_width) - 1.0).abs() < 1e-12);
             assert!((stiffness.half_width_mm(8.4, load) / half_width - 1.0).abs() < 1e-12);
             let slope = (of_depth(4e-3 + 1e-8).0.0 - of_depth(4e-3 - 1e-8).0.0) / 2e-8;
-            assert!((stiffness / slope - 1.0).abs() < 1e-6);
+            assert!((rise / slope - 1.0).abs() < 1e-6);
         }
     }
 }

@@ -21,9 +21,9 @@ use gearwear::gear::modification::{Relief, ReliefShape};
 use gearwear::gear::spec::PairSpec;
 use gearwear::gear::{Gear, GearPair, PerGear, flank::FlankGrid};
 use gearwear::gear_mesh::settings::{Body, BodySettings, SectorSides};
+use gearwear::observer::Unwatched;
 use gearwear::pipeline::calibrate::{self, Extent};
 use gearwear::scene::Scene;
-use gearwear::simulation::wear_run::Unwatched;
 use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
 use nalgebra::Vector2;
 
@@ -147,7 +147,7 @@ fn ver_the_curve_gives_springs_that_have_the_whole_compliance() {
     let load = calibration.line_load_n_per_mm;
     let surface = Hertz { material: steel(), expected_line_load_n_per_mm: load };
     let compliance = &calibration.pair_compliance;
-    let spring = TeethSpring::new(StiffnessSettings::Fem, Some(compliance), &pair, &steel(), &surface, load);
+    let spring = TeethSpring::new(StiffnessSettings::Fem, Some(compliance), &pair, &steel(), &surface, load).unwrap();
     let rows = &calibration.deflection;
     for (k, at) in rows.iter().enumerate() {
         let whole = spring.pair_n_per_mm2(at.position_mm).unwrap();
@@ -271,7 +271,7 @@ fn val_calibrated_winkler_surface_in_single_contact() {
     let mut compared = 0;
     for criterion in [MatchCriterion::HalfWidth, MatchCriterion::PeakPressure] {
         let surface = Winkler {
-            bed: WinklerFoundation::Curve {
+            foundation: WinklerFoundation::Curve {
                 pressure: calibration.foundation[&criterion].clone(),
                 approach: calibration.foundation[&MatchCriterion::Approach].clone(),
                 edges: None,

@@ -3,12 +3,14 @@
 
 use std::sync::Mutex;
 
-use gearwear::pipeline::{self, Resumption, RunError, inputs::Inputs};
-use gearwear::plan::Plan;
+use gearwear::observer::Unwatched;
+use gearwear::pipeline::{self, Resumption, RunError};
 use gearwear::results::run::RunRecord;
 use gearwear::scene::Scene;
 use gearwear::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
-use gearwear::simulation::wear_run::{SimulationError, Unwatched};
+use gearwear::simulation::wear_run::SimulationError;
+
+use super::common::loaded;
 
 /// Keeps every checkpoint there is, as it would be in a file.
 #[derive(Default)]
@@ -34,9 +36,8 @@ fn scene(pair: &str, contact: &str, numerics: &str, more: &str) -> String {
 /// The record, without what a clock tells.
 fn run(text: &str, from: Option<Checkpoint>, keeper: &dyn Keeper) -> Result<RunRecord, RunError> {
     let resolved = Scene::from_toml(text).unwrap();
-    let plan = Plan::of(&resolved.scene);
     let resumption = Resumption { from, keeper };
-    let mut done = pipeline::run_from(&resolved, &plan, &Inputs::default(), resumption, &Unwatched)?;
+    let mut done = pipeline::run_from(&loaded(&resolved), resumption, &Unwatched)?;
     assert_eq!(done.failure, None);
     done.record.summary.stages.clear();
     done.record.summary.wall_s = 0.0;

@@ -1,10 +1,12 @@
 //! The error estimates of a run, against the true errors that finer runs and truer surfaces show, and what they cost.
 
-use gearwear::pipeline::{self, inputs::Inputs};
+use gearwear::observer::Unwatched;
+use gearwear::pipeline;
 use gearwear::plan::Plan;
 use gearwear::results::run::Summary;
 use gearwear::scene::{Scene, presets};
-use gearwear::simulation::wear_run::Unwatched;
+
+use super::common::loaded;
 
 /// The thesis-spur scene with other lines.
 fn scene(edits: &[(&str, &str)]) -> String {
@@ -18,7 +20,7 @@ fn scene(edits: &[(&str, &str)]) -> String {
 
 fn run(text: &str) -> Summary {
     let resolved = Scene::from_toml(text).unwrap_or_else(|problems| panic!("{problems:?}"));
-    let done = pipeline::run(&resolved, &Plan::of(&resolved.scene), &Inputs::default(), &Unwatched).unwrap();
+    let done = pipeline::run(&loaded(&resolved), &Unwatched).unwrap();
     assert!(done.failure.is_none());
     done.record.summary
 }

@@ -123,7 +123,7 @@ fn val_two_discs_wear_the_load_times_the_specific_sliding() {
     let winkler = |w: f64, discs: &TwoDiscs| -> Box<dyn ContactSurface> {
         let at = hertz::flattening(discs, &steel(), 1.0);
         let mpa_per_mm = matched_mpa_per_mm(MatchCriterion::HalfWidth, &at, w);
-        Box::new(Winkler { bed: WinklerFoundation::Uniform { mpa_per_mm }, expected_line_load_n_per_mm: w })
+        Box::new(Winkler { foundation: WinklerFoundation::Uniform { mpa_per_mm }, expected_line_load_n_per_mm: w })
     };
     let half_space = |w: f64, _: &TwoDiscs| -> Box<dyn ContactSurface> {
         Box::new(HalfSpace { material: steel(), expected_line_load_n_per_mm: w })

@@ -19,7 +19,7 @@ use gearwear::simulation::wear_run::Outcome;
 use gearwear::stiffness::settings::StiffnessSettings;
 use proptest::prelude::*;
 
-use super::common::{Scene, assert_close, fzg_c, fzg_c_scene, pair, preset};
+use super::common::{Scene, assert_close, fzg_c, fzg_c_scene, loaded, pair, preset};
 
 fn slices(count: usize, coupling: Coupling) -> Option<SliceSettings> {
     Some(SliceSettings { count, coupling })
@@ -122,7 +122,7 @@ fn ver_lines_of_contact_have_their_length() {
                 continue;
             }
             let slices = Slices::new(&pair, count);
-            let phases = phases(path, &slices, positions, None);
+            let phases = sliced_positions(path, &slices, positions, None);
             let cells = || phases.iter().flat_map(|phase| &phase.contacts);
             let stretch: f64 = cells().map(|contact| contact.cell.upper_mm - contact.cell.lower_mm).sum();
             let length = stretch * slices.slice_width_mm / path.base_pitch_mm / cos;
@@ -141,7 +141,7 @@ fn ver_lines_of_contact_have_their_length() {
             assert!(spacing <= (path.end_mm - path.start_mm) / (positions - 1) as f64 * (1.0 + 1e-9));
         }
         let fine = Slices::new(&pair, 400);
-        let phases = phases(path, &fine, 800, None);
+        let phases = sliced_positions(path, &fine, 800, None);
         let least = phases.iter().map(|phase| phase.contacts.len()).min().unwrap();
         let least_mm = least as f64 * fine.slice_width_mm / cos;
         // Every end of a line may cut one slice.
@@ -368,10 +368,8 @@ fn steps_of_single_slices_are_told() {
         let text = gearwear::scene::presets::find(name).unwrap().text.replace("\"hertz\"", "\"hertz-mean\"");
         let text = format!("{}\n", text.replace("error_estimate = true", "error_estimate = false"));
         let resolved = gearwear::scene::Scene::from_toml(&text).unwrap();
-        let plan = gearwear::plan::Plan::of(&resolved.scene);
-        let inputs = gearwear::pipeline::inputs::Inputs::default();
-        let unwatched = &gearwear::simulation::wear_run::Unwatched;
-        gearwear::pipeline::run(&resolved, &plan, &inputs, unwatched).unwrap().record.summary.warnings
+        let unwatched = &gearwear::observer::Unwatched;
+        gearwear::pipeline::run(&loaded(&resolved), unwatched).unwrap().record.summary.warnings
     };
     assert!(warnings("h951").iter().any(|warning| warning.starts_with("helical.slices: the transmission error")));
     assert!(!warnings("helical").iter().any(|warning| warning.starts_with("helical.slices")));

@@ -3,14 +3,14 @@
 
 use gearwear::gear::{Gear, GearPair, PerGear, spec::PairSpec};
 use gearwear::mesh_cycle::settings::{Coupling, SliceSettings};
-use gearwear::pipeline::{self, inputs::Inputs};
-use gearwear::plan::Plan;
+use gearwear::observer::Unwatched;
+use gearwear::pipeline;
 use gearwear::results::run::RunRecord;
 use gearwear::simulation::figures::{SliceFigures, WearFigures, variation};
-use gearwear::simulation::wear_run::{Outcome, Snapshot, Unwatched};
+use gearwear::simulation::wear_run::{Outcome, Snapshot};
 use gearwear::stiffness::settings::StiffnessSettings;
 
-use super::common::{Scene, fzg_c_scene, pair, preset};
+use super::common::{Scene, fzg_c_scene, loaded, pair, preset};
 
 const SLICES: usize = 20;
 const REVOLUTIONS: f64 = 6e5;
@@ -192,8 +192,7 @@ fn deep_run(surface: &str, steps: f64) -> RunRecord {
         text = text.replace(from, &to);
     }
     let resolved = gearwear::scene::Scene::from_toml(&text).unwrap();
-    let (plan, inputs) = (Plan::of(&resolved.scene), Inputs::default());
-    pipeline::run(&resolved, &plan, &inputs, &Unwatched).unwrap().record
+    pipeline::run(&loaded(&resolved), &Unwatched).unwrap().record
 }
 
 /// H6, paper E: the simplified model runs to greater depths without instability, and loses some boundary effects. To 26 µm in 6 steps it

@@ -2,12 +2,13 @@
 //! pressures that are defined apart from those at a sharp tip edge.
 
 use gearwear::gear::Gear;
-use gearwear::pipeline::{self, inputs::Inputs};
-use gearwear::plan::Plan;
+use gearwear::observer::Unwatched;
+use gearwear::pipeline;
 use gearwear::results::run::RunRecord;
 use gearwear::scene::{draft::Draft, presets};
-use gearwear::simulation::wear_run::Unwatched;
 use gearwear::studies::sweep::figures::FIGURES;
+
+use super::common::loaded;
 
 /// A preset with keys exchanged, at a resolution that takes a second.
 fn run(preset: &str, set: &[(&str, toml::Value)]) -> RunRecord {
@@ -17,7 +18,7 @@ fn run(preset: &str, set: &[(&str, toml::Value)]) -> RunRecord {
         draft.set(key, value.clone());
     }
     let resolved = draft.resolve().unwrap_or_else(|problems| panic!("{problems:?}"));
-    let done = pipeline::run(&resolved, &Plan::of(&resolved.scene), &Inputs::default(), &Unwatched).unwrap();
+    let done = pipeline::run(&loaded(&resolved), &Unwatched).unwrap();
     assert_eq!(done.failure, None);
     done.record
 }

@@ -1,10 +1,11 @@
 //! A load spectrum: phases that follow each other, against plain runs and what physics says, and what is refused.
 
-use gearwear::pipeline::{self, inputs::Inputs};
-use gearwear::plan::Plan;
+use gearwear::observer::Unwatched;
+use gearwear::pipeline;
 use gearwear::results::run::RunRecord;
 use gearwear::scene::Scene;
-use gearwear::simulation::wear_run::Unwatched;
+
+use super::common::loaded;
 
 const OPERATION: &str = "pinion_torque_Nm = 302.0\npinion_speed_rpm = 150.0\n";
 const NUMERICS: &str = "flank_points = 120\npositions = 40\nstep = { revolutions = 10000.0 }\n";
@@ -19,7 +20,7 @@ fn scene(operation: &str, contact: &str, coefficient: f64, more: &str) -> String
 
 fn run(text: &str) -> RunRecord {
     let resolved = Scene::from_toml(text).unwrap_or_else(|problems| panic!("{problems:?}\n{text}"));
-    let done = pipeline::run(&resolved, &Plan::of(&resolved.scene), &Inputs::default(), &Unwatched).unwrap();
+    let done = pipeline::run(&loaded(&resolved), &Unwatched).unwrap();
     assert_eq!(done.failure, None);
     done.record
 }

@@ -2,11 +2,12 @@
 //! loads of the tooth pairs are the load to carry at every position.
 
 use gearwear::gear::Gear;
-use gearwear::pipeline::{self, inputs::Inputs};
-use gearwear::plan::Plan;
+use gearwear::observer::Unwatched;
+use gearwear::pipeline;
 use gearwear::results::run::{RunRecord, StopReason};
 use gearwear::scene::{Resolved, draft::Draft, presets};
-use gearwear::simulation::wear_run::Unwatched;
+
+use super::common::loaded;
 use proptest::prelude::*;
 
 /// Greatest relative difference between the loads of the pairs together and the load to carry.
@@ -106,7 +107,7 @@ proptest! {
             // A message that names its key.
             Err(message) => prop_assert!(message.contains('.') && message.contains("allowed"), "{message}"),
             Ok(resolved) => {
-                let done = pipeline::run(&resolved, &Plan::of(&resolved.scene), &Inputs::default(), &Unwatched);
+                let done = pipeline::run(&loaded(&resolved), &Unwatched);
                 let done = done.map_err(|error| TestCaseError::fail(error.to_string()))?;
                 prop_assert!(done.failure.is_none(), "{:?}", done.failure);
                 prop_assert_eq!(done.record.summary.stopped, StopReason::Completed);

@@ -14,9 +14,10 @@ use gearwear::mesh_cycle::{
     sliced_positions::sliced_positions,
     sliced_teeth::SlicedTeeth,
 };
+use gearwear::observer::Unwatched;
 use gearwear::simulation::figures::WearFigures;
 use gearwear::simulation::mesh_contact::MeshContact;
-use gearwear::simulation::wear_run::{Outcome, RunPhase, Snapshot, Unwatched, WearRun};
+use gearwear::simulation::wear_run::{Outcome, RunPhase, Snapshot, WearRun};
 use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
 use gearwear::wear::{
     WearModel,
@@ -42,7 +43,7 @@ fn scene(slices: usize, coupling: Coupling) -> Scene {
 fn run(scene: &Scene) -> Outcome {
     let (pair, material) = (pair(&scene.pair), steel());
     let (surface, line_load) = (HertzMean { material }, scene.line_load());
-    let teeth = TeethSpring::new(scene.stiffness, scene.curve.as_ref(), &pair, &material, &surface, line_load);
+    let teeth = TeethSpring::new(scene.stiffness, scene.curve.as_ref(), &pair, &material, &surface, line_load).unwrap();
     let law = gearwear::wear::of(&WearSettings {
         severe: scene.severe,
         ..WearSettings::archard(scene.coefficient_mm2_per_n)

@@ -4,9 +4,10 @@ use gearwear::fem::elastic::Elastic;
 use gearwear::fem::gear::position::CondensedPair;
 use gearwear::gear::{Gear, PerGear};
 use gearwear::gear_mesh::settings::{Body, BodySettings, default_clamp};
+use gearwear::observer::Unwatched;
 use gearwear::simulation::mesh_contact::MeshContact;
 use gearwear::simulation::settings::{AdaptiveMethod, Numerics, Stepping};
-use gearwear::simulation::wear_run::{Outcome, RunPhase, Unwatched, WearRun};
+use gearwear::simulation::wear_run::{Outcome, RunPhase, WearRun};
 use gearwear::wear::{WearModel, settings::SevereTransition, settings::WearSettings};
 
 use super::common::{Scene, fzg_c, fzg_c_scene, pair, steel, zones};

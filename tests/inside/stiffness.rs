@@ -1,6 +1,6 @@
 //! Tooth stiffness against Weber and Banaschek's formulae evaluated independently, and against ISO 6336-1.
 
-use gearwear::contact::{foundation::Bed, hertz, winkler::Winkler};
+use gearwear::contact::{foundation::WinklerFoundation, hertz, winkler::Winkler};
 use gearwear::gear::Gear;
 use gearwear::stiffness::{TeethSpring, iso6336, settings::StiffnessSettings, weber_banaschek::ToothCompliance};
 
@@ -42,8 +42,9 @@ fn val_weber_banaschek_terms_of_fzg_c() {
 #[test]
 fn ver_the_split_keeps_the_whole_compliance() {
     let pair = pair(&fzg_c());
-    let bed = Winkler { bed: Bed::Uniform { mpa_per_mm: 5.4e5 }, expected_line_load_n_per_mm: 400.0 };
-    let on_bed = TeethSpring::new(StiffnessSettings::WeberBanaschek, None, &pair, &steel(), &bed, 400.0);
+    let bed =
+        Winkler { foundation: WinklerFoundation::Uniform { mpa_per_mm: 5.4e5 }, expected_line_load_n_per_mm: 400.0 };
+    let on_bed = TeethSpring::new(StiffnessSettings::WeberBanaschek, None, &pair, &steel(), &bed, 400.0).unwrap();
     for (row, position) in WEBER_BANASCHEK.iter().zip(pair.path.points_mm()) {
         let whole = on_bed.pair_n_per_mm2(position).unwrap() / 1e3;
         assert!((whole - row[3]).abs() < 0.012, "{whole} against {}", row[3]);
@@ -67,7 +68,8 @@ fn val_iso_6336_of_both_fzg_pairs() {
 #[test]
 fn a_surface_softer_than_the_pair_is_refused() {
     let pair = pair(&fzg_c());
-    let bed = Winkler { bed: Bed::Uniform { mpa_per_mm: 1e3 }, expected_line_load_n_per_mm: 400.0 };
-    let spring = TeethSpring::new(StiffnessSettings::WeberBanaschek, None, &pair, &steel(), &bed, 400.0);
+    let bed =
+        Winkler { foundation: WinklerFoundation::Uniform { mpa_per_mm: 1e3 }, expected_line_load_n_per_mm: 400.0 };
+    let spring = TeethSpring::new(StiffnessSettings::WeberBanaschek, None, &pair, &steel(), &bed, 400.0).unwrap();
     assert!(spring.n_per_mm2(pair.path.pitch_point_mm).is_err());
 }

@@ -2,10 +2,10 @@
 
 use gearwear::contact::{hertz, hertz::Hertz};
 use gearwear::gear::PerGear;
-use gearwear::pipeline::{self, inputs::Inputs};
-use gearwear::plan::Plan;
+use gearwear::observer::Unwatched;
+use gearwear::pipeline;
+use gearwear::scene::loaded::NamedFiles;
 use gearwear::scene::{Scene as SceneFile, presets};
-use gearwear::simulation::wear_run::Unwatched;
 use gearwear::stiffness::{
     TeethSpring,
     curve::{PairCompliance, StandsFor},
@@ -14,7 +14,7 @@ use gearwear::stiffness::{
     weber_banaschek::ToothCompliance,
 };
 
-use super::common::{Scene, assert_close, fzg_c, fzg_c_scene, pair, steel};
+use super::common::{Scene, assert_close, fzg_c, fzg_c_scene, loaded_with, pair, steel};
 
 fn parse(text: &str) -> Result<PairCompliance, CurveFileError> {
     curve_file::parse(text, &pair(&fzg_c()).path)
@@ -39,7 +39,7 @@ fn ver_stiffness_and_deflection_say_the_same() {
     assert_eq!(stiffness.stands_for, StandsFor::WholePair { line_load_n_per_mm: 400.0 });
     assert_eq!(deflection.stands_for, StandsFor::Teeth);
     let surface = Hertz { material: steel(), expected_line_load_n_per_mm: 637.66 };
-    let spring = |model, curve| TeethSpring::new(model, curve, &pair, &steel(), &surface, 637.66);
+    let spring = |model, curve| TeethSpring::new(model, curve, &pair, &steel(), &surface, 637.66).unwrap();
     let own = spring(StiffnessSettings::WeberBanaschek, None);
     for at in pair.path.points_mm() {
         let expected = own.n_per_mm2(at).unwrap();
@@ -64,8 +64,8 @@ fn ver_a_run_states_the_stiffness_of_its_curve() {
         .replace("error_estimate = true", "verify = false");
     let resolved = SceneFile::from_toml(&text).unwrap_or_else(|problems| panic!("{problems:?}"));
     let curve = parse("# flattening = excluded\nposition_mm,stiffness_N_per_mm_um\n4.4,10\n14,20\n23.6,11\n").unwrap();
-    let inputs = Inputs { stiffness_curve: Some(curve), ..Inputs::default() };
-    let summary = pipeline::run(&resolved, &Plan::of(&resolved.scene), &inputs, &Unwatched).unwrap().record.summary;
+    let files = NamedFiles { stiffness_curve: Some(curve), ..NamedFiles::default() };
+    let summary = pipeline::run(&loaded_with(&resolved, files), &Unwatched).unwrap().record.summary;
     let (gears, load) = (pair(&fzg_c()), summary.contact.line_load_N_per_mm);
     let flattening_um = 1e3 * hertz::flattening(&gears, &steel(), gears.path.pitch_point_mm).approach_mm(load);
     let teeth = 0.1 + (13.9701 - 4.4) / 9.6 * (0.05 - 0.1);

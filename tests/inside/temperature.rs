@@ -1,12 +1,11 @@
 //! Contact temperatures: target S6, the hand calculation at A, and every method against the exact moving band of heat.
 
 use gearwear::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
-use gearwear::pipeline::{self, inputs::Inputs};
-use gearwear::plan::Plan;
+use gearwear::observer::Unwatched;
+use gearwear::pipeline;
 use gearwear::reference::moving_heat_band;
 use gearwear::results::run::RunRecord;
 use gearwear::scene::{Scene, presets};
-use gearwear::simulation::wear_run::Unwatched;
 use gearwear::thermal::{
     ContactHeat, SpeedRatios,
     band::Spread,
@@ -14,6 +13,8 @@ use gearwear::thermal::{
     settings::{HeatPartition, HeatSettings, HeatVelocity, TemperatureMethod, ThermalMaterial},
     tian_kennedy, williams,
 };
+
+use super::common::loaded;
 
 /// Steel of the targets: 46 W/(m·K), 1.2e-5 m²/s.
 const STEEL: ThermalMaterial = ThermalMaterial { conductivity_n_per_s_k: 46.0, diffusivity_mm2_per_s: 12.0 };
@@ -43,7 +44,7 @@ fn run(edits: &[(&str, &str)], more: &str) -> RunRecord {
         text = text.replace(from, to);
     }
     let resolved = Scene::from_toml(&format!("{text}\n{more}")).unwrap_or_else(|problems| panic!("{problems:?}"));
-    pipeline::run(&resolved, &Plan::of(&resolved.scene), &Inputs::default(), &Unwatched).unwrap().record
+    pipeline::run(&loaded(&resolved), &Unwatched).unwrap().record
 }
 
 /// S6, Fig 19: nil at the pitch point, below 100 K, three curves of one shape; Peclet numbers from about 2 down to 0.1 near

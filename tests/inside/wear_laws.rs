@@ -1,12 +1,13 @@
 //! The wear laws that read temperatures, in whole runs: targets S7 and S8, and that every contact model wears by them alike.
 
 use gearwear::gear::Gear;
-use gearwear::pipeline::{self, inputs::Inputs};
-use gearwear::plan::Plan;
+use gearwear::observer::Unwatched;
+use gearwear::pipeline;
 use gearwear::results::run::RunRecord;
 use gearwear::scene::{Scene, presets};
-use gearwear::simulation::wear_run::Unwatched;
 use gearwear::wear::regime::Regime;
+
+use super::common::loaded;
 
 /// Lines exchanged in a preset that runs an hour in one step, with `more` at its end.
 fn run_preset(preset: &str, edits: &[(&str, &str)], more: &str) -> RunRecord {
@@ -16,7 +17,7 @@ fn run_preset(preset: &str, edits: &[(&str, &str)], more: &str) -> RunRecord {
         text = text.replace(from, to);
     }
     let resolved = Scene::from_toml(&format!("{text}\n{more}")).unwrap_or_else(|problems| panic!("{problems:?}"));
-    pipeline::run(&resolved, &Plan::of(&resolved.scene), &Inputs::default(), &Unwatched).unwrap().record
+    pipeline::run(&loaded(&resolved), &Unwatched).unwrap().record
 }
 
 const LAW: (&str, &str) = ("law = \"archard\"", "law = \"adsorption\"");

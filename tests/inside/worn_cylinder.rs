@@ -141,7 +141,8 @@ fn val_a_flat_wears_a_cylinder_on_winklers_bed() {
     let load = CYLINDER.line_load_n_per_mm;
     let at = hertz::flattening(&CylinderOnFlat, &steel(), 0.0);
     let bed = matched_mpa_per_mm(MatchCriterion::HalfWidth, &at, load);
-    let surface = Winkler { bed: WinklerFoundation::Uniform { mpa_per_mm: bed }, expected_line_load_n_per_mm: load };
+    let surface =
+        Winkler { foundation: WinklerFoundation::Uniform { mpa_per_mm: bed }, expected_line_load_n_per_mm: load };
     let unworn = at.contact.loaded(load).half_width_mm;
     let stages = wear(&surface, unworn, 8.0, 60.0, bed);
     let mut late = 0;

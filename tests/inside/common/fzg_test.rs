@@ -13,11 +13,10 @@
 //! | D3 | root, tip and start of single-tooth mesh moderate to severe; pitch point and its end mild to moderate | the least of the three above the greatest of the two, k = 1e-17 |
 #![allow(dead_code, reason = "a test and an example each use their own part")]
 
-use gearwear::pipeline::{self, Done, inputs::Inputs};
-use gearwear::plan::Plan;
+use gearwear::observer::Unwatched;
+use gearwear::pipeline::{self, Done};
 use gearwear::results::run::FlankRecord;
-use gearwear::scene::Scene;
-use gearwear::simulation::wear_run::Unwatched;
+use gearwear::scene::loaded::LoadedScene;
 use gearwear::studies::validation::profile::separate_peaks;
 
 /// The stops of the test, h.
@@ -51,7 +50,7 @@ pub struct Estimate {
 }
 
 /// Wear of the pinion over product of coefficient and revolutions.
-pub struct StiffnessVariation {
+pub struct ReadRun {
     flank: FlankRecord,
     products: Vec<f64>,
 }
@@ -112,18 +111,16 @@ impl Estimate {
     }
 
     /// Runs it.
-    pub fn run(&self) -> StiffnessVariation {
+    pub fn run(&self) -> ReadRun {
         let (text, products) = self.scene();
-        let resolved = Scene::from_toml(&text).expect("the scene of the test is sound");
-        let Done { record, failure } =
-            pipeline::run(&resolved, &Plan::of(&resolved.scene), &Inputs::default(), &Unwatched)
-                .expect("the run of the test has results");
+        let scene = LoadedScene::from_toml(&text).expect("the scene of the test is sound");
+        let Done { record, failure } = pipeline::run(&scene, &Unwatched).expect("the run of the test has results");
         assert_eq!(failure, None);
-        StiffnessVariation { flank: record.flanks.pinion, products }
+        ReadRun { flank: record.flanks.pinion, products }
     }
 }
 
-impl StiffnessVariation {
+impl ReadRun {
     /// Profile at a stop, µm.
     fn profile_um(&self, speed_rpm: f64, coefficient: f64, hours: f64) -> &[f64] {
         let at = product(speed_rpm, coefficient, hours);

@@ -12,6 +12,19 @@ use gearwear::gear::{
     modification::Modification,
     spec::{BasicRack, GearSpec, PairSpec},
 };
+use gearwear::scene::Resolved;
+use gearwear::scene::loaded::{LoadedScene, NamedFiles, SceneText};
+
+/// A resolved scene that names no files, as it is run.
+pub fn loaded(resolved: &Resolved) -> LoadedScene {
+    loaded_with(resolved, NamedFiles::default())
+}
+
+/// The same with the files that it names.
+pub fn loaded_with(resolved: &Resolved, files: NamedFiles) -> LoadedScene {
+    let given = SceneText { name: "scene of a test".to_owned(), text: resolved.to_toml() };
+    LoadedScene::with_files(resolved.clone(), given, files).expect("the scene of the test has its files")
+}
 
 /// Sum of |relative difference| check with a readable message.
 pub fn assert_close(what: &str, value: f64, expected: f64, relative: f64) {
@@ -90,10 +103,11 @@ use gearwear::contact::{
     winkler::Winkler,
 };
 use gearwear::mesh_cycle::{settings::SliceSettings, sliced_teeth::SlicedTeeth};
+use gearwear::observer::Unwatched;
 use gearwear::simulation::mesh_contact::MeshContact;
 use gearwear::simulation::settings::{Numerics, Stepping};
 use gearwear::simulation::stability::StepBound;
-use gearwear::simulation::wear_run::{Outcome, RunPhase, Unwatched, WearRun};
+use gearwear::simulation::wear_run::{Outcome, RunPhase, WearRun};
 use gearwear::stiffness::{TeethSpring, curve::PairCompliance, settings::StiffnessSettings};
 use gearwear::wear::{
     WearModel,
@@ -163,7 +177,7 @@ impl Scene {
         let expected_line_load_n_per_mm = self.line_load();
         match self.surface {
             "winkler" => Box::new(Winkler {
-                bed: WinklerFoundation::Uniform { mpa_per_mm: self.foundation() },
+                foundation: WinklerFoundation::Uniform { mpa_per_mm: self.foundation() },
                 expected_line_load_n_per_mm,
             }),
             "half-space" => Box::new(HalfSpace { material: steel(), expected_line_load_n_per_mm }),
@@ -197,7 +211,8 @@ impl Scene {
     fn with<T>(&self, then: impl FnOnce(&WearRun<'_>, &RunPhase<'_>) -> T) -> T {
         let pair = pair(&self.pair);
         let (surface, line_load) = (self.surface(), self.line_load());
-        let teeth = TeethSpring::new(self.stiffness, self.curve.as_ref(), &pair, &steel(), surface.as_ref(), line_load);
+        let teeth = TeethSpring::new(self.stiffness, self.curve.as_ref(), &pair, &steel(), surface.as_ref(), line_load)
+            .expect("the model has its curve");
         let law = gearwear::wear::of(&WearSettings {
             severe: self.severe,
             ..WearSettings::archard(self.coefficient_mm2_per_n)

@@ -4,16 +4,17 @@ use std::f64::consts::{PI, TAU};
 
 use gearwear::gear::{Gear, GearPair};
 use gearwear::measurement::file;
-use gearwear::pipeline::{self, inputs::Inputs};
-use gearwear::plan::Plan;
+use gearwear::observer::Unwatched;
+use gearwear::pipeline;
 use gearwear::report;
 use gearwear::results::run::RunRecord;
 use gearwear::scene::{Resolved, Scene};
-use gearwear::simulation::wear_run::Unwatched;
 use gearwear::studies::compare::question::{Asked, FitKind, Question};
 use gearwear::studies::compare::record::CompareRecord;
 use gearwear::studies::compare::run_folder::RunFolder;
 use gearwear::studies::compare::study;
+
+use super::super::common::loaded;
 
 /// A run in a folder, the noiseless trace of another one with other coefficients, and where its points are.
 pub struct Laboratory {
@@ -74,14 +75,14 @@ impl Laboratory {
         let pair = GearPair::new(&self.resolved.scene.pair).unwrap();
         let file = file::parse(text).unwrap();
         let question = Question::new(asked, &file, &folder, &self.resolved, &pair).unwrap();
-        study::run(&question, &folder, &self.resolved, &Inputs::default(), "trace.csv", &Unwatched).unwrap()
+        study::run(&question, &folder, &loaded(&self.resolved), "trace.csv", &Unwatched).unwrap()
     }
 }
 
 /// Carries a scene out.
 fn run(scene: &str) -> (Resolved, RunRecord) {
     let resolved = Scene::from_toml(scene).unwrap_or_else(|problems| panic!("{problems:?}"));
-    let done = pipeline::run(&resolved, &Plan::of(&resolved.scene), &Inputs::default(), &Unwatched).unwrap();
+    let done = pipeline::run(&loaded(&resolved), &Unwatched).unwrap();
     assert!(done.failure.is_none());
     (resolved, done.record)
 }

@@ -150,7 +150,7 @@ fn val_nafems_cylinder_on_the_committed_meshes() {
     let text = fs::read_to_string(meshes.join("cylinder-on-block.toml")).unwrap();
     for kind in ["quad8", "quad4", "tri6", "tri3"] {
         let problem = FemProblem::from_toml(&text.replace("quad8", kind)).unwrap();
-        let record = gearwear::pipeline::fem_problem::run(&problem, &meshes, &|_| {}).unwrap();
+        let record = gearwear::pipeline::fem_problem::run(&problem, &meshes, &gearwear::observer::Unwatched).unwrap();
         let contact = &record.summary.contact[0];
         assert!(contact.half_model, "{kind}");
         let (peak, half_width) = (contact.peak_pressure_MPa, contact.half_width_mm);

@@ -1,11 +1,8 @@
 //! Error of the wear against mesh cycles evaluated: Euler's method and both adaptive ones on the fzg-c scene after 128 h, half of
 //! the points and positions, without severe wear, with a factor of 100 above 2000 MPa over a band of 100 MPa, and with the hard switch.
-//! Prints the tables of docs/stepping.md; `work_precision winkler` does so for one surface alone.
+//! Prints the tables of docs/stepping.md;
 
-#[path = "../tests/inside/common/mod.rs"]
-mod common;
-
-use common::{Scene, fzg_c_scene};
+use super::super::common::{Scene, fzg_c_scene};
 use gearwear::gear::Gear;
 use gearwear::simulation::settings::{AdaptiveMethod, Stepping};
 use gearwear::simulation::wear_run::Outcome;
@@ -24,17 +21,15 @@ fn errors(run: &Outcome, reference: &Outcome) -> [f64; 2] {
     [(sum / norm).sqrt(), (peak(run) / peak(reference) - 1.0).abs()]
 }
 
-fn main() {
-    let only = std::env::args().nth(1);
+#[test]
+#[ignore = "prints the tables of docs/stepping.md"]
+fn work_precision_tables() {
     let severe = |band_mpa| Some(SevereTransition { above_mpa: 2000.0, factor: 100.0, band_mpa });
     let transitions =
         [("no severe wear", None, 4800.0), ("band", severe(100.0), 19200.0), ("hard switch", severe(0.0), 19200.0)];
     let chebyshev = AdaptiveMethod::RungeKuttaChebyshev;
     let methods = [("Runge–Kutta–Chebyshev", chebyshev), ("linearly implicit", AdaptiveMethod::LinearlyImplicit)];
     for surface in ["winkler", "half-space"] {
-        if only.as_ref().is_some_and(|only| only != surface) {
-            continue;
-        }
         for (name, severe, reference_steps) in transitions {
             let base = Scene { surface, severe, flank_points: 375, positions: 200, ..fzg_c_scene() };
             let run = |stepping| Scene { stepping: Some(stepping), ..base.clone() }.run();

@@ -1,15 +1,14 @@
 //! The NAFEMS cylinder on a block over four meshes, the finest with about 70,000 unknowns: one thread, times of this machine.
 
-#[path = "../tests/inside/common/grid.rs"]
-mod grid;
-
 use std::time::Instant;
 
+use super::super::common::grid::CylinderOnBlock;
 use gearwear::fem::solid::ElementKind;
 use gearwear::fem::{SolveError, solve};
-use grid::CylinderOnBlock;
 
-fn main() -> Result<(), SolveError> {
+#[test]
+#[ignore = "prints the tables of docs/fem-verification.md"]
+fn fem_benchmark_tables() -> Result<(), SolveError> {
     println!(
         "| element | per half-width | unknowns | p₀ MPa | a mm | active sets | s |\n|---|---|---|---|---|---|---|"
     );
