@@ -3,19 +3,7 @@
 //!
 //! `cargo bench --bench fem_pair`
 
-use std::time::Instant;
-
-use gearwear::fem::elastic::Elastic;
-use gearwear::fem::gear::cycle::cycle;
-use gearwear::fem::gear::model::MeshedGear;
-use gearwear::fem::gear::position::CondensedPair;
-use gearwear::gear::{Gear, GearPair, PerGear};
-use gearwear::gear_mesh::settings::{Body, BodySettings};
-use gearwear::scene::{Scene, presets};
-
-const POSITIONS: usize = 400;
-const FACE_WIDTH_MM: f64 = 14.0;
-const TORQUE_N_MM: f64 = 302e3;
+use gearwear::{LoadedScene, Unwatched};
 
 /// Peak resident memory of this process in MB, where the system tells.
 fn peak_memory_mb() -> Option<f64> {
@@ -34,46 +22,34 @@ fn main() {
 }
 
 fn table() {
-    let resolved = Scene::from_toml(presets::find("fzg-c").expect("fzg-c is a preset").text).expect("it is sound");
-    let pair = GearPair::new(&resolved.scene.pair).expect("the preset is sound");
-    let line_load = TORQUE_N_MM / pair.path.involute.pinion.base_radius_mm / FACE_WIDTH_MM;
-    let steel = PerGear::from_fn(|_| Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 });
+    let preset = LoadedScene::preset("fzg-c").expect("fzg-c is a preset");
     println!(
         "elements/half-width  unknowns  mesh s  condense s  cycle s  ms/position  total s  peak MB  TE at C um  p at C MPa"
     );
     let mut costs = Vec::new();
     for elements_per_half_width in [4.0, 6.0, 8.0, 10.0, 14.0] {
-        let settings = BodySettings {
-            body: Body::Ring,
-            clamp_radius_mm: PerGear { pinion: 19.943, wheel: 37.897 },
-            elements_per_half_width,
+        let scene = preset.with("fem.elements_per_half_width", elements_per_half_width).expect("the scene is sound");
+        let solve = |position_mm| {
+            gearwear::fem_pair(&scene, position_mm, &Unwatched)
+                .expect("every position has an equilibrium")
+                .record
+                .summary
         };
-        let start = Instant::now();
-        let meshed = PerGear::from_fn(|gear| {
-            MeshedGear::new(&pair, gear, &steel, line_load, &settings).expect("the teeth can be meshed")
-        });
-        let mesh_s = start.elapsed().as_secs_f64();
-        let condensed =
-            PerGear::from_fn(|gear| meshed[gear].condense(&pair, steel[gear]).expect("the gears can be condensed"));
-        let condense_s = start.elapsed().as_secs_f64() - mesh_s;
-        let model = CondensedPair::new(&pair, &steel, condensed);
-        let positions: Vec<f64> = (0..POSITIONS)
-            .map(|k| pair.path.start_mm + (pair.path.end_mm - pair.path.start_mm) * k as f64 / (POSITIONS - 1) as f64)
-            .collect();
-        let before = start.elapsed().as_secs_f64();
-        let solved = cycle(&model, &positions, line_load).expect("every position has an equilibrium");
-        let cycle_s = start.elapsed().as_secs_f64() - before;
-        let total_s = start.elapsed().as_secs_f64();
-        let unknowns: usize = Gear::BOTH.into_iter().map(|gear| meshed[gear].dofs()).sum();
-        let pitch = cycle(&model, &[pair.path.pitch_point_mm], line_load).expect("the pitch point has an equilibrium");
+        let whole = solve(None);
+        let pitch = solve(Some(whole.geometry.curvature_radius_mm.C));
+        let seconds =
+            |name: &str| whole.stages.iter().filter(|stage| stage.name == name).map(|stage| stage.wall_s).sum::<f64>();
+        let (mesh_s, condense_s, cycle_s) = (seconds("meshing"), seconds("condensation"), seconds("cycle"));
         println!(
-            "{elements_per_half_width:>19} {unknowns:>9} {mesh_s:>7.3} {condense_s:>11.3} {cycle_s:>8.3} {:>12.3} {total_s:>8.3} {:>8.0} {:>11.4} {:>11.1}",
-            1e3 * cycle_s / solved.len() as f64,
+            "{elements_per_half_width:>19} {:>9} {mesh_s:>7.3} {condense_s:>11.3} {cycle_s:>8.3} {:>12.3} {:>8.3} {:>8.0} {:>11.4} {:>11.1}",
+            whole.dofs,
+            1e3 * whole.wall_per_position_s.unwrap_or(f64::NAN),
+            whole.wall_s,
             peak_memory_mb().unwrap_or(f64::NAN),
-            1e3 * pitch[0].transmission_error_mm,
-            pitch[0].pairs[0].peak_pressure_mpa,
+            pitch.new.transmission_error_um.max,
+            pitch.new.peak_pressure_MPa.unwrap_or(f64::NAN),
         );
-        costs.push(((unknowns as f64).ln(), total_s.ln()));
+        costs.push(((whole.dofs as f64).ln(), whole.wall_s.ln()));
     }
     let n = costs.len() as f64;
     let (x, y) = (costs.iter().map(|c| c.0).sum::<f64>() / n, costs.iter().map(|c| c.1).sum::<f64>() / n);

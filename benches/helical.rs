@@ -1,50 +1,42 @@
 //! How long wear runs of helical gears take: the preset `helical` (20 slices, 750 points a flank, 400 positions, 60 wear steps), the
-//! simplified model and slices coupled on a Winkler bed, and how the time grows with the number of slices. One thread; only the wear
+//! simplified model and slices coupled on a Winkler foundation, and how the time grows with the number of slices. One thread; only the wear
 //! run itself is timed (the stage "simulation"), and the whole of a run beside it. Quote ratios, machines are noisy.
 
 use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use gearwear::observer::Unwatched;
-use gearwear::pipeline;
-use gearwear::results::run::RunRecord;
-use gearwear::scene::{Resolved, Scene, presets};
+use gearwear::{LoadedScene, RunRecord, Unwatched};
 
-/// The preset `helical` without snapshots and error estimates, some keys replaced.
-fn scene(edits: &[(&str, &str)]) -> Resolved {
-    let mut text = presets::find("helical").expect("helical is a preset").text.to_owned();
-    for (from, to) in
-        [("error_estimate = true", "error_estimate = false"), ("snapshots_revolutions", "# snapshots_revolutions")]
-            .iter()
-            .chain(edits)
-    {
-        assert!(text.contains(from), "{from}");
-        text = text.replace(from, to);
-    }
-    let mut resolved = Scene::from_toml(&text).expect("the preset is sound");
-    resolved.scene.operation.snapshots_revolutions.clear();
-    resolved
+/// The preset `helical` without snapshots, error estimates and verification, some keys replaced.
+fn scene(edits: &[(&str, &str)]) -> LoadedScene {
+    let scene = LoadedScene::preset("helical").expect("helical is a preset");
+    let off =
+        [("numerics.error_estimate", "false"), ("numerics.verify", "false"), ("operation.snapshots_revolutions", "[]")];
+    off.iter().chain(edits).fold(scene, |scene, (key, value)| {
+        let value: toml::Table = format!("value = {value}").parse().expect("a value");
+        scene.with(key, value["value"].clone()).expect("the scene is sound")
+    })
 }
 
-fn run(resolved: &Resolved) -> RunRecord {
-    pipeline::run(scene, &Unwatched).expect("the preset runs").record
+fn run(scene: &LoadedScene) -> RunRecord {
+    gearwear::run(scene, &Unwatched).expect("the preset runs").record
 }
 
 /// Wall time of the wear run alone, in `times` runs.
-fn simulation(resolved: &Resolved, times: u64) -> Duration {
+fn simulation(scene: &LoadedScene, times: u64) -> Duration {
     let stage = |record: RunRecord| record.summary.stages.into_iter().find(|stage| stage.name == "simulation");
-    let seconds = (0..times).filter_map(|_| stage(run(resolved))).map(|stage| stage.wall_s).sum();
+    let seconds = (0..times).filter_map(|_| stage(run(scene))).map(|stage| stage.wall_s).sum();
     Duration::from_secs_f64(seconds)
 }
 
-const SURFACE: &str = "surface = \"hertz\" ";
-const SLICES: &str = "slices = 20 ";
-const COUPLING: &str = "coupling = \"none\"";
+const SURFACE: &str = "contact.surface";
+const SLICES: &str = "helical.slices";
+const COUPLING: &str = "helical.coupling";
 
 fn helical(criterion: &mut Criterion) {
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("the pool is not built yet");
-    let simplified = (SURFACE, "surface = \"hertz-mean\" ");
-    let coupled = (COUPLING, "coupling = \"slicing\"");
+    let simplified = (SURFACE, "\"hertz-mean\"");
+    let coupled = (COUPLING, "\"slicing\"");
 
     let mut group = criterion.benchmark_group("helical");
     for (name, edits) in [("simplified", vec![simplified]), ("simplified, coupled", vec![simplified, coupled])] {
@@ -56,7 +48,7 @@ fn helical(criterion: &mut Criterion) {
         group.bench_function(BenchmarkId::new("whole run", name), |bencher| bencher.iter(|| run(&scene)));
     }
     group.sample_size(10);
-    let winkler = scene(&[(SURFACE, "surface = \"winkler\" "), coupled]);
+    let winkler = scene(&[(SURFACE, "\"winkler\""), coupled]);
     let start = Instant::now();
     println!("winkler, coupled: {:?} in {:?}", run(&winkler).summary.work, start.elapsed());
     group.bench_function(BenchmarkId::new("simulation", "winkler, coupled"), |bencher| {
@@ -67,7 +59,7 @@ fn helical(criterion: &mut Criterion) {
     // Cost a slice must stay the same.
     let mut group = criterion.benchmark_group("linear in slices");
     for slices in [5, 10, 20, 40, 80] {
-        let scene = scene(&[simplified, (SLICES, &format!("slices = {slices} "))]);
+        let scene = scene(&[simplified, (SLICES, &slices.to_string())]);
         println!("{slices} slices: {:?}", run(&scene).summary.work);
         group.throughput(Throughput::Elements(slices));
         group.bench_function(BenchmarkId::new("simplified", slices), |bencher| {

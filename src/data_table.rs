@@ -29,11 +29,11 @@ pub enum DataTableError {
 }
 
 /// Fields of a line, with its number from 1.
-pub type Line<'a> = (usize, Vec<&'a str>);
+pub(crate) type Line<'a> = (usize, Vec<&'a str>);
 
 /// A table, cut into fields.
 #[derive(Debug, Clone, PartialEq)]
-pub struct DataTable<'a> {
+pub(crate) struct DataTable<'a> {
     /// Line, key and value of each `# key = value`.
     pub keys: Vec<(usize, &'a str, &'a str)>,
     /// Names of the columns.
@@ -47,7 +47,7 @@ impl<'a> DataTable<'a> {
     ///
     /// # Errors
     /// [`DataTableError::Missing`].
-    pub fn read(text: &'a str, names_allowed: impl FnOnce() -> String) -> Result<Self, DataTableError> {
+    pub(crate) fn read(text: &'a str, names_allowed: impl FnOnce() -> String) -> Result<Self, DataTableError> {
         let (mut keys, mut rows) = (Vec::new(), Vec::new());
         for (line, content) in (1..).zip(text.trim_start_matches('\u{feff}').lines().map(str::trim)) {
             match content.strip_prefix('#') {
@@ -68,7 +68,7 @@ impl<'a> DataTable<'a> {
 ///
 /// # Errors
 /// [`DataTableError::NotAllowed`].
-pub fn finite(line: usize, column: &str, text: &str) -> Result<f64, DataTableError> {
+pub(crate) fn finite(line: usize, column: &str, text: &str) -> Result<f64, DataTableError> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
         _ => Err(not_allowed(line, column, or_nothing(text), "a finite number".to_owned())),
@@ -79,7 +79,7 @@ pub fn finite(line: usize, column: &str, text: &str) -> Result<f64, DataTableErr
 ///
 /// # Errors
 /// [`DataTableError::NotAllowed`].
-pub fn positive(line: usize, column: &str, text: &str) -> Result<f64, DataTableError> {
+pub(crate) fn positive(line: usize, column: &str, text: &str) -> Result<f64, DataTableError> {
     match text.parse::<f64>() {
         Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
         _ => Err(not_allowed(line, column, or_nothing(text), "a number greater than 0".to_owned())),
@@ -91,11 +91,11 @@ fn or_nothing(text: &str) -> &str {
 }
 
 /// A value that is not allowed.
-pub fn not_allowed(line: usize, column: &str, found: impl ToString, allowed: String) -> DataTableError {
+pub(crate) fn not_allowed(line: usize, column: &str, found: impl ToString, allowed: String) -> DataTableError {
     DataTableError::NotAllowed { line, column: column.to_owned(), found: found.to_string(), allowed }
 }
 
 /// Something that is missing.
-pub fn missing(what: &str, allowed: String) -> DataTableError {
+pub(crate) fn missing(what: &str, allowed: String) -> DataTableError {
     DataTableError::Missing { what: what.to_owned(), allowed }
 }

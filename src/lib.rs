@@ -1,47 +1,171 @@
 //! **gearwear** predicts how the flanks of a gear pair wear, and what the wear does to pressure, load sharing and
-//! transmission error.
+//! transmission error; finite elements verify the answer.
 //!
-//! Everything flows one way, and the modules stand in that order:
+//! # A wear run
 //!
-//! ```text
-//! scene (what is asked) → plan (which stages it needs) → gear geometry → stiffness and contact
-//!       → mesh cycle (who carries how much, where) → wear law and stepping → results → report
+//! A scene is a TOML file, or a preset with some keys replaced. It is opened with every file it names, checked, and run:
+//!
+//! ```
+//! use gearwear::{LoadedScene, Unwatched};
+//!
+//! let scene = LoadedScene::preset("fzg-c")?.with("operation.hours", 10)?.with("numerics.verify", false)?;
+//! let run = gearwear::run(&scene, &Unwatched)?.record;
+//!
+//! let pinion = &run.flanks.pinion;
+//! println!("{:.2} µm at most", run.summary.pinion.peak_wear_um);
+//! assert_eq!(pinion.radius_mm.len(), pinion.wear_um.len());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Inside the program one consistent system of units is used: mm, N, MPa, s, K; angles are in radians. Public names
-//! carry their unit (`centre_distance_mm`), and quantities of helical gears say *normal* or *transverse*.
+//! [`LoadedScene::open`] does the same from a file. Everything found is in a [`RunRecord`](results::run::RunRecord), plain structures
+//! in the units of the output files:
+//!
+//! | what | where | unit |
+//! |---|---|---|
+//! | wear at the points of a flank | `flanks.pinion.wear_um`, beside `radius_mm` | µm, mm |
+//! | pressure there, new and worn | `flanks.pinion.pressure_new_MPa`, `pressure_worn_MPa` | MPa |
+//! | load share and transmission error over the mesh cycle | `mesh_cycle`, one row a position | –, µm |
+//! | wear, pressure and transmission error over the life | `history`, one row a snapshot | |
+//! | the main figures and their errors | `summary`, `summary.error` | |
+//!
+//! Columns of rows become arrays with one `map`:
+//!
+//! ```
+//! # use gearwear::{LoadedScene, Unwatched};
+//! # let scene = LoadedScene::preset("thesis-spur")?.with("numerics.error_estimate", false)?.with("numerics.verify", false)?;
+//! # let scene = scene.with("operation.hours", 1)?;
+//! # let run = gearwear::run(&scene, &Unwatched)?.record;
+//! let share: Vec<f64> = run.mesh_cycle.iter().map(|row| row.load_share_new).collect();
+//! let transmission_error_um: Vec<f64> = run.mesh_cycle.iter().map(|row| row.transmission_error_new_um).collect();
+//! # assert!(share.len() == transmission_error_um.len() && share.iter().all(|part| (0.0..=1.0).contains(part)));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! An [`Observer`] is told of stages, progress and warnings, and may stop the run; [`write`] makes the folder that `gearwear run`
+//! makes. What is wrong with a scene is a [`SceneError`]: all of it at once, each [`Problem`] with its key, what was found and what is
+//! allowed.
+//!
+//! ```
+//! let error = gearwear::LoadedScene::from_toml("[pair]\npreset = \"fzg-d\"\n").unwrap_err();
+//! assert!(error.to_string().contains("fzg-c"), "{error}");
+//! ```
+//!
+//! # Finite elements
+//!
+//! [`calibrate`] teaches the fast model from finite elements, [`fem_pair`] solves the contact of the pair itself over the mesh
+//! cycle, [`fem_problem`] any plane contact problem on a mesh of one's own ([`mesh`] reads and writes the formats).
+//!
+//! ```no_run
+//! use gearwear::{LoadedScene, Unwatched};
+//!
+//! let scene = LoadedScene::preset("fzg-c")?.with("contact.surface", "winkler")?;
+//! let calibration = gearwear::calibrate(&scene, &Unwatched)?.calibration;
+//! let run = gearwear::run(&scene.with_calibration(calibration)?, &Unwatched)?.record;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Units
+//!
+//! Records carry their unit in each name (`peak_wear_um`, `line_load_N_per_mm`). Inside, one consistent system is used: mm, N, MPa, s,
+//! K, rad. Quantities of helical gears say *normal* or *transverse*.
 //!
 //! `ARCHITECTURE.md` is the map of the code, `docs/theory.md` the derivations that the modules cite.
 
 // The program, the tests and the examples name the library alike.
 extern crate self as gearwear;
 
-pub mod calibration;
+mod calibration;
 #[cfg(feature = "program")]
-pub mod cli;
-pub mod contact;
-pub mod data_table;
-pub mod fem;
-pub mod gear;
-pub mod gear_mesh;
-pub mod measurement;
+mod cli;
+mod contact;
+mod data_table;
+mod fem;
+mod gear;
+mod gear_mesh;
+mod measurement;
 pub mod mesh;
-pub mod mesh_cycle;
-pub mod observer;
-pub mod pipeline;
-pub mod plan;
+mod mesh_cycle;
+mod observer;
+mod pipeline;
+mod plan;
 pub mod reference;
-pub mod report;
+mod report;
 pub mod results;
-pub mod resume;
-pub mod scene;
-pub mod simulation;
-pub mod stiffness;
-pub mod studies;
-pub mod thermal;
-pub mod wear;
+mod resume;
+mod scene;
+mod simulation;
+mod stiffness;
+mod studies;
+mod thermal;
+mod wear;
 mod whole_file;
 
 #[cfg(test)]
 #[path = "../tests/inside/mod.rs"]
 mod inside;
+
+pub use calibration::Calibration;
+#[cfg(feature = "program")]
+pub use cli::main as program;
+pub use gear::{Gear, PerGear};
+pub use observer::{Observer, Unwatched};
+pub use pipeline::calibrate::{CalibrateError, Calibrated};
+pub use pipeline::fem_problem::FemProblemError;
+pub use pipeline::fem_scene::FemPairError;
+pub use pipeline::{Done, RunError, run};
+pub use plan::Plan;
+pub use report::ReportError;
+pub use results::run::RunRecord;
+pub use scene::fem_problem::schema as fem_problem_schema;
+pub use scene::loaded::{LoadError, LoadedScene, SceneError, SceneText};
+pub use scene::presets::{PRESETS, Preset};
+pub use scene::schema::schema as scene_schema;
+pub use scene::{Problem, ProblemKind};
+
+use std::path::Path;
+
+use results::fem_pair::FemPairRecord;
+use results::fem_problem::FemRecord;
+use scene::fem_problem::FemProblem;
+
+/// Calibrates the fast model of the scene's pair with finite elements: K/H of the Winkler foundation by position and load, and the
+/// stiffness of the teeth ([`LoadedScene::with_calibration`] uses it).
+///
+/// # Errors
+/// [`CalibrateError`]
+pub fn calibrate(scene: &LoadedScene, observer: &dyn Observer) -> Result<Calibrated, CalibrateError> {
+    pipeline::calibrate::run(scene.scene(), pipeline::calibrate::Extent::Whole, observer)
+}
+
+/// Solves the contact of the scene's pair with plane finite elements: at the position `position_mm` of the path of contact (radius of
+/// curvature of the pinion, mm), or over the whole mesh cycle.
+///
+/// # Errors
+/// [`FemPairError`] where no position was solved.
+pub fn fem_pair(
+    scene: &LoadedScene,
+    position_mm: Option<f64>,
+    observer: &dyn Observer,
+) -> Result<Done<FemPairRecord, FemPairError>, FemPairError> {
+    pipeline::fem_scene::run(&scene.resolved, pipeline::fem_scene::Asked { position_mm, full: false }, observer)
+}
+
+/// Solves a plane contact problem of finite elements on a mesh of one's own: `problem_toml` is the text of a problem file
+/// (`docs/fem-problems.md`), whose mesh file lies in `folder`.
+///
+/// # Errors
+/// [`FemProblemError`]: everything that is wrong with problem and mesh, or why the solver failed.
+pub fn fem_problem(problem_toml: &str, folder: &Path, observer: &dyn Observer) -> Result<FemRecord, FemProblemError> {
+    let problem = FemProblem::from_toml(problem_toml).map_err(FemProblemError::Input)?;
+    pipeline::fem_problem::run(&problem, folder, observer)
+}
+
+/// Writes what `gearwear run` writes into `folder`, which is made if need be: tables, page, summary.
+///
+/// # Errors
+/// [`ReportError`] where a file cannot be written.
+pub fn write(run: &RunRecord, folder: &Path) -> Result<(), ReportError> {
+    report::remove_summary(folder)?;
+    report::write_data_and_page(run, folder)?;
+    report::write_summary(&run.summary, folder).map(drop)
+}

@@ -19,7 +19,7 @@ use crate::gear_mesh::settings::{Body, BodySettings, SectorSides, greatest_clamp
 
 /// Elements in a half-width that the tables of rim and neighbours are made with; the convergence table shows that it is
 /// enough.
-pub const TABLE_ELEMENTS_PER_HALF_WIDTH: f64 = 4.0;
+pub(crate) const TABLE_ELEMENTS_PER_HALF_WIDTH: f64 = 4.0;
 const RESOLUTIONS: [f64; 5] = [4.0, 6.0, 8.0, 10.0, 14.0];
 const RIM_MODULES: [f64; 7] = [0.5, 1.0, 1.5, 2.0, 2.5, 4.0, 5.5];
 const SECTORS: [u32; 3] = [1, 3, 5];
@@ -28,7 +28,7 @@ const LEAST_CLAMP_OVER_ROOT: f64 = 0.1;
 
 /// A gear pair with what finite elements need to know of it.
 #[derive(Clone, Copy)]
-pub struct Setup<'a> {
+pub(crate) struct Setup<'a> {
     /// Geometry.
     pub pair: &'a GearPair,
     /// Materials.
@@ -75,7 +75,7 @@ pub struct NeighbourRow {
 
 impl<'a> Setup<'a> {
     /// The elastic constants.
-    pub fn elastic(&self) -> PerGear<Elastic> {
+    pub(crate) fn elastic(&self) -> PerGear<Elastic> {
         self.material.map(Material::elastic)
     }
 
@@ -83,7 +83,7 @@ impl<'a> Setup<'a> {
     ///
     /// # Errors
     /// [`CalibrationError::Model`]
-    pub fn mesh(&self, gear: Gear) -> Result<MeshedGear, CalibrationError> {
+    pub(crate) fn mesh(&self, gear: Gear) -> Result<MeshedGear, CalibrationError> {
         Ok(MeshedGear::new(self.pair, gear, &self.elastic(), self.line_load_n_per_mm, &self.bodies)?)
     }
 
@@ -91,7 +91,7 @@ impl<'a> Setup<'a> {
     ///
     /// # Errors
     /// [`CalibrationError::Model`]
-    pub fn meshed(&self) -> Result<PerGear<MeshedGear>, CalibrationError> {
+    pub(crate) fn meshed(&self) -> Result<PerGear<MeshedGear>, CalibrationError> {
         PerGear::try_in_parallel(|gear| self.mesh(gear))
     }
 
@@ -99,7 +99,7 @@ impl<'a> Setup<'a> {
     ///
     /// # Errors
     /// [`CalibrationError::Model`]
-    pub fn condensed(&self, meshed: &PerGear<MeshedGear>) -> Result<CondensedPair<'a>, CalibrationError> {
+    pub(crate) fn condensed(&self, meshed: &PerGear<MeshedGear>) -> Result<CondensedPair<'a>, CalibrationError> {
         let elastic = self.elastic();
         let gears = PerGear::try_in_parallel(|gear| meshed[gear].condense(self.pair, elastic[gear]))?;
         Ok(CondensedPair::new(self.pair, &elastic, gears))
@@ -140,7 +140,7 @@ impl<'a> Setup<'a> {
     ///
     /// # Errors
     /// [`CalibrationError::Model`]
-    pub fn convergence(&self) -> Result<Vec<ResolutionRow>, CalibrationError> {
+    pub(crate) fn convergence(&self) -> Result<Vec<ResolutionRow>, CalibrationError> {
         RESOLUTIONS
             .par_iter()
             .map(|&elements_per_half_width| {
@@ -155,7 +155,7 @@ impl<'a> Setup<'a> {
     ///
     /// # Errors
     /// [`CalibrationError::Model`]
-    pub fn rim_depths(&self) -> Result<Vec<RimRow>, CalibrationError> {
+    pub(crate) fn rim_depths(&self) -> Result<Vec<RimRow>, CalibrationError> {
         let module_mm = self.pair.spec.normal_module_mm;
         let held = |depth_modules: f64| {
             let clamp_radius_mm = PerGear::from_fn(|gear| {
@@ -181,7 +181,7 @@ impl<'a> Setup<'a> {
     ///
     /// # Errors
     /// [`CalibrationError::Model`]
-    pub fn neighbours(&self) -> Result<Vec<NeighbourRow>, CalibrationError> {
+    pub(crate) fn neighbours(&self) -> Result<Vec<NeighbourRow>, CalibrationError> {
         let least = self.pair.teeth.as_ref().map(|tooth| tooth.teeth);
         let least = least.pinion.min(least.wheel);
         let mut kinds = vec![(Body::Ring, "whole ring".to_owned())];

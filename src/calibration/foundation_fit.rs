@@ -82,7 +82,7 @@ impl FitRow {
 }
 
 /// Fits the curve of `criterion` to the fitted points, and continues it to the ends of the path, A and E.
-pub fn fit(
+pub(crate) fn fit(
     criterion: MatchCriterion,
     contacts: &[SingleContact],
     reference_n_per_mm: f64,
@@ -149,7 +149,7 @@ fn line(points: &[(f64, f64)]) -> (f64, f64) {
 }
 
 /// The curve against all points away from the edges.
-pub fn compare(criterion: MatchCriterion, curve: &FoundationCurve, contacts: &[SingleContact]) -> FoundationFit {
+pub(crate) fn compare(criterion: MatchCriterion, curve: &FoundationCurve, contacts: &[SingleContact]) -> FoundationFit {
     let rows: Vec<FitRow> =
         contacts.iter().filter(|c| c.purpose != Purpose::AtEdge).map(|c| row(criterion, curve, c)).collect();
     let errors = |fitted: bool| FitErrors::of(criterion, rows.iter().filter(|row| row.fitted == fitted));
@@ -157,7 +157,7 @@ pub fn compare(criterion: MatchCriterion, curve: &FoundationCurve, contacts: &[S
 }
 
 /// Curves and fits of all criteria.
-pub fn all(
+pub(crate) fn all(
     contacts: &[SingleContact],
     reference_n_per_mm: f64,
     ends_mm: (f64, f64),

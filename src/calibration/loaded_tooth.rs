@@ -38,7 +38,7 @@ struct Stretch {
 }
 
 /// The working flank of a condensed gear, ready to be loaded.
-pub struct LoadedTooth<'a> {
+pub(crate) struct LoadedTooth<'a> {
     tooth: &'a Tooth,
     body: &'a GearCompliance,
     flank: &'a FlankSurface,
@@ -50,7 +50,7 @@ pub struct LoadedTooth<'a> {
 
 impl<'a> LoadedTooth<'a> {
     /// The flank of a gear with teeth as `tooth`.
-    pub fn new(tooth: &'a Tooth, body: &'a GearCompliance, flank: &'a FlankSurface) -> Self {
+    pub(crate) fn new(tooth: &'a Tooth, body: &'a GearCompliance, flank: &'a FlankSurface) -> Self {
         let candidates = &body.sector.sector.candidates;
         let candidate =
             flank.surface.mesh_nodes.iter().map(|node| candidates.iter().position(|own| own == node)).collect();
@@ -58,12 +58,12 @@ impl<'a> LoadedTooth<'a> {
     }
 
     /// Least and greatest ρ at which an ellipse of half-width `half_width_mm` lies wholly on the resolved involute.
-    pub fn limits_mm(&self, half_width_mm: f64) -> Option<(f64, f64)> {
+    pub(crate) fn limits_mm(&self, half_width_mm: f64) -> Option<(f64, f64)> {
         limits_mm(self.tooth, self.flank, half_width_mm)
     }
 
     /// Forces of `line_load_n_per_mm` on the tooth as an ellipse of half-width `half_width_mm` around ρ.
-    pub fn ellipse(&self, rho_mm: f64, half_width_mm: f64, line_load_n_per_mm: f64) -> Option<ToothForce> {
+    pub(crate) fn ellipse(&self, rho_mm: f64, half_width_mm: f64, line_load_n_per_mm: f64) -> Option<ToothForce> {
         let (centre_mm, direction) = (self.tooth.involute.arc_mm(rho_mm), direction(&self.tooth.load_line(rho_mm)));
         let mut forces = vec![0.0; 2 * self.body.sector.sector.candidates.len()];
         let step = PI / SAMPLES as f64;
@@ -78,7 +78,7 @@ impl<'a> LoadedTooth<'a> {
     }
 
     /// Displacement at ρ of tooth `p` in the direction of a load there, under `force` on tooth `q`, mm.
-    pub fn surface_mm(&self, p: usize, rho_mm: f64, q: usize, force: &ToothForce) -> Option<f64> {
+    pub(crate) fn surface_mm(&self, p: usize, rho_mm: f64, q: usize, force: &ToothForce) -> Option<f64> {
         let point = self.along(self.tooth.involute.arc_mm(rho_mm), direction(&self.tooth.load_line(rho_mm)))?;
         let (rows, weights): (Vec<usize>, Vec<f64>) = point.into_iter().unzip();
         let (columns, forces): (Vec<usize>, Vec<f64>) = force.iter().copied().unzip();
@@ -92,7 +92,7 @@ impl<'a> LoadedTooth<'a> {
 
     /// The point inside where a load at ρ crosses the tooth's centre line, with its displacement in the direction of that
     /// load.
-    pub fn inside(&self, rho_mm: f64) -> Option<Inside> {
+    pub(crate) fn inside(&self, rho_mm: f64) -> Option<Inside> {
         self.inside_along(&self.tooth.load_line(rho_mm))
     }
 
@@ -110,7 +110,7 @@ impl<'a> LoadedTooth<'a> {
     }
 
     /// Displacement of the point inside tooth `p`, in the direction of its load, under forces on the fine teeth, mm.
-    pub fn inside_mm(&self, inside: &Inside, p: usize, forces: &[ToothForce]) -> f64 {
+    pub(crate) fn inside_mm(&self, inside: &Inside, p: usize, forces: &[ToothForce]) -> f64 {
         let own: f64 = forces[p].iter().map(|&(column, f)| inside.answer.by_force[column] * f).sum();
         let cuts = self.body.cut_displacement_mm(p, forces);
         own + cuts.iter().zip(&inside.answer.by_cut).map(|(u, by)| u * by).sum::<f64>()
@@ -119,7 +119,7 @@ impl<'a> LoadedTooth<'a> {
     /// Displacement over load of the point inside where `line` crosses the centre line, under a concentrated load along it at ρ,
     /// mm²/N. How a load is spread over the flank does not matter there, so that it may act on an edge; ρ counts up to where a
     /// rounding begins.
-    pub fn bending_mm2_per_n(&self, rho_mm: f64, line: &LoadLine) -> Option<f64> {
+    pub(crate) fn bending_mm2_per_n(&self, rho_mm: f64, line: &LoadLine) -> Option<f64> {
         let (first, last) = (self.stretches.first()?, self.stretches.last()?);
         let arc_mm = self.tooth.involute.arc_mm(rho_mm).clamp(first.arc_mm[0], last.arc_mm[2]);
         let mut force = self.along(arc_mm, direction(line))?;
@@ -130,12 +130,12 @@ impl<'a> LoadedTooth<'a> {
     }
 
     /// Number of the tooth of the reference pair.
-    pub fn middle(&self) -> usize {
+    pub(crate) fn middle(&self) -> usize {
         self.body.teeth() / 2
     }
 
     /// Number of fine teeth.
-    pub fn teeth(&self) -> usize {
+    pub(crate) fn teeth(&self) -> usize {
         self.body.teeth()
     }
 
@@ -160,14 +160,14 @@ fn direction(line: &LoadLine) -> Vector2<f64> {
 }
 
 /// A point inside a tooth.
-pub struct Inside {
+pub(crate) struct Inside {
     /// Its depth below the flank, mm.
     pub depth_mm: f64,
     answer: Answer,
 }
 
 /// Least and greatest ρ at which an ellipse of half-width `half_width_mm` lies wholly on the resolved involute of `flank`.
-pub fn limits_mm(tooth: &Tooth, flank: &FlankSurface, half_width_mm: f64) -> Option<(f64, f64)> {
+pub(crate) fn limits_mm(tooth: &Tooth, flank: &FlankSurface, half_width_mm: f64) -> Option<(f64, f64)> {
     let stretches = stretches(tooth, flank);
     let (low, high) = (stretches.first()?.arc_mm[0] + half_width_mm, stretches.last()?.arc_mm[2] - half_width_mm);
     let rho = |arc_mm: f64| (2.0 * tooth.involute.base_radius_mm * arc_mm).sqrt();
@@ -175,7 +175,7 @@ pub fn limits_mm(tooth: &Tooth, flank: &FlankSurface, half_width_mm: f64) -> Opt
 }
 
 /// The nodes of the mesh under an ellipse around ρ: what such a load needs as candidates.
-pub fn nodes_under(tooth: &Tooth, flank: &FlankSurface, rho_mm: f64, half_width_mm: f64) -> Vec<u32> {
+pub(crate) fn nodes_under(tooth: &Tooth, flank: &FlankSurface, rho_mm: f64, half_width_mm: f64) -> Vec<u32> {
     let centre_mm = tooth.involute.arc_mm(rho_mm);
     let mut nodes: Vec<u32> = stretches(tooth, flank)
         .iter()

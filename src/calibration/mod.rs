@@ -12,16 +12,16 @@
 //!
 //! Everything is per mm of face width, elastic, without friction, in plane strain.
 
-pub mod bodies;
-pub mod file;
-pub mod foundation_fit;
-pub mod identity;
-pub mod loaded_tooth;
-pub mod single_contact;
-pub mod stiffness_variation;
-pub mod tooth_family;
-pub mod tooth_stiffness;
-pub mod wear_reference;
+pub(crate) mod bodies;
+pub(crate) mod file;
+pub(crate) mod foundation_fit;
+pub(crate) mod identity;
+pub(crate) mod loaded_tooth;
+pub(crate) mod single_contact;
+pub(crate) mod stiffness_variation;
+pub(crate) mod tooth_family;
+pub(crate) mod tooth_stiffness;
+pub(crate) mod wear_reference;
 
 use std::collections::BTreeMap;
 
@@ -42,7 +42,7 @@ use crate::gear::{Gear, PerGear};
 use crate::stiffness::curve::PairCompliance;
 
 /// Positions of the stiffness curve.
-pub const STIFFNESS_POSITIONS: usize = 61;
+pub(crate) const STIFFNESS_POSITIONS: usize = 61;
 /// Positions of the curve that a run makes for itself: straight lines between them are off by 1e-4.
 const OWN_POSITIONS: usize = 31;
 
@@ -135,7 +135,7 @@ impl Calibration {
 ///
 /// # Errors
 /// [`CalibrationError`]
-pub fn pair_compliance(
+pub(crate) fn pair_compliance(
     condensed: &CondensedPair<'_>,
     material: &PerGear<Material>,
     line_load_n_per_mm: f64,

@@ -34,9 +34,9 @@ use crate::gear::conjugate::ConjugateFlanks;
 use crate::gear::{Gear, PerGear};
 
 /// Loads that the fit is made on, in units of the scene's, largest first.
-pub const FITTED_LOADS: [f64; 4] = [1.5, 1.0, 0.5, 0.25];
+pub(crate) const FITTED_LOADS: [f64; 4] = [1.5, 1.0, 0.5, 0.25];
 /// Loads that are held out.
-pub const HELD_OUT_LOADS: [f64; 3] = [1.25, 0.7, 0.35];
+pub(crate) const HELD_OUT_LOADS: [f64; 3] = [1.25, 0.7, 0.35];
 /// Positions that the fit is made on; those held out lie halfway between them.
 const FITTED_POSITIONS: usize = 17;
 /// Half-widths that are kept clear of the edges at the greatest load.
@@ -135,7 +135,7 @@ struct SolvedPosition {
 ///
 /// # Errors
 /// [`CalibrationError::Contact`], [`CalibrationError::NoClearPosition`].
-pub fn solve(
+pub(crate) fn solve(
     condensed: &CondensedPair<'_>,
     loaded: &LoadedPair<'_>,
     reference_n_per_mm: f64,

@@ -59,7 +59,7 @@ impl VariationOf {
 }
 
 /// The courses over the positions of `deflections` (at least one).
-pub fn courses(pair: &GearPair, deflections: &[PairDeflection]) -> Vec<StiffnessVariation> {
+pub(crate) fn courses(pair: &GearPair, deflections: &[PairDeflection]) -> Vec<StiffnessVariation> {
     let path = &pair.path;
     VariationOf::ALL
         .into_iter()

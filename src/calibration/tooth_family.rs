@@ -66,7 +66,7 @@ pub struct FamilyMember {
 ///
 /// # Errors
 /// [`CalibrationError::Model`]
-pub fn family(setup: &Setup<'_>) -> Result<Vec<FamilyMember>, CalibrationError> {
+pub(crate) fn family(setup: &Setup<'_>) -> Result<Vec<FamilyMember>, CalibrationError> {
     let members: Vec<Option<FamilyMember>> =
         TEETH.par_iter().map(|&teeth| member(setup, teeth)).collect::<Result<_, _>>()?;
     Ok(members.into_iter().flatten().collect())

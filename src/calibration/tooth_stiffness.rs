@@ -108,7 +108,7 @@ impl PairDeflection {
 }
 
 /// A pair of condensed gears, ready to be loaded.
-pub struct LoadedPair<'a> {
+pub(crate) struct LoadedPair<'a> {
     /// Geometry.
     pub pair: &'a GearPair,
     /// Its materials.
@@ -121,7 +121,7 @@ pub struct LoadedPair<'a> {
 
 impl<'a> LoadedPair<'a> {
     /// The teeth of `condensed`.
-    pub fn new(condensed: &'a CondensedPair<'a>, material: &PerGear<Material>) -> Self {
+    pub(crate) fn new(condensed: &'a CondensedPair<'a>, material: &PerGear<Material>) -> Self {
         let pair = condensed.pair;
         Self {
             pair,
@@ -134,13 +134,13 @@ impl<'a> LoadedPair<'a> {
     }
 
     /// The closed form at a position.
-    pub fn hertz(&self, position_mm: f64) -> Flattening {
+    pub(crate) fn hertz(&self, position_mm: f64) -> Flattening {
         hertz::flattening(self.pair, &self.material, position_mm)
     }
 
     /// First and last position at which the ellipse under `line_load_n_per_mm` lies wholly on both flanks, drawn in by
     /// `half_widths` times its half-width.
-    pub fn clear_of_the_edges_mm(&self, line_load_n_per_mm: f64, half_widths: f64) -> Option<(f64, f64)> {
+    pub(crate) fn clear_of_the_edges_mm(&self, line_load_n_per_mm: f64, half_widths: f64) -> Option<(f64, f64)> {
         let path = &self.pair.path;
         let half_width_mm =
             |position_mm| half_widths * self.hertz(position_mm).contact.loaded(line_load_n_per_mm).half_width_mm;
@@ -168,7 +168,7 @@ impl<'a> LoadedPair<'a> {
     }
 
     /// Both teeth under `line_load_n_per_mm` at a position; `None` where the ellipse hangs over an edge.
-    pub fn deflection(&self, position_mm: f64, line_load_n_per_mm: f64) -> Option<PairDeflection> {
+    pub(crate) fn deflection(&self, position_mm: f64, line_load_n_per_mm: f64) -> Option<PairDeflection> {
         let (w, path) = (line_load_n_per_mm, &self.pair.path);
         let hertz = self.hertz(position_mm);
         let half_width_mm = hertz.contact.loaded(w).half_width_mm;
@@ -222,7 +222,7 @@ impl<'a> LoadedPair<'a> {
     ///
     /// # Errors
     /// [`CalibrationError::NoClearPosition`]
-    pub fn along_the_path(
+    pub(crate) fn along_the_path(
         &self,
         count: usize,
         line_load_n_per_mm: f64,
@@ -237,7 +237,7 @@ impl<'a> LoadedPair<'a> {
     /// The curve for [`crate::stiffness::TeethSpring`], which adds the closed-form flattening again: the whole compliance of
     /// the finite elements less that flattening, both under `line_load_n_per_mm`, so that the whole pair comes out right.
     /// Next to the edges, and beyond, it changes as bending does: there an ellipse feels the corner, which half-planes do not.
-    pub fn curve(&self, deflections: &[PairDeflection], line_load_n_per_mm: f64) -> PairCompliance {
+    pub(crate) fn curve(&self, deflections: &[PairDeflection], line_load_n_per_mm: f64) -> PairCompliance {
         let clear = self.clear_of_the_edges_mm(line_load_n_per_mm, CLEAR_OF_CORNERS);
         let counts = |at: &&PairDeflection| clear.is_none_or(|(low, high)| (low..=high).contains(&at.position_mm));
         let teeth = |at: &PairDeflection| {
@@ -283,6 +283,6 @@ impl<'a> LoadedPair<'a> {
 }
 
 /// `count` (at least 2) places from `low` to `high`, both included.
-pub fn evenly(low: f64, high: f64, count: usize) -> Vec<f64> {
+pub(crate) fn evenly(low: f64, high: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| low + (high - low) * k as f64 / (count - 1) as f64).collect()
 }

@@ -13,11 +13,11 @@ use serde::{Deserialize, Serialize};
 use crate::gear::PerGear;
 
 /// Loads, in units of the scene's.
-pub const LOADS: [f64; 3] = [0.5, 1.0, 1.25];
+pub(crate) const LOADS: [f64; 3] = [0.5, 1.0, 1.25];
 /// Intervals of the flank points.
-pub const FLANK_POINTS: usize = 150;
+pub(crate) const FLANK_POINTS: usize = 150;
 /// Positions from A to E.
-pub const POSITIONS: usize = 200;
+pub(crate) const POSITIONS: usize = 200;
 
 /// One load.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -19,7 +19,7 @@ use super::{say, stdout, warn};
 
 /// Arguments of `accuracy`.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(super) struct Args {
     /// The scene file; - reads standard input
     scene: PathBuf,
     /// The folder for the results; files of an earlier comparison are replaced
@@ -46,7 +46,7 @@ fn per_cent(text: &str) -> Result<f64, String> {
     }
 }
 
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let scene = LoadedScene::open(&args.scene)?;
     warn(scene.warnings());
     report::writable(&args.out)?;

@@ -22,7 +22,7 @@ const LEAST_INTERVAL: Duration = Duration::from_millis(250);
 const INTERVAL_OVER_WRITING: u32 = 20;
 
 /// A run that can begin.
-pub struct BegunRun {
+pub(super) struct BegunRun {
     /// Its scene, with input files as they lie in the folder.
     pub scene: LoadedScene,
     /// Its folder, which holds the scene and the input files.
@@ -34,14 +34,14 @@ pub struct BegunRun {
 }
 
 /// Begins the run of `scene` in the folder `out`.
-pub fn begin(scene: &Path, out: &Path) -> Result<BegunRun, Failure> {
+pub(super) fn begin(scene: &Path, out: &Path) -> Result<BegunRun, Failure> {
     let (scene, identity) = named_as_copied(LoadedScene::open(scene)?);
     report::writable(out)?;
     begin_anew(scene, identity, out)
 }
 
 /// Goes on with the run in the folder `out`: that of `scene`, or, without one, of the scene that lies there. None where it is complete.
-pub fn resume(scene: Option<&Path>, out: &Path) -> Result<Option<BegunRun>, Failure> {
+pub(super) fn resume(scene: Option<&Path>, out: &Path) -> Result<Option<BegunRun>, Failure> {
     let own = out.join(folder::SCENE);
     if scene.is_none() && !own.exists() {
         return Err(InputError::NothingToResume { folder: out.display().to_string() }.into());
@@ -76,7 +76,7 @@ fn begin_anew(scene: LoadedScene, identity: Identity, out: &Path) -> Result<Begu
 
 /// Writes checkpoints into the folder of a run, so rarely that it costs nothing. That a checkpoint cannot be written is no reason to
 /// end a run.
-pub struct FolderKeeper<'a> {
+pub(super) struct FolderKeeper<'a> {
     path: PathBuf,
     identity: &'a Identity,
     warnings: &'a [String],
@@ -86,13 +86,13 @@ pub struct FolderKeeper<'a> {
 
 impl<'a> FolderKeeper<'a> {
     /// For the run `identity` in the folder `out`, whose user was told `warnings`.
-    pub fn new(out: &Path, identity: &'a Identity, warnings: &'a [String]) -> Self {
+    pub(super) fn new(out: &Path, identity: &'a Identity, warnings: &'a [String]) -> Self {
         let due = Mutex::new(Instant::now() + LEAST_INTERVAL);
         Self { path: out.join(folder::CHECKPOINT), identity, warnings, due, failure: Mutex::new(None) }
     }
 
     /// Says why the last checkpoint could not be written, if so.
-    pub fn say_failure(&self) {
+    pub(super) fn say_failure(&self) {
         let failure = self.failure.lock().ok().and_then(|mut failure| failure.take());
         if let Some(error) = failure {
             say(&format!("warning: the last checkpoint, {}, could not be written: {error}", self.path.display()));

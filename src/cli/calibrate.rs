@@ -18,7 +18,7 @@ use super::{figures, model_failure, say, stdout, warn};
 
 /// Arguments of `calibrate`.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(super) struct Args {
     /// The scene file; - reads standard input
     scene: PathBuf,
     /// The calibration file, JSON; a page of the same name with the ending .html is written beside it
@@ -32,7 +32,7 @@ pub struct Args {
     quiet: bool,
 }
 
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
     // A calibration that the scene names may not be there yet: it is about to be made.
     let text = SceneText::read(&args.scene)?;
     let resolved = &text.resolve()?;

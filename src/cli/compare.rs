@@ -40,7 +40,7 @@ where material is gone) or wear_um or wear_mm (rises there); then a row for each
 /// Arguments of `compare`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = FILE_HELP)]
-pub struct Args {
+pub(super) struct Args {
     /// The folder of a finished `gearwear run`
     run: PathBuf,
     /// The measured profile, a CSV file; - reads standard input
@@ -131,7 +131,7 @@ impl Args {
     }
 }
 
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let folder = RunFolder::read(&args.run).map_err(InputError::RunFolder)?;
     let scene = LoadedScene::open(RunFolder::scene_path(&args.run))?;
     let resolved = &scene.resolved;

@@ -36,14 +36,14 @@ struct Counted {
 }
 
 /// Watches the runs for the user, who may interrupt them.
-pub struct CountedProgress {
+pub(super) struct CountedProgress {
     display: Display,
     interrupted: Arc<AtomicBool>,
 }
 
 impl CountedProgress {
     /// A bar on a terminal, a log elsewhere, nothing where `quiet`; `interrupted` is set when the user wants to stop.
-    pub fn new(quiet: bool, interrupted: Arc<AtomicBool>) -> Self {
+    pub(super) fn new(quiet: bool, interrupted: Arc<AtomicBool>) -> Self {
         let display = if quiet {
             Display::Quiet
         } else if std::io::stderr().is_terminal() {
@@ -55,7 +55,7 @@ impl CountedProgress {
     }
 
     /// Ends the display.
-    pub fn finish(&self) {
+    pub(super) fn finish(&self) {
         if let Display::Bar(bar) = &self.display {
             bar.finish_and_clear();
         }

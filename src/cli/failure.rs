@@ -30,7 +30,7 @@ const MOST_SHOWN: usize = 20;
 
 /// Why a command ended without its result.
 #[derive(Debug, thiserror::Error)]
-pub enum Failure {
+pub(super) enum Failure {
     /// The scene or problem file is wrong.
     #[error(transparent)]
     Scene(SceneError),
@@ -82,7 +82,7 @@ pub enum Failure {
 
 /// What can be wrong with a command beside the scene's content.
 #[derive(Debug, thiserror::Error, Diagnostic)]
-pub enum InputError {
+pub(super) enum InputError {
     /// There is no such validation case, or it is none.
     #[error(transparent)]
     ValidationCase(LibraryError),
@@ -329,7 +329,7 @@ fn causes(error: &dyn std::error::Error) -> String {
 
 impl Failure {
     /// Says on standard error what is wrong.
-    pub fn print(self) {
+    pub(super) fn print(self) {
         match self {
             Failure::Scene(scene) => print_problems(scene),
             Failure::Input(error) => say(&format!("{:?}", Report::new(error))),
@@ -346,7 +346,7 @@ impl Failure {
     }
 
     /// The exit status of the program, as the contract fixes it.
-    pub fn exit_status(&self) -> u8 {
+    pub(super) fn exit_status(&self) -> u8 {
         match self {
             Failure::Scene(_) | Failure::Input(_) => 2,
             Failure::Run(_)

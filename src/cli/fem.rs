@@ -20,7 +20,7 @@ use super::{fem_scene, figures, stdout, warn};
 
 /// Arguments of `fem`.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(super) struct Args {
     /// The file, TOML: a problem with its own [mesh], or a scene with a [pair]; - reads standard input
     file: PathBuf,
     /// The folder for the results; files of an earlier run are replaced
@@ -53,7 +53,7 @@ impl Args {
     }
 }
 
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let text = SceneText::read(&args.file)?;
     // Text that is no TOML is refused, with its place, by whoever reads it next.
     let table: toml::Table = text.text.parse().unwrap_or_default();

@@ -21,7 +21,7 @@ use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
 use super::{figures, model_failure, say, stdout, warn};
 
-pub fn run(args: &Args, text: SceneText) -> Result<(), Failure> {
+pub(super) fn run(args: &Args, text: SceneText) -> Result<(), Failure> {
     let resolved = &text.resolve()?;
     warn(&resolved.warnings);
     report::writable(&args.out)?;

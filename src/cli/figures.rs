@@ -4,7 +4,7 @@ use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError};
 use crate::results::run::{HelicalSummary, OverWidthSummary, Summary};
 
 /// The table.
-pub fn table(summary: &Summary) -> String {
+pub(super) fn table(summary: &Summary) -> String {
     let (pinion, wheel) = (&summary.pinion, &summary.wheel);
     let (new, worn) = (&summary.new, &summary.worn);
     let mut text = format!("{}\n\n{}", summary.title, row("", ["pinion", "wheel"]));
@@ -107,7 +107,7 @@ fn estimated_errors(error: &ErrorSummary) -> String {
 }
 
 /// An estimate with two significant digits: more it does not have.
-pub fn two_digits(value: f64) -> String {
+pub(super) fn two_digits(value: f64) -> String {
     let magnitude = value.abs();
     let decimals = if magnitude > 0.0 { (1 - magnitude.log10().floor() as i32).clamp(0, 4) as usize } else { 0 };
     format!("{value:.decimals$}")
@@ -119,12 +119,12 @@ fn figures(name: &str, values: [f64; 2]) -> String {
 }
 
 /// A line of the table: a name and two values.
-pub fn row(name: &str, values: [&str; 2]) -> String {
+pub(super) fn row(name: &str, values: [&str; 2]) -> String {
     format!("  {name:38}{:>12}{:>12}\n", values[0], values[1])
 }
 
 /// A figure with four significant digits, or all digits of a large whole one.
-pub fn digits(value: f64) -> String {
+pub(super) fn digits(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude != 0.0 && !(1e-3..1e9).contains(&magnitude) {
         return format!("{value:.3e}");

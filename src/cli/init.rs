@@ -7,13 +7,13 @@ use super::stdout;
 
 /// Arguments of `init`.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(super) struct Args {
     /// The scene to print
     #[arg(default_value = presets::PRESETS[0].name, help = format!("The scene to print: {}", presets::names().join(", ")))]
     preset: String,
 }
 
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let name = args.preset.clone();
     let preset = presets::find(&name).ok_or(InputError::UnknownPreset { name })?;
     stdout::print(preset.text)

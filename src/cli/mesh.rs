@@ -16,7 +16,7 @@ use super::{stdout, warn};
 
 /// Arguments of `mesh`.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(super) struct Args {
     /// The scene file; - reads standard input
     scene: PathBuf,
     /// The mesh file; its ending says the format
@@ -27,7 +27,7 @@ pub struct Args {
     position: Option<f64>,
 }
 
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let resolved = SceneText::read(&args.scene)?.resolve()?;
     warn(&resolved.warnings);
     warn(resolved.scene.plane_section_warning().as_slice());

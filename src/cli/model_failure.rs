@@ -7,7 +7,7 @@ use crate::scene::loaded::SceneText;
 use super::failure::{Failure, InputError};
 
 /// The failure that `error` is, if the scene is to blame: at its key, where it has one.
-pub fn in_the_scene(error: &ModelError, text: &SceneText) -> Option<Failure> {
+pub(super) fn in_the_scene(error: &ModelError, text: &SceneText) -> Option<Failure> {
     match *error {
         ModelError::TooFewTeeth { teeth, least, .. } => {
             Some(text.refused(vec![Problem::of_sector_teeth(&text.text, teeth, least)]).into())

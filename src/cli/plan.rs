@@ -12,7 +12,7 @@ use super::{stdout, warn};
 
 /// Arguments of `plan`.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(super) struct Args {
     /// The scene file; - reads standard input
     scene: PathBuf,
     /// How to print the plan
@@ -29,7 +29,7 @@ enum Format {
     Json,
 }
 
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let resolved = SceneText::read(&args.scene)?.resolve()?;
     warn(&resolved.warnings);
     let plan = Plan::of(&resolved.scene);

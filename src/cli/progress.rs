@@ -23,7 +23,7 @@ enum Display {
 }
 
 /// Watches a run for the user, who may interrupt it.
-pub struct Progress {
+pub(super) struct Progress {
     display: Display,
     interrupted: Arc<AtomicBool>,
     /// When the interrupt was first noticed.
@@ -34,7 +34,7 @@ pub struct Progress {
 
 impl Progress {
     /// A bar on a terminal, a log elsewhere, nothing where `quiet`; `interrupted` is set when the user wants to stop.
-    pub fn new(quiet: bool, interrupted: Arc<AtomicBool>) -> Self {
+    pub(super) fn new(quiet: bool, interrupted: Arc<AtomicBool>) -> Self {
         let display = if quiet {
             Display::Quiet
         } else if std::io::stderr().is_terminal() {
@@ -46,13 +46,13 @@ impl Progress {
     }
 
     /// Those of `warnings` that have not been given during the run.
-    pub fn not_yet_told(&self, warnings: &[String]) -> Vec<String> {
+    pub(super) fn not_yet_told(&self, warnings: &[String]) -> Vec<String> {
         let told = self.told.lock().map(|told| told.clone()).unwrap_or_default();
         warnings.iter().filter(|warning| !told.contains(warning)).cloned().collect()
     }
 
     /// Ends the display.
-    pub fn finish(&self) {
+    pub(super) fn finish(&self) {
         match &self.display {
             Display::Quiet => {}
             Display::Log(stage) => log_end(stage, None),

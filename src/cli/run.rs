@@ -28,7 +28,7 @@ const INTERRUPTED: i32 = 130;
 
 /// Arguments of `run`.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(super) struct Args {
     /// The scene file; - reads standard input. May be left out with --resume
     #[arg(required_unless_present = "resume")]
     scene: Option<PathBuf>,
@@ -46,7 +46,7 @@ pub struct Args {
     quiet: bool,
 }
 
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let pool = pool(args.threads)?;
     let begun = match (&args.scene, &args.out, &args.resume) {
         (scene, _, Some(folder)) => match begun_run::resume(scene.as_deref(), folder)? {

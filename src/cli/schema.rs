@@ -7,13 +7,13 @@ use super::stdout;
 
 /// Arguments of `schema`.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(super) struct Args {
     /// The schema of a finite-element problem with its own mesh instead
     #[arg(long)]
     problem: bool,
 }
 
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let schema = if args.problem { fem_problem::schema() } else { schema() };
     stdout::print(&format!("{schema:#}\n"))
 }

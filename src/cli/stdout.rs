@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use super::failure::Failure;
 
 /// Prints `text` as it is.
-pub fn print(text: &str) -> Result<(), Failure> {
+pub(super) fn print(text: &str) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
     out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|_| Failure::Closed)
 }

@@ -26,7 +26,7 @@ use super::{say, stdout, warn};
 /// Arguments of `sweep`.
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
-pub struct Args {
+pub(super) struct Args {
     #[command(flatten)]
     run: Option<RunArgs>,
     #[command(subcommand)]
@@ -35,7 +35,7 @@ pub struct Args {
 
 /// A sweep to run.
 #[derive(Debug, clap::Args)]
-pub struct RunArgs {
+pub(super) struct RunArgs {
     /// The scene file; - reads standard input
     #[arg(required = true)]
     scene: PathBuf,
@@ -68,7 +68,7 @@ enum Part {
 
 /// Shards to merge.
 #[derive(Debug, clap::Args)]
-pub struct MergeArgs {
+pub(super) struct MergeArgs {
     /// The folders of the shards, in any order
     #[arg(value_name = "DIR", required = true)]
     folders: Vec<PathBuf>,
@@ -90,7 +90,7 @@ fn shard(text: &str) -> Result<Shard, String> {
     }
 }
 
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
     match (&args.part, &args.run) {
         (Some(Part::Merge(args)), _) => merge_shards(args),
         (None, Some(args)) => run_sweep(args),

@@ -17,7 +17,7 @@ use super::{say, stdout};
 
 /// Arguments of `validate`.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(super) struct Args {
     /// Cases: names of built-in ones, or folders with a case.toml; default: all built-in cases of the tier
     #[arg(value_name = "CASE")]
     cases: Vec<String>,
@@ -50,7 +50,7 @@ fn tier(text: &str) -> Result<Tier, String> {
     found.ok_or_else(|| format!("allowed: {}", Tier::ALL.map(Tier::name).join(", ")))
 }
 
-pub fn run(args: &Args) -> Result<(), Failure> {
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
     if let Some(folder) = &args.export {
         report::create_folder(folder)?;
         library::export(folder).map_err(InputError::ValidationCase)?;

@@ -53,7 +53,7 @@ const HALVINGS: usize = 60;
 
 /// The foundations around A and E.
 #[derive(Debug, Clone, PartialEq)]
-pub struct EdgeFoundations {
+pub(crate) struct EdgeFoundations {
     /// From within the path outwards, before A and after E.
     ends: [Vec<EdgePosition>; 2],
 }
@@ -67,7 +67,7 @@ struct EdgePosition {
 
 /// FoundationStiffness at one position: by load, increasing.
 #[derive(Debug, Clone, PartialEq)]
-pub struct EdgeStiffness {
+pub(crate) struct EdgeStiffness {
     points: Vec<EdgePoint>,
 }
 
@@ -84,7 +84,7 @@ impl EdgeFoundations {
     /// Matched by `criterion` where the tip edges of `pair` touch under loads about `line_load_n_per_mm`. What the approach of a
     /// calibrated foundation, `approach`, has under that load beside the closed-form flattening is kept in proportion to the load: the spring
     /// of the teeth lacks it.
-    pub fn new(
+    pub(crate) fn new(
         pair: &GearPair,
         material: &PerGear<Material>,
         line_load_n_per_mm: f64,
@@ -113,7 +113,7 @@ impl EdgeFoundations {
     }
 
     /// The springs at a position; none where no edge counts.
-    pub fn at(&self, position_mm: f64) -> Option<EdgeStiffness> {
+    pub(crate) fn at(&self, position_mm: f64) -> Option<EdgeStiffness> {
         self.ends.iter().find_map(|places| {
             let first_mm = places.first()?.position_mm;
             let outwards = (places.last()?.position_mm - first_mm).signum();
@@ -155,19 +155,19 @@ impl EdgeStiffness {
     }
 
     /// K/H under a line load (> 0), MPa/mm.
-    pub fn mpa_per_mm(&self, line_load_n_per_mm: f64) -> f64 {
+    pub(crate) fn mpa_per_mm(&self, line_load_n_per_mm: f64) -> f64 {
         Self::power_law(self.segment(line_load_n_per_mm.ln(), |p| p.ln_line_load)).mpa_per_mm(line_load_n_per_mm)
     }
 
     /// As [`FoundationStiffness::load_and_stiffness`].
-    pub fn load_and_stiffness(&self, penetration_mm2: f64, contact_mm: f64) -> (f64, f64) {
+    pub(crate) fn load_and_stiffness(&self, penetration_mm2: f64, contact_mm: f64) -> (f64, f64) {
         // U = w/(K/H) tells the segment.
         let segment = self.segment(penetration_mm2.ln(), |p| p.ln_line_load - p.ln_mpa_per_mm);
         Self::power_law(segment).load_and_stiffness(penetration_mm2, contact_mm)
     }
 
     /// δ − d under a line load, and its derivative by the load.
-    pub fn further_approach_mm(&self, line_load_n_per_mm: f64) -> (f64, f64) {
+    pub(crate) fn further_approach_mm(&self, line_load_n_per_mm: f64) -> (f64, f64) {
         if line_load_n_per_mm <= 0.0 {
             return (0.0, 0.0);
         }

@@ -25,7 +25,7 @@ use super::settings::MatchCriterion;
 use crate::reference::flattening::Flattening;
 
 /// K/H in MPa/mm that makes the foundation agree with `hertz` under `line_load_n_per_mm`.
-pub fn matched_mpa_per_mm(criterion: MatchCriterion, hertz: &Flattening, line_load_n_per_mm: f64) -> f64 {
+pub(crate) fn matched_mpa_per_mm(criterion: MatchCriterion, hertz: &Flattening, line_load_n_per_mm: f64) -> f64 {
     let (w, radius) = (line_load_n_per_mm, hertz.contact.relative_radius_mm());
     let a_hertz = hertz.contact.loaded(w).half_width_mm;
     let a_bed = match criterion {
@@ -38,7 +38,7 @@ pub fn matched_mpa_per_mm(criterion: MatchCriterion, hertz: &Flattening, line_lo
 
 /// The springs of a foundation: one K/H everywhere, or a curve of it.
 #[derive(Debug, Clone, PartialEq)]
-pub enum WinklerFoundation {
+pub(crate) enum WinklerFoundation {
     /// The same K/H at every position and load.
     Uniform {
         /// K/H, MPa/mm.
@@ -57,7 +57,7 @@ pub enum WinklerFoundation {
 
 impl WinklerFoundation {
     /// The springs at one position that have the approach of the elastic bodies, where the foundation knows them.
-    pub fn approach_at(&self, position_mm: f64) -> Option<FoundationStiffness> {
+    pub(crate) fn approach_at(&self, position_mm: f64) -> Option<FoundationStiffness> {
         match self {
             Self::Uniform { .. } => None,
             Self::Curve { approach, .. } => Some(approach.springs_at(position_mm)),
@@ -65,7 +65,7 @@ impl WinklerFoundation {
     }
 
     /// The springs at one position where a tip edge touches, if the foundation knows them.
-    pub fn at_edge(&self, position_mm: f64) -> Option<EdgeStiffness> {
+    pub(crate) fn at_edge(&self, position_mm: f64) -> Option<EdgeStiffness> {
         match self {
             Self::Curve { edges: Some(edges), .. } => edges.at(position_mm),
             _ => None,
@@ -73,7 +73,7 @@ impl WinklerFoundation {
     }
 
     /// The springs at one position.
-    pub fn at(&self, position_mm: f64) -> FoundationStiffness {
+    pub(crate) fn at(&self, position_mm: f64) -> FoundationStiffness {
         match self {
             Self::Uniform { mpa_per_mm } => {
                 FoundationStiffness { mpa_per_mm: *mpa_per_mm, load_exponent: 0.0, reference: 1.0 }
@@ -85,7 +85,7 @@ impl WinklerFoundation {
 
 /// The springs at one position: K/H = K (w/w_ref)^(−m), all alike, softer under more load where m > 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FoundationStiffness {
+pub(crate) struct FoundationStiffness {
     /// K, MPa/mm.
     mpa_per_mm: f64,
     /// m.
@@ -101,7 +101,7 @@ impl FoundationStiffness {
     }
 
     /// K/H under a line load (> 0 where it depends on it), MPa/mm.
-    pub fn mpa_per_mm(&self, line_load_n_per_mm: f64) -> f64 {
+    pub(crate) fn mpa_per_mm(&self, line_load_n_per_mm: f64) -> f64 {
         if self.load_exponent == 0.0 {
             return self.mpa_per_mm;
         }
@@ -114,7 +114,7 @@ impl FoundationStiffness {
     /// ```text
     /// w = w_ref (K U/w_ref)^{1/(1+m)}        w' = w/(1+m) · U'/U
     /// ```
-    pub fn load_and_stiffness(&self, penetration_mm2: f64, contact_mm: f64) -> (f64, f64) {
+    pub(crate) fn load_and_stiffness(&self, penetration_mm2: f64, contact_mm: f64) -> (f64, f64) {
         if self.load_exponent == 0.0 {
             return (self.mpa_per_mm * penetration_mm2, self.mpa_per_mm * contact_mm);
         }
@@ -128,7 +128,7 @@ impl FoundationStiffness {
 
     /// Approach δ = a²/2R against a parabolic gap of radius R = `radius_mm`, and its derivative by the load, of which it is the
     /// power 2 (1 + m)/3.
-    pub fn approach_and_compliance(&self, radius_mm: f64, line_load_n_per_mm: f64) -> (f64, f64) {
+    pub(crate) fn approach_and_compliance(&self, radius_mm: f64, line_load_n_per_mm: f64) -> (f64, f64) {
         if line_load_n_per_mm <= 0.0 {
             return (0.0, 0.0);
         }
@@ -137,13 +137,13 @@ impl FoundationStiffness {
     }
 
     /// Half-width against a parabolic gap of radius `radius_mm`.
-    pub fn half_width_mm(&self, radius_mm: f64, line_load_n_per_mm: f64) -> f64 {
+    pub(crate) fn half_width_mm(&self, radius_mm: f64, line_load_n_per_mm: f64) -> f64 {
         half_width_mm(self.mpa_per_mm(line_load_n_per_mm), radius_mm, line_load_n_per_mm)
     }
 }
 
 /// Half-width of a foundation of stiffness `foundation_mpa_per_mm` against a parabolic gap of radius `radius_mm`.
-pub fn half_width_mm(foundation_mpa_per_mm: f64, radius_mm: f64, line_load_n_per_mm: f64) -> f64 {
+pub(crate) fn half_width_mm(foundation_mpa_per_mm: f64, radius_mm: f64, line_load_n_per_mm: f64) -> f64 {
     (1.5 * line_load_n_per_mm * radius_mm / foundation_mpa_per_mm).cbrt()
 }
 

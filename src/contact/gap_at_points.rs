@@ -13,7 +13,7 @@ const SLACK: f64 = 0.02;
 
 /// The gap that observed points face, and how it changes under them.
 #[derive(Debug, Clone)]
-pub struct GapAtPoints {
+pub(crate) struct GapAtPoints {
     geometric_gap_mm: Vec<f64>,
     mate: Interpolation,
     /// How the gap of each point changes within the cell.
@@ -48,7 +48,7 @@ struct Growth {
 
 /// A point's gap at the cell's position, and its course.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FacedGap<'a> {
+pub(crate) struct FacedGap<'a> {
     /// Gap at the cell's position, mm.
     pub gap_mm: f64,
     growth: &'a Growth,
@@ -58,14 +58,14 @@ pub struct FacedGap<'a> {
 impl FacedGap<'_> {
     /// The greatest penetration on the course, for flanks that have approached each other by `approach_mm`; not positive
     /// where the point never touches.
-    pub fn greatest_penetration_mm(&self, approach_mm: f64) -> f64 {
+    pub(crate) fn greatest_penetration_mm(&self, approach_mm: f64) -> f64 {
         if self.course.from_mm < self.course.to_mm { approach_mm - self.gap_mm - self.growth.least_mm } else { 0.0 }
     }
 
     /// Mean over the course of the positive part of the penetration, for flanks that have approached each other by
     /// `approach_mm`, and the fraction of the course on which it is positive.
     #[inline]
-    pub fn mean_penetration(&self, approach_mm: f64) -> (f64, f64) {
+    pub(crate) fn mean_penetration(&self, approach_mm: f64) -> (f64, f64) {
         let penetration = approach_mm - self.gap_mm;
         let [at_from, at_to] = self.growth.at_ends_mm;
         if penetration > at_from && penetration > at_to {
@@ -122,7 +122,7 @@ impl GapWhilePassing {
 
 impl GapAtPoints {
     /// Of `points` at `position_mm`.
-    pub fn new(flanks: Flanks<'_>, gear: Gear, points: &ObservedPoints, position_mm: f64) -> Self {
+    pub(crate) fn new(flanks: Flanks<'_>, gear: Gear, points: &ObservedPoints, position_mm: f64) -> Self {
         let count = points.sliding_mm.len();
         let mut mate = Interpolation::default();
         let mut geometric_gap_mm: Vec<f64> = Vec::with_capacity(count + 2);
@@ -164,7 +164,7 @@ impl GapAtPoints {
     }
 
     /// The gap at the points of `range` (counted from the first) with `removed_mm` of material gone.
-    pub fn faced<'a>(
+    pub(crate) fn faced<'a>(
         &'a self,
         points: &ObservedPoints,
         gear: Gear,

@@ -34,7 +34,7 @@ use crate::reference::{flattening::Flattening, half_plane::cell_compliance_mm_pe
 
 /// The surface: elastic constants and the load that contacts are expected to carry.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HalfSpace {
+pub(crate) struct HalfSpace {
     /// Of each gear.
     pub material: PerGear<Material>,
     /// Load that the first window and the cells are cut for, N/mm.
@@ -42,7 +42,7 @@ pub struct HalfSpace {
 }
 
 /// Fewest cells in the half-width of the plain contact under the expected load.
-pub const CELLS_PER_HALF_WIDTH: f64 = 16.0;
+pub(crate) const CELLS_PER_HALF_WIDTH: f64 = 16.0;
 /// As many at most, where the flank points are finer.
 const FINEST_CELLS_PER_HALF_WIDTH: f64 = 40.0;
 /// Cells are no wider than this many flank points, within those limits.

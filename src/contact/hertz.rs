@@ -30,7 +30,7 @@ use crate::reference::{
 
 /// Hertz's distributed pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hertz {
+pub(crate) struct Hertz {
     /// Of each gear.
     pub material: PerGear<Material>,
     /// Load that the observed stretch of flank is cut for, N/mm.
@@ -38,12 +38,12 @@ pub struct Hertz {
 }
 
 /// Contact modulus E* of both gears.
-pub fn contact_modulus_mpa(material: &PerGear<Material>) -> f64 {
+pub(crate) fn contact_modulus_mpa(material: &PerGear<Material>) -> f64 {
     elastic::contact_modulus_mpa(&material.map(Material::elastic))
 }
 
 /// The closed-form contact of two flanks at `position_mm`, flattening measured to the teeth's centre lines.
-pub fn flattening(geometry: &dyn ConjugateFlanks, material: &PerGear<Material>, position_mm: f64) -> Flattening {
+pub(crate) fn flattening(geometry: &dyn ConjugateFlanks, material: &PerGear<Material>, position_mm: f64) -> Flattening {
     Flattening {
         contact: HertzLine::of_relative_radius(geometry.relative_radius_mm(position_mm), contact_modulus_mpa(material)),
         bodies: Gear::BOTH.map(|gear| Body {
@@ -66,12 +66,12 @@ pub(super) struct ClosedFormPair<'a> {
 }
 
 impl<'a> ClosedFormPair<'a> {
-    pub fn new(flanks: Flanks<'a>, material: &PerGear<Material>, position_mm: f64) -> Self {
+    pub(super) fn new(flanks: Flanks<'a>, material: &PerGear<Material>, position_mm: f64) -> Self {
         let flattening = flattening(flanks.geometry, material, position_mm);
         Self { flanks, position_mm, flattening, removed_mm: 0.0, line_load: 0.0 }
     }
 
-    pub fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
+    pub(super) fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
         let at_contact = |gear: Gear| {
             let coordinate = self.flanks.geometry.contact_coordinate_mm(gear, self.position_mm);
             self.flanks.grid[gear].value_at(removed_mm[gear], coordinate)
@@ -79,17 +79,17 @@ impl<'a> ClosedFormPair<'a> {
         self.removed_mm = at_contact(Gear::Pinion) + at_contact(Gear::Wheel);
     }
 
-    pub fn touch_mm(&self) -> f64 {
+    pub(super) fn touch_mm(&self) -> f64 {
         self.removed_mm
     }
 
-    pub fn load_at(&mut self, indentation_mm: f64) -> Response {
+    pub(super) fn load_at(&mut self, indentation_mm: f64) -> Response {
         self.line_load = self.flattening.line_load_n_per_mm(indentation_mm);
         let (_, compliance) = self.flattening.approach_and_compliance(self.line_load);
         Response { line_load_n_per_mm: self.line_load, stiffness_n_per_mm2: 1.0 / compliance }
     }
 
-    pub fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64 {
+    pub(super) fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64 {
         self.flattening.approach_mm(line_load_n_per_mm)
     }
 }

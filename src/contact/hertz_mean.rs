@@ -21,7 +21,7 @@ use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 
 /// Hertz's mean pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HertzMean {
+pub(crate) struct HertzMean {
     /// Of each gear.
     pub material: PerGear<Material>,
 }

@@ -11,20 +11,20 @@
 //! | [`hertz`] | Hertz's ellipse on the nominal curvature | closed-form flattening |
 //! | [`hertz_mean`] | Hertz's mean pressure, closed-form sliding | closed-form flattening |
 
-pub mod edge_foundation;
-pub mod elastic_cells;
+pub(crate) mod edge_foundation;
+pub(crate) mod elastic_cells;
 mod flank_motion;
-pub mod foundation;
-pub mod gap_at_points;
-pub mod half_space;
-pub mod hertz;
-pub mod hertz_mean;
-pub mod observed_points;
-pub mod pressure_field;
-pub mod settings;
-pub mod strip;
-pub mod swept_field;
-pub mod winkler;
+pub(crate) mod foundation;
+pub(crate) mod gap_at_points;
+pub(crate) mod half_space;
+pub(crate) mod hertz;
+pub(crate) mod hertz_mean;
+pub(crate) mod observed_points;
+pub(crate) mod pressure_field;
+pub(crate) mod settings;
+pub(crate) mod strip;
+pub(crate) mod swept_field;
+pub(crate) mod winkler;
 
 use serde::{Deserialize, Serialize};
 
@@ -32,7 +32,7 @@ use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 
 /// Two flanks and the points on them.
 #[derive(Clone, Copy)]
-pub struct Flanks<'a> {
+pub(crate) struct Flanks<'a> {
     /// Their geometry.
     pub geometry: &'a dyn ConjugateFlanks,
     /// Their points.
@@ -46,14 +46,14 @@ pub struct Flanks<'a> {
 
 impl<'a> Flanks<'a> {
     /// Flanks that end where their contact does: no tip edge carries load.
-    pub fn new(geometry: &'a dyn ConjugateFlanks, grid: PerGear<&'a FlankGrid>) -> Self {
+    pub(crate) fn new(geometry: &'a dyn ConjugateFlanks, grid: PerGear<&'a FlankGrid>) -> Self {
         Self { geometry, grid, modification_mm: None, sharp_edges: PerGear::default() }
     }
 }
 
 /// A loading position and the stretch of the path of contact it stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PositionCell {
+pub(crate) struct PositionCell {
     /// Theoretical contact point.
     pub position_mm: f64,
     /// Where the stretch begins.
@@ -64,7 +64,7 @@ pub struct PositionCell {
 
 /// A tooth pair's answer to being pressed together.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Response {
+pub(crate) struct Response {
     /// Load it carries, N per mm of face width.
     pub line_load_n_per_mm: f64,
     /// Derivative of the load with respect to the indentation, N/mm².
@@ -74,7 +74,7 @@ pub struct Response {
 /// What consecutive points of one flank wear by while the contact moves through a [`PositionCell`]; the vectors have the
 /// same length. Filled anew for each pair, so that one buffer serves many.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Sweep {
+pub(crate) struct Sweep {
     /// Index of the first of the points.
     pub first_point: usize,
     /// Pressure on each, averaged over the cell, MPa.
@@ -95,7 +95,7 @@ impl Sweep {
 
 /// What an observer sees of one point of a [`Sweep`].
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct PointContact {
+pub(crate) struct PointContact {
     /// Greatest pressure while the contact moves through the cell and the point faces the other flank, MPa.
     pub pressure_mpa: f64,
     /// Part of the cell's sliding during which the point is in contact, 0 to 1.
@@ -104,7 +104,7 @@ pub struct PointContact {
 
 /// Where the contact is and how hard it presses.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Footprint {
+pub(crate) struct Footprint {
     /// Greatest pressure, MPa.
     pub peak_pressure_mpa: f64,
     /// Half the extent of the contact strip, mm.
@@ -117,7 +117,7 @@ pub struct Footprint {
 ///
 /// Order of use: [`set_removed`](Self::set_removed) the flanks, [`load_at`](Self::load_at) until the mesh cycle is in equilibrium,
 /// [`window_suffices`](Self::window_suffices), then [`sweep`](Self::sweep) and [`footprint`](Self::footprint) of the last approach pressed.
-pub trait PairContact: Send {
+pub(crate) trait PairContact: Send {
     /// Takes the material removed at each flank point, mm.
     fn set_removed(&mut self, removed_mm: PerGear<&[f64]>);
 
@@ -167,7 +167,7 @@ pub trait PairContact: Send {
 
 /// How long equilibria take, about.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Effort {
+pub(crate) struct Effort {
     /// Of a tooth pair, over that on springs.
     pub of_equilibrium: f64,
     /// What one without anything to start from takes more, over one with.
@@ -175,7 +175,7 @@ pub struct Effort {
 }
 
 /// A model of the surfaces in contact.
-pub trait ContactSurface: Sync {
+pub(crate) trait ContactSurface: Sync {
     /// Prepares a tooth pair with its theoretical contact point at `position_mm`; with a `cell`, its wear is collected.
     fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a>;
 

@@ -9,7 +9,7 @@ use crate::gear::{Gear, conjugate::ConjugateFlanks, involute::TangentFramePoint}
 
 /// Consecutive points of one flank that may touch the other, with one more at either end.
 #[derive(Debug, Clone)]
-pub struct ObservedPoints {
+pub(crate) struct ObservedPoints {
     /// Index of the first point that may touch; the samples begin one before it.
     pub first_point: usize,
     /// Where the samples lie in the tangent frame.
@@ -40,7 +40,7 @@ struct PartlyExposed {
 
 impl ObservedPoints {
     /// The points of `gear` facing `window` anywhere in `cell`.
-    pub fn new(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
+    pub(crate) fn new(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
         let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
         let (lower, upper) = match gear {
             Gear::Pinion => (window.lower_mm, window.upper_mm),
@@ -87,7 +87,7 @@ impl ObservedPoints {
 impl ObservedPoints {
     /// The same under a pressure that stands still during the cell, or goes with a tip edge: where an edge stands, its
     /// mate passes it all the time.
-    pub fn under_standing_pressure(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
+    pub(crate) fn under_standing_pressure(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
         let mut points = Self::new(flanks, gear, window, cell);
         if let Some(edge) = edge_under_load(flanks.geometry, cell.position_mm) {
             let sliding = flanks.geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
@@ -106,7 +106,7 @@ impl ObservedPoints {
 
     /// How far each point moves along the tangent from the cell's position to both ends of the part of the cell in which it faces the
     /// mate; nothing of points that do not.
-    pub fn courses_mm(&self) -> Vec<Option<[f64; 2]>> {
+    pub(crate) fn courses_mm(&self) -> Vec<Option<[f64; 2]>> {
         let mut courses: Vec<_> = self.shifts_to_ends_mm().into_iter().map(Some).collect();
         if let Some(tip_mm) = self.standing_to_mm {
             // The part of the last point ends with the edge.
@@ -121,7 +121,7 @@ impl ObservedPoints {
 
     /// How far each point moves along the tangent from the cell's position to the beginning and to the end of the part of
     /// the cell in which it faces the mate.
-    pub fn shifts_to_ends_mm(&self) -> Vec<[f64; 2]> {
+    pub(crate) fn shifts_to_ends_mm(&self) -> Vec<[f64; 2]> {
         let [lower, upper] = self.shift_to_ends_mm;
         let mut shifts = vec![self.shift_to_ends_mm; self.sliding_mm.len()];
         for point in &self.partly_exposed {
@@ -132,7 +132,7 @@ impl ObservedPoints {
 
     /// The points, counted from the first, that touch anywhere between `lower_mm` and `upper_mm` (gear's own direction)
     /// while the contact moves through the cell; a few more at either end do not.
-    pub fn between(&self, lower_mm: f64, upper_mm: f64) -> Range<usize> {
+    pub(crate) fn between(&self, lower_mm: f64, upper_mm: f64) -> Range<usize> {
         let [a, b] = self.shift_to_ends_mm;
         let sample = |along: f64| (along - self.at[1].along_mm) / self.spacing_mm;
         // Points are almost evenly spaced; two more make up for the difference.

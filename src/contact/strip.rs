@@ -81,7 +81,7 @@ impl PassingMean {
 /// Extent of the tangent at one position over which both flanks exist, and of the part looked at; mm, positive towards
 /// the pinion's tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Window {
+pub(crate) struct Window {
     /// Lower end of what is looked at.
     pub lower_mm: f64,
     /// Upper end.
@@ -95,7 +95,7 @@ pub struct Window {
 impl Window {
     /// `half_length_mm` to either side of the theoretical contact point, or of the tip edge next to it where the one flank
     /// ends before it, cut where a flank ends.
-    pub fn new(flanks: Flanks<'_>, position_mm: f64, half_length_mm: f64) -> Self {
+    pub(crate) fn new(flanks: Flanks<'_>, position_mm: f64, half_length_mm: f64) -> Self {
         let ((lower, upper), at_tips) = common_extent_mm(flanks.geometry, position_mm);
         let centre = 0.0_f64.min(upper).max(lower);
         let (from, to) = (centre - half_length_mm, centre + half_length_mm);
@@ -110,12 +110,12 @@ impl Window {
     }
 
     /// Its length.
-    pub fn length_mm(&self) -> f64 {
+    pub(crate) fn length_mm(&self) -> f64 {
         self.upper_mm - self.lower_mm
     }
 
     /// Whether a sharp tip edge cuts off a contact that presses on these of the ends.
-    pub fn is_sharp_where(&self, pressed: [bool; 2]) -> bool {
+    pub(crate) fn is_sharp_where(&self, pressed: [bool; 2]) -> bool {
         self.ends_are_sharp.iter().zip(pressed).any(|(sharp, pressed)| *sharp && pressed)
     }
 }
@@ -139,7 +139,7 @@ pub(super) fn common_extent_mm(geometry: &dyn ConjugateFlanks, position_mm: f64)
 }
 
 /// Distance of the pinion's points at the theoretical contact point.
-pub fn point_distance_mm(flanks: Flanks<'_>, position_mm: f64) -> f64 {
+pub(crate) fn point_distance_mm(flanks: Flanks<'_>, position_mm: f64) -> f64 {
     let grid = flanks.grid.pinion;
     let here = grid.place(flanks.geometry.contact_coordinate_mm(Gear::Pinion, position_mm)).index;
     grid.arc_mm[here + 1] - grid.arc_mm[here]
@@ -147,7 +147,7 @@ pub fn point_distance_mm(flanks: Flanks<'_>, position_mm: f64) -> f64 {
 
 /// Evenly spaced samples across the candidate contact.
 #[derive(Debug, Clone)]
-pub struct Strip {
+pub(crate) struct Strip {
     /// What the samples cover.
     pub window: Window,
     /// Distance of the samples, mm.
@@ -170,7 +170,7 @@ impl Strip {
     /// Samples at both ends of `window` and between `intervals` even parts of it. Where the pressure stands still while the flanks pass
     /// under it during a cell, `passed_during`, each sample sees the mean wear of what passes it, as all that passes it feels its pressure:
     /// seen at one place alone, a wave of wear as long as the positions are apart would meet each of them alike, and grow.
-    pub fn new(
+    pub(crate) fn new(
         flanks: Flanks<'_>,
         position_mm: f64,
         window: Window,
@@ -203,7 +203,7 @@ impl Strip {
     }
 
     /// The gap with `removed_mm` of material gone, into `gap_mm`, and its least value.
-    pub fn gap_mm(&self, removed_mm: PerGear<&[f64]>, gap_mm: &mut Vec<f64>) -> f64 {
+    pub(crate) fn gap_mm(&self, removed_mm: PerGear<&[f64]>, gap_mm: &mut Vec<f64>) -> f64 {
         match &self.removed {
             Removed::Here(here) => self.opened_mm(Gear::BOTH.map(|gear| here[gear].of(removed_mm[gear], 0)), gap_mm),
             Removed::Passing(passing) => {
@@ -227,7 +227,7 @@ impl Strip {
 
     /// Whether flanks pressed together by `approach_mm`, and that have lost at least `removed_mm` wherever they may touch, can touch
     /// beyond an end of the window that is not real: what else is removed only widens the gap, so the geometric gap decides.
-    pub fn may_touch_beyond(&self, approach_mm: f64, removed_mm: f64) -> bool {
+    pub(crate) fn may_touch_beyond(&self, approach_mm: f64, removed_mm: f64) -> bool {
         let ends = [self.geometric_gap_mm[0], self.geometric_gap_mm[self.geometric_gap_mm.len() - 1]];
         ends.iter().zip(self.window.ends_are_real).any(|(&gap, real)| !real && approach_mm - removed_mm > gap)
     }
@@ -238,7 +238,12 @@ const AMPLE_REACH: f64 = 1.25;
 
 /// The least that both flanks together have lost wherever they can touch when pressed together by `approach_mm`: where a parabola
 /// of their relative curvature, and some way on, is nearer than that.
-pub fn least_removed_mm(flanks: Flanks<'_>, position_mm: f64, approach_mm: f64, removed_mm: PerGear<&[f64]>) -> f64 {
+pub(crate) fn least_removed_mm(
+    flanks: Flanks<'_>,
+    position_mm: f64,
+    approach_mm: f64,
+    removed_mm: PerGear<&[f64]>,
+) -> f64 {
     let reach = AMPLE_REACH * (2.0 * flanks.geometry.relative_radius_mm(position_mm) * approach_mm).sqrt();
     let least = |gear: Gear| {
         let grid = flanks.grid[gear];

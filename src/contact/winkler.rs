@@ -39,7 +39,7 @@ use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 
 /// The surface: K/H and the load that contacts are expected to carry.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Winkler {
+pub(crate) struct Winkler {
     /// K/H.
     pub foundation: WinklerFoundation,
     /// Load that the first window is cut for; a greater one only costs a widening, N/mm.

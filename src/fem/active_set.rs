@@ -38,7 +38,7 @@ const SOFT_GROUND: f64 = 1e-6;
 
 /// The condensed problem.
 #[derive(Debug, Clone)]
-pub struct Condensed {
+pub(crate) struct Condensed {
     /// C, mm per N/mm.
     pub compliance: Mat<f64>,
     /// g⁰, mm.
@@ -51,7 +51,7 @@ pub struct Condensed {
 
 /// What was found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Equilibrium {
+pub(crate) struct Equilibrium {
     /// f, N/mm.
     pub force: Vec<f64>,
     /// g, mm.
@@ -66,7 +66,7 @@ pub struct Equilibrium {
 
 /// How the iteration went.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Log {
+pub(crate) struct Log {
     /// Size of the active set and number of wrong signs, iteration by iteration.
     pub steps: Vec<(usize, usize)>,
     /// Members that entered or left, all together.
@@ -131,7 +131,7 @@ fn solve_in_place(factor: &Llt<f64>, b: &mut [f64]) {
 
 /// What solutions with the same compliance and rigid motions share.
 #[derive(Debug, Clone)]
-pub struct Kept {
+pub(crate) struct Kept {
     /// See [`Condensed::greatest_resistance`].
     resistance: Vec<f64>,
     factored: Option<FactoredSet>,
@@ -160,7 +160,7 @@ impl Condensed {
     ///
     /// # Errors
     /// See [`ActiveSetError`].
-    pub fn solve(&self, start: Option<&[bool]>) -> Result<Equilibrium, ActiveSetError> {
+    pub(crate) fn solve(&self, start: Option<&[bool]>) -> Result<Equilibrium, ActiveSetError> {
         self.solve_with(start, &mut None)
     }
 
@@ -169,7 +169,11 @@ impl Condensed {
     ///
     /// # Errors
     /// See [`ActiveSetError`].
-    pub fn solve_with(&self, start: Option<&[bool]>, kept: &mut Option<Kept>) -> Result<Equilibrium, ActiveSetError> {
+    pub(crate) fn solve_with(
+        &self,
+        start: Option<&[bool]>,
+        kept: &mut Option<Kept>,
+    ) -> Result<Equilibrium, ActiveSetError> {
         let n = self.gap_mm.len();
         if self.gap_mm.iter().chain(&self.rigid_load).any(|value| !value.is_finite()) {
             return Err(ActiveSetError::NotFinite);

@@ -35,7 +35,7 @@ pub struct Elastic {
 }
 
 /// Contact modulus E* of two gears, MPa: 1/E* = Σ (1 − ν²)/E.
-pub fn contact_modulus_mpa(material: &PerGear<Elastic>) -> f64 {
+pub(crate) fn contact_modulus_mpa(material: &PerGear<Elastic>) -> f64 {
     hertz_line::contact_modulus_mpa(
         Gear::BOTH.map(|gear| (material[gear].young_modulus_mpa, material[gear].poisson_ratio)),
     )

@@ -20,7 +20,7 @@ use super::shape::{MOST_NODES, Shape};
 use super::solid::ElementKind;
 
 /// Most degrees of freedom that an element has.
-pub const MOST_DOFS: usize = 2 * MOST_NODES;
+pub(crate) const MOST_DOFS: usize = 2 * MOST_NODES;
 
 /// Least J relative to the square of the element's size that counts as an area.
 const LEAST_DETERMINANT: f64 = 1e-10;

@@ -38,7 +38,7 @@ pub(super) struct EnhancedQuad {
 
 impl EnhancedQuad {
     /// The element on four nodes of a material with stiffness D.
-    pub fn new(nodes_mm: &[Vector2<f64>], d_mpa: &Matrix3<f64>) -> Result<Self, Fold> {
+    pub(super) fn new(nodes_mm: &[Vector2<f64>], d_mpa: &Matrix3<f64>) -> Result<Self, Fold> {
         let least_mm2 = least_determinant_mm2(nodes_mm);
         let middle = Shape::at(ElementKind::Quad4, [0.0, 0.0]);
         let jacobian = middle.jacobian(nodes_mm);
@@ -76,7 +76,7 @@ impl EnhancedQuad {
     }
 
     /// Writes the condensed stiffness.
-    pub fn write_stiffness(&self, out: &mut ElementMatrix) {
+    pub(super) fn write_stiffness(&self, out: &mut ElementMatrix) {
         // Condensation is symmetric but for rounding: the lower half counts.
         for (i, row) in out.iter_mut().enumerate().take(8) {
             for (k, value) in row.iter_mut().enumerate().take(8) {
@@ -86,7 +86,7 @@ impl EnhancedQuad {
     }
 
     /// (ε_x, ε_y, γ_xy) at (ξ, η) as a linear function of the displacements of the nodes.
-    pub fn strain_matrix(&self, at: [f64; 2]) -> SMatrix<f64, 3, 8> {
+    pub(super) fn strain_matrix(&self, at: [f64; 2]) -> SMatrix<f64, 3, 8> {
         let (b, determinant) = self.displacement_part(&Shape::at(ElementKind::Quad4, at));
         b + self.enhanced_part(at, determinant) * self.modes
     }

@@ -61,7 +61,7 @@ struct Interface {
 ///
 /// # Errors
 /// See [`SolveError`].
-pub fn solve(problem: &Problem) -> Result<Solution, SolveError> {
+pub(crate) fn solve(problem: &Problem) -> Result<Solution, SolveError> {
     let solid = &problem.solid;
     let mut held = vec![false; solid.dofs()];
     for support in &problem.held {

@@ -71,7 +71,7 @@ pub enum FactorError {
 }
 
 /// A factorised stiffness with its supports.
-pub struct Factor {
+pub(crate) struct Factor {
     /// Number of a degree of freedom among the free ones, or [`HELD`].
     free_of_dof: Vec<u32>,
     /// ElementPoint of each degree of freedom in the order of elimination, or [`HELD`].
@@ -82,8 +82,6 @@ pub struct Factor {
     symbolic: SymbolicCholesky<u32>,
     values: Vec<f64>,
     scratch: MemBuffer,
-    analyses: usize,
-    factorisations: usize,
 }
 
 /// K_ff, lower triangle, by columns.
@@ -99,7 +97,7 @@ struct Reduced {
 
 impl Factor {
     /// Factorises `stiffness` with the degrees of freedom struck out whose displacement is given (`held[dof]`).
-    pub fn new(stiffness: &Stiffness, held: &[bool]) -> Result<Self, FactorError> {
+    pub(crate) fn new(stiffness: &Stiffness, held: &[bool]) -> Result<Self, FactorError> {
         let dofs = stiffness.dofs();
         if held.len() != dofs {
             return Err(FactorError::WrongLength { given: held.len(), dofs });
@@ -135,28 +133,17 @@ impl Factor {
             place_of_dof[*dof as usize] = place;
         }
         let values = vec![0.0; symbolic.len_val()];
-        let mut factor = Self {
-            free_of_dof,
-            place_of_dof,
-            dof_of_place,
-            reduced,
-            symbolic,
-            values,
-            scratch,
-            analyses: 1,
-            factorisations: 0,
-        };
+        let mut factor = Self { free_of_dof, place_of_dof, dof_of_place, reduced, symbolic, values, scratch };
         factor.refactor(stiffness)?;
         Ok(factor)
     }
 
     /// Factorises new values of the same pattern with the same supports. After an error the factor is of no use.
-    pub fn refactor(&mut self, stiffness: &Stiffness) -> Result<(), FactorError> {
+    pub(crate) fn refactor(&mut self, stiffness: &Stiffness) -> Result<(), FactorError> {
         if stiffness.dofs() != self.free_of_dof.len() || stiffness.lower().nnz() != self.reduced.entries {
             return Err(FactorError::OtherPattern);
         }
         self.reduced.gather(stiffness);
-        self.factorisations += 1;
         let stack = MemStack::new(&mut self.scratch);
         let matrix = self.reduced.matrix();
         let (regularization, params) = (Default::default(), Default::default());
@@ -173,7 +160,7 @@ impl Factor {
     ///
     /// # Panics
     /// Where `x` is not as long as `columns` times the degrees of freedom.
-    pub fn solve(&self, columns: usize, x: &mut [f64]) {
+    pub(crate) fn solve(&self, columns: usize, x: &mut [f64]) {
         let (dofs, free) = (self.dofs(), self.dof_of_place.len());
         assert_eq!(x.len(), columns * dofs, "one entry for each degree of freedom and column");
         let at_once = columns.min(COLUMNS_AT_ONCE);
@@ -200,7 +187,7 @@ impl Factor {
     }
 
     /// Subtracts K_fh u_h from the forces: what given displacements of held degrees of freedom, (dof, mm), do to the others.
-    pub fn subtract_held(&self, stiffness: &Stiffness, held_mm: &[(u32, f64)], force_n_per_mm: &mut [f64]) {
+    pub(crate) fn subtract_held(&self, stiffness: &Stiffness, held_mm: &[(u32, f64)], force_n_per_mm: &mut [f64]) {
         let mut displacement_mm = vec![0.0; self.dofs()];
         for (dof, value) in held_mm {
             displacement_mm[*dof as usize] = *value;
@@ -211,23 +198,8 @@ impl Factor {
     }
 
     /// Number of degrees of freedom, supports included.
-    pub fn dofs(&self) -> usize {
+    pub(crate) fn dofs(&self) -> usize {
         self.free_of_dof.len()
-    }
-
-    /// Number of degrees of freedom that are solved for.
-    pub fn free_dofs(&self) -> usize {
-        self.dof_of_place.len()
-    }
-
-    /// Symbolic analyses made: one, however often new values came.
-    pub fn analyses(&self) -> usize {
-        self.analyses
-    }
-
-    /// Numeric factorisations made.
-    pub fn factorisations(&self) -> usize {
-        self.factorisations
     }
 
     /// L as dense blocks of columns.

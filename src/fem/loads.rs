@@ -14,7 +14,9 @@
 use nalgebra::Vector2;
 
 use super::problem::Edge;
-use super::quadrature::{GAUSS_4, load_rule};
+use super::quadrature::GAUSS_4;
+#[cfg(test)]
+use super::quadrature::load_rule;
 use super::shape::along_edge;
 use super::solid::Solid;
 
@@ -51,7 +53,7 @@ fn add(forces_n_per_mm: &mut [f64], node: u32, force: Vector2<f64>) {
 ///
 /// # Panics
 /// Where there is not one force for each degree of freedom.
-pub fn add_traction(
+pub(crate) fn add_traction(
     solid: &Solid,
     edges: &[Edge],
     traction_mpa: impl Fn(Vector2<f64>, Vector2<f64>) -> Vector2<f64>,
@@ -70,25 +72,22 @@ pub fn add_traction(
     }
 }
 
-/// Adds the forces of a uniform pressure on `edges`, positive towards the body.
-///
-/// # Panics
-/// Where there is not one force for each degree of freedom.
-pub fn add_pressure(solid: &Solid, edges: &[Edge], pressure_mpa: f64, forces_n_per_mm: &mut [f64]) {
-    add_traction(solid, edges, |_, normal| -normal * pressure_mpa, forces_n_per_mm);
-}
-
 /// Adds the force `resultant_n_per_mm`, spread evenly over the length of `edges`.
 ///
 /// # Panics
 /// Where there is not one force for each degree of freedom.
-pub fn add_spread_force(solid: &Solid, edges: &[Edge], resultant_n_per_mm: Vector2<f64>, forces_n_per_mm: &mut [f64]) {
+pub(crate) fn add_spread_force(
+    solid: &Solid,
+    edges: &[Edge],
+    resultant_n_per_mm: Vector2<f64>,
+    forces_n_per_mm: &mut [f64],
+) {
     let traction = resultant_n_per_mm / length_mm(solid, edges);
     add_traction(solid, edges, |_, _| traction, forces_n_per_mm);
 }
 
 /// Length of `edges`, mm.
-pub fn length_mm(solid: &Solid, edges: &[Edge]) -> f64 {
+pub(crate) fn length_mm(solid: &Solid, edges: &[Edge]) -> f64 {
     edges.iter().flat_map(|edge| edge_points(solid, edge)).map(|point| point.tangent_mm.norm()).sum()
 }
 
@@ -96,7 +95,8 @@ pub fn length_mm(solid: &Solid, edges: &[Edge]) -> f64 {
 ///
 /// # Panics
 /// Where there is not one force for each degree of freedom.
-pub fn add_body_force(
+#[cfg(test)]
+pub(crate) fn add_body_force(
     solid: &Solid,
     force_n_per_mm3: impl Fn(Vector2<f64>) -> Vector2<f64>,
     forces_n_per_mm: &mut [f64],

@@ -15,7 +15,7 @@ const MOST_STEPS: usize = 25;
 
 /// A point within an element.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ElementPoint {
+pub(crate) struct ElementPoint {
     /// Number of the element.
     pub element: usize,
     /// Its nodes with the values of their shape functions at the point.
@@ -23,7 +23,7 @@ pub struct ElementPoint {
 }
 
 /// The first element of `solid` that holds `point_mm`; `None` outside all of them.
-pub fn locate(solid: &Solid, point_mm: Vector2<f64>) -> Option<ElementPoint> {
+pub(crate) fn locate(solid: &Solid, point_mm: Vector2<f64>) -> Option<ElementPoint> {
     solid.elements.iter().enumerate().find_map(|(number, element)| {
         let shape = within(solid, element, point_mm)?;
         let weights = element.nodes().iter().copied().zip(shape.values).collect();

@@ -1,25 +1,25 @@
 //! Plane finite elements: elements, assembly, factorisation, contact of meshes.
 
-pub mod active_set;
-pub mod contact;
-pub mod elastic;
-pub mod element;
+pub(crate) mod active_set;
+pub(crate) mod contact;
+pub(crate) mod elastic;
+pub(crate) mod element;
 mod enhanced_quad;
-pub mod equilibrium;
-pub mod factor;
-pub mod gear;
-pub mod loads;
-pub mod locate;
+pub(crate) mod equilibrium;
+pub(crate) mod factor;
+pub(crate) mod gear;
+pub(crate) mod loads;
+pub(crate) mod locate;
 mod nodal_triangle;
-pub mod problem;
+pub(crate) mod problem;
 mod projected_volume;
-pub mod quadrature;
-pub mod rigid_body;
-pub mod shape;
-pub mod solid;
+pub(crate) mod quadrature;
+pub(crate) mod rigid_body;
+pub(crate) mod shape;
+pub(crate) mod solid;
 mod sparse_solve;
-pub mod stiffness;
-pub mod stress;
+pub(crate) mod stiffness;
+pub(crate) mod stress;
 mod support;
 
-pub use equilibrium::{SolveError, solve};
+pub(crate) use equilibrium::{SolveError, solve};

@@ -53,7 +53,7 @@ pub(super) fn patches(solid: &Solid) -> Vec<Patch> {
 
 impl Patch {
     /// B̄ₐ as (∂θ/∂u_x, ∂θ/∂u_y) for each of [`Self::nodes`], 1/mm, and Vₐ, mm². Triangles must not be degenerate.
-    pub fn mean_volume_strain(&self, solid: &Solid) -> (Vec<[f64; 2]>, f64) {
+    pub(super) fn mean_volume_strain(&self, solid: &Solid) -> (Vec<[f64; 2]>, f64) {
         let mut row = vec![[0.0; 2]; self.nodes.len()];
         let mut volume_mm2 = 0.0;
         for triangle in &self.triangles {

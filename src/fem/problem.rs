@@ -52,7 +52,7 @@ pub struct Problem {
 
 /// One node of a slave surface in the solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactNode {
+pub(crate) struct ContactNode {
     /// Its number.
     pub node: u32,
     /// Where it lies before deformation, mm.
@@ -65,7 +65,7 @@ pub struct ContactNode {
 
 /// What one pair of surfaces came to.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ContactState {
+pub(crate) struct ContactState {
     /// The slave's nodes in the order of its surface.
     pub nodes: Vec<ContactNode>,
     /// Resultant of the pressure on the slave, N/mm.
@@ -109,7 +109,7 @@ pub struct Work {
 
 /// The solution.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Solution {
+pub(crate) struct Solution {
     /// Displacement of every degree of freedom, mm.
     pub displacement_mm: Vec<f64>,
     /// One for each pair of surfaces.

@@ -37,12 +37,12 @@ pub(super) struct ProjectedVolume {
 
 impl ProjectedVolume {
     /// Whether a kind of element takes this cure in plane strain.
-    pub fn serves(kind: ElementKind) -> bool {
+    pub(super) fn serves(kind: ElementKind) -> bool {
         matches!(kind, ElementKind::Triangle6 | ElementKind::Quad8 | ElementKind::Quad9)
     }
 
     /// Projects the volume strain of the element on `nodes_mm`.
-    pub fn new(kind: ElementKind, nodes_mm: &[Vector2<f64>]) -> Result<Self, Fold> {
+    pub(super) fn new(kind: ElementKind, nodes_mm: &[Vector2<f64>]) -> Result<Self, Fold> {
         let least_mm2 = least_determinant_mm2(nodes_mm);
         let centre_mm = nodes_mm.iter().sum::<Vector2<f64>>() / nodes_mm.len() as f64;
         let size_mm = (nodes_mm[0] - centre_mm).norm();
@@ -71,7 +71,7 @@ impl ProjectedVolume {
     }
 
     /// Adds κ Qᵀ M⁻¹ Q to the stiffness of the element.
-    pub fn add_stiffness(&self, bulk_modulus_mpa: f64, dofs: usize, out: &mut ElementMatrix) {
+    pub(super) fn add_stiffness(&self, bulk_modulus_mpa: f64, dofs: usize, out: &mut ElementMatrix) {
         // Qᵀ M⁻¹ Q is symmetric but for rounding: the lower half counts.
         for (i, row) in out.iter_mut().enumerate().take(dofs) {
             for (k, value) in row.iter_mut().enumerate().take(dofs) {
@@ -82,7 +82,7 @@ impl ProjectedVolume {
     }
 
     /// θ̄ at a point of the element as a row over the displacements of its nodes, 1/mm.
-    pub fn row(&self, at_mm: Vector2<f64>) -> SVector<f64, MOST_DOFS> {
+    pub(super) fn row(&self, at_mm: Vector2<f64>) -> SVector<f64, MOST_DOFS> {
         self.projected.transpose() * self.basis(at_mm)
     }
 

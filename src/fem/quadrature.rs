@@ -20,7 +20,7 @@ use super::solid::ElementKind;
 
 /// One point of a rule.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct IntegrationPoint {
+pub(crate) struct IntegrationPoint {
     /// (ξ, η).
     pub at: [f64; 2],
     /// Its weight; the weights add up to the area of the reference cell.
@@ -31,7 +31,7 @@ pub struct IntegrationPoint {
 
 /// What an element needs to be integrated.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Rule {
+pub(crate) struct Rule {
     /// Points of the rule.
     pub points: Vec<IntegrationPoint>,
     /// Shape functions at the nodes of the element, where its shape is checked too.
@@ -39,14 +39,14 @@ pub struct Rule {
 }
 
 /// Abscissae and weights of Gauss and Legendre on [−1, 1] with 2 points.
-pub const GAUSS_2: [(f64, f64); 2] = [(-0.577_350_269_189_625_8, 1.0), (0.577_350_269_189_625_8, 1.0)];
+pub(crate) const GAUSS_2: [(f64, f64); 2] = [(-0.577_350_269_189_625_8, 1.0), (0.577_350_269_189_625_8, 1.0)];
 
 /// Abscissae and weights of Gauss and Legendre on [−1, 1] with 3 points.
-pub const GAUSS_3: [(f64, f64); 3] =
+pub(crate) const GAUSS_3: [(f64, f64); 3] =
     [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
 
 /// Abscissae and weights of Gauss and Legendre on [−1, 1] with 4 points.
-pub const GAUSS_4: [(f64, f64); 4] = [
+pub(crate) const GAUSS_4: [(f64, f64); 4] = [
     (-0.861_136_311_594_052_6, 0.347_854_845_137_453_86),
     (-0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
     (0.339_981_043_584_856_26, 0.652_145_154_862_546_1),
@@ -54,7 +54,7 @@ pub const GAUSS_4: [(f64, f64); 4] = [
 ];
 
 /// The rule of an element.
-pub fn rule(kind: ElementKind) -> &'static Rule {
+pub(crate) fn rule(kind: ElementKind) -> &'static Rule {
     static TRIANGLE3: LazyLock<Rule> =
         LazyLock::new(|| Rule::new(ElementKind::Triangle3, &[([1.0 / 3.0, 1.0 / 3.0], 0.5)]));
     static TRIANGLE6: LazyLock<Rule> = LazyLock::new(|| Rule::new(ElementKind::Triangle6, &radon()));
@@ -71,7 +71,8 @@ pub fn rule(kind: ElementKind) -> &'static Rule {
 }
 
 /// A rule for loads, which need not be constant on an element: at least degree 5 for every kind.
-pub fn load_rule(kind: ElementKind) -> &'static Rule {
+#[cfg(test)]
+pub(crate) fn load_rule(kind: ElementKind) -> &'static Rule {
     static TRIANGLE3: LazyLock<Rule> = LazyLock::new(|| Rule::new(ElementKind::Triangle3, &radon()));
     static QUAD4: LazyLock<Rule> = LazyLock::new(|| Rule::new(ElementKind::Quad4, &product(&GAUSS_3)));
     match kind {

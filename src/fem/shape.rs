@@ -15,11 +15,11 @@ use nalgebra::{Matrix2, Vector2};
 use super::solid::ElementKind;
 
 /// Most nodes that an element has.
-pub const MOST_NODES: usize = 9;
+pub(crate) const MOST_NODES: usize = 9;
 
 /// Shape functions and their derivatives at one point of the reference cell; entries beyond the element's nodes are zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Shape {
+pub(crate) struct Shape {
     /// Nₐ.
     pub values: [f64; MOST_NODES],
     /// ∂Nₐ/∂ξ and ∂Nₐ/∂η.
@@ -34,7 +34,7 @@ const QUAD_NODES: [[f64; 2]; 9] =
 const TRIANGLE_NODES: [[f64; 2]; 6] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
 
 /// Where the nodes of an element lie on its reference cell.
-pub fn reference_nodes(kind: ElementKind) -> &'static [[f64; 2]] {
+pub(crate) fn reference_nodes(kind: ElementKind) -> &'static [[f64; 2]] {
     match kind {
         ElementKind::Triangle3 => &TRIANGLE_NODES[..3],
         ElementKind::Triangle6 => &TRIANGLE_NODES,
@@ -46,7 +46,7 @@ pub fn reference_nodes(kind: ElementKind) -> &'static [[f64; 2]] {
 
 impl Shape {
     /// Shape functions of an element at (ξ, η).
-    pub fn at(kind: ElementKind, [xi, eta]: [f64; 2]) -> Self {
+    pub(crate) fn at(kind: ElementKind, [xi, eta]: [f64; 2]) -> Self {
         let mut shape = Self { values: [0.0; MOST_NODES], slopes: [[0.0; 2]; MOST_NODES] };
         match kind {
             ElementKind::Triangle3 => shape.linear_triangle(xi, eta),
@@ -117,12 +117,12 @@ impl Shape {
     }
 
     /// x = Σ Nₐ xₐ.
-    pub fn point(&self, corners_mm: &[Vector2<f64>]) -> Vector2<f64> {
+    pub(crate) fn point(&self, corners_mm: &[Vector2<f64>]) -> Vector2<f64> {
         corners_mm.iter().zip(&self.values).map(|(x, n)| x * *n).sum()
     }
 
     /// J with J_ik = ∂x_i/∂ξ_k.
-    pub fn jacobian(&self, nodes_mm: &[Vector2<f64>]) -> Matrix2<f64> {
+    pub(crate) fn jacobian(&self, nodes_mm: &[Vector2<f64>]) -> Matrix2<f64> {
         let mut j = [[0.0; 2]; 2];
         for (x, d) in nodes_mm.iter().zip(&self.slopes) {
             j[0][0] += x.x * d[0];
@@ -135,7 +135,7 @@ impl Shape {
 
     /// ∇Nₐ in the plane, 1/mm, with the determinant of J, mm². The determinant is given whatever it is; the gradients are
     /// of use only where it is positive.
-    pub fn gradients(&self, nodes_mm: &[Vector2<f64>]) -> ([[f64; 2]; MOST_NODES], f64) {
+    pub(crate) fn gradients(&self, nodes_mm: &[Vector2<f64>]) -> ([[f64; 2]; MOST_NODES], f64) {
         let j = self.jacobian(nodes_mm);
         let determinant = j.m11 * j.m22 - j.m12 * j.m21;
         let inverse = 1.0 / determinant;
@@ -153,7 +153,7 @@ fn quadratic(node: f64, x: f64) -> (f64, f64) {
 }
 
 /// Shape functions along an edge, s from −1 to 1: of the ends and, on a quadratic edge, of the middle; and d/ds of them.
-pub fn along_edge(quadratic_edge: bool, s: f64) -> ([f64; 3], [f64; 3]) {
+pub(crate) fn along_edge(quadratic_edge: bool, s: f64) -> ([f64; 3], [f64; 3]) {
     if quadratic_edge {
         ([0.5 * s * (s - 1.0), 0.5 * s * (s + 1.0), 1.0 - s * s], [s - 0.5, s + 0.5, -2.0 * s])
     } else {

@@ -1,10 +1,8 @@
-//! Solutions for many right-hand sides with few entries each, as the compliance of a contact needs them.
+//! The compliance of a surface: many right-hand sides with few entries each.
 //!
 //! A force on few degrees of freedom reaches, in L y = P b, only the supernodes of those and their ancestors in the
-//! elimination tree; a displacement that is wanted at few places needs, in Lᵀ x = y, only their ancestors. Both sets are
-//! small where the forces lie along a surface, and everything else is left out.
-//!
-//! The compliance of the forces B among themselves is symmetric and needs the first half only,
+//! elimination tree. That is little where the forces lie along a surface, and everything else is left out. The compliance of the
+//! forces B among themselves is symmetric and needs the forward half only,
 //!
 //! ```text
 //! C = Bᵀ K⁻¹ B = Yᵀ Y        L Y = P B
@@ -17,14 +15,11 @@
 //! P. R. Amestoy, I. S. Duff, Y. Robert, F.-H. Rouet and B. Uçar, same journal 34 (2012) A1975–A1999 (entries of an inverse).
 
 use faer::linalg::matmul::{matmul, triangular};
-use faer::linalg::triangular_solve::{solve_lower_triangular_in_place, solve_upper_triangular_in_place};
-use faer::sparse::linalg::cholesky::supernodal::{SupernodalLltRef, SymbolicSupernodalCholesky};
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 use faer::{Accum, Mat, Par};
 
 use super::factor::{Factor, HELD};
-
-/// Columns that are solved together.
-const COLUMNS_AT_ONCE: usize = 64;
 
 /// Supernodes as a tree: each hangs on the one that holds the first row below it.
 struct Tree {
@@ -42,76 +37,16 @@ impl Tree {
         let parent = (0..supernodes.n_supernodes()).map(above).collect();
         Self { of_place, parent }
     }
-
-    /// Marks the supernodes of `places` and all above them.
-    fn reach(&self, places: impl Iterator<Item = u32>, marks: &mut [bool]) {
-        for place in places {
-            let mut at = Some(self.of_place[place as usize]);
-            while let Some(s) = at.filter(|s| !marks[*s as usize]) {
-                marks[s as usize] = true;
-                at = self.parent[s as usize];
-            }
-        }
-    }
 }
 
 impl Factor {
-    /// Displacements at the degrees of freedom `wanted` (rows) under the forces `columns`, each given as (degree of freedom,
-    /// force) with repeated ones added up. Forces on held degrees of freedom are ignored, displacements there are zero.
-    ///
-    /// # Panics
-    /// Where a degree of freedom is not of this mesh.
-    pub fn solve_sparse(&self, columns: &[Vec<(u32, f64)>], wanted: &[u32]) -> Mat<f64> {
-        let (llt, tree) = (self.llt(), Tree::new(self.supernodes()));
-        let supernodes = self.supernodes().n_supernodes();
-        let mut is_wanted = vec![false; supernodes];
-        tree.reach(wanted.iter().filter_map(|dof| self.place(*dof)), &mut is_wanted);
-        let mut row_of_place = vec![u32::MAX; self.free_dofs()];
-        let mut out = Mat::zeros(wanted.len(), columns.len());
-        for chunk in self.by_first_place(columns).chunks(COLUMNS_AT_ONCE) {
-            let mut is_loaded = vec![false; supernodes];
-            let entries = |column: &u32| columns[*column as usize].iter();
-            let places = chunk.iter().flat_map(entries).filter_map(|(dof, _)| self.place(*dof));
-            tree.reach(places, &mut is_loaded);
-            let mut rows = 0;
-            for s in (0..supernodes).filter(|s| is_loaded[*s] || is_wanted[*s]) {
-                let node = llt.supernode(s);
-                for row in &mut row_of_place[node.start()..node.start() + node.val().ncols()] {
-                    *row = rows;
-                    rows += 1;
-                }
-            }
-            let mut x = Mat::<f64>::zeros(rows as usize, chunk.len());
-            for (k, column) in chunk.iter().enumerate() {
-                for (dof, force) in &columns[*column as usize] {
-                    if let Some(place) = self.place(*dof) {
-                        x[(row_of_place[place as usize] as usize, k)] += force;
-                    }
-                }
-            }
-            for s in (0..supernodes).filter(|s| is_loaded[*s]) {
-                forward(llt, s, &row_of_place, &mut x);
-            }
-            for s in (0..supernodes).rev().filter(|s| is_wanted[*s]) {
-                backward(llt, s, &row_of_place, &mut x);
-            }
-            for (k, column) in chunk.iter().enumerate() {
-                for (i, dof) in wanted.iter().enumerate() {
-                    if let Some(place) = self.place(*dof) {
-                        out[(i, *column as usize)] = x[(row_of_place[place as usize] as usize, k)];
-                    }
-                }
-            }
-        }
-        out
-    }
-
-    /// C = Bᵀ K⁻¹ B for the forces B given by `columns` as in [`Self::solve_sparse`]: what each does along every other.
+    /// C = Bᵀ K⁻¹ B for the forces B given by `columns`, each a list of (degree of freedom, force) with repeated ones added up; forces
+    /// on held degrees of freedom are ignored. What each does along every other.
     /// Symmetric to the last bit.
     ///
     /// # Panics
     /// Where a degree of freedom is not of this mesh.
-    pub fn compliance(&self, columns: &[Vec<(u32, f64)>]) -> Mat<f64> {
+    pub(crate) fn compliance(&self, columns: &[Vec<(u32, f64)>]) -> Mat<f64> {
         let order = self.by_first_place(columns);
         let fronts = Fronts::new(self, columns, &order);
         let product = fronts.product(columns.len());
@@ -138,35 +73,6 @@ impl Factor {
         order.sort_unstable();
         order.into_iter().map(|(_, column)| column).collect()
     }
-}
-
-/// One supernode of L x = b: its own rows, then what they do to the rows above it in the tree.
-fn forward(llt: SupernodalLltRef<'_, u32, f64>, s: usize, row_of_place: &[u32], x: &mut Mat<f64>) {
-    let node = llt.supernode(s);
-    let (width, columns) = (node.val().ncols(), x.ncols());
-    let (diagonal, below) = node.val().split_at_row(width);
-    let first = row_of_place[node.start()] as usize;
-    let mut own = x.as_mut().subrows_mut(first, width);
-    solve_lower_triangular_in_place(diagonal, own.as_mut(), Par::Seq);
-    let mut push = Mat::<f64>::zeros(below.nrows(), columns);
-    matmul(push.as_mut(), Accum::Replace, below, own.as_ref(), 1.0, Par::Seq);
-    for k in 0..columns {
-        for (i, place) in node.pattern().iter().enumerate() {
-            x[(row_of_place[*place as usize] as usize, k)] -= push[(i, k)];
-        }
-    }
-}
-
-/// One supernode of Lᵀ x = b.
-fn backward(llt: SupernodalLltRef<'_, u32, f64>, s: usize, row_of_place: &[u32], x: &mut Mat<f64>) {
-    let node = llt.supernode(s);
-    let (width, columns) = (node.val().ncols(), x.ncols());
-    let (diagonal, below) = node.val().split_at_row(width);
-    let first = row_of_place[node.start()] as usize;
-    let above = Mat::from_fn(below.nrows(), columns, |i, k| x[(row_of_place[node.pattern()[i] as usize] as usize, k)]);
-    let mut own = x.as_mut().subrows_mut(first, width);
-    matmul(own.as_mut(), Accum::Add, below.transpose(), above.as_ref(), -1.0, Par::Seq);
-    solve_upper_triangular_in_place(diagonal.transpose(), own.as_mut(), Par::Seq);
 }
 
 /// Y = L⁻¹ P B by supernodes.

@@ -22,7 +22,7 @@ use super::support::RigidParts;
 
 /// The stiffness matrix of a solid, N/mm per mm of thickness.
 #[derive(Debug, Clone)]
-pub struct Stiffness {
+pub(crate) struct Stiffness {
     matrix: CsMatI<f64, u32>,
     graph: NodeGraph,
     analysis: Analysis,
@@ -38,7 +38,7 @@ struct NodeGraph {
 
 impl Stiffness {
     /// Assembles the stiffness of `solid`, whose elements name `materials` by their place.
-    pub fn new(solid: &Solid, materials: &[Elastic], analysis: Analysis) -> Result<Self, ElementError> {
+    pub(crate) fn new(solid: &Solid, materials: &[Elastic], analysis: Analysis) -> Result<Self, ElementError> {
         check_references(solid, materials)?;
         let patches = averaged_patches(solid, analysis);
         let graph = NodeGraph::new(solid, &patches);
@@ -47,32 +47,14 @@ impl Stiffness {
         Ok(stiffness)
     }
 
-    /// Assembles again into the same pattern: other coordinates or materials, the same elements. After an error the
-    /// values are of no use.
-    pub fn reassemble(&mut self, solid: &Solid, materials: &[Elastic]) -> Result<(), ElementError> {
-        check_references(solid, materials)?;
-        if solid.dofs() != self.dofs() {
-            return Err(ElementError::OtherMesh { element: solid.elements.len() });
-        }
-        self.parts.move_to(solid);
-        self.matrix.data_mut().fill(0.0);
-        let patches = averaged_patches(solid, self.analysis);
-        self.assemble(solid, materials, &patches)
-    }
-
     /// The lower triangle, CSC.
-    pub fn lower(&self) -> &CsMatI<f64, u32> {
+    pub(crate) fn lower(&self) -> &CsMatI<f64, u32> {
         &self.matrix
     }
 
     /// Number of degrees of freedom, supports included.
-    pub fn dofs(&self) -> usize {
+    pub(crate) fn dofs(&self) -> usize {
         self.matrix.cols()
-    }
-
-    /// Plane strain or plane stress.
-    pub fn analysis(&self) -> Analysis {
-        self.analysis
     }
 
     /// What can move as a rigid body.
@@ -84,7 +66,7 @@ impl Stiffness {
     ///
     /// # Panics
     /// Where there is not one displacement for each degree of freedom.
-    pub fn multiply(&self, displacement_mm: &[f64]) -> Vec<f64> {
+    pub(crate) fn multiply(&self, displacement_mm: &[f64]) -> Vec<f64> {
         assert_eq!(displacement_mm.len(), self.dofs(), "one displacement for each degree of freedom");
         let mut force = vec![0.0; self.dofs()];
         let (columns, rows, values) = (self.matrix.indptr(), self.matrix.indices(), self.matrix.data());
@@ -107,7 +89,7 @@ impl Stiffness {
     }
 
     /// The columns of `dofs`, which are also the rows: their entries as (degree of freedom, N/mm per mm).
-    pub fn columns(&self, dofs: &[u32]) -> Vec<Vec<(u32, f64)>> {
+    pub(crate) fn columns(&self, dofs: &[u32]) -> Vec<Vec<(u32, f64)>> {
         let mut place = vec![u32::MAX; self.dofs()];
         (0..).zip(dofs).for_each(|(k, dof)| place[*dof as usize] = k);
         let mut found = vec![Vec::new(); dofs.len()];

@@ -32,20 +32,18 @@ use super::stiffness::check_references;
 
 /// A component of stress in the plane of the bodies or across it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum StressComponent {
+pub(crate) enum StressComponent {
     /// σ_x.
     X,
     /// σ_y.
     Y,
     /// τ_xy.
     Xy,
-    /// σ_z.
-    Z,
 }
 
 /// The stress at a node, in the elements of one material.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct NodalStress {
+pub(crate) struct NodalStress {
     /// The node.
     pub node: u32,
     /// The material.
@@ -62,22 +60,15 @@ pub struct NodalStress {
 
 impl NodalStress {
     /// σ_v = √(½ [(σ_x − σ_y)² + (σ_y − σ_z)² + (σ_z − σ_x)²] + 3 τ²), MPa.
-    pub fn von_mises_mpa(&self) -> f64 {
+    pub(crate) fn von_mises_mpa(&self) -> f64 {
         let (x, y, z) = (self.sigma_x_mpa, self.sigma_y_mpa, self.sigma_z_mpa);
         let squares = (x - y).powi(2) + (y - z).powi(2) + (z - x).powi(2);
         (0.5 * squares + 3.0 * self.tau_xy_mpa.powi(2)).sqrt()
     }
-
-    /// The principal stresses in the plane, greater first, MPa. The third is σ_z.
-    pub fn principal_mpa(&self) -> [f64; 2] {
-        let mean = 0.5 * (self.sigma_x_mpa + self.sigma_y_mpa);
-        let radius = (0.5 * (self.sigma_x_mpa - self.sigma_y_mpa)).hypot(self.tau_xy_mpa);
-        [mean + radius, mean - radius]
-    }
 }
 
 /// Recovers stresses from displacements of one solid.
-pub struct StressRecovery<'a> {
+pub(crate) struct StressRecovery<'a> {
     solid: &'a Solid,
     materials: &'a [Elastic],
     analysis: Analysis,
@@ -92,7 +83,7 @@ type StressMatrix = SMatrix<f64, 4, MOST_DOFS>;
 
 impl<'a> StressRecovery<'a> {
     /// For the elements of `solid`, which name `materials` by their place.
-    pub fn new(solid: &'a Solid, materials: &'a [Elastic], analysis: Analysis) -> Result<Self, ElementError> {
+    pub(crate) fn new(solid: &'a Solid, materials: &'a [Elastic], analysis: Analysis) -> Result<Self, ElementError> {
         check_references(solid, materials)?;
         let mut around = Vec::new();
         for (number, element) in (0..).zip(&solid.elements) {
@@ -107,7 +98,7 @@ impl<'a> StressRecovery<'a> {
     ///
     /// # Panics
     /// Where there is not one displacement for each degree of freedom.
-    pub fn nodal_stresses(&self, displacement_mm: &[f64]) -> Result<Vec<NodalStress>, ElementError> {
+    pub(crate) fn nodal_stresses(&self, displacement_mm: &[f64]) -> Result<Vec<NodalStress>, ElementError> {
         assert_eq!(displacement_mm.len(), self.solid.dofs(), "one displacement for each degree of freedom");
         // Per element and node: the extrapolated stress.
         let mut of_elements: Vec<[Vector4<f64>; 9]> = Vec::with_capacity(self.solid.elements.len());
@@ -143,7 +134,7 @@ impl<'a> StressRecovery<'a> {
 
     /// One component of the stress at `node` in `material` as (degree of freedom, MPa/mm), in rising order; empty where no
     /// element of that material has the node.
-    pub fn nodal_stress_row(
+    pub(crate) fn nodal_stress_row(
         &self,
         node: u32,
         material: u16,

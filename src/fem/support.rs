@@ -46,7 +46,7 @@ pub(super) struct Loose {
 }
 
 impl RigidParts {
-    pub fn new(solid: &Solid) -> Self {
+    pub(super) fn new(solid: &Solid) -> Self {
         let nodes = solid.points_mm.len();
         let mut sets = DisjointSets::new(solid.elements.len());
         let (start, around) = elements_around_nodes(solid);
@@ -78,18 +78,13 @@ impl RigidParts {
         Self { points_mm: solid.points_mm.clone(), parts_of_node, count }
     }
 
-    /// Takes the coordinates of `solid`, whose elements are the same.
-    pub fn move_to(&mut self, solid: &Solid) {
-        self.points_mm.clone_from(&solid.points_mm);
-    }
-
     /// Whether any element has the node.
-    pub fn has(&self, node: usize) -> bool {
+    pub(super) fn has(&self, node: usize) -> bool {
         self.parts_of_node[node] != NodeParts::None
     }
 
     /// The first body that `held` (one entry for each degree of freedom) does not hold.
-    pub fn loose(&self, held: &[bool]) -> Option<Loose> {
+    pub(super) fn loose(&self, held: &[bool]) -> Option<Loose> {
         // Bodies: parts joined by hinges.
         let mut sets = DisjointSets::new(self.count);
         for parts in &self.parts_of_node {

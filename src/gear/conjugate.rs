@@ -9,7 +9,7 @@
 use super::{Gear, GearPair, involute::TangentFramePoint};
 
 /// Two surfaces in rolling and sliding line contact.
-pub trait ConjugateFlanks: Sync {
+pub(crate) trait ConjugateFlanks: Sync {
     /// Coordinate of a gear's flank at the theoretical contact point.
     fn contact_coordinate_mm(&self, gear: Gear, position_mm: f64) -> f64;
 

@@ -8,7 +8,7 @@ use super::{Gear, GearPair};
 
 /// The points of one flank.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FlankGrid {
+pub(crate) struct FlankGrid {
     /// Coordinate of each point, increasing: the radius of curvature ρ on a gear.
     pub coordinate_mm: Vec<f64>,
     /// Arc length of each point along the flank.
@@ -17,7 +17,7 @@ pub struct FlankGrid {
 
 /// A place between two points.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GridPosition {
+pub(crate) struct GridPosition {
     /// The point before it.
     pub index: usize,
     /// Weight of the point after it, 0 to 1.
@@ -26,7 +26,7 @@ pub struct GridPosition {
 
 impl FlankGrid {
     /// `flank_points` intervals on a gear's flank: `flank_points + 1` points.
-    pub fn new(pair: &GearPair, gear: Gear, flank_points: usize) -> Self {
+    pub(crate) fn new(pair: &GearPair, gear: Gear, flank_points: usize) -> Self {
         let (involute, tip) = (pair.teeth[gear].involute, pair.teeth[gear].tip_radius_mm);
         let base = involute.base_radius_mm;
         let radius = |i: usize| base + (tip - base) * i as f64 / flank_points as f64;
@@ -36,23 +36,18 @@ impl FlankGrid {
     }
 
     /// Number of points.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.coordinate_mm.len()
     }
 
-    /// Whether there are no points.
-    pub fn is_empty(&self) -> bool {
-        self.coordinate_mm.is_empty()
-    }
-
     /// Where `coordinate_mm` falls; beyond the ends, the end itself.
-    pub fn place(&self, coordinate_mm: f64) -> GridPosition {
+    pub(crate) fn place(&self, coordinate_mm: f64) -> GridPosition {
         let after = self.coordinate_mm.partition_point(|&c| c <= coordinate_mm).clamp(1, self.len() - 1);
         self.place_between(after - 1, coordinate_mm)
     }
 
     /// As [`Self::place`], for a coordinate not far from the point `index`.
-    pub fn place_near(&self, mut index: usize, coordinate_mm: f64) -> GridPosition {
+    pub(crate) fn place_near(&self, mut index: usize, coordinate_mm: f64) -> GridPosition {
         while index + 2 < self.len() && self.coordinate_mm[index + 1] <= coordinate_mm {
             index += 1;
         }
@@ -68,19 +63,19 @@ impl FlankGrid {
     }
 
     /// Value at `coordinate_mm` of something given at the points.
-    pub fn value_at(&self, values: &[f64], coordinate_mm: f64) -> f64 {
+    pub(crate) fn value_at(&self, values: &[f64], coordinate_mm: f64) -> f64 {
         let GridPosition { index, weight } = self.place(coordinate_mm);
         values[index] + weight * (values[index + 1] - values[index])
     }
 
     /// Length of flank that point `i` stands for: from halfway to the point before to halfway to the point after.
-    pub fn share_mm(&self, i: usize) -> f64 {
+    pub(crate) fn share_mm(&self, i: usize) -> f64 {
         let last = self.len() - 1;
         0.5 * (self.arc_mm[(i + 1).min(last)] - self.arc_mm[i.saturating_sub(1)])
     }
 
     /// ∫ values ds over the flank.
-    pub fn integral(&self, values: &[f64]) -> f64 {
+    pub(crate) fn integral(&self, values: &[f64]) -> f64 {
         values.iter().enumerate().map(|(i, value)| value * self.share_mm(i)).sum()
     }
 }

@@ -13,12 +13,12 @@
 //! Source: ISO 21771, section 4.
 
 /// inv α = tan α − α, the polar angle of the involute.
-pub fn inv(alpha_rad: f64) -> f64 {
+pub(crate) fn inv(alpha_rad: f64) -> f64 {
     alpha_rad.tan() - alpha_rad
 }
 
 /// The angle whose involute is `value` (≥ 0), by Newton's method from a series start; exact to round-off.
-pub fn inverse_inv(value: f64) -> f64 {
+pub(crate) fn inverse_inv(value: f64) -> f64 {
     if value <= 0.0 {
         return 0.0;
     }

@@ -1,25 +1,25 @@
 //! Geometry of cylindrical involute gears, after ISO 21771: from the data of a pair to its teeth, their outline, the path
 //! of contact and the flank's field of removed material.
 
-pub mod conjugate;
-pub mod error;
-pub mod flank;
-pub mod flank_surface;
-pub mod flank_zones;
-pub mod half_profile;
-pub mod involute;
-pub mod modification;
-pub mod outline;
-pub mod pair;
-pub mod path_of_contact;
-pub mod per_gear;
-pub mod removed_material;
-pub mod root_trochoid;
-pub mod slices;
-pub mod spec;
-pub mod tip_touch;
-pub mod tooth;
+pub(crate) mod conjugate;
+pub(crate) mod error;
+pub(crate) mod flank;
+pub(crate) mod flank_surface;
+pub(crate) mod flank_zones;
+pub(crate) mod half_profile;
+pub(crate) mod involute;
+pub(crate) mod modification;
+pub(crate) mod outline;
+pub(crate) mod pair;
+pub(crate) mod path_of_contact;
+pub(crate) mod per_gear;
+pub(crate) mod removed_material;
+pub(crate) mod root_trochoid;
+pub(crate) mod slices;
+pub(crate) mod spec;
+pub(crate) mod tip_touch;
+pub(crate) mod tooth;
 
-pub use error::PairError;
-pub use pair::GearPair;
+pub(crate) use error::PairError;
+pub(crate) use pair::GearPair;
 pub use per_gear::{Gear, PerGear};

@@ -14,7 +14,7 @@ use super::tooth::Tooth;
 
 /// Which curve a piece of the outline is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Curve {
+pub(crate) enum Curve {
     /// Arc of the root circle, across the space.
     RootArc,
     /// Root trochoid.
@@ -27,7 +27,7 @@ pub enum Curve {
 
 /// One piece of the outline, run through from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Segment<'a> {
+pub(crate) struct Segment<'a> {
     tooth: &'a Tooth,
     /// What it is.
     pub curve: Curve,
@@ -38,7 +38,7 @@ pub struct Segment<'a> {
 }
 
 /// The outline of the whole gear, in the order it is run through.
-pub fn outline(tooth: &Tooth) -> Vec<Segment<'_>> {
+pub(crate) fn outline(tooth: &Tooth) -> Vec<Segment<'_>> {
     let pitch_rad = 2.0 * PI / f64::from(tooth.teeth);
     let mut segments = Vec::with_capacity(6 * tooth.teeth as usize);
     for k in 0..tooth.teeth {
@@ -57,7 +57,7 @@ pub fn outline(tooth: &Tooth) -> Vec<Segment<'_>> {
 
 /// Closed polyline of the outline with `per_segment` points on each fillet and flank (≥ 2) and a few on the arcs; the
 /// first point is not repeated at the end.
-pub fn polyline(tooth: &Tooth, per_segment: usize) -> Vec<[f64; 2]> {
+pub(crate) fn polyline(tooth: &Tooth, per_segment: usize) -> Vec<[f64; 2]> {
     let mut points = Vec::new();
     for segment in outline(tooth) {
         let n = match segment.curve {
@@ -74,14 +74,15 @@ pub fn polyline(tooth: &Tooth, per_segment: usize) -> Vec<[f64; 2]> {
 
 impl Segment<'_> {
     /// Point at `tau` in [0, 1], mm.
-    pub fn point_mm(&self, tau: f64) -> Vector2<f64> {
+    pub(crate) fn point_mm(&self, tau: f64) -> Vector2<f64> {
         let (radius, theta) = self.polar(tau);
         let theta = self.placed_rad(theta);
         Vector2::new(radius * theta.sin(), radius * theta.cos())
     }
 
     /// Unit tangent at `tau`, in the direction the outline is run through.
-    pub fn tangent(&self, tau: f64) -> Vector2<f64> {
+    #[cfg(test)]
+    pub(crate) fn tangent(&self, tau: f64) -> Vector2<f64> {
         let (_, theta) = self.polar(tau);
         // Components along the radius and clockwise, for the clockwise side of the space (root to tip).
         let (radial, clockwise) = match self.curve {

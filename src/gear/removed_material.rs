@@ -28,7 +28,7 @@ use super::{
 };
 
 /// The modifications of a gear's flank as removed material at its points, slice after slice, mm.
-pub fn modifications_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid, slices: &Slices) -> Vec<f64> {
+pub(crate) fn modifications_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid, slices: &Slices) -> Vec<f64> {
     let (modification, tooth) = (&pair.spec.gears[gear].modification, &pair.teeth[gear]);
     let start = pair.active_start_rho_mm(gear);
     let profile: Vec<f64> = grid.coordinate_mm.iter().map(|&rho| removed_mm(modification, tooth, start, rho)).collect();
@@ -37,7 +37,7 @@ pub fn modifications_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid, slices: &
 }
 
 /// Material removed at `width_mm` of a face of width `face_width_mm` by what varies over it alone.
-pub fn lead_removed_mm(modification: &Modification, face_width_mm: f64, width_mm: f64) -> f64 {
+pub(crate) fn lead_removed_mm(modification: &Modification, face_width_mm: f64, width_mm: f64) -> f64 {
     let along = width_mm / face_width_mm;
     let crowning = modification.lead_crowning_mm * (2.0 * along - 1.0).powi(2);
     let end = modification.end_relief.map_or(0.0, |end| {
@@ -51,7 +51,7 @@ pub fn lead_removed_mm(modification: &Modification, face_width_mm: f64, width_mm
 
 /// Material removed at radius of curvature `rho_mm` of `tooth`, whose active profile begins at `active_start_rho_mm`, by
 /// what is alike in every transverse section.
-pub fn removed_mm(modification: &Modification, tooth: &Tooth, active_start_rho_mm: f64, rho_mm: f64) -> f64 {
+pub(crate) fn removed_mm(modification: &Modification, tooth: &Tooth, active_start_rho_mm: f64, rho_mm: f64) -> f64 {
     let tip_rho = tooth.tip_rho_mm();
     let tip = modification.tip_relief.map_or(0.0, |r| relief_mm(r, rho_mm - (tip_rho - r.length_mm)));
     let root = modification.root_relief.map_or(0.0, |r| relief_mm(r, active_start_rho_mm + r.length_mm - rho_mm));
@@ -62,7 +62,7 @@ pub fn removed_mm(modification: &Modification, tooth: &Tooth, active_start_rho_m
 
 /// Length along the flank that a tip rounding takes: the tangent length ρ_k tan(γ/2) of the turn γ = π/2 − α_a from flank
 /// to tip circle.
-pub fn tip_rounding_length_mm(rounding_mm: f64, tooth: &Tooth) -> f64 {
+pub(crate) fn tip_rounding_length_mm(rounding_mm: f64, tooth: &Tooth) -> f64 {
     let turn = std::f64::consts::FRAC_PI_2 - tooth.involute.pressure_angle_rad(tooth.tip_rho_mm());
     rounding_mm * (0.5 * turn).tan()
 }
@@ -78,7 +78,7 @@ fn relief_mm(relief: Relief, from_start_mm: f64) -> f64 {
 }
 
 /// Removed at radius of curvature `rho_mm` of `tooth` by a rounding of its tip edge.
-pub fn tip_rounding_mm(radius: f64, tooth: &Tooth, rho_mm: f64) -> f64 {
+pub(crate) fn tip_rounding_mm(radius: f64, tooth: &Tooth, rho_mm: f64) -> f64 {
     let begins = tooth.involute.arc_mm(tooth.tip_rho_mm()) - tip_rounding_length_mm(radius, tooth);
     let into = tooth.involute.arc_mm(rho_mm) - begins;
     if radius <= 0.0 || into <= 0.0 {

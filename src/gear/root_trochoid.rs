@@ -54,7 +54,7 @@ impl RackTip {
 }
 
 /// The same of a rack given by α_n and h_fP*.
-pub fn greatest_fillet_radius_factor(normal_pressure_angle_rad: f64, dedendum_factor: f64) -> f64 {
+pub(crate) fn greatest_fillet_radius_factor(normal_pressure_angle_rad: f64, dedendum_factor: f64) -> f64 {
     let alpha = normal_pressure_angle_rad;
     (std::f64::consts::FRAC_PI_4 - dedendum_factor * alpha.tan()) / (1.0 / alpha.cos() - alpha.tan())
 }

@@ -19,7 +19,7 @@ use super::GearPair;
 
 /// Slices of the same width, from z = 0 to z = b.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Slices {
+pub(crate) struct Slices {
     /// Place of each over the face width: its middle.
     pub width_mm: Vec<f64>,
     /// How far its theoretical contact point is ahead of that in the middle of the face width, along the path of contact.
@@ -30,7 +30,7 @@ pub struct Slices {
 
 impl Slices {
     /// `count` (≥ 1) slices over the face width of `pair`.
-    pub fn new(pair: &GearPair, count: usize) -> Self {
+    pub(crate) fn new(pair: &GearPair, count: usize) -> Self {
         let face_width = pair.spec.face_width_mm;
         let slice_width_mm = face_width / count as f64;
         let width_mm: Vec<f64> = (0..count).map(|i| (i as f64 + 0.5) * slice_width_mm).collect();
@@ -40,7 +40,7 @@ impl Slices {
     }
 
     /// How many.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.width_mm.len()
     }
 }

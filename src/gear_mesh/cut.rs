@@ -22,7 +22,7 @@ pub(super) struct Cut {
 
 impl Cut {
     /// The cut of a gear clamped at `clamp_radius_mm`, whose first element is to be about `first_mm` long.
-    pub fn new(shape: &ToothShape, clamp_radius_mm: f64, first_mm: f64) -> Result<Self, ToothMeshError> {
+    pub(super) fn new(shape: &ToothShape, clamp_radius_mm: f64, first_mm: f64) -> Result<Self, ToothMeshError> {
         let root_mm = shape.tooth.root_radius_mm;
         let greatest_mm = greatest_clamp_mm(root_mm, shape.normal_module_mm);
         if !(clamp_radius_mm > 0.0 && clamp_radius_mm <= greatest_mm) {

@@ -18,9 +18,9 @@ mod interior;
 mod layer;
 mod neighbours;
 mod outline;
-mod pair_mesh;
+pub(crate) mod pair_mesh;
 mod profile;
-pub mod settings;
+pub(crate) mod settings;
 mod size_field;
 mod spacing;
 mod whole_gear;
@@ -29,9 +29,9 @@ use std::ops::Range;
 
 use nalgebra::Vector2;
 
-pub use error::ToothMeshError;
-pub use pair_mesh::{PairSectors, gear_sector, in_place, pair_mesh, pair_sectors, touching_pairs, turn_rad};
-pub use whole_gear::{GearMesh, ToothNodes, gear_mesh};
+pub(crate) use error::ToothMeshError;
+pub(crate) use pair_mesh::{gear_sector, pair_mesh, pair_sectors, touching_pairs, turn_rad};
+pub(crate) use whole_gear::gear_mesh;
 
 use crate::gear::{Gear, GearPair, modification::Modification, tooth::Tooth};
 use crate::mesh::CellKind;
@@ -54,7 +54,7 @@ const NEGLIGIBLE_ROUNDING_MODULES: f64 = 1e-3;
 
 /// The gear whose tooth is meshed.
 #[derive(Debug, Clone, Copy)]
-pub struct ToothShape<'a> {
+pub(crate) struct ToothShape<'a> {
     /// Circles and curves.
     pub tooth: &'a Tooth,
     /// Deviations from the involute.
@@ -67,7 +67,7 @@ pub struct ToothShape<'a> {
 
 /// How a sector is meshed.
 #[derive(Clone, Copy)]
-pub struct SectorSettings<'a> {
+pub(crate) struct SectorSettings<'a> {
     /// Where the body is clamped: the inner radius of the mesh.
     pub clamp_radius_mm: f64,
     /// Elements along each fillet of a fine sector.
@@ -78,7 +78,7 @@ pub struct SectorSettings<'a> {
 
 /// Resolution of a working flank.
 #[derive(Clone, Copy)]
-pub struct FlankResolution<'a> {
+pub(crate) struct FlankResolution<'a> {
     /// Half-width of contact by the flank's radius of curvature, mm.
     pub half_width_mm: &'a dyn Fn(f64) -> f64,
     /// Elements in a half-width.
@@ -91,7 +91,7 @@ pub struct FlankResolution<'a> {
 
 /// One element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Cell {
+pub(crate) struct Cell {
     /// [`CellKind::Triangle6`] or [`CellKind::Quad8`].
     pub kind: CellKind,
     /// Its nodes; the first [`CellKind::node_count`] count.
@@ -100,7 +100,7 @@ pub struct Cell {
 
 /// A flank with its tip rounding as a chain of nodes.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct FlankChain {
+pub(crate) struct FlankChain {
     /// Ends and middles of elements alternately, from the end of the fillet to the tip circle.
     pub nodes: Vec<u32>,
     /// Radius of curvature ρ of the involute at each node, mm; NaN on the rounding.
@@ -113,7 +113,7 @@ pub struct FlankChain {
 
 /// The mesh of one pitch. Chains alternate between ends and middles of elements.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ToothSector {
+pub(crate) struct ToothSector {
     /// Nodes, mm.
     pub points_mm: Vec<Vector2<f64>>,
     /// Elements.
@@ -162,28 +162,28 @@ impl Cell {
     }
 
     /// Its nodes.
-    pub fn nodes(&self) -> &[u32] {
+    pub(crate) fn nodes(&self) -> &[u32] {
         &self.nodes[..self.kind.node_count()]
     }
 }
 
 impl FlankChain {
     /// The nodes of the resolved part with their radii of curvature.
-    pub fn resolved_nodes(&self) -> (&[u32], &[f64]) {
+    pub(crate) fn resolved_nodes(&self) -> (&[u32], &[f64]) {
         (&self.nodes[self.resolved.clone()], &self.rho_mm[self.resolved.clone()])
     }
 }
 
 impl ToothSector {
     /// Number of degrees of freedom.
-    pub fn dofs(&self) -> usize {
+    pub(crate) fn dofs(&self) -> usize {
         2 * self.points_mm.len()
     }
 }
 
 impl<'a> ToothShape<'a> {
     /// The tooth of one gear of `pair`.
-    pub fn of(pair: &'a GearPair, gear: Gear) -> Self {
+    pub(crate) fn of(pair: &'a GearPair, gear: Gear) -> Self {
         Self {
             tooth: &pair.teeth[gear],
             modification: &pair.spec.gears[gear].modification,
@@ -197,7 +197,7 @@ impl<'a> ToothShape<'a> {
 ///
 /// # Errors
 /// [`ToothMeshError`] where the clamp circle, the resolution or the shape of the tooth leave no mesh.
-pub fn sector(shape: &ToothShape, settings: &SectorSettings) -> Result<ToothSector, ToothMeshError> {
+pub(crate) fn sector(shape: &ToothShape, settings: &SectorSettings) -> Result<ToothSector, ToothMeshError> {
     check(settings)?;
     // A coarse tooth touches nothing, the rounding of its tip edges would only cost nodes; and an edge as rough as a
     // ground surface is sharp.

@@ -33,7 +33,7 @@ fn square(level: i32, coordinate: f64) -> i64 {
 
 impl Neighbours {
     /// Adds a point.
-    pub fn add(&mut self, point: Vector2<f64>, length_mm: f64) {
+    pub(super) fn add(&mut self, point: Vector2<f64>, length_mm: f64) {
         let level = level(length_mm);
         self.squares
             .entry((level, square(level, point.x), square(level, point.y)))
@@ -42,7 +42,7 @@ impl Neighbours {
     }
 
     /// Whether a point of `length_mm` at `point` would be nearer to another than `part` (below 1) of their mean length.
-    pub fn crowds(&self, point: Vector2<f64>, length_mm: f64, part: f64) -> bool {
+    pub(super) fn crowds(&self, point: Vector2<f64>, length_mm: f64, part: f64) -> bool {
         let own = level(length_mm);
         (own - FACTOR_LEVELS..=own + FACTOR_LEVELS).any(|level| {
             let reach = 0.5 * part * (length_mm + 2f64.powi(level + 1));

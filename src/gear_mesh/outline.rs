@@ -48,7 +48,11 @@ pub(super) struct Outline {
 
 impl Outline {
     /// The nodes for `settings`.
-    pub fn new(shape: &ToothShape, settings: &SectorSettings, profile: &Profile) -> Result<Self, ToothMeshError> {
+    pub(super) fn new(
+        shape: &ToothShape,
+        settings: &SectorSettings,
+        profile: &Profile,
+    ) -> Result<Self, ToothMeshError> {
         let wanted = Wanted::new(shape, settings, profile)?;
         let right = wanted.half(profile, Side::Right);
         let left = wanted.half(profile, Side::Left);
@@ -96,7 +100,7 @@ impl Outline {
     }
 
     /// The nodes of a part on a side, neighbouring runs together; empty where there is none.
-    pub fn part(&self, side: Side, part: Part) -> Range<usize> {
+    pub(super) fn part(&self, side: Side, part: Part) -> Range<usize> {
         let mut of_part = self.runs.iter().filter(|run| run.0 == side && run.1 == part).map(|run| run.2.clone());
         match of_part.next() {
             Some(first) => first.start..of_part.next_back().map_or(first.end, |last| last.end),

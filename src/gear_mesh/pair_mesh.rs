@@ -28,7 +28,7 @@ const TIP_MEETS_HALF_WIDTHS: f64 = 3.0;
 
 /// The sectors of both gears.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PairSectors {
+pub(crate) struct PairSectors {
     /// With the working flank resolved.
     pub fine: PerGear<ToothSector>,
     /// Without.
@@ -39,7 +39,7 @@ pub struct PairSectors {
 ///
 /// # Errors
 /// [`ToothMeshError`]
-pub fn pair_sectors(
+pub(crate) fn pair_sectors(
     pair: &GearPair,
     settings: &BodySettings,
     half_width_mm: &dyn Fn(f64) -> f64,
@@ -58,7 +58,7 @@ pub fn pair_sectors(
 ///
 /// # Errors
 /// [`ToothMeshError`]
-pub fn gear_sector(
+pub(crate) fn gear_sector(
     pair: &GearPair,
     gear: Gear,
     fine: bool,
@@ -98,13 +98,13 @@ pub fn gear_sector(
 
 /// Numbers of the tooth pairs that may touch while the reference pair runs from A to E: 0 that pair itself, +1 the one a
 /// base pitch ahead, −1 the one behind …
-pub fn touching_pairs(pair: &GearPair) -> Vec<i32> {
+pub(crate) fn touching_pairs(pair: &GearPair) -> Vec<i32> {
     let beside = (pair.path.contact_ratio() + EARLY_CONTACT).floor().max(1.0) as i32;
     (-beside..=beside).collect()
 }
 
 /// Turn of a gear from tooth 0 on +y to contact at `position_mm`, anticlockwise in the gear's own frame, rad.
-pub fn turn_rad(pair: &GearPair, gear: Gear, position_mm: f64) -> f64 {
+pub(crate) fn turn_rad(pair: &GearPair, gear: Gear, position_mm: f64) -> f64 {
     let tooth = &pair.teeth[gear];
     let on_pitch_circle = tooth.half_angle_rad(pair.working_pitch_radius_mm(gear));
     let rolled = (position_mm - pair.path.pitch_point_mm) / tooth.involute.base_radius_mm;
@@ -115,7 +115,7 @@ pub fn turn_rad(pair: &GearPair, gear: Gear, position_mm: f64) -> f64 {
 }
 
 /// A point of a gear's own frame, in the frame of the pair with the reference pair in contact at `position_mm`.
-pub fn in_place(pair: &GearPair, gear: Gear, position_mm: f64) -> impl Fn(Vector2<f64>) -> Vector2<f64> {
+pub(crate) fn in_place(pair: &GearPair, gear: Gear, position_mm: f64) -> impl Fn(Vector2<f64>) -> Vector2<f64> {
     let turn = Rotation2::new(turn_rad(pair, gear, position_mm));
     let centre_distance_mm = pair.spec.centre_distance_mm;
     move |point| {
@@ -135,7 +135,7 @@ pub fn in_place(pair: &GearPair, gear: Gear, position_mm: f64) -> impl Fn(Vector
 ///
 /// # Errors
 /// [`ToothMeshError`]
-pub fn pair_mesh(
+pub(crate) fn pair_mesh(
     pair: &GearPair,
     settings: &BodySettings,
     sectors: &PairSectors,

@@ -62,7 +62,7 @@ pub(super) struct Profile<'a> {
 
 impl<'a> Profile<'a> {
     /// The curves of `tooth` with `modification`, its active profile beginning at `active_start_rho_mm`.
-    pub fn new(
+    pub(super) fn new(
         tooth: &'a Tooth,
         modification: &Modification,
         active_start_rho_mm: f64,
@@ -86,7 +86,7 @@ impl<'a> Profile<'a> {
     }
 
     /// The same with its tip edge rounded.
-    pub fn rounded(mut self, radius_mm: f64) -> Result<Self, ToothMeshError> {
+    pub(super) fn rounded(mut self, radius_mm: f64) -> Result<Self, ToothMeshError> {
         if radius_mm <= 0.0 {
             return Ok(self);
         }
@@ -119,7 +119,7 @@ impl<'a> Profile<'a> {
     }
 
     /// The point of `piece` at `u`, from 0 at its root end to 1.
-    pub fn point_mm(&self, piece: Piece, u: f64) -> Vector2<f64> {
+    pub(super) fn point_mm(&self, piece: Piece, u: f64) -> Vector2<f64> {
         match piece {
             Piece::RootArc => {
                 let cut = PI / f64::from(self.tooth.teeth);
@@ -143,25 +143,25 @@ impl<'a> Profile<'a> {
     }
 
     /// Radius of curvature of the involute at `u` on the flank, evenly spaced in arc length.
-    pub fn rho_mm(&self, u: f64) -> f64 {
+    pub(super) fn rho_mm(&self, u: f64) -> f64 {
         let (first, last) = (self.tooth.root_form_rho_mm(), self.flank_end_rho_mm);
         (first * first + u * (last - first) * (last + first)).max(0.0).sqrt()
     }
 
     /// The inverse of [`Self::rho_mm`].
-    pub fn at_rho(&self, rho_mm: f64) -> f64 {
+    pub(super) fn at_rho(&self, rho_mm: f64) -> f64 {
         let (first, last) = (self.tooth.root_form_rho_mm(), self.flank_end_rho_mm);
         ((rho_mm - first) * (rho_mm + first) / ((last - first) * (last + first))).clamp(0.0, 1.0)
     }
 
     /// Outward normal of the plain involute at `rho_mm`.
-    pub fn involute_normal(&self, rho_mm: f64) -> Vector2<f64> {
+    pub(super) fn involute_normal(&self, rho_mm: f64) -> Vector2<f64> {
         let (sin, cos) = self.string_rad(rho_mm).sin_cos();
         Vector2::new(cos, -sin)
     }
 
     /// Radii of curvature between the ends of the flank where the removed material has a kink.
-    pub fn kinks_rho_mm(&self) -> Vec<f64> {
+    pub(super) fn kinks_rho_mm(&self) -> Vec<f64> {
         let Modification { tip_relief, root_relief, profile_crowning_mm, .. } = self.modification;
         let mut kinks = Vec::new();
         kinks.extend(tip_relief.map(|relief| self.tooth.tip_rho_mm() - relief.length_mm));
@@ -174,23 +174,23 @@ impl<'a> Profile<'a> {
     }
 
     /// Half angle of the root circle's arc between two fillets.
-    pub fn root_arc_rad(&self) -> f64 {
+    pub(super) fn root_arc_rad(&self) -> f64 {
         let foot = self.tooth.trochoid.point_mm(FRAC_PI_2);
         foot.x.atan2(foot.y).max(0.0)
     }
 
     /// Half angle of the tip land.
-    pub fn land_rad(&self) -> f64 {
+    pub(super) fn land_rad(&self) -> f64 {
         self.land_rad
     }
 
     /// Radius of the tip rounding; 0 where the edge is sharp.
-    pub fn rounding_mm(&self) -> f64 {
+    pub(super) fn rounding_mm(&self) -> f64 {
         self.rounding.map_or(0.0, |rounding| rounding.radius_mm)
     }
 
     /// ρ where the flank ends.
-    pub fn flank_end_rho_mm(&self) -> f64 {
+    pub(super) fn flank_end_rho_mm(&self) -> f64 {
         self.flank_end_rho_mm
     }
 

@@ -5,14 +5,14 @@ use serde::{Deserialize, Serialize};
 use crate::gear::PerGear;
 
 /// Elements along each fillet of a tooth that is resolved.
-pub const FILLET_ELEMENTS: u32 = 24;
+pub(crate) const FILLET_ELEMENTS: u32 = 24;
 /// Half-widths of contact below the start of active profile where the resolved part of a flank begins.
-pub const MARGIN_HALF_WIDTHS: f64 = 3.0;
+pub(crate) const MARGIN_HALF_WIDTHS: f64 = 3.0;
 /// Depth of the structured layer under a flank, in half-widths of contact.
-pub const DEPTH_HALF_WIDTHS: f64 = 1.0;
+pub(crate) const DEPTH_HALF_WIDTHS: f64 = 1.0;
 
 /// Half-width of contact on a rounded tip edge over its radius, for the length of elements there.
-pub const ROUNDING_HALF_WIDTH: f64 = 0.3;
+pub(crate) const ROUNDING_HALF_WIDTH: f64 = 0.3;
 
 /// Depth of the body below the root circle, in normal modules, where nothing else is given.
 const BODY_MODULES: f64 = 2.5;
@@ -60,13 +60,13 @@ pub enum SectorSides {
 const LEAST_BODY_MODULES: f64 = 0.1;
 
 /// Greatest clamp radius of a gear: a tenth of a module below its root circle.
-pub fn greatest_clamp_mm(root_radius_mm: f64, normal_module_mm: f64) -> f64 {
+pub(crate) fn greatest_clamp_mm(root_radius_mm: f64, normal_module_mm: f64) -> f64 {
     root_radius_mm - LEAST_BODY_MODULES * normal_module_mm
 }
 
 /// A clamp radius chosen where none is given.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DefaultClamp {
+pub(crate) struct DefaultClamp {
     /// The radius.
     pub radius_mm: f64,
     /// Whether the gear is too small for the usual depth of 2.5 modules below the root circle.
@@ -75,7 +75,7 @@ pub struct DefaultClamp {
 
 /// The clamp radius of a gear where none is given: the root radius less 2.5 normal modules, or 0.4 of the root radius
 /// where that would leave less than 0.2 of it.
-pub fn default_clamp(root_radius_mm: f64, normal_module_mm: f64) -> DefaultClamp {
+pub(crate) fn default_clamp(root_radius_mm: f64, normal_module_mm: f64) -> DefaultClamp {
     let radius_mm = root_radius_mm - BODY_MODULES * normal_module_mm;
     if radius_mm > LEAST_OVER_ROOT * root_radius_mm {
         DefaultClamp { radius_mm, small_gear: false }

@@ -20,7 +20,7 @@ pub(super) struct SizeField {
 
 impl SizeField {
     /// The field of a closed boundary, its nodes in order.
-    pub fn of_boundary(ring: &[Vector2<f64>], growth: f64, greatest_mm: f64) -> Self {
+    pub(super) fn of_boundary(ring: &[Vector2<f64>], growth: f64, greatest_mm: f64) -> Self {
         let n = ring.len();
         let edge = |k: usize| (ring[(k + 1) % n] - ring[k % n]).norm();
         let nodes = (0..n).map(|k| (ring[k], 0.5 * (edge(k) + edge(k + n - 1)))).collect();
@@ -28,7 +28,7 @@ impl SizeField {
     }
 
     /// h at `point`, mm.
-    pub fn at_mm(&self, point: Vector2<f64>) -> f64 {
+    pub(super) fn at_mm(&self, point: Vector2<f64>) -> f64 {
         self.nodes
             .iter()
             .fold(self.greatest_mm, |least, (node, length)| least.min(length + self.growth * (point - node).norm()))

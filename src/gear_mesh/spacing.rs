@@ -71,7 +71,7 @@ pub(super) struct OutlineNode {
 
 impl Profile<'_> {
     /// The point at `place`.
-    pub fn at_mm(&self, place: OutlinePoint) -> Vector2<f64> {
+    pub(super) fn at_mm(&self, place: OutlinePoint) -> Vector2<f64> {
         let point = self.point_mm(place.piece, place.u);
         match place.side {
             Side::Right => point,
@@ -83,7 +83,12 @@ impl Profile<'_> {
 impl Run {
     /// The run through `stretches` of the outline, each a piece on a side with its first and last parameter, sampled
     /// with `per_stretch` intervals.
-    pub fn new(profile: &Profile, part: Part, stretches: &[(Side, Piece, [f64; 2])], per_stretch: usize) -> Self {
+    pub(super) fn new(
+        profile: &Profile,
+        part: Part,
+        stretches: &[(Side, Piece, [f64; 2])],
+        per_stretch: usize,
+    ) -> Self {
         let mut samples: Vec<Sample> = Vec::with_capacity(stretches.len() * (per_stretch + 1));
         let mut s_mm = 0.0;
         for &(side, piece, [first, last]) in stretches {
@@ -99,19 +104,19 @@ impl Run {
     }
 
     /// Arc length.
-    pub fn arc_mm(&self) -> f64 {
+    pub(super) fn arc_mm(&self) -> f64 {
         self.samples.last().map_or(0.0, |sample| sample.s_mm)
     }
 
     /// Lowers the wanted length to what `wanted` gives for a place and its point.
-    pub fn want(&mut self, wanted: impl Fn(OutlinePoint, Vector2<f64>) -> f64) {
+    pub(super) fn want(&mut self, wanted: impl Fn(OutlinePoint, Vector2<f64>) -> f64) {
         for sample in &mut self.samples {
             sample.length_mm = sample.length_mm.min(wanted(sample.place, sample.point_mm));
         }
     }
 
     /// Lowers the wanted length to `factor` times the radius of curvature, but not below `least_mm`.
-    pub fn follow_curvature(&mut self, factor: f64, least_mm: f64) {
+    pub(super) fn follow_curvature(&mut self, factor: f64, least_mm: f64) {
         for k in 1..self.samples.len().saturating_sub(1) {
             let (before, after) = (
                 self.samples[k].point_mm - self.samples[k - 1].point_mm,
@@ -146,12 +151,12 @@ impl Run {
     }
 
     /// Elements wanted, not yet a whole number.
-    pub fn elements(&self) -> f64 {
+    pub(super) fn elements(&self) -> f64 {
         self.integrated().last().copied().unwrap_or(0.0)
     }
 
     /// Nodes of the run: ends of elements and the middles between them, alternately.
-    pub fn divide(&self, profile: &Profile) -> Vec<OutlineNode> {
+    pub(super) fn divide(&self, profile: &Profile) -> Vec<OutlineNode> {
         let elements = self.integrated();
         let sum = self.elements();
         let count = (sum - 1e-9).ceil().max(1.0) as usize;

@@ -13,7 +13,7 @@ use crate::gear_mesh::settings::Body;
 
 /// The mesh of a gear in its own frame.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct GearMesh {
+pub(crate) struct GearMesh {
     /// Nodes, mm.
     pub points_mm: Vec<Vector2<f64>>,
     /// Elements, tooth by tooth.
@@ -26,7 +26,7 @@ pub struct GearMesh {
 
 /// One tooth of a gear: chains of nodes in the orders of [`ToothSector`].
 #[derive(Debug, Clone, PartialEq)]
-pub struct ToothNodes {
+pub(crate) struct ToothNodes {
     /// 0: the tooth of the reference pair, +1 the one ahead, −1 the one behind …
     pub index: i32,
     /// Whether its working flank is resolved.
@@ -57,7 +57,7 @@ fn sense(gear: Gear) -> i32 {
 ///
 /// # Errors
 /// [`ToothMeshError::SectorTeeth`] where a sector's number of teeth is even or more than the gear has.
-pub fn gear_mesh(
+pub(crate) fn gear_mesh(
     gear: Gear,
     teeth: u32,
     body: Body,

@@ -50,7 +50,7 @@ const SLIP: f64 = 0.85;
 
 /// How a file says where on the flank a point is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PlaceColumn {
+pub(crate) enum PlaceColumn {
     /// Distance from the axis.
     RadiusMm,
     /// Length along the flank.
@@ -61,7 +61,7 @@ pub enum PlaceColumn {
 
 impl PlaceColumn {
     /// Its name in the file.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             PlaceColumn::RadiusMm => "radius_mm",
             PlaceColumn::ArcMm => "arc_mm",
@@ -72,7 +72,7 @@ impl PlaceColumn {
 
 /// What the heights of a file are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ValueKind {
+pub(crate) enum ValueKind {
     /// Of the surface.
     Height,
     /// Of what is gone of it.
@@ -81,7 +81,7 @@ pub enum ValueKind {
 
 /// Where lengths along the flank begin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ArcFrom {
+pub(crate) enum ArcFrom {
     /// The involute's own beginning.
     BaseCircle,
     /// Where contact ends towards the root.
@@ -92,7 +92,7 @@ pub enum ArcFrom {
 
 /// What heights are measured from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum HeightFrom {
+pub(crate) enum HeightFrom {
     /// The nominal involute, along its normal.
     #[default]
     Involute,
@@ -102,7 +102,7 @@ pub enum HeightFrom {
 
 /// When a profile was measured.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Moment {
+pub(crate) enum Moment {
     /// When the run ended.
     #[default]
     End,
@@ -114,7 +114,7 @@ pub enum Moment {
 
 /// What a file says, as it says it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MeasuredFile {
+pub(crate) struct MeasuredFile {
     /// Which gear.
     pub gear: Option<Gear>,
     /// When.
@@ -141,7 +141,7 @@ pub struct MeasuredFile {
 
 /// A point of the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeasuredRow {
+pub(crate) struct MeasuredRow {
     /// Its line.
     pub line: usize,
     /// Its place, in the unit of the column.
@@ -167,7 +167,7 @@ struct Header {
 ///
 /// # Errors
 /// The first thing that is wrong with it.
-pub fn parse(text: &str) -> Result<MeasuredFile, DataTableError> {
+pub(crate) fn parse(text: &str) -> Result<MeasuredFile, DataTableError> {
     let table = DataTable::read(text, columns_allowed)?;
     let mut header = Header::default();
     for &(line, key, value) in &table.keys {

@@ -23,11 +23,11 @@ const MOST_DAMPING: f64 = 1e12;
 const NO_EFFECT: f64 = 1e-12;
 
 /// r(θ), or why it cannot be computed.
-pub type Residuals<'a, E> = dyn FnMut(&[f64]) -> Result<Vec<f64>, E> + 'a;
+pub(crate) type Residuals<'a, E> = dyn FnMut(&[f64]) -> Result<Vec<f64>, E> + 'a;
 
 /// A parameter to fit.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Parameter {
+pub(crate) struct Parameter {
     /// Where the search begins.
     pub start: f64,
     /// Least value.
@@ -41,7 +41,7 @@ pub struct Parameter {
 /// Why the search ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum FitStop {
+pub(crate) enum FitStop {
     /// A minimum was found.
     Converged,
     /// Too many iterations.
@@ -56,7 +56,7 @@ pub enum FitStop {
 
 /// What the search found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Fitted {
+pub(crate) struct Fitted {
     /// θ.
     pub parameters: Vec<f64>,
     /// r(θ).
@@ -73,7 +73,7 @@ pub struct Fitted {
 ///
 /// # Errors
 /// Those of `residuals`.
-pub fn least_squares<E>(parameters: &[Parameter], residuals: &mut Residuals<'_, E>) -> Result<Fitted, E> {
+pub(crate) fn least_squares<E>(parameters: &[Parameter], residuals: &mut Residuals<'_, E>) -> Result<Fitted, E> {
     let mut theta: Vec<f64> = parameters.iter().map(|p| p.start.clamp(p.least, p.greatest)).collect();
     let mut r = residuals(&theta)?;
     let mut damping = 1e-3;
@@ -127,12 +127,12 @@ pub fn least_squares<E>(parameters: &[Parameter], residuals: &mut Residuals<'_, 
 }
 
 /// The undamped step −(JᵀJ)⁻¹Jᵀr; `None` where the parameters are not determined.
-pub fn gauss_newton_step(jacobian: &[Vec<f64>], residuals: &[f64]) -> Option<Vec<f64>> {
+pub(crate) fn gauss_newton_step(jacobian: &[Vec<f64>], residuals: &[f64]) -> Option<Vec<f64>> {
     newton_step(jacobian, residuals, 0.0)
 }
 
 /// (JᵀJ)⁻¹, row by row; `None` where the parameters are not determined.
-pub fn inverse_normal_matrix(jacobian: &[Vec<f64>]) -> Option<DMatrix<f64>> {
+pub(crate) fn inverse_normal_matrix(jacobian: &[Vec<f64>]) -> Option<DMatrix<f64>> {
     let (scales, normal) = scaled_normal_matrix(jacobian, 0.0)?;
     let inverse = normal.cholesky()?.inverse();
     Some(DMatrix::from_fn(scales.len(), scales.len(), |i, j| inverse[(i, j)] / (scales[i] * scales[j])))

@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 /// What is taken for the form of a profile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Form {
+pub(crate) enum Form {
     /// A least-squares polynomial of third order.
     Cubic,
     /// The nominal flank, with an offset and a tilt by least squares.
@@ -32,7 +32,7 @@ pub enum Form {
 
 impl Form {
     /// Its name on the command line and in reports.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Form::Cubic => "cubic",
             Form::Involute => "involute",
@@ -41,7 +41,7 @@ impl Form {
     }
 
     /// How many numbers it takes from a profile.
-    pub fn parameters(self) -> usize {
+    pub(crate) fn parameters(self) -> usize {
         match self {
             Form::Cubic => 4,
             Form::Involute => 2,
@@ -52,14 +52,14 @@ impl Form {
 
 /// The projection that removes a form from profiles at given points.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FormRemoval {
+pub(crate) struct FormRemoval {
     /// Orthonormal.
     columns: Vec<Vec<f64>>,
 }
 
 impl FormRemoval {
     /// Removal of `form` at points of these arc lengths, more of them than the form has parameters.
-    pub fn new(form: Form, arc_mm: &[f64]) -> Self {
+    pub(crate) fn new(form: Form, arc_mm: &[f64]) -> Self {
         let (first, last) = match (arc_mm.first(), arc_mm.last()) {
             (Some(&first), Some(&last)) => (first, last),
             _ => (0.0, 0.0),
@@ -81,7 +81,7 @@ impl FormRemoval {
     }
 
     /// Takes the form away from `values` at the points.
-    pub fn remove(&self, values: &mut [f64]) {
+    pub(crate) fn remove(&self, values: &mut [f64]) {
         for column in &self.columns {
             take_out(column, values);
         }

@@ -24,13 +24,13 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 use super::fit::inverse_normal_matrix;
 
 /// Probability that the interval holds.
-pub const CONFIDENCE: f64 = 0.95;
+pub(crate) const CONFIDENCE: f64 = 0.95;
 /// Rounds in which the autocorrelation is corrected for what the fit has taken.
 const ROUNDS: usize = 20;
 
 /// What the residuals of a fit say.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Uncertainty {
+pub(crate) struct Uncertainty {
     /// n_eff: points that count.
     pub effective_points: f64,
     /// n_eff − q.
@@ -45,7 +45,7 @@ pub struct Uncertainty {
 
 /// What `residuals` with the columns `jacobian` say, `also_fitted` values having been taken from them besides; `None` where too
 /// few points count for an interval, or parameters are not determined.
-pub fn uncertainty(jacobian: &[Vec<f64>], residuals: &[f64], also_fitted: usize) -> Option<Uncertainty> {
+pub(crate) fn uncertainty(jacobian: &[Vec<f64>], residuals: &[f64], also_fitted: usize) -> Option<Uncertainty> {
     let points = residuals.len() as f64;
     let fitted = (jacobian.len() + also_fitted) as f64;
     let time = correlation_points(residuals, fitted);

@@ -13,9 +13,9 @@
 //! | [`fit`] | nonlinear least squares in a few parameters |
 //! | [`interval`] | what the residuals say of the parameters |
 
-pub mod file;
-pub mod fit;
-pub mod form;
-pub mod interval;
-pub mod profile;
-pub mod roughness;
+pub(crate) mod file;
+pub(crate) mod fit;
+pub(crate) mod form;
+pub(crate) mod interval;
+pub(crate) mod profile;
+pub(crate) mod roughness;

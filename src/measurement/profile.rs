@@ -22,7 +22,7 @@ const OUTSIDE: f64 = 1e-3;
 
 /// A measured profile on a flank.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MeasuredProfile {
+pub(crate) struct MeasuredProfile {
     /// Whose flank.
     pub gear: Gear,
     /// Arc lengths from the base circle, increasing.
@@ -40,7 +40,7 @@ impl MeasuredProfile {
     ///
     /// # Errors
     /// A point that does not lie on the flank.
-    pub fn on_flank(file: &MeasuredFile, pair: &GearPair, gear: Gear) -> Result<Self, DataTableError> {
+    pub(crate) fn on_flank(file: &MeasuredFile, pair: &GearPair, gear: Gear) -> Result<Self, DataTableError> {
         let tooth = &pair.teeth[gear];
         let involute = tooth.involute;
         let arc_at = |rho: f64| involute.arc_mm(rho);
@@ -72,13 +72,13 @@ impl MeasuredProfile {
     }
 
     /// Radius of each point.
-    pub fn radius_mm(&self, pair: &GearPair) -> Vec<f64> {
+    pub(crate) fn radius_mm(&self, pair: &GearPair) -> Vec<f64> {
         let involute = pair.teeth[self.gear].involute;
         self.arc_mm.iter().map(|&arc| involute.radius_mm(rho_mm(&involute, arc))).collect()
     }
 
     /// z₀: what the unworn flank would show at each point if it lay `shift_mm` further towards the tip.
-    pub fn unworn_um(&self, pair: &GearPair, shift_mm: f64) -> Vec<f64> {
+    pub(crate) fn unworn_um(&self, pair: &GearPair, shift_mm: f64) -> Vec<f64> {
         let tooth = &pair.teeth[self.gear];
         let involute = tooth.involute;
         let (tip, start) = (tooth.tip_rho_mm(), pair.active_start_rho_mm(self.gear));

@@ -43,7 +43,7 @@ pub(super) mod reals {
     }
 
     /// Serialises finite numbers as they are and others by name.
-    pub fn serialize<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
+    pub(crate) fn serialize<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_seq(values.iter().map(|&value| match value {
             value if value.is_finite() => Real::Finite(value),
             value if value.is_nan() => Real::Named("nan".into()),
@@ -52,7 +52,7 @@ pub(super) mod reals {
     }
 
     /// The inverse of [`serialize`].
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
         let values = Vec::<Real>::deserialize(deserializer)?;
         let number = |value| match value {
             Real::Finite(value) => Ok(value),

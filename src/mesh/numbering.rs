@@ -15,7 +15,7 @@ pub(super) struct Numbering {
 
 impl Numbering {
     /// From pairs in any order; no number may occur twice.
-    pub fn new(mut pairs: Vec<(u64, usize)>, what: &'static str) -> Result<Self, Problem> {
+    pub(super) fn new(mut pairs: Vec<(u64, usize)>, what: &'static str) -> Result<Self, Problem> {
         if !pairs.is_sorted() {
             pairs.sort_unstable();
         }
@@ -26,7 +26,7 @@ impl Numbering {
     }
 
     /// Our own number of what the file calls `number`.
-    pub fn index(&self, number: u64) -> Option<usize> {
+    pub(super) fn index(&self, number: u64) -> Option<usize> {
         let (first, _) = *self.pairs.first()?;
         // Numbers without gaps are the rule: then the place is known at once.
         let guess = usize::try_from(number.checked_sub(first)?).ok()?;
@@ -40,7 +40,7 @@ impl Numbering {
     }
 
     /// Those within `first ..= last`, ascending in the file's numbers.
-    pub fn range(&self, first: u64, last: u64) -> &[(u64, usize)] {
+    pub(super) fn range(&self, first: u64, last: u64) -> &[(u64, usize)] {
         let from = self.pairs.partition_point(|pair| pair.0 < first);
         let to = self.pairs.partition_point(|pair| pair.0 <= last);
         self.pairs.get(from..to).unwrap_or_default()
@@ -56,14 +56,14 @@ pub(super) struct Allowance {
 
 impl Allowance {
     /// For a file of `bytes`; small files get by in any case.
-    pub fn of(bytes: usize) -> Self {
+    pub(super) fn of(bytes: usize) -> Self {
         const LEAST: u64 = 10_000;
         let limit = (bytes as u64).saturating_mul(LARGEST_EXPANSION).max(LEAST);
         Self { left: limit, limit }
     }
 
     /// Takes `entries` off, if they are still allowed.
-    pub fn take(&mut self, entries: usize) -> Result<(), Problem> {
+    pub(super) fn take(&mut self, entries: usize) -> Result<(), Problem> {
         self.left = self.left.checked_sub(entries as u64).ok_or(Problem::TooLarge { limit: self.limit })?;
         Ok(())
     }
@@ -81,18 +81,18 @@ pub(super) struct CellList {
 
 impl CellList {
     /// Cells so far.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.count
     }
 
     /// Begins a new block, also where the kind stays.
-    pub fn begin(&mut self, kind: CellKind) {
+    pub(super) fn begin(&mut self, kind: CellKind) {
         self.starts.push(self.count);
         self.blocks.push(CellBlock { kind, nodes: Vec::new() });
     }
 
     /// Adds a cell, in a new block if its kind is not that of the last; returns its number over all blocks.
-    pub fn push(&mut self, kind: CellKind, nodes: impl IntoIterator<Item = usize>) -> usize {
+    pub(super) fn push(&mut self, kind: CellKind, nodes: impl IntoIterator<Item = usize>) -> usize {
         if self.blocks.last().is_none_or(|block| block.kind != kind) {
             self.begin(kind);
         }
@@ -104,7 +104,7 @@ impl CellList {
     }
 
     /// Nodes of a cell by its number over all blocks.
-    pub fn cell(&self, number: usize) -> (CellKind, &[usize]) {
+    pub(super) fn cell(&self, number: usize) -> (CellKind, &[usize]) {
         let block = self.starts.partition_point(|&start| start <= number) - 1;
         let (kind, within) = (self.blocks[block].kind, number - self.starts[block]);
         let per_cell = kind.node_count();
@@ -113,7 +113,7 @@ impl CellList {
 
     /// Divides the cells into blocks of the kinds and lengths given, empty ones included; false, and nothing done, if the
     /// cells do not come out so.
-    pub fn divide(&mut self, lengths: &[(CellKind, usize)]) -> bool {
+    pub(super) fn divide(&mut self, lengths: &[(CellKind, usize)]) -> bool {
         let total = lengths.iter().try_fold(0_usize, |sum, &(_, length)| sum.checked_add(length));
         if total != Some(self.count) {
             return false;
@@ -134,7 +134,7 @@ impl CellList {
     }
 
     /// The data of all cells, block by block.
-    pub fn split(&self, array: &DataArray) -> Vec<DataArray> {
+    pub(super) fn split(&self, array: &DataArray) -> Vec<DataArray> {
         let components = array.components;
         let part = |(block, &start): (&CellBlock, &usize)| {
             let range = start * components..(start + block.len()) * components;
@@ -148,7 +148,11 @@ impl CellList {
     }
 
     /// Cells numbered over all blocks, in any order, as ascending lists for each block.
-    pub fn by_block(&self, mut cells: Vec<usize>, allowance: &mut Allowance) -> Result<Vec<Vec<usize>>, Problem> {
+    pub(super) fn by_block(
+        &self,
+        mut cells: Vec<usize>,
+        allowance: &mut Allowance,
+    ) -> Result<Vec<Vec<usize>>, Problem> {
         allowance.take(self.blocks.len())?;
         cells.sort_unstable();
         cells.dedup();

@@ -16,7 +16,7 @@ use super::sliced_positions::SliceContact;
 
 /// A contact as a Newton step sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactTangent {
+pub(crate) struct ContactTangent {
     /// w.
     pub line_load_n_per_mm: f64,
     /// c; 0 without contact.
@@ -27,7 +27,7 @@ pub struct ContactTangent {
 
 /// A tooth of a phase.
 #[derive(Debug, Clone)]
-pub struct BentTooth {
+pub(crate) struct BentTooth {
     /// The first of its contacts among those of the phase.
     first: usize,
     /// Slice and √q of each of its contacts.
@@ -45,7 +45,11 @@ pub struct BentTooth {
 impl BentTooth {
     /// The teeth that `contacts`, tooth by tooth, belong to, not yet bent; each has so many `slices`, and the compliance
     /// `mm2_per_n` at a contact.
-    pub fn of_phase(contacts: &[SliceContact], slices: usize, mm2_per_n: impl Fn(&SliceContact) -> f64) -> Vec<Self> {
+    pub(crate) fn of_phase(
+        contacts: &[SliceContact],
+        slices: usize,
+        mm2_per_n: impl Fn(&SliceContact) -> f64,
+    ) -> Vec<Self> {
         let mut first = 0;
         let of_tooth = |contacts: &[SliceContact]| {
             let begins = first;
@@ -65,12 +69,12 @@ impl BentTooth {
     }
 
     /// Is straight again.
-    pub fn straighten(&mut self) {
+    pub(crate) fn straighten(&mut self) {
         self.v.fill(0.0);
     }
 
     /// Each of its contacts, by its number in the phase, with the compliance of the teeth there, mm²/N, and how far they are bent, mm.
-    pub fn deflections_mm(&self) -> impl Iterator<Item = (usize, f64, f64)> {
+    pub(crate) fn deflections_mm(&self) -> impl Iterator<Item = (usize, f64, f64)> {
         let contacts = self.contacts.iter().enumerate();
         contacts.map(|(k, &(slice, root))| (self.first + k, root * root, root * self.v[slice]))
     }
@@ -105,7 +109,7 @@ impl BentTooth {
 
 /// Bends the teeth by a Newton step towards a sum of line loads `line_load`, with the `tangent` of every contact by its number in the
 /// phase, and gives δ, from where the approaches are; `None`, and nothing bent, where no contact carries.
-pub fn bend(
+pub(crate) fn bend(
     teeth: &mut [BentTooth],
     coupling: &SliceCoupling,
     line_load: f64,

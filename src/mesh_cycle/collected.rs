@@ -7,7 +7,7 @@ use super::load_sharing::EquilibriumError;
 use crate::gear::{Gear, PerGear};
 
 /// The collection of one group.
-pub struct Collected {
+pub(super) struct Collected {
     /// Depth that each flank point wears in one mesh, mm.
     pub depth_mm: PerGear<Vec<f64>>,
     work: Work,
@@ -16,12 +16,12 @@ pub struct Collected {
 
 impl Collected {
     /// Room for flanks of so many points.
-    pub fn new(points: PerGear<usize>) -> Self {
+    pub(super) fn new(points: PerGear<usize>) -> Self {
         Self { depth_mm: points.map(|points| vec![0.0; points]), work: Work::default(), failure: None }
     }
 
     /// Begins anew.
-    pub fn clear(&mut self) {
+    pub(super) fn clear(&mut self) {
         for gear in Gear::BOTH {
             self.depth_mm[gear].fill(0.0);
         }
@@ -29,12 +29,12 @@ impl Collected {
     }
 
     /// The depths stay as they are, and there is no new work.
-    pub fn keep(&mut self) {
+    pub(super) fn keep(&mut self) {
         (self.work, self.failure) = (Work::default(), None);
     }
 
     /// Takes the work of a position, or its failure; says whether to go on.
-    pub fn take(&mut self, solved: Result<Work, EquilibriumError>) -> bool {
+    pub(super) fn take(&mut self, solved: Result<Work, EquilibriumError>) -> bool {
         match solved {
             Ok(work) => self.work += work,
             Err(failure) => self.failure = Some(failure),
@@ -46,7 +46,7 @@ impl Collected {
     ///
     /// # Errors
     /// The first failure.
-    pub fn sum<'a>(
+    pub(super) fn sum<'a>(
         groups: impl Iterator<Item = &'a Self>,
         depth_mm: &mut PerGear<Vec<f64>>,
     ) -> Result<Work, EquilibriumError> {

@@ -91,7 +91,7 @@ struct Rows {
 }
 
 /// All positions of one base pitch, ready to be evaluated on ever newly worn flanks, whose places are the nodes of the flanks.
-pub struct CondensedCycle<'a> {
+pub(crate) struct CondensedCycle<'a> {
     model: &'a CondensedPair<'a>,
     line_load_n_per_mm: f64,
     nodes: PerGear<FlankNodes>,
@@ -104,7 +104,7 @@ pub struct CondensedCycle<'a> {
 
 impl<'a> CondensedCycle<'a> {
     /// Prepares positions as close as `positions` from A to E ask for.
-    pub fn new(model: &'a CondensedPair<'a>, positions: usize, line_load_n_per_mm: f64) -> Self {
+    pub(crate) fn new(model: &'a CondensedPair<'a>, positions: usize, line_load_n_per_mm: f64) -> Self {
         let nodes = model.flank_nodes();
         let radius_mm = PerGear::from_fn(|gear| {
             let local = model.nominal_radius_mm(gear);
@@ -129,23 +129,25 @@ impl<'a> CondensedCycle<'a> {
     }
 
     /// The nodes of both flanks.
-    pub fn nodes(&self) -> PerGear<&FlankNodes> {
+    pub(crate) fn nodes(&self) -> PerGear<&FlankNodes> {
         self.nodes.as_ref()
     }
 
     /// Nominal radii of the nodes, from root to tip.
-    pub fn radius_mm(&self) -> PerGear<&[f64]> {
+    #[cfg(test)]
+    pub(crate) fn radius_mm(&self) -> PerGear<&[f64]> {
         self.radius_mm.as_ref().map(Vec::as_slice)
     }
 
     /// Number of positions in a base pitch.
-    pub fn positions(&self) -> usize {
+    #[cfg(test)]
+    pub(crate) fn positions(&self) -> usize {
         self.loaded_positions().count()
     }
 
     /// What `at_nodes` of `gear`'s flank is at the nominal radii `radius_mm`: in straight lines between the nodes, as the wear itself is,
     /// and beyond them what it is at the last.
-    pub fn at_radii(&self, gear: Gear, at_nodes: &[f64], radius_mm: impl Iterator<Item = f64>) -> Vec<f64> {
+    pub(crate) fn at_radii(&self, gear: Gear, at_nodes: &[f64], radius_mm: impl Iterator<Item = f64>) -> Vec<f64> {
         let nodes = &self.radius_mm[gear];
         radius_mm.map(|radius| value_at(nodes, at_nodes, radius)).collect()
     }
@@ -264,7 +266,7 @@ impl CondensedCycle<'_> {
     ///
     /// # Errors
     /// [`EquilibriumError`] of the first position without equilibrium.
-    pub fn linearise_anew(
+    pub(crate) fn linearise_anew(
         &mut self,
         lost: LostMaterial<'_>,
         wear: &WearModel<'_>,

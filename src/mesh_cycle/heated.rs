@@ -10,14 +10,14 @@ use crate::wear::{
 
 /// What heat needs to know of the place of a contact.
 #[derive(Debug, Clone, Copy)]
-pub struct HeatedPlace {
+pub(super) struct HeatedPlace {
     ratios: SpeedRatios,
     /// Distance of each flank's points there, mm.
     spacing_mm: PerGear<f64>,
 }
 
 /// A contact under its load, and where it is.
-pub struct HeatedPair<'a> {
+pub(super) struct HeatedPair<'a> {
     contact: HeatedContact<'a>,
     spacing_mm: PerGear<f64>,
     /// Whether rows of points run across it.
@@ -26,7 +26,7 @@ pub struct HeatedPair<'a> {
 
 impl HeatedPlace {
     /// The stretch of the path that a loading position stands for.
-    pub fn new(flanks: Flanks<'_>, cell: PositionCell) -> Self {
+    pub(super) fn new(flanks: Flanks<'_>, cell: PositionCell) -> Self {
         let spacing = |gear: Gear| {
             let grid = flanks.grid[gear];
             let here = grid.place(flanks.geometry.contact_coordinate_mm(gear, cell.position_mm)).index;
@@ -39,7 +39,7 @@ impl HeatedPlace {
     }
 
     /// A pair that is pressed together here; none where the law does not read what heat does.
-    pub fn under<'a>(
+    pub(super) fn under<'a>(
         &self,
         wear: &WearModel<'a>,
         pair: &dyn PairContact,
@@ -61,7 +61,7 @@ impl HeatedPlace {
 
 impl HeatedPair<'_> {
     /// The conditions of the points of `gear`'s flank in a sweep.
-    pub fn conditions<'r>(&self, row: &'r mut HeatedRow, gear: Gear, sweep: &Sweep) -> &'r [ContactConditions] {
+    pub(super) fn conditions<'r>(&self, row: &'r mut HeatedRow, gear: Gear, sweep: &Sweep) -> &'r [ContactConditions] {
         if self.across {
             let points = RowOfPoints { gear, spacing_mm: self.spacing_mm[gear], pressure_mpa: &sweep.pressure_mpa };
             row.across(&self.contact, points)

@@ -25,9 +25,9 @@ use crate::fem::active_set::ActiveSetError;
 use crate::gear::PerGear;
 
 /// Greatest imbalance, relative to the load, at which an equilibrium is accepted.
-pub const TOLERANCE: f64 = 1e-11;
+pub(crate) const TOLERANCE: f64 = 1e-11;
 /// Greatest imbalance, relative to the load, that a result may have where rounding stands in the way of [`TOLERANCE`].
-pub const GREATEST_IMBALANCE: f64 = 1e-10;
+pub(crate) const GREATEST_IMBALANCE: f64 = 1e-10;
 /// Newton steps before bisection takes over; three to five are usual.
 const NEWTON_LIMIT: u64 = 40;
 
@@ -70,7 +70,7 @@ pub enum EquilibriumError {
 }
 
 /// A pair in mesh with its state from one wear step to the next.
-pub struct MeshedPair<'a> {
+pub(crate) struct MeshedPair<'a> {
     /// Its contact surface.
     pub contact: Box<dyn PairContact + 'a>,
     /// Its answer to the last indentation.
@@ -88,7 +88,7 @@ pub struct MeshedPair<'a> {
 
 /// The solution.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Equilibrium {
+pub(crate) struct Equilibrium {
     /// δ.
     pub transmission_error_mm: f64,
     /// Newton steps taken.
@@ -99,7 +99,7 @@ pub struct Equilibrium {
 
 impl<'a> MeshedPair<'a> {
     /// A pair that has not carried load yet.
-    pub fn new(contact: Box<dyn PairContact + 'a>, teeth_n_per_mm2: f64) -> Self {
+    pub(crate) fn new(contact: Box<dyn PairContact + 'a>, teeth_n_per_mm2: f64) -> Self {
         Self {
             contact,
             response: Response::default(),
@@ -112,7 +112,7 @@ impl<'a> MeshedPair<'a> {
     }
 
     /// The same where the load has a lever on the pinion of `ratio` base radii: 1 on the line of action.
-    pub fn on_lever(contact: Box<dyn PairContact + 'a>, teeth_n_per_mm2: f64, ratio: f64) -> Self {
+    pub(crate) fn on_lever(contact: Box<dyn PairContact + 'a>, teeth_n_per_mm2: f64, ratio: f64) -> Self {
         if ratio == 1.0 {
             return Self::new(contact, teeth_n_per_mm2);
         }
@@ -121,7 +121,7 @@ impl<'a> MeshedPair<'a> {
     }
 
     /// Takes the material removed from both flanks.
-    pub fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
+    pub(crate) fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
         self.contact.set_removed(removed_mm);
         self.touch_mm = self.contact.touch_mm();
     }
@@ -190,7 +190,7 @@ impl<'a> MeshedPair<'a> {
 ///
 /// # Errors
 /// That of `balance`.
-pub fn settled<'a, 'r>(
+pub(crate) fn settled<'a, 'r>(
     pairs: &mut [MeshedPair<'a>],
     removed_mm: impl Fn(usize) -> PerGear<&'r [f64]>,
     mut balance: impl FnMut(&mut [MeshedPair<'a>]) -> Result<Equilibrium, EquilibriumError>,
@@ -224,7 +224,7 @@ pub fn settled<'a, 'r>(
 ///
 /// # Errors
 /// [`EquilibriumError`].
-pub fn balance(
+pub(crate) fn balance(
     pairs: &mut [MeshedPair<'_>],
     line_load: f64,
     position_mm: f64,

@@ -5,22 +5,22 @@
 //! are independent of each other, so they are shared out to threads; each fixed group of positions collects its wear by
 //! itself and the groups are added in order: the result does not depend on the number of threads.
 
-pub mod bent_tooth;
+pub(crate) mod bent_tooth;
 mod collected;
-pub mod condensed;
+pub(crate) mod condensed;
 mod heated;
-pub mod load_sharing;
-pub mod positions;
-pub mod settings;
-pub mod simplified;
-pub mod slice_coupling;
-pub mod sliced;
-pub mod sliced_mesh;
-pub mod sliced_positions;
-pub mod sliced_sharing;
-pub mod sliced_teeth;
-pub mod tip_contact;
-pub mod wearing_pair;
+pub(crate) mod load_sharing;
+pub(crate) mod positions;
+pub(crate) mod settings;
+pub(crate) mod simplified;
+pub(crate) mod slice_coupling;
+pub(crate) mod sliced;
+pub(crate) mod sliced_mesh;
+pub(crate) mod sliced_positions;
+pub(crate) mod sliced_sharing;
+pub(crate) mod sliced_teeth;
+pub(crate) mod tip_contact;
+pub(crate) mod wearing_pair;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -38,7 +38,7 @@ const GROUPS: usize = 8;
 
 /// A tooth pair in mesh at some position: where it is and how stiff its teeth are.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PairInMesh {
+pub(crate) struct PairInMesh {
     /// Its theoretical contact point.
     pub position_mm: f64,
     /// Spring of its teeth, N/mm².
@@ -49,7 +49,7 @@ pub struct PairInMesh {
 
 /// One loading position: the reference pair's stretch of the path, and all pairs in mesh.
 #[derive(Debug, Clone, PartialEq)]
-pub struct LoadingPosition {
+pub(crate) struct LoadingPosition {
     /// What the position stands for.
     pub cell: PositionCell,
     /// All pairs in mesh, the reference pair first.
@@ -60,7 +60,7 @@ pub struct LoadingPosition {
 
 /// Counters of work done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct Work {
+pub(crate) struct Work {
     /// Mesh cycles evaluated.
     pub mesh_cycles: u64,
     /// Equilibria solved.
@@ -99,7 +99,7 @@ struct Group<'a> {
 }
 
 /// All loading positions of a pair, ready to be evaluated on ever newly worn flanks.
-pub struct LineOfActionCycle<'a> {
+pub(crate) struct LineOfActionCycle<'a> {
     groups: Vec<Group<'a>>,
     line_load_n_per_mm: f64,
     /// How far the bodies that all pairs share yield under the whole load, mm.
@@ -108,7 +108,7 @@ pub struct LineOfActionCycle<'a> {
 
 /// What was observed at one position.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct PositionObservation {
+pub(crate) struct PositionObservation {
     /// Theoretical contact point of the reference pair.
     pub position_mm: f64,
     /// Approach of the gears along the line of action.
@@ -126,7 +126,7 @@ pub struct PositionObservation {
 /// Towards a mathematically sharp tip edge under load the pressure of elastic bodies grows without bound, and what a model finds there is
 /// a matter of its resolution: a contact that such an edge cuts off is kept apart from those whose pressure is defined.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct GreatestPressure {
+pub(crate) struct GreatestPressure {
     /// Of contact whose pressure is defined, MPa.
     pub defined_mpa: f64,
     /// Of contact that a sharp tip edge cuts off, MPa; `None` where there is none.
@@ -135,7 +135,7 @@ pub struct GreatestPressure {
 
 impl GreatestPressure {
     /// Takes a contact's pressure into account.
-    pub fn note(&mut self, pressure_mpa: f64, at_sharp_edge: bool) {
+    pub(crate) fn note(&mut self, pressure_mpa: f64, at_sharp_edge: bool) {
         if at_sharp_edge {
             self.sharp_edge_mpa = Some(self.sharp_edge_mpa.map_or(pressure_mpa, |most| most.max(pressure_mpa)));
         } else {
@@ -144,14 +144,14 @@ impl GreatestPressure {
     }
 
     /// Takes the pressures of all `positions` into account.
-    pub fn note_all(&mut self, positions: &[PositionObservation]) {
+    pub(crate) fn note_all(&mut self, positions: &[PositionObservation]) {
         positions.iter().for_each(|at| self.note(at.footprint.peak_pressure_mpa, at.footprint.at_sharp_edge));
     }
 }
 
 /// What was observed over a mesh cycle.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct CycleObservation {
+pub(crate) struct CycleObservation {
     /// At each position, in order.
     pub positions: Vec<PositionObservation>,
     /// Greatest pressure at any position and of any flank point.
@@ -166,7 +166,7 @@ pub struct CycleObservation {
 
 /// What flanks have lost so far, at their points.
 #[derive(Debug, Clone, Copy)]
-pub struct LostMaterial<'a> {
+pub(crate) struct LostMaterial<'a> {
     /// By modifications and wear together, mm.
     pub removed_mm: PerGear<&'a [f64]>,
     /// By wear alone, mm.
@@ -174,7 +174,7 @@ pub struct LostMaterial<'a> {
 }
 
 /// A pair in mesh, evaluated over a whole mesh cycle on ever newly worn flanks.
-pub trait MeshCycle {
+pub(crate) trait MeshCycle {
     /// Solves every position on flanks that have lost `lost`, and puts into `depth_mm` what each point wears in one mesh.
     ///
     /// `stopped` is asked at every position whether to give up.
@@ -202,7 +202,7 @@ pub trait MeshCycle {
 
 impl<'a> LineOfActionCycle<'a> {
     /// Prepares every pair at every position. The wear of the reference pair, the first of each position, is collected.
-    pub fn new(
+    pub(crate) fn new(
         flanks: Flanks<'a>,
         surface: &dyn ContactSurface,
         positions: &[LoadingPosition],
@@ -222,7 +222,7 @@ impl<'a> LineOfActionCycle<'a> {
     }
 
     /// The same with all pairs on gear bodies that yield by `bodies_mm` under the whole load.
-    pub fn on_bodies_that_yield_by(self, bodies_mm: f64) -> Self {
+    pub(crate) fn on_bodies_that_yield_by(self, bodies_mm: f64) -> Self {
         Self { bodies_mm, ..self }
     }
 }
@@ -370,20 +370,20 @@ impl<'a> LoadedPosition<'a> {
 impl CycleObservation {
     /// Greatest pressure anywhere on either flank, at any position, also before A and after E and at sharp tip edges, MPa: what a wear law
     /// meets.
-    pub fn peak_pressure_mpa(&self) -> f64 {
+    pub(crate) fn peak_pressure_mpa(&self) -> f64 {
         let GreatestPressure { defined_mpa, sharp_edge_mpa } = self.greatest_pressure;
         sharp_edge_mpa.map_or(defined_mpa, |sharp| sharp.max(defined_mpa))
     }
 
     /// Least and greatest transmission error, mm.
-    pub fn transmission_error_mm(&self) -> (f64, f64) {
+    pub(crate) fn transmission_error_mm(&self) -> (f64, f64) {
         self.positions.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
             (low.min(p.transmission_error_mm), high.max(p.transmission_error_mm))
         })
     }
 
     /// Greatest pressure with the reference pair at `position_mm`, between the observations on either side, MPa.
-    pub fn peak_pressure_at_mpa(&self, position_mm: f64) -> f64 {
+    pub(crate) fn peak_pressure_at_mpa(&self, position_mm: f64) -> f64 {
         let after = self.positions.partition_point(|p| p.position_mm <= position_mm).clamp(1, self.positions.len() - 1);
         let (low, high) = (&self.positions[after - 1], &self.positions[after]);
         let weight = (position_mm - low.position_mm) / (high.position_mm - low.position_mm);
@@ -392,7 +392,8 @@ impl CycleObservation {
     }
 
     /// The observation nearest to `position_mm`.
-    pub fn nearest(&self, position_mm: f64) -> Option<&PositionObservation> {
+    #[cfg(test)]
+    pub(crate) fn nearest(&self, position_mm: f64) -> Option<&PositionObservation> {
         let distance = |p: &&PositionObservation| (p.position_mm - position_mm).abs();
         self.positions.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
     }

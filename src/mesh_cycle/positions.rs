@@ -18,7 +18,7 @@ const SAME_PLACE: f64 = 1e-9;
 ///
 /// # Errors
 /// The first error of `teeth_n_per_mm2`.
-pub fn loading_positions<E>(
+pub(crate) fn loading_positions<E>(
     path: &PathOfContact,
     count: usize,
     mut teeth_n_per_mm2: impl FnMut(f64) -> Result<f64, E>,
@@ -60,7 +60,7 @@ pub fn loading_positions<E>(
 ///
 /// # Errors
 /// The first error of `teeth_n_per_mm2`.
-pub fn positions_with_tip_contact<E>(
+pub(crate) fn positions_with_tip_contact<E>(
     path: &PathOfContact,
     count: usize,
     beyond_mm: [f64; 2],

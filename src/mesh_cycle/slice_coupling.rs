@@ -40,7 +40,7 @@ const SAMPLES: usize = 400;
 
 /// How far a deflection reaches along a tooth.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Reach {
+pub(crate) struct Reach {
     /// ℓ₁², mm²: from twisting.
     pub twist_mm2: f64,
     /// ℓ₂⁴, mm⁴: from bending along the tooth.
@@ -50,7 +50,12 @@ pub struct Reach {
 impl Reach {
     /// Of a plate of thickness `thickness_mm` at increasing heights `height_mm` above its clamped edge (both have the same
     /// length), loaded at the height `load_height_mm`; and 1/k of a unit of E: the bending of a slice, dimensionless.
-    pub fn of_plate(height_mm: &[f64], thickness_mm: &[f64], load_height_mm: f64, poisson_ratio: f64) -> (Self, f64) {
+    pub(crate) fn of_plate(
+        height_mm: &[f64],
+        thickness_mm: &[f64],
+        load_height_mm: f64,
+        poisson_ratio: f64,
+    ) -> (Self, f64) {
         // f'' = (y_p − y)/t³ up to the load, zero above; not yet divided by its value at the load.
         let plate = |t: f64| t.powi(3) / (12.0 * (1.0 - poisson_ratio * poisson_ratio));
         let curvature = |y: f64, t: f64| (load_height_mm - y).max(0.0) / t.powi(3);
@@ -91,7 +96,7 @@ impl Reach {
     }
 
     /// Of a pair whose teeth touch in the middle of the path of contact: both teeth's, weighted by their bending.
-    pub fn of_pair(pair: &GearPair, material: &PerGear<Material>) -> Self {
+    pub(crate) fn of_pair(pair: &GearPair, material: &PerGear<Material>) -> Self {
         let middle = pair.path.start_mm.midpoint(pair.path.end_mm);
         let [(pinion, a), (wheel, b)] =
             Gear::BOTH.map(|gear| Self::of_tooth(&pair.teeth[gear], &material[gear], pair.path.rho_mm(gear, middle)));
@@ -105,7 +110,7 @@ impl Reach {
 
 /// The operator on the slices of one tooth.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SliceCoupling {
+pub(crate) struct SliceCoupling {
     /// How far a deflection reaches.
     pub reach: Reach,
     count: usize,
@@ -117,19 +122,19 @@ pub struct SliceCoupling {
 
 impl SliceCoupling {
     /// Of slices `slice_width_mm` wide, `count` in number.
-    pub fn new(reach: Reach, count: usize, slice_width_mm: f64) -> Self {
+    pub(crate) fn new(reach: Reach, count: usize, slice_width_mm: f64) -> Self {
         let square = slice_width_mm * slice_width_mm;
         Self { reach, count, twist: reach.twist_mm2 / square, bending: reach.bending_mm4 / (square * square) }
     }
 
     /// Of the slices of a pair.
-    pub fn of_pair(pair: &GearPair, material: &PerGear<Material>, slices: &Slices) -> Self {
+    pub(crate) fn of_pair(pair: &GearPair, material: &PerGear<Material>, slices: &Slices) -> Self {
         Self::new(Reach::of_pair(pair, material), slices.count(), slices.slice_width_mm)
     }
 
     /// The operator on `v`, into `result`; by differences of differences, so that little is lost to rounding where slices are
     /// thin.
-    pub fn apply(&self, v: &[f64], result: &mut [f64]) {
+    pub(crate) fn apply(&self, v: &[f64], result: &mut [f64]) {
         result.copy_from_slice(v);
         for i in 1..self.count {
             let difference = self.twist * (v[i] - v[i - 1]);
@@ -145,7 +150,7 @@ impl SliceCoupling {
     }
 
     /// The factors of the operator with `diagonal` (≥ 0) added, into `factors`: nothing is allocated where those were used before.
-    pub fn factorise(&self, diagonal: &[f64], factors: &mut Factors) {
+    pub(crate) fn factorise(&self, diagonal: &[f64], factors: &mut Factors) {
         let n = self.count;
         let Factors { per_pivot, first, second } = factors;
         for row in [&mut *per_pivot, first, second] {
@@ -182,7 +187,7 @@ impl SliceCoupling {
 
 /// L D Lᵀ of a symmetric matrix with two bands beside the diagonal.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Factors {
+pub(crate) struct Factors {
     /// 1/D.
     per_pivot: Vec<f64>,
     /// L beside the diagonal.
@@ -193,7 +198,7 @@ pub struct Factors {
 
 impl Factors {
     /// Solves in place.
-    pub fn solve(&self, x: &mut [f64]) {
+    pub(crate) fn solve(&self, x: &mut [f64]) {
         let n = self.per_pivot.len();
         let (mut before, mut second_before) = (0.0, 0.0);
         for (x, (first, second)) in x.iter_mut().zip(self.first.iter().zip(&self.second)) {

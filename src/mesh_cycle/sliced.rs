@@ -27,7 +27,7 @@ use crate::gear::{Gear, PerGear, path_of_contact::PathOfContact};
 use crate::wear::{SlidingRow, WearModel, heated_row::HeatedRow};
 
 /// The spring of the teeth along the path of contact, evaluated once for all slices.
-pub struct SpringAlongPath {
+pub(crate) struct SpringAlongPath {
     start_mm: f64,
     spacing_mm: f64,
     /// Compliance at evenly spaced places, mm²/N.
@@ -40,7 +40,7 @@ impl SpringAlongPath {
     ///
     /// # Errors
     /// The first error of `n_per_mm2`.
-    pub fn new<E>(
+    pub(crate) fn new<E>(
         path: &PathOfContact,
         count: usize,
         beyond_mm: [f64; 2],
@@ -55,7 +55,7 @@ impl SpringAlongPath {
     }
 
     /// Compliance of the teeth with the theoretical contact point at `position_mm`, mm²/N; beyond its places, that there.
-    pub fn mm2_per_n(&self, position_mm: f64) -> f64 {
+    pub(crate) fn mm2_per_n(&self, position_mm: f64) -> f64 {
         let last = self.mm2_per_n.len() - 1;
         let place = ((position_mm - self.start_mm) / self.spacing_mm).clamp(0.0, last as f64);
         let before = (place as usize).min(last - 1);
@@ -65,7 +65,7 @@ impl SpringAlongPath {
 }
 
 /// How the teeth of a slice yield, and where its load acts.
-pub struct SliceSprings<'a> {
+pub(crate) struct SliceSprings<'a> {
     /// Compliance of the teeth.
     pub along_path: &'a SpringAlongPath,
     /// Approach in its tangent frame over the transmission error, as torque over load and base radius: 1 on the line of action.
@@ -93,7 +93,7 @@ struct Group<'a> {
 }
 
 /// All phases of a sliced pair, ready to be evaluated on ever newly worn flanks.
-pub struct SlicedCycle<'a> {
+pub(crate) struct SlicedCycle<'a> {
     groups: Vec<Group<'a>>,
     sliced: &'a SlicedTeeth,
     path: &'a PathOfContact,
@@ -114,7 +114,7 @@ fn of_slice(field: PerGear<&[f64]>, points: PerGear<usize>, slice: usize) -> Per
 impl<'a> SlicedCycle<'a> {
     /// Prepares every contact at every phase; `positions` rows from A to E are observed.
     #[allow(clippy::too_many_arguments, reason = "each of them is a part of the physics")]
-    pub fn new(
+    pub(crate) fn new(
         flanks: Flanks<'a>,
         surface: &dyn ContactSurface,
         sliced: &'a SlicedTeeth,
@@ -142,7 +142,7 @@ impl<'a> SlicedCycle<'a> {
     }
 
     /// The same on gear bodies that yield by `bodies_mm` under the whole load.
-    pub fn on_bodies_that_yield_by(self, bodies_mm: f64) -> Self {
+    pub(crate) fn on_bodies_that_yield_by(self, bodies_mm: f64) -> Self {
         Self { bodies_mm, ..self }
     }
 

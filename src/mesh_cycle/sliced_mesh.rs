@@ -11,7 +11,7 @@ use crate::gear::path_of_contact::PathOfContact;
 
 /// A slice in contact, as observed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ObservedContact {
+pub(crate) struct ObservedContact {
     /// Base pitches ahead of the reference tooth.
     pub tooth: i32,
     /// Which slice.
@@ -24,7 +24,7 @@ pub struct ObservedContact {
 
 /// A phase, as observed.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ObservedSlicedPosition {
+pub(crate) struct ObservedSlicedPosition {
     /// Position of the reference tooth in the middle of the face width.
     pub position_mm: f64,
     /// Approach of the gears along the line of action.
@@ -37,7 +37,7 @@ pub struct ObservedSlicedPosition {
 
 /// The mesh of one tooth, and the base pitch that tells it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SlicedMesh {
+pub(crate) struct SlicedMesh {
     /// Slices over the face width.
     pub slices: usize,
     /// Positions of the tooth in the middle of the face width, evenly spaced, from its first touch to its last.
@@ -72,7 +72,7 @@ fn first_and_last(phases: &[ObservedSlicedPosition], first_tooth: i32) -> [usize
 
 impl SlicedMesh {
     /// From the phases of one base pitch, in order (at least one).
-    pub fn new(phases: &[ObservedSlicedPosition], slices: usize, base_pitch_mm: f64) -> Self {
+    pub(crate) fn new(phases: &[ObservedSlicedPosition], slices: usize, base_pitch_mm: f64) -> Self {
         let count = phases.len();
         let teeth = || phases.iter().flat_map(|phase| phase.contacts.iter().map(|contact| contact.tooth));
         let (first, last) = (teeth().min().unwrap_or(0), teeth().max().unwrap_or(0));
@@ -120,7 +120,7 @@ impl SlicedMesh {
     }
 
     /// Load of each slice on average over the mesh, all teeth together, N per mm of face width.
-    pub fn mean_line_loads_n_per_mm(&self) -> Vec<f64> {
+    pub(crate) fn mean_line_loads_n_per_mm(&self) -> Vec<f64> {
         let phases = self.transmission_error_mm.len() as f64;
         let rows = self.line_load_n_per_mm.chunks_exact(self.slices);
         let mut sums = vec![0.0; self.slices];
@@ -131,7 +131,7 @@ impl SlicedMesh {
     }
 
     /// Face load factor K_Hβ: the greatest load of any slice over the mean of all, both averaged over the mesh (ISO 6336-1, 7).
-    pub fn face_load_factor(&self) -> f64 {
+    pub(crate) fn face_load_factor(&self) -> f64 {
         let loads = self.mean_line_loads_n_per_mm();
         let mean = loads.iter().sum::<f64>() / loads.len() as f64;
         loads.iter().copied().fold(0.0, f64::max) / mean
@@ -143,7 +143,7 @@ impl SlicedMesh {
     /// ```text
     /// A_k = 2/m |Σ δ_j exp(2πi k j/m)|
     /// ```
-    pub fn mesh_orders_mm(&self, count: usize) -> Vec<f64> {
+    pub(crate) fn mesh_orders_mm(&self, count: usize) -> Vec<f64> {
         let m = self.transmission_error_mm.len();
         (1..=count)
             .map(|k| {
@@ -161,7 +161,7 @@ impl SlicedMesh {
     }
 
     /// Greatest change of the transmission error from one phase to the next, mm.
-    pub fn greatest_step_mm(&self) -> f64 {
+    pub(crate) fn greatest_step_mm(&self) -> f64 {
         let errors = &self.transmission_error_mm;
         let next = errors.iter().cycle().skip(1);
         errors.iter().zip(next).map(|(here, there)| (there - here).abs()).fold(0.0, f64::max)
@@ -169,7 +169,12 @@ impl SlicedMesh {
 
     /// The tooth as a whole at `count` positions of its middle from A to E, between those observed: all slices together under the
     /// whole line load `line_load_n_per_mm`.
-    pub fn along_path(&self, path: &PathOfContact, count: usize, line_load_n_per_mm: f64) -> Vec<PositionObservation> {
+    pub(crate) fn along_path(
+        &self,
+        path: &PathOfContact,
+        count: usize,
+        line_load_n_per_mm: f64,
+    ) -> Vec<PositionObservation> {
         path.evenly_mm(count).into_iter().map(|at| self.at(at, line_load_n_per_mm)).collect()
     }
 

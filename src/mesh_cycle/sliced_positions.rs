@@ -25,7 +25,7 @@ const SAME_PLACE: f64 = 1e-9;
 
 /// A slice of a tooth in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SliceContact {
+pub(crate) struct SliceContact {
     /// Which tooth: k base pitches ahead of the reference tooth.
     pub tooth: i32,
     /// Which slice.
@@ -36,7 +36,7 @@ pub struct SliceContact {
 
 /// A place of the gears and everything that touches there.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SlicedPosition {
+pub(crate) struct SlicedPosition {
     /// Position of the reference tooth in the middle of the face width: from A on, less than a base pitch.
     pub position_mm: f64,
     /// The contacts, tooth by tooth and slice by slice.
@@ -45,7 +45,7 @@ pub struct SlicedPosition {
 
 /// Phases of one base pitch, no farther apart than `positions` (≥ 2) from A to E would be. With `beyond_mm`, slices may touch so
 /// far before A and after E, where they begin and end without a jump, and no stretch is cut.
-pub fn sliced_positions(
+pub(crate) fn sliced_positions(
     path: &PathOfContact,
     slices: &Slices,
     positions: usize,

@@ -27,7 +27,7 @@ fn approach_mm(pair: &MeshedPair<'_>, base_mm: f64) -> f64 {
 ///
 /// # Errors
 /// [`EquilibriumError`].
-pub fn balance_on_teeth(
+pub(crate) fn balance_on_teeth(
     pairs: &mut [MeshedPair<'_>],
     teeth: &mut [BentTooth],
     coupling: &SliceCoupling,

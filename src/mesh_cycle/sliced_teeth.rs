@@ -7,7 +7,7 @@ use crate::gear::{GearPair, PerGear, slices::Slices};
 
 /// The slices of a pair, and how they hold each other.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SlicedTeeth {
+pub(crate) struct SlicedTeeth {
     /// As asked for.
     pub settings: SliceSettings,
     /// Where they are.
@@ -18,7 +18,7 @@ pub struct SlicedTeeth {
 
 impl SlicedTeeth {
     /// Of a pair.
-    pub fn new(pair: &GearPair, material: &PerGear<Material>, settings: SliceSettings) -> Self {
+    pub(crate) fn new(pair: &GearPair, material: &PerGear<Material>, settings: SliceSettings) -> Self {
         let slices = Slices::new(pair, settings.count);
         let coupling = match settings.coupling {
             Coupling::None => None,

@@ -35,7 +35,7 @@ const STEPS_IN_PITCH: f64 = 1000.0;
 
 /// How far before A and after E the tip edges of unworn, unmodified flanks are nearer to the mate than `approach_mm`, mm of
 /// path.
-pub fn reach_mm(pair: &GearPair, approach_mm: f64) -> [f64; 2] {
+pub(crate) fn reach_mm(pair: &GearPair, approach_mm: f64) -> [f64; 2] {
     let path = &pair.path;
     let [before, after] = pair.farthest_touch_mm();
     let ends = [(Gear::Wheel, path.start_mm, -1.0, before), (Gear::Pinion, path.end_mm, 1.0, after)];
@@ -56,14 +56,14 @@ fn tip_gap_mm(pair: &GearPair, tip_of: Gear, position_mm: f64) -> f64 {
 }
 
 /// l/(r_b1 cos ε): approach in the tangent frame over transmission error with the theoretical contact point at `position_mm`.
-pub fn approach_ratio(pair: &GearPair, position_mm: f64) -> f64 {
+pub(crate) fn approach_ratio(pair: &GearPair, position_mm: f64) -> f64 {
     let touch = pair.touch(position_mm);
     pair.pinion_lever_ratio(&touch) / touch.turned_rad.cos()
 }
 
 /// A contact whose load has another lever on the pinion than r_b1: approach and load are reckoned as the transmission error and
 /// the load along the line of action that go with them.
-pub struct OnLever<'a> {
+pub(crate) struct OnLever<'a> {
     /// The contact along its own normal.
     pub contact: Box<dyn PairContact + 'a>,
     /// [`approach_ratio`].

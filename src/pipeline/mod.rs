@@ -2,13 +2,13 @@
 //!
 //! This is the one way in which the program runs anything; the only clock it reads times the stages.
 
-pub mod calibrate;
+pub(crate) mod calibrate;
 mod drawing;
 mod error_estimates;
-pub mod fem_problem;
-pub mod fem_scene;
-pub mod guarded;
-pub mod pair_mesh;
+pub(crate) mod fem_problem;
+pub(crate) mod fem_scene;
+pub(crate) mod guarded;
+pub(crate) mod pair_mesh;
 mod phases;
 mod recording;
 mod slices;
@@ -155,7 +155,7 @@ struct LoadCase {
 }
 
 /// Where a run goes on, and who keeps its checkpoints.
-pub struct Resumption<'a> {
+pub(crate) struct Resumption<'a> {
     /// A checkpoint of this same run; `None`: it begins.
     pub from: Option<Checkpoint>,
     /// Gets new ones.
@@ -184,7 +184,11 @@ pub fn run(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done, RunErro
 ///
 /// # Errors
 /// [`RunError`] where nothing was finished.
-pub fn run_from(scene: &LoadedScene, resumption: Resumption<'_>, observer: &dyn Observer) -> Result<Done, RunError> {
+pub(crate) fn run_from(
+    scene: &LoadedScene,
+    resumption: Resumption<'_>,
+    observer: &dyn Observer,
+) -> Result<Done, RunError> {
     let start = Instant::now();
     let mut done = carry_out(scene, resumption, observer, |model, found, summary| {
         recording::record(&scene.resolved, model, found, summary)
@@ -197,7 +201,7 @@ pub fn run_from(scene: &LoadedScene, resumption: Resumption<'_>, observer: &dyn 
 ///
 /// # Errors
 /// [`RunError`] where nothing was finished.
-pub fn summarise(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done<Summary>, RunError> {
+pub(crate) fn summarise(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done<Summary>, RunError> {
     let start = Instant::now();
     let mut done = carry_out(scene, Resumption::none(), observer, |_, _, summary| summary)?;
     done.record.wall_s = start.elapsed().as_secs_f64();

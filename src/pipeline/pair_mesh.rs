@@ -10,7 +10,7 @@ use crate::scene::Scene;
 
 /// A mesh and what it was made with.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PairMesh {
+pub(crate) struct PairMesh {
     /// The mesh, see [`gear_mesh::pair_mesh`].
     pub mesh: Mesh,
     /// How well shaped its cells are.
@@ -31,7 +31,7 @@ pub struct PairMesh {
 
 /// Why there is no mesh.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum PairMeshError {
+pub(crate) enum PairMeshError {
     /// The pair cannot exist.
     #[error(transparent)]
     Pair(#[from] PairError),
@@ -57,7 +57,7 @@ pub enum PairMeshError {
 ///
 /// # Errors
 /// [`PairMeshError`]
-pub fn build(scene: &Scene, position_mm: Option<f64>) -> Result<PairMesh, PairMeshError> {
+pub(crate) fn build(scene: &Scene, position_mm: Option<f64>) -> Result<PairMesh, PairMeshError> {
     let pair = GearPair::new(&scene.pair)?;
     let [from_mm, to_mm] = [pair.path.start_mm, pair.path.end_mm];
     let position_mm = position_mm.unwrap_or_else(|| pair.path.pitch_point_mm.clamp(from_mm, to_mm));
@@ -92,7 +92,7 @@ pub fn build(scene: &Scene, position_mm: Option<f64>) -> Result<PairMesh, PairMe
 
 impl PairMesh {
     /// Cells of a kind.
-    pub fn count(&self, kind: CellKind) -> usize {
+    pub(crate) fn count(&self, kind: CellKind) -> usize {
         self.mesh.cells.iter().filter(|block| block.kind == kind).map(|block| block.len()).sum()
     }
 }

@@ -73,12 +73,12 @@ pub(super) struct Verified {
 
 impl Verified {
     /// There is no answer, for this reason.
-    pub fn none(reason: &str) -> Self {
+    pub(super) fn none(reason: &str) -> Self {
         Self { total: TotalError::none(reason), ..Self::default() }
     }
 
     /// Puts what is known into the errors of the run.
-    pub fn tell(&self, error: &mut ErrorSummary) {
+    pub(super) fn tell(&self, error: &mut ErrorSummary) {
         error.total = self.total.clone();
         error.surface_model = self.surface_model;
         error.how.surface_model = match self.surface_model {
@@ -89,7 +89,7 @@ impl Verified {
     }
 
     /// The same where that is worth a warning.
-    pub fn warned(reason: &str) -> Self {
+    pub(super) fn warned(reason: &str) -> Self {
         let warning = Some(format!("not verified by finite elements: {reason}"));
         Self { warning, ..Self::none(reason) }
     }

@@ -2,7 +2,7 @@
 
 /// A stage of `gearwear calibrate`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum CalibrationStage {
+pub(crate) enum CalibrationStage {
     /// Everything that follows from the data of the pair.
     Geometry,
     /// The teeth of both gears as finite elements.
@@ -29,7 +29,7 @@ pub enum CalibrationStage {
 
 impl CalibrationStage {
     /// Its name on the terminal.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Geometry => "geometry",
             Self::Meshing => "meshing",

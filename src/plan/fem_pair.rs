@@ -2,7 +2,7 @@
 
 /// A stage of `gearwear fem` with a gear pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum FemPairStage {
+pub(crate) enum FemPairStage {
     /// Everything that follows from the data of the pair.
     Geometry,
     /// The teeth of both gears as finite elements.
@@ -23,7 +23,7 @@ pub enum FemPairStage {
 
 impl FemPairStage {
     /// Its name in `summary.json` and on the terminal.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             FemPairStage::Geometry => "geometry",
             FemPairStage::Meshing => "meshing",

@@ -1,7 +1,7 @@
 //! The stages a scene needs and those it does not, decided here alone and from the scene alone.
 
-pub mod calibration;
-pub mod fem_pair;
+pub(crate) mod calibration;
+pub(crate) mod fem_pair;
 
 use serde::{Serialize, Serializer};
 

@@ -26,7 +26,7 @@ const PROGRAM_VERSION: &str = env!("CARGO_PKG_VERSION");
 
 /// A checkpoint with the run it is of.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct CheckpointFile {
+pub(crate) struct CheckpointFile {
     /// Scene and input files.
     pub identity: Identity,
     /// What the user was told of the scene when the run began.
@@ -53,7 +53,7 @@ struct Header {
 
 /// Why a file is no checkpoint to go on from.
 #[derive(Debug, thiserror::Error)]
-pub enum CheckpointError {
+pub(crate) enum CheckpointError {
     /// The system cannot read it.
     #[error("it cannot be read: {0}")]
     Unreadable(#[from] io::Error),
@@ -93,7 +93,7 @@ pub enum CheckpointError {
 ///
 /// # Errors
 /// What the system says.
-pub fn write(path: &Path, identity: &Identity, warnings: &[String], checkpoint: &Checkpoint) -> io::Result<()> {
+pub(crate) fn write(path: &Path, identity: &Identity, warnings: &[String], checkpoint: &Checkpoint) -> io::Result<()> {
     let body = postcard::to_stdvec(&Body { identity, warnings, checkpoint }).map_err(io::Error::other)?;
     let header = Header {
         format: FORMAT,
@@ -111,7 +111,7 @@ pub fn write(path: &Path, identity: &Identity, warnings: &[String], checkpoint: 
 ///
 /// # Errors
 /// [`CheckpointError`] where it is not one of this version, whole and unchanged.
-pub fn read(path: &Path) -> Result<Option<CheckpointFile>, CheckpointError> {
+pub(crate) fn read(path: &Path) -> Result<Option<CheckpointFile>, CheckpointError> {
     match fs::read(path) {
         Ok(bytes) => parse(&bytes).map(Some),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),

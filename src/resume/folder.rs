@@ -20,15 +20,15 @@ use crate::scene::loaded::NamedFile;
 use crate::whole_file;
 
 /// The resolved scene.
-pub const SCENE: &str = "scene.toml";
+pub(crate) const SCENE: &str = "scene.toml";
 /// The last checkpoint.
-pub const CHECKPOINT: &str = "checkpoint.bin";
+pub(crate) const CHECKPOINT: &str = "checkpoint.bin";
 const INPUTS: &str = "inputs";
 const SUMMARY: &str = "summary.json";
 
 /// What a folder holds of a run.
 #[derive(Debug, PartialEq)]
-pub enum Contents {
+pub(crate) enum Contents {
     /// Nothing that was begun.
     Nothing,
     /// A run that began, and has no checkpoint yet.
@@ -41,7 +41,7 @@ pub enum Contents {
 
 /// Why a folder cannot be gone on with.
 #[derive(Debug, thiserror::Error)]
-pub enum FolderError {
+pub(crate) enum FolderError {
     /// Not a checkpoint to go on from.
     #[error("{}: {source}", path.display())]
     Checkpoint {
@@ -69,7 +69,7 @@ pub enum FolderError {
 }
 
 /// Lets the scene name its input files as they lie in the folder of a run.
-pub fn name_inputs_as_copied(resolved: &mut Resolved, files: &mut [NamedFile]) {
+pub(crate) fn name_inputs_as_copied(resolved: &mut Resolved, files: &mut [NamedFile]) {
     let mut taken: Vec<String> = Vec::new();
     for file in files {
         let base = Path::new(&file.name).file_name().and_then(OsStr::to_str).unwrap_or(file.key);
@@ -87,7 +87,7 @@ pub fn name_inputs_as_copied(resolved: &mut Resolved, files: &mut [NamedFile]) {
 ///
 /// # Errors
 /// A file that cannot be written or taken away.
-pub fn begin(dir: &Path, identity: &Identity, files: &[NamedFile]) -> Result<(), ReportError> {
+pub(crate) fn begin(dir: &Path, identity: &Identity, files: &[NamedFile]) -> Result<(), ReportError> {
     remove_checkpoint(dir)?;
     let place = |name: &str, bytes: &[u8]| {
         let path = dir.join(name);
@@ -104,7 +104,7 @@ pub fn begin(dir: &Path, identity: &Identity, files: &[NamedFile]) -> Result<(),
 ///
 /// # Errors
 /// One that cannot be.
-pub fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
+pub(crate) fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
     let path = dir.join(CHECKPOINT);
     match fs::remove_file(&path) {
         Err(source) if source.kind() != io::ErrorKind::NotFound => Err(ReportError::WriteFile { path, source }),
@@ -116,7 +116,7 @@ pub fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
 ///
 /// # Errors
 /// [`FolderError`] where it holds another run, or what cannot be read.
-pub fn contents(dir: &Path, identity: &Identity, scene_hash: &str) -> Result<Contents, FolderError> {
+pub(crate) fn contents(dir: &Path, identity: &Identity, scene_hash: &str) -> Result<Contents, FolderError> {
     let Some(scene_toml) = read(&dir.join(SCENE))? else { return Ok(Contents::Nothing) };
     let other_run = |path: PathBuf, differences: Vec<String>| match differences.is_empty() {
         true => Ok(()),

@@ -10,7 +10,7 @@ use crate::scene::loaded::NamedFile;
 
 /// What a run is made from.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Identity {
+pub(crate) struct Identity {
     /// The resolved scene.
     pub scene_toml: String,
     /// SHA-256 of the file that each key of the scene names.
@@ -19,12 +19,12 @@ pub struct Identity {
 
 impl Identity {
     /// Of a run of the resolved scene `scene_toml` with `files`.
-    pub fn new(scene_toml: String, files: &[NamedFile]) -> Self {
+    pub(crate) fn new(scene_toml: String, files: &[NamedFile]) -> Self {
         Self { scene_toml, inputs: files.iter().map(|file| (file.key.to_owned(), sha256(&file.bytes))).collect() }
     }
 
     /// What differs here from `asked`: each key with both values.
-    pub fn differences(&self, asked: &Self) -> Vec<String> {
+    pub(crate) fn differences(&self, asked: &Self) -> Vec<String> {
         let mut differences = between_scenes(&self.scene_toml, &asked.scene_toml);
         let keys: std::collections::BTreeSet<_> = self.inputs.keys().chain(asked.inputs.keys()).collect();
         for key in keys {
@@ -46,7 +46,7 @@ pub(super) fn sha256(bytes: &[u8]) -> String {
 }
 
 /// Keys in which two resolved scenes differ, with both values.
-pub fn between_scenes(there: &str, here: &str) -> Vec<String> {
+pub(crate) fn between_scenes(there: &str, here: &str) -> Vec<String> {
     if there == here {
         return Vec::new();
     }

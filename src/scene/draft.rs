@@ -20,7 +20,7 @@ const SAME_THING: [[&str; 2]; 5] = [
 ];
 
 /// The other key that says what `key` says, if there is one.
-pub fn other_way_to_say(key: &str) -> Option<&'static str> {
+pub(crate) fn other_way_to_say(key: &str) -> Option<&'static str> {
     SAME_THING.iter().find_map(|&[one, other]| match key {
         _ if key == one => Some(other),
         _ if key == other => Some(one),
@@ -29,7 +29,7 @@ pub fn other_way_to_say(key: &str) -> Option<&'static str> {
 }
 
 /// Gives the key at the path `key` of `table` this value.
-pub fn set(table: &mut Table, key: &str, value: impl Into<Value>) {
+pub(crate) fn set(table: &mut Table, key: &str, value: impl Into<Value>) {
     let (tables, name) = key.rsplit_once('.').map_or((None, key), |(tables, name)| (Some(tables), name));
     let mut table = table;
     for part in tables.into_iter().flat_map(|tables| tables.split('.')) {
@@ -43,7 +43,7 @@ pub fn set(table: &mut Table, key: &str, value: impl Into<Value>) {
 
 /// A scene file, read but not resolved.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Draft {
+pub(crate) struct Draft {
     table: Table,
     locator: Locator,
 }
@@ -53,13 +53,13 @@ impl Draft {
     ///
     /// # Errors
     /// Text that is not TOML.
-    pub fn parse(text: &str) -> Result<Self, Vec<Problem>> {
+    pub(crate) fn parse(text: &str) -> Result<Self, Vec<Problem>> {
         let (table, findings) = text::parse(text)?;
         Ok(Self { table, locator: findings.into_locator() })
     }
 
     /// Gives the key at the path `key` this value, and takes away the key that says the same in another way.
-    pub fn set(&mut self, key: &str, value: impl Into<Value>) {
+    pub(crate) fn set(&mut self, key: &str, value: impl Into<Value>) {
         if let Some(other) = other_way_to_say(key) {
             self.remove(other);
         }
@@ -67,14 +67,14 @@ impl Draft {
     }
 
     /// Whether the file gives the key at the path `key`.
-    pub fn gives(&self, key: &str) -> bool {
+    pub(crate) fn gives(&self, key: &str) -> bool {
         let mut parts = key.split('.');
         let first = parts.next().and_then(|part| self.table.get(part));
         parts.try_fold(first, |value, part| value.map(|value| value.get(part))).flatten().is_some()
     }
 
     /// Takes the key at the path `key` away, if it is there.
-    pub fn remove(&mut self, key: &str) {
+    pub(crate) fn remove(&mut self, key: &str) {
         let mut parts = key.split('.').rev();
         let Some(name) = parts.next() else { return };
         let table = parts.rev().try_fold(&mut self.table, |table, part| match table.get_mut(part) {
@@ -90,17 +90,17 @@ impl Draft {
     ///
     /// # Errors
     /// Everything that is wrong with it, at the places of the text it was read from.
-    pub fn resolve(&self) -> Result<Resolved, Vec<Problem>> {
+    pub(crate) fn resolve(&self) -> Result<Resolved, Vec<Problem>> {
         resolve::resolve_table(self.table.clone(), Findings::new(self.locator.clone()))
     }
 
     /// What it says now, as text.
-    pub fn to_toml(&self) -> String {
+    pub(crate) fn to_toml(&self) -> String {
         self.table.to_string()
     }
 
     /// First 16 hexadecimal digits of the SHA-256 of what it says; layout and comments of the text do not matter.
-    pub fn hash(&self) -> String {
+    pub(crate) fn hash(&self) -> String {
         short_hash(self.table.to_string().as_bytes())
     }
 }

@@ -7,7 +7,7 @@ use super::problem::{Problem, ProblemKind};
 
 /// Problems and warnings found so far.
 #[derive(Debug, Default)]
-pub struct Findings {
+pub(super) struct Findings {
     locator: Locator,
     /// Problems, in the order found.
     pub problems: Vec<Problem>,
@@ -21,33 +21,39 @@ pub struct Findings {
 
 impl Findings {
     /// Nothing found yet in the file that `locator` describes.
-    pub fn new(locator: Locator) -> Self {
+    pub(super) fn new(locator: Locator) -> Self {
         Self { locator, ..Self::default() }
     }
 
     /// The places of the file's keys, the findings apart.
-    pub fn into_locator(self) -> Locator {
+    pub(super) fn into_locator(self) -> Locator {
         self.locator
     }
 
     /// The problems, in the order in which they stand in the file.
-    pub fn in_order(mut self) -> Vec<Problem> {
+    pub(super) fn in_order(mut self) -> Vec<Problem> {
         self.problems.sort_by_key(|problem| problem.span.as_ref().map(|span| span.start));
         self.problems
     }
 
     /// Whether the file itself holds `key` (not only the preset).
-    pub fn is_in_file(&self, key: &str) -> bool {
+    pub(super) fn is_in_file(&self, key: &str) -> bool {
         self.locator.key(key).is_some()
     }
 
     /// Marks `key` as complained about.
-    pub fn spoil(&mut self, key: &str) {
+    pub(super) fn spoil(&mut self, key: &str) {
         self.spoiled.insert(key.to_owned());
     }
 
     /// A problem with the value of `key`, unless that key was complained about before.
-    pub fn problem(&mut self, kind: ProblemKind, key: &str, found: impl Into<String>, allowed: impl Into<String>) {
+    pub(super) fn problem(
+        &mut self,
+        kind: ProblemKind,
+        key: &str,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) {
         self.reported = !self.spoiled.contains(key);
         if !self.reported {
             return;
@@ -69,14 +75,14 @@ impl Findings {
     }
 
     /// Adds a sentence of help to the problem just reported.
-    pub fn help(&mut self, sentence: impl AsRef<str>) {
+    pub(super) fn help(&mut self, sentence: impl AsRef<str>) {
         if let Some(problem) = self.problems.last_mut().filter(|_| self.reported) {
             problem.add_help(sentence.as_ref());
         }
     }
 
     /// One of `keys` must be given and none is.
-    pub fn missing(&mut self, keys: &[&str], allowed: &str) {
+    pub(super) fn missing(&mut self, keys: &[&str], allowed: &str) {
         let spoiled = |key: &&str| {
             self.spoiled.iter().any(|s| s == key || key.strip_prefix(s).is_some_and(|k| k.starts_with('.')))
         };
@@ -92,7 +98,7 @@ impl Findings {
     }
 
     /// Complains if more than one of `keys` is given. Returns whether that is so.
-    pub fn said_twice(&mut self, keys: &[(&str, bool)]) -> bool {
+    pub(super) fn said_twice(&mut self, keys: &[(&str, bool)]) -> bool {
         let given: Vec<&str> = keys.iter().filter(|(_, given)| *given).map(|(key, _)| *key).collect();
         if given.len() < 2 {
             return false;

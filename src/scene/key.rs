@@ -6,13 +6,13 @@ use super::schema::{Node, schema};
 
 /// A key that takes a number.
 #[derive(Debug, Clone, Copy)]
-pub struct NumberKey {
+pub(crate) struct NumberKey {
     node: Node<'static>,
 }
 
 /// Why a path is not that of a number.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum KeyError {
+pub(crate) enum KeyError {
     /// No scene has the key.
     #[error("unknown key {key}; allowed: a key of the scene that takes a number, such as pair.face_width_mm")]
     Unknown {
@@ -36,7 +36,7 @@ impl NumberKey {
     ///
     /// # Errors
     /// A path that leads nowhere, or to something that is no number.
-    pub fn find(path: &str) -> Result<Self, KeyError> {
+    pub(crate) fn find(path: &str) -> Result<Self, KeyError> {
         let node = path.split('.').try_fold(Node::root(schema()), |node, name| node.child(name));
         let Some(node) = node else {
             return Err(KeyError::Unknown { key: path.to_owned(), nearest: nearest_number(path) });
@@ -49,17 +49,17 @@ impl NumberKey {
     }
 
     /// Whether it takes whole numbers only.
-    pub fn whole(&self) -> bool {
+    pub(crate) fn whole(&self) -> bool {
         self.node.type_name() == "integer"
     }
 
     /// Whether `value` lies within what it takes.
-    pub fn holds(&self, value: f64) -> bool {
+    pub(crate) fn holds(&self, value: f64) -> bool {
         self.node.holds(value) && !(self.whole() && value.fract() != 0.0)
     }
 
     /// What it takes, in words.
-    pub fn allowed(&self) -> String {
+    pub(crate) fn allowed(&self) -> String {
         self.node.allowed()
     }
 }

@@ -219,14 +219,27 @@ impl LoadedScene {
         Ok(Self { resolved, files: Arc::clone(&self.files), given: Arc::clone(&self.given) })
     }
 
-    /// The same with a calibration made for it.
+    /// The same scene with this calibration, as if the file named it.
+    ///
+    /// # Errors
+    /// A calibration of another pair.
+    pub fn with_calibration(&self, calibration: Calibration) -> Result<Self, LoadError> {
+        let mut draft = Draft::parse(&self.given.text).map_err(|problems| self.given.refused(problems))?;
+        draft.set(CALIBRATION, "calibration.json");
+        let resolved = draft.resolve().map_err(|problems| self.given.refused(problems))?;
+        let given = SceneText { name: self.given.name.clone(), text: draft.to_toml() };
+        let files = NamedFiles { calibration: Some(calibration), ..(*self.files).clone() };
+        Ok(Self::with_files(resolved, given, files)?)
+    }
+
+    /// The same with a calibration made for it, whether it asks for one or not.
     pub(crate) fn calibrated(&self, calibration: Calibration) -> Self {
         let files = NamedFiles { calibration: Some(calibration), ..(*self.files).clone() };
         Self { files: Arc::new(files), ..self.clone() }
     }
 
     /// What it asks for.
-    pub fn scene(&self) -> &Scene {
+    pub(crate) fn scene(&self) -> &Scene {
         &self.resolved.scene
     }
 

@@ -15,7 +15,7 @@ struct KeySpan {
 
 /// The places of all keys of a file, by path (`pair.pinion.teeth`, `operation.snapshots_h[2]`).
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Locator {
+pub(super) struct Locator {
     places: BTreeMap<String, KeySpan>,
     end: usize,
 }
@@ -25,7 +25,7 @@ impl Locator {
     ///
     /// # Errors
     /// Text that is not TOML.
-    pub fn new(text: &str) -> Result<Self, toml::de::Error> {
+    pub(super) fn new(text: &str) -> Result<Self, toml::de::Error> {
         let table = DeTable::parse(text)?;
         let mut locator = Self { places: BTreeMap::new(), end: text.len() };
         locator.walk(table.get_ref(), "");
@@ -33,17 +33,17 @@ impl Locator {
     }
 
     /// Where the value of `path` stands.
-    pub fn value(&self, path: &str) -> Option<Range<usize>> {
+    pub(super) fn value(&self, path: &str) -> Option<Range<usize>> {
         self.places.get(path).map(|place| place.value.clone())
     }
 
     /// Where the key `path` itself stands.
-    pub fn key(&self, path: &str) -> Option<Range<usize>> {
+    pub(super) fn key(&self, path: &str) -> Option<Range<usize>> {
         self.places.get(path).map(|place| place.key.clone())
     }
 
     /// Where `path` stands or, if it is not in the file, the innermost table that should hold it, or the file's end.
-    pub fn nearest(&self, path: &str) -> Range<usize> {
+    pub(super) fn nearest(&self, path: &str) -> Range<usize> {
         let mut path = path;
         if let Some(place) = self.value(path) {
             return place;
@@ -79,7 +79,7 @@ impl Locator {
 }
 
 /// The path of `key` in the table `prefix`.
-pub fn join(prefix: &str, key: &str) -> String {
+pub(super) fn join(prefix: &str, key: &str) -> String {
     if prefix.is_empty() { key.to_owned() } else { format!("{prefix}.{key}") }
 }
 

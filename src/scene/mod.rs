@@ -1,21 +1,21 @@
 //! The user's scene: the file with its checks and presets, resolved into the settings of each layer.
 
-pub mod draft;
-pub mod fem_problem;
-pub mod file;
+pub(crate) mod draft;
+pub(crate) mod fem_problem;
+pub(crate) mod file;
 mod findings;
-pub mod key;
-pub mod loaded;
+pub(crate) mod key;
+pub(crate) mod loaded;
 mod locate;
 pub(crate) mod nearest;
-pub mod presets;
-pub mod problem;
+pub(crate) mod presets;
+pub(crate) mod problem;
 mod resolve;
-pub mod schema;
+pub(crate) mod schema;
 mod shape;
 mod text;
 mod unit_slip;
-pub mod wear_file;
+pub(crate) mod wear_file;
 
 use sha2::{Digest, Sha256};
 
@@ -28,7 +28,7 @@ use crate::stiffness::settings::StiffnessSettings;
 use crate::thermal::settings::HeatSettings;
 use crate::wear::settings::WearSettings;
 
-pub use file::SceneFile;
+pub(crate) use file::SceneFile;
 pub use problem::{Problem, ProblemKind};
 
 /// A scene with every choice made: what the plan and the pipeline work from.

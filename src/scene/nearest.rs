@@ -1,7 +1,7 @@
 //! What a misspelt word was probably meant to be.
 
 /// The word of `known` that `word` is most like, if it is like any.
-pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     let word = word.to_lowercase();
     let likeness = |other: &str| {
         let other = other.to_lowercase();

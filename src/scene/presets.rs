@@ -27,18 +27,18 @@ pub const PRESETS: [Preset; 8] = [
 ];
 
 /// The names of all presets.
-pub fn names() -> [&'static str; PRESETS.len()] {
+pub(crate) fn names() -> [&'static str; PRESETS.len()] {
     PRESETS.map(|preset| preset.name)
 }
 
 /// The preset called `name`.
-pub fn find(name: &str) -> Option<Preset> {
+pub(crate) fn find(name: &str) -> Option<Preset> {
     PRESETS.into_iter().find(|preset| preset.name == name)
 }
 
 impl Preset {
     /// The `[pair]` table of the scene.
-    pub fn pair(&self) -> toml::Table {
+    pub(crate) fn pair(&self) -> toml::Table {
         let mut scene: toml::Table = self.text.parse().expect("the library's own scenes are TOML");
         match scene.remove("pair") {
             Some(toml::Value::Table(pair)) => pair,
@@ -48,6 +48,6 @@ impl Preset {
 }
 
 /// The name of a preset that `name` is most like, if it is like any.
-pub fn nearest(name: &str) -> Option<&'static str> {
+pub(crate) fn nearest(name: &str) -> Option<&'static str> {
     super::nearest::nearest(name, &names())
 }

@@ -125,13 +125,13 @@ impl fmt::Display for Problem {
 impl std::error::Error for Problem {}
 
 /// A number as one would write it into the file: `4`, `0.0045`, `1e-17`.
-pub fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
 }
 
 /// A value of the file in an engineer's words.
-pub fn words(value: &toml::Value) -> String {
+pub(crate) fn words(value: &toml::Value) -> String {
     match value {
         toml::Value::String(text) => format!("the text {text:?}"),
         toml::Value::Integer(value) => value.to_string(),

@@ -59,12 +59,12 @@ pub(super) struct Node<'a>(&'a Value);
 
 impl<'a> Node<'a> {
     /// The whole file that `schema` describes.
-    pub fn root(schema: &'a Value) -> Self {
+    pub(super) fn root(schema: &'a Value) -> Self {
         Node(schema)
     }
 
     /// What this key takes of `value`'s kind, where it takes a table as well as a word.
-    pub fn variant(self, value: &toml::Value) -> Node<'a> {
+    pub(super) fn variant(self, value: &toml::Value) -> Node<'a> {
         let kind = if value.is_str() { "string" } else { "object" };
         self.variants().find(|variant| variant.type_name() == kind).unwrap_or(self)
     }
@@ -80,12 +80,12 @@ impl<'a> Node<'a> {
     }
 
     /// The key `name` of this table.
-    pub fn child(&self, name: &str) -> Option<Node<'a>> {
+    pub(super) fn child(&self, name: &str) -> Option<Node<'a>> {
         self.table().0.get("properties")?.get(name).map(Node)
     }
 
     /// The names of all keys of this table, in alphabetical order.
-    pub fn keys(&self) -> Vec<&'a str> {
+    pub(super) fn keys(&self) -> Vec<&'a str> {
         match self.table().0.get("properties") {
             Some(Value::Object(properties)) => properties.keys().map(String::as_str).collect(),
             _ => Vec::new(),
@@ -93,23 +93,23 @@ impl<'a> Node<'a> {
     }
 
     /// The keys this table must have.
-    pub fn required(&self) -> Vec<&'a str> {
+    pub(super) fn required(&self) -> Vec<&'a str> {
         strings(self.0.get("required"))
     }
 
     /// What each item of this list is.
-    pub fn items(&self) -> Option<Node<'a>> {
+    pub(super) fn items(&self) -> Option<Node<'a>> {
         self.0.get("items").map(Node)
     }
 
     /// How many items this list must have, if that is fixed.
-    pub fn length(&self) -> Option<usize> {
+    pub(super) fn length(&self) -> Option<usize> {
         let count = |name: &str| self.0.get(name).and_then(Value::as_u64).and_then(|n| usize::try_from(n).ok());
         count("minItems").filter(|_| count("minItems") == count("maxItems"))
     }
 
     /// `object`, `array`, `number`, `integer`, `boolean` or `string`.
-    pub fn type_name(&self) -> &'a str {
+    pub(super) fn type_name(&self) -> &'a str {
         self.0.get("type").and_then(Value::as_str).unwrap_or(if self.choices().is_empty() {
             "object"
         } else {
@@ -118,7 +118,7 @@ impl<'a> Node<'a> {
     }
 
     /// The words this key takes, if only certain ones.
-    pub fn choices(&self) -> Vec<&'a str> {
+    pub(super) fn choices(&self) -> Vec<&'a str> {
         if let Some(Value::Array(variants)) = self.0.get("oneOf") {
             return variants.iter().flat_map(|variant| Node(variant).choices()).collect();
         }
@@ -129,7 +129,7 @@ impl<'a> Node<'a> {
     }
 
     /// Whether `value` lies within the bounds.
-    pub fn holds(&self, value: f64) -> bool {
+    pub(super) fn holds(&self, value: f64) -> bool {
         value.is_finite()
             && self.bound("minimum").is_none_or(|least| value >= least)
             && self.bound("exclusiveMinimum").is_none_or(|limit| value > limit)
@@ -138,7 +138,7 @@ impl<'a> Node<'a> {
     }
 
     /// What is allowed, in an engineer's words.
-    pub fn allowed(&self) -> String {
+    pub(super) fn allowed(&self) -> String {
         let variants: Vec<String> = self.variants().map(|variant| variant.allowed()).collect();
         if !variants.is_empty() {
             return variants.join(", or ");

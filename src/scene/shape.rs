@@ -13,7 +13,7 @@ use super::schema::Node;
 
 /// What a file may hold.
 #[derive(Debug, Clone, Copy)]
-pub struct Format {
+pub(super) struct Format {
     /// Its schema.
     pub root: Node<'static>,
     /// Keys of other files, each with what to do instead.
@@ -21,7 +21,7 @@ pub struct Format {
 }
 
 /// The part of `table` that has the right shape; the rest is reported.
-pub fn check(format: Format, table: &Table, findings: &mut Findings) -> Table {
+pub(super) fn check(format: Format, table: &Table, findings: &mut Findings) -> Table {
     check_table(format, format.root, table, "", findings)
 }
 

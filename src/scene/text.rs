@@ -11,7 +11,7 @@ use super::problem::{Problem, ProblemKind};
 ///
 /// # Errors
 /// Text that is not TOML.
-pub fn parse(text: &str) -> Result<(Table, Findings), Vec<Problem>> {
+pub(super) fn parse(text: &str) -> Result<(Table, Findings), Vec<Problem>> {
     let read = || -> Result<(Table, Locator), toml::de::Error> { Ok((text.parse()?, Locator::new(text)?)) };
     let (table, locator) = read().map_err(|error| vec![syntax(&error, text)])?;
     Ok((table, Findings::new(locator)))
@@ -29,7 +29,7 @@ fn syntax(error: &toml::de::Error, text: &str) -> Problem {
 }
 
 /// A table whose shape was checked, as the structure `F` it was checked for.
-pub fn typed<F: DeserializeOwned>(sound: Table, findings: &mut Findings) -> Option<F> {
+pub(super) fn typed<F: DeserializeOwned>(sound: Table, findings: &mut Findings) -> Option<F> {
     match serde_path_to_error::deserialize(Value::Table(sound)) {
         Ok(file) => Some(file),
         Err(error) => {

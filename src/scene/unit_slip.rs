@@ -10,7 +10,7 @@ use super::problem::number;
 
 /// A suspected slip of unit.
 #[derive(Debug, Clone, PartialEq)]
-pub struct UnitSlip {
+pub(super) struct UnitSlip {
     /// Path of the key.
     pub key: String,
     /// As given.
@@ -23,12 +23,12 @@ pub struct UnitSlip {
 
 impl UnitSlip {
     /// The question alone: `did you mean 4.5? (m given for mm)`.
-    pub fn question(&self) -> String {
+    pub(super) fn question(&self) -> String {
         format!("did you mean {}? ({})", number(self.meant), self.units)
     }
 
     /// The whole warning.
-    pub fn warning(&self) -> String {
+    pub(super) fn warning(&self) -> String {
         format!("{} = {}: {}", self.key, number(self.value), self.question())
     }
 }
@@ -45,7 +45,7 @@ const METRES_FOR_MICROMETRES: Conversion = (1e6, "m given for µm");
 const GREATEST_TOOTH_LOAD_MPA: f64 = 5000.0;
 
 /// All suspicions in a scene, its preset expanded.
-pub fn find(scene: &Table) -> Vec<UnitSlip> {
+pub(super) fn find(scene: &Table) -> Vec<UnitSlip> {
     let mut search = Search { scene, slips: Vec::new() };
     search.lengths();
     search.angles();
@@ -56,7 +56,7 @@ pub fn find(scene: &Table) -> Vec<UnitSlip> {
 }
 
 /// Suspects Young's modulus of `key`.
-pub fn young_modulus(key: &str, modulus_gpa: f64) -> Option<UnitSlip> {
+pub(super) fn young_modulus(key: &str, modulus_gpa: f64) -> Option<UnitSlip> {
     let conversions = [(1e-3, "MPa given for GPa"), (1e-9, "Pa given for GPa")];
     judge(key, modulus_gpa, [0.0, 1500.0], [0.001, 1500.0], &conversions)
 }

@@ -19,7 +19,7 @@ use crate::mesh_cycle::Work;
 
 /// A run at a clean start: evaluated, and what was due there kept.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Checkpoint {
+pub(crate) struct Checkpoint {
     /// Which phase it is in, from 0.
     pub phase: usize,
     /// How far it has come, in pinion revolutions.
@@ -48,7 +48,7 @@ impl Checkpoint {
 }
 
 /// Takes checkpoints somewhere safe.
-pub trait Keeper: Sync {
+pub(crate) trait Keeper: Sync {
     /// Whether it is time for one.
     fn is_due(&self) -> bool;
 
@@ -57,7 +57,7 @@ pub trait Keeper: Sync {
 }
 
 /// Nothing is kept.
-pub struct NothingKept;
+pub(crate) struct NothingKept;
 
 impl Keeper for NothingKept {
     fn is_due(&self) -> bool {

@@ -9,7 +9,7 @@ use crate::gear::{
 
 /// The greatest depth of a part of a flank.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Deepest {
+pub(crate) struct Deepest {
     /// The depth.
     pub depth_mm: f64,
     /// Radius where it is.
@@ -25,7 +25,7 @@ impl Deepest {
 
 /// Wear of one flank in figures.
 #[derive(Debug, Clone, PartialEq)]
-pub struct WearFigures {
+pub(crate) struct WearFigures {
     /// Greatest depth on the active profile.
     pub peak_mm: f64,
     /// Radius where it is.
@@ -48,7 +48,7 @@ pub struct WearFigures {
 
 /// Wear of one slice of a flank in figures.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SliceFigures {
+pub(crate) struct SliceFigures {
     /// Greatest depth on the active profile.
     pub active: Deepest,
     /// Greatest depth at the tip edge.
@@ -100,7 +100,7 @@ impl SliceFigures {
 
 impl WearFigures {
     /// Of `wear_mm` at the points of `gear`'s flank, slice after slice (at least one).
-    pub fn new(pair: &GearPair, gear: Gear, grid: &FlankGrid, zones: &FlankZones, wear_mm: &[f64]) -> Self {
+    pub(crate) fn new(pair: &GearPair, gear: Gear, grid: &FlankGrid, zones: &FlankZones, wear_mm: &[f64]) -> Self {
         let involute = pair.teeth[gear].involute;
         let radius_mm: Vec<f64> = grid.coordinate_mm.iter().map(|&rho| involute.radius_mm(rho)).collect();
         let of_slice = |slice| SliceFigures::new(pair, gear, grid, zones, &radius_mm, slice);
@@ -122,13 +122,13 @@ impl WearFigures {
     }
 
     /// Of a gear's flank at a snapshot of a run.
-    pub fn at(pair: &GearPair, gear: Gear, outcome: &Outcome, snapshot: &Snapshot) -> Self {
+    pub(crate) fn at(pair: &GearPair, gear: Gear, outcome: &Outcome, snapshot: &Snapshot) -> Self {
         Self::new(pair, gear, &outcome.grid[gear], &outcome.zones[gear], &snapshot.wear_mm[gear])
     }
 }
 
 /// How uneven values over the face width are: greatest less least, over the mean; 0 where all are 0.
-pub fn variation(values: impl Iterator<Item = f64> + Clone) -> f64 {
+pub(crate) fn variation(values: impl Iterator<Item = f64> + Clone) -> f64 {
     let (low, high) = values.clone().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
     let count = values.clone().count() as f64;
     let mean = values.sum::<f64>() / count;

@@ -25,7 +25,7 @@ const PLACES: usize = 32;
 
 /// Heat at one position of the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HeatAtPosition {
+pub(crate) struct HeatAtPosition {
     /// Theoretical contact point.
     pub position_mm: f64,
     /// Greatest rise of either surface by each of [`TemperatureMethod::ALL`], K.
@@ -38,7 +38,7 @@ pub struct HeatAtPosition {
 
 /// Heat over a mesh.
 #[derive(Debug, Clone, PartialEq)]
-pub struct HeatObservation {
+pub(crate) struct HeatObservation {
     /// At the positions of the observed cycle.
     pub positions: Vec<HeatAtPosition>,
     /// The wear law in it.
@@ -47,7 +47,7 @@ pub struct HeatObservation {
 
 /// A wear law over a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct LawInHeat {
+pub(crate) struct LawInHeat {
     /// k̄ of mild wear, mm²/N.
     pub mean_coefficient_mm2_per_n: f64,
     /// Part of the sliding work that is done at temperatures for which the law does not hold; none where it names none.
@@ -58,7 +58,7 @@ pub struct LawInHeat {
 
 /// What is observed, and how.
 #[derive(Clone, Copy)]
-pub struct HeatObserver<'a> {
+pub(crate) struct HeatObserver<'a> {
     /// The gears.
     pub pair: &'a GearPair,
     /// The heat.
@@ -96,7 +96,7 @@ struct Sums {
 
 impl HeatObserver<'_> {
     /// Looks at a cycle.
-    pub fn observe(&self, cycle: &CycleObservation) -> HeatObservation {
+    pub(crate) fn observe(&self, cycle: &CycleObservation) -> HeatObservation {
         let mut sums = Sums::default();
         let positions = match &cycle.slices {
             Some(mesh) => self.sliced(mesh, cycle, &mut sums),
@@ -245,13 +245,13 @@ impl HeatAtPosition {
 
 impl HeatObservation {
     /// Greatest rise over the mesh by each of [`TemperatureMethod::ALL`], K.
-    pub fn greatest_rise_k(&self) -> [f64; 3] {
+    pub(crate) fn greatest_rise_k(&self) -> [f64; 3] {
         let rises = self.positions.iter().map(|at| at.rise_k);
         rises.fold([0.0; 3], |greatest, rise| std::array::from_fn(|k| f64::max(greatest[k], rise[k])))
     }
 
     /// Least and greatest Peclet number of either surface where the pair carries load.
-    pub fn peclet_range(&self) -> [f64; 2] {
+    pub(crate) fn peclet_range(&self) -> [f64; 2] {
         let loaded = self.positions.iter().filter(|at| at.loaded);
         let all = loaded.flat_map(|at| [at.peclet.pinion, at.peclet.wheel]);
         all.fold([f64::INFINITY, 0.0], |[low, high], pe| [low.min(pe), high.max(pe)])

@@ -19,7 +19,7 @@ use crate::stiffness::{StiffnessError, TeethSpring};
 
 /// The elastic model of the pair in mesh.
 #[derive(Clone, Copy)]
-pub enum MeshContact<'a> {
+pub(crate) enum MeshContact<'a> {
     /// Each tooth pair a spring of its teeth in series with its contact surface, on the theoretical line of action.
     LineOfAction {
         /// How the flanks touch.
@@ -67,7 +67,7 @@ pub(super) struct LoadedMesh<'a> {
 impl MeshContact<'_> {
     /// Evaluations after which a wear run forgets what it starts from ([`super::checkpoint`]). Part of the model: it changes results in
     /// their last bits, and so depends on nothing but the scene.
-    pub fn evaluations_between_clean_starts(&self, positions: usize) -> u64 {
+    pub(crate) fn evaluations_between_clean_starts(&self, positions: usize) -> u64 {
         let (effort, slices) = match self {
             MeshContact::LineOfAction { surface, sliced, .. } => {
                 (surface.effort(), sliced.map_or(1, |sliced| sliced.slices.count()))
@@ -92,7 +92,7 @@ impl MeshContact<'_> {
 
 impl<'a> LoadedMesh<'a> {
     /// The pair, ready to wear.
-    pub fn wearing_pair<'b>(
+    pub(super) fn wearing_pair<'b>(
         &'b self,
         flanks: Flanks<'b>,
         modification_mm: &'b PerGear<Vec<f64>>,

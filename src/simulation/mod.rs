@@ -1,10 +1,10 @@
 //! The wear run: its state, its steps, its checkpoints.
 
-pub mod advance;
-pub mod checkpoint;
-pub mod figures;
-pub mod heat_observation;
-pub mod mesh_contact;
-pub mod settings;
-pub mod stability;
-pub mod wear_run;
+pub(crate) mod advance;
+pub(crate) mod checkpoint;
+pub(crate) mod figures;
+pub(crate) mod heat_observation;
+pub(crate) mod mesh_contact;
+pub(crate) mod settings;
+pub(crate) mod stability;
+pub(crate) mod wear_run;

@@ -25,7 +25,7 @@ const STABLE: f64 = 2.0;
 
 /// What bounds the wear steps of a phase.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StepBound {
+pub(crate) struct StepBound {
     /// Longest stable step of Euler's method, pinion revolutions; infinite where nothing bounds it.
     pub revolutions: f64,
     /// Greatest pressure on the unworn flanks, MPa; `None` where it was not asked for.
@@ -40,7 +40,7 @@ impl WearRun<'_> {
     ///
     /// # Errors
     /// [`SimulationError`].
-    pub fn step_bound(
+    pub(crate) fn step_bound(
         &self,
         phase: &RunPhase<'_>,
         pressure_too: bool,

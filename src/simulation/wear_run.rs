@@ -44,7 +44,7 @@ pub enum SimulationError {
 
 /// A stretch of the run under constant load and speed.
 #[derive(Clone, Copy)]
-pub struct RunPhase<'a> {
+pub(crate) struct RunPhase<'a> {
     /// How the gears touch and yield.
     pub contact: MeshContact<'a>,
     /// How they wear.
@@ -57,7 +57,7 @@ pub struct RunPhase<'a> {
 
 /// Everything a run is made of.
 #[derive(Clone, Copy)]
-pub struct WearRun<'a> {
+pub(crate) struct WearRun<'a> {
     /// The gears.
     pub pair: &'a GearPair,
     /// The parts of each flank that figures of its wear speak of.
@@ -72,7 +72,7 @@ pub struct WearRun<'a> {
 
 /// State kept at a snapshot.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Snapshot {
+pub(crate) struct Snapshot {
     /// Pinion revolutions so far.
     pub revolutions: f64,
     /// Wear depth of each flank point, slice after slice.
@@ -85,7 +85,7 @@ pub struct Snapshot {
 
 /// What a run found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Outcome {
+pub(crate) struct Outcome {
     /// Why it ended.
     pub stop: StopReason,
     /// What went wrong where it did not converge.
@@ -151,7 +151,7 @@ impl WearRun<'_> {
     ///
     /// # Errors
     /// [`SimulationError`].
-    pub fn run(&self, progress: &dyn Observer) -> Result<Outcome, SimulationError> {
+    pub(crate) fn run(&self, progress: &dyn Observer) -> Result<Outcome, SimulationError> {
         self.run_from(None, &NothingKept, progress)
     }
 
@@ -159,7 +159,7 @@ impl WearRun<'_> {
     ///
     /// # Errors
     /// [`SimulationError`].
-    pub fn run_from(
+    pub(crate) fn run_from(
         &self,
         checkpoint: Option<Checkpoint>,
         keeper: &dyn Keeper,

@@ -62,7 +62,7 @@ struct Header {
 ///
 /// # Errors
 /// [`CurveFileError`].
-pub fn parse(text: &str, path: &PathOfContact) -> Result<PairCompliance, CurveFileError> {
+pub(crate) fn parse(text: &str, path: &PathOfContact) -> Result<PairCompliance, CurveFileError> {
     let table = DataTable::read(text, || format!("{POSITION},{STIFFNESS} or {POSITION},{DEFLECTION}"))?;
     let mut header = Header::default();
     for &(line, key, value) in &table.keys {

@@ -23,7 +23,7 @@ const STEEL_MPA: f64 = 206e3;
 const MEASURED: f64 = 0.8;
 
 /// c'_th in N/(mm·µm).
-pub fn theoretical_single_stiffness_n_per_mm_um(spec: &PairSpec) -> f64 {
+pub(crate) fn theoretical_single_stiffness_n_per_mm_um(spec: &PairSpec) -> f64 {
     let (x1, x2) = (spec.gears.pinion.profile_shift, spec.gears.wheel.profile_shift);
     let base_helix = (spec.helix_angle_rad.sin() * spec.normal_pressure_angle_rad.cos()).asin();
     let virtual_teeth =
@@ -34,7 +34,11 @@ pub fn theoretical_single_stiffness_n_per_mm_um(spec: &PairSpec) -> f64 {
 }
 
 /// c' in N per mm of approach and mm of face width.
-pub fn single_stiffness_n_per_mm2(spec: &PairSpec, material: &PerGear<Material>, line_load_n_per_mm: f64) -> f64 {
+pub(crate) fn single_stiffness_n_per_mm2(
+    spec: &PairSpec,
+    material: &PerGear<Material>,
+    line_load_n_per_mm: f64,
+) -> f64 {
     let rack = (1.0 + 0.5 * (1.2 - spec.rack.dedendum_factor))
         * (1.0 - 0.02 * (20.0 - spec.normal_pressure_angle_rad.to_degrees()));
     let (e1, e2) = (material.pinion.young_modulus_mpa, material.wheel.young_modulus_mpa);

@@ -32,11 +32,11 @@
 //! Both flattening and the foundation's approach are nonlinear in the load; what the split leaves over at other loads than the
 //! reference is reported ([`TeethSpring::split_remainder`]).
 
-pub mod curve;
-pub mod curve_file;
-pub mod iso6336;
-pub mod settings;
-pub mod weber_banaschek;
+pub(crate) mod curve;
+pub(crate) mod curve_file;
+pub(crate) mod iso6336;
+pub(crate) mod settings;
+pub(crate) mod weber_banaschek;
 
 use crate::contact::{ContactSurface, hertz, settings::Material};
 use crate::gear::{GearPair, PerGear, conjugate::ConjugateFlanks};
@@ -78,7 +78,7 @@ enum Curve<'a> {
 }
 
 /// The spring of the teeth of a pair, in series with its contact surface.
-pub struct TeethSpring<'a> {
+pub(crate) struct TeethSpring<'a> {
     pair: &'a GearPair,
     material: PerGear<Material>,
     surface: &'a dyn ContactSurface,
@@ -94,7 +94,7 @@ impl<'a> TeethSpring<'a> {
     ///
     /// # Errors
     /// [`StiffnessError::NoCurve`]
-    pub fn new(
+    pub(crate) fn new(
         settings: StiffnessSettings,
         given: Option<&'a PairCompliance>,
         pair: &'a GearPair,
@@ -125,7 +125,7 @@ impl<'a> TeethSpring<'a> {
     ///
     /// # Errors
     /// [`StiffnessError::SurfaceTooSoft`] where nothing of the pair's compliance is left for the teeth.
-    pub fn n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
+    pub(crate) fn n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
         let (first_mm, last_mm) = self.stated_mm();
         let end_mm = position_mm.clamp(first_mm, last_mm);
         let stated = self.stated_n_per_mm2(end_mm)?;
@@ -166,7 +166,7 @@ impl<'a> TeethSpring<'a> {
 
     /// Compliance of the bodies that all pairs in mesh share, a part of each pair's spring, mm²/N; 0 where the model does not
     /// tell it.
-    pub fn shared_mm2_per_n(&self) -> f64 {
+    pub(crate) fn shared_mm2_per_n(&self) -> f64 {
         match &self.curve {
             Curve::Given(curve) => curve.shared_mm2_per_n,
             Curve::Teeth(_) | Curve::WeberBanaschek | Curve::WholePair(_) => 0.0,
@@ -177,7 +177,7 @@ impl<'a> TeethSpring<'a> {
     ///
     /// # Errors
     /// As [`Self::n_per_mm2`].
-    pub fn own_n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
+    pub(crate) fn own_n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
         let (whole, shared) = (1.0 / self.n_per_mm2(position_mm)?, self.shared_mm2_per_n());
         if shared < whole {
             Ok(1.0 / (whole - shared))
@@ -193,13 +193,13 @@ impl<'a> TeethSpring<'a> {
     ///
     /// # Errors
     /// As [`Self::n_per_mm2`].
-    pub fn pair_n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
+    pub(crate) fn pair_n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
         Ok(1.0 / (1.0 / self.n_per_mm2(position_mm)? + self.surface_mm2_per_n(position_mm)))
     }
 
     /// How far the surface's share of the approach at `load_fraction` of the reference load is from what the model's own
     /// flattening would be there, relative to the pair's whole approach; `None` where the model states no flattening.
-    pub fn split_remainder(&self, position_mm: f64, load_fraction: f64) -> Option<f64> {
+    pub(crate) fn split_remainder(&self, position_mm: f64, load_fraction: f64) -> Option<f64> {
         let (Curve::WeberBanaschek | Curve::Given(_)) = self.curve else { return None };
         let w = self.reference_line_load_n_per_mm;
         let flattening = |load| hertz::flattening(self.pair, &self.material, position_mm).approach_mm(load);

@@ -27,7 +27,7 @@ const SAMPLES: usize = 1500;
 
 /// A tooth ready to be loaded anywhere.
 #[derive(Debug, Clone)]
-pub struct ToothCompliance {
+pub(crate) struct ToothCompliance {
     tooth: Tooth,
     material: Material,
     /// Where the tooth is held, on its centre line from the gear's axis, mm.
@@ -44,7 +44,7 @@ pub struct ToothCompliance {
 
 impl ToothCompliance {
     /// Integrates over the profile of `tooth`.
-    pub fn new(tooth: &Tooth, material: &Material) -> Self {
+    pub(crate) fn new(tooth: &Tooth, material: &Material) -> Self {
         let profile = half_profile(tooth, SAMPLES);
         let mut height_mm = Vec::with_capacity(profile.len());
         let mut integrals = Vec::with_capacity(profile.len());
@@ -81,12 +81,12 @@ impl ToothCompliance {
     }
 
     /// Deflection of tooth and body over line load, for load on the flank point with radius of curvature `rho_mm`.
-    pub fn mm2_per_n(&self, rho_mm: f64) -> f64 {
+    pub(crate) fn mm2_per_n(&self, rho_mm: f64) -> f64 {
         self.along_mm2_per_n(&self.tooth.load_line(rho_mm))
     }
 
     /// The same for any load.
-    pub fn along_mm2_per_n(&self, load: &LoadLine) -> f64 {
+    pub(crate) fn along_mm2_per_n(&self, load: &LoadLine) -> f64 {
         let y_p = load.centre_line_mm - self.foot_mm;
         let nu = self.material.poisson_ratio;
         let (cos2, tan2) = (load.load_angle_rad.cos().powi(2), load.load_angle_rad.tan().powi(2));

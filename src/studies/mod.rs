@@ -1,6 +1,6 @@
 //! Questions that take many runs: each with its record and its report in one place.
 
-pub mod accuracy;
-pub mod compare;
-pub mod sweep;
-pub mod validation;
+pub(crate) mod accuracy;
+pub(crate) mod compare;
+pub(crate) mod sweep;
+pub(crate) mod validation;

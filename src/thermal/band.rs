@@ -8,7 +8,7 @@ use crate::gear::{Gear, PerGear};
 
 /// How the heat is spread over the strip.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Spread {
+pub(crate) enum Spread {
     /// Evenly.
     Even,
     /// As Hertz's ellipse.
@@ -27,7 +27,7 @@ struct HeatedBody {
 
 /// The heated strip of a contact. The rise depends on what heats it; everything else is prepared.
 #[derive(Debug, Clone, Copy)]
-pub struct HeatedBand<'a> {
+pub(crate) struct HeatedBand<'a> {
     method: TemperatureMethod,
     /// a, mm.
     half_width_mm: f64,
@@ -67,13 +67,13 @@ impl<'a> HeatedBand<'a> {
     }
 
     /// Pe of a gear's surface.
-    pub fn peclet(&self, gear: Gear) -> f64 {
+    pub(crate) fn peclet(&self, gear: Gear) -> f64 {
         let body = &self.bodies[gear];
         peclet(self.half_width_mm, body.velocity_mm_per_s, body.material.diffusivity_mm2_per_s)
     }
 
     /// The greatest rise of a gear's surface, K.
-    pub fn greatest_rise_k(&self, gear: Gear, spread: Spread) -> f64 {
+    pub(crate) fn greatest_rise_k(&self, gear: Gear, spread: Spread) -> f64 {
         let HeatedBody { flux, velocity_mm_per_s, material } = &self.bodies[gear];
         if *flux <= 0.0 {
             return 0.0;
@@ -102,7 +102,7 @@ impl<'a> HeatedBand<'a> {
     /// The rise of `gear`'s surface at consecutive points of its flank, from root to tip and `spacing_mm` apart, which are under
     /// `pressure_mpa`; K. The strip is as wide as the band and lies around the centre of the pressure; `rise_k` is as long as the
     /// row.
-    pub fn rises_k(&self, gear: Gear, spacing_mm: f64, pressure_mpa: &[f64], rise_k: &mut [f64]) {
+    pub(crate) fn rises_k(&self, gear: Gear, spacing_mm: f64, pressure_mpa: &[f64], rise_k: &mut [f64]) {
         rise_k.fill(0.0);
         let HeatedBody { flux, velocity_mm_per_s, material } = &self.bodies[gear];
         let sum: f64 = pressure_mpa.iter().sum();

@@ -19,7 +19,7 @@
 //! Source: the thesis, equation 28; R. Alexander, *SIAM J. Numer. Anal.* 14 (1977) 1006.
 
 /// Cells into which a passage is cut.
-pub const CELLS: usize = 32;
+pub(crate) const CELLS: usize = 32;
 /// Steps in time per cell.
 const STEPS_PER_CELL: usize = 16;
 /// First interval of the depths over the diffusion length of a step, and how much longer each further one is.
@@ -30,7 +30,7 @@ const DEPTH: f64 = 6.0;
 
 /// A half-space that is heated from its surface, in the units of the module's documentation.
 #[derive(Debug, Clone)]
-pub struct Conduction {
+pub(crate) struct Conduction {
     /// Rise at each depth, the surface first.
     rise: Vec<f64>,
     stage: Vec<f64>,
@@ -49,7 +49,7 @@ fn gamma() -> f64 {
 
 impl Conduction {
     /// A cold half-space to be heated over a `duration` in `steps` (at least one).
-    pub fn new(duration: f64, steps: usize) -> Self {
+    pub(crate) fn new(duration: f64, steps: usize) -> Self {
         Self::on_depths(duration, steps, FIRST_INTERVAL * (duration / steps as f64).sqrt(), GROWTH)
     }
 
@@ -83,7 +83,7 @@ impl Conduction {
     }
 
     /// Takes a step under a constant flux, and gives the rise of the surface at its end.
-    pub fn step(&mut self, flux: f64) -> f64 {
+    pub(crate) fn step(&mut self, flux: f64) -> f64 {
         self.stage.copy_from_slice(&self.rise);
         self.stage[0] += self.source * flux;
         solve(&self.lower, &self.inverse_pivot, &self.upper, &mut self.stage);
@@ -111,7 +111,7 @@ fn solve(lower: &[f64], inverse_pivot: &[f64], upper: &[f64], x: &mut [f64]) {
 
 /// How the surface answers to the flux of a passage.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Passage {
+pub(crate) struct Passage {
     /// Rise at the end of each cell after the flux 1 in the first.
     response: [f64; CELLS],
     /// Greatest rise under Hertz's ellipse of mean flux 1.
@@ -141,12 +141,12 @@ impl Default for Passage {
 
 impl Passage {
     /// Rise at the end of each cell under the mean flux of each, the first where the point enters.
-    pub fn rises(&self, flux: &[f64; CELLS]) -> [f64; CELLS] {
+    pub(crate) fn rises(&self, flux: &[f64; CELLS]) -> [f64; CELLS] {
         std::array::from_fn(|k| flux[..=k].iter().zip(self.response[..=k].iter().rev()).map(|(q, r)| q * r).sum())
     }
 
     /// Greatest rise under Hertz's ellipse of mean flux 1.
-    pub fn greatest_of_ellipse(&self) -> f64 {
+    pub(crate) fn greatest_of_ellipse(&self) -> f64 {
         self.greatest_of_ellipse
     }
 }

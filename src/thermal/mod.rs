@@ -21,13 +21,13 @@
 //!
 //! Units: mm, N, s, K; a flux in N/(mm·s) is 1000 W/m².
 
-pub mod band;
-pub mod heat_equation;
-pub mod partition;
-pub mod peclet;
-pub mod settings;
-pub mod tian_kennedy;
-pub mod williams;
+pub(crate) mod band;
+pub(crate) mod heat_equation;
+pub(crate) mod partition;
+pub(crate) mod peclet;
+pub(crate) mod settings;
+pub(crate) mod tian_kennedy;
+pub(crate) mod williams;
 
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 use band::HeatedBand;
@@ -36,7 +36,7 @@ use settings::{HeatSettings, TemperatureMethod};
 
 /// Friction heat of a pair in mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactHeat {
+pub(crate) struct ContactHeat {
     /// What is asked for.
     pub settings: HeatSettings,
     /// Speed of the theoretical contact point along the line of action, r_b ω, mm/s.
@@ -46,7 +46,7 @@ pub struct ContactHeat {
 
 /// How fast the surfaces move at a contact, over the speed of the theoretical contact point along the line of action.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct SpeedRatios {
+pub(crate) struct SpeedRatios {
     /// Of the flanks on each other.
     pub sliding: f64,
     /// Of each gear's surface through the contact.
@@ -56,7 +56,7 @@ pub struct SpeedRatios {
 impl SpeedRatios {
     /// On average while the contact moves along a stretch of the path, so that a sliding distance over the speed is the time it
     /// takes, also where the flanks stop sliding in between; at the place itself where the stretch has no length.
-    pub fn over(geometry: &dyn ConjugateFlanks, from_mm: f64, to_mm: f64) -> Self {
+    pub(crate) fn over(geometry: &dyn ConjugateFlanks, from_mm: f64, to_mm: f64) -> Self {
         let length = to_mm - from_mm;
         let middle = 0.5 * (from_mm + to_mm);
         let rolling = PerGear::from_fn(|gear| geometry.rolling_ratio(gear, middle));
@@ -71,17 +71,17 @@ impl SpeedRatios {
 
 impl ContactHeat {
     /// Heat of a pair whose contact point moves along the line of action at `speed_mm_per_s` (r_b ω).
-    pub fn new(settings: HeatSettings, speed_mm_per_s: f64) -> Self {
+    pub(crate) fn new(settings: HeatSettings, speed_mm_per_s: f64) -> Self {
         Self { settings, speed_mm_per_s, passage: Passage::default() }
     }
 
     /// The heated strip of a contact, by the method that is asked for.
-    pub fn band(&self, ratios: &SpeedRatios, line_load_n_per_mm: f64, half_width_mm: f64) -> HeatedBand<'_> {
+    pub(crate) fn band(&self, ratios: &SpeedRatios, line_load_n_per_mm: f64, half_width_mm: f64) -> HeatedBand<'_> {
         self.band_by(self.settings.method, ratios, line_load_n_per_mm, half_width_mm)
     }
 
     /// The heated strip of a contact, by any method.
-    pub fn band_by(
+    pub(crate) fn band_by(
         &self,
         method: TemperatureMethod,
         ratios: &SpeedRatios,
@@ -92,7 +92,7 @@ impl ContactHeat {
     }
 
     /// Sliding speed in a contact, mm/s.
-    pub fn sliding_speed_mm_per_s(&self, ratios: &SpeedRatios) -> f64 {
+    pub(crate) fn sliding_speed_mm_per_s(&self, ratios: &SpeedRatios) -> f64 {
         self.speed_mm_per_s * ratios.sliding
     }
 }

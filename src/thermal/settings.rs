@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::gear::PerGear;
 
 /// 0 K in °C.
-pub const ABSOLUTE_ZERO_C: f64 = -273.15;
+pub(crate) const ABSOLUTE_ZERO_C: f64 = -273.15;
 
 /// How contact temperatures are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

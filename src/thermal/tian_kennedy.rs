@@ -13,7 +13,12 @@ use super::peclet::peclet;
 use super::settings::ThermalMaterial;
 
 /// Greatest rise under the flux q in N/(mm·s) (MPa·mm/s), K.
-pub fn greatest_rise_k(flux: f64, half_width_mm: f64, velocity_mm_per_s: f64, material: &ThermalMaterial) -> f64 {
+pub(crate) fn greatest_rise_k(
+    flux: f64,
+    half_width_mm: f64,
+    velocity_mm_per_s: f64,
+    material: &ThermalMaterial,
+) -> f64 {
     let pe = peclet(half_width_mm, velocity_mm_per_s, material.diffusivity_mm2_per_s);
     2.0 * half_width_mm * flux / (material.conductivity_n_per_s_k * (std::f64::consts::PI * (1.0 + pe)).sqrt())
 }

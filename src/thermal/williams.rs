@@ -17,7 +17,7 @@
 use super::settings::ThermalMaterial;
 
 /// Rise of the surface at `from_inlet_mm` (x + a) under the flux q in N/(mm·s) (MPa·mm/s), K.
-pub fn rise_k(flux: f64, from_inlet_mm: f64, velocity_mm_per_s: f64, material: &ThermalMaterial) -> f64 {
+pub(crate) fn rise_k(flux: f64, from_inlet_mm: f64, velocity_mm_per_s: f64, material: &ThermalMaterial) -> f64 {
     let under_it_s = from_inlet_mm / velocity_mm_per_s;
     2.0 * flux / material.conductivity_n_per_s_k
         * (material.diffusivity_mm2_per_s * under_it_s / std::f64::consts::PI).sqrt()

@@ -27,7 +27,7 @@ pub struct AdsorptionConstants {
 
 /// dh = k_r α p ds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Adsorption {
+pub(crate) struct Adsorption {
     /// k_r: of a bare surface, mm²/N.
     pub coefficient_mm2_per_n: f64,
     /// Of the film.
@@ -57,10 +57,6 @@ impl WearLaw for Adsorption {
     fn coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64 {
         let unprotected = conditions.map_or(1.0, |conditions| self.constants.unprotected(conditions));
         self.coefficient_mm2_per_n * unprotected
-    }
-
-    fn greatest_coefficient_mm2_per_n(&self) -> f64 {
-        self.coefficient_mm2_per_n
     }
 }
 

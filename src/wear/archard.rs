@@ -10,7 +10,7 @@ use super::{ContactConditions, WearLaw};
 
 /// dh = k p ds at every point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Archard {
+pub(crate) struct Archard {
     /// k, mm²/N.
     pub coefficient_mm2_per_n: f64,
 }
@@ -19,10 +19,6 @@ impl WearLaw for Archard {
     const READS_CONDITIONS: bool = false;
 
     fn coefficient_mm2_per_n(&self, _surroundings: Option<ContactConditions>) -> f64 {
-        self.coefficient_mm2_per_n
-    }
-
-    fn greatest_coefficient_mm2_per_n(&self) -> f64 {
         self.coefficient_mm2_per_n
     }
 }

@@ -8,14 +8,14 @@
 //!
 //! and a new one is a file that implements [`WearLaw`]. The severe transition C(p) (`severe`) goes with any of them.
 
-pub mod adsorption;
-pub mod archard;
-pub mod heated_row;
-pub mod oxidation;
-pub mod regime;
-pub mod settings;
+pub(crate) mod adsorption;
+pub(crate) mod archard;
+pub(crate) mod heated_row;
+pub(crate) mod oxidation;
+pub(crate) mod regime;
+pub(crate) mod settings;
 mod severe;
-pub mod stepping;
+pub(crate) mod stepping;
 
 use crate::thermal::ContactHeat;
 use settings::{LawSettings, SevereTransition, WearSettings};
@@ -30,20 +30,17 @@ pub struct ContactConditions {
 }
 
 /// A local wear law.
-pub trait WearLaw: Sync {
+pub(crate) trait WearLaw: Sync {
     /// Whether the coefficient depends on the [`ContactConditions`].
     const READS_CONDITIONS: bool;
 
     /// Depth per pressure and sliding distance, mm²/N. Laws that do not read the conditions get none.
     fn coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64;
-
-    /// The greatest coefficient that the law can give, mm²/N: bounds the stable wear step.
-    fn greatest_coefficient_mm2_per_n(&self) -> f64;
 }
 
 /// What consecutive points of a flank feel at one loading position, in rows of the same length.
 #[derive(Debug, Clone, Copy)]
-pub struct SlidingRow<'a> {
+pub(crate) struct SlidingRow<'a> {
     /// Pressure on each, MPa.
     pub pressure_mpa: &'a [f64],
     /// How far each slides, mm.
@@ -53,7 +50,7 @@ pub struct SlidingRow<'a> {
 }
 
 /// Wear of a flank by some law, in rows of points: the law itself stays out of the inner loop's way.
-pub trait FlankWear: Sync {
+pub(crate) trait FlankWear: Sync {
     /// Adds to each point's depth (mm) what it loses. Rows without conditions are for laws that do not read them.
     fn add_depth(&self, row: &SlidingRow<'_>, depth_mm: &mut [f64]);
 
@@ -62,14 +59,11 @@ pub trait FlankWear: Sync {
 
     /// Depth per pressure and sliding distance of mild wear, mm²/N.
     fn mild_coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64;
-
-    /// The greatest rate of depth per sliding distance and pressure, severe wear included, mm²/N.
-    fn greatest_coefficient_mm2_per_n(&self) -> f64;
 }
 
 /// A law with a transition to severe wear.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WithTransition<L> {
+pub(crate) struct WithTransition<L> {
     /// The law of mild wear.
     pub law: L,
     /// The transition, where there is one.
@@ -101,14 +95,10 @@ impl<L: WearLaw> FlankWear for WithTransition<L> {
     fn mild_coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64 {
         self.law.coefficient_mm2_per_n(conditions)
     }
-
-    fn greatest_coefficient_mm2_per_n(&self) -> f64 {
-        self.law.greatest_coefficient_mm2_per_n() * self.severe.map_or(1.0, |severe| severe.factor.max(1.0))
-    }
 }
 
 /// The wear that a scene asks for.
-pub fn of(settings: &WearSettings) -> Box<dyn FlankWear> {
+pub(crate) fn of(settings: &WearSettings) -> Box<dyn FlankWear> {
     let (k, severe) = (settings.coefficient_mm2_per_n, settings.severe);
     match settings.law {
         LawSettings::Archard => Box::new(WithTransition { law: archard::Archard { coefficient_mm2_per_n: k }, severe }),
@@ -123,7 +113,7 @@ pub fn of(settings: &WearSettings) -> Box<dyn FlankWear> {
 
 /// How flanks in mesh wear: by which law, and where their heat comes from where the law reads it.
 #[derive(Clone, Copy)]
-pub struct WearModel<'a> {
+pub(crate) struct WearModel<'a> {
     /// The law.
     pub law: &'a dyn FlankWear,
     /// Friction heat of the contact, where the law or the scene asks for it.
@@ -132,12 +122,12 @@ pub struct WearModel<'a> {
 
 impl<'a> WearModel<'a> {
     /// A law that reads no conditions.
-    pub fn cold(law: &'a dyn FlankWear) -> Self {
+    pub(crate) fn cold(law: &'a dyn FlankWear) -> Self {
         Self { law, heat: None }
     }
 
     /// The heat, where the law reads what it does to the contact.
-    pub fn heat_of_law(&self) -> Option<&'a ContactHeat> {
+    pub(crate) fn heat_of_law(&self) -> Option<&'a ContactHeat> {
         self.heat.filter(|_| self.law.reads_conditions())
     }
 }

@@ -56,7 +56,7 @@ pub struct OxidationConstants {
 
 /// dh = k_r p · (depth of iron that oxidises while sliding ds).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Oxidation {
+pub(crate) struct Oxidation {
     /// k_r: part of the area that is in real contact, over the pressure, mm²/N.
     pub coefficient_mm2_per_n: f64,
     /// Of the reaction.
@@ -64,7 +64,7 @@ pub struct Oxidation {
 }
 
 /// Contact temperatures for which the law holds, °C (thesis, equation 21).
-pub const VALID_TEMPERATURE_C: [f64; 2] = [200.0, 400.0];
+pub(crate) const VALID_TEMPERATURE_C: [f64; 2] = [200.0, 400.0];
 
 impl OxidationConstants {
     /// Orders of magnitude for iron, not the constants of any steel: they differ by many powers of ten between static and rubbed
@@ -95,10 +95,6 @@ impl WearLaw for Oxidation {
             }
             _ => 0.0,
         }
-    }
-
-    fn greatest_coefficient_mm2_per_n(&self) -> f64 {
-        self.coefficient_mm2_per_n
     }
 }
 

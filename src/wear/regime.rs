@@ -12,7 +12,7 @@
 //! 1985), the diagram of the International Research Group on wear (IRG); the thesis, section 3 and figure 8.
 
 /// 1 mm²/N in mm³/(N·m).
-pub const MM3_PER_NM: f64 = 1e3;
+pub(crate) const MM3_PER_NM: f64 = 1e3;
 /// A coefficient that misses a bound by this part of it is on it.
 const ROUND_OFF: f64 = 1e-9;
 

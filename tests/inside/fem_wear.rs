@@ -94,7 +94,9 @@ fn val_each_flank_loses_what_load_and_sliding_ask_for() {
         warm = at.warm.clone();
     }
     asked *= COEFFICIENT;
-    let lost = PerGear::from_fn(|gear| cycle.nodes()[gear].integral_mm2(&depth[gear]));
+    let lost = PerGear::from_fn(|gear| {
+        cycle.nodes()[gear].share_mm.iter().zip(&depth[gear]).map(|(share, depth)| share * depth).sum::<f64>()
+    });
     for gear in Gear::BOTH {
         assert_close(&format!("{gear:?}"), lost[gear], asked, 1e-3);
     }

@@ -8,10 +8,9 @@ use gearwear::gear::modification::{Modification, Relief, ReliefShape};
 use gearwear::gear::removed_material::removed_mm;
 use gearwear::gear::spec::PairSpec;
 use gearwear::gear::{Gear, GearPair, PerGear};
+use gearwear::gear_mesh::pair_mesh::PairSectors;
 use gearwear::gear_mesh::settings::{Body, BodySettings, SectorSides, default_clamp};
-use gearwear::gear_mesh::{
-    self, FlankResolution, PairSectors, SectorSettings, ToothMeshError, ToothSector, ToothShape,
-};
+use gearwear::gear_mesh::{self, FlankResolution, SectorSettings, ToothMeshError, ToothSector, ToothShape};
 use gearwear::mesh::quality::{self, MeshQuality};
 use gearwear::mesh::{CellBlock, CellKind, Mesh};
 use nalgebra::{Rotation2, Vector2};

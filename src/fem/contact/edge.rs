@@ -10,7 +10,7 @@ use nalgebra::Vector2;
 use crate::fem::problem::Edge;
 
 /// Greatest number of nodes of an edge.
-pub const MOST_NODES: usize = 3;
+pub(crate) const MOST_NODES: usize = 3;
 
 impl Edge {
     /// Number of its nodes: 2 or 3.
@@ -25,7 +25,7 @@ impl Edge {
 }
 
 /// Shape functions at ξ; unused places are zero.
-pub fn shape(nodes: usize, xi: f64) -> [f64; MOST_NODES] {
+pub(crate) fn shape(nodes: usize, xi: f64) -> [f64; MOST_NODES] {
     match nodes {
         2 => [0.5 * (1.0 - xi), 0.5 * (1.0 + xi), 0.0],
         _ => [0.5 * xi * (xi - 1.0), 0.5 * xi * (xi + 1.0), 1.0 - xi * xi],
@@ -33,7 +33,7 @@ pub fn shape(nodes: usize, xi: f64) -> [f64; MOST_NODES] {
 }
 
 /// Their derivatives by ξ.
-pub fn shape_derivative(nodes: usize, xi: f64) -> [f64; MOST_NODES] {
+pub(crate) fn shape_derivative(nodes: usize, xi: f64) -> [f64; MOST_NODES] {
     match nodes {
         2 => [-0.5, 0.5, 0.0],
         _ => [xi - 0.5, xi + 0.5, -2.0 * xi],
@@ -41,16 +41,16 @@ pub fn shape_derivative(nodes: usize, xi: f64) -> [f64; MOST_NODES] {
 }
 
 /// ξ of each node.
-pub fn node_place(local: usize) -> f64 {
+pub(crate) fn node_place(local: usize) -> f64 {
     [-1.0, 1.0, 0.0][local]
 }
 
 /// Σ N_i v_i.
-pub fn interpolate(shape: &[f64; MOST_NODES], values: &[Vector2<f64>]) -> Vector2<f64> {
+pub(crate) fn interpolate(shape: &[f64; MOST_NODES], values: &[Vector2<f64>]) -> Vector2<f64> {
     values.iter().zip(shape).fold(Vector2::zeros(), |sum, (value, n)| sum + value * *n)
 }
 
 /// Quarter turn clockwise: from a tangent with the body on its left to the outward normal.
-pub fn outward(tangent: Vector2<f64>) -> Vector2<f64> {
+pub(crate) fn outward(tangent: Vector2<f64>) -> Vector2<f64> {
     Vector2::new(tangent.y, -tangent.x)
 }

@@ -19,7 +19,7 @@ use super::surface::Surface;
 
 /// A surface with the displacements of its local nodes, mm.
 #[derive(Debug, Clone, Copy)]
-pub struct Moved<'a> {
+pub(crate) struct Moved<'a> {
     /// Before deformation.
     pub surface: &'a Surface,
     /// One for each local node.
@@ -38,7 +38,7 @@ impl Moved<'_> {
 
 /// The largest overlap of `slave` and `master` at the integration points, mm; zero where they nowhere overlap. Surfaces
 /// farther apart than `reach_mm` do not face each other.
-pub fn largest_overlap_mm(slave: Moved<'_>, master: Moved<'_>, reach_mm: f64) -> f64 {
+pub(crate) fn largest_overlap_mm(slave: Moved<'_>, master: Moved<'_>, reach_mm: f64) -> f64 {
     let facing = MasterSearch::new(master.surface);
     let mut largest_mm = 0.0_f64;
     for (number, edge) in slave.surface.edges.iter().enumerate() {

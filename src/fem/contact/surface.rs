@@ -12,14 +12,14 @@ use crate::fem::problem::Edge;
 
 /// One edge by local node numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SurfaceEdge {
+pub(crate) struct SurfaceEdge {
     nodes: [usize; MOST_NODES],
     count: usize,
 }
 
 /// Surface of a body, or part of it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Surface {
+pub(crate) struct Surface {
     /// The mesh's number of each local node.
     pub mesh_nodes: Vec<u32>,
     /// Their places, mm.
@@ -32,14 +32,14 @@ pub struct Surface {
 
 impl SurfaceEdge {
     /// Local numbers of its nodes: ends, middle.
-    pub fn nodes(&self) -> &[usize] {
+    pub(crate) fn nodes(&self) -> &[usize] {
         &self.nodes[..self.count]
     }
 }
 
 impl Surface {
     /// The surface of `edges` with the nodes at `points_mm`.
-    pub fn new(edges: &[Edge], points_mm: &[Vector2<f64>]) -> Self {
+    pub(crate) fn new(edges: &[Edge], points_mm: &[Vector2<f64>]) -> Self {
         let mut local = BTreeMap::new();
         let mut mesh_nodes = Vec::new();
         let edges = edges
@@ -62,7 +62,7 @@ impl Surface {
     }
 
     /// The surface turned and moved as a rigid body: `place` moves points, `turn` directions.
-    pub fn placed(
+    pub(crate) fn placed(
         &self,
         place: impl Fn(Vector2<f64>) -> Vector2<f64>,
         turn: impl Fn(Vector2<f64>) -> Vector2<f64>,
@@ -76,7 +76,7 @@ impl Surface {
     }
 
     /// Its edges `edges` alone; nodes keep their numbers and normals.
-    pub fn part(&self, edges: std::ops::Range<usize>) -> Self {
+    pub(crate) fn part(&self, edges: std::ops::Range<usize>) -> Self {
         Self { edges: self.edges[edges].to_vec(), ..self.clone() }
     }
 
@@ -93,12 +93,12 @@ impl Surface {
     }
 
     /// Coordinates of an edge's nodes; the first `count` count.
-    pub fn corners(&self, edge: &SurfaceEdge) -> [Vector2<f64>; MOST_NODES] {
+    pub(crate) fn corners(&self, edge: &SurfaceEdge) -> [Vector2<f64>; MOST_NODES] {
         edge.nodes.map(|node| self.points_mm[node])
     }
 
     /// Point at ξ and its derivative by ξ.
-    pub fn point_and_tangent(&self, edge: &SurfaceEdge, xi: f64) -> (Vector2<f64>, Vector2<f64>) {
+    pub(crate) fn point_and_tangent(&self, edge: &SurfaceEdge, xi: f64) -> (Vector2<f64>, Vector2<f64>) {
         let corners = self.corners(edge);
         let corners = &corners[..edge.count];
         let point = interpolate(&shape(edge.count, xi), corners);
@@ -106,7 +106,7 @@ impl Surface {
     }
 
     /// Interpolated, not normalised, normal at ξ and its derivative by ξ.
-    pub fn normal_and_derivative(&self, edge: &SurfaceEdge, xi: f64) -> (Vector2<f64>, Vector2<f64>) {
+    pub(crate) fn normal_and_derivative(&self, edge: &SurfaceEdge, xi: f64) -> (Vector2<f64>, Vector2<f64>) {
         let normals = edge.nodes.map(|node| self.normals[node]);
         let normals = &normals[..edge.count];
         let normal = interpolate(&shape(edge.count, xi), normals);
@@ -114,7 +114,7 @@ impl Surface {
     }
 
     /// Smallest box around an edge, with room for the bulge of a curved one.
-    pub fn edge_box(&self, edge: &SurfaceEdge) -> (Vector2<f64>, Vector2<f64>) {
+    pub(crate) fn edge_box(&self, edge: &SurfaceEdge) -> (Vector2<f64>, Vector2<f64>) {
         let corners = self.corners(edge);
         let corners = &corners[..edge.count];
         let low = corners.iter().fold(corners[0], |low, p| low.inf(p));
@@ -124,7 +124,7 @@ impl Surface {
     }
 
     /// Diagonal of the box around the whole surface, mm.
-    pub fn extent_mm(&self) -> f64 {
+    pub(crate) fn extent_mm(&self) -> f64 {
         let Some(&first) = self.points_mm.first() else { return 0.0 };
         let low = self.points_mm.iter().fold(first, |low, p| low.inf(p));
         let high = self.points_mm.iter().fold(first, |high, p| high.sup(p));
@@ -132,7 +132,7 @@ impl Surface {
     }
 
     /// The nodes in the order of the surface, one path for each connected part; a closed one begins at its first edge.
-    pub fn paths(&self) -> Vec<Vec<usize>> {
+    pub(crate) fn paths(&self) -> Vec<Vec<usize>> {
         let mut leaving = vec![None; self.points_mm.len()];
         let mut entered = vec![false; self.points_mm.len()];
         for (number, edge) in self.edges.iter().enumerate() {
@@ -166,7 +166,7 @@ impl Surface {
     }
 
     /// Distance of each node of a path from its first, along the chords, mm.
-    pub fn along_mm(&self, path: &[usize]) -> Vec<f64> {
+    pub(crate) fn along_mm(&self, path: &[usize]) -> Vec<f64> {
         let mut along = 0.0;
         let mut previous = None;
         path.iter()

@@ -25,7 +25,7 @@ pub struct CycleError {
 ///
 /// # Errors
 /// The failure at the first position that has none.
-pub fn cycle(
+pub(crate) fn cycle(
     pair: &CondensedPair<'_>,
     positions_mm: &[f64],
     line_load_n_per_mm: f64,

@@ -20,7 +20,7 @@ use crate::gear::{Gear, PerGear};
 /// Rows at an inner end of the window that must stay without load.
 const FREE_ROWS: usize = 3;
 /// Parts of a base pitch before A and after E in which contact outside the line of action is looked for.
-pub const OUTSIDE_BASE_PITCHES: f64 = 0.3;
+pub(super) const OUTSIDE_BASE_PITCHES: f64 = 0.3;
 
 /// Which way a displacement of the flanks is looked at.
 #[derive(Debug, Clone, Copy)]
@@ -187,13 +187,13 @@ impl CondensedPair<'_> {
 
 impl FacingTeeth {
     /// Distance of a node of the slave from the expected contact, towards the pinion's tip.
-    pub fn towards_pinion_tip_mm(&self, slave: &FlankSurface, node: usize) -> f64 {
+    pub(super) fn towards_pinion_tip_mm(&self, slave: &FlankSurface, node: usize) -> f64 {
         let from_tip_mm = slave.from_tip_mm[node] - self.expected_mm;
         if self.slave == Gear::Pinion { -from_tip_mm } else { from_tip_mm }
     }
 
     /// Whether load comes close to an inner end of the window, so that it may have been cut off.
-    pub fn is_cramped(&self, force: &[f64]) -> bool {
+    pub(super) fn is_cramped(&self, force: &[f64]) -> bool {
         let loaded = |row: &usize| force[self.first_row + row] > 0.0;
         let rows = &self.from_tip;
         let (mut first, mut last) = (rows.iter().take(FREE_ROWS), rows.iter().rev().take(FREE_ROWS));

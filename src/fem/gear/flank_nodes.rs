@@ -20,7 +20,7 @@ const NODES_TO_A_SIDE: usize = 2;
 
 /// Nodes of one flank, from root to tip.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FlankNodes {
+pub(crate) struct FlankNodes {
     /// Distance of each from the root end along the profile, mm.
     pub along_mm: Vec<f64>,
     /// W_k, mm.
@@ -33,7 +33,7 @@ pub struct FlankNodes {
 
 /// Consecutive nodes and the weight of each.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Weights<'a> {
+pub(crate) struct Weights<'a> {
     /// The first node.
     pub first: usize,
     /// m_k of it and those after it.
@@ -42,7 +42,7 @@ pub struct Weights<'a> {
 
 impl FlankNodes {
     /// Of `flank`.
-    pub fn new(flank: &FlankSurface) -> Self {
+    pub(crate) fn new(flank: &FlankSurface) -> Self {
         let count = flank.from_tip_mm.len();
         let mut order: Vec<usize> = (0..count).collect();
         order.sort_by(|&a, &b| flank.from_tip_mm[b].total_cmp(&flank.from_tip_mm[a]));
@@ -69,24 +69,19 @@ impl FlankNodes {
     }
 
     /// Number of nodes.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.along_mm.len()
-    }
-
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.along_mm.is_empty()
     }
 
     /// Adds to `sums`, a row for all nodes, `weight` times the m_k of the stretch from `from_mm` to `to_mm`; answers the nodes that
     /// it reaches.
-    pub fn add_means(&self, stretch_mm: [f64; 2], weight: f64, sums: &mut [f64]) -> std::ops::Range<usize> {
+    pub(crate) fn add_means(&self, stretch_mm: [f64; 2], weight: f64, sums: &mut [f64]) -> std::ops::Range<usize> {
         add_means(&self.along_mm, stretch_mm, weight, sums)
     }
 
     /// How far depths at the nodes tilt the profile there, rad: dh/ds from root to tip, over an element to either side, so that waves
     /// between neighbouring nodes are no tilt.
-    pub fn tilt_rad(&self, depth_mm: &[f64]) -> Vec<f64> {
+    pub(crate) fn tilt_rad(&self, depth_mm: &[f64]) -> Vec<f64> {
         let slope = |place: usize| {
             let (from, to) = (place.saturating_sub(NODES_TO_A_SIDE), (place + NODES_TO_A_SIDE).min(self.len() - 1));
             (depth_mm[to] - depth_mm[from]) / (self.along_mm[to] - self.along_mm[from])
@@ -95,12 +90,7 @@ impl FlankNodes {
     }
 
     /// Depth at a place of the flank, mm.
-    pub fn depth_at_mm(&self, along_mm: f64, depth_mm: &[f64]) -> f64 {
+    pub(crate) fn depth_at_mm(&self, along_mm: f64, depth_mm: &[f64]) -> f64 {
         value_at(&self.along_mm, depth_mm, along_mm)
-    }
-
-    /// ∫ h ds of depths at the nodes, mm².
-    pub fn integral_mm2(&self, depth_mm: &[f64]) -> f64 {
-        self.share_mm.iter().zip(depth_mm).map(|(share, depth)| share * depth).sum()
     }
 }

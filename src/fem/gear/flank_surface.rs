@@ -8,7 +8,7 @@ use nalgebra::Vector2;
 
 /// The flank of one tooth in the tooth's own frame, from the tip (first edge) to the root (last edge).
 #[derive(Debug, Clone)]
-pub struct FlankSurface {
+pub(crate) struct FlankSurface {
     /// The surface; its local node numbers are the places of the candidates.
     pub surface: Surface,
     /// Distance of each local node from the tip end along the profile, mm.
@@ -21,7 +21,7 @@ pub struct FlankSurface {
 
 impl FlankSurface {
     /// The flank along `chain` (ends and middles of edges alternately, from root to tip) with ρ at each of its nodes.
-    pub fn new(chain: &[u32], rho_mm: &[f64], points_mm: &[Vector2<f64>], sharp: bool) -> Self {
+    pub(crate) fn new(chain: &[u32], rho_mm: &[f64], points_mm: &[Vector2<f64>], sharp: bool) -> Self {
         let surface = Surface::new(&edges(chain), points_mm);
         let place_in_chain = |node: u32| chain.iter().position(|&other| other == node);
         let rho_mm = surface
@@ -39,12 +39,12 @@ impl FlankSurface {
     }
 
     /// Local number of the node at the tip end.
-    pub fn tip_node(&self) -> usize {
+    pub(crate) fn tip_node(&self) -> usize {
         self.surface.edges.first().map_or(0, |edge| edge.nodes()[0])
     }
 
     /// Distance from the tip end of the point with radius of curvature `rho_mm`, within the surface, mm.
-    pub fn from_tip_at_mm(&self, rho_mm: f64) -> f64 {
+    pub(crate) fn from_tip_at_mm(&self, rho_mm: f64) -> f64 {
         let mut nearest = (f64::INFINITY, 0.0);
         for (&own, &along) in self.rho_mm.iter().zip(&self.from_tip_mm) {
             // NaN on a rounding: never nearer.
@@ -56,7 +56,7 @@ impl FlankSurface {
     }
 
     /// The edges that reach into the stretch from `from_mm` to `to_mm` from the tip end; at least one.
-    pub fn edges_between(&self, from_mm: f64, to_mm: f64) -> Range<usize> {
+    pub(crate) fn edges_between(&self, from_mm: f64, to_mm: f64) -> Range<usize> {
         let edges = &self.surface.edges;
         let first = edges.partition_point(|edge| self.from_tip_mm[edge.nodes()[1]] <= from_mm);
         let last = edges.partition_point(|edge| self.from_tip_mm[edge.nodes()[0]] < to_mm);
@@ -66,7 +66,7 @@ impl FlankSurface {
 }
 
 /// The edges along `chain` (from root to tip), from tip to root: the tooth of a flank at x < 0 then lies on their left.
-pub fn edges(chain: &[u32]) -> Vec<Edge> {
+pub(crate) fn edges(chain: &[u32]) -> Vec<Edge> {
     (0..chain.len() / 2)
         .rev()
         .map(|k| Edge { ends: [chain[2 * k + 2], chain[2 * k]], middle: Some(chain[2 * k + 1]) })

@@ -41,7 +41,7 @@ pub enum FullError {
 
 /// The whole model's answer.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FullContact {
+pub(crate) struct FullContact {
     /// Degrees of freedom of both gears.
     pub dofs: usize,
     /// δ, mm.
@@ -120,7 +120,7 @@ impl Whole {
 ///
 /// # Errors
 /// As the condensed model.
-pub fn solve(
+pub(crate) fn solve(
     pair: &GearPair,
     meshed: &PerGear<MeshedGear>,
     material: &PerGear<Elastic>,

@@ -44,7 +44,7 @@ const LEAST_COSINE: f64 = 0.3;
 
 /// One tooth pair's contact at a position.
 #[derive(Debug, Clone)]
-pub struct LoadTransfer {
+pub(crate) struct LoadTransfer {
     /// Base pitches by which the pair is ahead of the reference pair.
     pub pair: i32,
     /// The gear whose flank has the multipliers.
@@ -65,7 +65,7 @@ pub struct LoadTransfer {
 
 /// M_ik of one flank: row by row, consecutive nodes.
 #[derive(Debug, Clone, Default)]
-pub struct Means {
+pub(crate) struct Means {
     first: Vec<usize>,
     ends: Vec<usize>,
     weights: Vec<f64>,
@@ -84,7 +84,7 @@ impl Means {
 
     /// M_ik of row `i`.
     #[inline]
-    pub fn row(&self, i: usize) -> Weights<'_> {
+    pub(crate) fn row(&self, i: usize) -> Weights<'_> {
         let begin = if i > 0 { self.ends[i - 1] } else { 0 };
         Weights { first: self.first[i], weights: &self.weights[begin..self.ends[i]] }
     }
@@ -98,17 +98,12 @@ impl Means {
 
 impl LoadTransfer {
     /// Number of rows.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.weight_mm.len()
     }
 
-    /// Whether there are none.
-    pub fn is_empty(&self) -> bool {
-        self.weight_mm.is_empty()
-    }
-
     /// Adds to the gaps of the position's rows what flanks that have lost `depth_mm` at their nodes open them by.
-    pub fn open_gaps(&self, depth_mm: PerGear<&[f64]>, gap_mm: &mut [f64]) {
+    pub(crate) fn open_gaps(&self, depth_mm: PerGear<&[f64]>, gap_mm: &mut [f64]) {
         for (i, gap) in gap_mm[self.first_row..self.first_row + self.len()].iter_mut().enumerate() {
             let opening_mm = |gear: Gear| self.means[gear].opening_mm(i, depth_mm[gear]);
             *gap += opening_mm(Gear::Pinion) + opening_mm(Gear::Wheel) + self.beyond_rule_mm[i];
@@ -116,7 +111,12 @@ impl LoadTransfer {
     }
 
     /// Means over a load of `force` on the rows of what each node of `gear` is; 0 without load.
-    pub fn mean_on<const N: usize>(&self, gear: Gear, force: &[f64], at_node: impl Fn(usize) -> [f64; N]) -> [f64; N] {
+    pub(crate) fn mean_on<const N: usize>(
+        &self,
+        gear: Gear,
+        force: &[f64],
+        at_node: impl Fn(usize) -> [f64; N],
+    ) -> [f64; N] {
         let (mut sums, mut whole) = ([0.0; N], 0.0);
         for (i, &force) in force.iter().enumerate().filter(|(_, force)| **force > 0.0) {
             let Weights { first, weights } = self.means[gear].row(i);
@@ -130,7 +130,7 @@ impl LoadTransfer {
     }
 
     /// Adds to the depths at the nodes of a flank what the rows lose: `depth_mm` each.
-    pub fn wear_nodes(&self, gear: Gear, nodes: &FlankNodes, depth_mm: &[f64], sums_mm: &mut [f64]) {
+    pub(crate) fn wear_nodes(&self, gear: Gear, nodes: &FlankNodes, depth_mm: &[f64], sums_mm: &mut [f64]) {
         for (i, (depth, weight)) in depth_mm.iter().zip(&self.weight_mm).enumerate() {
             if *depth == 0.0 {
                 continue;
@@ -158,19 +158,19 @@ struct Foot {
 
 impl CondensedPair<'_> {
     /// The nodes of both working flanks.
-    pub fn flank_nodes(&self) -> PerGear<FlankNodes> {
+    pub(crate) fn flank_nodes(&self) -> PerGear<FlankNodes> {
         self.flanks.as_ref().map(FlankNodes::new)
     }
 
     /// Radius of the nominal flank point that each local node of a gear's flank stands for, mm.
-    pub fn nominal_radius_mm(&self, gear: Gear) -> Vec<f64> {
+    pub(crate) fn nominal_radius_mm(&self, gear: Gear) -> Vec<f64> {
         let points = self.flanks[gear].surface.points_mm.iter();
         points.map(|&point| self.pair.teeth[gear].nominal_radius_mm(point)).collect()
     }
 
     /// How each tooth pair that may touch at a position hands its load over, with the position standing for the path from
     /// `stretch_mm.0` to `stretch_mm.1`; about the `worn` flanks where there are such.
-    pub fn load_transfers(
+    pub(crate) fn load_transfers(
         &self,
         prepared: &Prepared,
         stretch_mm: (f64, f64),

@@ -1,15 +1,15 @@
 //! Finite-element contact of a gear pair: each gear condensed once, every position a small contact problem.
 
-pub mod cycle;
+pub(crate) mod cycle;
 mod facing_teeth;
-pub mod flank_nodes;
-pub mod flank_surface;
-pub mod full;
-pub mod load_transfer;
-pub mod model;
-pub mod placement;
-pub mod position;
-pub mod prepared;
-pub mod ring;
-pub mod sector;
-pub mod tilted;
+pub(crate) mod flank_nodes;
+pub(crate) mod flank_surface;
+pub(crate) mod full;
+pub(crate) mod load_transfer;
+pub(crate) mod model;
+pub(crate) mod placement;
+pub(crate) mod position;
+pub(crate) mod prepared;
+pub(crate) mod ring;
+pub(crate) mod sector;
+pub(crate) mod tilted;

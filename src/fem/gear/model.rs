@@ -61,7 +61,7 @@ pub enum ModelError {
 
 /// One gear, meshed.
 #[derive(Debug, Clone)]
-pub struct MeshedGear {
+pub(crate) struct MeshedGear {
     /// Which.
     pub gear: Gear,
     /// A tooth that may touch.
@@ -79,7 +79,7 @@ pub struct MeshedGear {
 }
 
 /// Hertz half-width under the whole load at `position_mm`, taken at A or E where it lies outside.
-pub fn hertz_half_width_mm(
+pub(crate) fn hertz_half_width_mm(
     pair: &GearPair,
     contact_modulus_mpa: f64,
     line_load_n_per_mm: f64,
@@ -96,7 +96,7 @@ impl MeshedGear {
     ///
     /// # Errors
     /// [`ModelError::Mesh`], [`ModelError::TooFewTeeth`].
-    pub fn new(
+    pub(crate) fn new(
         pair: &GearPair,
         gear: Gear,
         material: &PerGear<Elastic>,
@@ -112,7 +112,7 @@ impl MeshedGear {
     ///
     /// # Errors
     /// [`ModelError::Mesh`]
-    pub fn with_one_fine_tooth(
+    pub(crate) fn with_one_fine_tooth(
         pair: &GearPair,
         gear: Gear,
         material: &PerGear<Elastic>,
@@ -167,7 +167,7 @@ impl MeshedGear {
     }
 
     /// Degrees of freedom of the whole gear as modelled.
-    pub fn dofs(&self) -> usize {
+    pub(crate) fn dofs(&self) -> usize {
         let rows = if matches!(self.surroundings, Surroundings::Ring { .. }) { 1 } else { 2 };
         let coarse = rows * self.surroundings.coarse();
         let own = |sector: &ToothSector| sector.dofs() - 2 * sector.left_cut.len();
@@ -207,7 +207,11 @@ impl MeshedGear {
     ///
     /// # Errors
     /// [`ModelError::Condense`].
-    pub fn condense(&self, pair: &GearPair, material: Elastic) -> Result<(GearCompliance, FlankSurface), ModelError> {
+    pub(crate) fn condense(
+        &self,
+        pair: &GearPair,
+        material: Elastic,
+    ) -> Result<(GearCompliance, FlankSurface), ModelError> {
         self.condense_with(pair, material, true)
     }
 
@@ -234,7 +238,7 @@ impl MeshedGear {
     ///
     /// # Errors
     /// [`ModelError::Condense`].
-    pub fn condense_onto(
+    pub(crate) fn condense_onto(
         &self,
         pair: &GearPair,
         material: Elastic,
@@ -244,7 +248,7 @@ impl MeshedGear {
     }
 
     /// The working flank as a contact surface.
-    pub fn flank(&self) -> FlankSurface {
+    pub(crate) fn flank(&self) -> FlankSurface {
         let (chain, rho_mm) = self.fine.working_flank.resolved_nodes();
         FlankSurface::new(chain, rho_mm, &self.fine.points_mm, self.sharp)
     }
@@ -278,7 +282,7 @@ fn condense(sector: Sector, material: Elastic) -> Result<CondensedSector, SolveE
 }
 
 /// The finite-element form of a meshed sector; forces may act on the nodes `candidates`.
-pub fn sector(mesh: &ToothSector, half_angle_rad: f64, candidates: Vec<u32>) -> Sector {
+pub(crate) fn sector(mesh: &ToothSector, half_angle_rad: f64, candidates: Vec<u32>) -> Sector {
     let clamped: std::collections::BTreeSet<u32> = mesh.clamp.iter().copied().collect();
     let free = |cut: &[u32]| cut.iter().copied().filter(|node| !clamped.contains(node)).collect::<Vec<u32>>();
     Sector {
@@ -293,7 +297,7 @@ pub fn sector(mesh: &ToothSector, half_angle_rad: f64, candidates: Vec<u32>) -> 
 }
 
 /// A sector's elements for the solver.
-pub fn solid(mesh: &ToothSector) -> Solid {
+pub(crate) fn solid(mesh: &ToothSector) -> Solid {
     Solid {
         points_mm: mesh.points_mm.clone(),
         elements: mesh.cells.iter().map(|cell| element(cell, cell.nodes(), 0)).collect(),
@@ -301,7 +305,7 @@ pub fn solid(mesh: &ToothSector) -> Solid {
 }
 
 /// The element of a mesh's cell on `nodes`.
-pub fn element(cell: &Cell, nodes: &[u32], material: u16) -> Element {
+pub(crate) fn element(cell: &Cell, nodes: &[u32], material: u16) -> Element {
     let kind = if cell.kind == CellKind::Quad8 { ElementKind::Quad8 } else { ElementKind::Triangle6 };
     Element::new(kind, nodes, material)
 }
@@ -312,7 +316,7 @@ impl<'a> CondensedPair<'a> {
     ///
     /// # Errors
     /// [`ModelError`].
-    pub fn build(
+    pub(crate) fn build(
         pair: &'a GearPair,
         material: &PerGear<Elastic>,
         line_load_n_per_mm: f64,
@@ -326,7 +330,7 @@ impl<'a> CondensedPair<'a> {
     }
 
     /// Joins both condensed gears.
-    pub fn new(
+    pub(crate) fn new(
         pair: &'a GearPair,
         material: &PerGear<Elastic>,
         gears: PerGear<(GearCompliance, FlankSurface)>,

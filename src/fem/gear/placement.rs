@@ -17,7 +17,7 @@ use crate::gear::{Gear, GearPair};
 use crate::gear_mesh::turn_rad;
 
 /// Angle of the centre line of tooth `tooth` of a gear from +y, anticlockwise.
-pub fn tooth_angle_rad(pair: &GearPair, gear: Gear, position_mm: f64, tooth: i32) -> f64 {
+pub(crate) fn tooth_angle_rad(pair: &GearPair, gear: Gear, position_mm: f64, tooth: i32) -> f64 {
     let pitches = TAU * f64::from(tooth) / f64::from(pair.teeth[gear].teeth);
     let angle = turn_rad(pair, gear, position_mm);
     match gear {
@@ -27,7 +27,7 @@ pub fn tooth_angle_rad(pair: &GearPair, gear: Gear, position_mm: f64, tooth: i32
 }
 
 /// A gear's axis.
-pub fn axis_mm(pair: &GearPair, gear: Gear) -> Vector2<f64> {
+pub(crate) fn axis_mm(pair: &GearPair, gear: Gear) -> Vector2<f64> {
     match gear {
         Gear::Pinion => Vector2::zeros(),
         Gear::Wheel => Vector2::new(0.0, pair.spec.centre_distance_mm),
@@ -35,6 +35,12 @@ pub fn axis_mm(pair: &GearPair, gear: Gear) -> Vector2<f64> {
 }
 
 /// Where a point of tooth `tooth` lies at `position_mm`, given in the tooth's own frame.
-pub fn in_place_mm(pair: &GearPair, gear: Gear, position_mm: f64, tooth: i32, point_mm: Vector2<f64>) -> Vector2<f64> {
+pub(crate) fn in_place_mm(
+    pair: &GearPair,
+    gear: Gear,
+    position_mm: f64,
+    tooth: i32,
+    point_mm: Vector2<f64>,
+) -> Vector2<f64> {
     Rotation2::new(tooth_angle_rad(pair, gear, position_mm, tooth)) * point_mm + axis_mm(pair, gear)
 }

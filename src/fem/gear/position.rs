@@ -23,7 +23,7 @@ use crate::fem::contact::zones;
 use crate::gear::{Gear, GearPair, PerGear};
 
 /// The pair with both gears condensed.
-pub struct CondensedPair<'a> {
+pub(crate) struct CondensedPair<'a> {
     /// Geometry.
     pub pair: &'a GearPair,
     /// Both gears.
@@ -36,7 +36,7 @@ pub struct CondensedPair<'a> {
 
 /// One tooth pair in contact.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ToothPairContact {
+pub(crate) struct ToothPairContact {
     /// 0 the reference pair, +1 the one a base pitch ahead, −1 the one behind.
     pub pair: i32,
     /// Its share of the torque over base radius and face width, N/mm.
@@ -57,7 +57,7 @@ pub struct ToothPairContact {
 
 /// Stress along the surface of a tooth's fillets, which is the principal stress there, MPa.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct RootStress {
+pub(crate) struct RootStress {
     /// Greatest at the fillet below the working flank: tension.
     pub working_side_mpa: f64,
     /// Least at the other fillet: compression.
@@ -66,7 +66,7 @@ pub struct RootStress {
 
 /// The pair at one position.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PositionContact {
+pub(crate) struct PositionContact {
     /// ξ.
     pub position_mm: f64,
     /// Pairs in contact, by increasing number.
@@ -93,14 +93,14 @@ pub struct PositionContact {
 
 /// Where each pair was loaded: its number and the stretch from the expected contact towards the pinion's tip, mm.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct WarmStart(Vec<(i32, f64, f64)>);
+pub(crate) struct WarmStart(Vec<(i32, f64, f64)>);
 
 impl<'a> CondensedPair<'a> {
     /// Solves at `position_mm` under `line_load_n_per_mm`.
     ///
     /// # Errors
     /// See [`ActiveSetError`].
-    pub fn at(
+    pub(crate) fn at(
         &self,
         position_mm: f64,
         line_load_n_per_mm: f64,
@@ -113,7 +113,7 @@ impl<'a> CondensedPair<'a> {
     ///
     /// # Errors
     /// See [`ActiveSetError`].
-    pub fn at_alone(
+    pub(crate) fn at_alone(
         &self,
         position_mm: f64,
         line_load_n_per_mm: f64,
@@ -129,7 +129,7 @@ impl<'a> CondensedPair<'a> {
     }
 
     /// Each tooth pair in contact.
-    pub fn tooth_pairs(&self, prepared: &Prepared, found: &Equilibrium) -> Vec<ToothPairContact> {
+    pub(crate) fn tooth_pairs(&self, prepared: &Prepared, found: &Equilibrium) -> Vec<ToothPairContact> {
         let loaded = prepared.facings.iter().filter_map(|facing| {
             let force = &found.force[facing.first_row..facing.first_row + facing.coupling.len()];
             force.iter().any(|f| *f > 0.0).then(|| self.tooth_pair(prepared, facing, force).0)
@@ -138,7 +138,7 @@ impl<'a> CondensedPair<'a> {
     }
 
     /// The figures of a solution.
-    pub fn read(&self, prepared: &Prepared, found: Equilibrium) -> PositionContact {
+    pub(crate) fn read(&self, prepared: &Prepared, found: Equilibrium) -> PositionContact {
         let Prepared { position_mm, ref facings, .. } = *prepared;
         let line_load_n_per_mm = prepared.line_load_n_per_mm();
         let mut forces = self.gears.as_ref().map(|gear| vec![ToothForce::new(); gear.teeth()]);

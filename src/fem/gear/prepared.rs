@@ -34,7 +34,7 @@ const FARTHER: f64 = 3.0;
 const MOST_WINDOWS: usize = 8;
 
 /// A position with its couplings and compliance.
-pub struct Prepared {
+pub(crate) struct Prepared {
     /// ξ.
     pub position_mm: f64,
     window: Window,
@@ -63,12 +63,12 @@ pub(super) struct Sideways {
 
 impl<'a> CondensedPair<'a> {
     /// Prepares the contact at `position_mm` under `line_load_n_per_mm`.
-    pub fn prepare(&self, position_mm: f64, line_load_n_per_mm: f64) -> Prepared {
+    pub(crate) fn prepare(&self, position_mm: f64, line_load_n_per_mm: f64) -> Prepared {
         self.prepare_among((self.gears.pinion.teeth() / 2) as i32, position_mm, line_load_n_per_mm)
     }
 
     /// The same with the reference pair alone.
-    pub fn prepare_alone(&self, position_mm: f64, line_load_n_per_mm: f64) -> Prepared {
+    pub(crate) fn prepare_alone(&self, position_mm: f64, line_load_n_per_mm: f64) -> Prepared {
         self.prepare_among(0, position_mm, line_load_n_per_mm)
     }
 
@@ -111,7 +111,7 @@ impl<'a> CondensedPair<'a> {
     ///
     /// # Errors
     /// See [`ActiveSetError`].
-    pub fn solve(
+    pub(crate) fn solve(
         &self,
         prepared: &mut Prepared,
         opening: &mut dyn FnMut(&Prepared, &mut [f64]),
@@ -134,7 +134,7 @@ impl<'a> CondensedPair<'a> {
 
     /// Makes a prepared position as if it had never been solved, and its wear never seen: it starts from no contact, and windows no
     /// wider than at first.
-    pub fn reset(&self, prepared: &mut Prepared) {
+    pub(crate) fn reset(&self, prepared: &mut Prepared) {
         if prepared.windows > 1 {
             let Window { beside, line_load_n_per_mm, .. } = prepared.window;
             *prepared = self.observe(prepared.position_mm, self.first_window(beside, line_load_n_per_mm));
@@ -198,17 +198,17 @@ impl Prepared {
     }
 
     /// w.
-    pub fn line_load_n_per_mm(&self) -> f64 {
+    pub(crate) fn line_load_n_per_mm(&self) -> f64 {
         self.window.line_load_n_per_mm
     }
 
     /// How often the flanks around the contact had to be looked at, wider each time.
-    pub fn windows(&self) -> usize {
+    pub(crate) fn windows(&self) -> usize {
         self.windows
     }
 
     /// Number of tooth pairs that may touch.
-    pub fn tooth_pairs(&self) -> usize {
+    pub(crate) fn tooth_pairs(&self) -> usize {
         self.facings.len()
     }
 

@@ -23,11 +23,11 @@ use super::sector::CondensedSector;
 use crate::fem::active_set::ActiveSetError;
 
 /// Forces on the candidates of one tooth: column and N/mm, by increasing column.
-pub type ToothForce = Vec<(usize, f64)>;
+pub(crate) type ToothForce = Vec<(usize, f64)>;
 
 /// What bounds the fine group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Surroundings {
+pub(crate) enum Surroundings {
     /// All other teeth of the gear: `coarse` of them close the ring.
     Ring {
         /// Number of coarse teeth.
@@ -47,7 +47,7 @@ pub enum Surroundings {
 
 impl Surroundings {
     /// Number of coarse teeth in a row.
-    pub fn coarse(self) -> usize {
+    pub(crate) fn coarse(self) -> usize {
         match self {
             Self::Ring { coarse } | Self::FreeSector { coarse } | Self::ClampedSector { coarse } => coarse,
         }
@@ -55,7 +55,7 @@ impl Surroundings {
 }
 
 /// A gear as contact sees it: compliance between the candidate nodes of its fine teeth.
-pub struct GearCompliance {
+pub(crate) struct GearCompliance {
     /// The fine sector; all fine teeth are alike.
     pub sector: CondensedSector,
     teeth: usize,
@@ -71,7 +71,7 @@ impl GearCompliance {
     ///
     /// # Errors
     /// A body that is not held.
-    pub fn new(
+    pub(crate) fn new(
         fine: CondensedSector,
         coarse: Option<&CondensedSector>,
         teeth: usize,
@@ -123,18 +123,18 @@ impl GearCompliance {
     }
 
     /// Number of fine teeth.
-    pub fn teeth(&self) -> usize {
+    pub(crate) fn teeth(&self) -> usize {
         self.teeth
     }
 
     /// Displacement of candidate column `row` of tooth `p` per force on candidate column `column` of tooth `q`.
-    pub fn between(&self, p: usize, q: usize) -> Between<'_> {
+    pub(crate) fn between(&self, p: usize, q: usize) -> Between<'_> {
         let (low, high) = (p.min(q), p.max(q));
         Between { block: &self.blocks[high * (high + 1) / 2 + low], turned: q > p }
     }
 
     /// Displacements of both cuts of tooth `p` under candidate forces on the fine teeth, mm.
-    pub fn cut_displacement_mm(&self, p: usize, forces: &[ToothForce]) -> Vec<f64> {
+    pub(crate) fn cut_displacement_mm(&self, p: usize, forces: &[ToothForce]) -> Vec<f64> {
         let n = self.sector.sector.cut_dofs();
         let mut load = vec![0.0; n * (self.teeth + 1)];
         for (tooth, force) in forces.iter().enumerate() {
@@ -150,7 +150,7 @@ impl GearCompliance {
     }
 
     /// Stress of each probe of tooth `p` under candidate forces on the fine teeth, MPa.
-    pub fn probed_mpa(&self, p: usize, forces: &[ToothForce]) -> Vec<f64> {
+    pub(crate) fn probed_mpa(&self, p: usize, forces: &[ToothForce]) -> Vec<f64> {
         let cuts = self.cut_displacement_mm(p, forces);
         let sector = &self.sector;
         (0..sector.probe_by_cut.nrows())
@@ -164,14 +164,14 @@ impl GearCompliance {
 
 /// A view of C_pq.
 #[derive(Clone, Copy)]
-pub struct Between<'a> {
+pub(crate) struct Between<'a> {
     block: &'a Mat<f64>,
     turned: bool,
 }
 
 impl Between<'_> {
     /// The entries of `rows` × `columns`, column by column.
-    pub fn gathered(&self, rows: &[usize], columns: &[usize]) -> Vec<f64> {
+    pub(crate) fn gathered(&self, rows: &[usize], columns: &[usize]) -> Vec<f64> {
         let height = rows.len();
         let mut entries = vec![0.0; height * columns.len()];
         // Along the block's own columns, whichever way they run.

@@ -25,7 +25,7 @@ use crate::fem::stiffness::Stiffness;
 
 /// What a functional of the displacements of a condensed sector comes to.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Answer {
+pub(crate) struct Answer {
     /// Per force on each candidate column.
     pub by_force: Vec<f64>,
     /// Per displacement of each cut column.
@@ -33,11 +33,11 @@ pub struct Answer {
 }
 
 /// A sparse linear functional of the displacements: degrees of freedom with their coefficients.
-pub type Functional = Vec<(u32, f64)>;
+pub(crate) type Functional = Vec<(u32, f64)>;
 
 /// One sector before condensation; the tooth's centre line is +y, the gear's axis the origin.
 #[derive(Debug, Clone)]
-pub struct Sector {
+pub(crate) struct Sector {
     /// Nodes and elements.
     pub solid: Solid,
     /// Nodes on the clamp circle.
@@ -56,7 +56,7 @@ pub struct Sector {
 
 /// A condensed sector. Candidate columns are `2 · place in candidates + component`, cut columns `2 · place + component`
 /// (radial, circumferential) of the clockwise cut, then of the anticlockwise one.
-pub struct CondensedSector {
+pub(crate) struct CondensedSector {
     /// The sector itself.
     pub sector: Sector,
     stiffness: Stiffness,
@@ -88,7 +88,7 @@ impl Sector {
     }
 
     /// Number of cut columns of one side.
-    pub fn cut_dofs(&self) -> usize {
+    pub(crate) fn cut_dofs(&self) -> usize {
         2 * self.cuts[0].len()
     }
 
@@ -96,7 +96,7 @@ impl Sector {
     ///
     /// # Errors
     /// Elements that are none, bodies that are not held.
-    pub fn condense(self, material: Elastic, analysis: Analysis) -> Result<CondensedSector, SolveError> {
+    pub(crate) fn condense(self, material: Elastic, analysis: Analysis) -> Result<CondensedSector, SolveError> {
         let dofs = self.solid.dofs();
         let mut held = vec![false; dofs];
         for &node in self.clamp.iter().chain(self.cuts.iter().flatten()) {
@@ -169,7 +169,7 @@ fn symmetric(matrix: &Mat<f64>) -> Mat<f64> {
 
 impl CondensedSector {
     /// Displacement of every node of the sector under forces on the candidates and displacements of the cuts, mm.
-    pub fn displacement_mm(&self, candidate_force: &[(usize, f64)], cut_mm: &[f64]) -> Vec<f64> {
+    pub(crate) fn displacement_mm(&self, candidate_force: &[(usize, f64)], cut_mm: &[f64]) -> Vec<f64> {
         let mut field = vec![0.0; self.sector.solid.dofs()];
         // Directions come in pairs, radial and circumferential, of one node each.
         let held: Vec<(u32, f64)> = self
@@ -192,7 +192,7 @@ impl CondensedSector {
 
     /// How a functional p of the displacements answers to forces on the candidates and displacements of the cuts. With
     /// λ = K_ii⁻¹ p_i it is λ_c and p_b − K_bi λ: one solution, whatever the number of forces.
-    pub fn answer(&self, functional: &Functional) -> Answer {
+    pub(crate) fn answer(&self, functional: &Functional) -> Answer {
         let mut lambda = vec![0.0; self.sector.solid.dofs()];
         for &(dof, value) in functional {
             lambda[dof as usize] += value;
@@ -212,10 +212,5 @@ impl CondensedSector {
         let by_force =
             self.sector.candidates.iter().flat_map(|&node| [0, 1].map(|i| lambda[2 * node as usize + i])).collect();
         Answer { by_force, by_cut }
-    }
-
-    /// Degrees of freedom of the sector.
-    pub fn dofs(&self) -> usize {
-        self.sector.solid.dofs()
     }
 }

@@ -22,7 +22,7 @@ use crate::gear::{Gear, PerGear};
 
 /// What flanks have lost and how that tilts them.
 #[derive(Debug, Clone, Copy)]
-pub struct Worn<'a> {
+pub(crate) struct Worn<'a> {
     /// Depth at the nodes, from root to tip, mm.
     pub depth_mm: PerGear<&'a [f64]>,
     /// dh/ds there, rad.
@@ -31,7 +31,7 @@ pub struct Worn<'a> {
 
 impl CondensedPair<'_> {
     /// Takes the flanks of each tooth pair in contact to be tilted by `tilt_rad`; contact goes on from where it is.
-    pub fn tilt(&self, prepared: &mut Prepared, tilt_rad: Vec<f64>) {
+    pub(crate) fn tilt(&self, prepared: &mut Prepared, tilt_rad: Vec<f64>) {
         if prepared.sideways.is_none() {
             prepared.sideways = Some(self.sideways(prepared));
         }
@@ -73,7 +73,7 @@ impl CondensedPair<'_> {
 impl Prepared {
     /// How far each tooth pair's flank is tilted in the mean over the load of `force`, where it is tilted by `tilt_rad` at the local nodes
     /// of a gear; none without load.
-    pub fn mean_tilts(&self, force: &[f64], tilt_rad: impl Fn(Gear, usize) -> f64) -> Vec<f64> {
+    pub(crate) fn mean_tilts(&self, force: &[f64], tilt_rad: impl Fn(Gear, usize) -> f64) -> Vec<f64> {
         let mean = |facing: &FacingTeeth| {
             let (mut whole, mut sum) = (0.0, 0.0);
             for (&node, force) in facing.coupling.nodes.iter().zip(&force[facing.first_row..]) {
@@ -89,7 +89,7 @@ impl Prepared {
 
     /// How much the levers of the tooth pairs' loads change on the pinion under `force` where the flanks tilt to `tilt_rad`, each
     /// over itself and times the part of the load that the others carry: where one pair carries all, nothing changes but its lever.
-    pub fn lever_change(&self, force: &[f64], tilt_rad: &[f64]) -> f64 {
+    pub(crate) fn lever_change(&self, force: &[f64], tilt_rad: &[f64]) -> f64 {
         let of_pair = |(pair, facing): (usize, &FacingTeeth)| {
             let turn = tilt_rad[pair] - self.tilt_rad.get(pair).unwrap_or(&0.0);
             let (mut own, mut change) = (0.0, 0.0);

@@ -26,12 +26,12 @@ const WRITTEN: [(CellKind, &str); 16] = [
 ];
 
 /// What is allowed, for messages.
-pub const ALLOWED: &str = "MASS, trusses and beams (T2D2, T3D3, B21 …), plane elements (CPE, CPS, CPEG, CAX, M3D, R3D, S \
+pub(super) const ALLOWED: &str = "MASS, trusses and beams (T2D2, T3D3, B21 …), plane elements (CPE, CPS, CPEG, CAX, M3D, R3D, S \
                            with 3, 4, 6, 8 or 9 nodes) and solids (C3D4 to C3D20)";
 
 /// The kind that Abaqus calls `name`, in any case; letters behind the number of nodes (reduced integration, hybrid, …) say
 /// nothing of the mesh.
-pub fn kind(name: &str) -> Option<CellKind> {
+pub(super) fn kind(name: &str) -> Option<CellKind> {
     let name = name.trim().to_ascii_uppercase();
     if name == "MASS" {
         return Some(CellKind::Vertex);
@@ -85,12 +85,12 @@ fn is_variant(rest: &str) -> bool {
 }
 
 /// Abaqus's name for a kind, if it has one.
-pub fn name(kind: CellKind) -> Option<&'static str> {
+pub(super) fn name(kind: CellKind) -> Option<&'static str> {
     WRITTEN.iter().find(|&&(own, _)| own == kind).map(|&(_, name)| name)
 }
 
 /// Abaqus's order of the nodes from ours or back: only a quadratic line has another, its middle node second.
-pub fn reorder<T: Copy>(kind: CellKind, nodes: &[T]) -> Cow<'_, [T]> {
+pub(super) fn reorder<T: Copy>(kind: CellKind, nodes: &[T]) -> Cow<'_, [T]> {
     match (kind, nodes) {
         (CellKind::Line3, &[a, b, c]) => Cow::Owned(vec![a, c, b]),
         _ => Cow::Borrowed(nodes),
@@ -98,7 +98,7 @@ pub fn reorder<T: Copy>(kind: CellKind, nodes: &[T]) -> Cow<'_, [T]> {
 }
 
 /// Number of sides of a plane element, 0 for other cells.
-pub fn side_count(kind: CellKind) -> usize {
+pub(super) fn side_count(kind: CellKind) -> usize {
     match kind {
         CellKind::Triangle | CellKind::Triangle6 => 3,
         CellKind::Quad | CellKind::Quad8 | CellKind::Quad9 => 4,
@@ -107,7 +107,7 @@ pub fn side_count(kind: CellKind) -> usize {
 }
 
 /// Side `side` (from 0; Abaqus's `S1` is 0) of a plane element with `nodes`: kind and nodes of the line, element on its left.
-pub fn side(kind: CellKind, nodes: &[usize], side: usize) -> (CellKind, Vec<usize>) {
+pub(super) fn side(kind: CellKind, nodes: &[usize], side: usize) -> (CellKind, Vec<usize>) {
     let corners = side_count(kind);
     let mut line = vec![nodes[side], nodes[(side + 1) % corners]];
     if nodes.len() == corners {

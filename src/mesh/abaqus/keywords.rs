@@ -4,7 +4,7 @@ use crate::mesh::error::{Fault, FilePosition, Problem};
 
 /// A keyword line with its data lines.
 #[derive(Debug)]
-pub struct Keyword<'a> {
+pub(super) struct Keyword<'a> {
     /// The keyword in capitals, single blanks between words, without the star.
     pub name: String,
     /// Parameters: name in capitals, value.
@@ -17,7 +17,7 @@ pub struct Keyword<'a> {
 
 /// A name of a set or surface.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Name {
+pub(super) struct Name {
     /// As it stands in the file.
     pub text: String,
     /// Whether it was in quotes, and case counts.
@@ -26,33 +26,33 @@ pub struct Name {
 
 impl Keyword<'_> {
     /// A fault in `line` of this keyword's.
-    pub fn fault(&self, line: usize, problem: Problem) -> Fault {
+    pub(super) fn fault(&self, line: usize, problem: Problem) -> Fault {
         Fault { place: Some(FilePosition::Line(line)), section: format!("*{}", self.name), problem }
     }
 
     /// Whether there is a parameter of this name.
-    pub fn has(&self, name: &str) -> bool {
+    pub(super) fn has(&self, name: &str) -> bool {
         self.parameters.iter().any(|(own, _)| own == name)
     }
 
     /// The value of a parameter, if it is there.
-    pub fn value(&self, name: &str) -> Option<&Name> {
+    pub(super) fn value(&self, name: &str) -> Option<&Name> {
         self.parameters.iter().find(|(own, _)| own == name)?.1.as_ref()
     }
 
     /// The value of a parameter that must be there.
-    pub fn required(&self, name: &str) -> Result<&Name, Fault> {
+    pub(super) fn required(&self, name: &str) -> Result<&Name, Fault> {
         self.value(name).ok_or_else(|| self.fault(self.line, Problem::Ended { expected: format!("{name}=…") }))
     }
 
     /// A refusal.
-    pub fn unsupported(&self, what: impl Into<String>, allowed: &str) -> Fault {
+    pub(super) fn unsupported(&self, what: impl Into<String>, allowed: &str) -> Fault {
         self.fault(self.line, Problem::Unsupported { what: what.into(), allowed: allowed.into() })
     }
 }
 
 /// All keywords of a file in order.
-pub fn keywords(text: &str) -> Result<Vec<Keyword<'_>>, Fault> {
+pub(super) fn keywords(text: &str) -> Result<Vec<Keyword<'_>>, Fault> {
     let mut keywords: Vec<Keyword> = Vec::new();
     let mut lines = (1..).zip(text.lines()).filter(|(_, line)| !line.trim_start().starts_with("**"));
     while let Some((number, line)) = lines.next() {
@@ -93,7 +93,7 @@ fn keyword<'a>(line: &str, number: usize) -> Keyword<'a> {
 
 impl Name {
     /// From the file's text, with or without quotes.
-    pub fn parse(text: &str) -> Self {
+    pub(super) fn parse(text: &str) -> Self {
         let text = text.trim();
         match text.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')) {
             Some(inner) => Self { text: inner.to_owned(), quoted: true },
@@ -103,7 +103,7 @@ impl Name {
 }
 
 /// Fields of a line, parted by commas outside quotes.
-pub fn split(line: &str) -> Vec<&str> {
+pub(super) fn split(line: &str) -> Vec<&str> {
     let mut quoted = false;
     line.split(|c: char| {
         quoted ^= c == '"';

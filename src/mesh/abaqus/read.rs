@@ -45,7 +45,7 @@ struct Content {
 }
 
 /// Reads a mesh.
-pub fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let line = 1 + bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count();
         let problem = Problem::unexpected("other bytes", "text in UTF-8");

@@ -8,7 +8,7 @@ use crate::mesh::numbering::{Allowance, Numbering, OpenSets};
 
 /// Sets of nodes, or of elements, under construction.
 #[derive(Debug, Default)]
-pub struct Sets {
+pub(super) struct Sets {
     /// Members by name, in the spelling that came first.
     pub members: OpenSets,
     /// Spelling that came first by the name in capitals.
@@ -18,7 +18,7 @@ pub struct Sets {
 impl Sets {
     /// The spelling under which a set of this name is kept, whether it exists or not. An unquoted name is the same in
     /// capitals and small letters.
-    pub fn key(&self, name: &Name) -> String {
+    pub(super) fn key(&self, name: &Name) -> String {
         if name.quoted || self.members.contains_key(&name.text) {
             return name.text.clone();
         }
@@ -26,7 +26,7 @@ impl Sets {
     }
 
     /// The set of this name, which is made if it does not exist.
-    pub fn open(&mut self, name: &Name) -> &mut Vec<usize> {
+    pub(super) fn open(&mut self, name: &Name) -> &mut Vec<usize> {
         let key = self.key(name);
         if !name.quoted {
             self.spelling.entry(key.to_ascii_uppercase()).or_insert_with(|| key.clone());
@@ -35,13 +35,13 @@ impl Sets {
     }
 
     /// The members of an existing set.
-    pub fn find(&self, name: &Name) -> Option<&Vec<usize>> {
+    pub(super) fn find(&self, name: &Name) -> Option<&Vec<usize>> {
         self.members.get(&self.key(name))
     }
 }
 
 /// What set definitions refer to.
-pub struct Targets<'a> {
+pub(super) struct Targets<'a> {
     /// Numbers of the nodes or elements.
     pub numbering: &'a Numbering,
     /// What to say of a number that is not there.
@@ -51,7 +51,7 @@ pub struct Targets<'a> {
 }
 
 /// Members that the data lines of a `*NSET` or `*ELSET` name.
-pub fn members(
+pub(super) fn members(
     keyword: &Keyword,
     sets: &Sets,
     targets: &Targets,
@@ -80,7 +80,7 @@ pub fn members(
 }
 
 /// Adds what one field refers to, a number or a set, to `members`.
-pub fn refer(
+pub(super) fn refer(
     field: &str,
     sets: &Sets,
     targets: &Targets,

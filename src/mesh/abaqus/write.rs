@@ -13,7 +13,7 @@ const FORMAT: &str = "an Abaqus file";
 type Side = (usize, usize);
 
 /// The content of the file.
-pub fn write(mesh: &Mesh) -> Result<Vec<u8>, Unwritable> {
+pub(crate) fn write(mesh: &Mesh) -> Result<Vec<u8>, Unwritable> {
     check(mesh)?;
     let surfaces = Surfaces::of(mesh);
     let mut text = String::from("*HEADING\nmesh\n");

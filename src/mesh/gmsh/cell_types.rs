@@ -24,16 +24,16 @@ const TYPES: [(CellKind, u8); 17] = [
 ];
 
 /// What is allowed, for messages.
-pub const ALLOWED: &str = "points, lines, triangles, quadrilaterals, tetrahedra, hexahedra, wedges and pyramids, linear or \
+pub(super) const ALLOWED: &str = "points, lines, triangles, quadrilaterals, tetrahedra, hexahedra, wedges and pyramids, linear or \
                            quadratic (Gmsh's types 1 to 12 and 15 to 19)";
 
 /// The kind that Gmsh calls `number`.
-pub fn kind(number: i64) -> Option<CellKind> {
+pub(super) fn kind(number: i64) -> Option<CellKind> {
     TYPES.iter().find(|&&(_, own)| i64::from(own) == number).map(|&(kind, _)| kind)
 }
 
 /// Gmsh's number for a kind.
-pub fn number(kind: CellKind) -> u8 {
+pub(super) fn number(kind: CellKind) -> u8 {
     TYPES.iter().find(|&&(own, _)| own == kind).map_or(0, |&(_, number)| number)
 }
 
@@ -41,7 +41,7 @@ pub fn number(kind: CellKind) -> u8 {
 ///
 /// Gmsh lists the edges of solids in the order of their lowest nodes, VTK (and meshio, and we) goes round the bottom, round
 /// the top, then up.
-pub fn order(kind: CellKind) -> Option<&'static [usize]> {
+pub(super) fn order(kind: CellKind) -> Option<&'static [usize]> {
     match kind {
         CellKind::Tetra10 => Some(&[0, 1, 2, 3, 4, 5, 6, 7, 9, 8]),
         CellKind::Hexahedron20 => Some(&[0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15]),
@@ -55,7 +55,7 @@ pub fn order(kind: CellKind) -> Option<&'static [usize]> {
 }
 
 /// Our order of the nodes of a cell from Gmsh's.
-pub fn from_gmsh<T: Copy>(kind: CellKind, nodes: &mut [T], scratch: &mut Vec<T>) {
+pub(super) fn from_gmsh<T: Copy>(kind: CellKind, nodes: &mut [T], scratch: &mut Vec<T>) {
     if let Some(order) = order(kind) {
         scratch.clear();
         scratch.extend_from_slice(nodes);
@@ -66,7 +66,7 @@ pub fn from_gmsh<T: Copy>(kind: CellKind, nodes: &mut [T], scratch: &mut Vec<T>)
 }
 
 /// Gmsh's order from ours.
-pub fn to_gmsh<T: Copy>(kind: CellKind, nodes: &mut [T], scratch: &mut Vec<T>) {
+pub(super) fn to_gmsh<T: Copy>(kind: CellKind, nodes: &mut [T], scratch: &mut Vec<T>) {
     if let Some(order) = order(kind) {
         scratch.clear();
         scratch.extend_from_slice(nodes);

@@ -8,11 +8,11 @@ use crate::mesh::numbering::{Allowance, CellList, Numbering, OpenSets, close_cel
 use crate::mesh::{DataArray, Mesh, PhysicalTag, Values};
 
 /// Dimension and tag of a physical group.
-pub type GroupKey = (u8, i64);
+pub(super) type GroupKey = (u8, i64);
 
 /// What has been read.
 #[derive(Debug, Default)]
-pub struct Content {
+pub(super) struct Content {
     /// Names of physical groups in the order of the file.
     pub names: Vec<(GroupKey, String)>,
     /// Version 4.1: the groups of each entity, by its dimension and tag.
@@ -37,7 +37,7 @@ pub struct Content {
 
 /// Data at all nodes or cells.
 #[derive(Debug)]
-pub struct RawData {
+pub(super) struct RawData {
     /// Components in the file.
     pub components: usize,
     /// Values, NaN where the file gives none.
@@ -49,7 +49,7 @@ const DIMENSION_NAMES: [&str; 4] = ["points", "lines", "surfaces", "volumes"];
 
 impl Content {
     /// The mesh.
-    pub fn into_mesh(mut self, mut allowance: Allowance) -> Result<Mesh, Fault> {
+    pub(super) fn into_mesh(mut self, mut allowance: Allowance) -> Result<Mesh, Fault> {
         let (cell_sets, field_data) = self.named_sets();
         let kept = |problem: Problem| Fault::anywhere(format!("${SECTION}"), problem);
         if let Some(blocks) = &self.keep.blocks

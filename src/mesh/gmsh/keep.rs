@@ -7,12 +7,12 @@ use serde::{Deserialize, Serialize};
 use crate::mesh::CellKind;
 
 /// The section's name.
-pub const SECTION: &str = "Gearwear";
+pub(super) const SECTION: &str = "Gearwear";
 
 /// Its content. What is left out is as Gmsh has it.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
-pub struct Keep {
+pub(super) struct Keep {
     /// Kind and number of cells of each block, where blocks are not just runs of one kind.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blocks: Option<Vec<(CellKind, usize)>>,
@@ -36,7 +36,7 @@ pub struct Keep {
 /// What numbers of data are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct DataForm {
+pub(super) struct DataForm {
     /// Components in the mesh; Gmsh's are filled up with zeros.
     pub components: usize,
     /// Whether they are integers.

@@ -6,29 +6,29 @@ use super::GmshEncoding;
 
 /// The file so far.
 #[derive(Debug)]
-pub struct Output {
+pub(super) struct Output {
     bytes: Vec<u8>,
     binary: bool,
 }
 
 impl Output {
     /// An empty file.
-    pub fn new(encoding: GmshEncoding) -> Self {
+    pub(super) fn new(encoding: GmshEncoding) -> Self {
         Self { bytes: Vec::new(), binary: encoding == GmshEncoding::Binary }
     }
 
     /// The content of the file.
-    pub fn into_bytes(self) -> Vec<u8> {
+    pub(super) fn into_bytes(self) -> Vec<u8> {
         self.bytes
     }
 
     /// Whether numbers are bytes.
-    pub fn is_binary(&self) -> bool {
+    pub(super) fn is_binary(&self) -> bool {
         self.binary
     }
 
     /// A line of text, in binary files too.
-    pub fn line(&mut self, line: impl std::fmt::Display) {
+    pub(super) fn line(&mut self, line: impl std::fmt::Display) {
         // Writing into memory does not fail.
         let _ = writeln!(self.bytes, "{line}");
     }
@@ -45,29 +45,29 @@ impl Output {
     }
 
     /// An `int`; the writer has checked that there are no more nodes, cells and tags than it can count.
-    pub fn int(&mut self, value: i64) {
+    pub(super) fn int(&mut self, value: i64) {
         self.number(value, &(value as i32).to_le_bytes());
     }
 
     /// A `size_t` of eight bytes.
-    pub fn size(&mut self, value: usize) {
+    pub(super) fn size(&mut self, value: usize) {
         self.number(value, &(value as u64).to_le_bytes());
     }
 
     /// A `double`; as text the shortest decimal that reads back as the same bits.
-    pub fn real(&mut self, value: f64) {
+    pub(super) fn real(&mut self, value: f64) {
         self.number(format_args!("{value:?}"), &value.to_le_bytes());
     }
 
     /// The end of a line of numbers, where they are text.
-    pub fn end_line(&mut self) {
+    pub(super) fn end_line(&mut self) {
         if !self.binary {
             self.bytes.push(b'\n');
         }
     }
 
     /// The end of a section of numbers: in a binary file too it closes on a line of its own.
-    pub fn end_section(&mut self, section: &str) {
+    pub(super) fn end_section(&mut self, section: &str) {
         if self.binary {
             self.bytes.push(b'\n');
         }

@@ -20,7 +20,7 @@ enum Version {
 }
 
 /// Reads a mesh.
-pub fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
     let mut file = Scanner::new(bytes);
     let mut content = Content::default();
     let mut version = None;

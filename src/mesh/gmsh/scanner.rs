@@ -5,7 +5,7 @@ use crate::mesh::numbering::Allowance;
 
 /// How numbers stand in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Encoding {
+pub(super) enum Encoding {
     /// As text.
     Ascii,
     /// As bytes.
@@ -19,7 +19,7 @@ pub enum Encoding {
 
 /// A place in the file, and what follows it.
 #[derive(Debug)]
-pub struct Scanner<'a> {
+pub(super) struct Scanner<'a> {
     bytes: &'a [u8],
     at: usize,
     /// Where the value read last began.
@@ -33,13 +33,13 @@ pub struct Scanner<'a> {
 
 impl<'a> Scanner<'a> {
     /// At the beginning of `bytes`.
-    pub fn new(bytes: &'a [u8]) -> Self {
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
         let allowance = Allowance::of(bytes.len());
         Self { bytes, at: 0, before: 0, section: String::new(), encoding: Encoding::Ascii, allowance }
     }
 
     /// A fault at the value read last.
-    pub fn fault(&self, problem: impl Into<Problem>) -> Fault {
+    pub(super) fn fault(&self, problem: impl Into<Problem>) -> Fault {
         let place = match self.encoding {
             Encoding::Ascii => {
                 FilePosition::Line(1 + self.bytes[..self.before].iter().filter(|&&byte| byte == b'\n').count())
@@ -64,7 +64,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// The next section's name, without the dollar sign; `None` at the end of the file.
-    pub fn next_section(&mut self) -> Result<Option<String>, Fault> {
+    pub(super) fn next_section(&mut self) -> Result<Option<String>, Fault> {
         self.section.clear();
         self.skip_space();
         if self.at == self.bytes.len() {
@@ -81,7 +81,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// The line that closes the section.
-    pub fn end_section(&mut self) -> Result<(), Fault> {
+    pub(super) fn end_section(&mut self) -> Result<(), Fault> {
         let expected = format!("$End{}", self.section.trim_start_matches('$'));
         self.skip_space();
         let line = self.line(&expected)?;
@@ -92,7 +92,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// Goes on behind the line that closes the section, whatever comes before it.
-    pub fn skip_section(&mut self) -> Result<(), Fault> {
+    pub(super) fn skip_section(&mut self) -> Result<(), Fault> {
         let end = format!("$End{}", self.section.trim_start_matches('$'));
         // `at` stands behind a line break, so that a section without content ends right here.
         let mut from = self.at.saturating_sub(1);
@@ -109,7 +109,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// The rest of the line, trimmed, as text; a line break must not be missing unless the file ends.
-    pub fn line(&mut self, expected: &str) -> Result<&'a str, Fault> {
+    pub(super) fn line(&mut self, expected: &str) -> Result<&'a str, Fault> {
         if self.at == self.bytes.len() {
             return Err(self.ended(expected));
         }
@@ -124,7 +124,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// A line that holds one number as text, in binary files too.
-    pub fn number_line<T: std::str::FromStr>(&mut self, expected: &str) -> Result<T, Fault> {
+    pub(super) fn number_line<T: std::str::FromStr>(&mut self, expected: &str) -> Result<T, Fault> {
         let line = self.line(expected)?;
         line.parse().map_err(|_| self.unexpected(line.as_bytes(), expected))
     }
@@ -156,7 +156,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// An `int`.
-    pub fn int(&mut self, expected: &str) -> Result<i64, Fault> {
+    pub(super) fn int(&mut self, expected: &str) -> Result<i64, Fault> {
         match self.encoding {
             Encoding::Ascii => self.token(expected),
             Encoding::Binary { big_endian, .. } => Ok(i32::from_le_bytes(self.raw(expected, big_endian)?).into()),
@@ -164,13 +164,13 @@ impl<'a> Scanner<'a> {
     }
 
     /// An `int` that numbers or counts something.
-    pub fn positive_int(&mut self, expected: &str) -> Result<u64, Fault> {
+    pub(super) fn positive_int(&mut self, expected: &str) -> Result<u64, Fault> {
         let value = self.int(expected)?;
         u64::try_from(value).map_err(|_| self.unexpected(value.to_string().as_bytes(), expected))
     }
 
     /// A `size_t`.
-    pub fn size(&mut self, expected: &str) -> Result<u64, Fault> {
+    pub(super) fn size(&mut self, expected: &str) -> Result<u64, Fault> {
         match self.encoding {
             Encoding::Ascii => self.token(expected),
             Encoding::Binary { big_endian, size_bytes: 4 } => {
@@ -181,7 +181,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// A `double`.
-    pub fn real(&mut self, expected: &str) -> Result<f64, Fault> {
+    pub(super) fn real(&mut self, expected: &str) -> Result<f64, Fault> {
         match self.encoding {
             Encoding::Ascii => self.token(expected),
             Encoding::Binary { big_endian, .. } => Ok(f64::from_le_bytes(self.raw(expected, big_endian)?)),
@@ -189,7 +189,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// Three coordinates, all finite.
-    pub fn point(&mut self) -> Result<[f64; 3], Fault> {
+    pub(super) fn point(&mut self) -> Result<[f64; 3], Fault> {
         let mut point = [0.0; 3];
         for x in &mut point {
             *x = self.real("a coordinate")?;
@@ -201,7 +201,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// `count` as a length, if the rest of the file can hold so many, each of at least `sizes`, `ints` and `reals` values.
-    pub fn count(&self, what: &'static str, count: u64, [sizes, ints, reals]: [u64; 3]) -> Result<usize, Fault> {
+    pub(super) fn count(&self, what: &'static str, count: u64, [sizes, ints, reals]: [u64; 3]) -> Result<usize, Fault> {
         let bytes_each = match self.encoding {
             // One figure and what parts it from the next.
             Encoding::Ascii => 2 * (sizes + ints + reals),
@@ -218,7 +218,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// Takes `entries` off the allowance.
-    pub fn allow(&mut self, entries: usize) -> Result<(), Fault> {
+    pub(super) fn allow(&mut self, entries: usize) -> Result<(), Fault> {
         self.allowance.take(entries).map_err(|problem| self.fault(problem))
     }
 }

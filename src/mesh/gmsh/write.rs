@@ -10,13 +10,13 @@ use crate::mesh::error::Unwritable;
 use crate::mesh::{DataArray, Mesh, PhysicalTag, Values};
 
 /// Integers beyond this do not all have a `double` of their own, and Gmsh's data are doubles.
-pub const LARGEST_INTEGER: i64 = 1 << 53;
+pub(super) const LARGEST_INTEGER: i64 = 1 << 53;
 
 const FORMAT: &str = "a Gmsh file";
 
 /// A physical group to be written.
 #[derive(Debug, Clone)]
-pub struct Group<'a> {
+pub(super) struct Group<'a> {
     /// Its name.
     pub name: &'a str,
     /// Tag and dimension.
@@ -24,7 +24,7 @@ pub struct Group<'a> {
 }
 
 /// The content of the file.
-pub fn write(mesh: &Mesh, style: GmshStyle) -> Result<Vec<u8>, Unwritable> {
+pub(crate) fn write(mesh: &Mesh, style: GmshStyle) -> Result<Vec<u8>, Unwritable> {
     check(mesh)?;
     let groups = groups(mesh);
     let entities = Entities::new(mesh, &groups);

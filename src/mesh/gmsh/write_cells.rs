@@ -9,7 +9,7 @@ use crate::mesh::{CellKind, Mesh};
 
 /// Cells divided by dimension and by the groups they are in; each division is an entity for Gmsh.
 #[derive(Debug)]
-pub struct Entities {
+pub(super) struct Entities {
     /// For each dimension the groups (places in the list of groups) of its entities; entity `i` has tag `i + 1`.
     by_dimension: [Vec<Vec<usize>>; 4],
     /// For each cell its entity within its dimension.
@@ -20,7 +20,7 @@ pub struct Entities {
 
 impl Entities {
     /// Of the cells of `mesh` in `groups`.
-    pub fn new(mesh: &Mesh, groups: &[Group]) -> Self {
+    pub(super) fn new(mesh: &Mesh, groups: &[Group]) -> Self {
         let dimensions: Vec<u8> =
             mesh.cells.iter().flat_map(|block| std::iter::repeat_n(block.kind.dimension(), block.len())).collect();
         let mut groups_of_cell: Vec<Vec<usize>> = vec![Vec::new(); dimensions.len()];
@@ -48,7 +48,7 @@ impl Entities {
     }
 
     /// The highest dimension of a cell; 0 if there are none.
-    pub fn highest_dimension(&self) -> u8 {
+    pub(super) fn highest_dimension(&self) -> u8 {
         self.dimensions.iter().copied().max().unwrap_or(0)
     }
 
@@ -57,14 +57,14 @@ impl Entities {
     }
 
     /// Version 2: the cells to be written again, once for each group after their first.
-    pub fn copies(&self) -> Vec<usize> {
+    pub(super) fn copies(&self) -> Vec<usize> {
         let again = |cell| std::iter::repeat_n(cell, self.groups(cell).len().saturating_sub(1));
         (0..self.of_cell.len()).flat_map(again).collect()
     }
 }
 
 /// The section `$Entities` of version 4.1.
-pub fn write_entities(out: &mut Output, mesh: &Mesh, groups: &[Group], entities: &Entities) {
+pub(super) fn write_entities(out: &mut Output, mesh: &Mesh, groups: &[Group], entities: &Entities) {
     if entities.of_cell.is_empty() {
         return;
     }
@@ -109,7 +109,7 @@ fn boxes(mesh: &Mesh, entities: &Entities) -> [Vec<[[f64; 3]; 2]>; 4] {
 }
 
 /// Elements of version 4.1: a block for each run of cells of one kind and entity.
-pub fn write_elements_4(out: &mut Output, mesh: &Mesh, entities: &Entities) {
+pub(super) fn write_elements_4(out: &mut Output, mesh: &Mesh, entities: &Entities) {
     let cells: Vec<(CellKind, &[usize])> =
         mesh.cells.iter().flat_map(|block| block.iter().map(|nodes| (block.kind, nodes))).collect();
     let numbered: Vec<usize> = (0..cells.len()).collect();
@@ -141,7 +141,7 @@ pub fn write_elements_4(out: &mut Output, mesh: &Mesh, entities: &Entities) {
 }
 
 /// Elements of version 2.2: every cell with its first group, then the copies for further groups.
-pub fn write_elements_2(out: &mut Output, mesh: &Mesh, groups: &[Group], entities: &Entities) {
+pub(super) fn write_elements_2(out: &mut Output, mesh: &Mesh, groups: &[Group], entities: &Entities) {
     let cells: Vec<(CellKind, &[usize])> =
         mesh.cells.iter().flat_map(|block| block.iter().map(|nodes| (block.kind, nodes))).collect();
     let mut elements: Vec<(usize, Option<usize>)> =

@@ -22,7 +22,7 @@ use crate::mesh::numbering::Allowance;
 
 /// How binary values of a file are written.
 #[derive(Debug)]
-pub struct Decoder<'d, 'a> {
+pub(super) struct Decoder<'d, 'a> {
     document: &'d Document<'a>,
     big_endian: bool,
     header_bytes: usize,
@@ -33,7 +33,7 @@ pub struct Decoder<'d, 'a> {
 
 /// The type of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Scalar {
+pub(super) struct Scalar {
     /// Its size.
     pub bytes: usize,
     /// Floating point, signed or unsigned.
@@ -49,7 +49,7 @@ enum Family {
 
 impl Scalar {
     /// One byte without sign: what sets are written in.
-    pub const BYTE: Scalar = Scalar { bytes: 1, family: Family::Unsigned };
+    pub(super) const BYTE: Scalar = Scalar { bytes: 1, family: Family::Unsigned };
 
     fn named(name: &str) -> Option<Self> {
         let (family, bits) = match name.split_at_checked(name.find(|c: char| c.is_ascii_digit())?)? {
@@ -64,17 +64,17 @@ impl Scalar {
 
 impl Array<'_> {
     /// Its name.
-    pub fn name(&self) -> &str {
+    pub(super) fn name(&self) -> &str {
         self.attributes.get("Name").map_or("", String::as_str)
     }
 
     /// A fault within it.
-    pub fn fault(&self, problem: impl Into<Problem>) -> Fault {
+    pub(super) fn fault(&self, problem: impl Into<Problem>) -> Fault {
         fault(self.byte, &format!("DataArray {:?}", self.name()), problem.into())
     }
 
     /// The type of its values.
-    pub fn scalar(&self) -> Result<Scalar, Fault> {
+    pub(super) fn scalar(&self) -> Result<Scalar, Fault> {
         let name = self.attributes.get("type").map_or("", String::as_str);
         Scalar::named(name).ok_or_else(|| {
             let allowed = "Int8 to Int64, UInt8 to UInt64, Float32 and Float64".into();
@@ -83,7 +83,7 @@ impl Array<'_> {
     }
 
     /// How many values go together.
-    pub fn components(&self) -> Result<usize, Fault> {
+    pub(super) fn components(&self) -> Result<usize, Fault> {
         let Some(text) = self.attributes.get("NumberOfComponents") else { return Ok(1) };
         let components = text.trim().parse().ok().filter(|&components| components > 0);
         components.ok_or_else(|| self.fault(Problem::unexpected(text, "a number of components")))
@@ -92,7 +92,7 @@ impl Array<'_> {
 
 impl<'d, 'a> Decoder<'d, 'a> {
     /// For the arrays of `document`.
-    pub fn new(document: &'d Document<'a>) -> Result<Self, Fault> {
+    pub(super) fn new(document: &'d Document<'a>) -> Result<Self, Fault> {
         let attribute = |name: &str| document.file.get(name).map(String::as_str);
         let wrong = |name: &str, found: Option<&str>, allowed: &str| {
             let what = format!("{name} {:?}", found.unwrap_or_default());
@@ -126,7 +126,12 @@ impl<'d, 'a> Decoder<'d, 'a> {
     }
 
     /// The values of `array`, of which there must be `count` if it is given.
-    pub fn values(&self, array: &Array, count: Option<usize>, allowance: &mut Allowance) -> Result<Values, Fault> {
+    pub(super) fn values(
+        &self,
+        array: &Array,
+        count: Option<usize>,
+        allowance: &mut Allowance,
+    ) -> Result<Values, Fault> {
         let scalar = array.scalar()?;
         let take = |count: usize, allowance: &mut Allowance| allowance.take(count).map_err(|limit| array.fault(limit));
         if let Some(count) = count {

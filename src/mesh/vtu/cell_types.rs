@@ -24,15 +24,15 @@ const TYPES: [(CellKind, u8); 17] = [
 ];
 
 /// What is allowed, for messages.
-pub const ALLOWED: &str = "points, lines, triangles, quadrilaterals, tetrahedra, hexahedra, wedges and pyramids, linear or \
+pub(super) const ALLOWED: &str = "points, lines, triangles, quadrilaterals, tetrahedra, hexahedra, wedges and pyramids, linear or \
                            quadratic (VTK's types 1, 3, 5, 9, 10, 12, 13, 14 and 21 to 29)";
 
 /// The kind that VTK calls `number`.
-pub fn kind(number: i64) -> Option<CellKind> {
+pub(super) fn kind(number: i64) -> Option<CellKind> {
     TYPES.iter().find(|&&(_, own)| i64::from(own) == number).map(|&(kind, _)| kind)
 }
 
 /// VTK's number for a kind.
-pub fn number(kind: CellKind) -> u8 {
+pub(super) fn number(kind: CellKind) -> u8 {
     TYPES.iter().find(|&&(own, _)| own == kind).map_or(0, |&(_, number)| number)
 }

@@ -10,7 +10,7 @@ use crate::mesh::error::{Fault, FilePosition, Problem};
 
 /// A VTU file.
 #[derive(Debug, Default)]
-pub struct Document<'a> {
+pub(super) struct Document<'a> {
     /// Attributes of `VTKFile`: type, order of bytes, type of headers, compression.
     pub file: BTreeMap<String, String>,
     /// Arrays of the file.
@@ -31,7 +31,7 @@ pub struct Document<'a> {
 
 /// A `DataArray`.
 #[derive(Debug)]
-pub struct Array<'a> {
+pub(super) struct Array<'a> {
     /// Its attributes.
     pub attributes: BTreeMap<String, String>,
     /// What stands between its tags.
@@ -42,7 +42,7 @@ pub struct Array<'a> {
 
 /// The section of appended data.
 #[derive(Debug, Clone, Copy)]
-pub struct Appended<'a> {
+pub(super) struct Appended<'a> {
     /// Whether it is base64; otherwise raw bytes.
     pub base64: bool,
     /// Its content.
@@ -51,7 +51,7 @@ pub struct Appended<'a> {
 
 impl<'a> Document<'a> {
     /// Of the content of a file.
-    pub fn parse(bytes: &'a [u8]) -> Result<Self, Fault> {
+    pub(super) fn parse(bytes: &'a [u8]) -> Result<Self, Fault> {
         // Raw appended data are no XML, and come last.
         let head = bytes.windows(APPENDED.len()).position(|window| window == APPENDED).unwrap_or(bytes.len());
         let text = std::str::from_utf8(&bytes[..head])
@@ -186,6 +186,6 @@ fn attributes(tag: &BytesStart, byte: usize) -> Result<BTreeMap<String, String>,
 }
 
 /// A fault at an offset.
-pub fn fault(byte: usize, section: &str, problem: Problem) -> Fault {
+pub(super) fn fault(byte: usize, section: &str, problem: Problem) -> Fault {
     Fault { place: Some(FilePosition::Byte(byte)), section: section.into(), problem }
 }

@@ -10,7 +10,7 @@ use crate::mesh::numbering::{Allowance, CellList, OpenSets, close_cell_sets, clo
 use crate::mesh::{CellKind, DataArray, Mesh, PhysicalTag, Values};
 
 /// Reads a mesh.
-pub fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
     let document = Document::parse(bytes)?;
     let decoder = Decoder::new(&document)?;
     let mut allowance = Allowance::of(bytes.len());

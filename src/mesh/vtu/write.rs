@@ -16,7 +16,7 @@ use crate::mesh::{DataArray, Mesh, Values};
 const FORMAT: &str = "a VTU file";
 
 /// The content of the file.
-pub fn write(mesh: &Mesh, encoding: VtuEncoding) -> Result<Vec<u8>, Unwritable> {
+pub(crate) fn write(mesh: &Mesh, encoding: VtuEncoding) -> Result<Vec<u8>, Unwritable> {
     check_names(mesh)?;
     let mut out = Output { text: String::new(), encoding };
     let compressor = match encoding {

@@ -39,7 +39,7 @@ struct PerRoot {
 type Row = Vec<[f64; LANES]>;
 
 /// Some phases in rows.
-pub struct Batch {
+pub(crate) struct Batch {
     phases: Vec<SlicedPosition>,
     /// Their states.
     pub loaded_positions: Vec<LoadedPosition>,
@@ -66,7 +66,7 @@ pub struct Batch {
 
 /// A contact as it is.
 #[derive(Debug, Clone, Copy)]
-pub struct ContactState {
+pub(crate) struct ContactState {
     /// w, N/mm.
     pub line_load_n_per_mm: f64,
     /// a, mm.
@@ -79,7 +79,7 @@ pub struct ContactState {
 
 impl Batch {
     /// Prepares the contacts of `phases`, on flanks modified by `modification_mm` there.
-    pub fn new(
+    pub(crate) fn new(
         phases: Vec<SlicedPosition>,
         forms: &ContactForms<'_>,
         springs: &SlicesInSeries<'_>,
@@ -158,7 +158,7 @@ impl Batch {
     }
 
     /// Lets the flanks lose what the last evaluation found for so many `meshes`, finds the new equilibria, and what they lose now.
-    pub fn evaluate(
+    pub(crate) fn evaluate(
         &mut self,
         meshes: PerGear<f64>,
         springs: &SlicesInSeries<'_>,
@@ -193,7 +193,7 @@ impl Batch {
     ///
     /// # Errors
     /// Its failure.
-    pub fn outcome(&self) -> Result<Work, EquilibriumError> {
+    pub(crate) fn outcome(&self) -> Result<Work, EquilibriumError> {
         self.outcome.clone()
     }
 
@@ -277,7 +277,7 @@ impl Batch {
     }
 
     /// Each contact of a loaded with its lane and its state.
-    pub fn contacts(&self, index: usize) -> impl Iterator<Item = (&SliceContact, usize, ContactState)> {
+    pub(crate) fn contacts(&self, index: usize) -> impl Iterator<Item = (&SliceContact, usize, ContactState)> {
         let first = LANES * self.loaded_positions[index].packs.start;
         self.phases[index].contacts.iter().enumerate().map(move |(at, contact)| {
             let lane = first + at;
@@ -286,18 +286,18 @@ impl Batch {
     }
 
     /// Lanes in all, those without a contact included.
-    pub fn lanes(&self) -> usize {
+    pub(crate) fn lanes(&self) -> usize {
         LANES * self.packs.len()
     }
 
     /// Depth that `gear`'s flank has lost in each lane, and loses in one mesh, mm.
-    pub fn rows(&self, gear: Gear) -> impl Iterator<Item = [f64; 2]> {
+    pub(crate) fn rows(&self, gear: Gear) -> impl Iterator<Item = [f64; 2]> {
         let [wear, depth] = [&self.wear_mm, &self.depth_mm].map(|rows| rows[gear].as_flattened());
         wear.iter().zip(depth).map(|(&wear, &depth)| [wear, depth])
     }
 
     /// Takes both flanks to have lost this in each lane.
-    pub fn set_wear_mm(&mut self, wear_mm: PerGear<&[f64]>) {
+    pub(crate) fn set_wear_mm(&mut self, wear_mm: PerGear<&[f64]>) {
         for gear in Gear::BOTH {
             self.wear_mm[gear].as_flattened_mut().copy_from_slice(wear_mm[gear]);
         }
@@ -310,7 +310,7 @@ impl Batch {
     }
 
     /// Is again as if never evaluated, on the flanks as they are.
-    pub fn reset(&mut self) {
+    pub(crate) fn reset(&mut self) {
         for loaded in &mut self.loaded_positions {
             let mean = self.common.line_load_n_per_mm / loaded.contacts as f64;
             loaded.transmission_error_mm = 0.0;
@@ -325,12 +325,12 @@ impl Batch {
     }
 
     /// Depth that `gear`'s flank has lost at the contact in a lane, and loses in one mesh, mm.
-    pub fn of_lane(&self, gear: Gear, lane: usize) -> [f64; 2] {
+    pub(crate) fn of_lane(&self, gear: Gear, lane: usize) -> [f64; 2] {
         [&self.wear_mm, &self.depth_mm].map(|rows| rows[gear].as_flattened()[lane])
     }
 
     /// The contact in a lane.
-    pub fn contact(&self, lane: usize) -> ContactState {
+    pub(crate) fn contact(&self, lane: usize) -> ContactState {
         let (pack, per_root, k) = (&self.packs[lane / LANES], &self.per_root[lane / LANES], lane % LANES);
         let load = pack.loads().0[k];
         let root = load.sqrt();

@@ -7,7 +7,7 @@ use crate::mesh_cycle::bent_tooth::{BentTooth, ContactTangent, bend};
 use crate::mesh_cycle::slice_coupling::SliceCoupling;
 
 /// The teeth of a phase.
-pub struct BentTeeth<'a> {
+pub(crate) struct BentTeeth<'a> {
     /// Each.
     pub teeth: &'a mut [BentTooth],
     /// How their slices hold each other.
@@ -17,7 +17,7 @@ pub struct BentTeeth<'a> {
 impl BentTeeth<'_> {
     /// Bends the teeth for the Newton step of `tangents`, adds their deflection to its approaches, and gives δ; not a number where no
     /// contact carries.
-    pub fn bend(&mut self, packs: &[Pack], tangents: &mut [Tangent], line_load: f64) -> f64 {
+    pub(crate) fn bend(&mut self, packs: &[Pack], tangents: &mut [Tangent], line_load: f64) -> f64 {
         let tangent = |at: usize| {
             let (pack, lane) = (at / LANES, at % LANES);
             ContactTangent {

@@ -25,16 +25,16 @@ use crate::contact::{hertz::contact_modulus_mpa, settings::Material};
 use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, path_of_contact::PathOfContact};
 
 /// X: ranges of (a/t)² with a polynomial each.
-pub const RANGES: [f64; 4] = [0.03, 0.1, 0.3, 1.0];
+pub(crate) const RANGES: [f64; 4] = [0.03, 0.1, 0.3, 1.0];
 /// Loads up to this many times the whole line load are in the range of every contact, if any range holds them.
-pub const AMPLE_LOADS: f64 = 3.0;
+pub(crate) const AMPLE_LOADS: f64 = 3.0;
 
 /// Places along the path where depths are computed.
 const TABLE: usize = 512;
 
 /// A contact, ready for any load up to `greatest_load_n_per_mm`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ContactForm {
+pub(crate) struct ContactForm {
     /// Q without the teeth's q, mm²/N.
     pub surface_mm2_per_n: f64,
     /// A_k, mm²/N over a load to the power of k.
@@ -46,7 +46,7 @@ pub struct ContactForm {
 }
 
 /// The contacts of a pair of gears.
-pub struct ContactForms<'a> {
+pub(crate) struct ContactForms<'a> {
     path: &'a PathOfContact,
     /// F of each gear, mm²/N.
     factor: [f64; 2],
@@ -62,7 +62,7 @@ pub struct ContactForms<'a> {
 
 impl<'a> ContactForms<'a> {
     /// Of a pair under a whole line load.
-    pub fn new(pair: &'a GearPair, material: &PerGear<Material>, line_load_n_per_mm: f64) -> Self {
+    pub(crate) fn new(pair: &'a GearPair, material: &PerGear<Material>, line_load_n_per_mm: f64) -> Self {
         let constants = Gear::BOTH.map(|gear| material[gear]);
         let factor = constants.map(|own| 2.0 / PI * (1.0 - own.poisson_ratio.powi(2)) / own.young_modulus_mpa);
         let table = pair.path.evenly_mm(TABLE).into_iter().map(|at| {
@@ -82,12 +82,12 @@ impl<'a> ContactForms<'a> {
     }
 
     /// Φ, mm²/N.
-    pub fn log_compliance_mm2_per_n(&self) -> f64 {
+    pub(crate) fn log_compliance_mm2_per_n(&self) -> f64 {
         self.factor[0] + self.factor[1]
     }
 
     /// The contact with its theoretical contact point at `position_mm`, from A to E.
-    pub fn at(&self, position_mm: f64) -> ContactForm {
+    pub(crate) fn at(&self, position_mm: f64) -> ContactForm {
         let [log_depths, inverse_squares @ ..] = self.between(position_mm);
         let whole = self.path.line_of_action_mm;
         let relative_radius_mm = position_mm * (whole - position_mm) / whole;

@@ -53,7 +53,7 @@ impl PairContact for GivenGap {
 }
 
 /// What the general solver is told of a phase beside its gaps.
-pub struct SlicesInSeries<'a> {
+pub(crate) struct SlicesInSeries<'a> {
     /// The gears.
     pub pair: &'a GearPair,
     /// What they are made of.
@@ -71,7 +71,7 @@ impl SlicesInSeries<'_> {
     ///
     /// # Errors
     /// [`EquilibriumError`].
-    pub fn balance(
+    pub(crate) fn balance(
         &self,
         contacts: &[SliceContact],
         gap_mm: impl Iterator<Item = f64>,

@@ -6,16 +6,16 @@
 use std::ops::{Add, AddAssign, Div, Mul, Sub};
 
 /// How many numbers go together.
-pub const LANES: usize = 2;
+pub(crate) const LANES: usize = 2;
 
 /// Two numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Lanes(pub [f64; LANES]);
+pub(crate) struct Lanes(pub [f64; LANES]);
 
 impl Lanes {
     /// The same number twice.
     #[inline(always)]
-    pub fn splat(value: f64) -> Self {
+    pub(crate) fn splat(value: f64) -> Self {
         Self([value; LANES])
     }
 
@@ -27,32 +27,32 @@ impl Lanes {
 
     /// `of` each number.
     #[inline(always)]
-    pub fn map(self, of: impl Fn(f64) -> f64) -> Self {
+    pub(crate) fn map(self, of: impl Fn(f64) -> f64) -> Self {
         let [a, b] = self.0;
         Self([of(a), of(b)])
     }
 
     /// Square roots.
     #[inline(always)]
-    pub fn sqrt(self) -> Self {
+    pub(crate) fn sqrt(self) -> Self {
         self.map(f64::sqrt)
     }
 
     /// The greater one in every place.
     #[inline(always)]
-    pub fn max(self, other: Self) -> Self {
+    pub(crate) fn max(self, other: Self) -> Self {
         self.with(other, |a, b| if a > b { a } else { b })
     }
 
     /// Absolute values.
     #[inline(always)]
-    pub fn abs(self) -> Self {
+    pub(crate) fn abs(self) -> Self {
         self.map(f64::abs)
     }
 
     /// Its own numbers where `condition` is above zero, those of `other` elsewhere.
     #[inline(always)]
-    pub fn where_positive(self, condition: Self, other: Self) -> Self {
+    pub(crate) fn where_positive(self, condition: Self, other: Self) -> Self {
         let ([a, b], [e, f]) = (self.0, other.0);
         let [c, d] = condition.0;
         Self([if c > 0.0 { a } else { e }, if d > 0.0 { b } else { f }])
@@ -60,14 +60,14 @@ impl Lanes {
 
     /// The sum of both.
     #[inline(always)]
-    pub fn sum(self) -> f64 {
+    pub(crate) fn sum(self) -> f64 {
         let [a, b] = self.0;
         a + b
     }
 
     /// The greater of both.
     #[inline(always)]
-    pub fn greatest(self) -> f64 {
+    pub(crate) fn greatest(self) -> f64 {
         let [a, b] = self.0;
         a.max(b)
     }

@@ -28,9 +28,9 @@ use super::bending::BentTeeth;
 use super::lanes::{LANES, Lanes};
 
 /// Correction over load at which an equilibrium that is followed is accepted.
-pub const SETTLED: f64 = 3e-5;
+pub(crate) const SETTLED: f64 = 3e-5;
 /// Greatest z whose series is used: the first term left out is 2 z⁷/7.
-pub const GREATEST_SHIFT: f64 = 0.03;
+pub(crate) const GREATEST_SHIFT: f64 = 0.03;
 /// Corrections before an equilibrium is no longer followed but sought.
 const FOLLOW_LIMIT: u64 = 5;
 /// Newton steps before an equilibrium is no longer sought so.
@@ -40,11 +40,11 @@ const SOUGHT: f64 = 1e-12;
 /// Part of its load that a contact keeps in a Newton step that would take all of it, though its flanks overlap.
 const KEPT: f64 = 0.1;
 /// Gap of the lanes that no contact uses: they never touch.
-pub const UNUSED_GAP_MM: f64 = 1e300;
+pub(crate) const UNUSED_GAP_MM: f64 = 1e300;
 
 /// Contacts side by side: their constants and their state.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Pack {
+pub(crate) struct Pack {
     /// Q, mm²/N.
     pub rigid: Lanes,
     /// A_k.
@@ -63,7 +63,7 @@ pub struct Pack {
 
 /// A Newton step's view of them.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Tangent {
+pub(crate) struct Tangent {
     /// h less the approach that is reckoned from, mm.
     pub approach_mm: Lanes,
     /// c, N/mm²; 0 without contact.
@@ -74,7 +74,7 @@ pub struct Tangent {
 
 /// What the contacts of a pair have in common.
 #[derive(Debug, Clone, Copy)]
-pub struct Common {
+pub(crate) struct Common {
     /// Φ, mm²/N.
     pub log_compliance_mm2_per_n: f64,
     /// F: sum of all line loads, N/mm.
@@ -83,7 +83,7 @@ pub struct Common {
 
 /// How an attempt ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Attempt {
+pub(crate) enum Attempt {
     /// In equilibrium after so many Newton steps.
     Settled(u64),
     /// Not, after so many.
@@ -93,7 +93,7 @@ pub enum Attempt {
 impl Pack {
     /// w, N/mm.
     #[inline(always)]
-    pub fn loads(&self) -> Lanes {
+    pub(crate) fn loads(&self) -> Lanes {
         self.load + self.correction
     }
 
@@ -143,7 +143,7 @@ impl Sums {
 
 /// A phase.
 #[derive(Debug, Clone)]
-pub struct LoadedPosition {
+pub(crate) struct LoadedPosition {
     /// Position of the reference tooth in the middle of the face width.
     pub position_mm: f64,
     /// δ.
@@ -158,7 +158,7 @@ pub struct LoadedPosition {
 
 impl LoadedPosition {
     /// Follows the equilibrium over a wear step.
-    pub fn follow(
+    pub(crate) fn follow(
         &mut self,
         packs: &mut [Pack],
         tangents: &mut [Tangent],
@@ -213,7 +213,7 @@ impl LoadedPosition {
     }
 
     /// Seeks the equilibrium from any loads: contacts come where flanks would overlap and go where a load would pull.
-    pub fn settle(
+    pub(crate) fn settle(
         &mut self,
         packs: &mut [Pack],
         tangents: &mut [Tangent],

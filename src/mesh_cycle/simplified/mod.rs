@@ -23,13 +23,13 @@
 //!
 //! Source: S. Andersson (1975) and the thesis, section 3.4 and paper E.
 
-pub mod batch;
-pub mod bending;
-pub mod closed_form;
-pub mod exact;
-pub mod lanes;
-pub mod loaded_position;
-pub mod on_flanks;
+pub(crate) mod batch;
+pub(crate) mod bending;
+pub(crate) mod closed_form;
+pub(crate) mod exact;
+pub(crate) mod lanes;
+pub(crate) mod loaded_position;
+pub(crate) mod on_flanks;
 
 use rayon::prelude::*;
 
@@ -70,7 +70,7 @@ fn knots(batches: &[Batch], slices: usize) -> Vec<Vec<Knot>> {
 }
 
 /// A pair that wears by the simplified model.
-pub struct SimplifiedPair<'a> {
+pub(crate) struct SimplifiedPair<'a> {
     springs: SlicesInSeries<'a>,
     grid: PerGear<&'a FlankGrid>,
     batches: Vec<Batch>,
@@ -88,7 +88,7 @@ pub struct SimplifiedPair<'a> {
 impl<'a> SimplifiedPair<'a> {
     /// Unworn flanks with their modifications; `positions` rows from A to E are observed, on gear bodies that yield by `bodies_mm`
     /// under the whole load.
-    pub fn new(
+    pub(crate) fn new(
         springs: SlicesInSeries<'a>,
         mut phases: Vec<SlicedPosition>,
         grid: PerGear<&'a FlankGrid>,

@@ -75,7 +75,7 @@ impl Stages<'_> {
 
 /// How much of a calibration is wanted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extent {
+pub(crate) enum Extent {
     /// All of it.
     Whole,
     /// What the fast model reads; the tables of other bodies and other teeth stay empty.
@@ -86,7 +86,7 @@ pub enum Extent {
 ///
 /// # Errors
 /// [`CalibrateError`]
-pub fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Calibrated, CalibrateError> {
+pub(crate) fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Calibrated, CalibrateError> {
     use CalibrationStage as Stage;
     let start = Instant::now();
     let mut stages = Stages(StageClock::new(observer));

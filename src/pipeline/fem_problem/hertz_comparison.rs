@@ -25,7 +25,7 @@ const ROUND: f64 = 0.02;
 
 /// Where a contact is and what it carries.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Patch {
+pub(super) struct Patch {
     /// The middle of the contact, mm.
     pub centre_mm: Vector2<f64>,
     /// Half-width a, mm.
@@ -45,7 +45,7 @@ struct Arc {
 }
 
 /// Hertz's contact of the same force and curvature, where there is one.
-pub fn hertz(problem: &Problem, pair: &ContactPair, patch: Patch) -> Option<HertzSummary> {
+pub(super) fn hertz(problem: &Problem, pair: &ContactPair, patch: Patch) -> Option<HertzSummary> {
     let force = patch.force_n_per_mm.norm();
     if !(patch.half_width_mm > 0.0 && force > 0.0) {
         return None;

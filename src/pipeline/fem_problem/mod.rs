@@ -30,7 +30,7 @@ pub enum FemProblemError {
 ///
 /// # Errors
 /// Everything that is wrong with problem and mesh, or why the solver failed.
-pub fn run(problem: &FemProblem, folder: &Path, observer: &dyn Observer) -> Result<FemRecord, FemProblemError> {
+pub(crate) fn run(problem: &FemProblem, folder: &Path, observer: &dyn Observer) -> Result<FemRecord, FemProblemError> {
     let start = Instant::now();
     let mut stages = StageClock::new(observer);
     let unreadable = |reason: String| FemProblemError::Input(problem.mesh_unreadable(&reason));

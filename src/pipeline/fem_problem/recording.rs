@@ -21,7 +21,7 @@ const SAME_WIDTH: f64 = 1e-9;
 const BALANCED: f64 = 1e-6;
 
 /// The record of a solution, without the times of its stages.
-pub fn record(
+pub(super) fn record(
     problem: &FemProblem,
     posed: Posed,
     solution: &Solution,
@@ -207,7 +207,7 @@ fn contact_warning(number: usize, contact: &ContactSummary) -> Option<String> {
 ///
 /// # Errors
 /// An element that is none; the solver would have found it first.
-pub fn nodal_stress(problem: &Problem, solution: &Solution) -> Result<Vec<NodalStress>, ElementError> {
+pub(super) fn nodal_stress(problem: &Problem, solution: &Solution) -> Result<Vec<NodalStress>, ElementError> {
     let recovery = StressRecovery::new(&problem.solid, &problem.materials, problem.analysis)?;
     let found = recovery.nodal_stresses(&solution.displacement_mm)?;
     Ok(found.chunk_by(|a, b| a.node == b.node).map(mean_stress).collect())

@@ -77,7 +77,7 @@ pub enum FemPairError {
 
 /// What is asked beside the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Asked {
+pub(crate) struct Asked {
     /// The one position to solve; `None`: the mesh cycle.
     pub position_mm: Option<f64>,
     /// Whether to solve the whole model without condensation too, at that position or at A–E.
@@ -101,7 +101,7 @@ struct Solved {
 ///
 /// # Errors
 /// [`FemPairError`] where nothing was finished.
-pub fn run(
+pub(crate) fn run(
     resolved: &Resolved,
     asked: Asked,
     observer: &dyn Observer,

@@ -22,7 +22,7 @@ pub(super) struct WholeModel<'a> {
 
 impl WholeModel<'_> {
     /// Solves where `condensed` was solved, and compares.
-    pub fn against(&self, condensed: &PositionContact) -> Result<FullModelSummary, FemPairError> {
+    pub(super) fn against(&self, condensed: &PositionContact) -> Result<FullModelSummary, FemPairError> {
         let start = Instant::now();
         let position_mm = condensed.position_mm;
         let found = full::solve(self.pair, self.meshed, self.material, self.line_load_n_per_mm, condensed)

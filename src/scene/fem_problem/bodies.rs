@@ -18,7 +18,7 @@ const FLAT: f64 = 1e-9;
 
 /// The bodies with the way back to the mesh.
 #[derive(Debug)]
-pub struct Meshed {
+pub(super) struct Meshed {
     /// Nodes and elements.
     pub solid: Solid,
     /// For each node of the mesh its number in the solid.
@@ -27,13 +27,13 @@ pub struct Meshed {
 
 impl Meshed {
     /// The number that a node of the mesh has in the solid, if it belongs to a body.
-    pub fn node(&self, mesh_node: usize) -> Option<u32> {
+    pub(super) fn node(&self, mesh_node: usize) -> Option<u32> {
         self.solid_node.get(mesh_node).copied().flatten()
     }
 }
 
 /// Materials, numbered as the bodies.
-pub fn materials(file: &FemProblemFile) -> Vec<Elastic> {
+pub(super) fn materials(file: &FemProblemFile) -> Vec<Elastic> {
     let material = |body: &super::BodyFile| Elastic {
         young_modulus_mpa: body.young_modulus_GPa * MPA_PER_GPA,
         poisson_ratio: body.poisson_ratio,
@@ -42,7 +42,12 @@ pub fn materials(file: &FemProblemFile) -> Vec<Elastic> {
 }
 
 /// The elements of all bodies; `None` where there are none or some cannot be used.
-pub fn mesh_bodies(file: &FemProblemFile, mesh: &Mesh, groups: &Groups<'_>, findings: &mut Findings) -> Option<Meshed> {
+pub(super) fn mesh_bodies(
+    file: &FemProblemFile,
+    mesh: &Mesh,
+    groups: &Groups<'_>,
+    findings: &mut Findings,
+) -> Option<Meshed> {
     let before = findings.problems.len();
     check_cells(mesh, findings);
     let owned = owners(file, mesh, groups, findings);

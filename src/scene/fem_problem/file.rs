@@ -14,7 +14,7 @@ use crate::fem::elastic::Analysis;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(title = "gearwear finite-element problem")]
-pub struct FemProblemFile {
+pub(crate) struct FemProblemFile {
     /// Title of the report. Default: the name of the mesh file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub title: Option<String>,
@@ -39,7 +39,7 @@ pub struct FemProblemFile {
 /// The mesh.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct MeshFile {
+pub(crate) struct MeshFile {
     /// Its file, relative to the folder of this one: Gmsh 4.1 or 2.2 (.msh), VTU or Abaqus (.inp); coordinates in mm, z = 0.
     pub file: String,
 }
@@ -47,7 +47,7 @@ pub struct MeshFile {
 /// A body: a group of triangles and quadrilaterals of one material.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct BodyFile {
+pub(crate) struct BodyFile {
     /// Physical group or element set of the mesh: triangles or quadrilaterals, linear or quadratic.
     pub group: String,
     /// Young's modulus E in GPa, > 0.
@@ -61,7 +61,7 @@ pub struct BodyFile {
 /// Where a body is held.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct FixedFile {
+pub(crate) struct FixedFile {
     /// Group of the mesh: points, lines or surfaces, or a set of nodes.
     pub group: String,
     /// Directions that are held. Default: both.
@@ -72,7 +72,7 @@ pub struct FixedFile {
 /// A direction of the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
-pub enum Component {
+pub(crate) enum Component {
     /// Along x.
     X,
     /// Along y.
@@ -82,7 +82,7 @@ pub enum Component {
 /// A force or a given displacement: one of the two.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct LoadFile {
+pub(crate) struct LoadFile {
     /// Group of the mesh: lines or points for a force; any group for a displacement.
     pub group: String,
     /// Resultant force [x, y] over the group in N per mm of thickness: spread evenly over its lines as a uniform traction,
@@ -100,7 +100,7 @@ pub struct LoadFile {
 /// Two surfaces that may touch.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct ContactFile {
+pub(crate) struct ContactFile {
     /// Group of lines, or set of nodes, on the surface that carries the contact pressure: the finer or softer one.
     pub slave: String,
     /// Group of lines, or set of nodes, on the surface it may touch.
@@ -113,10 +113,10 @@ pub struct ContactFile {
 
 impl Component {
     /// Both.
-    pub const BOTH: [Component; 2] = [Component::X, Component::Y];
+    pub(crate) const BOTH: [Component; 2] = [Component::X, Component::Y];
 
     /// 0 along x, 1 along y.
-    pub fn index(self) -> usize {
+    pub(crate) fn index(self) -> usize {
         match self {
             Component::X => 0,
             Component::Y => 1,
@@ -124,7 +124,7 @@ impl Component {
     }
 
     /// `x` or `y`.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Component::X => "x",
             Component::Y => "y",
@@ -134,7 +134,7 @@ impl Component {
 
 impl FemProblemFile {
     /// The problem as TOML text.
-    pub fn to_toml(&self) -> String {
+    pub(crate) fn to_toml(&self) -> String {
         // Plain structs with text keys: nothing in them that TOML could not express.
         toml::to_string(self).expect("a problem file is always expressible in TOML")
     }

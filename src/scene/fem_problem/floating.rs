@@ -43,7 +43,7 @@ struct Pieces {
 type Equation = Vec<(usize, [f64; WAYS])>;
 
 /// Refuses bodies that can move whatever the contacts do.
-pub fn check(problem: &Problem, meshed: &Meshed, findings: &mut Findings) {
+pub(super) fn check(problem: &Problem, meshed: &Meshed, findings: &mut Findings) {
     let solid = &meshed.solid;
     let pieces = Pieces::of(solid);
     let mut equations: Vec<Equation> = Vec::new();

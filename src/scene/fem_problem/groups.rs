@@ -13,11 +13,11 @@ use crate::scene::problem::ProblemKind;
 const MOST_NAMED: usize = 20;
 
 /// A cell of the mesh: its block, and its number within the block.
-pub type CellRef = (usize, usize);
+pub(super) type CellRef = (usize, usize);
 
 /// What a name stands for.
 #[derive(Debug, Clone, Default)]
-pub struct Group {
+pub(super) struct Group {
     /// Its cells by dimension: points, lines, surfaces, volumes.
     pub cells: [Vec<CellRef>; 4],
     /// Its nodes, where it is a set of nodes.
@@ -25,14 +25,14 @@ pub struct Group {
 }
 
 /// All groups of a mesh.
-pub struct Groups<'a> {
+pub(super) struct Groups<'a> {
     mesh: &'a Mesh,
     by_name: BTreeMap<&'a str, Group>,
 }
 
 /// Groups, bodies and the sides of their elements: where the other tables of a problem look.
 #[derive(Clone, Copy)]
-pub struct MeshedGroups<'a> {
+pub(super) struct MeshedGroups<'a> {
     /// The groups.
     pub groups: &'a Groups<'a>,
     /// The bodies.
@@ -43,7 +43,7 @@ pub struct MeshedGroups<'a> {
 
 impl<'a> Groups<'a> {
     /// Collects the groups of `mesh`.
-    pub fn new(mesh: &'a Mesh) -> Self {
+    pub(super) fn new(mesh: &'a Mesh) -> Self {
         let mut by_name: BTreeMap<&str, Group> = BTreeMap::new();
         for (name, blocks) in &mesh.cell_sets {
             let group = by_name.entry(name).or_default();
@@ -60,7 +60,7 @@ impl<'a> Groups<'a> {
     }
 
     /// The group that the value of `key` names; reported where there is none.
-    pub fn find(&self, name: &str, key: &str, findings: &mut Findings) -> Option<&Group> {
+    pub(super) fn find(&self, name: &str, key: &str, findings: &mut Findings) -> Option<&Group> {
         let found = self.by_name.get(name);
         if found.is_none() {
             let names: Vec<&str> = self.by_name.keys().copied().collect();
@@ -92,7 +92,7 @@ impl<'a> Groups<'a> {
     }
 
     /// Kind and nodes of a cell.
-    pub fn cell(&self, (block, cell): CellRef) -> (CellKind, &'a [usize]) {
+    pub(super) fn cell(&self, (block, cell): CellRef) -> (CellKind, &'a [usize]) {
         let block = &self.mesh.cells[block];
         let count = block.kind.node_count();
         (block.kind, &block.nodes[cell * count..(cell + 1) * count])
@@ -101,7 +101,7 @@ impl<'a> Groups<'a> {
 
 impl Group {
     /// What it holds: `20 lines`, `1 point and 3 nodes`.
-    pub fn in_words(&self) -> String {
+    pub(super) fn in_words(&self) -> String {
         let kinds = ["point", "line", "surface", "volume"];
         let cells = kinds.iter().zip(&self.cells).map(|(kind, cells)| (*kind, cells.len()));
         let counts = cells.chain([("node", self.nodes.len())]).filter(|(_, count)| *count > 0);
@@ -114,7 +114,7 @@ impl Group {
 impl MeshedGroups<'_> {
     /// The nodes of bodies in the group that `key` names, in increasing order; reported where there are none, or where the
     /// name stands for cells of several dimensions, of which one was meant.
-    pub fn nodes(&self, name: &str, key: &str, findings: &mut Findings) -> Vec<u32> {
+    pub(super) fn nodes(&self, name: &str, key: &str, findings: &mut Findings) -> Vec<u32> {
         let Some(group) = self.groups.find(name, key, findings) else { return Vec::new() };
         if group.cells.iter().filter(|cells| !cells.is_empty()).count() > 1 {
             let found = format!("{name:?}, which holds {}", group.in_words());
@@ -143,7 +143,7 @@ impl MeshedGroups<'_> {
     }
 
     /// The side of an element along the line on these nodes of the mesh (ends, middle).
-    pub fn line_side(&self, line: &[usize]) -> Option<&Side> {
+    pub(super) fn line_side(&self, line: &[usize]) -> Option<&Side> {
         let ends = [self.meshed.node(*line.first()?)?, self.meshed.node(*line.get(1)?)?];
         let side = self.sides.find(ends)?;
         match line.get(2) {

@@ -18,7 +18,7 @@ struct Given<'a> {
 }
 
 /// All supports and given displacements, no degree of freedom twice.
-pub fn held(file: &FemProblemFile, place: MeshedGroups<'_>, findings: &mut Findings) -> Vec<Held> {
+pub(super) fn held(file: &FemProblemFile, place: MeshedGroups<'_>, findings: &mut Findings) -> Vec<Held> {
     let mut given = Given { by_dof: BTreeMap::new(), place };
     for (i, fixed) in file.fixed.iter().enumerate() {
         let nodes = place.nodes(&fixed.group, &format!("fixed[{i}].group"), findings);
@@ -74,7 +74,12 @@ impl Given<'_> {
 }
 
 /// Nodal forces of all loads, N/mm, one for each degree of freedom.
-pub fn forces(file: &FemProblemFile, place: MeshedGroups<'_>, held: &[Held], findings: &mut Findings) -> Vec<f64> {
+pub(super) fn forces(
+    file: &FemProblemFile,
+    place: MeshedGroups<'_>,
+    held: &[Held],
+    findings: &mut Findings,
+) -> Vec<f64> {
     let held: BTreeSet<u32> = held.iter().map(|held| held.dof).collect();
     let mut forces = vec![0.0; place.meshed.solid.dofs()];
     for (i, load) in file.load.iter().enumerate() {

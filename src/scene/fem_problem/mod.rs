@@ -26,7 +26,7 @@ use super::{short_hash, text, unit_slip};
 use crate::fem;
 use crate::mesh::Mesh;
 
-pub use file::{BodyFile, Component, ContactFile, FemProblemFile, FixedFile, LoadFile, MeshFile};
+pub(crate) use file::{BodyFile, Component, FemProblemFile, LoadFile};
 
 /// The JSON schema of a problem file.
 pub fn schema() -> &'static Value {
@@ -36,7 +36,7 @@ pub fn schema() -> &'static Value {
 
 /// A problem file without its mesh: sound as far as that goes, every default filled in.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FemProblem {
+pub(crate) struct FemProblem {
     /// What it says.
     pub file: FemProblemFile,
     /// Likely slips of unit.
@@ -47,7 +47,7 @@ pub struct FemProblem {
 
 /// A problem on its mesh: what the solver takes, and the names that go with it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Posed {
+pub(crate) struct Posed {
     /// For the solver. Its nodes are those of the mesh that belong to a body, in the mesh's order.
     pub problem: fem::problem::Problem,
     /// Groups of the bodies, numbered as the elements' materials are.
@@ -61,7 +61,7 @@ impl FemProblem {
     ///
     /// # Errors
     /// Everything that is wrong with the file by itself.
-    pub fn from_toml(text: &str) -> Result<Self, Vec<Problem>> {
+    pub(crate) fn from_toml(text: &str) -> Result<Self, Vec<Problem>> {
         let (table, mut findings) = text::parse(text)?;
         let format = Format { root: Node::root(schema()), of_other_files: &[] };
         let sound = shape::check(format, &table, &mut findings);
@@ -82,7 +82,7 @@ impl FemProblem {
     ///
     /// # Errors
     /// Everything about which file and mesh disagree.
-    pub fn on(&self, mesh: &Mesh) -> Result<Posed, Vec<Problem>> {
+    pub(crate) fn on(&self, mesh: &Mesh) -> Result<Posed, Vec<Problem>> {
         let (_, mut findings) = text::parse(&self.text)?;
         match pose(&self.file, mesh, &mut findings) {
             Some(posed) if findings.problems.is_empty() => Ok(Posed { warnings: findings.warnings, ..posed }),
@@ -91,7 +91,7 @@ impl FemProblem {
     }
 
     /// The problem that the mesh file cannot be read, because of `reason`.
-    pub fn mesh_unreadable(&self, reason: &str) -> Vec<Problem> {
+    pub(crate) fn mesh_unreadable(&self, reason: &str) -> Vec<Problem> {
         match text::parse(&self.text) {
             Ok((_, mut findings)) => {
                 let allowed = "a mesh file beside this one: Gmsh 4.1 or 2.2 (.msh), VTU (.vtu) or Abaqus (.inp)";
@@ -103,12 +103,12 @@ impl FemProblem {
     }
 
     /// The resolved problem as TOML.
-    pub fn to_toml(&self) -> String {
+    pub(crate) fn to_toml(&self) -> String {
         self.file.to_toml()
     }
 
     /// First 16 hexadecimal digits of the SHA-256 of [`Self::to_toml`].
-    pub fn hash(&self) -> String {
+    pub(crate) fn hash(&self) -> String {
         short_hash(self.to_toml().as_bytes())
     }
 }

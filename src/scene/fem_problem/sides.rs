@@ -7,7 +7,7 @@ use crate::fem::solid::{Element, ElementKind, Solid};
 
 /// A side that one or two elements have in common.
 #[derive(Debug, Clone, Copy)]
-pub struct Side {
+pub(super) struct Side {
     /// Along the first of them, which lies on its left.
     pub edge: Edge,
     /// The elements.
@@ -17,13 +17,13 @@ pub struct Side {
 }
 
 /// All sides of a solid, by their ends.
-pub struct Sides {
+pub(super) struct Sides {
     by_ends: BTreeMap<[u32; 2], Side>,
 }
 
 impl Sides {
     /// Collects the sides of all elements.
-    pub fn of(solid: &Solid) -> Self {
+    pub(super) fn of(solid: &Solid) -> Self {
         let mut by_ends: BTreeMap<[u32; 2], Side> = BTreeMap::new();
         for (number, element) in solid.elements.iter().enumerate() {
             for edge in edges(element) {
@@ -40,19 +40,19 @@ impl Sides {
     }
 
     /// The side between two nodes, in either order.
-    pub fn find(&self, ends: [u32; 2]) -> Option<&Side> {
+    pub(super) fn find(&self, ends: [u32; 2]) -> Option<&Side> {
         self.by_ends.get(&sorted(ends))
     }
 
     /// The sides of one element only, in the order of their nodes: the surface.
-    pub fn surface(&self) -> impl Iterator<Item = &Side> {
+    pub(super) fn surface(&self) -> impl Iterator<Item = &Side> {
         self.by_ends.values().filter(|side| side.is_on_surface())
     }
 }
 
 impl Side {
     /// Whether no second element lies behind it.
-    pub fn is_on_surface(&self) -> bool {
+    pub(super) fn is_on_surface(&self) -> bool {
         self.count == 1
     }
 }
@@ -62,7 +62,7 @@ fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
 }
 
 /// Corners of an element.
-pub fn corners(kind: ElementKind) -> usize {
+pub(super) fn corners(kind: ElementKind) -> usize {
     match kind {
         ElementKind::Triangle3 | ElementKind::Triangle6 => 3,
         ElementKind::Quad4 | ElementKind::Quad8 | ElementKind::Quad9 => 4,
@@ -70,7 +70,7 @@ pub fn corners(kind: ElementKind) -> usize {
 }
 
 /// The sides of an element, itself on the left of each.
-pub fn edges(element: &Element) -> impl Iterator<Item = Edge> + '_ {
+pub(super) fn edges(element: &Element) -> impl Iterator<Item = Edge> + '_ {
     let nodes = element.nodes();
     let corners = corners(element.kind);
     (0..corners)

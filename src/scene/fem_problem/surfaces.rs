@@ -10,7 +10,7 @@ use crate::scene::findings::Findings;
 use crate::scene::problem::ProblemKind;
 
 /// All pairs of surfaces.
-pub fn contacts(file: &FemProblemFile, place: MeshedGroups<'_>, findings: &mut Findings) -> Vec<ContactPair> {
+pub(super) fn contacts(file: &FemProblemFile, place: MeshedGroups<'_>, findings: &mut Findings) -> Vec<ContactPair> {
     let mut slaves: BTreeMap<[u32; 2], usize> = BTreeMap::new();
     let mut pairs = Vec::new();
     for (i, contact) in file.contact.iter().enumerate() {

@@ -22,7 +22,7 @@ use crate::scene::problem::number;
 const GREATEST_SMALL: f64 = 0.1;
 
 /// Warnings of loads, and of foundations given by hand, whose contact at the pitch point of `pair` is not narrow.
-pub fn warnings(scene: &Scene, pair: &GearPair) -> Vec<String> {
+pub(super) fn warnings(scene: &Scene, pair: &GearPair) -> Vec<String> {
     let torques = scene.operation.phases.iter().map(|phase| phase.pinion_torque_n_mm);
     let torque_n_mm = torques.fold(0.0, f64::max);
     let line_load = pair.line_load_n_per_mm(torque_n_mm);

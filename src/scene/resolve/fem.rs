@@ -16,7 +16,7 @@ const FEW_ELEMENTS: f64 = 8.0;
 const SECTOR_TEETH: u32 = 3;
 
 /// Chooses what `[fem]` leaves open; a file without the table stays without it, and the bodies are the default ones.
-pub fn choose(file: &mut Option<FemFile>, pair: &PairSpec, findings: &mut Findings) -> Option<BodySettings> {
+pub(super) fn choose(file: &mut Option<FemFile>, pair: &PairSpec, findings: &mut Findings) -> Option<BodySettings> {
     match file {
         Some(file) => given(file, pair, findings),
         None => given(&mut FemFile::default(), pair, &mut Findings::default()),
@@ -39,7 +39,7 @@ fn given(file: &mut FemFile, pair: &PairSpec, findings: &mut Findings) -> Option
 }
 
 /// Elements in the half-width of contact of a wear run, with a severe transition or without.
-pub fn wear_elements_per_half_width(file: Option<&FemFile>, is_severe: bool) -> f64 {
+pub(super) fn wear_elements_per_half_width(file: Option<&FemFile>, is_severe: bool) -> f64 {
     let default = if is_severe { SEVERE_WEAR_ELEMENTS_PER_HALF_WIDTH } else { WEAR_ELEMENTS_PER_HALF_WIDTH };
     file.and_then(|file| file.elements_per_half_width).unwrap_or(default)
 }

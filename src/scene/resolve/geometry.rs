@@ -16,7 +16,7 @@ struct Cause {
 }
 
 /// Derives the pair and reports why that is impossible, if it is, or why its slices leave a position without contact.
-pub fn check(spec: &PairSpec, slices: Option<SliceSettings>, findings: &mut Findings) -> Option<GearPair> {
+pub(super) fn check(spec: &PairSpec, slices: Option<SliceSettings>, findings: &mut Findings) -> Option<GearPair> {
     match GearPair::new(spec) {
         Ok(pair) => {
             if let Some(slices) = slices {

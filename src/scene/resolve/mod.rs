@@ -32,7 +32,7 @@ const OF_OTHER_FILES: &[(&str, &str)] =
 ///
 /// # Errors
 /// Everything that is wrong with it.
-pub fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
+pub(super) fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
     let (table, findings) = text::parse(text)?;
     resolve_table(table, findings)
 }
@@ -41,7 +41,7 @@ pub fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
 ///
 /// # Errors
 /// Everything that is wrong with it.
-pub fn resolve_table(table: Table, mut findings: Findings) -> Result<Resolved, Vec<Problem>> {
+pub(super) fn resolve_table(table: Table, mut findings: Findings) -> Result<Resolved, Vec<Problem>> {
     let format = Format { root: Node::root(schema()), of_other_files: OF_OTHER_FILES };
     let sound = with_preset(shape::check(format, &table, &mut findings));
     // A value outside its range is a suspect too, so the slips are looked for in the file as it is.

@@ -13,7 +13,7 @@ const SAME_TIME: f64 = 1e-9;
 const HALVINGS: i32 = 6;
 
 /// Chooses what `[operation]` leaves open.
-pub fn choose(file: &mut OperationFile, findings: &mut Findings) -> Option<Operation> {
+pub(super) fn choose(file: &mut OperationFile, findings: &mut Findings) -> Option<Operation> {
     let of_whole = Phase {
         pinion_torque_n_mm: 1e3 * file.pinion_torque_Nm,
         pinion_speed_rpm: file.pinion_speed_rpm,

@@ -14,7 +14,7 @@ const UM: f64 = 1e-3;
 const PRESET: &str = "pair.preset";
 
 /// Chooses what `[pair]` leaves open; `None` where something needed is missing or contradictory.
-pub fn choose(file: &mut PairFile, findings: &mut Findings) -> Option<PairSpec> {
+pub(super) fn choose(file: &mut PairFile, findings: &mut Findings) -> Option<PairSpec> {
     let helix_angle_rad = file.helix_angle_deg.get_or_insert(0.0).to_radians();
     let cos_beta = helix_angle_rad.cos();
 

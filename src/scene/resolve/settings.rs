@@ -32,7 +32,7 @@ const STEEL: GearMaterialFile = GearMaterialFile {
 };
 
 /// Chooses the material of each gear: how it deforms, and how it conducts heat.
-pub fn material(
+pub(super) fn material(
     file: &mut Option<MaterialFile>,
     findings: &mut Findings,
 ) -> Option<PerGear<(Material, ThermalMaterial)>> {
@@ -90,7 +90,11 @@ fn properties(file: &GearMaterialFile) -> Option<(Material, ThermalMaterial)> {
 
 /// Chooses the contact surface of a pair, which may be cut into slices over the face width: elastic half-planes, unless there are slices
 /// or something is given that only a Winkler foundation reads.
-pub fn contact(file: &mut Option<ContactFile>, sliced: bool, findings: &mut Findings) -> Option<ContactSettings> {
+pub(super) fn contact(
+    file: &mut Option<ContactFile>,
+    sliced: bool,
+    findings: &mut Findings,
+) -> Option<ContactSettings> {
     let file = file.get_or_insert_default();
     let of_foundation = file.foundation_MPa_per_mm.is_some() || file.match_criterion.is_some();
     let default = match sliced || of_foundation || file.calibration.is_some() {
@@ -145,7 +149,7 @@ pub fn contact(file: &mut Option<ContactFile>, sliced: bool, findings: &mut Find
 
 /// What the choice of a stiffness model depends on.
 #[derive(Debug, Clone, Copy)]
-pub struct Teeth {
+pub(super) struct Teeth {
     /// How the flanks touch.
     pub surface: Option<SurfaceKind>,
     /// Whether a calibration is given.
@@ -155,7 +159,7 @@ pub struct Teeth {
 }
 
 /// Chooses the tooth stiffness.
-pub fn stiffness(
+pub(super) fn stiffness(
     file: &mut Option<StiffnessFile>,
     Teeth { surface, calibrated, sliced }: Teeth,
     findings: &mut Findings,
@@ -207,7 +211,7 @@ pub fn stiffness(
 }
 
 /// Chooses the resolution for a run of `duration` revolutions, with `adaptive` steps where the file does not say.
-pub fn numerics(
+pub(super) fn numerics(
     file: &mut Option<NumericsFile>,
     duration: f64,
     adaptive: bool,
@@ -263,7 +267,7 @@ fn stepping(file: &mut NumericsFile, duration: f64, adaptive: bool, findings: &m
 }
 
 /// Refuses a resolution that no memory holds. The simplified surface keeps a place and not a strip of flank at each contact.
-pub fn memory(numerics: &Numerics, surface: SurfaceKind, slices: usize, findings: &mut Findings) {
+pub(super) fn memory(numerics: &Numerics, surface: SurfaceKind, slices: usize, findings: &mut Findings) {
     let (points, positions) = (numerics.flank_points, numerics.positions);
     let a_position =
         if surface == SurfaceKind::HertzMean && slices > 1 { slices } else { points.saturating_mul(slices) };

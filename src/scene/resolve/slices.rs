@@ -10,7 +10,7 @@ use crate::scene::problem::ProblemKind;
 const SLICES: u32 = 20;
 
 /// Chooses the slices of `pair`; none where all its transverse sections are alike.
-pub fn choose(
+pub(super) fn choose(
     file: &mut Option<HelicalFile>,
     pair: &PairSpec,
     surface: Option<SurfaceKind>,

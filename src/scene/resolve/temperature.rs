@@ -11,7 +11,7 @@ const FRICTION_COEFFICIENT: f64 = 0.1;
 const BULK_TEMPERATURE_C: f64 = 90.0;
 
 /// Chooses what `[temperature]` leaves open; `Some(None)` where nobody asks for temperatures.
-pub fn choose(
+pub(super) fn choose(
     file: &mut Option<TemperatureFile>,
     material: Option<PerGear<ThermalMaterial>>,
     law: Option<LawSettings>,

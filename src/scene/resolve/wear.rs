@@ -17,7 +17,7 @@ const ACTIVATION_ENERGY_KJ_PER_MOL: f64 = 100.0;
 const IRON_KG_PER_M3: f64 = 7870.0;
 
 /// Chooses the wear law.
-pub fn choose(file: &mut WearFile, findings: &mut Findings) -> Option<WearSettings> {
+pub(super) fn choose(file: &mut WearFile, findings: &mut Findings) -> Option<WearSettings> {
     let keys = ["wear.coefficient_m2_per_N", "wear.coefficient_mm3_per_Nm"];
     let given = coefficient_mm2_per_n(keys, file.coefficient_m2_per_N, file.coefficient_mm3_per_Nm, findings)?;
     let Some(coefficient_mm2_per_n) = given else {
@@ -47,7 +47,7 @@ pub fn choose(file: &mut WearFile, findings: &mut Findings) -> Option<WearSettin
 }
 
 /// A coefficient said in one of two units; `Some(None)` where in neither.
-pub fn coefficient_mm2_per_n(
+pub(super) fn coefficient_mm2_per_n(
     keys: [&str; 2],
     m2_per_n: Option<f64>,
     mm3_per_nm: Option<f64>,

@@ -15,7 +15,7 @@ use crate::studies::accuracy::record::{Comparison, ComparisonRow};
 
 /// A run to compare.
 #[derive(Debug, Clone, Copy)]
-pub struct Run<'a> {
+pub(crate) struct Run<'a> {
     /// Its setting.
     pub setting: &'a Setting,
     /// Its curves, at the reference's coordinates.
@@ -26,7 +26,7 @@ pub struct Run<'a> {
 
 /// Tooth stiffnesses on the scene's surface, and contact surfaces with the best stiffness there is; where sections differ over the
 /// face width also the coupling of slices (`sliced_comparison`).
-pub fn comparisons(resolved: &Resolved, runs: &[Run<'_>]) -> Vec<Comparison> {
+pub(crate) fn comparisons(resolved: &Resolved, runs: &[Run<'_>]) -> Vec<Comparison> {
     if resolved.scene.slices.is_some() {
         return sliced_comparison::comparisons(resolved, runs);
     }

@@ -5,7 +5,7 @@
 
 /// A run as the front sees it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Point {
+pub(crate) struct Point {
     /// Run time.
     pub wall_s: f64,
     /// Relative error.
@@ -13,7 +13,7 @@ pub struct Point {
 }
 
 /// Whether each of `points` is on the front, with errors below `uncertainty` told apart no more.
-pub fn on_front(points: &[Point], uncertainty: f64) -> Vec<bool> {
+pub(crate) fn on_front(points: &[Point], uncertainty: f64) -> Vec<bool> {
     let error = |point: &Point| point.error.max(uncertainty);
     let comparable = |point: &Point| point.wall_s.is_finite() && point.error.is_finite();
     points
@@ -32,7 +32,7 @@ pub fn on_front(points: &[Point], uncertainty: f64) -> Vec<bool> {
 }
 
 /// The fastest of `points` whose error is within `wanted`, else the one with the least error; and whether it is within.
-pub fn cheapest_within(points: &[Point], wanted: f64) -> Option<(usize, bool)> {
+pub(crate) fn cheapest_within(points: &[Point], wanted: f64) -> Option<(usize, bool)> {
     let comparable = || points.iter().enumerate().filter(|(_, p)| p.wall_s.is_finite() && p.error.is_finite());
     let fastest =
         comparable().filter(|(_, p)| p.error <= wanted).min_by(|(_, a), (_, b)| a.wall_s.total_cmp(&b.wall_s));

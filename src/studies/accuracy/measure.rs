@@ -23,11 +23,11 @@ use crate::studies::accuracy::record::Quantity;
 
 /// Length of the path of contact at a sharp tip edge without a comparable pressure, in half-widths of Hertz at the pitch
 /// point.
-pub const EDGE_HALF_WIDTHS: f64 = 3.0;
+pub(crate) const EDGE_HALF_WIDTHS: f64 = 3.0;
 
 /// Where on the path of contact the quantities are compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Windows {
+pub(crate) struct Windows {
     /// From A to E less what a sharp tip edge spoils.
     pub pressure_mm: [f64; 2],
     /// From A to E less what any tip edge takes part in.
@@ -38,7 +38,7 @@ pub struct Windows {
 
 impl Windows {
     /// For a pair with these points A–E and sharp tip edges; `half_width_mm` is Hertz's at the pitch point.
-    pub fn new(points: &PathPoints, sharp: PerGear<bool>, half_width_mm: f64) -> Self {
+    pub(crate) fn new(points: &PathPoints, sharp: PerGear<bool>, half_width_mm: f64) -> Self {
         let spoilt = |sharp: bool| if sharp { EDGE_HALF_WIDTHS * half_width_mm } else { 0.0 };
         let single = if points.B < points.D { [points.B, points.D] } else { [points.A, points.E] };
         Self {
@@ -51,7 +51,7 @@ impl Windows {
 }
 
 /// Errors of `observed`, at the coordinates of `reference`, in every quantity.
-pub fn errors(observed: &Observed, reference: &Observed, windows: &Windows) -> BTreeMap<Quantity, f64> {
+pub(crate) fn errors(observed: &Observed, reference: &Observed, windows: &Windows) -> BTreeMap<Quantity, f64> {
     let profile = PerGear::from_fn(|gear| profile_error(&observed.flanks[gear], &reference.flanks[gear]));
     let peak =
         |gear: Gear| relative_difference(observed.flanks[gear].peak_wear_um(), reference.flanks[gear].peak_wear_um());
@@ -101,7 +101,7 @@ pub fn errors(observed: &Observed, reference: &Observed, windows: &Windows) -> B
 }
 
 /// Relative L2 error of the depth over the whole flank; both at the same points and widths. Slices are as wide as each other.
-pub fn profile_error(observed: &ObservedFlank, reference: &ObservedFlank) -> f64 {
+pub(crate) fn profile_error(observed: &ObservedFlank, reference: &ObservedFlank) -> f64 {
     let arc = &reference.arc_mm;
     let over_flank = |square: &dyn Fn(&[f64], &[f64]) -> f64| -> f64 {
         observed.slices().zip(reference.slices()).map(|(own, there)| square(own, there)).sum()
@@ -111,7 +111,7 @@ pub fn profile_error(observed: &ObservedFlank, reference: &ObservedFlank) -> f64
 }
 
 /// Greatest pressure away from sharp tip edges.
-pub fn peak_pressure_mpa(cycle: &ObservedCycle, windows: &Windows) -> f64 {
+pub(crate) fn peak_pressure_mpa(cycle: &ObservedCycle, windows: &Windows) -> f64 {
     greatest_within(cycle, windows.pressure_mm)
 }
 
@@ -120,24 +120,24 @@ fn greatest_within(cycle: &ObservedCycle, window_mm: [f64; 2]) -> f64 {
 }
 
 /// Greatest less least value.
-pub fn peak_to_peak(values: &[f64]) -> f64 {
+pub(crate) fn peak_to_peak(values: &[f64]) -> f64 {
     let (low, high) =
         values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &y| (low.min(y), high.max(y)));
     if high >= low { high - low } else { 0.0 }
 }
 
 /// The greatest value, 0 where there is none above.
-pub fn greatest(values: &[f64]) -> f64 {
+pub(crate) fn greatest(values: &[f64]) -> f64 {
     values.iter().copied().fold(0.0, f64::max)
 }
 
 /// |y − y_ref|/|y_ref|.
-pub fn relative_difference(value: f64, reference: f64) -> f64 {
+pub(crate) fn relative_difference(value: f64, reference: f64) -> f64 {
     ratio((value - reference).abs(), reference.abs())
 }
 
 /// √(∫(y − y_ref)² dx / ∫y_ref² dx) by the trapezoidal rule.
-pub fn relative_l2(x: &[f64], values: &[f64], reference: &[f64]) -> f64 {
+pub(crate) fn relative_l2(x: &[f64], values: &[f64], reference: &[f64]) -> f64 {
     let difference = integral(x, |i| (values[i] - reference[i]).powi(2));
     ratio(difference.sqrt(), integral(x, |i| reference[i].powi(2)).sqrt())
 }
@@ -148,7 +148,7 @@ fn integral(x: &[f64], value: impl Fn(usize) -> f64) -> f64 {
 }
 
 /// `difference` over `size`, where nothing over nothing is nothing.
-pub fn ratio(difference: f64, size: f64) -> f64 {
+pub(crate) fn ratio(difference: f64, size: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / size }
 }
 

@@ -22,19 +22,19 @@
 //! | `deep_runs` | the models run to a greater depth, and whether they stay stable |
 //! | [`study`] | all of it, in order |
 
-pub mod comparison;
+pub(crate) mod comparison;
 mod deep_runs;
-pub mod front;
-pub mod measure;
-pub mod observed;
-pub mod over_width;
-pub mod quantity;
-pub mod record;
-pub mod reference;
-pub mod report;
-pub mod selection;
-pub mod settings;
+pub(crate) mod front;
+pub(crate) mod measure;
+pub(crate) mod observed;
+pub(crate) mod over_width;
+pub(crate) mod quantity;
+pub(crate) mod record;
+pub(crate) mod reference;
+pub(crate) mod report;
+pub(crate) mod selection;
+pub(crate) mod settings;
 mod sliced_comparison;
 mod sliced_selection;
-pub mod study;
+pub(crate) mod study;
 mod timed_run;

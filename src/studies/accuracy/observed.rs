@@ -10,7 +10,7 @@ use crate::results::run::{FlankRecord, RunRecord};
 
 /// What errors are measured on.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Observed {
+pub(crate) struct Observed {
     /// Both flanks.
     pub flanks: PerGear<ObservedFlank>,
     /// The mesh cycle.
@@ -21,7 +21,7 @@ pub struct Observed {
 
 /// Wear over one flank.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ObservedFlank {
+pub(crate) struct ObservedFlank {
     /// Distance from the gear's axis, increasing.
     pub radius_mm: Vec<f64>,
     /// Arc length of the involute from the base circle.
@@ -36,7 +36,7 @@ pub struct ObservedFlank {
 
 /// The reference pair over the path of contact.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ObservedCycle {
+pub(crate) struct ObservedCycle {
     /// Radius of curvature of the pinion at the theoretical contact point, increasing.
     pub position_mm: Vec<f64>,
     /// Greatest pressure, new; of a pair with slices the greatest of any slice whose own contact point is there.
@@ -51,7 +51,7 @@ pub struct ObservedCycle {
 
 impl Observed {
     /// The curves of a run.
-    pub fn of(record: &RunRecord) -> Self {
+    pub(crate) fn of(record: &RunRecord) -> Self {
         let column = |value: fn(&crate::results::run::MeshCycleRow) -> f64| {
             record.mesh_cycle.iter().map(value).collect::<Vec<f64>>()
         };
@@ -74,7 +74,7 @@ impl Observed {
     }
 
     /// The same curves at the coordinates of `other`, linear in between.
-    pub fn at_coordinates_of(&self, other: &Self) -> Self {
+    pub(crate) fn at_coordinates_of(&self, other: &Self) -> Self {
         let flank = |gear: Gear| {
             let (own, common) = (&self.flanks[gear], &other.flanks[gear]);
             ObservedFlank { wear_um: own.wear_at(&common.radius_mm, &common.width_mm), ..common.clone() }
@@ -95,7 +95,7 @@ impl Observed {
     }
 
     /// self + factor · (fine − coarse), value by value; all three at the same coordinates.
-    pub fn corrected(&self, factor: f64, fine: &Self, coarse: &Self) -> Self {
+    pub(crate) fn corrected(&self, factor: f64, fine: &Self, coarse: &Self) -> Self {
         let corrected = |own: &[f64], fine: &[f64], coarse: &[f64]| -> Vec<f64> {
             own.iter().zip(fine.iter().zip(coarse)).map(|(x, (f, c))| x + factor * (f - c)).collect()
         };
@@ -146,7 +146,7 @@ impl ObservedFlank {
     }
 
     /// Greatest depth on the active profile, as in the summary of a run.
-    pub fn peak_wear_um(&self) -> f64 {
+    pub(crate) fn peak_wear_um(&self) -> f64 {
         let of_slice = |slice: &[f64]| {
             let active =
                 slice.iter().zip(&self.radius_mm).filter(|(_, radius)| self.zones.at(**radius) == FlankZone::Active);
@@ -156,12 +156,12 @@ impl ObservedFlank {
     }
 
     /// The slices one after the other.
-    pub fn slices(&self) -> impl Iterator<Item = &[f64]> {
+    pub(crate) fn slices(&self) -> impl Iterator<Item = &[f64]> {
         self.wear_um.chunks_exact(self.radius_mm.len())
     }
 
     /// Depth at other radii and widths, slice after slice.
-    pub fn wear_at(&self, radius_mm: &[f64], width_mm: &[f64]) -> Vec<f64> {
+    pub(crate) fn wear_at(&self, radius_mm: &[f64], width_mm: &[f64]) -> Vec<f64> {
         let at_radii: Vec<Vec<f64>> =
             self.slices().map(|slice| interpolated(&self.radius_mm, slice, radius_mm)).collect();
         let slices: Vec<&[f64]> = at_radii.iter().map(Vec::as_slice).collect();
@@ -170,7 +170,7 @@ impl ObservedFlank {
 }
 
 /// Values given at increasing `x`, at other places; beyond the ends the value there, 0 where there is none at all.
-pub fn interpolated(x: &[f64], values: &[f64], at: &[f64]) -> Vec<f64> {
+pub(crate) fn interpolated(x: &[f64], values: &[f64], at: &[f64]) -> Vec<f64> {
     at.iter()
         .map(|&place| match (x.len(), values) {
             (0, _) => 0.0,

@@ -15,7 +15,7 @@ use crate::studies::accuracy::record::Quantity;
 
 /// Curves over the face width.
 #[derive(Debug, Clone, PartialEq)]
-pub struct OverWidth {
+pub(crate) struct OverWidth {
     /// Place of each slice.
     pub width_mm: Vec<f64>,
     /// Greatest depth in the root zone of each slice.
@@ -28,7 +28,7 @@ pub struct OverWidth {
 
 impl OverWidth {
     /// The curves of a run; none where all sections are alike.
-    pub fn of(record: &RunRecord) -> Option<Self> {
+    pub(crate) fn of(record: &RunRecord) -> Option<Self> {
         let helical = record.summary.helical.as_ref()?;
         Some(Self {
             width_mm: helical.width_mm.clone(),
@@ -39,7 +39,7 @@ impl OverWidth {
     }
 
     /// The same curves at other places over the face width.
-    pub fn at_widths(&self, width_mm: &[f64]) -> Self {
+    pub(crate) fn at_widths(&self, width_mm: &[f64]) -> Self {
         let there = |gear: Gear| {
             let own: Vec<&[f64]> = self.root_wear_um[gear].chunks_exact(1).collect();
             depths_at_widths(&self.width_mm, &own, width_mm)
@@ -48,7 +48,7 @@ impl OverWidth {
     }
 
     /// self + factor · (fine − coarse), value by value; all three at the same places.
-    pub fn corrected(&self, factor: f64, fine: &Self, coarse: &Self) -> Self {
+    pub(crate) fn corrected(&self, factor: f64, fine: &Self, coarse: &Self) -> Self {
         let corrected = |own: f64, fine: f64, coarse: f64| own + factor * (fine - coarse);
         let root = |gear: Gear| {
             let (fine, coarse) = (&fine.root_wear_um[gear], &coarse.root_wear_um[gear]);
@@ -68,7 +68,7 @@ impl OverWidth {
     }
 
     /// Errors against `reference`, at the same places.
-    pub fn errors(&self, reference: &Self) -> BTreeMap<Quantity, f64> {
+    pub(crate) fn errors(&self, reference: &Self) -> BTreeMap<Quantity, f64> {
         let root =
             |gear: Gear| relative_l2(&reference.width_mm, &self.root_wear_um[gear], &reference.root_wear_um[gear]);
         BTreeMap::from([
@@ -84,7 +84,7 @@ impl OverWidth {
 
 /// Depths of slices at increasing `width_mm` (`slices`: one row of points each, all of the same length), at other widths, row
 /// after row; one slice stands for all widths.
-pub fn depths_at_widths(width_mm: &[f64], slices: &[&[f64]], at_mm: &[f64]) -> Vec<f64> {
+pub(crate) fn depths_at_widths(width_mm: &[f64], slices: &[&[f64]], at_mm: &[f64]) -> Vec<f64> {
     let there = |&place: &f64| {
         let (before, after, weight) = neighbours(width_mm, place);
         slices[before].iter().zip(slices[after]).map(move |(a, b)| (a + weight * (b - a)).max(0.0))
@@ -104,7 +104,7 @@ fn neighbours(places: &[f64], at: f64) -> (usize, usize, f64) {
 /// The greatest pressure that any slice has with its own theoretical contact point at `position_mm`, new.
 ///
 /// A slice that touches at a tip edge does so at A or E of its own, wherever the middle of the face width is by then.
-pub fn pressure_along_path_mpa(slices: &SliceRecord, position_mm: &[f64]) -> Vec<f64> {
+pub(crate) fn pressure_along_path_mpa(slices: &SliceRecord, position_mm: &[f64]) -> Vec<f64> {
     let count = slices.width_mm.len();
     let mut greatest = vec![0.0; position_mm.len()];
     for (slice, ahead) in slices.ahead_mm.iter().enumerate() {

@@ -5,7 +5,7 @@ use serde::Serialize;
 /// What errors are measured of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Quantity {
+pub(crate) enum Quantity {
     /// Depth over both flanks: the larger of both gears' errors.
     WearProfile,
     /// Depth over the pinion's flank.
@@ -42,7 +42,7 @@ pub enum Quantity {
 
 impl Quantity {
     /// All of them, in the order of the tables; the last three are of pairs with slices, half-width is of the others.
-    pub const ALL: [Self; 15] = [
+    pub(crate) const ALL: [Self; 15] = [
         Self::WearProfile,
         Self::PinionWearProfile,
         Self::WheelWearProfile,
@@ -61,7 +61,7 @@ impl Quantity {
     ];
 
     /// Its name in results.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::WearProfile => "wear_profile",
             Self::PinionWearProfile => "pinion_wear_profile",
@@ -82,7 +82,7 @@ impl Quantity {
     }
 
     /// What it is, for people.
-    pub fn title(self) -> &'static str {
+    pub(crate) fn title(self) -> &'static str {
         match self {
             Self::WearProfile => "Wear profile, both gears",
             Self::PinionWearProfile => "Wear profile, pinion",
@@ -103,7 +103,7 @@ impl Quantity {
     }
 
     /// How its error is measured.
-    pub fn measure(self) -> &'static str {
+    pub(crate) fn measure(self) -> &'static str {
         match self {
             Self::WearProfile => "the larger of both gears' relative L2 errors of the depth over the whole flank",
             Self::PinionWearProfile | Self::WheelWearProfile => {

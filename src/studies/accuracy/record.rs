@@ -6,16 +6,16 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-pub use super::quantity::Quantity;
+pub(crate) use super::quantity::Quantity;
 use crate::gear::PerGear;
 use crate::results::run::{PathPoints, StopReason, WorkSummary};
 
 /// Name of the calibration beside the results.
-pub const CALIBRATION_FILE: &str = "calibration.json";
+pub(crate) const CALIBRATION_FILE: &str = "calibration.json";
 
 /// A finished (or interrupted) comparison.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct AccuracyRecord {
+pub(crate) struct AccuracyRecord {
     /// The scene's title.
     pub title: String,
     /// Version of the program.
@@ -59,7 +59,7 @@ pub struct AccuracyRecord {
 
 /// The solution that the errors are measured against.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ReferenceRecord {
+pub(crate) struct ReferenceRecord {
     /// How it was obtained.
     pub how: String,
     /// What the errors against it do not tell; `None` where it is a finite-element solution of the whole pair.
@@ -82,7 +82,7 @@ pub struct ReferenceRecord {
 
 /// The reference's wear over one flank.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct ReferenceFlank {
+pub(crate) struct ReferenceFlank {
     /// Distance from the gear's axis, mm.
     pub radius_mm: Vec<f64>,
     /// Place of each slice over the face width, mm: one where all sections are alike.
@@ -97,7 +97,7 @@ pub struct ReferenceFlank {
 
 impl ReferenceFlank {
     /// The slices that stand for all: the first, the middle and the last.
-    pub fn shown_slices(&self) -> Vec<usize> {
+    pub(crate) fn shown_slices(&self) -> Vec<usize> {
         let last = self.width_mm.len().saturating_sub(1);
         let mut shown = vec![0, self.width_mm.len() / 2, last];
         shown.dedup();
@@ -105,7 +105,7 @@ impl ReferenceFlank {
     }
 
     /// The values of `field`, given slice after slice at the points of this flank, on one slice.
-    pub fn slice<'a>(&self, field: &'a [f64], slice: usize) -> &'a [f64] {
+    pub(crate) fn slice<'a>(&self, field: &'a [f64], slice: usize) -> &'a [f64] {
         let points = self.radius_mm.len();
         field.get(slice * points..(slice + 1) * points).unwrap_or_default()
     }
@@ -113,7 +113,7 @@ impl ReferenceFlank {
 
 /// A run: what it was made of, what it took, and how far it is from the reference.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct VariantRecord {
+pub(crate) struct VariantRecord {
     /// What it is called in tables and plots.
     pub name: String,
     /// What it is made of.
@@ -144,7 +144,7 @@ pub struct VariantRecord {
 
 /// What a run was made of.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct VariantSettings {
+pub(crate) struct VariantSettings {
     /// Name of the contact surface.
     pub surface: String,
     /// What K/H shares with Hertz or the calibration; `None` where the surface has no K/H.
@@ -176,7 +176,7 @@ pub struct VariantSettings {
 
 /// An error and what it means beside run time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct MeasuredError {
+pub(crate) struct MeasuredError {
     /// Relative.
     pub relative: f64,
     /// Whether no faster run has a smaller error, the reference's uncertainty considered.
@@ -185,7 +185,7 @@ pub struct MeasuredError {
 
 /// Something that was not run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct LeftOut {
+pub(crate) struct LeftOut {
     /// What.
     pub what: String,
     /// Why.
@@ -194,7 +194,7 @@ pub struct LeftOut {
 
 /// The cheapest setting whose error is within the one wanted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Recommendation {
+pub(crate) struct Recommendation {
     /// Of what.
     pub quantity: Quantity,
     /// Index of the run in `variants`; the one with the least error where none is within.
@@ -205,7 +205,7 @@ pub struct Recommendation {
 
 /// Runs that differ in one respect only.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Comparison {
+pub(crate) struct Comparison {
     /// What they differ in.
     pub title: String,
     /// What they have in common.
@@ -218,7 +218,7 @@ pub struct Comparison {
 
 /// A run beside the baseline.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ComparisonRow {
+pub(crate) struct ComparisonRow {
     /// The setting in which it differs.
     pub name: String,
     /// Relative L2 difference of the wear profile of each gear.
@@ -232,7 +232,7 @@ pub struct ComparisonRow {
 /// The models run to a greater depth, once with the scene's number of wear steps and once with fewer: a model whose wear
 /// oscillates from step to step then finds other depths, one that does not hardly notices.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct DeepRuns {
+pub(crate) struct DeepRuns {
     /// What they have in common.
     pub common: String,
     /// The scene's revolutions times this.
@@ -247,7 +247,7 @@ pub struct DeepRuns {
 
 /// One model run to a greater depth.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct DeepRow {
+pub(crate) struct DeepRow {
     /// The model.
     pub name: String,
     /// With the scene's number of wear steps.
@@ -266,7 +266,7 @@ pub struct DeepRow {
 
 /// One of its runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct DeepRun {
+pub(crate) struct DeepRun {
     /// Wear steps taken.
     pub wear_steps: u64,
     /// Wall time of the wear run, s.

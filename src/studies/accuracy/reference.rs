@@ -24,7 +24,7 @@ use crate::studies::accuracy::record::Quantity;
 
 /// Two runs that differ in one spacing only.
 #[derive(Debug, Clone, Copy)]
-pub struct Correction<'a> {
+pub(crate) struct Correction<'a> {
     /// With the spacing h.
     pub fine: &'a Observed,
     /// With the spacing r h.
@@ -37,7 +37,7 @@ pub struct Correction<'a> {
 
 /// The reference with what remains uncertain of it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Reference {
+pub(crate) struct Reference {
     /// Its curves.
     pub observed: Observed,
     /// Relative uncertainty of each quantity.
@@ -46,7 +46,7 @@ pub struct Reference {
 
 impl Reference {
     /// `finest` with all `corrections`, at the coordinates of `finest`.
-    pub fn extrapolated(finest: &Observed, corrections: &[Correction<'_>], windows: &Windows) -> Self {
+    pub(crate) fn extrapolated(finest: &Observed, corrections: &[Correction<'_>], windows: &Windows) -> Self {
         let mut observed = finest.clone();
         for correction in corrections {
             let factor = 1.0 / (correction.ratio.powi(correction.order) - 1.0);

@@ -29,7 +29,7 @@ pub(super) const COMPANION_STEP: u32 = 2;
 
 /// What is asked of the comparison beside the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Asked {
+pub(crate) struct Asked {
     /// The relative error that recommendations stay within.
     pub within: f64,
     /// Whether to leave the finest resolution out.
@@ -38,7 +38,7 @@ pub struct Asked {
 
 /// Two runs of the reference that differ in one spacing; indices of the settings.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Companions {
+pub(crate) struct Companions {
     /// The finer one.
     pub fine: usize,
     /// The coarser one.
@@ -49,7 +49,7 @@ pub struct Companions {
 
 /// What differs between two companions.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Spacing {
+pub(crate) enum Spacing {
     /// The size of elements, by this ratio.
     Elements(f64),
     /// The spacing of flank points and positions, by this ratio.
@@ -62,7 +62,7 @@ pub enum Spacing {
 
 /// What is run.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Selection {
+pub(crate) struct Selection {
     /// Every setting, in the order of the work; the first is the finest.
     pub settings: Vec<Setting>,
     /// From which of them the reference is extrapolated, beside the first.
@@ -74,7 +74,7 @@ pub struct Selection {
 impl Selection {
     /// The settings that fit the scene; `calibrated` says for which criteria there is a calibration, empty where there is
     /// none, for `no_calibration`'s reason.
-    pub fn new(resolved: &Resolved, asked: Asked, calibrated: &[MatchCriterion], no_calibration: &str) -> Self {
+    pub(crate) fn new(resolved: &Resolved, asked: Asked, calibrated: &[MatchCriterion], no_calibration: &str) -> Self {
         let scene = &resolved.scene;
         let finest = if asked.quick { 2 } else { 1 };
         let mut levels = vec![finest];
@@ -106,7 +106,7 @@ impl Selection {
     }
 
     /// The finest setting with half of its points and positions, where it was run with that.
-    pub fn second_resolution(&self) -> Setting {
+    pub(crate) fn second_resolution(&self) -> Setting {
         let finest = &self.settings[0];
         let by = 2 * finest.coarsening.spacing;
         let half = self.settings.iter().find(|setting| setting.coarsening.spacing == by);
@@ -263,7 +263,7 @@ impl Stiffnesses {
     }
 
     /// The one that tip edges are tried with: that of finite elements where there is one.
-    pub fn best(&self) -> &Stiffness {
+    pub(super) fn best(&self) -> &Stiffness {
         let name = self.tried.last();
         self.all.iter().find(|stiffness| Some(&stiffness.name) == name).unwrap_or(&self.all[0])
     }

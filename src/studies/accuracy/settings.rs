@@ -10,11 +10,11 @@ use crate::scene::{Problem, Resolved, Scene};
 use crate::studies::accuracy::record::VariantSettings;
 
 /// Fewest points and positions of a setting: the least that a scene may ask for.
-pub const LEAST_POINTS: usize = 20;
+pub(crate) const LEAST_POINTS: usize = 20;
 
 /// Where the Winkler foundation gets its K/H from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum FoundationChoice {
+pub(crate) enum FoundationChoice {
     /// By hand, MPa/mm.
     Given {
         /// K/H.
@@ -28,7 +28,7 @@ pub enum FoundationChoice {
 
 /// A contact surface with what it needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Surface {
+pub(crate) enum Surface {
     /// Mean Hertz pressure.
     HertzMean,
     /// Hertz's ellipse.
@@ -46,7 +46,7 @@ pub enum Surface {
 
 /// How much coarser than the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Coarsening {
+pub(crate) struct Coarsening {
     /// The scene's numbers of flank points and positions are divided by this.
     pub spacing: u32,
     /// The scene's wear step is multiplied by this.
@@ -55,7 +55,7 @@ pub struct Coarsening {
 
 impl Coarsening {
     /// Points, positions and steps alike.
-    pub fn even(by: u32) -> Self {
+    pub(crate) fn even(by: u32) -> Self {
         Self { spacing: by, step: by }
     }
 
@@ -72,7 +72,7 @@ impl Coarsening {
 
 /// A tooth stiffness as a scene asks for it.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Stiffness {
+pub(crate) struct Stiffness {
     /// The scene's section.
     pub file: StiffnessFile,
     /// What it is called: `constant 20`, `weber-banaschek`.
@@ -81,7 +81,7 @@ pub struct Stiffness {
 
 /// One setting.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Setting {
+pub(crate) struct Setting {
     /// How the flanks touch.
     pub surface: Surface,
     /// Whether a tip edge is followed outside A to E, by the surfaces that can.
@@ -96,7 +96,7 @@ pub struct Setting {
 
 impl Surface {
     /// The scene's own, with the scene's own K/H.
-    pub fn of_scene(resolved: &Resolved) -> Self {
+    pub(crate) fn of_scene(resolved: &Resolved) -> Self {
         let contact = &resolved.scene.contact;
         match (contact.surface, contact.foundation) {
             (SurfaceKind::HertzMean, _) => Self::HertzMean,
@@ -111,7 +111,7 @@ impl Surface {
     }
 
     /// `winkler peak-pressure, calibrated`, `fem 10`.
-    pub fn name(self) -> String {
+    pub(crate) fn name(self) -> String {
         match self {
             Self::HertzMean => "hertz-mean".to_owned(),
             Self::Hertz => "hertz".to_owned(),
@@ -126,12 +126,12 @@ impl Surface {
     }
 
     /// Whether it knows the gap of the flanks beside the line of action, and so may follow a tip edge.
-    pub fn may_follow_tip(self) -> bool {
+    pub(crate) fn may_follow_tip(self) -> bool {
         matches!(self, Self::Winkler(_) | Self::HalfSpace)
     }
 
     /// The model.
-    pub fn kind(self) -> SurfaceKind {
+    pub(crate) fn kind(self) -> SurfaceKind {
         match self {
             Self::HertzMean => SurfaceKind::HertzMean,
             Self::Hertz => SurfaceKind::Hertz,
@@ -144,12 +144,12 @@ impl Surface {
 
 impl Stiffness {
     /// A model without data of its own.
-    pub fn of_model(model: StiffnessModel, name: &str) -> Self {
+    pub(crate) fn of_model(model: StiffnessModel, name: &str) -> Self {
         Self { file: StiffnessFile { model: Some(model), ..StiffnessFile::default() }, name: name.to_owned() }
     }
 
     /// One value for the spring of the teeth, N/(mm·µm).
-    pub fn constant(pair_n_per_mm_um: f64) -> Self {
+    pub(crate) fn constant(pair_n_per_mm_um: f64) -> Self {
         let file = StiffnessFile {
             model: Some(StiffnessModel::Constant),
             pair_N_per_mm_um: Some(pair_n_per_mm_um),
@@ -159,7 +159,7 @@ impl Stiffness {
     }
 
     /// The scene's own.
-    pub fn of_scene(resolved: &Resolved) -> Self {
+    pub(crate) fn of_scene(resolved: &Resolved) -> Self {
         let file = resolved.file.stiffness.clone().unwrap_or_default();
         match file.pair_N_per_mm_um.filter(|_| file.model == Some(StiffnessModel::Constant)) {
             Some(value) => Self::constant(value),
@@ -169,12 +169,12 @@ impl Stiffness {
 }
 
 /// The wear step that everything is compared with: Euler's.
-pub fn euler_revolutions(scene: &Scene) -> f64 {
+pub(crate) fn euler_revolutions(scene: &Scene) -> f64 {
     scene.numerics.stepping.euler_revolutions(scene.operation.pinion_revolutions)
 }
 
 /// `coupled`, `uncoupled`.
-pub fn coupling_name(coupling: Coupling) -> &'static str {
+pub(crate) fn coupling_name(coupling: Coupling) -> &'static str {
     match coupling {
         Coupling::None => "uncoupled",
         Coupling::Slicing => "coupled",
@@ -183,7 +183,7 @@ pub fn coupling_name(coupling: Coupling) -> &'static str {
 
 impl Setting {
     /// What it is called in tables and plots.
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         let mut name = self.surface.name();
         if self.surface.may_follow_tip() && self.tip_contact {
             name.push_str(", tip contact");
@@ -199,7 +199,7 @@ impl Setting {
     }
 
     /// Whether `scene` is fine enough to be coarsened like this.
-    pub fn fits(coarsening: Coarsening, scene: &Scene) -> bool {
+    pub(crate) fn fits(coarsening: Coarsening, scene: &Scene) -> bool {
         let numerics = scene.numerics;
         coarsening.spacing == 1
             || numerics.flank_points.min(numerics.positions) / coarsening.spacing as usize >= LEAST_POINTS
@@ -209,7 +209,7 @@ impl Setting {
     ///
     /// # Errors
     /// What the checks of scenes find.
-    pub fn scene(&self, base: &Resolved, calibration: Option<&str>) -> Result<Resolved, Vec<Problem>> {
+    pub(crate) fn scene(&self, base: &Resolved, calibration: Option<&str>) -> Result<Resolved, Vec<Problem>> {
         let mut file = base.file.clone();
         let contact = file.contact.get_or_insert_default();
         contact.surface = Some(self.surface.kind());
@@ -253,7 +253,7 @@ impl Setting {
     }
 
     /// What the record says of it.
-    pub fn record(&self, scene: &Scene) -> VariantSettings {
+    pub(crate) fn record(&self, scene: &Scene) -> VariantSettings {
         let (match_criterion, calibrated) = match self.surface {
             Surface::Winkler(FoundationChoice::Matched(criterion)) => (Some(criterion.name().to_owned()), false),
             Surface::Winkler(FoundationChoice::Calibrated(criterion)) => (Some(criterion.name().to_owned()), true),

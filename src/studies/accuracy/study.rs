@@ -33,7 +33,7 @@ const DOES_NOT_TELL: &str = "There is no three-dimensional finite-element soluti
 
 /// Why there is nothing to compare.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum AccuracyError {
+pub(crate) enum AccuracyError {
     /// A run of the reference failed.
     #[error("the reference, {name}: {reason}")]
     Reference {
@@ -53,7 +53,7 @@ pub enum AccuracyError {
 ///
 /// # Errors
 /// [`AccuracyError`] where the reference is not finished.
-pub fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) -> Result<AccuracyRecord, AccuracyError> {
+pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) -> Result<AccuracyRecord, AccuracyError> {
     let start = Instant::now();
     let calibration = calibration(given, observer)?;
     let given = &calibration.made.map_or_else(|| given.clone(), |made| given.calibrated(made));

@@ -13,11 +13,11 @@
 //! | `search` | the parameters that fit best |
 //! | [`study`] | all of it, in order |
 
-pub mod question;
-pub mod record;
-pub mod report;
-pub mod run_folder;
+pub(crate) mod question;
+pub(crate) mod record;
+pub(crate) mod report;
+pub(crate) mod run_folder;
 mod search;
 mod simulations;
-pub mod study;
+pub(crate) mod study;
 mod wear_by_coefficient;

@@ -18,7 +18,7 @@ const SPARE_POINTS: usize = 2;
 /// What is fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum FitKind {
+pub(crate) enum FitKind {
     /// Nothing but the place along the flank.
     None,
     /// The wear coefficient.
@@ -31,19 +31,19 @@ pub enum FitKind {
 
 impl FitKind {
     /// Whether the wear coefficient is fitted.
-    pub fn coefficient(self) -> bool {
+    pub(crate) fn coefficient(self) -> bool {
         matches!(self, FitKind::K | FitKind::Both)
     }
 
     /// Whether the factor of severe wear is.
-    pub fn severe(self) -> bool {
+    pub(crate) fn severe(self) -> bool {
         matches!(self, FitKind::Severe | FitKind::Both)
     }
 }
 
 /// What the user asks beside the files.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Asked {
+pub(crate) struct Asked {
     /// Which gear; `None`: as the file says.
     pub gear: Option<Gear>,
     /// What is taken for the form; `None`: a cubic of heights, nothing of wear depths.
@@ -56,7 +56,7 @@ pub struct Asked {
 
 /// What does not fit together.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum QuestionError {
+pub(crate) enum QuestionError {
     /// The file.
     #[error(transparent)]
     File(#[from] DataTableError),
@@ -132,7 +132,7 @@ pub enum QuestionError {
 
 /// A comparison that can be made.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Question {
+pub(crate) struct Question {
     /// What was measured, on its flank.
     pub profile: MeasuredProfile,
     /// When, in pinion revolutions.
@@ -156,7 +156,7 @@ impl Question {
     ///
     /// # Errors
     /// The first thing that does not fit together.
-    pub fn new(
+    pub(crate) fn new(
         asked: &Asked,
         file: &MeasuredFile,
         folder: &RunFolder,

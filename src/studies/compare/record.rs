@@ -8,7 +8,7 @@ use crate::results::run::PathPoints;
 
 /// A finished comparison.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct CompareRecord {
+pub(crate) struct CompareRecord {
     /// The title of the run.
     pub title: String,
     /// Version of the program.
@@ -45,7 +45,7 @@ pub struct CompareRecord {
 
 /// A fitted value with its interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Estimate {
+pub(crate) struct Estimate {
     /// The value.
     pub value: f64,
     /// Lower end of the 95 % interval; `None` where the residuals give none.
@@ -59,7 +59,7 @@ pub struct Estimate {
 /// What was fitted, and how.
 #[allow(non_snake_case, reason = "names that end in their unit")]
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct FitRecord {
+pub(crate) struct FitRecord {
     /// Why the search ended.
     pub stopped: FitStop,
     /// What is to blame where it did not converge.
@@ -88,7 +88,7 @@ pub struct FitRecord {
 
 /// Figures of the profiles, form removed.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct CompareFigures {
+pub(crate) struct CompareFigures {
     /// Arithmetic mean deviation of the measured profile (of one trace; Sa where it stands for an area).
     pub mean_deviation_um: f64,
     /// That of the simulated profile.
@@ -111,7 +111,7 @@ pub struct CompareFigures {
 
 /// A row of `compare.csv`: a measured point where it lies on the flank.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct CompareRow {
+pub(crate) struct CompareRow {
     /// Radius of the point, shifted.
     pub radius_mm: f64,
     /// Arc length from the base circle, shifted.

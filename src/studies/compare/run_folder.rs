@@ -19,7 +19,7 @@ const SAME_TIME: f64 = 1e-9;
 
 /// What is wrong with the folder of a run.
 #[derive(Debug, thiserror::Error)]
-pub enum RunFolderError {
+pub(crate) enum RunFolderError {
     /// A file that every finished run has is not there.
     #[error("{} cannot be read: {reason}; allowed: the folder of a finished gearwear run", path.display())]
     Unreadable {
@@ -86,7 +86,7 @@ struct Snapshot {
 
 /// A finished run.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RunFolder {
+pub(crate) struct RunFolder {
     path: PathBuf,
     summary: Summary,
     snapshots: Vec<Snapshot>,
@@ -94,7 +94,7 @@ pub struct RunFolder {
 
 impl RunFolder {
     /// The scene of the run in `folder`.
-    pub fn scene_path(folder: &Path) -> PathBuf {
+    pub(crate) fn scene_path(folder: &Path) -> PathBuf {
         folder.join(SCENE)
     }
 
@@ -102,7 +102,7 @@ impl RunFolder {
     ///
     /// # Errors
     /// [`RunFolderError`].
-    pub fn read(folder: &Path) -> Result<Self, RunFolderError> {
+    pub(crate) fn read(folder: &Path) -> Result<Self, RunFolderError> {
         let path = folder.join(SUMMARY);
         let text = read(&path)?;
         let summary: Summary = serde_json::from_str(&text).map_err(|error| RunFolderError::Damaged {
@@ -124,7 +124,7 @@ impl RunFolder {
     ///
     /// # Errors
     /// [`RunFolderError::OtherScene`].
-    pub fn check_scene(&self, resolved: &Resolved) -> Result<(), RunFolderError> {
+    pub(crate) fn check_scene(&self, resolved: &Resolved) -> Result<(), RunFolderError> {
         let found = resolved.scene_hash();
         if found == self.summary.scene_hash {
             return Ok(());
@@ -134,18 +134,18 @@ impl RunFolder {
     }
 
     /// The title of the run.
-    pub fn title(&self) -> &str {
+    pub(crate) fn title(&self) -> &str {
         &self.summary.title
     }
 
     /// Says that the run was made by another version of the program, if it was.
-    pub fn version_warning(&self) -> Option<String> {
+    pub(crate) fn version_warning(&self) -> Option<String> {
         let (own, its) = (env!("CARGO_PKG_VERSION"), &self.summary.program_version);
         (its != own).then(|| format!("the run was made by gearwear {its}; its scene is run again by {own}"))
     }
 
     /// Wear depth of each point of a flank, slice after slice, at the snapshot after `revolutions`, if there is one.
-    pub fn wear_um(&self, gear: Gear, revolutions: f64) -> Option<&[f64]> {
+    pub(crate) fn wear_um(&self, gear: Gear, revolutions: f64) -> Option<&[f64]> {
         let same = |snapshot: &&Snapshot| (snapshot.revolutions / revolutions - 1.0).abs() <= SAME_TIME;
         self.snapshots.iter().find(same).map(|snapshot| snapshot.wear_um[gear].as_slice())
     }

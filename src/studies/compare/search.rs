@@ -41,7 +41,7 @@ const MOST_EXACT_RUNS: usize = 6;
 
 /// A parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unknown {
+pub(super) enum Unknown {
     /// ln κ.
     Coefficient,
     /// ln C.
@@ -51,7 +51,7 @@ pub enum Unknown {
 }
 
 /// Measured heights, and what is compared with them.
-pub struct Comparison<'a> {
+pub(super) struct Comparison<'a> {
     question: &'a Question,
     pair: &'a GearPair,
     removal: FormRemoval,
@@ -62,7 +62,7 @@ pub struct Comparison<'a> {
 }
 
 /// What the search found.
-pub struct FittedCoefficients {
+pub(super) struct FittedCoefficients {
     /// Which parameters.
     pub unknowns: Vec<Unknown>,
     /// Their values.
@@ -91,20 +91,20 @@ struct Settled {
 
 impl FittedCoefficients {
     /// The value of a parameter and half the width of its interval.
-    pub fn of(&self, unknown: Unknown) -> Option<(f64, Option<f64>)> {
+    pub(super) fn of(&self, unknown: Unknown) -> Option<(f64, Option<f64>)> {
         let index = self.unknowns.iter().position(|&own| own == unknown)?;
         Some((self.parameters[index], self.uncertainty.as_ref().map(|u| u.half_widths[index])))
     }
 
     /// The shift, mm.
-    pub fn shift_mm(&self) -> f64 {
+    pub(super) fn shift_mm(&self) -> f64 {
         self.of(Unknown::Shift).map_or(0.0, |(shift, _)| shift)
     }
 }
 
 impl<'a> Comparison<'a> {
     /// Of what `question` asks, with wear profiles at points of these arc lengths.
-    pub fn new(question: &'a Question, pair: &'a GearPair, grid_arc_mm: Vec<f64>) -> Self {
+    pub(super) fn new(question: &'a Question, pair: &'a GearPair, grid_arc_mm: Vec<f64>) -> Self {
         let removal = FormRemoval::new(question.form, &question.profile.arc_mm);
         let mut measured_um = question.profile.height_um.clone();
         removal.remove(&mut measured_um);
@@ -112,7 +112,7 @@ impl<'a> Comparison<'a> {
     }
 
     /// Wear depth at the measured points, shifted.
-    pub fn wear_at_points_um(&self, wear_um: &[f64], shift_mm: f64) -> Vec<f64> {
+    pub(super) fn wear_at_points_um(&self, wear_um: &[f64], shift_mm: f64) -> Vec<f64> {
         let grid = &self.grid_arc_mm;
         let at = |&arc: &f64| {
             let after = grid.partition_point(|&s| s <= arc + shift_mm).clamp(1, grid.len() - 1);
@@ -123,7 +123,7 @@ impl<'a> Comparison<'a> {
     }
 
     /// P (z₀ − h): the simulated profile, form removed.
-    pub fn simulated_um(&self, wear_um: &[f64], shift_mm: f64) -> Vec<f64> {
+    pub(super) fn simulated_um(&self, wear_um: &[f64], shift_mm: f64) -> Vec<f64> {
         let mut heights = self.question.profile.unworn_um(self.pair, shift_mm);
         let wear = self.wear_at_points_um(wear_um, shift_mm);
         heights.iter_mut().zip(&wear).for_each(|(height, wear)| *height -= wear);
@@ -132,7 +132,7 @@ impl<'a> Comparison<'a> {
     }
 
     /// r.
-    pub fn residuals_um(&self, wear_um: &[f64], shift_mm: f64) -> Vec<f64> {
+    pub(super) fn residuals_um(&self, wear_um: &[f64], shift_mm: f64) -> Vec<f64> {
         let simulated = self.simulated_um(wear_um, shift_mm);
         self.measured_um.iter().zip(simulated).map(|(measured, simulated)| measured - simulated).collect()
     }
@@ -164,7 +164,7 @@ impl<'a> Comparison<'a> {
     }
 
     /// The parameters that fit best, beginning with the run's own wear.
-    pub fn search(
+    pub(super) fn search(
         &self,
         as_run_um: &[f64],
         simulations: &mut Simulations<'_>,

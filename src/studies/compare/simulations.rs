@@ -31,7 +31,7 @@ const SEVERE_STEP: f64 = LN_2;
 
 /// How the scene is changed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Change {
+pub(super) struct Change {
     /// On the wear coefficient.
     pub coefficient_factor: f64,
     /// The factor of severe wear; `None`: the scene's.
@@ -40,11 +40,11 @@ pub struct Change {
 
 impl Change {
     /// The scene as it is.
-    pub const NOTHING: Self = Self { coefficient_factor: 1.0, severe_factor: None };
+    pub(super) const NOTHING: Self = Self { coefficient_factor: 1.0, severe_factor: None };
 }
 
 /// Runs of one scene until the profile was measured.
-pub struct Simulations<'a> {
+pub(super) struct Simulations<'a> {
     given: &'a LoadedScene,
     gear: Gear,
     width_mm: Option<f64>,
@@ -61,7 +61,7 @@ pub struct Simulations<'a> {
 
 impl<'a> Simulations<'a> {
     /// Runs of `given` for `revolutions` of the pinion, of which the wear of `gear` at `width_mm` is wanted.
-    pub fn new(
+    pub(super) fn new(
         given: &'a LoadedScene,
         gear: Gear,
         width_mm: Option<f64>,
@@ -83,19 +83,19 @@ impl<'a> Simulations<'a> {
     }
 
     /// The factor of severe wear of the scene; 1 where there is none.
-    pub fn severe_factor(&self) -> f64 {
+    pub(super) fn severe_factor(&self) -> f64 {
         self.until_measured.wear.severe.map_or(1.0, |severe| severe.factor)
     }
 
     /// Wear of one row of flank points, by a run with just this change, µm.
-    pub fn exactly(&mut self, change: Change) -> Result<Vec<f64>, CompareError> {
+    pub(super) fn exactly(&mut self, change: Change) -> Result<Vec<f64>, CompareError> {
         let scene = changed(&self.until_measured, change);
         let wear = self.run(scene)?.pop();
         Ok(wear.map(|(_, wear)| wear).unwrap_or_default())
     }
 
     /// The same, interpolated between profiles that are computed where they are first needed.
-    pub fn about(&mut self, change: Change) -> Result<Vec<f64>, CompareError> {
+    pub(super) fn about(&mut self, change: Change) -> Result<Vec<f64>, CompareError> {
         let factor = change.coefficient_factor;
         let Some(severe) = change.severe_factor else { return Ok(self.course(0, factor)?.at(factor)) };
         let place = (severe / self.severe_factor()).ln() / SEVERE_STEP;
@@ -193,7 +193,7 @@ impl<'a> Simulations<'a> {
 
 /// The row of `points` at `width_mm` out of rows in slices at `slices_mm`: between their middles by straight lines, outside them
 /// that of the outermost.
-pub fn over_width(wear_um: &[f64], slices_mm: &[f64], points: usize, width_mm: Option<f64>) -> Vec<f64> {
+pub(super) fn over_width(wear_um: &[f64], slices_mm: &[f64], points: usize, width_mm: Option<f64>) -> Vec<f64> {
     let rows: Vec<&[f64]> = wear_um.chunks_exact(points.max(1)).collect();
     let (Some(width), true) = (width_mm, rows.len() > 1) else {
         return rows.first().map(|row| row.to_vec()).unwrap_or_default();

@@ -22,7 +22,7 @@ const NOT_DESCRIBED: f64 = 2.0;
 
 /// Why there is no comparison.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum CompareError {
+pub(crate) enum CompareError {
     /// A run of the scene failed.
     #[error(transparent)]
     Run(#[from] RunError),
@@ -35,7 +35,7 @@ pub enum CompareError {
 ///
 /// # Errors
 /// [`CompareError`].
-pub fn run(
+pub(crate) fn run(
     question: &Question,
     folder: &RunFolder,
     given: &LoadedScene,

@@ -5,14 +5,14 @@
 
 /// Wear profiles at increasing factors on the wear coefficient, the first of them 0.
 #[derive(Debug, Clone, PartialEq)]
-pub struct WearByCoefficient {
+pub(super) struct WearByCoefficient {
     factors: Vec<f64>,
     wear_um: Vec<Vec<f64>>,
 }
 
 impl WearByCoefficient {
     /// From profiles at increasing factors above 0, two at least.
-    pub fn new(profiles: impl IntoIterator<Item = (f64, Vec<f64>)>) -> Self {
+    pub(super) fn new(profiles: impl IntoIterator<Item = (f64, Vec<f64>)>) -> Self {
         let (mut factors, mut wear_um): (Vec<f64>, Vec<Vec<f64>>) = profiles.into_iter().unzip();
         let points = wear_um.first().map_or(0, Vec::len);
         factors.insert(0, 0.0);
@@ -21,12 +21,12 @@ impl WearByCoefficient {
     }
 
     /// The greatest factor it knows.
-    pub fn reach(&self) -> f64 {
+    pub(super) fn reach(&self) -> f64 {
         self.factors.last().copied().unwrap_or_default()
     }
 
     /// The profile at a factor, at most its reach.
-    pub fn at(&self, factor: f64) -> Vec<f64> {
+    pub(super) fn at(&self, factor: f64) -> Vec<f64> {
         let last = self.factors.len() - 1;
         let after = self.factors.partition_point(|&f| f <= factor).clamp(1, last);
         let before = after - 1;

@@ -7,15 +7,15 @@ use crate::scene::key::{KeyError, NumberKey};
 use crate::studies::sweep::record::{SweepAxis, plain};
 
 /// Values of one key.
-pub const MOST_VALUES: usize = 100_000;
+pub(crate) const MOST_VALUES: usize = 100_000;
 /// Combinations of a sweep.
-pub const MOST_COMBINATIONS: usize = 1_000_000;
+pub(crate) const MOST_COMBINATIONS: usize = 1_000_000;
 
 const FORM: &str = "KEY=FROM:TO:COUNT, such as pair.face_width_mm=10:30:21";
 
 /// What is wrong with what is to be varied.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum AxisError {
+pub(crate) enum AxisError {
     /// Not of the form `KEY=FROM:TO:COUNT`.
     #[error("found {given:?}; allowed: {FORM}")]
     Form {
@@ -117,7 +117,7 @@ pub enum AxisError {
 
 impl AxisError {
     /// What to do about it, where the message does not say it.
-    pub fn help(&self) -> Option<String> {
+    pub(crate) fn help(&self) -> Option<String> {
         match self {
             Self::Key(KeyError::Unknown { nearest: Some(nearest), .. }) => Some(format!("did you mean {nearest}?")),
             Self::Key(_) => Some("gearwear schema prints all keys with their ranges".to_owned()),
@@ -132,7 +132,7 @@ impl AxisError {
 ///
 /// # Errors
 /// [`AxisError`]
-pub fn parse(given: &str) -> Result<SweepAxis, AxisError> {
+pub(crate) fn parse(given: &str) -> Result<SweepAxis, AxisError> {
     let form = || AxisError::Form { given: given.to_owned() };
     let (key, range) = given.split_once('=').ok_or_else(form)?;
     let key = key.trim();
@@ -170,7 +170,7 @@ pub fn parse(given: &str) -> Result<SweepAxis, AxisError> {
 ///
 /// # Errors
 /// The first that is wrong.
-pub fn parse_all<'a>(given: impl IntoIterator<Item = &'a str>) -> Result<Vec<SweepAxis>, AxisError> {
+pub(crate) fn parse_all<'a>(given: impl IntoIterator<Item = &'a str>) -> Result<Vec<SweepAxis>, AxisError> {
     let mut axes: Vec<SweepAxis> = Vec::new();
     for given in given {
         let axis = parse(given)?;
@@ -193,7 +193,7 @@ pub fn parse_all<'a>(given: impl IntoIterator<Item = &'a str>) -> Result<Vec<Swe
 }
 
 /// Values of `axis` that the key does not take, in words; `None` where it takes all.
-pub fn partly_not_allowed(axis: &SweepAxis) -> Option<String> {
+pub(crate) fn partly_not_allowed(axis: &SweepAxis) -> Option<String> {
     let takes = NumberKey::find(&axis.key).ok()?;
     let refused = axis.values().into_iter().filter(|&value| !takes.holds(value)).count();
     let (key, allowed, all) = (&axis.key, takes.allowed(), axis.count);

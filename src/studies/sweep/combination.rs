@@ -17,7 +17,7 @@ use crate::studies::sweep::verification::{Chosen, RowVerification};
 
 /// A sweep that can be run.
 #[derive(Debug, Clone)]
-pub struct Sweep {
+pub(crate) struct Sweep {
     /// Which sweep.
     pub identity: SweepIdentity,
     /// The scene without what a sweep leaves out.
@@ -34,7 +34,7 @@ impl Sweep {
     ///
     /// # Errors
     /// Text that is not TOML.
-    pub fn new(given: &LoadedScene, axes: Vec<SweepAxis>, error_estimate: bool) -> Result<Self, Vec<Problem>> {
+    pub(crate) fn new(given: &LoadedScene, axes: Vec<SweepAxis>, error_estimate: bool) -> Result<Self, Vec<Problem>> {
         let mut draft = Draft::parse(&given.given.text)?;
         let resolved = &given.resolved;
         let identity = SweepIdentity {
@@ -58,7 +58,7 @@ impl Sweep {
     ///
     /// # Errors
     /// Everything that is wrong with it.
-    pub fn scene(&self, index: usize) -> Result<Resolved, Vec<Problem>> {
+    pub(crate) fn scene(&self, index: usize) -> Result<Resolved, Vec<Problem>> {
         let mut draft = self.draft.clone();
         for (axis, value) in self.identity.axes.iter().zip(self.identity.values(index)) {
             // Whole numbers were checked to be whole; a cast keeps any that are of a size that a scene allows.
@@ -73,7 +73,7 @@ impl Sweep {
     }
 
     /// Where not a single combination makes a scene, what is wrong with the first.
-    pub fn unbuildable(&self) -> Option<String> {
+    pub(crate) fn unbuildable(&self) -> Option<String> {
         let problems = |index| self.scene(index).err();
         let first = problems(0)?;
         let all = (1..self.identity.combinations()).all(|index| problems(index).is_some());
@@ -83,7 +83,7 @@ impl Sweep {
     /// Runs combination `index`; `None` where it was interrupted.
     ///
     /// Whatever goes wrong with it is its row's error, a defect of the program included.
-    pub fn row(&self, index: usize, observer: &dyn Observer) -> Option<SweepRow> {
+    pub(crate) fn row(&self, index: usize, observer: &dyn Observer) -> Option<SweepRow> {
         let start = Instant::now();
         let run = guarded(|| self.run(index, observer));
         let run = run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
@@ -130,7 +130,7 @@ impl Sweep {
     ///
     /// Its run is done again and comes to the same bits: which rows are the best is known when all are there, and what a verification
     /// starts from would be much to keep of each until then.
-    pub fn verified(&self, row: &SweepRow, chosen: Chosen, observer: &dyn Observer) -> Option<SweepRow> {
+    pub(crate) fn verified(&self, row: &SweepRow, chosen: Chosen, observer: &dyn Observer) -> Option<SweepRow> {
         let start = Instant::now();
         let total = guarded(|| self.total_error(row.index, observer));
         let total = total.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));

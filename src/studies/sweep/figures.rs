@@ -7,7 +7,7 @@ use crate::results::run::Summary;
 
 /// A figure of a run.
 #[derive(Debug, Clone, Copy)]
-pub struct SweepFigure {
+pub(crate) struct SweepFigure {
     /// Name of its column, with its unit.
     pub name: &'static str,
     /// What it is called in plots, without its unit.
@@ -45,7 +45,7 @@ const fn wants_less(
 }
 
 /// The greatest wear of the pair: which gear it is of may change from one combination to the next.
-pub const PEAK_WEAR: SweepFigure = wants_less(
+pub(crate) const PEAK_WEAR: SweepFigure = wants_less(
     "peak_wear_um",
     "peak wear of either gear",
     "µm",
@@ -54,7 +54,7 @@ pub const PEAK_WEAR: SweepFigure = wants_less(
 );
 
 /// All figures, in the order of the columns. Add at the end.
-pub const FIGURES: &[SweepFigure] = &[
+pub(crate) const FIGURES: &[SweepFigure] = &[
     describes("transverse_contact_ratio", "transverse contact ratio", "", "ε_α", |s| {
         Some(s.geometry.transverse_contact_ratio)
     }),
@@ -263,7 +263,7 @@ pub const FIGURES: &[SweepFigure] = &[
 
 impl SweepFigure {
     /// Title and unit, for an axis: `line load, N/mm`.
-    pub fn with_unit(&self) -> String {
+    pub(crate) fn with_unit(&self) -> String {
         if self.unit.is_empty() { self.title.to_owned() } else { format!("{}, {}", self.title, self.unit) }
     }
 }

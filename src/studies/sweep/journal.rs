@@ -17,7 +17,7 @@ use crate::studies::sweep::record::{Shard, SweepIdentity, SweepRow};
 use crate::whole_file;
 
 /// Name of the journal in the folder of a sweep.
-pub const FILE_NAME: &str = "rows.jsonl";
+pub(crate) const FILE_NAME: &str = "rows.jsonl";
 
 /// The first line.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -28,7 +28,7 @@ struct Head {
 
 /// What a journal holds.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Contents {
+pub(crate) struct Contents {
     /// Whose rows.
     pub identity: SweepIdentity,
     /// Which part of the sweep; `None`: all of it.
@@ -41,7 +41,7 @@ pub struct Contents {
 
 /// A journal that rows are appended to.
 #[derive(Debug)]
-pub struct Journal {
+pub(crate) struct Journal {
     path: PathBuf,
     file: File,
     head: Head,
@@ -51,7 +51,7 @@ pub struct Journal {
 
 /// What keeps rows from being read or kept.
 #[derive(Debug, thiserror::Error)]
-pub enum JournalError {
+pub(crate) enum JournalError {
     /// There is none.
     #[error("{} holds no sweep: there is no {FILE_NAME} in it", folder.display())]
     NoSweep {
@@ -122,7 +122,7 @@ pub enum JournalError {
 ///
 /// # Errors
 /// [`JournalError`] where there is none, or one that no sweep wrote.
-pub fn read(folder: &Path) -> Result<Contents, JournalError> {
+pub(crate) fn read(folder: &Path) -> Result<Contents, JournalError> {
     let path = folder.join(FILE_NAME);
     let text = match fs::read_to_string(&path) {
         Ok(text) => text,
@@ -159,7 +159,7 @@ impl Journal {
     ///
     /// # Errors
     /// [`JournalError`] where it cannot be written, is written by another program now, or is another sweep's.
-    pub fn open(folder: &Path, identity: &SweepIdentity, shard: Option<Shard>) -> Result<Self, JournalError> {
+    pub(crate) fn open(folder: &Path, identity: &SweepIdentity, shard: Option<Shard>) -> Result<Self, JournalError> {
         let path = folder.join(FILE_NAME);
         let at = |source| JournalError::Open { path: path.clone(), source };
         fs::create_dir_all(folder).map_err(at)?;
@@ -196,7 +196,7 @@ impl Journal {
     ///
     /// # Errors
     /// A full disk, or a folder that was taken away meanwhile: its rows are then written anew.
-    pub fn append(&mut self, row: SweepRow) -> Result<(), JournalError> {
+    pub(crate) fn append(&mut self, row: SweepRow) -> Result<(), JournalError> {
         let kept = self.rows.len();
         let failed = |path: &Path, source| JournalError::Write { path: path.to_owned(), kept, source };
         let line = line_of(&row).map_err(|source| failed(&self.path, source))?;
@@ -233,7 +233,7 @@ impl Journal {
 }
 
 /// Writes a journal whole, its rows in the order of the combinations, into `folder`, which is made if need be.
-pub fn write(folder: &Path, contents: &Contents) -> io::Result<()> {
+pub(crate) fn write(folder: &Path, contents: &Contents) -> io::Result<()> {
     fs::create_dir_all(folder)?;
     whole_file::write(&folder.join(FILE_NAME), |out| {
         out.write_all(&line_of(&Head { identity: contents.identity.clone(), shard: contents.shard })?)?;
@@ -261,7 +261,7 @@ fn differences(found: &Contents, head: &Head) -> Vec<String> {
 
 impl Contents {
     /// Rows that were not read from one file.
-    pub fn new(identity: SweepIdentity, shard: Option<Shard>, rows: BTreeMap<usize, SweepRow>) -> Self {
+    pub(crate) fn new(identity: SweepIdentity, shard: Option<Shard>, rows: BTreeMap<usize, SweepRow>) -> Self {
         Self { identity, shard, rows, whole_bytes: 0 }
     }
 }

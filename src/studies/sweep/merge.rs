@@ -11,7 +11,7 @@ const MOST_NAMED: usize = 5;
 
 /// Why parts do not make a sweep.
 #[derive(Debug, thiserror::Error)]
-pub enum MergeError {
+pub(crate) enum MergeError {
     /// A folder without the rows of a sweep.
     #[error(transparent)]
     Journal(#[from] JournalError),
@@ -53,7 +53,7 @@ pub enum MergeError {
 ///
 /// # Errors
 /// [`MergeError`]
-pub fn merge(folders: &[PathBuf]) -> Result<Contents, MergeError> {
+pub(crate) fn merge(folders: &[PathBuf]) -> Result<Contents, MergeError> {
     let parts: Vec<(&Path, Contents)> = folders
         .iter()
         .map(|folder| Ok((folder.as_path(), journal::read(folder)?)))

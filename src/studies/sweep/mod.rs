@@ -13,12 +13,12 @@
 //! | [`study`] | runs what is missing on all threads |
 //! | [`mod@merge`] | one sweep from its parts |
 
-pub mod axis;
-pub mod combination;
-pub mod figures;
-pub mod journal;
-pub mod merge;
-pub mod record;
-pub mod report;
-pub mod study;
-pub mod verification;
+pub(crate) mod axis;
+pub(crate) mod combination;
+pub(crate) mod figures;
+pub(crate) mod journal;
+pub(crate) mod merge;
+pub(crate) mod record;
+pub(crate) mod report;
+pub(crate) mod study;
+pub(crate) mod verification;

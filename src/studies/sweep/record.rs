@@ -10,7 +10,7 @@ const DIGITS: i32 = 12;
 
 /// A key of the scene with the values it takes, evenly spaced, both ends included.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SweepAxis {
+pub(crate) struct SweepAxis {
     /// Path of the key, such as `pair.face_width_mm`.
     pub key: String,
     /// First value.
@@ -31,7 +31,7 @@ impl SweepAxis {
     /// ```
     ///
     /// Values between the ends are rounded to twelve digits of the larger end, so that they read as one would write them.
-    pub fn value(&self, index: usize) -> f64 {
+    pub(crate) fn value(&self, index: usize) -> f64 {
         let last = self.count.saturating_sub(1);
         if index == 0 {
             self.from
@@ -47,20 +47,20 @@ impl SweepAxis {
     }
 
     /// All values in order.
-    pub fn values(&self) -> Vec<f64> {
+    pub(crate) fn values(&self) -> Vec<f64> {
         (0..self.count).map(|index| self.value(index)).collect()
     }
 }
 
 /// A number as one would write it: `10`, `0.5`, `1e-17`.
-pub fn plain(value: f64) -> String {
+pub(crate) fn plain(value: f64) -> String {
     let text = format!("{value:?}");
     text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
 }
 
 /// A part of a sweep that is run by itself: every `of`-th combination, beginning with `number`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Shard {
+pub(crate) struct Shard {
     /// Which part, from 1.
     pub number: usize,
     /// How many parts there are.
@@ -69,7 +69,7 @@ pub struct Shard {
 
 /// What makes a sweep this sweep: rows of two sweeps may stand in one table where all of this is the same.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SweepIdentity {
+pub(crate) struct SweepIdentity {
     /// The scene's title.
     pub title: String,
     /// Version of the program.
@@ -92,12 +92,12 @@ pub struct SweepIdentity {
 
 impl SweepIdentity {
     /// Number of combinations.
-    pub fn combinations(&self) -> usize {
+    pub(crate) fn combinations(&self) -> usize {
         self.axes.iter().map(|axis| axis.count).product()
     }
 
     /// The varied values of combination `index`, in the order of the axes.
-    pub fn values(&self, index: usize) -> Vec<f64> {
+    pub(crate) fn values(&self, index: usize) -> Vec<f64> {
         let mut rest = index;
         let mut values: Vec<f64> = self
             .axes
@@ -114,7 +114,7 @@ impl SweepIdentity {
     }
 
     /// The combination in words: `pair.helix_angle_deg = 15, pair.face_width_mm = 20`.
-    pub fn in_words(&self, index: usize) -> String {
+    pub(crate) fn in_words(&self, index: usize) -> String {
         let values = self.values(index);
         let said: Vec<String> =
             self.axes.iter().zip(values).map(|(axis, value)| format!("{} = {}", axis.key, plain(value))).collect();
@@ -122,7 +122,7 @@ impl SweepIdentity {
     }
 
     /// What is not the same in `other`, in words; empty where both are one sweep.
-    pub fn differences(&self, other: &Self) -> Vec<String> {
+    pub(crate) fn differences(&self, other: &Self) -> Vec<String> {
         let axes = |of: &Self| {
             let said: Vec<String> =
                 of.axes.iter().map(|a| format!("{}={}:{}:{}", a.key, plain(a.from), plain(a.to), a.count)).collect();
@@ -152,7 +152,7 @@ impl SweepIdentity {
 
 /// What one combination came to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SweepRow {
+pub(crate) struct SweepRow {
     /// Which combination, from 0.
     pub index: usize,
     /// The varied values, in the order of the axes.
@@ -174,18 +174,18 @@ pub struct SweepRow {
 
 impl SweepRow {
     /// Its figure.
-    pub fn figure(&self, figure: &SweepFigure) -> Option<f64> {
+    pub(crate) fn figure(&self, figure: &SweepFigure) -> Option<f64> {
         let at = FIGURES.iter().position(|known| known.name == figure.name)?;
         self.figures.get(at).copied().flatten()
     }
 
     /// `ok` or `failed`.
-    pub fn status(&self) -> &'static str {
+    pub(crate) fn status(&self) -> &'static str {
         if self.error.is_none() { "ok" } else { "failed" }
     }
 
     /// Whether everything but the wall times is the same, the verification where both have one.
-    pub fn same_result(&self, other: &Self) -> bool {
+    pub(crate) fn same_result(&self, other: &Self) -> bool {
         let timeless = |row: &Self| Self { simulation_s: None, wall_s: 0.0, verification: None, ..row.clone() };
         let verifications = self.verification.as_ref().zip(other.verification.as_ref());
         timeless(self) == timeless(other) && verifications.is_none_or(|(mine, theirs)| mine.total == theirs.total)
@@ -194,7 +194,7 @@ impl SweepRow {
 
 /// A finished sweep, or a finished part of one.
 #[derive(Debug, Clone, PartialEq)]
-pub struct SweepRecord {
+pub(crate) struct SweepRecord {
     /// Which sweep.
     pub identity: SweepIdentity,
     /// Which part of it; `None`: all of it.
@@ -211,7 +211,7 @@ pub struct SweepRecord {
 
 /// `sweep.json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct SweepSummary<'a> {
+pub(crate) struct SweepSummary<'a> {
     /// Which sweep.
     #[serde(flatten)]
     pub identity: &'a SweepIdentity,
@@ -238,7 +238,7 @@ pub struct SweepSummary<'a> {
 
 /// The best combination by one figure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct BestCombination {
+pub(crate) struct BestCombination {
     /// Name of the figure.
     pub figure: &'static str,
     /// Its value.
@@ -251,24 +251,24 @@ pub struct BestCombination {
 
 impl SweepRecord {
     /// The row with the least value of `figure`, the first of equals.
-    pub fn least(&self, figure: &SweepFigure) -> Option<(&SweepRow, f64)> {
+    pub(crate) fn least(&self, figure: &SweepFigure) -> Option<(&SweepRow, f64)> {
         let valued = self.rows.iter().filter_map(|row| Some((row, row.figure(figure)?)));
         valued.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// Rows with an error.
-    pub fn failed(&self) -> usize {
+    pub(crate) fn failed(&self) -> usize {
         self.rows.iter().filter(|row| row.error.is_some()).count()
     }
 
     /// What finite elements say; `None` where they are not asked.
-    pub fn verification(&self) -> Option<SweepVerification<'_>> {
+    pub(crate) fn verification(&self) -> Option<SweepVerification<'_>> {
         let asked = self.identity.verify && self.shard.is_none();
         asked.then(|| SweepVerification::of(&self.identity, &self.rows))
     }
 
     /// What `sweep.json` holds.
-    pub fn summary(&self) -> SweepSummary<'_> {
+    pub(crate) fn summary(&self) -> SweepSummary<'_> {
         let failed = self.failed();
         SweepSummary {
             identity: &self.identity,

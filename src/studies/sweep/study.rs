@@ -16,7 +16,7 @@ use crate::studies::sweep::verification::{Chosen, chosen};
 
 /// How a sweep ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ended {
+pub(crate) enum Ended {
     /// Every combination has its row.
     Completed,
     /// The user interrupted it.
@@ -24,7 +24,7 @@ pub enum Ended {
 }
 
 /// The combinations of a part of a sweep, in order: every `of`-th, beginning with `number`; `None`: all.
-pub fn part(combinations: usize, shard: Option<Shard>) -> impl Iterator<Item = usize> {
+pub(crate) fn part(combinations: usize, shard: Option<Shard>) -> impl Iterator<Item = usize> {
     let (first, step) = shard.map_or((0, 1), |shard| (shard.number.saturating_sub(1), shard.of.max(1)));
     (first..combinations).step_by(step)
 }
@@ -73,7 +73,7 @@ impl<F: FnMut(&SweepRow)> Kept<'_, F> {
 ///
 /// # Errors
 /// A row that cannot be kept; the rows before it are.
-pub fn run(
+pub(crate) fn run(
     sweep: &Sweep,
     shard: Option<Shard>,
     journal: &mut Journal,

@@ -24,12 +24,12 @@ use super::record::{SweepIdentity, SweepRow};
 use crate::results::error::TotalError;
 
 /// The figure by which rows are best: a sweep states no goal of its own, and the program is about wear.
-pub const OBJECTIVE: SweepFigure = PEAK_WEAR;
+pub(crate) const OBJECTIVE: SweepFigure = PEAK_WEAR;
 /// Best rows that are verified: the least is one that somebody will use, and two more tell whether it is least by more than its
 /// error.
-pub const MOST_BEST: usize = 3;
+pub(crate) const MOST_BEST: usize = 3;
 /// Corners that are verified: all of four keys, which take about half a minute on one thread; each key more would double it.
-pub const MOST_CORNERS: usize = 16;
+pub(crate) const MOST_CORNERS: usize = 16;
 
 /// Of each varied key, in which corners it is at its last value; four digits, as there are 16 corners. Those of three digits come
 /// before the others: with up to eight keys any three have all eight triples of their ends.
@@ -37,7 +37,7 @@ const MASKS: [usize; 15] = [1, 2, 4, 8, 7, 11, 13, 14, 15, 3, 5, 6, 9, 10, 12];
 
 /// Why a row is verified.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct Chosen {
+pub(crate) struct Chosen {
     /// It is one of the best.
     pub best: bool,
     /// It is a corner.
@@ -46,7 +46,7 @@ pub struct Chosen {
 
 impl Chosen {
     /// In words.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match (self.best, self.corner) {
             (true, true) => "best and corner",
             (true, false) => "best",
@@ -57,7 +57,7 @@ impl Chosen {
 
 /// What finite elements say of a row.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct RowVerification {
+pub(crate) struct RowVerification {
     /// Why the row was verified.
     pub chosen: Chosen,
     /// How far it is from them, or why that is not known.
@@ -68,14 +68,14 @@ pub struct RowVerification {
 
 impl RowVerification {
     /// Whether there is an answer.
-    pub fn has_answer(&self) -> bool {
+    pub(crate) fn has_answer(&self) -> bool {
         CLAIMS.iter().any(|claim| (claim.of)(&self.total).is_some())
     }
 }
 
 /// One of the relative errors that a verification states.
 #[derive(Debug, Clone, Copy)]
-pub struct Claim {
+pub(crate) struct Claim {
     /// Its path in the summary of a run, which is the name of its column.
     pub name: &'static str,
     /// Of what it is.
@@ -89,7 +89,7 @@ const fn claim(name: &'static str, title: &'static str, of: fn(&TotalError) -> O
 }
 
 /// All claims, in the order of the columns.
-pub const CLAIMS: [Claim; 8] = [
+pub(crate) const CLAIMS: [Claim; 8] = [
     claim("error.total.peak_wear.pinion", "peak wear of the pinion", |total| total.peak_wear.pinion),
     claim("error.total.peak_wear.wheel", "peak wear of the wheel", |total| total.peak_wear.wheel),
     claim("error.total.tip_edge_wear.pinion", "wear of the pinion’s tip edge", |total| total.tip_edge_wear.pinion),
@@ -105,7 +105,7 @@ pub const CLAIMS: [Claim; 8] = [
 ];
 
 /// The corners of the box that is swept, at most [`MOST_CORNERS`], by index.
-pub fn corners(identity: &SweepIdentity) -> BTreeSet<usize> {
+pub(crate) fn corners(identity: &SweepIdentity) -> BTreeSet<usize> {
     (0..corner_count(identity))
         .map(|corner| {
             let mut masks = MASKS.iter().cycle();
@@ -127,7 +127,7 @@ fn all_corners(identity: &SweepIdentity) -> usize {
 }
 
 /// What will be verified and why, before any row is known.
-pub fn intention(identity: &SweepIdentity) -> String {
+pub(crate) fn intention(identity: &SweepIdentity) -> String {
     let (all, taken) = (all_corners(identity), corner_count(identity));
     let best = MOST_BEST.min(identity.combinations());
     let corners = if taken < all { format!("{taken} of the {all} corners") } else { format!("the corners ({taken})") };
@@ -137,7 +137,10 @@ pub fn intention(identity: &SweepIdentity) -> String {
 }
 
 /// Which of all `rows` are to be verified: the best and the corners, of those that have figures.
-pub fn chosen<'a>(identity: &SweepIdentity, rows: impl Iterator<Item = &'a SweepRow>) -> BTreeMap<usize, Chosen> {
+pub(crate) fn chosen<'a>(
+    identity: &SweepIdentity,
+    rows: impl Iterator<Item = &'a SweepRow>,
+) -> BTreeMap<usize, Chosen> {
     let corners = corners(identity);
     let mut chosen: BTreeMap<usize, Chosen> = BTreeMap::new();
     let mut ranked: Vec<(f64, usize)> = Vec::new();
@@ -156,7 +159,7 @@ pub fn chosen<'a>(identity: &SweepIdentity, rows: impl Iterator<Item = &'a Sweep
 
 /// What the verification of a sweep comes to, over its rows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct SweepVerification<'a> {
+pub(crate) struct SweepVerification<'a> {
     /// Which rows were chosen, and why.
     pub intention: String,
     /// Rows that were chosen: fewer than intended where the best are corners or a corner has no figures.
@@ -177,7 +180,7 @@ pub struct SweepVerification<'a> {
 
 /// A row with what finite elements say of it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct VerifiedRow<'a> {
+pub(crate) struct VerifiedRow<'a> {
     /// Which combination.
     pub index: usize,
     /// The varied values, in the order of the axes.
@@ -191,7 +194,7 @@ pub struct VerifiedRow<'a> {
 
 /// The greatest of one claim.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct WorstClaim {
+pub(crate) struct WorstClaim {
     /// Name of the claim.
     pub claim: &'static str,
     /// Of what it is.
@@ -207,7 +210,7 @@ pub struct WorstClaim {
 
 impl<'a> SweepVerification<'a> {
     /// Of the whole sweep with these rows.
-    pub fn of(identity: &SweepIdentity, rows: &'a [SweepRow]) -> Self {
+    pub(crate) fn of(identity: &SweepIdentity, rows: &'a [SweepRow]) -> Self {
         let chosen = chosen(identity, rows.iter());
         let open = rows.iter().filter(|row| chosen.contains_key(&row.index) && row.verification.is_none()).count();
         let rows: Vec<VerifiedRow<'a>> = rows
@@ -238,13 +241,13 @@ impl<'a> SweepVerification<'a> {
     }
 
     /// The worst claim about the greatest wear of a gear.
-    pub fn worst_of_peak_wear(&self) -> Option<f64> {
+    pub(crate) fn worst_of_peak_wear(&self) -> Option<f64> {
         let peaks = self.rows.iter().map(|row| row.verification.total.peak_wear);
         peaks.flat_map(|peak| [peak.pinion, peak.wheel]).flatten().reduce(f64::max)
     }
 
     /// Why the first row without an answer has none.
-    pub fn first_reason(&self) -> Option<&'a str> {
+    pub(crate) fn first_reason(&self) -> Option<&'a str> {
         let unanswered = self.rows.iter().find(|row| !row.verification.has_answer());
         unanswered.map(|row| row.verification.total.how.as_str())
     }

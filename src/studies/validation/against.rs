@@ -18,7 +18,7 @@ const RELATIVE: f64 = 0.01;
 const NOTHING: f64 = 1e-6;
 
 /// What changed from `old` to `new`. A case that only one of them has is named, not judged: a suite may be run in part.
-pub fn changes(old: &ValidationRecord, new: &ValidationRecord) -> Changes {
+pub(crate) fn changes(old: &ValidationRecord, new: &ValidationRecord) -> Changes {
     let before: BTreeMap<&str, &CaseRecord> = by_name(old);
     let now: BTreeMap<&str, &CaseRecord> = by_name(new);
     let missing_in = |other: &BTreeMap<&str, &CaseRecord>, record: &ValidationRecord| {

@@ -13,7 +13,7 @@ use crate::studies::validation::record::{CaseKind, CurveStyle, RunOutcome, Stand
 /// A case.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct CaseFile {
+pub(crate) struct CaseFile {
     /// Title.
     pub title: String,
     /// The group it is shown in.
@@ -57,7 +57,7 @@ pub struct CaseFile {
 /// A run, or a family of runs.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct RunSpec {
+pub(crate) struct RunSpec {
     /// By which expressions know it.
     pub name: String,
     /// What is run.
@@ -103,7 +103,7 @@ fn sound() -> RunOutcome {
 
 impl RunSpec {
     /// Whether it is a family of runs.
-    pub fn is_family(&self) -> bool {
+    pub(crate) fn is_family(&self) -> bool {
         !self.vary.is_empty() || !self.each.is_empty() || self.sample.is_some()
     }
 }
@@ -111,7 +111,7 @@ impl RunSpec {
 /// The command that does the same from a terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Command {
+pub(crate) enum Command {
     /// The wear simulation.
     #[default]
     Run,
@@ -123,7 +123,7 @@ pub enum Command {
 
 impl Command {
     /// As the user writes it.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Run => "run",
             Self::Fem => "fem",
@@ -135,7 +135,7 @@ impl Command {
 /// A key that is varied.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct VarySpec {
+pub(crate) struct VarySpec {
     /// The key, or several that take the same value.
     pub key: OneOrMore,
     /// The column of its values in the family; default: the last part of the first key.
@@ -156,7 +156,7 @@ pub struct VarySpec {
 /// One text or several.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(untagged)]
-pub enum OneOrMore {
+pub(crate) enum OneOrMore {
     /// One.
     One(String),
     /// Several.
@@ -165,7 +165,7 @@ pub enum OneOrMore {
 
 impl OneOrMore {
     /// All of them.
-    pub fn all(&self) -> &[String] {
+    pub(crate) fn all(&self) -> &[String] {
         match self {
             Self::One(one) => std::slice::from_ref(one),
             Self::More(more) => more,
@@ -176,7 +176,7 @@ impl OneOrMore {
 /// A member of a family.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct MemberSpec {
+pub(crate) struct MemberSpec {
     /// What it is called in plots and messages; default: what it sets.
     pub label: Option<String>,
     /// Its place on an axis: the column `value` of the family.
@@ -194,7 +194,7 @@ pub struct MemberSpec {
 /// Members drawn from ranges, evenly (the points of Halton's sequence).
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct SampleSpec {
+pub(crate) struct SampleSpec {
     /// How many.
     pub count: usize,
     /// Another number draws others.
@@ -207,7 +207,7 @@ pub struct SampleSpec {
 /// A file of numbers beside the case: CSV with a line of column names.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct DataSpec {
+pub(crate) struct DataSpec {
     /// By which expressions know it.
     pub name: String,
     /// The file.
@@ -221,7 +221,7 @@ pub struct DataSpec {
 /// A name for an expression.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Definition {
+pub(crate) struct Definition {
     /// The name.
     pub name: String,
     /// The expression.
@@ -231,7 +231,7 @@ pub struct Definition {
 /// A number, or an expression for one.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(untagged)]
-pub enum Formula {
+pub(crate) enum Formula {
     /// A number.
     Number(f64),
     /// An expression.
@@ -241,7 +241,7 @@ pub enum Formula {
 /// How far from a reference, or how uncertain one is.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Extent {
+pub(crate) enum Extent {
     /// A share of the reference.
     Relative(Formula),
     /// In the quantity's unit.
@@ -251,7 +251,7 @@ pub enum Extent {
 /// What is judged.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct QuantitySpec {
+pub(crate) struct QuantitySpec {
     /// What it is.
     pub name: String,
     /// The one target of the case that it speaks to; without it, all of them.
@@ -294,7 +294,7 @@ pub struct QuantitySpec {
 /// A plot.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct PlotSpec {
+pub(crate) struct PlotSpec {
     /// Heading.
     pub title: String,
     /// What one sees, in a sentence.
@@ -322,7 +322,7 @@ pub struct PlotSpec {
 /// A curve.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct CurveSpec {
+pub(crate) struct CurveSpec {
     /// Its name; with `each`, before the member's own.
     #[serde(default)]
     pub name: String,
@@ -350,7 +350,7 @@ fn line() -> CurveStyle {
 /// A line across or up a plot.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct LineSpec {
+pub(crate) struct LineSpec {
     /// Its name.
     pub name: String,
     /// Where.
@@ -360,7 +360,7 @@ pub struct LineSpec {
 /// Error against cost of a family.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct WorkPrecisionSpec {
+pub(crate) struct WorkPrecisionSpec {
     /// The family.
     pub family: String,
     /// The column of the family that names the curves.
@@ -377,7 +377,7 @@ pub struct WorkPrecisionSpec {
 /// Outcomes of a family over a range of a parameter.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct StabilitySpec {
+pub(crate) struct StabilitySpec {
     /// The family.
     pub family: String,
     /// The parameter, unit included.

@@ -7,12 +7,12 @@ use super::expression::Evaluator;
 use crate::studies::validation::record::{RunOutcome, Standing};
 
 /// Greatest number of members of a family.
-pub const MOST_MEMBERS: usize = 10_000;
+pub(super) const MOST_MEMBERS: usize = 10_000;
 
 /// What is wrong with a case.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{place}: found {found}; allowed: {allowed}")]
-pub struct CaseFault {
+pub(super) struct CaseFault {
     /// Which run, quantity or plot, by its name.
     pub place: String,
     /// What it says.
@@ -25,7 +25,7 @@ pub struct CaseFault {
 
 impl CaseFault {
     /// The line of `text` that names what is wrong, from 1.
-    pub fn line(&self, text: &str) -> usize {
+    pub(super) fn line(&self, text: &str) -> usize {
         let quoted = format!("\"{}\"", self.name);
         text.lines().position(|line| line.contains(&quoted)).map_or(1, |line| line + 1)
     }
@@ -39,7 +39,7 @@ fn fault(kind: &str, name: &str, found: impl Into<String>, allowed: impl Into<St
 ///
 /// # Errors
 /// [`CaseFault`]
-pub fn check(case: &CaseFile) -> Result<(), CaseFault> {
+pub(super) fn check(case: &CaseFile) -> Result<(), CaseFault> {
     let mut names = BTreeSet::from(["run"]);
     let all = case.run.iter().map(|run| run.name.as_str()).chain(case.data.iter().map(|data| data.name.as_str()));
     for name in all.chain(case.define.iter().map(|definition| definition.name.as_str())) {

@@ -28,7 +28,7 @@ use super::value::Value;
 
 /// Why a function of columns has no value.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum ColumnError {
+pub(crate) enum ColumnError {
     /// Columns that do not go together.
     #[error("columns of {0} and {1} points do not go together")]
     Lengths(usize, usize),
@@ -63,7 +63,7 @@ pub enum ColumnError {
 }
 
 /// Refuses columns that do not go together.
-pub fn same_length(x: &[f64], y: &[f64]) -> Result<(), ColumnError> {
+pub(crate) fn same_length(x: &[f64], y: &[f64]) -> Result<(), ColumnError> {
     if x.len() == y.len() { Ok(()) } else { Err(ColumnError::Lengths(x.len(), y.len())) }
 }
 
@@ -222,7 +222,7 @@ fn point_by_point(name: &str) -> Option<fn(f64) -> f64> {
 }
 
 /// How much is in a column, a list or a text.
-pub fn length(of: &Value) -> Option<Value> {
+pub(crate) fn length(of: &Value) -> Option<Value> {
     let length = match of {
         Value::Column(x) => x.len(),
         Value::List(items) => items.len(),
@@ -236,7 +236,7 @@ pub fn length(of: &Value) -> Option<Value> {
 ///
 /// # Errors
 /// Columns that do not go together.
-pub fn operate(sign: &str, left: &Value, right: &Value) -> Result<Option<Value>, ColumnError> {
+pub(crate) fn operate(sign: &str, left: &Value, right: &Value) -> Result<Option<Value>, ColumnError> {
     use Value::{Column, Number, Text, Truth};
     let compared = match (sign, left, right) {
         ("==", Number(a), Number(b)) => Some(a == b),
@@ -276,7 +276,7 @@ pub fn operate(sign: &str, left: &Value, right: &Value) -> Result<Option<Value>,
 ///
 /// # Errors
 /// [`ColumnError`]
-pub fn call(name: &str, arguments: &[&Value]) -> Result<Option<Value>, ColumnError> {
+pub(crate) fn call(name: &str, arguments: &[&Value]) -> Result<Option<Value>, ColumnError> {
     use Value::{Column, List, Number, Text, Truth};
     if let ([of], Some(f)) = (arguments, point_by_point(name)) {
         return Ok(match of {

@@ -13,7 +13,7 @@ use crate::data_table::{DataTable, finite, positive};
 ///
 /// # Errors
 /// In words: what is wrong with it.
-pub fn read(spec: &DataSpec, folder: &Path) -> Result<Option<Value>, String> {
+pub(super) fn read(spec: &DataSpec, folder: &Path) -> Result<Option<Value>, String> {
     let path = folder.join(&spec.file);
     let text = match fs::read_to_string(&path) {
         Ok(text) => text,

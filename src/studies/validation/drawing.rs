@@ -24,7 +24,7 @@ fn finished(family: &Members) -> impl Iterator<Item = (&Member, &Executed)> {
 ///
 /// # Errors
 /// An expression without a value.
-pub fn plot<'a>(
+pub(crate) fn plot<'a>(
     spec: &PlotSpec,
     absent: &BTreeMap<&str, &str>,
     families: &impl Fn(&str) -> Option<&'a Members>,
@@ -75,7 +75,7 @@ fn curve(of: &CurveSpec, name: String, e: &mut Evaluator) -> Result<PlotCurve, E
 ///
 /// # Errors
 /// An expression without a value.
-pub fn work_precision(
+pub(crate) fn work_precision(
     spec: &WorkPrecisionSpec,
     family: &Members,
     e: &mut Evaluator,
@@ -107,7 +107,7 @@ pub fn work_precision(
 ///
 /// # Errors
 /// In words: a member without a number for it.
-pub fn stability(spec: &StabilitySpec, family: &Members) -> Result<Vec<StabilityPoint>, String> {
+pub(crate) fn stability(spec: &StabilitySpec, family: &Members) -> Result<Vec<StabilityPoint>, String> {
     let both = family.members.iter().zip(&family.executed);
     both.filter_map(|(member, executed)| executed.as_ref().map(|run| (member, run)))
         .map(|(member, run)| {

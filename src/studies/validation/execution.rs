@@ -33,7 +33,7 @@ use crate::studies::validation::record::RunOutcome;
 
 /// What a run came to.
 #[derive(Debug, Clone)]
-pub struct Executed {
+pub(crate) struct Executed {
     /// How it ended.
     pub outcome: RunOutcome,
     /// What it said, where that is not sound.
@@ -50,14 +50,14 @@ pub struct Executed {
 
 impl Executed {
     /// A run whose calibration was not made.
-    pub fn without_calibration(name: &str) -> Self {
+    pub(crate) fn without_calibration(name: &str) -> Self {
         let said = Some(format!("the calibration of {name:?} was not made"));
         let (value, work) = (BTreeMap::new(), BTreeMap::new());
         Self { outcome: RunOutcome::NotConverged, said, value, calibration: None, wall_s: 0.0, work }
     }
 
     /// As expressions see it.
-    pub fn as_value(&self) -> Value {
+    pub(crate) fn as_value(&self) -> Value {
         let mut group = self.value.clone();
         group.insert("outcome".to_owned(), Value::Text(self.outcome.name().to_owned()));
         group.insert("message".to_owned(), Value::Text(self.said.clone().unwrap_or_default()));
@@ -87,7 +87,7 @@ struct RunOutput {
 }
 
 /// Carries out one member of `run`, whose files lie in `folder`, with the calibration it names.
-pub fn execute(
+pub(crate) fn execute(
     run: &RunSpec,
     member: &Member,
     folder: &Path,

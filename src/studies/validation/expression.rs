@@ -18,7 +18,7 @@ const MOST_ITEMS: usize = 100_000;
 /// Why an expression has no value.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{expression}: {reason}")]
-pub struct ExpressionError {
+pub(crate) struct ExpressionError {
     /// The expression.
     pub expression: String,
     /// What is wrong with it.
@@ -27,7 +27,7 @@ pub struct ExpressionError {
 
 /// Why a term has no value.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum Fault {
+pub(crate) enum Fault {
     /// A name that stands for nothing.
     #[error("found `{0}`, which stands for nothing")]
     UnknownName(String),
@@ -66,18 +66,18 @@ pub enum Fault {
 
 /// Evaluates expressions over names.
 #[derive(Default)]
-pub struct Evaluator {
+pub(crate) struct Evaluator {
     names: Vec<(String, Value)>,
 }
 
 impl Evaluator {
     /// Lets `name` stand for `value` from now on.
-    pub fn name(&mut self, name: &str, value: &Value) {
+    pub(crate) fn name(&mut self, name: &str, value: &Value) {
         self.names.push((name.to_owned(), value.clone()));
     }
 
     /// Carries out `work` with `name` standing for `value` only there.
-    pub fn with<T>(&mut self, name: &str, value: &Value, work: impl FnOnce(&mut Self) -> T) -> T {
+    pub(crate) fn with<T>(&mut self, name: &str, value: &Value, work: impl FnOnce(&mut Self) -> T) -> T {
         let before = self.names.len();
         self.name(name, value);
         let done = work(self);
@@ -86,7 +86,7 @@ impl Evaluator {
     }
 
     /// Whether `name` can stand for something: words of the language cannot.
-    pub fn can_name(name: &str) -> bool {
+    pub(crate) fn can_name(name: &str) -> bool {
         syntax::parse(name).is_ok_and(|node| matches!(node.term, Term::Name(_)))
     }
 
@@ -94,7 +94,7 @@ impl Evaluator {
     ///
     /// # Errors
     /// [`ExpressionError`]
-    pub fn value(&self, expression: &str) -> Result<Value, ExpressionError> {
+    pub(crate) fn value(&self, expression: &str) -> Result<Value, ExpressionError> {
         let error = |reason: String| ExpressionError { expression: expression.to_owned(), reason };
         let node = syntax::parse(expression).map_err(|wrong: SyntaxError| error(wrong.to_string()))?;
         let found = self.evaluate(&node).map_err(|(fault, place)| error(format!("{fault} (character {place})")))?;
@@ -102,7 +102,7 @@ impl Evaluator {
     }
 
     /// The same, which must be a number; a truth is 1 or 0.
-    pub fn number(&self, expression: &str) -> Result<f64, ExpressionError> {
+    pub(crate) fn number(&self, expression: &str) -> Result<f64, ExpressionError> {
         match self.value(expression)? {
             Value::Number(number) => Ok(number),
             Value::Truth(truth) => Ok(f64::from(u8::from(truth))),
@@ -111,7 +111,7 @@ impl Evaluator {
     }
 
     /// The same, which must be a column.
-    pub fn column(&self, expression: &str) -> Result<Vec<f64>, ExpressionError> {
+    pub(crate) fn column(&self, expression: &str) -> Result<Vec<f64>, ExpressionError> {
         match self.value(expression)? {
             Value::Column(numbers) => Ok(numbers.to_vec()),
             other => Err(unfit(expression, &other, "a column")),

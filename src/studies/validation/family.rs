@@ -12,7 +12,11 @@ use crate::studies::validation::record::RunOutcome;
 ///
 /// # Errors
 /// An expression that has no value for a member that ended sound.
-pub fn columns(family: &Members, take: &BTreeMap<String, String>, e: &mut Evaluator) -> Result<Value, ExpressionError> {
+pub(super) fn columns(
+    family: &Members,
+    take: &BTreeMap<String, String>,
+    e: &mut Evaluator,
+) -> Result<Value, ExpressionError> {
     let executed: Vec<&Executed> = family.executed.iter().flatten().collect();
     let number_of = |of: fn(&Executed) -> f64| Value::column(executed.iter().map(|run| of(run)));
     let mut group = BTreeMap::from([

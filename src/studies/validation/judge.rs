@@ -16,7 +16,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// Why a quantity could not be judged.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum JudgeError {
+pub(crate) enum JudgeError {
     /// One of its expressions has no value.
     #[error("{quantity}: {error}")]
     Expression {
@@ -54,7 +54,7 @@ pub enum JudgeError {
 ///
 /// # Errors
 /// [`JudgeError`]
-pub fn judge(
+pub(crate) fn judge(
     spec: &QuantitySpec,
     absent: &BTreeMap<&str, &str>,
     e: &mut Evaluator,
@@ -143,7 +143,7 @@ pub fn judge(
 }
 
 /// That every member of a run ended as it should.
-pub fn endings(run: &str, family: &Members) -> QuantityRecord {
+pub(crate) fn endings(run: &str, family: &Members) -> QuantityRecord {
     let ended = family.executed.iter().zip(&family.members);
     let as_expected =
         ended.filter(|(executed, member)| executed.as_ref().is_some_and(|e| member.may_end(e.outcome))).count();
@@ -186,7 +186,7 @@ fn first_surprise(family: &Members) -> Option<String> {
 }
 
 /// The number a formula stands for.
-pub fn number(formula: &Formula, e: &mut Evaluator) -> Result<f64, ExpressionError> {
+pub(crate) fn number(formula: &Formula, e: &mut Evaluator) -> Result<f64, ExpressionError> {
     match formula {
         Formula::Number(number) => Ok(*number),
         Formula::Expression(expression) => e.number(expression),

@@ -19,7 +19,7 @@ const CASE_FILE: &str = "case.toml";
 
 /// Why there is no such case.
 #[derive(Debug, thiserror::Error)]
-pub enum LibraryError {
+pub(crate) enum LibraryError {
     /// Neither the name of a built-in case nor a folder with a case.
     #[error(
         "found {found:?}; allowed: the name of a built-in case, or a folder with a file {CASE_FILE}{}",
@@ -77,7 +77,7 @@ fn near(nearest: &Option<&str>) -> String {
 
 /// A case with its place on disk.
 #[derive(Debug, Clone)]
-pub struct Case {
+pub(crate) struct Case {
     /// Name of its folder.
     pub name: String,
     /// The folder.
@@ -88,14 +88,14 @@ pub struct Case {
 
 /// Cases, and the folder that keeps the built-in ones as long as they are needed.
 #[derive(Debug)]
-pub struct Library {
+pub(crate) struct Library {
     /// The cases.
     pub cases: Vec<Case>,
     _built_in: Option<TempDir>,
 }
 
 /// Names of the built-in cases.
-pub fn names() -> Vec<&'static str> {
+pub(crate) fn names() -> Vec<&'static str> {
     let has_case = |dir: &&Dir<'static>| dir.contains(dir.path().join(CASE_FILE));
     CASES.dirs().filter(has_case).filter_map(|dir| dir.path().to_str()).collect()
 }
@@ -104,7 +104,7 @@ pub fn names() -> Vec<&'static str> {
 ///
 /// # Errors
 /// [`LibraryError::Exists`], [`LibraryError::Export`]
-pub fn export(folder: &Path) -> Result<(), LibraryError> {
+pub(crate) fn export(folder: &Path) -> Result<(), LibraryError> {
     for name in ["validation", "meshes"] {
         let path = folder.join(name);
         if path.exists() {
@@ -126,7 +126,7 @@ impl Library {
     ///
     /// # Errors
     /// [`LibraryError`]
-    pub fn open(asked: &[String]) -> Result<Self, LibraryError> {
+    pub(crate) fn open(asked: &[String]) -> Result<Self, LibraryError> {
         let names = names();
         // A name of the program's own is that case; `./NAME` is a folder.
         let is_folder =

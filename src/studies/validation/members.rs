@@ -6,7 +6,7 @@ use crate::studies::validation::record::RunOutcome;
 
 /// One run of a family, or a run that is alone.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Member {
+pub(crate) struct Member {
     /// Keys and values.
     pub set: Vec<(String, toml::Value)>,
     /// Keys that are taken away.
@@ -23,13 +23,13 @@ pub struct Member {
 
 impl Member {
     /// Whether it may end so.
-    pub fn may_end(&self, outcome: RunOutcome) -> bool {
+    pub(crate) fn may_end(&self, outcome: RunOutcome) -> bool {
         outcome == self.expected || self.accepted.contains(&outcome)
     }
 }
 
 /// All members of a run; one where it is alone.
-pub fn members(run: &RunSpec) -> Vec<Member> {
+pub(super) fn members(run: &RunSpec) -> Vec<Member> {
     let alone = Member {
         set: run.set.iter().map(|(key, value)| (key.clone(), value.clone())).collect(),
         unset: run.unset.clone(),
@@ -53,7 +53,7 @@ pub fn members(run: &RunSpec) -> Vec<Member> {
 
 impl VarySpec {
     /// How many values there are.
-    pub fn count(&self) -> usize {
+    pub(crate) fn count(&self) -> usize {
         self.values.as_ref().map_or(self.count.unwrap_or(2), |values| values.len())
     }
 

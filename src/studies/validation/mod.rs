@@ -6,24 +6,24 @@
 //! `.E`); [`judge`] holds quantities, which are expressions over those names ([`expression`]), against
 //! references and bounds; [`drawing`] evaluates plots. The result is a plain record that reports are written from.
 
-pub mod against;
-pub mod case_file;
+pub(crate) mod against;
+pub(crate) mod case_file;
 mod check;
-pub mod column;
+pub(crate) mod column;
 mod data_file;
-pub mod drawing;
-pub mod execution;
-pub mod expression;
+pub(crate) mod drawing;
+pub(crate) mod execution;
+pub(crate) mod expression;
 mod family;
-pub mod judge;
-pub mod library;
+pub(crate) mod judge;
+pub(crate) mod library;
 mod members;
-pub mod profile;
-pub mod record;
-pub mod report;
-pub mod schedule;
+pub(crate) mod profile;
+pub(crate) mod record;
+pub(crate) mod report;
+pub(crate) mod schedule;
 mod soundness;
-pub mod syntax;
+pub(crate) mod syntax;
 mod value;
 
 use std::collections::BTreeMap;
@@ -36,7 +36,7 @@ use library::Case;
 use schedule::Members;
 
 /// Carries out those of `cases` that belong to `tier` (all of them where there is none), on so many threads.
-pub fn run(cases: &[Case], tier: Option<Tier>, threads: usize, observer: &dyn Observer) -> ValidationRecord {
+pub(crate) fn run(cases: &[Case], tier: Option<Tier>, threads: usize, observer: &dyn Observer) -> ValidationRecord {
     let start = Instant::now();
     let chosen: Vec<&Case> = cases.iter().filter(|case| tier.is_none_or(|tier| case.file.tier <= tier)).collect();
     let executed = schedule::carry_out(&chosen, threads, observer);

@@ -17,7 +17,7 @@ use crate::measurement::roughness;
 ///
 /// # Errors
 /// What is no profile.
-pub fn call(name: &str, arguments: &[&Value]) -> Result<Option<Value>, ColumnError> {
+pub(crate) fn call(name: &str, arguments: &[&Value]) -> Result<Option<Value>, ColumnError> {
     use Value::{Column, Number};
     Ok(Some(match (name, arguments) {
         ("form_removed", [Column(x), Column(y)]) => Value::column(form_removed(x, y)?),
@@ -51,7 +51,7 @@ fn form_removed(x: &[f64], y: &[f64]) -> Result<Vec<f64>, ColumnError> {
 
 /// The points of a profile that are separate peaks, 0 elsewhere: those from which it falls by `share` of their height on both
 /// sides before it rises above them.
-pub fn separate_peaks(points: &[f64], share: f64) -> Vec<f64> {
+pub(crate) fn separate_peaks(points: &[f64], share: f64) -> Vec<f64> {
     let falls = |side: &mut dyn Iterator<Item = &f64>, height: f64| {
         side.take_while(|&&depth| depth <= height).any(|&depth| depth < (1.0 - share) * height)
     };

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 /// The whole suite, or the part of it that was asked for.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ValidationRecord {
+pub(crate) struct ValidationRecord {
     /// Version of the program.
     pub program_version: String,
     /// The tier that was asked for; `None` where cases were named.
@@ -29,7 +29,7 @@ pub struct ValidationRecord {
 /// How long a suite may take: each tier holds those before it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Tier {
+pub(crate) enum Tier {
     /// Below three minutes on two cores: for every change.
     Smoke,
     /// Below fifteen minutes on two cores: for every release.
@@ -40,10 +40,10 @@ pub enum Tier {
 
 impl Tier {
     /// All of them, shortest first.
-    pub const ALL: [Self; 3] = [Self::Smoke, Self::Full, Self::Long];
+    pub(crate) const ALL: [Self; 3] = [Self::Smoke, Self::Full, Self::Long];
 
     /// As the user writes it.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Smoke => "smoke",
             Self::Full => "full",
@@ -55,7 +55,7 @@ impl Tier {
 /// What a case shows (after ASME V&V 10).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum CaseKind {
+pub(crate) enum CaseKind {
     /// The equations are solved right: against closed forms and orders of convergence.
     CodeVerification,
     /// This solution is resolved: against finer ones.
@@ -68,7 +68,7 @@ pub enum CaseKind {
 
 impl CaseKind {
     /// In words.
-    pub fn title(self) -> &'static str {
+    pub(crate) fn title(self) -> &'static str {
         match self {
             Self::CodeVerification => "code verification",
             Self::SolutionVerification => "solution verification",
@@ -80,7 +80,7 @@ impl CaseKind {
 
 /// A case.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct CaseRecord {
+pub(crate) struct CaseRecord {
     /// Name of its folder.
     pub name: String,
     /// Title.
@@ -120,12 +120,12 @@ pub struct CaseRecord {
 
 impl CaseRecord {
     /// Whether everything stands as the case says.
-    pub fn passed(&self) -> bool {
+    pub(crate) fn passed(&self) -> bool {
         self.failure.is_none() && self.quantities.iter().all(QuantityRecord::as_expected)
     }
 
     /// The quantities that speak to a target: those that name it, or else those that name none.
-    pub fn speaking_to(&self, target: &str) -> Vec<&QuantityRecord> {
+    pub(crate) fn speaking_to(&self, target: &str) -> Vec<&QuantityRecord> {
         let named = |name: Option<&str>| self.quantities.iter().filter(|q| q.target.as_deref() == name).collect();
         let own: Vec<&QuantityRecord> = named(Some(target));
         if own.is_empty() { named(None) } else { own }
@@ -135,7 +135,7 @@ impl CaseRecord {
 /// What a comparison says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Standing {
+pub(crate) enum Standing {
     /// Within its bound.
     Holds,
     /// Outside it.
@@ -146,7 +146,7 @@ pub enum Standing {
 
 impl Standing {
     /// In words.
-    pub fn title(self) -> &'static str {
+    pub(crate) fn title(self) -> &'static str {
         match self {
             Self::Holds => "holds",
             Self::Fails => "fails",
@@ -157,7 +157,7 @@ impl Standing {
 
 /// A run of a case, or a family of runs that differ in some keys.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct CaseRun {
+pub(crate) struct CaseRun {
     /// Its name in the case.
     pub name: String,
     /// The command that does the same, such as `run`, `fem`, `calibrate`.
@@ -175,7 +175,7 @@ pub struct CaseRun {
 /// How a run ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum RunOutcome {
+pub(crate) enum RunOutcome {
     /// Complete, every number finite, no negative wear, every position in equilibrium.
     Sound,
     /// The input was refused with a message.
@@ -190,7 +190,7 @@ pub enum RunOutcome {
 
 impl RunOutcome {
     /// As case files, expressions and style sheets write it.
-    pub fn name(self) -> &'static str {
+    pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Sound => "sound",
             Self::Refused => "refused",
@@ -201,7 +201,7 @@ impl RunOutcome {
     }
 
     /// In words.
-    pub fn title(self) -> &'static str {
+    pub(crate) fn title(self) -> &'static str {
         match self {
             Self::Sound => "sound",
             Self::Refused => "refused with a message",
@@ -214,7 +214,7 @@ impl RunOutcome {
 
 /// A number with what it is held against.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct QuantityRecord {
+pub(crate) struct QuantityRecord {
     /// What it is.
     pub name: String,
     /// The one target of its case that it speaks to; `None`: all of them.
@@ -251,7 +251,7 @@ pub struct QuantityRecord {
 
 impl QuantityRecord {
     /// A quantity that is expected to hold, without a value and held against nothing yet.
-    pub fn named(name: &str) -> Self {
+    pub(crate) fn named(name: &str) -> Self {
         Self {
             name: name.to_owned(),
             target: None,
@@ -273,7 +273,7 @@ impl QuantityRecord {
     }
 
     /// Whether it stands as the case says.
-    pub fn as_expected(&self) -> bool {
+    pub(crate) fn as_expected(&self) -> bool {
         self.standing == self.expected
     }
 }
@@ -281,7 +281,7 @@ impl QuantityRecord {
 /// What a quantity is held against.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "is")]
-pub enum Criterion {
+pub(crate) enum Criterion {
     /// Within a tolerance of a reference, in the quantity's unit.
     Near {
         /// The reference.
@@ -314,7 +314,7 @@ pub enum Criterion {
 
 /// A setting of a scene: what it costs and how far off it is.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct WorkPrecisionPoint {
+pub(crate) struct WorkPrecisionPoint {
     /// The curve it belongs to, such as the contact surface.
     pub series: String,
     /// The setting, such as `200 positions, 40 steps`.
@@ -331,7 +331,7 @@ pub struct WorkPrecisionPoint {
 
 /// How the program behaves at one value of a parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct StabilityPoint {
+pub(crate) struct StabilityPoint {
     /// The parameter, unit included.
     pub parameter: String,
     /// Its value, to be placed on an axis.
@@ -348,7 +348,7 @@ pub struct StabilityPoint {
 
 /// A plot.
 #[derive(Debug, Clone, PartialEq)]
-pub struct CasePlot {
+pub(crate) struct CasePlot {
     /// Heading.
     pub title: String,
     /// What one sees, in a sentence.
@@ -367,7 +367,7 @@ pub struct CasePlot {
 
 /// An axis of a plot.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PlotAxis {
+pub(crate) struct PlotAxis {
     /// Title, unit included.
     pub title: String,
     /// Whether it is logarithmic.
@@ -376,7 +376,7 @@ pub struct PlotAxis {
 
 /// A curve of a plot.
 #[derive(Debug, Clone, PartialEq)]
-pub struct PlotCurve {
+pub(crate) struct PlotCurve {
     /// Its name.
     pub name: String,
     /// Abscissae.
@@ -392,7 +392,7 @@ pub struct PlotCurve {
 /// How a curve is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum CurveStyle {
+pub(crate) enum CurveStyle {
     /// A line.
     Line,
     /// A dashed line: a reference.
@@ -406,7 +406,7 @@ pub enum CurveStyle {
 
 /// What became of the suite since an earlier run of it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Changes {
+pub(crate) struct Changes {
     /// Version of the program that made the earlier record.
     pub against_version: String,
     /// What got worse: a verdict, an error, work.
@@ -421,7 +421,7 @@ pub struct Changes {
 
 /// One change.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Change {
+pub(crate) struct Change {
     /// The case.
     pub case: String,
     /// What of it: the name of a quantity or of what is counted, or `verdict`.
@@ -435,7 +435,7 @@ pub struct Change {
 /// What is compared of two records.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum State {
+pub(crate) enum State {
     /// Whether the case could be carried out.
     Ran(bool),
     /// The quantity is not there.

@@ -13,7 +13,7 @@ use crate::observer::{Observer, PartOf};
 
 /// A run, one or a family, with its members.
 #[derive(Debug)]
-pub struct Members {
+pub(crate) struct Members {
     /// Its members.
     pub members: Vec<Member>,
     /// What each came to; `None` where the suite was interrupted before.
@@ -29,7 +29,7 @@ struct Job {
 }
 
 /// Carries out all runs of `cases` on `threads` threads: for each case, each of its runs.
-pub fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer) -> Vec<Vec<Members>> {
+pub(crate) fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer) -> Vec<Vec<Members>> {
     let mut all: Vec<Vec<Members>> = cases
         .iter()
         .map(|case| {

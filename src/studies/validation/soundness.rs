@@ -5,10 +5,10 @@ use crate::gear::{Gear, PerGear};
 use crate::results::run::{CycleSummary, FlankRecord, RunRecord};
 
 /// Greatest relative difference between the loads of the pairs together and the load to carry.
-pub const MOST_IMBALANCE: f64 = 1e-6;
+pub(super) const MOST_IMBALANCE: f64 = 1e-6;
 
 /// The first thing about the run that cannot be; `None` where all is well.
-pub fn fault(record: &RunRecord) -> Option<String> {
+pub(super) fn fault(record: &RunRecord) -> Option<String> {
     let summary = &record.summary;
     let imbalance = |(when, cycle): (&str, &CycleSummary)| {
         // Written so that a number that is none is a fault too.

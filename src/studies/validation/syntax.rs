@@ -20,7 +20,7 @@ const SIGNS: [&str; 21] =
 
 /// Why a text is no expression.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum SyntaxError {
+pub(crate) enum SyntaxError {
     /// Something that does not belong there.
     #[error("found {found} at character {place}; allowed: {allowed}")]
     Unexpected {
@@ -41,7 +41,7 @@ pub enum SyntaxError {
 
 /// A term, and the character of the expression at which it stands, from 1.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Node {
+pub(crate) struct Node {
     /// What it is.
     pub term: Term,
     /// Where it stands.
@@ -50,7 +50,7 @@ pub struct Node {
 
 /// What an expression is made of.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Term {
+pub(crate) enum Term {
     /// A number.
     Number(f64),
     /// `true` or `false`.
@@ -80,7 +80,7 @@ pub enum Term {
 }
 
 /// Whether `name` is a word of the language.
-pub fn is_word(name: &str) -> bool {
+pub(crate) fn is_word(name: &str) -> bool {
     matches!(name, "true" | "false")
 }
 
@@ -88,7 +88,7 @@ pub fn is_word(name: &str) -> bool {
 ///
 /// # Errors
 /// [`SyntaxError`]
-pub fn parse(expression: &str) -> Result<Node, SyntaxError> {
+pub(crate) fn parse(expression: &str) -> Result<Node, SyntaxError> {
     let mut parser = Parser { tokens: tokens(expression)?, next: 0, end: expression.chars().count() + 1 };
     let whole = parser.expression(0, 0)?;
     if parser.peek().is_some() { Err(parser.unexpected("an operator or the end")) } else { Ok(whole) }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 /// A node of the tree.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Value {
+pub(crate) enum Value {
     /// A number; NaN where the output has none.
     Number(f64),
     /// A truth value.
@@ -25,24 +25,24 @@ pub enum Value {
 
 impl Value {
     /// A column of these numbers.
-    pub fn column(numbers: impl IntoIterator<Item = f64>) -> Self {
+    pub(crate) fn column(numbers: impl IntoIterator<Item = f64>) -> Self {
         Self::Column(numbers.into_iter().collect())
     }
 
     /// A group of these.
-    pub fn group<N: Into<String>>(entries: impl IntoIterator<Item = (N, Value)>) -> Self {
+    pub(crate) fn group<N: Into<String>>(entries: impl IntoIterator<Item = (N, Value)>) -> Self {
         Self::Group(entries.into_iter().map(|(name, value)| (name.into(), value)).collect())
     }
 
     /// Adds a name to a group; nothing else has names.
-    pub fn add(&mut self, name: &str, value: Value) {
+    pub(crate) fn add(&mut self, name: &str, value: Value) {
         if let Self::Group(entries) = self {
             entries.insert(name.to_owned(), value);
         }
     }
 
     /// From JSON; `null` is no number.
-    pub fn of_json(json: serde_json::Value) -> Self {
+    pub(crate) fn of_json(json: serde_json::Value) -> Self {
         use serde_json::Value as Json;
         match json {
             Json::Null => Self::Number(f64::NAN),
@@ -58,7 +58,7 @@ impl Value {
     }
 
     /// From one of the program's own tables: lines with `#`, a line of names, rows.
-    pub fn of_csv(bytes: &[u8]) -> Result<Self, csv::Error> {
+    pub(crate) fn of_csv(bytes: &[u8]) -> Result<Self, csv::Error> {
         let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(bytes);
         let names: Vec<String> = reader.headers()?.iter().map(str::to_owned).collect();
         let mut columns: Vec<Vec<String>> = vec![Vec::new(); names.len()];
@@ -84,7 +84,7 @@ impl Value {
     }
 
     /// From a value of a scene file.
-    pub fn of_toml(value: &toml::Value) -> Self {
+    pub(crate) fn of_toml(value: &toml::Value) -> Self {
         match value {
             toml::Value::Integer(whole) => Self::Number(*whole as f64),
             toml::Value::Float(number) => Self::Number(*number),

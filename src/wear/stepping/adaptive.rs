@@ -47,7 +47,7 @@ enum Method {
 
 /// What the steps came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-pub struct StepCounts {
+pub(crate) struct StepCounts {
     /// Steps taken.
     pub accepted: u64,
     /// Trial steps that were not, for their error or for want of a rate.
@@ -62,7 +62,7 @@ pub struct StepCounts {
 
 /// The integrator.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Adaptive {
+pub(crate) struct Adaptive {
     tolerance: f64,
     duration: f64,
     blocks: Vec<usize>,
@@ -101,29 +101,29 @@ impl Adaptive {
     }
 
     /// By Runge–Kutta–Chebyshev, for a run of the length `duration`; the state has `blocks` of these lengths.
-    pub fn chebyshev(tolerance: f64, duration: f64, blocks: &[usize]) -> Self {
+    pub(crate) fn chebyshev(tolerance: f64, duration: f64, blocks: &[usize]) -> Self {
         let method = Method::Chebyshev { step: RungeKuttaChebyshev::default(), radius: SpectralRadius::default() };
         Self::new(tolerance, duration, blocks, method)
     }
 
     /// By the linearly implicit method.
-    pub fn linearly_implicit(tolerance: f64, duration: f64, blocks: &[usize]) -> Self {
+    pub(crate) fn linearly_implicit(tolerance: f64, duration: f64, blocks: &[usize]) -> Self {
         let method = Method::Implicit { step: LinearlyImplicit::default(), diagonal: Vec::new() };
         Self::new(tolerance, duration, blocks, method)
     }
 
     /// What the steps came to so far.
-    pub fn counts(&self) -> StepCounts {
+    pub(crate) fn counts(&self) -> StepCounts {
         self.counts
     }
 
     /// The estimated errors of all steps together, place by place.
-    pub fn accumulated_error(&self) -> &[f64] {
+    pub(crate) fn accumulated_error(&self) -> &[f64] {
         &self.accumulated
     }
 
     /// The rate is another one from here on: nothing that was learned holds any longer.
-    pub fn start_anew(&mut self) {
+    pub(crate) fn start_anew(&mut self) {
         (self.control, self.run, self.age) = (StepControl::default(), 0.0, 0);
         self.forget_jacobian();
     }
@@ -140,7 +140,7 @@ impl Adaptive {
     ///
     /// # Errors
     /// Of the rate, where no shorter step mends it.
-    pub fn step<R: Rate + ?Sized>(
+    pub(crate) fn step<R: Rate + ?Sized>(
         &mut self,
         rate: &mut R,
         state: &mut Vec<f64>,

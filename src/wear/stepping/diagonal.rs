@@ -27,7 +27,7 @@ const NEIGHBOURS: usize = 8;
 ///
 /// # Errors
 /// Of the rate.
-pub fn estimate<R: Rate + ?Sized>(
+pub(crate) fn estimate<R: Rate + ?Sized>(
     rate: &mut R,
     (state, slope): (&[f64], &[f64]),
     blocks: &[usize],

@@ -17,11 +17,11 @@ use serde::{Deserialize, Serialize};
 use super::Rate;
 
 /// γ.
-pub const GAMMA: f64 = 1.0 + std::f64::consts::FRAC_1_SQRT_2;
+pub(crate) const GAMMA: f64 = 1.0 + std::f64::consts::FRAC_1_SQRT_2;
 
 /// The method with its rows.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct LinearlyImplicit {
+pub(crate) struct LinearlyImplicit {
     #[serde(skip)]
     first: Vec<f64>,
     #[serde(skip)]
@@ -35,7 +35,7 @@ impl LinearlyImplicit {
     ///
     /// # Errors
     /// Of the rate.
-    pub fn step<R: Rate + ?Sized>(
+    pub(crate) fn step<R: Rate + ?Sized>(
         &mut self,
         rate: &mut R,
         (state, slope): (&[f64], &[f64]),

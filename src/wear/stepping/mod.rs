@@ -25,15 +25,15 @@
 //! with c = 0.8 for Runge–Kutta–Chebyshev (Sommeijer, Shampine and Verwer, equation 2.11). It costs nothing: the rate at the end is
 //! that at the beginning of the next step.
 
-pub mod adaptive;
-pub mod diagonal;
-pub mod linearly_implicit;
-pub mod runge_kutta_chebyshev;
-pub mod spectral_radius;
-pub mod step_control;
+pub(crate) mod adaptive;
+pub(crate) mod diagonal;
+pub(crate) mod linearly_implicit;
+pub(crate) mod runge_kutta_chebyshev;
+pub(crate) mod spectral_radius;
+pub(crate) mod step_control;
 
 /// f of y' = f(y): how fast each place wears, in mm per revolution, when `state` (mm) is worn off.
-pub trait Rate {
+pub(crate) trait Rate {
     /// Why there may be no rate.
     type Error;
 

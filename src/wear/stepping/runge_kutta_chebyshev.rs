@@ -28,20 +28,20 @@ use super::Rate;
 /// Damping.
 const EPSILON: f64 = 2.0 / 13.0;
 /// Fewest stages.
-pub const LEAST_STAGES: usize = 2;
+pub(crate) const LEAST_STAGES: usize = 2;
 /// Most stages. With more the error control has long shortened the step.
-pub const MOST_STAGES: usize = 250;
+pub(crate) const MOST_STAGES: usize = 250;
 /// c of the estimated error.
-pub const ERROR_FACTOR: f64 = 0.8;
+pub(crate) const ERROR_FACTOR: f64 = 0.8;
 
 /// β(s): steps are stable while the length times the spectral radius is below it.
-pub fn stability_bound(stages: usize) -> f64 {
+pub(crate) fn stability_bound(stages: usize) -> f64 {
     let s = stages as f64;
     2.0 / 3.0 * (s * s - 1.0) * (1.0 - 2.0 / 15.0 * EPSILON)
 }
 
 /// Fewest stages that are stable for a length times spectral radius; none where [`MOST_STAGES`] are not.
-pub fn stages_for(stiffness: f64) -> Option<usize> {
+pub(crate) fn stages_for(stiffness: f64) -> Option<usize> {
     let per_square = 2.0 / 3.0 * (1.0 - 2.0 / 15.0 * EPSILON);
     let stages = (1.0 + stiffness / per_square).sqrt().ceil();
     (stages <= MOST_STAGES as f64).then_some((stages as usize).max(LEAST_STAGES))
@@ -81,7 +81,7 @@ impl Chebyshev {
 
 /// The method with its rows.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct RungeKuttaChebyshev {
+pub(crate) struct RungeKuttaChebyshev {
     #[serde(skip)]
     stage: Vec<f64>,
     #[serde(skip)]
@@ -95,7 +95,7 @@ impl RungeKuttaChebyshev {
     ///
     /// # Errors
     /// Of the rate.
-    pub fn step<R: Rate + ?Sized>(
+    pub(crate) fn step<R: Rate + ?Sized>(
         &mut self,
         rate: &mut R,
         (state, slope): (&[f64], &[f64]),

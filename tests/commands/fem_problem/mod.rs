@@ -50,7 +50,7 @@ fn mesh() -> Mesh {
 }
 
 /// Adds a block of cells, all of which are the set `name`.
-pub fn add_block(mesh: &mut Mesh, kind: CellKind, nodes: Vec<usize>, name: &str) {
+pub(crate) fn add_block(mesh: &mut Mesh, kind: CellKind, nodes: Vec<usize>, name: &str) {
     let count = nodes.len() / kind.node_count();
     mesh.cells.push(CellBlock { kind, nodes });
     for set in mesh.cell_sets.values_mut() {

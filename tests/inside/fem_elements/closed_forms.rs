@@ -3,9 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use gearwear::fem::elastic::{Analysis, Elastic};
-use gearwear::fem::loads::{add_pressure, add_traction};
+use gearwear::fem::loads::add_traction;
 use gearwear::fem::solid::ElementKind;
-use gearwear::fem::stress::{StressComponent, StressRecovery};
+use gearwear::fem::stress::{NodalStress, StressComponent, StressRecovery};
 use gearwear::reference::cantilever::Cantilever;
 use gearwear::reference::lame_cylinder::LameCylinder;
 use nalgebra::Vector2;
@@ -38,11 +38,17 @@ fn tube_displacement(tube: &LameCylinder, x: Vector2<f64>) -> Vector2<f64> {
     x * (tube.radial_displacement_mm(x.norm()) / x.norm())
 }
 
+/// The greater principal stress in the plane.
+fn greater_principal_mpa(stress: &NodalStress) -> f64 {
+    let mean = 0.5 * (stress.sigma_x_mpa + stress.sigma_y_mpa);
+    mean + (0.5 * (stress.sigma_x_mpa - stress.sigma_y_mpa)).hypot(stress.tau_xy_mpa)
+}
+
 fn solve_tube(tube: &LameCylinder, mesh: &Block) -> Vec<f64> {
     let solid = &mesh.solid;
     let mut forces = vec![0.0; solid.dofs()];
-    add_pressure(solid, &mesh.sides[3], tube.inner_pressure_mpa, &mut forces);
-    add_pressure(solid, &mesh.sides[1], tube.outer_pressure_mpa, &mut forces);
+    add_traction(solid, &mesh.sides[3], |_, normal| -normal * tube.inner_pressure_mpa, &mut forces);
+    add_traction(solid, &mesh.sides[1], |_, normal| -normal * tube.outer_pressure_mpa, &mut forces);
     let on_x = nodes_of(&mesh.sides[0]).into_iter().map(|node| (2 * node + 1, 0.0));
     let on_y = nodes_of(&mesh.sides[2]).into_iter().map(|node| (2 * node, 0.0));
     let given: Vec<_> = on_x.chain(on_y).collect();
@@ -111,7 +117,7 @@ fn ver_hoop_stress_at_the_bore_converges() {
             let stresses = recovery.nodal_stresses(&u).unwrap();
             let bore = nodes_of(&mesh.sides[3]);
             let at_bore = stresses.iter().filter(|stress| bore.binary_search(&stress.node).is_ok());
-            at_bore.map(|stress| (stress.principal_mpa()[0] / exact - 1.0).abs()).fold(0.0, f64::max)
+            at_bore.map(|stress| (greater_principal_mpa(stress) / exact - 1.0).abs()).fold(0.0, f64::max)
         };
         let errors: Vec<f64> = [8, 16, 32, 64].into_iter().map(error).collect();
         let order = order(&errors[2..]);
@@ -171,9 +177,9 @@ fn ver_stress_rows_give_the_nodal_stresses() {
                     let row = recovery.nodal_stress_row(stress.node, stress.material, component).unwrap();
                     row.iter().map(|(dof, c)| c * u[*dof as usize]).sum()
                 };
-                let rows = [StressComponent::X, StressComponent::Y, StressComponent::Xy, StressComponent::Z].map(row);
-                let own = [stress.sigma_x_mpa, stress.sigma_y_mpa, stress.tau_xy_mpa, stress.sigma_z_mpa];
-                let difference = [0, 1, 2, 3].map(|i| rows[i] - own[i]);
+                let rows = [StressComponent::X, StressComponent::Y, StressComponent::Xy].map(row);
+                let own = [stress.sigma_x_mpa, stress.sigma_y_mpa, stress.tau_xy_mpa];
+                let difference = [0, 1, 2].map(|i| rows[i] - own[i]);
                 assert!(largest(&difference) < 1e-10 * largest(&own), "{kind:?} {rows:?} {own:?}");
             }
         }

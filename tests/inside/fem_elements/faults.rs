@@ -70,11 +70,4 @@ fn missing_nodes_and_unstable_materials_are_named() {
     let mut short = solid.clone();
     short.points_mm.pop();
     assert!(matches!(assembled(&short, &[STEEL]), Err(ElementError::NoSuchNode { element: 3, node: 8, nodes: 8 })));
-    let mut stiffness = assembled(&solid, &[STEEL]).unwrap();
-    let mut other = solid;
-    other.elements[0] = Element::new(ElementKind::Triangle3, &[0, 1, 8], 0);
-    assert!(matches!(
-        stiffness.reassemble(&other, &[STEEL]),
-        Err(ElementError::Distorted { element: 0, .. } | ElementError::OtherMesh { element: 0 })
-    ));
 }
