@@ -101,6 +101,7 @@ mod wear;
 mod whole_file;
 
 #[cfg(test)]
+#[allow(unreachable_pub, reason = "test modules are of one crate")]
 #[path = "../tests/inside/mod.rs"]
 mod inside;
 

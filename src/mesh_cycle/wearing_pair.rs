@@ -3,10 +3,24 @@
 //! Most models keep what each flank point has lost ([`OnFlankPoints`]); finite elements keep it at the nodes of their flanks
 //! ([`OnFlankNodes`]), the simplified model of helical gears at the contact points themselves ([`super::simplified`]).
 
+use super::CycleObservation;
 use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::{LostMaterial, MeshCycle, Work, condensed::CondensedCycle, load_sharing::EquilibriumError};
-use crate::simulation::wear_run::Snapshot;
 use crate::wear::WearModel;
+use serde::{Deserialize, Serialize};
+
+/// State kept at a snapshot.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Snapshot {
+    /// Pinion revolutions so far.
+    pub revolutions: f64,
+    /// Wear depth of each flank point, slice after slice.
+    pub wear_mm: PerGear<Vec<f64>>,
+    /// What each flank point loses in the next mesh.
+    pub depth_per_mesh_mm: PerGear<Vec<f64>>,
+    /// The mesh cycle of the flanks as they are.
+    pub cycle: CycleObservation,
+}
 
 /// A pair that wears.
 pub(crate) trait WearingPair {

@@ -4,9 +4,10 @@ use super::Model;
 use super::recording::UM_PER_MM;
 use super::temperature;
 use crate::gear::Gear;
+use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::results::run::{PhaseSummary, PhaseWear};
 use crate::simulation::figures::WearFigures;
-use crate::simulation::wear_run::{Outcome, Snapshot};
+use crate::simulation::wear_run::Outcome;
 
 /// 1 m²/N in mm²/N.
 const MM2_PER_N: f64 = 1e6;

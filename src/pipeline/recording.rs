@@ -4,6 +4,7 @@ use super::temperature::{self, ObservedHeat};
 use super::{Model, RunError, drawing, error_estimates, phases, slices, stability::Judged, verification::Verified};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::mesh_cycle::CycleObservation;
+use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::plan::Plan;
 use crate::results::error::ErrorSummary;
 use crate::results::run::{
@@ -12,7 +13,7 @@ use crate::results::run::{
 };
 use crate::scene::Resolved;
 use crate::simulation::figures::WearFigures;
-use crate::simulation::wear_run::{Outcome, Snapshot};
+use crate::simulation::wear_run::Outcome;
 use crate::thermal::settings::TemperatureMethod;
 
 pub(super) const UM_PER_MM: f64 = 1e3;

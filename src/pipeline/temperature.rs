@@ -2,9 +2,10 @@
 
 use super::Model;
 use crate::contact::settings::SurfaceKind;
+use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::results::chemistry::{GreatestRise, RisesByMethod, TemperatureSummary, WearLawSummary};
 use crate::simulation::heat_observation::{HeatObservation, HeatObserver};
-use crate::simulation::wear_run::{Outcome, Snapshot};
+use crate::simulation::wear_run::Outcome;
 use crate::thermal::band::Spread;
 use crate::thermal::settings::{ABSOLUTE_ZERO_C, TemperatureMethod};
 use crate::wear::regime::{MM3_PER_NM, Regime};

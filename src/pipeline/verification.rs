@@ -25,6 +25,7 @@ use crate::fem::gear::{model::ModelError, position::CondensedPair};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::BodySettings;
 use crate::mesh_cycle::CycleObservation;
+use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::observer::Observer;
 use crate::reference::flattening::Flattening;
 use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError};
@@ -33,7 +34,7 @@ use crate::scene::Scene;
 use crate::simulation::figures::WearFigures;
 use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::settings::{AdaptiveMethod, Numerics, Phase, Stepping};
-use crate::simulation::wear_run::{Outcome, RunPhase, Snapshot, WearRun};
+use crate::simulation::wear_run::{Outcome, RunPhase, WearRun};
 
 /// Least half-width of contact at the pitch point that is meshed, in modules: the flank then has some thousand nodes.
 const LEAST_HALF_WIDTH_MODULES: f64 = 0.015;

@@ -13,9 +13,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::advance::StepperState;
-use super::wear_run::Snapshot;
 use crate::gear::PerGear;
 use crate::mesh_cycle::Work;
+use crate::mesh_cycle::wearing_pair::Snapshot;
 
 /// A run at a clean start: evaluated, and what was due there kept.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -1,11 +1,12 @@
 //! The figures an engineer asks of a worn flank.
 
-use super::wear_run::{Outcome, Snapshot};
+use super::wear_run::Outcome;
 use crate::gear::{
     Gear, GearPair,
     flank::FlankGrid,
     flank_zones::{FlankZone, FlankZones},
 };
+use crate::mesh_cycle::wearing_pair::Snapshot;
 
 /// The greatest depth of a part of a flank.
 #[derive(Debug, Clone, Copy, PartialEq)]

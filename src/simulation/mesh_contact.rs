@@ -92,13 +92,13 @@ impl MeshContact<'_> {
 
 impl<'a> LoadedMesh<'a> {
     /// The pair, ready to wear.
-    pub(super) fn wearing_pair<'b>(
-        &'b self,
-        flanks: Flanks<'b>,
-        modification_mm: &'b PerGear<Vec<f64>>,
-    ) -> Result<Box<dyn WearingPair + 'b>, StiffnessError> {
+    pub(super) fn wearing_pair(
+        &self,
+        flanks: Flanks<'a>,
+        modification_mm: &'a PerGear<Vec<f64>>,
+    ) -> Result<Box<dyn WearingPair + 'a>, StiffnessError> {
         let (count, line_load) = (self.numerics.positions, self.line_load_n_per_mm);
-        let cycle: Box<dyn MeshCycle + 'b> = match self.contact {
+        let cycle: Box<dyn MeshCycle + 'a> = match self.contact {
             MeshContact::LineOfAction { surface, teeth, tip_contact, sliced } => {
                 // In every slice the profile is modified alike, but for a constant.
                 let of_profile = PerGear::from_fn(|gear| &modification_mm[gear][..flanks.grid[gear].len()]);
@@ -121,14 +121,14 @@ impl<'a> LoadedMesh<'a> {
     }
 
     /// The simplified model of a pair with slices.
-    fn simplified<'b>(
-        &'b self,
-        flanks: Flanks<'b>,
+    fn simplified(
+        &self,
+        flanks: Flanks<'a>,
         modification_mm: &PerGear<Vec<f64>>,
-        material: &'b PerGear<Material>,
+        material: &'a PerGear<Material>,
         teeth: &TeethSpring<'_>,
-        sliced: &'b SlicedTeeth,
-    ) -> Result<SimplifiedPair<'b>, StiffnessError> {
+        sliced: &'a SlicedTeeth,
+    ) -> Result<SimplifiedPair<'a>, StiffnessError> {
         let (path, count, line_load) = (&self.pair.path, self.numerics.positions, self.line_load_n_per_mm);
         let springs = SlicesInSeries {
             pair: self.pair,
@@ -143,14 +143,14 @@ impl<'a> LoadedMesh<'a> {
     }
 
     /// SlicesInSeries on the line of action, at every loading position.
-    fn on_line_of_action<'b>(
-        &'b self,
-        flanks: Flanks<'b>,
-        surface: &'b dyn ContactSurface,
+    fn on_line_of_action(
+        &self,
+        flanks: Flanks<'a>,
+        surface: &'a dyn ContactSurface,
         teeth: &TeethSpring<'_>,
         tip_contact: bool,
-        sliced: Option<&'b SlicedTeeth>,
-    ) -> Result<Box<dyn MeshCycle + 'b>, StiffnessError> {
+        sliced: Option<&'a SlicedTeeth>,
+    ) -> Result<Box<dyn MeshCycle + 'a>, StiffnessError> {
         let line_load = self.line_load_n_per_mm;
         let (path, count) = (&self.pair.path, self.numerics.positions);
         let spring = |at| teeth.own_n_per_mm2(at);

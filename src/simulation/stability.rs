@@ -15,10 +15,7 @@
 //! ([`crate::wear::stepping::spectral_radius`]).
 
 use super::advance;
-use super::mesh_contact::LoadedMesh;
 use super::wear_run::{RunPhase, SimulationError, WearRun};
-use crate::contact::Flanks;
-use crate::gear::{PerGear, flank::FlankGrid, removed_material::modifications_mm};
 
 /// The product of step and rate that Euler's method is stable up to.
 const STABLE: f64 = 2.0;
@@ -46,17 +43,8 @@ impl WearRun<'_> {
         pressure_too: bool,
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<StepBound, SimulationError> {
-        let slices = phase.contact.slices(self.pair);
-        let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));
-        let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear], &slices));
-        let flanks = Flanks::new(self.pair, grid.as_ref());
-        let mesh = LoadedMesh {
-            pair: self.pair,
-            contact: phase.contact,
-            line_load_n_per_mm: phase.line_load_n_per_mm,
-            numerics: self.numerics,
-        };
-        let mut pair = mesh.wearing_pair(flanks, &modification_mm)?;
+        let flanks = self.unworn_flanks(phase.contact.slices(self.pair));
+        let mut pair = self.wearing_pair(phase, &flanks)?;
         let failed = |source| SimulationError::Equilibrium { revolutions: 0.0, source };
         pair.evaluate(&phase.wear, stopped).map_err(failed)?;
         let peak_pressure_mpa = match pressure_too {

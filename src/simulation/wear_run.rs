@@ -6,8 +6,6 @@
 //!
 //! Source: the thesis, equation 12 (single-point observation, section 3.3).
 
-use serde::{Deserialize, Serialize};
-
 use super::advance::{Stepper, Stretch};
 use super::checkpoint::{Checkpoint, Keeper, NothingKept};
 use super::mesh_contact::{LoadedMesh, MeshContact};
@@ -16,8 +14,8 @@ use crate::contact::Flanks;
 use crate::gear::{
     GearPair, PerGear, flank::FlankGrid, flank_zones::FlankZones, removed_material::modifications_mm, slices::Slices,
 };
-use crate::mesh_cycle::wearing_pair::WearingPair;
-use crate::mesh_cycle::{CycleObservation, Work, load_sharing::EquilibriumError};
+use crate::mesh_cycle::wearing_pair::{Snapshot, WearingPair};
+use crate::mesh_cycle::{Work, load_sharing::EquilibriumError};
 use crate::observer::Observer;
 use crate::results::run::StopReason;
 use crate::stiffness::StiffnessError;
@@ -70,19 +68,6 @@ pub(crate) struct WearRun<'a> {
     pub numerics: Numerics,
 }
 
-/// State kept at a snapshot.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Snapshot {
-    /// Pinion revolutions so far.
-    pub revolutions: f64,
-    /// Wear depth of each flank point, slice after slice.
-    pub wear_mm: PerGear<Vec<f64>>,
-    /// What each flank point loses in the next mesh.
-    pub depth_per_mesh_mm: PerGear<Vec<f64>>,
-    /// The mesh cycle of the flanks as they are.
-    pub cycle: CycleObservation,
-}
-
 /// What a run found.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Outcome {
@@ -110,6 +95,13 @@ pub(crate) struct Outcome {
     pub step_error_mm: Option<PerGear<f64>>,
     /// Work done in all.
     pub work: Work,
+}
+
+/// Both flanks before the first mesh.
+pub(super) struct UnwornFlanks {
+    pub grid: PerGear<FlankGrid>,
+    pub slices: Slices,
+    pub modification_mm: PerGear<Vec<f64>>,
 }
 
 /// A run on its way.
@@ -166,24 +158,18 @@ impl WearRun<'_> {
         progress: &dyn Observer,
     ) -> Result<Outcome, SimulationError> {
         let slices = self.phases.first().map_or_else(|| Slices::new(self.pair, 1), |one| one.contact.slices(self.pair));
-        let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));
-        let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear], &slices));
-        let flanks = Flanks::new(self.pair, grid.as_ref());
+        let flanks = self.unworn_flanks(slices);
         let mut run_state = match checkpoint {
             None => self.beginning(),
-            Some(checkpoint) if checkpoint.fits(modification_mm.as_ref().map(Vec::len)) => self.resumed(checkpoint)?,
+            Some(checkpoint) if checkpoint.fits(flanks.modification_mm.as_ref().map(Vec::len)) => {
+                self.resumed(checkpoint)?
+            }
             Some(_) => return Err(SimulationError::OtherRun),
         };
         let mut failure = None;
         while run_state.phase < self.phases.len() {
             let phase = &self.phases[run_state.phase];
-            let mesh = LoadedMesh {
-                pair: self.pair,
-                contact: phase.contact,
-                line_load_n_per_mm: phase.line_load_n_per_mm,
-                numerics: self.numerics,
-            };
-            let mut pair = mesh.wearing_pair(flanks, &modification_mm)?;
+            let mut pair = self.wearing_pair(phase, &flanks)?;
             match self.through_phase(&mut run_state, &mut *pair, Attendants { keeper, progress })? {
                 PhaseEnd::Reached => run_state.wear_mm = Some(pair.wear_mm()),
                 PhaseEnd::Stopped => break,
@@ -202,6 +188,7 @@ impl WearRun<'_> {
         let (steps, step_error_mm) = (run_state.stepper.counts(), run_state.stepper.error_mm());
         let new = run_state.states.remove(0);
         let worn = run_state.states.last().unwrap_or(&new).clone();
+        let UnwornFlanks { grid, slices, modification_mm } = flanks;
         Ok(Outcome {
             stop,
             failure,
@@ -217,6 +204,32 @@ impl WearRun<'_> {
             work: run_state.work,
         })
     }
+
+    /// The flanks as they are made, in these slices.
+    pub(super) fn unworn_flanks(&self, slices: Slices) -> UnwornFlanks {
+        let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));
+        let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear], &slices));
+        UnwornFlanks { grid, slices, modification_mm }
+    }
+
+    /// The pair under the load of `phase`.
+    ///
+    /// # Errors
+    /// [`SimulationError`]
+    pub(super) fn wearing_pair<'b>(
+        &'b self,
+        phase: &RunPhase<'b>,
+        flanks: &'b UnwornFlanks,
+    ) -> Result<Box<dyn WearingPair + 'b>, SimulationError> {
+        let mesh = LoadedMesh {
+            pair: self.pair,
+            contact: phase.contact,
+            line_load_n_per_mm: phase.line_load_n_per_mm,
+            numerics: self.numerics,
+        };
+        Ok(mesh.wearing_pair(Flanks::new(self.pair, flanks.grid.as_ref()), &flanks.modification_mm)?)
+    }
+
     /// A run that has not begun.
     fn beginning(&self) -> RunState {
         RunState {

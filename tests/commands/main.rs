@@ -1,4 +1,5 @@
 //! The commands about one pair, from the outside.
+#![allow(unreachable_pub, reason = "test modules are of one crate")]
 
 mod bad_input;
 mod calibrate;

@@ -3,11 +3,12 @@
 
 use gearwear::gear::{Gear, GearPair, PerGear, spec::PairSpec};
 use gearwear::mesh_cycle::settings::{Coupling, SliceSettings};
+use gearwear::mesh_cycle::wearing_pair::Snapshot;
 use gearwear::observer::Unwatched;
 use gearwear::pipeline;
 use gearwear::results::run::RunRecord;
 use gearwear::simulation::figures::{SliceFigures, WearFigures, variation};
-use gearwear::simulation::wear_run::{Outcome, Snapshot};
+use gearwear::simulation::wear_run::Outcome;
 use gearwear::stiffness::settings::StiffnessSettings;
 
 use super::common::{Scene, fzg_c_scene, loaded, pair, preset};

@@ -8,6 +8,7 @@ use gearwear::gear::{
     spec::PairSpec,
 };
 use gearwear::mesh_cycle::simplified::closed_form::{AMPLE_LOADS, ContactForms, RANGES};
+use gearwear::mesh_cycle::wearing_pair::Snapshot;
 use gearwear::mesh_cycle::{
     settings::{Coupling, SliceSettings},
     sliced_mesh::SlicedMesh,
@@ -17,7 +18,7 @@ use gearwear::mesh_cycle::{
 use gearwear::observer::Unwatched;
 use gearwear::simulation::figures::WearFigures;
 use gearwear::simulation::mesh_contact::MeshContact;
-use gearwear::simulation::wear_run::{Outcome, RunPhase, Snapshot, WearRun};
+use gearwear::simulation::wear_run::{Outcome, RunPhase, WearRun};
 use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
 use gearwear::wear::{
     WearModel,

@@ -6,8 +6,9 @@ use gearwear::gear::{
     Gear, GearPair,
     modification::{Relief, ReliefShape},
 };
+use gearwear::mesh_cycle::wearing_pair::Snapshot;
 use gearwear::simulation::figures::WearFigures;
-use gearwear::simulation::wear_run::{Outcome, Snapshot};
+use gearwear::simulation::wear_run::Outcome;
 use gearwear::wear::settings::SevereTransition;
 
 use super::common::{assert_close, fzg_c, fzg_c_scene, pair};

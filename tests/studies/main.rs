@@ -1,4 +1,5 @@
 //! The commands that run many scenes, from the outside.
+#![allow(unreachable_pub, reason = "test modules are of one crate")]
 
 mod accuracy;
 mod accuracy_helical;

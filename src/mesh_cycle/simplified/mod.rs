@@ -36,13 +36,13 @@ use rayon::prelude::*;
 use super::wearing_pair::WearingPair;
 use crate::contact::Footprint;
 use crate::gear::{Gear, PerGear, flank::FlankGrid};
+use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::mesh_cycle::{
     CycleObservation, GreatestPressure, Work,
     load_sharing::EquilibriumError,
     sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh},
     sliced_positions::{SliceContact, SlicedPosition},
 };
-use crate::simulation::wear_run::Snapshot;
 use crate::wear::WearModel;
 use batch::Batch;
 use closed_form::ContactForms;
