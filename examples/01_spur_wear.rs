@@ -15,11 +15,8 @@ impl Observer for Stages {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let plain = LoadedScene::preset("fzg-c")?;
-    let mut relieved = plain.clone();
-    for gear in ["pinion", "wheel"] {
-        relieved = relieved.with(&format!("pair.{gear}.tip_relief.amount_um"), 20.0)?;
-        relieved = relieved.with(&format!("pair.{gear}.tip_relief.length_mm"), 2.0)?;
-    }
+    let relief: toml::Table = "amount_um = 20.0\nlength_mm = 2.0".parse()?;
+    let relieved = plain.with("pair.pinion.tip_relief", relief.clone())?.with("pair.wheel.tip_relief", relief)?;
     for (name, scene) in [("without relief", plain), ("with 20 µm of tip relief", relieved)] {
         let run = gearwear::run(&scene, &Stages)?.record;
         println!("\n{name}");

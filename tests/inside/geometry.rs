@@ -12,67 +12,16 @@ use gearwear::gear::{
 
 use super::common::{assert_close, fzg_a, fzg_c, gear, pair, spur, steel};
 
-/// ISO 14635-1 pairs; reference values computed independently for the project from the stated inputs.
 #[test]
-fn val_fzg_type_c() {
-    let c = pair(&fzg_c());
-    let close = |what: &str, value: f64, expected: f64| assert_close(what, value, expected, 1e-4);
-    close("p_bt", c.path.base_pitch_mm, 13.2846);
-    close("T1T2", c.path.line_of_action_mm, 34.9252);
-    close("alpha_wt", c.working_pressure_angle_rad.to_degrees(), 22.4388);
-    close("r_w1", c.working_pitch_radius_mm(Gear::Pinion), 36.6);
-    close("r_w2", c.working_pitch_radius_mm(Gear::Wheel), 54.9);
-    close("r_b1", c.path.involute.pinion.base_radius_mm, 33.8289);
-    close("r_b2", c.path.involute.wheel.base_radius_mm, 50.7434);
-    close("eps_alpha", c.path.contact_ratio(), 1.4375);
-    close("r_Ff1", c.teeth.pinion.root_form_radius_mm, 33.864);
-    close("r_Ff2", c.teeth.wheel.root_form_radius_mm, 51.305);
-    close("r_f1", c.teeth.pinion.root_radius_mm, 31.193);
-    close("r_f2", c.teeth.wheel.root_radius_mm, 49.147);
-    assert_eq!(c.backlash_mm, 0.0, "the rounded shifts give -6e-5 mm, which is zero");
-
-    // s from A, rho1, rho2, r1, r2, v_s/omega1, specific sliding of pinion and wheel.
-    let table = [
-        [0.0, 4.4723, 30.4529, 34.1233, 59.1800, 15.8296, -3.5395, 0.7797],
-        [5.8125, 10.2848, 24.6404, 35.3578, 56.4096, 6.1421, -0.5972, 0.3739],
-        [9.4978, 13.9701, 20.9551, 36.6000, 54.9000, 0.0, 0.0, 0.0],
-        [13.2846, 17.7569, 17.1683, 38.2061, 53.5691, 6.3113, 0.3554, -0.5514],
-        [19.0971, 23.5694, 11.3558, 41.2300, 51.9985, 15.9988, 0.6788, -2.1133],
-    ];
-    for (row, position) in table.iter().zip(c.path.points_mm()) {
-        let computed = [
-            position - c.path.start_mm,
-            position,
-            c.path.rho_mm(Gear::Wheel, position),
-            c.radius_at_mm(Gear::Pinion, position),
-            c.radius_at_mm(Gear::Wheel, position),
-            c.path.sliding_ratio(position) * c.path.involute.pinion.base_radius_mm,
-            c.path.specific_sliding(Gear::Pinion, position),
-            c.path.specific_sliding(Gear::Wheel, position),
-        ];
-        for (value, expected) in computed.iter().zip(row) {
-            assert!((value - expected).abs() <= 1e-4 * expected.abs().max(1.0), "{computed:?} against {row:?}");
-        }
-    }
-}
-
-#[test]
-fn val_fzg_type_a_has_its_pitch_point_before_b() {
+fn val_the_wheel_of_fzg_type_a_is_undercut() {
     let a = pair(&fzg_a());
-    assert_close("eps_alpha", a.path.contact_ratio(), 1.3611, 1e-4);
-    let [start, b, c, ..] = a.path.points_mm();
-    assert_close("C from A", c - start, 3.3177, 1e-4);
-    assert_close("B from A", b - start, 4.7968, 1e-4);
-    assert_close("r_Ff1", a.teeth.pinion.root_form_radius_mm, 35.386, 1e-4);
-    // The wheel is slightly undercut. Trochoid and involute cross at 50.7472 mm (a brute-force envelope of the tool's
-    // rounding over 40 001 rack positions gives the crossing between 50.7470 and 50.7475). The tabulated 50.759 is
-    // where the mirror image of the rack's straight end would lie, √(r_b² + ρ²) with ρ = −1.27 mm: not on the gear.
+    // Trochoid and involute cross at 50.7472 mm (a brute-force envelope of the tool's rounding over 40 001 rack positions gives
+    // the crossing between 50.7470 and 50.7475). The tabulated 50.759 is where the mirror image of the rack's straight end
+    // would lie, √(r_b² + ρ²) with ρ = −1.27 mm: not on the gear.
     assert_close("r_Ff2", a.teeth.wheel.root_form_radius_mm, 50.7472, 1e-5);
     let alpha = 20f64.to_radians();
     let rho = a.teeth.wheel.trochoid.involute_end_rho_mm(alpha);
     assert_close("mirror image", a.path.involute.wheel.radius_mm(rho), 50.759, 1e-5);
-    assert_close("r_f1", a.teeth.pinion.root_radius_mm, 34.214, 1e-4);
-    assert_close("r_f2", a.teeth.wheel.root_radius_mm, 46.125, 1e-4);
     assert!(a.teeth.wheel.undercut && !a.teeth.pinion.undercut);
 }
 

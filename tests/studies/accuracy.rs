@@ -4,8 +4,10 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use std::sync::LazyLock;
 
 use serde_json::Value;
+use tempfile::TempDir;
 
 use crate::program::{exchanged, gearwear, json};
 
@@ -64,19 +66,26 @@ fn points(record: &Value, quantity: &str) -> Vec<(f64, f64, bool)> {
         .collect()
 }
 
+/// The comparison that the tests share: a bed given by hand that is too soft for the tooth stiffness of ISO 6336, within 60 %.
+static COMPARISON: LazyLock<TempDir> = LazyLock::new(|| {
+    let dir = tempfile::tempdir().unwrap();
+    let text = coarse_scene().replace("match = \"half-width\"", "foundation_MPa_per_mm = 1000.0");
+    let output = accuracy(&write(dir.path(), &text), &dir.path().join("out"), &["--quick", "--within", "60"]);
+    assert!(output.status.success(), "{}", said(&output));
+    dir
+});
+
 #[test]
 fn every_model_is_compared_with_finite_elements() {
-    let dir = tempfile::tempdir().unwrap();
-    let out = dir.path().join("out");
-    let output = accuracy(&write(dir.path(), &coarse_scene()), &out, &["--quick", "--within", "60"]);
-    assert!(output.status.success(), "{}", said(&output));
+    let out = COMPARISON.path().join("out");
     for file in FILES {
         assert!(out.join(file).metadata().unwrap().len() > 0, "{file}");
     }
     let record = json(&out.join("accuracy.json"));
     let variants = record["variants"].as_array().unwrap();
     assert_eq!(record["stopped"], "completed");
-    assert!(variants.iter().all(|v| v["failure"].is_null()), "{}", record["variants"]);
+    let has_failed = |variant: &&Value| !variant["failure"].is_null();
+    assert!(variants.iter().filter(has_failed).all(|v| v["settings"]["match"] == "given"), "{}", record["variants"]);
 
     // Every surface and every stiffness that needs no file of the user.
     let settings = |key: &str| variants.iter().filter_map(|v| v["settings"][key].as_str()).collect::<Vec<_>>();
@@ -103,7 +112,7 @@ fn every_model_is_compared_with_finite_elements() {
     for quantity in ["wear_profile", "peak_pressure", "worn_transmission_error"] {
         let uncertainty = number(&record, &format!("/reference/uncertainty/{quantity}"));
         let points = points(&record, quantity);
-        assert!(points.len() == variants.len());
+        assert_eq!(points.len(), variants.iter().filter(|v| !has_failed(v)).count());
         for &(wall_s, error, on_front) in &points {
             let beaten = points.iter().any(|other| {
                 other.0 <= wall_s
@@ -127,14 +136,18 @@ fn every_model_is_compared_with_finite_elements() {
     assert_eq!(rows.len(), variants.len());
     for (row, variant) in rows.iter().zip(variants) {
         assert_eq!(&row[0], variant["name"].as_str().unwrap());
-        assert_eq!(row[column].parse::<f64>().unwrap(), number(variant, "/errors/wear_profile/relative"));
+        if has_failed(&variant) {
+            assert_eq!(&row[column], "");
+        } else {
+            assert_eq!(row[column].parse::<f64>().unwrap(), number(variant, "/errors/wear_profile/relative"));
+        }
     }
 
     // The recommended scene is that run.
     let recommended = &record["recommendations"][0];
     assert_eq!(recommended["quantity"], "wear_profile");
     let variant = &variants[recommended["variant"].as_u64().unwrap() as usize];
-    let again = dir.path().join("again");
+    let again = COMPARISON.path().join("again");
     let run = gearwear().arg("run").arg(out.join("recommended.toml")).arg("--out").arg(&again).output().unwrap();
     assert!(run.status.success(), "{}", said(&run));
     let summary = json(&again.join("summary.json"));
@@ -144,12 +157,7 @@ fn every_model_is_compared_with_finite_elements() {
 /// A bed too soft for the tooth stiffness of ISO 6336 cannot be run; the others can.
 #[test]
 fn a_run_without_result_is_a_row_with_its_reason() {
-    let dir = tempfile::tempdir().unwrap();
-    let out = dir.path().join("out");
-    let text = coarse_scene().replace("match = \"half-width\"", "foundation_MPa_per_mm = 1000.0");
-    let output = accuracy(&write(dir.path(), &text), &out, &["--quick", "--threads", "1"]);
-    assert!(output.status.success(), "{}", said(&output));
-    let record = json(&out.join("accuracy.json"));
+    let record = json(&COMPARISON.path().join("out/accuracy.json"));
     let variants = record["variants"].as_array().unwrap();
     let failed: Vec<&Value> = variants.iter().filter(|v| !v["failure"].is_null()).collect();
     assert!(!failed.is_empty() && failed.len() < variants.len() / 2);
@@ -189,7 +197,7 @@ fn an_interrupt_keeps_the_runs_that_are_finished() {
     let mut child = gearwear()
         .arg("accuracy")
         .arg(&scene)
-        .arg("--quick")
+        .args(["--quick", "--threads", "1"])
         .arg("--out")
         .arg(&out)
         .stdout(Stdio::null())

@@ -3,6 +3,8 @@
 //! Each is carried out alone by the pipeline, so that its wall time means something; a short run is repeated and its least
 //! time counts.
 
+use std::time::Instant;
+
 use super::observed::Observed;
 use super::settings::Setting;
 use crate::gear::PerGear;
@@ -13,7 +15,7 @@ use crate::results::run::{PathPoints, RunRecord, StopReason, Summary};
 use crate::scene::loaded::LoadedScene;
 use crate::studies::accuracy::record::{CALIBRATION_FILE, VariantRecord};
 
-/// Runs shorter than this are repeated, and their least time counts.
+/// Runs are repeated until they have taken this long, all that comes before the simulation included; the least time counts.
 const LONG_ENOUGH_S: f64 = 0.2;
 /// Repeats at the most.
 const MOST_REPEATS: u32 = 20;
@@ -69,8 +71,8 @@ pub(super) fn measure(setting: &Setting, base: &LoadedScene, observer: &PartOf<'
         Err(problem) => return failed(record, problem.to_string()),
     };
     let mut kept = None;
-    let mut spent_s = 0.0;
-    while record.repeats == 0 || (spent_s < LONG_ENOUGH_S && record.repeats < MOST_REPEATS) {
+    let start = Instant::now();
+    while record.repeats == 0 || (start.elapsed().as_secs_f64() < LONG_ENOUGH_S && record.repeats < MOST_REPEATS) {
         let done = match pipeline::run(&scene, observer) {
             Ok(Done { record: done, failure: None }) if done.summary.stopped == StopReason::Completed => done,
             Ok(Done { failure: Some(failure), .. }) => return failed(record, failure.to_string()),
@@ -80,7 +82,6 @@ pub(super) fn measure(setting: &Setting, base: &LoadedScene, observer: &PartOf<'
         };
         let (simulation_s, setup_s) = times(&done);
         record.repeats += 1;
-        spent_s += simulation_s;
         record.simulation_s = Some(record.simulation_s.map_or(simulation_s, |least: f64| least.min(simulation_s)));
         record.setup_s = Some(record.setup_s.map_or(setup_s, |least: f64| least.min(setup_s)));
         kept = Some(done);

@@ -164,20 +164,3 @@ fn results_are_complete() {
     let peak = rows["pressure_MPa"].iter().map(|p| p.parse::<f64>().unwrap()).fold(0.0, f64::max);
     assert_eq!(peak, contact["peak_pressure_MPa"].as_f64().unwrap());
 }
-
-/// The NAFEMS cylinder (R 50 mm on a block, 210 and 70 GPa, ν 0.3, 35 kN/mm): 3585.4 MPa and 6.215 mm by Hertz's formulas.
-/// The bodies are no half-planes (a/R = 0.12): other programs' converged small-displacement solutions lie at 3592 MPa.
-#[test]
-fn val_nafems_cylinder_on_a_block() {
-    let case = Case::new(TEXT, &mesh());
-    let (summary, _) = case.solved();
-    let contact = &summary["contact"][0];
-    let peak = contact["peak_pressure_MPa"].as_f64().unwrap();
-    let half_width = contact["half_width_mm"].as_f64().unwrap();
-    assert!((peak / 3585.4 - 1.0).abs() < 0.02, "{peak}");
-    assert!((half_width / 6.215 - 1.0).abs() < 0.02, "{half_width}");
-    // The comparison in the summary is Hertz's own, from the curvature of the nodes; the resultant of the half is its load.
-    let hertz = &contact["hertz"];
-    assert!((hertz["peak_pressure_MPa"].as_f64().unwrap() / 3585.4 - 1.0).abs() < 1e-3, "{hertz}");
-    assert!((hertz["half_width_mm"].as_f64().unwrap() / 6.215 - 1.0).abs() < 1e-3, "{hertz}");
-}
