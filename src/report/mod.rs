@@ -13,6 +13,7 @@
 
 pub mod calibration;
 pub mod chart;
+pub mod csv_table;
 pub mod fem;
 pub mod fem_pair;
 pub mod flank_mesh;
@@ -27,6 +28,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
+use self::csv_table::{Provenance, table};
 use crate::gear::Gear;
 use crate::results::run::{RunRecord, Summary};
 use crate::whole_file;
@@ -62,15 +64,15 @@ pub enum ReportError {
 /// written. The files that only a pair with slices has are taken away where `record` has none.
 pub fn write_data_and_page(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
-    let provenance = tables::Provenance::of(&record.summary);
+    let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
     let flank = |gear: Gear| move |out: &mut dyn Write| tables::flank(out, provenance, &record.flanks[gear]);
     let mut paths = vec![
         place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?,
         place(dir, "pinion.csv", flank(Gear::Pinion))?,
         place(dir, "wheel.csv", flank(Gear::Wheel))?,
-        place(dir, "history.csv", |out| tables::history(out, provenance, &record.history))?,
+        place(dir, "history.csv", |out| table(out, provenance, &record.history))?,
         place(dir, "profiles.csv", |out| tables::profiles(out, provenance, record))?,
-        place(dir, "mesh_cycle.csv", |out| tables::mesh_cycle(out, provenance, &record.mesh_cycle))?,
+        place(dir, "mesh_cycle.csv", |out| table(out, provenance, &record.mesh_cycle))?,
     ];
     match &record.slices {
         Some(slices) => {

@@ -3,7 +3,7 @@
 //! | file | from |
 //! |---|---|
 //! | `summary.json` | [`crate::results::fem_pair::FemPairSummary`] |
-//! | `mesh_cycle.csv`, `pressure.csv` | [`tables`] |
+//! | `mesh_cycle.csv`, `pressure.csv` | [`crate::results::fem_pair::FemCycleRow`], [`pressure_table`] |
 //! | `solution.vtu` | `solution_mesh`: displacement and stress of the teeth in contact, for ParaView |
 //! | `scene.toml` | the resolved scene |
 //! | `report.html` | `page` |
@@ -13,12 +13,12 @@ mod field_figures;
 mod figures_table;
 mod page;
 mod pressure_figure;
+pub mod pressure_table;
 mod solution_mesh;
-pub mod tables;
 
 use std::path::{Path, PathBuf};
 
-use super::tables::Provenance;
+use super::csv_table::{Provenance, table};
 use super::{ReportError, create_folder, place, summary};
 use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
 
@@ -26,11 +26,11 @@ use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
 /// written.
 pub fn write_data_and_page(record: &FemPairRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
-    let provenance = Provenance::of_fem_pair(&record.summary);
+    let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
     let mut written = vec![
         place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?,
-        place(dir, "mesh_cycle.csv", |out| tables::mesh_cycle(out, provenance, &record.mesh_cycle))?,
-        place(dir, "pressure.csv", |out| tables::pressure(out, provenance, &record.pressure))?,
+        place(dir, "mesh_cycle.csv", |out| table(out, provenance, &record.mesh_cycle))?,
+        place(dir, "pressure.csv", |out| pressure_table::pressure(out, provenance, &record.pressure))?,
     ];
     if let Some(solution) = &record.solution {
         written.push(place(dir, "solution.vtu", |out| solution_mesh::write(out, solution))?);

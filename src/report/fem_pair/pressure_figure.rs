@@ -2,7 +2,7 @@
 
 use crate::report::chart::{DashType, Marker, Mode, Plot};
 
-use super::tables::hertz;
+use super::pressure_table::hertz;
 use crate::report::html::number::{change, figure, percent, significant};
 use crate::report::html::theme::{Figure, MUTED, PATH, axis, curve, from_zero, layout, line};
 use crate::results::fem_pair::{FemPairRecord, PressureCurve};

@@ -17,7 +17,7 @@ pub mod tables;
 
 use std::path::{Path, PathBuf};
 
-use crate::report::tables::Provenance;
+use crate::report::csv_table::Provenance;
 use crate::report::{ReportError, create_folder, place, remove, summary};
 use crate::studies::accuracy::record::{AccuracyRecord, CALIBRATION_FILE};
 
@@ -38,7 +38,7 @@ pub fn write(record: &AccuracyRecord, dir: &Path) -> Result<Vec<PathBuf>, Report
     // What an earlier comparison recommended must not pass for this one's.
     remove(dir, RECOMMENDED)?;
     remove(dir, OVER_WIDTH)?;
-    let provenance = Provenance::of_accuracy(record);
+    let provenance = Provenance::of_scene(&record.program_version, &record.scene_hash);
     let mut written = vec![place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?];
     for (name, text) in [(CALIBRATION_FILE, &record.calibration_json), (RECOMMENDED, &record.recommended_toml)] {
         if let Some(text) = text {

@@ -21,7 +21,7 @@ pub mod tables;
 
 use std::path::{Path, PathBuf};
 
-use crate::report::tables::Provenance;
+use crate::report::csv_table::Provenance;
 use crate::report::{ReportError, create_folder, place, remove, summary};
 use crate::studies::sweep::record::SweepRecord;
 
@@ -48,7 +48,7 @@ pub fn begin(scene_toml: &str, dir: &Path) -> Result<(), ReportError> {
 pub fn write(record: &SweepRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     begin(&record.scene_toml, dir)?;
     remove(dir, PARQUET)?;
-    let provenance = Provenance::of_sweep(record);
+    let provenance = Provenance::of_scene(&record.identity.program_version, &record.identity.scene_hash);
     let mut written = vec![dir.join(SCENE), place(dir, "sweep.csv", |out| tables::rows(out, provenance, record))?];
     if record.shard.is_none() {
         #[cfg(feature = "parquet")]
