@@ -191,6 +191,13 @@ pub struct PathPoints {
     pub E: f64,
 }
 
+impl PathPoints {
+    /// Names and values, in the order of contact.
+    pub fn named(&self) -> [(&'static str, f64); 5] {
+        [("A", self.A), ("B", self.B), ("C", self.C), ("D", self.D), ("E", self.E)]
+    }
+}
+
 /// Diameters and other data of one gear, mm.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[allow(missing_docs, reason = "the names of ISO 21771 say it")]

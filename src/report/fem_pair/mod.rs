@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `summary.json` | [`crate::results::fem_pair::FemPairSummary`] |
 //! | `mesh_cycle.csv`, `pressure.csv` | [`crate::results::fem_pair::FemCycleRow`], [`pressure_table`] |
-//! | `solution.vtu` | `solution_mesh`: displacement and stress of the teeth in contact, for ParaView |
+//! | `solution.vtu` | displacement and stress at the nodes, for ParaView |
 //! | `scene.toml` | the resolved scene |
 //! | `report.html` | `page` |
 
@@ -14,13 +14,17 @@ mod figures_table;
 mod page;
 mod pressure_figure;
 pub mod pressure_table;
-mod solution_mesh;
 
 use std::path::{Path, PathBuf};
 
+use nalgebra::Vector2;
+
 use super::csv_table::{Provenance, table};
-use super::{ReportError, create_folder, place, summary};
-use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
+use super::files::{ReportError, create_folder, place, write_json};
+use super::vtu_file;
+use crate::fem::solid::Solid;
+use crate::mesh::Mesh;
+use crate::results::fem_pair::{FemPairRecord, FemPairSummary, PairSolution};
 
 /// Writes all files of `record` but `summary.json` into `dir`, which is made if need be; returns their paths in the order
 /// written.
@@ -33,7 +37,7 @@ pub fn write_data_and_page(record: &FemPairRecord, dir: &Path) -> Result<Vec<Pat
         place(dir, "pressure.csv", |out| pressure_table::pressure(out, provenance, &record.pressure))?,
     ];
     if let Some(solution) = &record.solution {
-        written.push(place(dir, "solution.vtu", |out| solution_mesh::write(out, solution))?);
+        written.push(place(dir, "solution.vtu", |out| vtu_file::write(out, &mesh(solution)))?);
     }
     written.push(place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?);
     Ok(written)
@@ -42,5 +46,13 @@ pub fn write_data_and_page(record: &FemPairRecord, dir: &Path) -> Result<Vec<Pat
 /// Writes `summary.json` into `dir`, after everything else.
 pub fn write_summary(summary: &FemPairSummary, dir: &Path) -> Result<PathBuf, ReportError> {
     create_folder(dir)?;
-    place(dir, "summary.json", |out| summary::write(out, summary))
+    place(dir, "summary.json", |out| write_json(out, summary))
+}
+
+/// The teeth in contact with displacement and stress at their nodes.
+fn mesh(solution: &PairSolution) -> Mesh {
+    let points_mm = solution.points_mm.iter().map(|p| Vector2::from(*p)).collect();
+    let mut mesh = Solid { points_mm, elements: solution.elements.clone() }.to_mesh();
+    vtu_file::add_solution(&mut mesh, &solution.displacement_mm, &solution.stress);
+    mesh
 }

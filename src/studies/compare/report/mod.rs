@@ -12,7 +12,7 @@ mod page;
 use std::path::{Path, PathBuf};
 
 use crate::report::csv_table::{Provenance, table};
-use crate::report::{ReportError, create_folder, place, remove, summary};
+use crate::report::files::{ReportError, create_folder, place, remove, write_json};
 use crate::studies::compare::record::CompareRecord;
 
 /// The file that is written last: its presence says that the others are complete.
@@ -29,6 +29,6 @@ pub fn write(record: &CompareRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportE
     Ok(vec![
         place(dir, "compare.csv", |out| table(out, provenance, &record.rows))?,
         place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?,
-        place(dir, LAST, |out| summary::write(out, record))?,
+        place(dir, LAST, |out| write_json(out, record))?,
     ])
 }

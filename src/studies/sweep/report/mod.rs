@@ -22,7 +22,7 @@ pub mod tables;
 use std::path::{Path, PathBuf};
 
 use crate::report::csv_table::Provenance;
-use crate::report::{ReportError, create_folder, place, remove, summary};
+use crate::report::files::{ReportError, create_folder, place, remove, write_json};
 use crate::studies::sweep::record::SweepRecord;
 
 /// The file that is written last: its presence says that the others are complete.
@@ -55,6 +55,6 @@ pub fn write(record: &SweepRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportErr
         written.push(place(dir, PARQUET, |out| out.write_all(&parquet_table::bytes(record)?))?);
         written.push(place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?);
     }
-    written.push(place(dir, LAST, |out| summary::write(out, &record.summary()))?);
+    written.push(place(dir, LAST, |out| write_json(out, &record.summary()))?);
     Ok(written)
 }
