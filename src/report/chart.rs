@@ -9,6 +9,7 @@
 use std::io::Read;
 
 use flate2::read::GzDecoder;
+use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use super::html::number::plotted;
@@ -420,18 +421,21 @@ impl Chart {
 
     /// As plotly.js takes it; a number that is none is `null`, a gap.
     pub fn to_json(&self) -> String {
-        json!({
-            "data": self.traces,
-            "layout": self.layout,
-            "config": {
-                "typesetMath": false,
-                "displaylogo": false,
-                "displayModeBar": "hover",
-                "doubleClick": "reset+autosize",
-                "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d", "toggleSpikelines"],
-            },
-        })
-        .to_string()
+        #[derive(Serialize)]
+        struct Whole<'a> {
+            data: &'a [Value],
+            layout: &'a Value,
+            config: Value,
+        }
+        let config = json!({
+            "typesetMath": false,
+            "displaylogo": false,
+            "displayModeBar": "hover",
+            "doubleClick": "reset+autosize",
+            "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d", "toggleSpikelines"],
+        });
+        let whole = Whole { data: &self.traces, layout: &self.layout, config };
+        serde_json::to_string(&whole).expect("numbers and texts are JSON")
     }
 }
 
