@@ -1,17 +1,37 @@
-//! Charts as data: traces and a layout in the words of plotly.js, which draws them in the page.
+//! Charts: what is drawn, in the words of plotly.js, which draws them in the page.
 //!
-//! Each structure holds those attributes of plotly.js that the reports use, serialised under plotly's names and left out where
-//! they are not set; a method of the same name sets each. What they mean is in plotly's reference,
+//! A [`Chart`] is built line by line; what has no method of its own is set under plotly's name, as plotly's reference has it,
 //! <https://plotly.com/javascript/reference/>. The script itself is in `assets`, with its licence, and goes into every page.
+//!
+//! Colours are tokens, `var(--name)` or `mix(--from,--to,share)`. The page's script replaces them by the custom properties
+//! of `page.css` in force, so that one place holds the palette and charts follow the light, dark or printed page.
 
 use std::io::Read;
 
 use flate2::read::GzDecoder;
-use serde::{Serialize, Serializer};
-use serde_json::Value;
+use serde::Serialize;
+use serde_json::{Map, Value, json};
+
+use super::html::number::plotted;
+use crate::gear::Gear;
+use crate::results::run::PathPoints;
 
 /// plotly.js 3.0.1, compressed.
 const SCRIPT: &[u8] = include_bytes!("assets/plotly.min.js.gz");
+
+/// Unworn.
+pub const NEW: &str = "var(--new)";
+/// Worn.
+pub const WORN: &str = "var(--worn)";
+/// Secondary lines and labels.
+pub const MUTED: &str = "var(--muted)";
+/// The path of contact.
+pub const PATH: &str = "var(--path)";
+/// Outlines and the answer that others are compared with.
+pub const INK: &str = "var(--ink)";
+const RULE: &str = "var(--rule)";
+const PAPER: &str = "var(--paper)";
+const NOTHING: &str = "rgba(0,0,0,0)";
 
 /// plotly.js.
 pub fn script() -> String {
@@ -21,361 +41,445 @@ pub fn script() -> String {
     script
 }
 
-/// A structure of attributes that may be set, with a method for each; `name "key": type` where plotly's name is another.
-macro_rules! attributes {
-    ($($(#[$doc:meta])* $name:ident { $($field:ident $key:literal: $kind:ty),* $(,)? })*) => { $(
-        $(#[$doc])*
-        #[derive(Debug, Clone, Default, Serialize)]
-        pub struct $name {
-            $(#[serde(rename = $key, skip_serializing_if = "Option::is_none")] $field: Option<$kind>,)*
-        }
-
-        #[allow(missing_docs)]
-        impl $name {
-            pub fn new() -> Self {
-                Self::default()
-            }
-
-            $(pub fn $field(mut self, $field: impl Into<$kind>) -> Self {
-                self.$field = Some($field.into());
-                self
-            })*
-        }
-    )* };
+/// Colour of a gear.
+pub fn gear_colour(gear: Gear) -> &'static str {
+    match gear {
+        Gear::Pinion => "var(--pinion)",
+        Gear::Wheel => "var(--wheel)",
+    }
 }
 
-/// What an attribute may say, and plotly's word for it.
-macro_rules! words {
-    ($($(#[$doc:meta])* $name:ident { $($variant:ident $word:literal),* $(,)? })*) => { $(
-        $(#[$doc])*
-        #[allow(missing_docs)]
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-        pub enum $name {
-            $(#[serde(rename = $word)] $variant,)*
-        }
-    )* };
+/// Colour of a gear's area.
+pub fn gear_fill(gear: Gear) -> &'static str {
+    match gear {
+        Gear::Pinion => "var(--pinion-fill)",
+        Gear::Wheel => "var(--wheel-fill)",
+    }
 }
 
-/// A chart: what is drawn, and how it is laid out.
-#[derive(Debug, Clone, Default, Serialize)]
-pub struct Plot {
-    data: Vec<Trace>,
-    layout: Layout,
+/// Colour of a gear at `share` of its life: from pale to full.
+pub fn gear_colour_at(gear: Gear, share: f64) -> String {
+    format!("mix(--{0}-early,--{0},{share:.3})", gear.name())
 }
 
-impl Plot {
-    /// Without traces.
-    pub fn new() -> Self {
-        Self::default()
+/// Colour between those of the gears.
+pub fn colour_between_gears(share: f64) -> String {
+    format!("mix(--pinion,--wheel,{share:.3})")
+}
+
+/// How a line is dashed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dash {
+    /// Not at all.
+    Solid,
+    /// Dashes.
+    Dash,
+    /// Dots.
+    Dot,
+    /// Both in turn.
+    DashDot,
+}
+
+/// Colour, width in pixels and dash of a line.
+#[derive(Debug, Clone)]
+pub struct Stroke {
+    colour: String,
+    width_px: f64,
+    dash: Dash,
+}
+
+impl<C: Into<String>> From<(C, f64, Dash)> for Stroke {
+    fn from((colour, width_px, dash): (C, f64, Dash)) -> Self {
+        Self { colour: colour.into(), width_px, dash }
+    }
+}
+
+impl From<Stroke> for Value {
+    fn from(Stroke { colour, width_px, dash }: Stroke) -> Self {
+        let dash = match dash {
+            Dash::Solid => "solid",
+            Dash::Dash => "dash",
+            Dash::Dot => "dot",
+            Dash::DashDot => "dashdot",
+        };
+        // Through all its points: plotly would leave some out, which puts corners into smooth curves.
+        json!({ "color": colour, "width": width_px, "dash": dash, "simplify": false })
+    }
+}
+
+/// One of the things that a chart shows.
+#[derive(Debug, Clone)]
+pub struct Trace(Map<String, Value>);
+
+/// Numbers rounded to what a chart needs; what is none, or no number, is a gap.
+fn rounded(values: impl IntoIterator<Item = impl Into<Option<f64>>>) -> Value {
+    values.into_iter().map(|value| value.into().map(plotted)).collect()
+}
+
+impl Trace {
+    /// A trace of one of plotly's types.
+    pub fn new(kind: &str, name: impl Into<String>) -> Self {
+        Self(Map::new()).set("type", kind).set("name", name.into())
+    }
+
+    /// Sets an attribute under plotly's name.
+    pub fn set(mut self, key: &str, value: impl Into<Value>) -> Self {
+        self.0.insert(key.to_owned(), value.into());
+        self
+    }
+
+    /// A line through points.
+    pub fn line(
+        name: impl Into<String>,
+        x: impl IntoIterator<Item = impl Into<Option<f64>>>,
+        y: impl IntoIterator<Item = impl Into<Option<f64>>>,
+        stroke: impl Into<Stroke>,
+    ) -> Self {
+        let points = Self::new("scatter", name).set("x", rounded(x)).set("y", rounded(y));
+        points.set("mode", "lines").set("line", stroke.into())
+    }
+
+    /// Points, each a sign of plotly's symbols.
+    pub fn points(
+        name: impl Into<String>,
+        x: impl IntoIterator<Item = impl Into<Option<f64>>>,
+        y: impl IntoIterator<Item = impl Into<Option<f64>>>,
+        (colour, symbol, size_px): (&str, &str, i32),
+    ) -> Self {
+        let points = Self::new("scatter", name).set("x", rounded(x)).set("y", rounded(y));
+        points.set("mode", "markers").set("marker", json!({ "color": colour, "symbol": symbol, "size": size_px }))
+    }
+
+    /// Colours over cells.
+    pub fn heat_map(unit: &str, x: &[f64], y: &[f64], z: impl Into<Value>) -> Self {
+        let edges = |edges: &[f64]| rounded(edges.iter().copied());
+        Self(Map::new()).set("type", "heatmap").set("x", edges(x)).set("y", edges(y)).set("z", z).colour_bar(unit)
+    }
+
+    /// Colours for values, with their scale beside the chart.
+    pub fn colour_bar(self, unit: &str) -> Self {
+        let title = json!({ "text": unit, "font": { "size": 12 } });
+        self.set("colorscale", "Viridis").set("colorbar", json!({ "title": title, "thickness": 12 }))
+    }
+
+    /// The scale of colours farther out, as part of the chart's width.
+    pub fn colour_bar_at(mut self, x: f64) -> Self {
+        self.0["colorbar"]["x"] = x.into();
+        self
+    }
+
+    /// The signs of a line's points too.
+    pub fn with_points(self, symbol: &str, size_px: i32) -> Self {
+        let colour = self.0["line"]["color"].clone();
+        let marker = json!({ "color": colour, "symbol": symbol, "size": size_px });
+        self.set("mode", "lines+markers").set("marker", marker)
+    }
+
+    /// An area instead of a line.
+    pub fn filled(self, colour: impl Into<String>) -> Self {
+        self.set("fill", "toself").set("fillcolor", colour.into()).silent()
+    }
+
+    /// What is read at a point, as a template of plotly's.
+    pub fn hover(self, template: impl Into<String>) -> Self {
+        self.set("hovertemplate", template.into())
+    }
+
+    /// A text of its own to be read at each point.
+    pub fn hover_texts(self, texts: Vec<String>) -> Self {
+        self.set("hovertext", texts).hover("%{hovertext}<extra></extra>")
+    }
+
+    /// Nothing is read at its points.
+    pub fn silent(self) -> Self {
+        self.set("hoverinfo", "skip")
+    }
+
+    /// Not in the legend.
+    pub fn unlisted(self) -> Self {
+        self.set("showlegend", false)
+    }
+
+    /// Shown and hidden with the others of the group.
+    pub fn group(self, name: &str) -> Self {
+        self.set("legendgroup", name)
+    }
+
+    /// Drawn from the beginning, or not before its entry in the legend is chosen.
+    pub fn at_once(self, at_once: bool) -> Self {
+        self.set("visible", if at_once { json!(true) } else { json!("legendonly") })
+    }
+
+    /// How much it covers what is below.
+    pub fn opacity(self, opacity: f64) -> Self {
+        self.set("opacity", opacity)
+    }
+}
+
+/// A chart with its words.
+#[derive(Debug, Clone)]
+pub struct Chart {
+    /// Identifier in the page, letters and hyphens.
+    pub id: String,
+    /// Heading.
+    pub title: String,
+    /// One sentence that says what the chart shows, with its numbers.
+    pub reading: String,
+    /// Over the whole width of the page, or beside the next one where there is room.
+    pub is_wide: bool,
+    traces: Vec<Value>,
+    layout: Value,
+}
+
+impl Chart {
+    /// An empty chart. Its width and the legend's height follow from the room there is, in the page's script.
+    pub fn new(id: impl Into<String>, title: impl Into<String>) -> Self {
+        let layout = json!({
+            "height": 380,
+            "paper_bgcolor": PAPER,
+            "plot_bgcolor": PAPER,
+            "font": { "family": "system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif", "size": 13, "color": INK },
+            "margin": { "l": 56, "r": 12, "t": 28, "b": 48 },
+            "hovermode": "x unified",
+            "hoverlabel": { "bgcolor": PAPER, "bordercolor": RULE },
+            "modebar": { "bgcolor": NOTHING, "color": MUTED, "activecolor": INK },
+            "showlegend": true,
+            "legend": {
+                "orientation": "h", "x": 0.0, "xanchor": "left", "itemwidth": 34, "bgcolor": NOTHING, "font": { "size": 12 },
+            },
+        });
+        let (id, title) = (id.into(), title.into());
+        Self { id, title, reading: String::new(), is_wide: false, traces: Vec::new(), layout }
+    }
+
+    /// The sentence below it.
+    pub fn reading(mut self, text: impl Into<String>) -> Self {
+        self.reading = text.into();
+        self
+    }
+
+    /// Over the whole width of the page.
+    pub fn wide(self) -> Self {
+        self.wide_if(true)
+    }
+
+    /// The same where `is_wide`.
+    pub fn wide_if(mut self, is_wide: bool) -> Self {
+        self.is_wide = is_wide;
+        self
+    }
+
+    /// Sets an attribute of the layout under plotly's name.
+    pub fn set(mut self, key: &str, value: impl Into<Value>) -> Self {
+        self.layout[key] = value.into();
+        self
+    }
+
+    /// Height over all.
+    pub fn height(self, px: usize) -> Self {
+        self.set("height", px)
+    }
+
+    /// Whether traces are named below it.
+    pub fn legend(self, is_shown: bool) -> Self {
+        self.set("showlegend", is_shown)
+    }
+
+    /// The nearest point is read, not all above one another.
+    pub fn read_nearest(self) -> Self {
+        self.set("hovermode", "closest")
+    }
+
+    /// Names the axis across, unit included.
+    pub fn x(self, title: &str) -> Self {
+        self.set("xaxis", axis(title))
+    }
+
+    /// Names the axis upwards, unit included.
+    pub fn y(self, title: &str) -> Self {
+        self.set("yaxis", axis(title))
+    }
+
+    /// Sets an attribute of the axis across under plotly's name.
+    pub fn x_set(mut self, key: &str, value: impl Into<Value>) -> Self {
+        self.layout["xaxis"][key] = value.into();
+        self
+    }
+
+    /// Sets an attribute of the axis upwards under plotly's name.
+    pub fn y_set(mut self, key: &str, value: impl Into<Value>) -> Self {
+        self.layout["yaxis"][key] = value.into();
+        self
+    }
+
+    /// Where the axis across begins and ends.
+    pub fn x_range(self, range: [f64; 2]) -> Self {
+        self.x_set("range", range.to_vec())
+    }
+
+    /// Where the axis upwards begins and ends.
+    pub fn y_range(self, range: [f64; 2]) -> Self {
+        self.y_set("range", range.to_vec())
+    }
+
+    /// The axis upwards from 0 to somewhat above `greatest`.
+    pub fn y_up_to(self, greatest: f64) -> Self {
+        self.y_range(from_zero(greatest))
+    }
+
+    /// The axis upwards as a depth: from somewhat below `greatest` up to 0.
+    pub fn y_down_to(self, greatest: f64) -> Self {
+        let [_, bottom] = from_zero(greatest);
+        self.y_range([bottom, -0.02 * bottom])
+    }
+
+    /// How places across are read, a format of d3.
+    pub fn x_format(self, format: &str) -> Self {
+        self.x_set("hoverformat", format)
+    }
+
+    /// Powers of ten written as such, across.
+    pub fn x_logarithmic(self) -> Self {
+        self.x_set("type", "log").x_set("exponentformat", "power")
+    }
+
+    /// Powers of ten written as such, upwards.
+    pub fn y_logarithmic(self) -> Self {
+        self.y_set("type", "log").y_set("exponentformat", "power")
+    }
+
+    /// Without the lines of both axes over the chart.
+    pub fn without_grid(self) -> Self {
+        self.x_set("showgrid", false).y_set("showgrid", false)
+    }
+
+    /// The axis across as the path of contact, with its points.
+    pub fn over_path(self, points: &PathPoints) -> Self {
+        self.x("contact position, mm").x_range(padded(points.A, points.E)).x_format(".3f").mark_path_points(points)
     }
 
     /// Draws `trace` over those before it.
-    pub fn add_trace(&mut self, trace: Trace) {
-        self.data.push(trace);
+    pub fn add(mut self, trace: Trace) -> Self {
+        self.traces.push(Value::Object(trace.0));
+        self
     }
 
-    /// Lays the chart out.
-    pub fn set_layout(&mut self, layout: Layout) {
-        self.layout = layout;
+    /// Draws all of `traces`, one over the other.
+    pub fn add_all(self, traces: impl IntoIterator<Item = Trace>) -> Self {
+        traces.into_iter().fold(self, Self::add)
     }
 
-    /// As plotly.js takes it; a number that is none becomes `null`, a gap.
+    /// Draws a line, read at its points by the template `hover`.
+    pub fn line(
+        self,
+        name: impl Into<String>,
+        x: impl IntoIterator<Item = impl Into<Option<f64>>>,
+        y: impl IntoIterator<Item = impl Into<Option<f64>>>,
+        stroke: impl Into<Stroke>,
+        hover: &str,
+    ) -> Self {
+        self.add(Trace::line(name, x, y, stroke).hover(hover))
+    }
+
+    /// Draws a quantity new (dashed, grey) and worn (full) against `x`.
+    pub fn new_and_worn(self, x: &[f64], new: Vec<f64>, worn: Vec<f64>, hover: &str) -> Self {
+        let x = || x.iter().copied();
+        self.line("new", x(), new, (NEW, 2.0, Dash::Dash), hover).line(
+            "worn",
+            x(),
+            worn,
+            (WORN, 2.2, Dash::Solid),
+            hover,
+        )
+    }
+
+    /// A vertical line with its letter at each of the points A–E; the pitch point C is the stronger one.
+    pub fn mark_path_points(self, points: &PathPoints) -> Self {
+        self.mark(points.named(), "C")
+    }
+
+    /// A vertical line with its name at each place; that of the name `strongest` is the stronger one.
+    pub fn mark(self, places: impl IntoIterator<Item = (impl Into<String>, f64)>, strongest: &str) -> Self {
+        // On a logarithmic axis plotly takes the place of a line as it is and that of its name as a logarithm.
+        let is_logarithmic = self.layout["xaxis"]["type"] == "log";
+        let (mut lines, mut names) = (Vec::new(), Vec::new());
+        for (name, x) in places {
+            if !x.is_finite() || is_logarithmic && x <= 0.0 {
+                continue;
+            }
+            let name = name.into();
+            let (width, dash) = if name == strongest { (1.4, "dashdot") } else { (1.0, "dot") };
+            lines.push(json!({
+                "type": "line", "layer": "below", "xref": "x", "yref": "paper", "x0": x, "x1": x, "y0": 0.0, "y1": 1.0,
+                "line": { "color": MUTED, "width": width, "dash": dash },
+            }));
+            let at = if is_logarithmic { x.log10() } else { x };
+            names.push(label(name, json!({ "xref": "x", "yref": "paper", "x": at, "y": 1.0, "yanchor": "bottom" })));
+        }
+        self.set("shapes", lines).set("annotations", names)
+    }
+
+    /// As plotly.js takes it; a number that is none is `null`, a gap.
     pub fn to_json(&self) -> String {
         #[derive(Serialize)]
-        struct WithConfiguration<'a> {
-            #[serde(flatten)]
-            plot: &'a Plot,
-            config: Configuration,
+        struct Whole<'a> {
+            data: &'a [Value],
+            layout: &'a Value,
+            config: Value,
         }
-        let whole = WithConfiguration { plot: self, config: Configuration::default() };
+        let config = json!({
+            "typesetMath": false,
+            "displaylogo": false,
+            "displayModeBar": "hover",
+            "doubleClick": "reset+autosize",
+            "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d", "toggleSpikelines"],
+        });
+        let whole = Whole { data: &self.traces, layout: &self.layout, config };
         serde_json::to_string(&whole).expect("numbers and texts are JSON")
     }
 }
 
-/// How the reader may handle a chart.
-#[derive(Debug, Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Configuration {
-    typeset_math: bool,
-    #[serde(rename = "displaylogo")]
-    display_logo: bool,
-    display_mode_bar: &'static str,
-    double_click: &'static str,
-    mode_bar_buttons_to_remove: [&'static str; 4],
+/// A name over a chart, at `place`.
+pub fn label(name: impl Into<String>, place: Value) -> Value {
+    let mut label = json!({ "showarrow": false, "text": name.into(), "font": { "size": 12, "color": MUTED } });
+    if let (Value::Object(label), Value::Object(place)) = (&mut label, place) {
+        label.extend(place);
+    }
+    label
 }
 
-impl Default for Configuration {
-    fn default() -> Self {
-        Self {
-            typeset_math: false,
-            display_logo: false,
-            display_mode_bar: "hover",
-            double_click: "reset+autosize",
-            mode_bar_buttons_to_remove: ["select2d", "lasso2d", "autoScale2d", "toggleSpikelines"],
-        }
-    }
+fn axis(title: &str) -> Value {
+    json!({
+        "title": { "text": title, "font": { "size": 13 } },
+        "automargin": true,
+        "gridcolor": "var(--grid)",
+        "zeroline": false,
+        "showline": true,
+        "linecolor": RULE,
+        "ticks": "outside",
+        "tickcolor": RULE,
+        "ticklen": 4,
+    })
 }
 
-/// What stands along an axis or at the points of a trace.
-#[derive(Debug, Clone, Serialize)]
-#[serde(untagged)]
-pub enum Data {
-    /// Numbers.
-    Numbers(Vec<f64>),
-    /// Numbers with gaps.
-    WithGaps(Vec<Option<f64>>),
-    /// Texts.
-    Texts(Vec<String>),
-    /// Rows of numbers, from below.
-    Rows(Vec<Vec<f64>>),
-    /// Rows of numbers with gaps, from below.
-    RowsWithGaps(Vec<Vec<Option<f64>>>),
+/// Range from 0 to somewhat above `greatest`; from 0 to 1 where nothing is above zero.
+pub fn from_zero(greatest: f64) -> [f64; 2] {
+    if greatest > 0.0 && greatest.is_finite() { [0.0, greatest * 1.06] } else { [0.0, 1.0] }
 }
 
-macro_rules! data_from {
-    ($($kind:ty => $variant:ident),*) => { $(
-        impl From<$kind> for Data {
-            fn from(values: $kind) -> Self {
-                Self::$variant(values)
-            }
-        }
-    )* };
+/// The range from `low` to `high` and a little more on either side.
+pub fn padded(low: f64, high: f64) -> [f64; 2] {
+    let pad = 0.025 * (high - low).abs();
+    [low - pad, high + pad]
 }
 
-data_from!(Vec<f64> => Numbers, Vec<Option<f64>> => WithGaps, Vec<String> => Texts, Vec<Vec<f64>> => Rows, Vec<Vec<Option<f64>>> => RowsWithGaps);
-
-/// One number for all points, or one for each.
-#[derive(Debug, Clone, Serialize)]
-#[serde(untagged)]
-pub enum Size {
-    /// For all.
-    All(i32),
-    /// For each.
-    Each(Vec<usize>),
-}
-
-impl From<i32> for Size {
-    fn from(size: i32) -> Self {
-        Self::All(size)
-    }
-}
-
-impl From<Vec<usize>> for Size {
-    fn from(sizes: Vec<usize>) -> Self {
-        Self::Each(sizes)
-    }
-}
-
-/// Whether a trace is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Visible {
-    /// From the beginning.
-    True,
-    /// Not before a button asks for it.
-    False,
-    /// Not before its entry in the legend is chosen.
-    LegendOnly,
-}
-
-impl Serialize for Visible {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::LegendOnly => serializer.serialize_str("legendonly"),
-            shown => serializer.serialize_bool(*shown == Self::True),
-        }
-    }
-}
-
-words! {
-    /// What kind of trace it is.
-    TraceType { Scatter "scatter", Bar "bar", HeatMap "heatmap", Contour "contour", Surface "surface" }
-    /// How points are shown.
-    Mode { Lines "lines", Markers "markers", LinesMarkers "lines+markers", LinesMarkersText "lines+markers+text" }
-    /// Of a line.
-    DashType { Solid "solid", Dash "dash", Dot "dot", DashDot "dashdot" }
-    /// Of a point.
-    MarkerSymbol {
-        Circle "circle", CircleOpen "circle-open", Cross "cross", CrossOpen "cross-open", Diamond "diamond",
-        DiamondOpen "diamond-open", Square "square", SquareOpen "square-open", Star "star", TriangleDown "triangle-down",
-        TriangleDownOpen "triangle-down-open", TriangleRightOpen "triangle-right-open", TriangleUp "triangle-up",
-        TriangleUpOpen "triangle-up-open", X "x",
-    }
-    /// What of an area is filled.
-    Fill { ToSelf "toself" }
-    /// What is read at a point.
-    HoverInfo { Skip "skip" }
-    /// How points are found that are read.
-    HoverMode { Closest "closest", XUnified "x unified" }
-    /// What dragging does.
-    DragMode { Zoom "zoom", Pan "pan", Turntable "turntable" }
-    /// Where a text stands.
-    Position { TopCenter "top center" }
-    /// The side of a box that is placed.
-    Anchor { Left "left", Bottom "bottom" }
-    /// Of the legend's entries.
-    Orientation { Horizontal "h" }
-    /// Of an axis.
-    AxisType { Log "log" }
-    /// What of an axis gives way where a scale is fixed.
-    AxisConstrain { Range "range" }
-    /// How powers of ten are written.
-    ExponentFormat { Power "power" }
-    /// Where ticks point.
-    TicksDirection { Outside "outside" }
-    /// How bars of one place stand.
-    BarMode { Group "group" }
-    /// From low to high.
-    ColorScale { Viridis "Viridis" }
-    /// Of a shape.
-    ShapeType { Line "line" }
-    /// What a shape is drawn over or under.
-    ShapeLayer { Below "below" }
-    /// How the proportions of a space are fixed.
-    AspectMode { Manual "manual" }
-    /// Of the choice of what is shown.
-    UpdateMenuType { Buttons "buttons" }
-    /// In which buttons follow each other.
-    UpdateMenuDirection { Right "right" }
-    /// What a button does.
-    ButtonMethod { Update "update" }
-}
-
-attributes! {
-    /// Points, bars, colours or a surface from numbers.
-    Trace {
-        type_ "type": TraceType, name "name": String, x "x": Data, y "y": Data, z "z": Data, mode "mode": Mode, line "line": Line,
-        marker "marker": Marker, error_y "error_y": ErrorBars, fill "fill": Fill, fill_color "fillcolor": String,
-        opacity "opacity": f64, visible "visible": Visible, show_legend "showlegend": bool, legend_group "legendgroup": String,
-        text_array "text": Vec<String>, text_position "textposition": Position, text_font "textfont": Font,
-        custom_data "customdata": Data, hover_info "hoverinfo": HoverInfo, hover_template "hovertemplate": String,
-        hover_text_array "hovertext": Vec<String>, hover_on_gaps "hoverongaps": bool, connect_gaps "connectgaps": bool,
-        color_scale "colorscale": ColorScale, color_bar "colorbar": ColorBar, zmin "zmin": f64, zmax "zmax": f64, cmin "cmin": f64,
-        cmax "cmax": f64, contours "contours": Contours, n_contours "ncontours": i32,
-    }
-    /// Of a trace.
-    Line { color "color": String, width "width": f64, dash "dash": DashType, simplify "simplify": bool }
-    /// Points of a trace.
-    Marker { color "color": String, size "size": Size, symbol "symbol": MarkerSymbol }
-    /// Half heights of error bars.
-    ErrorBars { type_ "type": String, array "array": Vec<f64>, color "color": String, thickness "thickness": f64, width "width": f64 }
-    /// Of a text.
-    Font { family "family": String, size "size": i32, color "color": String }
-    /// Of an axis or a colour bar.
-    Title { text "text": String, font "font": Font }
-    /// The scale of colours.
-    ColorBar { title "title": Title, thickness "thickness": i32, x "x": f64 }
-    /// Lines of equal values.
-    Contours { show_labels "showlabels": bool, label_font "labelfont": Font }
-    /// Everything about a chart but its traces.
-    Layout {
-        height "height": usize, margin "margin": Margin, font "font": Font, paper_background_color "paper_bgcolor": String,
-        plot_background_color "plot_bgcolor": String, show_legend "showlegend": bool, legend "legend": Legend,
-        hover_mode "hovermode": HoverMode, hover_label "hoverlabel": Label, drag_mode "dragmode": DragMode, mode_bar "modebar": ModeBar,
-        bar_mode "barmode": BarMode, x_axis "xaxis": Axis, y_axis "yaxis": Axis, scene "scene": LayoutScene, shapes "shapes": Vec<Shape>,
-        annotations "annotations": Vec<Annotation>, update_menus "updatemenus": Vec<UpdateMenu>,
-    }
-    /// Room around a chart, pixels.
-    Margin { left "l": i32, right "r": i32, top "t": i32, bottom "b": i32 }
-    /// Names of traces.
-    Legend {
-        orientation "orientation": Orientation, x "x": f64, x_anchor "xanchor": Anchor, item_width "itemwidth": i32,
-        background_color "bgcolor": String, font "font": Font,
-    }
-    /// What is read at a point.
-    Label { background_color "bgcolor": String, border_color "bordercolor": String }
-    /// The buttons at the top.
-    ModeBar { background_color "bgcolor": String, color "color": String, active_color "activecolor": String }
-    /// An axis.
-    Axis {
-        title "title": Title, type_ "type": AxisType, range "range": Vec<f64>, auto_margin "automargin": bool, constrain "constrain": AxisConstrain,
-        scale_anchor "scaleanchor": String, scale_ratio "scaleratio": f64, show_grid "showgrid": bool, grid_color "gridcolor": String,
-        zero_line "zeroline": bool, show_line "showline": bool, line_color "linecolor": String, ticks "ticks": TicksDirection,
-        tick_color "tickcolor": String, tick_length "ticklen": i32, tick_values "tickvals": Vec<f64>, tick_text "ticktext": Vec<String>,
-        exponent_format "exponentformat": ExponentFormat, hover_format "hoverformat": String,
-    }
-    /// A line over the chart.
-    Shape {
-        shape_type "type": ShapeType, layer "layer": ShapeLayer, x_ref "xref": String, y_ref "yref": String, x0 "x0": f64, x1 "x1": f64,
-        y0 "y0": f64, y1 "y1": f64, line "line": Line,
-    }
-    /// A text over the chart.
-    Annotation {
-        x_ref "xref": String, y_ref "yref": String, x "x": f64, y "y": f64, x_anchor "xanchor": Anchor, y_anchor "yanchor": Anchor,
-        show_arrow "showarrow": bool, text "text": String, font "font": Font,
-    }
-    /// A space with three axes.
-    LayoutScene {
-        x_axis "xaxis": Axis, y_axis "yaxis": Axis, z_axis "zaxis": Axis, aspect_mode "aspectmode": AspectMode,
-        aspect_ratio "aspectratio": Place, camera "camera": Camera, drag_mode "dragmode": DragMode,
-    }
-    /// From where a space is seen.
-    Camera { center "center": Place, eye "eye": Place }
-    /// A choice of what is shown.
-    UpdateMenu {
-        type_ "type": UpdateMenuType, direction "direction": UpdateMenuDirection, buttons "buttons": Vec<Button>,
-        background_color "bgcolor": String, border_color "bordercolor": String, font "font": Font, pad "pad": Pad, x "x": f64,
-        x_anchor "xanchor": Anchor, y "y": f64, y_anchor "yanchor": Anchor,
-    }
-    /// Room around buttons, pixels.
-    Pad { top "t": i32, bottom "b": i32, left "l": i32 }
-    /// One of them.
-    Button { label "label": String, method "method": ButtonMethod, args "args": Value }
-}
-
-/// A point in space, or lengths along its axes.
-#[derive(Debug, Clone, Serialize)]
-pub struct Place {
-    x: f64,
-    y: f64,
-    z: f64,
-}
-
-impl From<[f64; 3]> for Place {
-    fn from([x, y, z]: [f64; 3]) -> Self {
-        Self { x, y, z }
-    }
-}
-
-impl Trace {
-    fn of(kind: TraceType, x: impl Into<Data>, y: impl Into<Data>) -> Self {
-        Self::new().type_(kind).x(x).y(y)
-    }
-
-    /// Points.
-    pub fn scatter(x: Vec<f64>, y: Vec<f64>) -> Self {
-        Self::of(TraceType::Scatter, x, y)
-    }
-
-    /// A line with gaps where there is no number.
-    pub fn lines_with_gaps(x: impl Into<Data>, y: Vec<Option<f64>>) -> Self {
-        Self::of(TraceType::Scatter, x, y).mode(Mode::Lines)
-    }
-
-    /// Bars.
-    pub fn bar(names: Vec<String>, heights: Vec<f64>) -> Self {
-        Self::of(TraceType::Bar, names, heights)
-    }
-
-    /// Colours.
-    pub fn heat_map(x: Vec<f64>, y: Vec<f64>, z: impl Into<Data>) -> Self {
-        Self::of(TraceType::HeatMap, x, y).z(z)
-    }
-
-    /// Lines of equal values.
-    pub fn contour(x: Vec<f64>, y: Vec<f64>, z: impl Into<Data>) -> Self {
-        Self::of(TraceType::Contour, x, y).z(z)
-    }
-
-    /// A surface.
-    pub fn surface(x: Vec<f64>, y: Vec<f64>, z: Vec<Vec<f64>>) -> Self {
-        Self::of(TraceType::Surface, x, y).z(z)
-    }
+/// Least and greatest of `values`; of none infinitely far apart, the wrong way round.
+pub fn extent(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    values.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
 }
 
 #[cfg(test)]
 mod tests {
-    use serde_json::json;
-
     use super::*;
 
     #[test]
@@ -387,15 +491,19 @@ mod tests {
 
     #[test]
     fn charts_are_in_the_words_of_the_script() {
-        let mut plot = Plot::new();
-        let dots = Marker::new().size(5).symbol(MarkerSymbol::CircleOpen);
-        plot.add_trace(Trace::scatter(vec![1.0, f64::NAN], vec![0.5, 2.0]).marker(dots).visible(Visible::LegendOnly));
-        plot.set_layout(Layout::new().height(300_usize).x_axis(Axis::new().range([0.0, 1.0])));
-        let json: Value = serde_json::from_str(&plot.to_json()).unwrap();
-        let trace = json!({ "type": "scatter", "x": [1.0, null], "y": [0.5, 2.0], "visible": "legendonly",
-            "marker": { "size": 5, "symbol": "circle-open" } });
+        let dots = Trace::points("dots", [1.0, f64::NAN], [0.5, 2.0], (PATH, "circle-open", 5)).at_once(false);
+        let chart =
+            Chart::new("id", "title").x("x, mm").x_logarithmic().add(dots).mark([("low", -1.0), ("high", 10.0)], "");
+        let json: Value = serde_json::from_str(&chart.to_json()).unwrap();
+        let trace = json!({ "type": "scatter", "name": "dots", "x": [1.0, null], "y": [0.5, 2.0], "mode": "markers",
+            "visible": "legendonly", "marker": { "size": 5, "symbol": "circle-open", "color": PATH } });
         assert_eq!(json["data"][0], trace);
-        assert_eq!(json["layout"], json!({ "height": 300, "xaxis": { "range": [0.0, 1.0] } }));
+        assert_eq!(json["layout"]["xaxis"]["title"]["text"], "x, mm");
+        assert_eq!(json["layout"]["shapes"].as_array().unwrap().len(), 1);
+        assert_eq!(
+            (&json["layout"]["shapes"][0]["x0"], &json["layout"]["annotations"][0]["x"]),
+            (&json!(10.0), &json!(1.0))
+        );
         assert_eq!(json["config"]["doubleClick"], "reset+autosize");
     }
 }

@@ -8,27 +8,26 @@
 
 use std::io::{self, Write};
 
+use super::vtu_file;
 use crate::gear::Gear;
-use crate::mesh::vtu::VtuEncoding;
-use crate::mesh::{CellBlock, CellKind, DataArray, Format, Mesh, Values, to_bytes};
+use crate::mesh::{CellBlock, CellKind, DataArray, Mesh, Values};
 use crate::results::run::{FlankRecord, RunRecord, SliceRecord};
 
 /// Writes it in the form ParaView reads.
 pub fn write(out: &mut dyn Write, record: &RunRecord, slices: &SliceRecord) -> io::Result<()> {
-    let bytes = to_bytes(&mesh(record, slices), Format::Vtu(VtuEncoding::default())).map_err(io::Error::other)?;
-    out.write_all(&bytes)
+    vtu_file::write(out, &mesh(record, slices))
 }
 
 /// A place over the face width with the slice whose values it has.
-struct Station {
+struct FlankSection {
     width_mm: f64,
     slice: usize,
 }
 
-fn stations(width_mm: &[f64], face_width_mm: f64) -> Vec<Station> {
-    let middles = width_mm.iter().enumerate().map(|(slice, &width_mm)| Station { width_mm, slice });
+fn sections(width_mm: &[f64], face_width_mm: f64) -> Vec<FlankSection> {
+    let middles = width_mm.iter().enumerate().map(|(slice, &width_mm)| FlankSection { width_mm, slice });
     let last = width_mm.len().saturating_sub(1);
-    let ends = [Station { width_mm: 0.0, slice: 0 }, Station { width_mm: face_width_mm, slice: last }];
+    let ends = [FlankSection { width_mm: 0.0, slice: 0 }, FlankSection { width_mm: face_width_mm, slice: last }];
     let [first, end] = ends;
     std::iter::once(first).chain(middles).chain([end]).collect()
 }
@@ -44,16 +43,16 @@ fn mesh(record: &RunRecord, slices: &SliceRecord) -> Mesh {
         let root_form_mm = 0.5 * record.summary.geometry.gears[gear].root_form_diameter_mm;
         let on_involute = flank.radius_mm.partition_point(|&radius| radius < root_form_mm)..flank.radius_mm.len();
         let (start, along) = (mesh.points.len(), on_involute.len());
-        let stations = stations(&flank.width_mm, surface.face_width_mm);
-        for station in &stations {
+        let sections = sections(&flank.width_mm, surface.face_width_mm);
+        for section in &sections {
             for point in on_involute.clone() {
                 let rho = surface.rho_mm(flank.radius_mm[point]);
-                mesh.points.push(surface.point_mm(rho, station.width_mm, position_mm));
-                data.normal.extend(surface.transverse_normal(rho, station.width_mm, position_mm));
-                data.push(flank, point, station);
+                mesh.points.push(surface.point_mm(rho, section.width_mm, position_mm));
+                data.normal.extend(surface.transverse_normal(rho, section.width_mm, position_mm));
+                data.push(flank, point, section);
             }
         }
-        for across in 0..stations.len().saturating_sub(1) {
+        for across in 0..sections.len().saturating_sub(1) {
             for point in 0..along.saturating_sub(1) {
                 let near = start + across * along + point;
                 let far = near + along;
@@ -83,11 +82,11 @@ const NAMES: [&str; 7] =
     ["radius_mm", "width_mm", "removed_um", "sliding_mm_per_mesh", "wear_um", "pressure_new_MPa", "pressure_worn_MPa"];
 
 impl PointData {
-    fn push(&mut self, flank: &FlankRecord, point: usize, station: &Station) {
-        let place = station.slice * flank.radius_mm.len() + point;
+    fn push(&mut self, flank: &FlankRecord, point: usize, section: &FlankSection) {
+        let place = section.slice * flank.radius_mm.len() + point;
         let values = [
             flank.radius_mm[point],
-            station.width_mm,
+            section.width_mm,
             flank.removed_um[place],
             flank.sliding_mm_per_mesh[place],
             flank.wear_um[place],
@@ -95,17 +94,15 @@ impl PointData {
             flank.pressure_worn_MPa[place],
         ];
         self.reals.iter_mut().zip(values).for_each(|(all, value)| all.push(value));
-        self.slice.push(station.slice as i64);
+        self.slice.push(section.slice as i64);
     }
 
     fn into_mesh(self, mesh: &mut Mesh) {
-        let mut add = |name: &str, components: usize, values: Values| {
-            mesh.point_data.insert(name.to_owned(), DataArray { components, values });
-        };
         for (name, values) in NAMES.into_iter().zip(self.reals) {
-            add(name, 1, Values::Reals(values));
+            vtu_file::add(mesh, name, 1, values);
         }
-        add("slice", 1, Values::Integers(self.slice));
-        add("transverse_normal", 3, Values::Reals(self.normal));
+        let slice = DataArray { components: 1, values: Values::Integers(self.slice) };
+        mesh.point_data.insert("slice".to_owned(), slice);
+        vtu_file::add(mesh, "transverse_normal", 3, self.normal);
     }
 }

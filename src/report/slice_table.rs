@@ -2,44 +2,40 @@
 
 use std::io::{self, Write};
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::tables::{Column, Provenance, table};
+use super::csv_table::{Provenance, table};
 use crate::results::run::{PathPoints, SliceRecord};
-
-/// Columns; rows by position of the tooth, and there by slice: those that are between A and E, or loaded at a tip edge outside.
-pub const SLICES: [Column; 10] = [
-    (
-        "position_mm",
-        "position of the tooth in the middle of the face width: radius of curvature of the pinion's flank, also before A and \
-         after E",
-    ),
-    ("slice", "number of the slice, 0 at width 0"),
-    ("width_mm", "place of the slice over the face width: its middle"),
-    ("slice_position_mm", "position of the slice's own theoretical contact point"),
-    ("line_load_new_N_per_mm", "load of the slice per mm of face width, new"),
-    ("line_load_worn_N_per_mm", "the same, worn"),
-    ("peak_pressure_new_MPa", "greatest pressure of the slice, new"),
-    ("peak_pressure_worn_MPa", "the same, worn"),
-    ("at_sharp_edge_new", "whether a sharp tip edge cuts the contact off: its pressure is not defined, new"),
-    ("at_sharp_edge_worn", "the same, worn"),
-];
 
 /// Positions are compared with A and E to this part of A–E.
 const SAME_PLACE: f64 = 1e-9;
 
+/// A slice at a position of the tooth; rows by position, and there by slice: those that are between A and E, or loaded at a tip
+/// edge outside.
 #[allow(non_snake_case, reason = "the contract's column names")]
-#[derive(Serialize)]
+#[derive(Serialize, JsonSchema)]
 struct Row {
+    /// position of the tooth in the middle of the face width: radius of curvature of the pinion's flank, also before A
+    /// and after E
     position_mm: f64,
+    /// number of the slice, 0 at width 0
     slice: usize,
+    /// place of the slice over the face width: its middle
     width_mm: f64,
+    /// position of the slice's own theoretical contact point
     slice_position_mm: f64,
+    /// load of the slice per mm of face width, new
     line_load_new_N_per_mm: f64,
+    /// the same, worn
     line_load_worn_N_per_mm: f64,
+    /// greatest pressure of the slice, new
     peak_pressure_new_MPa: f64,
+    /// the same, worn
     peak_pressure_worn_MPa: f64,
+    /// whether a sharp tip edge cuts the contact off: its pressure is not defined, new
     at_sharp_edge_new: bool,
+    /// the same, worn
     at_sharp_edge_worn: bool,
 }
 
@@ -69,5 +65,5 @@ pub fn slices(out: &mut dyn Write, provenance: Provenance, record: &SliceRecord,
             || row.line_load_new_N_per_mm > 0.0
             || row.line_load_worn_N_per_mm > 0.0
     };
-    table(out, provenance, &SLICES, rows.filter(in_contact))
+    table(out, provenance, rows.filter(in_contact))
 }

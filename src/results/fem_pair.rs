@@ -5,6 +5,7 @@
 
 #![allow(non_snake_case, reason = "the contract's key and column names end in their unit as engineers write it")]
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::fem_problem::NodalStress;
@@ -205,41 +206,41 @@ pub struct FullModelSummary {
 }
 
 /// A row of `mesh_cycle.csv`: one tooth pair in contact at one position.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct FemCycleRow {
-    /// The pinion's radius of curvature at the theoretical contact point of the reference pair.
+    /// radius of curvature of the pinion's flank at the theoretical contact point of the reference pair, from A to E
     pub position_mm: f64,
-    /// 0 the reference pair, +1 the one a base pitch ahead, −1 the one behind.
+    /// tooth pair: 0 the reference pair, 1 the one a base pitch ahead, -1 the one behind
     pub pair: i32,
-    /// Its part of the torque over base radius and face width.
+    /// the pair's part of the torque over base radius and face width
     pub line_load_N_per_mm: f64,
-    /// Greatest pressure.
+    /// greatest contact pressure of the pair
     pub peak_pressure_MPa: f64,
-    /// Half the length of flank under pressure.
+    /// half the length of flank under pressure
     pub half_width_mm: f64,
-    /// Approach along the line of action, of the whole gear pair.
+    /// of the gear pair at this position, along the line of action, positive under load
     pub transmission_error_um: f64,
-    /// Line load over that of the whole torque.
+    /// line load over that of the whole torque
     pub load_share: f64,
-    /// Hertz's greatest pressure of this line load.
+    /// Hertz's greatest pressure of the pair's line load on the unmodified involutes there
     pub hertz_pressure_MPa: f64,
-    /// Hertz's half-width of this line load.
+    /// Hertz's half-width of the same
     pub hertz_half_width_mm: f64,
-    /// Radius on the pinion where the pressure's resultant acts.
+    /// radius on the pinion where the resultant of the pressure acts
     pub pinion_radius_mm: f64,
-    /// Whether a sharp tip edge carries pressure.
+    /// whether a sharp tip edge carries pressure: the peak then is singular and grows with refinement
     pub at_sharp_edge: bool,
-    /// Greatest stress at the pinion's fillet below the working flank, reference pair.
+    /// greatest principal stress at the pinion's fillet below the working flank, reference pair, at this position
     pub pinion_root_tension_MPa: f64,
-    /// Least stress at the pinion's other fillet, reference pair.
+    /// least principal stress at the pinion's other fillet
     pub pinion_root_compression_MPa: f64,
-    /// Greatest stress at the wheel's fillet below the working flank, reference pair.
+    /// greatest principal stress at the wheel's fillet below the working flank
     pub wheel_root_tension_MPa: f64,
-    /// Least stress at the wheel's other fillet, reference pair.
+    /// least principal stress at the wheel's other fillet
     pub wheel_root_compression_MPa: f64,
-    /// |T2/T1| at this position.
+    /// |T2/T1| at this position
     pub torque_ratio: f64,
-    /// Iterations of the active set at this position.
+    /// active sets tried at this position
     pub iterations: usize,
 }
 

@@ -5,6 +5,7 @@
 
 #![allow(non_snake_case, reason = "the contract's key names end in their unit as engineers write it")]
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::run::StageTime;
@@ -122,27 +123,27 @@ pub struct HertzSummary {
 }
 
 /// A row of `contact.csv`: a node of a slave surface.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct ContactRow {
-    /// Where it lies before deformation, mm.
+    /// place of the node before deformation
     pub x_mm: f64,
-    /// Where it lies before deformation, mm.
+    /// place of the node before deformation
     pub y_mm: f64,
-    /// Weighted gap, mm; none where the node faces nothing.
+    /// gap to the other surface after deformation, weighted as the contact condition is; empty where none faces the node
     pub gap_mm: Option<f64>,
-    /// Contact pressure, MPa.
+    /// contact pressure
     pub pressure_MPa: f64,
-    /// Tangential traction, MPa.
+    /// tangential traction: 0, the contact is frictionless
     pub traction_MPa: f64,
-    /// Which contact of the problem, from 0.
+    /// which [[contact]] of the problem, from 0
     pub contact: usize,
-    /// Place along the undeformed slave surface, from its first node, mm.
+    /// place along the surface before deformation, from its first node
     pub along_mm: f64,
-    /// Displacement along x, mm.
+    /// of the node
     pub displacement_x_mm: f64,
-    /// Displacement along y, mm.
+    /// of the node
     pub displacement_y_mm: f64,
-    /// Number of the node among those of the bodies, from 0.
+    /// number of the node in solution.vtu, from 0
     pub node: u32,
 }
 

@@ -2,6 +2,7 @@
 //!
 //! Field names are the contract's column and key names, so that serialising a record is writing the file.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::chemistry::{TemperatureSummary, WearLawSummary};
@@ -188,6 +189,13 @@ pub struct PathPoints {
     pub D: f64,
     /// End of contact.
     pub E: f64,
+}
+
+impl PathPoints {
+    /// Names and values, in the order of contact.
+    pub fn named(&self) -> [(&'static str, f64); 5] {
+        [("A", self.A), ("B", self.B), ("C", self.C), ("D", self.D), ("E", self.E)]
+    }
 }
 
 /// Diameters and other data of one gear, mm.
@@ -431,54 +439,78 @@ pub struct FlankRecord {
 
 /// A row of `history.csv`.
 #[allow(non_snake_case, reason = "the contract's column names")]
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs, reason = "the names say it")]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct HistoryRow {
+    /// running time; empty where the scene gives no speed
     pub hours: Option<f64>,
+    /// of the pinion
     pub revolutions: f64,
+    /// greatest wear depth on the pinion's active profile, its tip edge apart
     pub pinion_peak_wear_um: f64,
+    /// greatest wear depth in the first 2 mm of radius above the start of active profile
     pub pinion_root_wear_um: f64,
+    /// wear depth at the working pitch circle
     pub pinion_pitch_wear_um: f64,
+    /// the same of the wheel
     pub wheel_peak_wear_um: f64,
+    /// greatest pressure during one mesh, sharp tip edges under load apart
     pub peak_pressure_MPa: f64,
+    /// of the loaded pair, along the line of action
     pub transmission_error_peak_to_peak_um: f64,
+    /// radius of the greatest wear depth on the active profile
     pub pinion_peak_wear_radius_mm: f64,
-    /// At the start of active profile.
+    /// wear depth at the start of active profile
     pub pinion_sap_wear_um: f64,
-    /// Wear per million pinion revolutions at the start of active profile.
+    /// growth there per million pinion revolutions
     pub pinion_sap_wear_rate_um_per_Mrev: f64,
-    /// Number of the phase, from 1; at the end of one, that one.
+    /// number of the phase of the operation, from 1; at the end of one, that one
     pub phase: usize,
+    /// greatest pressure found at a sharp tip edge under load, which grows with every refinement; empty where there is
+    /// none
     pub sharp_edge_pressure_MPa: Option<f64>,
+    /// greatest wear depth at the pinion's tip edge
     pub pinion_tip_edge_wear_um: f64,
+    /// the same of the wheel
     pub wheel_tip_edge_wear_um: f64,
 }
 
 /// A row of `mesh_cycle.csv`: the reference pair at one loading position.
 #[allow(non_snake_case, reason = "the contract's column names")]
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs, reason = "the names say it")]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct MeshCycleRow {
-    /// The pinion's radius of curvature at the theoretical contact point.
+    /// radius of curvature of the pinion's flank at the theoretical contact point
     pub position_mm: f64,
+    /// share of the whole load that the pair carries, new
     pub load_share_new: f64,
+    /// the same, worn
     pub load_share_worn: f64,
+    /// greatest pressure of the pair, new
     pub peak_pressure_new_MPa: f64,
+    /// the same, worn
     pub peak_pressure_worn_MPa: f64,
-    /// Half the extent of the contact strip, new.
+    /// half the extent of the contact strip, new
     pub half_width_mm: f64,
+    /// approach along the line of action, positive under load, new
     pub transmission_error_new_um: f64,
+    /// the same, worn
     pub transmission_error_worn_um: f64,
-    /// Greatest rise by the chosen method, new; `None` where no temperature is computed, as with those that follow.
+    /// greatest rise of the contact above the bulk by the chosen method, new; empty where not computed
     pub temperature_rise_K: Option<f64>,
-    /// Half the extent of the contact strip, worn.
+    /// half the extent of the contact strip, worn
     pub half_width_worn_mm: f64,
+    /// the rise by the transient heat equation, new; empty where not computed
     pub temperature_rise_heat_equation_K: Option<f64>,
+    /// the same by Williams
     pub temperature_rise_williams_K: Option<f64>,
+    /// the same by Tian and Kennedy
     pub temperature_rise_tian_kennedy_K: Option<f64>,
+    /// Peclet number of the pinion's surface, new; empty where not computed
     pub peclet_pinion: Option<f64>,
+    /// the same of the wheel's
     pub peclet_wheel: Option<f64>,
+    /// whether a sharp tip edge cuts the contact off: its peak pressure is not defined, new
     pub at_sharp_edge_new: bool,
+    /// the same, worn
     pub at_sharp_edge_worn: bool,
 }
 

@@ -2,15 +2,16 @@
 
 mod foundation_figures;
 mod page;
+mod path_points;
 mod stiffness_figures;
 mod tables;
 mod wear_figure;
 
 use std::path::{Path, PathBuf};
 
-use super::{ReportError, create_folder};
+use super::files::{ReportError, create_folder};
 use crate::calibration::Calibration;
-use crate::results::run::{PathPoints, StageTime};
+use crate::results::run::StageTime;
 use crate::whole_file;
 
 /// The folder of a file.
@@ -32,12 +33,6 @@ pub fn write(calibration: &Calibration, stages: &[StageTime], title: &str, file:
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     place(&page_beside(file), &page::page(calibration, stages, title, &name))?;
     place(file, &calibration.to_json())
-}
-
-/// A to E by name.
-fn path_points(calibration: &Calibration) -> PathPoints {
-    let [a, b, c, d, e] = calibration.path_points_mm;
-    PathPoints { A: a, B: b, C: c, D: d, E: e }
 }
 
 fn place(path: &Path, text: &str) -> Result<(), ReportError> {

@@ -1,44 +1,38 @@
 //! The page beside a calibration file.
 
+use maud::html;
+
 use super::{foundation_figures, stiffness_figures, tables, wear_figure};
 use crate::calibration::Calibration;
 use crate::contact::settings::MatchCriterion;
 use crate::report::html::number::{figure, percent};
-use crate::report::html::page::{Page, plots, section, sources_list, stages_table};
+use crate::report::html::page::{self, Page, plots, section, sources_list, stages_table};
 use crate::results::run::StageTime;
 
-const LEGEND: &str = "<p class=\"legend-note\">A to E are the points of the path of contact: contact begins at A and ends at E, \
+const LEGEND: &str = "A to E are the points of the path of contact: contact begins at A and ends at E, \
      a tooth pair carries the load alone between B and D where no more than two pairs share it, and C is the pitch point. The \
-     contact position is the radius of curvature of the pinion’s flank at the theoretical contact point.</p>\n";
+     contact position is the radius of curvature of the pinion’s flank at the theoretical contact point.";
 
 /// The whole page; `file` is the name of the calibration file.
 pub fn page(calibration: &Calibration, stages: &[StageTime], title: &str, file: &str) -> String {
-    let mut figures = stiffness_figures::all(calibration);
-    figures.extend(foundation_figures::all(calibration));
-    figures.extend(wear_figure::all(calibration));
+    let mut charts = stiffness_figures::all(calibration);
+    charts.extend(foundation_figures::all(calibration));
+    charts.extend(wear_figure::all(calibration));
     let wall_s = stages.iter().map(|stage| stage.wall_s).sum();
     let belongs_to = serde_json::to_string_pretty(&calibration.belongs_to).unwrap_or_default();
-    let sections = [
-        section("figures", "Main figures", &format!("<div class=\"tables\">\n{}</div>\n", tables::tables(calibration))),
-        section("plots", "Plots", &[LEGEND, &plots(&figures)].concat()),
-        section(
-            "work",
-            "How it was computed",
-            &format!("<div class=\"tables\">\n{}</div>\n", stages_table(stages, wall_s)),
-        ),
-        section(
-            "sources",
-            "Data",
-            &sources_list(&[(file, "all numbers, as scenes read them")], "What it belongs to", &belongs_to),
-        ),
-    ];
+    let files = [(file, "all numbers, as scenes read them")];
     Page {
         kind: "Calibration of a gear pair by finite elements",
         title,
         answer: &answer(calibration),
         interruption: None,
         warnings: &[],
-        main: &sections.concat(),
+        main: html! {
+            (section("figures", "Main figures", page::tables(tables::tables(calibration))))
+            (section("plots", "Plots", html! { (page::note(LEGEND)) (plots(&charts)) }))
+            (section("work", "How it was computed", page::tables([stages_table(stages, wall_s)])))
+            (section("sources", "Data", sources_list(&files, "What it belongs to", &belongs_to)))
+        },
         footer: &format!("gearwear {} · calibration {}", calibration.program_version, short(&calibration.hash)),
     }
     .html()

@@ -1,52 +1,31 @@
 //! Stiffness of the teeth over the path of contact, and by their number.
 
-use crate::report::chart::{DashType, Layout, Plot};
-
-use super::path_points;
+use super::path_points::path_points;
 use crate::calibration::Calibration;
 use crate::calibration::stiffness_variation::{StiffnessVariation, VariationOf};
+use crate::calibration::tooth_family::FamilyMember;
 use crate::calibration::tooth_stiffness::{PairDeflection, ToothDeflection};
 use crate::gear::Gear;
+use crate::report::chart::{Chart, Dash, MUTED, PATH, Trace, WORN, colour_between_gears, extent, gear_colour};
 use crate::report::html::number::{figure, percent, significant};
-use crate::report::html::theme::{
-    Figure, MUTED, PATH, WORN, axis, curve, from_zero, gear_colour, layout, line, mark_path_points, padded,
-};
 
 /// The figures, in the order of the page.
-pub fn all(calibration: &Calibration) -> Vec<Figure> {
-    vec![
-        pair(calibration),
-        each_gear(calibration),
-        flattening(calibration),
-        coupling(calibration),
-        course(calibration),
-        family(calibration),
-    ]
-}
-
-fn positions(calibration: &Calibration) -> impl Iterator<Item = f64> + '_ {
-    calibration.deflection.iter().map(|at| at.position_mm)
-}
-
-fn over_the_path(calibration: &Calibration, y_name: &str, greatest: f64) -> Layout {
+pub fn all(calibration: &Calibration) -> Vec<Chart> {
+    let over_path = [pair, each_gear, flattening, coupling, course].map(|of| of(calibration));
     let points = path_points(calibration);
-    let x = axis("contact position, mm").range(padded(points.A, points.E)).hover_format(".3f");
-    let y = axis(y_name).range(from_zero(greatest).to_vec());
-    mark_path_points(layout(380).show_legend(true).x_axis(x).y_axis(y), &points)
+    over_path.into_iter().map(|chart| chart.over_path(&points)).chain([family(calibration)]).collect()
 }
 
-/// Adds a curve over the path.
-fn add(
-    plot: &mut Plot,
+/// Draws a curve over the path.
+fn curve(
+    chart: Chart,
     calibration: &Calibration,
-    name: &str,
-    style: (&str, f64, DashType),
+    name: impl Into<String>,
+    style: (&str, f64, Dash),
     value: impl Fn(&PairDeflection) -> f64,
-) {
-    let y = calibration.deflection.iter().map(value);
-    let (colour, width, dash) = style;
-    let trace = curve(name, positions(calibration), y, line(colour.to_owned(), width, dash));
-    plot.add_trace(trace.hover_template("%{y:.4g}"));
+) -> Chart {
+    let x = calibration.deflection.iter().map(|at| at.position_mm);
+    chart.line(name, x, calibration.deflection.iter().map(value), style, "%{y:.4g}")
 }
 
 fn greatest(calibration: &Calibration, value: impl Fn(&PairDeflection) -> f64) -> f64 {
@@ -62,112 +41,90 @@ fn weber_banaschek(tooth: &ToothDeflection) -> f64 {
     1e-3 / (tooth.weber_banaschek_bending_mm2_per_n + tooth.closed_form_flattening_mm2_per_n)
 }
 
-fn pair(calibration: &Calibration) -> Figure {
-    let mut plot = Plot::new();
+fn pair(calibration: &Calibration) -> Chart {
     let iso = calibration.iso6336_n_per_mm_um;
-    add(&mut plot, calibration, "finite elements", (PATH, 2.4, DashType::Solid), PairDeflection::pair_n_per_mm_um);
-    add(&mut plot, calibration, "Weber and Banaschek", (WORN, 2.0, DashType::Dash), |at| {
-        at.weber_banaschek_n_per_mm_um()
-    });
-    add(&mut plot, calibration, "ISO 6336, c'", (MUTED, 1.6, DashType::Dot), |_| iso);
-    let top = greatest(calibration, PairDeflection::pair_n_per_mm_um);
-    plot.set_layout(over_the_path(calibration, "stiffness of the pair, N/(mm·µm)", top.max(iso)));
+    let fem = PairDeflection::pair_n_per_mm_um;
+    let weber_banaschek = PairDeflection::weber_banaschek_n_per_mm_um;
     let at_c = calibration.deflection_at_points[2].as_ref().map_or_else(String::new, |at| {
         format!(
             "At C finite elements find {} N/(mm·µm), Weber and Banaschek {}, ISO 6336 {} for the whole path. ",
-            figure(at.pair_n_per_mm_um()),
-            figure(at.weber_banaschek_n_per_mm_um()),
+            figure(fem(at)),
+            figure(weber_banaschek(at)),
             figure(iso)
         )
     });
-    Figure {
-        id: "pair-stiffness".into(),
-        title: "Stiffness of the tooth pair, flattening included".into(),
-        reading: format!(
+    let chart = Chart::new("pair-stiffness", "Stiffness of the tooth pair, flattening included")
+        .y("stiffness of the pair, N/(mm·µm)")
+        .y_up_to(greatest(calibration, fem).max(iso))
+        .reading(format!(
             "{at_c}Both gears carry {} N/mm as Hertz’s ellipse; the curves end where the ellipse would hang over a tip edge.",
             figure(calibration.line_load_n_per_mm)
-        ),
-        plot,
-        wide: false,
-    }
+        ));
+    let chart = curve(chart, calibration, "finite elements", (PATH, 2.4, Dash::Solid), fem);
+    let chart = curve(chart, calibration, "Weber and Banaschek", (WORN, 2.0, Dash::Dash), weber_banaschek);
+    curve(chart, calibration, "ISO 6336, c'", (MUTED, 1.6, Dash::Dot), |_| iso)
 }
 
-fn each_gear(calibration: &Calibration) -> Figure {
-    let mut plot = Plot::new();
+/// Draws a quantity of each gear's tooth by finite elements and by a closed form.
+fn of_each_gear(
+    mut chart: Chart,
+    calibration: &Calibration,
+    fem: impl Fn(&ToothDeflection) -> f64,
+    (closed_name, closed): (&str, impl Fn(&ToothDeflection) -> f64),
+) -> Chart {
     let mut top = 0.0_f64;
-    for gear in Gear::BOTH {
-        let colour = gear_colour(gear);
-        let name = gear.name();
-        add(&mut plot, calibration, &format!("{name}, finite elements"), (colour, 2.2, DashType::Solid), |at| {
-            stiffness(at.tooth(gear))
-        });
-        add(&mut plot, calibration, &format!("{name}, Weber and Banaschek"), (colour, 1.6, DashType::Dash), |at| {
-            weber_banaschek(at.tooth(gear))
-        });
-        top = top.max(greatest(calibration, |at| stiffness(at.tooth(gear))));
-    }
-    plot.set_layout(over_the_path(calibration, "stiffness, N/(mm·µm)", top));
-    Figure {
-        id: "gear-stiffness".into(),
-        title: "Stiffness of each gear’s tooth, flattening included".into(),
-        reading: "The pinion’s tooth is loaded at its root at A and at its tip at E, the wheel’s the other way round. Weber and \
-                  Banaschek let the body yield as an elastic half-plane does; finite elements hold it at the clamp radius."
-            .into(),
-        plot,
-        wide: false,
-    }
-}
-
-fn flattening(calibration: &Calibration) -> Figure {
-    let mut plot = Plot::new();
-    let mut top = 0.0_f64;
-    let um_per_load = 1e3 * calibration.line_load_n_per_mm;
     for gear in Gear::BOTH {
         let (colour, name) = (gear_colour(gear), gear.name());
-        let fem = |at: &PairDeflection| um_per_load * at.tooth(gear).flattening_mm2_per_n();
-        add(&mut plot, calibration, &format!("{name}, finite elements"), (colour, 2.2, DashType::Solid), fem);
-        add(&mut plot, calibration, &format!("{name}, half-plane"), (colour, 1.6, DashType::Dash), |at| {
-            um_per_load * at.tooth(gear).closed_form_flattening_mm2_per_n
-        });
+        let (fem, closed) = (|at: &PairDeflection| fem(at.tooth(gear)), |at: &PairDeflection| closed(at.tooth(gear)));
         top = top.max(greatest(calibration, fem));
+        chart = curve(chart, calibration, format!("{name}, finite elements"), (colour, 2.2, Dash::Solid), fem);
+        chart = curve(chart, calibration, format!("{name}, {closed_name}"), (colour, 1.6, Dash::Dash), closed);
     }
-    plot.set_layout(over_the_path(calibration, "flattening to the centre line, µm", top));
+    chart.y_up_to(top)
+}
+
+fn each_gear(calibration: &Calibration) -> Chart {
+    let chart = Chart::new("gear-stiffness", "Stiffness of each gear’s tooth, flattening included")
+        .y("stiffness, N/(mm·µm)")
+        .reading(
+            "The pinion’s tooth is loaded at its root at A and at its tip at E, the wheel’s the other way round. Weber and \
+             Banaschek let the body yield as an elastic half-plane does; finite elements hold it at the clamp radius.",
+        );
+    of_each_gear(chart, calibration, stiffness, ("Weber and Banaschek", weber_banaschek))
+}
+
+fn flattening(calibration: &Calibration) -> Chart {
+    let um_per_load = 1e3 * calibration.line_load_n_per_mm;
     let excess = |at: &PairDeflection| {
         at.sum(ToothDeflection::flattening_mm2_per_n) / at.sum(|tooth| tooth.closed_form_flattening_mm2_per_n) - 1.0
     };
-    let (least, most) = calibration
-        .deflection
-        .iter()
-        .map(excess)
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, m), e| (l.min(e), m.max(e)));
-    Figure {
-        id: "flattening".into(),
-        title: "Flattening: the tooth against the half-plane".into(),
-        reading: format!(
+    let [least, most] = extent(calibration.deflection.iter().map(excess));
+    let chart = Chart::new("flattening", "Flattening: the tooth against the half-plane")
+        .y("flattening to the centre line, µm")
+        .reading(format!(
             "From the flank to the centre line the teeth yield {} to {} more than half-planes would, both together: a tooth ends \
              on its far side, where a half-plane goes on.",
             percent(least),
             percent(most)
-        ),
-        plot,
-        wide: false,
-    }
+        ));
+    let fem = |tooth: &ToothDeflection| um_per_load * tooth.flattening_mm2_per_n();
+    let half_plane = |tooth: &ToothDeflection| um_per_load * tooth.closed_form_flattening_mm2_per_n;
+    of_each_gear(chart, calibration, fem, ("half-plane", half_plane))
 }
 
-fn coupling(calibration: &Calibration) -> Figure {
-    let mut plot = Plot::new();
+fn coupling(calibration: &Calibration) -> Chart {
     type Side = fn(&PairDeflection) -> Option<f64>;
     let sides: [(&str, &str, Side); 2] =
         [("pair ahead", PATH, |at| at.ahead_mm2_per_n), ("pair behind", WORN, |at| at.behind_mm2_per_n)];
+    let mut chart = Chart::new("coupling", "Coupling of neighbouring teeth").y("approach there over approach here, %");
     let mut top = 0.0_f64;
     for (name, colour, side) in sides {
         let relative = |at: &PairDeflection| Some(side(at)? / at.sum(|tooth| tooth.whole_mm2_per_n));
         let (x, y): (Vec<f64>, Vec<f64>) =
             calibration.deflection.iter().filter_map(|at| Some((at.position_mm, 100.0 * relative(at)?))).unzip();
         top = y.iter().copied().fold(top, f64::max);
-        plot.add_trace(curve(name, x, y, line(colour, 2.2, DashType::Solid)).hover_template("%{y:.2f} %"));
+        chart = chart.line(name, x, y, (colour, 2.2, Dash::Solid), "%{y:.2f} %");
     }
-    plot.set_layout(over_the_path(calibration, "approach there over approach here, %", top));
     let at = |point: usize, side: Side| {
         let at = calibration.deflection_at_points[point].as_ref()?;
         Some(percent(side(at)? / at.sum(|tooth| tooth.whole_mm2_per_n)))
@@ -179,85 +136,60 @@ fn coupling(calibration: &Calibration) -> Figure {
         ),
         _ => String::new(),
     };
-    Figure {
-        id: "coupling".into(),
-        title: "Coupling of neighbouring teeth".into(),
-        reading: format!(
-            "{at_b_and_d}A load on one pair moves its neighbour as well, through the bodies that both share, and by much the same \
-             wherever it stands: the fast model has the mean, {} of E·δ/w, in series with all pairs together.",
-            figure(
-                calibration.pair_compliance.shared_mm2_per_n
-                    * 1e3
-                    * calibration.belongs_to.material.pinion.young_modulus_gpa
-            )
-        ),
-        plot,
-        wide: false,
-    }
+    chart.y_up_to(top).reading(format!(
+        "{at_b_and_d}A load on one pair moves its neighbour as well, through the bodies that both share, and by much the same \
+         wherever it stands: the fast model has the mean, {} of E·δ/w, in series with all pairs together.",
+        figure(
+            calibration.pair_compliance.shared_mm2_per_n
+                * 1e3
+                * calibration.belongs_to.material.pinion.young_modulus_gpa
+        )
+    ))
 }
 
-fn course(calibration: &Calibration) -> Figure {
-    let mut plot = Plot::new();
-    let mut top = 0.0_f64;
+fn course(calibration: &Calibration) -> Chart {
     let styles = [
-        (PATH, 2.4, DashType::Solid),
-        (PATH, 1.6, DashType::Dash),
-        (gear_colour(Gear::Pinion), 2.2, DashType::Solid),
-        (gear_colour(Gear::Pinion), 1.6, DashType::Dash),
+        (PATH, 2.4, Dash::Solid),
+        (PATH, 1.6, Dash::Dash),
+        (gear_colour(Gear::Pinion), 2.2, Dash::Solid),
+        (gear_colour(Gear::Pinion), 1.6, Dash::Dash),
     ];
+    let mut chart = Chart::new("course", "Stiffness over its mean").y("stiffness over its mean");
+    let mut top = 0.0_f64;
     for (course, style) in calibration.courses.iter().zip(styles) {
         let relative = |at: &PairDeflection| course.of.n_per_mm_um(at) / course.mean_n_per_mm_um;
-        add(&mut plot, calibration, course.of.words(), style, relative);
         top = top.max(greatest(calibration, relative));
+        chart = curve(chart, calibration, course.of.words(), style, relative);
     }
-    plot.set_layout(over_the_path(calibration, "stiffness over its mean", top));
     let of = |wanted: VariationOf| calibration.courses.iter().find(|course| course.of == wanted);
     let words = |course: &StiffnessVariation| format!("{} {}", course.of.words(), figure(course.max_over_min));
     let ratios: Vec<String> = VariationOf::ALL.into_iter().filter_map(of).map(words).collect();
     let place = of(VariationOf::PairWhole).map_or_else(String::new, |course| {
         format!(" The pair is stiffest at {} of the way from A to E.", percent(course.greatest_at))
     });
-    Figure {
-        id: "course".into(),
-        title: "Stiffness over its mean".into(),
-        reading: format!("Greatest over least: {}.{place}", ratios.join("; ")),
-        plot,
-        wide: false,
-    }
+    chart.y_up_to(top).reading(format!("Greatest over least: {}.{place}", ratios.join("; ")))
 }
 
-fn family(calibration: &Calibration) -> Figure {
-    let mut plot = Plot::new();
+fn family(calibration: &Calibration) -> Chart {
     let members = &calibration.family;
     let heights = members.first().map_or(&[][..], |member| &member.height);
+    let teeth = || members.iter().map(|member| f64::from(member.teeth));
+    let mut chart = Chart::new("family", "Deflection by number of teeth, loaded from root to tip");
     let mut top = 0.0_f64;
     for (k, height) in heights.iter().enumerate() {
-        let colour = format!("mix(--pinion,--wheel,{height:.3})");
+        let colour = colour_between_gears(*height);
         let name = match *height {
             0.0 => "root".to_owned(),
             1.0 => "tip".to_owned(),
             height => format!("{} of the way", significant(height, 2)),
         };
-        let teeth = || members.iter().map(|member| f64::from(member.teeth));
-        plot.add_trace(
-            curve(&name, teeth(), members.iter().map(|m| m.deflection[k]), line(colour.clone(), 2.2, DashType::Solid))
-                .legend_group(&name)
-                .hover_template("%{y:.3g}"),
-        );
-        plot.add_trace(
-            curve(&name, teeth(), members.iter().map(|m| m.weber_banaschek[k]), line(colour, 1.2, DashType::Dot))
-                .legend_group(&name)
-                .show_legend(false)
-                .hover_template("%{y:.3g}, Weber and Banaschek"),
-        );
-        let greatest = |values: fn(&crate::calibration::tooth_family::FamilyMember) -> &Vec<f64>| {
-            members.iter().map(|member| values(member)[k]).fold(0.0, f64::max)
-        };
-        top = top.max(greatest(|m| &m.deflection)).max(greatest(|m| &m.weber_banaschek));
+        let values = |of: fn(&FamilyMember) -> &Vec<f64>| members.iter().map(move |member| of(member)[k]);
+        let (fem, closed) = (values(|member| &member.deflection), values(|member| &member.weber_banaschek));
+        top = fem.clone().chain(closed.clone()).fold(top, f64::max);
+        let fem = Trace::line(&*name, teeth(), fem, (&*colour, 2.2, Dash::Solid)).hover("%{y:.3g}");
+        let closed = Trace::line(&*name, teeth(), closed, (&*colour, 1.2, Dash::Dot)).unlisted();
+        chart = chart.add(fem.group(&name)).add(closed.group(&name).hover("%{y:.3g}, Weber and Banaschek"));
     }
-    let x = axis("number of teeth");
-    let y = axis("deflection of tooth and body, E·δ/w").range(from_zero(top).to_vec());
-    plot.set_layout(layout(420).show_legend(true).x_axis(x).y_axis(y));
     let shifted: Vec<String> = members
         .iter()
         .filter(|member| member.profile_shift > 0.0)
@@ -267,14 +199,8 @@ fn family(calibration: &Calibration) -> Figure {
         true => String::new(),
         false => format!(" Shifted out by the least that avoids undercut: {}.", shifted.join(", ")),
     };
-    Figure {
-        id: "family".into(),
-        title: "Deflection by number of teeth, loaded from root to tip".into(),
-        reading: format!(
-            "Full lines by finite elements, dotted by Weber and Banaschek, flattening apart; single gears of the scene’s rack \
-             and module, held 2.5 modules below their root.{shifted}"
-        ),
-        plot,
-        wide: true,
-    }
+    chart.wide().height(420).x("number of teeth").y("deflection of tooth and body, E·δ/w").y_up_to(top).reading(format!(
+        "Full lines by finite elements, dotted by Weber and Banaschek, flattening apart; single gears of the scene’s rack \
+         and module, held 2.5 modules below their root.{shifted}"
+    ))
 }

@@ -1,11 +1,13 @@
 //! `report.html` of a finite-element problem.
 
+use maud::{Markup, html};
+
 use super::{field_figures, pressure_figure};
 use crate::fem::elastic::Analysis;
 use crate::fem::problem::Stop;
-use crate::report::html::number::{change, count, figure, significant};
-use crate::report::html::page::{Page, escape, plots, section, sources_list, stages_table};
-use crate::report::html::table::{Row, row, table};
+use crate::report::html::number::{change, figure, significant};
+use crate::report::html::page::{self, Page, plots, section, sources_list, stages_table};
+use crate::report::html::table::{NONE, cells, row, table};
 use crate::results::fem_problem::{ContactSummary, FemRecord, FemSummary};
 
 /// The data files named in the page, which lie beside it.
@@ -19,36 +21,29 @@ const DATA_FILES: [(&str, &str); 4] = [
 /// The whole page.
 pub fn page(record: &FemRecord) -> String {
     let s = &record.summary;
-    let mut figures = vec![field_figures::model(record)];
+    let mut charts = vec![field_figures::model(record)];
     let contacts = s.contact.iter().zip(&record.contacts).enumerate();
-    figures.extend(
+    charts.extend(
         contacts.filter_map(|(index, (summary, contact))| {
             pressure_figure::pressure(index, s.contact.len(), summary, contact)
         }),
     );
-    figures.extend(field_figures::von_mises(record));
-    let tables: String = s.contact.iter().map(contact_table).chain([model_table(s), solver_table(s)]).collect();
-    let sections = [
-        section("figures", "Main figures", &format!("<div class=\"tables\">\n{tables}</div>\n")),
-        section("plots", "Plots", &plots(&figures)),
-        section(
-            "work",
-            "How it was computed",
-            &format!("<div class=\"tables\">\n{}{}</div>\n", stages_table(&s.stages, s.wall_s), work_table(s)),
-        ),
-        section(
-            "sources",
-            "Data and problem",
-            &sources_list(&DATA_FILES, "The resolved problem, every default filled in", &record.problem_toml),
-        ),
-    ];
+    charts.extend(field_figures::von_mises(record));
+    let figures = s.contact.iter().map(contact_table).chain([model_table(s), solver_table(s)]);
+    let work = page::tables([stages_table(&s.stages, s.wall_s), work_table(s)]);
+    let sources = sources_list(&DATA_FILES, "The resolved problem, every default filled in", &record.problem_toml);
     Page {
         kind: "Elastic bodies in contact",
         title: &s.title,
         answer: &answer(s),
         interruption: None,
         warnings: &s.warnings,
-        main: &sections.concat(),
+        main: html! {
+            (section("figures", "Main figures", page::tables(figures)))
+            (section("plots", "Plots", plots(&charts)))
+            (section("work", "How it was computed", work))
+            (section("sources", "Data and problem", sources))
+        },
         footer: &format!("gearwear {} · problem {} · mesh {}", s.program_version, s.problem_hash, s.mesh.hash),
     }
     .html()
@@ -75,23 +70,15 @@ fn answer(s: &FemSummary) -> String {
     }
 }
 
-fn contact_table(contact: &ContactSummary) -> String {
+fn contact_table(contact: &ContactSummary) -> Markup {
     let [x, y] = contact.force_N_per_mm;
     let hertz = contact.hertz;
     let compare = |label, unit, found: f64, by_hertz: Option<f64>| {
-        let none = || "–".to_owned();
-        row(
-            label,
-            unit,
-            [
-                figure(found),
-                by_hertz.map_or_else(none, figure),
-                by_hertz.map_or_else(none, |hertz| change(hertz, found)),
-            ],
-        )
+        let difference = by_hertz.map_or_else(|| NONE.to_owned(), |hertz| change(hertz, found));
+        row(label, unit, cells![found, by_hertz, difference])
     };
-    let only = |label, unit, value: f64| row(label, unit, [figure(value), String::new(), String::new()]);
-    let mut rows: Vec<Row> = vec![
+    let only = |label, unit, value: f64| row(label, unit, cells![value, "", ""]);
+    let mut rows = vec![
         compare("Greatest pressure", "MPa", contact.peak_pressure_MPa, hertz.map(|h| h.peak_pressure_MPa)),
         compare("Half-width a", "mm", contact.half_width_mm, hertz.map(|h| h.half_width_mm)),
         only("Width in contact, modelled part", "mm", contact.contact_width_mm),
@@ -103,57 +90,47 @@ fn contact_table(contact: &ContactSummary) -> String {
     ];
     rows.extend(contact.elements_per_half_width.map(|elements| only("Elements along a", "", elements)));
     rows.extend(hertz.map(|hertz| only("Relative radius of curvature, fitted", "mm", hertz.relative_radius_mm)));
-    let caption = format!("{} on {}", escape(&contact.slave), escape(&contact.master));
-    table(&caption, &["finite elements", "Hertz", "difference"], &rows)
+    let caption = format!("{} on {}", contact.slave, contact.master);
+    table(caption, &["finite elements", "Hertz", "difference"], rows)
 }
 
-fn model_table(s: &FemSummary) -> String {
+fn model_table(s: &FemSummary) -> Markup {
     let analysis = match s.analysis {
         Analysis::PlaneStrain => "plane strain",
         Analysis::PlaneStress => "plane stress",
     };
-    table(
-        "Model",
-        &["value"],
-        &[
-            row("Mesh file", "", [escape(&s.mesh.file)]),
-            row("Nodes", "", [count(s.mesh.nodes as u64)]),
-            row("Elements", "", [count(s.elements as u64)]),
-            row("Degrees of freedom, supports included", "", [count(s.dofs as u64)]),
-            row("Across the plane", "", [analysis.to_owned()]),
-            row("Greatest von Mises stress at a node", "MPa", [figure(s.peak_von_mises_MPa)]),
-        ],
-    )
+    let rows = [
+        row("Mesh file", "", [&*s.mesh.file]),
+        row("Nodes", "", [s.mesh.nodes]),
+        row("Elements", "", [s.elements]),
+        row("Degrees of freedom, supports included", "", [s.dofs]),
+        row("Across the plane", "", [analysis]),
+        row("Greatest von Mises stress at a node", "MPa", [s.peak_von_mises_MPa]),
+    ];
+    table("Model", &["value"], rows)
 }
 
-fn solver_table(s: &FemSummary) -> String {
+fn solver_table(s: &FemSummary) -> Markup {
     let stop = match s.stopped {
         Stop::Converged => "converged",
         Stop::ConvergedAfterCycle => "converged after a cycle of active sets was broken",
     };
-    table(
-        "Solver",
-        &["value"],
-        &[
-            row("Stopped", "", [stop.to_owned()]),
-            row("Active sets tried", "", [count(s.iterations as u64)]),
-            row("Largest unbalanced nodal force, relative", "", [significant(s.residual, 2)]),
-            row("Unbalance of external forces, relative", "", [significant(s.force_balance, 2)]),
-        ],
-    )
+    let rows = [
+        row("Stopped", "", [stop]),
+        row("Active sets tried", "", [s.iterations]),
+        row("Largest unbalanced nodal force, relative", "", [significant(s.residual, 2)]),
+        row("Unbalance of external forces, relative", "", [significant(s.force_balance, 2)]),
+    ];
+    table("Solver", &["value"], rows)
 }
 
-fn work_table(s: &FemSummary) -> String {
-    let one = |label, value: usize| row(label, "", [count(value as u64)]);
-    table(
-        "Work of the solver",
-        &["count"],
-        &[
-            one("Active sets tried", s.work.iterations),
-            one("Nodes that entered or left them", s.work.active_set_changes),
-            one("Cycles broken", s.work.cycles_broken),
-            one("Sparse factorisations", s.work.factorisations),
-            one("Right-hand sides", s.work.right_hand_sides),
-        ],
-    )
+fn work_table(s: &FemSummary) -> Markup {
+    let rows = [
+        row("Active sets tried", "", [s.work.iterations]),
+        row("Nodes that entered or left them", "", [s.work.active_set_changes]),
+        row("Cycles broken", "", [s.work.cycles_broken]),
+        row("Sparse factorisations", "", [s.work.factorisations]),
+        row("Right-hand sides", "", [s.work.right_hand_sides]),
+    ];
+    table("Work of the solver", &["count"], rows)
 }

@@ -1,20 +1,18 @@
 //! Over the path of contact from A to E: load sharing, pressure, transmission error, stress at the roots.
 
-use crate::report::chart::{DashType, Marker, MarkerSymbol, Mode, Plot, Trace};
-
 use crate::gear::Gear;
-use crate::report::html::number::{figure, percent, plotted, significant};
-use crate::report::html::theme::{
-    Figure, MUTED, NEW, PATH, WORN, axis, curve, from_zero, gear_colour, layout, line, mark_path_points, padded,
-};
+use crate::report::chart::{Chart, Dash, MUTED, NEW, PATH, Trace, WORN, from_zero, gear_colour};
+use crate::report::html::number::{figure, percent, significant};
 use crate::results::fem_pair::{FemCycleRow, FemPairRecord, RootSummary};
 
 /// All figures over the path.
-pub fn all(record: &FemPairRecord) -> Vec<Figure> {
+pub fn all(record: &FemPairRecord) -> Vec<Chart> {
     if record.mesh_cycle.is_empty() {
         return Vec::new();
     }
-    vec![load_sharing(record), pressure(record), transmission_error(record), root_stress(record)]
+    let points = &record.summary.geometry.curvature_radius_mm;
+    let charts = [load_sharing(record), pressure(record), transmission_error(record), root_stress(record)];
+    charts.map(|chart| chart.over_path(points)).into()
 }
 
 /// The rows of one pair.
@@ -47,52 +45,19 @@ fn pair_name(pair: i32) -> String {
     }
 }
 
-fn finish(
-    record: &FemPairRecord,
-    mut plot: Plot,
-    words: [&str; 3],
-    range: Option<[f64; 2]>,
-    reading: String,
-) -> Figure {
-    let [id, title, y_name] = words;
-    let points = &record.summary.geometry.curvature_radius_mm;
-    let y = match range {
-        Some(range) => axis(y_name).range(range.to_vec()),
-        None => axis(y_name),
-    };
-    let x = axis("contact position, mm").range(padded(points.A, points.E)).hover_format(".3f");
-    plot.set_layout(mark_path_points(layout(380).show_legend(true).x_axis(x).y_axis(y), points));
-    Figure { id: id.into(), title: title.into(), reading, plot, wide: false }
-}
-
 /// Values over positions with a gap wherever the pair does not touch.
 fn with_gaps(record: &FemPairRecord, pair: i32, value: impl Fn(&FemCycleRow) -> f64) -> (Vec<f64>, Vec<Option<f64>>) {
-    let own = of_pair(record, pair);
-    let mut own = own.into_iter().peekable();
-    positions(record)
-        .into_iter()
-        .map(|at| {
-            (
-                plotted(at.position_mm),
-                own.next_if(|row| row.position_mm == at.position_mm).map(|row| plotted(value(row))),
-            )
-        })
-        .unzip()
+    let mut own = of_pair(record, pair).into_iter().peekable();
+    let at = |at: &FemCycleRow| (at.position_mm, own.next_if(|row| row.position_mm == at.position_mm).map(&value));
+    positions(record).into_iter().map(at).unzip()
 }
 
-fn load_sharing(record: &FemPairRecord) -> Figure {
-    let mut plot = Plot::new();
-    let styles = [(PATH, 2.4, DashType::Solid), (WORN, 1.6, DashType::Dash), (NEW, 1.6, DashType::Dot)];
-    for (pair, (colour, width, dash)) in pairs(record).into_iter().zip(styles.into_iter().cycle()) {
+fn load_sharing(record: &FemPairRecord) -> Chart {
+    let styles = [(PATH, 2.4, Dash::Solid), (WORN, 1.6, Dash::Dash), (NEW, 1.6, Dash::Dot)];
+    let shares = pairs(record).into_iter().zip(styles.into_iter().cycle()).map(|(pair, style)| {
         let (x, y) = with_gaps(record, pair, |row| row.load_share);
-        plot.add_trace(
-            Trace::lines_with_gaps(x, y)
-                .name(pair_name(pair))
-                .connect_gaps(false)
-                .line(line(colour, width, dash))
-                .hover_template("%{y:.3f}"),
-        );
-    }
+        Trace::line(pair_name(pair), x, y, style).hover("%{y:.3f}")
+    });
     let reading = record.summary.points.as_ref().map_or_else(String::new, |points| {
         let share = &points.load_share;
         format!(
@@ -105,58 +70,32 @@ fn load_sharing(record: &FemPairRecord) -> Figure {
             percent(share.E)
         )
     });
-    finish(record, plot, ["load-sharing", "Load sharing", "share of the load"], Some(from_zero(1.0)), reading)
+    let chart = Chart::new("load-sharing", "Load sharing").y("share of the load").y_up_to(1.0);
+    chart.add_all(shares).reading(reading)
 }
 
-fn pressure(record: &FemPairRecord) -> Figure {
+fn pressure(record: &FemPairRecord) -> Chart {
+    const HOVER: &str = "%{y:.1f} MPa";
     let rows = of_pair(record, 0);
-    let mut plot = Plot::new();
+    let x = || rows.iter().map(|row| row.position_mm);
     // A gap where the edge carries load: the line is of finite pressures only.
-    let x: Vec<f64> = rows.iter().map(|row| plotted(row.position_mm)).collect();
-    let y = rows.iter().map(|row| (!row.at_sharp_edge).then(|| plotted(row.peak_pressure_MPa))).collect();
-    plot.add_trace(
-        Trace::lines_with_gaps(x, y)
-            .name("finite elements")
-            .connect_gaps(false)
-            .line(line(PATH, 2.4, DashType::Solid))
-            .hover_template("%{y:.1f} MPa"),
-    );
-    plot.add_trace(
-        curve(
-            "Hertz, same load",
-            rows.iter().map(|row| row.position_mm),
-            rows.iter().map(|row| row.hertz_pressure_MPa),
-            line(MUTED, 2.0, DashType::Dash),
-        )
-        .hover_template("%{y:.1f} MPa"),
-    );
-    let top =
-        rows.iter()
-            .map(|row| {
-                if row.at_sharp_edge {
-                    row.hertz_pressure_MPa
-                } else {
-                    row.peak_pressure_MPa.max(row.hertz_pressure_MPa)
-                }
-            })
-            .fold(0.0, f64::max);
+    let finite = rows.iter().map(|row| (!row.at_sharp_edge).then_some(row.peak_pressure_MPa));
+    let hertz = rows.iter().map(|row| row.hertz_pressure_MPa);
+    let top = finite.clone().flatten().chain(hertz.clone()).fold(0.0, f64::max);
     // Singular peaks may be many times as high: those above the frame are drawn at its edge.
     let sharp: Vec<&&FemCycleRow> = rows.iter().filter(|row| row.at_sharp_edge).collect();
     let [_, frame] = from_zero(1.25 * top);
+    let mut chart = Chart::new("cycle-pressure", "Greatest pressure of the reference pair")
+        .y("greatest pressure, MPa")
+        .y_range([0.0, frame])
+        .line("finite elements", x(), finite, (PATH, 2.4, Dash::Solid), HOVER)
+        .line("Hertz, same load", x(), hertz, (MUTED, 2.0, Dash::Dash), HOVER);
     if !sharp.is_empty() {
-        plot.add_trace(
-            Trace::scatter(
-                sharp.iter().map(|row| plotted(row.position_mm)).collect(),
-                sharp.iter().map(|row| plotted(row.peak_pressure_MPa.min(0.98 * frame))).collect(),
-            )
-            .name("at a sharp tip edge")
-            .mode(Mode::Markers)
-            .marker(Marker::new().symbol(MarkerSymbol::TriangleUpOpen).size(6).color(WORN))
-            .text_array(
-                sharp.iter().map(|row| format!("{} MPa, singular", figure(row.peak_pressure_MPa))).collect::<Vec<_>>(),
-            )
-            .hover_template("%{text}"),
-        );
+        let shown = sharp.iter().map(|row| row.peak_pressure_MPa.min(0.98 * frame));
+        let x = sharp.iter().map(|row| row.position_mm);
+        let said = sharp.iter().map(|row| format!("{} MPa, singular", figure(row.peak_pressure_MPa)));
+        let marks = Trace::points("at a sharp tip edge", x, shown, (WORN, "triangle-up-open", 6));
+        chart = chart.add(marks.set("text", said.collect::<Vec<_>>()).hover("%{text}"));
     }
     let new = &record.summary.new;
     let at_c = match (new.pitch_pressure_MPa, new.pitch_hertz_pressure_MPa) {
@@ -177,64 +116,39 @@ fn pressure(record: &FemPairRecord) -> Figure {
             rows.len()
         )
     };
-    finish(
-        record,
-        plot,
-        ["cycle-pressure", "Greatest pressure of the reference pair", "greatest pressure, MPa"],
-        Some([0.0, frame]),
-        format!("{at_c}{edges}"),
-    )
+    chart.reading(format!("{at_c}{edges}"))
 }
 
-fn transmission_error(record: &FemPairRecord) -> Figure {
+fn transmission_error(record: &FemPairRecord) -> Chart {
     let rows = positions(record);
-    let mut plot = Plot::new();
-    plot.add_trace(
-        curve(
-            "transmission error",
-            rows.iter().map(|row| row.position_mm),
-            rows.iter().map(|row| row.transmission_error_um),
-            line(PATH, 2.4, DashType::Solid),
-        )
-        .hover_template("%{y:.3f} µm"),
-    );
+    let (x, y) = (rows.iter().map(|row| row.position_mm), rows.iter().map(|row| row.transmission_error_um));
     let te = &record.summary.new.transmission_error_um;
-    finish(
-        record,
-        plot,
-        ["transmission-error", "Loaded transmission error", "transmission error, µm"],
-        None,
-        format!(
+    Chart::new("transmission-error", "Loaded transmission error")
+        .y("transmission error, µm")
+        .line("transmission error", x, y, (PATH, 2.4, Dash::Solid), "%{y:.3f} µm")
+        .reading(format!(
             "Over the cycle the wheel lags {} to {} µm along the line of action, {} µm peak to peak: least where two pairs \
              share the load, greatest where one carries it alone.",
             figure(te.min),
             figure(te.max),
             figure(te.peak_to_peak)
-        ),
-    )
+        ))
 }
 
-fn root_stress(record: &FemPairRecord) -> Figure {
+fn root_stress(record: &FemPairRecord) -> Chart {
     let rows = positions(record);
-    let mut plot = Plot::new();
+    let mut chart = Chart::new("root-stress", "Stress at the fillets").y("principal stress, MPa");
     type Side = fn(&FemCycleRow) -> f64;
-    let sides: [(Gear, Side, Side); 2] = [
-        (Gear::Pinion, |row| row.pinion_root_tension_MPa, |row| row.pinion_root_compression_MPa),
-        (Gear::Wheel, |row| row.wheel_root_tension_MPa, |row| row.wheel_root_compression_MPa),
+    let sides: [(Gear, &str, Side, Dash); 4] = [
+        (Gear::Pinion, "tension", |row| row.pinion_root_tension_MPa, Dash::Solid),
+        (Gear::Pinion, "compression", |row| row.pinion_root_compression_MPa, Dash::Dash),
+        (Gear::Wheel, "tension", |row| row.wheel_root_tension_MPa, Dash::Solid),
+        (Gear::Wheel, "compression", |row| row.wheel_root_compression_MPa, Dash::Dash),
     ];
-    for (gear, tension, compression) in sides {
-        for (side, value, dash) in [("tension", tension, DashType::Solid), ("compression", compression, DashType::Dash)]
-        {
-            plot.add_trace(
-                curve(
-                    &format!("{}, {side}", gear.name()),
-                    rows.iter().map(|row| row.position_mm),
-                    rows.iter().map(|row| value(row)),
-                    line(gear_colour(gear), 2.0, dash),
-                )
-                .hover_template("%{y:.1f} MPa"),
-            );
-        }
+    for (gear, side, value, dash) in sides {
+        let (x, y) = (rows.iter().map(|row| row.position_mm), rows.iter().map(|row| value(row)));
+        let name = format!("{}, {side}", gear.name());
+        chart = chart.line(name, x, y, (gear_colour(gear), 2.0, dash), "%{y:.1f} MPa");
     }
     let root = &record.summary.root;
     let of = |root: &RootSummary| {
@@ -251,5 +165,5 @@ fn root_stress(record: &FemPairRecord) -> Figure {
         ),
         _ => String::new(),
     };
-    finish(record, plot, ["root-stress", "Stress at the fillets", "principal stress, MPa"], None, reading)
+    chart.reading(reading)
 }

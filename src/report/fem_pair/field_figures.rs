@@ -1,82 +1,69 @@
 //! The teeth in contact as finite elements, and the von Mises stress in them.
 
-use crate::report::chart::{DragMode, Plot};
-
 use crate::fem::solid::Element;
 use crate::gear::Gear;
-use crate::report::html::field_plot::{self, Bodies, MOST_SIDES, Quantity, Window, segments, sides, to_scale};
+use crate::report::chart::{Chart, gear_colour};
+use crate::report::html::field_plot::{
+    self, Bodies, MOST_SIDES, Quantity, Window, greatest_near, segments, sides, to_scale,
+};
 use crate::report::html::number::{count, figure, significant};
-use crate::report::html::theme::{Figure, gear_colour};
 use crate::results::fem_pair::{ContactPlace, FemPairSummary, PairSolution};
 
 /// Half the height of the picture of a contact, in half-widths.
 const AROUND: f64 = 2.0;
 
 /// The elements of the teeth, undeformed.
-pub fn mesh(s: &FemPairSummary, solution: &PairSolution) -> Figure {
+pub fn mesh(s: &FemPairSummary, solution: &PairSolution) -> Chart {
+    let gears = &s.model.gears;
+    let reading = format!(
+        "{} elements on {} nodes, at the contact position of {} mm before loading; drag over a contact to see them. They \
+         are part of bodies of {} degrees of freedom (pinion, held rigidly at {} mm and turned by the torque) and {} \
+         (wheel, held at {} mm).",
+        count(solution.elements.len() as u64),
+        count(solution.points_mm.len() as u64),
+        significant(solution.position_mm, 5),
+        count(gears.pinion.dofs as u64),
+        significant(gears.pinion.clamp_radius_mm, 4),
+        count(gears.wheel.dofs as u64),
+        significant(gears.wheel.clamp_radius_mm, 4),
+    );
     let window = Window::around(&solution.points_mm);
-    let mut plot = Plot::new();
+    let mut chart = Chart::new("mesh", "Finite elements of the teeth that may touch").wide().reading(reading);
     for (gear, material) in Gear::BOTH.into_iter().zip(0..) {
         let own: Vec<Element> = solution.elements.iter().filter(|e| e.material == material).copied().collect();
         let bodies = Bodies { points_mm: &solution.points_mm, elements: &own };
         let (outline, inner) = sides(bodies, window);
         if inner.len() <= MOST_SIDES {
-            plot.add_trace(segments("elements", bodies, &inner, "var(--rule)", 0.6).show_legend(false));
+            chart = chart.add(segments("elements", bodies, &inner, "var(--rule)", 0.6).unlisted());
         }
-        plot.add_trace(segments(gear.name(), bodies, &outline, gear_colour(gear), 1.4));
+        chart = chart.add(segments(gear.name(), bodies, &outline, gear_colour(gear), 1.4));
     }
-    plot.set_layout(to_scale(window).show_legend(true).drag_mode(DragMode::Zoom));
-    let gears = &s.model.gears;
-    Figure {
-        id: "mesh".into(),
-        title: "Finite elements of the teeth that may touch".into(),
-        reading: format!(
-            "{} elements on {} nodes, at the contact position of {} mm before loading; drag over a contact to see them. They \
-             are part of bodies of {} degrees of freedom (pinion, held rigidly at {} mm and turned by the torque) and {} \
-             (wheel, held at {} mm).",
-            count(solution.elements.len() as u64),
-            count(solution.points_mm.len() as u64),
-            significant(solution.position_mm, 5),
-            count(gears.pinion.dofs as u64),
-            significant(gears.pinion.clamp_radius_mm, 4),
-            count(gears.wheel.dofs as u64),
-            significant(gears.wheel.clamp_radius_mm, 4),
-        ),
-        plot,
-        wide: true,
-    }
+    to_scale(chart, window)
 }
 
 /// The von Mises stress in the teeth, and around each contact, deformed as computed.
-pub fn von_mises(solution: &PairSolution) -> Vec<Figure> {
+pub fn von_mises(solution: &PairSolution) -> Vec<Chart> {
     let deformed: Vec<[f64; 2]> =
         solution.points_mm.iter().zip(&solution.displacement_mm).map(|(p, u)| [p[0] + u[0], p[1] + u[1]]).collect();
     let bodies = Bodies { points_mm: &deformed, elements: &solution.elements };
     let values: Vec<f64> = solution.stress.iter().map(|stress| stress.von_mises_MPa).collect();
     let quantity = Quantity { name: "σ<sub>v</sub>, MPa", unit: "MPa", values: &values };
-    let picture = |id: String, title: String, reading: String, window: Window| Figure {
-        id,
-        title,
-        reading,
-        plot: field_plot::field(bodies, quantity, window),
-        wide: true,
-    };
+    let picture = |chart: Chart, window: Window| field_plot::field(chart, bodies, quantity, window);
     let whole = format!(
         "The teeth at the contact position of {} mm, deformed to scale. The stress is greatest under the contact{}, next at \
          the fillets.",
         significant(solution.position_mm, 5),
         if solution.contacts.len() == 1 { "" } else { "s" },
     );
-    let mut figures = vec![picture("stress".into(), "Von Mises stress".into(), whole, Window::around(&deformed))];
-    figures.extend(solution.contacts.iter().map(|contact| {
-        picture(
-            format!("stress-contact-{}", contact.pair).replace("--", "-behind-"),
-            format!("Von Mises stress under {}", pair_name(contact.pair)),
-            contact_reading(contact, greatest_near(&deformed, &values, contact)),
-            Window::about(contact.at_mm, AROUND * contact.half_width_mm),
-        )
-    }));
-    figures
+    let whole = picture(Chart::new("stress", "Von Mises stress").reading(whole), Window::around(&deformed));
+    let contacts = solution.contacts.iter().map(|contact| {
+        let reach_mm = AROUND * contact.half_width_mm;
+        let greatest_mpa = greatest_near(bodies, &values, contact.at_mm, reach_mm);
+        let id = format!("stress-contact-{}", contact.pair).replace("--", "-behind-");
+        let chart = Chart::new(id, format!("Von Mises stress under {}", pair_name(contact.pair)));
+        picture(chart.reading(contact_reading(contact, greatest_mpa)), Window::about(contact.at_mm, reach_mm))
+    });
+    [whole].into_iter().chain(contacts).collect()
 }
 
 fn pair_name(pair: i32) -> &'static str {
@@ -103,11 +90,4 @@ fn contact_reading(contact: &ContactPlace, greatest_mpa: f64) -> String {
         significant(greatest_mpa / contact.peak_pressure_MPa, 3),
         figure(contact.peak_pressure_MPa),
     )
-}
-
-/// The greatest value at a node within the picture of a contact.
-fn greatest_near(points: &[[f64; 2]], values: &[f64], contact: &ContactPlace) -> f64 {
-    let reach_mm = AROUND * contact.half_width_mm;
-    let near = |p: &[f64; 2]| (0..2).all(|axis| (p[axis] - contact.at_mm[axis]).abs() <= reach_mm);
-    points.iter().zip(values).filter(|(p, _)| near(p)).map(|(_, value)| *value).fold(0.0, f64::max)
 }

@@ -1,22 +1,24 @@
 //! The main figures of finite-element contact of a gear pair as HTML tables.
 
+use maud::{Markup, html};
+
 use crate::gear::PerGear;
-use crate::report::html::number::{change, count, figure, fixed, percent, significant};
-use crate::report::html::page::escape;
-use crate::report::html::table::{Row, row, table};
-use crate::results::fem_pair::{FemPairSummary, GearModelSummary, PathPointsSummary, RootSummary};
+use crate::report::html::number::{change, count, fixed, percent, significant};
+use crate::report::html::page;
+use crate::report::html::table::{row, table};
+use crate::results::fem_pair::{FemPairSummary, FullModelSummary, GearModelSummary, PathPointsSummary, RootSummary};
 use crate::results::run::PathPoints;
 
 /// All tables of figures, in the order of the page.
-pub fn tables(s: &FemPairSummary) -> String {
-    let points = s.points.as_ref().map_or_else(String::new, points);
-    [cycle(s), roots(s), points, model(s), gears(s)].concat()
+pub fn tables(s: &FemPairSummary) -> Markup {
+    let points = s.points.as_ref().map_or_else(Markup::default, points);
+    page::tables([cycle(s), roots(s), points, model(s), gears(s)])
 }
 
-fn cycle(s: &FemPairSummary) -> String {
+fn cycle(s: &FemPairSummary) -> Markup {
     let (new, te) = (&s.new, &s.new.transmission_error_um);
-    let one = |label, unit, value: f64| row(label, unit, [figure(value)]);
-    let mut rows: Vec<Row> = Vec::new();
+    let one = |label, unit, value: f64| row(label, unit, [value]);
+    let mut rows: Vec<Markup> = Vec::new();
     rows.extend(new.peak_pressure_MPa.map(|p| one("Greatest pressure away from sharp edges", "MPa", p)));
     rows.extend(
         new.peak_pressure_position_mm.filter(|_| s.position_mm.is_none()).map(|at| one("at position", "mm", at)),
@@ -38,17 +40,16 @@ fn cycle(s: &FemPairSummary) -> String {
         ]);
     }
     rows.push(one("Line load, whole torque", "N/mm", s.contact.line_load_N_per_mm));
-    table(if s.position_mm.is_some() { "Contact" } else { "Mesh cycle" }, &["value"], &rows)
+    table(if s.position_mm.is_some() { "Contact" } else { "Mesh cycle" }, &["value"], rows)
 }
 
-fn roots(s: &FemPairSummary) -> String {
-    let PerGear { pinion: Some(pinion), wheel: Some(wheel) } = &s.root else { return String::new() };
-    let both =
-        |label, unit, value: fn(&RootSummary) -> f64| row(label, unit, [pinion, wheel].map(|r| figure(value(r))));
+fn roots(s: &FemPairSummary) -> Markup {
+    let PerGear { pinion: Some(pinion), wheel: Some(wheel) } = &s.root else { return Markup::default() };
+    let both = |label, unit, value: fn(&RootSummary) -> f64| row(label, unit, [pinion, wheel].map(value));
     table(
         "Stress at the fillets of the reference pair",
         &["pinion", "wheel"],
-        &[
+        [
             both("Greatest, below the working flank", "MPa", |r| r.tension_MPa),
             both("at position", "mm", |r| r.tension_position_mm),
             both("Least, on the other side", "MPa", |r| r.compression_MPa),
@@ -57,15 +58,15 @@ fn roots(s: &FemPairSummary) -> String {
     )
 }
 
-fn points(points: &PathPointsSummary) -> String {
+fn points(points: &PathPointsSummary) -> Markup {
     let five = |label, unit, values: &PathPoints| {
         let PathPoints { A, B, C, D, E } = *values;
-        row(label, unit, [A, B, C, D, E].map(figure))
+        row(label, unit, [A, B, C, D, E])
     };
     table(
         "The reference pair at A to E",
         &["A", "B", "C", "D", "E"],
-        &[
+        [
             five("Share of the load", "", &points.load_share),
             five("Greatest pressure", "MPa", &points.peak_pressure_MPa),
             five("Hertz, same load", "MPa", &points.hertz_pressure_MPa),
@@ -74,26 +75,26 @@ fn points(points: &PathPointsSummary) -> String {
     )
 }
 
-fn model(s: &FemPairSummary) -> String {
+fn model(s: &FemPairSummary) -> Markup {
     let m = &s.model;
     let body = match (m.sector_teeth, &m.sector_sides) {
-        (Some(teeth), Some(sides)) => format!("sector of {teeth} teeth, sides {}", escape(sides)),
+        (Some(teeth), Some(sides)) => format!("sector of {teeth} teeth, sides {}", sides),
         _ => "whole ring".to_owned(),
     };
     table(
         "Model",
         &["value"],
-        &[
+        [
             row("Body", "", [body]),
-            row("Across the plane", "", ["plane strain".to_owned()]),
+            row("Across the plane", "", ["plane strain"]),
             row("Elements along Hertz’s half-width", "", [significant(m.elements_per_half_width, 3)]),
-            row("Degrees of freedom, supports included", "", [count(s.dofs as u64)]),
-            row("Elements", "", [count(s.elements as u64)]),
+            row("Degrees of freedom, supports included", "", [s.dofs]),
+            row("Elements", "", [s.elements]),
         ],
     )
 }
 
-fn gears(s: &FemPairSummary) -> String {
+fn gears(s: &FemPairSummary) -> Markup {
     let gears = &s.model.gears;
     let both = |label, unit, value: &dyn Fn(&GearModelSummary) -> String| {
         row(label, unit, [value(&gears.pinion), value(&gears.wheel)])
@@ -101,7 +102,7 @@ fn gears(s: &FemPairSummary) -> String {
     table(
         "Finite elements of the gears",
         &["pinion", "wheel"],
-        &[
+        [
             both("Held or turned at radius", "mm", &|g| fixed(g.clamp_radius_mm, 3)),
             both("Degrees of freedom", "", &|g| count(g.dofs as u64)),
             both("Elements", "", &|g| count(g.elements as u64)),
@@ -115,11 +116,11 @@ fn gears(s: &FemPairSummary) -> String {
 }
 
 /// How well equilibrium was met, and the whole model where it was solved.
-pub fn checks(s: &FemPairSummary) -> String {
+pub fn checks(s: &FemPairSummary) -> Markup {
     let c = &s.checks;
     let mut rows = vec![
         row("|T2/T1| against z2/z1, worst", "", [percent(c.torque_ratio_error)]),
-        row("at position", "mm", [figure(c.torque_ratio_error_position_mm)]),
+        row("at position", "mm", [c.torque_ratio_error_position_mm]),
     ];
     rows.extend(
         c.torque_ratio_error_on_line
@@ -129,38 +130,23 @@ pub fn checks(s: &FemPairSummary) -> String {
         row("Load not balanced, relative", "", [significant(c.load_imbalance, 2)]),
         row("Largest penetration", "µm", [significant(c.max_penetration_um, 2)]),
         row("Active sets a position, mean", "", [significant(c.iterations_per_position, 3)]),
-        row("Active sets a position, most", "", [count(c.most_iterations as u64)]),
-        row("Cycles of active sets broken", "", [count(c.cycles_broken as u64)]),
+        row("Active sets a position, most", "", [c.most_iterations]),
+        row("Cycles of active sets broken", "", [c.cycles_broken]),
     ]);
     rows.extend(s.wall_per_position_s.map(|wall_s| row("Time a position", "ms", [significant(1e3 * wall_s, 3)])));
-    let note = format!("<p class=\"legend-note\">{}.</p>\n", escape(&c.torque_ratio));
-    [table("Checks", &["value"], &rows), note, full(s)].concat()
+    let note = page::note(&format!("{}.", c.torque_ratio));
+    html! { (table("Checks", &["value"], rows)) (note) @for at in s.full.iter().flatten() { (full(at)) } }
 }
 
-fn full(s: &FemPairSummary) -> String {
-    let Some(full) = &s.full else { return String::new() };
-    full.iter()
-        .map(|at| {
-            table(
-                &format!("Whole model without condensation, at {} mm", significant(at.position_mm, 5)),
-                &["value"],
-                &[
-                    row("Degrees of freedom", "", [count(at.dofs as u64)]),
-                    row("Transmission error", "µm", [figure(at.transmission_error_um)]),
-                    row(
-                        "Transmission error, difference, relative",
-                        "",
-                        [significant(at.transmission_error_difference, 2)],
-                    ),
-                    row("Line load of a pair, difference, relative", "", [significant(at.line_load_difference, 2)]),
-                    row(
-                        "Peak pressure of a pair, difference, relative",
-                        "",
-                        [significant(at.peak_pressure_difference, 2)],
-                    ),
-                    row("Time", "s", [fixed(at.wall_s, 2)]),
-                ],
-            )
-        })
-        .collect()
+fn full(at: &FullModelSummary) -> Markup {
+    let rows = [
+        row("Degrees of freedom", "", [at.dofs]),
+        row("Transmission error", "µm", [at.transmission_error_um]),
+        row("Transmission error, difference, relative", "", [significant(at.transmission_error_difference, 2)]),
+        row("Line load of a pair, difference, relative", "", [significant(at.line_load_difference, 2)]),
+        row("Peak pressure of a pair, difference, relative", "", [significant(at.peak_pressure_difference, 2)]),
+        row("Time", "s", [fixed(at.wall_s, 2)]),
+    ];
+    let caption = format!("Whole model without condensation, at {} mm", significant(at.position_mm, 5));
+    table(caption, &["value"], rows)
 }

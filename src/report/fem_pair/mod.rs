@@ -3,8 +3,8 @@
 //! | file | from |
 //! |---|---|
 //! | `summary.json` | [`crate::results::fem_pair::FemPairSummary`] |
-//! | `mesh_cycle.csv`, `pressure.csv` | [`tables`] |
-//! | `solution.vtu` | `solution_mesh`: displacement and stress of the teeth in contact, for ParaView |
+//! | `mesh_cycle.csv`, `pressure.csv` | [`crate::results::fem_pair::FemCycleRow`], [`pressure_table`] |
+//! | `solution.vtu` | displacement and stress at the nodes, for ParaView |
 //! | `scene.toml` | the resolved scene |
 //! | `report.html` | `page` |
 
@@ -13,27 +13,31 @@ mod field_figures;
 mod figures_table;
 mod page;
 mod pressure_figure;
-mod solution_mesh;
-pub mod tables;
+pub mod pressure_table;
 
 use std::path::{Path, PathBuf};
 
-use super::tables::Provenance;
-use super::{ReportError, create_folder, place, summary};
-use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
+use nalgebra::Vector2;
+
+use super::csv_table::{Provenance, table};
+use super::files::{ReportError, create_folder, place, write_json};
+use super::vtu_file;
+use crate::fem::solid::Solid;
+use crate::mesh::Mesh;
+use crate::results::fem_pair::{FemPairRecord, FemPairSummary, PairSolution};
 
 /// Writes all files of `record` but `summary.json` into `dir`, which is made if need be; returns their paths in the order
 /// written.
 pub fn write_data_and_page(record: &FemPairRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
-    let provenance = Provenance::of_fem_pair(&record.summary);
+    let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
     let mut written = vec![
         place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?,
-        place(dir, "mesh_cycle.csv", |out| tables::mesh_cycle(out, provenance, &record.mesh_cycle))?,
-        place(dir, "pressure.csv", |out| tables::pressure(out, provenance, &record.pressure))?,
+        place(dir, "mesh_cycle.csv", |out| table(out, provenance, &record.mesh_cycle))?,
+        place(dir, "pressure.csv", |out| pressure_table::pressure(out, provenance, &record.pressure))?,
     ];
     if let Some(solution) = &record.solution {
-        written.push(place(dir, "solution.vtu", |out| solution_mesh::write(out, solution))?);
+        written.push(place(dir, "solution.vtu", |out| vtu_file::write(out, &mesh(solution)))?);
     }
     written.push(place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?);
     Ok(written)
@@ -42,5 +46,13 @@ pub fn write_data_and_page(record: &FemPairRecord, dir: &Path) -> Result<Vec<Pat
 /// Writes `summary.json` into `dir`, after everything else.
 pub fn write_summary(summary: &FemPairSummary, dir: &Path) -> Result<PathBuf, ReportError> {
     create_folder(dir)?;
-    place(dir, "summary.json", |out| summary::write(out, summary))
+    place(dir, "summary.json", |out| write_json(out, summary))
+}
+
+/// The teeth in contact with displacement and stress at their nodes.
+fn mesh(solution: &PairSolution) -> Mesh {
+    let points_mm = solution.points_mm.iter().map(|p| Vector2::from(*p)).collect();
+    let mut mesh = Solid { points_mm, elements: solution.elements.clone() }.to_mesh();
+    vtu_file::add_solution(&mut mesh, &solution.displacement_mm, &solution.stress);
+    mesh
 }

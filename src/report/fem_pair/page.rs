@@ -1,10 +1,11 @@
 //! `report.html` of finite-element contact of a gear pair.
 
+use maud::html;
+
 use super::{cycle_figures, field_figures, figures_table, pressure_figure};
 use crate::report::html::number::{figure, significant};
-use crate::report::html::page::{Page, plots, section, sources_list, stages_table};
+use crate::report::html::page::{self, Page, plots, section, sources_list, stages_table};
 use crate::report::html::reading::among;
-use crate::report::html::theme::named;
 use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
 use crate::results::run::StopReason;
 
@@ -17,55 +18,35 @@ const DATA_FILES: [(&str, &str); 5] = [
     ("scene.toml", "the resolved scene"),
 ];
 
-const LEGEND: &str = "<p class=\"legend-note\">A to E are the points of the path of contact: theoretical contact begins at A \
+const LEGEND: &str = "A to E are the points of the path of contact: theoretical contact begins at A \
      and ends at E, a tooth pair carries the load alone between B and D where no more than two pairs share it, and C is the \
      pitch point. The contact position is the radius of curvature of the pinion’s flank at the theoretical contact point of \
-     the reference pair. Under load teeth bend, and pairs touch a little before A and after E as well, at a tip edge.</p>\n";
+     the reference pair. Under load teeth bend, and pairs touch a little before A and after E as well, at a tip edge.";
 
 /// The whole page.
 pub fn page(record: &FemPairRecord) -> String {
     let s = &record.summary;
-    let mut figures = Vec::new();
-    figures.extend(record.solution.as_ref().map(|solution| field_figures::mesh(s, solution)));
+    let mut charts: Vec<_> = record.solution.iter().map(|solution| field_figures::mesh(s, solution)).collect();
     if s.position_mm.is_none() {
-        figures.extend(cycle_figures::all(record));
+        charts.extend(cycle_figures::all(record));
     }
-    figures.extend(pressure_figure::all(record));
-    if let Some(solution) = &record.solution {
-        figures.extend(field_figures::von_mises(solution));
-    }
-    let sections = [
-        section("figures", "Main figures", &format!("<div class=\"tables\">\n{}</div>\n", figures_table::tables(s))),
-        section("plots", "Plots", &[LEGEND, &plots(&figures)].concat()),
-        section(
-            "work",
-            "How it was computed",
-            &format!(
-                "<div class=\"tables\">\n{}{}</div>\n",
-                stages_table(&s.stages, s.wall_s),
-                figures_table::checks(s)
-            ),
-        ),
-        section(
-            "sources",
-            "Data and scene",
-            &sources_list(
-                &DATA_FILES
-                    .into_iter()
-                    .filter(|(name, _)| *name != "solution.vtu" || record.solution.is_some())
-                    .collect::<Vec<_>>(),
-                "The resolved scene, every default filled in",
-                &record.scene_toml,
-            ),
-        ),
-    ];
+    charts.extend(pressure_figure::all(record));
+    charts.extend(record.solution.iter().flat_map(field_figures::von_mises));
+    let is_there = |(name, _): &(&str, &str)| *name != "solution.vtu" || record.solution.is_some();
+    let files: Vec<_> = DATA_FILES.into_iter().filter(is_there).collect();
+    let work = html! { (stages_table(&s.stages, s.wall_s)) (figures_table::checks(s)) };
     Page {
         kind: "Finite-element contact of a gear pair",
         title: &s.title,
         answer: &answer(s),
         interruption: interruption(s).as_deref(),
         warnings: &s.warnings,
-        main: &sections.concat(),
+        main: html! {
+            (section("figures", "Main figures", figures_table::tables(s)))
+            (section("plots", "Plots", html! { (page::note(LEGEND)) (plots(&charts)) }))
+            (section("work", "How it was computed", page::tables([work])))
+            (section("sources", "Data and scene", sources_list(&files, "The resolved scene, every default filled in", &record.scene_toml)))
+        },
         footer: &format!("gearwear {} · scene {}", s.program_version, s.scene_hash),
     }
     .html()
@@ -78,7 +59,7 @@ fn answer(s: &FemPairSummary) -> String {
             "Away from sharp tip edges the pressure reaches {} MPa at {} mm, {}.",
             figure(peak),
             significant(at, 4),
-            among(&named(&s.geometry.curvature_radius_mm), at)
+            among(&s.geometry.curvature_radius_mm.named(), at)
         ),
         (Some(peak), _) => format!("Away from sharp tip edges the pressure reaches {} MPa.", figure(peak)),
         (None, _) => "Every contact touches a sharp tip edge, where pressure has no finite value.".to_owned(),

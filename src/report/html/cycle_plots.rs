@@ -1,21 +1,19 @@
 //! Plots over the mesh cycle of the reference pair, from A to E: load sharing, transmission error, pressure.
 
-use crate::report::chart::Plot;
-
 use super::number::{change, figure, percent, significant};
 use super::reading::{Extreme, among, defined_pressures, greatest, tip_edge_note};
-use super::theme::{Figure, axis, from_zero, layout, mark_path_points, named, new_and_worn, padded};
-use crate::results::run::{MeshCycleRow, PathPoints, RunRecord};
+use crate::report::chart::Chart;
+use crate::results::run::{MeshCycleRow, RunRecord};
 
 /// A pair that carries at least this share of the load counts as carrying it alone.
 pub const ALONE: f64 = 0.9995;
 
 /// Load share, transmission error and greatest pressure over the cycle, new and worn.
-pub fn all(record: &RunRecord) -> Vec<Figure> {
+pub fn all(record: &RunRecord) -> Vec<Chart> {
     vec![load_sharing(record), transmission_error(record), pressure(record)]
 }
 
-fn load_sharing(record: &RunRecord) -> Figure {
+fn load_sharing(record: &RunRecord) -> Chart {
     let rows = &record.mesh_cycle;
     let reading = match (rows.first(), alone(rows, |r| r.load_share_new), alone(rows, |r| r.load_share_worn)) {
         (None, ..) => NOT_COMPUTED.into(),
@@ -27,17 +25,12 @@ fn load_sharing(record: &RunRecord) -> Figure {
             stretch(worn),
         ),
     };
-    over_cycle(
-        record,
-        Words { id: "load-sharing", title: "Load sharing", y: "share of the load", hover: "%{y:.3f}" },
-        [|r| r.load_share_new, |r| r.load_share_worn],
-        Some(1.0),
-        reading,
-    )
+    let chart = Chart::new("load-sharing", "Load sharing").y("share of the load").y_up_to(1.0).reading(reading);
+    over_cycle(record, chart, [|r| r.load_share_new, |r| r.load_share_worn], "%{y:.3f}")
 }
 
 /// Loaded transmission error.
-pub fn transmission_error(record: &RunRecord) -> Figure {
+pub fn transmission_error(record: &RunRecord) -> Chart {
     let (new, worn) = (&record.summary.new.transmission_error_um, &record.summary.worn.transmission_error_um);
     let reading = if record.mesh_cycle.is_empty() {
         NOT_COMPUTED.into()
@@ -53,26 +46,17 @@ pub fn transmission_error(record: &RunRecord) -> Figure {
             figure(worn.peak_to_peak),
         )
     };
-    over_cycle(
-        record,
-        Words {
-            id: "transmission-error",
-            title: "Loaded transmission error",
-            y: "transmission error, µm",
-            hover: "%{y:.3f} µm",
-        },
-        [|r| r.transmission_error_new_um, |r| r.transmission_error_worn_um],
-        None,
-        reading,
-    )
+    let chart =
+        Chart::new("transmission-error", "Loaded transmission error").y("transmission error, µm").reading(reading);
+    over_cycle(record, chart, [|r| r.transmission_error_new_um, |r| r.transmission_error_worn_um], "%{y:.3f} µm")
 }
 
-fn pressure(record: &RunRecord) -> Figure {
+fn pressure(record: &RunRecord) -> Chart {
     let rows = &record.mesh_cycle;
     let column = |value: fn(&MeshCycleRow) -> (f64, bool)| greatest(&defined_pressures(rows, value));
     let place = |at: Extreme| {
         let position = rows[at.index].position_mm;
-        let points = named(&record.summary.geometry.curvature_radius_mm);
+        let points = record.summary.geometry.curvature_radius_mm.named();
         format!("at {} mm, {}", significant(position, 4), among(&points, position))
     };
     let reading = match (
@@ -86,57 +70,29 @@ fn pressure(record: &RunRecord) -> Figure {
             place(worn),
             figure(worn.value),
             change(new.value, worn.value),
-            tip_edge_note(&named(&record.summary.geometry.curvature_radius_mm), rows[worn.index].position_mm),
+            tip_edge_note(&record.summary.geometry.curvature_radius_mm.named(), rows[worn.index].position_mm),
         ),
         _ => NOT_COMPUTED.into(),
     };
     let top = rows.iter().flat_map(|r| [r.peak_pressure_new_MPa, r.peak_pressure_worn_MPa]).fold(0.0, f64::max);
+    let chart =
+        Chart::new("cycle-pressure", "Greatest pressure over the cycle").y("greatest pressure, MPa").y_up_to(top);
     over_cycle(
         record,
-        Words {
-            id: "cycle-pressure",
-            title: "Greatest pressure over the cycle",
-            y: "greatest pressure, MPa",
-            hover: "%{y:.1f} MPa",
-        },
+        chart.reading(reading),
         [|r| r.peak_pressure_new_MPa, |r| r.peak_pressure_worn_MPa],
-        Some(top),
-        reading,
+        "%{y:.1f} MPa",
     )
 }
 
 /// What to say of a run without a mesh cycle.
 pub const NOT_COMPUTED: &str = "The run ended before a mesh cycle was evaluated.";
 
-/// What a plot over the cycle is called.
-struct Words {
-    id: &'static str,
-    title: &'static str,
-    y: &'static str,
-    hover: &'static str,
-}
-
-/// A plot of a quantity new and worn over the cycle; its axis starts at zero where `top` says how far it goes.
-fn over_cycle(
-    record: &RunRecord,
-    words: Words,
-    new_worn: [fn(&MeshCycleRow) -> f64; 2],
-    top: Option<f64>,
-    reading: String,
-) -> Figure {
-    let rows = &record.mesh_cycle;
-    let position: Vec<f64> = rows.iter().map(|r| r.position_mm).collect();
-    let [new, worn] = new_worn.map(|value| rows.iter().map(value).collect());
-    let mut plot = Plot::new();
-    new_and_worn(&mut plot, &position, new, worn, words.hover);
-    let points: &PathPoints = &record.summary.geometry.curvature_radius_mm;
-    let y = match top {
-        Some(top) => axis(words.y).range(from_zero(top).to_vec()),
-        None => axis(words.y),
-    };
-    let x = axis("contact position, mm").range(padded(points.A, points.E)).hover_format(".3f");
-    plot.set_layout(mark_path_points(layout(380).show_legend(true).x_axis(x).y_axis(y), points));
-    Figure { id: words.id.into(), title: words.title.into(), reading, plot, wide: false }
+/// A quantity new and worn over the cycle.
+fn over_cycle(record: &RunRecord, chart: Chart, [new, worn]: [fn(&MeshCycleRow) -> f64; 2], hover: &str) -> Chart {
+    let column = |value: fn(&MeshCycleRow) -> f64| record.mesh_cycle.iter().map(value).collect::<Vec<f64>>();
+    let chart = chart.new_and_worn(&column(|row| row.position_mm), column(new), column(worn), hover);
+    chart.over_path(&record.summary.geometry.curvature_radius_mm)
 }
 
 /// First and last position where the pair carries the whole load.

@@ -2,14 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use crate::report::chart::{
-    Anchor, Annotation, AxisConstrain, DashType, DragMode, Fill, Font, HoverInfo, HoverMode, Layout, Marker, Mode,
-    Plot, Position, Trace,
-};
+use serde_json::{Value, json};
 
 use super::number::{figure, significant};
-use super::theme::{Figure, MUTED, PATH, axis, gear_colour, layout, line};
 use crate::gear::Gear;
+use crate::report::chart::{Chart, Dash, MUTED, PATH, Stroke, Trace, extent, gear_colour, gear_fill, label};
 use crate::results::run::{GearCircles, PairDrawing, RunRecord};
 
 /// Points of a drawn circle: its sagitta stays below 1e-4 of the radius.
@@ -20,64 +17,65 @@ fn to_scale(mm: f64) -> f64 {
     (mm * 1e4).round() / 1e4
 }
 
-/// Both gears, the line of action and the path of contact; zoomed on the mesh to begin with.
-pub fn pair(record: &RunRecord) -> Figure {
+/// Both gears, the line of action and the path of contact; zoomed on the mesh to begin with: the path of contact with three
+/// modules around it. A double click shows both gears whole.
+pub fn pair(record: &RunRecord) -> Chart {
     let drawing = &record.drawing;
-    let mut plot = Plot::new();
-    for gear in Gear::BOTH {
-        plot.add_trace(outline(drawing, gear));
+    let line_of_action = polyline("line of action T1T2", &drawing.line_of_action, (MUTED, 1.4, Dash::Solid)).silent();
+    let chart = Chart::new("pair", "The pair in mesh, to scale")
+        .wide()
+        .height(620)
+        .x("x, mm")
+        .y("y, mm")
+        .y_set("scaleanchor", "x")
+        .y_set("scaleratio", 1.0)
+        .x_set("constrain", "range")
+        .y_set("constrain", "range")
+        .read_nearest()
+        .set("dragmode", "pan")
+        .set("annotations", ends_of_the_line_of_action(drawing))
+        .add_all(Gear::BOTH.map(|gear| outline(drawing, gear)))
+        .add_all(Gear::BOTH.into_iter().flat_map(|gear| circles(drawing, gear)))
+        .add(line_of_action)
+        .add(path_of_contact(drawing))
+        .reading(reading(record));
+    let pinion = &record.summary.geometry.gears.pinion;
+    let around = 3.0 * pinion.reference_diameter_mm / f64::from(pinion.teeth.max(1));
+    if drawing.path_of_contact.is_empty() || !around.is_finite() {
+        return chart;
     }
-    for gear in Gear::BOTH {
-        add_circles(&mut plot, drawing, gear);
-    }
-    let [t1, t2] = drawing.line_of_action;
-    plot.add_trace(
-        polyline("line of action T1T2", &[t1, t2]).line(line(MUTED, 1.4, DashType::Solid)).hover_info(HoverInfo::Skip),
-    );
-    plot.add_trace(path_of_contact(drawing));
-    plot.set_layout(zoomed_on_mesh(record));
-    Figure { id: "pair".into(), title: "The pair in mesh, to scale".into(), reading: reading(record), plot, wide: true }
+    let [x, y] = [0, 1].map(|axis| {
+        let [low, high] = extent(drawing.path_of_contact.iter().map(|(_, point)| point[axis]));
+        [low - around, high + around]
+    });
+    chart.x_range(x).y_range(y)
 }
 
-fn polyline(name: &str, points: &[[f64; 2]]) -> Trace {
-    let [x, y] = [0, 1].map(|axis| points.iter().map(|p| to_scale(p[axis])).collect());
-    Trace::scatter(x, y).name(name).mode(Mode::Lines)
+fn polyline(name: &str, points: &[[f64; 2]], stroke: impl Into<Stroke>) -> Trace {
+    let [x, y] = [0, 1].map(|axis| points.iter().map(|p| to_scale(p[axis])).collect::<Vec<f64>>());
+    Trace::line(name, [0.0; 0], [0.0; 0], stroke).set("x", x).set("y", y)
 }
 
 fn outline(drawing: &PairDrawing, gear: Gear) -> Trace {
     let mut points = drawing.outline[gear].clone();
     points.extend(points.first().copied());
-    let fill = match gear {
-        Gear::Pinion => "var(--pinion-fill)",
-        Gear::Wheel => "var(--wheel-fill)",
-    };
-    polyline(gear.name(), &points)
-        .line(line(gear_colour(gear), 1.8, DashType::Solid))
-        .fill(Fill::ToSelf)
-        .fill_color(fill)
-        .hover_info(HoverInfo::Skip)
+    polyline(gear.name(), &points, (gear_colour(gear), 1.8, Dash::Solid)).filled(gear_fill(gear))
 }
 
 /// Base, working pitch and tip circle, and the bore; one legend entry for the circles of both gears.
-fn add_circles(plot: &mut Plot, drawing: &PairDrawing, gear: Gear) {
+fn circles(drawing: &PairDrawing, gear: Gear) -> impl Iterator<Item = Trace> {
     let GearCircles { base, working_pitch, tip } = drawing.circles_mm[gear];
     let circles = [
-        ("base circles", Some(base), DashType::Dot, true),
-        ("pitch circles", Some(working_pitch), DashType::DashDot, true),
-        ("tip circles", Some(tip), DashType::Dash, true),
-        ("bores", drawing.bore_radius_mm[gear], DashType::Solid, false),
+        ("base circles", Some(base), Dash::Dot, true),
+        ("pitch circles", Some(working_pitch), Dash::DashDot, true),
+        ("tip circles", Some(tip), Dash::Dash, true),
+        ("bores", drawing.bore_radius_mm[gear], Dash::Solid, false),
     ];
-    for (name, radius, dash, listed) in circles {
-        let Some(radius) = radius else { continue };
-        plot.add_trace(
-            polyline(name, &circle(drawing.axis[gear], radius))
-                .line(line(gear_colour(gear), 1.0, dash))
-                .opacity(0.8)
-                .legend_group(name)
-                .show_legend(listed && gear == Gear::Pinion)
-                .hover_info(HoverInfo::Skip),
-        );
-    }
+    circles.into_iter().filter_map(move |(name, radius, dash, listed)| {
+        let circle = polyline(name, &circle(drawing.axis[gear], radius?), (gear_colour(gear), 1.0, dash));
+        let circle = circle.opacity(0.8).group(name).silent();
+        Some(if listed && gear == Gear::Pinion { circle } else { circle.unlisted() })
+    })
 }
 
 fn circle(centre: [f64; 2], radius_mm: f64) -> Vec<[f64; 2]> {
@@ -92,55 +90,20 @@ fn circle(centre: [f64; 2], radius_mm: f64) -> Vec<[f64; 2]> {
 fn path_of_contact(drawing: &PairDrawing) -> Trace {
     let points: Vec<[f64; 2]> = drawing.path_of_contact.iter().map(|(_, point)| *point).collect();
     let names: Vec<String> = drawing.path_of_contact.iter().map(|(name, _)| name.clone()).collect();
-    polyline("path of contact A–E", &points)
-        .mode(Mode::LinesMarkersText)
-        .line(line(PATH, 4.5, DashType::Solid))
-        .marker(Marker::new().color(PATH).size(8))
-        .text_array(names)
-        .text_position(Position::TopCenter)
-        .text_font(Font::new().size(15).color(PATH))
-        .hover_template("%{text}: x %{x:.3f} mm, y %{y:.3f} mm<extra></extra>")
+    polyline("path of contact A–E", &points, (PATH, 4.5, Dash::Solid))
+        .with_points("circle", 8)
+        .set("mode", "lines+markers+text")
+        .set("text", names)
+        .set("textposition", "top center")
+        .set("textfont", json!({ "size": 15, "color": PATH }))
+        .hover("%{text}: x %{x:.3f} mm, y %{y:.3f} mm<extra></extra>")
 }
 
-/// The view to begin with: the path of contact with three modules around it. A double click shows both gears whole.
-fn zoomed_on_mesh(record: &RunRecord) -> Layout {
-    let drawing = &record.drawing;
-    let pinion = &record.summary.geometry.gears.pinion;
-    let around = 3.0 * pinion.reference_diameter_mm / f64::from(pinion.teeth.max(1));
-    let within = |axis: usize| {
-        let along = drawing.path_of_contact.iter().map(|(_, point)| point[axis]);
-        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
-        vec![low - around, high + around]
-    };
-    let (mut x, mut y) = (axis("x, mm"), axis("y, mm").scale_anchor("x").scale_ratio(1.0));
-    if !drawing.path_of_contact.is_empty() && around.is_finite() {
-        (x, y) = (x.range(within(0)), y.range(within(1)));
-    }
-    layout(620)
-        .show_legend(true)
-        .hover_mode(HoverMode::Closest)
-        .drag_mode(DragMode::Pan)
-        .x_axis(x.constrain(AxisConstrain::Range))
-        .y_axis(y.constrain(AxisConstrain::Range))
-        .annotations(ends_of_the_line_of_action(drawing))
-}
-
-fn ends_of_the_line_of_action(drawing: &PairDrawing) -> Vec<Annotation> {
-    ["T1", "T2"]
-        .into_iter()
-        .zip(drawing.line_of_action)
-        .map(|(name, [x, y])| {
-            Annotation::new()
-                .x_ref("x")
-                .y_ref("y")
-                .x(to_scale(x))
-                .y(to_scale(y))
-                .y_anchor(Anchor::Bottom)
-                .show_arrow(false)
-                .text(name)
-                .font(Font::new().size(12).color(MUTED))
-        })
-        .collect()
+fn ends_of_the_line_of_action(drawing: &PairDrawing) -> Vec<Value> {
+    let ends = ["T1", "T2"].into_iter().zip(drawing.line_of_action);
+    let at =
+        |[x, y]: [f64; 2]| json!({ "xref": "x", "yref": "y", "x": to_scale(x), "y": to_scale(y), "yanchor": "bottom" });
+    ends.map(|(name, end)| label(name, at(end))).collect()
 }
 
 fn reading(record: &RunRecord) -> String {

@@ -4,13 +4,9 @@
 //! What lies outside the bodies stays empty. Over the raster lie the bodies' outlines and, where they can be told apart,
 //! the sides of the elements.
 
-use crate::report::chart::{
-    AxisConstrain, ColorBar, ColorScale, DashType, DragMode, Font, HoverInfo, HoverMode, Layout, Plot, Title, Trace,
-};
-
-use super::number::plotted;
-use super::theme::{axis, layout, line};
+use super::number::{plotted, to_digits};
 use crate::fem::solid::{Element, ElementKind};
+use crate::report::chart::{Chart, Dash, INK, Trace, extent};
 
 /// Squares of a raster.
 const SQUARES: f64 = 60_000.0;
@@ -55,11 +51,9 @@ impl Window {
     /// Around all `points_mm`, with a little room.
     pub fn around(points_mm: &[[f64; 2]]) -> Self {
         let [x_mm, y_mm] = [0, 1].map(|axis| {
-            let ends = points_mm
-                .iter()
-                .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| [low.min(p[axis]), high.max(p[axis])]);
-            let room = 0.02 * (ends[1] - ends[0]).abs();
-            [ends[0] - room, ends[1] + room]
+            let [low, high] = extent(points_mm.iter().map(|p| p[axis]));
+            let room = 0.02 * (high - low).abs();
+            [low - room, high + room]
         });
         Self { x_mm, y_mm }
     }
@@ -95,59 +89,53 @@ impl Window {
     }
 }
 
-/// The picture of `quantity` within `window`.
-pub fn field(bodies: Bodies<'_>, quantity: Quantity<'_>, window: Window) -> Plot {
-    let raster = Raster::sample(bodies, quantity.values, window);
-    let unit = quantity.unit;
-    let mut plot = Plot::new();
-    plot.add_trace(
-        Trace::heat_map(raster.x_mm, raster.y_mm, raster.values)
-            .color_scale(ColorScale::Viridis)
-            .color_bar(ColorBar::new().title(Title::new().text(quantity.name).font(Font::new().size(12))).thickness(14))
-            .hover_on_gaps(false)
-            .hover_template(format!("x %{{x:.5~g}} mm, y %{{y:.5~g}} mm<br>%{{z:.4~g}} {unit}<extra></extra>")),
-    );
-    let (outline, inner) = sides(bodies, window);
-    if inner.len() <= MOST_SIDES {
-        plot.add_trace(segments("elements", bodies, &inner, "rgba(255,255,255,0.28)", 0.6));
-    }
-    plot.add_trace(segments("outline", bodies, &outline, "var(--ink)", 1.2));
-    plot.set_layout(to_scale(window).drag_mode(DragMode::Zoom));
-    plot
+/// The greatest of the `values` at nodes within `reach_mm` of a place, along x and along y.
+pub fn greatest_near(bodies: Bodies<'_>, values: &[f64], centre_mm: [f64; 2], reach_mm: f64) -> f64 {
+    let near = |p: &[f64; 2]| (0..2).all(|axis| (p[axis] - centre_mm[axis]).abs() <= reach_mm);
+    bodies.points_mm.iter().zip(values).filter(|(p, _)| near(p)).map(|(_, value)| *value).fold(0.0, f64::max)
 }
 
-/// The layout of a picture at its true proportions that shows `window` to begin with.
-pub fn to_scale(window: Window) -> Layout {
+/// Draws `quantity` within `window`.
+pub fn field(chart: Chart, bodies: Bodies<'_>, quantity: Quantity<'_>, window: Window) -> Chart {
+    let raster = Raster::sample(bodies, quantity.values, window);
+    let unit = quantity.unit;
+    let colours = Trace::heat_map(quantity.name, &raster.x_mm, &raster.y_mm, raster.values)
+        .set("hoverongaps", false)
+        .hover(format!("x %{{x:.5~g}} mm, y %{{y:.5~g}} mm<br>%{{z:.4~g}} {unit}<extra></extra>"));
+    let (outline, inner) = sides(bodies, window);
+    let mut chart = chart.wide().add(colours);
+    if inner.len() <= MOST_SIDES {
+        chart = chart.add(segments("elements", bodies, &inner, "rgba(255,255,255,0.28)", 0.6));
+    }
+    to_scale(chart.add(segments("outline", bodies, &outline, INK, 1.2)), window).legend(false)
+}
+
+/// The chart as a picture at its true proportions that shows `window` to begin with.
+pub fn to_scale(chart: Chart, window: Window) -> Chart {
     let pixels = HEIGHT_PX as f64 * WIDTH_OVER_HEIGHT * window.height_mm() / window.width_mm();
     let height = (pixels.clamp(0.45 * HEIGHT_PX as f64, HEIGHT_PX as f64) + 80.0) as usize;
-    layout(height)
-        .show_legend(false)
-        .hover_mode(HoverMode::Closest)
-        .x_axis(axis("x, mm").range(window.x_mm.to_vec()).show_grid(false).constrain(AxisConstrain::Range))
-        .y_axis(
-            axis("y, mm")
-                .range(window.y_mm.to_vec())
-                .show_grid(false)
-                .scale_anchor("x")
-                .scale_ratio(1.0)
-                .constrain(AxisConstrain::Range),
-        )
+    chart
+        .height(height)
+        .read_nearest()
+        .x("x, mm")
+        .y("y, mm")
+        .x_range(window.x_mm)
+        .y_range(window.y_mm)
+        .without_grid()
+        .x_set("constrain", "range")
+        .y_set("constrain", "range")
+        .y_set("scaleanchor", "x")
+        .y_set("scaleratio", 1.0)
+        .set("dragmode", "zoom")
 }
 
 /// Sides of elements as one line with gaps.
 pub fn segments(name: &str, bodies: Bodies<'_>, sides: &[Vec<u32>], colour: &str, width_px: f64) -> Trace {
-    let mut coordinates: [Vec<Option<f64>>; 2] = Default::default();
-    for side in sides {
-        for (axis, coordinates) in coordinates.iter_mut().enumerate() {
-            coordinates.extend(side.iter().map(|&node| Some(plotted(bodies.points_mm[node as usize][axis]))));
-            coordinates.push(None);
-        }
-    }
-    let [x, y] = coordinates;
-    Trace::lines_with_gaps(x, y)
-        .name(name)
-        .line(line(colour.to_owned(), width_px, DashType::Solid))
-        .hover_info(HoverInfo::Skip)
+    let along = |axis: usize| {
+        let place = move |node: &u32| Some(bodies.points_mm[*node as usize][axis]);
+        sides.iter().flat_map(move |side| side.iter().map(place).chain([None]))
+    };
+    Trace::line(name, along(0), along(1), (colour, width_px, Dash::Solid)).silent()
 }
 
 /// The sides of the elements within `window`, each once: those of one element only, and all others. A side runs from one
@@ -232,7 +220,10 @@ impl Raster {
         Self {
             x_mm: x_mm.into_iter().map(plotted).collect(),
             y_mm: y_mm.into_iter().map(plotted).collect(),
-            values: values.into_iter().map(|row| row.into_iter().map(|value| value.map(rounded)).collect()).collect(),
+            values: values
+                .into_iter()
+                .map(|row| row.into_iter().map(|value| value.map(|value| to_digits(value, DIGITS))).collect())
+                .collect(),
         }
     }
 }
@@ -262,10 +253,6 @@ fn fill(values: &mut [Vec<Option<f64>>], x_mm: &[f64], y_mm: &[f64], points: [[f
             }
         }
     }
-}
-
-fn rounded(value: f64) -> f64 {
-    format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value)
 }
 
 #[cfg(test)]

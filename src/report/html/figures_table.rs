@@ -1,52 +1,47 @@
 //! The main figures of a run as HTML tables.
 
-use super::law_table;
+use maud::{Markup, html};
+
 use super::number::{change, figure, fixed, percent, significant};
-use super::page::escape;
-use super::sliced;
-use super::table::{Row, row, table};
+use super::table::{Cell, cells, line, list, row, table, whole};
+use super::{law_table, page, sliced};
 use crate::results::error::ErrorSummary;
-use crate::results::run::{GearSummary, RunRecord, Summary, WearSummary};
+use crate::results::run::{GearSummary, PhaseSummary, RunRecord, Summary, WearSummary};
+
+/// Phases that are shown one by one.
+const MOST_PHASES: usize = 60;
 
 /// All tables, in the order of the page.
-pub fn tables(record: &RunRecord) -> String {
+pub fn tables(record: &RunRecord) -> Markup {
     let s = &record.summary;
-    let sliced = s.helical.as_ref().map_or_else(String::new, sliced::tables::tables);
-    let law = law_table::tables(s);
-    [new_and_worn(s), wear(s), law, sliced, pair(s), gears(s), contact(s)].concat()
+    let sliced = s.helical.as_ref().map_or_else(Markup::default, sliced::tables::tables);
+    page::tables([new_and_worn(s), wear(s), law_table::tables(s), sliced, pair(s), gears(s), contact(s)])
 }
 
-fn new_and_worn(s: &Summary) -> String {
-    let compare = |label, unit, new: f64, worn: f64| row(label, unit, [figure(new), figure(worn), change(new, worn)]);
+fn new_and_worn(s: &Summary) -> Markup {
+    let compare = |label, unit, new: f64, worn: f64| row(label, unit, cells![new, worn, change(new, worn)]);
     let (new, worn) = (&s.new, &s.worn);
     let (te_new, te_worn) = (&new.transmission_error_um, &worn.transmission_error_um);
-    let greatest = compare("Greatest pressure", "MPa", new.peak_pressure_MPa, worn.peak_pressure_MPa);
+    let mut rows = vec![compare("Greatest pressure", "MPa", new.peak_pressure_MPa, worn.peak_pressure_MPa)];
     let sharp = [new.sharp_edge_pressure_MPa, worn.sharp_edge_pressure_MPa];
-    let found = |pressure: Option<f64>| pressure.map_or_else(|| "–".to_owned(), figure);
-    let at_sharp_edge = sharp.iter().any(Option::is_some).then(|| {
-        row("Found at sharp tip edges, not defined", "MPa", [found(sharp[0]), found(sharp[1]), String::new()])
-    });
-    let rows: Vec<Row> = [greatest]
-        .into_iter()
-        .chain(at_sharp_edge)
-        .chain([
-            compare("Pressure at the pitch point C", "MPa", new.pitch_pressure_MPa, worn.pitch_pressure_MPa),
-            compare("Transmission error, peak to peak", "µm", te_new.peak_to_peak, te_worn.peak_to_peak),
-            compare("Transmission error, least", "µm", te_new.min, te_worn.min),
-            compare("Transmission error, greatest", "µm", te_new.max, te_worn.max),
-        ])
-        .collect();
-    table("Mesh cycle", &["new", "worn", "change"], &rows)
+    if sharp.iter().any(Option::is_some) {
+        rows.push(row("Found at sharp tip edges, not defined", "MPa", cells![sharp[0], sharp[1], ""]));
+    }
+    rows.extend([
+        compare("Pressure at the pitch point C", "MPa", new.pitch_pressure_MPa, worn.pitch_pressure_MPa),
+        compare("Transmission error, peak to peak", "µm", te_new.peak_to_peak, te_worn.peak_to_peak),
+        compare("Transmission error, least", "µm", te_new.min, te_worn.min),
+        compare("Transmission error, greatest", "µm", te_new.max, te_worn.max),
+    ]);
+    table("Mesh cycle", &["new", "worn", "change"], rows)
 }
 
-fn wear(s: &Summary) -> String {
-    let both = |label, unit, value: fn(&WearSummary) -> f64| {
-        row(label, unit, [figure(value(&s.pinion)), figure(value(&s.wheel))])
-    };
+fn wear(s: &Summary) -> Markup {
+    let both = |label, unit, value: fn(&WearSummary) -> f64| row(label, unit, [&s.pinion, &s.wheel].map(value));
     table(
         "Wear",
         &["pinion", "wheel"],
-        &[
+        [
             both("Greatest depth of the active profile", "µm", |w| w.peak_wear_um),
             both("Radius of the greatest depth", "mm", |w| w.peak_wear_radius_mm),
             both("Greatest at the tip edge", "µm", |w| w.tip_edge_wear_um),
@@ -59,7 +54,7 @@ fn wear(s: &Summary) -> String {
     )
 }
 
-fn pair(s: &Summary) -> String {
+fn pair(s: &Summary) -> Markup {
     let g = &s.geometry;
     let one = |label, unit, value| row(label, unit, [fixed(value, 3)]);
     let mut rows = vec![one("Transverse contact ratio", "", g.transverse_contact_ratio)];
@@ -72,20 +67,19 @@ fn pair(s: &Summary) -> String {
         one("Line of action T1T2", "mm", g.line_of_action_mm),
         one("Backlash on the working circles", "mm", g.backlash_mm),
     ]);
-    table("Geometry of the pair", &["value"], &rows)
+    table("Geometry of the pair", &["value"], rows)
 }
 
-fn gears(s: &Summary) -> String {
+fn gears(s: &Summary) -> Markup {
     let gears = &s.geometry.gears;
     let both = |label, value: fn(&GearSummary) -> f64| {
-        row(label, "mm", [fixed(value(&gears.pinion), 3), fixed(value(&gears.wheel), 3)])
+        row(label, "mm", [&gears.pinion, &gears.wheel].map(|gear| fixed(value(gear), 3)))
     };
-    let undercut = |gear: &GearSummary| String::from(if gear.undercut { "yes" } else { "no" });
     table(
         "Geometry of the gears",
         &["pinion", "wheel"],
-        &[
-            row("Teeth", "", [gears.pinion.teeth.to_string(), gears.wheel.teeth.to_string()]),
+        [
+            row("Teeth", "", [gears.pinion.teeth, gears.wheel.teeth]),
             both("Tip diameter", |g| g.tip_diameter_mm),
             both("Working pitch diameter", |g| g.working_pitch_diameter_mm),
             both("Reference diameter", |g| g.reference_diameter_mm),
@@ -96,63 +90,102 @@ fn gears(s: &Summary) -> String {
             both("Tooth thickness at the reference circle", |g| g.tooth_thickness_mm),
             both("Tooth thickness at the tip", |g| g.tip_thickness_mm),
             both("Tip clearance", |g| g.tip_clearance_mm),
-            row("Undercut", "", [undercut(&gears.pinion), undercut(&gears.wheel)]),
+            row("Undercut", "", [gears.pinion.undercut, gears.wheel.undercut]),
         ],
     )
 }
 
-fn contact(s: &Summary) -> String {
+fn contact(s: &Summary) -> Markup {
     let c = &s.contact;
-    let foundation = c.foundation_MPa_per_mm.map_or_else(|| "none".into(), figure);
     let mut rows = vec![
-        row("Contact surface", "", [escape(&c.surface)]),
-        row("Line load, whole torque", "N/mm", [figure(c.line_load_N_per_mm)]),
-        row("Foundation K/H", "MPa/mm", [foundation]),
-        row("Hertz half-width at C", "mm", [figure(c.hertz_half_width_mm)]),
-        row("Hertz pressure at C", "MPa", [figure(c.hertz_peak_pressure_MPa)]),
+        row("Contact surface", "", [&*c.surface]),
+        row("Line load, whole torque", "N/mm", [c.line_load_N_per_mm]),
+        row("Foundation K/H", "MPa/mm", [c.foundation_MPa_per_mm.map_or_else(|| "none".to_owned(), figure)]),
+        row("Hertz half-width at C", "mm", [c.hertz_half_width_mm]),
+        row("Hertz pressure at C", "MPa", [c.hertz_peak_pressure_MPa]),
     ];
     if let Some(k) = &s.stiffness {
         rows.extend([
-            row("Tooth stiffness", "", [escape(&k.model)]),
-            row("Pair with flattening, at C", "N/(mm·µm)", [figure(k.pair_at_pitch_N_per_mm_um)]),
-            row("Teeth alone, at C", "N/(mm·µm)", [figure(k.teeth_at_pitch_N_per_mm_um)]),
-            row("at a line load of", "N/mm", [figure(k.reference_line_load_N_per_mm)]),
+            row("Tooth stiffness", "", [&*k.model]),
+            row("Pair with flattening, at C", "N/(mm·µm)", [k.pair_at_pitch_N_per_mm_um]),
+            row("Teeth alone, at C", "N/(mm·µm)", [k.teeth_at_pitch_N_per_mm_um]),
+            row("at a line load of", "N/mm", [k.reference_line_load_N_per_mm]),
         ]);
+        let remainder = k.split_remainder_at_half_load.map(percent);
+        rows.extend(remainder.map(|share| row("Left over by the split, at half load", "", [share])));
     }
-    if let Some(remainder) = s.stiffness.as_ref().and_then(|k| k.split_remainder_at_half_load) {
-        rows.push(row("Left over by the split, at half load", "", [percent(remainder)]));
+    table("Contact and stiffness", &["value"], rows)
+}
+
+/// Under what each phase ran, and what it wore off; nothing where there is only one.
+pub fn phases(s: &Summary) -> Markup {
+    if s.phases.len() < 2 {
+        return Markup::default();
     }
-    table("Contact and stiffness", &["value"], &rows)
+    let columns = [
+        "phase",
+        "hours",
+        "pinion revolutions",
+        "pinion torque, N·m",
+        "speed, 1/min",
+        "Hertz pressure at C, MPa",
+        "wear coefficient, m²/N",
+        "temperature rise, K",
+        "pinion, greatest added, µm",
+        "wheel, greatest added, µm",
+        "pinion, volume added, mm³",
+    ];
+    let phase = |phase: &PhaseSummary| {
+        line(cells![
+            phase.number,
+            phase.hours,
+            phase.revolutions,
+            phase.pinion_torque_Nm,
+            phase.pinion_speed_rpm,
+            phase.hertz_peak_pressure_MPa,
+            format!("{:e}", phase.coefficient_m2_per_N),
+            phase.greatest_rise_K,
+            significant(phase.pinion.greatest_depth_um, 3),
+            significant(phase.wheel.greatest_depth_um, 3),
+            significant(phase.pinion.worn_volume_mm3, 3),
+        ])
+    };
+    let more = s.phases.len().saturating_sub(MOST_PHASES);
+    html! {
+        div.phases { (list("Phases of the operation", columns, s.phases.iter().take(MOST_PHASES).map(phase))) }
+        @if more > 0 { (page::note(&format!("{more} more phases are in summary.json."))) }
+        (page::note(
+            "New is the unworn pair under the load of the first phase, worn the worn pair under that of the last. Line load, K/H, \
+             Hertz pressure and the temperatures of a new pair are those of the first phase; all are in summary.json."
+        ))
+    }
 }
 
 /// The error estimates, each with how it was obtained.
-pub fn errors(error: &ErrorSummary) -> String {
-    let as_above = String::from("as above");
-    let rows: String = [
-        ("Finite elements: pinion’s greatest wear", error.total.peak_wear.pinion, &error.total.how),
-        ("Finite elements: wheel’s greatest wear", error.total.peak_wear.wheel, &as_above),
-        ("Finite elements: wear of the pinion’s tip edge", error.total.tip_edge_wear.pinion, &as_above),
-        ("Finite elements: wear of the wheel’s tip edge", error.total.tip_edge_wear.wheel, &as_above),
-        ("Finite elements: pinion’s wear over the flank", error.total.profile.pinion, &as_above),
-        ("Finite elements: wheel’s wear over the flank", error.total.profile.wheel, &as_above),
-        ("Finite elements: transmission error", error.total.transmission_error_peak_to_peak, &as_above),
-        ("Finite elements: pressure between the tip edges", error.total.pressure_between_tips, &as_above),
-        ("Points and positions", error.discretisation, &error.how.discretisation),
-        ("Wear step", error.wear_step, &error.how.wear_step),
-        ("Hard switch to severe wear against a band", error.severe_switch, &error.how.severe_switch),
+pub fn errors(error: &ErrorSummary) -> Markup {
+    let (total, how, above) = (&error.total, &error.how, "as above");
+    let rows = [
+        ("Finite elements: pinion’s greatest wear", total.peak_wear.pinion, &*total.how),
+        ("Finite elements: wheel’s greatest wear", total.peak_wear.wheel, above),
+        ("Finite elements: wear of the pinion’s tip edge", total.tip_edge_wear.pinion, above),
+        ("Finite elements: wear of the wheel’s tip edge", total.tip_edge_wear.wheel, above),
+        ("Finite elements: pinion’s wear over the flank", total.profile.pinion, above),
+        ("Finite elements: wheel’s wear over the flank", total.profile.wheel, above),
+        ("Finite elements: transmission error", total.transmission_error_peak_to_peak, above),
+        ("Finite elements: pressure between the tip edges", total.pressure_between_tips, above),
+        ("Points and positions", error.discretisation, &*how.discretisation),
+        ("Wear step", error.wear_step, &*how.wear_step),
+        ("Hard switch to severe wear against a band", error.severe_switch, &*how.severe_switch),
     ]
-    .into_iter()
     .map(|(label, estimate, how)| {
         let estimate = estimate.map_or_else(|| "not estimated".into(), |e| significant(e * 100.0, 2) + "\u{202f}%");
-        format!("<tr><th scope=\"row\">{label}</th><td>{estimate}</td><td class=\"how\">{}</td></tr>\n", escape(how))
-    })
-    .collect();
-    let cost = error.companions_cost.map_or_else(String::new, |cost| {
-        format!("<p class=\"legend-note\">The estimates took {} of the work of the run itself.</p>\n", percent(cost))
+        line([label.into(), estimate.into(), Cell::sentence(how)])
     });
-    format!(
-        "<table class=\"errors\">\n<caption>Error of the result: against finite elements, and estimates for the greatest wear</caption>\n\
-         <thead><tr><td></td><th scope=\"col\">relative</th><th scope=\"col\" class=\"how\">how obtained</th></tr></thead>\n\
-         <tbody>\n{rows}</tbody>\n</table>\n{cost}"
-    )
+    let caption = "Error of the result: against finite elements, and estimates for the greatest wear";
+    html! {
+        (whole(Some("errors"), Some(html! { (caption) }), ["".into(), "relative".into(), Cell::sentence("how obtained")], rows))
+        @if let Some(cost) = error.companions_cost {
+            (page::note(&format!("The estimates took {} of the work of the run itself.", percent(cost))))
+        }
+    }
 }

@@ -1,33 +1,25 @@
 //! Plot of wear against time.
 
-use crate::report::chart::{DashType, Marker, MarkerSymbol, Mode, Plot};
-
 use super::number::{figure, significant};
 use super::reading::duration;
-use super::theme::{Figure, axis, curve, from_zero, gear_colour, layout, line, mark};
 use crate::gear::Gear;
+use crate::report::chart::{Chart, Dash, Trace, from_zero, gear_colour};
 use crate::results::run::{HistoryRow, PhaseSummary, RunRecord};
 
 /// Phases whose ends are marked at the most: more would hide the curves.
 const MOST_MARKED: usize = 20;
 
-/// One quantity of the plot.
-struct Series {
-    name: &'static str,
-    gear: Gear,
-    /// A line through dots; otherwise rings, which show also around dots in the same place.
-    joined: bool,
-    value: fn(&HistoryRow) -> f64,
-}
+type Value = fn(&HistoryRow) -> f64;
 
-const SERIES: [Series; 3] = [
-    Series { name: "pinion, over the root", gear: Gear::Pinion, joined: true, value: |row| row.pinion_root_wear_um },
-    Series { name: "pinion, active profile", gear: Gear::Pinion, joined: false, value: |row| row.pinion_peak_wear_um },
-    Series { name: "wheel, active profile", gear: Gear::Wheel, joined: true, value: |row| row.wheel_peak_wear_um },
+/// Name, gear, whether it is a line through dots (otherwise rings, which show also around dots in the same place) and value.
+const SERIES: [(&str, Gear, bool, Value); 3] = [
+    ("pinion, over the root", Gear::Pinion, true, |row| row.pinion_root_wear_um),
+    ("pinion, active profile", Gear::Pinion, false, |row| row.pinion_peak_wear_um),
+    ("wheel, active profile", Gear::Wheel, true, |row| row.wheel_peak_wear_um),
 ];
 
 /// Greatest root wear, and peak wear of both gears, against time.
-pub fn wear_against_time(record: &RunRecord) -> Figure {
+pub fn wear_against_time(record: &RunRecord) -> Chart {
     let rows = &record.history;
     let hours: Option<Vec<f64>> = rows.iter().map(|row| row.hours).collect();
     let in_hours = hours.is_some();
@@ -35,34 +27,27 @@ pub fn wear_against_time(record: &RunRecord) -> Figure {
         Some(hours) => (hours, "running time, h"),
         None => (rows.iter().map(|row| row.revolutions).collect(), "pinion revolutions"),
     };
-    let mut plot = Plot::new();
-    for Series { name, gear, joined, value } in SERIES {
+    let traces = SERIES.map(|(name, gear, joined, value)| {
         let x = std::iter::once(0.0).chain(time.iter().copied());
         let y = std::iter::once(0.0).chain(rows.iter().map(value));
-        let dots = Marker::new().color(gear_colour(gear));
-        let trace = curve(name, x, y, line(gear_colour(gear), 2.2, DashType::Solid)).hover_template("%{y:.3f} µm");
-        plot.add_trace(if joined {
-            trace.mode(Mode::LinesMarkers).marker(dots.size(5))
-        } else {
-            trace.mode(Mode::Markers).marker(dots.size(10).symbol(MarkerSymbol::CircleOpen))
-        });
-    }
-    let deepest = rows.iter().flat_map(|row| SERIES.map(|s| (s.value)(row))).fold(0.0, f64::max);
-    let last = time.last().copied().unwrap_or(0.0);
-    let shape = layout(380)
-        .show_legend(true)
-        .x_axis(axis(title).range(from_zero(last).to_vec()))
-        .y_axis(axis("greatest wear depth, µm").range(from_zero(deepest).to_vec()));
+        let colour = gear_colour(gear);
+        let trace = match joined {
+            true => Trace::line(name, x, y, (colour, 2.2, Dash::Solid)).with_points("circle", 5),
+            false => Trace::points(name, x, y, (colour, "circle-open", 10)),
+        };
+        trace.hover("%{y:.3f} µm")
+    });
+    let deepest = rows.iter().flat_map(|row| SERIES.map(|(.., value)| value(row))).fold(0.0, f64::max);
     let phases = &record.summary.phases;
     let marked = if (2..=MOST_MARKED).contains(&phases.len()) { ends_of_phases(phases, in_hours) } else { Vec::new() };
-    plot.set_layout(mark(shape, marked, ""));
-    Figure {
-        id: "history".into(),
-        title: "Greatest root wear against time".into(),
-        reading: reading(record),
-        plot,
-        wide: false,
-    }
+    Chart::new("history", "Greatest root wear against time")
+        .x(title)
+        .x_range(from_zero(time.last().copied().unwrap_or(0.0)))
+        .y("greatest wear depth, µm")
+        .y_up_to(deepest)
+        .add_all(traces)
+        .mark(marked, "")
+        .reading(reading(record))
 }
 
 /// When each phase ends, with its number.

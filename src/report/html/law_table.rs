@@ -1,50 +1,44 @@
 //! The wear law, its regime and where it holds, and the temperatures of the contact, as tables and a sentence.
 
-use super::number::{figure, percent, significant};
-use super::page::escape;
-use super::table::{row, table};
-use crate::results::chemistry::{TemperatureSummary, WearLawSummary};
+use maud::{Markup, html};
+
+use super::number::{percent, significant};
+use super::page;
+use super::table::{cells, row, table};
+use crate::results::chemistry::{GreatestRise, TemperatureSummary, WearLawSummary};
 use crate::results::run::Summary;
 
 /// The tables.
-pub fn tables(s: &Summary) -> String {
-    let temperature = s.temperature.as_ref().map_or_else(String::new, temperature);
-    [law(&s.wear), temperature].concat()
+pub fn tables(s: &Summary) -> Markup {
+    html! { (law(&s.wear)) @if let Some(t) = &s.temperature { (temperature(t)) } }
 }
 
-fn law(w: &WearLawSummary) -> String {
+fn law(w: &WearLawSummary) -> Markup {
     let k = |value: f64| format!("{value:.3e}");
     let mut rows = vec![
-        row("Wear law", "", [escape(&w.law)]),
+        row("Wear law", "", [&*w.law]),
         row("Coefficient as given", "mm³/(N·m)", [k(w.coefficient_mm3_per_Nm)]),
         row("Effective where mild, new", "mm³/(N·m)", [k(w.effective_coefficient_new_mm3_per_Nm)]),
         row("Effective where mild, worn", "mm³/(N·m)", [k(w.effective_coefficient_worn_mm3_per_Nm)]),
-        row("Regime of the IRG diagram", "", [w.irg_regime.name().to_owned()]),
+        row("Regime of the IRG diagram", "", [w.irg_regime.name()]),
     ];
-    if let Some(regime) = w.irg_regime_severe {
-        rows.push(row("Regime where wear is severe", "", [regime.name().to_owned()]));
-    }
-    table("Wear law", &["value"], &rows)
+    rows.extend(w.irg_regime_severe.map(|regime| row("Regime where wear is severe", "", [regime.name()])));
+    table("Wear law", &["value"], rows)
 }
 
-fn temperature(t: &TemperatureSummary) -> String {
+fn temperature(t: &TemperatureSummary) -> Markup {
     let by = &t.by_method;
-    let both = |label, of: &crate::results::chemistry::GreatestRise| {
-        row(label, "K", [figure(of.greatest_rise_new_K), figure(of.greatest_rise_worn_K)])
-    };
-    table(
-        "Greatest rise of the contact’s temperature",
-        &["new", "worn"],
-        &[
-            both("Heat equation", &by.heat_equation),
-            both("Williams", &by.williams),
-            both("Tian and Kennedy", &by.tian_kennedy),
-        ],
-    )
+    let both = |label, of: &GreatestRise| row(label, "K", cells![of.greatest_rise_new_K, of.greatest_rise_worn_K]);
+    let rows = [
+        both("Heat equation", &by.heat_equation),
+        both("Williams", &by.williams),
+        both("Tian and Kennedy", &by.tian_kennedy),
+    ];
+    table("Greatest rise of the contact’s temperature", &["new", "worn"], rows)
 }
 
 /// What the tables mean, in words.
-pub fn note(s: &Summary) -> String {
+pub fn note(s: &Summary) -> Markup {
     let w = &s.wear;
     let mut text = format!(
         "Where wear is mild the {} law wears by {:.2e} mm³/(N·m) on average over the sliding work of a mesh of the new pair: regime {} of the IRG \
@@ -67,5 +61,5 @@ pub fn note(s: &Summary) -> String {
             percent(worn)
         ));
     }
-    format!("<p class=\"legend-note\">{}</p>\n", escape(&text))
+    page::note(&text)
 }

@@ -87,6 +87,11 @@ pub fn plotted(value: f64) -> f64 {
     (value * scale).round() / scale
 }
 
+/// Rounded to so many significant digits.
+pub fn to_digits(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
+}
+
 /// Mantissa and exponent after rounding to `digits`.
 fn scientific(value: f64, digits: usize) -> (String, i32) {
     let text = format!("{:.*e}", digits.saturating_sub(1), value.abs());

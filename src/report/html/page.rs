@@ -1,10 +1,11 @@
-//! What every report page is made of: the page itself, its sections, its figures.
+//! What every report page is made of: the page itself, its sections, its charts.
 
-use crate::report::chart::{self, Plot};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::number;
-use super::reading;
-use super::theme::Figure;
+use super::number::fixed;
+use super::reading::bound;
+use super::table::{inner, line, list};
+use crate::report::chart::{self, Chart};
 use crate::results::run::StageTime;
 
 /// A page.
@@ -19,8 +20,8 @@ pub struct Page<'a> {
     pub interruption: Option<&'a str>,
     /// What the reader should know.
     pub warnings: &'a [String],
-    /// The sections, as HTML.
-    pub main: &'a str,
+    /// The sections.
+    pub main: Markup,
     /// Program and input.
     pub footer: &'a str,
 }
@@ -31,120 +32,99 @@ impl Page<'_> {
         self.html_with("", "")
     }
 
-    /// The same with rules after those of the common style sheet and a script after the one that draws the plots.
+    /// The same with rules after those of the common style sheet and a script after the one that draws the charts.
     pub fn html_with(&self, style: &str, script: &str) -> String {
-        let title = escape(self.title);
-        [
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n",
-            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n",
-            "<meta name=\"color-scheme\" content=\"light dark\">\n",
-            &format!(
-                "<title>{title} – gearwear</title>\n<style>\n{}{style}</style>\n</head>\n<body>\n",
-                include_str!("page.css")
-            ),
-            &format!("<header>\n<p class=\"kind\">{}</p>\n<h1>{title}</h1>\n", escape(self.kind)),
-            &format!("<p class=\"answer\">{}</p>\n</header>\n<main>\n", escape(&reading::bound(self.answer))),
-            &self.notices(),
-            self.main,
-            "</main>\n",
-            &format!("<footer>{}</footer>\n", escape(self.footer)),
-            &format!("<script>{}</script>\n<script>\n{}{script}</script>\n", chart::script(), include_str!("page.js")),
-            "</body>\n</html>\n",
-        ]
-        .concat()
-    }
-
-    /// What the reader must know first: an interruption, then the warnings.
-    fn notices(&self) -> String {
-        let mut html = String::new();
-        if let Some(text) = self.interruption {
-            html.push_str(&format!(
-                "<p class=\"notice interrupted\" role=\"alert\"><strong>Not the whole run.</strong> {}</p>\n",
-                escape(text)
-            ));
-        }
-        if !self.warnings.is_empty() {
-            let items: String = self.warnings.iter().map(|w| format!("<li>{}</li>\n", escape(w))).collect();
-            html.push_str(&format!(
-                "<section class=\"notice\" aria-labelledby=\"warnings\">\n<h2 id=\"warnings\">Warnings</h2>\n<ul>\n{items}</ul>\n</section>\n"
-            ));
-        }
-        html
+        let page = html! {
+            (DOCTYPE)
+            html lang="en" {
+                head {
+                    meta charset="utf-8";
+                    meta name="viewport" content="width=device-width, initial-scale=1";
+                    meta name="color-scheme" content="light dark";
+                    title { (self.title) " – gearwear" }
+                    style { (PreEscaped(include_str!("page.css"))) (PreEscaped(style)) }
+                }
+                body {
+                    header {
+                        p.kind { (self.kind) }
+                        h1 { (self.title) }
+                        p.answer { (bound(self.answer)) }
+                    }
+                    main {
+                        @if let Some(text) = self.interruption {
+                            p.notice.interrupted role="alert" { strong { "Not the whole run." } " " (text) }
+                        }
+                        @if !self.warnings.is_empty() {
+                            section.notice aria-labelledby="warnings" {
+                                h2 #warnings { "Warnings" }
+                                ul { @for warning in self.warnings { li { (warning) } } }
+                            }
+                        }
+                        (self.main)
+                    }
+                    footer { (self.footer) }
+                    script { (PreEscaped(chart::script())) }
+                    script { (PreEscaped(include_str!("page.js"))) (PreEscaped(script)) }
+                }
+            }
+        };
+        page.into_string()
     }
 }
 
 /// A section under a heading.
-pub fn section(id: &str, heading: &str, html: &str) -> String {
-    format!("<section aria-labelledby=\"{id}\">\n<h2 id=\"{id}\">{heading}</h2>\n{html}</section>\n")
+pub fn section(id: &str, heading: &str, content: Markup) -> Markup {
+    html! { section aria-labelledby=(id) { h2 id=(id) { (heading) } (content) } }
 }
 
-/// The figures, numbered from 1.
-pub fn plots(figures: &[Figure]) -> String {
-    let shown: String = figures.iter().enumerate().map(|(i, figure)| figure_html(i + 1, figure)).collect();
-    format!(
-        "<noscript><p class=\"notice\">The plots need JavaScript; all their numbers are in the data files.</p></noscript>\n\
-         <div class=\"plots\">\n{shown}</div>\n"
-    )
+/// A remark on what is shown.
+pub fn note(text: &str) -> Markup {
+    html! { p.legend-note { (text) } }
+}
+
+/// Tables beside one another where there is room.
+pub fn tables(tables: impl IntoIterator<Item = Markup>) -> Markup {
+    html! { div.tables { @for table in tables { (table) } } }
+}
+
+/// The charts, numbered from 1.
+pub fn plots(charts: &[Chart]) -> Markup {
+    html! {
+        noscript { p.notice { "The plots need JavaScript; all their numbers are in the data files." } }
+        div.plots { @for (number, chart) in (1..).zip(charts) { (plot(number, chart)) } }
+    }
+}
+
+fn plot(number: usize, chart: &Chart) -> Markup {
+    let id = &chart.id;
+    // Nothing in the data may end the element in which they stand.
+    let data = chart.to_json().replace('<', "\\u003c");
+    html! {
+        figure class=[chart.is_wide.then_some("wide")] {
+            h3 id={ (id) "-title" } { (chart.title) }
+            div.plot id=(id) role="img" aria-labelledby={ (id) "-title" } aria-describedby={ (id) "-reading" } {}
+            figcaption id={ (id) "-reading" } { b { "Figure " (number) "." } " " (bound(&chart.reading)) }
+            script type="application/json" id={ (id) "-data" } { (PreEscaped(data)) }
+        }
+    }
 }
 
 /// The stages carried out, each with its time.
-pub fn stages_table(stages: &[StageTime], wall_s: f64) -> String {
-    let seconds = |wall_s: f64| number::fixed(wall_s, 4);
-    let rows: String = stages
-        .iter()
-        .map(|stage| {
-            format!("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", escape(&stage.name), seconds(stage.wall_s))
-        })
-        .collect();
-    format!(
-        "<table>\n<caption>Stages carried out</caption>\n<thead><tr><td></td><th scope=\"col\">time, s</th></tr></thead>\n\
-         <tbody>\n{rows}<tr class=\"total\"><th scope=\"row\">until this report</th><td>{}</td></tr>\n</tbody>\n</table>\n",
-        seconds(wall_s)
-    )
+pub fn stages_table(stages: &[StageTime], wall_s: f64) -> Markup {
+    let stage = |name: &str, wall_s: f64| [name.to_owned(), fixed(wall_s, 4)];
+    let total = html! { tr.total { (inner(stage("until this report", wall_s))) } };
+    let rows = stages.iter().map(|done| line(stage(&done.name, done.wall_s))).chain([total]);
+    list("Stages carried out", ["", "time, s"], rows)
 }
 
-/// The data files beside the page, each with what it holds, and the resolved input.
-pub fn sources_list(files: &[(&str, &str)], input_name: &str, input: &str) -> String {
-    let files: String =
-        files.iter().map(|(name, what)| format!("<li><a href=\"{name}\">{name}</a> {what}</li>\n")).collect();
-    format!(
-        "<ul class=\"files\">\n{files}</ul>\n<details>\n<summary>{input_name}</summary>\n<pre>{}</pre>\n</details>\n",
-        escape(input)
-    )
+/// The data files beside the page, each with what it holds.
+pub fn files_list(files: &[(&str, &str)]) -> Markup {
+    html! { ul.files { @for (name, what) in files { li { a href=(name) { (name) } " " (what) } } } }
 }
 
-fn figure_html(number: usize, figure: &Figure) -> String {
-    let Figure { id, title, reading, plot, wide } = figure;
-    let class = if *wide { " class=\"wide\"" } else { "" };
-    let (title, reading) = (escape(title), escape(&reading::bound(reading)));
-    format!(
-        "<figure{class}>\n<h3 id=\"{id}-title\">{title}</h3>\n\
-         <div class=\"plot\" id=\"{id}\" role=\"img\" aria-labelledby=\"{id}-title\" aria-describedby=\"{id}-reading\"></div>\n\
-         <figcaption id=\"{id}-reading\"><b>Figure {number}.</b> {reading}</figcaption>\n\
-         <script type=\"application/json\" id=\"{id}-data\">{}</script>\n</figure>\n",
-        plot_json(plot)
-    )
-}
-
-/// The plot as JSON that may stand inside a script element: nothing in it can end that element.
-fn plot_json(plot: &Plot) -> String {
-    plot.to_json().replace('<', "\\u003c")
-}
-
-/// Text as HTML text or attribute value.
-pub fn escape(text: &str) -> String {
-    let mut html = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => html.push_str("&amp;"),
-            '<' => html.push_str("&lt;"),
-            '>' => html.push_str("&gt;"),
-            '"' => html.push_str("&quot;"),
-            '\'' => html.push_str("&#39;"),
-            _ => html.push(c),
-        }
-    }
-    html
+/// The data files and the resolved input.
+pub fn sources_list(files: &[(&str, &str)], input_name: &str, input: &str) -> Markup {
+    html! { (files_list(files)) details { summary { (input_name) } pre { (input) } } }
 }
 
 #[cfg(test)]
@@ -153,6 +133,7 @@ mod tests {
 
     #[test]
     fn markup_in_text_is_defused() {
-        assert_eq!(escape("<b a='1'>\"&"), "&lt;b a=&#39;1&#39;&gt;&quot;&amp;");
+        let section = section("id", "<b a='1'>\"&", html! {}).into_string();
+        assert!(section.contains("&lt;b a='1'&gt;&quot;&amp;"), "{section}");
     }
 }

@@ -1,7 +1,6 @@
 //! Words for places and moments: the sentences that say what the numbers mean.
 
 use super::number::{change, figure, given, percent, revolutions, significant};
-use super::theme::named;
 use crate::gear::Gear;
 use crate::results::run::RunRecord;
 use crate::results::run::{FlankRecord, MeshCycleRow, StopReason, Summary, WearSummary};
@@ -25,7 +24,7 @@ pub fn greatest(values: &[f64]) -> Option<Extreme> {
 
 /// "at 34.12 mm radius, close to A", "at 37.40 mm radius, between C and D".
 pub fn place_on_flank(flank: &FlankRecord, radius_mm: f64) -> String {
-    format!("at {} mm radius, {}", significant(radius_mm, 4), among(&named(&flank.path_point_radius_mm), radius_mm))
+    format!("at {} mm radius, {}", significant(radius_mm, 4), among(&flank.path_point_radius_mm.named(), radius_mm))
 }
 
 /// Where `at` lies among the named places: close to one of them, between two, or outside all.
@@ -118,7 +117,7 @@ fn place_of_pressure(record: &RunRecord) -> String {
             record.mesh_cycle.iter().map(|row| row.position_mm).collect::<Vec<f64>>(),
         ),
     };
-    let positions = named(&record.summary.geometry.curvature_radius_mm);
+    let positions = record.summary.geometry.curvature_radius_mm.named();
     greatest(&pressures).map_or_else(String::new, |at| among(&positions, position_mm[at.index]))
 }
 

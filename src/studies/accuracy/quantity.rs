@@ -1,41 +1,42 @@
 //! What errors are measured of when models are compared.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// What errors are measured of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Quantity {
-    /// Depth over both flanks: the larger of both gears' errors.
+    /// relative L2 error of the depth over the whole flank, the larger of both gears'
     WearProfile,
-    /// Depth over the pinion's flank.
+    /// relative L2 error of the depth over the pinion's flank
     PinionWearProfile,
-    /// Depth over the wheel's flank.
+    /// relative L2 error of the depth over the wheel's flank
     WheelWearProfile,
-    /// Greatest depth on the pinion.
+    /// relative difference of the pinion's greatest depth
     PinionPeakWear,
-    /// Greatest depth on the wheel.
+    /// relative difference of the wheel's greatest depth
     WheelPeakWear,
-    /// Greatest pressure of the unworn pair, at rounded tip edges too.
+    /// relative difference of the greatest pressure, new, away from sharp tip edges
     PeakPressure,
-    /// Greatest pressure of the unworn pair away from tip edges.
+    /// relative difference of the greatest pressure, new, away from all tip edges
     FlankPressure,
-    /// Half-width of the unworn contact where one pair carries the load alone.
+    /// relative L2 error of the half-width in single contact, new; without slices
     HalfWidth,
-    /// Loaded transmission error of the unworn pair over the path of contact.
+    /// relative L2 error of the transmission error, new
     TransmissionError,
-    /// Its peak-to-peak value.
+    /// relative difference of its peak-to-peak value, new
     TransmissionErrorPeakToPeak,
-    /// Loaded transmission error of the worn pair over the path of contact.
+    /// relative L2 error of the transmission error, worn
     WornTransmissionError,
-    /// Its peak-to-peak value.
+    /// relative difference of its peak-to-peak value, worn
     WornTransmissionErrorPeakToPeak,
-    /// Greatest depth in the root zone, slice by slice over the face width of both gears.
+    /// relative L2 error of the root wear over the face width, the larger of both gears'; with slices
     RootWear,
-    /// Face load factor of the unworn pair.
+    /// relative difference of the face load factor, new; with slices
     #[serde(rename = "K_Hbeta")]
     FaceLoadFactor,
-    /// Face load factor of the worn pair.
+    /// relative difference of the face load factor, worn; with slices
     #[serde(rename = "worn_K_Hbeta")]
     WornFaceLoadFactor,
 }

@@ -13,6 +13,9 @@ use crate::results::run::{PathPoints, StopReason, WorkSummary};
 /// Name of the calibration beside the results.
 pub(crate) const CALIBRATION_FILE: &str = "calibration.json";
 
+/// Name of the table of root wear over the face width; of pairs with slices.
+pub const OVER_WIDTH_FILE: &str = "over_width.csv";
+
 /// A finished (or interrupted) comparison.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct AccuracyRecord {
@@ -55,6 +58,13 @@ pub(crate) struct AccuracyRecord {
     /// The calibration that the runs were made with, as its file.
     #[serde(skip)]
     pub calibration_json: Option<String>,
+}
+
+impl AccuracyRecord {
+    /// Whether the pair was cut into slices over the face width.
+    pub fn has_slices(&self) -> bool {
+        self.variants.iter().any(|variant| variant.settings.slices.is_some())
+    }
 }
 
 /// The solution that the errors are measured against.

@@ -1,5 +1,6 @@
 //! What a comparison of a measured profile with a run leaves behind, as plain data: what its reports read.
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::gear::Gear;
@@ -110,22 +111,22 @@ pub(crate) struct CompareFigures {
 }
 
 /// A row of `compare.csv`: a measured point where it lies on the flank.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub(crate) struct CompareRow {
-    /// Radius of the point, shifted.
+    /// distance from the gear's axis, shifted as fitted
     pub radius_mm: f64,
-    /// Arc length from the base circle, shifted.
+    /// length along the flank from the base circle, shifted as fitted
     pub arc_mm: f64,
-    /// Measured height, form removed.
+    /// measured height, form removed
     pub measured_um: f64,
-    /// Simulated height, form removed in the same way, after the fit.
+    /// simulated height after the fit, form removed in the same way
     pub simulated_um: f64,
-    /// Measured less simulated.
+    /// measured less simulated
     pub difference_um: f64,
-    /// Simulated height as the run has it, form removed.
+    /// simulated height of the run as it is, form removed in the same way
     pub as_run_um: f64,
-    /// Simulated wear depth after the fit.
+    /// simulated wear depth after the fit
     pub wear_um: f64,
-    /// The wear depth that the measured profile has if its form is what the simulation says: simulated depth less the difference.
+    /// wear depth of the measured profile on the form of the simulation: wear_um less difference_um
     pub measured_wear_um: f64,
 }

@@ -22,6 +22,7 @@ use crate::pipeline::fem_scene::{self, FemPairError};
 use crate::pipeline::guarded::guarded;
 use crate::pipeline::{self, RunError};
 use crate::report;
+use crate::report::csv_table::{self, Provenance};
 use crate::report::slice_table;
 use crate::report::tables;
 use crate::results::run::StopReason;
@@ -221,13 +222,13 @@ fn wear_run(
         _ => Failed::NotConverged(error.to_string()),
     })?;
     let record = done.record;
-    let provenance = tables::Provenance::of(&record.summary);
+    let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
     let summary = tree(&record.summary)?;
     let work = tree(&record.summary.work)?;
     let mut value = BTreeMap::from([
         ("summary".to_owned(), summary),
-        ("history".to_owned(), table(|out| tables::history(out, provenance, &record.history))?),
-        ("mesh_cycle".to_owned(), table(|out| tables::mesh_cycle(out, provenance, &record.mesh_cycle))?),
+        ("history".to_owned(), table(|out| csv_table::table(out, provenance, &record.history))?),
+        ("mesh_cycle".to_owned(), table(|out| csv_table::table(out, provenance, &record.mesh_cycle))?),
     ]);
     for gear in Gear::BOTH {
         let flank = &record.flanks[gear];
@@ -263,7 +264,7 @@ fn finite_elements(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Ob
         FemProblemError::Input(problems) => refused(problems),
         FemProblemError::Solve(error) => Failed::NotConverged(error.to_string()),
     })?;
-    let provenance = tables::Provenance::of_fem(&record.summary);
+    let provenance = Provenance::of_problem(&record.summary.program_version, &record.summary.problem_hash);
     let contact = table(|out| report::fem::contact_table(out, provenance, &record.contacts))?;
     let work = counts(&tree(&record.summary.work)?);
     Ok(RunOutput {
@@ -289,9 +290,9 @@ fn finite_element_pair(
         _ => Failed::NotConverged(error.to_string()),
     })?;
     let record = done.record;
-    let provenance = tables::Provenance::of_fem_pair(&record.summary);
-    let mesh_cycle = table(|out| report::fem_pair::tables::mesh_cycle(out, provenance, &record.mesh_cycle))?;
-    let pressure = table(|out| report::fem_pair::tables::pressure(out, provenance, &record.pressure))?;
+    let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
+    let mesh_cycle = table(|out| csv_table::table(out, provenance, &record.mesh_cycle))?;
+    let pressure = table(|out| report::fem_pair::pressure_table::pressure(out, provenance, &record.pressure))?;
     let work = [("iterations", record.summary.iterations as u64), ("positions", record.summary.positions as u64)];
     Ok(RunOutput {
         value: BTreeMap::from([

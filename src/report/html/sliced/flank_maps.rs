@@ -3,17 +3,15 @@
 //! A line of contact is straight in the radius of curvature, ρ_c(z), and therefore a little bent over the radius
 //! r = √(r_b² + ρ²). It crosses the flank from one side of the map to the other while the tooth goes through the mesh.
 
-use crate::report::chart::{
-    Anchor, Annotation, ColorBar, ColorScale, DashType, Font, HoverInfo, HoverMode, Plot, Title, Trace,
-};
+use serde_json::{Value, json};
 
 use super::raster::SlicedRaster;
-use super::{SlicedRun, slice_name};
+use super::sliced_run::{SlicedRun, slice_name};
 use crate::gear::Gear;
+use crate::report::chart::{Chart, Dash, Trace, label};
 use crate::report::html::active_flank::ActiveFlank;
-use crate::report::html::number::{figure, plotted, significant};
+use crate::report::html::number::{figure, significant};
 use crate::report::html::reading::{greatest, place_on_flank};
-use crate::report::html::theme::{self, Figure, MUTED, axis, layout, line};
 use crate::results::run::FlankRecord;
 
 /// Positions of the tooth whose lines of contact are drawn.
@@ -33,7 +31,7 @@ struct Quantity<'a> {
 }
 
 /// Wear, sliding, pressure new and worn, and the modifications where there are any.
-pub fn all(run: SlicedRun<'_>, gear: Gear) -> Vec<Figure> {
+pub fn all(run: SlicedRun<'_>, gear: Gear) -> Vec<Chart> {
     let flank = &run.record.flanks[gear];
     let top = |field: &[f64]| greatest(field).map_or(0.0, |peak| peak.value);
     let pressure_top = top(&flank.pressure_new_MPa).max(top(&flank.pressure_worn_MPa));
@@ -93,78 +91,50 @@ fn on_active_flank(flank: &FlankRecord, field: &[f64]) -> Vec<f64> {
     field.iter().enumerate().map(|(place, &value)| if shown(place) { value } else { f64::NAN }).collect()
 }
 
-fn map(run: SlicedRun<'_>, gear: Gear, quantity: Quantity<'_>) -> Figure {
+fn map(run: SlicedRun<'_>, gear: Gear, quantity: Quantity<'_>) -> Chart {
     let flank = &run.record.flanks[gear];
     let raster = SlicedRaster::of_flank(flank, run.slices.surface[gear].face_width_mm);
     let points = flank.radius_mm.len();
     let values = raster.rows(|point, slice| quantity.values[slice * points + point]);
-    let edges = |edges: &[f64]| edges.iter().map(|&edge| plotted(edge)).collect::<Vec<f64>>();
     let unit = quantity.unit;
-    let mut plot = Plot::new();
-    plot.add_trace(
-        Trace::heat_map(edges(&raster.across.edges), edges(&raster.along.edges), values)
-            .zmin(0.0)
-            .zmax(if quantity.top > 0.0 { quantity.top } else { 1.0 })
-            .color_scale(ColorScale::Viridis)
-            .color_bar(ColorBar::new().title(Title::new().text(unit).font(Font::new().size(12))).thickness(12).x(1.05))
-            .hover_template(format!("width %{{x:.2f}} mm, radius %{{y:.2f}} mm<br>%{{z:.4~g}} {unit}<extra></extra>")),
-    );
-    plot.add_trace(lines_of_contact(run, gear));
+    let colours = Trace::heat_map(unit, &raster.across.edges, &raster.along.edges, values)
+        .set("zmin", 0.0)
+        .set("zmax", if quantity.top > 0.0 { quantity.top } else { 1.0 })
+        .hover(format!("width %{{x:.2f}} mm, radius %{{y:.2f}} mm<br>%{{z:.4~g}} {unit}<extra></extra>"))
+        .colour_bar_at(1.05);
     let ends = |edges: &[f64]| match edges {
-        [first, .., last] => vec![*first, *last],
-        _ => vec![0.0, 1.0],
+        [first, .., last] => [*first, *last],
+        _ => [0.0, 1.0],
     };
-    plot.set_layout(
-        layout(360)
-            .show_legend(false)
-            .hover_mode(HoverMode::Closest)
-            .x_axis(axis("face width, mm").range(ends(&raster.across.edges)).show_grid(false))
-            .y_axis(
-                axis(&format!("radius on the {}, mm", gear.name())).range(ends(&raster.along.edges)).show_grid(false),
-            )
-            .annotations(path_points(flank)),
-    );
-    Figure {
-        id: format!("map-{}-{}", quantity.id, gear.name()),
-        title: quantity.title,
-        reading: quantity.reading,
-        plot,
-        wide: false,
-    }
+    Chart::new(format!("map-{}-{}", quantity.id, gear.name()), quantity.title)
+        .height(360)
+        .legend(false)
+        .read_nearest()
+        .x("face width, mm")
+        .x_range(ends(&raster.across.edges))
+        .y(&format!("radius on the {}, mm", gear.name()))
+        .y_range(ends(&raster.along.edges))
+        .without_grid()
+        .set("annotations", path_points(flank))
+        .add(colours)
+        .add(lines_of_contact(run, gear))
+        .reading(quantity.reading)
 }
 
 /// The letters A–E at the right of the map.
-fn path_points(flank: &FlankRecord) -> Vec<Annotation> {
-    theme::named(&flank.path_point_radius_mm)
-        .into_iter()
-        .filter(|(_, radius)| radius.is_finite())
-        .map(|(name, radius)| {
-            Annotation::new()
-                .x_ref("paper")
-                .y_ref("y")
-                .x(1.005)
-                .y(radius)
-                .x_anchor(Anchor::Left)
-                .show_arrow(false)
-                .text(name)
-                .font(Font::new().size(12).color(MUTED))
-        })
-        .collect()
+fn path_points(flank: &FlankRecord) -> Vec<Value> {
+    let points = flank.path_point_radius_mm.named().into_iter().filter(|(_, radius)| radius.is_finite());
+    let at = |radius: f64| json!({ "xref": "paper", "yref": "y", "x": 1.005, "y": radius, "xanchor": "left" });
+    points.map(|(name, radius)| label(name, at(radius))).collect()
 }
 
 /// Lines of contact at evenly spaced positions of the tooth between its first and its last touch, as one line with gaps.
 fn lines_of_contact(run: SlicedRun<'_>, gear: Gear) -> Trace {
-    let (mut width, mut radius) = (Vec::new(), Vec::new());
-    for points in lines_mm(run, gear) {
-        width.extend(points.iter().map(|[z, _]| Some(plotted(*z))));
-        radius.extend(points.iter().map(|[_, r]| Some(plotted(*r))));
-        width.push(None);
-        radius.push(None);
-    }
-    Trace::lines_with_gaps(width, radius)
-        .name("lines of contact")
-        .line(line("rgba(255,255,255,0.8)", 1.3, DashType::Solid))
-        .hover_info(HoverInfo::Skip)
+    let lines = lines_mm(run, gear);
+    let along = |axis: usize| {
+        lines.iter().flat_map(move |points| points.iter().map(move |point| Some(point[axis])).chain([None]))
+    };
+    Trace::line("lines of contact", along(0), along(1), ("rgba(255,255,255,0.8)", 1.3, Dash::Solid)).silent()
 }
 
 /// Those lines as points (width, radius), mm.

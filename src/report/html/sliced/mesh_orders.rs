@@ -1,31 +1,20 @@
 //! The first mesh orders of the loaded transmission error, new and worn.
 
-use crate::report::chart::{BarMode, Marker, Plot, Trace};
+use serde_json::json;
 
-use super::SlicedRun;
+use super::sliced_run::SlicedRun;
+use crate::report::chart::{Chart, NEW, Trace, WORN};
 use crate::report::html::number::{change, figure, plotted};
-use crate::report::html::theme::{Figure, NEW, WORN, axis, layout};
 
 /// Bars for each order.
-pub fn new_and_worn(run: SlicedRun<'_>) -> Figure {
+pub fn new_and_worn(run: SlicedRun<'_>) -> Chart {
     let orders = [&run.helical.mesh_orders_new_um, &run.helical.mesh_orders_worn_um];
-    let mut plot = Plot::new();
-    for ((name, colour), amplitudes) in [("new", NEW), ("worn", WORN)].into_iter().zip(orders) {
-        let names = (1..=amplitudes.len()).map(|order| format!("{order}×")).collect();
-        plot.add_trace(
-            Trace::bar(names, amplitudes.iter().map(|&um| plotted(um)).collect())
-                .name(name)
-                .marker(Marker::new().color(colour))
-                .hover_template("%{y:.4~g} µm"),
-        );
-    }
-    plot.set_layout(
-        layout(380)
-            .show_legend(true)
-            .bar_mode(BarMode::Group)
-            .x_axis(axis("multiple of the tooth-mesh frequency"))
-            .y_axis(axis("amplitude, µm")),
-    );
+    let bars = [("new", NEW), ("worn", WORN)].into_iter().zip(orders).map(|((name, colour), amplitudes)| {
+        let names: Vec<String> = (1..=amplitudes.len()).map(|order| format!("{order}×")).collect();
+        let heights: Vec<f64> = amplitudes.iter().map(|&um| plotted(um)).collect();
+        let bars = Trace::new("bar", name).set("x", names).set("y", heights);
+        bars.set("marker", json!({ "color": colour })).hover("%{y:.4~g} µm")
+    });
     let reading = match (orders[0].first(), orders[1].first()) {
         (Some(new), Some(worn)) => format!(
             "The tooth-mesh frequency itself has an amplitude of {} µm new and {} µm worn ({}); the transmission error as a whole varies by \
@@ -38,11 +27,10 @@ pub fn new_and_worn(run: SlicedRun<'_>) -> Figure {
         ),
         _ => "No mesh order was computed.".into(),
     };
-    Figure {
-        id: "mesh-orders".into(),
-        title: "Mesh orders of the transmission error".into(),
-        reading,
-        plot,
-        wide: false,
-    }
+    Chart::new("mesh-orders", "Mesh orders of the transmission error")
+        .set("barmode", "group")
+        .x("multiple of the tooth-mesh frequency")
+        .y("amplitude, µm")
+        .add_all(bars)
+        .reading(reading)
 }

@@ -2,40 +2,32 @@
 //!
 //! One mesh wears a millionth of what a run does; both are shown over their mean, so that their shapes can be compared.
 
-use crate::report::chart::{DashType, Mode, Plot};
-
-use super::SlicedRun;
+use super::sliced_run::SlicedRun;
 use crate::gear::Gear;
+use crate::report::chart::{Chart, Dash, NEW, Trace, gear_colour};
 use crate::report::html::number::{figure, percent, significant};
-use crate::report::html::theme::{self, Figure, NEW, axis, curve, layout, line};
 
 /// Of one gear.
-pub fn root_and_tip(run: SlicedRun<'_>, gear: Gear) -> Figure {
+pub fn root_and_tip(run: SlicedRun<'_>, gear: Gear) -> Chart {
     let wear = &run.helical.wear[gear];
-    let width = &run.helical.width_mm;
-    let colour = theme::gear_colour(gear);
-    let mut plot = Plot::new();
+    let colour = gear_colour(gear);
+    let title = format!("Root and tip wear of the {} over the face width", gear.name());
+    let mut chart = Chart::new(format!("over-width-{}", gear.name()), title);
     let mut highest = 1.0_f64;
     for (name, values, colour, dash) in [
-        ("root, first mesh", &wear.root_wear_first_mesh_um, NEW, DashType::Solid),
-        ("root, end of the run", &wear.root_wear_um, colour, DashType::Solid),
-        ("tip, first mesh", &wear.tip_wear_first_mesh_um, NEW, DashType::Dash),
-        ("tip, end of the run", &wear.tip_wear_um, colour, DashType::Dash),
+        ("root, first mesh", &wear.root_wear_first_mesh_um, NEW, Dash::Solid),
+        ("root, end of the run", &wear.root_wear_um, colour, Dash::Solid),
+        ("tip, first mesh", &wear.tip_wear_first_mesh_um, NEW, Dash::Dash),
+        ("tip, end of the run", &wear.tip_wear_um, colour, Dash::Dash),
     ] {
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         if mean > 0.0 {
             let relative: Vec<f64> = values.iter().map(|value| value / mean).collect();
             highest = relative.iter().copied().fold(highest, f64::max);
-            let trace = curve(name, width.iter().copied(), relative, line(colour, 2.0, dash));
-            plot.add_trace(trace.mode(Mode::LinesMarkers).hover_template("%{y:.3f}"));
+            let trace = Trace::line(name, run.helical.width_mm.iter().copied(), relative, (colour, 2.0, dash));
+            chart = chart.add(trace.set("mode", "lines+markers").hover("%{y:.3f}"));
         }
     }
-    plot.set_layout(
-        layout(380)
-            .show_legend(true)
-            .x_axis(axis("face width, mm").range(vec![0.0, run.slices.surface[gear].face_width_mm]).hover_format(".2f"))
-            .y_axis(axis("wear over its mean").range(theme::from_zero(highest).to_vec())),
-    );
     let reading = match (wear.root_wear_um.first(), wear.root_wear_um.last()) {
         (Some(first), Some(last)) if *first > 0.0 || *last > 0.0 => format!(
             "Root of the {}: {} µm in the first slice against {} µm in the last; (first − last)/(first + last) goes from {} in the first \
@@ -51,11 +43,11 @@ pub fn root_and_tip(run: SlicedRun<'_>, gear: Gear) -> Figure {
         ),
         _ => format!("The {}’s root has not worn.", gear.name()),
     };
-    Figure {
-        id: format!("over-width-{}", gear.name()),
-        title: format!("Root and tip wear of the {} over the face width", gear.name()),
-        reading,
-        plot,
-        wide: false,
-    }
+    chart
+        .x("face width, mm")
+        .x_range([0.0, run.slices.surface[gear].face_width_mm])
+        .x_format(".2f")
+        .y("wear over its mean")
+        .y_up_to(highest)
+        .reading(reading)
 }

@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use crate::report::html::active_flank::ActiveFlank;
+use crate::report::html::number::to_digits;
 use crate::results::run::FlankRecord;
 
 /// Cells at most from root to tip, or along the path.
@@ -89,7 +90,7 @@ impl SlicedRaster {
     pub fn rows(&self, at: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
         let cell = |along: &Range<usize>, across: &Range<usize>| {
             let all = along.clone().flat_map(|i| across.clone().map(move |slice| (i, slice)));
-            rounded(all.map(|(i, slice)| at(i, slice)).fold(f64::NEG_INFINITY, f64::max))
+            to_digits(all.map(|(i, slice)| at(i, slice)).fold(f64::NEG_INFINITY, f64::max), DIGITS)
         };
         self.along
             .groups
@@ -103,10 +104,6 @@ impl SlicedRaster {
         let rows = self.rows(at);
         (0..self.across.groups.len()).map(|slice| rows.iter().map(|row| row[slice]).collect()).collect()
     }
-}
-
-fn rounded(value: f64) -> f64 {
-    format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value)
 }
 
 #[cfg(test)]

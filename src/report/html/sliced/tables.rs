@@ -1,17 +1,18 @@
 //! The figures of the slices as tables.
 
+use maud::{Markup, html};
+
 use crate::gear::PerGear;
-use crate::report::html::number::{change, figure, fixed, percent, significant};
-use crate::report::html::page::escape;
-use crate::report::html::table::{row, table};
+use crate::report::html::number::{change, fixed, percent, significant};
+use crate::report::html::table::{Cell, cells, row, table};
 use crate::results::run::{HelicalSummary, OverWidthSummary};
 
 /// Lines of contact, load over the face width, mesh orders, evenness of wear.
-pub fn tables(helical: &HelicalSummary) -> String {
-    [slices(helical), mesh_cycle(helical), evenness(&helical.wear)].concat()
+pub fn tables(helical: &HelicalSummary) -> Markup {
+    html! { (slices(helical)) (mesh_cycle(helical)) (evenness(&helical.wear)) }
 }
 
-fn slices(h: &HelicalSummary) -> String {
+fn slices(h: &HelicalSummary) -> Markup {
     let length = &h.line_of_contact_mm;
     let mut rows = vec![
         row("Helix angle at the reference cylinder", "°", [fixed(h.helix_angle_deg, 3)]),
@@ -20,26 +21,26 @@ fn slices(h: &HelicalSummary) -> String {
         row("Lines of contact together, least", "mm", [fixed(length.min, 3)]),
         row("Lines of contact together, mean", "mm", [fixed(length.mean, 3)]),
         row("Lines of contact together, greatest", "mm", [fixed(length.max, 3)]),
-        row("Slices", "", [h.slices.to_string()]),
-        row("Coupling", "", [escape(&h.coupling)]),
+        row("Slices", "", [h.slices]),
+        row("Coupling", "", [&*h.coupling]),
     ];
     if let Some([twist, bending]) = h.coupling_reach_mm {
         rows.push(row("Reach of the coupling, twist", "mm", [significant(twist, 3)]));
         rows.push(row("Reach of the coupling, bending", "mm", [significant(bending, 3)]));
     }
-    table("Face width and slices", &["value"], &rows)
+    table("Face width and slices", &["value"], rows)
 }
 
-fn mesh_cycle(h: &HelicalSummary) -> String {
-    let compare =
-        |label: String, unit, new: f64, worn: f64| row(label, unit, [figure(new), figure(worn), change(new, worn)]);
-    let mut rows = vec![compare("Face load factor K<sub>Hβ</sub>".into(), "", h.K_Hbeta_new, h.K_Hbeta_worn)];
+fn mesh_cycle(h: &HelicalSummary) -> Markup {
+    let compare = |label: Cell, unit, new: f64, worn: f64| row(label, unit, cells![new, worn, change(new, worn)]);
+    let face_load_factor = html! { "Face load factor K" sub { "Hβ" } };
+    let mut rows = vec![compare(face_load_factor.into(), "", h.K_Hbeta_new, h.K_Hbeta_worn)];
     let orders = h.mesh_orders_new_um.iter().zip(&h.mesh_orders_worn_um).enumerate();
-    rows.extend(orders.map(|(i, (&new, &worn))| compare(format!("Mesh order {}", i + 1), "µm", new, worn)));
-    table("Load over the face width and mesh orders", &["new", "worn", "change"], &rows)
+    rows.extend(orders.map(|(i, (&new, &worn))| compare(format!("Mesh order {}", i + 1).into(), "µm", new, worn)));
+    table("Load over the face width and mesh orders", &["new", "worn", "change"], rows)
 }
 
-fn evenness(wear: &PerGear<OverWidthSummary>) -> String {
+fn evenness(wear: &PerGear<OverWidthSummary>) -> Markup {
     let both = |label, value: fn(&OverWidthSummary) -> f64, words: fn(f64) -> String| {
         row(label, "", [words(value(&wear.pinion)), words(value(&wear.wheel))])
     };
@@ -47,7 +48,7 @@ fn evenness(wear: &PerGear<OverWidthSummary>) -> String {
     table(
         "Wear over the face width",
         &["pinion", "wheel"],
-        &[
+        [
             both("Variation at the root", |w| w.root_variation, percent),
             both("Variation at the tip", |w| w.tip_variation, percent),
             both("Variation of root and tip together", |w| w.root_tip_variation, percent),

@@ -1,36 +1,30 @@
 //! The tooth as a whole from the first touch of its first slice to the last of its last: its share of the load, and the greatest
 //! pressure anywhere on it.
 
-use crate::report::chart::{Axis, Plot};
-
-use super::{SlicedRun, slice_name};
+use super::sliced_run::{SlicedRun, slice_name};
+use crate::report::chart::{Chart, padded};
 use crate::report::html::cycle_plots::{ALONE, NOT_COMPUTED};
 use crate::report::html::number::{change, figure, percent, significant};
 use crate::report::html::reading::{Extreme, greatest};
-use crate::report::html::theme::{Figure, axis, from_zero, layout, mark_path_points, new_and_worn, padded};
 
 /// What `of` makes of all slices at each position.
 fn at_each_position(run: SlicedRun<'_>, field: &[f64], of: fn(&[f64]) -> f64) -> Vec<f64> {
     field.chunks_exact(run.slices.width_mm.len().max(1)).map(of).collect()
 }
 
-fn figure_over_mesh(run: SlicedRun<'_>, values: [&[f64]; 2], y: Axis, hover: &str) -> Plot {
+fn over_mesh(run: SlicedRun<'_>, chart: Chart, [new, worn]: [Vec<f64>; 2], hover: &str) -> Chart {
     let position = &run.slices.position_mm;
-    let ends = [position.first(), position.last()].map(|end| end.copied().unwrap_or_default());
-    let mut plot = Plot::new();
-    new_and_worn(&mut plot, position, values[0].to_vec(), values[1].to_vec(), hover);
-    plot.set_layout(mark_path_points(
-        layout(380)
-            .show_legend(true)
-            .x_axis(axis("position of the tooth, mm").range(padded(ends[0], ends[1])).hover_format(".3f"))
-            .y_axis(y),
-        &run.record.summary.geometry.curvature_radius_mm,
-    ));
-    plot
+    let [first, last] = [position.first(), position.last()].map(|end| end.copied().unwrap_or_default());
+    chart
+        .x("position of the tooth, mm")
+        .x_range(padded(first, last))
+        .x_format(".3f")
+        .new_and_worn(position, new, worn, hover)
+        .mark_path_points(&run.record.summary.geometry.curvature_radius_mm)
 }
 
 /// The share of the whole load that the tooth carries.
-pub fn load_share(run: SlicedRun<'_>) -> Figure {
+pub fn load_share(run: SlicedRun<'_>) -> Chart {
     let whole = run.record.summary.contact.line_load_N_per_mm;
     let mean: fn(&[f64]) -> f64 = |slices| slices.iter().sum::<f64>() / slices.len() as f64;
     let shares = [&run.slices.line_load_new_N_per_mm, &run.slices.line_load_worn_N_per_mm]
@@ -41,14 +35,8 @@ pub fn load_share(run: SlicedRun<'_>) -> Figure {
         ),
         _ => NOT_COMPUTED.into(),
     };
-    let y = axis("share of the load").range(from_zero(1.0).to_vec());
-    Figure {
-        id: "load-sharing".into(),
-        title: "Load of one tooth over its mesh".into(),
-        reading,
-        plot: figure_over_mesh(run, [&shares[0], &shares[1]], y, "%{y:.3f}"),
-        wide: false,
-    }
+    let chart = Chart::new("load-sharing", "Load of one tooth over its mesh").y("share of the load").y_up_to(1.0);
+    over_mesh(run, chart.reading(reading), shares, "%{y:.3f}")
 }
 
 /// "the whole load from 12.7 to 15.3 mm", or how much of it at the most.
@@ -63,7 +51,7 @@ fn most_of_the_load(run: SlicedRun<'_>, shares: &[f64]) -> Option<String> {
 }
 
 /// The greatest pressure of all slices.
-pub fn pressure(run: SlicedRun<'_>) -> Figure {
+pub fn pressure(run: SlicedRun<'_>) -> Chart {
     let fields = [&run.slices.peak_pressure_new_MPa, &run.slices.peak_pressure_worn_MPa];
     let most: fn(&[f64]) -> f64 = |slices| slices.iter().copied().fold(0.0, f64::max);
     let [new, worn] = fields.map(|field| at_each_position(run, field, most));
@@ -85,12 +73,7 @@ pub fn pressure(run: SlicedRun<'_>) -> Figure {
         _ => NOT_COMPUTED.into(),
     };
     let top = new.iter().chain(&worn).copied().fold(0.0, f64::max);
-    let y = axis("greatest pressure, MPa").range(from_zero(top).to_vec());
-    Figure {
-        id: "cycle-pressure".into(),
-        title: "Greatest pressure on one tooth over its mesh".into(),
-        reading,
-        plot: figure_over_mesh(run, [&new, &worn], y, "%{y:.1f} MPa"),
-        wide: false,
-    }
+    let chart = Chart::new("cycle-pressure", "Greatest pressure on one tooth over its mesh");
+    let chart = chart.y("greatest pressure, MPa").y_up_to(top).reading(reading);
+    over_mesh(run, chart, [new, worn], "%{y:.1f} MPa")
 }

@@ -2,13 +2,11 @@
 //!
 //! Colours and shapes are the surfaces; of pairs with slices, full marks are coupled slices and open ones uncoupled.
 
-use crate::report::chart::{
-    AxisType, DashType, ExponentFormat, HoverInfo, HoverMode, Marker, MarkerSymbol, Mode, Plot,
-};
+use serde_json::json;
 
+use crate::report::chart::{Chart, Dash, MUTED, Trace, extent};
 use crate::report::html::number::{percent, significant};
-use crate::report::html::theme::{Figure, MUTED, axis, curve, layout, line};
-use crate::studies::accuracy::record::{AccuracyRecord, Quantity, VariantRecord};
+use crate::studies::accuracy::record::{AccuracyRecord, Quantity, VariantRecord, VariantSettings};
 
 /// Errors below this are drawn at it: a logarithmic axis knows no zero.
 const LEAST_SHOWN: f64 = 1e-5;
@@ -29,144 +27,77 @@ const TICKS: [(f64, &str); 12] = [
     (3.0, "300 %"),
 ];
 
-/// A kind of run as the plots tell them apart.
-struct Kind {
-    name: &'static str,
-    colour: &'static str,
-    /// With coupled slices, or without slices; with uncoupled ones.
-    symbols: fn() -> [MarkerSymbol; 2],
-    holds: fn(&VariantRecord) -> bool,
-}
-
-const KINDS: [Kind; 6] = [
-    Kind {
-        name: "hertz-mean",
-        colour: "var(--new)",
-        symbols: || [MarkerSymbol::Circle, MarkerSymbol::CircleOpen],
-        holds: |v| v.settings.surface == "hertz-mean",
-    },
-    Kind {
-        name: "hertz",
-        colour: "var(--wheel)",
-        symbols: || [MarkerSymbol::Square, MarkerSymbol::SquareOpen],
-        holds: |v| v.settings.surface == "hertz",
-    },
-    Kind {
-        name: "winkler, one K/H",
-        colour: "var(--pinion)",
-        symbols: || [MarkerSymbol::TriangleDown, MarkerSymbol::TriangleDownOpen],
-        holds: |v| v.settings.surface == "winkler" && !v.settings.calibrated,
-    },
-    Kind {
-        name: "winkler, calibrated",
-        colour: "var(--pinion)",
-        symbols: || [MarkerSymbol::Diamond, MarkerSymbol::DiamondOpen],
-        holds: |v| v.settings.surface == "winkler" && v.settings.calibrated,
-    },
-    Kind {
-        name: "half-space",
-        colour: "var(--path)",
-        symbols: || [MarkerSymbol::TriangleUp, MarkerSymbol::TriangleUpOpen],
-        holds: |v| v.settings.surface == "half-space",
-    },
-    Kind {
-        name: "fem",
-        colour: "var(--worn)",
-        symbols: || [MarkerSymbol::Cross, MarkerSymbol::CrossOpen],
-        holds: |v| v.settings.surface == "fem",
-    },
+/// The kinds of runs that the plots tell apart: name, colour, symbol, and which runs they are.
+const KINDS: [(&str, &str, &str, fn(&VariantSettings) -> bool); 6] = [
+    ("hertz-mean", "var(--new)", "circle", |s| s.surface == "hertz-mean"),
+    ("hertz", "var(--wheel)", "square", |s| s.surface == "hertz"),
+    ("winkler, one K/H", "var(--pinion)", "triangle-down", |s| s.surface == "winkler" && !s.calibrated),
+    ("winkler, calibrated", "var(--pinion)", "diamond", |s| s.surface == "winkler" && s.calibrated),
+    ("half-space", "var(--path)", "triangle-up", |s| s.surface == "half-space"),
+    ("fem", "var(--worn)", "cross", |s| s.surface == "fem"),
 ];
 
+/// Couplings of slices, `None` without slices, with what they add to the name and to the symbol of a kind.
+const COUPLINGS: [(Option<&str>, &str, &str); 3] =
+    [(None, "", ""), (Some("slicing"), ", coupled", ""), (Some("none"), ", uncoupled", "-open")];
+
 /// One plot for each quantity.
-pub fn all(record: &AccuracyRecord) -> Vec<Figure> {
+pub fn all(record: &AccuracyRecord) -> Vec<Chart> {
     let measured = |quantity: &Quantity| record.variants.iter().any(|v| v.errors.contains_key(quantity));
     Quantity::ALL.into_iter().filter(measured).map(|quantity| front(record, quantity)).collect()
 }
 
-fn front(record: &AccuracyRecord, quantity: Quantity) -> Figure {
-    let mut plot = Plot::new();
-    let runs = |holds: fn(&VariantRecord) -> bool| {
-        record.variants.iter().filter(move |v| holds(v)).filter_map(move |v| {
+fn front(record: &AccuracyRecord, quantity: Quantity) -> Chart {
+    let runs = || {
+        record.variants.iter().filter_map(|v| {
             let error = v.errors.get(&quantity).filter(|error| error.relative.is_finite())?;
             Some((v, v.simulation_s?, error.relative, error.on_front))
         })
     };
+    let uncertainty = record.reference.uncertainty.get(&quantity).copied().unwrap_or(0.0);
+    let id = format!("front-{}", quantity.name().to_lowercase().replace('_', "-"));
+    let mut chart = Chart::new(id, quantity.title())
+        .wide_if(quantity == Quantity::WearProfile)
+        .height(430)
+        .read_nearest()
+        .x("wall time of the wear run, s")
+        .x_logarithmic()
+        .y("relative error")
+        .y_logarithmic()
+        .y_set("tickvals", TICKS.map(|(level, _)| level).to_vec())
+        .y_set("ticktext", TICKS.map(|(_, text)| text).to_vec())
+        .reading(reading(record, quantity, uncertainty));
     let mut on_front: Vec<(f64, f64)> =
-        runs(|_| true).filter(|run| run.3).map(|(_, wall_s, error, _)| (wall_s, error)).collect();
+        runs().filter(|run| run.3).map(|(_, wall_s, error, _)| (wall_s, shown(error))).collect();
     on_front.sort_by(|a, b| a.0.total_cmp(&b.0));
-    plot.add_trace(
-        curve(
-            "Pareto front",
-            on_front.iter().map(|run| run.0),
-            on_front.iter().map(|run| shown(run.1)),
-            line(MUTED, 8.0, DashType::Solid),
-        )
-        .opacity(0.35)
-        .hover_info(HoverInfo::Skip),
-    );
-    for kind in &KINDS {
-        let [coupled, uncoupled] = (kind.symbols)();
-        let groups = [(None, coupled), (Some("slicing"), coupled), (Some("none"), uncoupled)];
-        for (coupling, symbol) in groups {
-            let of_kind: Vec<_> =
-                runs(kind.holds).filter(|(v, ..)| v.settings.coupling.as_deref() == coupling).collect();
+    let (wall_s, errors): (Vec<f64>, Vec<f64>) = on_front.into_iter().unzip();
+    chart = chart.add(Trace::line("Pareto front", wall_s, errors, (MUTED, 8.0, Dash::Solid)).opacity(0.35).silent());
+    for (kind, colour, symbol, holds) in KINDS {
+        for (coupling, how, open) in COUPLINGS {
+            let is_shown = |v: &VariantRecord| holds(&v.settings) && v.settings.coupling.as_deref() == coupling;
+            let of_kind: Vec<_> = runs().filter(|(v, ..)| is_shown(v)).collect();
             if of_kind.is_empty() {
                 continue;
             }
-            let text: Vec<String> = of_kind
+            let text = of_kind
                 .iter()
-                .map(|(v, wall_s, error, _)| format!("{}: {}, {} s", v.name, percent(*error), significant(*wall_s, 3)))
-                .collect();
+                .map(|(v, wall_s, error, _)| format!("{}: {}, {} s", v.name, percent(*error), significant(*wall_s, 3)));
             let sizes: Vec<usize> = of_kind.iter().map(|(v, ..)| size(v)).collect();
-            let name = match coupling {
-                None => kind.name.to_owned(),
-                Some("slicing") => format!("{}, coupled", kind.name),
-                Some(_) => format!("{}, uncoupled", kind.name),
-            };
-            plot.add_trace(
-                curve(
-                    &name,
-                    of_kind.iter().map(|run| run.1),
-                    of_kind.iter().map(|run| shown(run.2)),
-                    line(kind.colour, 1.0, DashType::Solid),
-                )
-                .mode(Mode::Markers)
-                .marker(Marker::new().color(kind.colour).symbol(symbol).size(sizes))
-                .hover_text_array(text)
-                .hover_template("%{hovertext}<extra></extra>"),
-            );
+            let (x, y) = (of_kind.iter().map(|run| run.1), of_kind.iter().map(|run| shown(run.2)));
+            let points = Trace::points(format!("{kind}{how}"), x, y, (colour, "", 0));
+            let marker = json!({ "color": colour, "symbol": format!("{symbol}{open}"), "size": sizes });
+            chart = chart.add(points.set("marker", marker).hover_texts(text.collect()));
         }
     }
-    let times: Vec<f64> = runs(|_| true).map(|run| run.1).collect();
-    let ends = [times.iter().copied().fold(f64::INFINITY, f64::min), times.iter().copied().fold(0.0, f64::max)];
-    let uncertainty = record.reference.uncertainty.get(&quantity).copied().unwrap_or(0.0);
-    for (name, level, dash) in [
-        ("error wanted", record.within, DashType::Dash),
-        ("the reference’s own uncertainty", uncertainty, DashType::Dot),
-    ] {
+    let ends = extent(runs().map(|run| run.1));
+    for (name, level, dash) in
+        [("error wanted", record.within, Dash::Dash), ("the reference’s own uncertainty", uncertainty, Dash::Dot)]
+    {
         if ends[0] < ends[1] && level > 0.0 {
-            plot.add_trace(curve(name, ends, [shown(level); 2], line(MUTED, 1.4, dash)).hover_template("%{y:.3~%}"));
+            chart = chart.line(name, ends, [shown(level); 2], (MUTED, 1.4, dash), "%{y:.3~%}");
         }
     }
-    let logarithmic = |title: &str| axis(title).type_(AxisType::Log).exponent_format(ExponentFormat::Power);
-    plot.set_layout(
-        layout(430)
-            .show_legend(true)
-            .hover_mode(HoverMode::Closest)
-            .x_axis(logarithmic("wall time of the wear run, s"))
-            .y_axis(
-                logarithmic("relative error")
-                    .tick_values(TICKS.map(|(level, _)| level))
-                    .tick_text(TICKS.map(|(_, text)| text.to_owned())),
-            ),
-    );
-    Figure {
-        id: format!("front-{}", quantity.name().to_lowercase().replace('_', "-")),
-        title: quantity.title().to_owned(),
-        reading: reading(record, quantity, uncertainty),
-        plot,
-        wide: quantity == Quantity::WearProfile,
-    }
+    chart
 }
 
 fn shown(error: f64) -> f64 {

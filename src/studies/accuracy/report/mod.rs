@@ -17,19 +17,13 @@ pub mod tables;
 
 use std::path::{Path, PathBuf};
 
-use crate::report::tables::Provenance;
-use crate::report::{ReportError, create_folder, place, remove, summary};
-use crate::studies::accuracy::record::{AccuracyRecord, CALIBRATION_FILE};
+use crate::report::csv_table::Provenance;
+use crate::report::files::{ReportError, create_folder, place, remove, write_json};
+use crate::studies::accuracy::record::{AccuracyRecord, CALIBRATION_FILE, OVER_WIDTH_FILE};
 
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "accuracy.json";
 const RECOMMENDED: &str = "recommended.toml";
-const OVER_WIDTH: &str = "over_width.csv";
-
-/// Whether the pair was cut into slices over the face width.
-fn has_slices(record: &AccuracyRecord) -> bool {
-    record.variants.iter().any(|variant| variant.settings.slices.is_some())
-}
 
 /// Writes all files of `record` into `dir`, which is made if need be; returns their paths in the order written.
 pub fn write(record: &AccuracyRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
@@ -37,8 +31,8 @@ pub fn write(record: &AccuracyRecord, dir: &Path) -> Result<Vec<PathBuf>, Report
     remove(dir, LAST)?;
     // What an earlier comparison recommended must not pass for this one's.
     remove(dir, RECOMMENDED)?;
-    remove(dir, OVER_WIDTH)?;
-    let provenance = Provenance::of_accuracy(record);
+    remove(dir, OVER_WIDTH_FILE)?;
+    let provenance = Provenance::of_scene(&record.program_version, &record.scene_hash);
     let mut written = vec![place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?];
     for (name, text) in [(CALIBRATION_FILE, &record.calibration_json), (RECOMMENDED, &record.recommended_toml)] {
         if let Some(text) = text {
@@ -49,12 +43,12 @@ pub fn write(record: &AccuracyRecord, dir: &Path) -> Result<Vec<PathBuf>, Report
         place(dir, "accuracy.csv", |out| tables::runs(out, provenance, record))?,
         place(dir, "wear_profiles.csv", |out| tables::profiles(out, provenance, record))?,
     ]);
-    if has_slices(record) {
-        written.push(place(dir, OVER_WIDTH, |out| tables::over_width(out, provenance, record))?);
+    if record.has_slices() {
+        written.push(place(dir, OVER_WIDTH_FILE, |out| tables::over_width(out, provenance, record))?);
     }
     written.extend([
         place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?,
-        place(dir, LAST, |out| summary::write(out, record))?,
+        place(dir, LAST, |out| write_json(out, record))?,
     ]);
     Ok(written)
 }

@@ -1,17 +1,19 @@
 //! `report.html` of a comparison of models.
 
-use super::{OVER_WIDTH, front_figures, has_slices, profile_figures, run_tables};
+use maud::{Markup, html};
+
+use super::{front_figures, profile_figures, run_tables};
 use crate::report::html::number::{percent, significant};
-use crate::report::html::page::{Page, escape, plots, section, sources_list};
+use crate::report::html::page::{Page, plots, section, sources_list};
 use crate::results::run::StopReason;
-use crate::studies::accuracy::record::{AccuracyRecord, CALIBRATION_FILE, Quantity};
+use crate::studies::accuracy::record::{AccuracyRecord, CALIBRATION_FILE, OVER_WIDTH_FILE, Quantity};
 
 /// The data files named in the page, which lie beside it.
 const DATA_FILES: [(&str, &str); 7] = [
     ("accuracy.json", "everything: the reference, every run with its errors, the recommendations"),
     ("accuracy.csv", "one row per run: settings, times, work, errors, fronts"),
     ("wear_profiles.csv", "wear over both flanks, reference and runs of the finest resolution"),
-    (OVER_WIDTH, "root wear over the face width, reference and runs of the finest resolution"),
+    (OVER_WIDTH_FILE, "root wear over the face width, reference and runs of the finest resolution"),
     ("scene.toml", "the resolved scene"),
     ("recommended.toml", "the scene of the recommended run of the wear profile"),
     ("calibration.json", "the calibration that the runs read"),
@@ -19,36 +21,16 @@ const DATA_FILES: [(&str, &str); 7] = [
 
 /// The whole page.
 pub fn page(record: &AccuracyRecord) -> String {
-    let mut figures = front_figures::all(record);
-    figures.splice(1..1, profile_figures::all(record));
-    let reference = format!(
-        "<p>The reference is {}.{} Run times are wall times of the wear run alone on {} thread{}, each run by itself; a short \
-         run is repeated and its least time counts.</p>\n",
-        escape(&record.reference.how),
-        record.reference.does_not_tell.as_ref().map_or_else(String::new, |open| format!(" {}", escape(open))),
-        record.threads,
-        if record.threads == 1 { "" } else { "s" }
-    );
-    let sections = [
-        section(
-            "recommendation",
-            "Recommendation",
-            &[
-                reference,
-                run_tables::recommendations(record),
-                run_tables::comparisons(record),
-                run_tables::deep_runs(record),
-            ]
-            .concat(),
-        ),
-        section("plots", "Error against run time", &plots(&figures)),
-        section("runs", "All runs", &[run_tables::runs(record), run_tables::left_out(record)].concat()),
-        section(
-            "sources",
-            "Data and scene",
-            &sources_list(&data_files(record), "The resolved scene, every default filled in", &record.scene_toml),
-        ),
-    ];
+    let mut charts = front_figures::all(record);
+    charts.splice(1..1, profile_figures::all(record));
+    let recommendation = html! {
+        (reference(record))
+        (run_tables::recommendations(record))
+        (run_tables::comparisons(record))
+        (run_tables::deep_runs(record))
+    };
+    let runs = html! { (run_tables::runs(record)) (run_tables::left_out(record)) };
+    let input = "The resolved scene, every default filled in";
     Page {
         kind: "Error against run time",
         title: &record.title,
@@ -57,16 +39,33 @@ pub fn page(record: &AccuracyRecord) -> String {
             .then(|| format!("The comparison was interrupted after {} runs; those are shown.", record.variants.len()))
             .as_deref(),
         warnings: &record.warnings,
-        main: &sections.concat(),
+        main: html! {
+            (section("recommendation", "Recommendation", recommendation))
+            (section("plots", "Error against run time", plots(&charts)))
+            (section("runs", "All runs", runs))
+            (section("sources", "Data and scene", sources_list(&data_files(record), input, &record.scene_toml)))
+        },
         footer: &format!("gearwear {} · scene {}", record.program_version, record.scene_hash),
     }
     .html()
 }
 
+fn reference(record: &AccuracyRecord) -> Markup {
+    html! {
+        p {
+            "The reference is " (record.reference.how) "."
+            @if let Some(open) = &record.reference.does_not_tell { " " (open) }
+            " Run times are wall times of the wear run alone on " (record.threads) " thread"
+            @if record.threads != 1 { "s" }
+            ", each run by itself; a short run is repeated and its least time counts."
+        }
+    }
+}
+
 /// The files that are there.
 fn data_files(record: &AccuracyRecord) -> Vec<(&'static str, &'static str)> {
     let missing = |name: &str| {
-        name == OVER_WIDTH && !has_slices(record)
+        name == OVER_WIDTH_FILE && !record.has_slices()
             || name == CALIBRATION_FILE && record.calibration_json.is_none()
             || name == "recommended.toml" && record.recommended_toml.is_none()
     };
@@ -87,7 +86,7 @@ fn answer(record: &AccuracyRecord) -> String {
     let against = reference.map_or_else(String::new, |reference_s| {
         format!(
             " The finest {} takes {} s, {} times as long.",
-            if has_slices(record) { "run, that the reference begins with," } else { "finite-element run" },
+            if record.has_slices() { "run, that the reference begins with," } else { "finite-element run" },
             significant(reference_s, 3),
             significant(reference_s / wall_s, 2)
         )

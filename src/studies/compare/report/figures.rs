@@ -1,20 +1,16 @@
 //! The plots of a comparison: profiles with their form removed, wear depths, and what is left between them.
 
-use crate::report::chart::{Axis, DashType, Layout, Plot};
-
+use crate::report::chart::{Chart, Dash, MUTED, NEW, Stroke, Trace, WORN, extent, padded};
 use crate::report::html::number::{figure, significant};
 use crate::report::html::reading::{among, greatest};
-use crate::report::html::theme::{
-    Figure, MUTED, NEW, WORN, axis, curve, layout, line, mark_path_points, named, padded,
-};
 use crate::studies::compare::record::{CompareRecord, CompareRow};
 
 const MEASURED: &str = "var(--wheel)";
 const SIMULATED: &str = "var(--pinion)";
 
 /// All of them.
-pub fn all(record: &CompareRecord) -> Vec<Figure> {
-    vec![profiles(record), depths(record), differences(record)]
+pub fn all(record: &CompareRecord) -> Vec<Chart> {
+    [profiles(record), depths(record), differences(record)].map(|chart| over_radius(record, chart)).into()
 }
 
 fn column(record: &CompareRecord, of: fn(&CompareRow) -> f64) -> Vec<f64> {
@@ -31,38 +27,23 @@ fn simulated_name(record: &CompareRecord) -> &'static str {
     if is_fitted(record) { "simulated, fitted" } else { "simulated" }
 }
 
-fn radius_axis(record: &CompareRecord) -> Axis {
-    let radius = column(record, |row| row.radius_mm);
-    let (low, high) = radius.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &r| (a.min(r), b.max(r)));
-    axis(&format!("radius on the {}, mm", record.gear.name())).range(padded(low, high)).hover_format(".3f")
+fn over_radius(record: &CompareRecord, chart: Chart) -> Chart {
+    let [low, high] = extent(record.rows.iter().map(|row| row.radius_mm));
+    let chart =
+        chart.x(&format!("radius on the {}, mm", record.gear.name())).x_range(padded(low, high)).x_format(".3f");
+    chart.mark_path_points(&record.path_point_radius_mm)
 }
 
-fn laid_out(record: &CompareRecord, height_px: usize, y: Axis) -> Layout {
-    let layout = layout(height_px).show_legend(true).x_axis(radius_axis(record)).y_axis(y);
-    mark_path_points(layout, &record.path_point_radius_mm)
+/// Draws a curve over the radius.
+fn curve(chart: Chart, record: &CompareRecord, name: &str, y: Vec<f64>, stroke: impl Into<Stroke>) -> Chart {
+    chart.line(name, record.rows.iter().map(|row| row.radius_mm), y, stroke, "%{y:.3f} µm")
 }
 
-/// A curve over the radius.
-fn add(plot: &mut Plot, record: &CompareRecord, name: &str, y: Vec<f64>, stroke: (&'static str, f64, DashType)) {
-    let (colour, width, dash) = stroke;
-    let trace = curve(name, record.rows.iter().map(|row| row.radius_mm), y, line(colour, width, dash));
-    plot.add_trace(trace.hover_template("%{y:.3f} µm"));
-}
-
-fn profiles(record: &CompareRecord) -> Figure {
-    let mut plot = Plot::new();
-    add(&mut plot, record, "measured", column(record, |row| row.measured_um), (MEASURED, 1.4, DashType::Solid));
-    if is_fitted(record) {
-        let as_run = column(record, |row| row.as_run_um);
-        add(&mut plot, record, "simulated, as run", as_run, (NEW, 1.8, DashType::Dash));
-    }
-    let simulated = column(record, |row| row.simulated_um);
-    add(&mut plot, record, simulated_name(record), simulated, (SIMULATED, 2.4, DashType::Solid));
+fn profiles(record: &CompareRecord) -> Chart {
     let (title, height) = match record.form.as_str() {
         "none" => ("Measured and simulated profile", "height, µm"),
         _ => ("Measured and simulated profile, form removed", "height, form removed, µm"),
     };
-    plot.set_layout(laid_out(record, 520, axis(height)));
     let form = match record.form.as_str() {
         "cubic" => "The least-squares cubic is taken from both, and with it a part of the wear.",
         "involute" => "Offset and tilt against the nominal involute are taken from both.",
@@ -73,35 +54,31 @@ fn profiles(record: &CompareRecord) -> Figure {
         true => format!("{} µm as run and ", figure(f.as_run_difference_um)),
         false => String::new(),
     };
-    Figure {
-        id: "profiles".to_owned(),
-        title: title.to_owned(),
-        reading: format!(
-            "{form} Their arithmetic mean deviations are {} µm measured and {} µm simulated; they differ by {before}{} µm (root \
-             mean square){}.",
-            figure(f.mean_deviation_um),
-            figure(f.simulated_mean_deviation_um),
-            figure(f.difference_um),
-            if before.is_empty() { "" } else { " fitted" },
-        ),
-        plot,
-        wide: true,
+    let chart = Chart::new("profiles", title).wide().height(520).y(height).reading(format!(
+        "{form} Their arithmetic mean deviations are {} µm measured and {} µm simulated; they differ by {before}{} µm (root \
+         mean square){}.",
+        figure(f.mean_deviation_um),
+        figure(f.simulated_mean_deviation_um),
+        figure(f.difference_um),
+        if before.is_empty() { "" } else { " fitted" },
+    ));
+    let measured = column(record, |row| row.measured_um);
+    let mut chart = curve(chart, record, "measured", measured, (MEASURED, 1.4, Dash::Solid));
+    if is_fitted(record) {
+        let as_run = column(record, |row| row.as_run_um);
+        chart = curve(chart, record, "simulated, as run", as_run, (NEW, 1.8, Dash::Dash));
     }
+    let simulated = column(record, |row| row.simulated_um);
+    curve(chart, record, simulated_name(record), simulated, (SIMULATED, 2.4, Dash::Solid))
 }
 
-fn depths(record: &CompareRecord) -> Figure {
-    let mut plot = Plot::new();
+fn depths(record: &CompareRecord) -> Chart {
     let measured = column(record, |row| row.measured_wear_um);
     let simulated = column(record, |row| row.wear_um);
-    let deepest = measured.iter().chain(&simulated).copied().fold(0.0, f64::max);
-    let highest = measured.iter().chain(&simulated).copied().fold(0.0, f64::min);
+    let [highest, deepest] = extent(measured.iter().chain(&simulated).copied().chain([0.0]));
     let margin = 0.04 * (deepest - highest);
     let at = greatest(&simulated);
-    add(&mut plot, record, "measured", measured, (MEASURED, 1.4, DashType::Solid));
-    add(&mut plot, record, simulated_name(record), simulated, (SIMULATED, 2.4, DashType::Solid));
-    // Depths grow downwards.
-    plot.set_layout(laid_out(record, 460, axis("wear depth, µm").range(vec![deepest + margin, highest - margin])));
-    let places = named(&record.path_point_radius_mm);
+    let places = record.path_point_radius_mm.named();
     let stands = match record.form.as_str() {
         "none" => "",
         _ => {
@@ -117,24 +94,16 @@ fn depths(record: &CompareRecord) -> Figure {
             among(&places, radius)
         )
     });
-    Figure { id: "depths".to_owned(), title: "Wear depth".to_owned(), reading, plot, wide: false }
+    // Depths grow downwards.
+    let chart = Chart::new("depths", "Wear depth").height(460).y("wear depth, µm").reading(reading);
+    let chart = chart.y_range([deepest + margin, highest - margin]);
+    let chart = curve(chart, record, "measured", measured, (MEASURED, 1.4, Dash::Solid));
+    curve(chart, record, simulated_name(record), simulated, (SIMULATED, 2.4, Dash::Solid))
 }
 
-fn differences(record: &CompareRecord) -> Figure {
-    let mut plot = Plot::new();
-    let differences = column(record, |row| row.difference_um);
+fn differences(record: &CompareRecord) -> Chart {
     let f = &record.figures;
-    if let Some(uncertainty) = f.uncertainty_um {
-        for (name, value) in [("uncertainty of a height", uncertainty), ("", -uncertainty)] {
-            let level = vec![value; record.rows.len()];
-            let trace =
-                curve(name, record.rows.iter().map(|row| row.radius_mm), level, line(MUTED, 1.0, DashType::Dash));
-            plot.add_trace(trace.show_legend(!name.is_empty()).hover_template("%{y:.3f} µm"));
-        }
-    }
-    add(&mut plot, record, "measured less simulated", differences, (WORN, 1.4, DashType::Solid));
-    plot.set_layout(laid_out(record, 460, axis("measured less simulated height, µm")));
-    let places = named(&record.path_point_radius_mm);
+    let places = record.path_point_radius_mm.named();
     let count = match record.fit.effective_points {
         Some(effective) => format!(
             " By the autocorrelation of the differences {} of {} points count.",
@@ -143,16 +112,22 @@ fn differences(record: &CompareRecord) -> Figure {
         ),
         None => String::new(),
     };
-    Figure {
-        id: "differences".to_owned(),
-        title: "What the simulation leaves unexplained".to_owned(),
-        reading: format!(
+    let mut chart = Chart::new("differences", "What the simulation leaves unexplained")
+        .height(460)
+        .y("measured less simulated height, µm")
+        .reading(format!(
             "The difference is greatest with {} µm at {} mm, {}.{count}",
             figure(f.greatest_difference_um),
             significant(f.greatest_difference_radius_mm, 4),
             among(&places, f.greatest_difference_radius_mm)
-        ),
-        plot,
-        wide: false,
+        ));
+    if let Some(uncertainty) = f.uncertainty_um {
+        for (name, value) in [("uncertainty of a height", uncertainty), ("", -uncertainty)] {
+            let radius = record.rows.iter().map(|row| row.radius_mm);
+            let level = Trace::line(name, radius, record.rows.iter().map(|_| value), (MUTED, 1.0, Dash::Dash));
+            chart = chart.add(level.set("showlegend", !name.is_empty()).hover("%{y:.3f} µm"));
+        }
     }
+    let differences = column(record, |row| row.difference_um);
+    curve(chart, record, "measured less simulated", differences, (WORN, 1.4, Dash::Solid))
 }

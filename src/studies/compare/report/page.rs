@@ -1,10 +1,12 @@
 //! `report.html` of a comparison with a measured profile.
 
+use maud::{Markup, html};
+
 use super::figures;
 use crate::measurement::fit::FitStop;
-use crate::report::html::number::{count, figure, given, revolutions, significant};
-use crate::report::html::page::{Page, escape, plots, section, sources_list};
-use crate::report::html::table::{Row, row, table};
+use crate::report::html::number::{figure, given, revolutions, significant};
+use crate::report::html::page::{Page, plots, section, sources_list};
+use crate::report::html::table::{NONE, row, table};
 use crate::studies::compare::record::{CompareRecord, Estimate};
 
 /// The data files named in the page, which lie beside it.
@@ -15,22 +17,18 @@ const DATA_FILES: [(&str, &str); 2] = [
 
 /// The whole page.
 pub fn page(record: &CompareRecord) -> String {
-    let sections = [
-        section("fit", "What the profile says", &tables(record)),
-        section("plots", "Profiles", &plots(&figures::all(record))),
-        section(
-            "sources",
-            "Data and scene",
-            &sources_list(&DATA_FILES, "The resolved scene of the run", &record.scene_toml),
-        ),
-    ];
+    let sources = sources_list(&DATA_FILES, "The resolved scene of the run", &record.scene_toml);
     Page {
         kind: "Measured profile against a run",
         title: &format!("{} – {}", record.title, record.measured),
         answer: &answer(record),
         interruption: None,
         warnings: &record.warnings,
-        main: &sections.concat(),
+        main: html! {
+            (section("fit", "What the profile says", tables(record)))
+            (section("plots", "Profiles", plots(&figures::all(record))))
+            (section("sources", "Data and scene", sources))
+        },
         footer: &format!("gearwear {} · scene {}", record.program_version, record.scene_hash),
     }
     .html()
@@ -83,13 +81,13 @@ fn interval(estimate: &Estimate) -> String {
     }
 }
 
-fn tables(record: &CompareRecord) -> String {
+fn tables(record: &CompareRecord) -> Markup {
     let (fit, f) = (&record.fit, &record.figures);
     let cells = |e: &Estimate| {
-        let end = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), |value| significant(value, 4));
+        let end = |value: Option<f64>| value.map_or_else(|| NONE.to_owned(), |value| significant(value, 4));
         [significant(e.of_run, 4), significant(e.value, 4), end(e.low), end(e.high)]
     };
-    let fitted: Vec<Row> = [
+    let fitted: Vec<Markup> = [
         ("wear coefficient k", "m²/N", &fit.coefficient_m2_per_N),
         ("factor on the scene’s coefficients", "", &fit.coefficient_factor),
         ("factor of severe wear", "", &fit.severe_factor),
@@ -98,25 +96,20 @@ fn tables(record: &CompareRecord) -> String {
     .into_iter()
     .filter_map(|(name, unit, estimate)| Some(row(name, unit, cells(estimate.as_ref()?))))
     .collect();
-    let fitted = match fitted.is_empty() {
-        true => String::new(),
-        false => table("Fitted", &["run", "fitted", "from", "to"], &fitted),
-    };
-    let roughness = f.roughness_um.map_or_else(|| "–".to_owned(), figure);
     let profile = [
-        row("arithmetic mean deviation, measured", "µm", [figure(f.mean_deviation_um)]),
-        row("the same, simulated", "µm", [figure(f.simulated_mean_deviation_um)]),
-        row(format!("Ra, cutoff {} mm, measured", given(f.cutoff_mm)), "µm", [roughness]),
-        row("difference as run, root mean square", "µm", [figure(f.as_run_difference_um)]),
-        row("difference after the fit", "µm", [figure(f.difference_um)]),
-        row("runs of the scene", "", [count(fit.runs)]),
-        row("mesh cycles in them", "", [count(fit.mesh_cycles)]),
+        row("arithmetic mean deviation, measured", "µm", [f.mean_deviation_um]),
+        row("the same, simulated", "µm", [f.simulated_mean_deviation_um]),
+        row(format!("Ra, cutoff {} mm, measured", given(f.cutoff_mm)), "µm", [f.roughness_um]),
+        row("difference as run, root mean square", "µm", [f.as_run_difference_um]),
+        row("difference after the fit", "µm", [f.difference_um]),
+        row("runs of the scene", "", [fit.runs]),
+        row("mesh cycles in them", "", [fit.mesh_cycles]),
     ];
-    format!(
-        "{fitted}<p>{}</p>\n{}",
-        escape(&sentence(&fit.how)),
-        table(&format!("Profile, form removed ({})", record.form), &[""], &profile)
-    )
+    html! {
+        @if !fitted.is_empty() { (table("Fitted", &["run", "fitted", "from", "to"], fitted)) }
+        p { (sentence(&fit.how)) }
+        (table(format!("Profile, form removed ({})", record.form), &[""], profile))
+    }
 }
 
 /// With a capital and a full stop.

@@ -1,17 +1,15 @@
 //! A figure over two varied keys: contours, with the combination where it is least.
 
-use crate::report::chart::{
-    ColorBar, ColorScale, Contours, DashType, Font, HoverMode, Marker, MarkerSymbol, Mode, Plot, Title, Trace,
-};
+use serde_json::json;
 
 use super::section_plane::{self, ShownAxis, range};
+use crate::report::chart::{Chart, MUTED, Trace, padded};
 use crate::report::html::number::{figure as shown_number, given, plotted};
-use crate::report::html::theme::{Figure, axis, curve, layout, line, padded};
 use crate::studies::sweep::figures::SweepFigure;
 use crate::studies::sweep::record::{SweepRecord, SweepRow};
 
 /// The plot of `figure` over the keys `x` and `y`; further keys stay at the values where the figure is least.
-pub fn contour(record: &SweepRecord, figure: &SweepFigure, x: &ShownAxis<'_>, y: &ShownAxis<'_>) -> Option<Figure> {
+pub fn contour(record: &SweepRecord, figure: &SweepFigure, x: &ShownAxis<'_>, y: &ShownAxis<'_>) -> Option<Chart> {
     let (best, least) = record.least(figure)?;
     let at = |i: usize, j: usize| section_plane::row(record, best, &[(x, i), (y, j)]);
     let z: Vec<Vec<Option<f64>>> = y
@@ -25,56 +23,40 @@ pub fn contour(record: &SweepRecord, figure: &SweepFigure, x: &ShownAxis<'_>, y:
         .flat_map(|&j| x.shown.iter().filter_map(move |&i| at(i, j)))
         .filter(|row| row.error.is_some())
         .collect();
-    let mut plot = Plot::new();
-    plot.add_trace(
-        Trace::contour(x.values(), y.values(), z)
-            .name(figure.title)
-            .color_scale(ColorScale::Viridis)
-            .color_bar(ColorBar::new().title(Title::new().text(figure.unit).font(Font::new().size(12))).thickness(14))
-            .contours(Contours::new().show_labels(true).label_font(Font::new().size(11).color("#ffffff")))
-            .n_contours(16)
-            .connect_gaps(false)
-            .hover_on_gaps(false)
-            .show_legend(false)
-            .hover_template(format!(
-                "{} %{{x}}<br>{} %{{y}}<br>%{{z:.5~g}} {}<extra></extra>",
-                x.axis.key, y.axis.key, figure.unit
-            )),
-    );
+    let unit = figure.unit;
+    let contours = Trace::new("contour", figure.title)
+        .set("x", x.values())
+        .set("y", y.values())
+        .set("z", z)
+        .colour_bar(unit)
+        .set("contours", json!({ "showlabels": true, "labelfont": { "size": 11, "color": "#ffffff" } }))
+        .set("ncontours", 16)
+        .set("connectgaps", false)
+        .set("hoverongaps", false)
+        .unlisted()
+        .hover(format!("{} %{{x}}<br>{} %{{y}}<br>%{{z:.5~g}} {unit}<extra></extra>", x.axis.key, y.axis.key));
+    let mut chart = Chart::new(id("contour", figure), capitalised(figure.title))
+        .height(460)
+        .read_nearest()
+        .x(&x.axis.key)
+        .x_range(padded(x.axis.from, x.axis.to))
+        .y(&y.axis.key)
+        .y_range(padded(y.axis.from, y.axis.to))
+        .without_grid()
+        .add(contours)
+        .reading(reading(record, figure, best, &[x, y]));
     if !failed.is_empty() {
-        plot.add_trace(
-            curve(
-                "no result",
-                failed.iter().map(|row| row.values[x.at]),
-                failed.iter().map(|row| row.values[y.at]),
-                line("var(--muted)", 1.0, DashType::Solid),
-            )
-            .mode(Mode::Markers)
-            .marker(Marker::new().color("var(--muted)").symbol(MarkerSymbol::X).size(6))
-            .hover_text_array(failed.iter().map(|row| row.error.clone().unwrap_or_default()).collect::<Vec<_>>())
-            .hover_template("%{hovertext}<extra></extra>"),
-        );
+        let along = |axis: &ShownAxis<'_>| failed.iter().map(|row| row.values[axis.at]).collect::<Vec<_>>();
+        let errors = failed.iter().map(|row| row.error.clone().unwrap_or_default()).collect();
+        chart = chart.add(Trace::points("no result", along(x), along(y), (MUTED, "x", 6)).hover_texts(errors));
     }
-    plot.add_trace(
-        curve("least", [best.values[x.at]], [best.values[y.at]], line("var(--alert)", 1.0, DashType::Solid))
-            .mode(Mode::Markers)
-            .marker(Marker::new().color("#ff5a36").symbol(MarkerSymbol::Star).size(15))
-            .hover_template(format!("least: {} {}<extra></extra>", shown_number(least), figure.unit)),
-    );
-    plot.set_layout(
-        layout(460)
-            .show_legend(true)
-            .hover_mode(HoverMode::Closest)
-            .x_axis(axis(&x.axis.key).show_grid(false).range(padded(x.axis.from, x.axis.to)))
-            .y_axis(axis(&y.axis.key).show_grid(false).range(padded(y.axis.from, y.axis.to))),
-    );
-    Some(Figure {
-        id: format!("contour-{}", figure.name.to_lowercase().replace('_', "-")),
-        title: capitalised(figure.title),
-        reading: reading(record, figure, best, &[x, y]),
-        plot,
-        wide: false,
-    })
+    let least_at = Trace::points("least", [best.values[x.at]], [best.values[y.at]], ("#ff5a36", "star", 15));
+    Some(chart.add(least_at.hover(format!("least: {} {unit}<extra></extra>", shown_number(least)))))
+}
+
+/// The identifier of a figure's chart.
+pub fn id(kind: &str, figure: &SweepFigure) -> String {
+    format!("{kind}-{}", figure.name.to_lowercase().replace('_', "-"))
 }
 
 /// Where the figure is least, and how far it is from there to its greatest.

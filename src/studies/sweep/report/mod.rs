@@ -21,8 +21,8 @@ pub mod tables;
 
 use std::path::{Path, PathBuf};
 
-use crate::report::tables::Provenance;
-use crate::report::{ReportError, create_folder, place, remove, summary};
+use crate::report::csv_table::Provenance;
+use crate::report::files::{ReportError, create_folder, place, remove, write_json};
 use crate::studies::sweep::record::SweepRecord;
 
 /// The file that is written last: its presence says that the others are complete.
@@ -48,13 +48,13 @@ pub fn begin(scene_toml: &str, dir: &Path) -> Result<(), ReportError> {
 pub fn write(record: &SweepRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     begin(&record.scene_toml, dir)?;
     remove(dir, PARQUET)?;
-    let provenance = Provenance::of_sweep(record);
+    let provenance = Provenance::of_scene(&record.identity.program_version, &record.identity.scene_hash);
     let mut written = vec![dir.join(SCENE), place(dir, "sweep.csv", |out| tables::rows(out, provenance, record))?];
     if record.shard.is_none() {
         #[cfg(feature = "parquet")]
         written.push(place(dir, PARQUET, |out| out.write_all(&parquet_table::bytes(record)?))?);
         written.push(place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?);
     }
-    written.push(place(dir, LAST, |out| summary::write(out, &record.summary()))?);
+    written.push(place(dir, LAST, |out| write_json(out, &record.summary()))?);
     Ok(written)
 }

@@ -1,10 +1,12 @@
 //! `report.html` of a sweep.
 
+use maud::{Markup, html};
+
 use super::section_plane::{differs, varied};
 use super::{best_tables, contour_figures, line_figures};
+use crate::report::chart::Chart;
 use crate::report::html::number::{count, figure as shown_number, given, significant};
-use crate::report::html::page::{Page, escape, plots, section, sources_list};
-use crate::report::html::theme::Figure;
+use crate::report::html::page::{Page, plots, section, sources_list};
 use crate::studies::sweep::figures::{FIGURES, SweepFigure};
 use crate::studies::sweep::record::SweepRecord;
 use crate::studies::sweep::verification::SweepVerification;
@@ -24,23 +26,22 @@ const HEADLINES: [&str; 2] = ["pinion_root_tip_wear_variation", "pinion_peak_wea
 
 /// The whole page.
 pub fn page(record: &SweepRecord) -> String {
-    let figures = figures(record);
-    let drawn = if figures.is_empty() { String::new() } else { section("plots", "Plots", &plots(&figures)) };
+    let charts = figures(record);
     let identity = &record.identity;
-    let sections = [
-        section("figures", "Main figures", &[best_tables::best(record), best_tables::failed(record)].concat()),
-        record.verification().map_or_else(String::new, |verification| verified(record, &verification)),
-        drawn,
-        section("work", "How it was computed", &work(record)),
-        section("sources", "Data and scene", &sources_list(DATA_FILES, "The scene as given", &record.scene_toml)),
-    ];
+    let sources = sources_list(DATA_FILES, "The scene as given", &record.scene_toml);
     Page {
         kind: "Sweep",
         title: &identity.title,
         answer: &answer(record),
         interruption: None,
         warnings: &[],
-        main: &sections.concat(),
+        main: html! {
+            (section("figures", "Main figures", html! { (best_tables::best(record)) (best_tables::failed(record)) }))
+            @if let Some(verification) = record.verification() { (verified(record, &verification)) }
+            @if !charts.is_empty() { (section("plots", "Plots", plots(&charts))) }
+            (section("work", "How it was computed", work(record)))
+            (section("sources", "Data and scene", sources))
+        },
         footer: &format!("gearwear {} · scene {}", identity.program_version, identity.scene_hash),
     }
     .html()
@@ -51,7 +52,7 @@ fn shown(record: &SweepRecord) -> impl Iterator<Item = &'static SweepFigure> + '
     FIGURES.iter().filter(|figure| figure.less_is_better && differs(record, figure))
 }
 
-fn figures(record: &SweepRecord) -> Vec<Figure> {
+fn figures(record: &SweepRecord) -> Vec<Chart> {
     match varied(record).as_slice() {
         [] => Vec::new(),
         [x] => shown(record).filter_map(|figure| line_figures::along(record, figure, x)).collect(),
@@ -114,24 +115,22 @@ fn vouched(record: &SweepRecord) -> String {
     }
 }
 
-fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> String {
+fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> Markup {
     let SweepVerification { intention, chosen, verified, open, .. } = verification;
-    let open = match open {
-        0 => String::new(),
-        n => format!(
-            " {n} are not verified yet: gearwear sweep of the same scene and keys, with the folder of this page as --out, does it."
-        ),
+    let content = html! {
+        p {
+            "Finite elements verify " (intention) ". Of the " (chosen) " chosen, " (verified) " have an answer."
+            @if *open > 0 {
+                " " (open) " are not verified yet: gearwear sweep of the same scene and keys, with the folder of this page as --out, \
+                 does it."
+            }
+        }
+        @if !verification.rows.is_empty() { (best_tables::verified(record, verification)) }
     };
-    let text = format!(
-        "<p>Finite elements verify {}. Of the {chosen} chosen, {verified} have an answer.{}</p>\n",
-        escape(intention),
-        escape(&open)
-    );
-    let tables = if verification.rows.is_empty() { String::new() } else { best_tables::verified(record, verification) };
-    section("verification", "Verification", &[text, tables].concat())
+    section("verification", "Verification", content)
 }
 
-fn work(record: &SweepRecord) -> String {
+fn work(record: &SweepRecord) -> Markup {
     let summary = record.summary();
     let threads = match record.threads {
         0 => "It was merged from parts that were run elsewhere.".to_owned(),
@@ -149,11 +148,10 @@ fn work(record: &SweepRecord) -> String {
                  verified, and gearwear run any one of them."
             .to_owned(),
     };
-    format!(
-        "<p>Each combination is the scene with the varied values exchanged, run by itself on one thread; together they took {} s. \
-         {} {threads} {}</p>\n",
-        significant(summary.combinations_wall_s, 3),
-        escape(&verification),
-        escape(estimates)
-    )
+    html! {
+        p {
+            "Each combination is the scene with the varied values exchanged, run by itself on one thread; together they took "
+            (significant(summary.combinations_wall_s, 3)) " s. " (verification) " " (threads) " " (estimates)
+        }
+    }
 }

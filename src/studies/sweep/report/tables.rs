@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use crate::report::tables::{Provenance, table};
+use crate::report::csv_table::{Column, Provenance, table_of};
 use crate::studies::sweep::figures::FIGURES;
 use crate::studies::sweep::record::{SweepRecord, SweepRow, plain};
 use crate::studies::sweep::verification::CLAIMS;
@@ -99,8 +99,7 @@ pub fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
 /// Writes `sweep.csv`.
 pub fn rows(out: &mut dyn Write, provenance: Provenance, record: &SweepRecord) -> io::Result<()> {
     let columns = columns(record);
-    let names: Vec<(&str, &str)> =
-        columns.iter().map(|column| (column.name.as_str(), column.meaning.as_str())).collect();
+    let names: Vec<Column> = columns.iter().map(|column| (column.name.clone(), column.meaning.clone())).collect();
     let rows = record.rows.iter().map(|row| columns.iter().map(|column| column.cell(row)).collect::<Vec<_>>());
-    table(out, provenance, &names, rows)
+    table_of(out, provenance, &names, rows)
 }

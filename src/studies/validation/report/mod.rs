@@ -35,7 +35,7 @@ use std::path::{Path, PathBuf};
 #[cfg(feature = "program")]
 pub use self::terminal::terminal;
 use self::work_precision_file::WorkPrecisionFile;
-use crate::report::{ReportError, create_folder, place, remove, summary};
+use crate::report::files::{ReportError, create_folder, place, remove, write_json};
 use crate::studies::validation::record::{Changes, ValidationRecord};
 
 /// The file that is written last: its presence says that the others are complete.
@@ -50,7 +50,7 @@ pub fn write(record: &ValidationRecord, changes: Option<&Changes>, dir: &Path) -
         #[cfg(feature = "program")]
         place(dir, "junit.xml", |out| junit::write(out, record))?,
         place(dir, "summary.md", |out| out.write_all(markdown::text(record, changes).as_bytes()))?,
-        place(dir, "work_precision.json", |out| summary::write(out, &WorkPrecisionFile::of(record)))?,
-        place(dir, LAST, |out| summary::write(out, record))?,
+        place(dir, "work_precision.json", |out| write_json(out, &WorkPrecisionFile::of(record)))?,
+        place(dir, LAST, |out| write_json(out, record))?,
     ])
 }

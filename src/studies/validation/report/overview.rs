@@ -2,26 +2,24 @@
 
 use std::collections::BTreeSet;
 
-use super::markup::{badge, link, margin_bar, row, scrolling};
+use maud::{Markup, html};
+
+use super::markup::{badge, link, margin_bar, scrolling};
 use super::verdict::Verdict;
 use super::words::{self, counted, time};
-use crate::report::html::page::escape;
+use crate::report::html::table::{cells, inner};
 use crate::studies::validation::record::{CaseRecord, ValidationRecord};
 
 /// The controls and the table.
-pub(super) fn html(record: &ValidationRecord) -> String {
-    let body: String = groups(record)
-        .into_iter()
-        .map(|group| {
-            let rows: String = record.cases.iter().filter(|case| case.group == group).map(case_row).collect();
-            format!(
-                "<tr class=\"group\" data-group=\"{0}\"><th scope=\"rowgroup\" colspan=\"6\">{0}</th></tr>\n{rows}",
-                escape(group)
-            )
-        })
-        .collect();
+pub(super) fn html(record: &ValidationRecord) -> Markup {
+    let rows = groups(record).into_iter().map(|group| {
+        html! {
+            tr.group data-group=(group) { th scope="rowgroup" colspan="6" { (group) } }
+            @for case in record.cases.iter().filter(|case| case.group == group) { (case_row(case)) }
+        }
+    });
     let columns = ["case", "verdict", "of tolerance used", "work", "time", "marks"];
-    format!("{}{}", controls(record), scrolling("overview", &columns, &body))
+    html! { (controls(record)) (scrolling("overview", &columns, rows)) }
 }
 
 /// The groups in the order in which they first occur.
@@ -30,30 +28,28 @@ pub(super) fn groups(record: &ValidationRecord) -> Vec<&str> {
     record.cases.iter().map(|case| case.group.as_str()).filter(|group| seen.insert(*group)).collect()
 }
 
-fn case_row(case: &CaseRecord) -> String {
+fn case_row(case: &CaseRecord) -> Markup {
     let verdict = Verdict::of_case(case);
     let tightest = words::tightest(case.quantities.iter());
-    let by = tightest.map_or_else(String::new, |(quantity, _)| {
-        format!("<br><span class=\"muted\">{}</span>", escape(&quantity.name))
-    });
-    row(
-        &format!(" data-verdict=\"{}\" data-group=\"{}\"", verdict.class(), escape(&case.group)),
-        &[
-            format!("{}<br><span class=\"muted\">{}</span>", link(case, &case.title), escape(&case.name)),
-            badge(verdict),
-            format!("{}{by}", margin_bar(tightest.map(|(_, share)| share))),
-            escape(&words::main_work(case)),
-            time(case.wall_s),
-            marks(case),
-        ],
-    )
+    let cells = cells![
+        html! { (link(case, &case.title)) br; span.muted { (case.name) } },
+        badge(verdict),
+        html! {
+            (margin_bar(tightest.map(|(_, share)| share)))
+            @if let Some((quantity, _)) = tightest { br; span.muted { (quantity.name) } }
+        },
+        words::main_work(case),
+        time(case.wall_s),
+        marks(case),
+    ];
+    html! { tr data-verdict=(verdict.class()) data-group=(case.group) { (inner(cells)) } }
 }
 
 /// What a reader should know beside the verdict: targets, estimates, what of the case does not hold or cannot be compared.
-pub(super) fn marks(case: &CaseRecord) -> String {
-    let mut marks: Vec<String> = case.targets.iter().map(|target| format!("<b>{}</b>", escape(target))).collect();
+fn marks(case: &CaseRecord) -> Markup {
+    let mut marks: Vec<Markup> = case.targets.iter().map(|target| html! { b { (target) } }).collect();
     if !case.rests_on.is_empty() {
-        marks.push("estimate".to_owned());
+        marks.push(html! { "estimate" });
     }
     let of = |wanted| case.quantities.iter().filter(|quantity| Verdict::of_quantity(quantity) == wanted).count();
     for (verdict, one, many) in [
@@ -62,30 +58,34 @@ pub(super) fn marks(case: &CaseRecord) -> String {
     ] {
         match of(verdict) {
             0 => {}
-            number => marks.push(counted(number, one, many)),
+            number => marks.push(html! { (counted(number, one, many)) }),
         }
     }
-    marks.join(", ")
+    html! { @for (i, mark) in marks.iter().enumerate() { @if i > 0 { ", " } (mark) } }
 }
 
 /// Choices by verdict and group; shown by the script that serves them.
-fn controls(record: &ValidationRecord) -> String {
-    let verdicts: String = Verdict::ALL
-        .into_iter()
-        .map(|verdict| (verdict, record.cases.iter().filter(|case| Verdict::of_case(case) == verdict).count()))
-        .filter(|&(_, number)| number > 0)
-        .map(|(verdict, number)| {
-            format!(
-                "<label><input type=\"checkbox\" value=\"{}\" checked> {} ({number})</label>\n",
-                verdict.class(),
-                badge(verdict)
-            )
-        })
-        .collect();
-    let groups: String =
-        groups(record).into_iter().map(|group| format!("<option>{}</option>\n", escape(group))).collect();
-    format!(
-        "<form class=\"filter\" id=\"filter\" hidden>\n<fieldset><legend>Show</legend>\n{verdicts}</fieldset>\n\
-         <label>Group <select>\n<option value=\"\">all</option>\n{groups}</select></label>\n</form>\n"
-    )
+fn controls(record: &ValidationRecord) -> Markup {
+    let of = |wanted: Verdict| record.cases.iter().filter(|case| Verdict::of_case(case) == wanted).count();
+    html! {
+        form.filter #filter hidden {
+            fieldset {
+                legend { "Show" }
+                @for verdict in Verdict::ALL.into_iter().filter(|verdict| of(*verdict) > 0) {
+                    label {
+                        input type="checkbox" value=(verdict.class()) checked;
+                        " " (badge(verdict)) " (" (of(verdict)) ")"
+                    }
+                    " "
+                }
+            }
+            label {
+                "Group "
+                select {
+                    option value="" { "all" }
+                    @for group in groups(record) { option { (group) } }
+                }
+            }
+        }
+    }
 }

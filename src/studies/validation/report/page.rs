@@ -4,12 +4,15 @@
 //! in one table, the stability map, error against run time, and then each case in full behind its title. Plots behind
 //! closed titles are drawn when they are opened.
 
-use super::markup::{badge, link, row, scrolling};
+use maud::{Markup, html};
+
+use super::markup::{badge, items, link, scrolling};
 use super::totals::{self, Totals};
 use super::verdict::Verdict;
 use super::words::{self, time};
 use super::{case_section, overview, stability_map, targets_table, work_precision_figures};
-use crate::report::html::page::{Page, escape, plots, section};
+use crate::report::html::page::{Page, files_list, note, plots, section};
+use crate::report::html::table::{cells, line};
 use crate::studies::validation::record::{Change, Changes, ValidationRecord};
 
 /// The data files named in the page, which lie beside it.
@@ -25,19 +28,14 @@ const DATA_FILES: &[(&str, &str)] = &[
 pub(super) fn page(record: &ValidationRecord, changes: Option<&Changes>) -> String {
     let parts = [
         ("wrong", "Not as it should be", not_as_expected(record)),
-        ("changes", "What changed", changes.map_or_else(String::new, changed)),
-        ("targets", "What the thesis says", targets(record)),
+        ("changes", "What changed", changes.map_or_else(Markup::default, changed)),
+        ("targets", "What the thesis says", targets_table::html(record)),
         ("cases", "All cases", overview::html(record)),
         ("stability", "Stability map", stability(record)),
         ("cost", "Error against run time", work_precision(record)),
         ("details", "Case by case", cases(record)),
-        ("sources", "Data", files()),
+        ("sources", "Data", files_list(DATA_FILES)),
     ];
-    let sections: String = parts
-        .iter()
-        .filter(|(.., html)| !html.is_empty())
-        .map(|(id, heading, html)| section(id, heading, html))
-        .collect();
     let tier = record.tier.map_or_else(String::new, |tier| format!(" · {} tier", tier.name()));
     Page {
         kind: "Validation suite",
@@ -46,144 +44,108 @@ pub(super) fn page(record: &ValidationRecord, changes: Option<&Changes>) -> Stri
         interruption: (!record.not_run.is_empty())
             .then_some("The suite was interrupted; the cases shown are those that were finished."),
         warnings: &[],
-        main: &format!("{}{sections}", tiles(record)),
+        main: html! {
+            (tiles(record))
+            @for (id, heading, content) in parts { @if !content.0.is_empty() { (section(id, heading, content)) } }
+        },
         footer: &format!("gearwear {}{tier}", record.program_version),
     }
     .html_with(include_str!("validation.css"), include_str!("validation.js"))
 }
 
-fn tiles(record: &ValidationRecord) -> String {
+fn tiles(record: &ValidationRecord) -> Markup {
     let t = Totals::of(record);
-    let tile = |class: &str, number: String, words: &str| {
-        format!("<div class=\"tile {class}\"><b>{number}</b> <span>{words}</span></div>\n")
-    };
     let alarm = |number: usize, class: &'static str| if number > 0 { class } else { "quiet" };
     let wrong = t.missed + t.could_not_run;
-    let unit = |one: &'static str, many: &'static str, number: usize| if number == 1 { one } else { many };
-    [
-        "<div class=\"tiles\">\n".to_owned(),
-        tile(
+    let unit = |one: &str, many: &str, number: usize| if number == 1 { one.to_owned() } else { many.to_owned() };
+    let tiles = [
+        (
             if wrong == 0 { "holds" } else { "" },
             format!("{} / {}", t.passed, t.cases),
-            "cases stand as they should",
+            "cases stand as they should".to_owned(),
         ),
-        tile(alarm(wrong, "missed"), wrong.to_string(), "missed or could not run"),
-        tile("", format!("{} / {}", t.hold, t.quantities), "quantities hold"),
-        tile(
+        (alarm(wrong, "missed"), wrong.to_string(), "missed or could not run".to_owned()),
+        ("", format!("{} / {}", t.hold, t.quantities), "quantities hold".to_owned()),
+        (
             alarm(t.known_not, "known-not"),
             t.known_not.to_string(),
             unit("statement known not to hold", "statements known not to hold", t.known_not),
         ),
-        tile(
+        (
             alarm(t.cannot_be_compared, "not-comparable"),
             t.cannot_be_compared.to_string(),
             unit("quantity cannot be compared", "quantities cannot be compared", t.cannot_be_compared),
         ),
-        tile(
-            "",
-            t.on_estimates.to_string(),
-            unit("case rests on an estimate", "cases rest on estimates", t.on_estimates),
-        ),
-        tile("", time(record.wall_s), &format!("on {}", words::counted(record.threads, "thread", "threads"))),
-        "</div>\n".to_owned(),
-    ]
-    .concat()
-}
-
-fn not_as_expected(record: &ValidationRecord) -> String {
-    let mut items = String::new();
-    for case in record.cases.iter().filter(|case| !case.passed()) {
-        let found: String = case
-            .failure
-            .iter()
-            .map(|failure| format!("<li>{}</li>\n", escape(failure)))
-            .chain(case.quantities.iter().filter(|quantity| !quantity.as_expected()).map(|quantity| {
-                format!("<li>{}: {}</li>\n", escape(&quantity.name), escape(&words::deviation(quantity)))
-            }))
-            .collect();
-        items.push_str(&format!(
-            "<li>{} {}\n<ul>\n{found}</ul></li>\n",
-            badge(Verdict::of_case(case)),
-            link(case, &case.title)
-        ));
+        ("", t.on_estimates.to_string(), unit("case rests on an estimate", "cases rest on estimates", t.on_estimates)),
+        ("", time(record.wall_s), format!("on {}", words::counted(record.threads, "thread", "threads"))),
+    ];
+    html! {
+        div.tiles { @for (class, number, words) in tiles { div class={ "tile " (class) } { b { (number) } " " span { (words) } } } }
     }
-    if items.is_empty() { items } else { format!("<ul class=\"wrong\">\n{items}</ul>\n") }
 }
 
-fn changed(changes: &Changes) -> String {
-    let version = format!("<p>Against a run of version {}.</p>\n", escape(&changes.against_version));
-    let rows = |word: &str, changes: &[Change]| -> String {
-        let cells = |change: &Change| {
-            let (before, now) = (words::state(&change.before), words::state(&change.now));
-            [&change.case, &change.what, &before, &now].map(|text| escape(text)).to_vec()
-        };
-        changes
-            .iter()
-            .map(|change| [vec![word.to_owned()], cells(change)].concat())
-            .map(|cells| row("", &cells))
-            .collect()
-    };
-    let all = [rows("↓ worse", &changes.worse), rows("↑ better", &changes.better)].concat();
-    let table = if all.is_empty() {
-        "<p>No verdict changed, and no error or work by more than the noise.</p>\n".to_owned()
-    } else {
-        scrolling("changes", &["", "case", "what", "before", "now"], &all)
-    };
-    let names: String = [("New cases", &changes.added), ("Cases that are gone", &changes.gone)]
-        .into_iter()
-        .filter(|(_, names)| !names.is_empty())
-        .map(|(what, names)| format!("<p>{what}: {}.</p>\n", escape(&names.join(", "))))
-        .collect();
-    [version, table, names].concat()
+fn not_as_expected(record: &ValidationRecord) -> Markup {
+    let cases = record.cases.iter().filter(|case| !case.passed()).map(|case| {
+        let failure = case.failure.iter().map(|failure| html! { (failure) });
+        let missed = case.quantities.iter().filter(|quantity| !quantity.as_expected());
+        let missed = missed.map(|quantity| html! { (quantity.name) ": " (words::deviation(quantity)) });
+        html! {
+            (badge(Verdict::of_case(case))) " " (link(case, &case.title))
+            ul { @for found in failure.chain(missed) { li { (found) } } }
+        }
+    });
+    items(Some("wrong"), cases)
 }
 
-fn targets(record: &ValidationRecord) -> String {
-    let table = targets_table::html(record);
-    if table.is_empty() {
-        return table;
+fn changed(changes: &Changes) -> Markup {
+    let row = |word: &'static str, change: &Change| {
+        let (before, now) = (words::state(&change.before), words::state(&change.now));
+        line(cells![word, &*change.case, &*change.what, before, now])
+    };
+    let worse = changes.worse.iter().map(|change| row("↓ worse", change));
+    let rows: Vec<Markup> = worse.chain(changes.better.iter().map(|change| row("↑ better", change))).collect();
+    html! {
+        p { "Against a run of version " (changes.against_version) "." }
+        @if rows.is_empty() {
+            p { "No verdict changed, and no error or work by more than the noise." }
+        } @else {
+            (scrolling("changes", &["", "case", "what", "before", "now"], rows))
+        }
+        @for (what, names) in [("New cases", &changes.added), ("Cases that are gone", &changes.gone)] {
+            @if !names.is_empty() { p { (what) ": " (names.join(", ")) "." } }
+        }
     }
-    format!(
-        "<p class=\"legend-note\">The statements of the thesis that can be computed, in our own words. The measured curves exist \
-         only as pictures, so that what rests on them is compared with their axes and with what the text says.</p>\n{table}"
-    )
 }
 
-fn stability(record: &ValidationRecord) -> String {
+fn stability(record: &ValidationRecord) -> Markup {
     let map = stability_map::all(record);
-    if map.is_empty() {
-        return map;
+    html! {
+        @if !map.0.is_empty() {
+            (note(
+                "Each row is a parameter over its range, each mark a run with that value. A run is sound where it is complete, every \
+                 number is finite, no wear is negative and every position is in equilibrium. A refusal with a message can be the \
+                 right answer. Point at a mark to read what was said."
+            ))
+            (map)
+        }
     }
-    format!(
-        "<p class=\"legend-note\">Each row is a parameter over its range, each mark a run with that value. A run is sound where it \
-         is complete, every number is finite, no wear is negative and every position is in equilibrium. A refusal with a \
-         message can be the right answer. Point at a mark to read what was said.</p>\n{map}"
-    )
 }
 
-fn work_precision(record: &ValidationRecord) -> String {
-    let figures = work_precision_figures::all(record);
-    if figures.is_empty() {
-        return String::new();
+fn work_precision(record: &ValidationRecord) -> Markup {
+    let charts = work_precision_figures::all(record);
+    html! {
+        @if !charts.is_empty() {
+            (note("Errors and work counts are judged; wall times depend on the machine and are only reported."))
+            (plots(&charts))
+        }
     }
-    format!(
-        "<p class=\"legend-note\">Errors and work counts are judged; wall times depend on the machine and are only reported.</p>\n{}",
-        plots(&figures)
-    )
 }
 
-fn cases(record: &ValidationRecord) -> String {
-    overview::groups(record)
-        .into_iter()
-        .map(|group| {
-            let of_group: String =
-                record.cases.iter().filter(|case| case.group == group).map(case_section::html).collect();
-            format!("<h3 class=\"group\">{}</h3>\n{of_group}", escape(group))
-        })
-        .collect()
-}
-
-fn files() -> String {
-    let items: String =
-        DATA_FILES.iter().map(|(name, what)| format!("<li><a href=\"{name}\">{name}</a> {what}</li>\n")).collect();
-    format!("<ul class=\"files\">\n{items}</ul>\n")
+fn cases(record: &ValidationRecord) -> Markup {
+    html! {
+        @for group in overview::groups(record) {
+            h3.group { (group) }
+            @for case in record.cases.iter().filter(|case| case.group == group) { (case_section::html(case)) }
+        }
+    }
 }

@@ -6,9 +6,10 @@
 
 use std::collections::BTreeMap;
 
-use super::markup::link;
+use maud::{Markup, html};
+
+use super::markup::{items, link};
 use super::words::as_written;
-use crate::report::html::page::escape;
 use crate::studies::validation::record::{CaseRecord, RunOutcome, StabilityPoint, ValidationRecord};
 
 /// How many times the least value the greatest must be for a logarithmic axis.
@@ -28,34 +29,35 @@ fn sign(outcome: RunOutcome) -> &'static str {
 }
 
 /// The map over all cases; empty where none has such points.
-pub(super) fn all(record: &ValidationRecord) -> String {
-    let rows: String = record
-        .cases
-        .iter()
-        .flat_map(|case| by_parameter(case).into_iter().map(move |(parameter, points)| (case, parameter, points)))
-        .map(|(case, parameter, points)| row(&link(case, parameter), &points))
-        .collect();
-    if rows.is_empty() { rows } else { map(&rows, &unexpected(record.cases.iter())) }
+pub(super) fn all(record: &ValidationRecord) -> Markup {
+    map(record.cases.iter(), |case, parameter| link(case, parameter))
 }
 
 /// The rows of one case.
-pub(super) fn of_case(case: &CaseRecord) -> String {
-    let rows: String =
-        by_parameter(case).into_iter().map(|(parameter, points)| row(&escape(parameter), &points)).collect();
-    if rows.is_empty() { rows } else { map(&rows, &unexpected([case].into_iter())) }
+pub(super) fn of_case(case: &CaseRecord) -> Markup {
+    map([case].into_iter(), |_, parameter| html! { (parameter) })
 }
 
-fn map(rows: &str, unexpected: &str) -> String {
-    let key: String = OUTCOMES
-        .into_iter()
-        .map(|outcome| {
-            format!("<span><b class=\"{}\">{}</b> {}</span>\n", outcome.name(), sign(outcome), outcome.title())
-        })
-        .collect();
-    format!(
-        "<p class=\"key\">{key}<span><b class=\"ring\">○</b> not as expected</span></p>\n\
-         <div class=\"stability\">\n{rows}</div>\n{unexpected}"
-    )
+/// A row for each parameter of the cases, named by `name`.
+fn map<'a>(cases: impl Iterator<Item = &'a CaseRecord> + Clone, name: impl Fn(&CaseRecord, &str) -> Markup) -> Markup {
+    let of_case = |case| by_parameter(case).into_iter().map(move |(parameter, points)| (case, parameter, points));
+    let mut rows = cases.clone().flat_map(of_case).peekable();
+    if rows.peek().is_none() {
+        return Markup::default();
+    }
+    let points = cases.flat_map(|case| &case.stability);
+    let mut unexpected = points.filter(|point| point.outcome != point.expected).peekable();
+    html! {
+        p.key {
+            @for outcome in OUTCOMES { span { b class=(outcome.name()) { (sign(outcome)) } " " (outcome.title()) } " " }
+            span { b.ring { "○" } " not as expected" }
+        }
+        div.stability { @for (case, parameter, points) in rows { (row(name(case, parameter), &points)) } }
+        @if unexpected.peek().is_some() {
+            p { "Not as expected:" }
+            (items(None, unexpected.map(|point| html! { (point.parameter) ": " (said(point)) })))
+        }
+    }
 }
 
 /// The points of each parameter, by value; parameters by name.
@@ -70,36 +72,34 @@ fn by_parameter(case: &CaseRecord) -> BTreeMap<&str, Vec<&StabilityPoint>> {
     rows
 }
 
-fn row(name: &str, points: &[&StabilityPoint]) -> String {
-    let (Some(first), Some(last)) = (points.first(), points.last()) else { return String::new() };
+fn row(name: Markup, points: &[&StabilityPoint]) -> Markup {
+    let (Some(first), Some(last)) = (points.first(), points.last()) else { return Markup::default() };
     let (low, high) = (first.value, last.value);
     let logarithmic = low > 0.0 && high / low > LOGARITHMIC_FROM;
     let place = |value: f64| {
         let share = if logarithmic { (value / low).ln() / (high / low).ln() } else { (value - low) / (high - low) };
         if share.is_finite() { 100.0 * share } else { 50.0 }
     };
-    let marks: String = points
-        .iter()
-        .map(|point| {
-            let ring = if point.outcome == point.expected { "" } else { " ring" };
-            format!(
-                "<span class=\"mark {}{ring}\" style=\"left:{:.2}%\">{}</span><span class=\"say\">{}</span>\n",
-                point.outcome.name(),
-                place(point.value),
-                sign(point.outcome),
-                escape(&said(point))
-            )
-        })
-        .collect();
     let axis = if low == high {
         as_written(low)
     } else {
         format!("{} to {}{}", as_written(low), as_written(high), if logarithmic { ", logarithmic" } else { "" })
     };
-    format!(
-        "<div class=\"parameter\"><span>{name}</span> <span class=\"muted\">{axis}</span>\n\
-         <div class=\"track\">{marks}</div></div>\n"
-    )
+    let marks = points.iter().map(|point| {
+        let place = format!("left:{:.2}%", place(point.value));
+        html! {
+            span class={ "mark " (point.outcome.name()) @if point.outcome != point.expected { " ring" } } style=(place) {
+                (sign(point.outcome))
+            }
+            span.say { (said(point)) }
+        }
+    });
+    html! {
+        div.parameter {
+            span { (name) } " " span.muted { (axis) }
+            div.track { @for mark in marks { (mark) } }
+        }
+    }
 }
 
 /// The setting, how it ended and what the program said.
@@ -112,13 +112,4 @@ fn said(point: &StabilityPoint) -> String {
         text.push_str(&format!(". {said}"));
     }
     text
-}
-
-fn unexpected<'a>(cases: impl Iterator<Item = &'a CaseRecord>) -> String {
-    let items: String = cases
-        .flat_map(|case| case.stability.iter())
-        .filter(|point| point.outcome != point.expected)
-        .map(|point| format!("<li>{}: {}</li>\n", escape(&point.parameter), escape(&said(point))))
-        .collect();
-    if items.is_empty() { items } else { format!("<p>Not as expected:</p>\n<ul>\n{items}</ul>\n") }
 }

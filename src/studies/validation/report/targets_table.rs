@@ -1,9 +1,12 @@
 //! The statements of the thesis, one a row: whether they hold, by what margin, and which cases speak to them.
 
-use super::markup::{badge, link, margin_bar, table};
+use maud::{Markup, html};
+
+use super::markup::{badge, link, margin_bar, scrolling};
 use super::verdict::Verdict;
 use super::words;
-use crate::report::html::page::escape;
+use crate::report::html::page::note;
+use crate::report::html::table::{cells, line};
 use crate::studies::validation::record::{CaseRecord, ValidationRecord};
 
 /// The targets in their order, each in a few words of our own.
@@ -35,9 +38,9 @@ const TARGETS: [(&str, &str); 24] = [
 ];
 
 /// The table, and the targets that no case of this run speaks to; empty where no case speaks to any target.
-pub(super) fn html(record: &ValidationRecord) -> String {
+pub(super) fn html(record: &ValidationRecord) -> Markup {
     if record.cases.iter().all(|case| case.targets.is_empty()) {
-        return String::new();
+        return Markup::default();
     }
     let (mut rows, mut absent) = (Vec::new(), Vec::new());
     for (id, words) in TARGETS {
@@ -48,29 +51,32 @@ pub(super) fn html(record: &ValidationRecord) -> String {
             None => absent.push(id),
         }
     }
-    let absent = match absent.as_slice() {
-        [] => String::new(),
-        absent => format!("<p class=\"muted\">No case of this run speaks to {}.</p>\n", absent.join(", ")),
-    };
-    format!("{}{absent}", table("targets", &["statement", "verdict", "of tolerance used", "rests on", "cases"], rows))
+    let columns = ["statement", "verdict", "of tolerance used", "rests on", "cases"];
+    html! {
+        (note(
+            "The statements of the thesis that can be computed, in our own words. The measured curves exist only as pictures, so \
+             that what rests on them is compared with their axes and with what the text says."
+        ))
+        (scrolling("targets", &columns, rows))
+        @if !absent.is_empty() { p.muted { "No case of this run speaks to " (absent.join(", ")) "." } }
+    }
 }
 
-fn row(id: &str, words: &str, cases: &[&CaseRecord], verdict: String) -> Vec<String> {
+fn row(id: &str, words: &str, cases: &[&CaseRecord], verdict: Markup) -> Markup {
     let speaking: Vec<_> = cases.iter().flat_map(|case| case.speaking_to(id)).collect();
     let used = words::tightest(speaking.into_iter()).map(|(_, share)| share);
-    let links: Vec<String> = cases.iter().map(|case| link(case, &case.name)).collect();
-    vec![
-        format!("<b>{id}</b> {}", escape(words)),
+    line(cells![
+        html! { b { (id) } " " (words) },
         verdict,
         margin_bar(used),
-        if cases.iter().any(|case| !case.rests_on.is_empty()) { "estimate" } else { "" }.to_owned(),
-        links.join("<br>"),
-    ]
+        if cases.iter().any(|case| !case.rests_on.is_empty()) { "estimate" } else { "" },
+        html! { @for (i, case) in cases.iter().enumerate() { @if i > 0 { br; } (link(case, &case.name)) } },
+    ])
 }
 
 /// What becomes of a target: the most urgent of its cases, with how many of its quantities hold where not all do; `None`
 /// where no case speaks to it.
-fn verdict(id: &str, cases: &[&CaseRecord]) -> Option<String> {
+fn verdict(id: &str, cases: &[&CaseRecord]) -> Option<Markup> {
     let of_case = |case: &&CaseRecord| match case.failure {
         Some(_) => Verdict::CouldNotRun,
         None => Verdict::of_quantities(&case.speaking_to(id)),
@@ -82,9 +88,8 @@ fn verdict(id: &str, cases: &[&CaseRecord]) -> Option<String> {
         .filter(|verdict| !matches!(verdict, Verdict::Reported))
         .collect();
     let hold = compared.iter().filter(|verdict| matches!(verdict, Verdict::Holds | Verdict::NowHolds)).count();
-    Some(if hold < compared.len() {
-        format!("{} <span class=\"muted\">{hold} of {} hold</span>", badge(worst), compared.len())
-    } else {
-        badge(worst)
+    Some(html! {
+        (badge(worst))
+        @if hold < compared.len() { " " span.muted { (hold) " of " (compared.len()) " hold" } }
     })
 }

@@ -1,0 +1,121 @@
+//! The page of a wear run.
+
+use maud::{Markup, html};
+
+use super::page::{Page, note, plots, section, sources_list, stages_table};
+use super::sliced::raster::{MOST_ACROSS, MOST_ALONG};
+use super::sliced::{self, sliced_run::SlicedRun};
+use super::table::{cells, line, list};
+use super::{
+    cycle_plots, drawing_plot, figures_table, flank_plots, history_plot, law_table, reading, temperature_plot,
+};
+use crate::report::chart::Chart;
+use crate::results::run::{RunRecord, Summary};
+
+/// The data files named in the page, which lie beside it; two more where sections differ.
+const DATA_FILES: [(&str, &str); 7] = [
+    ("summary.json", "the main figures"),
+    ("pinion.csv", "the pinion’s flank, point by point"),
+    ("wheel.csv", "the wheel’s flank, point by point"),
+    ("history.csv", "the snapshots"),
+    ("profiles.csv", "both flanks at every snapshot"),
+    ("mesh_cycle.csv", "the mesh cycle"),
+    ("scene.toml", "the resolved scene"),
+];
+const SLICED_FILES: [(&str, &str); 2] =
+    [("slices.csv", "the load of every slice over the mesh"), ("flank.vtu", "both flanks in space, for ParaView")];
+
+/// What the plots of a pair have in common.
+const NOTE: &str = "A to E are the points of the path of contact: contact begins at A and ends at E, a \
+     tooth pair carries the load alone between B and D where no more than two pairs share it, and C is the pitch \
+     point. The contact position is the radius of curvature of the pinion’s flank at the theoretical contact \
+     point.";
+
+/// The same where the sections differ.
+fn sliced_note() -> String {
+    format!(
+        "A to E are the points of the path of contact in a transverse section: contact of a slice begins at A and ends at E, and C is \
+         the pitch point. The contact position is the radius of curvature of the pinion’s flank at the theoretical contact point; \
+         where that differs between slices, it is the one in the middle of the face width. With a positive helix angle a tooth enters \
+         the mesh at width 0. Maps and surfaces show at most {MOST_ALONG} cells from root to tip and {MOST_ACROSS} over the face \
+         width, each with the greatest of its values; the data files hold every point."
+    )
+}
+
+/// The whole page.
+pub fn page(record: &RunRecord) -> String {
+    let s = &record.summary;
+    let charts = match SlicedRun::of(record) {
+        Some(run) => sliced::figures(run),
+        None => figures_of_equal_sections(record),
+    };
+    let legend = if record.slices.is_some() { sliced_note() } else { NOTE.to_owned() };
+    let figures = html! {
+        (figures_table::tables(record))
+        (figures_table::phases(s))
+        (law_table::note(s))
+        (figures_table::errors(&s.error))
+    };
+    Page {
+        kind: "Wear of a gear pair",
+        title: &s.title,
+        answer: &reading::answer(record),
+        interruption: reading::interruption(s).as_deref(),
+        warnings: &s.warnings,
+        main: html! {
+            (section("figures", "Main figures", figures))
+            (section("plots", "Plots", html! { (note(&legend)) (plots(&charts)) }))
+            (section("work", "How it was computed", work(s)))
+            (section("sources", "Data and scene", sources(record)))
+        },
+        footer: &format!("gearwear {} · scene {}", s.program_version, s.scene_hash),
+    }
+    .html()
+}
+
+/// The plots of a pair whose sections are all alike.
+fn figures_of_equal_sections(record: &RunRecord) -> Vec<Chart> {
+    let mut charts = vec![drawing_plot::pair(record)];
+    charts.extend(flank_plots::wear(record));
+    charts.extend(flank_plots::pressure(record));
+    charts.extend(cycle_plots::all(record));
+    charts.extend(temperature_plot::all(record));
+    charts.push(history_plot::wear_against_time(record));
+    charts.extend(flank_plots::modifications(record));
+    charts
+}
+
+/// How the run came about: stages with their times, work done, stages left out.
+fn work(s: &Summary) -> Markup {
+    let w = &s.work;
+    let counts = [
+        ("Wear steps", w.wear_steps),
+        ("Rejected steps", w.rejected_steps),
+        ("Mesh cycles to learn the stiffness", w.jacobian_probes),
+        ("Mesh cycles", w.mesh_cycles),
+        ("Equilibria", w.equilibria),
+        ("Newton iterations", w.newton_iterations),
+        ("Contact evaluations", w.pair_evaluations),
+    ];
+    html! {
+        div.tables {
+            (stages_table(&s.stages, s.wall_s))
+            (list("Work of the simulation", ["", "count"], counts.map(|(name, number)| line(cells![name, number]))))
+            @if !s.left_out.is_empty() {
+                div {
+                    h3 { "Stages left out" }
+                    dl { @for stage in &s.left_out { dt { (stage.name) } dd { (stage.reason) } } }
+                }
+            }
+        }
+    }
+}
+
+/// The data files and the scene.
+fn sources(record: &RunRecord) -> Markup {
+    let mut files = DATA_FILES.to_vec();
+    if record.slices.is_some() {
+        files.extend(SLICED_FILES);
+    }
+    sources_list(&files, "The resolved scene, every default filled in", &record.scene_toml)
+}
