@@ -115,7 +115,7 @@ pub use pipeline::fem_problem::FemProblemError;
 pub use pipeline::fem_scene::FemPairError;
 pub use pipeline::{Done, RunError, run};
 pub use plan::Plan;
-pub use report::ReportError;
+pub use report::files::ReportError;
 pub use results::run::RunRecord;
 pub use scene::fem_problem::schema as fem_problem_schema;
 pub use scene::loaded::{LoadError, LoadedScene, SceneError, SceneText};

@@ -20,21 +20,21 @@ use crate::results::run::PathPoints;
 const SCRIPT: &[u8] = include_bytes!("assets/plotly.min.js.gz");
 
 /// Unworn.
-pub const NEW: &str = "var(--new)";
+pub(crate) const NEW: &str = "var(--new)";
 /// Worn.
-pub const WORN: &str = "var(--worn)";
+pub(crate) const WORN: &str = "var(--worn)";
 /// Secondary lines and labels.
-pub const MUTED: &str = "var(--muted)";
+pub(crate) const MUTED: &str = "var(--muted)";
 /// The path of contact.
-pub const PATH: &str = "var(--path)";
+pub(crate) const PATH: &str = "var(--path)";
 /// Outlines and the answer that others are compared with.
-pub const INK: &str = "var(--ink)";
+pub(crate) const INK: &str = "var(--ink)";
 const RULE: &str = "var(--rule)";
 const PAPER: &str = "var(--paper)";
 const NOTHING: &str = "rgba(0,0,0,0)";
 
 /// plotly.js.
-pub fn script() -> String {
+pub(crate) fn script() -> String {
     let mut script = String::new();
     let read = GzDecoder::new(SCRIPT).read_to_string(&mut script);
     read.expect("the script is part of the program");
@@ -42,7 +42,7 @@ pub fn script() -> String {
 }
 
 /// Colour of a gear.
-pub fn gear_colour(gear: Gear) -> &'static str {
+pub(crate) fn gear_colour(gear: Gear) -> &'static str {
     match gear {
         Gear::Pinion => "var(--pinion)",
         Gear::Wheel => "var(--wheel)",
@@ -50,7 +50,7 @@ pub fn gear_colour(gear: Gear) -> &'static str {
 }
 
 /// Colour of a gear's area.
-pub fn gear_fill(gear: Gear) -> &'static str {
+pub(crate) fn gear_fill(gear: Gear) -> &'static str {
     match gear {
         Gear::Pinion => "var(--pinion-fill)",
         Gear::Wheel => "var(--wheel-fill)",
@@ -58,12 +58,12 @@ pub fn gear_fill(gear: Gear) -> &'static str {
 }
 
 /// Colour of a gear at `share` of its life: from pale to full.
-pub fn gear_colour_at(gear: Gear, share: f64) -> String {
+pub(crate) fn gear_colour_at(gear: Gear, share: f64) -> String {
     format!("mix(--{0}-early,--{0},{share:.3})", gear.name())
 }
 
 /// Colour between those of the gears.
-pub fn colour_between_gears(share: f64) -> String {
+pub(crate) fn colour_between_gears(share: f64) -> String {
     format!("mix(--pinion,--wheel,{share:.3})")
 }
 
@@ -109,7 +109,7 @@ impl From<Stroke> for Value {
 
 /// One of the things that a chart shows.
 #[derive(Debug, Clone)]
-pub struct Trace(Map<String, Value>);
+pub(crate) struct Trace(Map<String, Value>);
 
 /// Numbers rounded to what a chart needs; what is none, or no number, is a gap.
 fn rounded(values: impl IntoIterator<Item = impl Into<Option<f64>>>) -> Value {
@@ -118,18 +118,18 @@ fn rounded(values: impl IntoIterator<Item = impl Into<Option<f64>>>) -> Value {
 
 impl Trace {
     /// A trace of one of plotly's types.
-    pub fn new(kind: &str, name: impl Into<String>) -> Self {
+    pub(crate) fn new(kind: &str, name: impl Into<String>) -> Self {
         Self(Map::new()).set("type", kind).set("name", name.into())
     }
 
     /// Sets an attribute under plotly's name.
-    pub fn set(mut self, key: &str, value: impl Into<Value>) -> Self {
+    pub(crate) fn set(mut self, key: &str, value: impl Into<Value>) -> Self {
         self.0.insert(key.to_owned(), value.into());
         self
     }
 
     /// A line through points.
-    pub fn line(
+    pub(crate) fn line(
         name: impl Into<String>,
         x: impl IntoIterator<Item = impl Into<Option<f64>>>,
         y: impl IntoIterator<Item = impl Into<Option<f64>>>,
@@ -140,7 +140,7 @@ impl Trace {
     }
 
     /// Points, each a sign of plotly's symbols.
-    pub fn points(
+    pub(crate) fn points(
         name: impl Into<String>,
         x: impl IntoIterator<Item = impl Into<Option<f64>>>,
         y: impl IntoIterator<Item = impl Into<Option<f64>>>,
@@ -151,74 +151,74 @@ impl Trace {
     }
 
     /// Colours over cells.
-    pub fn heat_map(unit: &str, x: &[f64], y: &[f64], z: impl Into<Value>) -> Self {
+    pub(crate) fn heat_map(unit: &str, x: &[f64], y: &[f64], z: impl Into<Value>) -> Self {
         let edges = |edges: &[f64]| rounded(edges.iter().copied());
         Self(Map::new()).set("type", "heatmap").set("x", edges(x)).set("y", edges(y)).set("z", z).colour_bar(unit)
     }
 
     /// Colours for values, with their scale beside the chart.
-    pub fn colour_bar(self, unit: &str) -> Self {
+    pub(crate) fn colour_bar(self, unit: &str) -> Self {
         let title = json!({ "text": unit, "font": { "size": 12 } });
         self.set("colorscale", "Viridis").set("colorbar", json!({ "title": title, "thickness": 12 }))
     }
 
     /// The scale of colours farther out, as part of the chart's width.
-    pub fn colour_bar_at(mut self, x: f64) -> Self {
+    pub(crate) fn colour_bar_at(mut self, x: f64) -> Self {
         self.0["colorbar"]["x"] = x.into();
         self
     }
 
     /// The signs of a line's points too.
-    pub fn with_points(self, symbol: &str, size_px: i32) -> Self {
+    pub(crate) fn with_points(self, symbol: &str, size_px: i32) -> Self {
         let colour = self.0["line"]["color"].clone();
         let marker = json!({ "color": colour, "symbol": symbol, "size": size_px });
         self.set("mode", "lines+markers").set("marker", marker)
     }
 
     /// An area instead of a line.
-    pub fn filled(self, colour: impl Into<String>) -> Self {
+    pub(crate) fn filled(self, colour: impl Into<String>) -> Self {
         self.set("fill", "toself").set("fillcolor", colour.into()).silent()
     }
 
     /// What is read at a point, as a template of plotly's.
-    pub fn hover(self, template: impl Into<String>) -> Self {
+    pub(crate) fn hover(self, template: impl Into<String>) -> Self {
         self.set("hovertemplate", template.into())
     }
 
     /// A text of its own to be read at each point.
-    pub fn hover_texts(self, texts: Vec<String>) -> Self {
+    pub(crate) fn hover_texts(self, texts: Vec<String>) -> Self {
         self.set("hovertext", texts).hover("%{hovertext}<extra></extra>")
     }
 
     /// Nothing is read at its points.
-    pub fn silent(self) -> Self {
+    pub(crate) fn silent(self) -> Self {
         self.set("hoverinfo", "skip")
     }
 
     /// Not in the legend.
-    pub fn unlisted(self) -> Self {
+    pub(crate) fn unlisted(self) -> Self {
         self.set("showlegend", false)
     }
 
     /// Shown and hidden with the others of the group.
-    pub fn group(self, name: &str) -> Self {
+    pub(crate) fn group(self, name: &str) -> Self {
         self.set("legendgroup", name)
     }
 
     /// Drawn from the beginning, or not before its entry in the legend is chosen.
-    pub fn at_once(self, at_once: bool) -> Self {
+    pub(crate) fn at_once(self, at_once: bool) -> Self {
         self.set("visible", if at_once { json!(true) } else { json!("legendonly") })
     }
 
     /// How much it covers what is below.
-    pub fn opacity(self, opacity: f64) -> Self {
+    pub(crate) fn opacity(self, opacity: f64) -> Self {
         self.set("opacity", opacity)
     }
 }
 
 /// A chart with its words.
 #[derive(Debug, Clone)]
-pub struct Chart {
+pub(crate) struct Chart {
     /// Identifier in the page, letters and hyphens.
     pub id: String,
     /// Heading.
@@ -233,7 +233,7 @@ pub struct Chart {
 
 impl Chart {
     /// An empty chart. Its width and the legend's height follow from the room there is, in the page's script.
-    pub fn new(id: impl Into<String>, title: impl Into<String>) -> Self {
+    pub(crate) fn new(id: impl Into<String>, title: impl Into<String>) -> Self {
         let layout = json!({
             "height": 380,
             "paper_bgcolor": PAPER,
@@ -253,124 +253,124 @@ impl Chart {
     }
 
     /// The sentence below it.
-    pub fn reading(mut self, text: impl Into<String>) -> Self {
+    pub(crate) fn reading(mut self, text: impl Into<String>) -> Self {
         self.reading = text.into();
         self
     }
 
     /// Over the whole width of the page.
-    pub fn wide(self) -> Self {
+    pub(crate) fn wide(self) -> Self {
         self.wide_if(true)
     }
 
     /// The same where `is_wide`.
-    pub fn wide_if(mut self, is_wide: bool) -> Self {
+    pub(crate) fn wide_if(mut self, is_wide: bool) -> Self {
         self.is_wide = is_wide;
         self
     }
 
     /// Sets an attribute of the layout under plotly's name.
-    pub fn set(mut self, key: &str, value: impl Into<Value>) -> Self {
+    pub(crate) fn set(mut self, key: &str, value: impl Into<Value>) -> Self {
         self.layout[key] = value.into();
         self
     }
 
     /// Height over all.
-    pub fn height(self, px: usize) -> Self {
+    pub(crate) fn height(self, px: usize) -> Self {
         self.set("height", px)
     }
 
     /// Whether traces are named below it.
-    pub fn legend(self, is_shown: bool) -> Self {
+    pub(crate) fn legend(self, is_shown: bool) -> Self {
         self.set("showlegend", is_shown)
     }
 
     /// The nearest point is read, not all above one another.
-    pub fn read_nearest(self) -> Self {
+    pub(crate) fn read_nearest(self) -> Self {
         self.set("hovermode", "closest")
     }
 
     /// Names the axis across, unit included.
-    pub fn x(self, title: &str) -> Self {
+    pub(crate) fn x(self, title: &str) -> Self {
         self.set("xaxis", axis(title))
     }
 
     /// Names the axis upwards, unit included.
-    pub fn y(self, title: &str) -> Self {
+    pub(crate) fn y(self, title: &str) -> Self {
         self.set("yaxis", axis(title))
     }
 
     /// Sets an attribute of the axis across under plotly's name.
-    pub fn x_set(mut self, key: &str, value: impl Into<Value>) -> Self {
+    pub(crate) fn x_set(mut self, key: &str, value: impl Into<Value>) -> Self {
         self.layout["xaxis"][key] = value.into();
         self
     }
 
     /// Sets an attribute of the axis upwards under plotly's name.
-    pub fn y_set(mut self, key: &str, value: impl Into<Value>) -> Self {
+    pub(crate) fn y_set(mut self, key: &str, value: impl Into<Value>) -> Self {
         self.layout["yaxis"][key] = value.into();
         self
     }
 
     /// Where the axis across begins and ends.
-    pub fn x_range(self, range: [f64; 2]) -> Self {
+    pub(crate) fn x_range(self, range: [f64; 2]) -> Self {
         self.x_set("range", range.to_vec())
     }
 
     /// Where the axis upwards begins and ends.
-    pub fn y_range(self, range: [f64; 2]) -> Self {
+    pub(crate) fn y_range(self, range: [f64; 2]) -> Self {
         self.y_set("range", range.to_vec())
     }
 
     /// The axis upwards from 0 to somewhat above `greatest`.
-    pub fn y_up_to(self, greatest: f64) -> Self {
+    pub(crate) fn y_up_to(self, greatest: f64) -> Self {
         self.y_range(from_zero(greatest))
     }
 
     /// The axis upwards as a depth: from somewhat below `greatest` up to 0.
-    pub fn y_down_to(self, greatest: f64) -> Self {
+    pub(crate) fn y_down_to(self, greatest: f64) -> Self {
         let [_, bottom] = from_zero(greatest);
         self.y_range([bottom, -0.02 * bottom])
     }
 
     /// How places across are read, a format of d3.
-    pub fn x_format(self, format: &str) -> Self {
+    pub(crate) fn x_format(self, format: &str) -> Self {
         self.x_set("hoverformat", format)
     }
 
     /// Powers of ten written as such, across.
-    pub fn x_logarithmic(self) -> Self {
+    pub(crate) fn x_logarithmic(self) -> Self {
         self.x_set("type", "log").x_set("exponentformat", "power")
     }
 
     /// Powers of ten written as such, upwards.
-    pub fn y_logarithmic(self) -> Self {
+    pub(crate) fn y_logarithmic(self) -> Self {
         self.y_set("type", "log").y_set("exponentformat", "power")
     }
 
     /// Without the lines of both axes over the chart.
-    pub fn without_grid(self) -> Self {
+    pub(crate) fn without_grid(self) -> Self {
         self.x_set("showgrid", false).y_set("showgrid", false)
     }
 
     /// The axis across as the path of contact, with its points.
-    pub fn over_path(self, points: &PathPoints) -> Self {
+    pub(crate) fn over_path(self, points: &PathPoints) -> Self {
         self.x("contact position, mm").x_range(padded(points.A, points.E)).x_format(".3f").mark_path_points(points)
     }
 
     /// Draws `trace` over those before it.
-    pub fn add(mut self, trace: Trace) -> Self {
+    pub(crate) fn add(mut self, trace: Trace) -> Self {
         self.traces.push(Value::Object(trace.0));
         self
     }
 
     /// Draws all of `traces`, one over the other.
-    pub fn add_all(self, traces: impl IntoIterator<Item = Trace>) -> Self {
+    pub(crate) fn add_all(self, traces: impl IntoIterator<Item = Trace>) -> Self {
         traces.into_iter().fold(self, Self::add)
     }
 
     /// Draws a line, read at its points by the template `hover`.
-    pub fn line(
+    pub(crate) fn line(
         self,
         name: impl Into<String>,
         x: impl IntoIterator<Item = impl Into<Option<f64>>>,
@@ -382,7 +382,7 @@ impl Chart {
     }
 
     /// Draws a quantity new (dashed, grey) and worn (full) against `x`.
-    pub fn new_and_worn(self, x: &[f64], new: Vec<f64>, worn: Vec<f64>, hover: &str) -> Self {
+    pub(crate) fn new_and_worn(self, x: &[f64], new: Vec<f64>, worn: Vec<f64>, hover: &str) -> Self {
         let x = || x.iter().copied();
         self.line("new", x(), new, (NEW, 2.0, Dash::Dash), hover).line(
             "worn",
@@ -394,12 +394,12 @@ impl Chart {
     }
 
     /// A vertical line with its letter at each of the points A–E; the pitch point C is the stronger one.
-    pub fn mark_path_points(self, points: &PathPoints) -> Self {
+    pub(crate) fn mark_path_points(self, points: &PathPoints) -> Self {
         self.mark(points.named(), "C")
     }
 
     /// A vertical line with its name at each place; that of the name `strongest` is the stronger one.
-    pub fn mark(self, places: impl IntoIterator<Item = (impl Into<String>, f64)>, strongest: &str) -> Self {
+    pub(crate) fn mark(self, places: impl IntoIterator<Item = (impl Into<String>, f64)>, strongest: &str) -> Self {
         // On a logarithmic axis plotly takes the place of a line as it is and that of its name as a logarithm.
         let is_logarithmic = self.layout["xaxis"]["type"] == "log";
         let (mut lines, mut names) = (Vec::new(), Vec::new());
@@ -420,7 +420,7 @@ impl Chart {
     }
 
     /// As plotly.js takes it; a number that is none is `null`, a gap.
-    pub fn to_json(&self) -> String {
+    pub(crate) fn to_json(&self) -> String {
         #[derive(Serialize)]
         struct Whole<'a> {
             data: &'a [Value],
@@ -440,7 +440,7 @@ impl Chart {
 }
 
 /// A name over a chart, at `place`.
-pub fn label(name: impl Into<String>, place: Value) -> Value {
+pub(crate) fn label(name: impl Into<String>, place: Value) -> Value {
     let mut label = json!({ "showarrow": false, "text": name.into(), "font": { "size": 12, "color": MUTED } });
     if let (Value::Object(label), Value::Object(place)) = (&mut label, place) {
         label.extend(place);
@@ -463,18 +463,18 @@ fn axis(title: &str) -> Value {
 }
 
 /// Range from 0 to somewhat above `greatest`; from 0 to 1 where nothing is above zero.
-pub fn from_zero(greatest: f64) -> [f64; 2] {
+pub(crate) fn from_zero(greatest: f64) -> [f64; 2] {
     if greatest > 0.0 && greatest.is_finite() { [0.0, greatest * 1.06] } else { [0.0, 1.0] }
 }
 
 /// The range from `low` to `high` and a little more on either side.
-pub fn padded(low: f64, high: f64) -> [f64; 2] {
+pub(crate) fn padded(low: f64, high: f64) -> [f64; 2] {
     let pad = 0.025 * (high - low).abs();
     [low - pad, high + pad]
 }
 
 /// Least and greatest of `values`; of none infinitely far apart, the wrong way round.
-pub fn extent(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+pub(crate) fn extent(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     values.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
 }
 

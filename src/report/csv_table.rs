@@ -13,7 +13,7 @@ use serde_json::Value;
 
 /// Where the figures of a table come from.
 #[derive(Debug, Clone, Copy)]
-pub struct Provenance<'a> {
+pub(crate) struct Provenance<'a> {
     program_version: &'a str,
     /// What kind of input it was: `scene`, `problem`.
     input: &'a str,
@@ -22,21 +22,21 @@ pub struct Provenance<'a> {
 
 impl<'a> Provenance<'a> {
     /// Figures of a scene with that hash.
-    pub fn of_scene(program_version: &'a str, hash: &'a str) -> Self {
+    pub(crate) fn of_scene(program_version: &'a str, hash: &'a str) -> Self {
         Self { program_version, input: "scene", hash }
     }
 
     /// Figures of a finite-element problem with that hash.
-    pub fn of_problem(program_version: &'a str, hash: &'a str) -> Self {
+    pub(crate) fn of_problem(program_version: &'a str, hash: &'a str) -> Self {
         Self { program_version, input: "problem", hash }
     }
 }
 
 /// Name and meaning of a column.
-pub type Column = (String, String);
+pub(crate) type Column = (String, String);
 
 /// The columns of a record, in the order of its fields.
-pub fn columns<R: JsonSchema>() -> Vec<Column> {
+pub(crate) fn columns<R: JsonSchema>() -> Vec<Column> {
     let schema = SchemaSettings::draft2020_12().for_serialize().into_generator().into_root_schema_for::<R>();
     let schema = schema.as_value();
     // Properties stand by name; what is required, which is all that is written, stands in the order of the fields.
@@ -50,14 +50,14 @@ pub fn columns<R: JsonSchema>() -> Vec<Column> {
 }
 
 /// The variants of an enumeration with what their documentation says, in their order.
-pub fn variants<E: JsonSchema>() -> Vec<Column> {
+pub(crate) fn variants<E: JsonSchema>() -> Vec<Column> {
     let schema = schemars::schema_for!(E);
     let all = schema.as_value()["oneOf"].as_array().into_iter().flatten();
     all.map(|one| ["const", "description"].map(|key| one[key].as_str().unwrap_or_default().to_owned()).into()).collect()
 }
 
 /// Writes records as a table.
-pub fn table<R: Serialize + JsonSchema>(
+pub(crate) fn table<R: Serialize + JsonSchema>(
     out: &mut dyn Write,
     provenance: Provenance,
     rows: impl IntoIterator<Item = R>,
@@ -66,7 +66,7 @@ pub fn table<R: Serialize + JsonSchema>(
 }
 
 /// Writes a table whose columns are not known before the program runs.
-pub fn table_of(
+pub(crate) fn table_of(
     out: &mut dyn Write,
     provenance: Provenance,
     columns: &[Column],

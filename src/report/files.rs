@@ -47,7 +47,7 @@ pub(crate) fn remove(dir: &Path, name: &str) -> Result<(), ReportError> {
 }
 
 /// Checks, before work starts, that files can be written into `dir`; leaves nothing behind that was not there.
-pub fn writable(dir: &Path) -> Result<(), ReportError> {
+pub(crate) fn writable(dir: &Path) -> Result<(), ReportError> {
     let missing: Vec<&Path> = dir.ancestors().take_while(|p| !p.as_os_str().is_empty() && !p.exists()).collect();
     let probed = create_folder(dir).and_then(|()| {
         NamedTempFile::new_in(dir).map(drop).map_err(|source| ReportError::WriteFile { path: dir.into(), source })
@@ -66,7 +66,7 @@ pub(crate) fn write_json(out: &mut dyn Write, record: &impl Serialize) -> io::Re
 }
 
 /// Makes `dir` if need be.
-pub fn create_folder(dir: &Path) -> Result<(), ReportError> {
+pub(crate) fn create_folder(dir: &Path) -> Result<(), ReportError> {
     if dir.exists() && !dir.is_dir() {
         return Err(ReportError::NotAFolder { path: dir.into() });
     }

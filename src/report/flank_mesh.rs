@@ -14,7 +14,7 @@ use crate::mesh::{CellBlock, CellKind, DataArray, Mesh, Values};
 use crate::results::run::{FlankRecord, RunRecord, SliceRecord};
 
 /// Writes it in the form ParaView reads.
-pub fn write(out: &mut dyn Write, record: &RunRecord, slices: &SliceRecord) -> io::Result<()> {
+pub(crate) fn write(out: &mut dyn Write, record: &RunRecord, slices: &SliceRecord) -> io::Result<()> {
     vtu_file::write(out, &mesh(record, slices))
 }
 

@@ -11,31 +11,31 @@
 //!
 //! `summary.json` comes last, so that its presence says the others are complete.
 
-pub mod calibration;
-pub mod chart;
-pub mod csv_table;
-pub mod fem;
-pub mod fem_pair;
+pub(crate) mod calibration;
+pub(crate) mod chart;
+pub(crate) mod csv_table;
+pub(crate) mod fem;
+pub(crate) mod fem_pair;
 pub(crate) mod files;
-pub mod flank_mesh;
-pub mod html;
+pub(crate) mod flank_mesh;
+pub(crate) mod html;
 mod pressure_plot;
-pub mod slice_table;
-pub mod tables;
+pub(crate) mod slice_table;
+pub(crate) mod tables;
 mod vtu_file;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use self::csv_table::{Provenance, table};
-pub use self::files::{ReportError, create_folder, writable};
+pub(crate) use self::files::{ReportError, create_folder, writable};
 use self::files::{place, remove, write_json};
 use crate::gear::Gear;
 use crate::results::run::{RunRecord, Summary};
 
 /// Writes all files of `record` but `summary.json` into `dir`, which is made if need be; returns their paths in the order
 /// written. The files that only a pair with slices has are taken away where `record` has none.
-pub fn write_data_and_page(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+pub(crate) fn write_data_and_page(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
     let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
     let flank = |gear: Gear| move |out: &mut dyn Write| tables::flank(out, provenance, &record.flanks[gear]);
@@ -64,12 +64,12 @@ const SLICES: &str = "slices.csv";
 const FLANK: &str = "flank.vtu";
 
 /// Writes `summary.json` into `dir`, after everything else.
-pub fn write_summary(summary: &Summary, dir: &Path) -> Result<PathBuf, ReportError> {
+pub(crate) fn write_summary(summary: &Summary, dir: &Path) -> Result<PathBuf, ReportError> {
     create_folder(dir)?;
     place(dir, "summary.json", |out| write_json(out, summary))
 }
 
 /// Takes away the `summary.json` of an earlier run, if there is one: it would vouch for files about to be replaced.
-pub fn remove_summary(dir: &Path) -> Result<(), ReportError> {
+pub(crate) fn remove_summary(dir: &Path) -> Result<(), ReportError> {
     remove(dir, "summary.json")
 }

@@ -9,7 +9,7 @@ use crate::reference::hertz_line::LineContact;
 const ELLIPSE_POINTS: usize = 200;
 
 /// Draws the pressure at `nodes` (place in mm, MPa) and Hertz's, within the range of places.
-pub fn beside_hertz(
+pub(super) fn beside_hertz(
     chart: Chart,
     nodes: &[(f64, f64)],
     hertz_name: &str,

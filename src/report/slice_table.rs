@@ -40,7 +40,12 @@ struct Row {
 }
 
 /// Writes it; `path` are the positions of A–E.
-pub fn slices(out: &mut dyn Write, provenance: Provenance, record: &SliceRecord, path: &PathPoints) -> io::Result<()> {
+pub(crate) fn slices(
+    out: &mut dyn Write,
+    provenance: Provenance,
+    record: &SliceRecord,
+    path: &PathPoints,
+) -> io::Result<()> {
     let count = record.width_mm.len();
     let slack = SAME_PLACE * (path.E - path.A);
     let rows = record.position_mm.iter().enumerate().flat_map(|(position, &position_mm)| {

@@ -57,7 +57,7 @@ struct ProfileRow {
 }
 
 /// Writes `pinion.csv` or `wheel.csv`.
-pub fn flank(out: &mut dyn Write, provenance: Provenance, flank: &FlankRecord) -> io::Result<()> {
+pub(crate) fn flank(out: &mut dyn Write, provenance: Provenance, flank: &FlankRecord) -> io::Result<()> {
     let points = flank.radius_mm.len();
     let rows = flank.width_mm.iter().enumerate().flat_map(|(slice, &width_mm)| {
         (0..points).map(move |point| {
@@ -80,7 +80,7 @@ pub fn flank(out: &mut dyn Write, provenance: Provenance, flank: &FlankRecord) -
 }
 
 /// Writes `profiles.csv`.
-pub fn profiles(out: &mut dyn Write, provenance: Provenance, record: &RunRecord) -> io::Result<()> {
+pub(crate) fn profiles(out: &mut dyn Write, provenance: Provenance, record: &RunRecord) -> io::Result<()> {
     let rows = record.history.iter().enumerate().flat_map(|(snapshot, at)| {
         Gear::BOTH.into_iter().flat_map(move |gear| {
             let flank = &record.flanks[gear];

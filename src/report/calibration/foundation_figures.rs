@@ -9,7 +9,7 @@ use crate::report::chart::{Chart, Dash, MUTED, PATH, Trace, WORN, colour_between
 use crate::report::html::number::{figure, percent};
 
 /// The figures, in the order of the page.
-pub fn all(calibration: &Calibration) -> Vec<Chart> {
+pub(super) fn all(calibration: &Calibration) -> Vec<Chart> {
     let against_curvature = MatchCriterion::ALL.map(|criterion| against_curvature(calibration, criterion));
     let errors = MatchCriterion::ALL.map(|criterion| errors(calibration, criterion));
     against_curvature.into_iter().chain([against_hertz(calibration)]).chain(errors).collect()

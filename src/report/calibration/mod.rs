@@ -15,12 +15,12 @@ use crate::results::run::StageTime;
 use crate::whole_file;
 
 /// The folder of a file.
-pub fn folder(file: &Path) -> &Path {
+pub(crate) fn folder(file: &Path) -> &Path {
     file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// The page beside a calibration file.
-pub fn page_beside(file: &Path) -> PathBuf {
+pub(crate) fn page_beside(file: &Path) -> PathBuf {
     file.with_extension("html")
 }
 
@@ -28,7 +28,12 @@ pub fn page_beside(file: &Path) -> PathBuf {
 ///
 /// # Errors
 /// What the system says.
-pub fn write(calibration: &Calibration, stages: &[StageTime], title: &str, file: &Path) -> Result<(), ReportError> {
+pub(crate) fn write(
+    calibration: &Calibration,
+    stages: &[StageTime],
+    title: &str,
+    file: &Path,
+) -> Result<(), ReportError> {
     create_folder(folder(file))?;
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     place(&page_beside(file), &page::page(calibration, stages, title, &name))?;

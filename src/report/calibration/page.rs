@@ -14,7 +14,7 @@ const LEGEND: &str = "A to E are the points of the path of contact: contact begi
      contact position is the radius of curvature of the pinion’s flank at the theoretical contact point.";
 
 /// The whole page; `file` is the name of the calibration file.
-pub fn page(calibration: &Calibration, stages: &[StageTime], title: &str, file: &str) -> String {
+pub(super) fn page(calibration: &Calibration, stages: &[StageTime], title: &str, file: &str) -> String {
     let mut charts = stiffness_figures::all(calibration);
     charts.extend(foundation_figures::all(calibration));
     charts.extend(wear_figure::all(calibration));

@@ -10,7 +10,7 @@ use crate::report::chart::{Chart, Dash, MUTED, PATH, Trace, WORN, colour_between
 use crate::report::html::number::{figure, percent, significant};
 
 /// The figures, in the order of the page.
-pub fn all(calibration: &Calibration) -> Vec<Chart> {
+pub(super) fn all(calibration: &Calibration) -> Vec<Chart> {
     let over_path = [pair, each_gear, flattening, coupling, course].map(|of| of(calibration));
     let points = path_points(calibration);
     over_path.into_iter().map(|chart| chart.over_path(&points)).chain([family(calibration)]).collect()

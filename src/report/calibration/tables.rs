@@ -11,7 +11,7 @@ use crate::report::html::number::{change, fixed, percent, significant};
 use crate::report::html::table::{cells, row, table};
 
 /// All of them, in the order of the page.
-pub fn tables(calibration: &Calibration) -> impl Iterator<Item = Markup> {
+pub(super) fn tables(calibration: &Calibration) -> impl Iterator<Item = Markup> {
     [points, parts, fits, convergence, rims, neighbours, courses].into_iter().map(|of| of(calibration))
 }
 

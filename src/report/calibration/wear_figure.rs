@@ -9,7 +9,7 @@ use crate::report::html::number::figure;
 const TIP_SHARE: usize = 40;
 
 /// A figure for each gear.
-pub fn all(calibration: &Calibration) -> Vec<Chart> {
+pub(super) fn all(calibration: &Calibration) -> Vec<Chart> {
     Gear::BOTH.map(|gear| of(calibration, gear)).into()
 }
 

@@ -15,7 +15,7 @@ const AROUND: f64 = 2.0;
 const MOST_MARKS: usize = 200;
 
 /// The undeformed mesh with its supports, loads and surfaces.
-pub fn model(record: &FemRecord) -> Chart {
+pub(super) fn model(record: &FemRecord) -> Chart {
     let solid = &record.problem.solid;
     let points: Vec<[f64; 2]> = solid.points_mm.iter().map(|p| [p.x, p.y]).collect();
     let bodies = Bodies { points_mm: &points, elements: &solid.elements };
@@ -79,7 +79,7 @@ fn marks(name: &str, symbol: &str, nodes: &[u32], points: &[[f64; 2]]) -> Trace 
 }
 
 /// The von Mises stress: over all bodies, and around each contact that carries load; deformed as computed.
-pub fn von_mises(record: &FemRecord) -> Vec<Chart> {
+pub(super) fn von_mises(record: &FemRecord) -> Vec<Chart> {
     let solid = &record.problem.solid;
     let deformed: Vec<[f64; 2]> =
         solid.points_mm.iter().zip(&record.displacement_mm).map(|(p, u)| [p.x + u[0], p.y + u[1]]).collect();

@@ -23,7 +23,7 @@ use crate::results::fem_problem::{ContactCurve, FemRecord, FemSummary};
 
 /// Writes all files of `record` but `summary.json` into `dir`, which is made if need be; returns their paths in the order
 /// written.
-pub fn write_data_and_page(record: &FemRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+pub(crate) fn write_data_and_page(record: &FemRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
     let provenance = Provenance::of_problem(&record.summary.program_version, &record.summary.problem_hash);
     Ok(vec![
@@ -35,13 +35,13 @@ pub fn write_data_and_page(record: &FemRecord, dir: &Path) -> Result<Vec<PathBuf
 }
 
 /// Writes `summary.json` into `dir`, after everything else.
-pub fn write_summary(summary: &FemSummary, dir: &Path) -> Result<PathBuf, ReportError> {
+pub(crate) fn write_summary(summary: &FemSummary, dir: &Path) -> Result<PathBuf, ReportError> {
     create_folder(dir)?;
     place(dir, "summary.json", |out| write_json(out, summary))
 }
 
 /// Writes `contact.csv`: the nodes of the slave surfaces, each in the order of its surface.
-pub fn contact_table(out: &mut dyn Write, provenance: Provenance, contacts: &[ContactCurve]) -> io::Result<()> {
+pub(crate) fn contact_table(out: &mut dyn Write, provenance: Provenance, contacts: &[ContactCurve]) -> io::Result<()> {
     table(out, provenance, contacts.iter().flat_map(|contact| &contact.rows))
 }
 

@@ -19,7 +19,7 @@ const DATA_FILES: [(&str, &str); 4] = [
 ];
 
 /// The whole page.
-pub fn page(record: &FemRecord) -> String {
+pub(super) fn page(record: &FemRecord) -> String {
     let s = &record.summary;
     let mut charts = vec![field_figures::model(record)];
     let contacts = s.contact.iter().zip(&record.contacts).enumerate();

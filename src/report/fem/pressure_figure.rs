@@ -10,7 +10,7 @@ use crate::results::fem_problem::{ContactCurve, ContactRow, ContactSummary};
 const SHOWN: f64 = 1.8;
 
 /// The pressure along one contact, number `index` of `count`; none where nothing touches.
-pub fn pressure(index: usize, count: usize, summary: &ContactSummary, contact: &ContactCurve) -> Option<Chart> {
+pub(super) fn pressure(index: usize, count: usize, summary: &ContactSummary, contact: &ContactCurve) -> Option<Chart> {
     if summary.half_width_mm <= 0.0 {
         return None;
     }

@@ -6,7 +6,7 @@ use crate::report::html::number::{figure, percent, significant};
 use crate::results::fem_pair::{FemCycleRow, FemPairRecord, RootSummary};
 
 /// All figures over the path.
-pub fn all(record: &FemPairRecord) -> Vec<Chart> {
+pub(super) fn all(record: &FemPairRecord) -> Vec<Chart> {
     if record.mesh_cycle.is_empty() {
         return Vec::new();
     }

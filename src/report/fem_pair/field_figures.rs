@@ -13,7 +13,7 @@ use crate::results::fem_pair::{ContactPlace, FemPairSummary, PairSolution};
 const AROUND: f64 = 2.0;
 
 /// The elements of the teeth, undeformed.
-pub fn mesh(s: &FemPairSummary, solution: &PairSolution) -> Chart {
+pub(super) fn mesh(s: &FemPairSummary, solution: &PairSolution) -> Chart {
     let gears = &s.model.gears;
     let reading = format!(
         "{} elements on {} nodes, at the contact position of {} mm before loading; drag over a contact to see them. They \
@@ -42,7 +42,7 @@ pub fn mesh(s: &FemPairSummary, solution: &PairSolution) -> Chart {
 }
 
 /// The von Mises stress in the teeth, and around each contact, deformed as computed.
-pub fn von_mises(solution: &PairSolution) -> Vec<Chart> {
+pub(super) fn von_mises(solution: &PairSolution) -> Vec<Chart> {
     let deformed: Vec<[f64; 2]> =
         solution.points_mm.iter().zip(&solution.displacement_mm).map(|(p, u)| [p[0] + u[0], p[1] + u[1]]).collect();
     let bodies = Bodies { points_mm: &deformed, elements: &solution.elements };

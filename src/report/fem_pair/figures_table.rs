@@ -10,7 +10,7 @@ use crate::results::fem_pair::{FemPairSummary, FullModelSummary, GearModelSummar
 use crate::results::run::PathPoints;
 
 /// All tables of figures, in the order of the page.
-pub fn tables(s: &FemPairSummary) -> Markup {
+pub(super) fn tables(s: &FemPairSummary) -> Markup {
     let points = s.points.as_ref().map_or_else(Markup::default, points);
     page::tables([cycle(s), roots(s), points, model(s), gears(s)])
 }
@@ -116,7 +116,7 @@ fn gears(s: &FemPairSummary) -> Markup {
 }
 
 /// How well equilibrium was met, and the whole model where it was solved.
-pub fn checks(s: &FemPairSummary) -> Markup {
+pub(super) fn checks(s: &FemPairSummary) -> Markup {
     let c = &s.checks;
     let mut rows = vec![
         row("|T2/T1| against z2/z1, worst", "", [percent(c.torque_ratio_error)]),

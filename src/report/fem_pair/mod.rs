@@ -13,7 +13,7 @@ mod field_figures;
 mod figures_table;
 mod page;
 mod pressure_figure;
-pub mod pressure_table;
+pub(crate) mod pressure_table;
 
 use std::path::{Path, PathBuf};
 
@@ -28,7 +28,7 @@ use crate::results::fem_pair::{FemPairRecord, FemPairSummary, PairSolution};
 
 /// Writes all files of `record` but `summary.json` into `dir`, which is made if need be; returns their paths in the order
 /// written.
-pub fn write_data_and_page(record: &FemPairRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+pub(crate) fn write_data_and_page(record: &FemPairRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
     let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
     let mut written = vec![
@@ -44,7 +44,7 @@ pub fn write_data_and_page(record: &FemPairRecord, dir: &Path) -> Result<Vec<Pat
 }
 
 /// Writes `summary.json` into `dir`, after everything else.
-pub fn write_summary(summary: &FemPairSummary, dir: &Path) -> Result<PathBuf, ReportError> {
+pub(crate) fn write_summary(summary: &FemPairSummary, dir: &Path) -> Result<PathBuf, ReportError> {
     create_folder(dir)?;
     place(dir, "summary.json", |out| write_json(out, summary))
 }

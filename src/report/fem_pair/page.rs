@@ -24,7 +24,7 @@ const LEGEND: &str = "A to E are the points of the path of contact: theoretical 
      the reference pair. Under load teeth bend, and pairs touch a little before A and after E as well, at a tip edge.";
 
 /// The whole page.
-pub fn page(record: &FemPairRecord) -> String {
+pub(super) fn page(record: &FemPairRecord) -> String {
     let s = &record.summary;
     let mut charts: Vec<_> = record.solution.iter().map(|solution| field_figures::mesh(s, solution)).collect();
     if s.position_mm.is_none() {

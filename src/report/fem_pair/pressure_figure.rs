@@ -12,7 +12,7 @@ const SHOWN: f64 = 1.6;
 const MOST_HERTZ: f64 = 2.0;
 
 /// The reference pair's at A–E, every pair's at a position asked for.
-pub fn all(record: &FemPairRecord) -> Vec<Chart> {
+pub(super) fn all(record: &FemPairRecord) -> Vec<Chart> {
     record.pressure.iter().filter(|curve| curve.point.is_none() || curve.row.pair == 0).map(pressure).collect()
 }
 

@@ -29,7 +29,7 @@ struct PressureRow {
 }
 
 /// Writes `pressure.csv`.
-pub fn pressure(out: &mut dyn Write, provenance: Provenance, curves: &[PressureCurve]) -> io::Result<()> {
+pub(crate) fn pressure(out: &mut dyn Write, provenance: Provenance, curves: &[PressureCurve]) -> io::Result<()> {
     let rows = curves.iter().flat_map(|curve| {
         let hertz = hertz(curve);
         curve.along_mm.iter().zip(&curve.pressure_MPa).map(move |(&along_mm, &pressure_mpa)| PressureRow {

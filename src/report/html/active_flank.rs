@@ -5,7 +5,7 @@ use crate::report::chart::{Chart, extent, padded};
 use crate::results::run::{FlankRecord, PathPoints};
 
 /// From a little below the start of active profile up to the tip.
-pub struct ActiveFlank {
+pub(crate) struct ActiveFlank {
     /// The first point shown; the last is that at the tip.
     pub first: usize,
     path_point_radius_mm: PathPoints,
@@ -13,7 +13,7 @@ pub struct ActiveFlank {
 
 impl ActiveFlank {
     /// That of `flank`.
-    pub fn of(flank: &FlankRecord) -> Self {
+    pub(crate) fn of(flank: &FlankRecord) -> Self {
         let [from_mm, to_mm] = Self::ends_mm(&flank.path_point_radius_mm);
         let margin = 0.03 * (to_mm - from_mm);
         let first = flank.radius_mm.partition_point(|&r| r < from_mm - margin);
@@ -26,12 +26,12 @@ impl ActiveFlank {
     }
 
     /// Its part of the `values` of one row of points.
-    pub fn cut(&self, values: &[f64]) -> Vec<f64> {
+    pub(crate) fn cut(&self, values: &[f64]) -> Vec<f64> {
         values.get(self.first..).unwrap_or_default().to_vec()
     }
 
     /// The chart with the radius across, and the points A–E.
-    pub fn across(&self, chart: Chart, gear: Gear) -> Chart {
+    pub(crate) fn across(&self, chart: Chart, gear: Gear) -> Chart {
         let [from_mm, to_mm] = Self::ends_mm(&self.path_point_radius_mm);
         let chart =
             chart.x(&format!("radius on the {}, mm", gear.name())).x_range(padded(from_mm, to_mm)).x_format(".3f");

@@ -6,10 +6,10 @@ use crate::report::chart::Chart;
 use crate::results::run::{MeshCycleRow, RunRecord};
 
 /// A pair that carries at least this share of the load counts as carrying it alone.
-pub const ALONE: f64 = 0.9995;
+pub(super) const ALONE: f64 = 0.9995;
 
 /// Load share, transmission error and greatest pressure over the cycle, new and worn.
-pub fn all(record: &RunRecord) -> Vec<Chart> {
+pub(super) fn all(record: &RunRecord) -> Vec<Chart> {
     vec![load_sharing(record), transmission_error(record), pressure(record)]
 }
 
@@ -30,7 +30,7 @@ fn load_sharing(record: &RunRecord) -> Chart {
 }
 
 /// Loaded transmission error.
-pub fn transmission_error(record: &RunRecord) -> Chart {
+pub(super) fn transmission_error(record: &RunRecord) -> Chart {
     let (new, worn) = (&record.summary.new.transmission_error_um, &record.summary.worn.transmission_error_um);
     let reading = if record.mesh_cycle.is_empty() {
         NOT_COMPUTED.into()
@@ -86,7 +86,7 @@ fn pressure(record: &RunRecord) -> Chart {
 }
 
 /// What to say of a run without a mesh cycle.
-pub const NOT_COMPUTED: &str = "The run ended before a mesh cycle was evaluated.";
+pub(super) const NOT_COMPUTED: &str = "The run ended before a mesh cycle was evaluated.";
 
 /// A quantity new and worn over the cycle.
 fn over_cycle(record: &RunRecord, chart: Chart, [new, worn]: [fn(&MeshCycleRow) -> f64; 2], hover: &str) -> Chart {

@@ -19,7 +19,7 @@ fn to_scale(mm: f64) -> f64 {
 
 /// Both gears, the line of action and the path of contact; zoomed on the mesh to begin with: the path of contact with three
 /// modules around it. A double click shows both gears whole.
-pub fn pair(record: &RunRecord) -> Chart {
+pub(super) fn pair(record: &RunRecord) -> Chart {
     let drawing = &record.drawing;
     let line_of_action = polyline("line of action T1T2", &drawing.line_of_action, (MUTED, 1.4, Dash::Solid)).silent();
     let chart = Chart::new("pair", "The pair in mesh, to scale")

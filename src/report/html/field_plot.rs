@@ -13,14 +13,14 @@ const SQUARES: f64 = 60_000.0;
 /// Significant digits of a value in the picture.
 const DIGITS: usize = 4;
 /// Sides of elements that a picture shows at the most: beyond, they are too fine to be seen and too many to be drawn.
-pub const MOST_SIDES: usize = 20_000;
+pub(crate) const MOST_SIDES: usize = 20_000;
 /// Width over height of a picture on a wide screen.
 const WIDTH_OVER_HEIGHT: f64 = 1.75;
 const HEIGHT_PX: usize = 600;
 
 /// Nodes and elements of a picture.
 #[derive(Debug, Clone, Copy)]
-pub struct Bodies<'a> {
+pub(crate) struct Bodies<'a> {
     /// Where the nodes are shown, mm.
     pub points_mm: &'a [[f64; 2]],
     /// The elements.
@@ -29,7 +29,7 @@ pub struct Bodies<'a> {
 
 /// A part of the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Window {
+pub(crate) struct Window {
     /// x from and to, mm.
     pub x_mm: [f64; 2],
     /// y from and to, mm.
@@ -38,7 +38,7 @@ pub struct Window {
 
 /// A quantity at the nodes.
 #[derive(Debug, Clone, Copy)]
-pub struct Quantity<'a> {
+pub(crate) struct Quantity<'a> {
     /// What stands beside its scale, unit included: `von Mises stress, MPa`.
     pub name: &'a str,
     /// Its unit: `MPa`.
@@ -49,7 +49,7 @@ pub struct Quantity<'a> {
 
 impl Window {
     /// Around all `points_mm`, with a little room.
-    pub fn around(points_mm: &[[f64; 2]]) -> Self {
+    pub(crate) fn around(points_mm: &[[f64; 2]]) -> Self {
         let [x_mm, y_mm] = [0, 1].map(|axis| {
             let [low, high] = extent(points_mm.iter().map(|p| p[axis]));
             let room = 0.02 * (high - low).abs();
@@ -59,14 +59,14 @@ impl Window {
     }
 
     /// `half_height_mm` above and below `centre_mm`, in the shape of a picture.
-    pub fn about(centre_mm: [f64; 2], half_height_mm: f64) -> Self {
+    pub(crate) fn about(centre_mm: [f64; 2], half_height_mm: f64) -> Self {
         let [x, y] = centre_mm;
         let half_width_mm = WIDTH_OVER_HEIGHT * half_height_mm;
         Self { x_mm: [x - half_width_mm, x + half_width_mm], y_mm: [y - half_height_mm, y + half_height_mm] }
     }
 
     /// The part of it that lies within `other`; itself where that is nothing.
-    pub fn within(self, other: Self) -> Self {
+    pub(crate) fn within(self, other: Self) -> Self {
         let common =
             |[a, b]: [f64; 2], [c, d]: [f64; 2]| if a.max(c) < b.min(d) { [a.max(c), b.min(d)] } else { [a, b] };
         Self { x_mm: common(self.x_mm, other.x_mm), y_mm: common(self.y_mm, other.y_mm) }
@@ -90,13 +90,13 @@ impl Window {
 }
 
 /// The greatest of the `values` at nodes within `reach_mm` of a place, along x and along y.
-pub fn greatest_near(bodies: Bodies<'_>, values: &[f64], centre_mm: [f64; 2], reach_mm: f64) -> f64 {
+pub(crate) fn greatest_near(bodies: Bodies<'_>, values: &[f64], centre_mm: [f64; 2], reach_mm: f64) -> f64 {
     let near = |p: &[f64; 2]| (0..2).all(|axis| (p[axis] - centre_mm[axis]).abs() <= reach_mm);
     bodies.points_mm.iter().zip(values).filter(|(p, _)| near(p)).map(|(_, value)| *value).fold(0.0, f64::max)
 }
 
 /// Draws `quantity` within `window`.
-pub fn field(chart: Chart, bodies: Bodies<'_>, quantity: Quantity<'_>, window: Window) -> Chart {
+pub(crate) fn field(chart: Chart, bodies: Bodies<'_>, quantity: Quantity<'_>, window: Window) -> Chart {
     let raster = Raster::sample(bodies, quantity.values, window);
     let unit = quantity.unit;
     let colours = Trace::heat_map(quantity.name, &raster.x_mm, &raster.y_mm, raster.values)
@@ -111,7 +111,7 @@ pub fn field(chart: Chart, bodies: Bodies<'_>, quantity: Quantity<'_>, window: W
 }
 
 /// The chart as a picture at its true proportions that shows `window` to begin with.
-pub fn to_scale(chart: Chart, window: Window) -> Chart {
+pub(crate) fn to_scale(chart: Chart, window: Window) -> Chart {
     let pixels = HEIGHT_PX as f64 * WIDTH_OVER_HEIGHT * window.height_mm() / window.width_mm();
     let height = (pixels.clamp(0.45 * HEIGHT_PX as f64, HEIGHT_PX as f64) + 80.0) as usize;
     chart
@@ -130,7 +130,7 @@ pub fn to_scale(chart: Chart, window: Window) -> Chart {
 }
 
 /// Sides of elements as one line with gaps.
-pub fn segments(name: &str, bodies: Bodies<'_>, sides: &[Vec<u32>], colour: &str, width_px: f64) -> Trace {
+pub(crate) fn segments(name: &str, bodies: Bodies<'_>, sides: &[Vec<u32>], colour: &str, width_px: f64) -> Trace {
     let along = |axis: usize| {
         let place = move |node: &u32| Some(bodies.points_mm[*node as usize][axis]);
         sides.iter().flat_map(move |side| side.iter().map(place).chain([None]))
@@ -140,7 +140,7 @@ pub fn segments(name: &str, bodies: Bodies<'_>, sides: &[Vec<u32>], colour: &str
 
 /// The sides of the elements within `window`, each once: those of one element only, and all others. A side runs from one
 /// end over the middle node, if there is one, to the other.
-pub fn sides(bodies: Bodies<'_>, window: Window) -> (Vec<Vec<u32>>, Vec<Vec<u32>>) {
+pub(crate) fn sides(bodies: Bodies<'_>, window: Window) -> (Vec<Vec<u32>>, Vec<Vec<u32>>) {
     let mut all: Vec<([u32; 2], Vec<u32>)> = Vec::new();
     for element in bodies.elements {
         for side in ring(element) {

@@ -12,7 +12,7 @@ use crate::results::run::{GearSummary, PhaseSummary, RunRecord, Summary, WearSum
 const MOST_PHASES: usize = 60;
 
 /// All tables, in the order of the page.
-pub fn tables(record: &RunRecord) -> Markup {
+pub(crate) fn tables(record: &RunRecord) -> Markup {
     let s = &record.summary;
     let sliced = s.helical.as_ref().map_or_else(Markup::default, sliced::tables::tables);
     page::tables([new_and_worn(s), wear(s), law_table::tables(s), sliced, pair(s), gears(s), contact(s)])
@@ -118,7 +118,7 @@ fn contact(s: &Summary) -> Markup {
 }
 
 /// Under what each phase ran, and what it wore off; nothing where there is only one.
-pub fn phases(s: &Summary) -> Markup {
+pub(crate) fn phases(s: &Summary) -> Markup {
     if s.phases.len() < 2 {
         return Markup::default();
     }
@@ -162,7 +162,7 @@ pub fn phases(s: &Summary) -> Markup {
 }
 
 /// The error estimates, each with how it was obtained.
-pub fn errors(error: &ErrorSummary) -> Markup {
+pub(crate) fn errors(error: &ErrorSummary) -> Markup {
     let (total, how, above) = (&error.total, &error.how, "as above");
     let rows = [
         ("Finite elements: pinion’s greatest wear", total.peak_wear.pinion, &*total.how),

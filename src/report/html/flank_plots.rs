@@ -11,7 +11,7 @@ use crate::results::run::{HistoryRow, RunRecord};
 const CURVES: usize = 12;
 
 /// Wear depth over both flanks, one curve per snapshot.
-pub fn wear(record: &RunRecord) -> Vec<Chart> {
+pub(super) fn wear(record: &RunRecord) -> Vec<Chart> {
     let deepest = Gear::BOTH.map(|gear| greatest(&record.flanks[gear].wear_um).map_or(0.0, |e| e.value));
     Gear::BOTH
         .into_iter()
@@ -104,7 +104,7 @@ fn wear_reading(record: &RunRecord, gear: Gear, drawn: usize) -> String {
 }
 
 /// Greatest pressure that each flank point feels during one mesh, new and worn.
-pub fn pressure(record: &RunRecord) -> Vec<Chart> {
+pub(super) fn pressure(record: &RunRecord) -> Vec<Chart> {
     let both = Gear::BOTH.map(|gear| {
         let flank = &record.flanks[gear];
         [&flank.pressure_new_MPa, &flank.pressure_worn_MPa].map(|p| greatest(p).map_or(0.0, |e| e.value))
@@ -137,7 +137,7 @@ fn pressure_on(record: &RunRecord, gear: Gear, top_mpa: f64) -> Chart {
 }
 
 /// Material that the modifications remove from each flank; nothing where there is none.
-pub fn modifications(record: &RunRecord) -> Vec<Chart> {
+pub(super) fn modifications(record: &RunRecord) -> Vec<Chart> {
     let modified = |gear: &Gear| record.flanks[*gear].removed_um.iter().any(|&h| h != 0.0);
     Gear::BOTH.into_iter().filter(modified).map(|gear| modifications_of(record, gear)).collect()
 }

@@ -19,7 +19,7 @@ const SERIES: [(&str, Gear, bool, Value); 3] = [
 ];
 
 /// Greatest root wear, and peak wear of both gears, against time.
-pub fn wear_against_time(record: &RunRecord) -> Chart {
+pub(super) fn wear_against_time(record: &RunRecord) -> Chart {
     let rows = &record.history;
     let hours: Option<Vec<f64>> = rows.iter().map(|row| row.hours).collect();
     let in_hours = hours.is_some();

@@ -9,7 +9,7 @@ use crate::results::chemistry::{GreatestRise, TemperatureSummary, WearLawSummary
 use crate::results::run::Summary;
 
 /// The tables.
-pub fn tables(s: &Summary) -> Markup {
+pub(crate) fn tables(s: &Summary) -> Markup {
     html! { (law(&s.wear)) @if let Some(t) = &s.temperature { (temperature(t)) } }
 }
 
@@ -38,7 +38,7 @@ fn temperature(t: &TemperatureSummary) -> Markup {
 }
 
 /// What the tables mean, in words.
-pub fn note(s: &Summary) -> Markup {
+pub(crate) fn note(s: &Summary) -> Markup {
     let w = &s.wear;
     let mut text = format!(
         "Where wear is mild the {} law wears by {:.2e} mm³/(N·m) on average over the sliding work of a mesh of the new pair: regime {} of the IRG \

@@ -3,18 +3,18 @@
 //! The page is its words and tables in plain HTML, one JSON description per plot, plotly.js, and a short script
 //! (`page.js`) that draws the plots in the colours of the style sheet (`page.css`) for light, dark and paper.
 
-pub mod active_flank;
+pub(crate) mod active_flank;
 mod cycle_plots;
 mod drawing_plot;
-pub mod field_plot;
-pub mod figures_table;
+pub(crate) mod field_plot;
+pub(crate) mod figures_table;
 mod flank_plots;
 mod history_plot;
-pub mod law_table;
-pub mod number;
-pub mod page;
-pub mod reading;
-pub mod run_page;
+pub(crate) mod law_table;
+pub(crate) mod number;
+pub(crate) mod page;
+pub(crate) mod reading;
+pub(crate) mod run_page;
 mod sliced;
-pub mod table;
+pub(crate) mod table;
 mod temperature_plot;

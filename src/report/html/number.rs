@@ -2,7 +2,7 @@
 //! thousands.
 
 /// `value` with `digits` significant digits; integers keep all of theirs up to a million. "–" where not finite.
-pub fn significant(value: f64, digits: usize) -> String {
+pub(crate) fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return "–".into();
     }
@@ -20,12 +20,12 @@ pub fn significant(value: f64, digits: usize) -> String {
 }
 
 /// A result: four significant digits, three below one.
-pub fn figure(value: f64) -> String {
+pub(crate) fn figure(value: f64) -> String {
     significant(value, if value.abs() < 1.0 { 3 } else { 4 })
 }
 
 /// A length or an angle of the geometry, to so many decimals.
-pub fn fixed(value: f64, decimals: usize) -> String {
+pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     if !value.is_finite() {
         return "–".into();
     }
@@ -35,7 +35,7 @@ pub fn fixed(value: f64, decimals: usize) -> String {
 }
 
 /// As many of seven significant digits as it takes: what the user gave, such as hours.
-pub fn given(value: f64) -> String {
+pub(crate) fn given(value: f64) -> String {
     let text = significant(value, 7);
     if text.contains('.') && !text.contains('×') {
         text.trim_end_matches('0').trim_end_matches('.').into()
@@ -45,12 +45,12 @@ pub fn given(value: f64) -> String {
 }
 
 /// Share as a percentage, three significant digits.
-pub fn percent(share: f64) -> String {
+pub(crate) fn percent(share: f64) -> String {
     format!("{}\u{202f}%", significant(share * 100.0, 3))
 }
 
 /// Change from `before` to `after` as a signed percentage; "–" where there is nothing to compare with.
-pub fn change(before: f64, after: f64) -> String {
+pub(crate) fn change(before: f64, after: f64) -> String {
     let change = (after / before - 1.0) * 100.0;
     if !change.is_finite() {
         return "–".into();
@@ -65,7 +65,7 @@ pub fn change(before: f64, after: f64) -> String {
 }
 
 /// A count of revolutions: "1.15 million", "82 000".
-pub fn revolutions(value: f64) -> String {
+pub(crate) fn revolutions(value: f64) -> String {
     if value.is_finite() && value.abs() >= 1e6 {
         format!("{} million", given((value / 1e6 * 1e3).round() / 1e3))
     } else {
@@ -74,12 +74,12 @@ pub fn revolutions(value: f64) -> String {
 }
 
 /// A count, thousands set apart.
-pub fn count(value: u64) -> String {
+pub(crate) fn count(value: u64) -> String {
     grouped(&value.to_string())
 }
 
 /// Rounded for a plot, which needs no more digits than a screen has points.
-pub fn plotted(value: f64) -> f64 {
+pub(crate) fn plotted(value: f64) -> f64 {
     if value.abs() < 1e-100 || !value.is_finite() {
         return if value.is_finite() { 0.0 } else { value };
     }
@@ -88,7 +88,7 @@ pub fn plotted(value: f64) -> f64 {
 }
 
 /// Rounded to so many significant digits.
-pub fn to_digits(value: f64, digits: usize) -> f64 {
+pub(crate) fn to_digits(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }
 

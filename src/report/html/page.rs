@@ -9,7 +9,7 @@ use crate::report::chart::{self, Chart};
 use crate::results::run::StageTime;
 
 /// A page.
-pub struct Page<'a> {
+pub(crate) struct Page<'a> {
     /// What kind of report it is, above the title.
     pub kind: &'a str,
     /// The title.
@@ -28,12 +28,12 @@ pub struct Page<'a> {
 
 impl Page<'_> {
     /// The whole page, which holds everything it needs.
-    pub fn html(&self) -> String {
+    pub(crate) fn html(&self) -> String {
         self.html_with("", "")
     }
 
     /// The same with rules after those of the common style sheet and a script after the one that draws the charts.
-    pub fn html_with(&self, style: &str, script: &str) -> String {
+    pub(crate) fn html_with(&self, style: &str, script: &str) -> String {
         let page = html! {
             (DOCTYPE)
             html lang="en" {
@@ -73,22 +73,22 @@ impl Page<'_> {
 }
 
 /// A section under a heading.
-pub fn section(id: &str, heading: &str, content: Markup) -> Markup {
+pub(crate) fn section(id: &str, heading: &str, content: Markup) -> Markup {
     html! { section aria-labelledby=(id) { h2 id=(id) { (heading) } (content) } }
 }
 
 /// A remark on what is shown.
-pub fn note(text: &str) -> Markup {
+pub(crate) fn note(text: &str) -> Markup {
     html! { p.legend-note { (text) } }
 }
 
 /// Tables beside one another where there is room.
-pub fn tables(tables: impl IntoIterator<Item = Markup>) -> Markup {
+pub(crate) fn tables(tables: impl IntoIterator<Item = Markup>) -> Markup {
     html! { div.tables { @for table in tables { (table) } } }
 }
 
 /// The charts, numbered from 1.
-pub fn plots(charts: &[Chart]) -> Markup {
+pub(crate) fn plots(charts: &[Chart]) -> Markup {
     html! {
         noscript { p.notice { "The plots need JavaScript; all their numbers are in the data files." } }
         div.plots { @for (number, chart) in (1..).zip(charts) { (plot(number, chart)) } }
@@ -110,7 +110,7 @@ fn plot(number: usize, chart: &Chart) -> Markup {
 }
 
 /// The stages carried out, each with its time.
-pub fn stages_table(stages: &[StageTime], wall_s: f64) -> Markup {
+pub(crate) fn stages_table(stages: &[StageTime], wall_s: f64) -> Markup {
     let stage = |name: &str, wall_s: f64| [name.to_owned(), fixed(wall_s, 4)];
     let total = html! { tr.total { (inner(stage("until this report", wall_s))) } };
     let rows = stages.iter().map(|done| line(stage(&done.name, done.wall_s))).chain([total]);
@@ -118,12 +118,12 @@ pub fn stages_table(stages: &[StageTime], wall_s: f64) -> Markup {
 }
 
 /// The data files beside the page, each with what it holds.
-pub fn files_list(files: &[(&str, &str)]) -> Markup {
+pub(crate) fn files_list(files: &[(&str, &str)]) -> Markup {
     html! { ul.files { @for (name, what) in files { li { a href=(name) { (name) } " " (what) } } } }
 }
 
 /// The data files and the resolved input.
-pub fn sources_list(files: &[(&str, &str)], input_name: &str, input: &str) -> Markup {
+pub(crate) fn sources_list(files: &[(&str, &str)], input_name: &str, input: &str) -> Markup {
     html! { (files_list(files)) details { summary { (input_name) } pre { (input) } } }
 }
 

@@ -7,7 +7,7 @@ use crate::results::run::{FlankRecord, MeshCycleRow, StopReason, Summary, WearSu
 
 /// The greatest of some values and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Extreme {
+pub(crate) struct Extreme {
     /// Its index.
     pub index: usize,
     /// Its value.
@@ -15,7 +15,7 @@ pub struct Extreme {
 }
 
 /// The first of the greatest finite values.
-pub fn greatest(values: &[f64]) -> Option<Extreme> {
+pub(crate) fn greatest(values: &[f64]) -> Option<Extreme> {
     values.iter().enumerate().filter(|(_, v)| v.is_finite()).fold(None, |best, (index, &value)| match best {
         Some(Extreme { value: most, .. }) if value <= most => best,
         _ => Some(Extreme { index, value }),
@@ -23,12 +23,12 @@ pub fn greatest(values: &[f64]) -> Option<Extreme> {
 }
 
 /// "at 34.12 mm radius, close to A", "at 37.40 mm radius, between C and D".
-pub fn place_on_flank(flank: &FlankRecord, radius_mm: f64) -> String {
+pub(crate) fn place_on_flank(flank: &FlankRecord, radius_mm: f64) -> String {
     format!("at {} mm radius, {}", significant(radius_mm, 4), among(&flank.path_point_radius_mm.named(), radius_mm))
 }
 
 /// Where `at` lies among the named places: close to one of them, between two, or outside all.
-pub fn among(places: &[(&str, f64)], at: f64) -> String {
+pub(crate) fn among(places: &[(&str, f64)], at: f64) -> String {
     let mut sorted = places.to_vec();
     sorted.sort_by(|a, b| a.1.total_cmp(&b.1));
     let (Some(first), Some(last)) = (sorted.first(), sorted.last()) else { return String::new() };
@@ -43,7 +43,7 @@ pub fn among(places: &[(&str, f64)], at: f64) -> String {
 }
 
 /// What to say of a pressure that is greatest at A or E, where one flank ends in its tip edge; empty elsewhere.
-pub fn tip_edge_note(places: &[(&str, f64)], at: f64) -> &'static str {
+pub(crate) fn tip_edge_note(places: &[(&str, f64)], at: f64) -> &'static str {
     match among(places, at).as_str() {
         "close to A" | "close to E" | "outside the active flank" => {
             " This is at a tip edge: where the edge is sharp, or has worn to an edge again, the pressure depends on the \
@@ -54,7 +54,7 @@ pub fn tip_edge_note(places: &[(&str, f64)], at: f64) -> &'static str {
 }
 
 /// "127.75 h (1.15 million pinion revolutions)".
-pub fn duration(summary: &Summary) -> String {
+pub(crate) fn duration(summary: &Summary) -> String {
     let turns = format!("{} pinion revolutions", revolutions(summary.revolutions));
     match summary.hours {
         Some(hours) => format!("{} h ({turns})", given(hours)),
@@ -63,7 +63,7 @@ pub fn duration(summary: &Summary) -> String {
 }
 
 /// The run in one sentence or two: how much each gear has lost, where, and what it did to the mesh cycle.
-pub fn answer(record: &RunRecord) -> String {
+pub(crate) fn answer(record: &RunRecord) -> String {
     let s = &record.summary;
     let lost = match (s.pinion.peak_wear_um > 0.0, s.wheel.peak_wear_um > 0.0) {
         (false, false) => "neither flank has worn".into(),
@@ -122,7 +122,7 @@ fn place_of_pressure(record: &RunRecord) -> String {
 }
 
 /// The pressure of each row, and NaN where it is that of a sharp tip edge, which is not defined.
-pub fn defined_pressures(rows: &[MeshCycleRow], of: fn(&MeshCycleRow) -> (f64, bool)) -> Vec<f64> {
+pub(crate) fn defined_pressures(rows: &[MeshCycleRow], of: fn(&MeshCycleRow) -> (f64, bool)) -> Vec<f64> {
     rows.iter().map(of).map(|(pressure, at_sharp_edge)| defined_pressure(pressure, at_sharp_edge)).collect()
 }
 
@@ -145,7 +145,7 @@ fn depth(record: &RunRecord, gear: Gear) -> String {
 }
 
 /// What to say above everything else where the run did not reach its end.
-pub fn interruption(summary: &Summary) -> Option<String> {
+pub(crate) fn interruption(summary: &Summary) -> Option<String> {
     let how = match summary.stopped {
         StopReason::Completed => return None,
         StopReason::Interrupted => "was interrupted",
@@ -158,7 +158,7 @@ pub fn interruption(summary: &Summary) -> Option<String> {
 }
 
 /// The text with every number bound to the unit after it, so that no line ends between them.
-pub fn bound(text: &str) -> String {
+pub(crate) fn bound(text: &str) -> String {
     const UNITS: [&str; 4] = ["µm", "mm", "MPa", "h"];
     let mut bound = String::with_capacity(text.len());
     for word in text.split_inclusive(' ') {

@@ -43,7 +43,7 @@ fn sliced_note() -> String {
 }
 
 /// The whole page.
-pub fn page(record: &RunRecord) -> String {
+pub(crate) fn page(record: &RunRecord) -> String {
     let s = &record.summary;
     let charts = match SlicedRun::of(record) {
         Some(run) => sliced::figures(run),

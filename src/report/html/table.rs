@@ -5,10 +5,10 @@ use maud::{Markup, Render, html};
 use super::number::{count, figure};
 
 /// What stands where there is no number.
-pub const NONE: &str = "–";
+pub(crate) const NONE: &str = "–";
 
 /// What stands in a cell: a result as a number with its digits, a count, a text, or markup.
-pub struct Cell {
+pub(crate) struct Cell {
     content: Markup,
     /// A sentence, in a column of its own kind.
     is_sentence: bool,
@@ -16,7 +16,7 @@ pub struct Cell {
 
 impl Cell {
     /// A text that may take several lines.
-    pub fn sentence(text: impl Render) -> Self {
+    pub(crate) fn sentence(text: impl Render) -> Self {
         Self { is_sentence: true, ..html! { (text) }.into() }
     }
 }
@@ -61,32 +61,32 @@ fn data(cell: impl Into<Cell>) -> Markup {
 }
 
 /// A row of figures: what it is, its unit, and one figure for each column.
-pub fn row(label: impl Into<Cell>, unit: &str, cells: impl IntoIterator<Item = impl Into<Cell>>) -> Markup {
+pub(crate) fn row(label: impl Into<Cell>, unit: &str, cells: impl IntoIterator<Item = impl Into<Cell>>) -> Markup {
     html! {
         tr { th scope="row" { (label.into().content) } @for cell in cells { (data(cell)) } td.unit { (unit) } }
     }
 }
 
 /// A row of cells, the first of which names it.
-pub fn line(cells: impl IntoIterator<Item = impl Into<Cell>>) -> Markup {
+pub(crate) fn line(cells: impl IntoIterator<Item = impl Into<Cell>>) -> Markup {
     html! { tr { (inner(cells)) } }
 }
 
 /// What stands in such a row.
-pub fn inner(cells: impl IntoIterator<Item = impl Into<Cell>>) -> Markup {
+pub(crate) fn inner(cells: impl IntoIterator<Item = impl Into<Cell>>) -> Markup {
     let mut cells = cells.into_iter();
     let name = cells.next().map(|cell| cell.into().content);
     html! { th scope="row" { @if let Some(name) = name { (name) } } @for cell in cells { (data(cell)) } }
 }
 
 /// A table of [`row`]s, with the names of its columns of figures.
-pub fn table(caption: impl Render, columns: &[&str], rows: impl IntoIterator<Item = Markup>) -> Markup {
+pub(crate) fn table(caption: impl Render, columns: &[&str], rows: impl IntoIterator<Item = Markup>) -> Markup {
     let columns = [""].into_iter().chain(columns.iter().copied()).chain([""]);
     whole(None, Some(html! { (caption) }), columns, rows)
 }
 
 /// A table of [`line()`]s, with the names of all its columns.
-pub fn list(
+pub(crate) fn list(
     caption: impl Render,
     columns: impl IntoIterator<Item = impl Into<Cell>>,
     rows: impl IntoIterator<Item = Markup>,
@@ -95,7 +95,7 @@ pub fn list(
 }
 
 /// A table with its class and caption, where it has them; a column without a name has no head.
-pub fn whole(
+pub(crate) fn whole(
     class: Option<&str>,
     caption: Option<Markup>,
     columns: impl IntoIterator<Item = impl Into<Cell>>,

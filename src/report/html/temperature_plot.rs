@@ -18,7 +18,7 @@ const METHODS: [(TemperatureMethod, Column, &str, Dash); 3] = [
 ];
 
 /// Both plots; none where no temperature was asked for.
-pub fn all(record: &RunRecord) -> Vec<Chart> {
+pub(super) fn all(record: &RunRecord) -> Vec<Chart> {
     if record.summary.temperature.is_none() || record.mesh_cycle.is_empty() {
         return Vec::new();
     }

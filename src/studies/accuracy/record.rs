@@ -14,7 +14,7 @@ use crate::results::run::{PathPoints, StopReason, WorkSummary};
 pub(crate) const CALIBRATION_FILE: &str = "calibration.json";
 
 /// Name of the table of root wear over the face width; of pairs with slices.
-pub const OVER_WIDTH_FILE: &str = "over_width.csv";
+pub(crate) const OVER_WIDTH_FILE: &str = "over_width.csv";
 
 /// A finished (or interrupted) comparison.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -62,7 +62,7 @@ pub(crate) struct AccuracyRecord {
 
 impl AccuracyRecord {
     /// Whether the pair was cut into slices over the face width.
-    pub fn has_slices(&self) -> bool {
+    pub(crate) fn has_slices(&self) -> bool {
         self.variants.iter().any(|variant| variant.settings.slices.is_some())
     }
 }

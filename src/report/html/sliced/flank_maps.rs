@@ -31,7 +31,7 @@ struct Quantity<'a> {
 }
 
 /// Wear, sliding, pressure new and worn, and the modifications where there are any.
-pub fn all(run: SlicedRun<'_>, gear: Gear) -> Vec<Chart> {
+pub(super) fn all(run: SlicedRun<'_>, gear: Gear) -> Vec<Chart> {
     let flank = &run.record.flanks[gear];
     let top = |field: &[f64]| greatest(field).map_or(0.0, |peak| peak.value);
     let pressure_top = top(&flank.pressure_new_MPa).max(top(&flank.pressure_worn_MPa));

@@ -7,7 +7,7 @@ use crate::report::html::number::{figure, significant};
 use crate::report::html::reading::greatest;
 
 /// Two maps with one scale of colours.
-pub fn new_and_worn(run: SlicedRun<'_>) -> Vec<Chart> {
+pub(super) fn new_and_worn(run: SlicedRun<'_>) -> Vec<Chart> {
     let loads = [&run.slices.line_load_new_N_per_mm, &run.slices.line_load_worn_N_per_mm];
     let top = loads.map(|loads| greatest(loads).map_or(0.0, |peak| peak.value)).into_iter().fold(0.0, f64::max);
     [("new", loads[0]), ("worn", loads[1])].map(|(when, loads)| map(run, when, loads, top)).into()

@@ -7,7 +7,7 @@ use crate::report::chart::{Chart, NEW, Trace, WORN};
 use crate::report::html::number::{change, figure, plotted};
 
 /// Bars for each order.
-pub fn new_and_worn(run: SlicedRun<'_>) -> Chart {
+pub(super) fn new_and_worn(run: SlicedRun<'_>) -> Chart {
     let orders = [&run.helical.mesh_orders_new_um, &run.helical.mesh_orders_worn_um];
     let bars = [("new", NEW), ("worn", WORN)].into_iter().zip(orders).map(|((name, colour), amplitudes)| {
         let names: Vec<String> = (1..=amplitudes.len()).map(|order| format!("{order}×")).collect();

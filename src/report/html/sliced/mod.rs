@@ -5,10 +5,10 @@ mod load_maps;
 mod mesh_orders;
 mod over_width;
 mod profiles;
-pub mod raster;
-pub mod sliced_run;
+pub(super) mod raster;
+pub(super) mod sliced_run;
 mod surfaces;
-pub mod tables;
+pub(super) mod tables;
 mod tooth_cycle;
 
 use self::sliced_run::SlicedRun;
@@ -17,7 +17,7 @@ use crate::gear::Gear;
 use crate::report::chart::Chart;
 
 /// All of them, in the order of the page.
-pub fn figures(run: SlicedRun<'_>) -> Vec<Chart> {
+pub(super) fn figures(run: SlicedRun<'_>) -> Vec<Chart> {
     let mut figures = vec![drawing_plot::pair(run.record)];
     for gear in Gear::BOTH {
         figures.extend(flank_maps::all(run, gear));

@@ -8,7 +8,7 @@ use crate::report::chart::{Chart, Dash, NEW, Trace, gear_colour};
 use crate::report::html::number::{figure, percent, significant};
 
 /// Of one gear.
-pub fn root_and_tip(run: SlicedRun<'_>, gear: Gear) -> Chart {
+pub(super) fn root_and_tip(run: SlicedRun<'_>, gear: Gear) -> Chart {
     let wear = &run.helical.wear[gear];
     let colour = gear_colour(gear);
     let title = format!("Root and tip wear of the {} over the face width", gear.name());

@@ -47,7 +47,7 @@ fn of_each(flank: &FlankRecord, words: impl Fn(usize) -> Option<String>) -> Stri
 }
 
 /// Wear depth at the end of the run.
-pub fn wear(run: SlicedRun<'_>) -> Vec<Chart> {
+pub(super) fn wear(run: SlicedRun<'_>) -> Vec<Chart> {
     let of = |gear: Gear| {
         let flank = &run.record.flanks[gear];
         let deepest_in = |slice: usize| {
@@ -67,7 +67,7 @@ pub fn wear(run: SlicedRun<'_>) -> Vec<Chart> {
 }
 
 /// Greatest pressure during one mesh, new and worn.
-pub fn pressure(run: SlicedRun<'_>) -> Vec<Chart> {
+pub(super) fn pressure(run: SlicedRun<'_>) -> Vec<Chart> {
     let of = |gear: Gear| {
         let flank = &run.record.flanks[gear];
         let fields = [&flank.pressure_new_MPa, &flank.pressure_worn_MPa];

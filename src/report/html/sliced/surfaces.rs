@@ -21,7 +21,7 @@ struct Shown<'a> {
 }
 
 /// Wear, pressure new and pressure worn.
-pub fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Chart {
+pub(super) fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Chart {
     let flank = &run.record.flanks[gear];
     let top = |field: &[f64]| greatest(field).map_or(0.0, |peak| peak.value);
     let pressure = top(&flank.pressure_new_MPa).max(top(&flank.pressure_worn_MPa));

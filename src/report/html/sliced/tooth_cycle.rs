@@ -24,7 +24,7 @@ fn over_mesh(run: SlicedRun<'_>, chart: Chart, [new, worn]: [Vec<f64>; 2], hover
 }
 
 /// The share of the whole load that the tooth carries.
-pub fn load_share(run: SlicedRun<'_>) -> Chart {
+pub(super) fn load_share(run: SlicedRun<'_>) -> Chart {
     let whole = run.record.summary.contact.line_load_N_per_mm;
     let mean: fn(&[f64]) -> f64 = |slices| slices.iter().sum::<f64>() / slices.len() as f64;
     let shares = [&run.slices.line_load_new_N_per_mm, &run.slices.line_load_worn_N_per_mm]
@@ -51,7 +51,7 @@ fn most_of_the_load(run: SlicedRun<'_>, shares: &[f64]) -> Option<String> {
 }
 
 /// The greatest pressure of all slices.
-pub fn pressure(run: SlicedRun<'_>) -> Chart {
+pub(super) fn pressure(run: SlicedRun<'_>) -> Chart {
     let fields = [&run.slices.peak_pressure_new_MPa, &run.slices.peak_pressure_worn_MPa];
     let most: fn(&[f64]) -> f64 = |slices| slices.iter().copied().fold(0.0, f64::max);
     let [new, worn] = fields.map(|field| at_each_position(run, field, most));

@@ -42,7 +42,7 @@ const COUPLINGS: [(Option<&str>, &str, &str); 3] =
     [(None, "", ""), (Some("slicing"), ", coupled", ""), (Some("none"), ", uncoupled", "-open")];
 
 /// One plot for each quantity.
-pub fn all(record: &AccuracyRecord) -> Vec<Chart> {
+pub(super) fn all(record: &AccuracyRecord) -> Vec<Chart> {
     let measured = |quantity: &Quantity| record.variants.iter().any(|v| v.errors.contains_key(quantity));
     Quantity::ALL.into_iter().filter(measured).map(|quantity| front(record, quantity)).collect()
 }

@@ -13,7 +13,7 @@ mod front_figures;
 mod page;
 mod profile_figures;
 mod run_tables;
-pub mod tables;
+pub(crate) mod tables;
 
 use std::path::{Path, PathBuf};
 
@@ -26,7 +26,7 @@ const LAST: &str = "accuracy.json";
 const RECOMMENDED: &str = "recommended.toml";
 
 /// Writes all files of `record` into `dir`, which is made if need be; returns their paths in the order written.
-pub fn write(record: &AccuracyRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+pub(crate) fn write(record: &AccuracyRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
     remove(dir, LAST)?;
     // What an earlier comparison recommended must not pass for this one's.

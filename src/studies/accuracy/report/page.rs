@@ -20,7 +20,7 @@ const DATA_FILES: [(&str, &str); 7] = [
 ];
 
 /// The whole page.
-pub fn page(record: &AccuracyRecord) -> String {
+pub(super) fn page(record: &AccuracyRecord) -> String {
     let mut charts = front_figures::all(record);
     charts.splice(1..1, profile_figures::all(record));
     let recommendation = html! {

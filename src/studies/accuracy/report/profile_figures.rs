@@ -22,7 +22,7 @@ struct SurfaceStyle {
 }
 
 /// Profiles and differences of both gears.
-pub fn all(record: &AccuracyRecord) -> Vec<Chart> {
+pub(super) fn all(record: &AccuracyRecord) -> Vec<Chart> {
     let shown = shown(record);
     Gear::BOTH
         .into_iter()

@@ -20,7 +20,7 @@ const SHOWN: [(Quantity, &str); 9] = [
 ];
 
 /// The cheapest setting for each quantity.
-pub fn recommendations(record: &AccuracyRecord) -> Markup {
+pub(super) fn recommendations(record: &AccuracyRecord) -> Markup {
     let rows = record.recommendations.iter().filter_map(|r| {
         let variant = record.variants.get(r.variant)?;
         let error = variant.errors.get(&r.quantity)?.relative;
@@ -38,7 +38,7 @@ pub fn recommendations(record: &AccuracyRecord) -> Markup {
 }
 
 /// Every run, the most accurate wear profile first, those without a result last.
-pub fn runs(record: &AccuracyRecord) -> Markup {
+pub(super) fn runs(record: &AccuracyRecord) -> Markup {
     let mut sorted: Vec<&VariantRecord> = record.variants.iter().collect();
     let error = |v: &VariantRecord| v.errors.get(&Quantity::WearProfile).map_or(f64::INFINITY, |e| e.relative);
     sorted.sort_by(|a, b| error(a).total_cmp(&error(b)));
@@ -62,7 +62,7 @@ pub fn runs(record: &AccuracyRecord) -> Markup {
 }
 
 /// Runs that differ in one respect only.
-pub fn comparisons(record: &AccuracyRecord) -> Markup {
+pub(super) fn comparisons(record: &AccuracyRecord) -> Markup {
     html! { @for of in &record.comparisons { (comparison(of)) } }
 }
 
@@ -83,7 +83,7 @@ fn comparison(of: &Comparison) -> Markup {
 }
 
 /// The models run to a greater depth, and whether they stay stable.
-pub fn deep_runs(record: &AccuracyRecord) -> Markup {
+pub(super) fn deep_runs(record: &AccuracyRecord) -> Markup {
     let Some(deep) = &record.deep_runs else { return Markup::default() };
     let columns = [
         "model",
@@ -131,7 +131,7 @@ pub fn deep_runs(record: &AccuracyRecord) -> Markup {
 }
 
 /// What was not run, and why.
-pub fn left_out(record: &AccuracyRecord) -> Markup {
+pub(super) fn left_out(record: &AccuracyRecord) -> Markup {
     html! {
         @if !record.left_out.is_empty() {
             h3 { "Not run" }

@@ -130,7 +130,7 @@ fn text(value: Option<f64>) -> Option<String> {
 }
 
 /// Writes `accuracy.csv`.
-pub fn runs(out: &mut dyn Write, provenance: Provenance, record: &AccuracyRecord) -> io::Result<()> {
+pub(crate) fn runs(out: &mut dyn Write, provenance: Provenance, record: &AccuracyRecord) -> io::Result<()> {
     let mut columns = columns::<RunRow>();
     for (name, meaning) in variants::<Quantity>() {
         let on_front = "whether no faster run has a smaller one".to_owned();
@@ -145,7 +145,7 @@ pub fn runs(out: &mut dyn Write, provenance: Provenance, record: &AccuracyRecord
 }
 
 /// Writes `wear_profiles.csv`.
-pub fn profiles(out: &mut dyn Write, provenance: Provenance, record: &AccuracyRecord) -> io::Result<()> {
+pub(crate) fn profiles(out: &mut dyn Write, provenance: Provenance, record: &AccuracyRecord) -> io::Result<()> {
     let reference = Gear::BOTH.map(|gear| ("reference", gear, &record.reference.flanks[gear].wear_um));
     let runs = record.variants.iter().flat_map(|variant| {
         let wear = variant.wear_um.as_ref();
@@ -169,7 +169,7 @@ pub fn profiles(out: &mut dyn Write, provenance: Provenance, record: &AccuracyRe
 }
 
 /// Writes `over_width.csv`.
-pub fn over_width(out: &mut dyn Write, provenance: Provenance, record: &AccuracyRecord) -> io::Result<()> {
+pub(crate) fn over_width(out: &mut dyn Write, provenance: Provenance, record: &AccuracyRecord) -> io::Result<()> {
     let reference = Gear::BOTH.map(|gear| ("reference", gear, &record.reference.flanks[gear].root_wear_um));
     let runs = record.variants.iter().flat_map(|variant| {
         let root = variant.root_wear_um.as_ref();

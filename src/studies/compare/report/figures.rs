@@ -9,7 +9,7 @@ const MEASURED: &str = "var(--wheel)";
 const SIMULATED: &str = "var(--pinion)";
 
 /// All of them.
-pub fn all(record: &CompareRecord) -> Vec<Chart> {
+pub(super) fn all(record: &CompareRecord) -> Vec<Chart> {
     [profiles(record), depths(record), differences(record)].map(|chart| over_radius(record, chart)).into()
 }
 

@@ -22,7 +22,7 @@ const LAST: &str = "compare.json";
 ///
 /// # Errors
 /// [`ReportError`].
-pub fn write(record: &CompareRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+pub(crate) fn write(record: &CompareRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
     remove(dir, LAST)?;
     let provenance = Provenance::of_scene(&record.program_version, &record.scene_hash);

@@ -16,7 +16,7 @@ const DATA_FILES: [(&str, &str); 2] = [
 ];
 
 /// The whole page.
-pub fn page(record: &CompareRecord) -> String {
+pub(super) fn page(record: &CompareRecord) -> String {
     let sources = sources_list(&DATA_FILES, "The resolved scene of the run", &record.scene_toml);
     Page {
         kind: "Measured profile against a run",

@@ -26,7 +26,7 @@ fn values(values: &[f64]) -> impl Iterator<Item = Cell> + '_ {
 }
 
 /// For each figure the range over all combinations, and where it is least.
-pub fn best(record: &SweepRecord) -> Markup {
+pub(super) fn best(record: &SweepRecord) -> Markup {
     let columns = cells!["figure", "least", "greatest", "unit"].into_iter().chain(keys(record));
     let rows = FIGURES.iter().filter_map(|figure| {
         let (least, greatest) = range(record, figure)?;
@@ -41,12 +41,12 @@ pub fn best(record: &SweepRecord) -> Markup {
 }
 
 /// A claim as a percentage: more than two digits it does not have.
-pub fn within(claim: f64) -> String {
+pub(super) fn within(claim: f64) -> String {
     significant(100.0 * claim, 2) + "\u{202f}%"
 }
 
 /// The claims of each verified combination, the worst of all below them, and the reasons of those without an answer.
-pub fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> Markup {
+pub(super) fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> Markup {
     let claims = CLAIMS.iter().map(|claim| claim.title.into());
     let columns = cells!["combination", "chosen as"].into_iter().chain(keys(record));
     let columns = columns.chain([OBJECTIVE.with_unit().into()]).chain(claims);
@@ -86,7 +86,7 @@ fn without<'a>(
 }
 
 /// The combinations without a result; empty where all have one.
-pub fn failed(record: &SweepRecord) -> Markup {
+pub(super) fn failed(record: &SweepRecord) -> Markup {
     let failed: Vec<&SweepRow> = record.rows.iter().filter(|row| row.error.is_some()).collect();
     if failed.is_empty() {
         return Markup::default();

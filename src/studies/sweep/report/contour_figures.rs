@@ -9,7 +9,12 @@ use crate::studies::sweep::figures::SweepFigure;
 use crate::studies::sweep::record::{SweepRecord, SweepRow};
 
 /// The plot of `figure` over the keys `x` and `y`; further keys stay at the values where the figure is least.
-pub fn contour(record: &SweepRecord, figure: &SweepFigure, x: &ShownAxis<'_>, y: &ShownAxis<'_>) -> Option<Chart> {
+pub(super) fn contour(
+    record: &SweepRecord,
+    figure: &SweepFigure,
+    x: &ShownAxis<'_>,
+    y: &ShownAxis<'_>,
+) -> Option<Chart> {
     let (best, least) = record.least(figure)?;
     let at = |i: usize, j: usize| section_plane::row(record, best, &[(x, i), (y, j)]);
     let z: Vec<Vec<Option<f64>>> = y
@@ -55,12 +60,12 @@ pub fn contour(record: &SweepRecord, figure: &SweepFigure, x: &ShownAxis<'_>, y:
 }
 
 /// The identifier of a figure's chart.
-pub fn id(kind: &str, figure: &SweepFigure) -> String {
+pub(super) fn id(kind: &str, figure: &SweepFigure) -> String {
     format!("{kind}-{}", figure.name.to_lowercase().replace('_', "-"))
 }
 
 /// Where the figure is least, and how far it is from there to its greatest.
-pub fn reading(record: &SweepRecord, figure: &SweepFigure, best: &SweepRow, shown: &[&ShownAxis<'_>]) -> String {
+pub(super) fn reading(record: &SweepRecord, figure: &SweepFigure, best: &SweepRow, shown: &[&ShownAxis<'_>]) -> String {
     let Some((least, greatest)) = range(record, figure) else { return String::new() };
     let value_of = |at: usize| format!("{} = {}", record.identity.axes[at].key, given(best.values[at]));
     let places: Vec<String> = shown.iter().map(|axis| value_of(axis.at)).collect();
@@ -86,7 +91,7 @@ pub fn reading(record: &SweepRecord, figure: &SweepFigure, best: &SweepRow, show
 }
 
 /// With a capital first letter.
-pub fn capitalised(text: &str) -> String {
+pub(super) fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

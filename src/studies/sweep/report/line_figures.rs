@@ -8,7 +8,7 @@ use crate::studies::sweep::figures::SweepFigure;
 use crate::studies::sweep::record::SweepRecord;
 
 /// The plot of `figure` over the key `x`.
-pub fn along(record: &SweepRecord, figure: &SweepFigure, x: &ShownAxis<'_>) -> Option<Chart> {
+pub(super) fn along(record: &SweepRecord, figure: &SweepFigure, x: &ShownAxis<'_>) -> Option<Chart> {
     let (best, least) = record.least(figure)?;
     let points: Vec<(f64, f64)> = x
         .shown

@@ -15,9 +15,9 @@ mod contour_figures;
 mod line_figures;
 mod page;
 #[cfg(feature = "parquet")]
-pub mod parquet_table;
+pub(crate) mod parquet_table;
 mod section_plane;
-pub mod tables;
+pub(crate) mod tables;
 
 use std::path::{Path, PathBuf};
 
@@ -28,14 +28,14 @@ use crate::studies::sweep::record::SweepRecord;
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "sweep.json";
 /// The scene of the sweep.
-pub const SCENE: &str = "scene.toml";
+pub(crate) const SCENE: &str = "scene.toml";
 const PARQUET: &str = "sweep.parquet";
 
 /// Prepares `dir` for a sweep: its scene is written, and what an earlier sweep said of all its rows is taken away.
 ///
 /// # Errors
 /// [`ReportError`] where the folder cannot be made or written.
-pub fn begin(scene_toml: &str, dir: &Path) -> Result<(), ReportError> {
+pub(crate) fn begin(scene_toml: &str, dir: &Path) -> Result<(), ReportError> {
     create_folder(dir)?;
     remove(dir, LAST)?;
     place(dir, SCENE, |out| out.write_all(scene_toml.as_bytes())).map(drop)
@@ -45,7 +45,7 @@ pub fn begin(scene_toml: &str, dir: &Path) -> Result<(), ReportError> {
 ///
 /// # Errors
 /// [`ReportError`] where the folder cannot be made or written.
-pub fn write(record: &SweepRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+pub(crate) fn write(record: &SweepRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     begin(&record.scene_toml, dir)?;
     remove(dir, PARQUET)?;
     let provenance = Provenance::of_scene(&record.identity.program_version, &record.identity.scene_hash);

@@ -25,7 +25,7 @@ const DATA_FILES: &[(&str, &str)] = &[
 const HEADLINES: [&str; 2] = ["pinion_root_tip_wear_variation", "pinion_peak_wear_um"];
 
 /// The whole page.
-pub fn page(record: &SweepRecord) -> String {
+pub(super) fn page(record: &SweepRecord) -> String {
     let charts = figures(record);
     let identity = &record.identity;
     let sources = sources_list(DATA_FILES, "The scene as given", &record.scene_toml);

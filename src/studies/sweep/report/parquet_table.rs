@@ -22,7 +22,7 @@ use crate::studies::sweep::record::SweepRecord;
 ///
 /// # Errors
 /// What the Parquet library refuses.
-pub fn bytes(record: &SweepRecord) -> io::Result<Vec<u8>> {
+pub(crate) fn bytes(record: &SweepRecord) -> io::Result<Vec<u8>> {
     encode(record).map_err(io::Error::other)
 }
 

@@ -7,7 +7,7 @@ use crate::studies::sweep::record::{SweepAxis, SweepRecord, SweepRow};
 const MOST_SHOWN: usize = 200;
 
 /// A varied key of a plot.
-pub struct ShownAxis<'a> {
+pub(super) struct ShownAxis<'a> {
     /// Which of the sweep's axes.
     pub at: usize,
     /// The axis.
@@ -18,13 +18,13 @@ pub struct ShownAxis<'a> {
 
 impl ShownAxis<'_> {
     /// The values shown.
-    pub fn values(&self) -> Vec<f64> {
+    pub(super) fn values(&self) -> Vec<f64> {
         self.shown.iter().map(|&index| self.axis.value(index)).collect()
     }
 }
 
 /// The axes that have more than one value.
-pub fn varied(record: &SweepRecord) -> Vec<ShownAxis<'_>> {
+pub(super) fn varied(record: &SweepRecord) -> Vec<ShownAxis<'_>> {
     let axes = record.identity.axes.iter().enumerate().filter(|(_, axis)| axis.count > 1);
     axes.map(|(at, axis)| ShownAxis { at, axis, shown: thinned(axis.count) }).collect()
 }
@@ -36,7 +36,11 @@ fn thinned(count: usize) -> Vec<usize> {
 }
 
 /// The row of the combination that has these values on the shown axes and those of `others` everywhere else.
-pub fn row<'a>(record: &'a SweepRecord, others: &SweepRow, shown: &[(&ShownAxis<'_>, usize)]) -> Option<&'a SweepRow> {
+pub(super) fn row<'a>(
+    record: &'a SweepRecord,
+    others: &SweepRow,
+    shown: &[(&ShownAxis<'_>, usize)],
+) -> Option<&'a SweepRow> {
     let axes = &record.identity.axes;
     let mut rest = others.index;
     let mut digits: Vec<usize> = axes
@@ -58,7 +62,7 @@ pub fn row<'a>(record: &'a SweepRecord, others: &SweepRow, shown: &[(&ShownAxis<
 }
 
 /// Least and greatest value of a figure; `None` where no row has it.
-pub fn range(record: &SweepRecord, figure: &SweepFigure) -> Option<(f64, f64)> {
+pub(super) fn range(record: &SweepRecord, figure: &SweepFigure) -> Option<(f64, f64)> {
     let values = record.rows.iter().filter_map(|row| row.figure(figure));
     values.fold(None, |range, value| match range {
         None => Some((value, value)),
@@ -67,7 +71,7 @@ pub fn range(record: &SweepRecord, figure: &SweepFigure) -> Option<(f64, f64)> {
 }
 
 /// Whether a figure differs between combinations by more than rounding.
-pub fn differs(record: &SweepRecord, figure: &SweepFigure) -> bool {
+pub(super) fn differs(record: &SweepRecord, figure: &SweepFigure) -> bool {
     range(record, figure).is_some_and(|(low, high)| high - low > 1e-9 * high.abs().max(low.abs()))
 }
 

@@ -12,7 +12,7 @@ use crate::studies::sweep::verification::CLAIMS;
 /// A cell of the table; empty where there is nothing to say.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
-pub enum Cell<'a> {
+pub(crate) enum Cell<'a> {
     /// A whole number.
     Whole(Option<i64>),
     /// A number.
@@ -22,7 +22,7 @@ pub enum Cell<'a> {
 }
 
 /// A column of the table.
-pub struct SweepColumn {
+pub(crate) struct SweepColumn {
     /// Its name, with its unit.
     pub name: String,
     /// What it holds.
@@ -40,13 +40,13 @@ impl SweepColumn {
     }
 
     /// Its cell in `row`.
-    pub fn cell<'a>(&self, row: &'a SweepRow) -> Cell<'a> {
+    pub(crate) fn cell<'a>(&self, row: &'a SweepRow) -> Cell<'a> {
         (self.cell)(row)
     }
 }
 
 /// The columns of a sweep: combination, varied keys, status, figures, times, error, verification.
-pub fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
+pub(crate) fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
     let whole = |count: usize| Cell::Whole(i64::try_from(count).ok());
     let mut columns = vec![SweepColumn::new("index", "number of the combination, from 0", move |row| whole(row.index))];
     for (at, axis) in record.identity.axes.iter().enumerate() {
@@ -97,7 +97,7 @@ pub fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
 }
 
 /// Writes `sweep.csv`.
-pub fn rows(out: &mut dyn Write, provenance: Provenance, record: &SweepRecord) -> io::Result<()> {
+pub(crate) fn rows(out: &mut dyn Write, provenance: Provenance, record: &SweepRecord) -> io::Result<()> {
     let columns = columns(record);
     let names: Vec<Column> = columns.iter().map(|column| (column.name.clone(), column.meaning.clone())).collect();
     let rows = record.rows.iter().map(|row| columns.iter().map(|column| column.cell(row)).collect::<Vec<_>>());

@@ -33,7 +33,7 @@ mod work_precision_file;
 use std::path::{Path, PathBuf};
 
 #[cfg(feature = "program")]
-pub use self::terminal::terminal;
+pub(crate) use self::terminal::terminal;
 use self::work_precision_file::WorkPrecisionFile;
 use crate::report::files::{ReportError, create_folder, place, remove, write_json};
 use crate::studies::validation::record::{Changes, ValidationRecord};
@@ -42,7 +42,11 @@ use crate::studies::validation::record::{Changes, ValidationRecord};
 const LAST: &str = "validation.json";
 
 /// Writes all files of `record` into `dir`, which is made if need be; returns their paths in the order written.
-pub fn write(record: &ValidationRecord, changes: Option<&Changes>, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+pub(crate) fn write(
+    record: &ValidationRecord,
+    changes: Option<&Changes>,
+    dir: &Path,
+) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
     remove(dir, LAST)?;
     Ok(vec![

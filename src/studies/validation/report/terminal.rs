@@ -16,7 +16,7 @@ const WITH_WORK: u16 = 125;
 const NAME: usize = 36;
 
 /// A line a case, the details of whatever is not as expected, and the totals; cells wrap at `width` columns.
-pub fn terminal(record: &ValidationRecord, changes: Option<&Changes>, width: Option<u16>) -> String {
+pub(crate) fn terminal(record: &ValidationRecord, changes: Option<&Changes>, width: Option<u16>) -> String {
     let text =
         [cases(record, width), not_as_expected(record), changes.map_or_else(String::new, changed), totals(record)];
     // Terminals draw the thin spaces of the pages as wide ones or not at all.
