@@ -71,6 +71,9 @@
 //!
 //! `ARCHITECTURE.md` is the map of the code, `docs/theory.md` the derivations that the modules cite.
 
+// What the program alone uses of a room stays in the library without it: it is not compiled into anything.
+#![cfg_attr(not(feature = "program"), allow(dead_code, unused_imports, reason = "the program uses it"))]
+
 // The program, the tests and the examples name the library alike.
 extern crate self as gearwear;
 
@@ -82,6 +85,7 @@ mod data_table;
 mod fem;
 mod gear;
 mod gear_mesh;
+#[cfg(feature = "program")]
 mod measurement;
 pub mod mesh;
 mod mesh_cycle;
@@ -95,12 +99,13 @@ mod resume;
 mod scene;
 mod simulation;
 mod stiffness;
+#[cfg(feature = "program")]
 mod studies;
 mod thermal;
 mod wear;
 mod whole_file;
 
-#[cfg(test)]
+#[cfg(all(test, feature = "program"))]
 #[allow(unreachable_pub, reason = "test modules are of one crate")]
 #[path = "../tests/inside/mod.rs"]
 mod inside;
