@@ -8,6 +8,7 @@ use serde::{Serialize, Serializer};
 use crate::contact::settings::{Foundation, SurfaceKind};
 use crate::mesh_cycle::settings::Coupling;
 use crate::scene::Scene;
+use crate::scene::loaded::LoadedScene;
 use crate::simulation::settings::{AdaptiveMethod, Operation, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::wear::settings::LawSettings;
@@ -103,6 +104,13 @@ pub struct Plan {
     pub stages: Vec<Stage>,
     /// The stages it does not need.
     pub left_out: Vec<Stage>,
+}
+
+impl LoadedScene {
+    /// The stages a run of it has, those left out, and why.
+    pub fn plan(&self) -> Plan {
+        Plan::of(&self.resolved.scene)
+    }
 }
 
 impl Plan {

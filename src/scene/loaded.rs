@@ -13,7 +13,6 @@ use super::{Problem, ProblemKind, Resolved, Scene, presets};
 use crate::calibration::{Calibration, identity::Identity};
 use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use crate::gear::GearPair;
-use crate::plan::Plan;
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::curve_file::{self, CurveFileError};
 use crate::stiffness::settings::StiffnessSettings;
@@ -246,11 +245,6 @@ impl LoadedScene {
     /// What the user should know about it: likely slips of unit, settings that are not used.
     pub fn warnings(&self) -> &[String] {
         &self.resolved.warnings
-    }
-
-    /// The stages a run of it has, those left out, and why.
-    pub fn plan(&self) -> Plan {
-        Plan::of(&self.resolved.scene)
     }
 
     /// The scene as a file, every default filled in.

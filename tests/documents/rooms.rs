@@ -7,15 +7,6 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Imports of a higher room that are still there: file, and what it imports.
-const KNOWN: [(&str, &str); 5] = [
-    ("mesh_cycle/simplified/mod.rs", "simulation::wear_run::Snapshot"),
-    ("mesh_cycle/wearing_pair.rs", "simulation::wear_run::Snapshot"),
-    ("report/tables.rs", "studies::accuracy::record::AccuracyRecord"),
-    ("report/tables.rs", "studies::compare::record::CompareRecord"),
-    ("report/tables.rs", "studies::sweep::record::SweepRecord"),
-];
-
 /// A row of the table.
 struct Room {
     name: String,
@@ -39,7 +30,6 @@ struct Import {
 pub fn faults(architecture: &str, src: &Path) -> Vec<String> {
     let table = table(architecture);
     let mut faults = Vec::new();
-    let mut known_seen = BTreeSet::new();
     let files = source_files(src);
     let names: BTreeSet<&str> = files.iter().filter_map(|file| room_of(file)).collect();
     for name in &names {
@@ -53,17 +43,10 @@ pub fn faults(architecture: &str, src: &Path) -> Vec<String> {
     for file in &files {
         let text = fs::read_to_string(src.join(file)).expect("a source file can be read");
         for import in imports(file, &text, &names) {
-            let known = KNOWN.iter().position(|(file, path)| *file == import.file && *path == import.path);
-            known_seen.extend(known);
-            if known.is_none() && !allowed(&table, &import) {
+            if !allowed(&table, &import) {
                 let Import { file, line, room, path } = import;
                 faults.push(format!("src/{file}:{line}: {room} may not use {path}"));
             }
-        }
-    }
-    for (index, (file, path)) in KNOWN.iter().enumerate() {
-        if !known_seen.contains(&index) {
-            faults.push(format!("tests/documents/rooms.rs: src/{file} no longer uses {path}: take it out of KNOWN"));
         }
     }
     faults

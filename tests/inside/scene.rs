@@ -2,6 +2,7 @@
 
 use gearwear::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use gearwear::gear::Gear;
+use gearwear::scene::loaded::{LoadError, LoadedScene, SceneError};
 use gearwear::scene::{Resolved, Scene, presets, schema};
 use gearwear::simulation::settings::Stepping;
 use gearwear::stiffness::settings::StiffnessSettings;
@@ -245,4 +246,37 @@ proptest! {
             }
         }
     }
+}
+
+/// What a scene names is read when it is opened; what is missing is an error and never another model.
+#[test]
+fn a_loaded_scene_has_its_files() {
+    let with = |lines: &str| {
+        let text = presets::find("fzg-c").unwrap().text.replace("surface = \"half-space\"", "surface = \"winkler\"");
+        LoadedScene::from_toml(&format!("{text}\n{lines}"))
+    };
+    let refused = |scene: Result<LoadedScene, LoadError>, key: &str| match scene {
+        Err(LoadError::Scene(SceneError { problems, .. })) => {
+            assert_eq!(problems.len(), 1, "{problems:?}");
+            assert_eq!(problems[0].key, key);
+        }
+        other => panic!("{key}: {other:?}"),
+    };
+    let winkler = with("").unwrap();
+    refused(winkler.with("contact.calibration", "nowhere.json"), "contact.calibration");
+    refused(with("[stiffness]\nmodel = \"simon\"\ncurve = \"nowhere.csv\"\n"), "stiffness.curve");
+
+    // A variant of a scene without files, as studies make them, cannot ask for one.
+    let asks = |change: &dyn Fn(&mut gearwear::scene::Scene)| {
+        let mut resolved = winkler.resolved.clone();
+        change(&mut resolved.scene);
+        winkler.variant(resolved).map(drop)
+    };
+    let calibrated = |scene: &mut gearwear::scene::Scene| {
+        scene.contact.foundation = Foundation::Calibrated(MatchCriterion::HalfWidth);
+    };
+    assert_eq!(asks(&calibrated).unwrap_err().key, "contact.calibration");
+    let by_curve = |scene: &mut gearwear::scene::Scene| scene.stiffness = StiffnessSettings::WangCheng;
+    assert_eq!(asks(&by_curve).unwrap_err().key, "stiffness.curve");
+    asks(&|_| ()).unwrap();
 }

@@ -118,6 +118,21 @@ fn a_case_that_cannot_run_is_a_failure() {
     }
 }
 
+/// A run whose scene names a file that is not beside the case is refused: no other model stands in for it.
+#[test]
+fn a_run_without_the_file_it_names_is_refused() {
+    for named in [
+        r#""contact.calibration" = "nowhere.json""#,
+        r#""stiffness.model" = "simon", "stiffness.curve" = "nowhere.csv""#,
+    ] {
+        let text = case_text(BASE_PITCH).replace("unset = [", "unset = [\"stiffness.pair_N_per_mm_um\", ");
+        let case = folder(&text.replace("set = { ", &format!("set = {{ {named}, ")));
+        validate(case.path(), &["mine", "--out", "out"]).code(1);
+        let outcome = record(case.path()).to_string();
+        assert!(outcome.contains("refused") && outcome.contains("cannot be read"), "{named}: {outcome}");
+    }
+}
+
 #[test]
 fn wrong_cases_are_refused_with_their_line() {
     for (from, to, said) in [
