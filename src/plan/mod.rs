@@ -11,7 +11,6 @@ use crate::scene::Scene;
 use crate::scene::loaded::LoadedScene;
 use crate::simulation::settings::{AdaptiveMethod, Operation, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
-use crate::wear::settings::LawSettings;
 
 /// Phases that are listed one by one.
 const PHASES_LISTED: usize = 8;
@@ -201,10 +200,10 @@ fn finite_element_model(scene: &Scene) -> Result<String, String> {
 
 fn contact_temperature(scene: &Scene) -> Result<String, String> {
     let law = scene.wear.law.name();
-    match (scene.heat, scene.wear.law) {
+    match (scene.heat, scene.wear.law.reads_temperature()) {
         (None, _) => Err(format!("the wear law {law} asks for no temperature, and neither does the scene")),
-        (Some(_), LawSettings::Archard) => Ok("[temperature] asks for it; by all methods, new and worn".to_owned()),
-        (Some(_), _) => Ok(format!(
+        (Some(_), false) => Ok("[temperature] asks for it; by all methods, new and worn".to_owned()),
+        (Some(_), true) => Ok(format!(
             "the wear law {law} reads it at every point during the simulation; by all methods, new and worn"
         )),
     }

@@ -37,6 +37,14 @@ impl LawSettings {
         }
     }
 
+    /// Whether its coefficient depends on the contact temperature: the scene then needs a speed, and the plan computes temperatures.
+    pub fn reads_temperature(&self) -> bool {
+        match self {
+            LawSettings::Archard => false,
+            LawSettings::Adsorption(_) | LawSettings::Oxidation(_) => true,
+        }
+    }
+
     /// Contact temperatures between which it holds, °C; none where it names no bounds.
     pub fn valid_temperature_c(&self) -> Option<[f64; 2]> {
         match self {

@@ -19,12 +19,12 @@ pub(super) fn choose(
     findings: &mut Findings,
 ) -> Option<Option<HeatSettings>> {
     let (material, law) = (material?, law?);
-    if file.is_none() && law == LawSettings::Archard {
+    if file.is_none() && !law.reads_temperature() {
         return Some(None);
     }
     let asked_for_by = match law {
-        LawSettings::Archard => "[temperature]".to_owned(),
-        other => format!("wear.law = {:?}", other.name()),
+        law if law.reads_temperature() => format!("wear.law = {:?}", law.name()),
+        _ => "[temperature]".to_owned(),
     };
     let phases = operation.phases.iter().flatten();
     let of_phases = operation.phases.is_some() && phases.clone().all(|phase| phase.pinion_speed_rpm.is_some());
