@@ -8,7 +8,7 @@
 //! ```
 //! use gearwear::{LoadedScene, Unwatched};
 //!
-//! let scene = LoadedScene::preset("fzg-c")?.with("operation.hours", 10)?.with("numerics.verify", false)?;
+//! let scene = LoadedScene::preset("fzg-c")?.with("operation.pinion_torque_Nm", 250.0)?.with("numerics.verify", false)?;
 //! let run = gearwear::run(&scene, &Unwatched)?.record;
 //!
 //! let pinion = &run.flanks.pinion;
@@ -33,7 +33,7 @@
 //! ```
 //! # use gearwear::{LoadedScene, Unwatched};
 //! # let scene = LoadedScene::preset("thesis-spur")?.with("numerics.error_estimate", false)?.with("numerics.verify", false)?;
-//! # let scene = scene.with("operation.hours", 1)?;
+//! # let scene = scene.without("operation.snapshots_h")?.with("operation.hours", 1)?;
 //! # let run = gearwear::run(&scene, &Unwatched)?.record;
 //! let share: Vec<f64> = run.mesh_cycle.iter().map(|row| row.load_share_new).collect();
 //! let transmission_error_um: Vec<f64> = run.mesh_cycle.iter().map(|row| row.transmission_error_new_um).collect();

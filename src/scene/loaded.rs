@@ -3,6 +3,7 @@
 //! A scene may name a calibration (`contact.calibration`) and a curve of tooth stiffness (`stiffness.curve`). A [`LoadedScene`] cannot lack
 //! one: it comes into being where they are read, or is a variant of one that has them.
 
+use std::fmt;
 use std::fs;
 use std::io::{self, Read};
 use std::path::Path;
@@ -34,13 +35,20 @@ pub struct SceneText {
 }
 
 /// What is wrong with a scene file, with the text it stands in.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[error("{}", self.in_words())]
 pub struct SceneError {
     /// The file.
     pub given: SceneText,
     /// At least one.
     pub problems: Vec<Problem>,
+}
+
+/// As its display: a program that returns it from `main` shows the problems, not the whole file.
+impl fmt::Debug for SceneError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.in_words())
+    }
 }
 
 impl SceneError {
@@ -167,12 +175,15 @@ impl LoadedScene {
     /// # Errors
     /// What is wrong with the scene then; a calibration that does not belong to it.
     pub fn with(&self, key: &str, value: impl Into<toml::Value>) -> Result<Self, LoadError> {
-        let refused = |problems| SceneError { given: (*self.given).clone(), problems };
-        let mut draft = Draft::parse(&self.given.text).map_err(refused)?;
-        draft.set(key, value);
-        let resolved = draft.resolve().map_err(refused)?;
-        let given = SceneText { name: self.given.name.clone(), text: draft.to_toml() };
-        Ok(Self::with_files(resolved, given, (*self.files).clone())?)
+        self.changed(|draft| draft.set(key, value), (*self.files).clone())
+    }
+
+    /// The same scene without `key`, as if the file left it out.
+    ///
+    /// # Errors
+    /// What is wrong with the scene then.
+    pub fn without(&self, key: &str) -> Result<Self, LoadError> {
+        self.changed(|draft| draft.remove(key), (*self.files).clone())
     }
 
     /// Resolves the scene in `given` and reads the files it names from `folder`.
@@ -223,11 +234,15 @@ impl LoadedScene {
     /// # Errors
     /// A calibration of another pair.
     pub fn with_calibration(&self, calibration: Calibration) -> Result<Self, LoadError> {
+        let files = NamedFiles { calibration: Some(calibration), ..(*self.files).clone() };
+        self.changed(|draft| draft.set(CALIBRATION, "calibration.json"), files)
+    }
+
+    fn changed(&self, change: impl FnOnce(&mut Draft), files: NamedFiles) -> Result<Self, LoadError> {
         let mut draft = Draft::parse(&self.given.text).map_err(|problems| self.given.refused(problems))?;
-        draft.set(CALIBRATION, "calibration.json");
+        change(&mut draft);
         let resolved = draft.resolve().map_err(|problems| self.given.refused(problems))?;
         let given = SceneText { name: self.given.name.clone(), text: draft.to_toml() };
-        let files = NamedFiles { calibration: Some(calibration), ..(*self.files).clone() };
         Ok(Self::with_files(resolved, given, files)?)
     }
 

@@ -281,7 +281,7 @@ fn ordered_keys(node: &Value, orders: &[Vec<String>]) -> Vec<String> {
 /// The names of the public fields of every structure, in order, as the file names them.
 fn field_orders(sources: &str) -> Vec<Vec<String>> {
     let mut orders = Vec::new();
-    for body in sources.split("pub struct ").skip(1) {
+    for body in sources.split("struct ").skip(1) {
         let body = body.split("\n}").next().unwrap_or(body);
         let mut names = Vec::new();
         let mut renamed = None;
