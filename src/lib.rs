@@ -17,7 +17,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`LoadedScene::open`] does the same from a file. Everything found is in a [`RunRecord`](results::run::RunRecord), plain structures
+//! [`LoadedScene::open`] does the same from a file. Everything found is in a [`RunRecord`], plain structures
 //! in the units of the output files:
 //!
 //! | what | where | unit |
@@ -41,7 +41,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! An [`Observer`] is told of stages, progress and warnings, and may stop the run; [`write`] makes the folder that `gearwear run`
+//! An [`Observer`] is told of stages, progress and warnings, and may stop the run; [`write`](fn@write) makes the folder that `gearwear run`
 //! makes. What is wrong with a scene is a [`SceneError`]: all of it at once, each [`Problem`] with its key, what was found and what is
 //! allowed.
 //!

@@ -48,7 +48,7 @@ impl Calibration {
     /// Reads what [`Self::to_json`] wrote.
     ///
     /// # Errors
-    /// [`CalibrationFileError`]
+    /// Text that is no calibration, or of another version; one that was changed by hand.
     pub fn from_json(text: &str) -> Result<Self, CalibrationFileError> {
         let read: Self = serde_json::from_str(text).map_err(|error| CalibrationFileError::Form {
             line: error.line(),

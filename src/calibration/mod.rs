@@ -84,7 +84,7 @@ pub enum CalibrationError {
 pub struct Calibration {
     /// Program that made it.
     pub program_version: String,
-    /// SHA-256 of everything else ([`mod@file`]).
+    /// SHA-256 of everything else (as the file is written, without it).
     pub hash: String,
     /// What it belongs to.
     pub belongs_to: Identity,

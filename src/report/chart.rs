@@ -73,11 +73,11 @@ pub enum Dash {
     /// Not at all.
     Solid,
     /// Dashes.
-    Dash,
+    Dashed,
     /// Dots.
     Dot,
     /// Both in turn.
-    DashDot,
+    Mixed,
 }
 
 /// Colour, width in pixels and dash of a line.
@@ -98,9 +98,9 @@ impl From<Stroke> for Value {
     fn from(Stroke { colour, width_px, dash }: Stroke) -> Self {
         let dash = match dash {
             Dash::Solid => "solid",
-            Dash::Dash => "dash",
+            Dash::Dashed => "dash",
             Dash::Dot => "dot",
-            Dash::DashDot => "dashdot",
+            Dash::Mixed => "dashdot",
         };
         // Through all its points: plotly would leave some out, which puts corners into smooth curves.
         json!({ "color": colour, "width": width_px, "dash": dash, "simplify": false })
@@ -384,7 +384,7 @@ impl Chart {
     /// Draws a quantity new (dashed, grey) and worn (full) against `x`.
     pub(crate) fn new_and_worn(self, x: &[f64], new: Vec<f64>, worn: Vec<f64>, hover: &str) -> Self {
         let x = || x.iter().copied();
-        self.line("new", x(), new, (NEW, 2.0, Dash::Dash), hover).line(
+        self.line("new", x(), new, (NEW, 2.0, Dash::Dashed), hover).line(
             "worn",
             x(),
             worn,

@@ -24,5 +24,5 @@ pub(super) fn beside_hertz(
     let place = |i| -(PI * i as f64 / ELLIPSE_POINTS as f64).cos() * hertz.half_width_mm;
     let places: Vec<f64> = (0..=ELLIPSE_POINTS).map(place).filter(|s| (low..=high).contains(s)).collect();
     let pressures: Vec<f64> = places.iter().map(|&s| hertz.pressure_mpa(s)).collect();
-    chart.line(hertz_name, places, pressures, (MUTED, 2.0, Dash::Dash), HOVER)
+    chart.line(hertz_name, places, pressures, (MUTED, 2.0, Dash::Dashed), HOVER)
 }

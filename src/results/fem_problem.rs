@@ -135,6 +135,7 @@ pub struct ContactRow {
     pub pressure_MPa: f64,
     /// tangential traction: 0, the contact is frictionless
     pub traction_MPa: f64,
+    #[allow(rustdoc::broken_intra_doc_links, reason = "the table of a problem file, as CSV files show it")]
     /// which [[contact]] of the problem, from 0
     pub contact: usize,
     /// place along the surface before deformation, from its first node

@@ -1,6 +1,6 @@
 //! What was found, as plain records in the units of the output files: what reports, tables and tests read.
 //!
-//! The records of the studies (accuracy, sweep, compare, validation) are with them in [`crate::studies`].
+//! The records of the studies (accuracy, sweep, compare, validation) are with them in `studies`.
 
 pub mod chemistry;
 pub mod error;

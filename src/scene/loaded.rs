@@ -147,7 +147,7 @@ impl LoadedScene {
         Self::from_text(given, Path::new(""))
     }
 
-    /// A built-in scene, such as `fzg-c` ([`presets::names`]).
+    /// A built-in scene, such as `fzg-c` ([`PRESETS`](crate::PRESETS)).
     ///
     /// # Errors
     /// A name that is no preset.
@@ -213,10 +213,11 @@ impl LoadedScene {
     pub(crate) fn with_files(resolved: Resolved, given: SceneText, files: NamedFiles) -> Result<Self, SceneError> {
         let foreign = files.foreign_to(&resolved);
         let name = resolved.scene.calibration_file.as_deref().unwrap_or_default();
-        let belongs = if foreign.is_empty() { Ok(()) } else { Err(of_another_pair(&given.text, name, &foreign)) };
+        let belongs =
+            if foreign.is_empty() { Ok(()) } else { Err(Box::new(of_another_pair(&given.text, name, &foreign))) };
         belongs
             .and_then(|()| files.complete(&given.text, &resolved.scene))
-            .map_err(|problem| given.refused(vec![problem]))?;
+            .map_err(|problem| given.refused(vec![*problem]))?;
         Ok(Self { resolved, files: Arc::new(files), given: Arc::new(given) })
     }
 
@@ -224,7 +225,7 @@ impl LoadedScene {
     ///
     /// # Errors
     /// A file that the other scene needs and this one does not have.
-    pub(crate) fn variant(&self, resolved: Resolved) -> Result<Self, Problem> {
+    pub(crate) fn variant(&self, resolved: Resolved) -> Result<Self, Box<Problem>> {
         self.files.complete(&self.given.text, &resolved.scene)?;
         Ok(Self { resolved, files: Arc::clone(&self.files), given: Arc::clone(&self.given) })
     }
@@ -304,7 +305,7 @@ impl NamedFiles {
     }
 
     /// Whether they are all that `scene`, of the file with this text, needs.
-    fn complete(&self, text: &str, scene: &Scene) -> Result<(), Problem> {
+    fn complete(&self, text: &str, scene: &Scene) -> Result<(), Box<Problem>> {
         if let (SurfaceKind::Winkler, Foundation::Calibrated(criterion)) =
             (scene.contact.surface, scene.contact.foundation)
         {
@@ -314,13 +315,15 @@ impl NamedFiles {
                     None => "no file".to_owned(),
                     Some(_) => format!("one without K/H for the {}", lacking.name()),
                 };
-                return Err(Problem::of_named_file(text, CALIBRATION, found, CALIBRATION_ALLOWED, MAKE_CALIBRATION));
+                return Err(
+                    Problem::of_named_file(text, CALIBRATION, found, CALIBRATION_ALLOWED, MAKE_CALIBRATION).into()
+                );
             }
         }
         if let StiffnessSettings::Simon | StiffnessSettings::WangCheng = scene.stiffness
             && self.stiffness_curve.is_none()
         {
-            return Err(Problem::of_named_file(text, CURVE, "no file".to_owned(), CURVE_ALLOWED, CURVE_HELP));
+            return Err(Problem::of_named_file(text, CURVE, "no file".to_owned(), CURVE_ALLOWED, CURVE_HELP).into());
         }
         Ok(())
     }

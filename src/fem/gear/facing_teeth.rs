@@ -150,13 +150,13 @@ impl CondensedPair<'_> {
     fn expected_from_tip_mm(&self, position_mm: f64, pair: i32, own_mm: f64) -> PerGear<f64> {
         let path = &self.pair.path;
         let at_mates_tip =
-            |gear: Gear| self.flanks[gear].from_tip_at_mm(self.rho_at_mates_tip_mm(gear, position_mm, pair));
+            |gear: Gear| self.flanks[gear].distance_to_tip_mm(self.rho_at_mates_tip_mm(gear, position_mm, pair));
         if own_mm < path.start_mm {
             PerGear { pinion: at_mates_tip(Gear::Pinion), wheel: 0.0 }
         } else if own_mm > path.end_mm {
             PerGear { pinion: 0.0, wheel: at_mates_tip(Gear::Wheel) }
         } else {
-            PerGear::from_fn(|gear| self.flanks[gear].from_tip_at_mm(path.rho_mm(gear, own_mm)))
+            PerGear::from_fn(|gear| self.flanks[gear].distance_to_tip_mm(path.rho_mm(gear, own_mm)))
         }
     }
 

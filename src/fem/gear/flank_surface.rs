@@ -44,7 +44,7 @@ impl FlankSurface {
     }
 
     /// Distance from the tip end of the point with radius of curvature `rho_mm`, within the surface, mm.
-    pub(crate) fn from_tip_at_mm(&self, rho_mm: f64) -> f64 {
+    pub(crate) fn distance_to_tip_mm(&self, rho_mm: f64) -> f64 {
         let mut nearest = (f64::INFINITY, 0.0);
         for (&own, &along) in self.rho_mm.iter().zip(&self.from_tip_mm) {
             // NaN on a rounding: never nearer.

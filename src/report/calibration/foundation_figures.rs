@@ -72,7 +72,7 @@ fn against_curvature(calibration: &Calibration, criterion: MatchCriterion) -> Ch
         let own = || away.iter().filter(|contact| is_load(contact, load));
         // Along the path: the depth of the closed form is another towards A than towards E.
         let (x, y) = (own().map(|c| c.relative_radius_mm), own().map(|c| c.hertz_mpa_per_mm(criterion)));
-        let hertz = Trace::line(format!("Hertz, {group}"), x, y, (&*colour, 1.4, Dash::Dash)).group(&group);
+        let hertz = Trace::line(format!("Hertz, {group}"), x, y, (&*colour, 1.4, Dash::Dashed)).group(&group);
         chart = chart.add(hertz.set("showlegend", k == 0).hover("%{y:.4g} MPa/mm, Hertz"));
         for (side, end, symbol) in [(false, "A", "circle"), (true, "E", "diamond-open")] {
             let own = || own().filter(|contact| (contact.position_mm > top_mm.1) == side);

@@ -61,7 +61,7 @@ fn pair(calibration: &Calibration) -> Chart {
             figure(calibration.line_load_n_per_mm)
         ));
     let chart = curve(chart, calibration, "finite elements", (PATH, 2.4, Dash::Solid), fem);
-    let chart = curve(chart, calibration, "Weber and Banaschek", (WORN, 2.0, Dash::Dash), weber_banaschek);
+    let chart = curve(chart, calibration, "Weber and Banaschek", (WORN, 2.0, Dash::Dashed), weber_banaschek);
     curve(chart, calibration, "ISO 6336, c'", (MUTED, 1.6, Dash::Dot), |_| iso)
 }
 
@@ -78,7 +78,7 @@ fn of_each_gear(
         let (fem, closed) = (|at: &PairDeflection| fem(at.tooth(gear)), |at: &PairDeflection| closed(at.tooth(gear)));
         top = top.max(greatest(calibration, fem));
         chart = curve(chart, calibration, format!("{name}, finite elements"), (colour, 2.2, Dash::Solid), fem);
-        chart = curve(chart, calibration, format!("{name}, {closed_name}"), (colour, 1.6, Dash::Dash), closed);
+        chart = curve(chart, calibration, format!("{name}, {closed_name}"), (colour, 1.6, Dash::Dashed), closed);
     }
     chart.y_up_to(top)
 }
@@ -150,9 +150,9 @@ fn coupling(calibration: &Calibration) -> Chart {
 fn course(calibration: &Calibration) -> Chart {
     let styles = [
         (PATH, 2.4, Dash::Solid),
-        (PATH, 1.6, Dash::Dash),
+        (PATH, 1.6, Dash::Dashed),
         (gear_colour(Gear::Pinion), 2.2, Dash::Solid),
-        (gear_colour(Gear::Pinion), 1.6, Dash::Dash),
+        (gear_colour(Gear::Pinion), 1.6, Dash::Dashed),
     ];
     let mut chart = Chart::new("course", "Stiffness over its mean").y("stiffness over its mean");
     let mut top = 0.0_f64;

@@ -14,7 +14,7 @@ pub(super) fn all(calibration: &Calibration) -> Vec<Chart> {
 }
 
 fn of(calibration: &Calibration, gear: Gear) -> Chart {
-    let styles = [(1.4, Dash::Dot), (2.4, Dash::Solid), (1.6, Dash::Dash)];
+    let styles = [(1.4, Dash::Dot), (2.4, Dash::Solid), (1.6, Dash::Dashed)];
     let curves = calibration.wear_reference.iter().zip(styles.into_iter().cycle()).map(|(reference, (width, dash))| {
         let flank = &reference.flanks[gear];
         let (x, y) = (flank.radius_mm.iter().copied(), flank.depth_per_coefficient_n_per_mm.iter().copied());

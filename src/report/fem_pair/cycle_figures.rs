@@ -53,7 +53,7 @@ fn with_gaps(record: &FemPairRecord, pair: i32, value: impl Fn(&FemCycleRow) -> 
 }
 
 fn load_sharing(record: &FemPairRecord) -> Chart {
-    let styles = [(PATH, 2.4, Dash::Solid), (WORN, 1.6, Dash::Dash), (NEW, 1.6, Dash::Dot)];
+    let styles = [(PATH, 2.4, Dash::Solid), (WORN, 1.6, Dash::Dashed), (NEW, 1.6, Dash::Dot)];
     let shares = pairs(record).into_iter().zip(styles.into_iter().cycle()).map(|(pair, style)| {
         let (x, y) = with_gaps(record, pair, |row| row.load_share);
         Trace::line(pair_name(pair), x, y, style).hover("%{y:.3f}")
@@ -89,7 +89,7 @@ fn pressure(record: &FemPairRecord) -> Chart {
         .y("greatest pressure, MPa")
         .y_range([0.0, frame])
         .line("finite elements", x(), finite, (PATH, 2.4, Dash::Solid), HOVER)
-        .line("Hertz, same load", x(), hertz, (MUTED, 2.0, Dash::Dash), HOVER);
+        .line("Hertz, same load", x(), hertz, (MUTED, 2.0, Dash::Dashed), HOVER);
     if !sharp.is_empty() {
         let shown = sharp.iter().map(|row| row.peak_pressure_MPa.min(0.98 * frame));
         let x = sharp.iter().map(|row| row.position_mm);
@@ -141,9 +141,9 @@ fn root_stress(record: &FemPairRecord) -> Chart {
     type Side = fn(&FemCycleRow) -> f64;
     let sides: [(Gear, &str, Side, Dash); 4] = [
         (Gear::Pinion, "tension", |row| row.pinion_root_tension_MPa, Dash::Solid),
-        (Gear::Pinion, "compression", |row| row.pinion_root_compression_MPa, Dash::Dash),
+        (Gear::Pinion, "compression", |row| row.pinion_root_compression_MPa, Dash::Dashed),
         (Gear::Wheel, "tension", |row| row.wheel_root_tension_MPa, Dash::Solid),
-        (Gear::Wheel, "compression", |row| row.wheel_root_compression_MPa, Dash::Dash),
+        (Gear::Wheel, "compression", |row| row.wheel_root_compression_MPa, Dash::Dashed),
     ];
     for (gear, side, value, dash) in sides {
         let (x, y) = (rows.iter().map(|row| row.position_mm), rows.iter().map(|row| value(row)));

@@ -61,7 +61,7 @@ fn add_verified(chart: Chart, gear: Gear, radius_mm: &[f64], own_um: &[f64], ver
     let band = Trace::line("difference", around, edges, (INK, 0.0, Dash::Solid)).filled(gear_colour_at(gear, 0.4));
     let (radius, wear) = (radius_mm.iter().copied(), verified_um.iter().copied());
     let chart = chart.add(band.opacity(0.45).unlisted());
-    chart.line("finite elements", radius, wear, (INK, 1.4, Dash::Dash), "%{y:.3f} µm")
+    chart.line("finite elements", radius, wear, (INK, 1.4, Dash::Dashed), "%{y:.3f} µm")
 }
 
 fn wear_reading(record: &RunRecord, gear: Gear, drawn: usize) -> String {

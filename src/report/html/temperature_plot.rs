@@ -13,7 +13,7 @@ type Column = fn(&MeshCycleRow) -> Option<f64>;
 /// Rises by all methods, with their colour and dash.
 const METHODS: [(TemperatureMethod, Column, &str, Dash); 3] = [
     (TemperatureMethod::HeatEquation, |row| row.temperature_rise_heat_equation_K, WORN, Dash::Solid),
-    (TemperatureMethod::Williams, |row| row.temperature_rise_williams_K, MUTED, Dash::Dash),
+    (TemperatureMethod::Williams, |row| row.temperature_rise_williams_K, MUTED, Dash::Dashed),
     (TemperatureMethod::TianKennedy, |row| row.temperature_rise_tian_kennedy_K, PATH, Dash::Solid),
 ];
 
@@ -50,7 +50,7 @@ fn peclet(record: &RunRecord) -> Chart {
     let mut chart = Chart::new("peclet", "Peclet number, new").y("Peclet number").over_path(path);
     let mut top = 0.0_f64;
     let columns: [(Gear, Column, Dash); 2] =
-        [(Gear::Pinion, |row| row.peclet_pinion, Dash::Solid), (Gear::Wheel, |row| row.peclet_wheel, Dash::Dash)];
+        [(Gear::Pinion, |row| row.peclet_pinion, Dash::Solid), (Gear::Wheel, |row| row.peclet_wheel, Dash::Dashed)];
     for (gear, value, dash) in columns {
         let (x, y) = values(&record.mesh_cycle, value);
         top = y.iter().copied().fold(top, f64::max);

@@ -17,8 +17,8 @@ pub(super) fn root_and_tip(run: SlicedRun<'_>, gear: Gear) -> Chart {
     for (name, values, colour, dash) in [
         ("root, first mesh", &wear.root_wear_first_mesh_um, NEW, Dash::Solid),
         ("root, end of the run", &wear.root_wear_um, colour, Dash::Solid),
-        ("tip, first mesh", &wear.tip_wear_first_mesh_um, NEW, Dash::Dash),
-        ("tip, end of the run", &wear.tip_wear_um, colour, Dash::Dash),
+        ("tip, first mesh", &wear.tip_wear_first_mesh_um, NEW, Dash::Dashed),
+        ("tip, end of the run", &wear.tip_wear_um, colour, Dash::Dashed),
     ] {
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         if mean > 0.0 {

@@ -16,7 +16,7 @@ fn shown(count: usize) -> Vec<usize> {
 }
 
 /// Full, dashed and dotted, in the order of the slices.
-const DASHES: [Dash; 3] = [Dash::Solid, Dash::Dash, Dash::Dot];
+const DASHES: [Dash; 3] = [Dash::Solid, Dash::Dashed, Dash::Dot];
 
 /// The part of the flat `field` that belongs to `slice`.
 fn of_slice<'a>(flank: &FlankRecord, field: &'a [f64], slice: usize) -> &'a [f64] {

@@ -27,8 +27,11 @@ const TICKS: [(f64, &str); 12] = [
     (3.0, "300 %"),
 ];
 
+/// Whether a run is of a kind.
+type IsKind = fn(&VariantSettings) -> bool;
+
 /// The kinds of runs that the plots tell apart: name, colour, symbol, and which runs they are.
-const KINDS: [(&str, &str, &str, fn(&VariantSettings) -> bool); 6] = [
+const KINDS: [(&str, &str, &str, IsKind); 6] = [
     ("hertz-mean", "var(--new)", "circle", |s| s.surface == "hertz-mean"),
     ("hertz", "var(--wheel)", "square", |s| s.surface == "hertz"),
     ("winkler, one K/H", "var(--pinion)", "triangle-down", |s| s.surface == "winkler" && !s.calibrated),
@@ -91,7 +94,7 @@ fn front(record: &AccuracyRecord, quantity: Quantity) -> Chart {
     }
     let ends = extent(runs().map(|run| run.1));
     for (name, level, dash) in
-        [("error wanted", record.within, Dash::Dash), ("the reference’s own uncertainty", uncertainty, Dash::Dot)]
+        [("error wanted", record.within, Dash::Dashed), ("the reference’s own uncertainty", uncertainty, Dash::Dot)]
     {
         if ends[0] < ends[1] && level > 0.0 {
             chart = chart.line(name, ends, [shown(level); 2], (MUTED, 1.4, dash), "%{y:.3~%}");

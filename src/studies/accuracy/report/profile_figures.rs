@@ -58,12 +58,12 @@ fn style(variant: &VariantRecord) -> SurfaceStyle {
         "hertz-mean" => SurfaceStyle { colour: "var(--new)", dash: Dash::Dot, at_once: true },
         "hertz" => SurfaceStyle { colour: "var(--wheel)", dash: Dash::Solid, at_once: true },
         "half-space" if s.tip_contact => SurfaceStyle { colour: "var(--path)", dash: Dash::Solid, at_once: true },
-        "half-space" => SurfaceStyle { colour: "var(--path)", dash: Dash::Dash, at_once: false },
-        "fem" => SurfaceStyle { colour: "var(--worn)", dash: Dash::Dash, at_once: variant.part_of_reference },
+        "half-space" => SurfaceStyle { colour: "var(--path)", dash: Dash::Dashed, at_once: false },
+        "fem" => SurfaceStyle { colour: "var(--worn)", dash: Dash::Dashed, at_once: variant.part_of_reference },
         _ if s.calibrated => {
             SurfaceStyle { colour: "var(--pinion)", dash: Dash::Solid, at_once: !other_criterion && s.tip_contact }
         }
-        _ => SurfaceStyle { colour: "var(--pinion)", dash: Dash::Dash, at_once: !other_criterion && !s.tip_contact },
+        _ => SurfaceStyle { colour: "var(--pinion)", dash: Dash::Dashed, at_once: !other_criterion && !s.tip_contact },
     }
 }
 
@@ -71,7 +71,7 @@ fn style(variant: &VariantRecord) -> SurfaceStyle {
 fn style_of_slices(variant: &VariantRecord) -> SurfaceStyle {
     let s = &variant.settings;
     let coupled = s.coupling.as_deref() == Some("slicing");
-    let dash = if coupled { Dash::Solid } else { Dash::Dash };
+    let dash = if coupled { Dash::Solid } else { Dash::Dashed };
     let (colour, stands_for_others) = match s.surface.as_str() {
         "hertz-mean" => ("var(--new)", true),
         "hertz" => ("var(--wheel)", true),

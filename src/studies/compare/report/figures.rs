@@ -66,7 +66,7 @@ fn profiles(record: &CompareRecord) -> Chart {
     let mut chart = curve(chart, record, "measured", measured, (MEASURED, 1.4, Dash::Solid));
     if is_fitted(record) {
         let as_run = column(record, |row| row.as_run_um);
-        chart = curve(chart, record, "simulated, as run", as_run, (NEW, 1.8, Dash::Dash));
+        chart = curve(chart, record, "simulated, as run", as_run, (NEW, 1.8, Dash::Dashed));
     }
     let simulated = column(record, |row| row.simulated_um);
     curve(chart, record, simulated_name(record), simulated, (SIMULATED, 2.4, Dash::Solid))
@@ -124,7 +124,7 @@ fn differences(record: &CompareRecord) -> Chart {
     if let Some(uncertainty) = f.uncertainty_um {
         for (name, value) in [("uncertainty of a height", uncertainty), ("", -uncertainty)] {
             let radius = record.rows.iter().map(|row| row.radius_mm);
-            let level = Trace::line(name, radius, record.rows.iter().map(|_| value), (MUTED, 1.0, Dash::Dash));
+            let level = Trace::line(name, radius, record.rows.iter().map(|_| value), (MUTED, 1.0, Dash::Dashed));
             chart = chart.add(level.set("showlegend", !name.is_empty()).hover("%{y:.3f} µm"));
         }
     }

@@ -54,7 +54,7 @@ pub(super) fn verified(record: &SweepRecord, verification: &SweepVerification<'_
     let rows = verification.rows.iter().map(|row| {
         let claims = CLAIMS.iter().map(|claim| share((claim.of)(&row.verification.total)));
         let name = cells![row.index.to_string(), row.verification.chosen.name()].into_iter();
-        line(name.chain(values(&row.values)).chain([row.peak_wear_um.into()]).chain(claims))
+        line(name.chain(values(row.values)).chain([row.peak_wear_um.into()]).chain(claims))
     });
     let worst = CLAIMS
         .iter()
@@ -63,7 +63,7 @@ pub(super) fn verified(record: &SweepRecord, verification: &SweepVerification<'_
     let last = line(["worst".into()].into_iter().chain(blank).chain(worst));
     let caption = "Relative difference of each to the same life on finite elements, their own uncertainty added";
     let unanswered = verification.rows.iter().filter(|row| !row.verification.has_answer());
-    let reasons = unanswered.map(|row| (row.index, &*row.values, &*row.verification.total.how));
+    let reasons = unanswered.map(|row| (row.index, row.values, &*row.verification.total.how));
     html! {
         div.phases { (list(caption, columns, rows.chain([last]))) }
         @if verification.unanswered > 0 {

@@ -67,7 +67,7 @@ fn trace(number: usize, of: &PlotCurve) -> Trace {
     match of.style {
         CurveStyle::Line if of.x.len() <= FEW_POINTS => line(2.0, Dash::Solid).with_points(symbol, 6).hover(hover),
         CurveStyle::Line => line(2.0, Dash::Solid).hover(hover),
-        CurveStyle::Dashed => line(1.8, Dash::Dash).hover(hover),
+        CurveStyle::Dashed => line(1.8, Dash::Dashed).hover(hover),
         CurveStyle::Points => {
             let points = Trace::points(&*of.name, xy().0, xy().1, (colour, symbol, 8)).hover(hover);
             if of.uncertainty.is_empty() {

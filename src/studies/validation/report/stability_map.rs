@@ -30,7 +30,7 @@ fn sign(outcome: RunOutcome) -> &'static str {
 
 /// The map over all cases; empty where none has such points.
 pub(super) fn all(record: &ValidationRecord) -> Markup {
-    map(record.cases.iter(), |case, parameter| link(case, parameter))
+    map(record.cases.iter(), link)
 }
 
 /// The rows of one case.
