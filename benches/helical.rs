@@ -4,23 +4,15 @@
 
 use std::time::{Duration, Instant};
 
+use common::run;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use gearwear::{LoadedScene, RunRecord, Unwatched};
+use gearwear::{LoadedScene, RunRecord};
 
-/// The preset `helical` without snapshots, error estimates and verification, some keys replaced.
+mod common;
+
+/// The preset `helical`, some keys replaced.
 fn scene(edits: &[(&str, &str)]) -> LoadedScene {
-    let scene = LoadedScene::preset("helical")
-        .and_then(|scene| scene.without("operation.snapshots_revolutions"))
-        .expect("helical is a preset");
-    let off = [("numerics.error_estimate", "false"), ("numerics.verify", "false")];
-    off.iter().chain(edits).fold(scene, |scene, (key, value)| {
-        let value: toml::Table = format!("value = {value}").parse().expect("a value");
-        scene.with(key, value["value"].clone()).expect("the scene is sound")
-    })
-}
-
-fn run(scene: &LoadedScene) -> RunRecord {
-    gearwear::run(scene, &Unwatched).expect("the preset runs").record
+    common::scene("helical", "operation.snapshots_revolutions", edits)
 }
 
 /// Wall time of the wear run alone, in `times` runs.

@@ -1,23 +1,15 @@
 //! How long a wear run takes: the thesis-spur scene (750 points a flank, 400 positions, 150 wear steps) on each surface, and
 //! how the time grows with positions and wear steps. One thread; quote ratios, machines are noisy.
 
+use common::run;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use gearwear::{LoadedScene, RunRecord, Unwatched};
+use gearwear::LoadedScene;
 
-/// The thesis-spur scene without snapshots, error estimates and verification, some keys replaced.
+mod common;
+
+/// The preset `thesis-spur`, some keys replaced.
 fn scene(edits: &[(&str, &str)]) -> LoadedScene {
-    let scene = LoadedScene::preset("thesis-spur")
-        .and_then(|scene| scene.without("operation.snapshots_h"))
-        .expect("thesis-spur is a preset");
-    let off = [("numerics.error_estimate", "false"), ("numerics.verify", "false")];
-    off.iter().chain(edits).fold(scene, |scene, (key, value)| {
-        let value: toml::Table = format!("value = {value}").parse().expect("a value");
-        scene.with(key, value["value"].clone()).expect("the scene is sound")
-    })
-}
-
-fn run(scene: &LoadedScene) -> RunRecord {
-    gearwear::run(scene, &Unwatched).expect("the preset runs").record
+    common::scene("thesis-spur", "operation.snapshots_h", edits)
 }
 
 fn wear_run(criterion: &mut Criterion) {

@@ -9,4 +9,5 @@ pub mod linear_means;
 pub mod monotone_cubic;
 pub mod moving_heat_band;
 pub mod persson;
+pub mod separate_peaks;
 pub mod worn_cylinder;

@@ -21,7 +21,6 @@ mod half_space;
 mod helical;
 mod helical_convergence;
 mod helical_targets;
-mod measurements;
 mod mesh_files;
 mod mesh_files_fuzz;
 mod peak_figures;

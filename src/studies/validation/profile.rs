@@ -12,6 +12,7 @@ use super::column::{ColumnError, same_length};
 use super::value::Value;
 use crate::measurement::form::{Form, FormRemoval};
 use crate::measurement::roughness;
+use crate::reference::separate_peaks::separate_peaks;
 
 /// The value of a function of profiles; none where there is no such function of these.
 ///
@@ -47,19 +48,6 @@ fn form_removed(x: &[f64], y: &[f64]) -> Result<Vec<f64>, ColumnError> {
     let mut left = y.to_vec();
     FormRemoval::new(Form::Cubic, x).remove(&mut left);
     Ok(left)
-}
-
-/// The points of a profile that are separate peaks, 0 elsewhere: those from which it falls by `share` of their height on both
-/// sides before it rises above them.
-pub(crate) fn separate_peaks(points: &[f64], share: f64) -> Vec<f64> {
-    let falls = |side: &mut dyn Iterator<Item = &f64>, height: f64| {
-        side.take_while(|&&depth| depth <= height).any(|&depth| depth < (1.0 - share) * height)
-    };
-    let separate = |place: usize| {
-        let height = points[place];
-        falls(&mut points[..place].iter().rev(), height) && falls(&mut points[place + 1..].iter(), height)
-    };
-    (0..points.len()).map(|place| if separate(place) { points[place] } else { 0.0 }).collect()
 }
 
 #[cfg(test)]

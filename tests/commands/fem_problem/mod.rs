@@ -1,64 +1,22 @@
 //! `gearwear fem` of a problem of one's own: what it writes, what it finds, what it refuses.
 
+#[path = "../../program/cylinder_on_block.rs"]
+pub(crate) mod cylinder_on_block;
 mod refusals;
 
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use gearwear::mesh::{CellBlock, CellKind, Format, Mesh, read, to_bytes};
+use gearwear::mesh::{Format, Mesh, read, to_bytes};
+
+use cylinder_on_block::TEXT;
 
 use crate::program::gearwear;
-
-/// The half model of the NAFEMS cylinder on a block; the groups are those of its mesh.
-const TEXT: &str = r#"title = "cylinder on a block"
-
-[mesh]
-file = "mesh.json"
-
-[[body]]
-group = "cylinder"
-young_modulus_GPa = 210.0
-poisson_ratio = 0.3
-
-[[body]]
-group = "block"
-young_modulus_GPa = 70.0
-poisson_ratio = 0.3
-
-[[fixed]]
-group = "symmetry"
-components = ["x"]
-
-[[fixed]]
-group = "base"
-components = ["y"]
-
-[[load]]
-group = "top"
-force_N_per_mm = [0.0, -17500.0]
-
-[[contact]]
-slave = "cylinder-surface"
-master = "block-top"
-friction = 0.0
-"#;
 
 /// Its mesh of elements of the second order with eight nodes.
 fn mesh() -> Mesh {
     read(Path::new(env!("CARGO_MANIFEST_DIR")).join("meshes/cylinder-on-block-quad8.msh")).unwrap()
-}
-
-/// Adds a block of cells, all of which are the set `name`.
-pub(crate) fn add_block(mesh: &mut Mesh, kind: CellKind, nodes: Vec<usize>, name: &str) {
-    let count = nodes.len() / kind.node_count();
-    mesh.cells.push(CellBlock { kind, nodes });
-    for set in mesh.cell_sets.values_mut() {
-        set.push(Vec::new());
-    }
-    let mut set = vec![Vec::new(); mesh.cells.len()];
-    set[mesh.cells.len() - 1] = (0..count).collect();
-    mesh.cell_sets.insert(name.to_owned(), set);
 }
 
 /// A problem file with its mesh in a folder of its own.

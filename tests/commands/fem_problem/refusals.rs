@@ -2,7 +2,8 @@
 
 use gearwear::mesh::{CellKind, Mesh};
 
-use super::{Case, TEXT, add_block, mesh};
+use super::cylinder_on_block::{TEXT, add_block};
+use super::{Case, mesh};
 
 fn case() -> Case {
     Case::new(TEXT, &mesh())

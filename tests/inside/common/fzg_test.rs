@@ -13,18 +13,16 @@
 //! | D3 | root, tip and start of single-tooth mesh moderate to severe; pitch point and its end mild to moderate | the least of the three above the greatest of the two, k = 1e-17 |
 #![allow(dead_code, reason = "a test and an example each use their own part")]
 
-use gearwear::observer::Unwatched;
-use gearwear::pipeline::{self, Done};
+use gearwear::reference::separate_peaks::separate_peaks;
 use gearwear::results::run::FlankRecord;
-use gearwear::scene::loaded::LoadedScene;
-use gearwear::studies::validation::profile::separate_peaks;
+use gearwear::{Done, LoadedScene, Unwatched};
 
 /// The stops of the test, h.
-pub const STOPS_H: [f64; 9] = [0.25, 0.75, 1.75, 3.75, 7.75, 15.75, 31.75, 63.75, 127.75];
+pub(crate) const STOPS_H: [f64; 9] = [0.25, 0.75, 1.75, 3.75, 7.75, 15.75, 31.75, 63.75, 127.75];
 /// Stops up to which the wear-in counts.
 const WEAR_IN: usize = 3;
 /// Wear coefficients over 1e-17 m²/N.
-pub const COEFFICIENTS: [f64; 2] = [1.0, 2.0];
+pub(crate) const COEFFICIENTS: [f64; 2] = [1.0, 2.0];
 /// What is called the root, the tip and the neighbourhood of a point of the flank, mm of radius.
 const END_ZONE_MM: f64 = 0.5;
 const ROOT_ZONE_MM: f64 = 2.0;
@@ -36,7 +34,7 @@ const SEPARATE: f64 = 0.1;
 
 /// An estimate of the test's load and contact.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Estimate {
+pub(crate) struct Estimate {
     /// Torque on the pinion, N·m.
     pub torque_nm: f64,
     /// Lines of `[contact]`.
@@ -50,14 +48,14 @@ pub struct Estimate {
 }
 
 /// Wear of the pinion over product of coefficient and revolutions.
-pub struct ReadRun {
+pub(crate) struct ReadRun {
     flank: FlankRecord,
     products: Vec<f64>,
 }
 
 /// What the targets come to at one speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Verdict {
+pub(crate) struct Verdict {
     /// Root wear at the end, µm, for each coefficient.
     pub root_um: [f64; 2],
     /// Mean rate of the wear-in over that of the last 64 h, for each coefficient.
@@ -69,15 +67,15 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    pub fn d1(&self) -> bool {
+    pub(crate) fn d1(&self) -> bool {
         (15.0..=30.0).contains(&self.root_um[1]) && self.fast_start.iter().all(|&ratio| ratio >= 5.0)
     }
 
-    pub fn d2(&self) -> bool {
+    pub(crate) fn d2(&self) -> bool {
         self.peak.iter().flatten().any(|(_, height)| (10.0..=35.0).contains(height))
     }
 
-    pub fn d3(&self) -> bool {
+    pub(crate) fn d3(&self) -> bool {
         let [root, tip, start, pitch, end] = self.places_um;
         root.min(tip).min(start) > pitch.max(end)
     }
@@ -111,10 +109,10 @@ impl Estimate {
     }
 
     /// Runs it.
-    pub fn run(&self) -> ReadRun {
+    pub(crate) fn run(&self) -> ReadRun {
         let (text, products) = self.scene();
         let scene = LoadedScene::from_toml(&text).expect("the scene of the test is sound");
-        let Done { record, failure } = pipeline::run(&scene, &Unwatched).expect("the run of the test has results");
+        let Done { record, failure } = gearwear::run(&scene, &Unwatched).expect("the run of the test has results");
         assert_eq!(failure, None);
         ReadRun { flank: record.flanks.pinion, products }
     }
@@ -135,7 +133,7 @@ impl ReadRun {
     }
 
     /// Greatest root wear at each stop, µm.
-    pub fn root_um(&self, speed_rpm: f64, coefficient: f64) -> [f64; STOPS_H.len()] {
+    pub(crate) fn root_um(&self, speed_rpm: f64, coefficient: f64) -> [f64; STOPS_H.len()] {
         let start = self.flank.path_point_radius_mm.A;
         STOPS_H.map(|hours| {
             self.greatest_um(self.profile_um(speed_rpm, coefficient, hours), [start, start + ROOT_ZONE_MM])
@@ -157,7 +155,7 @@ impl ReadRun {
     }
 
     /// What the targets come to at a speed.
-    pub fn verdict(&self, speed_rpm: f64) -> Verdict {
+    pub(crate) fn verdict(&self, speed_rpm: f64) -> Verdict {
         let end = STOPS_H[STOPS_H.len() - 1];
         let rate = |root: &[f64; STOPS_H.len()], from: Option<usize>, to: usize| {
             let (depth, hours) = from.map_or((0.0, 0.0), |from| (root[from], STOPS_H[from]));

@@ -2,41 +2,9 @@
 
 use gearwear::fem::problem::{Edge, Problem};
 use gearwear::fem::solid::{Element, ElementKind};
-use gearwear::mesh::{CellBlock, CellKind, Mesh};
+use gearwear::mesh::{CellKind, Mesh};
 
-/// The half model of the NAFEMS cylinder on a block.
-pub const TEXT: &str = r#"title = "cylinder on a block"
-
-[mesh]
-file = "mesh.json"
-
-[[body]]
-group = "cylinder"
-young_modulus_GPa = 210.0
-poisson_ratio = 0.3
-
-[[body]]
-group = "block"
-young_modulus_GPa = 70.0
-poisson_ratio = 0.3
-
-[[fixed]]
-group = "symmetry"
-components = ["x"]
-
-[[fixed]]
-group = "base"
-components = ["y"]
-
-[[load]]
-group = "top"
-force_N_per_mm = [0.0, -17500.0]
-
-[[contact]]
-slave = "round"
-master = "flat"
-friction = 0.0
-"#;
+use super::cylinder_on_block::add_block;
 
 fn corners(element: &Element) -> usize {
     if matches!(element.kind, ElementKind::Triangle3 | ElementKind::Triangle6) { 3 } else { 4 }
@@ -48,7 +16,7 @@ fn sides(element: &Element) -> impl Iterator<Item = Edge> + '_ {
     (0..n).map(move |i| Edge { ends: [nodes[i], nodes[(i + 1) % n]], middle: nodes.get(n + i).copied() })
 }
 
-/// The mesh of a problem with two bodies, its surfaces, supports and load named as [`TEXT`] names them.
+/// The mesh of a problem with two bodies, its surfaces, supports and load named as the problem file names them.
 pub fn mesh_of(problem: &Problem) -> Mesh {
     let mut mesh =
         Mesh { points: problem.solid.points_mm.iter().map(|p| [p.x, p.y, 0.0]).collect(), ..Mesh::default() };
@@ -63,7 +31,9 @@ pub fn mesh_of(problem: &Problem) -> Mesh {
     };
     let top: Vec<Edge> =
         problem.solid.elements.iter().flat_map(sides).filter(|side| side.nodes().all(&loaded)).collect();
-    for (edges, name) in [(&problem.contacts[0].slave, "round"), (&problem.contacts[0].master, "flat"), (&top, "top")] {
+    for (edges, name) in
+        [(&problem.contacts[0].slave, "cylinder-surface"), (&problem.contacts[0].master, "block-top"), (&top, "top")]
+    {
         // Every second line the other way round: a mesh does not say on which side its body lies.
         let nodes = edges.iter().enumerate().flat_map(|(i, edge)| {
             let [a, b] = edge.ends;
@@ -81,16 +51,4 @@ pub fn mesh_of(problem: &Problem) -> Mesh {
         mesh.point_sets.insert(name.to_owned(), nodes);
     }
     mesh
-}
-
-/// Adds a block of cells, all of which are the set `name`.
-fn add_block(mesh: &mut Mesh, kind: CellKind, nodes: Vec<usize>, name: &str) {
-    let count = nodes.len() / kind.node_count();
-    mesh.cells.push(CellBlock { kind, nodes });
-    for set in mesh.cell_sets.values_mut() {
-        set.push(Vec::new());
-    }
-    let mut set = vec![Vec::new(); mesh.cells.len()];
-    set[mesh.cells.len() - 1] = (0..count).collect();
-    mesh.cell_sets.insert(name.to_owned(), set);
 }

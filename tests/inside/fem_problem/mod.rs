@@ -1,8 +1,11 @@
 //! Problems of one's own: the file, its checks on the mesh, and the problem they pose.
 
 mod case;
+#[path = "../../program/cylinder_on_block.rs"]
+mod cylinder_on_block;
 
-use case::{TEXT, mesh_of};
+use case::mesh_of;
+use cylinder_on_block::TEXT;
 use gearwear::fem::problem::{Edge, Problem};
 use gearwear::fem::solid::ElementKind;
 use gearwear::mesh::Mesh;
@@ -91,7 +94,7 @@ fn nodes_of_no_body_are_left_out() {
 fn a_set_of_nodes_stands_for_the_edges_it_holds() {
     let built = coarse(ElementKind::Quad8);
     let mut mesh = mesh_of(&built);
-    for (edges, name) in [(&built.contacts[0].slave, "round"), (&built.contacts[0].master, "flat")] {
+    for (edges, name) in [(&built.contacts[0].slave, "cylinder-surface"), (&built.contacts[0].master, "block-top")] {
         mesh.cell_sets.remove(name);
         let mut nodes: Vec<usize> = edges.iter().flat_map(|edge| edge.nodes()).map(|node| node as usize).collect();
         nodes.sort_unstable();

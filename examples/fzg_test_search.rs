@@ -1,18 +1,18 @@
 //! Searches what the thesis's text leaves open of its FZG wear test (torque, speed, stiffness of the contact) for settings that meet
 //! D1, D2 and D3 together: the tables of docs/fzg-test.md. Takes minutes.
 
-use super::super::common::fzg_test::{Estimate, Verdict};
+#[path = "../tests/inside/common/fzg_test.rs"]
+mod fzg_test;
+
+use fzg_test::{Estimate, Verdict};
 use rayon::prelude::*;
 
-/// Width of the transition to severe wear.
-const BAND_MPA: f64 = 100.0;
 const SPEEDS_RPM: [f64; 5] = [100.0, 150.0, 200.0, 250.0, 300.0];
 const TORQUES_NM: [f64; 16] =
     [300.0, 310.0, 320.0, 330.0, 340.0, 350.0, 360.0, 372.6, 382.0, 390.0, 400.0, 410.0, 420.0, 430.0, 440.0, 450.0];
 
-#[test]
-#[ignore = "prints the tables of docs/fzg-test.md"]
-fn fzg_test_search_tables() {
+fn main() {
+    let band_mpa = std::env::args().nth(1).map_or(100.0, |band| band.parse().expect("a width of the transition, MPa"));
     let contacts = [
         "surface = \"winkler\"\nmatch = \"half-width\"",
         "surface = \"winkler\"\nmatch = \"peak-pressure\"",
@@ -28,7 +28,7 @@ fn fzg_test_search_tables() {
                 torque_nm,
                 contact: contact.to_owned(),
                 numerics: "step = \"adaptive\"\ntolerance_um = 0.05".to_owned(),
-                band_mpa: BAND_MPA,
+                band_mpa,
                 speeds_rpm: SPEEDS_RPM.to_vec(),
             });
         }
