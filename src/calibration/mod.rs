@@ -37,7 +37,7 @@ use self::tooth_stiffness::{LoadedPair, PairDeflection};
 use self::wear_reference::WearReference;
 use crate::contact::{foundation::FoundationCurve, settings::MatchCriterion, settings::Material};
 use crate::fem::active_set::ActiveSetError;
-use crate::fem::gear::{model::ModelError, position::CondensedPair};
+use crate::fem::gear::{condensed_pair::CondensedPair, model::ModelError};
 use crate::gear::{Gear, PerGear};
 use crate::stiffness::curve::PairCompliance;
 

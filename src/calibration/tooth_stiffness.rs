@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 use super::CalibrationError;
 use super::loaded_tooth::LoadedTooth;
 use crate::contact::{hertz, settings::Material};
-use crate::fem::gear::position::CondensedPair;
+use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::fem::gear::ring::ToothForce;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::reference::flattening::Flattening;

@@ -25,12 +25,11 @@
 use rayon::prelude::*;
 
 use super::elastic_cells::ElasticCells;
-use super::foundation::{FoundationCurve, FoundationStiffness, matched_mpa_per_mm};
+use super::foundation::{FoundationCurve, FoundationStiffness, matched_mpa_per_mm, mean_positive};
 use super::hertz;
 use super::pressure_field::PressureField;
 use super::settings::{MatchCriterion, Material};
 use super::strip::common_extent_mm;
-use super::winkler::mean_positive;
 use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, removed_material::tip_rounding_mm};
 use crate::reference::half_plane::cell_compliance_mm_per_mpa;
 

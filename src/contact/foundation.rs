@@ -20,7 +20,6 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use super::edge_foundation::{EdgeFoundations, EdgeStiffness};
 use super::settings::MatchCriterion;
 use crate::reference::flattening::Flattening;
 
@@ -34,53 +33,6 @@ pub(crate) fn matched_mpa_per_mm(criterion: MatchCriterion, hertz: &Flattening, 
         MatchCriterion::Approach => (2.0 * radius * hertz.approach_mm(w)).sqrt(),
     };
     1.5 * w * radius / a_bed.powi(3)
-}
-
-/// The springs of a foundation: one K/H everywhere, or a curve of it.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum WinklerFoundation {
-    /// The same K/H at every position and load.
-    Uniform {
-        /// K/H, MPa/mm.
-        mpa_per_mm: f64,
-    },
-    /// K/H by position and load.
-    Curve {
-        /// What the pressure spreads by.
-        pressure: FoundationCurve,
-        /// The foundation with the approach of the elastic bodies.
-        approach: FoundationCurve,
-        /// Where tip edges touch, if they are followed into contact.
-        edges: Option<EdgeFoundations>,
-    },
-}
-
-impl WinklerFoundation {
-    /// The springs at one position that have the approach of the elastic bodies, where the foundation knows them.
-    pub(crate) fn approach_at(&self, position_mm: f64) -> Option<FoundationStiffness> {
-        match self {
-            Self::Uniform { .. } => None,
-            Self::Curve { approach, .. } => Some(approach.springs_at(position_mm)),
-        }
-    }
-
-    /// The springs at one position where a tip edge touches, if the foundation knows them.
-    pub(crate) fn at_edge(&self, position_mm: f64) -> Option<EdgeStiffness> {
-        match self {
-            Self::Curve { edges: Some(edges), .. } => edges.at(position_mm),
-            _ => None,
-        }
-    }
-
-    /// The springs at one position.
-    pub(crate) fn at(&self, position_mm: f64) -> FoundationStiffness {
-        match self {
-            Self::Uniform { mpa_per_mm } => {
-                FoundationStiffness { mpa_per_mm: *mpa_per_mm, load_exponent: 0.0, reference: 1.0 }
-            }
-            Self::Curve { pressure, .. } => pressure.springs_at(position_mm),
-        }
-    }
 }
 
 /// The springs at one position: K/H = K (w/w_ref)^(−m), all alike, softer under more load where m > 0.
@@ -189,6 +141,19 @@ impl FoundationCurve {
     }
 }
 
+/// Mean of the positive part of the straight course from u₀ to u₁, and the fraction of the way on which it is positive.
+pub(super) fn mean_positive([u0, u1]: [f64; 2]) -> (f64, f64) {
+    if u0 >= 0.0 && u1 >= 0.0 {
+        (0.5 * (u0 + u1), 1.0)
+    } else if u0 > 0.0 || u1 > 0.0 {
+        let deepest = u0.max(u1);
+        let fraction = deepest / (u0 - u1).abs();
+        (0.5 * deepest * fraction, fraction)
+    } else {
+        (0.0, 0.0)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -245,7 +210,7 @@ mod tests {
     #[test]
     fn ver_the_load_of_softening_springs_needs_no_iteration() {
         for position in [4.0, 9.0, 20.0, 24.0] {
-            let stiffness = WinklerFoundation::Curve { pressure: curve(), approach: curve(), edges: None }.at(position);
+            let stiffness = curve().springs_at(position);
             // A parabola of radius R penetrated by δ: U = (4/3) δ √(2Rδ), U' = 2 √(2Rδ).
             let of_depth = |depth: f64| {
                 let half_width = (2.0 * 8.4 * depth).sqrt();

@@ -24,6 +24,7 @@
 use super::{
     ContactSurface, Effort, Flanks, Footprint, PairContact, PointContact, PositionCell, Response, Sweep,
     elastic_cells::ElasticCells,
+    growing_window::{GrowingWindow, Sampled},
     hertz,
     settings::Material,
     strip::{Strip, Window, point_distance_mm},
@@ -62,18 +63,10 @@ impl ContactSurface for HalfSpace {
     fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
         let flattening = hertz::flattening(flanks.geometry, &self.material, position_mm);
         let half_width = flattening.contact.loaded(self.expected_line_load_n_per_mm).half_width_mm;
-        let stretch = ObservedStretch {
-            flanks,
-            position_mm,
-            cell,
-            flattening,
-            cell_mm: self.cell_width_mm(flanks, position_mm),
-            half_window_mm: FIRST_WINDOW * half_width,
-        };
+        let stretch =
+            ObservedStretch { flanks, position_mm, cell, flattening, cell_mm: self.cell_width_mm(flanks, position_mm) };
         Box::new(HalfSpacePair {
-            sampled: stretch.sample(),
-            first_half_window_mm: stretch.half_window_mm,
-            stretch,
+            window: GrowingWindow::new(stretch, FIRST_WINDOW * half_width),
             samples: Vec::new(),
             gap: Vec::new(),
             touch: 0.0,
@@ -99,14 +92,13 @@ impl HalfSpace {
     }
 }
 
-/// Where a pair is, and how much of its flanks it looks at.
+/// Where a pair is.
 struct ObservedStretch<'a> {
     flanks: Flanks<'a>,
     position_mm: f64,
     cell: Option<PositionCell>,
     flattening: Flattening,
     cell_mm: f64,
-    half_window_mm: f64,
 }
 
 /// What is seen through a window.
@@ -116,9 +108,11 @@ struct SampledStretch {
     swept: SweptField,
 }
 
-impl ObservedStretch<'_> {
-    fn sample(&self) -> SampledStretch {
-        let window = Window::new(self.flanks, self.position_mm, self.half_window_mm);
+impl Sampled for ObservedStretch<'_> {
+    type Samples = SampledStretch;
+
+    fn sample(&self, half_length_mm: f64) -> SampledStretch {
+        let window = Window::new(self.flanks, self.position_mm, half_length_mm);
         let widest = self.cell_mm.max(window.length_mm() / MOST_CELLS);
         let count = ((window.length_mm() / widest).ceil() as usize).max(LEAST_CELLS);
         let strip = Strip::new(self.flanks, self.position_mm, window, 2 * count, self.cell);
@@ -131,10 +125,7 @@ impl ObservedStretch<'_> {
 
 /// One tooth pair on half-planes.
 struct HalfSpacePair<'a> {
-    stretch: ObservedStretch<'a>,
-    /// Half-length of the window before it was ever too short.
-    first_half_window_mm: f64,
-    sampled: SampledStretch,
+    window: GrowingWindow<ObservedStretch<'a>>,
     /// Real gap at the cells' boundaries and centres, mm.
     samples: Vec<f64>,
     /// Real gap of each cell less the least of them, mm.
@@ -145,10 +136,10 @@ struct HalfSpacePair<'a> {
 
 impl PairContact for HalfSpacePair<'_> {
     fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
-        let SampledStretch { strip, cells, .. } = &mut self.sampled;
+        let SampledStretch { strip, cells, .. } = &mut self.window.samples;
         strip.gap_mm(removed_mm, &mut self.samples);
         // What the weights add to the parabola at the centre: Δ²/16R.
-        let rise = strip.spacing_mm.powi(2) / (4.0 * self.stretch.flattening.contact.relative_radius_mm());
+        let rise = strip.spacing_mm.powi(2) / (4.0 * self.window.flanks.flattening.contact.relative_radius_mm());
         let of_cell = |ends: &[f64]| 0.25 * (ends[0] + ends[2]) + 0.5 * ends[1] - rise;
         self.gap.clear();
         self.gap.extend(self.samples.windows(3).step_by(2).map(of_cell));
@@ -164,16 +155,16 @@ impl PairContact for HalfSpacePair<'_> {
     }
 
     fn load_at(&mut self, indentation_mm: f64) -> Response {
-        self.sampled.cells.load_at(indentation_mm)
+        self.window.samples.cells.load_at(indentation_mm)
     }
 
     fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64 {
         // At a tip edge half of the strip carries the load, as if it were twice as large.
-        self.stretch.flattening.approach_mm(2.0 * line_load_n_per_mm)
+        self.window.flanks.flattening.approach_mm(2.0 * line_load_n_per_mm)
     }
 
     fn window_suffices(&mut self) -> bool {
-        let SampledStretch { strip, cells, swept } = &mut self.sampled;
+        let SampledStretch { strip, cells, swept } = &mut self.window.samples;
         swept.field.fill(|pressure| cells.pressure_mpa(pressure));
         let pressure = swept.field.cells_mpa();
         let free = |end: &[f64]| end.iter().all(|p| *p == 0.0);
@@ -183,29 +174,25 @@ impl PairContact for HalfSpacePair<'_> {
     }
 
     fn widen(&mut self) {
-        self.stretch.half_window_mm *= 1.5;
-        self.sampled = self.stretch.sample();
+        self.window.widen();
     }
 
     fn reset(&mut self) {
-        if self.stretch.half_window_mm != self.first_half_window_mm {
-            self.stretch.half_window_mm = self.first_half_window_mm;
-            self.sampled = self.stretch.sample();
-        }
-        self.sampled.cells.reset();
+        self.window.reset();
+        self.window.samples.cells.reset();
     }
 
     fn sweep(&self, gear: Gear, _removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
-        self.sampled.swept.sweep(gear, sweep);
+        self.window.samples.swept.sweep(gear, sweep);
     }
 
     fn contact_of_points(&self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Vec<PointContact> {
-        self.sampled.swept.contact_of_points(gear)
+        self.window.samples.swept.contact_of_points(gear)
     }
 
     fn footprint(&self) -> Footprint {
-        let field = &self.sampled.swept.field;
+        let field = &self.window.samples.swept.field;
         let at_ends = [field.cells_mpa().first(), field.cells_mpa().last()].map(|end| end.is_some_and(|p| *p > 0.0));
-        Footprint { at_sharp_edge: self.sampled.strip.window.is_sharp_where(at_ends), ..field.footprint() }
+        Footprint { at_sharp_edge: self.window.samples.strip.window.is_sharp_where(at_ends), ..field.footprint() }
     }
 }

@@ -19,7 +19,10 @@ use std::f64::consts::PI;
 
 use super::{
     ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, Response, Sweep,
-    observed_points::ObservedPoints, settings::Material, strip::Window,
+    growing_window::{GrowingWindow, Sampled},
+    observed_points::ObservedPoints,
+    settings::Material,
+    strip::Window,
 };
 use crate::fem::elastic;
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
@@ -99,22 +102,34 @@ impl ContactSurface for Hertz {
         let closed_form = ClosedFormPair::new(flanks, &self.material, position_mm);
         let extent = Window::new(flanks, position_mm, f64::INFINITY);
         let widest = closed_form.flattening.contact.loaded(2.0 * self.expected_line_load_n_per_mm).half_width_mm;
-        let mut pair = HertzPair {
-            closed_form,
-            extent,
-            cell,
-            first_half_window_mm: widest,
-            half_window_mm: widest,
-            observed: None,
-            strip_load: 0.0,
-            half_width_mm: 0.0,
-        };
-        pair.look();
-        Box::new(pair)
+        let window = GrowingWindow::new(PassedCell { flanks, cell }, widest);
+        Box::new(HertzPair { closed_form, extent, window, strip_load: 0.0, half_width_mm: 0.0 })
     }
 
     fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
         flattening(geometry, &self.material, position_mm).approach_mm(line_load_n_per_mm)
+    }
+}
+
+/// Flanks while the contact moves through a cell.
+struct PassedCell<'a> {
+    flanks: Flanks<'a>,
+    cell: Option<PositionCell>,
+}
+
+impl Sampled for PassedCell<'_> {
+    /// The points of each flank that may touch, with their movement through the cell.
+    type Samples = Option<PerGear<(ObservedPoints, Vec<[f64; 2]>)>>;
+
+    fn sample(&self, half_length_mm: f64) -> Self::Samples {
+        self.cell.map(|cell| {
+            let window = Window::new(self.flanks, cell.position_mm, half_length_mm);
+            PerGear::from_fn(|gear| {
+                let points = ObservedPoints::new(self.flanks, gear, window, cell);
+                let shifts = points.shifts_to_ends_mm();
+                (points, shifts)
+            })
+        })
     }
 }
 
@@ -123,12 +138,7 @@ struct HertzPair<'a> {
     closed_form: ClosedFormPair<'a>,
     /// Where both flanks exist.
     extent: Window,
-    cell: Option<PositionCell>,
-    /// Half-length of the window before it was ever too short.
-    first_half_window_mm: f64,
-    half_window_mm: f64,
-    /// The points of each flank that may touch, with their movement through the cell.
-    observed: Option<PerGear<(ObservedPoints, Vec<[f64; 2]>)>>,
+    window: GrowingWindow<PassedCell<'a>>,
     /// w*: load of the whole ellipse, N/mm.
     strip_load: f64,
     /// a(w*).
@@ -154,23 +164,19 @@ impl PairContact for HertzPair<'_> {
 
     fn window_suffices(&mut self) -> bool {
         (self.strip_load, self.half_width_mm) = self.strip(self.closed_form.line_load);
-        self.half_width_mm <= self.half_window_mm
+        self.half_width_mm <= self.window.half_length_mm
     }
 
     fn widen(&mut self) {
-        self.half_window_mm = 1.5 * self.half_width_mm;
-        self.look();
+        self.window.resize(1.5 * self.half_width_mm);
     }
 
     fn reset(&mut self) {
-        if self.half_window_mm != self.first_half_window_mm {
-            self.half_window_mm = self.first_half_window_mm;
-            self.look();
-        }
+        self.window.reset();
     }
 
     fn sweep(&self, gear: Gear, _removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
-        let Some(observed) = &self.observed else { return sweep.begin(0, &[]) };
+        let Some(observed) = &self.window.samples else { return sweep.begin(0, &[]) };
         let (points, shifts) = &observed[gear];
         sweep.begin(points.first_point, &points.sliding_mm);
         let (load, a) = (self.strip_load, self.half_width_mm);
@@ -187,7 +193,7 @@ impl PairContact for HertzPair<'_> {
     }
 
     fn contact_of_points(&self, gear: Gear, _removed_mm: PerGear<&[f64]>) -> Vec<PointContact> {
-        let Some(observed) = &self.observed else { return Vec::new() };
+        let Some(observed) = &self.window.samples else { return Vec::new() };
         let (points, shifts) = &observed[gear];
         let (a, ellipse) = (self.half_width_mm, self.closed_form.flattening.contact.loaded(self.strip_load));
         let courses = points.at[1..].iter().zip(shifts);
@@ -216,18 +222,6 @@ impl PairContact for HertzPair<'_> {
 }
 
 impl HertzPair<'_> {
-    fn look(&mut self) {
-        let flanks = self.closed_form.flanks;
-        self.observed = self.cell.map(|cell| {
-            let window = Window::new(flanks, cell.position_mm, self.half_window_mm);
-            PerGear::from_fn(|gear| {
-                let points = ObservedPoints::new(flanks, gear, window, cell);
-                let shifts = points.shifts_to_ends_mm();
-                (points, shifts)
-            })
-        });
-    }
-
     /// The ellipse (load w*, half-width) whose part on both flanks carries `line_load`, by Newton's method.
     fn strip(&self, line_load: f64) -> (f64, f64) {
         let contact = &self.closed_form.flattening.contact;

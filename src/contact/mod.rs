@@ -16,6 +16,7 @@ pub(crate) mod elastic_cells;
 mod flank_motion;
 pub(crate) mod foundation;
 pub(crate) mod gap_at_points;
+mod growing_window;
 pub(crate) mod half_space;
 pub(crate) mod hertz;
 pub(crate) mod hertz_mean;

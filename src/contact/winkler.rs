@@ -28,14 +28,60 @@ use std::ops::Range;
 
 use super::{
     ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, Response, Sweep,
-    edge_foundation::EdgeStiffness,
-    foundation::{FoundationStiffness, WinklerFoundation},
+    edge_foundation::{EdgeFoundations, EdgeStiffness},
+    foundation::{FoundationCurve, FoundationStiffness, mean_positive},
     gap_at_points::GapAtPoints,
+    growing_window::{GrowingWindow, Sampled},
     observed_points::ObservedPoints,
     strip::{Strip, Window, least_removed_mm, point_distance_mm},
     swept_field::SweptField,
 };
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+
+/// The springs of a foundation: one K/H everywhere, or a curve of it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum WinklerFoundation {
+    /// The same K/H at every position and load.
+    Uniform {
+        /// K/H, MPa/mm.
+        mpa_per_mm: f64,
+    },
+    /// K/H by position and load.
+    Curve {
+        /// What the pressure spreads by.
+        pressure: FoundationCurve,
+        /// The foundation with the approach of the elastic bodies.
+        approach: FoundationCurve,
+        /// Where tip edges touch, if they are followed into contact.
+        edges: Option<EdgeFoundations>,
+    },
+}
+
+impl WinklerFoundation {
+    /// The springs at one position that have the approach of the elastic bodies, where the foundation knows them.
+    pub(crate) fn approach_at(&self, position_mm: f64) -> Option<FoundationStiffness> {
+        match self {
+            Self::Uniform { .. } => None,
+            Self::Curve { approach, .. } => Some(approach.springs_at(position_mm)),
+        }
+    }
+
+    /// The springs at one position where a tip edge touches, if the foundation knows them.
+    pub(crate) fn at_edge(&self, position_mm: f64) -> Option<EdgeStiffness> {
+        match self {
+            Self::Curve { edges: Some(edges), .. } => edges.at(position_mm),
+            _ => None,
+        }
+    }
+
+    /// The springs at one position.
+    pub(crate) fn at(&self, position_mm: f64) -> FoundationStiffness {
+        match self {
+            Self::Uniform { mpa_per_mm } => FoundationStiffness::new(*mpa_per_mm, 0.0, 1.0),
+            Self::Curve { pressure, .. } => pressure.springs_at(position_mm),
+        }
+    }
+}
 
 /// The surface: K/H and the load that contacts are expected to carry.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,16 +107,8 @@ impl ContactSurface for Winkler {
         let radius_mm = flanks.geometry.relative_radius_mm(position_mm);
         let stiffness = self.foundation.at(position_mm);
         let half_width = stiffness.half_width_mm(radius_mm, self.expected_line_load_n_per_mm);
-        let first_half_window_mm = FIRST_WINDOW * half_width;
         let edge = self.foundation.at_edge(position_mm);
-        let stretch = ObservedStretch {
-            flanks,
-            position_mm,
-            cell,
-            half_window_mm: first_half_window_mm,
-            at_edge: edge.is_some(),
-        };
-        let (strip, observed) = stretch.sample();
+        let stretch = ObservedStretch { flanks, position_mm, cell, at_edge: edge.is_some() };
         let first_foundation = stiffness.mpa_per_mm(self.expected_line_load_n_per_mm);
         Box::new(WinklerPair {
             stiffness,
@@ -79,10 +117,7 @@ impl ContactSurface for Winkler {
             foundation: first_foundation,
             first_foundation,
             radius_mm,
-            first_half_window_mm,
-            stretch,
-            strip,
-            observed,
+            window: GrowingWindow::new(stretch, FIRST_WINDOW * half_width),
             gap: Vec::new(),
             touch: 0.0,
             removed_everywhere: 0.0,
@@ -107,20 +142,20 @@ enum Observed {
     Swept(SweptField),
 }
 
-/// Where a pair is, and how much of its flanks it looks at.
+/// Where a pair is.
 struct ObservedStretch<'a> {
     flanks: Flanks<'a>,
     position_mm: f64,
     cell: Option<PositionCell>,
-    half_window_mm: f64,
     /// Whether a tip edge touches.
     at_edge: bool,
 }
 
-impl ObservedStretch<'_> {
-    /// Samples the flanks over the window.
-    fn sample(&self) -> (Strip, Option<Observed>) {
-        let window = Window::new(self.flanks, self.position_mm, self.half_window_mm);
+impl Sampled for ObservedStretch<'_> {
+    type Samples = (Strip, Option<Observed>);
+
+    fn sample(&self, half_length_mm: f64) -> Self::Samples {
+        let window = Window::new(self.flanks, self.position_mm, half_length_mm);
         let distance_mm = POINTS_PER_SAMPLE * point_distance_mm(self.flanks, self.position_mm);
         let least = if self.at_edge { LEAST_INTERVALS_AT_EDGE } else { LEAST_INTERVALS };
         let intervals = ((window.length_mm() / distance_mm).ceil() as usize).max(least);
@@ -154,11 +189,7 @@ struct WinklerPair<'a> {
     /// The same before any load.
     first_foundation: f64,
     radius_mm: f64,
-    /// Half-length of the window before it was ever too short.
-    first_half_window_mm: f64,
-    stretch: ObservedStretch<'a>,
-    strip: Strip,
-    observed: Option<Observed>,
+    window: GrowingWindow<ObservedStretch<'a>>,
     /// Real gap at the strip's samples less the least of them, mm.
     gap: Vec<f64>,
     /// The least gap, mm.
@@ -173,13 +204,13 @@ struct WinklerPair<'a> {
 
 impl PairContact for WinklerPair<'_> {
     fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
-        let touch = self.strip.gap_mm(removed_mm, &mut self.gap);
+        let touch = self.window.samples.0.gap_mm(removed_mm, &mut self.gap);
         // From the first touch on, nothing is lost where a light load meets a deep relief.
         self.gap.iter_mut().for_each(|gap| *gap -= touch);
         self.touch = touch;
         // Where much is removed everywhere, as by a helix-slope deviation, the window need not reach as far as that is deep.
-        let ObservedStretch { flanks, position_mm, half_window_mm, .. } = self.stretch;
-        let at_end = half_window_mm * half_window_mm / (2.0 * self.radius_mm);
+        let ObservedStretch { flanks, position_mm, .. } = self.window.flanks;
+        let at_end = self.window.half_length_mm * self.window.half_length_mm / (2.0 * self.radius_mm);
         self.removed_everywhere =
             if touch > 0.25 * at_end { least_removed_mm(flanks, position_mm, touch + at_end, removed_mm) } else { 0.0 };
     }
@@ -191,7 +222,8 @@ impl PairContact for WinklerPair<'_> {
     fn load_at(&mut self, indentation_mm: f64) -> Response {
         self.indentation_mm = indentation_mm;
         // The curvature of the gap between two samples, which the straight line misses, as its mean Δ²/12R.
-        let bulge = self.strip.spacing_mm * self.strip.spacing_mm / (12.0 * self.radius_mm);
+        let spacing = self.strip().spacing_mm;
+        let bulge = spacing * spacing / (12.0 * self.radius_mm);
         // Sums over cells of mean penetration and of the fraction in contact, which is how fast the former grows.
         let (mut penetration, mut contact) = (0.0, 0.0);
         let mut before = indentation_mm + bulge - self.gap[0];
@@ -202,7 +234,6 @@ impl PairContact for WinklerPair<'_> {
             contact += fraction;
             before = here;
         }
-        let spacing = self.strip.spacing_mm;
         let (penetration, contact) = (spacing * penetration, spacing * contact);
         let (load, stiffness) = match &self.edge {
             Some(edge) => edge.load_and_stiffness(penetration, contact),
@@ -235,7 +266,7 @@ impl PairContact for WinklerPair<'_> {
 
     fn window_suffices(&mut self) -> bool {
         self.extent_mm = self.extent_mm();
-        if let Some(Observed::Swept(swept)) = &mut self.observed {
+        if let Some(Observed::Swept(swept)) = &mut self.window.samples.1 {
             let (gap, indentation_mm, foundation) = (&self.gap, self.indentation_mm, self.foundation);
             let mean =
                 |ends: &[f64]| foundation * mean_positive([indentation_mm - ends[0], indentation_mm - ends[1]]).0;
@@ -244,24 +275,20 @@ impl PairContact for WinklerPair<'_> {
                 pressure.extend(gap.windows(2).map(mean));
             });
         }
-        !self.strip.may_touch_beyond(self.touch + self.indentation_mm, self.removed_everywhere)
+        !self.strip().may_touch_beyond(self.touch + self.indentation_mm, self.removed_everywhere)
     }
 
     fn widen(&mut self) {
-        self.stretch.half_window_mm *= 1.5;
-        (self.strip, self.observed) = self.stretch.sample();
+        self.window.widen();
     }
 
     fn reset(&mut self) {
-        if self.stretch.half_window_mm != self.first_half_window_mm {
-            self.stretch.half_window_mm = self.first_half_window_mm;
-            (self.strip, self.observed) = self.stretch.sample();
-        }
+        self.window.reset();
         self.foundation = self.first_foundation;
     }
 
     fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
-        let (points, faced) = match &self.observed {
+        let (points, faced) = match &self.window.samples.1 {
             None => return sweep.begin(0, &[]),
             Some(Observed::Swept(swept)) => return swept.sweep(gear, sweep),
             Some(Observed::Facing(facing)) => &facing[gear],
@@ -275,7 +302,7 @@ impl PairContact for WinklerPair<'_> {
     }
 
     fn contact_of_points(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<PointContact> {
-        let (points, faced) = match &self.observed {
+        let (points, faced) = match &self.window.samples.1 {
             None => return Vec::new(),
             Some(Observed::Swept(swept)) => return swept.contact_of_points(gear),
             Some(Observed::Facing(facing)) => &facing[gear],
@@ -294,21 +321,8 @@ impl PairContact for WinklerPair<'_> {
         let penetration = (self.indentation_mm - least(&self.gap)).max(0.0);
         let half_width_mm = 0.5 * (self.extent_mm.1 - self.extent_mm.0);
         let at_ends = [self.gap.first(), self.gap.last()].map(|gap| gap.is_some_and(|gap| *gap < self.indentation_mm));
-        let at_sharp_edge = self.strip.window.is_sharp_where(at_ends);
+        let at_sharp_edge = self.strip().window.is_sharp_where(at_ends);
         Footprint { peak_pressure_mpa: self.foundation * penetration, half_width_mm, at_sharp_edge }
-    }
-}
-
-/// Mean of the positive part of the straight course from u₀ to u₁, and the fraction of the way on which it is positive.
-pub(super) fn mean_positive([u0, u1]: [f64; 2]) -> (f64, f64) {
-    if u0 >= 0.0 && u1 >= 0.0 {
-        (0.5 * (u0 + u1), 1.0)
-    } else if u0 > 0.0 || u1 > 0.0 {
-        let deepest = u0.max(u1);
-        let fraction = deepest / (u0 - u1).abs();
-        (0.5 * deepest * fraction, fraction)
-    } else {
-        (0.0, 0.0)
     }
 }
 
@@ -325,6 +339,10 @@ fn least(samples: &[f64]) -> f64 {
 }
 
 impl WinklerPair<'_> {
+    fn strip(&self) -> &Strip {
+        &self.window.samples.0
+    }
+
     /// The points of a flank that may touch at the last approach pressed.
     fn touching(&self, gear: Gear, points: &ObservedPoints) -> Range<usize> {
         match gear {
@@ -343,7 +361,8 @@ impl WinklerPair<'_> {
         // The gap passes through the approach between the outermost sample in contact and the next one.
         let before = if first > 0 { u(first) / (u(first) - u(first - 1)) } else { 0.0 };
         let after = if last + 1 < self.gap.len() { u(last) / (u(last) - u(last + 1)) } else { 0.0 };
-        let place = |sample: f64| self.strip.window.lower_mm + sample * self.strip.spacing_mm;
+        let Strip { window, spacing_mm, .. } = self.strip();
+        let place = |sample: f64| window.lower_mm + sample * spacing_mm;
         (place(first as f64 - before), place(last as f64 + after))
     }
 }

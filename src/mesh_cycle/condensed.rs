@@ -21,10 +21,10 @@ use super::tip_contact;
 use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, PositionObservation, Work};
 use crate::contact::Footprint;
 use crate::fem::active_set::Equilibrium;
+use crate::fem::gear::condensed_pair::CondensedPair;
+use crate::fem::gear::condensed_pair::hertz_half_width_mm;
 use crate::fem::gear::flank_nodes::{FlankNodes, Weights};
 use crate::fem::gear::load_transfer::LoadTransfer;
-use crate::fem::gear::model::hertz_half_width_mm;
-use crate::fem::gear::position::CondensedPair;
 use crate::fem::gear::prepared::Prepared;
 use crate::fem::gear::tilted::Worn;
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
@@ -415,7 +415,7 @@ impl LoadedPosition {
         loaded
     }
 
-    /// Reckons with new flanks where it windows now.
+    /// The load's way to the nodes of new flanks, in the window as it is now.
     fn observe(&mut self, model: &CondensedPair<'_>, nodes: PerGear<&FlankNodes>) {
         self.transfers = model.load_transfers(&self.prepared, self.stretch_mm, nodes, None);
         (self.windows, self.about_rad) = (self.prepared.windows(), None);

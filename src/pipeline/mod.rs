@@ -23,12 +23,12 @@ use crate::calibration::{self, CalibrationError};
 use crate::contact::{
     ContactSurface,
     edge_foundation::EdgeFoundations,
-    foundation::{WinklerFoundation, matched_mpa_per_mm},
+    foundation::matched_mpa_per_mm,
     half_space::HalfSpace,
     hertz::{self, Hertz},
     hertz_mean::HertzMean,
     settings::{Foundation, MatchCriterion, SurfaceKind},
-    winkler::Winkler,
+    winkler::{Winkler, WinklerFoundation},
 };
 use crate::fem::gear::model::ModelError;
 use crate::gear::{GearPair, PairError, PerGear, flank_zones::FlankZones};
@@ -101,6 +101,8 @@ pub struct Done<R = RunRecord, E = RunError> {
     pub failure: Option<E>,
 }
 
+/// Micrometres, in which records are written.
+const UM_PER_MM: f64 = 1e3;
 /// Part of the greatest load whose contact is still resolved by the elements that wear: half as wide as that of the whole. Phases under
 /// less load see fewer elements, and wear little.
 const LEAST_MESHED_LOAD: f64 = 0.25;

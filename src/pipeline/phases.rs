@@ -1,8 +1,7 @@
 //! The phases of a run in figures: under what each of them ran, and what it wore off.
 
-use super::Model;
-use super::recording::UM_PER_MM;
 use super::temperature;
+use super::{Model, UM_PER_MM};
 use crate::gear::Gear;
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::results::run::{PhaseSummary, PhaseWear};

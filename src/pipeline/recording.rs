@@ -1,7 +1,9 @@
 //! From what a run found, in the program's units, to the record, in those of the output files.
 
 use super::temperature::{self, ObservedHeat};
-use super::{Model, RunError, drawing, error_estimates, phases, slices, stability::Judged, verification::Verified};
+use super::{
+    Model, RunError, UM_PER_MM, drawing, error_estimates, phases, slices, stability::Judged, verification::Verified,
+};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::mesh_cycle::CycleObservation;
 use crate::mesh_cycle::wearing_pair::Snapshot;
@@ -16,7 +18,6 @@ use crate::simulation::figures::WearFigures;
 use crate::simulation::wear_run::Outcome;
 use crate::thermal::settings::TemperatureMethod;
 
-pub(super) const UM_PER_MM: f64 = 1e3;
 /// Pitch point index of the contract: on a flank of this many points.
 const INDEX_POINTS: f64 = 750.0;
 /// Difference of the volumes that both flanks of a contact lose, over the greater, that is worth a warning.

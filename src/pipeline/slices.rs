@@ -1,7 +1,6 @@
 //! The record of a pair slice by slice.
 
-use super::Model;
-use super::recording::UM_PER_MM;
+use super::{Model, UM_PER_MM};
 use crate::gear::{Gear, PerGear, flank_surface::FlankSurface};
 use crate::mesh_cycle::sliced_mesh::SlicedMesh;
 use crate::results::run::{HelicalSummary, LineOfContactSummary, OverWidthSummary, SliceRecord};

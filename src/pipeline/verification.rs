@@ -21,7 +21,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::Model;
 use super::guarded::guarded;
 use crate::contact::settings::{Material, SurfaceKind};
-use crate::fem::gear::{model::ModelError, position::CondensedPair};
+use crate::fem::gear::{condensed_pair::CondensedPair, model::ModelError};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::BodySettings;
 use crate::mesh_cycle::CycleObservation;

@@ -2,7 +2,7 @@
 
 use super::settings::Numerics;
 use crate::contact::{ContactSurface, Effort, Flanks, settings::Material};
-use crate::fem::gear::position::CondensedPair;
+use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::gear::{GearPair, PerGear, slices::Slices};
 use crate::mesh_cycle::simplified::{SimplifiedPair, exact::SlicesInSeries};
 use crate::mesh_cycle::wearing_pair::{OnFlankNodes, OnFlankPoints, WearingPair};

@@ -3,13 +3,13 @@
 
 use gearwear::contact::{
     ContactSurface, Flanks, PositionCell,
-    foundation::{WinklerFoundation, matched_mpa_per_mm},
+    foundation::matched_mpa_per_mm,
     half_space::HalfSpace,
     hertz,
     hertz::Hertz,
     hertz_mean::HertzMean,
     settings::MatchCriterion,
-    winkler::Winkler,
+    winkler::{Winkler, WinklerFoundation},
 };
 use gearwear::gear::{
     Gear, GearPair, PerGear,

@@ -1,10 +1,11 @@
 //! Finite-element contact of the FZG type C pair at 302 N·m: against Hertz, against other programs, against itself.
 
 use gearwear::fem::elastic::Elastic;
+use gearwear::fem::gear::condensed_pair::CondensedPair;
 use gearwear::fem::gear::cycle::cycle;
 use gearwear::fem::gear::full;
 use gearwear::fem::gear::model::MeshedGear;
-use gearwear::fem::gear::position::{CondensedPair, PositionContact, ToothPairContact, WarmStart};
+use gearwear::fem::gear::position::{PositionContact, ToothPairContact, WarmStart};
 use gearwear::gear::spec::PairSpec;
 use gearwear::gear::{GearPair, PerGear};
 use gearwear::gear_mesh::settings::{Body, BodySettings, SectorSides};

@@ -3,7 +3,8 @@
 
 use gearwear::contact::hertz;
 use gearwear::fem::elastic::Elastic;
-use gearwear::fem::gear::position::{CondensedPair, WarmStart};
+use gearwear::fem::gear::condensed_pair::CondensedPair;
+use gearwear::fem::gear::position::WarmStart;
 use gearwear::gear::{
     Gear, GearPair, PerGear,
     flank::FlankGrid,

@@ -1,7 +1,7 @@
 //! Where Euler's steps break, and that adaptive ones do not.
 
 use gearwear::fem::elastic::Elastic;
-use gearwear::fem::gear::position::CondensedPair;
+use gearwear::fem::gear::condensed_pair::CondensedPair;
 use gearwear::gear::{Gear, PerGear};
 use gearwear::gear_mesh::settings::{Body, BodySettings, default_clamp};
 use gearwear::observer::Unwatched;

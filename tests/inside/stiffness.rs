@@ -1,6 +1,9 @@
 //! Tooth stiffness against Weber and Banaschek's formulae evaluated independently.
 
-use gearwear::contact::{foundation::WinklerFoundation, hertz, winkler::Winkler};
+use gearwear::contact::{
+    hertz,
+    winkler::{Winkler, WinklerFoundation},
+};
 use gearwear::gear::Gear;
 use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings, weber_banaschek::ToothCompliance};
 

@@ -2,11 +2,11 @@
 
 use gearwear::contact::{
     ContactSurface, Flanks, PositionCell,
-    foundation::{WinklerFoundation, matched_mpa_per_mm},
+    foundation::matched_mpa_per_mm,
     half_space::HalfSpace,
     hertz,
     settings::MatchCriterion,
-    winkler::Winkler,
+    winkler::{Winkler, WinklerFoundation},
 };
 use gearwear::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid, involute::TangentFramePoint};
 use gearwear::mesh_cycle::{LineOfActionCycle, LoadingPosition, LostMaterial, MeshCycle, PairInMesh};

@@ -5,7 +5,8 @@
 
 use rayon::prelude::*;
 
-use super::position::{CondensedPair, PositionContact, WarmStart};
+use super::condensed_pair::CondensedPair;
+use super::position::{PositionContact, WarmStart};
 use crate::fem::active_set::ActiveSetError;
 
 /// Groups that may run at the same time.

@@ -10,10 +10,10 @@ use std::ops::Range;
 use nalgebra::{Rotation2, Vector2};
 use sprs::CsMat;
 
+use super::condensed_pair::CondensedPair;
+use super::condensed_pair::hertz_half_width_mm;
 use super::flank_surface::FlankSurface;
-use super::model::hertz_half_width_mm;
 use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
-use super::position::CondensedPair;
 use crate::fem::contact::mortar::Coupling;
 use crate::gear::{Gear, PerGear};
 

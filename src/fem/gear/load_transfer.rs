@@ -28,10 +28,10 @@
 
 use nalgebra::{Rotation2, Vector2};
 
+use super::condensed_pair::CondensedPair;
 use super::facing_teeth::FacingTeeth;
 use super::flank_nodes::{FlankNodes, Weights};
 use super::placement::{axis_mm, in_place_mm, tooth_angle_rad};
-use super::position::CondensedPair;
 use super::prepared::Prepared;
 use super::tilted::Worn;
 use crate::gear::{Gear, PerGear};

@@ -1,5 +1,6 @@
 //! Finite-element contact of a gear pair: each gear condensed once, every position a small contact problem.
 
+pub(crate) mod condensed_pair;
 pub(crate) mod cycle;
 mod facing_teeth;
 pub(crate) mod flank_nodes;

@@ -1,7 +1,7 @@
 //! From a gear pair to its condensed finite-element model, in two steps: mesh, condense.
 
+use super::condensed_pair::{CondensedPair, hertz_half_width_mm};
 use super::flank_surface::FlankSurface;
-use super::position::CondensedPair;
 use super::ring::{GearCompliance, Surroundings};
 use super::sector::{CondensedSector, Functional, Sector};
 use crate::fem::active_set::ActiveSetError;
@@ -13,7 +13,6 @@ use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::{Body, BodySettings, SectorSides};
 use crate::gear_mesh::{Cell, ToothMeshError, ToothSector, gear_sector, touching_pairs};
 use crate::mesh::CellKind;
-use crate::reference::hertz_line::HertzLine;
 
 /// Nodes of one flank whose compliance among three teeth takes some 4 GB.
 const MOST_FLANK_NODES: usize = 4000;
@@ -76,19 +75,6 @@ pub(crate) struct MeshedGear {
     pub sharp: bool,
     /// What it was meshed with.
     pub settings: BodySettings,
-}
-
-/// Hertz half-width under the whole load at `position_mm`, taken at A or E where it lies outside.
-pub(crate) fn hertz_half_width_mm(
-    pair: &GearPair,
-    contact_modulus_mpa: f64,
-    line_load_n_per_mm: f64,
-    position_mm: f64,
-) -> f64 {
-    let position_mm = position_mm.clamp(pair.path.start_mm, pair.path.end_mm);
-    let rho = PerGear::from_fn(|gear| pair.path.rho_mm(gear, position_mm));
-    let relative_radius_mm = rho.pinion * rho.wheel / rho.sum();
-    HertzLine::of_relative_radius(relative_radius_mm, contact_modulus_mpa).loaded(line_load_n_per_mm).half_width_mm
 }
 
 impl MeshedGear {

@@ -14,25 +14,14 @@ use std::collections::BTreeMap;
 
 use sprs::CsMat;
 
+use super::condensed_pair::CondensedPair;
 use super::facing_teeth::FacingTeeth;
 use super::flank_surface::FlankSurface;
 use super::prepared::Prepared;
-use super::ring::{GearCompliance, ToothForce};
+use super::ring::ToothForce;
 use crate::fem::active_set::{ActiveSetError, Equilibrium, Log};
 use crate::fem::contact::zones;
-use crate::gear::{Gear, GearPair, PerGear};
-
-/// The pair with both gears condensed.
-pub(crate) struct CondensedPair<'a> {
-    /// Geometry.
-    pub pair: &'a GearPair,
-    /// Both gears.
-    pub gears: PerGear<GearCompliance>,
-    /// Their working flanks.
-    pub flanks: PerGear<FlankSurface>,
-    /// E*, MPa.
-    pub contact_modulus_mpa: f64,
-}
+use crate::gear::{Gear, PerGear};
 
 /// One tooth pair in contact.
 #[derive(Debug, Clone, PartialEq)]

@@ -13,8 +13,8 @@
 use faer::Mat;
 use sprs::CsMat;
 
+use super::condensed_pair::CondensedPair;
 use super::facing_teeth::{Direction, FacingTeeth, Window};
-use super::position::CondensedPair;
 use super::ring::Between;
 use crate::fem::active_set::{ActiveSetError, Condensed, Equilibrium, Kept};
 use crate::gear::Gear;
@@ -49,7 +49,7 @@ pub(crate) struct Prepared {
     /// Where the next solution starts.
     pub(super) active: Option<Vec<bool>>,
     pub(super) kept: Option<Kept>,
-    /// How often it had to be looked wider.
+    /// How often the window was widened, and once.
     windows: usize,
 }
 
@@ -106,8 +106,8 @@ impl<'a> CondensedPair<'a> {
         }
     }
 
-    /// Solves a prepared position; windows wider where contact comes close to the end of what is looked at. `opening` adds to the gaps
-    /// of the unworn flanks what these are opened by: each time anew where the position windows wider, and so has other multipliers.
+    /// Solves a prepared position, in a wider window where contact comes close to the end of the first. `opening` adds to the gaps of the
+    /// unworn flanks what these are opened by: each time anew where the window is wider, and so has other multipliers.
     ///
     /// # Errors
     /// See [`ActiveSetError`].
@@ -132,7 +132,7 @@ impl<'a> CondensedPair<'a> {
         unreachable!("the last look returns")
     }
 
-    /// Makes a prepared position as if it had never been solved, and its wear never seen: it starts from no contact, and windows no
+    /// Makes a prepared position as if it had never been solved, and its wear never seen: it starts from no contact, in a window no
     /// wider than at first.
     pub(crate) fn reset(&self, prepared: &mut Prepared) {
         if prepared.windows > 1 {
@@ -202,7 +202,7 @@ impl Prepared {
         self.window.line_load_n_per_mm
     }
 
-    /// How often the flanks around the contact had to be looked at, wider each time.
+    /// How many windows there were, each wider than the one before.
     pub(crate) fn windows(&self) -> usize {
         self.windows
     }

@@ -15,8 +15,8 @@ use std::f64::consts::FRAC_PI_2;
 use faer::Mat;
 use nalgebra::Rotation2;
 
+use super::condensed_pair::CondensedPair;
 use super::facing_teeth::{FacingTeeth, turned};
-use super::position::CondensedPair;
 use super::prepared::{Prepared, Sideways, add_sandwich};
 use crate::gear::{Gear, PerGear};
 

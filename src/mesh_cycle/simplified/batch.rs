@@ -9,11 +9,10 @@
 //!
 //! rows of both go to the wear law, and what it answers is added to the gap of the flanks before the next equilibrium.
 
-use super::bending::BentTeeth;
 use super::closed_form::ContactForms;
 use super::exact::SlicesInSeries;
 use super::lanes::{LANES, Lanes};
-use super::loaded_position::{Attempt, Common, LoadedPosition, Pack, Tangent, UNUSED_GAP_MM};
+use super::loaded_position::{Attempt, BentTeeth, Common, LoadedPosition, Pack, Tangent, UNUSED_GAP_MM};
 use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::{
     Work,

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! with the gap g_m of the flanks at the contact point, worn and modified, the closed form of [`super::closed_form`], and, where slices
-//! are coupled, the deflection u of the teeth ([`super::bending`]; otherwise their compliance q is part of Q).
+//! are coupled, the deflection u of the teeth ([`BentTeeth`]; otherwise their compliance q is part of Q).
 //!
 //! A wear step changes loads by per cents. The next equilibrium is followed from the last three: loads change by e, as in the step
 //! before, and one Newton step corrects what that misses,
@@ -24,8 +24,9 @@
 //! Whatever does not fit that picture (a contact comes or goes, or changes its load by more than [`GREATEST_SHIFT`] allows) is
 //! solved with true logarithms, contacts coming and going ([`LoadedPosition::settle`]).
 
-use super::bending::BentTeeth;
 use super::lanes::{LANES, Lanes};
+use crate::mesh_cycle::bent_tooth::{BentTooth, ContactTangent, bend};
+use crate::mesh_cycle::slice_coupling::SliceCoupling;
 
 /// Correction over load at which an equilibrium that is followed is accepted.
 pub(crate) const SETTLED: f64 = 3e-5;
@@ -277,5 +278,33 @@ impl LoadedPosition {
             }
         }
         Attempt::Lost(SETTLE_LIMIT)
+    }
+}
+
+/// The teeth of a phase where their slices hold each other ([`crate::mesh_cycle::bent_tooth`]), for contacts side by side.
+pub(crate) struct BentTeeth<'a> {
+    /// Each.
+    pub teeth: &'a mut [BentTooth],
+    /// How their slices hold each other.
+    pub coupling: &'a SliceCoupling,
+}
+
+impl BentTeeth<'_> {
+    /// Bends the teeth for the Newton step of `tangents`, adds their deflection to its approaches, and gives δ; not a number where no
+    /// contact carries.
+    pub(crate) fn bend(&mut self, packs: &[Pack], tangents: &mut [Tangent], line_load: f64) -> f64 {
+        let tangent = |at: usize| {
+            let (pack, lane) = (at / LANES, at % LANES);
+            ContactTangent {
+                line_load_n_per_mm: packs[pack].load.0[lane],
+                n_per_mm2: tangents[pack].n_per_mm2.0[lane],
+                approach_mm: tangents[pack].approach_mm.0[lane],
+            }
+        };
+        let Some(approach_mm) = bend(self.teeth, self.coupling, line_load, tangent) else { return f64::NAN };
+        for (at, _, deflection_mm) in self.teeth.iter().flat_map(BentTooth::deflections_mm) {
+            tangents[at / LANES].approach_mm.0[at % LANES] += deflection_mm;
+        }
+        approach_mm
     }
 }

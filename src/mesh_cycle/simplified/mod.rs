@@ -24,7 +24,6 @@
 //! Source: S. Andersson (1975) and the thesis, section 3.4 and paper E.
 
 pub(crate) mod batch;
-pub(crate) mod bending;
 pub(crate) mod closed_form;
 pub(crate) mod exact;
 pub(crate) mod lanes;

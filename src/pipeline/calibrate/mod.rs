@@ -13,7 +13,7 @@ use crate::calibration::{
     Calibration, CalibrationError, STIFFNESS_POSITIONS, foundation_fit, single_contact, stiffness_variation,
     tooth_family,
 };
-use crate::fem::gear::position::CondensedPair;
+use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::gear::modification::Modification;
 use crate::gear::{Gear, GearPair, PairError};
 use crate::mesh_cycle::load_sharing::EquilibriumError;

@@ -2,7 +2,7 @@
 
 use super::CalibrateError;
 use crate::calibration::wear_reference::{FLANK_POINTS, FlankWear, LOADS, POSITIONS, WearReference};
-use crate::fem::gear::position::CondensedPair;
+use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::gear::{Gear, PerGear, flank::FlankGrid};
 use crate::mesh_cycle::condensed::CondensedCycle;
 use crate::mesh_cycle::load_sharing::EquilibriumError;

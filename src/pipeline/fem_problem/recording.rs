@@ -7,12 +7,12 @@ use crate::fem::element::ElementError;
 use crate::fem::problem::{ContactPair, ContactState, Problem, Solution};
 use crate::fem::stress::{self, StressRecovery};
 use crate::mesh::quality;
+use crate::pipeline::UM_PER_MM;
 use crate::results::fem_problem::{
     ContactCurve, ContactRow, ContactSummary, FemRecord, FemSummary, MeshSummary, NodalStress,
 };
 use crate::scene::fem_problem::{FemProblem, Posed};
 
-const UM_PER_MM: f64 = 1e3;
 /// Elements along the half-width from which on pressures are trusted.
 const ENOUGH_ELEMENTS: f64 = 8.0;
 /// Half-width and contact width differ by less than this, relatively, where the model holds one half of the contact.

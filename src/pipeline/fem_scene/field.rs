@@ -7,9 +7,10 @@ use nalgebra::{Rotation2, Vector2};
 
 use crate::fem::elastic::{Analysis, Elastic};
 use crate::fem::element::ElementError;
+use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::fem::gear::model::{MeshedGear, solid};
 use crate::fem::gear::placement::{in_place_mm, tooth_angle_rad};
-use crate::fem::gear::position::{CondensedPair, PositionContact};
+use crate::fem::gear::position::PositionContact;
 use crate::fem::solid::{Element, Solid};
 use crate::fem::stress::StressRecovery;
 use crate::gear::{Gear, PerGear};

@@ -14,10 +14,11 @@ use self::whole::WholeModel;
 
 use crate::contact::settings::Material;
 use crate::fem::element::ElementError;
+use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::fem::gear::cycle::{CycleError, cycle};
 use crate::fem::gear::full::FullError;
 use crate::fem::gear::model::{MeshedGear, ModelError};
-use crate::fem::gear::position::{CondensedPair, PositionContact};
+use crate::fem::gear::position::PositionContact;
 use crate::gear::path_of_contact::PathOfContact;
 use crate::gear::{Gear, GearPair, PairError, PerGear};
 use crate::mesh::quality::QualityError;

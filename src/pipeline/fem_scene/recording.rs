@@ -2,14 +2,16 @@
 
 use super::{FemPairError, Solved};
 use crate::contact::hertz::flattening;
+use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::fem::gear::model::{MeshedGear, solid};
-use crate::fem::gear::position::{CondensedPair, PositionContact, ToothPairContact};
+use crate::fem::gear::position::{PositionContact, ToothPairContact};
 use crate::fem::gear::ring::Surroundings;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::ToothSector;
 use crate::gear_mesh::settings::{Body, BodySettings, SectorSides, default_clamp};
 use crate::mesh::quality::{self, MeshQuality};
 use crate::mesh::{CellBlock, CellKind, Mesh};
+use crate::pipeline::UM_PER_MM;
 use crate::pipeline::recording::{geometry, path_points};
 use crate::reference::hertz_line::LineContact;
 use crate::results::fem_pair::{
@@ -19,7 +21,6 @@ use crate::results::fem_pair::{
 use crate::results::run::{ContactSummary, PathPoints, RangeSummary};
 use crate::scene::Resolved;
 
-const UM_PER_MM: f64 = 1e3;
 /// What the torque ratio says.
 const TORQUE_RATIO: &str = "|T2/T1| is z2/z1 where all force acts along the line of action. Forces act on the flanks as they \
      are before deformation, along the normals of one of them: under load the resultant lies some hundredths of a millimetre \

@@ -8,9 +8,8 @@ use crate::fem::gear::full;
 use crate::fem::gear::model::MeshedGear;
 use crate::fem::gear::position::PositionContact;
 use crate::gear::{GearPair, PerGear};
+use crate::pipeline::UM_PER_MM;
 use crate::results::fem_pair::FullModelSummary;
-
-const UM_PER_MM: f64 = 1e3;
 
 /// What the whole model is made of.
 pub(super) struct WholeModel<'a> {

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use nalgebra::Vector2;
 
 use super::file::{Component, FemProblemFile, LoadFile};
-use super::groups::MeshedGroups;
+use super::meshed_groups::MeshedGroups;
 use crate::fem::loads::add_spread_force;
 use crate::fem::problem::{Edge, Held};
 use crate::scene::findings::Findings;

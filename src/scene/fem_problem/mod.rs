@@ -11,6 +11,7 @@ mod file;
 mod floating;
 mod groups;
 mod loads;
+mod meshed_groups;
 mod sides;
 mod surfaces;
 
@@ -193,7 +194,7 @@ fn pose(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) -> Option<P
     let groups = groups::Groups::new(mesh);
     let meshed = bodies::mesh_bodies(file, mesh, &groups, findings)?;
     let sides = sides::Sides::of(&meshed.solid);
-    let place = groups::MeshedGroups { groups: &groups, meshed: &meshed, sides: &sides };
+    let place = meshed_groups::MeshedGroups { groups: &groups, meshed: &meshed, sides: &sides };
     let mut problem = fem::problem::Problem {
         analysis: file.analysis.unwrap_or_default(),
         contacts: surfaces::contacts(file, place, findings),

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::file::FemProblemFile;
-use super::groups::MeshedGroups;
+use super::meshed_groups::MeshedGroups;
 use super::sides::Side;
 use crate::fem::problem::{ContactPair, Edge};
 use crate::scene::findings::Findings;

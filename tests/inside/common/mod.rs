@@ -95,12 +95,12 @@ pub fn steel() -> PerGear<gearwear::contact::settings::Material> {
 
 use gearwear::contact::{
     ContactSurface,
-    foundation::{WinklerFoundation, matched_mpa_per_mm},
+    foundation::matched_mpa_per_mm,
     half_space::HalfSpace,
     hertz::{self, Hertz},
     hertz_mean::HertzMean,
     settings::MatchCriterion,
-    winkler::Winkler,
+    winkler::{Winkler, WinklerFoundation},
 };
 use gearwear::mesh_cycle::{settings::SliceSettings, sliced_teeth::SlicedTeeth};
 use gearwear::observer::Unwatched;
