@@ -44,9 +44,6 @@ pub(crate) struct DataTable<'a> {
 
 impl<'a> DataTable<'a> {
     /// Cuts up `text`; without a line of column names it is refused, and told `names_allowed`.
-    ///
-    /// # Errors
-    /// [`DataTableError::Missing`].
     pub(crate) fn read(text: &'a str, names_allowed: impl FnOnce() -> String) -> Result<Self, DataTableError> {
         let (mut keys, mut rows) = (Vec::new(), Vec::new());
         for (line, content) in (1..).zip(text.trim_start_matches('\u{feff}').lines().map(str::trim)) {
@@ -65,9 +62,6 @@ impl<'a> DataTable<'a> {
 }
 
 /// A finite number.
-///
-/// # Errors
-/// [`DataTableError::NotAllowed`].
 pub(crate) fn finite(line: usize, column: &str, text: &str) -> Result<f64, DataTableError> {
     match text.parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
@@ -76,9 +70,6 @@ pub(crate) fn finite(line: usize, column: &str, text: &str) -> Result<f64, DataT
 }
 
 /// A finite number greater than 0.
-///
-/// # Errors
-/// [`DataTableError::NotAllowed`].
 pub(crate) fn positive(line: usize, column: &str, text: &str) -> Result<f64, DataTableError> {
     match text.parse::<f64>() {
         Ok(value) if value > 0.0 && value.is_finite() => Ok(value),

@@ -80,25 +80,16 @@ impl<'a> Setup<'a> {
     }
 
     /// One gear, meshed.
-    ///
-    /// # Errors
-    /// [`CalibrationError::Model`]
     pub(crate) fn mesh(&self, gear: Gear) -> Result<MeshedGear, CalibrationError> {
         Ok(MeshedGear::new(self.pair, gear, &self.elastic(), self.line_load_n_per_mm, &self.bodies)?)
     }
 
     /// Both gears, meshed.
-    ///
-    /// # Errors
-    /// [`CalibrationError::Model`]
     pub(crate) fn meshed(&self) -> Result<PerGear<MeshedGear>, CalibrationError> {
         PerGear::try_in_parallel(|gear| self.mesh(gear))
     }
 
     /// Both gears, condensed onto their whole flanks.
-    ///
-    /// # Errors
-    /// [`CalibrationError::Model`]
     pub(crate) fn condensed(&self, meshed: &PerGear<MeshedGear>) -> Result<CondensedPair<'a>, CalibrationError> {
         let elastic = self.elastic();
         let gears = PerGear::try_in_parallel(|gear| meshed[gear].condense(self.pair, elastic[gear]))?;
@@ -137,9 +128,6 @@ impl<'a> Setup<'a> {
     }
 
     /// The stiffness on finer and finer meshes.
-    ///
-    /// # Errors
-    /// [`CalibrationError::Model`]
     pub(crate) fn convergence(&self) -> Result<Vec<ResolutionRow>, CalibrationError> {
         RESOLUTIONS
             .par_iter()
@@ -152,9 +140,6 @@ impl<'a> Setup<'a> {
     }
 
     /// The stiffness of thinner and thicker rims, as far as both gears have the body for it.
-    ///
-    /// # Errors
-    /// [`CalibrationError::Model`]
     pub(crate) fn rim_depths(&self) -> Result<Vec<RimRow>, CalibrationError> {
         let module_mm = self.pair.spec.normal_module_mm;
         let held = |depth_modules: f64| {
@@ -178,9 +163,6 @@ impl<'a> Setup<'a> {
     }
 
     /// The stiffness of whole rings and of sectors.
-    ///
-    /// # Errors
-    /// [`CalibrationError::Model`]
     pub(crate) fn neighbours(&self) -> Result<Vec<NeighbourRow>, CalibrationError> {
         let least = self.pair.teeth.as_ref().map(|tooth| tooth.teeth);
         let least = least.pinion.min(least.wheel);

@@ -132,9 +132,6 @@ impl Calibration {
 }
 
 /// The stiffness curve alone, for a scene that asks for it without a calibration file.
-///
-/// # Errors
-/// [`CalibrationError`]
 pub(crate) fn pair_compliance(
     condensed: &CondensedPair<'_>,
     material: &PerGear<Material>,

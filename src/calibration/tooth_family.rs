@@ -63,9 +63,6 @@ pub struct FamilyMember {
 }
 
 /// All gears of the family; a gear whose tooth is pointed or cannot be meshed is left out.
-///
-/// # Errors
-/// [`CalibrationError::Model`]
 pub(crate) fn family(setup: &Setup<'_>) -> Result<Vec<FamilyMember>, CalibrationError> {
     let members: Vec<Option<FamilyMember>> =
         TEETH.par_iter().map(|&teeth| member(setup, teeth)).collect::<Result<_, _>>()?;

@@ -219,9 +219,6 @@ impl<'a> LoadedPair<'a> {
     }
 
     /// The deflection at `count` positions (at least two) evenly over the stretch that is clear of the edges.
-    ///
-    /// # Errors
-    /// [`CalibrationError::NoClearPosition`]
     pub(crate) fn along_the_path(
         &self,
         count: usize,

@@ -157,18 +157,12 @@ struct Trial {
 
 impl Condensed {
     /// Solves from the active set `start`, or from the first touch.
-    ///
-    /// # Errors
-    /// See [`ActiveSetError`].
     pub(crate) fn solve(&self, start: Option<&[bool]>) -> Result<Equilibrium, ActiveSetError> {
         self.solve_with(start, &mut None)
     }
 
     /// As [`Self::solve`], with what an earlier solution with the same compliance and rigid motions has kept: where the active set is
     /// still the same, nothing is factorised. What this solution has is left there.
-    ///
-    /// # Errors
-    /// See [`ActiveSetError`].
     pub(crate) fn solve_with(
         &self,
         start: Option<&[bool]>,

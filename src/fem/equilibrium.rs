@@ -58,9 +58,6 @@ struct Interface {
 }
 
 /// Finds the equilibrium of `problem`.
-///
-/// # Errors
-/// See [`SolveError`].
 pub(crate) fn solve(problem: &Problem) -> Result<Solution, SolveError> {
     let solid = &problem.solid;
     let mut held = vec![false; solid.dofs()];

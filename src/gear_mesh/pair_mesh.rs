@@ -36,9 +36,6 @@ pub(crate) struct PairSectors {
 }
 
 /// Meshes one tooth of each gear, fine and coarse. `half_width_mm`: half-width of contact by position, from A to E.
-///
-/// # Errors
-/// [`ToothMeshError`]
 pub(crate) fn pair_sectors(
     pair: &GearPair,
     settings: &BodySettings,
@@ -55,9 +52,6 @@ pub(crate) fn pair_sectors(
 
 /// Meshes one tooth of `gear`, fine or coarse, as [`pair_sectors`] does. Where the mate's rounded tip edge touches a fine
 /// one, about the start of active profile, elements are as short as on that rounding.
-///
-/// # Errors
-/// [`ToothMeshError`]
 pub(crate) fn gear_sector(
     pair: &GearPair,
     gear: Gear,
@@ -132,9 +126,6 @@ pub(crate) fn in_place(pair: &GearPair, gear: Gear, position_mm: f64) -> impl Fn
 /// the bodies (`pinion`, `wheel`) and their surfaces (`pinion-flanks`, `-fillets`, `-roots`, `-tips`, `-clamp`, for a
 /// sector `-sides`, and the working flank of each resolved tooth: `pinion-flank-0`, `pinion-flank+1` …). Lines have the
 /// body on their left.
-///
-/// # Errors
-/// [`ToothMeshError`]
 pub(crate) fn pair_mesh(
     pair: &GearPair,
     settings: &BodySettings,

@@ -263,9 +263,6 @@ impl CondensedCycle<'_> {
     /// another direction, or on a tip edge worn to another shape, than they were made for. In between they are linear in what is lost,
     /// and so the rate of wear is smooth within a step. Answers what work that took and what each point wears then; nothing, where
     /// there is nothing to follow.
-    ///
-    /// # Errors
-    /// [`EquilibriumError`] of the first position without equilibrium.
     pub(crate) fn linearise_anew(
         &mut self,
         lost: LostMaterial<'_>,

@@ -221,9 +221,6 @@ pub(crate) fn settled<'a, 'r>(
 /// Finds the equilibrium of `pairs` (at least one) under `line_load` (> 0).
 ///
 /// Approaches are reckoned from that of the first pair, so that nothing is lost where a light load meets a deep relief.
-///
-/// # Errors
-/// [`EquilibriumError`].
 pub(crate) fn balance(
     pairs: &mut [MeshedPair<'_>],
     line_load: f64,

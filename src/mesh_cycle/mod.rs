@@ -178,9 +178,6 @@ pub(crate) trait MeshCycle {
     /// Solves every position on flanks that have lost `lost`, and puts into `depth_mm` what each point wears in one mesh.
     ///
     /// `stopped` is asked at every position whether to give up.
-    ///
-    /// # Errors
-    /// [`EquilibriumError`] of the first position without equilibrium.
     fn evaluate(
         &mut self,
         lost: LostMaterial<'_>,
@@ -194,9 +191,6 @@ pub(crate) trait MeshCycle {
     fn reset(&mut self);
 
     /// What the last evaluation found, on the same `lost`.
-    ///
-    /// # Errors
-    /// [`EquilibriumError`] of the first position without equilibrium.
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError>;
 }
 

@@ -15,9 +15,6 @@ use crate::gear::path_of_contact::PathOfContact;
 const SAME_PLACE: f64 = 1e-9;
 
 /// Positions `count` (≥ 2) in number from A to E; `teeth_n_per_mm2` gives the spring of the teeth at a position.
-///
-/// # Errors
-/// The first error of `teeth_n_per_mm2`.
 pub(crate) fn loading_positions<E>(
     path: &PathOfContact,
     count: usize,
@@ -57,9 +54,6 @@ pub(crate) fn loading_positions<E>(
 
 /// Positions as far apart as `count` (≥ 2) from A to E, these included, but beginning `beyond_mm` before A and ending as far
 /// after E; `lever_ratio` gives [`PairInMesh::lever_ratio`].
-///
-/// # Errors
-/// The first error of `teeth_n_per_mm2`.
 pub(crate) fn positions_with_tip_contact<E>(
     path: &PathOfContact,
     count: usize,

@@ -37,9 +37,6 @@ pub(crate) struct SpringAlongPath {
 impl SpringAlongPath {
     /// At places as far apart as `count` (≥ 2) from A to E, from the last of them that lies no less than `beyond_mm` before A to the
     /// first as far after E.
-    ///
-    /// # Errors
-    /// The first error of `n_per_mm2`.
     pub(crate) fn new<E>(
         path: &PathOfContact,
         count: usize,

@@ -24,9 +24,6 @@ fn approach_mm(pair: &MeshedPair<'_>, base_mm: f64) -> f64 {
 
 /// Finds the equilibrium of `pairs`, whose own springs are infinitely stiff, on the teeth that they belong to, under the sum of
 /// line loads `line_load` (> 0).
-///
-/// # Errors
-/// [`EquilibriumError`].
 pub(crate) fn balance_on_teeth(
     pairs: &mut [MeshedPair<'_>],
     teeth: &mut [BentTooth],

@@ -26,16 +26,10 @@ pub(crate) struct Snapshot {
 pub(crate) trait WearingPair {
     /// Solves one mesh cycle on the flanks as they are, and keeps what they lose in one mesh by `wear`. `stopped` is asked now
     /// and then whether to give up.
-    ///
-    /// # Errors
-    /// [`EquilibriumError`] of the first position without equilibrium.
     fn evaluate(&mut self, wear: &WearModel<'_>, stopped: &(dyn Fn() -> bool + Sync))
     -> Result<Work, EquilibriumError>;
 
     /// What [`CondensedCycle::linearise_anew`] says, after an evaluation on the same flanks.
-    ///
-    /// # Errors
-    /// [`EquilibriumError`] of the first position without equilibrium.
     fn linearise_anew(
         &mut self,
         _wear: &WearModel<'_>,
@@ -62,9 +56,6 @@ pub(crate) trait WearingPair {
     fn depth_mm(&self, depth_mm: &mut PerGear<Vec<f64>>);
 
     /// The state that the last evaluation found.
-    ///
-    /// # Errors
-    /// [`EquilibriumError`] of the first position without equilibrium.
     fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError>;
 }
 

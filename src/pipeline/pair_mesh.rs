@@ -54,9 +54,6 @@ pub(crate) enum PairMeshError {
 }
 
 /// Meshes the pair of `scene` in contact at `position_mm`, by default at the pitch point.
-///
-/// # Errors
-/// [`PairMeshError`]
 pub(crate) fn build(scene: &Scene, position_mm: Option<f64>) -> Result<PairMesh, PairMeshError> {
     let pair = GearPair::new(&scene.pair)?;
     let [from_mm, to_mm] = [pair.path.start_mm, pair.path.end_mm];

@@ -23,27 +23,21 @@ use crate::simulation::settings::AdaptiveMethod;
 #[schemars(title = "gearwear scene")]
 pub struct SceneFile {
     /// Title of the report. Default: the numbers of teeth.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub title: Option<String>,
     /// The gear pair.
     pub pair: PairFile,
     /// Material of both gears, or of each. Default: steel.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub material: Option<MaterialFile>,
     /// Load, speed and duration.
     pub operation: OperationFile,
     /// Contact of the flanks. Default: elastic half-planes; with slices, a Winkler foundation matched on half-width.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub contact: Option<ContactFile>,
     /// Stiffness of the teeth. Default: by finite elements; with slices, Weber and Banaschek.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stiffness: Option<StiffnessFile>,
     /// The finite-element bodies: read by contact.surface = "fem", by the stiffness of the teeth, by the verification of
     /// a run, and by gearwear fem, mesh and calibrate. Default: whole rings.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fem: Option<FemFile>,
     /// Contact temperatures, which need the speed. Default: found only where the wear law reads them.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub temperature: Option<TemperatureFile>,
     /// The wear law.
     pub wear: WearFile,
@@ -51,10 +45,8 @@ pub struct SceneFile {
     /// width. With slices, contact.surface = "hertz-mean" is the simplified model of the thesis, whose wear is kept at
     /// the contact points themselves. The surface "fem" is plane and has no slices; gearwear mesh, fem and calibrate take
     /// the transverse section of a helical pair, and its calibration serves every slice.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub helical: Option<HelicalFile>,
     /// Resolution in space and time.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub numerics: Option<NumericsFile>,
 }
 
@@ -66,47 +58,36 @@ pub struct PairFile {
     /// type C (face width 14 mm) and A (20 mm). thesis-spur, fzg-test: type C again; the scenes of these names are the
     /// thesis's model of it with every choice written out, and its wear test. helical: the transverse section of type C
     /// with a helix of 15°, 20 mm wide. h501, h701, h951: the public helical pairs of FEUP. Default: none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("enum" = presets::names()))]
     pub preset: Option<String>,
     /// Normal module m_n in mm, > 0. Profile shifts and rack factors are then factors of it. Required without a preset,
     /// or transverse_module_mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub normal_module_mm: Option<f64>,
     /// Transverse module m_t in mm, > 0, instead of the normal one. Profile shifts and rack factors are then factors of it.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub transverse_module_mm: Option<f64>,
     /// Normal pressure angle α_n in degrees, 5 to 45. Required without a preset, or transverse_pressure_angle_deg.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 5, max = 45))]
     pub pressure_angle_deg: Option<f64>,
     /// Transverse pressure angle α_t in degrees, 5 to 45, instead of the normal one.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 5, max = 45))]
     pub transverse_pressure_angle_deg: Option<f64>,
     /// Helix angle β at the reference cylinder in degrees, −45 to 45. Positive: the slice at width 0 enters the mesh first.
     /// Default 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -45, max = 45))]
     pub helix_angle_deg: Option<f64>,
     /// Working centre distance a in mm, > 0; sets working pressure angle and backlash. Required without a preset.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub centre_distance_mm: Option<f64>,
     /// Common face width b in mm, > 0. Required without a preset.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub face_width_mm: Option<f64>,
     /// The rack that generates the teeth. Default: profile A of ISO 53.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub basic_rack: Option<BasicRackFile>,
     /// The driving gear. Required without a preset.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub pinion: Option<GearFile>,
     /// The driven gear. Required without a preset.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub wheel: Option<GearFile>,
 }
 
@@ -115,16 +96,13 @@ pub struct PairFile {
 #[serde(deny_unknown_fields)]
 pub struct BasicRackFile {
     /// Addendum factor h_aP*, > 0 to 3. Default 1.0.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 3))]
     pub addendum_factor: Option<f64>,
     /// Dedendum factor h_fP*, > 0 to 3. Default 1.25.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 3))]
     pub dedendum_factor: Option<f64>,
     /// Root fillet radius factor ρ_fP*, 0 to 1. Default 0.38; of a transverse module, less where the normal section of a steep
     /// helix has no room for it.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0, max = 1))]
     pub fillet_radius_factor: Option<f64>,
 }
@@ -134,51 +112,39 @@ pub struct BasicRackFile {
 #[serde(deny_unknown_fields)]
 pub struct GearFile {
     /// Number of teeth z, 5 to 10000. Required without a preset.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 5, max = 10000))]
     pub teeth: Option<u32>,
     /// Profile shift coefficient x of the module that is given, −5 to 5; 0 for none. Required without a preset.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = -5, max = 5))]
     pub profile_shift: Option<f64>,
     /// Tip diameter d_a in mm, > 0. Default: from the rack, shortened so that the full tip clearance is kept.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub tip_diameter_mm: Option<f64>,
     /// Tooth thickness allowance E_sn in µm in the normal section; negative thins the tooth. Default 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub tooth_thickness_allowance_um: Option<f64>,
     /// Bore diameter in mm, > 0: drawn, and the least clamp radius of the finite-element body. The body must be larger.
     /// Default: not given.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub bore_diameter_mm: Option<f64>,
     /// Height of the profile crowning in µm, 0 or more: a parabola over the active profile, nothing removed at its
     /// middle. Default 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub profile_crowning_um: Option<f64>,
     /// Height of the lead crowning in µm, 0 or more: a parabola over the face width, nothing removed at its middle.
     /// Default 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub lead_crowning_um: Option<f64>,
     /// Helix-slope deviation over the face width in µm, misalignment included: positive, material is missing at the full
     /// width; negative, at width 0. Default 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub helix_slope_deviation_um: Option<f64>,
     /// Radius of the rounding of the tip edge in mm, 0 or more. Default 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub tip_rounding_mm: Option<f64>,
     /// Relief towards the tip. Default: none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub tip_relief: Option<ReliefFile>,
     /// Relief towards the root. Default: none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub root_relief: Option<ReliefFile>,
     /// Relief towards both ends of the face width. Default: none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub end_relief: Option<ReliefFile>,
 }
 
@@ -194,7 +160,6 @@ pub struct ReliefFile {
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub length_mm: f64,
     /// How it grows from its start. Default: linear.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<ReliefShape>,
 }
 
@@ -203,30 +168,23 @@ pub struct ReliefFile {
 #[serde(deny_unknown_fields)]
 pub struct MaterialFile {
     /// Young's modulus E of both gears in GPa, > 0. Default 206.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub young_modulus_GPa: Option<f64>,
     /// Poisson's ratio ν of both gears, 0 to below 0.5. Default 0.3.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0), extend("exclusiveMaximum" = 0.5))]
     pub poisson_ratio: Option<f64>,
     /// Density of both gears in kg/m³, > 0; gives the worn mass. Default 7830.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub density_kg_per_m3: Option<f64>,
     /// Thermal conductivity in W/(m·K), > 0; read where contact temperatures are. Default 46.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub thermal_conductivity_W_per_mK: Option<f64>,
     /// Thermal diffusivity in m²/s, > 0; read where contact temperatures are. Default 1.2e-5.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub thermal_diffusivity_m2_per_s: Option<f64>,
     /// Material of the pinion.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub pinion: Option<GearMaterialFile>,
     /// Material of the wheel.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub wheel: Option<GearMaterialFile>,
 }
 
@@ -235,23 +193,18 @@ pub struct MaterialFile {
 #[serde(deny_unknown_fields)]
 pub struct GearMaterialFile {
     /// Young's modulus E in GPa, > 0. Default 206.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub young_modulus_GPa: Option<f64>,
     /// Poisson's ratio ν, 0 to below 0.5. Default 0.3.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0), extend("exclusiveMaximum" = 0.5))]
     pub poisson_ratio: Option<f64>,
     /// Density in kg/m³, > 0; gives the worn mass. Default 7830.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub density_kg_per_m3: Option<f64>,
     /// Thermal conductivity in W/(m·K), > 0; read where contact temperatures are. Default 46.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub thermal_conductivity_W_per_mK: Option<f64>,
     /// Thermal diffusivity in m²/s, > 0; read where contact temperatures are. Default 1.2e-5.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub thermal_diffusivity_m2_per_s: Option<f64>,
 }
@@ -265,29 +218,23 @@ pub struct OperationFile {
     pub pinion_torque_Nm: f64,
     /// Speed of the pinion in revolutions per minute, > 0. Needed with hours, with snapshots_h and with contact
     /// temperatures.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion_speed_rpm: Option<f64>,
     /// Duration of the run in hours, > 0. Required, or pinion_revolutions.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub hours: Option<f64>,
     /// Duration of the run in revolutions of the pinion, > 0. Required, or hours.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion_revolutions: Option<f64>,
     /// When the state is kept in hours: increasing, up to the duration (which is added where missing). Default: 1/64,
     /// 1/32, … 1/2 and the whole of the duration.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("items" = { "type": "number", "exclusiveMinimum": 0 }))]
     pub snapshots_h: Option<Vec<f64>>,
     /// When the state is kept in revolutions of the pinion, instead of hours.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("items" = { "type": "number", "exclusiveMinimum": 0 }))]
     pub snapshots_revolutions: Option<Vec<f64>>,
     /// A load spectrum or running-in: phases that follow each other, each with its own duration; hours or
     /// pinion_revolutions of the whole may be left out then, and must be their sum where given. Default: one phase.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub phases: Option<Vec<PhaseFile>>,
 }
 
@@ -296,27 +243,21 @@ pub struct OperationFile {
 #[serde(deny_unknown_fields)]
 pub struct PhaseFile {
     /// Duration of the phase in hours, > 0. Required, or pinion_revolutions.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub hours: Option<f64>,
     /// Duration of the phase in revolutions of the pinion, > 0. Required, or hours.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion_revolutions: Option<f64>,
     /// Torque on the pinion in N·m, > 0. Default: operation.pinion_torque_Nm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion_torque_Nm: Option<f64>,
     /// Speed of the pinion in revolutions per minute, > 0. Default: operation.pinion_speed_rpm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion_speed_rpm: Option<f64>,
     /// Wear coefficient in m²/N, > 0. Default: that of the wear law.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub coefficient_m2_per_N: Option<f64>,
     /// The same in mm³/(N·m), > 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub coefficient_mm3_per_Nm: Option<f64>,
 }
@@ -326,24 +267,20 @@ pub struct PhaseFile {
 #[serde(deny_unknown_fields)]
 pub struct ContactFile {
     /// Model of the surfaces in contact. Default: half-space; winkler with slices, and where a calibration or K/H is given or matched.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub surface: Option<SurfaceKind>,
     /// What the Winkler foundation shares with Hertz's contact at the pitch point under the whole load: one of them,
     /// never all; read by winkler. With half-width the peak pressure at the pitch point is 1.178 times Hertz's. Default:
     /// half-width.
-    #[serde(rename = "match", skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "match")]
     pub match_criterion: Option<MatchCriterion>,
     /// Stiffness K/H of the Winkler foundation by hand in MPa/mm, > 0, instead of match; read by winkler.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub foundation_MPa_per_mm: Option<f64>,
     /// File of gearwear calibrate, beside the scene: gives winkler its K/H for every position and load, and the tooth
     /// stiffness of finite elements. It must belong to this pair. Default: none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub calibration: Option<String>,
     /// Whether a tip edge is followed into contact before A and after E, where loaded teeth touch early; read by winkler
     /// and half-space, always so with fem. Default true; false is the thesis's model.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub tip_contact: Option<bool>,
 }
 
@@ -354,11 +291,9 @@ pub struct StiffnessFile {
     /// Model of the stiffness of a tooth pair. Default: fem, from the run's own finite elements or the calibration that is given (where
     /// they cannot be had, weber-banaschek with a warning); with slices and no calibration weber-banaschek. Not read with
     /// contact.surface = "fem".
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<StiffnessModel>,
     /// Combined stiffness of a tooth pair without contact flattening in N/(mm·µm), > 0: force per mm of face width and µm
     /// of approach. For model = "constant" only, which needs it.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pair_N_per_mm_um: Option<f64>,
     /// Data file (CSV) of the stiffness along the path of contact, beside the scene. For model = "simon" and "wang-cheng" only,
@@ -366,7 +301,6 @@ pub struct StiffnessFile {
     /// from A to E) and stiffness_N_per_mm_um (of the pair) or deflection_um (under the line load); above them lines
     /// "# flattening = included" or "# flattening = excluded" and, for deflections and where flattening is included,
     /// "# line_load_N_per_mm = …".
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub curve: Option<String>,
 }
 
@@ -394,22 +328,17 @@ pub enum StiffnessModel {
 #[serde(deny_unknown_fields)]
 pub struct FemFile {
     /// How much of each gear is meshed. Default: ring.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub body: Option<BodyKind>,
     /// Teeth of a sector, an odd number from 1; read with body = "sector". Default 3.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 9999))]
     pub sector_teeth: Option<u32>,
     /// What holds the cut sides of a sector; read with body = "sector". Default: free.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub sector_sides: Option<SectorSides>,
     /// Radii at which the bodies are held or turned rigidly, rim or bore. Default: root radius less 2.5 normal modules,
     /// or the bore where that is larger.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub clamp_radius_mm: Option<ClampRadiusFile>,
     /// Elements in the half-width of contact under the whole load, 2 to 60: the resolution. Default 10, and 3 in a wear
     /// run (5 with severe wear), which resolve its wear as well.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 2, max = 60))]
     pub elements_per_half_width: Option<f64>,
 }
@@ -430,11 +359,9 @@ pub enum BodyKind {
 #[serde(deny_unknown_fields)]
 pub struct ClampRadiusFile {
     /// Of the pinion in mm, > 0. Default: root radius less 2.5 normal modules, or the bore where that is larger.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion: Option<f64>,
     /// Of the wheel in mm, > 0. Default: root radius less 2.5 normal modules, or the bore where that is larger.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub wheel: Option<f64>,
 }
@@ -444,11 +371,9 @@ pub struct ClampRadiusFile {
 #[serde(deny_unknown_fields)]
 pub struct HelicalFile {
     /// Slices over the face width, 1 to 2000: thin spur pairs, each in its own transverse section. Default 20.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1, max = 2000))]
     pub slices: Option<u32>,
     /// How neighbouring slices of a tooth are coupled. Default: none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<Coupling>,
 }
 
@@ -457,32 +382,25 @@ pub struct HelicalFile {
 #[serde(deny_unknown_fields)]
 pub struct NumericsFile {
     /// Intervals of a flank, evenly in radius from base to tip circle, 20 to 100000. Default 750.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 20, max = 100000))]
     pub flank_points: Option<u32>,
     /// Loading positions, evenly from A to E, 20 to 1000000. Default 400.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 20, max = 1000000))]
     pub positions: Option<u32>,
     /// Whether the summary estimates the numerical errors of the answer, which costs extra runs. Default true.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub error_estimate: Option<bool>,
     /// Whether the run is checked by the same duration on finite elements, which gives error.total of the summary.
     /// Default true; in a sweep false, and true by name verifies its best rows and its corners.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub verify: Option<bool>,
     /// Length of a wear step as a table for Euler's method (a warning says when it is too long to be stable), or
     /// "adaptive": as long as the error allows, stable in any case. Default: "adaptive" on the surfaces half-space and
     /// fem of a pair without slices and where wear may turn severe, otherwise 1/150 of the duration.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub step: Option<StepFile>,
     /// Error of the wear depth allowed in µm, > 0, at least 0.0001; read with step = "adaptive". Default 0.05.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub tolerance_um: Option<f64>,
     /// How the wear is integrated; read with step = "adaptive". Default: runge-kutta-chebyshev, the better one by far;
     /// linearly-implicit is to compare with.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<AdaptiveMethod>,
 }
 

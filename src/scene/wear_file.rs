@@ -13,20 +13,15 @@ use crate::wear::oxidation::MassRatio;
 #[serde(deny_unknown_fields)]
 pub struct TemperatureFile {
     /// How contact temperatures are found. Default: tian-kennedy.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<TemperatureMethod>,
     /// With which velocity heat moves over the bodies. Default: sliding, as in the thesis.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub velocity: Option<HeatVelocity>,
     /// Which part of the heat each body takes. Default: archard-rowntree.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub partition: Option<HeatPartition>,
     /// Coefficient of friction μ, > 0 to 2. Default 0.1.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 2))]
     pub friction_coefficient: Option<f64>,
     /// Bulk temperature of the gears in °C, above absolute zero (−273.15) to 1500. Default 90: usual for the oil of gear tests.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = -273.15, "maximum" = 1500))]
     pub bulk_temperature_C: Option<f64>,
 }
@@ -39,24 +34,19 @@ pub struct WearFile {
     pub law: WearLaw,
     /// Wear coefficient k in m²/N, > 0: depth per pressure and sliding distance. Mild wear of steel: 1e-19 to 1e-16.
     /// Required, or coefficient_mm3_per_Nm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub coefficient_m2_per_N: Option<f64>,
     /// The same in mm³/(N·m), > 0: volume per force and sliding distance. 1e-8 mm³/(N·m) is 1e-17 m²/N. Required, or
     /// coefficient_m2_per_N.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub coefficient_mm3_per_Nm: Option<f64>,
     /// Transition from mild to severe wear. Default: none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub severe: Option<SevereFile>,
     /// Constants of law = "adsorption". Default: typical orders of magnitude, not those of any lubricant; the run says
     /// which constants are typical ones.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub adsorption: Option<AdsorptionFile>,
     /// Constants of law = "oxidation". Default: typical orders of magnitude, not those of any steel; the run says which
     /// constants are typical ones.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub oxidation: Option<OxidationFile>,
 }
 
@@ -80,15 +70,12 @@ pub enum WearLaw {
 #[serde(deny_unknown_fields)]
 pub struct AdsorptionFile {
     /// Diameter X of a molecule in nm, > 0. Default 0.3 (typical).
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub molecule_diameter_nm: Option<f64>,
     /// Fundamental time of vibration t₀ of a molecule in ps, > 0. Default 3 (typical).
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub vibration_time_ps: Option<f64>,
     /// Heat of adsorption E in kJ/mol, 0 or more; typically 40 to 55. Default 48 (typical).
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub heat_of_adsorption_kJ_per_mol: Option<f64>,
 }
@@ -98,19 +85,15 @@ pub struct AdsorptionFile {
 #[serde(deny_unknown_fields)]
 pub struct OxidationFile {
     /// Arrhenius constant A_l of linear oxidation in kg/(m²·s), > 0: oxygen taken up. Default 1000 (typical).
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub arrhenius_constant_kg_per_m2s: Option<f64>,
     /// Activation energy Q_l in kJ/mol, 0 or more. Default 100 (typical).
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub activation_energy_kJ_per_mol: Option<f64>,
     /// Density of the iron in kg/m³, > 0. Default 7870.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub density_kg_per_m3: Option<f64>,
     /// How the mass of iron follows from that of oxygen. Default: stoichiometric.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_ratio: Option<MassRatio>,
 }
 
@@ -126,7 +109,6 @@ pub struct SevereFile {
     pub factor: f64,
     /// Pressure in MPa over which the factor rises, half of it to either side of above_MPa, 0 or more; adaptive steps
     /// resolve such a band cheaply. Default 0: at once, as in the thesis.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub band_MPa: Option<f64>,
 }

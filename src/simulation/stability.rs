@@ -34,9 +34,6 @@ pub(crate) struct StepBound {
 impl WearRun<'_> {
     /// The longest stable step of Euler's method on unworn flanks in the conditions of `phase`; with `pressure_too`, the greatest
     /// pressure on them beside it. `stopped` is asked now and then whether to give up.
-    ///
-    /// # Errors
-    /// [`SimulationError`].
     pub(crate) fn step_bound(
         &self,
         phase: &RunPhase<'_>,

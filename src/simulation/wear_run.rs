@@ -140,17 +140,11 @@ struct Attendants<'a> {
 
 impl WearRun<'_> {
     /// Runs the whole duration, or until interrupted.
-    ///
-    /// # Errors
-    /// [`SimulationError`].
     pub(crate) fn run(&self, progress: &dyn Observer) -> Result<Outcome, SimulationError> {
         self.run_from(None, &NothingKept, progress)
     }
 
     /// The same from a checkpoint of this same run on, to the same bits; `keeper` gets new ones.
-    ///
-    /// # Errors
-    /// [`SimulationError`].
     pub(crate) fn run_from(
         &self,
         checkpoint: Option<Checkpoint>,
@@ -213,9 +207,6 @@ impl WearRun<'_> {
     }
 
     /// The pair under the load of `phase`.
-    ///
-    /// # Errors
-    /// [`SimulationError`]
     pub(super) fn wearing_pair<'b>(
         &'b self,
         phase: &RunPhase<'b>,

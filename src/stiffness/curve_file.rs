@@ -59,9 +59,6 @@ struct Header {
 }
 
 /// The curve in a file's text, which must reach from A to E.
-///
-/// # Errors
-/// [`CurveFileError`].
 pub(crate) fn parse(text: &str, path: &PathOfContact) -> Result<PairCompliance, CurveFileError> {
     let table = DataTable::read(text, || format!("{POSITION},{STIFFNESS} or {POSITION},{DEFLECTION}"))?;
     let mut header = Header::default();

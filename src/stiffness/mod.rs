@@ -91,9 +91,6 @@ pub(crate) struct TeethSpring<'a> {
 impl<'a> TeethSpring<'a> {
     /// Prepares the model for a pair on a surface; the reference load is the whole line load. `given` is the curve of the
     /// models that have one.
-    ///
-    /// # Errors
-    /// [`StiffnessError::NoCurve`]
     pub(crate) fn new(
         settings: StiffnessSettings,
         given: Option<&'a PairCompliance>,

@@ -95,9 +95,6 @@ impl MeshedGear {
     }
 
     /// Meshes a gear of which the tooth in the middle alone is loaded.
-    ///
-    /// # Errors
-    /// [`ModelError::Mesh`]
     pub(crate) fn with_one_fine_tooth(
         pair: &GearPair,
         gear: Gear,
@@ -190,9 +187,6 @@ impl MeshedGear {
     }
 
     /// Condenses the gear onto the nodes of its working flanks, with the stresses at its fillets.
-    ///
-    /// # Errors
-    /// [`ModelError::Condense`].
     pub(crate) fn condense(
         &self,
         pair: &GearPair,
@@ -221,9 +215,6 @@ impl MeshedGear {
     }
 
     /// Condenses the gear onto `nodes` of its working flank alone, without stresses: for loads that are known.
-    ///
-    /// # Errors
-    /// [`ModelError::Condense`].
     pub(crate) fn condense_onto(
         &self,
         pair: &GearPair,
@@ -299,9 +290,6 @@ pub(crate) fn element(cell: &Cell, nodes: &[u32], material: u16) -> Element {
 impl<'a> CondensedPair<'a> {
     /// Meshes and condenses both gears of `pair` for contact under `line_load_n_per_mm`, at the same time where there are
     /// threads for it; without stresses.
-    ///
-    /// # Errors
-    /// [`ModelError`].
     pub(crate) fn build(
         pair: &'a GearPair,
         material: &PerGear<Elastic>,

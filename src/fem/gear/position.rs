@@ -86,9 +86,6 @@ pub(crate) struct WarmStart(Vec<(i32, f64, f64)>);
 
 impl<'a> CondensedPair<'a> {
     /// Solves at `position_mm` under `line_load_n_per_mm`.
-    ///
-    /// # Errors
-    /// See [`ActiveSetError`].
     pub(crate) fn at(
         &self,
         position_mm: f64,
@@ -99,9 +96,6 @@ impl<'a> CondensedPair<'a> {
     }
 
     /// Solves as [`Self::at`] does, but with the reference pair alone in contact: it carries the whole load.
-    ///
-    /// # Errors
-    /// See [`ActiveSetError`].
     pub(crate) fn at_alone(
         &self,
         position_mm: f64,

@@ -108,9 +108,6 @@ impl<'a> CondensedPair<'a> {
 
     /// Solves a prepared position, in a wider window where contact comes close to the end of the first. `opening` adds to the gaps of the
     /// unworn flanks what these are opened by: each time anew where the window is wider, and so has other multipliers.
-    ///
-    /// # Errors
-    /// See [`ActiveSetError`].
     pub(crate) fn solve(
         &self,
         prepared: &mut Prepared,

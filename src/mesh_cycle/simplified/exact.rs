@@ -68,9 +68,6 @@ pub(crate) struct SlicesInSeries<'a> {
 
 impl SlicesInSeries<'_> {
     /// Line load of every contact with its gap, and the equilibrium.
-    ///
-    /// # Errors
-    /// [`EquilibriumError`].
     pub(crate) fn balance(
         &self,
         contacts: &[SliceContact],

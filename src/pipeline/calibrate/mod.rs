@@ -83,9 +83,6 @@ pub(crate) enum Extent {
 }
 
 /// Calibrates the pair of `scene`. The files are left to the caller.
-///
-/// # Errors
-/// [`CalibrateError`]
 pub(crate) fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Calibrated, CalibrateError> {
     use CalibrationStage as Stage;
     let start = Instant::now();

@@ -16,10 +16,8 @@ use crate::fem::elastic::Analysis;
 #[schemars(title = "gearwear finite-element problem")]
 pub(crate) struct FemProblemFile {
     /// Title of the report. Default: the name of the mesh file.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub title: Option<String>,
     /// What the third direction does. Default: plane-strain.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub analysis: Option<Analysis>,
     /// The mesh.
     pub mesh: MeshFile,
@@ -65,7 +63,6 @@ pub(crate) struct FixedFile {
     /// Group of the mesh: points, lines or surfaces, or a set of nodes.
     pub group: String,
     /// Directions that are held. Default: both.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub components: Option<Vec<Component>>,
 }
 
@@ -87,13 +84,10 @@ pub(crate) struct LoadFile {
     pub group: String,
     /// Resultant force [x, y] over the group in N per mm of thickness: spread evenly over its lines as a uniform traction,
     /// or shared evenly by its points.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub force_N_per_mm: Option<[f64; 2]>,
     /// Displacement [x, y] of the whole group in mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub displacement_mm: Option<[f64; 2]>,
     /// Directions in which the displacement is given; the other one stays free. Default: both.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub components: Option<Vec<Component>>,
 }
 
@@ -106,7 +100,6 @@ pub(crate) struct ContactFile {
     /// Group of lines, or set of nodes, on the surface it may touch.
     pub master: String,
     /// Coefficient of friction. This version knows frictionless contact only: 0. Default 0.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0))]
     pub friction: Option<f64>,
 }

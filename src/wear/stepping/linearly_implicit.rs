@@ -32,9 +32,6 @@ pub(crate) struct LinearlyImplicit {
 
 impl LinearlyImplicit {
     /// Takes a step of `h` from `state`, where the rate is `slope`, to `end`, with the diagonal W. Costs one evaluation.
-    ///
-    /// # Errors
-    /// Of the rate.
     pub(crate) fn step<R: Rate + ?Sized>(
         &mut self,
         rate: &mut R,

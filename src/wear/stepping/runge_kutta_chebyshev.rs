@@ -92,9 +92,6 @@ pub(crate) struct RungeKuttaChebyshev {
 
 impl RungeKuttaChebyshev {
     /// Takes a step of `h` from `state`, where the rate is `slope`, to `end`. Costs `stages` − 1 evaluations.
-    ///
-    /// # Errors
-    /// Of the rate.
     pub(crate) fn step<R: Rate + ?Sized>(
         &mut self,
         rate: &mut R,

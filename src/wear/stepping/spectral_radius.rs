@@ -51,9 +51,6 @@ impl SpectralRadius {
     }
 
     /// Estimates it at `state`, where the rate is `slope`, with probes of the height `probe`. Answers the number of evaluations.
-    ///
-    /// # Errors
-    /// Of the rate.
     pub(crate) fn estimate<R: Rate + ?Sized>(
         &mut self,
         rate: &mut R,
