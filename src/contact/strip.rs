@@ -138,10 +138,10 @@ pub(super) fn common_extent_mm(geometry: &dyn ConjugateFlanks, position_mm: f64)
     (extent, [lowers[1] >= lowers[0], uppers[0] <= uppers[1]])
 }
 
-/// Distance of the pinion's points at the theoretical contact point.
-pub(crate) fn point_distance_mm(flanks: Flanks<'_>, position_mm: f64) -> f64 {
-    let grid = flanks.grid.pinion;
-    let here = grid.place(flanks.geometry.contact_coordinate_mm(Gear::Pinion, position_mm)).index;
+/// Distance of the points of a gear's flank at the theoretical contact point.
+pub(crate) fn point_distance_mm(flanks: Flanks<'_>, gear: Gear, position_mm: f64) -> f64 {
+    let grid = flanks.grid[gear];
+    let here = grid.place(flanks.geometry.contact_coordinate_mm(gear, position_mm)).index;
     grid.arc_mm[here + 1] - grid.arc_mm[here]
 }
 

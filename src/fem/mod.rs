@@ -2,6 +2,7 @@
 
 pub(crate) mod active_set;
 pub(crate) mod contact;
+pub(crate) mod disjoint_sets;
 pub(crate) mod elastic;
 pub(crate) mod element;
 mod enhanced_quad;

@@ -8,8 +8,11 @@
 //!
 //! Source: C. Farhat and F.-X. Roux, *Int. J. Numer. Meth. Eng.* 32 (1991) 1205–1227 (floating subdomains).
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Matrix3, Vector2, Vector3};
 
+use super::disjoint_sets::DisjointSets;
 use super::solid::Solid;
 
 /// Motions whose held components are below this part of the others' are free.
@@ -60,25 +63,17 @@ pub(crate) fn describe(motions: &[RigidMotion], amplitudes: &[f64]) -> String {
 
 /// The nodes of each body: those connected through elements, by increasing number.
 pub(crate) fn bodies(solid: &Solid) -> Vec<Vec<u32>> {
-    fn root(parent: &mut [u32], mut node: u32) -> u32 {
-        while parent[node as usize] != node {
-            parent[node as usize] = parent[parent[node as usize] as usize];
-            node = parent[node as usize];
-        }
-        node
-    }
-    let mut parent: Vec<u32> = (0..solid.points_mm.len() as u32).collect();
-    let mut used = vec![false; parent.len()];
-    for element in &solid.elements {
-        for &node in element.nodes() {
+    let mut sets = DisjointSets::new(solid.points_mm.len());
+    let mut used = vec![false; solid.points_mm.len()];
+    for nodes in solid.elements.iter().map(|element| element.nodes()) {
+        for &node in nodes {
             used[node as usize] = true;
-            let (a, b) = (root(&mut parent, element.nodes()[0]), root(&mut parent, node));
-            parent[a.max(b) as usize] = a.min(b);
+            sets.join(nodes[0], node);
         }
     }
-    let mut groups: std::collections::BTreeMap<u32, Vec<u32>> = std::collections::BTreeMap::new();
-    for node in (0..parent.len() as u32).filter(|&node| used[node as usize]) {
-        groups.entry(root(&mut parent, node)).or_default().push(node);
+    let mut groups: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for node in (0..used.len() as u32).filter(|&node| used[node as usize]) {
+        groups.entry(sets.root(node)).or_default().push(node);
     }
     groups.into_values().collect()
 }

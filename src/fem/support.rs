@@ -13,6 +13,7 @@
 
 use nalgebra::{DMatrix, Vector2};
 
+use super::disjoint_sets::DisjointSets;
 use super::solid::{ElementKind, Solid};
 
 /// Least eigenvalue of the sum of squares, relative to the greatest, that counts as held. With lengths relative to the size
@@ -187,46 +188,4 @@ fn elements_around_nodes(solid: &Solid) -> (Vec<usize>, Vec<u32>) {
         }
     }
     (start, around)
-}
-
-/// Sets that are joined pair by pair.
-struct DisjointSets {
-    parent: Vec<u32>,
-}
-
-impl DisjointSets {
-    fn new(count: usize) -> Self {
-        Self { parent: (0..count as u32).collect() }
-    }
-
-    fn root(&mut self, mut of: u32) -> u32 {
-        while self.parent[of as usize] != of {
-            let above = self.parent[self.parent[of as usize] as usize];
-            self.parent[of as usize] = above;
-            of = above;
-        }
-        of
-    }
-
-    /// The lower root stays.
-    fn join(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.root(a), self.root(b));
-        self.parent[a.max(b) as usize] = a.min(b);
-    }
-
-    /// The set of each member, numbered in the order of their lowest members, and how many there are.
-    fn numbered(mut self) -> (Vec<u32>, usize) {
-        let mut number = vec![0; self.parent.len()];
-        let mut count = 0;
-        for member in 0..self.parent.len() as u32 {
-            let root = self.root(member);
-            if root == member {
-                number[member as usize] = count;
-                count += 1;
-            } else {
-                number[member as usize] = number[root as usize];
-            }
-        }
-        (number, count as usize)
-    }
 }

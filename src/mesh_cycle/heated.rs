@@ -1,10 +1,11 @@
-//! The contact of a tooth pair as a source of heat, for wear laws that read what it does to the flank points in it.
+//! The wear of the flank points in a tooth pair's contact, which is a source of heat for wear laws that read what that does to them.
 
-use crate::contact::{Flanks, PairContact, PositionCell, Sweep};
+use super::load_sharing::MeshedPair;
+use crate::contact::{Flanks, PairContact, PositionCell, Sweep, strip::point_distance_mm};
 use crate::gear::{Gear, PerGear};
 use crate::thermal::{ContactHeat, SpeedRatios};
 use crate::wear::{
-    ContactConditions, WearModel,
+    ContactConditions, SlidingRow, WearModel,
     heated_row::{HeatedContact, HeatedRow, RowOfPoints},
 };
 
@@ -17,7 +18,7 @@ pub(super) struct HeatedPlace {
 }
 
 /// A contact under its load, and where it is.
-pub(super) struct HeatedPair<'a> {
+struct HeatedPair<'a> {
     contact: HeatedContact<'a>,
     spacing_mm: PerGear<f64>,
     /// Whether rows of points run across it.
@@ -27,19 +28,14 @@ pub(super) struct HeatedPair<'a> {
 impl HeatedPlace {
     /// The stretch of the path that a loading position stands for.
     pub(super) fn new(flanks: Flanks<'_>, cell: PositionCell) -> Self {
-        let spacing = |gear: Gear| {
-            let grid = flanks.grid[gear];
-            let here = grid.place(flanks.geometry.contact_coordinate_mm(gear, cell.position_mm)).index;
-            grid.arc_mm[here + 1] - grid.arc_mm[here]
-        };
         Self {
             ratios: SpeedRatios::over(flanks.geometry, cell.lower_mm, cell.upper_mm),
-            spacing_mm: PerGear::from_fn(spacing),
+            spacing_mm: PerGear::from_fn(|gear| point_distance_mm(flanks, gear, cell.position_mm)),
         }
     }
 
     /// A pair that is pressed together here; none where the law does not read what heat does.
-    pub(super) fn under<'a>(
+    fn under<'a>(
         &self,
         wear: &WearModel<'a>,
         pair: &dyn PairContact,
@@ -61,12 +57,42 @@ impl HeatedPlace {
 
 impl HeatedPair<'_> {
     /// The conditions of the points of `gear`'s flank in a sweep.
-    pub(super) fn conditions<'r>(&self, row: &'r mut HeatedRow, gear: Gear, sweep: &Sweep) -> &'r [ContactConditions] {
+    fn conditions<'r>(&self, row: &'r mut HeatedRow, gear: Gear, sweep: &Sweep) -> &'r [ContactConditions] {
         if self.across {
             let points = RowOfPoints { gear, spacing_mm: self.spacing_mm[gear], pressure_mpa: &sweep.pressure_mpa };
             row.across(&self.contact, points)
         } else {
             row.even(&self.contact, gear, sweep.pressure_mpa.len())
+        }
+    }
+}
+
+/// Buffers for the points of one contact.
+#[derive(Default)]
+pub(super) struct WornPoints {
+    sweep: Sweep,
+    heated: HeatedRow,
+}
+
+impl WornPoints {
+    /// Adds what the points of both flanks, which have lost `removed_mm`, wear in the contact of `pair` at `place` to `depth_mm`, where
+    /// they begin at `first`.
+    pub(super) fn wear(
+        &mut self,
+        wear: &WearModel<'_>,
+        (pair, place): (&MeshedPair<'_>, &HeatedPlace),
+        removed_mm: PerGear<&[f64]>,
+        first: PerGear<usize>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+    ) {
+        let Self { sweep, heated } = self;
+        let source = place.under(wear, &*pair.contact, pair.response.line_load_n_per_mm);
+        for gear in Gear::BOTH {
+            pair.contact.sweep(gear, removed_mm, sweep);
+            let points = first[gear] + sweep.first_point..first[gear] + sweep.first_point + sweep.sliding_mm.len();
+            let conditions = source.as_ref().map(|source| source.conditions(heated, gear, sweep));
+            let row = SlidingRow { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, conditions };
+            wear.law.add_depth(&row, &mut depth_mm[gear][points]);
         }
     }
 }

@@ -27,9 +27,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCell, Sweep};
 use crate::gear::{Gear, PerGear};
-use crate::wear::{SlidingRow, WearModel, heated_row::HeatedRow};
+use crate::wear::WearModel;
 use collected::Collected;
-use heated::HeatedPlace;
+use heated::{HeatedPlace, WornPoints};
 use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use sliced_mesh::SlicedMesh;
 
@@ -94,8 +94,7 @@ struct LoadedPosition<'a> {
 struct Group<'a> {
     loaded_positions: Vec<LoadedPosition<'a>>,
     collected: Collected,
-    sweep: Sweep,
-    heated: HeatedRow,
+    points: WornPoints,
 }
 
 /// All loading positions of a pair, ready to be evaluated on ever newly worn flanks.
@@ -208,8 +207,7 @@ impl<'a> LineOfActionCycle<'a> {
             .map(|positions| Group {
                 loaded_positions: positions.iter().map(|p| LoadedPosition::new(flanks, surface, p)).collect(),
                 collected: Collected::new(flanks.grid.map(|grid| grid.len())),
-                sweep: Sweep::default(),
-                heated: HeatedRow::default(),
+                points: WornPoints::default(),
             })
             .collect();
         Self { groups, line_load_n_per_mm, bodies_mm: 0.0 }
@@ -307,18 +305,8 @@ impl Group<'_> {
             if !self.collected.take(solved) {
                 return;
             }
-            let pair = &loaded.pairs[0];
-            let load = pair.response.line_load_n_per_mm;
-            let heated = loaded.heated_place.under(wear, &*pair.contact, load);
-            for gear in Gear::BOTH {
-                let sweep = &mut self.sweep;
-                pair.contact.sweep(gear, removed_mm, sweep);
-                let points = sweep.first_point..sweep.first_point + sweep.sliding_mm.len();
-                let row = &mut self.heated;
-                let conditions = heated.as_ref().map(|heated| heated.conditions(row, gear, sweep));
-                let row = SlidingRow { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, conditions };
-                wear.law.add_depth(&row, &mut self.collected.depth_mm[gear][points]);
-            }
+            let contact = (&loaded.pairs[0], &loaded.heated_place);
+            self.points.wear(wear, contact, removed_mm, PerGear::default(), &mut self.collected.depth_mm);
         }
     }
 }

@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 use super::bent_tooth::BentTooth;
 use super::collected::Collected;
-use super::heated::HeatedPlace;
+use super::heated::{HeatedPlace, WornPoints};
 use super::load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use super::slice_coupling::SliceCoupling;
 use super::sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh};
@@ -24,7 +24,7 @@ use super::sliced_teeth::SlicedTeeth;
 use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, note_what_points_felt};
 use crate::contact::{ContactSurface, Flanks, Sweep};
 use crate::gear::{Gear, PerGear, path_of_contact::PathOfContact};
-use crate::wear::{SlidingRow, WearModel, heated_row::HeatedRow};
+use crate::wear::WearModel;
 
 /// The spring of the teeth along the path of contact, evaluated once for all slices.
 pub(crate) struct SpringAlongPath {
@@ -85,8 +85,7 @@ struct LoadedPosition<'a> {
 struct Group<'a> {
     loaded_positions: Vec<LoadedPosition<'a>>,
     collected: Collected,
-    sweep: Sweep,
-    heated: HeatedRow,
+    points: WornPoints,
 }
 
 /// All phases of a sliced pair, ready to be evaluated on ever newly worn flanks.
@@ -131,8 +130,7 @@ impl<'a> SlicedCycle<'a> {
                     .map(|phase| LoadedPosition::new(flanks, surface, sliced, phase, springs))
                     .collect(),
                 collected: Collected::new(points.map(|points| slices * points)),
-                sweep: Sweep::default(),
-                heated: HeatedRow::default(),
+                points: WornPoints::default(),
             })
             .collect();
         Self { groups, sliced, path, points, positions, line_load_n_per_mm, bodies_mm: 0.0 }
@@ -222,18 +220,8 @@ impl Group<'_> {
             let contacts = loaded.contacts.iter().zip(&loaded.heated_places);
             for ((contact, place), pair) in contacts.zip(&loaded.pairs) {
                 let own = of_slice(removed_mm, points, contact.slice);
-                let heated = place.under(wear, &*pair.contact, pair.response.line_load_n_per_mm);
-                for gear in Gear::BOTH {
-                    let sweep = &mut self.sweep;
-                    pair.contact.sweep(gear, own, sweep);
-                    let first = contact.slice * points[gear] + sweep.first_point;
-                    let depth = &mut self.collected.depth_mm[gear][first..first + sweep.sliding_mm.len()];
-                    let row = &mut self.heated;
-                    let conditions = heated.as_ref().map(|heated| heated.conditions(row, gear, sweep));
-                    let row =
-                        SlidingRow { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, conditions };
-                    wear.law.add_depth(&row, depth);
-                }
+                let first = points.map(|points| contact.slice * points);
+                self.points.wear(wear, (pair, place), own, first, &mut self.collected.depth_mm);
             }
         }
     }

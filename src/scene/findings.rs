@@ -74,6 +74,16 @@ impl Findings {
         });
     }
 
+    /// The value of `key` is not among what is `allowed`.
+    pub(super) fn not_allowed(&mut self, key: &str, found: impl Into<String>, allowed: impl Into<String>) {
+        self.problem(ProblemKind::NotAllowed, key, found, allowed);
+    }
+
+    /// Warns that `what` of the file is not used, and why.
+    pub(super) fn unused(&mut self, what: &str, because: &str) {
+        self.warnings.push(format!("{what} is not used: {because}"));
+    }
+
     /// Adds a sentence of help to the problem just reported.
     pub(super) fn help(&mut self, sentence: impl AsRef<str>) {
         if let Some(problem) = self.problems.last_mut().filter(|_| self.reported) {

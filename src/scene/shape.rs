@@ -108,7 +108,7 @@ fn check_text(node: Node<'_>, text: &str, key: &str, findings: &mut Findings) ->
     if choices.is_empty() || choices.contains(&text) {
         return Some(Value::String(text.to_owned()));
     }
-    findings.problem(ProblemKind::NotAllowed, key, format!("{text:?}"), node.allowed());
+    findings.not_allowed(key, format!("{text:?}"), node.allowed());
     if let Some(near) = nearest(text, &choices) {
         findings.help(format!("did you mean {near:?}?"));
     }
@@ -119,7 +119,7 @@ fn check_number(node: Node<'_>, x: f64, value: &Value, key: &str, findings: &mut
     if node.holds(x) {
         return Some(value.clone());
     }
-    findings.problem(ProblemKind::NotAllowed, key, number(x), node.allowed());
+    findings.not_allowed(key, number(x), node.allowed());
     None
 }
 

@@ -10,7 +10,7 @@ use crate::fem::element;
 use crate::fem::solid::{Element, ElementKind, Solid};
 use crate::mesh::{CellKind, Mesh};
 use crate::scene::findings::Findings;
-use crate::scene::problem::{ProblemKind, number};
+use crate::scene::problem::number;
 
 const MPA_PER_GPA: f64 = 1e3;
 /// A node may lie this far from the plane z = 0, relative to the mesh's extent: what writing decimals leaves.
@@ -72,19 +72,14 @@ fn check_cells(mesh: &Mesh, findings: &mut Findings) {
         }
     }
     if !solids.is_empty() {
-        findings.problem(ProblemKind::NotAllowed, "mesh.file", format!("solid cells: {}", solids.join(", ")), plane);
+        findings.not_allowed("mesh.file", format!("solid cells: {}", solids.join(", ")), plane);
     }
     if let Err(inconsistency) = mesh.check() {
-        findings.problem(
-            ProblemKind::NotAllowed,
-            "mesh.file",
-            inconsistency.to_string(),
-            "a mesh without contradictions",
-        );
+        findings.not_allowed("mesh.file", inconsistency.to_string(), "a mesh without contradictions");
     }
     if u32::try_from(mesh.points.len()).is_err() {
         let found = format!("{} nodes", mesh.points.len());
-        findings.problem(ProblemKind::NotAllowed, "mesh.file", found, format!("at most {} nodes", u32::MAX));
+        findings.not_allowed("mesh.file", found, format!("at most {} nodes", u32::MAX));
     }
 }
 
@@ -101,12 +96,12 @@ fn owners(file: &FemProblemFile, mesh: &Mesh, groups: &Groups<'_>, findings: &mu
         let Some(group) = groups.find(&body.group, &key, findings) else { continue };
         let Ok(number) = u16::try_from(i) else {
             let found = format!("{} bodies", file.body.len());
-            findings.problem(ProblemKind::NotAllowed, &key, found, format!("at most {}", 1 + usize::from(u16::MAX)));
+            findings.not_allowed(&key, found, format!("at most {}", 1 + usize::from(u16::MAX)));
             break;
         };
         if group.cells[2].is_empty() {
             let found = format!("{:?}, which holds {}", body.group, group.in_words());
-            findings.problem(ProblemKind::NotAllowed, &key, found, "a group of triangles or quadrilaterals");
+            findings.not_allowed(&key, found, "a group of triangles or quadrilaterals");
         }
         let mut taken: Option<(u16, usize)> = None;
         for &(block, cell) in &group.cells[2] {
@@ -119,7 +114,7 @@ fn owners(file: &FemProblemFile, mesh: &Mesh, groups: &Groups<'_>, findings: &mu
         if let Some((other, count)) = taken {
             let other = &file.body[usize::from(other)].group;
             let found = format!("{:?}, of which {count} elements belong to the body {other:?} too", body.group);
-            findings.problem(ProblemKind::NotAllowed, &key, found, "every element in one body");
+            findings.not_allowed(&key, found, "every element in one body");
         }
     }
     owner
@@ -183,7 +178,7 @@ fn check_plane(mesh: &Mesh, meshed: &Meshed, findings: &mut Findings) {
     let off = |(node, point): &(usize, &[f64; 3])| meshed.node(*node).is_some() && point[2].abs() > FLAT * extent;
     if let Some((node, [x, y, z])) = mesh.points.iter().enumerate().find(off) {
         let found = format!("node {} at x = {}, y = {}, z = {}", node + 1, number(*x), number(*y), number(*z));
-        findings.problem(ProblemKind::NotAllowed, "mesh.file", found, "a mesh in the plane z = 0");
+        findings.not_allowed("mesh.file", found, "a mesh in the plane z = 0");
     }
 }
 
@@ -220,7 +215,7 @@ fn turned(file: &FemProblemFile, mut meshed: Meshed, findings: &mut Findings) ->
                 number(at.y)
             );
             let allowed = "convex elements, whose sides do not fold over";
-            findings.problem(ProblemKind::NotAllowed, &format!("body[{i}].group"), found, allowed);
+            findings.not_allowed(&format!("body[{i}].group"), found, allowed);
         }
     }
     meshed

@@ -17,10 +17,10 @@ use std::collections::BTreeMap;
 use nalgebra::{DMatrix, SymmetricEigen, Vector2};
 
 use super::bodies::Meshed;
+use crate::fem::disjoint_sets::DisjointSets;
 use crate::fem::problem::{Edge, Problem};
 use crate::fem::solid::Solid;
 use crate::scene::findings::Findings;
-use crate::scene::problem::ProblemKind;
 
 /// A motion counts as free where the sum of its squared equations is this small beside the largest.
 const FREE: f64 = 1e-10;
@@ -115,7 +115,7 @@ fn check_cluster(pieces: &Pieces, members: &[usize], equations: &[&Equation], al
     let allowed =
         if alone { "supports that hold every body" } else { "supports and contacts that together hold every body" };
     let body = pieces.body[piece];
-    findings.problem(ProblemKind::NotAllowed, &format!("body[{body}]"), found, allowed);
+    findings.not_allowed(&format!("body[{body}]"), found, allowed);
     findings.help(
         "hold it in one more direction with [[fixed]], or on a line of symmetry; there is no friction to hold it",
     );
@@ -123,24 +123,19 @@ fn check_cluster(pieces: &Pieces, members: &[usize], equations: &[&Equation], al
 
 impl Pieces {
     fn of(solid: &Solid) -> Self {
-        let mut parent: Vec<usize> = (0..solid.points_mm.len()).collect();
-        for element in &solid.elements {
-            let first = root(&mut parent, element.nodes()[0] as usize);
-            for &node in &element.nodes()[1..] {
-                let other = root(&mut parent, node as usize);
-                parent[other] = first;
-            }
+        let mut sets = DisjointSets::new(solid.points_mm.len());
+        for nodes in solid.elements.iter().map(|element| element.nodes()) {
+            nodes.iter().for_each(|&node| sets.join(nodes[0], node));
         }
-        let mut number: BTreeMap<usize, usize> = BTreeMap::new();
+        let mut number: BTreeMap<u32, usize> = BTreeMap::new();
         let mut body = Vec::new();
         for element in &solid.elements {
-            let root = root(&mut parent, element.nodes()[0] as usize);
-            number.entry(root).or_insert_with(|| {
+            number.entry(sets.root(element.nodes()[0])).or_insert_with(|| {
                 body.push(element.material);
                 body.len() - 1
             });
         }
-        let of_node: Vec<usize> = (0..parent.len()).map(|node| number[&root(&mut parent, node)]).collect();
+        let of_node: Vec<usize> = (0..solid.points_mm.len() as u32).map(|node| number[&sets.root(node)]).collect();
         let mut centre_mm = vec![Vector2::zeros(); body.len()];
         let mut count = vec![0.0; body.len()];
         for (point, &piece) in solid.points_mm.iter().zip(&of_node) {
@@ -163,20 +158,17 @@ impl Pieces {
 
     /// Pieces that equations tie together, each with its equations.
     fn clusters<'e>(&self, equations: &'e [Equation]) -> Vec<(Vec<usize>, Vec<&'e Equation>)> {
-        let mut parent: Vec<usize> = (0..self.body.len()).collect();
-        for equation in equations {
-            for pair in equation.windows(2) {
-                let (one, other) = (root(&mut parent, pair[0].0), root(&mut parent, pair[1].0));
-                parent[other.max(one)] = one.min(other);
-            }
+        let mut sets = DisjointSets::new(self.body.len());
+        for pair in equations.iter().flat_map(|equation| equation.windows(2)) {
+            sets.join(pair[0].0 as u32, pair[1].0 as u32);
         }
-        let mut clusters: BTreeMap<usize, (Vec<usize>, Vec<&Equation>)> = BTreeMap::new();
+        let mut clusters: BTreeMap<u32, (Vec<usize>, Vec<&Equation>)> = BTreeMap::new();
         for piece in 0..self.body.len() {
-            clusters.entry(root(&mut parent, piece)).or_default().0.push(piece);
+            clusters.entry(sets.root(piece as u32)).or_default().0.push(piece);
         }
         for equation in equations {
             if let Some((piece, _)) = equation.first() {
-                clusters.entry(root(&mut parent, *piece)).or_default().1.push(equation);
+                clusters.entry(sets.root(*piece as u32)).or_default().1.push(equation);
             }
         }
         clusters.into_values().collect()
@@ -196,15 +188,6 @@ impl Pieces {
             _ => format!("can move along ({:.3}, {:.3})", direction.x, direction.y),
         }
     }
-}
-
-/// The representative of `i`'s set, its path halved on the way.
-fn root(parent: &mut [usize], mut i: usize) -> usize {
-    while parent[i] != i {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    i
 }
 
 fn middle(edge: &Edge, solid: &Solid) -> Vector2<f64> {

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use crate::mesh::{CellKind, Mesh};
 use crate::scene::findings::Findings;
 use crate::scene::nearest::nearest;
-use crate::scene::problem::ProblemKind;
 
 /// Groups named in a message; the rest is counted.
 const MOST_NAMED: usize = 20;
@@ -51,12 +50,7 @@ impl<'a> Groups<'a> {
         let found = self.by_name.get(name);
         if found.is_none() {
             let names: Vec<&str> = self.by_name.keys().copied().collect();
-            findings.problem(
-                ProblemKind::NotAllowed,
-                key,
-                format!("{name:?}, which the mesh does not have"),
-                self.named(),
-            );
+            findings.not_allowed(key, format!("{name:?}, which the mesh does not have"), self.named());
             if let Some(near) = nearest(name, &names) {
                 findings.help(format!("did you mean {near:?}?"));
             }

@@ -9,7 +9,7 @@ use super::meshed_groups::MeshedGroups;
 use crate::fem::loads::add_spread_force;
 use crate::fem::problem::{Edge, Held};
 use crate::scene::findings::Findings;
-use crate::scene::problem::{ProblemKind, number};
+use crate::scene::problem::number;
 
 /// Given displacements by degree of freedom, each with the table that gives it.
 struct Given<'a> {
@@ -60,7 +60,7 @@ impl Given<'_> {
                             number(*other),
                         );
                         let allowed = "one displacement for each node and direction";
-                        findings.problem(ProblemKind::NotAllowed, table, found, allowed);
+                        findings.not_allowed(table, found, allowed);
                         findings.help("components leaves a direction out");
                     }
                     Some(_) => {}
@@ -120,7 +120,7 @@ fn say_what_is_lost(
     if all {
         let found = format!("a force along {along} on {group:?}, every node of which is held along {along}");
         let allowed = "a force on nodes that can move, or displacement_mm";
-        findings.problem(ProblemKind::NotAllowed, &format!("load[{index}].force_N_per_mm"), found, allowed);
+        findings.not_allowed(&format!("load[{index}].force_N_per_mm"), found, allowed);
     } else if lost > 0.0 {
         findings.warnings.push(format!(
             "load[{index}]: {:.2} % of the force along {along} acts on nodes of {group:?} that are held along {along}, and goes straight into \
@@ -136,7 +136,7 @@ fn shares(load: &LoadFile, key: &str, place: MeshedGroups<'_>, findings: &mut Fi
     let [points, lines, surfaces, _] = &group.cells;
     if lines.is_empty() && (!surfaces.is_empty() || points.is_empty() && group.nodes.is_empty()) {
         let found = format!("{:?}, which holds {}", load.group, group.in_words());
-        findings.problem(ProblemKind::NotAllowed, key, found, "a group of lines or points for a force");
+        findings.not_allowed(key, found, "a group of lines or points for a force");
         return None;
     }
     if lines.is_empty() {
@@ -157,7 +157,7 @@ fn shares(load: &LoadFile, key: &str, place: MeshedGroups<'_>, findings: &mut Fi
         .collect();
     let Some(sides) = sides else {
         let found = format!("{:?}, lines of which are the side of no element of a body", load.group);
-        findings.problem(ProblemKind::NotAllowed, key, found, "lines along the elements of a body");
+        findings.not_allowed(key, found, "lines along the elements of a body");
         return None;
     };
     let edges: Vec<Edge> = sides.into_values().collect();

@@ -6,7 +6,6 @@ use super::bodies::Meshed;
 use super::groups::Groups;
 use super::sides::{Side, Sides};
 use crate::scene::findings::Findings;
-use crate::scene::problem::ProblemKind;
 
 /// Groups, bodies and the sides of their elements: where the other tables of a problem look.
 #[derive(Clone, Copy)]
@@ -26,12 +25,7 @@ impl MeshedGroups<'_> {
         let Some(group) = self.groups.find(name, key, findings) else { return Vec::new() };
         if group.cells.iter().filter(|cells| !cells.is_empty()).count() > 1 {
             let found = format!("{name:?}, which holds {}", group.in_words());
-            findings.problem(
-                ProblemKind::NotAllowed,
-                key,
-                found,
-                "a group of points, of lines or of surfaces, not of both",
-            );
+            findings.not_allowed(key, found, "a group of points, of lines or of surfaces, not of both");
             return Vec::new();
         }
         let mut nodes: BTreeSet<u32> = group.nodes.iter().filter_map(|&node| self.meshed.node(node)).collect();
@@ -45,7 +39,7 @@ impl MeshedGroups<'_> {
         }
         if nodes.is_empty() {
             let found = format!("{name:?}, of which no node belongs to a body");
-            findings.problem(ProblemKind::NotAllowed, key, found, "a group on one of the bodies");
+            findings.not_allowed(key, found, "a group on one of the bodies");
         }
         nodes.into_iter().collect()
     }

@@ -96,7 +96,7 @@ impl FemProblem {
         match text::parse(&self.text) {
             Ok((_, mut findings)) => {
                 let allowed = "a mesh file beside this one: Gmsh 4.1 or 2.2 (.msh), VTU (.vtu) or Abaqus (.inp)";
-                findings.problem(ProblemKind::NotAllowed, "mesh.file", reason, allowed);
+                findings.not_allowed("mesh.file", reason, allowed);
                 findings.in_order()
             }
             Err(problems) => problems,
@@ -139,12 +139,7 @@ fn choose(mut file: FemProblemFile, findings: &mut Findings) -> FemProblemFile {
         }
         if contact.slave == contact.master {
             let found = format!("{:?}, which is the slave too", contact.master);
-            findings.problem(
-                ProblemKind::NotAllowed,
-                &format!("contact[{i}].master"),
-                found,
-                "the surface opposite the slave's",
-            );
+            findings.not_allowed(&format!("contact[{i}].master"), found, "the surface opposite the slave's");
         }
     }
     file
@@ -156,8 +151,7 @@ fn choose_load(load: &mut LoadFile, key: &str, findings: &mut Findings) {
     match (load.force_N_per_mm, load.displacement_mm) {
         (Some(_), None) => {
             if load.components.is_some() {
-                findings.problem(
-                    ProblemKind::NotAllowed,
+                findings.not_allowed(
                     &format!("{key}.components"),
                     "components of a force",
                     "components beside displacement_mm; a force that does not act has the component 0",
@@ -166,8 +160,7 @@ fn choose_load(load: &mut LoadFile, key: &str, findings: &mut Findings) {
         }
         (None, Some(_)) => components(&mut load.components, &format!("{key}.components"), findings),
         (Some(_), Some(_)) => {
-            findings.problem(
-                ProblemKind::NotAllowed,
+            findings.not_allowed(
                 &displacement,
                 "a displacement beside force_N_per_mm",
                 "one of the two: where the displacement is given, the force follows",
@@ -185,7 +178,7 @@ fn components(given: &mut Option<Vec<Component>>, key: &str, findings: &mut Find
     unique.dedup();
     if given.is_empty() || unique.len() != given.len() {
         let found = if given.is_empty() { "an empty list" } else { "a direction twice" };
-        findings.problem(ProblemKind::NotAllowed, key, found, r#"["x"], ["y"] or ["x", "y"]"#);
+        findings.not_allowed(key, found, r#"["x"], ["y"] or ["x", "y"]"#);
     }
 }
 

@@ -7,7 +7,6 @@ use super::meshed_groups::MeshedGroups;
 use super::sides::Side;
 use crate::fem::problem::{ContactPair, Edge};
 use crate::scene::findings::Findings;
-use crate::scene::problem::ProblemKind;
 
 /// All pairs of surfaces.
 pub(super) fn contacts(file: &FemProblemFile, place: MeshedGroups<'_>, findings: &mut Findings) -> Vec<ContactPair> {
@@ -22,12 +21,12 @@ pub(super) fn contacts(file: &FemProblemFile, place: MeshedGroups<'_>, findings:
         if common > 0 {
             let found = format!("{:?}, which shares {common} nodes with the slave {:?}", contact.master, contact.slave);
             let allowed = "a surface without nodes of the slave: bodies that may slide or part have nodes of their own";
-            findings.problem(ProblemKind::NotAllowed, &master_key, found, allowed);
+            findings.not_allowed(&master_key, found, allowed);
         }
         if let Some(other) = slave.iter().find_map(|edge| slaves.get(&edge.ends)) {
             let found = format!("{:?}, edges of which are the slave of contact[{other}] too", contact.slave);
             let allowed = "edges that carry one contact pressure; they may be master several times";
-            findings.problem(ProblemKind::NotAllowed, &slave_key, found, allowed);
+            findings.not_allowed(&slave_key, found, allowed);
         }
         slaves.extend(slave.iter().map(|edge| (edge.ends, i)));
         pairs.push(ContactPair { slave, master });
@@ -47,7 +46,7 @@ fn surface(name: &str, key: &str, place: MeshedGroups<'_>, findings: &mut Findin
         if edges.is_empty() {
             let found = format!("{name:?}, which holds {}", group.in_words());
             let allowed = "a group of lines, or a set of nodes that holds whole edges of a surface";
-            findings.problem(ProblemKind::NotAllowed, key, found, allowed);
+            findings.not_allowed(key, found, allowed);
         }
         return edges;
     }
@@ -65,11 +64,11 @@ fn surface(name: &str, key: &str, place: MeshedGroups<'_>, findings: &mut Findin
     let allowed = "lines along the surface of a body";
     if nowhere > 0 {
         let found = format!("{name:?}, of which {nowhere} lines are the side of no element of a body");
-        findings.problem(ProblemKind::NotAllowed, key, found, allowed);
+        findings.not_allowed(key, found, allowed);
     }
     if let Some((side, count)) = inside {
         let found = format!("{name:?}, of which {count} lines lie {}", where_inside(side, place));
-        findings.problem(ProblemKind::NotAllowed, key, found, allowed);
+        findings.not_allowed(key, found, allowed);
         findings.help("bodies that may slide or part have nodes of their own along their surfaces");
     }
     edges.into_values().collect()

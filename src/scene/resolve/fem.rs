@@ -4,7 +4,7 @@ use crate::gear::{Gear, PerGear, spec::PairSpec};
 use crate::gear_mesh::settings::{Body, BodySettings, DefaultClamp, default_clamp, greatest_clamp_mm};
 use crate::scene::file::{BodyKind, ClampRadiusFile, FemFile};
 use crate::scene::findings::Findings;
-use crate::scene::problem::{ProblemKind, number};
+use crate::scene::problem::number;
 
 const ELEMENTS_PER_HALF_WIDTH: f64 = 10.0;
 /// In a wear run: 3 and 8 give the same greatest wear within half a per cent (docs/accuracy.md).
@@ -51,7 +51,7 @@ fn body(file: &mut FemFile, pair: &PairSpec, findings: &mut Findings) -> Option<
                 [("fem.sector_teeth", file.sector_teeth.is_some()), ("fem.sector_sides", file.sector_sides.is_some())]
             {
                 if given {
-                    findings.warnings.push(format!("{key} is not used: only fem.body = \"sector\" has cut sides"));
+                    findings.unused(key, "only fem.body = \"sector\" has cut sides");
                 }
             }
             Some(Body::Ring)
@@ -62,7 +62,7 @@ fn body(file: &mut FemFile, pair: &PairSpec, findings: &mut Findings) -> Option<
             let most = Gear::BOTH.map(|gear| pair.gears[gear].teeth).into_iter().fold(u32::MAX, u32::min);
             if teeth.is_multiple_of(2) || teeth > most {
                 let allowed = format!("an odd number of teeth, at most {most} (those of the smaller gear)");
-                findings.problem(ProblemKind::NotAllowed, "fem.sector_teeth", teeth.to_string(), allowed);
+                findings.not_allowed("fem.sector_teeth", teeth.to_string(), allowed);
                 return None;
             }
             Some(Body::Sector { teeth, sides })
@@ -100,7 +100,7 @@ fn clamp_radius(given: &mut Option<f64>, gear: Gear, pair: &PairSpec, findings: 
             if bore_mm > 0.0 { format!("at least {bore_mm:.4} (the bore)") } else { "greater than 0".to_owned() };
         let allowed =
             format!("a radius {least} and at most {greatest_mm:.4}, a tenth of a module below the root circle");
-        findings.problem(ProblemKind::NotAllowed, &key, number(radius_mm), allowed);
+        findings.not_allowed(&key, number(radius_mm), allowed);
         return None;
     }
     Some(radius_mm)

@@ -42,14 +42,14 @@ fn check_slices(pair: &GearPair, count: usize, findings: &mut Findings) {
     if overlap_ratio > GREATEST_OVERLAP {
         let found = format!("{}, overlap ratio {overlap_ratio:.0}", number(pair.spec.face_width_mm));
         let allowed = format!("an overlap ratio of at most {GREATEST_OVERLAP}");
-        findings.problem(ProblemKind::NotAllowed, "pair.face_width_mm", found, allowed);
+        findings.not_allowed("pair.face_width_mm", found, allowed);
         return;
     }
     let of_slices = overlap_ratio * (count as f64 - 1.0) / count as f64;
     if contact_ratio + of_slices < 1.0 {
         let least = overlap_ratio / (contact_ratio + overlap_ratio - 1.0);
         let allowed = format!("at least {} slices", least.ceil());
-        findings.problem(ProblemKind::NotAllowed, "helical.slices", count.to_string(), allowed);
+        findings.not_allowed("helical.slices", count.to_string(), allowed);
         findings.help("with so few slices none of them is in contact at some position");
     }
 }

@@ -3,7 +3,7 @@
 use super::wear::coefficient_mm2_per_n;
 use crate::scene::file::{OperationFile, PhaseFile};
 use crate::scene::findings::Findings;
-use crate::scene::problem::{ProblemKind, number};
+use crate::scene::problem::number;
 use crate::simulation::settings::{Operation, Phase};
 
 /// Snapshots this close to the end of the run, relatively, are the end: hours and revolutions round differently.
@@ -82,7 +82,7 @@ fn duration(
     };
     // Only products of extreme numbers can fail here: each factor was checked by itself.
     if !revolutions.is_normal() {
-        findings.problem(ProblemKind::NotAllowed, keys[0], number(revolutions), "a finite number of revolutions");
+        findings.not_allowed(keys[0], number(revolutions), "a finite number of revolutions");
         return None;
     }
     Some(revolutions)
@@ -91,7 +91,7 @@ fn duration(
 /// The phases one after the other, with what they leave open as of the whole.
 fn phases(given: &[PhaseFile], of_whole: Phase, findings: &mut Findings) -> Option<Vec<Phase>> {
     if given.is_empty() {
-        findings.problem(ProblemKind::NotAllowed, "operation.phases", "no phase", "at least one [[operation.phases]]");
+        findings.not_allowed("operation.phases", "no phase", "at least one [[operation.phases]]");
         return None;
     }
     let (mut phases, mut end_revolutions) = (Vec::with_capacity(given.len()), 0.0);
@@ -131,7 +131,7 @@ fn add_up(file: &OperationFile, phases: &[Phase], findings: &mut Findings) -> Op
             return Some(());
         }
         let allowed = format!("{}, the sum of operation.phases", number(sum));
-        findings.problem(ProblemKind::NotAllowed, key, number(given), allowed);
+        findings.not_allowed(key, number(given), allowed);
         findings.help(format!("{key} may be left out where there are phases"));
         None
     };
@@ -191,7 +191,7 @@ fn snapshots(file: &mut OperationFile, operation: &Operation, findings: &mut Fin
         let revolutions = if at_end { duration } else { revolutions };
         if revolutions > duration || snapshots.last().is_some_and(|&last| revolutions <= last) {
             let allowed = format!("increasing times up to the duration, {}", number(whole));
-            findings.problem(ProblemKind::NotAllowed, &format!("{key}[{index}]"), number(time), allowed);
+            findings.not_allowed(&format!("{key}[{index}]"), number(time), allowed);
             return None;
         }
         snapshots.push(revolutions);

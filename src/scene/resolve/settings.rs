@@ -6,7 +6,7 @@ use crate::scene::file::{
     ContactFile, GearMaterialFile, MaterialFile, NamedStep, NumericsFile, StepFile, StiffnessFile, StiffnessModel,
 };
 use crate::scene::findings::Findings;
-use crate::scene::problem::{ProblemKind, number};
+use crate::scene::problem::number;
 use crate::simulation::settings::{AdaptiveMethod, Numerics, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::thermal::settings::ThermalMaterial;
@@ -115,24 +115,18 @@ pub(super) fn contact(
         SurfaceKind::Hertz | SurfaceKind::HertzMean => false,
     };
     if file.tip_contact.is_some_and(|asked| asked != tip_contact) {
-        findings.warnings.push(
-            "contact.tip_contact is not used: only the surfaces \"winkler\" and \"half-space\" read it".to_owned(),
-        );
+        findings.unused("contact.tip_contact", "only the surfaces \"winkler\" and \"half-space\" read it");
     }
     if surface == SurfaceKind::Fem && calibrated {
-        findings
-            .warnings
-            .push("contact.calibration is not used: the surface \"fem\" is what it was made from".to_owned());
+        findings.unused("contact.calibration", "the surface \"fem\" is what it was made from");
     }
     if calibrated && given.is_some() && surface == SurfaceKind::Winkler {
-        findings
-            .warnings
-            .push("the K/H of contact.calibration is not used: contact.foundation_MPa_per_mm gives one".to_owned());
+        findings.unused("the K/H of contact.calibration", "contact.foundation_MPa_per_mm gives one");
     }
     if surface != SurfaceKind::Winkler {
         for (key, given) in [(keys[0], criterion.is_some()), (keys[1], given.is_some())] {
             if given {
-                findings.warnings.push(format!("{key} is not used: only the surface \"winkler\" has a foundation"));
+                findings.unused(key, "only the surface \"winkler\" has a foundation");
             }
         }
     }
@@ -167,9 +161,7 @@ pub(super) fn stiffness(
     let key = "stiffness.pair_N_per_mm_um";
     let file = file.get_or_insert_default();
     if surface == Some(SurfaceKind::Fem) && file.model.is_some() {
-        findings.warnings.push(
-            "stiffness.model is not used: the finite elements of the surface \"fem\" bend their own teeth".to_owned(),
-        );
+        findings.unused("stiffness.model", "the finite elements of the surface \"fem\" bend their own teeth");
     }
     let model = match (surface, calibrated) {
         // Nothing reads it: what the user leaves out stays out.
@@ -185,9 +177,7 @@ pub(super) fn stiffness(
         return None;
     }
     if !of_curve && file.curve.is_some() {
-        findings.warnings.push(
-            "stiffness.curve is not used: only stiffness.model = \"simon\" and \"wang-cheng\" read it".to_owned(),
-        );
+        findings.unused("stiffness.curve", "only stiffness.model = \"simon\" and \"wang-cheng\" read it");
     }
     let settings = match model {
         StiffnessModel::Constant => match file.pair_N_per_mm_um {
@@ -205,7 +195,7 @@ pub(super) fn stiffness(
         StiffnessModel::WangCheng => StiffnessSettings::WangCheng,
     };
     if model != StiffnessModel::Constant && file.pair_N_per_mm_um.is_some() {
-        findings.warnings.push(format!("{key} is not used: only stiffness.model = \"constant\" reads it"));
+        findings.unused(key, "only stiffness.model = \"constant\" reads it");
     }
     Some(settings)
 }
@@ -236,12 +226,12 @@ fn stepping(file: &mut NumericsFile, duration: f64, adaptive: bool, findings: &m
                 [("numerics.tolerance_um", file.tolerance_um.is_some()), ("numerics.method", file.method.is_some())]
             {
                 if given {
-                    findings.warnings.push(format!("{key} is not used: only numerics.step = \"adaptive\" reads it"));
+                    findings.unused(key, "only numerics.step = \"adaptive\" reads it");
                 }
             }
             if duration / revolutions > MOST_STEPS {
                 let allowed = format!("at least {} (ten million steps)", number(duration / MOST_STEPS));
-                findings.problem(ProblemKind::NotAllowed, "numerics.step.revolutions", number(revolutions), allowed);
+                findings.not_allowed("numerics.step.revolutions", number(revolutions), allowed);
                 return None;
             }
             Some(Stepping::Fixed { revolutions })
@@ -250,7 +240,7 @@ fn stepping(file: &mut NumericsFile, duration: f64, adaptive: bool, findings: &m
             let tolerance_um = *file.tolerance_um.get_or_insert(TOLERANCE_UM);
             if tolerance_um < LEAST_TOLERANCE_UM {
                 let allowed = format!("at least {} µm", number(LEAST_TOLERANCE_UM));
-                findings.problem(ProblemKind::NotAllowed, "numerics.tolerance_um", number(tolerance_um), allowed);
+                findings.not_allowed("numerics.tolerance_um", number(tolerance_um), allowed);
                 return None;
             }
             let method = *file.method.get_or_insert_default();
@@ -277,6 +267,6 @@ pub(super) fn memory(numerics: &Numerics, surface: SurfaceKind, slices: usize, f
             "at most {} positions with {points} flank points{of_slices} (about 4 GB of memory)",
             MOST_POINTS_TIMES_POSITIONS / a_position
         );
-        findings.problem(ProblemKind::NotAllowed, "numerics.positions", positions.to_string(), allowed);
+        findings.not_allowed("numerics.positions", positions.to_string(), allowed);
     }
 }

@@ -5,7 +5,6 @@ use crate::gear::spec::PairSpec;
 use crate::mesh_cycle::settings::SliceSettings;
 use crate::scene::file::HelicalFile;
 use crate::scene::findings::Findings;
-use crate::scene::problem::ProblemKind;
 
 const SLICES: u32 = 20;
 
@@ -26,8 +25,7 @@ pub(super) fn choose(
         return None;
     }
     if surface == Some(SurfaceKind::Fem) {
-        findings.problem(
-            ProblemKind::NotAllowed,
+        findings.not_allowed(
             "contact.surface",
             "\"fem\" with sections that differ over the face width",
             "\"winkler\", \"half-space\", \"hertz\" or \"hertz-mean\", which work slice by slice",
