@@ -49,9 +49,10 @@ const UM_PER_MM: f64 = 1e3;
 const SLIP: f64 = 0.85;
 
 /// How a file says where on the flank a point is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum PlaceColumn {
     /// Distance from the axis.
+    #[default]
     RadiusMm,
     /// Length along the flank.
     ArcMm,
@@ -71,9 +72,10 @@ impl PlaceColumn {
 }
 
 /// What the heights of a file are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum ValueKind {
     /// Of the surface.
+    #[default]
     Height,
     /// Of what is gone of it.
     Wear,
@@ -113,7 +115,7 @@ pub(crate) enum Moment {
 }
 
 /// What a file says, as it says it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct MeasuredFile {
     /// Which gear.
     pub gear: Option<Gear>,
@@ -150,60 +152,34 @@ pub(crate) struct MeasuredRow {
     pub height_um: f64,
 }
 
-/// What the lines with # say.
-#[derive(Default)]
-struct Header {
-    gear: Option<Gear>,
-    moment: Moment,
-    moment_line: usize,
-    width_mm: Option<f64>,
-    width_line: usize,
-    uncertainty_um: Option<f64>,
-    arc_from: Option<ArcFrom>,
-    height_from: HeightFrom,
-}
-
 /// Reads the text of a file.
 ///
 /// # Errors
 /// The first thing that is wrong with it.
 pub(crate) fn parse(text: &str) -> Result<MeasuredFile, DataTableError> {
     let table = DataTable::read(text, columns_allowed)?;
-    let mut header = Header::default();
+    let mut file = MeasuredFile::default();
     for &(line, key, value) in &table.keys {
-        header.take(line, key, value)?;
+        file.take(line, key, value)?;
     }
     let columns = Columns::find(table.names.0, &table.names.1)?;
-    if columns.place == PlaceColumn::ArcMm && header.arc_from.is_none() {
+    if columns.place == PlaceColumn::ArcMm && file.arc_from.is_none() {
         return Err(missing(
             "where arc_mm begins",
             "a line \"# arc_from = base-circle\", \"start-of-active-profile\" or \"tip\"".to_owned(),
         ));
     }
-    let mut points: Vec<MeasuredRow> = Vec::with_capacity(table.rows.len());
+    (file.place, file.kind) = (columns.place, columns.kind);
     for (line, fields) in &table.rows {
         let point = columns.point(*line, fields)?;
-        if let Some(before) = points.last().filter(|before| before.place >= point.place) {
+        if let Some(before) = file.rows.last().filter(|before| before.place >= point.place) {
             let allowed =
                 format!("more than {} of line {}: places increase from row to row", before.place, before.line);
             return Err(not_allowed(*line, columns.place.name(), point.place, allowed));
         }
-        points.push(point);
+        file.rows.push(point);
     }
-    let Header { gear, moment, moment_line, width_mm, width_line, uncertainty_um, arc_from, height_from } = header;
-    Ok(MeasuredFile {
-        gear,
-        moment,
-        moment_line,
-        width_mm,
-        width_line,
-        uncertainty_um,
-        arc_from,
-        height_from,
-        place: columns.place,
-        kind: columns.kind,
-        rows: points,
-    })
+    Ok(file)
 }
 
 /// Where the columns are.
@@ -241,7 +217,7 @@ impl Columns {
     }
 }
 
-impl Header {
+impl MeasuredFile {
     fn take(&mut self, line: usize, key: &str, value: &str) -> Result<(), DataTableError> {
         let refused = |allowed: &str| not_allowed(line, key, value, allowed.to_owned());
         match key {
@@ -258,9 +234,7 @@ impl Header {
                 self.moment_line = line;
             }
             "width_mm" => {
-                let place = finite(line, key, value)?;
-                self.width_mm = Some(place);
-                self.width_line = line;
+                (self.width_mm, self.width_line) = (Some(finite(line, key, value)?), line);
             }
             "uncertainty_um" => self.uncertainty_um = Some(positive(line, key, value)?),
             "arc_from" => {
