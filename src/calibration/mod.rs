@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`tooth_stiffness`] | how far the teeth yield under a known load anywhere on the path, bending and flattening apart |
 //! | [`bodies`] | the pair's stiffness at C as resolution, rim and neighbours change |
-//! | [`tooth_family`], [`course`] | the same as families of curves: by number of teeth, and over the path |
+//! | [`tooth_family`], [`stiffness_variation`] | the same as families of curves: by number of teeth, and over the path |
 //! | [`single_contact`] | the pair alone in contact: half-width, peak pressure, approach by position and load |
 //! | [`foundation_fit`] | K/H as a curve that a Winkler foundation can use, with its error where it was not fitted |
 //! | [`wear_reference`] | what one mesh of unworn flanks wears |

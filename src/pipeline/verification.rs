@@ -25,7 +25,6 @@ use crate::fem::gear::{condensed_pair::CondensedPair, model::ModelError};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::BodySettings;
 use crate::mesh_cycle::CycleObservation;
-use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::observer::Observer;
 use crate::reference::flattening::Flattening;
 use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError};
@@ -271,11 +270,8 @@ fn compared(model: &Model<'_>, run: &Outcome, life: &Outcome) -> Verified {
 
 /// Whether the pressure reaches a transition to severe wear at any moment that is kept.
 fn wears_severely(model: &Model<'_>, life: &Outcome) -> bool {
-    let of_cycle = |state: &Snapshot| {
-        let greatest = state.cycle.greatest_pressure;
-        greatest.sharp_edge_mpa.map_or(greatest.defined_mpa, |sharp| sharp.max(greatest.defined_mpa))
-    };
-    let greatest_mpa = [&life.new].into_iter().chain(&life.snapshots).map(of_cycle).fold(0.0, f64::max);
+    let states = [&life.new].into_iter().chain(&life.snapshots);
+    let greatest_mpa = states.map(|state| state.cycle.peak_pressure_mpa()).fold(0.0, f64::max);
     model.scene.wear.severe.is_some_and(|severe| greatest_mpa > severe.above_mpa - 0.5 * severe.band_mpa)
 }
 
