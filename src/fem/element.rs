@@ -76,12 +76,6 @@ pub enum ElementError {
         /// ν.
         poisson_ratio: f64,
     },
-    /// The values were to go into the pattern of another mesh.
-    #[error("element {element} joins nodes that the pattern of the assembled stiffness does not: the mesh has changed")]
-    OtherMesh {
-        /// Its number, from 0; the number of elements where all of them fit and something else differs.
-        element: usize,
-    },
 }
 
 /// A place where an element is folded.

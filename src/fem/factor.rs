@@ -6,9 +6,8 @@
 //! K_ff u_f = F_f − K_fh u_h          K_ff = Pᵀ L Lᵀ P
 //! ```
 //!
-//! P is the approximate-minimum-degree ordering, L is kept by faer as dense blocks of columns (supernodes). The symbolic
-//! analysis is made once for a mesh and its supports; new values go through the same blocks. Everything runs on one thread,
-//! so that the bits of a solution never depend on the machine.
+//! P is the approximate-minimum-degree ordering, L is kept by faer as dense blocks of columns (supernodes). Everything
+//! runs on one thread, so that the bits of a solution never depend on the machine.
 //!
 //! Nodes that no element has are struck out too: their displacement stays zero.
 //!
@@ -54,17 +53,6 @@ pub enum FactorError {
         /// The degree of freedom whose pivot fails.
         dof: usize,
     },
-    /// The list of held degrees of freedom is not of this mesh.
-    #[error("{given} degrees of freedom are marked as held or free, but the mesh has {dofs}")]
-    WrongLength {
-        /// Length of the list.
-        given: usize,
-        /// Degrees of freedom of the stiffness.
-        dofs: usize,
-    },
-    /// The stiffness is not of the mesh that was analysed.
-    #[error("the stiffness has another pattern than the one that was analysed")]
-    OtherPattern,
     /// The analysis does not fit into memory.
     #[error("the factorisation needs more memory than there is")]
     OutOfMemory,
@@ -72,16 +60,12 @@ pub enum FactorError {
 
 /// A factorised stiffness with its supports.
 pub(crate) struct Factor {
-    /// Number of a degree of freedom among the free ones, or [`HELD`].
-    free_of_dof: Vec<u32>,
-    /// ElementPoint of each degree of freedom in the order of elimination, or [`HELD`].
+    /// Place of each degree of freedom in the order of elimination, or [`HELD`].
     place_of_dof: Vec<u32>,
     /// The degree of freedom at each place.
     dof_of_place: Vec<u32>,
-    reduced: Reduced,
     symbolic: SymbolicCholesky<u32>,
     values: Vec<f64>,
-    scratch: MemBuffer,
 }
 
 /// K_ff, lower triangle, by columns.
@@ -89,19 +73,16 @@ struct Reduced {
     columns: Vec<u32>,
     rows: Vec<u32>,
     values: Vec<f64>,
-    /// Where each value stands in the whole stiffness.
-    source: Vec<u32>,
-    /// Entries of the whole stiffness.
-    entries: usize,
 }
 
 impl Factor {
     /// Factorises `stiffness` with the degrees of freedom struck out whose displacement is given (`held[dof]`).
+    ///
+    /// # Panics
+    /// Where `held` does not have an entry for each degree of freedom.
     pub(crate) fn new(stiffness: &Stiffness, held: &[bool]) -> Result<Self, FactorError> {
         let dofs = stiffness.dofs();
-        if held.len() != dofs {
-            return Err(FactorError::WrongLength { given: held.len(), dofs });
-        }
+        assert_eq!(held.len(), dofs, "one entry for each degree of freedom");
         let parts = stiffness.parts();
         if let Some(Loose { node, held }) = parts.loose(held) {
             return Err(FactorError::Unsupported { node, held });
@@ -119,11 +100,11 @@ impl Factor {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
         };
-        let pattern = reduced.matrix().symbolic();
-        let symbolic = factorize_symbolic_cholesky(pattern, Side::Lower, SymmetricOrdering::Amd, params)
+        let matrix = reduced.matrix();
+        let symbolic = factorize_symbolic_cholesky(matrix.symbolic(), Side::Lower, SymmetricOrdering::Amd, params)
             .map_err(|_| FactorError::OutOfMemory)?;
         let needed = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
-        let scratch = MemBuffer::try_new(needed).map_err(|_| FactorError::OutOfMemory)?;
+        let mut scratch = MemBuffer::try_new(needed).map_err(|_| FactorError::OutOfMemory)?;
         let mut place_of_dof = vec![HELD; dofs];
         let dof_of_place: Vec<u32> = match symbolic.perm() {
             Some(order) => order.arrays().0.iter().map(|free| dof_of_free[*free as usize]).collect(),
@@ -132,27 +113,15 @@ impl Factor {
         for (place, dof) in (0..).zip(&dof_of_place) {
             place_of_dof[*dof as usize] = place;
         }
-        let values = vec![0.0; symbolic.len_val()];
-        let mut factor = Self { free_of_dof, place_of_dof, dof_of_place, reduced, symbolic, values, scratch };
-        factor.refactor(stiffness)?;
-        Ok(factor)
-    }
-
-    /// Factorises new values of the same pattern with the same supports. After an error the factor is of no use.
-    pub(crate) fn refactor(&mut self, stiffness: &Stiffness) -> Result<(), FactorError> {
-        if stiffness.dofs() != self.free_of_dof.len() || stiffness.lower().nnz() != self.reduced.entries {
-            return Err(FactorError::OtherPattern);
-        }
-        self.reduced.gather(stiffness);
-        let stack = MemStack::new(&mut self.scratch);
-        let matrix = self.reduced.matrix();
+        let mut values = vec![0.0; symbolic.len_val()];
         let (regularization, params) = (Default::default(), Default::default());
-        self.symbolic
-            .factorize_numeric_llt(&mut self.values, matrix, Side::Lower, regularization, Par::Seq, stack, params)
+        let stack = MemStack::new(&mut scratch);
+        symbolic
+            .factorize_numeric_llt(&mut values, matrix, Side::Lower, regularization, Par::Seq, stack, params)
             .map_err(|LltError::NonPositivePivot { index }| FactorError::NotPositive {
-                dof: self.dof_of_place[index] as usize,
+                dof: dof_of_place[index] as usize,
             })?;
-        Ok(())
+        Ok(Self { place_of_dof, dof_of_place, symbolic, values })
     }
 
     /// Solves K u = F in place for `columns` right-hand sides, one after the other in `x`, each with an entry for every
@@ -199,7 +168,7 @@ impl Factor {
 
     /// Number of degrees of freedom, supports included.
     pub(crate) fn dofs(&self) -> usize {
-        self.free_of_dof.len()
+        self.place_of_dof.len()
     }
 
     /// L as dense blocks of columns.
@@ -207,7 +176,7 @@ impl Factor {
         SupernodalLltRef::new(self.supernodes(), &self.values)
     }
 
-    /// ElementPoint of each degree of freedom in the order of elimination, or [`HELD`].
+    /// Place of each degree of freedom in the order of elimination, or [`HELD`].
     pub(super) fn place_of_dof(&self) -> &[u32] {
         &self.place_of_dof
     }
@@ -229,26 +198,18 @@ impl Reduced {
         let mut columns = Vec::with_capacity(dof_of_free.len() + 1);
         columns.push(0);
         let mut rows = Vec::with_capacity(lower.nnz());
-        let mut source = Vec::with_capacity(lower.nnz());
+        let mut values = Vec::with_capacity(lower.nnz());
         for dof in dof_of_free {
             for entry in start[*dof as usize]..start[*dof as usize + 1] {
                 let row = free_of_dof[lower.indices()[entry as usize] as usize];
                 if row != HELD {
                     rows.push(row);
-                    source.push(entry);
+                    values.push(lower.data()[entry as usize]);
                 }
             }
             columns.push(rows.len() as u32);
         }
-        let values = vec![0.0; rows.len()];
-        Self { columns, rows, values, source, entries: lower.nnz() }
-    }
-
-    fn gather(&mut self, stiffness: &Stiffness) {
-        let data = stiffness.lower().data();
-        for (value, source) in self.values.iter_mut().zip(&self.source) {
-            *value = data[*source as usize];
-        }
+        Self { columns, rows, values }
     }
 
     fn matrix(&self) -> SparseColMatRef<'_, u32, f64> {

@@ -60,7 +60,7 @@ impl Factor {
         out
     }
 
-    /// ElementPoint of a degree of freedom in the order of elimination.
+    /// Place of a degree of freedom in the order of elimination.
     fn place(&self, dof: u32) -> Option<u32> {
         let place = self.place_of_dof()[dof as usize];
         (place != HELD).then_some(place)

@@ -4,7 +4,7 @@
 //! The pattern comes from the graph of the nodes: node i couples with node j where they share an element (or, for linear
 //! triangles in plane strain, a patch of `nodal_triangle`), and each coupling is a block of 2 × 2. The columns
 //! `2j` and `2j + 1` of a node therefore have the same nodes below them, and the place of a block follows from the place of
-//! node i in the list of node j; no triplets are sorted. New values (other nodes, other materials) go into the same pattern.
+//! node i in the list of node j; no triplets are sorted.
 //!
 //! Elements are added in their order, so the bits of K depend on nothing else.
 
@@ -144,7 +144,7 @@ impl Stiffness {
                 for (b, j) in nodes.iter().enumerate() {
                     if i >= j {
                         let block = [0, 1].map(|r| [0, 1].map(|c| entries[2 * a + r][2 * b + c]));
-                        self.add(*i, *j, block).ok_or(ElementError::OtherMesh { element: number })?;
+                        self.add(*i, *j, block);
                     }
                 }
             }
@@ -155,16 +155,15 @@ impl Stiffness {
             for (i, [ix, iy]) in patch.nodes.iter().zip(&row) {
                 for (j, [jx, jy]) in patch.nodes.iter().zip(&row).take_while(|(j, _)| *j <= i) {
                     let block = [[weight * ix * jx, weight * ix * jy], [weight * iy * jx, weight * iy * jy]];
-                    let missing = ElementError::OtherMesh { element: patch.triangles[0] as usize };
-                    self.add(*i, *j, block).ok_or(missing)?;
+                    self.add(*i, *j, block);
                 }
             }
         }
         Ok(())
     }
 
-    /// Adds the block of rows of node i and columns of node j ≤ i; nothing where the pattern has no such block.
-    fn add(&mut self, i: u32, j: u32, block: [[f64; 2]; 2]) -> Option<()> {
+    /// Adds the block of rows of node i and columns of node j ≤ i, which couple.
+    fn add(&mut self, i: u32, j: u32, block: [[f64; 2]; 2]) {
         let j = j as usize;
         let columns = self.matrix.indptr();
         let columns = columns.raw_storage();
@@ -175,13 +174,12 @@ impl Stiffness {
             data[starts[0] + 1] += block[1][0];
             data[starts[1]] += block[1][1];
         } else {
-            let place = 2 * self.graph.place(j, i)?;
+            let place = 2 * self.graph.place(j, i);
             data[starts[0] + 2 + place] += block[0][0];
             data[starts[0] + 3 + place] += block[1][0];
             data[starts[1] + 1 + place] += block[0][1];
             data[starts[1] + 2 + place] += block[1][1];
         }
-        Some(())
     }
 }
 
@@ -225,9 +223,9 @@ impl NodeGraph {
         Self { start, above }
     }
 
-    /// ElementPoint of node i > j in the list of node j.
-    fn place(&self, j: usize, i: u32) -> Option<usize> {
-        self.above[self.start[j]..self.start[j + 1]].binary_search(&i).ok()
+    /// Place of node i > j, which couples with it, in the list of node j.
+    fn place(&self, j: usize, i: u32) -> usize {
+        self.above[self.start[j]..self.start[j + 1]].partition_point(|&other| other < i)
     }
 
     /// The pattern of the lower triangle with zeros in it.

@@ -40,7 +40,7 @@ pub(crate) struct Segment {
 /// Where a slave point meets a master edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Meeting {
-    /// ElementPoint on the master edge.
+    /// Place on the master edge.
     pub eta: f64,
     /// n · (x_m − x_s), mm: negative where the surfaces overlap.
     pub gap_mm: f64,

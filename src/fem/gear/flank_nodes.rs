@@ -25,7 +25,7 @@ pub(crate) struct FlankNodes {
     pub along_mm: Vec<f64>,
     /// W_k, mm.
     pub share_mm: Vec<f64>,
-    /// ElementPoint of each local node of the surface in this order.
+    /// Place of each local node of the surface in this order.
     pub place: Vec<usize>,
     /// The stretch that the multiplier of each node loads, mm.
     pub loaded_mm: Vec<[f64; 2]>,
