@@ -64,7 +64,7 @@ struct EdgePosition {
     stiffness: EdgeStiffness,
 }
 
-/// FoundationStiffness at one position: by load, increasing.
+/// Stiffness at one position: by load, increasing.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct EdgeStiffness {
     points: Vec<EdgePoint>,

@@ -116,7 +116,7 @@ struct Model<'a> {
     phases: Vec<RunPhase<'a>>,
     /// The slices over the face width; none where all sections are alike.
     sliced: Option<&'a SlicedTeeth>,
-    /// FoundationStiffness of the teeth; none with finite elements.
+    /// Springs of the teeth; none with finite elements.
     teeth: Option<&'a TeethSpring<'a>>,
     /// Hertz at the pitch point.
     at_pitch: Flattening,
