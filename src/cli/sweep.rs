@@ -116,14 +116,14 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
     crate::studies::sweep::report::begin(&scene.given.text, &args.out)?;
     let total = study::part(sweep.identity.combinations(), args.shard).count();
     if !args.quiet {
-        say(&begun(&sweep, args, total, journal.rows.len()));
+        say(&begun(&sweep, args, total, journal.contents.rows.len()));
     }
     let progress = CountedProgress::new(args.quiet, Arc::clone(&interrupted));
     let ended = study::run(&sweep, args.shard, &mut journal, threads, &progress);
     progress.finish();
     if ended.map_err(InputError::Journal)? == Ended::Interrupted {
-        let (finished, out) = (journal.rows.len(), args.out.display());
-        let verified = match journal.rows.values().filter(|row| row.verification.is_some()).count() {
+        let (finished, out) = (journal.contents.rows.len(), args.out.display());
+        let verified = match journal.contents.rows.values().filter(|row| row.verification.is_some()).count() {
             0 => String::new(),
             verified => format!(", {verified} of them verified,"),
         };
@@ -136,7 +136,7 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
         identity: sweep.identity,
         shard: args.shard,
         scene_toml: scene.given.text.clone(),
-        rows: std::mem::take(&mut journal.rows).into_values().collect(),
+        rows: std::mem::take(&mut journal.contents.rows).into_values().collect(),
         threads,
         wall_s: start.elapsed().as_secs_f64(),
     };

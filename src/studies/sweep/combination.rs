@@ -87,16 +87,8 @@ impl Sweep {
         let start = Instant::now();
         let run = guarded(|| self.run(index, observer));
         let run = run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
-        let row = SweepRow {
-            index,
-            values: self.identity.values(index),
-            error: None,
-            figures: vec![None; FIGURES.len()],
-            warnings: None,
-            simulation_s: None,
-            wall_s: 0.0,
-            verification: None,
-        };
+        let (values, figures) = (self.identity.values(index), vec![None; FIGURES.len()]);
+        let row = SweepRow { index, values, figures, ..SweepRow::default() };
         let row = match run {
             Ok(summary) if summary.stopped == StopReason::Interrupted => return None,
             Ok(summary) => SweepRow {

@@ -19,24 +19,15 @@ use crate::whole_file;
 /// Name of the journal in the folder of a sweep.
 pub(crate) const FILE_NAME: &str = "rows.jsonl";
 
-/// The first line.
+/// What a journal holds: its first line and, one line each, the rows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Head {
-    identity: SweepIdentity,
-    shard: Option<Shard>,
-}
-
-/// What a journal holds.
-#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Contents {
-    /// Whose rows.
     pub identity: SweepIdentity,
     /// Which part of the sweep; `None`: all of it.
     pub shard: Option<Shard>,
     /// Finished rows by index.
+    #[serde(skip)]
     pub rows: BTreeMap<usize, SweepRow>,
-    /// Bytes up to the end of the last whole line.
-    whole_bytes: u64,
 }
 
 /// A journal that rows are appended to.
@@ -44,9 +35,7 @@ pub(crate) struct Contents {
 pub(crate) struct Journal {
     path: PathBuf,
     file: File,
-    head: Head,
-    /// Rows finished so far, by index.
-    pub rows: BTreeMap<usize, SweepRow>,
+    pub contents: Contents,
 }
 
 /// What keeps rows from being read or kept.
@@ -131,27 +120,30 @@ pub(crate) fn read(folder: &Path) -> Result<Contents, JournalError> {
         }
         Err(source) => return Err(JournalError::Open { path, source }),
     };
-    let contents = parse(&path, &text)?;
+    let contents = parse(&path, whole_lines(&text))?;
     contents.ok_or_else(|| JournalError::NoSweep { folder: folder.to_owned() })
 }
 
-/// The contents of a journal's text; `None` where not even its first line was finished.
+/// The text without a last line that was cut short.
+fn whole_lines(text: &str) -> &str {
+    &text[..text.rfind('\n').map_or(0, |end| end + 1)]
+}
+
+/// The contents of a journal's whole lines; `None` where there is none.
 fn parse(path: &Path, text: &str) -> Result<Option<Contents>, JournalError> {
-    let whole_bytes = text.rfind('\n').map_or(0, |end| end + 1);
-    let mut lines = text[..whole_bytes].lines().enumerate();
+    let mut lines = text.lines().enumerate();
     let damaged = |line: usize, found: String| JournalError::Damaged { path: path.to_owned(), line: line + 1, found };
     let Some((_, first)) = lines.next() else { return Ok(None) };
-    let head: Head = serde_json::from_str(first).map_err(|error| damaged(0, error.to_string()))?;
-    let combinations = head.identity.combinations();
-    let mut rows = BTreeMap::new();
+    let mut contents: Contents = serde_json::from_str(first).map_err(|error| damaged(0, error.to_string()))?;
+    let combinations = contents.identity.combinations();
     for (line, text) in lines {
         let row: SweepRow = serde_json::from_str(text).map_err(|error| damaged(line, error.to_string()))?;
-        if row.index >= combinations || row.figures.len() != head.identity.figures.len() {
+        if row.index >= combinations || row.figures.len() != contents.identity.figures.len() {
             return Err(damaged(line, format!("a row of another sweep, combination {}", row.index)));
         }
-        rows.insert(row.index, row);
+        contents.rows.insert(row.index, row);
     }
-    Ok(Some(Contents { identity: head.identity, shard: head.shard, rows, whole_bytes: whole_bytes as u64 }))
+    Ok(Some(contents))
 }
 
 impl Journal {
@@ -171,25 +163,19 @@ impl Journal {
         }
         let mut text = String::new();
         file.read_to_string(&mut text).map_err(at)?;
-        let head = Head { identity: identity.clone(), shard };
-        let found = parse(&path, &text)?;
-        let (rows, whole_bytes) = match found {
-            Some(found) => {
-                let differences = differences(&found, &head);
-                if !differences.is_empty() {
-                    return Err(JournalError::OtherSweep { path, differences });
-                }
-                (found.rows, found.whole_bytes)
-            }
-            None => (BTreeMap::new(), 0),
-        };
-        file.set_len(whole_bytes).map_err(at)?;
-        file.seek(SeekFrom::End(0)).map_err(at)?;
-        if whole_bytes == 0 {
-            let line = line_of(&head).map_err(at)?;
-            file.write_all(&line).map_err(at)?;
+        let text = whole_lines(&text);
+        let new = Contents { identity: identity.clone(), shard, rows: BTreeMap::new() };
+        let found = parse(&path, text)?;
+        let differences = found.as_ref().map_or_else(Vec::new, |found| differences(found, &new));
+        if !differences.is_empty() {
+            return Err(JournalError::OtherSweep { path, differences });
         }
-        Ok(Self { path, file, head, rows })
+        file.set_len(text.len() as u64).map_err(at)?;
+        file.seek(SeekFrom::End(0)).map_err(at)?;
+        if found.is_none() {
+            file.write_all(&line_of(&new).map_err(at)?).map_err(at)?;
+        }
+        Ok(Self { path, file, contents: found.unwrap_or(new) })
     }
 
     /// Appends a finished row, or one that was verified since.
@@ -197,19 +183,20 @@ impl Journal {
     /// # Errors
     /// A full disk, or a folder that was taken away meanwhile: its rows are then written anew.
     pub(crate) fn append(&mut self, row: SweepRow) -> Result<(), JournalError> {
-        let kept = self.rows.len();
+        let rows = &mut self.contents.rows;
+        let kept = rows.len();
         let failed = |path: &Path, source| JournalError::Write { path: path.to_owned(), kept, source };
         let line = line_of(&row).map_err(|source| failed(&self.path, source))?;
         let index = row.index;
-        let before = self.rows.insert(index, row);
+        let before = rows.insert(index, row);
         // A file that was unlinked could still be written to, for nobody.
         if !self.path.exists() {
             return Err(self.write_anew());
         }
         if let Err(source) = self.file.write_all(&line) {
             match before {
-                Some(row) => self.rows.insert(index, row),
-                None => self.rows.remove(&index),
+                Some(row) => rows.insert(index, row),
+                None => rows.remove(&index),
             };
             return Err(failed(&self.path, source));
         }
@@ -219,14 +206,8 @@ impl Journal {
     /// Writes all rows into a new file of the old name.
     fn write_anew(&self) -> JournalError {
         let folder = self.path.parent().unwrap_or(Path::new("."));
-        let contents = Contents {
-            identity: self.head.identity.clone(),
-            shard: self.head.shard,
-            rows: self.rows.clone(),
-            whole_bytes: 0,
-        };
-        match write(folder, &contents) {
-            Ok(()) => JournalError::Removed { path: self.path.clone(), kept: self.rows.len() },
+        match write(folder, &self.contents) {
+            Ok(()) => JournalError::Removed { path: self.path.clone(), kept: self.contents.rows.len() },
             Err(source) => JournalError::Lost { path: self.path.clone(), source },
         }
     }
@@ -236,7 +217,7 @@ impl Journal {
 pub(crate) fn write(folder: &Path, contents: &Contents) -> io::Result<()> {
     fs::create_dir_all(folder)?;
     whole_file::write(&folder.join(FILE_NAME), |out| {
-        out.write_all(&line_of(&Head { identity: contents.identity.clone(), shard: contents.shard })?)?;
+        out.write_all(&line_of(contents)?)?;
         contents.rows.values().try_for_each(|row| out.write_all(&line_of(row)?))
     })
 }
@@ -248,20 +229,13 @@ fn line_of(item: &impl Serialize) -> io::Result<Vec<u8>> {
 }
 
 /// What the journal and the sweep that is to be run do not have in common, there and here.
-fn differences(found: &Contents, head: &Head) -> Vec<String> {
-    let mut differences = found.identity.differences(&head.identity);
-    if found.shard != head.shard {
+fn differences(found: &Contents, wanted: &Contents) -> Vec<String> {
+    let mut differences = found.identity.differences(&wanted.identity);
+    if found.shard != wanted.shard {
         let words = |shard: Option<Shard>| {
             shard.map_or_else(|| "all of it".to_owned(), |s| format!("shard {}/{}", s.number, s.of))
         };
-        differences.push(format!("the part that is run: {} and {}", words(found.shard), words(head.shard)));
+        differences.push(format!("the part that is run: {} and {}", words(found.shard), words(wanted.shard)));
     }
     differences
-}
-
-impl Contents {
-    /// Rows that were not read from one file.
-    pub(crate) fn new(identity: SweepIdentity, shard: Option<Shard>, rows: BTreeMap<usize, SweepRow>) -> Self {
-        Self { identity, shard, rows, whole_bytes: 0 }
-    }
 }

@@ -84,7 +84,7 @@ pub(crate) fn merge(folders: &[PathBuf]) -> Result<Contents, MergeError> {
     let combinations = identity.combinations();
     let missing: Vec<usize> = (0..combinations).filter(|index| !rows.contains_key(index)).collect();
     if missing.is_empty() {
-        return Ok(Contents::new(identity.clone(), None, rows));
+        return Ok(Contents { identity: identity.clone(), shard: None, rows });
     }
     let unfinished = parts.iter().filter_map(|(folder, part)| {
         let own: Vec<usize> = super::study::part(combinations, part.shard).collect();

@@ -68,7 +68,7 @@ pub(crate) struct Shard {
 }
 
 /// What makes a sweep this sweep: rows of two sweeps may stand in one table where all of this is the same.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct SweepIdentity {
     /// The scene's title.
     pub title: String,
@@ -96,21 +96,20 @@ impl SweepIdentity {
         self.axes.iter().map(|axis| axis.count).product()
     }
 
+    /// Which value each axis has in combination `index`, in the order of the axes.
+    pub(crate) fn digits(&self, index: usize) -> Vec<usize> {
+        let mut rest = index;
+        let mut digits = vec![0; self.axes.len()];
+        for (digit, axis) in digits.iter_mut().zip(&self.axes).rev() {
+            *digit = rest % axis.count;
+            rest /= axis.count;
+        }
+        digits
+    }
+
     /// The varied values of combination `index`, in the order of the axes.
     pub(crate) fn values(&self, index: usize) -> Vec<f64> {
-        let mut rest = index;
-        let mut values: Vec<f64> = self
-            .axes
-            .iter()
-            .rev()
-            .map(|axis| {
-                let value = axis.value(rest % axis.count);
-                rest /= axis.count;
-                value
-            })
-            .collect();
-        values.reverse();
-        values
+        self.axes.iter().zip(self.digits(index)).map(|(axis, digit)| axis.value(digit)).collect()
     }
 
     /// The combination in words: `pair.helix_angle_deg = 15, pair.face_width_mm = 20`.
@@ -151,7 +150,7 @@ impl SweepIdentity {
 }
 
 /// What one combination came to.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct SweepRow {
     /// Which combination, from 0.
     pub index: usize,
@@ -315,17 +314,8 @@ mod tests {
     /// The first key changes slowest.
     #[test]
     fn combinations_are_counted_like_digits() {
-        let identity = SweepIdentity {
-            title: String::new(),
-            program_version: String::new(),
-            scene_hash: String::new(),
-            given_hash: String::new(),
-            inputs_hash: String::new(),
-            error_estimate: false,
-            verify: false,
-            axes: vec![axis("a", 0.0, 1.0, 2), axis("b", 5.0, 7.0, 3)],
-            figures: Vec::new(),
-        };
+        let identity =
+            SweepIdentity { axes: vec![axis("a", 0.0, 1.0, 2), axis("b", 5.0, 7.0, 3)], ..SweepIdentity::default() };
         assert_eq!(identity.combinations(), 6);
         let all: Vec<Vec<f64>> = (0..6).map(|index| identity.values(index)).collect();
         assert_eq!(all, [[0.0, 5.0], [0.0, 6.0], [0.0, 7.0], [1.0, 5.0], [1.0, 6.0], [1.0, 7.0]]);

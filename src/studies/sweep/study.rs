@@ -60,7 +60,7 @@ impl<F: FnMut(&SweepRow)> Kept<'_, F> {
         }
         let index = row.index;
         self.error = self.journal.append(row).err();
-        if let (None, Some(row)) = (&self.error, self.journal.rows.get(&index)) {
+        if let (None, Some(row)) = (&self.error, self.journal.contents.rows.get(&index)) {
             self.count += 1;
             (self.tell)(row);
         }
@@ -81,9 +81,9 @@ pub(crate) fn run(
     observer: &dyn Observer,
 ) -> Result<Ended, JournalError> {
     let all: Vec<usize> = part(sweep.identity.combinations(), shard).collect();
-    let missing: Vec<usize> = all.iter().copied().filter(|index| !journal.rows.contains_key(index)).collect();
-    let mut done = journal.rows.len();
-    let mut failed = journal.rows.values().filter(|row| row.error.is_some()).count();
+    let missing: Vec<usize> = all.iter().copied().filter(|index| !journal.contents.rows.contains_key(index)).collect();
+    let mut done = journal.contents.rows.len();
+    let mut failed = journal.contents.rows.values().filter(|row| row.error.is_some()).count();
     observer.counted(done, all.len(), "combinations", &with_failed(failed));
     let tell = |row: &SweepRow| {
         done += 1;
@@ -108,8 +108,8 @@ fn verify(
     threads: usize,
     observer: &dyn Observer,
 ) -> Result<Ended, JournalError> {
-    let chosen = chosen(&sweep.identity, journal.rows.values());
-    let of_row = |(index, chosen): (&usize, &Chosen)| Some((journal.rows.get(index)?.clone(), *chosen));
+    let chosen = chosen(&sweep.identity, journal.contents.rows.values());
+    let of_row = |(index, chosen): (&usize, &Chosen)| Some((journal.contents.rows.get(index)?.clone(), *chosen));
     let due: Vec<(SweepRow, Chosen)> =
         chosen.iter().filter_map(of_row).filter(|(row, _)| row.verification.is_none()).collect();
     let mut done = chosen.len() - due.len();

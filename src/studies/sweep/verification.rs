@@ -261,30 +261,16 @@ mod tests {
 
     fn identity(counts: &[usize]) -> SweepIdentity {
         let axis = |&count| SweepAxis { key: "k".to_owned(), from: 0.0, to: 1.0, count, whole: false };
-        SweepIdentity {
-            title: String::new(),
-            program_version: String::new(),
-            scene_hash: String::new(),
-            given_hash: String::new(),
-            inputs_hash: String::new(),
-            error_estimate: false,
-            verify: true,
-            axes: counts.iter().map(axis).collect(),
-            figures: Vec::new(),
-        }
+        SweepIdentity { verify: true, axes: counts.iter().map(axis).collect(), ..SweepIdentity::default() }
     }
 
     /// A row whose every figure is `wear`; failed where there is none.
     fn row(index: usize, wear: Option<f64>) -> SweepRow {
         SweepRow {
             index,
-            values: Vec::new(),
             error: wear.is_none().then(|| "no".to_owned()),
             figures: vec![wear; FIGURES.len()],
-            warnings: None,
-            simulation_s: None,
-            wall_s: 0.0,
-            verification: None,
+            ..SweepRow::default()
         }
     }
 

@@ -8,11 +8,11 @@ use std::io;
 use std::sync::Arc;
 
 use parquet::basic::{LogicalType, Repetition, Type as PhysicalType};
-use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
-use parquet::file::writer::SerializedFileWriter;
+use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::Type;
 
 use super::tables::{Cell, SweepColumn, columns};
@@ -45,27 +45,18 @@ fn encode(record: &SweepRecord) -> Result<Vec<u8>, ParquetError> {
         let Some(mut writer) = group.next_column()? else { break };
         let cells = record.rows.iter().map(|row| column.cell(row));
         match kind {
-            PhysicalType::INT64 => {
-                let (levels, values) = nullable(cells.map(|cell| match cell {
-                    Cell::Whole(value) => value,
-                    _ => None,
-                }));
-                writer.typed::<Int64Type>().write_batch(&values, Some(&levels), None)?;
-            }
-            PhysicalType::DOUBLE => {
-                let (levels, values) = nullable(cells.map(|cell| match cell {
-                    Cell::Number(value) => value,
-                    _ => None,
-                }));
-                writer.typed::<DoubleType>().write_batch(&values, Some(&levels), None)?;
-            }
-            _ => {
-                let (levels, values) = nullable(cells.map(|cell| match cell {
-                    Cell::Text(text) => text.map(ByteArray::from),
-                    _ => None,
-                }));
-                writer.typed::<ByteArrayType>().write_batch(&values, Some(&levels), None)?;
-            }
+            PhysicalType::INT64 => write::<Int64Type>(
+                &mut writer,
+                cells.map(|cell| if let Cell::Whole(value) = cell { value } else { None }),
+            )?,
+            PhysicalType::DOUBLE => write::<DoubleType>(
+                &mut writer,
+                cells.map(|cell| if let Cell::Number(value) = cell { value } else { None }),
+            )?,
+            _ => write::<ByteArrayType>(
+                &mut writer,
+                cells.map(|cell| if let Cell::Text(text) = cell { text.map(ByteArray::from) } else { None }),
+            )?,
         }
         writer.close()?;
     }
@@ -88,12 +79,15 @@ fn field(name: &str, kind: PhysicalType) -> Result<Arc<Type>, ParquetError> {
     built.with_logical_type(text).build().map(Arc::new)
 }
 
-/// Whether there is a value, row by row, and the values that there are.
-fn nullable<T>(cells: impl Iterator<Item = Option<T>>) -> (Vec<i16>, Vec<T>) {
+/// Writes whether there is a value, row by row, and the values that there are.
+fn write<T: DataType>(
+    writer: &mut SerializedColumnWriter<'_>,
+    cells: impl Iterator<Item = Option<T::T>>,
+) -> Result<(), ParquetError> {
     let (mut levels, mut values) = (Vec::new(), Vec::new());
     for cell in cells {
         levels.push(i16::from(cell.is_some()));
         values.extend(cell);
     }
-    (levels, values)
+    writer.typed::<T>().write_batch(&values, Some(&levels), None).map(drop)
 }

@@ -41,22 +41,11 @@ pub(super) fn row<'a>(
     others: &SweepRow,
     shown: &[(&ShownAxis<'_>, usize)],
 ) -> Option<&'a SweepRow> {
-    let axes = &record.identity.axes;
-    let mut rest = others.index;
-    let mut digits: Vec<usize> = axes
-        .iter()
-        .rev()
-        .map(|axis| {
-            let digit = rest % axis.count;
-            rest /= axis.count;
-            digit
-        })
-        .collect();
-    digits.reverse();
+    let mut digits = record.identity.digits(others.index);
     for (axis, value) in shown {
         digits[axis.at] = *value;
     }
-    let index = axes.iter().zip(digits).fold(0, |index, (axis, digit)| index * axis.count + digit);
+    let index = record.identity.axes.iter().zip(digits).fold(0, |index, (axis, digit)| index * axis.count + digit);
     // Rows stand in the order of the combinations, and none is missing in a whole sweep.
     record.rows.get(index).filter(|row| row.index == index)
 }

@@ -64,20 +64,17 @@ pub(crate) fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
     for figure in FIGURES {
         columns.push(SweepColumn::new(figure.name, figure.meaning, |row| Cell::Number(row.figure(figure))));
     }
-    columns.push(SweepColumn::new("warnings", "number of warnings of the run", move |row| {
-        row.warnings.map_or(Cell::Whole(None), whole)
-    }));
-    columns.push(SweepColumn::new("simulation_s", "wall time of the wear run alone", |row| {
-        Cell::Number(row.simulation_s)
-    }));
-    columns.push(SweepColumn::new("wall_s", "wall time of the whole combination, its verification apart", |row| {
-        Cell::Number(Some(row.wall_s))
-    }));
-    columns.push(SweepColumn::new("error", "why there are no figures", |row| Cell::Text(row.error.as_deref())));
-    let meaning = "why finite elements verified this row: best, corner, or best and corner; empty: nothing verified it";
-    columns.push(SweepColumn::new("verified", meaning, |row| {
-        Cell::Text(row.verification.as_ref().map(|verification| verification.chosen.name()))
-    }));
+    let all_of_it = "wall time of the whole combination, its verification apart";
+    let why = "why finite elements verified this row: best, corner, or best and corner; empty: nothing verified it";
+    columns.extend([
+        SweepColumn::new("warnings", "number of warnings of the run", move |row| {
+            row.warnings.map_or(Cell::Whole(None), whole)
+        }),
+        SweepColumn::new("simulation_s", "wall time of the wear run alone", |row| Cell::Number(row.simulation_s)),
+        SweepColumn::new("wall_s", all_of_it, |row| Cell::Number(Some(row.wall_s))),
+        SweepColumn::new("error", "why there are no figures", |row| Cell::Text(row.error.as_deref())),
+        SweepColumn::new("verified", why, |row| Cell::Text(row.verification.as_ref().map(|of| of.chosen.name()))),
+    ]);
     for claim in CLAIMS {
         let meaning = format!(
             "{}: relative difference to the same life on finite elements, their own uncertainty added; as in summary.json of a run; \
@@ -85,13 +82,13 @@ pub(crate) fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
             claim.title
         );
         columns.push(SweepColumn::new(claim.name, meaning, move |row| {
-            Cell::Number(row.verification.as_ref().and_then(|verification| (claim.of)(&verification.total)))
+            Cell::Number(row.verification.as_ref().and_then(|of| (claim.of)(&of.total)))
         }));
     }
     columns.push(SweepColumn::new(
         "error.total.how",
         "how the row was verified, or why that was not possible",
-        |row| Cell::Text(row.verification.as_ref().map(|verification| verification.total.how.as_str())),
+        |row| Cell::Text(row.verification.as_ref().map(|of| of.total.how.as_str())),
     ));
     columns
 }
