@@ -51,10 +51,10 @@ pub(super) struct Args {
     /// What is taken away for the form, of the measured and the simulated profile alike; default: cubic of heights, none of
     /// wear depths
     #[arg(long, value_enum)]
-    form: Option<FormArg>,
+    form: Option<Form>,
     /// What is fitted: the wear coefficient k, the factor of severe wear, both, or nothing
-    #[arg(long, value_enum, default_value_t = FitArg::K)]
-    fit: FitArg,
+    #[arg(long, value_enum, default_value_t = FitKind::K)]
+    fit: FitKind,
     /// How far the profile may be shifted along the flank to where it fits best; 0: not at all
     #[arg(long, value_name = "MM", default_value_t = SHIFT_WITHIN_MM, value_parser = length)]
     shift_within: f64,
@@ -67,30 +67,6 @@ pub(super) struct Args {
     /// Show neither progress nor figures, only what is wrong
     #[arg(long, short)]
     quiet: bool,
-}
-
-/// `--form`.
-#[derive(Debug, Clone, Copy, clap::ValueEnum)]
-enum FormArg {
-    /// A least-squares polynomial of third order
-    Cubic,
-    /// The nominal flank, with offset and tilt by least squares
-    Involute,
-    /// Nothing
-    None,
-}
-
-/// `--fit`.
-#[derive(Debug, Clone, Copy, clap::ValueEnum)]
-enum FitArg {
-    /// Nothing but the place along the flank
-    None,
-    /// The wear coefficient
-    K,
-    /// The factor of severe wear
-    Severe,
-    /// Both
-    Both,
 }
 
 fn gear(text: &str) -> Result<Gear, String> {
@@ -106,24 +82,6 @@ fn length(text: &str) -> Result<f64, String> {
 }
 
 impl Args {
-    fn asked(&self) -> Asked {
-        Asked {
-            gear: self.gear,
-            form: self.form.map(|form| match form {
-                FormArg::Cubic => Form::Cubic,
-                FormArg::Involute => Form::Involute,
-                FormArg::None => Form::None,
-            }),
-            fit: match self.fit {
-                FitArg::None => FitKind::None,
-                FitArg::K => FitKind::K,
-                FitArg::Severe => FitKind::Severe,
-                FitArg::Both => FitKind::Both,
-            },
-            shift_within_mm: self.shift_within,
-        }
-    }
-
     /// Where the results go.
     fn out(&self) -> PathBuf {
         let name = self.measured.file_stem().filter(|stem| *stem != "-").unwrap_or("measured".as_ref());
@@ -141,7 +99,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let file = file::parse(&text.text).map_err(|error| refused(error.into()))?;
     // The pair was checked when the scene was resolved.
     let pair = GearPair::new(&resolved.scene.pair).map_err(RunError::from)?;
-    let question = Question::new(&args.asked(), &file, &folder, resolved, &pair).map_err(refused)?;
+    let asked = Asked { gear: args.gear, form: args.form, fit: args.fit, shift_within_mm: args.shift_within };
+    let question = Question::new(&asked, &file, &folder, resolved, &pair).map_err(refused)?;
     let out = args.out();
     report::writable(&out)?;
 
@@ -163,8 +122,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         let report = out.join("report.html");
         stdout::print(&format!("{}report: {}\n", table(&record), report.display()))?;
     }
-    let fit = &record.fit;
-    if fit.stopped == FitStop::Converged {
+    if record.fit.stopped == FitStop::Converged {
         warn(&record.warnings);
         return Ok(());
     }

@@ -16,15 +16,12 @@
 //! The columns are Legendre's polynomials on the length of the profile, orthonormalised twice: well conditioned for any number of
 //! points.
 
-use serde::{Deserialize, Serialize};
-
-/// What is taken for the form of a profile.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+/// What is taken for the form of a profile: the values of `--form`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Form {
     /// A least-squares polynomial of third order.
     Cubic,
-    /// The nominal flank, with an offset and a tilt by least squares.
+    /// The nominal flank, with offset and tilt by least squares.
     Involute,
     /// Nothing.
     None,

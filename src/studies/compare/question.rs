@@ -1,7 +1,5 @@
 //! What is asked of a comparison, checked against the run and the measured file before anything is computed.
 
-use serde::{Deserialize, Serialize};
-
 use super::run_folder::RunFolder;
 use crate::data_table::DataTableError;
 use crate::gear::{Gear, GearPair, slices::Slices};
@@ -15,9 +13,8 @@ const SAME_TIME: f64 = 1e-9;
 /// Points that a fit needs beyond the values it finds.
 const SPARE_POINTS: usize = 2;
 
-/// What is fitted.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+/// What is fitted: the values of `--fit`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum FitKind {
     /// Nothing but the place along the flank.
     None,

@@ -16,7 +16,7 @@ use super::question::Question;
 use super::simulations::{Change, Simulations};
 use super::study::CompareError;
 use crate::gear::GearPair;
-use crate::measurement::fit::{FitStop, Fitted, Parameter, gauss_newton_step, least_squares};
+use crate::measurement::fit::{FitStop, Parameter, gauss_newton_step, least_squares};
 use crate::measurement::form::FormRemoval;
 use crate::measurement::interval::{Uncertainty, uncertainty};
 
@@ -63,10 +63,9 @@ pub(super) struct Comparison<'a> {
 
 /// What the search found.
 pub(super) struct FittedCoefficients {
-    /// Which parameters.
     pub unknowns: Vec<Unknown>,
     /// Their values.
-    pub parameters: Vec<f64>,
+    parameters: Vec<f64>,
     /// Why it ended.
     pub stop: FitStop,
     /// Which is to blame, where one is.
@@ -77,16 +76,6 @@ pub(super) struct FittedCoefficients {
     pub wear_um: Vec<f64>,
     /// The last step in standard deviations, where exact runs still ask for one.
     pub unsettled: Option<f64>,
-}
-
-/// Where the steps on exact runs ended.
-struct Settled {
-    parameters: Vec<f64>,
-    residuals: Vec<f64>,
-    jacobian: Vec<Vec<f64>>,
-    wear_um: Vec<f64>,
-    stop: FitStop,
-    unsettled: Option<f64>,
 }
 
 impl FittedCoefficients {
@@ -200,53 +189,47 @@ impl<'a> Comparison<'a> {
         };
         let fitted = least_squares::<CompareError>(&parameters, &mut residuals)?;
         let also = self.question.form.parameters();
-        let blamed = fitted.blamed.map(|index| unknowns[index]);
-        let found = match needs_runs {
-            true => self.settle(&unknowns, &parameters, fitted, simulations)?,
-            false => Settled {
-                parameters: fitted.parameters,
-                residuals: fitted.residuals,
-                jacobian: fitted.jacobian,
-                wear_um: as_run_um.to_vec(),
-                stop: fitted.stop,
-                unsettled: None,
-            },
+        let mut found = FittedCoefficients {
+            blamed: fitted.blamed.map(|index| unknowns[index]),
+            uncertainty: uncertainty(&fitted.jacobian, &fitted.residuals, also),
+            wear_um: as_run_um.to_vec(),
+            stop: fitted.stop,
+            unsettled: None,
+            parameters: fitted.parameters,
+            unknowns,
         };
-        let Settled { parameters, residuals, jacobian, wear_um, stop, unsettled } = found;
+        if needs_runs {
+            self.settle(&mut found, &parameters, &fitted.jacobian, simulations)?;
+        }
         // Beside the best value that was searched no interval means anything.
-        let uncertainty = (stop == FitStop::Converged).then(|| uncertainty(&jacobian, &residuals, also)).flatten();
-        Ok(FittedCoefficients { unknowns, parameters, stop, blamed, uncertainty, wear_um, unsettled })
+        found.uncertainty = found.uncertainty.filter(|_| found.stop == FitStop::Converged);
+        Ok(found)
     }
 
     /// Gauss–Newton steps on the residuals of exact runs, until they no longer matter.
     fn settle(
         &self,
-        unknowns: &[Unknown],
+        found: &mut FittedCoefficients,
         parameters: &[Parameter],
-        fitted: Fitted,
+        jacobian: &[Vec<f64>],
         simulations: &mut Simulations<'_>,
-    ) -> Result<Settled, CompareError> {
-        let Fitted { parameters: mut theta, jacobian, stop, .. } = fitted;
-        let converges = stop == FitStop::Converged;
+    ) -> Result<(), CompareError> {
+        let mut theta = found.parameters.clone();
+        let converges = found.stop == FitStop::Converged;
         let also = self.question.form.parameters();
-        let mut best: Option<(f64, Settled)> = None;
+        let mut least: Option<f64> = None;
         let mut last_step = 0.0;
         for _ in 0..MOST_EXACT_RUNS {
-            let wear_um = simulations.exactly(change(unknowns, &theta))?;
-            let r = self.residuals_um(&wear_um, shift_of(unknowns, &theta));
+            let wear_um = simulations.exactly(change(&found.unknowns, &theta))?;
+            let r = self.residuals_um(&wear_um, shift_of(&found.unknowns, &theta));
             let square: f64 = r.iter().map(|r| r * r).sum();
-            let step = converges.then(|| gauss_newton_step(&jacobian, &r)).flatten();
-            let deviations = uncertainty(&jacobian, &r, also).map(|u| u.deviations);
-            if best.as_ref().is_none_or(|(least, _)| square < *least) {
-                let settled = Settled {
-                    parameters: theta.clone(),
-                    residuals: r,
-                    jacobian: jacobian.clone(),
-                    wear_um,
-                    stop,
-                    unsettled: None,
-                };
-                best = Some((square, settled));
+            let step = converges.then(|| gauss_newton_step(jacobian, &r)).flatten();
+            let uncertainty = uncertainty(jacobian, &r, also);
+            let deviations = uncertainty.as_ref().map(|u| u.deviations.clone());
+            if least.is_none_or(|least| square < least) {
+                least = Some(square);
+                found.parameters.clone_from(&theta);
+                (found.wear_um, found.uncertainty) = (wear_um, uncertainty);
             }
             let Some(step) = step else { break };
             // Steps in standard deviations; those that are nothing beside the differences count for nothing.
@@ -261,13 +244,11 @@ impl<'a> Comparison<'a> {
                 *value = (*value + by).clamp(p.least, p.greatest);
             }
         }
-        // At least one run is exact.
-        let Some((_, mut settled)) = best else { return Err(CompareError::Interrupted) };
         if converges && last_step > NEGLIGIBLE {
-            settled.unsettled = Some(last_step);
-            settled.stop = if last_step <= TOLERABLE { FitStop::Converged } else { FitStop::MaxIterations };
+            found.unsettled = Some(last_step);
+            found.stop = if last_step <= TOLERABLE { FitStop::Converged } else { FitStop::MaxIterations };
         }
-        Ok(settled)
+        Ok(())
     }
 }
 
