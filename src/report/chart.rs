@@ -67,44 +67,15 @@ pub(crate) fn colour_between_gears(share: f64) -> String {
     format!("mix(--pinion,--wheel,{share:.3})")
 }
 
-/// How a line is dashed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Dash {
-    /// Not at all.
+/// How a line is dashed, in plotly's words.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Dash {
     Solid,
-    /// Dashes.
+    #[serde(rename = "dash")]
     Dashed,
-    /// Dots.
     Dot,
-    /// Both in turn.
-    Mixed,
-}
-
-/// Colour, width in pixels and dash of a line.
-#[derive(Debug, Clone)]
-pub struct Stroke {
-    colour: String,
-    width_px: f64,
-    dash: Dash,
-}
-
-impl<C: Into<String>> From<(C, f64, Dash)> for Stroke {
-    fn from((colour, width_px, dash): (C, f64, Dash)) -> Self {
-        Self { colour: colour.into(), width_px, dash }
-    }
-}
-
-impl From<Stroke> for Value {
-    fn from(Stroke { colour, width_px, dash }: Stroke) -> Self {
-        let dash = match dash {
-            Dash::Solid => "solid",
-            Dash::Dashed => "dash",
-            Dash::Dot => "dot",
-            Dash::Mixed => "dashdot",
-        };
-        // Through all its points: plotly would leave some out, which puts corners into smooth curves.
-        json!({ "color": colour, "width": width_px, "dash": dash, "simplify": false })
-    }
+    DashDot,
 }
 
 /// One of the things that a chart shows.
@@ -128,15 +99,17 @@ impl Trace {
         self
     }
 
-    /// A line through points.
+    /// A line through points, of a colour, a width in pixels and a dash.
     pub(crate) fn line(
         name: impl Into<String>,
         x: impl IntoIterator<Item = impl Into<Option<f64>>>,
         y: impl IntoIterator<Item = impl Into<Option<f64>>>,
-        stroke: impl Into<Stroke>,
+        (colour, width_px, dash): (impl Into<String>, f64, Dash),
     ) -> Self {
         let points = Self::new("scatter", name).set("x", rounded(x)).set("y", rounded(y));
-        points.set("mode", "lines").set("line", stroke.into())
+        // Through all its points: plotly would leave some out, which puts corners into smooth curves.
+        let line = json!({ "color": colour.into(), "width": width_px, "dash": dash, "simplify": false });
+        points.set("mode", "lines").set("line", line)
     }
 
     /// Points, each a sign of plotly's symbols.
@@ -375,7 +348,7 @@ impl Chart {
         name: impl Into<String>,
         x: impl IntoIterator<Item = impl Into<Option<f64>>>,
         y: impl IntoIterator<Item = impl Into<Option<f64>>>,
-        stroke: impl Into<Stroke>,
+        stroke: (impl Into<String>, f64, Dash),
         hover: &str,
     ) -> Self {
         self.add(Trace::line(name, x, y, stroke).hover(hover))

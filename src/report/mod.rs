@@ -2,7 +2,7 @@
 //!
 //! | file | from |
 //! |---|---|
-//! | `summary.json` | [`Summary`] |
+//! | `summary.json` | [`Summary`](crate::results::run::Summary) |
 //! | `pinion.csv`, `wheel.csv`, `profiles.csv` | [`tables`] |
 //! | `history.csv`, `mesh_cycle.csv` | [`HistoryRow`](crate::results::run::HistoryRow), [`MeshCycleRow`](crate::results::run::MeshCycleRow) |
 //! | `slices.csv`, `flank.vtu` | [`slice_table`], [`flank_mesh`]; only where the sections of the pair differ |
@@ -27,11 +27,13 @@ mod vtu_file;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
+
 use self::csv_table::{Provenance, table};
 pub(crate) use self::files::{ReportError, create_folder, writable};
 use self::files::{place, remove, write_json};
 use crate::gear::Gear;
-use crate::results::run::{RunRecord, Summary};
+use crate::results::run::RunRecord;
 
 /// Writes all files of `record` but `summary.json` into `dir`, which is made if need be; returns their paths in the order
 /// written. The files that only a pair with slices has are taken away where `record` has none.
@@ -63,8 +65,8 @@ pub(crate) fn write_data_and_page(record: &RunRecord, dir: &Path) -> Result<Vec<
 const SLICES: &str = "slices.csv";
 const FLANK: &str = "flank.vtu";
 
-/// Writes `summary.json` into `dir`, after everything else.
-pub(crate) fn write_summary(summary: &Summary, dir: &Path) -> Result<PathBuf, ReportError> {
+/// Writes `summary.json` into `dir`, of a wear run or of finite elements, after everything else.
+pub(crate) fn write_summary(summary: &impl Serialize, dir: &Path) -> Result<PathBuf, ReportError> {
     create_folder(dir)?;
     place(dir, "summary.json", |out| write_json(out, summary))
 }

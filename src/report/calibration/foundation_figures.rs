@@ -1,6 +1,6 @@
 //! K/H by finite elements against Hertz and against its fit.
 
-use super::path_points::path_points;
+use super::path_points;
 use crate::calibration::Calibration;
 use crate::calibration::foundation_fit::{FitErrors, FitRow};
 use crate::calibration::single_contact::{Purpose, SingleContact};

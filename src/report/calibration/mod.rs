@@ -2,7 +2,6 @@
 
 mod foundation_figures;
 mod page;
-mod path_points;
 mod stiffness_figures;
 mod tables;
 mod wear_figure;
@@ -11,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use super::files::{ReportError, create_folder};
 use crate::calibration::Calibration;
-use crate::results::run::StageTime;
+use crate::results::run::{PathPoints, StageTime};
 use crate::whole_file;
 
 /// The folder of a file.
@@ -25,9 +24,6 @@ pub(crate) fn page_beside(file: &Path) -> PathBuf {
 }
 
 /// Writes the page and then the calibration itself, so that its presence says the rest is complete.
-///
-/// # Errors
-/// What the system says.
 pub(crate) fn write(
     calibration: &Calibration,
     stages: &[StageTime],
@@ -38,6 +34,12 @@ pub(crate) fn write(
     let name = file.file_name().unwrap_or_default().to_string_lossy();
     place(&page_beside(file), &page::page(calibration, stages, title, &name))?;
     place(file, &calibration.to_json())
+}
+
+/// The points of the path of contact by name.
+fn path_points(calibration: &Calibration) -> PathPoints {
+    let [a, b, c, d, e] = calibration.path_points_mm;
+    PathPoints { A: a, B: b, C: c, D: d, E: e }
 }
 
 fn place(path: &Path, text: &str) -> Result<(), ReportError> {

@@ -7,11 +7,8 @@ use crate::calibration::Calibration;
 use crate::contact::settings::MatchCriterion;
 use crate::report::html::number::{figure, percent};
 use crate::report::html::page::{self, Page, plots, section, sources_list, stages_table};
+use crate::report::html::run_page::NOTE;
 use crate::results::run::StageTime;
-
-const LEGEND: &str = "A to E are the points of the path of contact: contact begins at A and ends at E, \
-     a tooth pair carries the load alone between B and D where no more than two pairs share it, and C is the pitch point. The \
-     contact position is the radius of curvature of the pinion’s flank at the theoretical contact point.";
 
 /// The whole page; `file` is the name of the calibration file.
 pub(super) fn page(calibration: &Calibration, stages: &[StageTime], title: &str, file: &str) -> String {
@@ -29,7 +26,7 @@ pub(super) fn page(calibration: &Calibration, stages: &[StageTime], title: &str,
         warnings: &[],
         main: html! {
             (section("figures", "Main figures", page::tables(tables::tables(calibration))))
-            (section("plots", "Plots", html! { (page::note(LEGEND)) (plots(&charts)) }))
+            (section("plots", "Plots", html! { (page::note(NOTE)) (plots(&charts)) }))
             (section("work", "How it was computed", page::tables([stages_table(stages, wall_s)])))
             (section("sources", "Data", sources_list(&files, "What it belongs to", &belongs_to)))
         },

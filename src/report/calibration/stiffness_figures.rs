@@ -1,6 +1,6 @@
 //! Stiffness of the teeth over the path of contact, and by their number.
 
-use super::path_points::path_points;
+use super::path_points;
 use crate::calibration::Calibration;
 use crate::calibration::stiffness_variation::{StiffnessVariation, VariationOf};
 use crate::calibration::tooth_family::FamilyMember;

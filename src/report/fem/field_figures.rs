@@ -2,9 +2,7 @@
 
 use crate::fem::problem::Edge;
 use crate::report::chart::{Chart, INK, MUTED, Trace};
-use crate::report::html::field_plot::{
-    self, Bodies, MOST_SIDES, Quantity, Window, greatest_near, segments, sides, to_scale,
-};
+use crate::report::html::field_plot::{self, Bodies, Window, greatest_near, segments, side_lines, to_scale};
 use crate::report::html::number::{count, figure, significant};
 use crate::report::html::reading::greatest;
 use crate::results::fem_problem::{ContactCurve, FemRecord};
@@ -20,7 +18,6 @@ pub(super) fn model(record: &FemRecord) -> Chart {
     let points: Vec<[f64; 2]> = solid.points_mm.iter().map(|p| [p.x, p.y]).collect();
     let bodies = Bodies { points_mm: &points, elements: &solid.elements };
     let window = Window::around(&points);
-    let (outline, inner) = sides(bodies, window);
     let materials = record.bodies.iter().zip(&record.problem.materials).map(|(body, material)| {
         format!(
             "{body} of {} GPa and Poisson’s ratio {}",
@@ -34,10 +31,8 @@ pub(super) fn model(record: &FemRecord) -> Chart {
         count(points.len() as u64),
         materials.collect::<Vec<_>>().join("; ")
     ));
-    if inner.len() <= MOST_SIDES {
-        chart = chart.add(segments("elements", bodies, &inner, "var(--rule)", 0.7).unlisted());
-    }
-    chart = chart.add(segments("outline", bodies, &outline, INK, 1.2).unlisted());
+    let (inner, outline) = side_lines(bodies, window, ("var(--rule)", 0.7), ("outline", INK, 1.2));
+    chart = chart.add_all(inner.into_iter().chain([outline]).map(Trace::unlisted));
     for (contact, names) in record.problem.contacts.iter().zip(&record.summary.contact) {
         for (edges, name, colour) in [
             (&contact.slave, format!("slave {}", names.slave), "var(--pinion)"),
@@ -81,12 +76,10 @@ fn marks(name: &str, symbol: &str, nodes: &[u32], points: &[[f64; 2]]) -> Trace 
 /// The von Mises stress: over all bodies, and around each contact that carries load; deformed as computed.
 pub(super) fn von_mises(record: &FemRecord) -> Vec<Chart> {
     let solid = &record.problem.solid;
-    let deformed: Vec<[f64; 2]> =
-        solid.points_mm.iter().zip(&record.displacement_mm).map(|(p, u)| [p.x + u[0], p.y + u[1]]).collect();
+    let deformed = field_plot::deformed(solid.points_mm.iter().map(|p| [p.x, p.y]), &record.displacement_mm);
     let bodies = Bodies { points_mm: &deformed, elements: &solid.elements };
     let values: Vec<f64> = record.stress.iter().map(|stress| stress.von_mises_MPa).collect();
-    let quantity = Quantity { name: "σ<sub>v</sub>, MPa", unit: "MPa", values: &values };
-    let picture = |chart: Chart, window: Window| field_plot::field(chart, bodies, quantity, window);
+    let picture = |chart: Chart, window: Window| field_plot::von_mises(chart, bodies, &values, window);
     let whole = greatest(&values).map_or_else(String::new, |peak| {
         let at = solid.points_mm[peak.index];
         format!(

@@ -13,31 +13,22 @@ mod page;
 mod pressure_figure;
 
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::csv_table::{Provenance, table};
-use super::files::{ReportError, create_folder, place, write_json};
+use super::files::{ReportError, create_folder, place};
 use super::vtu_file;
 use crate::mesh::Mesh;
-use crate::results::fem_problem::{ContactCurve, FemRecord, FemSummary};
+use crate::results::fem_problem::{ContactCurve, FemRecord};
 
-/// Writes all files of `record` but `summary.json` into `dir`, which is made if need be; returns their paths in the order
-/// written.
-pub(crate) fn write_data_and_page(record: &FemRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+/// Writes all files of `record` but `summary.json` into `dir`, which is made if need be.
+pub(crate) fn write_data_and_page(record: &FemRecord, dir: &Path) -> Result<(), ReportError> {
     create_folder(dir)?;
     let provenance = Provenance::of_problem(&record.summary.program_version, &record.summary.problem_hash);
-    Ok(vec![
-        place(dir, "problem.toml", |out| out.write_all(record.problem_toml.as_bytes()))?,
-        place(dir, "contact.csv", |out| contact_table(out, provenance, &record.contacts))?,
-        place(dir, "solution.vtu", |out| vtu_file::write(out, &solution(record)))?,
-        place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?,
-    ])
-}
-
-/// Writes `summary.json` into `dir`, after everything else.
-pub(crate) fn write_summary(summary: &FemSummary, dir: &Path) -> Result<PathBuf, ReportError> {
-    create_folder(dir)?;
-    place(dir, "summary.json", |out| write_json(out, summary))
+    place(dir, "problem.toml", |out| out.write_all(record.problem_toml.as_bytes()))?;
+    place(dir, "contact.csv", |out| contact_table(out, provenance, &record.contacts))?;
+    place(dir, "solution.vtu", |out| vtu_file::write(out, &solution(record)))?;
+    place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes())).map(drop)
 }
 
 /// Writes `contact.csv`: the nodes of the slave surfaces, each in the order of its surface.

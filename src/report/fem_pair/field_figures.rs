@@ -2,10 +2,8 @@
 
 use crate::fem::solid::Element;
 use crate::gear::Gear;
-use crate::report::chart::{Chart, gear_colour};
-use crate::report::html::field_plot::{
-    self, Bodies, MOST_SIDES, Quantity, Window, greatest_near, segments, sides, to_scale,
-};
+use crate::report::chart::{Chart, Trace, gear_colour};
+use crate::report::html::field_plot::{self, Bodies, Window, greatest_near, side_lines, to_scale};
 use crate::report::html::number::{count, figure, significant};
 use crate::results::fem_pair::{ContactPlace, FemPairSummary, PairSolution};
 
@@ -32,23 +30,19 @@ pub(super) fn mesh(s: &FemPairSummary, solution: &PairSolution) -> Chart {
     for (gear, material) in Gear::BOTH.into_iter().zip(0..) {
         let own: Vec<Element> = solution.elements.iter().filter(|e| e.material == material).copied().collect();
         let bodies = Bodies { points_mm: &solution.points_mm, elements: &own };
-        let (outline, inner) = sides(bodies, window);
-        if inner.len() <= MOST_SIDES {
-            chart = chart.add(segments("elements", bodies, &inner, "var(--rule)", 0.6).unlisted());
-        }
-        chart = chart.add(segments(gear.name(), bodies, &outline, gear_colour(gear), 1.4));
+        let own_outline = (gear.name(), gear_colour(gear), 1.4);
+        let (inner, outline) = side_lines(bodies, window, ("var(--rule)", 0.6), own_outline);
+        chart = chart.add_all(inner.map(Trace::unlisted)).add(outline);
     }
     to_scale(chart, window)
 }
 
 /// The von Mises stress in the teeth, and around each contact, deformed as computed.
 pub(super) fn von_mises(solution: &PairSolution) -> Vec<Chart> {
-    let deformed: Vec<[f64; 2]> =
-        solution.points_mm.iter().zip(&solution.displacement_mm).map(|(p, u)| [p[0] + u[0], p[1] + u[1]]).collect();
+    let deformed = field_plot::deformed(solution.points_mm.iter().copied(), &solution.displacement_mm);
     let bodies = Bodies { points_mm: &deformed, elements: &solution.elements };
     let values: Vec<f64> = solution.stress.iter().map(|stress| stress.von_mises_MPa).collect();
-    let quantity = Quantity { name: "σ<sub>v</sub>, MPa", unit: "MPa", values: &values };
-    let picture = |chart: Chart, window: Window| field_plot::field(chart, bodies, quantity, window);
+    let picture = |chart: Chart, window: Window| field_plot::von_mises(chart, bodies, &values, window);
     let whole = format!(
         "The teeth at the contact position of {} mm, deformed to scale. The stress is greatest under the contact{}, next at \
          the fillets.",

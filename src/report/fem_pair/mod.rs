@@ -15,38 +15,28 @@ mod page;
 mod pressure_figure;
 pub(crate) mod pressure_table;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use nalgebra::Vector2;
 
 use super::csv_table::{Provenance, table};
-use super::files::{ReportError, create_folder, place, write_json};
+use super::files::{ReportError, create_folder, place};
 use super::vtu_file;
 use crate::fem::solid::Solid;
 use crate::mesh::Mesh;
-use crate::results::fem_pair::{FemPairRecord, FemPairSummary, PairSolution};
+use crate::results::fem_pair::{FemPairRecord, PairSolution};
 
-/// Writes all files of `record` but `summary.json` into `dir`, which is made if need be; returns their paths in the order
-/// written.
-pub(crate) fn write_data_and_page(record: &FemPairRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+/// Writes all files of `record` but `summary.json` into `dir`, which is made if need be.
+pub(crate) fn write_data_and_page(record: &FemPairRecord, dir: &Path) -> Result<(), ReportError> {
     create_folder(dir)?;
     let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
-    let mut written = vec![
-        place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?,
-        place(dir, "mesh_cycle.csv", |out| table(out, provenance, &record.mesh_cycle))?,
-        place(dir, "pressure.csv", |out| pressure_table::pressure(out, provenance, &record.pressure))?,
-    ];
+    place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?;
+    place(dir, "mesh_cycle.csv", |out| table(out, provenance, &record.mesh_cycle))?;
+    place(dir, "pressure.csv", |out| pressure_table::pressure(out, provenance, &record.pressure))?;
     if let Some(solution) = &record.solution {
-        written.push(place(dir, "solution.vtu", |out| vtu_file::write(out, &mesh(solution)))?);
+        place(dir, "solution.vtu", |out| vtu_file::write(out, &mesh(solution)))?;
     }
-    written.push(place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?);
-    Ok(written)
-}
-
-/// Writes `summary.json` into `dir`, after everything else.
-pub(crate) fn write_summary(summary: &FemPairSummary, dir: &Path) -> Result<PathBuf, ReportError> {
-    create_folder(dir)?;
-    place(dir, "summary.json", |out| write_json(out, summary))
+    place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes())).map(drop)
 }
 
 /// The teeth in contact with displacement and stress at their nodes.

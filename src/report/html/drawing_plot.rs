@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 
 use super::number::{figure, significant};
 use crate::gear::Gear;
-use crate::report::chart::{Chart, Dash, MUTED, PATH, Stroke, Trace, extent, gear_colour, gear_fill, label};
+use crate::report::chart::{Chart, Dash, MUTED, PATH, Trace, extent, gear_colour, gear_fill, label};
 use crate::results::run::{GearCircles, PairDrawing, RunRecord};
 
 /// Points of a drawn circle: its sagitta stays below 1e-4 of the radius.
@@ -51,7 +51,7 @@ pub(super) fn pair(record: &RunRecord) -> Chart {
     chart.x_range(x).y_range(y)
 }
 
-fn polyline(name: &str, points: &[[f64; 2]], stroke: impl Into<Stroke>) -> Trace {
+fn polyline(name: &str, points: &[[f64; 2]], stroke: (&str, f64, Dash)) -> Trace {
     let [x, y] = [0, 1].map(|axis| points.iter().map(|p| to_scale(p[axis])).collect::<Vec<f64>>());
     Trace::line(name, [0.0; 0], [0.0; 0], stroke).set("x", x).set("y", y)
 }
@@ -67,7 +67,7 @@ fn circles(drawing: &PairDrawing, gear: Gear) -> impl Iterator<Item = Trace> {
     let GearCircles { base, working_pitch, tip } = drawing.circles_mm[gear];
     let circles = [
         ("base circles", Some(base), Dash::Dot, true),
-        ("pitch circles", Some(working_pitch), Dash::Mixed, true),
+        ("pitch circles", Some(working_pitch), Dash::DashDot, true),
         ("tip circles", Some(tip), Dash::Dashed, true),
         ("bores", drawing.bore_radius_mm[gear], Dash::Solid, false),
     ];

@@ -1,4 +1,4 @@
-//! A quantity over the bodies, as a picture that can be zoomed and read point by point.
+//! The von Mises stress over the bodies, as a picture that can be zoomed and read point by point.
 //!
 //! The values at the nodes are sampled on a raster of small squares, each element as linear triangles between its nodes.
 //! What lies outside the bodies stays empty. Over the raster lie the bodies' outlines and, where they can be told apart,
@@ -13,7 +13,7 @@ const SQUARES: f64 = 60_000.0;
 /// Significant digits of a value in the picture.
 const DIGITS: usize = 4;
 /// Sides of elements that a picture shows at the most: beyond, they are too fine to be seen and too many to be drawn.
-pub(crate) const MOST_SIDES: usize = 20_000;
+const MOST_SIDES: usize = 20_000;
 /// Width over height of a picture on a wide screen.
 const WIDTH_OVER_HEIGHT: f64 = 1.75;
 const HEIGHT_PX: usize = 600;
@@ -34,17 +34,6 @@ pub(crate) struct Window {
     pub x_mm: [f64; 2],
     /// y from and to, mm.
     pub y_mm: [f64; 2],
-}
-
-/// A quantity at the nodes.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Quantity<'a> {
-    /// What stands beside its scale, unit included: `von Mises stress, MPa`.
-    pub name: &'a str,
-    /// Its unit: `MPa`.
-    pub unit: &'a str,
-    /// One value for each node.
-    pub values: &'a [f64],
 }
 
 impl Window {
@@ -95,19 +84,31 @@ pub(crate) fn greatest_near(bodies: Bodies<'_>, values: &[f64], centre_mm: [f64;
     bodies.points_mm.iter().zip(values).filter(|(p, _)| near(p)).map(|(_, value)| *value).fold(0.0, f64::max)
 }
 
-/// Draws `quantity` within `window`.
-pub(crate) fn field(chart: Chart, bodies: Bodies<'_>, quantity: Quantity<'_>, window: Window) -> Chart {
-    let raster = Raster::sample(bodies, quantity.values, window);
-    let unit = quantity.unit;
-    let colours = Trace::heat_map(quantity.name, &raster.x_mm, &raster.y_mm, raster.values)
+/// The nodes where they are after `displacement_mm`.
+pub(crate) fn deformed(points_mm: impl Iterator<Item = [f64; 2]>, displacement_mm: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    points_mm.zip(displacement_mm).map(|(p, u)| [p[0] + u[0], p[1] + u[1]]).collect()
+}
+
+/// Draws the von Mises stress at the nodes within `window`.
+pub(crate) fn von_mises(chart: Chart, bodies: Bodies<'_>, stress_mpa: &[f64], window: Window) -> Chart {
+    let raster = Raster::sample(bodies, stress_mpa, window);
+    let colours = Trace::heat_map("σ<sub>v</sub>, MPa", &raster.x_mm, &raster.y_mm, raster.values)
         .set("hoverongaps", false)
-        .hover(format!("x %{{x:.5~g}} mm, y %{{y:.5~g}} mm<br>%{{z:.4~g}} {unit}<extra></extra>"));
+        .hover("x %{x:.5~g} mm, y %{y:.5~g} mm<br>%{z:.4~g} MPa<extra></extra>");
+    let (inner, outline) = side_lines(bodies, window, ("rgba(255,255,255,0.28)", 0.6), ("outline", INK, 1.2));
+    to_scale(chart.wide().add(colours).add_all(inner).add(outline), window).legend(false)
+}
+
+/// The sides between elements, unless they are too many, and those around the bodies.
+pub(crate) fn side_lines(
+    bodies: Bodies<'_>,
+    window: Window,
+    (inner_colour, inner_px): (&str, f64),
+    (name, colour, width_px): (&str, &str, f64),
+) -> (Option<Trace>, Trace) {
     let (outline, inner) = sides(bodies, window);
-    let mut chart = chart.wide().add(colours);
-    if inner.len() <= MOST_SIDES {
-        chart = chart.add(segments("elements", bodies, &inner, "rgba(255,255,255,0.28)", 0.6));
-    }
-    to_scale(chart.add(segments("outline", bodies, &outline, INK, 1.2)), window).legend(false)
+    let between = || segments("elements", bodies, &inner, inner_colour, inner_px);
+    ((inner.len() <= MOST_SIDES).then(between), segments(name, bodies, &outline, colour, width_px))
 }
 
 /// The chart as a picture at its true proportions that shows `window` to begin with.
@@ -140,7 +141,7 @@ pub(crate) fn segments(name: &str, bodies: Bodies<'_>, sides: &[Vec<u32>], colou
 
 /// The sides of the elements within `window`, each once: those of one element only, and all others. A side runs from one
 /// end over the middle node, if there is one, to the other.
-pub(crate) fn sides(bodies: Bodies<'_>, window: Window) -> (Vec<Vec<u32>>, Vec<Vec<u32>>) {
+fn sides(bodies: Bodies<'_>, window: Window) -> (Vec<Vec<u32>>, Vec<Vec<u32>>) {
     let mut all: Vec<([u32; 2], Vec<u32>)> = Vec::new();
     for element in bodies.elements {
         for side in ring(element) {

@@ -26,7 +26,7 @@ const SLICED_FILES: [(&str, &str); 2] =
     [("slices.csv", "the load of every slice over the mesh"), ("flank.vtu", "both flanks in space, for ParaView")];
 
 /// What the plots of a pair have in common.
-const NOTE: &str = "A to E are the points of the path of contact: contact begins at A and ends at E, a \
+pub(crate) const NOTE: &str = "A to E are the points of the path of contact: contact begins at A and ends at E, a \
      tooth pair carries the load alone between B and D where no more than two pairs share it, and C is the pitch \
      point. The contact position is the radius of curvature of the pinion’s flank at the theoretical contact \
      point.";

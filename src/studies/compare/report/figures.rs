@@ -1,6 +1,6 @@
 //! The plots of a comparison: profiles with their form removed, wear depths, and what is left between them.
 
-use crate::report::chart::{Chart, Dash, MUTED, NEW, Stroke, Trace, WORN, extent, padded};
+use crate::report::chart::{Chart, Dash, MUTED, NEW, Trace, WORN, extent, padded};
 use crate::report::html::number::{figure, significant};
 use crate::report::html::reading::{among, greatest};
 use crate::studies::compare::record::{CompareRecord, CompareRow};
@@ -35,7 +35,7 @@ fn over_radius(record: &CompareRecord, chart: Chart) -> Chart {
 }
 
 /// Draws a curve over the radius.
-fn curve(chart: Chart, record: &CompareRecord, name: &str, y: Vec<f64>, stroke: impl Into<Stroke>) -> Chart {
+fn curve(chart: Chart, record: &CompareRecord, name: &str, y: Vec<f64>, stroke: (&str, f64, Dash)) -> Chart {
     chart.line(name, record.rows.iter().map(|row| row.radius_mm), y, stroke, "%{y:.3f} µm")
 }
 

@@ -9,7 +9,7 @@
 mod figures;
 mod page;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::report::csv_table::{Provenance, table};
 use crate::report::files::{ReportError, create_folder, place, remove, write_json};
@@ -18,17 +18,12 @@ use crate::studies::compare::record::CompareRecord;
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "compare.json";
 
-/// Writes all files of `record` into `dir`, which is made if need be; returns their paths in the order written.
-///
-/// # Errors
-/// [`ReportError`].
-pub(crate) fn write(record: &CompareRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+/// Writes all files of `record` into `dir`, which is made if need be.
+pub(crate) fn write(record: &CompareRecord, dir: &Path) -> Result<(), ReportError> {
     create_folder(dir)?;
     remove(dir, LAST)?;
     let provenance = Provenance::of_scene(&record.program_version, &record.scene_hash);
-    Ok(vec![
-        place(dir, "compare.csv", |out| table(out, provenance, &record.rows))?,
-        place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?,
-        place(dir, LAST, |out| write_json(out, record))?,
-    ])
+    place(dir, "compare.csv", |out| table(out, provenance, &record.rows))?;
+    place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?;
+    place(dir, LAST, |out| write_json(out, record)).map(drop)
 }

@@ -19,7 +19,7 @@ pub(crate) mod parquet_table;
 mod section_plane;
 pub(crate) mod tables;
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::report::csv_table::Provenance;
 use crate::report::files::{ReportError, create_folder, place, remove, write_json};
@@ -32,29 +32,22 @@ pub(crate) const SCENE: &str = "scene.toml";
 const PARQUET: &str = "sweep.parquet";
 
 /// Prepares `dir` for a sweep: its scene is written, and what an earlier sweep said of all its rows is taken away.
-///
-/// # Errors
-/// [`ReportError`] where the folder cannot be made or written.
 pub(crate) fn begin(scene_toml: &str, dir: &Path) -> Result<(), ReportError> {
     create_folder(dir)?;
     remove(dir, LAST)?;
     place(dir, SCENE, |out| out.write_all(scene_toml.as_bytes())).map(drop)
 }
 
-/// Writes all files of `record` into `dir`, which is made if need be; returns their paths in the order written.
-///
-/// # Errors
-/// [`ReportError`] where the folder cannot be made or written.
-pub(crate) fn write(record: &SweepRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+/// Writes all files of `record` into `dir`, which is made if need be.
+pub(crate) fn write(record: &SweepRecord, dir: &Path) -> Result<(), ReportError> {
     begin(&record.scene_toml, dir)?;
     remove(dir, PARQUET)?;
     let provenance = Provenance::of_scene(&record.identity.program_version, &record.identity.scene_hash);
-    let mut written = vec![dir.join(SCENE), place(dir, "sweep.csv", |out| tables::rows(out, provenance, record))?];
+    place(dir, "sweep.csv", |out| tables::rows(out, provenance, record))?;
     if record.shard.is_none() {
         #[cfg(feature = "parquet")]
-        written.push(place(dir, PARQUET, |out| out.write_all(&parquet_table::bytes(record)?))?);
-        written.push(place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?);
+        place(dir, PARQUET, |out| out.write_all(&parquet_table::bytes(record)?))?;
+        place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?;
     }
-    written.push(place(dir, LAST, |out| write_json(out, &record.summary()))?);
-    Ok(written)
+    place(dir, LAST, |out| write_json(out, &record.summary())).map(drop)
 }
