@@ -72,7 +72,6 @@ impl Allowance {
 /// Blocks of cells while a file is read: cells in the order of the file, a new block wherever the kind changes.
 #[derive(Debug, Default)]
 pub(super) struct CellList {
-    /// The blocks so far.
     pub blocks: Vec<CellBlock>,
     /// Number of the first cell of each block, counted over all blocks.
     starts: Vec<usize>,
@@ -80,7 +79,6 @@ pub(super) struct CellList {
 }
 
 impl CellList {
-    /// Cells so far.
     pub(super) fn len(&self) -> usize {
         self.count
     }

@@ -19,9 +19,7 @@ use crate::results::run::PathPoints;
 /// plotly.js 3.0.1, compressed.
 const SCRIPT: &[u8] = include_bytes!("assets/plotly.min.js.gz");
 
-/// Unworn.
 pub(crate) const NEW: &str = "var(--new)";
-/// Worn.
 pub(crate) const WORN: &str = "var(--worn)";
 /// Secondary lines and labels.
 pub(crate) const MUTED: &str = "var(--muted)";
@@ -33,7 +31,6 @@ const RULE: &str = "var(--rule)";
 const PAPER: &str = "var(--paper)";
 const NOTHING: &str = "rgba(0,0,0,0)";
 
-/// plotly.js.
 pub(crate) fn script() -> String {
     let mut script = String::new();
     let read = GzDecoder::new(SCRIPT).read_to_string(&mut script);
@@ -41,7 +38,6 @@ pub(crate) fn script() -> String {
     script
 }
 
-/// Colour of a gear.
 pub(crate) fn gear_colour(gear: Gear) -> &'static str {
     match gear {
         Gear::Pinion => "var(--pinion)",
@@ -49,7 +45,6 @@ pub(crate) fn gear_colour(gear: Gear) -> &'static str {
     }
 }
 
-/// Colour of a gear's area.
 pub(crate) fn gear_fill(gear: Gear) -> &'static str {
     match gear {
         Gear::Pinion => "var(--pinion-fill)",
@@ -168,7 +163,6 @@ impl Trace {
         self.set("hoverinfo", "skip")
     }
 
-    /// Not in the legend.
     pub(crate) fn unlisted(self) -> Self {
         self.set("showlegend", false)
     }
@@ -183,7 +177,6 @@ impl Trace {
         self.set("visible", if at_once { json!(true) } else { json!("legendonly") })
     }
 
-    /// How much it covers what is below.
     pub(crate) fn opacity(self, opacity: f64) -> Self {
         self.set("opacity", opacity)
     }
@@ -194,7 +187,6 @@ impl Trace {
 pub(crate) struct Chart {
     /// Identifier in the page, letters and hyphens.
     pub id: String,
-    /// Heading.
     pub title: String,
     /// One sentence that says what the chart shows, with its numbers.
     pub reading: String,
@@ -225,7 +217,6 @@ impl Chart {
         Self { id, title, reading: String::new(), is_wide: false, traces: Vec::new(), layout }
     }
 
-    /// The sentence below it.
     pub(crate) fn reading(mut self, text: impl Into<String>) -> Self {
         self.reading = text.into();
         self
@@ -236,7 +227,6 @@ impl Chart {
         self.wide_if(true)
     }
 
-    /// The same where `is_wide`.
     pub(crate) fn wide_if(mut self, is_wide: bool) -> Self {
         self.is_wide = is_wide;
         self
@@ -248,7 +238,6 @@ impl Chart {
         self
     }
 
-    /// Height over all.
     pub(crate) fn height(self, px: usize) -> Self {
         self.set("height", px)
     }
@@ -285,12 +274,10 @@ impl Chart {
         self
     }
 
-    /// Where the axis across begins and ends.
     pub(crate) fn x_range(self, range: [f64; 2]) -> Self {
         self.x_set("range", range.to_vec())
     }
 
-    /// Where the axis upwards begins and ends.
     pub(crate) fn y_range(self, range: [f64; 2]) -> Self {
         self.y_set("range", range.to_vec())
     }
@@ -316,12 +303,10 @@ impl Chart {
         self.x_set("type", "log").x_set("exponentformat", "power")
     }
 
-    /// Powers of ten written as such, upwards.
     pub(crate) fn y_logarithmic(self) -> Self {
         self.y_set("type", "log").y_set("exponentformat", "power")
     }
 
-    /// Without the lines of both axes over the chart.
     pub(crate) fn without_grid(self) -> Self {
         self.x_set("showgrid", false).y_set("showgrid", false)
     }
@@ -331,7 +316,6 @@ impl Chart {
         self.x("contact position, mm").x_range(padded(points.A, points.E)).x_format(".3f").mark_path_points(points)
     }
 
-    /// Draws `trace` over those before it.
     pub(crate) fn add(mut self, trace: Trace) -> Self {
         self.traces.push(Value::Object(trace.0));
         self

@@ -11,7 +11,6 @@ use schemars::generate::SchemaSettings;
 use serde::Serialize;
 use serde_json::Value;
 
-/// Where the figures of a table come from.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Provenance<'a> {
     program_version: &'a str,
@@ -21,18 +20,15 @@ pub(crate) struct Provenance<'a> {
 }
 
 impl<'a> Provenance<'a> {
-    /// Figures of a scene with that hash.
     pub(crate) fn of_scene(program_version: &'a str, hash: &'a str) -> Self {
         Self { program_version, input: "scene", hash }
     }
 
-    /// Figures of a finite-element problem with that hash.
     pub(crate) fn of_problem(program_version: &'a str, hash: &'a str) -> Self {
         Self { program_version, input: "problem", hash }
     }
 }
 
-/// Name and meaning of a column.
 pub(crate) type Column = (String, String);
 
 /// The columns of a record, in the order of its fields.
@@ -56,7 +52,6 @@ pub(crate) fn variants<E: JsonSchema>() -> Vec<Column> {
     all.map(|one| ["const", "description"].map(|key| one[key].as_str().unwrap_or_default().to_owned()).into()).collect()
 }
 
-/// Writes records as a table.
 pub(crate) fn table<R: Serialize + JsonSchema>(
     out: &mut dyn Write,
     provenance: Provenance,

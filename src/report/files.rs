@@ -65,7 +65,6 @@ pub(crate) fn write_json(out: &mut dyn Write, record: &impl Serialize) -> io::Re
     writeln!(out)
 }
 
-/// Makes `dir` if need be.
 pub(crate) fn create_folder(dir: &Path) -> Result<(), ReportError> {
     if dir.exists() && !dir.is_dir() {
         return Err(ReportError::NotAFolder { path: dir.into() });

@@ -13,7 +13,6 @@ use crate::gear::Gear;
 use crate::mesh::{CellBlock, CellKind, DataArray, Mesh, Values};
 use crate::results::run::{FlankRecord, RunRecord, SliceRecord};
 
-/// Writes it in the form ParaView reads.
 pub(crate) fn write(out: &mut dyn Write, record: &RunRecord, slices: &SliceRecord) -> io::Result<()> {
     vtu_file::write(out, &mesh(record, slices))
 }

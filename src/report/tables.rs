@@ -56,7 +56,6 @@ struct ProfileRow {
     phase: usize,
 }
 
-/// Writes `pinion.csv` or `wheel.csv`.
 pub(crate) fn flank(out: &mut dyn Write, provenance: Provenance, flank: &FlankRecord) -> io::Result<()> {
     let points = flank.radius_mm.len();
     let rows = flank.width_mm.iter().enumerate().flat_map(|(slice, &width_mm)| {
@@ -79,7 +78,6 @@ pub(crate) fn flank(out: &mut dyn Write, provenance: Provenance, flank: &FlankRe
     table(out, provenance, rows)
 }
 
-/// Writes `profiles.csv`.
 pub(crate) fn profiles(out: &mut dyn Write, provenance: Provenance, record: &RunRecord) -> io::Result<()> {
     let rows = record.history.iter().enumerate().flat_map(|(snapshot, at)| {
         Gear::BOTH.into_iter().flat_map(move |gear| {

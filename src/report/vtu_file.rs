@@ -6,12 +6,10 @@ use crate::mesh::vtu::VtuEncoding;
 use crate::mesh::{DataArray, Format, Mesh, Values, to_bytes};
 use crate::results::fem_problem::NodalStress;
 
-/// Adds numbers at the points of a mesh.
 pub(super) fn add(mesh: &mut Mesh, name: &str, components: usize, values: Vec<f64>) {
     mesh.point_data.insert(name.to_owned(), DataArray { components, values: Values::Reals(values) });
 }
 
-/// Adds displacement and stress at the nodes.
 pub(super) fn add_solution(mesh: &mut Mesh, displacement_mm: &[[f64; 2]], stress: &[NodalStress]) {
     // A symmetric tensor in VTK's order: xx, yy, zz, xy, yz, xz.
     let tensor = |[x, y, z, xy]: [f64; 4]| [x, y, z, xy, 0.0, 0.0];

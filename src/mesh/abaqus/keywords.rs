@@ -18,7 +18,6 @@ pub(super) struct Keyword<'a> {
 /// A name of a set or surface.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Name {
-    /// As it stands in the file.
     pub text: String,
     /// Whether it was in quotes, and case counts.
     pub quoted: bool,
@@ -30,12 +29,10 @@ impl Keyword<'_> {
         Fault { place: Some(FilePosition::Line(line)), section: format!("*{}", self.name), problem }
     }
 
-    /// Whether there is a parameter of this name.
     pub(super) fn has(&self, name: &str) -> bool {
         self.parameters.iter().any(|(own, _)| own == name)
     }
 
-    /// The value of a parameter, if it is there.
     pub(super) fn value(&self, name: &str) -> Option<&Name> {
         self.parameters.iter().find(|(own, _)| own == name)?.1.as_ref()
     }
@@ -45,7 +42,6 @@ impl Keyword<'_> {
         self.value(name).ok_or_else(|| self.fault(self.line, Problem::Ended { expected: format!("{name}=…") }))
     }
 
-    /// A refusal.
     pub(super) fn unsupported(&self, what: impl Into<String>, allowed: &str) -> Fault {
         self.fault(self.line, Problem::Unsupported { what: what.into(), allowed: allowed.into() })
     }

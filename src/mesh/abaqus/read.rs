@@ -28,7 +28,6 @@ const REFUSED: [&str; 12] = [
 /// A side of an element as a line: its kind and nodes.
 type Line = (CellKind, Vec<usize>);
 
-/// What has been read.
 #[derive(Debug, Default)]
 struct Content {
     points: Vec<[f64; 3]>,
@@ -44,7 +43,6 @@ struct Content {
     instance: Option<String>,
 }
 
-/// Reads a mesh.
 pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
     let text = std::str::from_utf8(bytes).map_err(|error| {
         let line = 1 + bytes[..error.valid_up_to()].iter().filter(|&&byte| byte == b'\n').count();

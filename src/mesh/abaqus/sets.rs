@@ -34,7 +34,6 @@ impl Sets {
         self.members.entry(key).or_default()
     }
 
-    /// The members of an existing set.
     pub(super) fn find(&self, name: &Name) -> Option<&Vec<usize>> {
         self.members.get(&self.key(name))
     }
@@ -42,7 +41,6 @@ impl Sets {
 
 /// What set definitions refer to.
 pub(super) struct Targets<'a> {
-    /// Numbers of the nodes or elements.
     pub numbering: &'a Numbering,
     /// What to say of a number that is not there.
     pub missing: fn(u64) -> Problem,

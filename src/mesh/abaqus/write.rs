@@ -12,7 +12,6 @@ const FORMAT: &str = "an Abaqus file";
 /// Element (counted over all cells) and side that a line lies on.
 type Side = (usize, usize);
 
-/// The content of the file.
 pub(crate) fn write(mesh: &Mesh) -> Result<Vec<u8>, Unwritable> {
     check(mesh)?;
     let surfaces = Surfaces::of(mesh);
@@ -54,7 +53,6 @@ pub(crate) fn write(mesh: &Mesh) -> Result<Vec<u8>, Unwritable> {
     Ok(text.into_bytes())
 }
 
-/// Whether Abaqus can hold the mesh.
 fn check(mesh: &Mesh) -> Result<(), Unwritable> {
     let cannot = |what, name: &str, rule| Err(Unwritable::Data { format: FORMAT, what, name: name.into(), rule });
     let no_data = "nodes, elements, sets and surfaces; write .vtu or .msh";

@@ -10,28 +10,21 @@ use crate::mesh::{DataArray, Mesh, PhysicalTag, Values};
 /// Dimension and tag of a physical group.
 pub(super) type GroupKey = (u8, i64);
 
-/// What has been read.
 #[derive(Debug, Default)]
 pub(super) struct Content {
     /// Names of physical groups in the order of the file.
     pub names: Vec<(GroupKey, String)>,
     /// Version 4.1: the groups of each entity, by its dimension and tag.
     pub entities: BTreeMap<(i64, i64), Vec<i64>>,
-    /// Coordinates.
     pub points: Vec<[f64; 3]>,
     /// Numbers of the nodes, once they are read.
     pub nodes: Option<Numbering>,
-    /// Cells.
     pub cells: CellList,
     /// Numbers of the cells, once they are read; several may mean the same.
     pub elements: Option<Numbering>,
-    /// Cells of each physical group.
     pub groups: BTreeMap<GroupKey, Vec<usize>>,
-    /// Data at nodes.
     pub node_data: BTreeMap<String, RawData>,
-    /// Data of cells.
     pub element_data: BTreeMap<String, RawData>,
-    /// What Gmsh has no place for.
     pub keep: Keep,
 }
 
@@ -48,7 +41,6 @@ pub(super) struct RawData {
 const DIMENSION_NAMES: [&str; 4] = ["points", "lines", "surfaces", "volumes"];
 
 impl Content {
-    /// The mesh.
     pub(super) fn into_mesh(mut self, mut allowance: Allowance) -> Result<Mesh, Fault> {
         let (cell_sets, field_data) = self.named_sets();
         let kept = |problem: Problem| Fault::anywhere(format!("${SECTION}"), problem);

@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::mesh::CellKind;
 
-/// The section's name.
 pub(super) const SECTION: &str = "Gearwear";
 
 /// Its content. What is left out is as Gmsh has it.
@@ -25,7 +24,6 @@ pub(super) struct Keep {
     /// Type of node data, where it is not real numbers of 1, 3 or 9 components.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub point_data: BTreeMap<String, DataForm>,
-    /// The same for cell data.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub cell_data: BTreeMap<String, DataForm>,
     /// Version 2.2: the last elements are copies, for their further groups, of these cells (numbers from 0).
@@ -33,12 +31,10 @@ pub(super) struct Keep {
     pub copies: Option<Vec<usize>>,
 }
 
-/// What numbers of data are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct DataForm {
     /// Components in the mesh; Gmsh's are filled up with zeros.
     pub components: usize,
-    /// Whether they are integers.
     pub integers: bool,
 }

@@ -4,7 +4,6 @@ use std::io::Write;
 
 use super::GmshEncoding;
 
-/// The file so far.
 #[derive(Debug)]
 pub(super) struct Output {
     bytes: Vec<u8>,
@@ -12,17 +11,14 @@ pub(super) struct Output {
 }
 
 impl Output {
-    /// An empty file.
     pub(super) fn new(encoding: GmshEncoding) -> Self {
         Self { bytes: Vec::new(), binary: encoding == GmshEncoding::Binary }
     }
 
-    /// The content of the file.
     pub(super) fn into_bytes(self) -> Vec<u8> {
         self.bytes
     }
 
-    /// Whether numbers are bytes.
     pub(super) fn is_binary(&self) -> bool {
         self.binary
     }
@@ -49,7 +45,6 @@ impl Output {
         self.number(value, &(value as i32).to_le_bytes());
     }
 
-    /// A `size_t` of eight bytes.
     pub(super) fn size(&mut self, value: usize) {
         self.number(value, &(value as u64).to_le_bytes());
     }

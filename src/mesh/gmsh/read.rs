@@ -19,7 +19,6 @@ enum Version {
     Four,
 }
 
-/// Reads a mesh.
 pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
     let mut file = Scanner::new(bytes);
     let mut content = Content::default();

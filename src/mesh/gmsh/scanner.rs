@@ -3,14 +3,10 @@
 use crate::mesh::error::{Fault, FilePosition, Problem};
 use crate::mesh::numbering::Allowance;
 
-/// How numbers stand in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Encoding {
-    /// As text.
     Ascii,
-    /// As bytes.
     Binary {
-        /// Whether the big end comes first.
         big_endian: bool,
         /// Bytes of a `size_t`: 4 or 8.
         size_bytes: usize,
@@ -32,7 +28,6 @@ pub(super) struct Scanner<'a> {
 }
 
 impl<'a> Scanner<'a> {
-    /// At the beginning of `bytes`.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
         let allowance = Allowance::of(bytes.len());
         Self { bytes, at: 0, before: 0, section: String::new(), encoding: Encoding::Ascii, allowance }
@@ -155,7 +150,6 @@ impl<'a> Scanner<'a> {
         Ok(bytes)
     }
 
-    /// An `int`.
     pub(super) fn int(&mut self, expected: &str) -> Result<i64, Fault> {
         match self.encoding {
             Encoding::Ascii => self.token(expected),
@@ -169,7 +163,6 @@ impl<'a> Scanner<'a> {
         u64::try_from(value).map_err(|_| self.unexpected(value.to_string().as_bytes(), expected))
     }
 
-    /// A `size_t`.
     pub(super) fn size(&mut self, expected: &str) -> Result<u64, Fault> {
         match self.encoding {
             Encoding::Ascii => self.token(expected),
@@ -180,7 +173,6 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// A `double`.
     pub(super) fn real(&mut self, expected: &str) -> Result<f64, Fault> {
         match self.encoding {
             Encoding::Ascii => self.token(expected),
@@ -217,13 +209,11 @@ impl<'a> Scanner<'a> {
         Ok(count as usize)
     }
 
-    /// Takes `entries` off the allowance.
     pub(super) fn allow(&mut self, entries: usize) -> Result<(), Fault> {
         self.allowance.take(entries).map_err(|problem| self.fault(problem))
     }
 }
 
-/// Where `needle` begins in `bytes`.
 fn find(bytes: &[u8], needle: &[u8]) -> Option<usize> {
     bytes.windows(needle.len()).position(|window| window == needle)
 }

@@ -17,13 +17,10 @@ const FORMAT: &str = "a Gmsh file";
 /// A physical group to be written.
 #[derive(Debug, Clone)]
 pub(super) struct Group<'a> {
-    /// Its name.
     pub name: &'a str,
-    /// Tag and dimension.
     pub tag: PhysicalTag,
 }
 
-/// The content of the file.
 pub(crate) fn write(mesh: &Mesh, style: GmshStyle) -> Result<Vec<u8>, Unwritable> {
     check(mesh)?;
     let groups = groups(mesh);

@@ -14,12 +14,10 @@ pub(super) struct Entities {
     by_dimension: [Vec<Vec<usize>>; 4],
     /// For each cell its entity within its dimension.
     of_cell: Vec<usize>,
-    /// For each cell its dimension.
     dimensions: Vec<u8>,
 }
 
 impl Entities {
-    /// Of the cells of `mesh` in `groups`.
     pub(super) fn new(mesh: &Mesh, groups: &[Group]) -> Self {
         let dimensions: Vec<u8> =
             mesh.cells.iter().flat_map(|block| std::iter::repeat_n(block.kind.dimension(), block.len())).collect();

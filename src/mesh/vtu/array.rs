@@ -34,7 +34,6 @@ pub(super) struct Decoder<'d, 'a> {
 /// The type of a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Scalar {
-    /// Its size.
     pub bytes: usize,
     /// Floating point, signed or unsigned.
     family: Family,
@@ -63,17 +62,14 @@ impl Scalar {
 }
 
 impl Array<'_> {
-    /// Its name.
     pub(super) fn name(&self) -> &str {
         self.attributes.get("Name").map_or("", String::as_str)
     }
 
-    /// A fault within it.
     pub(super) fn fault(&self, problem: impl Into<Problem>) -> Fault {
         fault(self.byte, &format!("DataArray {:?}", self.name()), problem.into())
     }
 
-    /// The type of its values.
     pub(super) fn scalar(&self) -> Result<Scalar, Fault> {
         let name = self.attributes.get("type").map_or("", String::as_str);
         Scalar::named(name).ok_or_else(|| {
@@ -91,7 +87,6 @@ impl Array<'_> {
 }
 
 impl<'d, 'a> Decoder<'d, 'a> {
-    /// For the arrays of `document`.
     pub(super) fn new(document: &'d Document<'a>) -> Result<Self, Fault> {
         let attribute = |name: &str| document.file.get(name).map(String::as_str);
         let wrong = |name: &str, found: Option<&str>, allowed: &str| {

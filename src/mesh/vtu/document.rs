@@ -8,31 +8,22 @@ use quick_xml::{Reader, XmlVersion};
 
 use crate::mesh::error::{Fault, FilePosition, Problem};
 
-/// A VTU file.
 #[derive(Debug, Default)]
 pub(super) struct Document<'a> {
     /// Attributes of `VTKFile`: type, order of bytes, type of headers, compression.
     pub file: BTreeMap<String, String>,
-    /// Arrays of the file.
     pub field_data: Vec<Array<'a>>,
-    /// Attributes of the piece.
     pub piece: Option<BTreeMap<String, String>>,
-    /// Arrays of `Points`.
     pub points: Vec<Array<'a>>,
-    /// Arrays of `Cells`.
     pub cells: Vec<Array<'a>>,
-    /// Arrays of `PointData`.
     pub point_data: Vec<Array<'a>>,
-    /// Arrays of `CellData`.
     pub cell_data: Vec<Array<'a>>,
     /// Values that stand at the end of the file, from behind the underscore on.
     pub appended: Option<Appended<'a>>,
 }
 
-/// A `DataArray`.
 #[derive(Debug)]
 pub(super) struct Array<'a> {
-    /// Its attributes.
     pub attributes: BTreeMap<String, String>,
     /// What stands between its tags.
     pub text: Cow<'a, str>,
@@ -45,12 +36,10 @@ pub(super) struct Array<'a> {
 pub(super) struct Appended<'a> {
     /// Whether it is base64; otherwise raw bytes.
     pub base64: bool,
-    /// Its content.
     pub bytes: &'a [u8],
 }
 
 impl<'a> Document<'a> {
-    /// Of the content of a file.
     pub(super) fn parse(bytes: &'a [u8]) -> Result<Self, Fault> {
         // Raw appended data are no XML, and come last.
         let head = bytes.windows(APPENDED.len()).position(|window| window == APPENDED).unwrap_or(bytes.len());
@@ -185,7 +174,6 @@ fn attributes(tag: &BytesStart, byte: usize) -> Result<BTreeMap<String, String>,
     tag.attributes().map(read).collect()
 }
 
-/// A fault at an offset.
 pub(super) fn fault(byte: usize, section: &str, problem: Problem) -> Fault {
     Fault { place: Some(FilePosition::Byte(byte)), section: section.into(), problem }
 }

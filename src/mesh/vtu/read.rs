@@ -9,7 +9,6 @@ use crate::mesh::error::{Fault, Problem};
 use crate::mesh::numbering::{Allowance, CellList, OpenSets, close_cell_sets, close_point_sets};
 use crate::mesh::{CellKind, DataArray, Mesh, PhysicalTag, Values};
 
-/// Reads a mesh.
 pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
     let document = Document::parse(bytes)?;
     let decoder = Decoder::new(&document)?;

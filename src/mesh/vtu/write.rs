@@ -15,7 +15,6 @@ use crate::mesh::{DataArray, Mesh, Values};
 
 const FORMAT: &str = "a VTU file";
 
-/// The content of the file.
 pub(crate) fn write(mesh: &Mesh, encoding: VtuEncoding) -> Result<Vec<u8>, Unwritable> {
     check_names(mesh)?;
     let mut out = Output { text: String::new(), encoding };
@@ -109,7 +108,6 @@ enum Number {
     Byte(u8),
 }
 
-/// The file so far.
 #[derive(Debug)]
 struct Output {
     text: String,

@@ -8,7 +8,6 @@ use crate::contact::settings::MatchCriterion;
 use crate::report::chart::{Chart, Dash, MUTED, PATH, Trace, WORN, colour_between_gears};
 use crate::report::html::number::{figure, percent};
 
-/// The figures, in the order of the page.
 pub(super) fn all(calibration: &Calibration) -> Vec<Chart> {
     let against_curvature = MatchCriterion::ALL.map(|criterion| against_curvature(calibration, criterion));
     let errors = MatchCriterion::ALL.map(|criterion| errors(calibration, criterion));

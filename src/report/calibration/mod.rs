@@ -13,12 +13,10 @@ use crate::calibration::Calibration;
 use crate::results::run::{PathPoints, StageTime};
 use crate::whole_file;
 
-/// The folder of a file.
 pub(crate) fn folder(file: &Path) -> &Path {
     file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// The page beside a calibration file.
 pub(crate) fn page_beside(file: &Path) -> PathBuf {
     file.with_extension("html")
 }

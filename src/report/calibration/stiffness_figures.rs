@@ -9,14 +9,12 @@ use crate::gear::Gear;
 use crate::report::chart::{Chart, Dash, MUTED, PATH, Trace, WORN, colour_between_gears, extent, gear_colour};
 use crate::report::html::number::{figure, percent, significant};
 
-/// The figures, in the order of the page.
 pub(super) fn all(calibration: &Calibration) -> Vec<Chart> {
     let over_path = [pair, each_gear, flattening, coupling, course].map(|of| of(calibration));
     let points = path_points(calibration);
     over_path.into_iter().map(|chart| chart.over_path(&points)).chain([family(calibration)]).collect()
 }
 
-/// Draws a curve over the path.
 fn curve(
     chart: Chart,
     calibration: &Calibration,

@@ -10,7 +10,6 @@ use crate::gear::Gear;
 use crate::report::html::number::{change, fixed, percent, significant};
 use crate::report::html::table::{cells, row, table};
 
-/// All of them, in the order of the page.
 pub(super) fn tables(calibration: &Calibration) -> impl Iterator<Item = Markup> {
     [points, parts, fits, convergence, rims, neighbours, courses].into_iter().map(|of| of(calibration))
 }
@@ -32,7 +31,6 @@ fn points(calibration: &Calibration) -> Markup {
     table("Stiffness of the pair", &["finite elements", "W.–B.", "difference"], rows.chain([iso]))
 }
 
-/// Bending and flattening at C.
 fn parts(calibration: &Calibration) -> Markup {
     let Some(at) = calibration.deflection_at_points[2].as_ref() else { return Markup::default() };
     let um = 1e3 * calibration.line_load_n_per_mm;

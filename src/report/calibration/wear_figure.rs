@@ -8,7 +8,6 @@ use crate::report::html::number::figure;
 /// One in so many points, those at the tip edge, does not set the frame.
 const TIP_SHARE: usize = 40;
 
-/// A figure for each gear.
 pub(super) fn all(calibration: &Calibration) -> Vec<Chart> {
     Gear::BOTH.map(|gear| of(calibration, gear)).into()
 }

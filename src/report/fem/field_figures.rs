@@ -117,7 +117,6 @@ pub(super) fn von_mises(record: &FemRecord) -> Vec<Chart> {
     charts
 }
 
-/// The middle of a contact, deformed.
 fn middle(contact: &ContactCurve) -> Option<[f64; 2]> {
     let distance = |along_mm: f64| (along_mm - contact.centre_along_mm).abs();
     let row = contact.rows.iter().min_by(|a, b| distance(a.along_mm).total_cmp(&distance(b.along_mm)))?;

@@ -10,7 +10,6 @@ use crate::report::html::page::{self, Page, plots, section, sources_list, stages
 use crate::report::html::table::{NONE, cells, row, table};
 use crate::results::fem_problem::{ContactSummary, FemRecord, FemSummary};
 
-/// The data files named in the page, which lie beside it.
 const DATA_FILES: [(&str, &str); 4] = [
     ("summary.json", "the main figures"),
     ("contact.csv", "gap and pressure along the contacts"),
@@ -18,7 +17,6 @@ const DATA_FILES: [(&str, &str); 4] = [
     ("problem.toml", "the resolved problem"),
 ];
 
-/// The whole page.
 pub(super) fn page(record: &FemRecord) -> String {
     let s = &record.summary;
     let mut charts = vec![field_figures::model(record)];

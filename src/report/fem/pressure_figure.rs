@@ -56,7 +56,6 @@ fn reading(summary: &ContactSummary) -> String {
     format!("{found}{compared}{half}")
 }
 
-/// How far the finite elements are from Hertz.
 fn deviation(hertz: f64, found: f64) -> String {
     format!("finite elements {}", change(hertz, found))
 }

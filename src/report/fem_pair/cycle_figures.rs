@@ -5,7 +5,6 @@ use crate::report::chart::{Chart, Dash, MUTED, NEW, PATH, Trace, WORN, from_zero
 use crate::report::html::number::{figure, percent, significant};
 use crate::results::fem_pair::{FemCycleRow, FemPairRecord, RootSummary};
 
-/// All figures over the path.
 pub(super) fn all(record: &FemPairRecord) -> Vec<Chart> {
     if record.mesh_cycle.is_empty() {
         return Vec::new();
@@ -15,7 +14,6 @@ pub(super) fn all(record: &FemPairRecord) -> Vec<Chart> {
     charts.map(|chart| chart.over_path(points)).into()
 }
 
-/// The rows of one pair.
 fn of_pair(record: &FemPairRecord, pair: i32) -> Vec<&FemCycleRow> {
     record.mesh_cycle.iter().filter(|row| row.pair == pair).collect()
 }

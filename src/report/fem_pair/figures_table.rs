@@ -9,7 +9,6 @@ use crate::report::html::table::{row, table};
 use crate::results::fem_pair::{FemPairSummary, FullModelSummary, GearModelSummary, PathPointsSummary, RootSummary};
 use crate::results::run::PathPoints;
 
-/// All tables of figures, in the order of the page.
 pub(super) fn tables(s: &FemPairSummary) -> Markup {
     let points = s.points.as_ref().map_or_else(Markup::default, points);
     page::tables([cycle(s), roots(s), points, model(s), gears(s)])

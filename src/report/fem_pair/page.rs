@@ -9,7 +9,6 @@ use crate::report::html::reading::among;
 use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
 use crate::results::run::StopReason;
 
-/// The data files named in the page, which lie beside it.
 const DATA_FILES: [(&str, &str); 5] = [
     ("summary.json", "the main figures"),
     ("mesh_cycle.csv", "load, pressure, transmission error and root stress, position by position"),
@@ -23,7 +22,6 @@ const LEGEND: &str = "A to E are the points of the path of contact: theoretical 
      pitch point. The contact position is the radius of curvature of the pinion’s flank at the theoretical contact point of \
      the reference pair. Under load teeth bend, and pairs touch a little before A and after E as well, at a tip edge.";
 
-/// The whole page.
 pub(super) fn page(record: &FemPairRecord) -> String {
     let s = &record.summary;
     let mut charts: Vec<_> = record.solution.iter().map(|solution| field_figures::mesh(s, solution)).collect();

@@ -28,7 +28,6 @@ struct PressureRow {
     point: Option<&'static str>,
 }
 
-/// Writes `pressure.csv`.
 pub(crate) fn pressure(out: &mut dyn Write, provenance: Provenance, curves: &[PressureCurve]) -> io::Result<()> {
     let rows = curves.iter().flat_map(|curve| {
         let hertz = hertz(curve);

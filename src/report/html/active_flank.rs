@@ -12,7 +12,6 @@ pub(crate) struct ActiveFlank {
 }
 
 impl ActiveFlank {
-    /// That of `flank`.
     pub(crate) fn of(flank: &FlankRecord) -> Self {
         let [from_mm, to_mm] = Self::ends_mm(&flank.path_point_radius_mm);
         let margin = 0.03 * (to_mm - from_mm);

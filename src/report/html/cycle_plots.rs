@@ -8,7 +8,6 @@ use crate::results::run::{MeshCycleRow, RunRecord};
 /// A pair that carries at least this share of the load counts as carrying it alone.
 pub(super) const ALONE: f64 = 0.9995;
 
-/// Load share, transmission error and greatest pressure over the cycle, new and worn.
 pub(super) fn all(record: &RunRecord) -> Vec<Chart> {
     vec![load_sharing(record), transmission_error(record), pressure(record)]
 }
@@ -29,7 +28,6 @@ fn load_sharing(record: &RunRecord) -> Chart {
     over_cycle(record, chart, [|r| r.load_share_new, |r| r.load_share_worn], "%{y:.3f}")
 }
 
-/// Loaded transmission error.
 pub(super) fn transmission_error(record: &RunRecord) -> Chart {
     let (new, worn) = (&record.summary.new.transmission_error_um, &record.summary.worn.transmission_error_um);
     let reading = if record.mesh_cycle.is_empty() {

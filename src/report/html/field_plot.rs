@@ -18,16 +18,13 @@ const MOST_SIDES: usize = 20_000;
 const WIDTH_OVER_HEIGHT: f64 = 1.75;
 const HEIGHT_PX: usize = 600;
 
-/// Nodes and elements of a picture.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Bodies<'a> {
     /// Where the nodes are shown, mm.
     pub points_mm: &'a [[f64; 2]],
-    /// The elements.
     pub elements: &'a [Element],
 }
 
-/// A part of the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Window {
     /// x from and to, mm.
@@ -160,7 +157,6 @@ fn sides(bodies: Bodies<'_>, window: Window) -> (Vec<Vec<u32>>, Vec<Vec<u32>>) {
     (outline, inner)
 }
 
-/// Corners of an element.
 fn corners(kind: ElementKind) -> usize {
     match kind {
         ElementKind::Triangle3 | ElementKind::Triangle6 => 3,
@@ -168,7 +164,6 @@ fn corners(kind: ElementKind) -> usize {
     }
 }
 
-/// The sides of an element.
 fn ring(element: &Element) -> Vec<Vec<u32>> {
     let (nodes, n) = (element.nodes(), corners(element.kind));
     (0..n)

@@ -11,7 +11,6 @@ use crate::results::run::{GearSummary, PhaseSummary, RunRecord, Summary, WearSum
 /// Phases that are shown one by one.
 const MOST_PHASES: usize = 60;
 
-/// All tables, in the order of the page.
 pub(crate) fn tables(record: &RunRecord) -> Markup {
     let s = &record.summary;
     let sliced = s.helical.as_ref().map_or_else(Markup::default, sliced::tables::tables);

@@ -103,7 +103,6 @@ fn wear_reading(record: &RunRecord, gear: Gear, drawn: usize) -> String {
     reading
 }
 
-/// Greatest pressure that each flank point feels during one mesh, new and worn.
 pub(super) fn pressure(record: &RunRecord) -> Vec<Chart> {
     let both = Gear::BOTH.map(|gear| {
         let flank = &record.flanks[gear];

@@ -8,7 +8,6 @@ use super::table::{cells, row, table};
 use crate::results::chemistry::{GreatestRise, TemperatureSummary, WearLawSummary};
 use crate::results::run::Summary;
 
-/// The tables.
 pub(crate) fn tables(s: &Summary) -> Markup {
     html! { (law(&s.wear)) @if let Some(t) = &s.temperature { (temperature(t)) } }
 }

@@ -87,7 +87,6 @@ pub(crate) fn plotted(value: f64) -> f64 {
     (value * scale).round() / scale
 }
 
-/// Rounded to so many significant digits.
 pub(crate) fn to_digits(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits - 1).parse().unwrap_or(value)
 }

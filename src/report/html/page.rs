@@ -8,11 +8,9 @@ use super::table::{inner, line, list};
 use crate::report::chart::{self, Chart};
 use crate::results::run::StageTime;
 
-/// A page.
 pub(crate) struct Page<'a> {
     /// What kind of report it is, above the title.
     pub kind: &'a str,
-    /// The title.
     pub title: &'a str,
     /// The result in a sentence or two.
     pub answer: &'a str,
@@ -20,14 +18,12 @@ pub(crate) struct Page<'a> {
     pub interruption: Option<&'a str>,
     /// What the reader should know.
     pub warnings: &'a [String],
-    /// The sections.
     pub main: Markup,
     /// Program and input.
     pub footer: &'a str,
 }
 
 impl Page<'_> {
-    /// The whole page, which holds everything it needs.
     pub(crate) fn html(&self) -> String {
         self.html_with("", "")
     }
@@ -72,7 +68,6 @@ impl Page<'_> {
     }
 }
 
-/// A section under a heading.
 pub(crate) fn section(id: &str, heading: &str, content: Markup) -> Markup {
     html! { section aria-labelledby=(id) { h2 id=(id) { (heading) } (content) } }
 }
@@ -122,7 +117,6 @@ pub(crate) fn files_list(files: &[(&str, &str)]) -> Markup {
     html! { ul.files { @for (name, what) in files { li { a href=(name) { (name) } " " (what) } } } }
 }
 
-/// The data files and the resolved input.
 pub(crate) fn sources_list(files: &[(&str, &str)], input_name: &str, input: &str) -> Markup {
     html! { (files_list(files)) details { summary { (input_name) } pre { (input) } } }
 }

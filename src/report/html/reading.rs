@@ -8,9 +8,7 @@ use crate::results::run::{FlankRecord, MeshCycleRow, StopReason, Summary, WearSu
 /// The greatest of some values and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Extreme {
-    /// Its index.
     pub index: usize,
-    /// Its value.
     pub value: f64,
 }
 

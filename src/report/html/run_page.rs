@@ -42,7 +42,6 @@ fn sliced_note() -> String {
     )
 }
 
-/// The whole page.
 pub(crate) fn page(record: &RunRecord) -> String {
     let s = &record.summary;
     let charts = match SlicedRun::of(record) {
@@ -73,7 +72,6 @@ pub(crate) fn page(record: &RunRecord) -> String {
     .html()
 }
 
-/// The plots of a pair whose sections are all alike.
 fn figures_of_equal_sections(record: &RunRecord) -> Vec<Chart> {
     let mut charts = vec![drawing_plot::pair(record)];
     charts.extend(flank_plots::wear(record));
@@ -111,7 +109,6 @@ fn work(s: &Summary) -> Markup {
     }
 }
 
-/// The data files and the scene.
 fn sources(record: &RunRecord) -> Markup {
     let mut files = DATA_FILES.to_vec();
     if record.slices.is_some() {

@@ -49,7 +49,6 @@ cell_from! {
     bool: is_so => if is_so { "yes" } else { "no" },
 }
 
-/// Cells of several kinds.
 macro_rules! cells {
     ($($value:expr),* $(,)?) => { [$($crate::report::html::table::Cell::from($value)),*] };
 }
@@ -72,7 +71,6 @@ pub(crate) fn line(cells: impl IntoIterator<Item = impl Into<Cell>>) -> Markup {
     html! { tr { (inner(cells)) } }
 }
 
-/// What stands in such a row.
 pub(crate) fn inner(cells: impl IntoIterator<Item = impl Into<Cell>>) -> Markup {
     let mut cells = cells.into_iter();
     let name = cells.next().map(|cell| cell.into().content);

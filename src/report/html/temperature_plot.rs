@@ -7,7 +7,6 @@ use crate::report::chart::{Chart, Dash, MUTED, PATH, WORN, gear_colour};
 use crate::results::chemistry::{HeatVelocity, TemperatureMethod};
 use crate::results::run::{MeshCycleRow, RunRecord};
 
-/// A column of the mesh cycle that may be empty.
 type Column = fn(&MeshCycleRow) -> Option<f64>;
 
 /// Rises by all methods, with their colour and dash.

@@ -27,12 +27,10 @@ pub(crate) enum FitKind {
 }
 
 impl FitKind {
-    /// Whether the wear coefficient is fitted.
     pub(crate) fn coefficient(self) -> bool {
         matches!(self, FitKind::K | FitKind::Both)
     }
 
-    /// Whether the factor of severe wear is.
     pub(crate) fn severe(self) -> bool {
         matches!(self, FitKind::Severe | FitKind::Both)
     }
@@ -45,7 +43,6 @@ pub(crate) struct Asked {
     pub gear: Option<Gear>,
     /// What is taken for the form; `None`: a cubic of heights, nothing of wear depths.
     pub form: Option<Form>,
-    /// What is fitted.
     pub fit: FitKind,
     /// How far the profile may be shifted along the flank, mm; 0: not at all.
     pub shift_within_mm: f64,
@@ -54,77 +51,29 @@ pub(crate) struct Asked {
 /// What does not fit together.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum QuestionError {
-    /// The file.
     #[error(transparent)]
     File(#[from] DataTableError),
-    /// Nothing says which gear was measured.
     #[error("gear is missing; allowed: a line \"# gear = pinion\" or \"# gear = wheel\", or --gear")]
     NoGear,
-    /// File and command name different gears.
     #[error("gear: found {file} in the file and --gear {command}; allowed: the same")]
-    OtherGear {
-        /// In the file.
-        file: &'static str,
-        /// On the command line.
-        command: &'static str,
-    },
-    /// The scene has no speed to count hours with.
+    OtherGear { file: &'static str, command: &'static str },
     #[error("line {line}: hours: found {hours}; allowed: revolutions, since the scene of the run gives no speed")]
-    NoSpeed {
-        /// Line of the file.
-        line: usize,
-        /// As given.
-        hours: f64,
-    },
-    /// Measured when the run was over.
+    NoSpeed { line: usize, hours: f64 },
     #[error("line {line}: {key}: found {found}; allowed: more than 0 and at most {end}, the end of the run")]
-    Time {
-        /// Line of the file.
-        line: usize,
-        /// `hours` or `revolutions`.
-        key: &'static str,
-        /// As given.
-        found: f64,
-        /// When the run ends.
-        end: f64,
-    },
-    /// Nothing says where over the face width.
+    Time { line: usize, key: &'static str, found: f64, end: f64 },
     #[error("width_mm is missing; allowed: a line \"# width_mm = …\", 0 to {face_width_mm}, since the run has slices")]
-    NoWidth {
-        /// b.
-        face_width_mm: f64,
-    },
-    /// Measured beside the flank.
+    NoWidth { face_width_mm: f64 },
     #[error("line {line}: width_mm: found {found}; allowed: 0 to {face_width_mm}, the face width")]
-    Width {
-        /// Line of the file.
-        line: usize,
-        /// As given.
-        found: f64,
-        /// b.
-        face_width_mm: f64,
-    },
-    /// Fewer points than values to find.
+    Width { line: usize, found: f64, face_width_mm: f64 },
     #[error("found {found} points; allowed: at least {least}, for {needs}")]
-    TooFewPoints {
-        /// In the file.
-        found: usize,
-        /// What it takes.
-        least: usize,
-        /// What for.
-        needs: String,
-    },
+    TooFewPoints { found: usize, least: usize, needs: String },
     /// The curvature of a tooth taken for wear.
     #[error(
         "--form: found none with heights from a line; allowed: cubic or involute, which take the tooth's curvature away"
     )]
     LineWithoutForm,
-    /// A factor that the scene does not have.
     #[error("--fit: found {found}, but the scene of the run has no wear.severe; allowed: none or k")]
-    NoSevereWear {
-        /// As given.
-        found: &'static str,
-    },
+    NoSevereWear { found: &'static str },
 }
 
 /// A comparison that can be made.
@@ -138,9 +87,7 @@ pub(crate) struct Question {
     pub width_mm: Option<f64>,
     /// Standard deviation of a height, as the file says.
     pub uncertainty_um: Option<f64>,
-    /// What is taken for the form.
     pub form: Form,
-    /// What is fitted.
     pub fit: FitKind,
     /// How far the profile may be shifted along the flank, mm.
     pub shift_within_mm: f64,

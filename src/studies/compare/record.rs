@@ -10,15 +10,11 @@ use crate::results::run::PathPoints;
 /// A finished comparison.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct CompareRecord {
-    /// The title of the run.
     pub title: String,
-    /// Version of the program.
     pub program_version: String,
     /// First 16 hexadecimal digits of the SHA-256 of the scene of the run.
     pub scene_hash: String,
-    /// Name of the measured file.
     pub measured: String,
-    /// Whose flank.
     pub gear: Gear,
     /// Where over the face width; `None` where all sections are alike.
     pub width_mm: Option<f64>,
@@ -28,18 +24,14 @@ pub(crate) struct CompareRecord {
     pub revolutions: f64,
     /// What was taken for the form: `cubic`, `involute`, `none`.
     pub form: String,
-    /// What was fitted.
     pub fit: FitRecord,
-    /// Figures of the profiles.
     pub figures: CompareFigures,
     /// Radii of the points A–E on the gear.
     pub path_point_radius_mm: PathPoints,
-    /// What the user should know.
     pub warnings: Vec<String>,
     /// The points; in `compare.csv`.
     #[serde(skip)]
     pub rows: Vec<CompareRow>,
-    /// The resolved scene as TOML.
     #[serde(skip)]
     pub scene_toml: String,
 }
@@ -47,11 +39,9 @@ pub(crate) struct CompareRecord {
 /// A fitted value with its interval.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct Estimate {
-    /// The value.
     pub value: f64,
     /// Lower end of the 95 % interval; `None` where the residuals give none.
     pub low: Option<f64>,
-    /// Its upper end.
     pub high: Option<f64>,
     /// The run's own value.
     pub of_run: f64,
@@ -61,7 +51,6 @@ pub(crate) struct Estimate {
 #[allow(non_snake_case, reason = "names that end in their unit")]
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct FitRecord {
-    /// Why the search ended.
     pub stopped: FitStop,
     /// What is to blame where it did not converge.
     pub blamed: Option<String>,
@@ -73,7 +62,6 @@ pub(crate) struct FitRecord {
     pub severe_factor: Option<Estimate>,
     /// Shift of the measured profile towards the tip; `None` where none was allowed.
     pub shift_mm: Option<Estimate>,
-    /// Points measured.
     pub points: usize,
     /// Points that count, given the autocorrelation of the residuals; `None` where too few do for an interval.
     pub effective_points: Option<f64>,
@@ -81,7 +69,6 @@ pub(crate) struct FitRecord {
     pub degrees_of_freedom: Option<f64>,
     /// Runs of the scene it took.
     pub runs: u64,
-    /// Mesh cycles evaluated in them.
     pub mesh_cycles: u64,
     /// How the interval was obtained, or why there is none.
     pub how: String,

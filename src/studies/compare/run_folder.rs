@@ -20,42 +20,18 @@ const SAME_TIME: f64 = 1e-9;
 /// What is wrong with the folder of a run.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum RunFolderError {
-    /// A file that every finished run has is not there.
     #[error("{} cannot be read: {reason}; allowed: the folder of a finished gearwear run", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        reason: io::Error,
-    },
-    /// The run did not come to its end.
+    Unreadable { path: PathBuf, reason: io::Error },
     #[error("{}: stopped: found {found}; allowed: completed", path.display())]
-    Unfinished {
-        /// The summary.
-        path: PathBuf,
-        /// Why the run ended.
-        found: String,
-    },
-    /// The scene is not that of the run.
+    Unfinished { path: PathBuf, found: String },
     #[error("{}: found a scene with hash {found}; allowed: {allowed}, that of {SUMMARY}", path.display())]
-    OtherScene {
-        /// The scene.
-        path: PathBuf,
-        /// Its hash.
-        found: String,
-        /// That of the run.
-        allowed: String,
-    },
-    /// A file that no run leaves behind like that.
+    OtherScene { path: PathBuf, found: String, allowed: String },
     #[error("{}: line {line}: found {found}; allowed: {allowed}", path.display())]
     Damaged {
-        /// The file.
         path: PathBuf,
         /// Its line, from 1.
         line: u64,
-        /// What stands there.
         found: String,
-        /// What a run writes there.
         allowed: String,
     },
 }
@@ -84,7 +60,6 @@ struct Snapshot {
     wear_um: PerGear<Vec<f64>>,
 }
 
-/// A finished run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RunFolder {
     path: PathBuf,
@@ -93,15 +68,11 @@ pub(crate) struct RunFolder {
 }
 
 impl RunFolder {
-    /// The scene of the run in `folder`.
     pub(crate) fn scene_path(folder: &Path) -> PathBuf {
         folder.join(SCENE)
     }
 
     /// Reads the folder of a finished run.
-    ///
-    /// # Errors
-    /// [`RunFolderError`].
     pub(crate) fn read(folder: &Path) -> Result<Self, RunFolderError> {
         let path = folder.join(SUMMARY);
         let text = read(&path)?;
@@ -133,7 +104,6 @@ impl RunFolder {
         Err(RunFolderError::OtherScene { path, found, allowed: self.summary.scene_hash.clone() })
     }
 
-    /// The title of the run.
     pub(crate) fn title(&self) -> &str {
         &self.summary.title
     }

@@ -39,7 +39,6 @@ const SMALL_STEP: f64 = 5e-3;
 /// Most exact runs at the end.
 const MOST_EXACT_RUNS: usize = 6;
 
-/// A parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Unknown {
     /// ln κ.
@@ -64,9 +63,7 @@ pub(super) struct Comparison<'a> {
 /// What the search found.
 pub(super) struct FittedCoefficients {
     pub unknowns: Vec<Unknown>,
-    /// Their values.
     parameters: Vec<f64>,
-    /// Why it ended.
     pub stop: FitStop,
     /// Which is to blame, where one is.
     pub blamed: Option<Unknown>,

@@ -29,7 +29,6 @@ const AHEAD: f64 = 2.0;
 /// Factors of severe wear whose courses are computed are this far apart, as a logarithm; between them it is interpolated.
 const SEVERE_STEP: f64 = LN_2;
 
-/// How the scene is changed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Change {
     /// On the wear coefficient.
@@ -39,7 +38,6 @@ pub(super) struct Change {
 }
 
 impl Change {
-    /// The scene as it is.
     pub(super) const NOTHING: Self = Self { coefficient_factor: 1.0, severe_factor: None };
 }
 
@@ -53,7 +51,6 @@ pub(super) struct Simulations<'a> {
     observer: &'a dyn Observer,
     /// Courses of the scene's factor of severe wear times 2ⁿ, by n.
     courses: Vec<(i32, WearByCoefficient)>,
-    /// Runs carried out.
     pub runs: u64,
     /// Mesh cycles evaluated in them.
     pub mesh_cycles: u64,

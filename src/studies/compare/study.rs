@@ -20,21 +20,15 @@ const M2_PER_MM2: f64 = 1e-6;
 /// Residuals this many times the uncertainty of the heights say that the simulation does not describe the profile.
 const NOT_DESCRIBED: f64 = 2.0;
 
-/// Why there is no comparison.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum CompareError {
-    /// A run of the scene failed.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// The user interrupted it.
     #[error("interrupted")]
     Interrupted,
 }
 
 /// Compares what was measured with the run in `folder`, whose scene is `given`; `measured` is the name of the file.
-///
-/// # Errors
-/// [`CompareError`].
 pub(crate) fn run(
     question: &Question,
     folder: &RunFolder,

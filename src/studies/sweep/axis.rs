@@ -18,95 +18,35 @@ const FORM: &str = "KEY=FROM:TO:COUNT, such as pair.face_width_mm=10:30:21";
 pub(crate) enum AxisError {
     /// Not of the form `KEY=FROM:TO:COUNT`.
     #[error("found {given:?}; allowed: {FORM}")]
-    Form {
-        /// As given.
-        given: String,
-    },
-    /// The key is none, or none that takes a number.
+    Form { given: String },
     #[error(transparent)]
     Key(#[from] KeyError),
-    /// An end that is no number.
     #[error("{key}: found {found:?} as {end}; allowed: a finite number, in {FORM}")]
-    NotANumber {
-        /// The key.
-        key: String,
-        /// FROM or TO.
-        end: &'static str,
-        /// As given.
-        found: String,
-    },
-    /// A count that is none.
+    NotANumber { key: String, end: &'static str, found: String },
     #[error("{key}: found {found:?} as COUNT; allowed: a whole number from 1 to {MOST_VALUES}")]
-    Count {
-        /// The key.
-        key: String,
-        /// As given.
-        found: String,
-    },
-    /// The range runs downwards.
+    Count { key: String, found: String },
     #[error("{key}: found the range {from}:{to}, which is reversed; allowed: FROM below TO", from = plain(*.from), to = plain(*.to))]
-    Reversed {
-        /// The key.
-        key: String,
-        /// FROM.
-        from: f64,
-        /// TO.
-        to: f64,
-    },
+    Reversed { key: String, from: f64, to: f64 },
     /// One value, but two ends.
     #[error("{key}: found 1 value for the range {from}:{to}; allowed: a COUNT of at least 2, or {from}:{from}:1", from = plain(*.from), to = plain(*.to))]
-    OneValue {
-        /// The key.
-        key: String,
-        /// FROM.
-        from: f64,
-        /// TO.
-        to: f64,
-    },
+    OneValue { key: String, from: f64, to: f64 },
     /// Several values, but one end.
     #[error("{key}: found {count} values for the range {from}:{from}; allowed: {from}:{from}:1, or FROM below TO", from = plain(*.from))]
-    SameEnds {
-        /// The key.
-        key: String,
-        /// FROM and TO.
-        from: f64,
-        /// COUNT.
-        count: usize,
-    },
+    SameEnds { key: String, from: f64, count: usize },
     /// A value between whole numbers for a key that takes only those.
     #[error("{key}: found the value {value}; allowed: whole numbers, so choose a COUNT that steps over whole numbers")]
     NotWhole {
-        /// The key.
         key: String,
         /// The first such value.
         value: f64,
     },
     /// No value is one that the key takes.
     #[error("{key}: found {from} to {to}; allowed: {allowed}", from = plain(*.from), to = plain(*.to))]
-    NotAllowed {
-        /// The key.
-        key: String,
-        /// FROM.
-        from: f64,
-        /// TO.
-        to: f64,
-        /// What the key takes.
-        allowed: String,
-    },
-    /// A key given twice.
+    NotAllowed { key: String, from: f64, to: f64, allowed: String },
     #[error("found {key} twice; allowed: each key once")]
-    Twice {
-        /// The key.
-        key: String,
-    },
-    /// Two keys that say the same thing.
+    Twice { key: String },
     #[error("found {key} and {other}, which say the same thing; allowed: one of the two")]
-    SaidTwice {
-        /// The one.
-        key: String,
-        /// The other.
-        other: String,
-    },
+    SaidTwice { key: String, other: String },
     /// More combinations than can be kept.
     #[error("found {count} combinations; allowed: at most {MOST_COMBINATIONS}")]
     TooMany {
@@ -129,9 +69,6 @@ impl AxisError {
 /// Reads `KEY=FROM:TO:COUNT` and checks it against what the key takes.
 ///
 /// A range that lies partly outside what the key takes is kept: those combinations become rows with their error.
-///
-/// # Errors
-/// [`AxisError`]
 pub(crate) fn parse(given: &str) -> Result<SweepAxis, AxisError> {
     let form = || AxisError::Form { given: given.to_owned() };
     let (key, range) = given.split_once('=').ok_or_else(form)?;
@@ -167,9 +104,6 @@ pub(crate) fn parse(given: &str) -> Result<SweepAxis, AxisError> {
 }
 
 /// Reads all of them and checks that they go together.
-///
-/// # Errors
-/// The first that is wrong.
 pub(crate) fn parse_all<'a>(given: impl IntoIterator<Item = &'a str>) -> Result<Vec<SweepAxis>, AxisError> {
     let mut axes: Vec<SweepAxis> = Vec::new();
     for given in given {

@@ -18,7 +18,6 @@ use crate::studies::sweep::verification::{Chosen, RowVerification};
 /// A sweep that can be run.
 #[derive(Debug, Clone)]
 pub(crate) struct Sweep {
-    /// Which sweep.
     pub identity: SweepIdentity,
     /// The scene without what a sweep leaves out.
     draft: Draft,
@@ -55,9 +54,6 @@ impl Sweep {
     }
 
     /// The scene of combination `index`, which is not verified.
-    ///
-    /// # Errors
-    /// Everything that is wrong with it.
     pub(crate) fn scene(&self, index: usize) -> Result<Resolved, Vec<Problem>> {
         let mut draft = self.draft.clone();
         for (axis, value) in self.identity.axes.iter().zip(self.identity.values(index)) {

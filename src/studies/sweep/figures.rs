@@ -5,7 +5,6 @@
 
 use crate::results::run::Summary;
 
-/// A figure of a run.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SweepFigure {
     /// Name of its column, with its unit.
@@ -14,7 +13,6 @@ pub(crate) struct SweepFigure {
     pub title: &'static str,
     /// Its unit; empty for a ratio.
     pub unit: &'static str,
-    /// What it means.
     pub meaning: &'static str,
     /// Whether one looks for the combination where it is least.
     pub less_is_better: bool,

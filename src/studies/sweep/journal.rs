@@ -30,7 +30,6 @@ pub(crate) struct Contents {
     pub rows: BTreeMap<usize, SweepRow>,
 }
 
-/// A journal that rows are appended to.
 #[derive(Debug)]
 pub(crate) struct Journal {
     path: PathBuf,
@@ -41,70 +40,37 @@ pub(crate) struct Journal {
 /// What keeps rows from being read or kept.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum JournalError {
-    /// There is none.
     #[error("{} holds no sweep: there is no {FILE_NAME} in it", folder.display())]
-    NoSweep {
-        /// The folder.
-        folder: PathBuf,
-    },
-    /// The file cannot be read or made.
+    NoSweep { folder: PathBuf },
     #[error("cannot open {}: {source}", path.display())]
-    Open {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
-    /// A line that no sweep wrote.
+    Open { path: PathBuf, source: io::Error },
     #[error("{}, line {line}: {found}; allowed: what gearwear sweep wrote", path.display())]
     Damaged {
-        /// The file.
         path: PathBuf,
         /// Number of the line, from 1.
         line: usize,
-        /// What is wrong with it.
         found: String,
     },
-    /// The rows are those of another sweep.
     #[error("{} holds the rows of another sweep: {}", path.display(), differences.join("; "))]
-    OtherSweep {
-        /// The file.
-        path: PathBuf,
-        /// What differs, there and here.
-        differences: Vec<String>,
-    },
-    /// Another sweep is writing the file.
+    OtherSweep { path: PathBuf, differences: Vec<String> },
     #[error("{} is being written by another gearwear sweep", path.display())]
-    InUse {
-        /// The file.
-        path: PathBuf,
-    },
-    /// A row cannot be appended.
+    InUse { path: PathBuf },
     #[error("cannot write {}: {source}; {kept} finished rows are kept in it", path.display())]
     Write {
-        /// The file.
         path: PathBuf,
         /// Rows that were written before.
         kept: usize,
-        /// What the system says.
         source: io::Error,
     },
     /// The folder was taken away while the sweep ran; the rows were written anew.
     #[error("{} was removed while the sweep ran; its {kept} finished rows were written there anew", path.display())]
     Removed {
-        /// The file.
         path: PathBuf,
         /// Rows that were written anew.
         kept: usize,
     },
-    /// The folder was taken away, and cannot be made again.
     #[error("{} was removed while the sweep ran, and cannot be written anew: {source}", path.display())]
-    Lost {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
+    Lost { path: PathBuf, source: io::Error },
 }
 
 /// Reads the journal in `folder` without holding it.

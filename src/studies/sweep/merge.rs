@@ -12,33 +12,21 @@ const MOST_NAMED: usize = 5;
 /// Why parts do not make a sweep.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum MergeError {
-    /// A folder without the rows of a sweep.
     #[error(transparent)]
     Journal(#[from] JournalError),
-    /// Parts of different sweeps.
     #[error("{} and {} are not parts of one sweep: {}", first.display(), other.display(), differences.join("; "))]
     OtherSweep {
-        /// The first folder.
         first: PathBuf,
         /// The one that does not belong to it.
         other: PathBuf,
         /// What differs, in the first and in the other.
         differences: Vec<String>,
     },
-    /// Two parts have the same combination with different results.
     #[error("{} has another result than an earlier folder for {combination}", folder.display())]
-    Contradiction {
-        /// The folder.
-        folder: PathBuf,
-        /// The combination, in words.
-        combination: String,
-    },
-    /// Combinations without a row.
+    Contradiction { folder: PathBuf, combination: String },
     #[error("{count} of {combinations} combinations are missing: {}{}", named.join("; "), if named.len() < *count { "; …" } else { "" })]
     Incomplete {
-        /// How many are missing.
         count: usize,
-        /// How many there should be.
         combinations: usize,
         /// The first of them, in words.
         named: Vec<String>,
@@ -50,9 +38,6 @@ pub(crate) enum MergeError {
 /// The whole sweep from the journals in `folders`, in any order.
 ///
 /// Parts may overlap, where their results are the same.
-///
-/// # Errors
-/// [`MergeError`]
 pub(crate) fn merge(folders: &[PathBuf]) -> Result<Contents, MergeError> {
     let parts: Vec<(&Path, Contents)> = folders
         .iter()

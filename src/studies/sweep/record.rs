@@ -13,11 +13,8 @@ const DIGITS: i32 = 12;
 pub(crate) struct SweepAxis {
     /// Path of the key, such as `pair.face_width_mm`.
     pub key: String,
-    /// First value.
     pub from: f64,
-    /// Last value.
     pub to: f64,
-    /// How many there are.
     pub count: usize,
     /// Whether the key takes whole numbers.
     pub whole: bool,
@@ -46,7 +43,6 @@ impl SweepAxis {
         }
     }
 
-    /// All values in order.
     pub(crate) fn values(&self) -> Vec<f64> {
         (0..self.count).map(|index| self.value(index)).collect()
     }
@@ -63,16 +59,13 @@ pub(crate) fn plain(value: f64) -> String {
 pub(crate) struct Shard {
     /// Which part, from 1.
     pub number: usize,
-    /// How many parts there are.
     pub of: usize,
 }
 
 /// What makes a sweep this sweep: rows of two sweeps may stand in one table where all of this is the same.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct SweepIdentity {
-    /// The scene's title.
     pub title: String,
-    /// Version of the program.
     pub program_version: String,
     /// First 16 hexadecimal digits of the SHA-256 of the scene as given, resolved.
     pub scene_hash: String,
@@ -80,7 +73,6 @@ pub(crate) struct SweepIdentity {
     pub given_hash: String,
     /// The same of the calibration and the stiffness curve that the scene names; empty where it names none.
     pub inputs_hash: String,
-    /// Whether errors are estimated.
     pub error_estimate: bool,
     /// Whether the scene asks by name for the verification, which the best rows and the corners then get.
     pub verify: bool,
@@ -91,7 +83,6 @@ pub(crate) struct SweepIdentity {
 }
 
 impl SweepIdentity {
-    /// Number of combinations.
     pub(crate) fn combinations(&self) -> usize {
         self.axes.iter().map(|axis| axis.count).product()
     }
@@ -154,13 +145,11 @@ impl SweepIdentity {
 pub(crate) struct SweepRow {
     /// Which combination, from 0.
     pub index: usize,
-    /// The varied values, in the order of the axes.
     pub values: Vec<f64>,
     /// Why there are no figures, on one line; `None` where the run was completed.
     pub error: Option<String>,
     /// The figures, in the order of [`FIGURES`]; `None` where the scene does not have one.
     pub figures: Vec<Option<f64>>,
-    /// Number of warnings.
     pub warnings: Option<usize>,
     /// Wall time of the wear run alone, s.
     pub simulation_s: Option<f64>,
@@ -172,7 +161,6 @@ pub(crate) struct SweepRow {
 }
 
 impl SweepRow {
-    /// Its figure.
     pub(crate) fn figure(&self, figure: &SweepFigure) -> Option<f64> {
         let at = FIGURES.iter().position(|known| known.name == figure.name)?;
         self.figures.get(at).copied().flatten()
@@ -194,7 +182,6 @@ impl SweepRow {
 /// A finished sweep, or a finished part of one.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SweepRecord {
-    /// Which sweep.
     pub identity: SweepIdentity,
     /// Which part of it; `None`: all of it.
     pub shard: Option<Shard>,
@@ -211,16 +198,12 @@ pub(crate) struct SweepRecord {
 /// `sweep.json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct SweepSummary<'a> {
-    /// Which sweep.
     #[serde(flatten)]
     pub identity: &'a SweepIdentity,
     /// Which part of it; null: all of it.
     pub shard: Option<Shard>,
-    /// Combinations of the whole sweep.
     pub combinations: usize,
-    /// Rows that were completed.
     pub ok: usize,
-    /// Rows with an error.
     pub failed: usize,
     /// The best combination by each figure that has a best.
     pub best: Vec<BestCombination>,
@@ -229,22 +212,15 @@ pub(crate) struct SweepSummary<'a> {
     pub verification: Option<SweepVerification<'a>>,
     /// Wall times of all combinations together, their verifications apart, s.
     pub combinations_wall_s: f64,
-    /// Wall time since the command was started, s.
     pub wall_s: f64,
-    /// Threads; 0 where it was merged from parts.
     pub threads: usize,
 }
 
-/// The best combination by one figure.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct BestCombination {
-    /// Name of the figure.
     pub figure: &'static str,
-    /// Its value.
     pub value: f64,
-    /// Which combination.
     pub index: usize,
-    /// The varied values, in the order of the axes.
     pub values: Vec<f64>,
 }
 
@@ -255,7 +231,6 @@ impl SweepRecord {
         valued.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// Rows with an error.
     pub(crate) fn failed(&self) -> usize {
         self.rows.iter().filter(|row| row.error.is_some()).count()
     }
@@ -266,7 +241,6 @@ impl SweepRecord {
         asked.then(|| SweepVerification::of(&self.identity, &self.rows))
     }
 
-    /// What `sweep.json` holds.
     pub(crate) fn summary(&self) -> SweepSummary<'_> {
         let failed = self.failed();
         SweepSummary {

@@ -14,12 +14,9 @@ use crate::observer::Observer;
 use crate::studies::sweep::record::{Shard, SweepRow};
 use crate::studies::sweep::verification::{Chosen, chosen};
 
-/// How a sweep ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Ended {
-    /// Every combination has its row.
     Completed,
-    /// The user interrupted it.
     Interrupted,
 }
 
@@ -44,9 +41,7 @@ impl Observer for Within<'_> {
 /// What the threads share.
 struct Kept<'a, F> {
     journal: &'a mut Journal,
-    /// Rows kept by now.
     count: usize,
-    /// Told of each row that is kept.
     tell: F,
     /// Why no row can be kept any more.
     error: Option<JournalError>,

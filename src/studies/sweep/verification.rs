@@ -38,14 +38,11 @@ const MASKS: [usize; 15] = [1, 2, 4, 8, 7, 11, 13, 14, 15, 3, 5, 6, 9, 10, 12];
 /// Why a row is verified.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub(crate) struct Chosen {
-    /// It is one of the best.
     pub best: bool,
-    /// It is a corner.
     pub corner: bool,
 }
 
 impl Chosen {
-    /// In words.
     pub(crate) fn name(self) -> &'static str {
         match (self.best, self.corner) {
             (true, true) => "best and corner",
@@ -58,16 +55,13 @@ impl Chosen {
 /// What finite elements say of a row.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct RowVerification {
-    /// Why the row was verified.
     pub chosen: Chosen,
     /// How far it is from them, or why that is not known.
     pub total: TotalError,
-    /// Wall time, s.
     pub wall_s: f64,
 }
 
 impl RowVerification {
-    /// Whether there is an answer.
     pub(crate) fn has_answer(&self) -> bool {
         CLAIMS.iter().any(|claim| (claim.of)(&self.total).is_some())
     }
@@ -78,9 +72,7 @@ impl RowVerification {
 pub(crate) struct Claim {
     /// Its path in the summary of a run, which is the name of its column.
     pub name: &'static str,
-    /// Of what it is.
     pub title: &'static str,
-    /// Where it stands.
     pub of: fn(&TotalError) -> Option<f64>,
 }
 
@@ -164,7 +156,6 @@ pub(crate) struct SweepVerification<'a> {
     pub intention: String,
     /// Rows that were chosen: fewer than intended where the best are corners or a corner has no figures.
     pub chosen: usize,
-    /// Those with an answer of the finite elements.
     pub verified: usize,
     /// Those without one, for the reason in their `total.how`.
     pub unanswered: usize,
@@ -174,42 +165,32 @@ pub(crate) struct SweepVerification<'a> {
     pub worst: Vec<WorstClaim>,
     /// The chosen rows but the open ones, in the order of the combinations.
     pub rows: Vec<VerifiedRow<'a>>,
-    /// Wall times of all verifications together, s.
     pub wall_s: f64,
 }
 
 /// A row with what finite elements say of it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct VerifiedRow<'a> {
-    /// Which combination.
     pub index: usize,
-    /// The varied values, in the order of the axes.
     pub values: &'a [f64],
     /// The figure by which rows are best.
     pub peak_wear_um: Option<f64>,
-    /// What they say.
     #[serde(flatten)]
     pub verification: &'a RowVerification,
 }
 
-/// The greatest of one claim.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct WorstClaim {
-    /// Name of the claim.
     pub claim: &'static str,
-    /// Of what it is.
     #[serde(skip)]
     pub title: &'static str,
-    /// The relative error.
     pub value: f64,
     /// Which combination it is of, the first of equals.
     pub index: usize,
-    /// The varied values, in the order of the axes.
     pub values: Vec<f64>,
 }
 
 impl<'a> SweepVerification<'a> {
-    /// Of the whole sweep with these rows.
     pub(crate) fn of(identity: &SweepIdentity, rows: &'a [SweepRow]) -> Self {
         let chosen = chosen(identity, rows.iter());
         let open = rows.iter().filter(|row| chosen.contains_key(&row.index) && row.verification.is_none()).count();

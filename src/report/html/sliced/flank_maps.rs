@@ -19,7 +19,6 @@ const LINES_OF_CONTACT: usize = 7;
 /// Pieces of a drawn line of contact.
 const PIECES: usize = 24;
 
-/// What a map shows.
 struct Quantity<'a> {
     id: &'static str,
     title: String,

@@ -6,7 +6,6 @@ use super::sliced_run::SlicedRun;
 use crate::report::chart::{Chart, NEW, Trace, WORN};
 use crate::report::html::number::{change, figure, plotted};
 
-/// Bars for each order.
 pub(super) fn new_and_worn(run: SlicedRun<'_>) -> Chart {
     let orders = [&run.helical.mesh_orders_new_um, &run.helical.mesh_orders_worn_um];
     let bars = [("new", NEW), ("worn", WORN)].into_iter().zip(orders).map(|((name, colour), amplitudes)| {

@@ -7,7 +7,6 @@ use crate::gear::Gear;
 use crate::report::chart::{Chart, Dash, NEW, Trace, gear_colour};
 use crate::report::html::number::{figure, percent, significant};
 
-/// Of one gear.
 pub(super) fn root_and_tip(run: SlicedRun<'_>, gear: Gear) -> Chart {
     let wear = &run.helical.wear[gear];
     let colour = gear_colour(gear);

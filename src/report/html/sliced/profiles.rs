@@ -46,7 +46,6 @@ fn of_each(flank: &FlankRecord, words: impl Fn(usize) -> Option<String>) -> Stri
     if said.is_empty() { "nothing".into() } else { said.join(", ") }
 }
 
-/// Wear depth at the end of the run.
 pub(super) fn wear(run: SlicedRun<'_>) -> Vec<Chart> {
     let of = |gear: Gear| {
         let flank = &run.record.flanks[gear];
@@ -66,7 +65,6 @@ pub(super) fn wear(run: SlicedRun<'_>) -> Vec<Chart> {
     Gear::BOTH.map(of).into()
 }
 
-/// Greatest pressure during one mesh, new and worn.
 pub(super) fn pressure(run: SlicedRun<'_>) -> Vec<Chart> {
     let of = |gear: Gear| {
         let flank = &run.record.flanks[gear];

@@ -18,7 +18,6 @@ const DIGITS: usize = 4;
 
 /// One direction of a picture: its cells, and where each begins and ends.
 pub(crate) struct Cells {
-    /// Indices that each cell holds.
     pub groups: Vec<Range<usize>>,
     /// Where the cells begin, and where the last ends.
     pub edges: Vec<f64>,
@@ -56,7 +55,6 @@ impl Cells {
         cells
     }
 
-    /// The middle of each cell.
     pub(crate) fn middles(&self) -> Vec<f64> {
         self.edges.windows(2).map(|edge| edge[0].midpoint(edge[1])).collect()
     }
@@ -66,7 +64,6 @@ impl Cells {
 pub(crate) struct SlicedRaster {
     /// From root to tip, or along the path.
     pub along: Cells,
-    /// Over the face width.
     pub across: Cells,
 }
 

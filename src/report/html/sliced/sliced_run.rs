@@ -6,11 +6,9 @@ use crate::results::run::{FlankRecord, HelicalSummary, RunRecord, SliceRecord};
 /// A run with slices: the whole record, and the parts of it that are there.
 #[derive(Clone, Copy)]
 pub(crate) struct SlicedRun<'a> {
-    /// Everything.
     pub record: &'a RunRecord,
     /// The mesh of one tooth slice by slice.
     pub slices: &'a SliceRecord,
-    /// The figures of the slices.
     pub helical: &'a HelicalSummary,
 }
 

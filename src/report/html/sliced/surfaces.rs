@@ -9,7 +9,6 @@ use crate::report::chart::{Chart, Trace};
 use crate::report::html::number::{figure, plotted};
 use crate::report::html::reading::greatest;
 
-/// One of the surfaces.
 struct Shown<'a> {
     /// On its button.
     label: &'static str,
@@ -20,7 +19,6 @@ struct Shown<'a> {
     top: f64,
 }
 
-/// Wear, pressure new and pressure worn.
 pub(super) fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Chart {
     let flank = &run.record.flanks[gear];
     let top = |field: &[f64]| greatest(field).map_or(0.0, |peak| peak.value);

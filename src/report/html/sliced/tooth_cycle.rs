@@ -23,7 +23,6 @@ fn over_mesh(run: SlicedRun<'_>, chart: Chart, [new, worn]: [Vec<f64>; 2], hover
         .mark_path_points(&run.record.summary.geometry.curvature_radius_mm)
 }
 
-/// The share of the whole load that the tooth carries.
 pub(super) fn load_share(run: SlicedRun<'_>) -> Chart {
     let whole = run.record.summary.contact.line_load_N_per_mm;
     let mean: fn(&[f64]) -> f64 = |slices| slices.iter().sum::<f64>() / slices.len() as f64;
@@ -50,7 +49,6 @@ fn most_of_the_load(run: SlicedRun<'_>, shares: &[f64]) -> Option<String> {
     })
 }
 
-/// The greatest pressure of all slices.
 pub(super) fn pressure(run: SlicedRun<'_>) -> Chart {
     let fields = [&run.slices.peak_pressure_new_MPa, &run.slices.peak_pressure_worn_MPa];
     let most: fn(&[f64]) -> f64 = |slices| slices.iter().copied().fold(0.0, f64::max);

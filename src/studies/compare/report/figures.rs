@@ -8,7 +8,6 @@ use crate::studies::compare::record::{CompareRecord, CompareRow};
 const MEASURED: &str = "var(--wheel)";
 const SIMULATED: &str = "var(--pinion)";
 
-/// All of them.
 pub(super) fn all(record: &CompareRecord) -> Vec<Chart> {
     [profiles(record), depths(record), differences(record)].map(|chart| over_radius(record, chart)).into()
 }
@@ -22,7 +21,6 @@ fn is_fitted(record: &CompareRecord) -> bool {
     record.fit.coefficient_factor.is_some() || record.fit.severe_factor.is_some()
 }
 
-/// What the simulated profile is called.
 fn simulated_name(record: &CompareRecord) -> &'static str {
     if is_fitted(record) { "simulated, fitted" } else { "simulated" }
 }
@@ -34,7 +32,6 @@ fn over_radius(record: &CompareRecord, chart: Chart) -> Chart {
     chart.mark_path_points(&record.path_point_radius_mm)
 }
 
-/// Draws a curve over the radius.
 fn curve(chart: Chart, record: &CompareRecord, name: &str, y: Vec<f64>, stroke: (&str, f64, Dash)) -> Chart {
     chart.line(name, record.rows.iter().map(|row| row.radius_mm), y, stroke, "%{y:.3f} µm")
 }

@@ -9,13 +9,11 @@ use crate::report::html::page::{Page, plots, section, sources_list};
 use crate::report::html::table::{NONE, row, table};
 use crate::studies::compare::record::{CompareRecord, Estimate};
 
-/// The data files named in the page, which lie beside it.
 const DATA_FILES: [(&str, &str); 2] = [
     ("compare.json", "the figures and what was fitted"),
     ("compare.csv", "measured and simulated profile, point by point"),
 ];
 
-/// The whole page.
 pub(super) fn page(record: &CompareRecord) -> String {
     let sources = sources_list(&DATA_FILES, "The resolved scene of the run", &record.scene_toml);
     Page {
@@ -34,7 +32,6 @@ pub(super) fn page(record: &CompareRecord) -> String {
     .html()
 }
 
-/// The result in a sentence or two.
 fn answer(record: &CompareRecord) -> String {
     let when = match record.hours {
         Some(hours) => format!("{} h", given(hours)),
@@ -112,7 +109,6 @@ fn tables(record: &CompareRecord) -> Markup {
     }
 }
 
-/// With a capital and a full stop.
 fn sentence(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))

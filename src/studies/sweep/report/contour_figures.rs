@@ -59,7 +59,6 @@ pub(super) fn contour(
     Some(chart.add(least_at.hover(format!("least: {} {unit}<extra></extra>", shown_number(least)))))
 }
 
-/// The identifier of a figure's chart.
 pub(super) fn id(kind: &str, figure: &SweepFigure) -> String {
     format!("{kind}-{}", figure.name.to_lowercase().replace('_', "-"))
 }
@@ -90,7 +89,6 @@ pub(super) fn reading(record: &SweepRecord, figure: &SweepFigure, best: &SweepRo
     text
 }
 
-/// With a capital first letter.
 pub(super) fn capitalised(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())

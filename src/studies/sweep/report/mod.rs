@@ -27,7 +27,6 @@ use crate::studies::sweep::record::SweepRecord;
 
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "sweep.json";
-/// The scene of the sweep.
 pub(crate) const SCENE: &str = "scene.toml";
 const PARQUET: &str = "sweep.parquet";
 

@@ -11,7 +11,6 @@ use crate::studies::sweep::figures::{FIGURES, SweepFigure};
 use crate::studies::sweep::record::SweepRecord;
 use crate::studies::sweep::verification::SweepVerification;
 
-/// The data files named in the page, which lie beside it.
 const DATA_FILES: &[(&str, &str)] = &[
     ("sweep.csv", "one row per combination: varied values, figures, times, errors, verification"),
     #[cfg(feature = "parquet")]
@@ -24,7 +23,6 @@ const DATA_FILES: &[(&str, &str)] = &[
 /// Figures whose least value is said at the top of the page, where there is one.
 const HEADLINES: [&str; 2] = ["pinion_root_tip_wear_variation", "pinion_peak_wear_um"];
 
-/// The whole page.
 pub(super) fn page(record: &SweepRecord) -> String {
     let charts = figures(record);
     let identity = &record.identity;

@@ -19,9 +19,6 @@ use super::tables::{Cell, SweepColumn, columns};
 use crate::studies::sweep::record::SweepRecord;
 
 /// The whole file.
-///
-/// # Errors
-/// What the Parquet library refuses.
 pub(crate) fn bytes(record: &SweepRecord) -> io::Result<Vec<u8>> {
     encode(record).map_err(io::Error::other)
 }

@@ -8,16 +8,12 @@ const MOST_SHOWN: usize = 200;
 
 /// A varied key of a plot.
 pub(super) struct ShownAxis<'a> {
-    /// Which of the sweep's axes.
     pub at: usize,
-    /// The axis.
     pub axis: &'a SweepAxis,
-    /// Which of its values are shown.
     pub shown: Vec<usize>,
 }
 
 impl ShownAxis<'_> {
-    /// The values shown.
     pub(super) fn values(&self) -> Vec<f64> {
         self.shown.iter().map(|&index| self.axis.value(index)).collect()
     }

@@ -13,19 +13,13 @@ use crate::studies::sweep::verification::CLAIMS;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub(crate) enum Cell<'a> {
-    /// A whole number.
     Whole(Option<i64>),
-    /// A number.
     Number(Option<f64>),
-    /// A text.
     Text(Option<&'a str>),
 }
 
-/// A column of the table.
 pub(crate) struct SweepColumn {
-    /// Its name, with its unit.
     pub name: String,
-    /// What it holds.
     pub meaning: String,
     cell: Box<dyn for<'a> Fn(&'a SweepRow) -> Cell<'a>>,
 }
@@ -39,7 +33,6 @@ impl SweepColumn {
         Self { name: name.into(), meaning: meaning.into(), cell: Box::new(cell) }
     }
 
-    /// Its cell in `row`.
     pub(crate) fn cell<'a>(&self, row: &'a SweepRow) -> Cell<'a> {
         (self.cell)(row)
     }
@@ -93,7 +86,6 @@ pub(crate) fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
     columns
 }
 
-/// Writes `sweep.csv`.
 pub(crate) fn rows(out: &mut dyn Write, provenance: Provenance, record: &SweepRecord) -> io::Result<()> {
     let columns = columns(record);
     let names: Vec<Column> = columns.iter().map(|column| (column.name.clone(), column.meaning.clone())).collect();
