@@ -17,7 +17,6 @@ use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
 use super::{say, stdout, warn};
 
-/// Arguments of `accuracy`.
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// The scene file; - reads standard input

@@ -21,19 +21,16 @@ const LEAST_INTERVAL: Duration = Duration::from_millis(250);
 /// Least time between two checkpoints over what writing the last one took.
 const INTERVAL_OVER_WRITING: u32 = 20;
 
-/// A run that can begin.
 pub(super) struct BegunRun {
     /// Its scene, with input files as they lie in the folder.
     pub scene: LoadedScene,
     /// Its folder, which holds the scene and the input files.
     pub out: PathBuf,
-    /// Scene and input files.
     pub identity: Identity,
     /// Where it goes on from; `None`: from the beginning.
     pub from: Option<Checkpoint>,
 }
 
-/// Begins the run of `scene` in the folder `out`.
 pub(super) fn begin(scene: &Path, out: &Path) -> Result<BegunRun, Failure> {
     let (scene, identity) = named_as_copied(LoadedScene::open(scene)?);
     report::writable(out)?;

@@ -16,7 +16,6 @@ use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
 use super::{figures, model_failure, say, stdout, warn};
 
-/// Arguments of `calibrate`.
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// The scene file; - reads standard input

@@ -37,7 +37,6 @@ The measured file is CSV. Lines that begin with # come first and say what is mea
 Then column names with units, in any order: radius_mm, arc_mm or roll_angle_deg, and height_um or height_mm (falls
 where material is gone) or wear_um or wear_mm (rises there); then a row for each point, from one end to the other.";
 
-/// Arguments of `compare`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = FILE_HELP)]
 pub(super) struct Args {

@@ -5,7 +5,6 @@ use clap_complete::Shell;
 use super::failure::Failure;
 use super::stdout;
 
-/// Arguments of `completions`.
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// The shell

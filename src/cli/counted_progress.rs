@@ -1,24 +1,16 @@
 //! Tells the user how far a number of runs is: a bar on a terminal, a line now and then elsewhere, each with the remaining time.
 
-use std::io::IsTerminal;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use crate::observer::Observer;
-use indicatif::ProgressBar;
 
-use super::{progress, say};
+use super::progress::Display;
+use super::say;
 
 /// Time between two lines of the log.
 const BETWEEN_LINES: Duration = Duration::from_secs(10);
-
-/// How progress is shown.
-enum Display {
-    Quiet,
-    Log(Mutex<Log>),
-    Bar(ProgressBar),
-}
 
 /// What the log remembers.
 struct Log {
@@ -37,24 +29,16 @@ struct Counted {
 
 /// Watches the runs for the user, who may interrupt them.
 pub(super) struct CountedProgress {
-    display: Display,
+    display: Display<Log>,
     interrupted: Arc<AtomicBool>,
 }
 
 impl CountedProgress {
     /// A bar on a terminal, a log elsewhere, nothing where `quiet`; `interrupted` is set when the user wants to stop.
     pub(super) fn new(quiet: bool, interrupted: Arc<AtomicBool>) -> Self {
-        let display = if quiet {
-            Display::Quiet
-        } else if std::io::stderr().is_terminal() {
-            Display::Bar(progress::bar())
-        } else {
-            Display::Log(Mutex::new(Log { counted: None, last: Instant::now() }))
-        };
-        Self { display, interrupted }
+        Self { display: Display::new(quiet, Log { counted: None, last: Instant::now() }), interrupted }
     }
 
-    /// Ends the display.
     pub(super) fn finish(&self) {
         if let Display::Bar(bar) = &self.display {
             bar.finish_and_clear();

@@ -33,45 +33,30 @@ const MOST_SHOWN: usize = 20;
 pub(super) enum Failure {
     /// The scene or problem file is wrong.
     #[error(transparent)]
-    Scene(SceneError),
+    Scene(#[from] SceneError),
     /// Something else about the command is wrong.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// The run failed.
     #[error(transparent)]
     Run(#[from] RunError),
-    /// A finite-element problem has no solution.
     #[error(transparent)]
     Solve(#[from] SolveError),
-    /// The finite-element contact of a gear pair failed.
     #[error(transparent)]
     FemPair(FemPairError),
     /// There is no reference to compare models with.
     #[error(transparent)]
     Accuracy(AccuracyError),
-    /// The calibration failed.
     #[error(transparent)]
     Calibrate(CalibrateError),
     /// A measured profile does not give what was to be fitted to it; the comparison is written.
     #[error("the fit failed: {why}")]
-    NotFitted {
-        /// What is to blame.
-        why: String,
-    },
+    NotFitted { why: String },
     /// No combination of a sweep has a result; its rows are written.
     #[error("none of {count} combinations has a result; the first says: {error}")]
-    NoCombination {
-        /// How many there are.
-        count: usize,
-        /// The first error.
-        error: String,
-    },
+    NoCombination { count: usize, error: String },
     /// Cases of the validation suite that do not stand as they should; the reports are written.
     #[error("{} of the validation suite's cases missed: {}", cases.len(), cases.join(", "))]
-    Missed {
-        /// Their names.
-        cases: Vec<String>,
-    },
+    Missed { cases: Vec<String> },
     /// The user interrupted the run; it was said what is kept.
     #[error("interrupted")]
     Interrupted,
@@ -83,37 +68,24 @@ pub(super) enum Failure {
 /// What can be wrong with a command beside the scene's content.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 pub(super) enum InputError {
-    /// There is no such validation case, or it is none.
     #[error(transparent)]
     ValidationCase(LibraryError),
     /// None of the cases asked for belongs to the tier asked for.
     #[error("found no case of the tier {tier} among those named; allowed: cases of that tier, or no --tier")]
-    NoCaseOfTier {
-        /// The tier.
-        tier: &'static str,
-    },
+    NoCaseOfTier { tier: &'static str },
     /// A file that is no record of the validation suite.
     #[error("{name}: line {line}: found {reason}; allowed: a validation.json that gearwear validate wrote")]
     NoValidationRecord {
-        /// The file.
         name: String,
         /// Line, from 1.
         line: usize,
-        /// What is wrong.
         reason: String,
     },
-    /// The file cannot be opened as a scene.
     #[error("{0}")]
     #[diagnostic(help("{}", load_help(.0)))]
     Load(LoadError),
-    /// The file cannot be read.
     #[error("{name} cannot be read: {reason}")]
-    Unreadable {
-        /// Name of the file.
-        name: String,
-        /// The system's reason.
-        reason: io::Error,
-    },
+    Unreadable { name: String, reason: io::Error },
     /// Not one combination of a sweep makes a scene.
     #[error("--vary: none of the combinations makes a scene; the first: {0}")]
     #[diagnostic(help("give the scene what the varied key needs beside it, or another range"))]
@@ -121,21 +93,13 @@ pub(super) enum InputError {
     /// A file that is both a problem with its own mesh and a gear pair.
     #[error("{name}: found both [mesh] and [pair]; allowed: one of them")]
     #[diagnostic(help("a problem with its own mesh has [mesh], a gear pair has [pair]"))]
-    MeshAndPair {
-        /// Name of the file.
-        name: String,
-    },
+    MeshAndPair { name: String },
     /// `fem` of a problem with an option that only a gear pair has.
     #[error(
         "{name}: found {option}, which a problem with its own mesh does not have; allowed with a gear pair, [pair]"
     )]
     #[diagnostic(help("leave {option} out"))]
-    OnlyForPair {
-        /// Name of the file.
-        name: String,
-        /// The option.
-        option: &'static str,
-    },
+    OnlyForPair { name: String, option: &'static str },
     /// `fem` of a gear pair that cannot be modelled as asked.
     #[error("{}", fem_pair(.0))]
     FemPair(FemPairError),
@@ -145,12 +109,7 @@ pub(super) enum InputError {
     Calibrate(CalibrateError),
     /// `calibrate` with an output file that cannot be one.
     #[error("--out: found {name}, {what}; allowed: a file name such as pair.calibration.json")]
-    CalibrationOut {
-        /// As typed.
-        name: String,
-        /// What is wrong with it.
-        what: &'static str,
-    },
+    CalibrationOut { name: String, what: &'static str },
     /// A folder that is not that of a finished run.
     #[error("RUN: {0}")]
     #[diagnostic(help("gearwear run SCENE --out RUN makes one"))]
@@ -158,13 +117,7 @@ pub(super) enum InputError {
     /// A measured profile that cannot be compared with the run.
     #[error("{name}: {error}")]
     #[diagnostic(help("gearwear compare --help says what stands in a measured file"))]
-    Measured {
-        /// Name of the file.
-        name: String,
-        /// What is wrong.
-        error: QuestionError,
-    },
-    /// A gear that cannot be modelled with finite elements.
+    Measured { name: String, error: QuestionError },
     #[error(transparent)]
     #[diagnostic(help(
         "try another fem.elements_per_half_width: elements grow with the load and shrink with this number"
@@ -174,72 +127,46 @@ pub(super) enum InputError {
     #[error("unknown preset {name:?}; allowed: {}", presets::names().join(", "))]
     #[diagnostic(help("{}", presets::nearest(name).map_or_else(
         || "gearwear init prints the first of them".to_owned(), |near| format!("did you mean {near}?"))))]
-    UnknownPreset {
-        /// As typed.
-        name: String,
-    },
-    /// The output folder cannot be made or written.
+    UnknownPreset { name: String },
     #[error("--out: {}", causes(.0))]
     #[diagnostic(help("choose a folder you may write to, or a name that is still free"))]
     Out(ReportError),
-    /// The scene's gear pair cannot be meshed as asked.
     #[error("{}", of_mesh(.0))]
     #[diagnostic(help("{}", mesh_help(.0)))]
     PairMesh(#[from] PairMeshError),
-    /// The mesh file cannot be written.
     #[error("--out: {}", causes(.0))]
     #[diagnostic(help("a folder you may write to, and a name that ends in .msh, .vtu, .inp or .json"))]
     MeshFile(MeshFileError),
     /// `--resume` of a folder that no run began in.
     #[error("--resume: {folder} has no scene.toml; allowed: a folder that gearwear run --out began")]
     #[diagnostic(help("give the scene too, and the run begins there: gearwear run SCENE --resume {folder}"))]
-    NothingToResume {
-        /// The folder.
-        folder: String,
-    },
+    NothingToResume { folder: String },
     /// `--resume` of a run that did not converge.
     #[error("--resume: the run in {folder} did not converge: nothing is left to do")]
     #[diagnostic(help(
         "what it finished lies in {folder}; gearwear run SCENE --out {folder} runs it again from the beginning"
     ))]
-    NothingLeft {
-        /// The folder.
-        folder: String,
-    },
-    /// `--resume` of a folder whose run cannot go on.
+    NothingLeft { folder: String },
     #[error("--resume: {0}")]
     #[diagnostic(help("{}", resume_help(.0)))]
     Resume(Box<FolderError>),
-    /// What is to be varied is wrong.
     #[error("--vary: {0}")]
     #[diagnostic(help("{}", .0.help().unwrap_or_else(|| "for example --vary pair.face_width_mm=10:30:21".to_owned())))]
     Vary(AxisError),
-    /// The rows of a sweep cannot be kept, or belong to another one.
     #[error("--out: {0}")]
     #[diagnostic(help("{}", journal_help(.0)))]
     Journal(JournalError),
-    /// Shards do not make a sweep.
     #[error("{0}")]
     #[diagnostic(help("{}", merge_help(.0)))]
     Merge(MergeError),
     /// `merge` into the folder of a shard.
     #[error("--out: {name} is one of the folders to merge; allowed: a folder of its own for the whole sweep")]
-    MergeIntoShard {
-        /// The folder.
-        name: String,
-    },
+    MergeIntoShard { name: String },
     /// None of the shards has the scene of the sweep beside its rows.
     #[error("no folder has the scene.toml of its sweep; allowed: folders as gearwear sweep wrote them")]
     MergeWithoutScene,
-    /// The threads cannot be started.
     #[error("--threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
-}
-
-impl From<SceneError> for Failure {
-    fn from(error: SceneError) -> Self {
-        Failure::Scene(error)
-    }
 }
 
 impl From<LoadError> for Failure {
@@ -328,20 +255,12 @@ fn causes(error: &dyn std::error::Error) -> String {
 }
 
 impl Failure {
-    /// Says on standard error what is wrong.
     pub(super) fn print(self) {
         match self {
             Failure::Scene(scene) => print_problems(scene),
             Failure::Input(error) => say(&format!("{:?}", Report::new(error))),
-            Failure::Solve(error) => say(&format!("{:?}", Report::msg(error))),
-            Failure::FemPair(error) => say(&format!("{:?}", Report::msg(error))),
-            Failure::Accuracy(error) => say(&format!("{:?}", Report::msg(error))),
-            Failure::Calibrate(error) => say(&format!("{:?}", Report::msg(error))),
-            Failure::Run(error) => say(&format!("{:?}", Report::msg(error))),
-            error @ (Failure::NoCombination { .. } | Failure::NotFitted { .. } | Failure::Missed { .. }) => {
-                say(&format!("{:?}", Report::msg(error)))
-            }
             Failure::Interrupted | Failure::Closed => {}
+            failed => say(&format!("{:?}", Report::msg(failed))),
         }
     }
 
@@ -349,16 +268,10 @@ impl Failure {
     pub(super) fn exit_status(&self) -> u8 {
         match self {
             Failure::Scene(_) | Failure::Input(_) => 2,
-            Failure::Run(_)
-            | Failure::Solve(_)
-            | Failure::FemPair(_)
-            | Failure::Calibrate(_)
-            | Failure::Accuracy(_)
-            | Failure::NotFitted { .. }
-            | Failure::NoCombination { .. } => 3,
             Failure::Missed { .. } => 1,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
+            _ => 3,
         }
     }
 }
@@ -397,7 +310,6 @@ fn of_mesh(error: &PairMeshError) -> String {
     }
 }
 
-/// What to do about it.
 fn mesh_help(error: &PairMeshError) -> &'static str {
     match error {
         PairMeshError::Position { .. } => "positions are radii of curvature of the pinion; left out: the pitch point",

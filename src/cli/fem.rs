@@ -18,7 +18,6 @@ use super::failure::{Failure, InputError};
 use super::progress::Progress;
 use super::{fem_scene, figures, stdout, warn};
 
-/// Arguments of `fem`.
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// The file, TOML: a problem with its own [mesh], or a scene with a [pair]; - reads standard input

@@ -3,33 +3,25 @@
 use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError};
 use crate::results::run::{HelicalSummary, OverWidthSummary, Summary};
 
-/// The table.
 pub(super) fn table(summary: &Summary) -> String {
     let (pinion, wheel) = (&summary.pinion, &summary.wheel);
     let (new, worn) = (&summary.new, &summary.worn);
-    let mut text = format!("{}\n\n{}", summary.title, row("", ["pinion", "wheel"]));
-    for (name, values) in [
-        ("peak wear, µm", [pinion.peak_wear_um, wheel.peak_wear_um]),
-        ("  at radius, mm", [pinion.peak_wear_radius_mm, wheel.peak_wear_radius_mm]),
-        ("wear of the tip edge, µm", [pinion.tip_edge_wear_um, wheel.tip_edge_wear_um]),
-        ("wear below the active profile, µm", [pinion.below_sap_wear_um, wheel.below_sap_wear_um]),
-        ("wear near the root, µm", [pinion.root_wear_um, wheel.root_wear_um]),
-        ("wear at the pitch circle, µm", [pinion.pitch_wear_um, wheel.pitch_wear_um]),
-        ("worn mass, mg", [pinion.worn_mass_mg, wheel.worn_mass_mg]),
-    ] {
-        text.push_str(&figures(name, values));
-    }
-    text.push_str(&row("", ["new", "worn"]));
-    for (name, values) in [
-        ("peak pressure, MPa", [new.peak_pressure_MPa, worn.peak_pressure_MPa]),
-        ("pressure at the pitch point, MPa", [new.pitch_pressure_MPa, worn.pitch_pressure_MPa]),
-        (
-            "transmission error, peak to peak, µm",
-            [new.transmission_error_um.peak_to_peak, worn.transmission_error_um.peak_to_peak],
-        ),
-    ] {
-        text.push_str(&figures(name, values));
-    }
+    let te = [&new.transmission_error_um, &worn.transmission_error_um].map(|te| te.peak_to_peak);
+    let mut text = [
+        format!("{}\n\n{}", summary.title, row("", ["pinion", "wheel"])),
+        figures("peak wear, µm", [pinion.peak_wear_um, wheel.peak_wear_um]),
+        figures("  at radius, mm", [pinion.peak_wear_radius_mm, wheel.peak_wear_radius_mm]),
+        figures("wear of the tip edge, µm", [pinion.tip_edge_wear_um, wheel.tip_edge_wear_um]),
+        figures("wear below the active profile, µm", [pinion.below_sap_wear_um, wheel.below_sap_wear_um]),
+        figures("wear near the root, µm", [pinion.root_wear_um, wheel.root_wear_um]),
+        figures("wear at the pitch circle, µm", [pinion.pitch_wear_um, wheel.pitch_wear_um]),
+        figures("worn mass, mg", [pinion.worn_mass_mg, wheel.worn_mass_mg]),
+        row("", ["new", "worn"]),
+        figures("peak pressure, MPa", [new.peak_pressure_MPa, worn.peak_pressure_MPa]),
+        figures("pressure at the pitch point, MPa", [new.pitch_pressure_MPa, worn.pitch_pressure_MPa]),
+        figures("transmission error, peak to peak, µm", te),
+    ]
+    .concat();
     let sharp = [new.sharp_edge_pressure_MPa, worn.sharp_edge_pressure_MPa];
     if sharp.iter().any(Option::is_some) {
         let [new, worn] = sharp.map(|pressure| pressure.map_or_else(|| "–".to_owned(), digits));
@@ -67,24 +59,18 @@ fn over_the_width(helical: Option<&HelicalSummary>) -> String {
 /// How far the run is from finite elements, or why that is not known.
 fn verified(total: &TotalError) -> String {
     let within = |error: Option<f64>| error.map_or_else(|| "–".to_owned(), |error| two_digits(100.0 * error));
-    let both = |errors: &ErrorPerGear| [within(errors.pinion), within(errors.wheel)];
-    let [pinion, wheel] = both(&total.peak_wear);
-    let [pinion_tip_edge, wheel_tip_edge] = both(&total.tip_edge_wear);
-    let [pinion_profile, wheel_profile] = both(&total.profile);
+    let both = |name, errors: &ErrorPerGear| row(name, [&within(errors.pinion), &within(errors.wheel)]);
+    let one = |name, error| format!("  {name:38}{:>12}\n", within(error));
     if total.peak_wear.pinion.or(total.peak_wear.wheel).is_none() {
         return format!("\n  {}\n", total.how);
     }
     [
         row("within, of finite elements", ["pinion", "wheel"]),
-        row("peak wear, %", [&pinion, &wheel]),
-        row("wear of the tip edge, %", [&pinion_tip_edge, &wheel_tip_edge]),
-        row("wear over the flank (rms), %", [&pinion_profile, &wheel_profile]),
-        format!(
-            "  {:38}{:>12}\n",
-            "transmission error, peak to peak, %",
-            within(total.transmission_error_peak_to_peak)
-        ),
-        format!("  {:38}{:>12}\n", "pressure between the tip edges, %", within(total.pressure_between_tips)),
+        both("peak wear, %", &total.peak_wear),
+        both("wear of the tip edge, %", &total.tip_edge_wear),
+        both("wear over the flank (rms), %", &total.profile),
+        one("transmission error, peak to peak, %", total.transmission_error_peak_to_peak),
+        one("pressure between the tip edges, %", total.pressure_between_tips),
     ]
     .concat()
 }

@@ -5,7 +5,6 @@ use crate::scene::presets;
 use super::failure::{Failure, InputError};
 use super::stdout;
 
-/// Arguments of `init`.
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// The scene to print

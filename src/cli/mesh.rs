@@ -14,7 +14,6 @@ use crate::scene::loaded::SceneText;
 use super::failure::{Failure, InputError};
 use super::{stdout, warn};
 
-/// Arguments of `mesh`.
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// The scene file; - reads standard input

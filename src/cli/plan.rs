@@ -10,7 +10,6 @@ use crate::scene::loaded::SceneText;
 use super::failure::Failure;
 use super::{stdout, warn};
 
-/// Arguments of `plan`.
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// The scene file; - reads standard input
@@ -20,7 +19,6 @@ pub(super) struct Args {
     format: Format,
 }
 
-/// How to print.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Format {
     /// For people

@@ -15,16 +15,29 @@ const PATIENCE: Duration = Duration::from_millis(500);
 /// Parts of the bar.
 const PARTS: u64 = 1000;
 
-/// How progress is shown.
-enum Display {
+/// How progress is shown: a bar on a terminal, elsewhere a log, which remembers something.
+pub(super) enum Display<L> {
     Quiet,
-    Log(Mutex<Option<(String, Instant)>>),
+    Log(Mutex<L>),
     Bar(ProgressBar),
 }
 
+impl<L> Display<L> {
+    pub(super) fn new(quiet: bool, log: L) -> Self {
+        match (quiet, std::io::stderr().is_terminal()) {
+            (true, _) => Display::Quiet,
+            (false, true) => Display::Bar(bar()),
+            (false, false) => Display::Log(Mutex::new(log)),
+        }
+    }
+}
+
+/// The stage that was begun last, and when.
+type Begun = Option<(String, Instant)>;
+
 /// Watches a run for the user, who may interrupt it.
 pub(super) struct Progress {
-    display: Display,
+    display: Display<Begun>,
     interrupted: Arc<AtomicBool>,
     /// When the interrupt was first noticed.
     first_heard: OnceLock<Instant>,
@@ -35,14 +48,7 @@ pub(super) struct Progress {
 impl Progress {
     /// A bar on a terminal, a log elsewhere, nothing where `quiet`; `interrupted` is set when the user wants to stop.
     pub(super) fn new(quiet: bool, interrupted: Arc<AtomicBool>) -> Self {
-        let display = if quiet {
-            Display::Quiet
-        } else if std::io::stderr().is_terminal() {
-            Display::Bar(bar())
-        } else {
-            Display::Log(Mutex::new(None))
-        };
-        Self { display, interrupted, first_heard: OnceLock::new(), told: Mutex::default() }
+        Self { display: Display::new(quiet, None), interrupted, first_heard: OnceLock::new(), told: Mutex::default() }
     }
 
     /// Those of `warnings` that have not been given during the run.
@@ -51,7 +57,6 @@ impl Progress {
         warnings.iter().filter(|warning| !told.contains(warning)).cloned().collect()
     }
 
-    /// Ends the display.
     pub(super) fn finish(&self) {
         match &self.display {
             Display::Quiet => {}
@@ -110,7 +115,7 @@ impl Observer for Progress {
 }
 
 /// The bar, with the remaining time.
-pub(super) fn bar() -> ProgressBar {
+fn bar() -> ProgressBar {
     let bar = ProgressBar::new(PARTS);
     let style = ProgressStyle::with_template("{msg:20} [{bar:40}] {percent:>3} %  {elapsed} so far, {eta} left");
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("=> "));
@@ -119,7 +124,7 @@ pub(super) fn bar() -> ProgressBar {
 }
 
 /// Logs the stage that ends, with its time, and remembers the next.
-fn log_end(stage: &Mutex<Option<(String, Instant)>>, next: Option<(String, Instant)>) {
+fn log_end(stage: &Mutex<Begun>, next: Begun) {
     let Ok(mut stage) = stage.lock() else { return };
     if let Some((name, start)) = std::mem::replace(&mut *stage, next) {
         super::say(&format!("{name}: {:.2} s", start.elapsed().as_secs_f64()));

@@ -26,7 +26,6 @@ use super::{figures, model_failure, say, stdout, warn};
 /// The exit status after an interrupt: 128 and the number of the signal.
 const INTERRUPTED: i32 = 130;
 
-/// Arguments of `run`.
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// The scene file; - reads standard input. May be left out with --resume

@@ -5,7 +5,6 @@ use crate::scene::{fem_problem, schema::schema};
 use super::failure::Failure;
 use super::stdout;
 
-/// Arguments of `schema`.
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// The schema of a finite-element problem with its own mesh instead

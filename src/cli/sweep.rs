@@ -23,7 +23,6 @@ use super::figures::{digits, two_digits};
 use super::run::{thread_count, watch_for_interrupt};
 use super::{say, stdout, warn};
 
-/// Arguments of `sweep`.
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub(super) struct Args {

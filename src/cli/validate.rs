@@ -15,7 +15,6 @@ use super::failure::{Failure, InputError};
 use super::run::{thread_count, watch_for_interrupt};
 use super::{say, stdout};
 
-/// Arguments of `validate`.
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
     /// Cases: names of built-in ones, or folders with a case.toml; default: all built-in cases of the tier
