@@ -2,44 +2,46 @@
 
 use serde::{Deserialize, Serialize};
 
-/// A kind of cell. Nodes: corners first, anticlockwise in the plane, then the middles of the sides in the same order.
+/// A kind of cell with VTK's number for it (`vtkCellType.h`). Nodes, as in VTK: corners first, anticlockwise in the plane, then the
+/// middles of the sides in the same order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[repr(u8)]
 pub enum CellKind {
     /// A point.
-    Vertex,
+    Vertex = 1,
     /// Line of two nodes.
-    Line,
+    Line = 3,
     /// Line of three nodes: ends, middle.
-    Line3,
+    Line3 = 21,
     /// Triangle of three nodes.
-    Triangle,
+    Triangle = 5,
     /// Triangle of six nodes.
-    Triangle6,
+    Triangle6 = 22,
     /// Quadrilateral of four nodes.
-    Quad,
+    Quad = 9,
     /// Quadrilateral of eight nodes.
-    Quad8,
+    Quad8 = 23,
     /// Quadrilateral of nine nodes, the last in the middle.
-    Quad9,
+    Quad9 = 28,
     /// Tetrahedron of four nodes.
-    Tetra,
+    Tetra = 10,
     /// Tetrahedron of ten nodes.
-    Tetra10,
+    Tetra10 = 24,
     /// Hexahedron of eight nodes.
-    Hexahedron,
+    Hexahedron = 12,
     /// Hexahedron of twenty nodes.
-    Hexahedron20,
+    Hexahedron20 = 25,
     /// Hexahedron of twenty-seven nodes.
-    Hexahedron27,
+    Hexahedron27 = 29,
     /// Wedge of six nodes.
-    Wedge,
+    Wedge = 13,
     /// Wedge of fifteen nodes.
-    Wedge15,
+    Wedge15 = 26,
     /// Pyramid of five nodes.
-    Pyramid,
+    Pyramid = 14,
     /// Pyramid of thirteen nodes.
-    Pyramid13,
+    Pyramid13 = 27,
 }
 
 impl CellKind {

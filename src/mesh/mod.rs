@@ -89,6 +89,18 @@ pub struct PhysicalTag {
     pub dimension: u8,
 }
 
+impl Mesh {
+    /// Cells counted over all blocks, from `lists` of their numbers within each.
+    fn over_all<'m>(&'m self, lists: &'m [Vec<usize>]) -> impl Iterator<Item = usize> + 'm {
+        let mut start = 0;
+        self.cells.iter().zip(lists).flat_map(move |(block, list)| {
+            let first = start;
+            start += block.len();
+            list.iter().map(move |cell| first + cell)
+        })
+    }
+}
+
 impl CellBlock {
     /// The cells' nodes, cell by cell.
     pub fn iter(&self) -> std::slice::ChunksExact<'_, usize> {

@@ -36,22 +36,12 @@ pub(super) fn kind(name: &str) -> Option<CellKind> {
     if name == "MASS" {
         return Some(CellKind::Vertex);
     }
-    const LINES: [(&str, CellKind); 12] = [
-        ("R2D2", CellKind::Line),
-        ("RAX2", CellKind::Line),
-        ("T2D2", CellKind::Line),
-        ("T3D2", CellKind::Line),
-        ("B21", CellKind::Line),
-        ("B31", CellKind::Line),
-        ("B23", CellKind::Line),
-        ("B33", CellKind::Line),
-        ("T2D3", CellKind::Line3),
-        ("T3D3", CellKind::Line3),
-        ("B22", CellKind::Line3),
-        ("B32", CellKind::Line3),
-    ];
-    if let Some((_, kind)) = LINES.iter().find(|(line, _)| name.strip_prefix(line).is_some_and(is_variant)) {
-        return Some(*kind);
+    const LINES: [&str; 8] = ["R2D2", "RAX2", "T2D2", "T3D2", "B21", "B31", "B23", "B33"];
+    const LINES_OF_THREE: [&str; 4] = ["T2D3", "T3D3", "B22", "B32"];
+    for (lines, kind) in [(&LINES[..], CellKind::Line), (&LINES_OF_THREE, CellKind::Line3)] {
+        if lines.iter().any(|line| name.strip_prefix(line).is_some_and(is_variant)) {
+            return Some(kind);
+        }
     }
     const FAMILIES: [&str; 9] = ["CPEG", "CPE", "CPS", "CAX", "M3D", "R3D", "C3D", "STRI", "S"];
     let family = FAMILIES.into_iter().find(|family| name.starts_with(family))?;

@@ -42,6 +42,10 @@ impl Keyword<'_> {
         self.value(name).ok_or_else(|| self.fault(self.line, Problem::Ended { expected: format!("{name}=…") }))
     }
 
+    pub(super) fn refuse_input(&self, allowed: &str) -> Result<(), Fault> {
+        if self.has("INPUT") { Err(self.unsupported("INPUT=", allowed)) } else { Ok(()) }
+    }
+
     pub(super) fn unsupported(&self, what: impl Into<String>, allowed: &str) -> Fault {
         self.fault(self.line, Problem::Unsupported { what: what.into(), allowed: allowed.into() })
     }

@@ -101,9 +101,7 @@ impl Content {
     }
 
     fn read_nodes(&mut self, keyword: &Keyword) -> Result<(), Fault> {
-        if keyword.has("INPUT") {
-            return Err(keyword.unsupported("INPUT=", "nodes in this file"));
-        }
+        keyword.refuse_input("nodes in this file")?;
         if keyword.value("SYSTEM").is_some_and(|system| !system.text.eq_ignore_ascii_case("R")) {
             return Err(keyword.unsupported("a cylindrical or spherical system", "SYSTEM=R"));
         }
@@ -129,9 +127,7 @@ impl Content {
     }
 
     fn read_elements(&mut self, keyword: &Keyword) -> Result<(), Fault> {
-        if keyword.has("INPUT") {
-            return Err(keyword.unsupported("INPUT=", "elements in this file"));
-        }
+        keyword.refuse_input("elements in this file")?;
         let type_name = &keyword.required("TYPE")?.text;
         let kind = elements::kind(type_name)
             .ok_or_else(|| keyword.unsupported(format!("element type {type_name}"), elements::ALLOWED))?;
@@ -186,9 +182,7 @@ impl Content {
     }
 
     fn read_node_set(&mut self, keyword: &Keyword, allowance: &mut Allowance) -> Result<(), Fault> {
-        if keyword.has("INPUT") {
-            return Err(keyword.unsupported("INPUT=", "sets in this file"));
-        }
+        keyword.refuse_input("sets in this file")?;
         let mut found = members(keyword, &self.node_sets, &self.node_targets(), allowance)?;
         if let Some(elements) = keyword.value("ELSET") {
             let Some(cells) = self.element_sets.find(elements) else {
@@ -206,9 +200,7 @@ impl Content {
     }
 
     fn read_element_set(&mut self, keyword: &Keyword, allowance: &mut Allowance) -> Result<(), Fault> {
-        if keyword.has("INPUT") {
-            return Err(keyword.unsupported("INPUT=", "sets in this file"));
-        }
+        keyword.refuse_input("sets in this file")?;
         let mut found = members(keyword, &self.element_sets, &self.element_targets(), allowance)?;
         self.element_sets.open(keyword.required("ELSET")?).append(&mut found);
         Ok(())

@@ -26,7 +26,7 @@ pub(crate) fn write(mesh: &Mesh) -> Result<Vec<u8>, Unwritable> {
         match surfaces.sides.get(name) {
             None => {
                 keyword(&mut text, "*ELSET, ELSET=", name, mesh);
-                list(&mut text, over_all(mesh, lists).filter_map(|cell| numbers[cell]));
+                list(&mut text, mesh.over_all(lists).filter_map(|cell| numbers[cell]));
             }
             Some(sides) => {
                 keyword(&mut text, "*SURFACE, TYPE=ELEMENT, NAME=", name, mesh);
@@ -73,16 +73,6 @@ fn check(mesh: &Mesh) -> Result<(), Unwritable> {
     Ok(())
 }
 
-/// Numbers of cells counted over all blocks.
-fn over_all<'m>(mesh: &'m Mesh, lists: &'m [Vec<usize>]) -> impl Iterator<Item = usize> + 'm {
-    let mut start = 0;
-    mesh.cells.iter().zip(lists).flat_map(move |(block, list)| {
-        let first = start;
-        start += block.len();
-        list.iter().map(move |cell| first + cell)
-    })
-}
-
 /// Sets of line cells that lie on sides of plane elements.
 struct Surfaces {
     /// Their sides in the order of the lines.
@@ -109,16 +99,16 @@ impl Surfaces {
                 let (kind, nodes) = cells[cell];
                 (kind.dimension() == 1).then(|| sides_by_nodes.get(&unturned(nodes.to_vec())).copied())?
             };
-            let found: Option<Vec<Side>> = over_all(mesh, lists).map(on_side).collect();
+            let found: Option<Vec<Side>> = mesh.over_all(lists).map(on_side).collect();
             if let Some(found) = found.filter(|found| !found.is_empty()) {
-                over_all(mesh, lists).for_each(|cell| is_line[cell] = true);
+                mesh.over_all(lists).for_each(|cell| is_line[cell] = true);
                 sides.insert(name.clone(), found);
             }
         }
         // A line that is in another set as well has to be an element there.
         for (name, lists) in &mesh.cell_sets {
             if !sides.contains_key(name) {
-                over_all(mesh, lists).for_each(|cell| is_line[cell] = false);
+                mesh.over_all(lists).for_each(|cell| is_line[cell] = false);
             }
         }
         Self { sides, is_line }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::GmshVersion;
 use super::cell_types;
 use super::content::{Content, RawData};
 use super::keep;
@@ -9,15 +10,6 @@ use super::scanner::{Encoding, Scanner};
 use crate::mesh::error::{Fault, Problem};
 use crate::mesh::numbering::Numbering;
 use crate::mesh::{CellKind, Mesh};
-
-/// The versions read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Version {
-    /// 2.0 to 2.2, which read alike.
-    Two,
-    /// 4.1.
-    Four,
-}
 
 pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
     let mut file = Scanner::new(bytes);
@@ -27,15 +19,23 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
         match (section.as_str(), version) {
             ("MeshFormat", _) => version = Some(mesh_format(&mut file)?),
             ("PhysicalNames", Some(_)) => physical_names(&mut file, &mut content)?,
-            ("Entities", Some(Version::Four)) => entities(&mut file, &mut content)?,
-            ("Nodes" | "ParametricNodes", Some(Version::Two)) => {
+            ("Entities", Some(GmshVersion::V4)) => entities(&mut file, &mut content)?,
+            ("Nodes" | "ParametricNodes", Some(GmshVersion::V2)) => {
                 nodes_2(&mut file, &mut content, section == "ParametricNodes")?;
             }
-            ("Nodes", Some(Version::Four)) => nodes_4(&mut file, &mut content)?,
-            ("Elements", Some(Version::Two)) => elements_2(&mut file, &mut content)?,
-            ("Elements", Some(Version::Four)) => elements_4(&mut file, &mut content)?,
-            ("NodeData", Some(_)) => node_data(&mut file, &mut content)?,
-            ("ElementData", Some(_)) => element_data(&mut file, &mut content)?,
+            ("Nodes", Some(GmshVersion::V4)) => nodes_4(&mut file, &mut content)?,
+            ("Elements", Some(GmshVersion::V2)) => elements_2(&mut file, &mut content)?,
+            ("Elements", Some(GmshVersion::V4)) => elements_4(&mut file, &mut content)?,
+            ("NodeData", Some(_)) => {
+                let missing = |number| Problem::NoSuchNode { number };
+                let (name, data) = data(&mut file, content.points.len(), content.nodes.as_ref(), missing)?;
+                content.node_data.insert(name, data);
+            }
+            ("ElementData", Some(_)) => {
+                let missing = |number| Problem::NoSuchElement { number };
+                let (name, data) = data(&mut file, content.cells.len(), content.elements.as_ref(), missing)?;
+                content.element_data.insert(name, data);
+            }
             (keep::SECTION, Some(_)) => kept(&mut file, &mut content)?,
             ("PartitionedEntities", _) => {
                 let what = "a mesh divided into partitions".into();
@@ -60,16 +60,16 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
     content.into_mesh(file.allowance)
 }
 
-/// Version, encoding and size of numbers.
-fn mesh_format(file: &mut Scanner) -> Result<Version, Fault> {
+/// Version (2.0 to 2.2 read alike), encoding and size of numbers.
+fn mesh_format(file: &mut Scanner) -> Result<GmshVersion, Fault> {
     const EXPECTED: &str = "version (2.2 or 4.1), file type (0 or 1) and data size (4 or 8)";
     file.encoding = Encoding::Ascii;
     let line = file.line(EXPECTED)?;
     let words: Vec<&str> = line.split_ascii_whitespace().collect();
     let (version, size_bytes) = match words[..] {
-        ["2" | "2.0" | "2.1" | "2.2", _, "8"] => (Version::Two, 8),
-        ["4.1", _, "8"] => (Version::Four, 8),
-        ["4.1", _, "4"] => (Version::Four, 4),
+        ["2" | "2.0" | "2.1" | "2.2", _, "8"] => (GmshVersion::V2, 8),
+        ["4.1", _, "8"] => (GmshVersion::V4, 8),
+        ["4.1", _, "4"] => (GmshVersion::V4, 4),
         [other, _, _] if other.parse::<f64>().is_ok() && !["2", "2.0", "2.1", "2.2", "4.1"].contains(&other) => {
             let what = format!("version {other} of the format");
             return Err(file.fault(Problem::Unsupported { what, allowed: "2.2 and 4.1".into() }));
@@ -342,27 +342,12 @@ fn elements_4(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
     Ok(())
 }
 
-fn node_data(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
-    let nodes = content.nodes.as_ref();
-    let index = |number| nodes.and_then(|nodes| nodes.index(number)).ok_or(Problem::NoSuchNode { number });
-    let (name, data) = data(file, content.points.len(), index)?;
-    content.node_data.insert(name, data);
-    Ok(())
-}
-
-fn element_data(file: &mut Scanner, content: &mut Content) -> Result<(), Fault> {
-    let elements = content.elements.as_ref();
-    let index = |number| elements.and_then(|all| all.index(number)).ok_or(Problem::NoSuchElement { number });
-    let (name, data) = data(file, content.cells.len(), index)?;
-    content.element_data.insert(name, data);
-    Ok(())
-}
-
 /// A data section: lines of tags, then the number of an owner and its values, again and again.
 fn data(
     file: &mut Scanner,
     owners: usize,
-    index: impl Fn(u64) -> Result<usize, Problem>,
+    numbers: Option<&Numbering>,
+    missing: fn(u64) -> Problem,
 ) -> Result<(String, RawData), Fault> {
     let mut tags = [Vec::new(), Vec::new(), Vec::new()];
     for (what, tags) in ["string tags", "real tags", "integer tags"].into_iter().zip(&mut tags) {
@@ -386,7 +371,7 @@ fn data(
     let mut values = vec![f64::NAN; owners * components];
     for _ in 0..count {
         let number = file.positive_int("the number of a node or element")?;
-        let owner = index(number).map_err(|problem| file.fault(problem))?;
+        let owner = numbers.and_then(|all| all.index(number)).ok_or_else(|| file.fault(missing(number)))?;
         for value in &mut values[owner * components..(owner + 1) * components] {
             *value = file.real("a value")?;
         }

@@ -19,7 +19,6 @@
 //! base64 ends in a panic, arrays of the wrong length vanish), which does not do for files of unknown origin.
 
 mod array;
-mod cell_types;
 mod document;
 mod read;
 mod write;
@@ -39,6 +38,9 @@ pub enum VtuEncoding {
     Ascii,
 }
 
+/// The kinds of cells, for messages.
+const ALLOWED: &str = "points, lines, triangles, quadrilaterals, tetrahedra, hexahedra, wedges and pyramids, linear or quadratic \
+                       (VTK's types 1, 3, 5, 9, 10, 12, 13, 14 and 21 to 29)";
 const SET: &str = "set:";
 const TAG: &str = "tag:";
 const BLOCKS: &str = "gearwear:blocks";

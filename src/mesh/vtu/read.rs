@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::array::{Decoder, Scalar};
 use super::document::{Array, Document};
-use super::{BLOCKS, SET, TAG, cell_types};
+use super::{ALLOWED, BLOCKS, SET, TAG};
 use crate::mesh::error::{Fault, Problem};
 use crate::mesh::numbering::{Allowance, CellList, OpenSets, close_cell_sets, close_point_sets};
 use crate::mesh::{CellKind, DataArray, Mesh, PhysicalTag, Values};
@@ -100,9 +100,9 @@ fn cells(
     let nodes = integers(decoder, connectivity, Some(total), allowance)?;
     let mut start = 0;
     for (&number, &end) in type_numbers.iter().zip(&ends) {
-        let Some(kind) = cell_types::kind(number) else {
+        let Some(kind) = cell_kind(number) else {
             let what = format!("cell type {number}");
-            return Err(types.fault(Problem::Unsupported { what, allowed: cell_types::ALLOWED.into() }));
+            return Err(types.fault(Problem::Unsupported { what, allowed: ALLOWED.into() }));
         };
         let own = usize::try_from(end).ok().and_then(|end| nodes.get(start..end));
         let Some(own) = own.filter(|own| own.len() == kind.node_count()) else {
@@ -124,6 +124,10 @@ fn cells(
         cells.push(kind, numbers);
     }
     Ok(cells)
+}
+
+fn cell_kind(number: i64) -> Option<CellKind> {
+    CellKind::ALL.into_iter().find(|kind| *kind as i64 == number)
 }
 
 fn integers(
@@ -180,7 +184,7 @@ fn divide(cells: &mut CellList, array: &Array, values: &Values) -> Result<(), Fa
         Values::Reals(_) => &[],
     };
     let block = |&[number, length]: &[i64; 2]| -> Option<(CellKind, usize)> {
-        Some((cell_types::kind(number)?, usize::try_from(length).ok()?))
+        Some((cell_kind(number)?, usize::try_from(length).ok()?))
     };
     let divided = pairs.iter().map(block).collect::<Option<Vec<_>>>().is_some_and(|blocks| cells.divide(&blocks));
     if divided {

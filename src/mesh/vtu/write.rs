@@ -9,7 +9,7 @@ use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use quick_xml::escape::escape;
 
-use super::{BLOCKS, SET, TAG, VtuEncoding, cell_types};
+use super::{BLOCKS, SET, TAG, VtuEncoding};
 use crate::mesh::error::Unwritable;
 use crate::mesh::{DataArray, Mesh, Values};
 
@@ -42,7 +42,7 @@ pub(crate) fn write(mesh: &Mesh, encoding: VtuEncoding) -> Result<Vec<u8>, Unwri
         Number::Integer(end)
     });
     out.array("offsets", 1, "Int64", ends);
-    let types = mesh.cells.iter().flat_map(|block| std::iter::repeat_n(cell_types::number(block.kind), block.len()));
+    let types = mesh.cells.iter().flat_map(|block| std::iter::repeat_n(block.kind as u8, block.len()));
     out.array("types", 1, "UInt8", types.map(Number::Byte));
     out.line("</Cells>\n<PointData>");
     for (name, array) in &mesh.point_data {
@@ -56,13 +56,7 @@ pub(crate) fn write(mesh: &Mesh, encoding: VtuEncoding) -> Result<Vec<u8>, Unwri
         out.data(name, arrays);
     }
     for (name, lists) in &mesh.cell_sets {
-        let mut start = 0;
-        let members = mesh.cells.iter().zip(lists).flat_map(|(block, list)| {
-            let first = start;
-            start += block.len();
-            list.iter().map(move |cell| first + cell)
-        });
-        out.set(name, cell_count, members);
+        out.set(name, cell_count, mesh.over_all(lists));
     }
     out.line("</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>");
     Ok(out.text.into_bytes())
@@ -90,7 +84,7 @@ fn field_data(out: &mut Output, mesh: &Mesh) {
     }
     out.line("<FieldData>");
     if !plain {
-        let pairs = mesh.cells.iter().flat_map(|block| [cell_types::number(block.kind).into(), block.len() as i64]);
+        let pairs = mesh.cells.iter().flat_map(|block| [block.kind as i64, block.len() as i64]);
         out.array_of(BLOCKS, 2, "Int64", Some(mesh.cells.len()), pairs.map(Number::Integer));
     }
     for (name, tag) in &mesh.field_data {

@@ -14,7 +14,7 @@ use super::wear_by_coefficient::WearByCoefficient;
 use crate::gear::Gear;
 use crate::observer::{Observer, PartOf};
 use crate::pipeline;
-use crate::results::run::{FlankRecord, StopReason};
+use crate::results::run::StopReason;
 use crate::scene::loaded::LoadedScene;
 use crate::scene::{Resolved, Scene};
 
@@ -179,12 +179,8 @@ impl<'a> Simulations<'a> {
         self.mesh_cycles += done.record.summary.work.mesh_cycles;
         let flank = &done.record.flanks[self.gear];
         let rows = done.record.history.iter().zip(&flank.snapshot_wear_um);
-        Ok(rows.map(|(row, wear)| (row.revolutions, self.row(flank, wear))).collect())
-    }
-
-    /// The row of points at the place over the face width, between the middles of slices by straight lines.
-    fn row(&self, flank: &FlankRecord, wear_um: &[f64]) -> Vec<f64> {
-        over_width(wear_um, &flank.width_mm, flank.radius_mm.len(), self.width_mm)
+        let at_width = |wear_um: &[f64]| over_width(wear_um, &flank.width_mm, flank.radius_mm.len(), self.width_mm);
+        Ok(rows.map(|(row, wear_um)| (row.revolutions, at_width(wear_um))).collect())
     }
 }
 
