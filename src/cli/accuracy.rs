@@ -15,7 +15,7 @@ use super::failure::Failure;
 use super::figures::digits;
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
-use super::{say, stdout, warn};
+use super::{print, say, warn};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -64,7 +64,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     crate::studies::accuracy::report::write(&record, &args.out)?;
     if !args.quiet {
         let report = args.out.join("report.html");
-        stdout::print(&format!("{}report: {}\n", table(&record), report.display()))?;
+        print(&format!("{}report: {}\n", table(&record), report.display()))?;
     }
     if record.stopped == StopReason::Completed {
         return Ok(());

@@ -14,7 +14,7 @@ use crate::scene::loaded::SceneText;
 use super::failure::{Failure, InputError};
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
-use super::{figures, model_failure, say, stdout, warn};
+use super::{failure, figures, print, say, warn};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -56,7 +56,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         other => other?,
     };
     if !args.quiet {
-        stdout::print(&table(&resolved.scene.title, &done, &args.out))?;
+        print(&table(&resolved.scene.title, &done, &args.out))?;
     }
     Ok(())
 }
@@ -80,7 +80,7 @@ fn check_out(out: &Path) -> Result<(), Failure> {
 /// A failure, told apart by who is to blame: the input, with its place where it has one, or the solver.
 fn refused(error: CalibrateError, text: &SceneText) -> Failure {
     if let CalibrateError::Calibration(CalibrationError::Model(model)) = &error
-        && let Some(failure) = model_failure::in_the_scene(model, text)
+        && let Some(failure) = failure::of_model(model, text)
     {
         return failure;
     }

@@ -20,7 +20,7 @@ use super::failure::{Failure, InputError};
 use super::figures::digits;
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
-use super::{say, stdout, warn};
+use super::{print, say, warn};
 
 /// Longest shift along the flank, where nothing else is asked, mm.
 const SHIFT_WITHIN_MM: f64 = 0.1;
@@ -119,7 +119,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     crate::studies::compare::report::write(&record, &out)?;
     if !args.quiet {
         let report = out.join("report.html");
-        stdout::print(&format!("{}report: {}\n", table(&record), report.display()))?;
+        print(&format!("{}report: {}\n", table(&record), report.display()))?;
     }
     if record.fit.stopped == FitStop::Converged {
         warn(&record.warnings);

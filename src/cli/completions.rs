@@ -3,7 +3,7 @@
 use clap_complete::Shell;
 
 use super::failure::Failure;
-use super::stdout;
+use super::print;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -14,5 +14,5 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut super::command(), "gearwear", &mut script);
-    stdout::print(&String::from_utf8_lossy(&script))
+    print(&String::from_utf8_lossy(&script))
 }

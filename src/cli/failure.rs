@@ -14,7 +14,7 @@ use crate::pipeline::pair_mesh::PairMeshError;
 use crate::report::ReportError;
 use crate::resume::file::CheckpointError;
 use crate::resume::folder::FolderError;
-use crate::scene::loaded::{LoadError, SceneError};
+use crate::scene::loaded::{LoadError, SceneError, SceneText};
 use crate::scene::{Problem, ProblemKind, presets};
 use crate::studies::accuracy::study::AccuracyError;
 use crate::studies::compare::question::QuestionError;
@@ -181,6 +181,17 @@ impl From<LoadError> for Failure {
 impl From<ReportError> for Failure {
     fn from(error: ReportError) -> Self {
         Failure::Input(InputError::Out(error))
+    }
+}
+
+/// The failure that a finite-element model which cannot be made is, if the scene is to blame: at its key, where it has one.
+pub(super) fn of_model(error: &ModelError, text: &SceneText) -> Option<Failure> {
+    match *error {
+        ModelError::TooFewTeeth { teeth, least, .. } => {
+            Some(text.refused(vec![Problem::of_sector_teeth(&text.text, teeth, least)]).into())
+        }
+        ModelError::Mesh { .. } | ModelError::TooFine { .. } => Some(InputError::Model(error.clone()).into()),
+        ModelError::Condense { .. } => None,
     }
 }
 

@@ -16,7 +16,7 @@ use crate::scene::loaded::SceneText;
 
 use super::failure::{Failure, InputError};
 use super::progress::Progress;
-use super::{fem_scene, figures, stdout, warn};
+use super::{fem_scene, figures, print, warn};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -84,7 +84,7 @@ fn problem(args: &Args, text: SceneText) -> Result<(), Failure> {
     write(&mut record, &args.out)?;
     if !args.quiet {
         let page = args.out.join("report.html");
-        stdout::print(&format!("{}report: {}\n", summary(&record.summary), page.display()))?;
+        print(&format!("{}report: {}\n", summary(&record.summary), page.display()))?;
     }
     Ok(())
 }

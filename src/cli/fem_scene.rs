@@ -19,7 +19,7 @@ use super::failure::{Failure, InputError};
 use super::fem::Args;
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
-use super::{figures, model_failure, say, stdout, warn};
+use super::{failure, figures, print, say, warn};
 
 pub(super) fn run(args: &Args, text: SceneText) -> Result<(), Failure> {
     let resolved = &text.resolve()?;
@@ -46,7 +46,7 @@ pub(super) fn run(args: &Args, text: SceneText) -> Result<(), Failure> {
     warn(&summary.warnings[resolved.warnings.len()..]);
     if !args.quiet {
         let report = args.out.join("report.html");
-        stdout::print(&format!("{}report: {}\n", table(summary), report.display()))?;
+        print(&format!("{}report: {}\n", table(summary), report.display()))?;
     }
     if summary.stopped != StopReason::Completed {
         say(&format!("{} positions were finished and are kept in {}", summary.positions, args.out.display()));
@@ -63,7 +63,7 @@ pub(super) fn run(args: &Args, text: SceneText) -> Result<(), Failure> {
 /// A failure, told apart by who is to blame: the input, with its place where it has one, or the solver.
 fn refused(error: FemPairError, text: &SceneText) -> Failure {
     let of_model = match &error {
-        FemPairError::Model(model) => model_failure::in_the_scene(model, text),
+        FemPairError::Model(model) => failure::of_model(model, text),
         _ => None,
     };
     of_model.unwrap_or_else(|| match error {

@@ -3,7 +3,7 @@
 use crate::scene::presets;
 
 use super::failure::{Failure, InputError};
-use super::stdout;
+use super::print;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -15,5 +15,5 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let name = args.preset.clone();
     let preset = presets::find(&name).ok_or(InputError::UnknownPreset { name })?;
-    stdout::print(preset.text)
+    print(preset.text)
 }

@@ -12,7 +12,7 @@ use crate::scene::Scene;
 use crate::scene::loaded::SceneText;
 
 use super::failure::{Failure, InputError};
-use super::{stdout, warn};
+use super::{print, warn};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -35,7 +35,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let format = Format::of_path(&args.out).map_err(InputError::MeshFile)?;
     let built = pair_mesh::build(&resolved.scene, args.position).map_err(InputError::from)?;
     mesh::write_as(&built.mesh, &args.out, format).map_err(InputError::MeshFile)?;
-    stdout::print(&text(&resolved.scene, &built, &args.out))
+    print(&text(&resolved.scene, &built, &args.out))
 }
 
 /// What was built.

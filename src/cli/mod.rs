@@ -12,12 +12,10 @@ mod fem_scene;
 mod figures;
 mod init;
 mod mesh;
-mod model_failure;
 mod plan;
 mod progress;
 mod run;
 mod schema;
-mod stdout;
 mod sweep;
 mod validate;
 
@@ -110,6 +108,12 @@ fn warn(warnings: &[String]) {
 /// Says something on standard error; where nobody can hear it, that is no reason to fail.
 fn say(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");
+}
+
+/// Prints `text` as it is on standard output, which may be closed early, as by `gearwear schema | head`.
+fn print(text: &str) -> Result<(), failure::Failure> {
+    let mut out = std::io::stdout().lock();
+    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|_| failure::Failure::Closed)
 }
 
 /// The command line, for completions.

@@ -8,7 +8,7 @@ use clap::ValueEnum;
 use crate::scene::loaded::SceneText;
 
 use super::failure::Failure;
-use super::{stdout, warn};
+use super::{print, warn};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -31,7 +31,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let resolved = SceneText::read(&args.scene)?.resolve()?;
     warn(&resolved.warnings);
     let plan = Plan::of(&resolved.scene);
-    stdout::print(&match args.format {
+    print(&match args.format {
         Format::Text => text(&resolved.scene.title, &plan),
         Format::Json => serde_json::to_string_pretty(&plan).expect("a plan is names and texts") + "\n",
     })

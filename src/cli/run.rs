@@ -15,13 +15,12 @@ use crate::results::run::{RunRecord, StageTime, StopReason};
 use crate::resume::folder;
 use crate::scene::Problem;
 use crate::scene::loaded::LoadedScene;
-use crate::simulation::checkpoint::Checkpoint;
 use crate::simulation::settings::Operation;
 
 use super::begun_run::{self, BegunRun, FolderKeeper};
 use super::failure::{Failure, InputError};
 use super::progress::Progress;
-use super::{figures, model_failure, say, stdout, warn};
+use super::{failure, figures, print, say, warn};
 
 /// The exit status after an interrupt: 128 and the number of the signal.
 const INTERRUPTED: i32 = 130;
@@ -61,8 +60,9 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let BegunRun { scene, out, identity, from } = begun;
     let resolved = &scene.resolved;
     warn(&resolved.warnings);
-    if let Some(from) = &from {
-        say_where_it_goes_on(from, &resolved.scene.operation, args.quiet);
+    if let Some(from) = from.as_ref().filter(|_| !args.quiet) {
+        let whole = resolved.scene.operation.pinion_revolutions;
+        say(&format!("goes on at {:.0} of {whole:.0} pinion revolutions", from.revolutions));
     }
 
     let interrupted = watch_for_interrupt();
@@ -92,7 +92,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     warn(&progress.not_yet_told(&record.summary.warnings[resolved.warnings.len()..]));
     if !args.quiet {
         let report = out.join("report.html");
-        stdout::print(&format!("{}report: {}\n", figures::table(&record.summary), report.display()))?;
+        print(&format!("{}report: {}\n", figures::table(&record.summary), report.display()))?;
     }
     if record.summary.stopped != StopReason::Completed {
         say_what_is_kept(&record, &resolved.scene.operation, &out);
@@ -109,7 +109,7 @@ fn in_the_scene(error: RunError, scene: &LoadedScene) -> Failure {
     if let Some(stiffness) = error.stiffness() {
         return scene.given.refused(vec![Problem::of_stiffness(&scene.given.text, stiffness)]).into();
     }
-    let of_model = error.model().and_then(|model| model_failure::in_the_scene(model, &scene.given));
+    let of_model = error.model().and_then(|model| failure::of_model(model, &scene.given));
     of_model.unwrap_or(Failure::Run(error))
 }
 
@@ -170,10 +170,4 @@ fn say_what_is_kept(record: &RunRecord, operation: &Operation, out: &Path) {
 
 fn how_to_go_on(out: &Path) -> String {
     format!("gearwear run --resume {} goes on with it", out.display())
-}
-
-fn say_where_it_goes_on(from: &Checkpoint, operation: &Operation, quiet: bool) {
-    if !quiet {
-        say(&format!("goes on at {:.0} of {:.0} pinion revolutions", from.revolutions, operation.pinion_revolutions));
-    }
 }

@@ -3,7 +3,7 @@
 use crate::scene::{fem_problem, schema::schema};
 
 use super::failure::Failure;
-use super::stdout;
+use super::print;
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -14,5 +14,5 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let schema = if args.problem { fem_problem::schema() } else { schema() };
-    stdout::print(&format!("{schema:#}\n"))
+    print(&format!("{schema:#}\n"))
 }

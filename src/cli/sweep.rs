@@ -21,7 +21,7 @@ use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError};
 use super::figures::{digits, two_digits};
 use super::run::{thread_count, watch_for_interrupt};
-use super::{say, stdout, warn};
+use super::{print, say, warn};
 
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
@@ -213,7 +213,7 @@ fn scene_of(whole: &Contents, folders: &[PathBuf]) -> Result<String, InputError>
 fn finish(record: &SweepRecord, out: &Path, quiet: bool) -> Result<(), Failure> {
     crate::studies::sweep::report::write(record, out)?;
     if !quiet {
-        stdout::print(&table(record, out))?;
+        print(&table(record, out))?;
     }
     let first_error = record.rows.iter().find_map(|row| row.error.clone());
     match first_error {

@@ -7,13 +7,13 @@ use std::sync::Arc;
 
 use crate::report;
 use crate::studies::validation::library::{self, Library};
-use crate::studies::validation::record::{Changes, Tier, ValidationRecord};
+use crate::studies::validation::record::{Tier, ValidationRecord};
 use crate::studies::validation::{self, against};
 
 use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError};
 use super::run::{thread_count, watch_for_interrupt};
-use super::{say, stdout};
+use super::{print, say};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -75,9 +75,12 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let record = validation::run(&library.cases, tier, thread_count(args.threads), &progress);
     progress.finish();
     let changes = earlier.map(|earlier| against::changes(&earlier, &record));
-    crate::studies::validation::report::write(&record, changes.as_ref(), out)?;
+    validation::report::write(&record, changes.as_ref(), out)?;
     if !args.quiet {
-        stdout::print(&in_words(&record, changes.as_ref(), out))?;
+        // As wide as the terminal; `None` where the output goes elsewhere.
+        let width = comfy_table::Table::new().width();
+        let verdicts = validation::report::terminal(&record, changes.as_ref(), width);
+        print(&format!("{verdicts}report: {}\n", out.join("report.html").display()))?;
     }
     let missed: Vec<String> = record.cases.iter().filter(|case| !case.passed()).map(|case| case.name.clone()).collect();
     match (record.not_run.is_empty(), missed.is_empty()) {
@@ -90,21 +93,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
 }
 
-fn in_words(record: &ValidationRecord, changes: Option<&Changes>, out: &Path) -> String {
-    // As wide as the terminal; `None` where the output goes elsewhere.
-    let width = comfy_table::Table::new().width();
-    let verdicts = crate::studies::validation::report::terminal(record, changes, width);
-    format!("{verdicts}report: {}\n", out.join("report.html").display())
-}
-
 /// The cases of a tier, or all of them.
 fn list(library: &Library, tier: Option<Tier>) -> Result<(), Failure> {
     let mut text = String::new();
     for case in library.cases.iter().filter(|case| tier.is_none_or(|tier| case.file.tier <= tier)) {
         text.push_str(&format!("{:32} {:6} {}\n", case.name, case.file.tier.name(), case.file.requirement));
     }
-    stdout::print(&text)?;
-    Ok(())
+    print(&text)
 }
 
 /// The record of an earlier run.
