@@ -82,7 +82,7 @@ pub enum QualityError {
 /// # Errors
 /// [`QualityError`]: the worst inverted cell, or that there are no plane cells.
 pub fn of_mesh(mesh: &Mesh) -> Result<MeshQuality, QualityError> {
-    let mut summary: Option<MeshQuality> = None;
+    let mut all = Vec::new();
     let mut nodes = Vec::with_capacity(9);
     for (block, cells) in mesh.cells.iter().enumerate() {
         for (number, cell) in cells.iter().enumerate() {
@@ -91,35 +91,25 @@ pub fn of_mesh(mesh: &Mesh) -> Result<MeshQuality, QualityError> {
             let Some(quality) = of_cell(cells.kind, &nodes) else { break };
             let corners = &nodes[..corner_count(cells.kind)];
             let centre = corners.iter().sum::<Vector2<f64>>() / corners.len() as f64;
-            let worst = |value| Worst { value, cell: [block, number], at_mm: centre.into() };
-            let own = MeshQuality {
-                cells: 1,
-                jacobian_ratio: worst(quality.jacobian_ratio),
-                scaled_jacobian: worst(quality.scaled_jacobian),
-                aspect_ratio: worst(quality.aspect_ratio),
-                least_angle_deg: worst(quality.least_angle_deg),
-                greatest_angle_deg: worst(quality.greatest_angle_deg),
-            };
-            summary = Some(summary.map_or(own, |summary| summary.with(&own)));
+            all.push((quality, [block, number], centre));
         }
     }
-    let summary = summary.ok_or(QualityError::NoPlaneCells)?;
+    let worst = |of: fn(&CellQuality) -> f64, is_worse: fn(f64, f64) -> bool| {
+        let each = all.iter().map(|(quality, cell, at)| Worst { value: of(quality), cell: *cell, at_mm: (*at).into() });
+        let worst = each.reduce(|worst, other| if is_worse(other.value, worst.value) { other } else { worst });
+        worst.ok_or(QualityError::NoPlaneCells)
+    };
+    let least = |of| worst(of, |a, b| a < b);
+    let greatest = |of| worst(of, |a, b| a > b);
+    let summary = MeshQuality {
+        cells: all.len(),
+        jacobian_ratio: least(|quality| quality.jacobian_ratio)?,
+        scaled_jacobian: least(|quality| quality.scaled_jacobian)?,
+        aspect_ratio: greatest(|quality| quality.aspect_ratio)?,
+        least_angle_deg: least(|quality| quality.least_angle_deg)?,
+        greatest_angle_deg: greatest(|quality| quality.greatest_angle_deg)?,
+    };
     if summary.jacobian_ratio.value > 0.0 { Ok(summary) } else { Err(QualityError::Inverted(summary.jacobian_ratio)) }
-}
-
-impl MeshQuality {
-    fn with(self, other: &Self) -> Self {
-        let least = |a: Worst, b: Worst| if b.value < a.value { b } else { a };
-        let greatest = |a: Worst, b: Worst| if b.value > a.value { b } else { a };
-        Self {
-            cells: self.cells + other.cells,
-            jacobian_ratio: least(self.jacobian_ratio, other.jacobian_ratio),
-            scaled_jacobian: least(self.scaled_jacobian, other.scaled_jacobian),
-            aspect_ratio: greatest(self.aspect_ratio, other.aspect_ratio),
-            least_angle_deg: least(self.least_angle_deg, other.least_angle_deg),
-            greatest_angle_deg: greatest(self.greatest_angle_deg, other.greatest_angle_deg),
-        }
-    }
 }
 
 /// The quality of a cell with `nodes`; `None` where it is no plane cell.

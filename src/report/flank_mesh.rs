@@ -17,18 +17,11 @@ pub(crate) fn write(out: &mut dyn Write, record: &RunRecord, slices: &SliceRecor
     vtu_file::write(out, &mesh(record, slices))
 }
 
-/// A place over the face width with the slice whose values it has.
-struct FlankSection {
-    width_mm: f64,
-    slice: usize,
-}
-
-fn sections(width_mm: &[f64], face_width_mm: f64) -> Vec<FlankSection> {
-    let middles = width_mm.iter().enumerate().map(|(slice, &width_mm)| FlankSection { width_mm, slice });
+/// Places over the face width, each with the slice whose values it has.
+fn sections(width_mm: &[f64], face_width_mm: f64) -> Vec<(f64, usize)> {
     let last = width_mm.len().saturating_sub(1);
-    let ends = [FlankSection { width_mm: 0.0, slice: 0 }, FlankSection { width_mm: face_width_mm, slice: last }];
-    let [first, end] = ends;
-    std::iter::once(first).chain(middles).chain([end]).collect()
+    let middles = width_mm.iter().copied().zip(0..);
+    std::iter::once((0.0, 0)).chain(middles).chain([(face_width_mm, last)]).collect()
 }
 
 fn mesh(record: &RunRecord, slices: &SliceRecord) -> Mesh {
@@ -43,12 +36,12 @@ fn mesh(record: &RunRecord, slices: &SliceRecord) -> Mesh {
         let on_involute = flank.radius_mm.partition_point(|&radius| radius < root_form_mm)..flank.radius_mm.len();
         let (start, along) = (mesh.points.len(), on_involute.len());
         let sections = sections(&flank.width_mm, surface.face_width_mm);
-        for section in &sections {
+        for &(width_mm, slice) in &sections {
             for point in on_involute.clone() {
                 let rho = surface.rho_mm(flank.radius_mm[point]);
-                mesh.points.push(surface.point_mm(rho, section.width_mm, position_mm));
-                data.normal.extend(surface.transverse_normal(rho, section.width_mm, position_mm));
-                data.push(flank, point, section);
+                mesh.points.push(surface.point_mm(rho, width_mm, position_mm));
+                data.normal.extend(surface.transverse_normal(rho, width_mm, position_mm));
+                data.push(flank, point, width_mm, slice);
             }
         }
         for across in 0..sections.len().saturating_sub(1) {
@@ -81,11 +74,11 @@ const NAMES: [&str; 7] =
     ["radius_mm", "width_mm", "removed_um", "sliding_mm_per_mesh", "wear_um", "pressure_new_MPa", "pressure_worn_MPa"];
 
 impl PointData {
-    fn push(&mut self, flank: &FlankRecord, point: usize, section: &FlankSection) {
-        let place = section.slice * flank.radius_mm.len() + point;
+    fn push(&mut self, flank: &FlankRecord, point: usize, width_mm: f64, slice: usize) {
+        let place = slice * flank.radius_mm.len() + point;
         let values = [
             flank.radius_mm[point],
-            section.width_mm,
+            width_mm,
             flank.removed_um[place],
             flank.sliding_mm_per_mesh[place],
             flank.wear_um[place],
@@ -93,7 +86,7 @@ impl PointData {
             flank.pressure_worn_MPa[place],
         ];
         self.reals.iter_mut().zip(values).for_each(|(all, value)| all.push(value));
-        self.slice.push(section.slice as i64);
+        self.slice.push(slice as i64);
     }
 
     fn into_mesh(self, mesh: &mut Mesh) {

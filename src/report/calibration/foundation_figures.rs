@@ -2,7 +2,7 @@
 
 use super::path_points;
 use crate::calibration::Calibration;
-use crate::calibration::foundation_fit::{FitErrors, FitRow};
+use crate::calibration::foundation_fit::FitErrors;
 use crate::calibration::single_contact::{Purpose, SingleContact};
 use crate::contact::settings::MatchCriterion;
 use crate::report::chart::{Chart, Dash, MUTED, PATH, Trace, WORN, colour_between_gears};
@@ -129,17 +129,14 @@ fn errors(calibration: &Calibration, criterion: MatchCriterion) -> Chart {
         let rows = || fit.into_iter().flat_map(|fit| &fit.rows).filter(|row| row.fitted == fitted);
         let (x, y) = (rows().map(|row| row.position_mm), rows().map(|row| 100.0 * row.matched_error(criterion)));
         let points = Trace::points(name, x, y, (colour, symbol, 6));
-        points.set("text", rows().map(load).collect::<Vec<_>>()).hover("%{y:.3f} %, %{text}")
+        let loads = rows().map(|row| format!("{} N/mm", figure(row.line_load_n_per_mm)));
+        points.set("text", loads.collect::<Vec<_>>()).hover("%{y:.3f} %, %{text}")
     });
     Chart::new(format!("fit-{}", criterion.name()), format!("Error of the fit on the {}", words(criterion)))
         .y(&format!("error of the {}, %", words(criterion)))
         .add_all(points)
         .over_path(&path_points(calibration))
         .reading(reading)
-}
-
-fn load(row: &FitRow) -> String {
-    format!("{} N/mm", figure(row.line_load_n_per_mm))
 }
 
 fn signed(share: f64) -> String {

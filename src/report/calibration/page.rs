@@ -17,6 +17,8 @@ pub(super) fn page(calibration: &Calibration, stages: &[StageTime], title: &str,
     charts.extend(wear_figure::all(calibration));
     let wall_s = stages.iter().map(|stage| stage.wall_s).sum();
     let belongs_to = serde_json::to_string_pretty(&calibration.belongs_to).unwrap_or_default();
+    // As many digits of a hash as one compares by eye.
+    let hash = calibration.hash.get(..16).unwrap_or(&calibration.hash);
     let files = [(file, "all numbers, as scenes read them")];
     Page {
         kind: "Calibration of a gear pair by finite elements",
@@ -30,14 +32,9 @@ pub(super) fn page(calibration: &Calibration, stages: &[StageTime], title: &str,
             (section("work", "How it was computed", page::tables([stages_table(stages, wall_s)])))
             (section("sources", "Data", sources_list(&files, "What it belongs to", &belongs_to)))
         },
-        footer: &format!("gearwear {} · calibration {}", calibration.program_version, short(&calibration.hash)),
+        footer: &format!("gearwear {} · calibration {}", calibration.program_version, hash),
     }
     .html()
-}
-
-/// As many digits of a hash as one compares by eye.
-fn short(hash: &str) -> &str {
-    hash.get(..16).unwrap_or(hash)
 }
 
 fn answer(calibration: &Calibration) -> String {

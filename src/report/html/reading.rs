@@ -2,8 +2,7 @@
 
 use super::number::{change, figure, given, percent, revolutions, significant};
 use crate::gear::Gear;
-use crate::results::run::RunRecord;
-use crate::results::run::{FlankRecord, MeshCycleRow, StopReason, Summary, WearSummary};
+use crate::results::run::{FlankRecord, MeshCycleRow, RunRecord, StopReason, Summary, WearSummary};
 
 /// The greatest of some values and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -168,6 +167,11 @@ pub(crate) fn bound(text: &str) -> String {
         bound.push_str(word);
     }
     bound
+}
+
+pub(crate) fn capitalised(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 #[cfg(test)]

@@ -21,7 +21,8 @@ const PIECES: usize = 24;
 
 struct Quantity<'a> {
     id: &'static str,
-    title: String,
+    /// What stands before and after the name of the flank.
+    title: [&'static str; 2],
     unit: &'static str,
     values: &'a [f64],
     /// The greatest value of the scale of colours, which begins at 0.
@@ -33,54 +34,24 @@ struct Quantity<'a> {
 pub(super) fn all(run: SlicedRun<'_>, gear: Gear) -> Vec<Chart> {
     let flank = &run.record.flanks[gear];
     let top = |field: &[f64]| greatest(field).map_or(0.0, |peak| peak.value);
-    let pressure_top = top(&flank.pressure_new_MPa).max(top(&flank.pressure_worn_MPa));
-    let name = gear.name();
-    let mut quantities = vec![
-        Quantity {
-            id: "wear",
-            title: format!("Wear of the {name}’s flank"),
-            unit: "µm",
-            values: &flank.wear_um,
-            top: top(&flank.wear_um),
-            reading: wear_reading(run, gear),
-        },
-        Quantity {
-            id: "sliding",
-            title: format!("Sliding of the {name}’s flank during one mesh, new"),
-            unit: "mm",
-            values: &flank.sliding_mm_per_mesh,
-            top: top(&flank.sliding_mm_per_mesh),
-            reading: sliding_reading(flank),
-        },
-        Quantity {
-            id: "pressure-new",
-            title: format!("Greatest pressure on the {name}’s flank, new"),
-            unit: "MPa",
-            values: &flank.pressure_new_MPa,
-            top: pressure_top,
-            reading: pressure_reading(run, gear, &flank.pressure_new_MPa, "New"),
-        },
-        Quantity {
-            id: "pressure-worn",
-            title: format!("Greatest pressure on the {name}’s flank, worn"),
-            unit: "MPa",
-            values: &flank.pressure_worn_MPa,
-            top: pressure_top,
-            reading: pressure_reading(run, gear, &flank.pressure_worn_MPa, "Worn"),
-        },
+    let draw =
+        |id, title, unit, values, top, reading| map(run, gear, Quantity { id, title, unit, values, top, reading });
+    let (wear, sliding) = (&flank.wear_um, &flank.sliding_mm_per_mesh);
+    let (new, worn) = (&flank.pressure_new_MPa, &flank.pressure_worn_MPa);
+    let pressure_top = top(new).max(top(worn));
+    let pressure = |field, when| pressure_reading(run, gear, field, when);
+    let mut charts = vec![
+        draw("wear", ["Wear of", ""], "µm", wear, top(wear), wear_reading(run, gear)),
+        draw("sliding", ["Sliding of", " during one mesh, new"], "mm", sliding, top(sliding), sliding_reading(flank)),
+        draw("pressure-new", ["Greatest pressure on", ", new"], "MPa", new, pressure_top, pressure(new, "New")),
+        draw("pressure-worn", ["Greatest pressure on", ", worn"], "MPa", worn, pressure_top, pressure(worn, "Worn")),
     ];
     if flank.removed_um.iter().any(|&removed| removed != 0.0) {
         let shown = on_active_flank(flank, &flank.removed_um);
-        quantities.push(Quantity {
-            id: "modifications",
-            title: format!("Modifications of the {name}’s flank"),
-            unit: "µm",
-            values: &flank.removed_um,
-            top: top(&shown),
-            reading: format!("The modifications take up to {}.", peak_of(flank, &shown, "µm")),
-        });
+        let reading = format!("The modifications take up to {}.", peak_of(flank, &shown, "µm"));
+        charts.push(draw("modifications", ["Modifications of", ""], "µm", &flank.removed_um, top(&shown), reading));
     }
-    quantities.into_iter().map(|quantity| map(run, gear, quantity)).collect()
+    charts
 }
 
 /// The `field` with no value where it is not shown.
@@ -105,13 +76,14 @@ fn map(run: SlicedRun<'_>, gear: Gear, quantity: Quantity<'_>) -> Chart {
         [first, .., last] => [*first, *last],
         _ => [0.0, 1.0],
     };
-    Chart::new(format!("map-{}-{}", quantity.id, gear.name()), quantity.title)
+    let (name, [before, after]) = (gear.name(), quantity.title);
+    Chart::new(format!("map-{}-{name}", quantity.id), format!("{before} the {name}’s flank{after}"))
         .height(360)
         .legend(false)
         .read_nearest()
         .x("face width, mm")
         .x_range(ends(&raster.across.edges))
-        .y(&format!("radius on the {}, mm", gear.name()))
+        .y(&format!("radius on the {name}, mm"))
         .y_range(ends(&raster.along.edges))
         .without_grid()
         .set("annotations", path_points(flank))

@@ -23,18 +23,13 @@ pub(super) fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Chart {
     let flank = &run.record.flanks[gear];
     let top = |field: &[f64]| greatest(field).map_or(0.0, |peak| peak.value);
     let pressure = top(&flank.pressure_new_MPa).max(top(&flank.pressure_worn_MPa));
+    let up_to = |top: f64| if top > 0.0 { top } else { 1.0 };
     let shown = [
         ("wear", "wear, µm", "µm", &flank.wear_um, top(&flank.wear_um)),
         ("pressure, new", "pressure, MPa", "MPa", &flank.pressure_new_MPa, pressure),
         ("pressure, worn", "pressure, MPa", "MPa", &flank.pressure_worn_MPa, pressure),
     ]
-    .map(|(label, axis, unit, values, top)| Shown {
-        label,
-        axis,
-        unit,
-        values,
-        top: if top > 0.0 { top } else { 1.0 },
-    });
+    .map(|(label, axis, unit, values, top)| Shown { label, axis, unit, values, top: up_to(top) });
     let mut height = scene_axis(shown[0].axis);
     height["range"] = json!([0.0, shown[0].top]);
     let scene = json!({
