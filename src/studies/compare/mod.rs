@@ -9,7 +9,7 @@
 //! | [`run_folder`] | what a finished run left behind |
 //! | [`question`] | what is asked, checked against the run and the measured file |
 //! | `simulations` | runs of the scene with other coefficients |
-//! | `course` | wear profiles in between |
+//! | `wear_by_coefficient` | wear profiles in between |
 //! | `search` | the parameters that fit best |
 //! | [`study`] | all of it, in order |
 

@@ -38,8 +38,8 @@ pub(crate) enum RunFolderError {
 
 /// What is read of the summary.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-struct Summary {
-    title: String,
+pub(crate) struct Summary {
+    pub title: String,
     program_version: String,
     scene_hash: String,
     stopped: String,
@@ -63,7 +63,7 @@ struct Snapshot {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RunFolder {
     path: PathBuf,
-    summary: Summary,
+    pub summary: Summary,
     snapshots: Vec<Snapshot>,
 }
 
@@ -102,10 +102,6 @@ impl RunFolder {
         }
         let path = Self::scene_path(&self.path);
         Err(RunFolderError::OtherScene { path, found, allowed: self.summary.scene_hash.clone() })
-    }
-
-    pub(crate) fn title(&self) -> &str {
-        &self.summary.title
     }
 
     /// Says that the run was made by another version of the program, if it was.

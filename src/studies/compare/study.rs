@@ -59,7 +59,7 @@ pub(crate) fn run(
     let warnings = folder.version_warning().into_iter().chain(warnings(&fit, &figures, found.unsettled)).collect();
     let [a, b, c, d, e] = pair.path.points_mm().map(|position| pair.radius_at_mm(profile.gear, position));
     Ok(CompareRecord {
-        title: folder.title().to_owned(),
+        title: folder.summary.title.clone(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_hash: resolved.scene_hash(),
         measured: measured.to_owned(),

@@ -166,11 +166,6 @@ impl SweepRow {
         self.figures.get(at).copied().flatten()
     }
 
-    /// `ok` or `failed`.
-    pub(crate) fn status(&self) -> &'static str {
-        if self.error.is_none() { "ok" } else { "failed" }
-    }
-
     /// Whether everything but the wall times is the same, the verification where both have one.
     pub(crate) fn same_result(&self, other: &Self) -> bool {
         let timeless = |row: &Self| Self { simulation_s: None, wall_s: 0.0, verification: None, ..row.clone() };

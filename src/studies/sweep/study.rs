@@ -144,7 +144,12 @@ fn spread<T: Sync>(
     };
     thread::scope(|scope| {
         for _ in 0..threads.min(tasks.len()) {
-            scope.spawn(|| on_one_thread(take));
+            scope.spawn(|| {
+                // What is parallel in it runs on this thread alone. Without a pool of its own it would use the program's, which gives
+                // the same results.
+                let _own = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+                take();
+            });
         }
     });
     let Kept { count, error, .. } = kept.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -153,13 +158,6 @@ fn spread<T: Sync>(
         None if count == tasks.len() => Ok(Ended::Completed),
         None => Ok(Ended::Interrupted),
     }
-}
-
-/// Does `work` with everything in it that is parallel on this thread alone.
-fn on_one_thread(work: impl Fn()) {
-    // Without a pool of its own, its parallel parts would use the program's, which gives the same results.
-    let _own = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
-    work();
 }
 
 #[cfg(test)]

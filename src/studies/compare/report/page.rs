@@ -6,6 +6,7 @@ use super::figures;
 use crate::measurement::fit::FitStop;
 use crate::report::html::number::{figure, given, revolutions, significant};
 use crate::report::html::page::{Page, plots, section, sources_list};
+use crate::report::html::reading::capitalised;
 use crate::report::html::table::{NONE, row, table};
 use crate::studies::compare::record::{CompareRecord, Estimate};
 
@@ -104,12 +105,7 @@ fn tables(record: &CompareRecord) -> Markup {
     ];
     html! {
         @if !fitted.is_empty() { (table("Fitted", &["run", "fitted", "from", "to"], fitted)) }
-        p { (sentence(&fit.how)) }
+        p { (capitalised(&fit.how)) "." }
         (table(format!("Profile, form removed ({})", record.form), &[""], profile))
     }
-}
-
-fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| format!("{}{}.", first.to_uppercase(), letters.as_str()))
 }

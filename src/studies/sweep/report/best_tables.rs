@@ -3,9 +3,9 @@
 
 use maud::{Markup, PreEscaped, html};
 
-use super::contour_figures::capitalised;
 use super::section_plane::range;
 use crate::report::html::number::{count, given, significant};
+use crate::report::html::reading::capitalised;
 use crate::report::html::table::{Cell, NONE, cells, line, list};
 use crate::studies::sweep::figures::FIGURES;
 use crate::studies::sweep::record::{SweepRecord, SweepRow};

@@ -5,6 +5,7 @@ use serde_json::json;
 use super::section_plane::{self, ShownAxis, range};
 use crate::report::chart::{Chart, MUTED, Trace, padded};
 use crate::report::html::number::{figure as shown_number, given, plotted};
+use crate::report::html::reading::capitalised;
 use crate::studies::sweep::figures::SweepFigure;
 use crate::studies::sweep::record::{SweepRecord, SweepRow};
 
@@ -87,9 +88,4 @@ pub(super) fn reading(record: &SweepRecord, figure: &SweepFigure, best: &SweepRo
         text.push_str(" Not every value is drawn; all are in sweep.csv.");
     }
     text
-}
-
-pub(super) fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

@@ -1,9 +1,10 @@
 //! A figure over one varied key: a line, with the value where it is least.
 
-use super::contour_figures::{capitalised, id, reading};
+use super::contour_figures::{id, reading};
 use super::section_plane::{self, ShownAxis};
 use crate::report::chart::{Chart, Dash, Trace};
 use crate::report::html::number::figure as shown_number;
+use crate::report::html::reading::capitalised;
 use crate::studies::sweep::figures::SweepFigure;
 use crate::studies::sweep::record::SweepRecord;
 

@@ -45,7 +45,7 @@ pub(crate) fn write(record: &SweepRecord, dir: &Path) -> Result<(), ReportError>
     place(dir, "sweep.csv", |out| tables::rows(out, provenance, record))?;
     if record.shard.is_none() {
         #[cfg(feature = "parquet")]
-        place(dir, PARQUET, |out| out.write_all(&parquet_table::bytes(record)?))?;
+        place(dir, PARQUET, |out| out.write_all(&parquet_table::bytes(record).map_err(std::io::Error::other)?))?;
         place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?;
     }
     place(dir, LAST, |out| write_json(out, &record.summary())).map(drop)

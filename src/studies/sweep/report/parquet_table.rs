@@ -4,7 +4,6 @@
 //! version, scene hash and the meaning of every column (`column:NAME`) are in the metadata of the file. One row group, plain
 //! encoding or dictionaries as the library chooses, not compressed.
 
-use std::io;
 use std::sync::Arc;
 
 use parquet::basic::{LogicalType, Repetition, Type as PhysicalType};
@@ -19,11 +18,7 @@ use super::tables::{Cell, SweepColumn, columns};
 use crate::studies::sweep::record::SweepRecord;
 
 /// The whole file.
-pub(crate) fn bytes(record: &SweepRecord) -> io::Result<Vec<u8>> {
-    encode(record).map_err(io::Error::other)
-}
-
-fn encode(record: &SweepRecord) -> Result<Vec<u8>, ParquetError> {
+pub(crate) fn bytes(record: &SweepRecord) -> Result<Vec<u8>, ParquetError> {
     let columns = columns(record);
     let kinds: Vec<PhysicalType> = columns.iter().map(|column| kind(column, record)).collect();
     let fields = columns.iter().zip(&kinds).map(|(column, &kind)| field(&column.name, kind));
