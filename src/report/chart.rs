@@ -70,7 +70,8 @@ pub(crate) enum Dash {
     #[serde(rename = "dash")]
     Dashed,
     Dot,
-    DashDot,
+    #[serde(rename = "dashdot")]
+    Mixed,
 }
 
 /// One of the things that a chart shows.

@@ -67,7 +67,7 @@ fn circles(drawing: &PairDrawing, gear: Gear) -> impl Iterator<Item = Trace> {
     let GearCircles { base, working_pitch, tip } = drawing.circles_mm[gear];
     let circles = [
         ("base circles", Some(base), Dash::Dot, true),
-        ("pitch circles", Some(working_pitch), Dash::DashDot, true),
+        ("pitch circles", Some(working_pitch), Dash::Mixed, true),
         ("tip circles", Some(tip), Dash::Dashed, true),
         ("bores", drawing.bore_radius_mm[gear], Dash::Solid, false),
     ];
