@@ -6,21 +6,14 @@ use super::GmshEncoding;
 
 #[derive(Debug)]
 pub(super) struct Output {
-    bytes: Vec<u8>,
-    binary: bool,
+    pub bytes: Vec<u8>,
+    /// Whether numbers are bytes.
+    pub binary: bool,
 }
 
 impl Output {
     pub(super) fn new(encoding: GmshEncoding) -> Self {
         Self { bytes: Vec::new(), binary: encoding == GmshEncoding::Binary }
-    }
-
-    pub(super) fn into_bytes(self) -> Vec<u8> {
-        self.bytes
-    }
-
-    pub(super) fn is_binary(&self) -> bool {
-        self.binary
     }
 
     /// A line of text, in binary files too.

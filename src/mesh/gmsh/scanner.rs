@@ -91,7 +91,7 @@ impl<'a> Scanner<'a> {
         let end = format!("$End{}", self.section.trim_start_matches('$'));
         // `at` stands behind a line break, so that a section without content ends right here.
         let mut from = self.at.saturating_sub(1);
-        while let Some(found) = find(&self.bytes[from..], end.as_bytes()) {
+        while let Some(found) = self.bytes[from..].windows(end.len()).position(|window| window == end.as_bytes()) {
             let (start, after) = (from + found, from + found + end.len());
             let alone = start == 0 || self.bytes[start - 1] == b'\n';
             if alone && self.bytes.get(after).is_none_or(u8::is_ascii_whitespace) {
@@ -212,8 +212,4 @@ impl<'a> Scanner<'a> {
     pub(super) fn allow(&mut self, entries: usize) -> Result<(), Fault> {
         self.allowance.take(entries).map_err(|problem| self.fault(problem))
     }
-}
-
-fn find(bytes: &[u8], needle: &[u8]) -> Option<usize> {
-    bytes.windows(needle.len()).position(|window| window == needle)
 }

@@ -57,7 +57,7 @@ pub(crate) fn write(mesh: &Mesh, style: GmshStyle) -> Result<Vec<u8>, Unwritable
     for (name, arrays) in &mesh.cell_data {
         data(&mut out, "ElementData", name, arrays.first().map_or(1, |array| array.components), arrays);
     }
-    Ok(out.into_bytes())
+    Ok(out.bytes)
 }
 
 /// Whether Gmsh can hold the mesh.
@@ -156,7 +156,7 @@ fn mesh_format(out: &mut Output, style: GmshStyle) {
     };
     out.line("$MeshFormat");
     out.line(format_args!("{version} {} 8", u8::from(style.encoding == GmshEncoding::Binary)));
-    if out.is_binary() {
+    if out.binary {
         out.int(1);
     }
     out.end_section("MeshFormat");

@@ -154,13 +154,13 @@ pub(super) fn write_elements_2(out: &mut Output, mesh: &Mesh, groups: &[Group], 
     for run in elements.chunk_by(|a, b| cells[a.0].0 == cells[b.0].0) {
         let kind = cells[run[0].0].0;
         let element_type = i64::from(cell_types::number(kind));
-        if out.is_binary() {
+        if out.binary {
             [element_type, run.len() as i64, 2].into_iter().for_each(|value| out.int(value));
         }
         for &(cell, group) in run {
             number += 1;
             out.int(number);
-            if !out.is_binary() {
+            if !out.binary {
                 out.int(element_type);
                 out.int(2);
             }

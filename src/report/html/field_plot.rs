@@ -157,15 +157,12 @@ fn sides(bodies: Bodies<'_>, window: Window) -> (Vec<Vec<u32>>, Vec<Vec<u32>>) {
     (outline, inner)
 }
 
-fn corners(kind: ElementKind) -> usize {
-    match kind {
+fn ring(element: &Element) -> Vec<Vec<u32>> {
+    let nodes = element.nodes();
+    let n = match element.kind {
         ElementKind::Triangle3 | ElementKind::Triangle6 => 3,
         ElementKind::Quad4 | ElementKind::Quad8 | ElementKind::Quad9 => 4,
-    }
-}
-
-fn ring(element: &Element) -> Vec<Vec<u32>> {
-    let (nodes, n) = (element.nodes(), corners(element.kind));
+    };
     (0..n)
         .map(|i| {
             let middle = (nodes.len() > n).then(|| nodes[n + i]);
