@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::keep::{self, DataForm, Keep};
 use super::output::Output;
-use super::write_cells::{Entities, write_elements_2, write_elements_4, write_entities};
+use super::write_cells::{Entities, Group, write_elements_2, write_elements_4, write_entities};
 use super::{GmshEncoding, GmshStyle, GmshVersion};
 use crate::mesh::error::Unwritable;
 use crate::mesh::{DataArray, Mesh, PhysicalTag, Values};
@@ -13,13 +13,6 @@ use crate::mesh::{DataArray, Mesh, PhysicalTag, Values};
 pub(super) const LARGEST_INTEGER: i64 = 1 << 53;
 
 const FORMAT: &str = "a Gmsh file";
-
-/// A physical group to be written.
-#[derive(Debug, Clone)]
-pub(super) struct Group<'a> {
-    pub name: &'a str,
-    pub tag: PhysicalTag,
-}
 
 pub(crate) fn write(mesh: &Mesh, style: GmshStyle) -> Result<Vec<u8>, Unwritable> {
     check(mesh)?;

@@ -4,8 +4,14 @@ use std::collections::BTreeMap;
 
 use super::cell_types;
 use super::output::Output;
-use super::write::Group;
-use crate::mesh::{CellKind, Mesh};
+use crate::mesh::{CellKind, Mesh, PhysicalTag};
+
+/// A physical group to be written.
+#[derive(Debug, Clone)]
+pub(super) struct Group<'a> {
+    pub name: &'a str,
+    pub tag: PhysicalTag,
+}
 
 /// Cells divided by dimension and by the groups they are in; each division is an entity for Gmsh.
 #[derive(Debug)]

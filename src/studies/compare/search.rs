@@ -13,8 +13,7 @@
 //! beyond the stable one), exact runs scatter: steps of up to half a standard deviation are then left, and reported.
 
 use super::question::Question;
-use super::simulations::{Change, Simulations};
-use super::study::CompareError;
+use super::simulations::{Change, CompareError, Simulations};
 use crate::gear::GearPair;
 use crate::measurement::fit::{FitStop, Parameter, gauss_newton_step, least_squares};
 use crate::measurement::form::FormRemoval;

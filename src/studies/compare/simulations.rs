@@ -9,14 +9,21 @@
 
 use std::f64::consts::LN_2;
 
-use super::study::CompareError;
 use super::wear_by_coefficient::WearByCoefficient;
 use crate::gear::Gear;
 use crate::observer::{Observer, PartOf};
-use crate::pipeline;
+use crate::pipeline::{self, RunError};
 use crate::results::run::StopReason;
 use crate::scene::loaded::LoadedScene;
 use crate::scene::{Resolved, Scene};
+
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub(crate) enum CompareError {
+    #[error(transparent)]
+    Run(#[from] RunError),
+    #[error("interrupted")]
+    Interrupted,
+}
 
 /// Snapshots of the run that holds all coefficients, at squares of even steps: dense where little is worn.
 const SNAPSHOTS: u32 = 40;

@@ -3,6 +3,7 @@
 use super::question::Question;
 use super::run_folder::RunFolder;
 use super::search::{Comparison, FittedCoefficients, Unknown};
+pub(crate) use super::simulations::CompareError;
 use super::simulations::{Change, Simulations, over_width};
 use crate::gear::{GearPair, flank::FlankGrid, slices::Slices};
 use crate::measurement::fit::FitStop;
@@ -19,14 +20,6 @@ use crate::studies::compare::record::{CompareFigures, CompareRecord, CompareRow,
 const M2_PER_MM2: f64 = 1e-6;
 /// Residuals this many times the uncertainty of the heights say that the simulation does not describe the profile.
 const NOT_DESCRIBED: f64 = 2.0;
-
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub(crate) enum CompareError {
-    #[error(transparent)]
-    Run(#[from] RunError),
-    #[error("interrupted")]
-    Interrupted,
-}
 
 /// Compares what was measured with the run in `folder`, whose scene is `given`; `measured` is the name of the file.
 pub(crate) fn run(
