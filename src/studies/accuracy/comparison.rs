@@ -16,7 +16,6 @@ use crate::studies::accuracy::record::{Comparison, ComparisonRow};
 /// A run to compare.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Run<'a> {
-    /// Its setting.
     pub setting: &'a Setting,
     /// Its curves, at the reference's coordinates.
     pub observed: &'a Observed,
@@ -52,12 +51,12 @@ pub(super) fn stiffnesses(resolved: &Resolved, runs: &[Run<'_>]) -> Option<Compa
         .filter(|run| run.setting.tip_contact == baseline.setting.tip_contact && name(run) != name(&baseline))
         .map(|run| row(name(run), run, &baseline))
         .collect();
-    (!rows.is_empty()).then(|| Comparison {
-        title: "Tooth stiffness".to_owned(),
-        common: format!("surface {}", surface.name()),
-        baseline: format!("stiffness {}", name(&baseline)),
-        rows,
-    })
+    table("Tooth stiffness", format!("surface {}", surface.name()), &format!("stiffness {}", name(&baseline)), rows)
+}
+
+/// None where nothing is to be compared.
+pub(super) fn table(title: &str, common: String, baseline: &str, rows: Vec<ComparisonRow>) -> Option<Comparison> {
+    (!rows.is_empty()).then(|| Comparison { title: title.to_owned(), common, baseline: baseline.to_owned(), rows })
 }
 
 /// All surfaces with one stiffness against finite elements; none where there are none.
@@ -72,19 +71,9 @@ fn surfaces(runs: &[Run<'_>]) -> Option<Comparison> {
     let best = runs.iter().map(rank).max()?;
     let others: Vec<&Run<'_>> = runs.iter().filter(|run| !is_fem(run) && rank(run) == best).collect();
     let stiffness = others.iter().find_map(|run| run.setting.stiffness.as_ref())?;
-    let rows = others
-        .iter()
-        .map(|run| {
-            let tip = if run.setting.tip_contact { ", tip contact" } else { "" };
-            row(format!("{}{tip}", run.setting.surface.name()), run, baseline)
-        })
-        .collect();
-    Some(Comparison {
-        title: "Contact surface".to_owned(),
-        common: format!("stiffness {} on the line of action", stiffness.name),
-        baseline: format!("surface {}", baseline.setting.surface.name()),
-        rows,
-    })
+    let rows = others.iter().map(|run| row(run.setting.surface_name(), run, baseline)).collect();
+    let common = format!("stiffness {} on the line of action", stiffness.name);
+    table("Contact surface", common, &format!("surface {}", baseline.setting.surface.name()), rows)
 }
 
 pub(super) fn row(name: String, run: &Run<'_>, baseline: &Run<'_>) -> ComparisonRow {

@@ -12,9 +12,9 @@
 
 use super::measure::{profile_error, ratio, relative_difference};
 use super::observed::{Observed, ObservedFlank};
-use super::settings::{Coarsening, FoundationChoice, Setting, Surface, coupling_name, euler_revolutions};
+use super::settings::{Coarsening, Setting, Surface, coupling_name, euler_revolutions};
 use super::timed_run::{Finished, measure};
-use crate::contact::settings::MatchCriterion;
+use crate::contact::settings::{Foundation, MatchCriterion};
 use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::observer::{Observer, PartOf};
@@ -34,7 +34,7 @@ const LEAST_STEP_RATIO: f64 = 2.0;
 /// The models, the baseline first.
 const MODELS: [(Surface, Coupling); 5] = [
     (Surface::HalfSpace, Coupling::Slicing),
-    (Surface::Winkler(FoundationChoice::Matched(MatchCriterion::HalfWidth)), Coupling::Slicing),
+    (Surface::Winkler(Foundation::Matched(MatchCriterion::HalfWidth)), Coupling::Slicing),
     (Surface::Hertz, Coupling::Slicing),
     (Surface::HertzMean, Coupling::Slicing),
     (Surface::HertzMean, Coupling::None),
@@ -57,16 +57,10 @@ pub(super) fn run(
     let mut rows = Vec::new();
     let mut baseline: Option<Observed> = None;
     for (index, (surface, coupling)) in MODELS.into_iter().enumerate() {
-        let tip = if surface.may_follow_tip() { ", tip contact" } else { "" };
-        let mut row = DeepRow {
-            name: format!("{}{tip} · {}", surface.name(), coupling_name(coupling)),
-            usual: None,
-            fewer_steps: None,
-            wear_profile: None,
-            peak_wear_change: None,
-            stable: None,
-            failure: None,
-        };
+        let slices = Some(SliceSettings { coupling, ..slices });
+        let model = Setting { surface, tip_contact: surface.may_follow_tip(), slices, ..like.clone() };
+        let name = format!("{} · {}", model.surface_name(), coupling_name(coupling));
+        let mut row = DeepRow { name, ..DeepRow::default() };
         let base = match &deeper {
             Ok(base) => base,
             Err(problems) => {
@@ -80,9 +74,7 @@ pub(super) fn run(
             let number = first + 2 * index + number;
             observer.run_of(number, count, &format!("{DEEPER} times the revolutions: {}, steps {step}", row.name));
             let coarsening = Coarsening { spacing: like.coarsening.spacing, step };
-            let slices = Some(SliceSettings { coupling, ..slices });
-            let setting =
-                Setting { surface, tip_contact: surface.may_follow_tip(), slices, coarsening, ..like.clone() };
+            let setting = Setting { coarsening, ..model.clone() };
             let measured = measure(&setting, base, &PartOf::new(observer, number, count))?;
             row.failure = row.failure.or(measured.record.failure);
             ran.push(measured.finished.zip(measured.record.simulation_s));

@@ -61,6 +61,9 @@ pub(crate) fn errors(observed: &Observed, reference: &Observed, windows: &Window
     let between = |curve: fn(&ObservedCycle) -> &[f64]| {
         relative_difference(peak_to_peak(curve(&observed.cycle)), peak_to_peak(curve(&reference.cycle)))
     };
+    let greatest_in = |window_mm: [f64; 2]| {
+        relative_difference(greatest_within(&observed.cycle, window_mm), greatest_within(&reference.cycle, window_mm))
+    };
     let half_width = || {
         let [x, own, other] =
             [&reference.cycle.position_mm, &observed.cycle.half_width_mm, &reference.cycle.half_width_mm]
@@ -73,20 +76,8 @@ pub(crate) fn errors(observed: &Observed, reference: &Observed, windows: &Window
         (Quantity::WheelWearProfile, profile.wheel),
         (Quantity::PinionPeakWear, peak(Gear::Pinion)),
         (Quantity::WheelPeakWear, peak(Gear::Wheel)),
-        (
-            Quantity::PeakPressure,
-            relative_difference(
-                peak_pressure_mpa(&observed.cycle, windows),
-                peak_pressure_mpa(&reference.cycle, windows),
-            ),
-        ),
-        (
-            Quantity::FlankPressure,
-            relative_difference(
-                greatest_within(&observed.cycle, windows.flank_mm),
-                greatest_within(&reference.cycle, windows.flank_mm),
-            ),
-        ),
+        (Quantity::PeakPressure, greatest_in(windows.pressure_mm)),
+        (Quantity::FlankPressure, greatest_in(windows.flank_mm)),
         (Quantity::TransmissionError, over_path(|c| &c.transmission_error_um)),
         (Quantity::TransmissionErrorPeakToPeak, between(|c| &c.transmission_error_um)),
         (Quantity::WornTransmissionError, over_path(|c| &c.worn_transmission_error_um)),
@@ -116,7 +107,7 @@ pub(crate) fn peak_pressure_mpa(cycle: &ObservedCycle, windows: &Windows) -> f64
 }
 
 fn greatest_within(cycle: &ObservedCycle, window_mm: [f64; 2]) -> f64 {
-    greatest(&within(&cycle.position_mm, &cycle.peak_pressure_mpa, window_mm))
+    within(&cycle.position_mm, &cycle.peak_pressure_mpa, window_mm).into_iter().fold(0.0, f64::max)
 }
 
 /// Greatest less least value.
@@ -124,11 +115,6 @@ pub(crate) fn peak_to_peak(values: &[f64]) -> f64 {
     let (low, high) =
         values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &y| (low.min(y), high.max(y)));
     if high >= low { high - low } else { 0.0 }
-}
-
-/// The greatest value, 0 where there is none above.
-pub(crate) fn greatest(values: &[f64]) -> f64 {
-    values.iter().copied().fold(0.0, f64::max)
 }
 
 /// |y − y_ref|/|y_ref|.

@@ -1,19 +1,15 @@
 //! The curves of a run that errors are measured on, and how they are brought onto common coordinates.
 
 use super::over_width::{OverWidth, depths_at_widths, pressure_along_path_mpa};
-use crate::gear::{
-    Gear, PerGear,
-    flank_zones::{FlankZone, FlankZones},
-};
+use crate::gear::flank_zones::{FlankZone, FlankZones};
+use crate::gear::{Gear, PerGear};
 use crate::reference::linear_means::value_at;
 use crate::results::run::{FlankRecord, RunRecord};
 
 /// What errors are measured on.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Observed {
-    /// Both flanks.
     pub flanks: PerGear<ObservedFlank>,
-    /// The mesh cycle.
     pub cycle: ObservedCycle,
     /// Over the face width; none where all sections are alike.
     pub over_width: Option<OverWidth>,
@@ -80,17 +76,10 @@ impl Observed {
             ObservedFlank { wear_um: own.wear_at(&common.radius_mm, &common.width_mm), ..common.clone() }
         };
         let (own, at) = (&self.cycle, &other.cycle.position_mm);
-        let there = |values: &[f64]| interpolated(&own.position_mm, values, at);
         Self {
             flanks: PerGear::from_fn(flank),
             over_width: self.over_width.as_ref().map(|own| own.at_widths(&other.flanks.pinion.width_mm)),
-            cycle: ObservedCycle {
-                position_mm: at.clone(),
-                peak_pressure_mpa: there(&own.peak_pressure_mpa),
-                half_width_mm: there(&own.half_width_mm),
-                transmission_error_um: there(&own.transmission_error_um),
-                worn_transmission_error_um: there(&own.worn_transmission_error_um),
-            },
+            cycle: ObservedCycle::of(at.clone(), |curve| interpolated(&own.position_mm, curve(own), at)),
         }
     }
 
@@ -98,9 +87,6 @@ impl Observed {
     pub(crate) fn corrected(&self, factor: f64, fine: &Self, coarse: &Self) -> Self {
         let corrected = |own: &[f64], fine: &[f64], coarse: &[f64]| -> Vec<f64> {
             own.iter().zip(fine.iter().zip(coarse)).map(|(x, (f, c))| x + factor * (f - c)).collect()
-        };
-        let of_cycle = |curve: fn(&ObservedCycle) -> &[f64]| {
-            corrected(curve(&self.cycle), curve(&fine.cycle), curve(&coarse.cycle))
         };
         Self {
             flanks: PerGear::from_fn(|gear| {
@@ -118,13 +104,22 @@ impl Observed {
                 (Some(own), Some(fine), Some(coarse)) => Some(own.corrected(factor, fine, coarse)),
                 _ => self.over_width.clone(),
             },
-            cycle: ObservedCycle {
-                position_mm: self.cycle.position_mm.clone(),
-                peak_pressure_mpa: of_cycle(|c| &c.peak_pressure_mpa),
-                half_width_mm: of_cycle(|c| &c.half_width_mm),
-                transmission_error_um: of_cycle(|c| &c.transmission_error_um),
-                worn_transmission_error_um: of_cycle(|c| &c.worn_transmission_error_um),
-            },
+            cycle: ObservedCycle::of(self.cycle.position_mm.clone(), |curve| {
+                corrected(curve(&self.cycle), curve(&fine.cycle), curve(&coarse.cycle))
+            }),
+        }
+    }
+}
+
+impl ObservedCycle {
+    /// Curves that `make` makes, each of those that another cycle has under the same name.
+    fn of(position_mm: Vec<f64>, make: impl Fn(fn(&Self) -> &[f64]) -> Vec<f64>) -> Self {
+        Self {
+            position_mm,
+            peak_pressure_mpa: make(|c| &c.peak_pressure_mpa),
+            half_width_mm: make(|c| &c.half_width_mm),
+            transmission_error_um: make(|c| &c.transmission_error_um),
+            worn_transmission_error_um: make(|c| &c.worn_transmission_error_um),
         }
     }
 }
@@ -147,12 +142,9 @@ impl ObservedFlank {
 
     /// Greatest depth on the active profile, as in the summary of a run.
     pub(crate) fn peak_wear_um(&self) -> f64 {
-        let of_slice = |slice: &[f64]| {
-            let active =
-                slice.iter().zip(&self.radius_mm).filter(|(_, radius)| self.zones.at(**radius) == FlankZone::Active);
-            active.map(|(depth, _)| *depth).fold(0.0, f64::max)
-        };
-        self.slices().map(of_slice).fold(0.0, f64::max)
+        let points = self.slices().flat_map(|slice| slice.iter().zip(&self.radius_mm));
+        let active = points.filter(|(_, radius)| self.zones.at(**radius) == FlankZone::Active);
+        active.map(|(depth, _)| *depth).fold(0.0, f64::max)
     }
 
     /// The slices one after the other.

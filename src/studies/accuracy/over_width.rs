@@ -16,7 +16,6 @@ use crate::studies::accuracy::record::Quantity;
 /// Curves over the face width.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct OverWidth {
-    /// Place of each slice.
     pub width_mm: Vec<f64>,
     /// Greatest depth in the root zone of each slice.
     pub root_wear_um: PerGear<Vec<f64>>,
@@ -55,15 +54,12 @@ impl OverWidth {
             let pairs = fine.iter().zip(coarse);
             self.root_wear_um[gear].iter().zip(pairs).map(|(x, (f, c))| corrected(*x, *f, *c).max(0.0)).collect()
         };
+        let of = |figure: fn(&Self) -> f64| corrected(figure(self), figure(fine), figure(coarse));
         Self {
             width_mm: self.width_mm.clone(),
             root_wear_um: PerGear::from_fn(root),
-            face_load_factor: corrected(self.face_load_factor, fine.face_load_factor, coarse.face_load_factor),
-            worn_face_load_factor: corrected(
-                self.worn_face_load_factor,
-                fine.worn_face_load_factor,
-                coarse.worn_face_load_factor,
-            ),
+            face_load_factor: of(|o| o.face_load_factor),
+            worn_face_load_factor: of(|o| o.worn_face_load_factor),
         }
     }
 
@@ -71,13 +67,11 @@ impl OverWidth {
     pub(crate) fn errors(&self, reference: &Self) -> BTreeMap<Quantity, f64> {
         let root =
             |gear: Gear| relative_l2(&reference.width_mm, &self.root_wear_um[gear], &reference.root_wear_um[gear]);
+        let figure = |of: fn(&Self) -> f64| relative_difference(of(self), of(reference));
         BTreeMap::from([
             (Quantity::RootWear, root(Gear::Pinion).max(root(Gear::Wheel))),
-            (Quantity::FaceLoadFactor, relative_difference(self.face_load_factor, reference.face_load_factor)),
-            (
-                Quantity::WornFaceLoadFactor,
-                relative_difference(self.worn_face_load_factor, reference.worn_face_load_factor),
-            ),
+            (Quantity::FaceLoadFactor, figure(|o| o.face_load_factor)),
+            (Quantity::WornFaceLoadFactor, figure(|o| o.worn_face_load_factor)),
         ])
     }
 }

@@ -1,5 +1,7 @@
 //! What errors are measured of when models are compared.
 
+use std::fmt;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -41,6 +43,13 @@ pub(crate) enum Quantity {
     WornFaceLoadFactor,
 }
 
+/// Its name in results.
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.serialize(f)
+    }
+}
+
 impl Quantity {
     /// All of them, in the order of the tables; the last three are of pairs with slices, half-width is of the others.
     pub(crate) const ALL: [Self; 15] = [
@@ -60,27 +69,6 @@ impl Quantity {
         Self::FaceLoadFactor,
         Self::WornFaceLoadFactor,
     ];
-
-    /// Its name in results.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::WearProfile => "wear_profile",
-            Self::PinionWearProfile => "pinion_wear_profile",
-            Self::WheelWearProfile => "wheel_wear_profile",
-            Self::PinionPeakWear => "pinion_peak_wear",
-            Self::WheelPeakWear => "wheel_peak_wear",
-            Self::PeakPressure => "peak_pressure",
-            Self::FlankPressure => "flank_pressure",
-            Self::HalfWidth => "half_width",
-            Self::TransmissionError => "transmission_error",
-            Self::TransmissionErrorPeakToPeak => "transmission_error_peak_to_peak",
-            Self::WornTransmissionError => "worn_transmission_error",
-            Self::WornTransmissionErrorPeakToPeak => "worn_transmission_error_peak_to_peak",
-            Self::RootWear => "root_wear",
-            Self::FaceLoadFactor => "K_Hbeta",
-            Self::WornFaceLoadFactor => "worn_K_Hbeta",
-        }
-    }
 
     /// What it is, for people.
     pub(crate) fn title(self) -> &'static str {
@@ -112,8 +100,8 @@ impl Quantity {
             }
             Self::PinionPeakWear | Self::WheelPeakWear => "relative difference of the greatest depth on the flank",
             Self::PeakPressure => {
-                "relative difference of the greatest pressure over the path of contact, without the \
-                                   positions at a sharp tip edge"
+                "relative difference of the greatest pressure over the path of contact, without the positions at a sharp \
+                 tip edge"
             }
             Self::FlankPressure => {
                 "relative difference of the greatest pressure over the path of contact, without the positions at a tip edge, \

@@ -19,13 +19,10 @@ pub(crate) const OVER_WIDTH_FILE: &str = "over_width.csv";
 /// A finished (or interrupted) comparison.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct AccuracyRecord {
-    /// The scene's title.
     pub title: String,
-    /// Version of the program.
     pub program_version: String,
     /// First 16 hexadecimal digits of the SHA-256 of the resolved scene.
     pub scene_hash: String,
-    /// Why it ended.
     pub stopped: StopReason,
     /// Wall time of everything until the report is written, s.
     pub wall_s: f64,
@@ -39,15 +36,12 @@ pub(crate) struct AccuracyRecord {
     pub reference: ReferenceRecord,
     /// Every run, in the order of the work.
     pub variants: Vec<VariantRecord>,
-    /// What was not run, and why.
     pub left_out: Vec<LeftOut>,
     /// The cheapest setting for each quantity.
     pub recommendations: Vec<Recommendation>,
-    /// Runs that differ in one respect only, side by side.
     pub comparisons: Vec<Comparison>,
     /// Runs to a greater depth; `None` where the scene has no slices.
     pub deep_runs: Option<DeepRuns>,
-    /// What the user should know.
     pub warnings: Vec<String>,
     /// The resolved scene as TOML.
     #[serde(skip)]
@@ -65,12 +59,23 @@ impl AccuracyRecord {
     pub(crate) fn has_slices(&self) -> bool {
         self.variants.iter().any(|variant| variant.settings.slices.is_some())
     }
+
+    /// The run recommended for `quantity`: whether it is within the error wanted, the run, its error and its run time, s.
+    pub(crate) fn recommended(&self, quantity: Quantity) -> Option<(bool, &VariantRecord, f64, f64)> {
+        let chosen = self.recommendations.iter().find(|r| r.quantity == quantity)?;
+        let variant = self.variants.get(chosen.variant)?;
+        Some((chosen.is_within, variant, variant.errors.get(&quantity)?.relative, variant.simulation_s?))
+    }
+
+    /// Whether any run has an error of `quantity`.
+    pub(crate) fn measures(&self, quantity: Quantity) -> bool {
+        self.variants.iter().any(|variant| variant.errors.contains_key(&quantity))
+    }
 }
 
 /// The solution that the errors are measured against.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct ReferenceRecord {
-    /// How it was obtained.
     pub how: String,
     /// What the errors against it do not tell; `None` where it is a finite-element solution of the whole pair.
     pub does_not_tell: Option<String>,
@@ -85,7 +90,6 @@ pub(crate) struct ReferenceRecord {
     pub peak_pressure_mpa: f64,
     /// Peak-to-peak transmission error, new and worn, µm.
     pub transmission_error_peak_to_peak_um: [f64; 2],
-    /// Both flanks.
     #[serde(skip)]
     pub flanks: PerGear<ReferenceFlank>,
 }
@@ -101,7 +105,6 @@ pub(crate) struct ReferenceFlank {
     pub wear_um: Vec<f64>,
     /// Greatest depth in the root zone of each slice, µm; empty where all sections are alike.
     pub root_wear_um: Vec<f64>,
-    /// Radii of the points A–E.
     pub path_point_radius_mm: Option<PathPoints>,
 }
 
@@ -122,11 +125,10 @@ impl ReferenceFlank {
 }
 
 /// A run: what it was made of, what it took, and how far it is from the reference.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct VariantRecord {
     /// What it is called in tables and plots.
     pub name: String,
-    /// What it is made of.
     pub settings: VariantSettings,
     /// Wall time of the wear run alone, s: the least of the repeats.
     pub simulation_s: Option<f64>,
@@ -134,11 +136,9 @@ pub(crate) struct VariantRecord {
     pub setup_s: Option<f64>,
     /// How often it was run for its time.
     pub repeats: u32,
-    /// Work done by the wear run.
     pub work: Option<WorkSummary>,
     /// Greatest wear depth of each gear, µm.
     pub peak_wear_um: Option<PerGear<f64>>,
-    /// Error of each quantity.
     pub errors: BTreeMap<Quantity, MeasuredError>,
     /// Why there is no result, where there is none.
     pub failure: Option<String>,
@@ -153,9 +153,8 @@ pub(crate) struct VariantRecord {
 }
 
 /// What a run was made of.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct VariantSettings {
-    /// Name of the contact surface.
     pub surface: String,
     /// What K/H shares with Hertz or the calibration; `None` where the surface has no K/H.
     #[serde(rename = "match")]
@@ -170,11 +169,9 @@ pub(crate) struct VariantSettings {
     pub elements_per_half_width: Option<f64>,
     /// Slices over the face width; `None` where all sections are alike.
     pub slices: Option<usize>,
-    /// Name of their coupling.
     pub coupling: Option<String>,
     /// Intervals of a flank.
     pub flank_points: usize,
-    /// Loading positions.
     pub positions: usize,
     /// Pinion revolutions a wear step.
     pub step_revolutions: f64,
@@ -187,7 +184,6 @@ pub(crate) struct VariantSettings {
 /// An error and what it means beside run time.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct MeasuredError {
-    /// Relative.
     pub relative: f64,
     /// Whether no faster run has a smaller error, the reference's uncertainty considered.
     pub on_front: bool,
@@ -196,16 +192,13 @@ pub(crate) struct MeasuredError {
 /// Something that was not run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct LeftOut {
-    /// What.
     pub what: String,
-    /// Why.
     pub reason: String,
 }
 
 /// The cheapest setting whose error is within the one wanted.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct Recommendation {
-    /// Of what.
     pub quantity: Quantity,
     /// Index of the run in `variants`; the one with the least error where none is within.
     pub variant: usize,
@@ -222,7 +215,6 @@ pub(crate) struct Comparison {
     pub common: String,
     /// Name of the run that the others are compared with.
     pub baseline: String,
-    /// The others.
     pub rows: Vec<ComparisonRow>,
 }
 
@@ -251,14 +243,12 @@ pub(crate) struct DeepRuns {
     pub baseline: String,
     /// Beyond this change of the greatest depth with the wear step a run is said to be unstable.
     pub stable_within: f64,
-    /// The runs.
     pub rows: Vec<DeepRow>,
 }
 
 /// One model run to a greater depth.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct DeepRow {
-    /// The model.
     pub name: String,
     /// With the scene's number of wear steps.
     pub usual: Option<DeepRun>,
@@ -277,7 +267,6 @@ pub(crate) struct DeepRow {
 /// One of its runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct DeepRun {
-    /// Wear steps taken.
     pub wear_steps: u64,
     /// Wall time of the wear run, s.
     pub simulation_s: f64,

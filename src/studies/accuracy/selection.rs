@@ -10,7 +10,7 @@
 //!
 //! A scene with slices over the face width has another plan: `sliced_selection`.
 
-use super::settings::{Coarsening, FoundationChoice, Setting, Stiffness, Surface};
+use super::settings::{Coarsening, Setting, Stiffness, Surface};
 use super::sliced_selection;
 use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use crate::scene::Resolved;
@@ -39,11 +39,8 @@ pub(crate) struct Asked {
 /// Two runs of the reference that differ in one spacing; indices of the settings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Companions {
-    /// The finer one.
     pub fine: usize,
-    /// The coarser one.
     pub coarse: usize,
-    /// Their spacings' ratio.
     pub spacing: Spacing,
 }
 
@@ -67,7 +64,6 @@ pub(crate) struct Selection {
     pub settings: Vec<Setting>,
     /// From which of them the reference is extrapolated, beside the first.
     pub companions: Vec<Companions>,
-    /// What is not run.
     pub left_out: Vec<LeftOut>,
 }
 
@@ -233,7 +229,6 @@ impl Selection {
 
 /// The stiffnesses that fit a scene.
 pub(super) struct Stiffnesses {
-    /// All of them, each once.
     pub all: Vec<Stiffness>,
     /// Names of those that more than one resolution is tried with, the best last.
     pub tried: Vec<String>,
@@ -272,11 +267,10 @@ impl Stiffnesses {
 /// The surfaces on the line of action, from cheap to true.
 pub(super) fn surfaces(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Vec<Surface> {
     let mut surfaces = vec![Surface::HertzMean, Surface::Hertz];
-    if let Foundation::Given { foundation_mpa_per_mm } = resolved.scene.contact.foundation {
-        surfaces.push(Surface::Winkler(FoundationChoice::Given { foundation_mpa_per_mm }));
-    }
-    surfaces.extend(MatchCriterion::ALL.map(|criterion| Surface::Winkler(FoundationChoice::Matched(criterion))));
-    surfaces.extend(calibrated.iter().map(|&criterion| Surface::Winkler(FoundationChoice::Calibrated(criterion))));
+    let own = resolved.scene.contact.foundation;
+    surfaces.extend(matches!(own, Foundation::Given { .. }).then_some(Surface::Winkler(own)));
+    surfaces.extend(MatchCriterion::ALL.map(|criterion| Surface::Winkler(Foundation::Matched(criterion))));
+    surfaces.extend(calibrated.iter().map(|&criterion| Surface::Winkler(Foundation::Calibrated(criterion))));
     surfaces.push(Surface::HalfSpace);
     surfaces
 }
@@ -284,7 +278,7 @@ pub(super) fn surfaces(resolved: &Resolved, calibrated: &[MatchCriterion]) -> Ve
 /// Whether a surface follows tip edges where nothing else is tried: the calibrated and the true ones do.
 fn follows_tip(surface: Surface, has_calibration: bool) -> bool {
     match surface {
-        Surface::Winkler(FoundationChoice::Calibrated(_)) => true,
+        Surface::Winkler(Foundation::Calibrated(_)) => true,
         Surface::HalfSpace => has_calibration,
         _ => false,
     }

@@ -3,7 +3,7 @@
 //! The scene is the user's file with some keys changed, resolved again: what was measured can be repeated by
 //! `gearwear run` on that file, and the checks of scenes hold for settings as well.
 
-use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
+use crate::contact::settings::{Foundation, SurfaceKind};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::scene::file::{HelicalFile, NumericsFile, StepFile, StiffnessFile, StiffnessModel};
 use crate::scene::{Problem, Resolved, Scene};
@@ -12,36 +12,14 @@ use crate::studies::accuracy::record::VariantSettings;
 /// Fewest points and positions of a setting: the least that a scene may ask for.
 pub(crate) const LEAST_POINTS: usize = 20;
 
-/// Where the Winkler foundation gets its K/H from.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum FoundationChoice {
-    /// By hand, MPa/mm.
-    Given {
-        /// K/H.
-        foundation_mpa_per_mm: f64,
-    },
-    /// One value, matched to Hertz at the pitch point.
-    Matched(MatchCriterion),
-    /// For every position and load, from the calibration.
-    Calibrated(MatchCriterion),
-}
-
 /// A contact surface with what it needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Surface {
-    /// Mean Hertz pressure.
     HertzMean,
-    /// Hertz's ellipse.
     Hertz,
-    /// Independent springs.
-    Winkler(FoundationChoice),
-    /// Elastic half-planes.
+    Winkler(Foundation),
     HalfSpace,
-    /// Finite elements.
-    Fem {
-        /// Elements in the half-width of contact.
-        elements_per_half_width: f64,
-    },
+    Fem { elements_per_half_width: f64 },
 }
 
 /// How much coarser than the scene.
@@ -90,7 +68,6 @@ pub(crate) struct Setting {
     pub stiffness: Option<Stiffness>,
     /// The slices over the face width; none where all sections are alike.
     pub slices: Option<SliceSettings>,
-    /// How finely.
     pub coarsening: Coarsening,
 }
 
@@ -98,29 +75,21 @@ impl Surface {
     /// The scene's own, with the scene's own K/H.
     pub(crate) fn of_scene(resolved: &Resolved) -> Self {
         let contact = &resolved.scene.contact;
-        match (contact.surface, contact.foundation) {
-            (SurfaceKind::HertzMean, _) => Self::HertzMean,
-            (SurfaceKind::Hertz, _) => Self::Hertz,
-            (SurfaceKind::HalfSpace, _) => Self::HalfSpace,
-            (_, Foundation::Given { foundation_mpa_per_mm }) => {
-                Self::Winkler(FoundationChoice::Given { foundation_mpa_per_mm })
-            }
-            (_, Foundation::Matched(criterion)) => Self::Winkler(FoundationChoice::Matched(criterion)),
-            (_, Foundation::Calibrated(criterion)) => Self::Winkler(FoundationChoice::Calibrated(criterion)),
+        match contact.surface {
+            SurfaceKind::HertzMean => Self::HertzMean,
+            SurfaceKind::Hertz => Self::Hertz,
+            SurfaceKind::HalfSpace => Self::HalfSpace,
+            SurfaceKind::Winkler | SurfaceKind::Fem => Self::Winkler(contact.foundation),
         }
     }
 
     /// `winkler peak-pressure, calibrated`, `fem 10`.
     pub(crate) fn name(self) -> String {
         match self {
-            Self::HertzMean => "hertz-mean".to_owned(),
-            Self::Hertz => "hertz".to_owned(),
-            Self::Winkler(FoundationChoice::Given { .. }) => "winkler, K/H given".to_owned(),
-            Self::Winkler(FoundationChoice::Matched(criterion)) => format!("winkler {}", criterion.name()),
-            Self::Winkler(FoundationChoice::Calibrated(criterion)) => {
-                format!("winkler {}, calibrated", criterion.name())
-            }
-            Self::HalfSpace => "half-space".to_owned(),
+            Self::HertzMean | Self::Hertz | Self::HalfSpace => self.kind().name().to_owned(),
+            Self::Winkler(Foundation::Given { .. }) => "winkler, K/H given".to_owned(),
+            Self::Winkler(Foundation::Matched(criterion)) => format!("winkler {}", criterion.name()),
+            Self::Winkler(Foundation::Calibrated(criterion)) => format!("winkler {}, calibrated", criterion.name()),
             Self::Fem { elements_per_half_width } => format!("fem {elements_per_half_width}"),
         }
     }
@@ -130,7 +99,6 @@ impl Surface {
         matches!(self, Self::Winkler(_) | Self::HalfSpace)
     }
 
-    /// The model.
     pub(crate) fn kind(self) -> SurfaceKind {
         match self {
             Self::HertzMean => SurfaceKind::HertzMean,
@@ -184,18 +152,16 @@ pub(crate) fn coupling_name(coupling: Coupling) -> &'static str {
 impl Setting {
     /// What it is called in tables and plots.
     pub(crate) fn name(&self) -> String {
-        let mut name = self.surface.name();
-        if self.surface.may_follow_tip() && self.tip_contact {
-            name.push_str(", tip contact");
-        }
-        if let Some(stiffness) = &self.stiffness {
-            name.push_str(&format!(" · {}", stiffness.name));
-        }
-        if let Some(SliceSettings { count, coupling }) = self.slices {
-            name.push_str(&format!(" · {count} slices, {}", coupling_name(coupling)));
-        }
-        name.push_str(&format!(" · {}", self.coarsening.name()));
-        name
+        let slices = self.slices.map(|s| format!("{} slices, {}", s.count, coupling_name(s.coupling)));
+        let stiffness = self.stiffness.as_ref().map(|stiffness| stiffness.name.clone());
+        let parts = [Some(self.surface_name()), stiffness, slices, Some(self.coarsening.name())];
+        parts.into_iter().flatten().collect::<Vec<_>>().join(" · ")
+    }
+
+    /// The surface, and whether it follows tip edges.
+    pub(crate) fn surface_name(&self) -> String {
+        let follows = self.surface.may_follow_tip() && self.tip_contact;
+        format!("{}{}", self.surface.name(), if follows { ", tip contact" } else { "" })
     }
 
     /// Whether `scene` is fine enough to be coarsened like this.
@@ -220,11 +186,11 @@ impl Setting {
         // A calibration that is given makes every Winkler foundation a calibrated one.
         let reads_calibration = self.stiffness.as_ref().is_some_and(|s| s.file.model == Some(StiffnessModel::Fem));
         match self.surface {
-            Surface::Winkler(FoundationChoice::Given { foundation_mpa_per_mm }) => {
+            Surface::Winkler(Foundation::Given { foundation_mpa_per_mm }) => {
                 contact.foundation_MPa_per_mm = Some(foundation_mpa_per_mm);
             }
-            Surface::Winkler(FoundationChoice::Matched(criterion)) => contact.match_criterion = Some(criterion),
-            Surface::Winkler(FoundationChoice::Calibrated(criterion)) => {
+            Surface::Winkler(Foundation::Matched(criterion)) => contact.match_criterion = Some(criterion),
+            Surface::Winkler(Foundation::Calibrated(criterion)) => {
                 contact.match_criterion = Some(criterion);
                 contact.calibration = calibration.map(str::to_owned);
             }
@@ -254,11 +220,12 @@ impl Setting {
 
     /// What the record says of it.
     pub(crate) fn record(&self, scene: &Scene) -> VariantSettings {
-        let (match_criterion, calibrated) = match self.surface {
-            Surface::Winkler(FoundationChoice::Matched(criterion)) => (Some(criterion.name().to_owned()), false),
-            Surface::Winkler(FoundationChoice::Calibrated(criterion)) => (Some(criterion.name().to_owned()), true),
-            Surface::Winkler(FoundationChoice::Given { .. }) => (Some("given".to_owned()), false),
-            _ => (None, false),
+        let match_criterion = match self.surface {
+            Surface::Winkler(Foundation::Matched(criterion) | Foundation::Calibrated(criterion)) => {
+                Some(criterion.name())
+            }
+            Surface::Winkler(Foundation::Given { .. }) => Some("given"),
+            _ => None,
         };
         let elements_per_half_width = match self.surface {
             Surface::Fem { elements_per_half_width } => Some(elements_per_half_width),
@@ -266,8 +233,8 @@ impl Setting {
         };
         VariantSettings {
             surface: self.surface.kind().name().to_owned(),
-            match_criterion,
-            calibrated,
+            match_criterion: match_criterion.map(str::to_owned),
+            calibrated: matches!(self.surface, Surface::Winkler(Foundation::Calibrated(_))),
             tip_contact: self.tip_contact || elements_per_half_width.is_some(),
             stiffness: self.stiffness.as_ref().map(|stiffness| stiffness.name.clone()),
             elements_per_half_width,

@@ -7,7 +7,7 @@
 //! | contact surface | the surface, all of them coupled | `half-space`, tip edges followed |
 //! | tooth stiffness | the stiffness, on the scene's surface | that of finite elements |
 
-use super::comparison::{Run, row, stiffnesses};
+use super::comparison::{Run, row, stiffnesses, table};
 use super::settings::{Setting, Surface, coupling_name};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::scene::Resolved;
@@ -51,15 +51,6 @@ fn coupling_of(run: &Run<'_>) -> Coupling {
     run.setting.slices.map_or(Coupling::None, |slices| slices.coupling)
 }
 
-fn table(
-    title: &str,
-    common: String,
-    baseline: &str,
-    rows: Vec<crate::studies::accuracy::record::ComparisonRow>,
-) -> Option<Comparison> {
-    (!rows.is_empty()).then(|| Comparison { title: title.to_owned(), common, baseline: baseline.to_owned(), rows })
-}
-
 /// Every surface uncoupled, against itself coupled.
 fn coupling(runs: &[Run<'_>], slices: usize) -> Option<Comparison> {
     let rows = runs
@@ -69,7 +60,7 @@ fn coupling(runs: &[Run<'_>], slices: usize) -> Option<Comparison> {
             let coupled = counterpart(runs, run, |setting| {
                 setting.slices = setting.slices.map(|s| SliceSettings { coupling: Coupling::Slicing, ..s });
             })?;
-            Some(row(format!("{}, uncoupled", surface_name(run)), run, &coupled))
+            Some(row(format!("{}, uncoupled", run.setting.surface_name()), run, &coupled))
         })
         .collect();
     table("Coupling of slices", format!("{slices} slices, each surface by itself"), "the same surface, coupled", rows)
@@ -97,14 +88,9 @@ fn surfaces(runs: &[Run<'_>], slices: usize) -> Option<Comparison> {
     let rows = coupled
         .iter()
         .filter(|run| run.setting.stiffness == *stiffness && run.setting != baseline.setting)
-        .map(|run| row(surface_name(run), run, baseline))
+        .map(|run| row(run.setting.surface_name(), run, baseline))
         .collect();
     let name = stiffness.as_ref().map_or("", |stiffness| &stiffness.name);
     let common = format!("{slices} slices, coupled, stiffness {name}");
     table("Contact surface", common, "surface half-space, tip contact", rows)
-}
-
-fn surface_name(run: &Run<'_>) -> String {
-    let tip = if run.setting.tip_contact { ", tip contact" } else { "" };
-    format!("{}{tip}", run.setting.surface.name())
 }

@@ -10,8 +10,8 @@
 //! * other tooth stiffnesses on the scene's own surface, and tip edges that are not followed.
 
 use super::selection::{COMPANION_STEP, Companions, Selection, Spacing, Stiffnesses, surfaces};
-use super::settings::{Coarsening, FoundationChoice, Setting, Stiffness, Surface};
-use crate::contact::settings::MatchCriterion;
+use super::settings::{Coarsening, Setting, Stiffness, Surface};
+use crate::contact::settings::{Foundation, MatchCriterion};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::scene::Resolved;
 
@@ -21,6 +21,7 @@ const MOST_SLICES: usize = 2000;
 const LEAST_SLICES: usize = 2;
 /// The K/H that stands for the others.
 const CRITERION: MatchCriterion = MatchCriterion::HalfWidth;
+const MATCHED: Surface = Surface::Winkler(Foundation::Matched(CRITERION));
 /// The true coupling first.
 const COUPLINGS: [Coupling; 2] = [Coupling::Slicing, Coupling::None];
 
@@ -47,12 +48,7 @@ pub(super) fn add(
         }
     }
     for count in other_counts(selection, own.count) {
-        for surface in [
-            Surface::HertzMean,
-            Surface::Hertz,
-            Surface::Winkler(FoundationChoice::Matched(CRITERION)),
-            Surface::HalfSpace,
-        ] {
+        for surface in [Surface::HertzMean, Surface::Hertz, MATCHED, Surface::HalfSpace] {
             for coupling in COUPLINGS {
                 selection.add(setting(surface, best, SliceSettings { count, coupling }, Coarsening::even(second)));
             }
@@ -62,9 +58,7 @@ pub(super) fn add(
         selection.add(setting(Surface::of_scene(resolved), stiffness, own, Coarsening::even(second)));
     }
     let coupled = SliceSettings { coupling: Coupling::Slicing, ..own };
-    for (surface, by) in
-        [(Surface::Winkler(FoundationChoice::Matched(CRITERION)), finest), (Surface::HalfSpace, second)]
-    {
+    for (surface, by) in [(MATCHED, finest), (Surface::HalfSpace, second)] {
         let followed = setting(surface, best, coupled, Coarsening::even(by));
         selection.add(Setting { tip_contact: false, ..followed });
     }
@@ -121,10 +115,7 @@ fn setting(surface: Surface, stiffness: &Stiffness, slices: SliceSettings, coars
 /// Whether a surface is tried at every resolution and coupling: of the Winkler foundations, those matched on half-width.
 fn stands_for_others(surface: Surface) -> bool {
     match surface {
-        Surface::Winkler(FoundationChoice::Given { .. }) => true,
-        Surface::Winkler(FoundationChoice::Matched(criterion) | FoundationChoice::Calibrated(criterion)) => {
-            criterion == CRITERION
-        }
+        Surface::Winkler(Foundation::Matched(criterion) | Foundation::Calibrated(criterion)) => criterion == CRITERION,
         _ => true,
     }
 }

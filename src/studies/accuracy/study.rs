@@ -36,13 +36,7 @@ const DOES_NOT_TELL: &str = "There is no three-dimensional finite-element soluti
 pub(crate) enum AccuracyError {
     /// A run of the reference failed.
     #[error("the reference, {name}: {reason}")]
-    Reference {
-        /// Which run.
-        name: String,
-        /// Why.
-        reason: String,
-    },
-    /// The user interrupted before the reference was finished.
+    Reference { name: String, reason: String },
     #[error("interrupted before the reference was finished")]
     Interrupted,
 }
@@ -70,13 +64,11 @@ pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) ->
             None => break,
         }
     }
-    let deep_runs = match measured.len() == settings {
-        true => deep_runs::run(given, &selection.second_resolution(), observer, settings, count),
-        false => None,
-    };
-    let all_deep_runs = deep_runs.is_some() == resolved.scene.slices.is_some();
-    let stopped =
-        if measured.len() == settings && all_deep_runs { StopReason::Completed } else { StopReason::Interrupted };
+    let all_measured = measured.len() == settings;
+    let deep = || deep_runs::run(given, &selection.second_resolution(), observer, settings, count);
+    let deep_runs = all_measured.then(deep).flatten();
+    let is_complete = all_measured && deep_runs.is_some() == resolved.scene.slices.is_some();
+    let stopped = if is_complete { StopReason::Completed } else { StopReason::Interrupted };
     let windows = windows(resolved, &measured)?;
     let (reference, runs) = reference(&selection, &measured, &windows)?;
     let at_reference: Vec<Option<Observed>> = measured
@@ -203,42 +195,36 @@ fn reference(
 
 /// Measures every run against the reference, and marks the fronts.
 fn add_errors(variants: &mut [VariantRecord], at: &[Option<Observed>], reference: &Reference, windows: &Windows) {
-    let all: Vec<_> =
-        at.iter().map(|observed| observed.as_ref().map(|o| errors(o, &reference.observed, windows))).collect();
+    for (variant, observed) in variants.iter_mut().zip(at) {
+        let all = observed.as_ref().map(|observed| errors(observed, &reference.observed, windows));
+        let measured = all.into_iter().flatten().filter(|(_, relative)| !relative.is_nan());
+        let measured = measured.map(|(quantity, relative)| (quantity, MeasuredError { relative, on_front: false }));
+        variant.errors.extend(measured);
+    }
     for quantity in Quantity::ALL {
-        let points: Vec<Point> = variants
-            .iter()
-            .zip(&all)
-            .map(|(variant, errors)| Point {
-                wall_s: variant.simulation_s.unwrap_or(f64::NAN),
-                error: errors.as_ref().and_then(|errors| errors.get(&quantity)).copied().unwrap_or(f64::NAN),
-            })
-            .collect();
         let uncertainty = reference.uncertainty.get(&quantity).copied().unwrap_or(0.0);
-        let front = on_front(&points, uncertainty);
-        for ((variant, point), on_front) in variants.iter_mut().zip(points).zip(front) {
-            if !point.error.is_nan() {
-                variant.errors.insert(quantity, MeasuredError { relative: point.error, on_front });
-            }
+        let front = on_front(&points(variants, quantity), uncertainty);
+        for (variant, on_front) in variants.iter_mut().zip(front) {
+            variant.errors.entry(quantity).and_modify(|error| error.on_front = on_front);
         }
     }
 }
 
+/// Run time and error of every run; not a number where it has none.
+fn points(variants: &[VariantRecord], quantity: Quantity) -> Vec<Point> {
+    let point = |variant: &VariantRecord| Point {
+        wall_s: variant.simulation_s.unwrap_or(f64::NAN),
+        error: variant.errors.get(&quantity).map_or(f64::NAN, |error| error.relative),
+    };
+    variants.iter().map(point).collect()
+}
+
 fn recommendations(variants: &[VariantRecord], within: f64) -> Vec<Recommendation> {
-    Quantity::ALL
-        .into_iter()
-        .filter_map(|quantity| {
-            let points: Vec<Point> = variants
-                .iter()
-                .map(|variant| Point {
-                    wall_s: variant.simulation_s.unwrap_or(f64::NAN),
-                    error: variant.errors.get(&quantity).map_or(f64::NAN, |error| error.relative),
-                })
-                .collect();
-            let (variant, is_within) = cheapest_within(&points, within)?;
-            Some(Recommendation { quantity, variant, is_within })
-        })
-        .collect()
+    let of = |quantity| {
+        let (variant, is_within) = cheapest_within(&points(variants, quantity), within)?;
+        Some(Recommendation { quantity, variant, is_within })
+    };
+    Quantity::ALL.into_iter().filter_map(of).collect()
 }
 
 fn reference_record(

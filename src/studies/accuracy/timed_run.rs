@@ -39,20 +39,8 @@ pub(super) fn measure(setting: &Setting, base: &LoadedScene, observer: &PartOf<'
     if observer.interrupted() {
         return None;
     }
-    let mut record = VariantRecord {
-        name: setting.name(),
-        settings: setting.record(base.scene()),
-        simulation_s: None,
-        setup_s: None,
-        repeats: 0,
-        work: None,
-        peak_wear_um: None,
-        errors: Default::default(),
-        failure: None,
-        part_of_reference: false,
-        wear_um: None,
-        root_wear_um: None,
-    };
+    let mut record =
+        VariantRecord { name: setting.name(), settings: setting.record(base.scene()), ..VariantRecord::default() };
     let failed = |record: VariantRecord, failure: String| {
         Some(Measured { record: VariantRecord { failure: Some(failure), ..record }, finished: None })
     };

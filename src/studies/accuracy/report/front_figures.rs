@@ -46,8 +46,7 @@ const COUPLINGS: [(Option<&str>, &str, &str); 3] =
 
 /// One plot for each quantity.
 pub(super) fn all(record: &AccuracyRecord) -> Vec<Chart> {
-    let measured = |quantity: &Quantity| record.variants.iter().any(|v| v.errors.contains_key(quantity));
-    Quantity::ALL.into_iter().filter(measured).map(|quantity| front(record, quantity)).collect()
+    Quantity::ALL.into_iter().filter(|q| record.measures(*q)).map(|quantity| front(record, quantity)).collect()
 }
 
 fn front(record: &AccuracyRecord, quantity: Quantity) -> Chart {
@@ -58,7 +57,7 @@ fn front(record: &AccuracyRecord, quantity: Quantity) -> Chart {
         })
     };
     let uncertainty = record.reference.uncertainty.get(&quantity).copied().unwrap_or(0.0);
-    let id = format!("front-{}", quantity.name().to_lowercase().replace('_', "-"));
+    let id = format!("front-{}", quantity.to_string().to_lowercase().replace('_', "-"));
     let mut chart = Chart::new(id, quantity.title())
         .wide_if(quantity == Quantity::WearProfile)
         .height(430)
@@ -117,31 +116,18 @@ fn size(variant: &VariantRecord) -> usize {
 }
 
 fn reading(record: &AccuracyRecord, quantity: Quantity, uncertainty: f64) -> String {
-    let chosen = record.recommendations.iter().find(|r| r.quantity == quantity);
-    let chosen = chosen.and_then(|r| {
-        let variant = record.variants.get(r.variant)?;
-        Some((r, variant, variant.errors.get(&quantity)?.relative, variant.simulation_s?))
+    let found = record.recommended(quantity).map_or_else(String::new, |(is_within, variant, error, wall_s)| {
+        let within = percent(record.within);
+        let found = format!("{}: {} in {} s.", variant.name, percent(error), significant(wall_s, 3));
+        if is_within {
+            format!(" The cheapest run within {within} is {found}")
+        } else {
+            format!(" No run is within {within}; the closest is {found}")
+        }
     });
-    let measured = format!("Error: {}.", quantity.measure());
-    let found = match chosen {
-        Some((r, variant, error, wall_s)) if r.is_within => format!(
-            " The cheapest run within {} is {}: {} in {} s.",
-            percent(record.within),
-            variant.name,
-            percent(error),
-            significant(wall_s, 3)
-        ),
-        Some((_, variant, error, wall_s)) => format!(
-            " No run is within {}; the closest is {}: {} in {} s.",
-            percent(record.within),
-            variant.name,
-            percent(error),
-            significant(wall_s, 3)
-        ),
-        None => String::new(),
-    };
     format!(
-        "{measured}{found} Below {} errors are not told apart. Smaller marks are coarser runs.",
+        "Error: {}.{found} Below {} errors are not told apart. Smaller marks are coarser runs.",
+        quantity.measure(),
         percent(uncertainty)
     )
 }

@@ -26,7 +26,7 @@ pub(super) fn page(record: &AccuracyRecord) -> String {
     let recommendation = html! {
         (reference(record))
         (run_tables::recommendations(record))
-        (run_tables::comparisons(record))
+        @for of in &record.comparisons { (run_tables::comparison(of)) }
         (run_tables::deep_runs(record))
     };
     let runs = html! { (run_tables::runs(record)) (run_tables::left_out(record)) };
@@ -74,12 +74,7 @@ fn data_files(record: &AccuracyRecord) -> Vec<(&'static str, &'static str)> {
 
 /// What to use, in a sentence or two.
 fn answer(record: &AccuracyRecord) -> String {
-    let chosen = record.recommendations.iter().find(|r| r.quantity == Quantity::WearProfile);
-    let chosen = chosen.and_then(|r| {
-        let variant = record.variants.get(r.variant)?;
-        Some((r.is_within, variant, variant.errors.get(&Quantity::WearProfile)?.relative, variant.simulation_s?))
-    });
-    let Some((is_within, variant, error, wall_s)) = chosen else {
+    let Some((is_within, variant, error, wall_s)) = record.recommended(Quantity::WearProfile) else {
         return "No run could be compared with the reference.".to_owned();
     };
     let reference = record.variants.first().and_then(|finest| finest.simulation_s);
@@ -91,21 +86,11 @@ fn answer(record: &AccuracyRecord) -> String {
             significant(reference_s / wall_s, 2)
         )
     });
+    let within = percent(record.within);
+    let found = format!("{}: {} off in {} s.{against}", variant.name, percent(error), significant(wall_s, 3));
     if is_within {
-        format!(
-            "The cheapest run whose wear profile is within {} of the reference on both gears is {}: {} off in {} s.{against}",
-            percent(record.within),
-            variant.name,
-            percent(error),
-            significant(wall_s, 3)
-        )
+        format!("The cheapest run whose wear profile is within {within} of the reference on both gears is {found}")
     } else {
-        format!(
-            "No run has a wear profile within {} of the reference on both gears; the closest is {}: {} off in {} s.{against}",
-            percent(record.within),
-            variant.name,
-            percent(error),
-            significant(wall_s, 3)
-        )
+        format!("No run has a wear profile within {within} of the reference on both gears; the closest is {found}")
     }
 }

@@ -13,13 +13,8 @@ use crate::studies::accuracy::record::{AccuracyRecord, Quantity, ReferenceFlank,
 /// Stiffnesses to show the surfaces with, the best first.
 const BEST_STIFFNESS: [&str; 2] = ["fem", "weber-banaschek"];
 
-/// How a surface is drawn.
-struct SurfaceStyle {
-    colour: &'static str,
-    dash: Dash,
-    /// Whether it is drawn to begin with, or only when the reader asks for it.
-    at_once: bool,
-}
+/// How a surface is drawn: its colour, its dash, and whether to begin with or only when the reader asks for it.
+type SurfaceStyle = (&'static str, Dash, bool);
 
 /// Profiles and differences of both gears.
 pub(super) fn all(record: &AccuracyRecord) -> Vec<Chart> {
@@ -55,15 +50,13 @@ fn style(variant: &VariantRecord) -> SurfaceStyle {
     }
     let other_criterion = s.match_criterion.as_deref().is_some_and(|criterion| criterion != "half-width");
     match s.surface.as_str() {
-        "hertz-mean" => SurfaceStyle { colour: "var(--new)", dash: Dash::Dot, at_once: true },
-        "hertz" => SurfaceStyle { colour: "var(--wheel)", dash: Dash::Solid, at_once: true },
-        "half-space" if s.tip_contact => SurfaceStyle { colour: "var(--path)", dash: Dash::Solid, at_once: true },
-        "half-space" => SurfaceStyle { colour: "var(--path)", dash: Dash::Dashed, at_once: false },
-        "fem" => SurfaceStyle { colour: "var(--worn)", dash: Dash::Dashed, at_once: variant.part_of_reference },
-        _ if s.calibrated => {
-            SurfaceStyle { colour: "var(--pinion)", dash: Dash::Solid, at_once: !other_criterion && s.tip_contact }
-        }
-        _ => SurfaceStyle { colour: "var(--pinion)", dash: Dash::Dashed, at_once: !other_criterion && !s.tip_contact },
+        "hertz-mean" => ("var(--new)", Dash::Dot, true),
+        "hertz" => ("var(--wheel)", Dash::Solid, true),
+        "half-space" if s.tip_contact => ("var(--path)", Dash::Solid, true),
+        "half-space" => ("var(--path)", Dash::Dashed, false),
+        "fem" => ("var(--worn)", Dash::Dashed, variant.part_of_reference),
+        _ if s.calibrated => ("var(--pinion)", Dash::Solid, !other_criterion && s.tip_contact),
+        _ => ("var(--pinion)", Dash::Dashed, !other_criterion && !s.tip_contact),
     }
 }
 
@@ -79,7 +72,7 @@ fn style_of_slices(variant: &VariantRecord) -> SurfaceStyle {
         _ if s.calibrated => ("var(--worn)", false),
         _ => ("var(--pinion)", s.match_criterion.as_deref() == Some("half-width") && s.tip_contact),
     };
-    SurfaceStyle { colour, dash, at_once: stands_for_others && (coupled || s.surface == "hertz-mean") }
+    (colour, dash, stands_for_others && (coupled || s.surface == "hertz-mean"))
 }
 
 /// The part of a run's name that tells it from the others shown.
@@ -156,7 +149,7 @@ fn differences(record: &AccuracyRecord, shown: &[&VariantRecord], gear: Gear) ->
         ))
     };
     let at_once: Vec<String> =
-        shown.iter().filter(|v| v.settings.surface != "fem" && style(v).at_once).filter_map(|v| worst(v)).collect();
+        shown.iter().filter(|v| v.settings.surface != "fem" && style(v).2).filter_map(|v| worst(v)).collect();
     let title = format!("Where on the {}’s flank each surface is off{}", gear.name(), where_over_width(reference));
     let chart = Chart::new(format!("differences-{}", gear.name()), title)
         .y("wear depth less the reference’s, µm")
@@ -172,7 +165,7 @@ fn root_over_width(record: &AccuracyRecord, shown: &[&VariantRecord], gear: Gear
         let root = variant.root_wear_um.as_ref()?;
         Some(of_run(variant, &reference.width_mm, root[gear].iter().copied()))
     });
-    let drawn = shown.iter().filter(|v| style(v).at_once).filter_map(|v| v.root_wear_um.as_ref());
+    let drawn = shown.iter().filter(|v| style(v).2).filter_map(|v| v.root_wear_um.as_ref());
     let lowest = drawn.flat_map(|root| &root[gear]).copied().fold(0.0, f64::max);
     let deepest = greatest(&reference.root_wear_um).map_or(1.0, |e| e.value);
     let at = greatest(&reference.root_wear_um).map(|e| reference.width_mm[e.index]);
@@ -195,7 +188,7 @@ fn root_over_width(record: &AccuracyRecord, shown: &[&VariantRecord], gear: Gear
 }
 
 fn of_run(variant: &VariantRecord, along: &[f64], values: impl Iterator<Item = f64>) -> Trace {
-    let SurfaceStyle { colour, dash, at_once } = style(variant);
+    let (colour, dash, at_once) = style(variant);
     let line = Trace::line(surface(variant), along.iter().copied(), values, (colour, 1.8, dash));
     line.at_once(at_once).hover("%{y:.3f} µm")
 }

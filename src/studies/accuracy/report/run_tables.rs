@@ -42,8 +42,7 @@ pub(super) fn runs(record: &AccuracyRecord) -> Markup {
     let mut sorted: Vec<&VariantRecord> = record.variants.iter().collect();
     let error = |v: &VariantRecord| v.errors.get(&Quantity::WearProfile).map_or(f64::INFINITY, |e| e.relative);
     sorted.sort_by(|a, b| error(a).total_cmp(&error(b)));
-    let measured = |quantity: Quantity| record.variants.iter().any(|v| v.errors.contains_key(&quantity));
-    let shown: Vec<(Quantity, &str)> = SHOWN.into_iter().filter(|&(quantity, _)| measured(quantity)).collect();
+    let shown: Vec<(Quantity, &str)> = SHOWN.into_iter().filter(|&(quantity, _)| record.measures(quantity)).collect();
     let columns = ["run", "time, s", "set-up, s", "equilibria"].into_iter().chain(shown.iter().map(|&(_, name)| name));
     let rows = sorted.into_iter().map(|v| {
         let errors = shown.iter().map(|(quantity, _)| {
@@ -62,11 +61,7 @@ pub(super) fn runs(record: &AccuracyRecord) -> Markup {
 }
 
 /// Runs that differ in one respect only.
-pub(super) fn comparisons(record: &AccuracyRecord) -> Markup {
-    html! { @for of in &record.comparisons { (comparison(of)) } }
-}
-
-fn comparison(of: &Comparison) -> Markup {
+pub(super) fn comparison(of: &Comparison) -> Markup {
     let columns = ["profile, pinion", "profile, wheel", "peak wear, pinion", "peak wear, wheel", "time, s"];
     let rows = of.rows.iter().map(|row| {
         line(cells![

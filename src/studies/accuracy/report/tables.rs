@@ -191,6 +191,6 @@ mod tests {
     #[test]
     fn quantities_are_named_as_their_errors_are_written() {
         let names: Vec<String> = variants::<Quantity>().into_iter().map(|(name, _)| name).collect();
-        assert_eq!(names, Quantity::ALL.map(Quantity::name));
+        assert_eq!(names, Quantity::ALL.map(|quantity| quantity.to_string()));
     }
 }
