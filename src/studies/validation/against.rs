@@ -4,8 +4,6 @@
 //! a share of a tolerance by 0.05 of the tolerance, a number that is held against a bound by 1 % of itself, a count by 1 %.
 //! Wall times are never compared: they say as much of the machine as of the program.
 
-use std::collections::BTreeMap;
-
 use crate::studies::validation::record::{
     CaseRecord, Change, Changes, Criterion, QuantityRecord, StabilityPoint, Standing, State, ValidationRecord,
 };
@@ -19,71 +17,42 @@ const NOTHING: f64 = 1e-6;
 
 /// What changed from `old` to `new`. A case that only one of them has is named, not judged: a suite may be run in part.
 pub(crate) fn changes(old: &ValidationRecord, new: &ValidationRecord) -> Changes {
-    let before: BTreeMap<&str, &CaseRecord> = by_name(old);
-    let now: BTreeMap<&str, &CaseRecord> = by_name(new);
-    let missing_in = |other: &BTreeMap<&str, &CaseRecord>, record: &ValidationRecord| {
-        let names = record.cases.iter().map(|case| case.name.clone());
-        names.filter(|name| !other.contains_key(name.as_str())).collect()
+    let missing_in = |other: &ValidationRecord, record: &ValidationRecord| {
+        let names = record.cases.iter().map(|case| &case.name);
+        names.filter(|name| other.cases.iter().all(|case| case.name != **name)).cloned().collect()
     };
-    let mut found = ChangesSoFar::default();
+    let mut found = Changes {
+        against_version: old.program_version.clone(),
+        worse: Vec::new(),
+        better: Vec::new(),
+        added: missing_in(old, new),
+        gone: missing_in(new, old),
+    };
     for case in &new.cases {
-        if let Some(earlier) = before.get(case.name.as_str()) {
+        if let Some(earlier) = old.cases.iter().find(|earlier| earlier.name == case.name) {
             found.compare(earlier, case);
         }
     }
-    Changes {
-        against_version: old.program_version.clone(),
-        worse: found.worse,
-        better: found.better,
-        added: missing_in(&before, new),
-        gone: missing_in(&now, old),
-    }
+    found
 }
 
-fn by_name(record: &ValidationRecord) -> BTreeMap<&str, &CaseRecord> {
-    record.cases.iter().map(|case| (case.name.as_str(), case)).collect()
-}
-
-/// Which way something went.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Way {
-    Worse,
-    Better,
-}
-
-impl Way {
-    /// Worse where `worse`, else better.
-    fn worse_if(worse: bool) -> Self {
-        if worse { Self::Worse } else { Self::Better }
-    }
-}
-
-#[derive(Debug, Default)]
-struct ChangesSoFar {
-    worse: Vec<Change>,
-    better: Vec<Change>,
-}
-
-impl ChangesSoFar {
-    fn add(&mut self, way: Way, case: &CaseRecord, what: &str, before: State, now: State) {
+impl Changes {
+    fn add(&mut self, is_worse: bool, case: &CaseRecord, what: &str, before: State, now: State) {
         let change = Change { case: case.name.clone(), what: what.to_owned(), before, now };
-        match way {
-            Way::Worse => self.worse.push(change),
-            Way::Better => self.better.push(change),
-        }
+        if is_worse { &mut self.worse } else { &mut self.better }.push(change);
     }
 
     fn compare(&mut self, before: &CaseRecord, now: &CaseRecord) {
         if before.failure.is_some() != now.failure.is_some() {
             let ran = |case: &CaseRecord| State::Ran(case.failure.is_none());
-            self.add(Way::worse_if(now.failure.is_some()), now, "verdict", ran(before), ran(now));
+            self.add(now.failure.is_some(), now, "verdict", ran(before), ran(now));
         }
         for quantity in &now.quantities {
             match before.quantities.iter().find(|earlier| earlier.name == quantity.name) {
                 Some(earlier) => self.compare_quantity(now, earlier, quantity),
                 // A quantity that is new is no change of the program, unless it fails.
                 None if !quantity.as_expected() => {
-                    self.add(Way::Worse, now, &quantity.name, State::Absent, State::Stands(quantity.standing));
+                    self.add(true, now, &quantity.name, State::Absent, State::Stands(quantity.standing));
                 }
                 None => {}
             }
@@ -92,68 +61,51 @@ impl ChangesSoFar {
         if now.failure.is_none() {
             for earlier in &before.quantities {
                 if now.quantities.iter().all(|quantity| quantity.name != earlier.name) {
-                    self.add(Way::Worse, now, &earlier.name, State::Stands(earlier.standing), State::Absent);
+                    self.add(true, now, &earlier.name, State::Stands(earlier.standing), State::Absent);
                 }
             }
         }
-        self.compare_stability(before, now);
-        self.compare_work(before, now);
-    }
-
-    fn compare_quantity(&mut self, case: &CaseRecord, before: &QuantityRecord, now: &QuantityRecord) {
-        if before.standing != now.standing {
-            let way = Way::worse_if(rank(now.standing) < rank(before.standing));
-            self.add(way, case, &now.name, State::Stands(before.standing), State::Stands(now.standing));
-            return;
-        }
-        if let Some(way) = limit_moved(before.criterion, now.criterion) {
-            // A share of another tolerance says nothing: what is compared is the error, in the tolerance as it was.
-            let what = format!("{}: what it is held against", now.name);
-            self.add(way, case, &what, State::Against(before.criterion), State::Against(now.criterion));
-            if let (Some(earlier), Some(error), Criterion::Near { tolerance, .. }) =
-                (before.error, now.error, before.criterion)
-                && (error - earlier).abs() > SHARE * tolerance
-            {
-                let errs = |error: f64| State::Errs(error, now.unit.clone());
-                self.add(Way::worse_if(error > earlier), case, &now.name, errs(earlier), errs(error));
-            }
-            return;
-        }
-        match (before.share, now.share) {
-            (Some(earlier), Some(share)) if !now.counts_work => {
-                if (share - earlier).abs() > SHARE {
-                    let way = Way::worse_if(share > earlier);
-                    self.add(way, case, &now.name, State::Uses(earlier), State::Uses(share));
-                }
-            }
-            _ => {
-                if let Some(way) = towards_bound(before, now) {
-                    let is = |quantity: &QuantityRecord| State::Is(quantity.value, quantity.unit.clone());
-                    self.add(way, case, &now.name, is(before), is(now));
-                }
-            }
-        }
-    }
-
-    /// Each value of a parameter that both tried: whether it ended as expected.
-    fn compare_stability(&mut self, before: &CaseRecord, now: &CaseRecord) {
+        // Each value of a parameter that both tried: whether it ended as expected.
         for point in &now.stability {
             let same = |p: &&StabilityPoint| p.parameter == point.parameter && p.setting == point.setting;
             let Some(earlier) = before.stability.iter().find(same) else { continue };
             let (was, is) = (earlier.outcome == earlier.expected, point.outcome == point.expected);
             if was != is {
                 let what = format!("{}: {}", point.parameter, point.setting);
-                self.add(Way::worse_if(was), now, &what, State::Ended(earlier.outcome), State::Ended(point.outcome));
+                self.add(was, now, &what, State::Ended(earlier.outcome), State::Ended(point.outcome));
+            }
+        }
+        for (name, &count) in &now.work {
+            let Some(&earlier) = before.work.get(name) else { continue };
+            if count.abs_diff(earlier) as f64 > RELATIVE * earlier as f64 {
+                self.add(count > earlier, now, name, State::Counted(earlier), State::Counted(count));
             }
         }
     }
 
-    fn compare_work(&mut self, before: &CaseRecord, now: &CaseRecord) {
-        for (name, &count) in &now.work {
-            let Some(&earlier) = before.work.get(name) else { continue };
-            if count.abs_diff(earlier) as f64 > RELATIVE * earlier as f64 {
-                self.add(Way::worse_if(count > earlier), now, name, State::Counted(earlier), State::Counted(count));
+    fn compare_quantity(&mut self, case: &CaseRecord, before: &QuantityRecord, now: &QuantityRecord) {
+        let mut add = |is_worse, what: &str, before, now| self.add(is_worse, case, what, before, now);
+        if before.standing != now.standing {
+            let is_worse = rank(now.standing) < rank(before.standing);
+            add(is_worse, &now.name, State::Stands(before.standing), State::Stands(now.standing));
+        } else if let Some(is_worse) = limit_moved(before.criterion, now.criterion) {
+            // A share of another tolerance says nothing: what is compared is the error, in the tolerance as it was.
+            let what = format!("{}: what it is held against", now.name);
+            add(is_worse, &what, State::Against(before.criterion), State::Against(now.criterion));
+            if let (Some(earlier), Some(error), Criterion::Near { tolerance, .. }) =
+                (before.error, now.error, before.criterion)
+                && (error - earlier).abs() > SHARE * tolerance
+            {
+                let errs = |error: f64| State::Errs(error, now.unit.clone());
+                add(error > earlier, &now.name, errs(earlier), errs(error));
             }
+        } else if let (Some(earlier), Some(share), false) = (before.share, now.share, now.counts_work) {
+            if (share - earlier).abs() > SHARE {
+                add(share > earlier, &now.name, State::Uses(earlier), State::Uses(share));
+            }
+        } else if let Some(is_worse) = nearer_to_bound(before, now) {
+            let is = |quantity: &QuantityRecord| State::Is(quantity.value, quantity.unit.clone());
+            add(is_worse, &now.name, is(before), is(now));
         }
     }
 }
@@ -167,8 +119,8 @@ fn rank(standing: Standing) -> u8 {
     }
 }
 
-/// Whether a quantity is held against something else than before: worse where that is looser, or another reference.
-fn limit_moved(before: Criterion, now: Criterion) -> Option<Way> {
+/// Where a quantity is held against something else than before: whether that is worse, looser or another reference.
+fn limit_moved(before: Criterion, now: Criterion) -> Option<bool> {
     let differs = |before: f64, now: f64, scale: f64| (now - before).abs() > RELATIVE * scale.abs();
     let (moved, looser) = match (before, now) {
         (Criterion::Near { reference: r0, tolerance: t0 }, Criterion::Near { reference: r1, tolerance: t1 }) => {
@@ -183,11 +135,11 @@ fn limit_moved(before: Criterion, now: Criterion) -> Option<Way> {
         (Criterion::True, Criterion::True) | (Criterion::Reported, Criterion::Reported) => return None,
         _ => (true, true),
     };
-    moved.then_some(Way::worse_if(looser))
+    moved.then_some(looser)
 }
 
-/// Which way a number without a tolerance went, seen from its bound; `None` where it did not move, or has no bound.
-fn towards_bound(before: &QuantityRecord, now: &QuantityRecord) -> Option<Way> {
+/// Whether a number without a tolerance went the worse way, seen from its bound; `None` where it did not move, or has no bound.
+fn nearer_to_bound(before: &QuantityRecord, now: &QuantityRecord) -> Option<bool> {
     let (earlier, value) = (before.value?, now.value?);
     let moved = |bound: f64| (value - earlier).abs() > RELATIVE * earlier.abs().max(NOTHING * bound.abs());
     let (moved, worse) = match now.criterion {
@@ -202,13 +154,14 @@ fn towards_bound(before: &QuantityRecord, now: &QuantityRecord) -> Option<Way> {
         }
         Criterion::True | Criterion::Reported => return None,
     };
-    moved.then_some(Way::worse_if(worse))
+    moved.then_some(worse)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::studies::validation::record::{CaseKind, RunOutcome, Tier};
+    use crate::studies::validation::record::RunOutcome;
+    use std::collections::BTreeMap;
 
     fn quantity(criterion: Criterion, value: f64, share: Option<f64>) -> QuantityRecord {
         QuantityRecord {
@@ -222,36 +175,12 @@ mod tests {
     }
 
     fn case(name: &str, quantities: Vec<QuantityRecord>) -> CaseRecord {
-        CaseRecord {
-            name: name.to_owned(),
-            title: String::new(),
-            group: String::new(),
-            targets: Vec::new(),
-            requirement: String::new(),
-            kind: CaseKind::Regression,
-            tier: Tier::Smoke,
-            says: None,
-            rests_on: Vec::new(),
-            runs: Vec::new(),
-            quantities,
-            work_precision: Vec::new(),
-            stability: Vec::new(),
-            plots: Vec::new(),
-            failure: None,
-            wall_s: 1.0,
-            work: BTreeMap::from([("equilibria".to_owned(), 1000)]),
-        }
+        let work = BTreeMap::from([("equilibria".to_owned(), 1000)]);
+        CaseRecord { name: name.to_owned(), quantities, wall_s: 1.0, work, ..CaseRecord::default() }
     }
 
     fn record(cases: Vec<CaseRecord>) -> ValidationRecord {
-        ValidationRecord {
-            program_version: "0.1.0".to_owned(),
-            tier: Some(Tier::Smoke),
-            threads: 1,
-            cases,
-            wall_s: 1.0,
-            not_run: Vec::new(),
-        }
+        ValidationRecord { cases, ..ValidationRecord::default() }
     }
 
     /// Worse and better, by what changed.

@@ -14,13 +14,11 @@ use crate::studies::validation::record::{CaseKind, CurveStyle, RunOutcome, Stand
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CaseFile {
-    /// Title.
     pub title: String,
     /// The group it is shown in.
     pub group: String,
     /// One sentence: what must be so.
     pub requirement: String,
-    /// What it shows.
     pub kind: CaseKind,
     /// The first tier that holds it.
     pub tier: Tier,
@@ -32,7 +30,6 @@ pub(crate) struct CaseFile {
     /// Estimates it rests on.
     #[serde(default)]
     pub rests_on: Vec<String>,
-    /// Runs of the program.
     #[serde(default)]
     pub run: Vec<RunSpec>,
     /// Files of numbers beside the case.
@@ -41,15 +38,11 @@ pub(crate) struct CaseFile {
     /// Names for expressions that are used more than once, in order.
     #[serde(default)]
     pub define: Vec<Definition>,
-    /// What is judged.
     pub quantity: Vec<QuantitySpec>,
-    /// What is drawn.
     #[serde(default)]
     pub plot: Vec<PlotSpec>,
-    /// Error against cost.
     #[serde(default)]
     pub work_precision: Vec<WorkPrecisionSpec>,
-    /// Outcomes over a range of a parameter.
     #[serde(default)]
     pub stability: Vec<StabilitySpec>,
 }
@@ -60,7 +53,6 @@ pub(crate) struct CaseFile {
 pub(crate) struct RunSpec {
     /// By which expressions know it.
     pub name: String,
-    /// What is run.
     #[serde(default)]
     pub command: Command,
     /// A preset, or a file beside the case.
@@ -87,7 +79,7 @@ pub(crate) struct RunSpec {
     /// Members drawn from ranges.
     pub sample: Option<SampleSpec>,
     /// How it must end, members of `each` that say otherwise apart.
-    #[serde(default = "sound")]
+    #[serde(default)]
     pub expect: RunOutcome,
     /// Other ways in which members may end, where nobody can say beforehand which of them are refused.
     #[serde(default)]
@@ -95,10 +87,6 @@ pub(crate) struct RunSpec {
     /// Of a family: expressions for every member, in which `run` is the member; each becomes a column of the family.
     #[serde(default)]
     pub take: BTreeMap<String, String>,
-}
-
-fn sound() -> RunOutcome {
-    RunOutcome::Sound
 }
 
 impl RunSpec {
@@ -157,9 +145,7 @@ pub(crate) struct VarySpec {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum OneOrMore {
-    /// One.
     One(String),
-    /// Several.
     More(Vec<String>),
 }
 
@@ -195,12 +181,10 @@ pub(crate) struct MemberSpec {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SampleSpec {
-    /// How many.
     pub count: usize,
     /// Another number draws others.
     #[serde(default)]
     pub seed: usize,
-    /// What is drawn.
     pub of: Vec<VarySpec>,
 }
 
@@ -210,7 +194,6 @@ pub(crate) struct SampleSpec {
 pub(crate) struct DataSpec {
     /// By which expressions know it.
     pub name: String,
-    /// The file.
     pub file: String,
     /// The columns that it must have.
     pub columns: Vec<String>,
@@ -222,9 +205,7 @@ pub(crate) struct DataSpec {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Definition {
-    /// The name.
     pub name: String,
-    /// The expression.
     pub value: String,
 }
 
@@ -232,9 +213,7 @@ pub(crate) struct Definition {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Formula {
-    /// A number.
     Number(f64),
-    /// An expression.
     Expression(String),
 }
 
@@ -252,14 +231,11 @@ pub(crate) enum Extent {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct QuantitySpec {
-    /// What it is.
     pub name: String,
     /// The one target of the case that it speaks to; without it, all of them.
     pub target: Option<String>,
-    /// Its unit.
     #[serde(default)]
     pub unit: String,
-    /// The expression for it.
     pub value: Option<Formula>,
     /// The reference it must be near.
     pub near: Option<Formula>,
@@ -286,7 +262,6 @@ pub(crate) struct QuantitySpec {
     pub remark: Option<String>,
     /// The file of numbers without which it cannot be compared.
     pub needs: Option<String>,
-    /// It counts work.
     #[serde(default)]
     pub work: bool,
 }
@@ -295,7 +270,6 @@ pub(crate) struct QuantitySpec {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlotSpec {
-    /// Heading.
     pub title: String,
     /// What one sees, in a sentence.
     pub reading: String,
@@ -303,13 +277,10 @@ pub(crate) struct PlotSpec {
     pub x: String,
     /// Title of the ordinate, unit included.
     pub y: String,
-    /// Whether the abscissa is logarithmic.
     #[serde(default)]
     pub log_x: bool,
-    /// Whether the ordinate is logarithmic.
     #[serde(default)]
     pub log_y: bool,
-    /// The curves.
     pub curve: Vec<CurveSpec>,
     /// Lines across the plot.
     #[serde(default)]
@@ -334,8 +305,7 @@ pub(crate) struct CurveSpec {
     pub upper: Option<String>,
     /// Expression for half the height of error bars.
     pub uncertainty: Option<String>,
-    /// How it is drawn.
-    #[serde(default = "line")]
+    #[serde(default)]
     pub style: CurveStyle,
     /// A family: one curve a member, in whose expressions `run` is the member.
     pub each: Option<String>,
@@ -343,17 +313,11 @@ pub(crate) struct CurveSpec {
     pub needs: Option<String>,
 }
 
-fn line() -> CurveStyle {
-    CurveStyle::Line
-}
-
 /// A line across or up a plot.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LineSpec {
-    /// Its name.
     pub name: String,
-    /// Where.
     pub at: Formula,
 }
 
@@ -361,7 +325,6 @@ pub(crate) struct LineSpec {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WorkPrecisionSpec {
-    /// The family.
     pub family: String,
     /// The column of the family that names the curves.
     pub series: String,
@@ -378,7 +341,6 @@ pub(crate) struct WorkPrecisionSpec {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct StabilitySpec {
-    /// The family.
     pub family: String,
     /// The parameter, unit included.
     pub parameter: String,

@@ -11,16 +11,13 @@ pub(super) const MOST_MEMBERS: usize = 10_000;
 
 /// What is wrong with a case.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{place}: found {found}; allowed: {allowed}")]
+#[error("{kind} {name:?}: found {found}; allowed: {allowed}")]
 pub(super) struct CaseFault {
-    /// Which run, quantity or plot, by its name.
-    pub place: String,
-    /// What it says.
-    pub found: String,
-    /// What it may say.
-    pub allowed: String,
-    /// The name to look for in the file.
+    /// Run, quantity or another part of the file; its name is looked for in the file.
+    kind: &'static str,
     name: String,
+    found: String,
+    allowed: String,
 }
 
 impl CaseFault {
@@ -31,8 +28,8 @@ impl CaseFault {
     }
 }
 
-fn fault(kind: &str, name: &str, found: impl Into<String>, allowed: impl Into<String>) -> CaseFault {
-    CaseFault { place: format!("{kind} {name:?}"), found: found.into(), allowed: allowed.into(), name: name.to_owned() }
+fn fault(kind: &'static str, name: &str, found: impl Into<String>, allowed: impl Into<String>) -> CaseFault {
+    CaseFault { kind, name: name.to_owned(), found: found.into(), allowed: allowed.into() }
 }
 
 /// The first thing that is wrong with a case.
@@ -50,12 +47,8 @@ pub(super) fn check(case: &CaseFile) -> Result<(), CaseFault> {
             return Err(fault("name", name, "it", allowed));
         }
         if !names.insert(name) {
-            return Err(fault(
-                "name",
-                name,
-                "it twice, or the name of every member",
-                "each name once, and not \"run\"",
-            ));
+            let found = "it twice, or the name of every member";
+            return Err(fault("name", name, found, "each name once, and not \"run\""));
         }
     }
     case.run.iter().try_for_each(|run| check_run(run, case))?;

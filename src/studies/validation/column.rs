@@ -29,35 +29,20 @@ use super::value::Value;
 /// Why a function of columns has no value.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum ColumnError {
-    /// Columns that do not go together.
     #[error("columns of {0} and {1} points do not go together")]
     Lengths(usize, usize),
-    /// Lists that do not go together.
     #[error("lists of different lengths, {0} and {1}")]
     ListLengths(usize, usize),
-    /// A figure of nothing.
     #[error("the column has no points")]
     Empty,
-    /// A value beyond the ends.
     #[error("{place} lies outside the column, {from} to {to}")]
-    Outside {
-        /// Where it is asked for.
-        place: f64,
-        /// The first place of the column.
-        from: f64,
-        /// The last one.
-        to: f64,
-    },
-    /// A level that is nowhere crossed.
+    Outside { place: f64, from: f64, to: f64 },
     #[error("the column never passes {0}")]
     NeverPasses(f64),
-    /// A column of anything else.
     #[error("a column is made of numbers")]
     NotNumbers,
-    /// A profile over places that do not rise.
     #[error("the places of a profile must rise")]
     NotRising,
-    /// A profile with too few points for its form.
     #[error("a profile of {0} points has no cubic form")]
     NoForm(usize),
 }

@@ -33,10 +33,10 @@ pub(super) fn read(spec: &DataSpec, folder: &Path) -> Result<Option<Value>, Stri
             ));
         };
         let read = if wanted.starts_with("uncertainty") { positive } else { finite };
-        let mut numbers = Vec::with_capacity(table.rows.len());
-        for (line, fields) in &table.rows {
-            numbers.push(read(*line, wanted, fields.get(place).copied().unwrap_or_default()).map_err(said)?);
-        }
+        let number = |(line, fields): &(usize, Vec<&str>)| {
+            read(*line, wanted, fields.get(place).copied().unwrap_or_default()).map_err(said)
+        };
+        let numbers = table.rows.iter().map(number).collect::<Result<Vec<f64>, _>>()?;
         if numbers.is_empty() {
             return Err(format!("{}: found no row; allowed: at least one", spec.file));
         }

@@ -10,14 +10,12 @@ use super::members::Member;
 use super::schedule::Members;
 use super::value::Value;
 use crate::studies::validation::record::{
-    CasePlot, CurveStyle, PlotAxis, PlotCurve, RunOutcome, StabilityPoint, WorkPrecisionPoint,
+    CasePlot, CurveStyle, PlotCurve, RunOutcome, StabilityPoint, WorkPrecisionPoint,
 };
 
 /// The members of a family that left something behind.
 fn finished(family: &Members) -> impl Iterator<Item = (&Member, &Executed)> {
-    let both = family.members.iter().zip(&family.executed);
-    both.filter_map(|(member, executed)| executed.as_ref().map(|run| (member, run)))
-        .filter(|(_, run)| run.outcome == RunOutcome::Sound)
+    family.ended().filter(|(_, run)| run.outcome == RunOutcome::Sound)
 }
 
 /// A plot; `families` finds one by its name.
@@ -50,8 +48,10 @@ pub(crate) fn plot<'a>(
         reading: spec.reading.clone(),
         levels: lines(&spec.level)?,
         marks: lines(&spec.mark)?,
-        x: PlotAxis { title: spec.x.clone(), log: spec.log_x },
-        y: PlotAxis { title: spec.y.clone(), log: spec.log_y },
+        x: spec.x.clone(),
+        y: spec.y.clone(),
+        log_x: spec.log_x,
+        log_y: spec.log_y,
         curves,
     })
 }
@@ -87,12 +87,9 @@ pub(crate) fn work_precision(
             let reason = format!("found {error} for {:?}; allowed: a finite error", member.label);
             return Err(ExpressionError { expression: spec.error.clone(), reason });
         }
-        let named = member.values.iter().find(|(name, _)| *name == spec.series);
+        let series = member.value(&spec.series).map_or_else(String::new, in_words);
         points.push(WorkPrecisionPoint {
-            series: [named.map_or_else(String::new, |(_, value)| in_words(value)), spec.name.clone()]
-                .join(" ")
-                .trim()
-                .to_owned(),
+            series: format!("{series} {}", spec.name).trim().to_owned(),
             setting: member.label.clone(),
             error,
             wall_s: run.wall_s,
@@ -108,25 +105,23 @@ pub(crate) fn work_precision(
 /// # Errors
 /// In words: a member without a number for it.
 pub(crate) fn stability(spec: &StabilitySpec, family: &Members) -> Result<Vec<StabilityPoint>, String> {
-    let both = family.members.iter().zip(&family.executed);
-    both.filter_map(|(member, executed)| executed.as_ref().map(|run| (member, run)))
-        .map(|(member, run)| {
-            let value = member.values.iter().find(|(name, _)| *name == spec.value).map(|(_, value)| value);
-            let Some(Value::Number(value)) = value.filter(|value| matches!(value, Value::Number(x) if x.is_finite()))
-            else {
-                let (parameter, name) = (&spec.parameter, &spec.value);
-                return Err(format!("stability over {parameter}: {name} of a member is no number; allowed: numbers"));
-            };
-            Ok(StabilityPoint {
-                parameter: spec.parameter.clone(),
-                value: *value,
-                setting: member.label.clone(),
-                outcome: run.outcome,
-                expected: if member.may_end(run.outcome) { run.outcome } else { member.expected },
-                said: run.said.clone(),
-            })
+    let point = |(member, run): (&Member, &Executed)| {
+        let Some(&Value::Number(value)) =
+            member.value(&spec.value).filter(|v| matches!(v, Value::Number(x) if x.is_finite()))
+        else {
+            let (parameter, name) = (&spec.parameter, &spec.value);
+            return Err(format!("stability over {parameter}: {name} of a member is no number; allowed: numbers"));
+        };
+        Ok(StabilityPoint {
+            parameter: spec.parameter.clone(),
+            value,
+            setting: member.label.clone(),
+            outcome: run.outcome,
+            expected: if member.may_end(run.outcome) { run.outcome } else { member.expected },
+            said: run.said.clone(),
         })
-        .collect()
+    };
+    family.ended().map(point).collect()
 }
 
 fn in_words(value: &Value) -> String {

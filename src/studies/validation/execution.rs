@@ -1,7 +1,6 @@
 //! One run of a case, carried out as its command would, and read back as its output files would be.
 
 use std::collections::BTreeMap;
-use std::fmt::Display;
 use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
@@ -40,143 +39,224 @@ pub(crate) struct Executed {
     /// What it said, where that is not sound.
     pub said: Option<String>,
     /// What it left behind: a group, empty where nothing was finished.
-    pub value: BTreeMap<String, Value>,
+    pub value: Value,
     /// The calibration, of a run that makes one.
     pub calibration: Option<Calibration>,
-    /// Wall time.
     pub wall_s: f64,
     /// Work by the name of what was counted.
     pub work: BTreeMap<String, u64>,
 }
 
 impl Executed {
-    /// A run whose calibration was not made.
-    pub(crate) fn without_calibration(name: &str) -> Self {
-        let said = Some(format!("the calibration of {name:?} was not made"));
-        let (value, work) = (BTreeMap::new(), BTreeMap::new());
-        Self { outcome: RunOutcome::NotConverged, said, value, calibration: None, wall_s: 0.0, work }
+    /// A run that left `value` behind, and why it did not converge or cannot be sound.
+    fn of(value: Value, work: BTreeMap<String, u64>, not_converged: Option<String>, fault: Option<String>) -> Self {
+        let outcome = match (&not_converged, &fault) {
+            (Some(_), _) => RunOutcome::NotConverged,
+            (None, Some(_)) => RunOutcome::Unsound,
+            (None, None) => RunOutcome::Sound,
+        };
+        Self { outcome, said: not_converged.or(fault), value, calibration: None, wall_s: 0.0, work }
+    }
+
+    /// A run that has nothing to show.
+    fn without_result(outcome: RunOutcome, said: String) -> Self {
+        let value = Value::Group(BTreeMap::new());
+        Self { outcome, said: Some(said), value, calibration: None, wall_s: 0.0, work: BTreeMap::new() }
     }
 
     /// As expressions see it.
     pub(crate) fn as_value(&self) -> Value {
         let mut group = self.value.clone();
-        group.insert("outcome".to_owned(), Value::Text(self.outcome.name().to_owned()));
-        group.insert("message".to_owned(), Value::Text(self.said.clone().unwrap_or_default()));
-        group.insert("wall_s".to_owned(), Value::Number(self.wall_s));
+        group.add("outcome", Value::Text(self.outcome.name().to_owned()));
+        group.add("message", Value::Text(self.said.clone().unwrap_or_default()));
+        group.add("wall_s", Value::Number(self.wall_s));
         let work = self.work.iter().map(|(name, &count)| (name.as_str(), Value::Number(count as f64)));
-        group.insert("work".to_owned(), Value::group(work));
-        Value::Group(group)
+        group.add("work", Value::group(work));
+        group
     }
 }
 
-/// Why a run has nothing to show.
-enum Failed {
-    /// The input is wrong.
-    Refused(String),
-    /// The solver says so.
-    NotConverged(String),
+/// Why a run has nothing to show: how it ended, and what was said.
+struct Failed(RunOutcome, String);
+
+/// The input is wrong.
+fn refused(error: impl ToString) -> Failed {
+    Failed(RunOutcome::Refused, error.to_string())
 }
 
-/// What a run left behind, before it is judged.
-#[derive(Default)]
-struct RunOutput {
-    value: BTreeMap<String, Value>,
-    fault: Option<String>,
-    not_converged: Option<String>,
-    calibration: Option<Calibration>,
-    work: BTreeMap<String, u64>,
+/// The solver says so.
+fn not_converged(error: impl ToString) -> Failed {
+    Failed(RunOutcome::NotConverged, error.to_string())
 }
 
-/// Carries out one member of `run`, whose files lie in `folder`, with the calibration it names.
-pub(crate) fn execute(
-    run: &RunSpec,
-    member: &Member,
-    folder: &Path,
-    calibration: Option<&Calibration>,
-    watch: &dyn Observer,
-) -> Executed {
-    let start = Instant::now();
-    let work = || match run.command {
-        Command::Run => wear_run(run, member, folder, calibration, watch),
-        Command::Fem => finite_elements(run, member, folder, watch),
-        Command::Calibrate => calibrated(run, member, folder, watch),
-    };
-    let done = guarded(work);
-    let wall_s = start.elapsed().as_secs_f64();
-    let nothing = |outcome, said: String| (outcome, Some(said), RunOutput::default());
-    let (outcome, said, found) = match done {
-        Err(said) => nothing(RunOutcome::Panicked, said),
-        Ok(Err(Failed::Refused(said))) => nothing(RunOutcome::Refused, said),
-        Ok(Err(Failed::NotConverged(said))) => nothing(RunOutcome::NotConverged, said),
-        Ok(Ok(found)) => match (&found.not_converged, &found.fault) {
-            (Some(said), _) => (RunOutcome::NotConverged, Some(said.clone()), found),
-            (None, Some(said)) => (RunOutcome::Unsound, Some(said.clone()), found),
-            (None, None) => (RunOutcome::Sound, None, found),
-        },
-    };
-    Executed { outcome, said, value: found.value, calibration: found.calibration, wall_s, work: found.work }
+fn wrong(problems: Vec<Problem>) -> Failed {
+    refused(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))
 }
 
-fn refused(problems: Vec<Problem>) -> Failed {
-    Failed::Refused(problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "))
+/// One member of a run.
+pub(crate) struct Task<'a> {
+    pub run: &'a RunSpec,
+    pub member: &'a Member,
+    /// In which the files of the case lie.
+    pub folder: &'a Path,
+    /// The calibration that the run names, where it was made.
+    pub calibration: Option<&'a Calibration>,
+    pub watch: &'a dyn Observer,
 }
 
-/// The text of the scene: a preset, or a file of the case.
-fn text(run: &RunSpec, folder: &Path) -> Result<String, Failed> {
-    match presets::find(&run.scene) {
-        Some(preset) => Ok(preset.text.to_owned()),
-        None => fs::read_to_string(folder.join(&run.scene)).map_err(|reason| {
-            Failed::Refused(format!("{}: neither a preset nor a file that can be read: {reason}", run.scene))
-        }),
+impl Task<'_> {
+    /// Carries it out.
+    pub(crate) fn execute(&self) -> Executed {
+        if let (Some(name), None) = (&self.run.calibration, self.calibration) {
+            let said = format!("the calibration of {name:?} was not made");
+            return Executed::without_result(RunOutcome::NotConverged, said);
+        }
+        let start = Instant::now();
+        let done = guarded(|| match self.run.command {
+            Command::Run => self.wear_run(),
+            Command::Fem => self.finite_elements(),
+            Command::Calibrate => self.calibrated(),
+        });
+        let executed = match done {
+            Err(said) => Executed::without_result(RunOutcome::Panicked, said),
+            Ok(Err(Failed(outcome, said))) => Executed::without_result(outcome, said),
+            Ok(Ok(executed)) => executed,
+        };
+        Executed { wall_s: start.elapsed().as_secs_f64(), ..executed }
     }
-}
 
-/// The scene of a member.
-fn scene(run: &RunSpec, member: &Member, folder: &Path) -> Result<Resolved, Failed> {
-    resolved(draft(run, member, folder)?, member)
-}
-
-/// The scene of a member with the files it names, which lie in `folder`, and with `calibration`, where the run names one.
-fn loaded_scene(
-    run: &RunSpec,
-    member: &Member,
-    folder: &Path,
-    calibration: Option<&Calibration>,
-) -> Result<LoadedScene, Failed> {
-    let mut draft = draft(run, member, folder)?;
-    let refused = |error: &dyn Display| Failed::Refused(error.to_string());
-    let given = SceneText { name: run.scene.clone(), text: draft.to_toml() };
-    let Some(calibration) = calibration else {
-        return LoadedScene::of(resolved(draft, member)?, given, folder).map_err(|error| refused(&error));
-    };
-    draft.set(loaded::CALIBRATION, "calibration.json");
-    let files = NamedFiles { calibration: Some(calibration.clone()), ..NamedFiles::default() };
-    LoadedScene::with_files(resolved(draft, member)?, given, files).map_err(|error| refused(&error))
-}
-
-/// The scene file of a member.
-fn draft(run: &RunSpec, member: &Member, folder: &Path) -> Result<Draft, Failed> {
-    let mut draft = Draft::parse(&text(run, folder)?).map_err(refused)?;
-    for key in &member.unset {
-        draft.remove(key);
+    /// The text of the scene: a preset, or a file of the case.
+    fn text(&self) -> Result<String, Failed> {
+        let name = &self.run.scene;
+        match presets::find(name) {
+            Some(preset) => Ok(preset.text.to_owned()),
+            None => fs::read_to_string(self.folder.join(name))
+                .map_err(|reason| refused(format!("{name}: neither a preset nor a file that can be read: {reason}"))),
+        }
     }
-    for (key, value) in &member.set {
-        draft.set(key, value.clone());
-    }
-    Ok(draft)
-}
 
-fn resolved(draft: Draft, member: &Member) -> Result<Resolved, Failed> {
-    let mut resolved = draft.resolve().map_err(refused)?;
-    // A case holds a run against a reference of its own; one that is about verification asks for it.
-    resolved.scene.verify &= member.set.iter().any(|(key, _)| key == "numerics.verify");
-    Ok(resolved)
+    /// The scene file, with the member's keys exchanged.
+    fn draft(&self) -> Result<Draft, Failed> {
+        let mut draft = Draft::parse(&self.text()?).map_err(wrong)?;
+        for key in &self.member.unset {
+            draft.remove(key);
+        }
+        for (key, value) in &self.member.set {
+            draft.set(key, value.clone());
+        }
+        Ok(draft)
+    }
+
+    fn resolved(&self, draft: Draft) -> Result<Resolved, Failed> {
+        let mut resolved = draft.resolve().map_err(wrong)?;
+        // A case holds a run against a reference of its own; one that is about verification asks for it.
+        resolved.scene.verify &= self.member.set.iter().any(|(key, _)| key == "numerics.verify");
+        Ok(resolved)
+    }
+
+    /// The scene with the files it names, and with the calibration, where the run names one.
+    fn loaded_scene(&self) -> Result<LoadedScene, Failed> {
+        let mut draft = self.draft()?;
+        let given = SceneText { name: self.run.scene.clone(), text: draft.to_toml() };
+        let Some(calibration) = self.calibration else {
+            return LoadedScene::of(self.resolved(draft)?, given, self.folder).map_err(refused);
+        };
+        draft.set(loaded::CALIBRATION, "calibration.json");
+        let files = NamedFiles { calibration: Some(calibration.clone()), ..NamedFiles::default() };
+        LoadedScene::with_files(self.resolved(draft)?, given, files).map_err(refused)
+    }
+
+    fn wear_run(&self) -> Result<Executed, Failed> {
+        let scene = self.loaded_scene()?;
+        let done = pipeline::run(&scene, self.watch).map_err(|error| match &error {
+            RunError::Pair(_) | RunError::Stiffness(_) | RunError::FiniteElements(_) => refused(error),
+            _ => not_converged(error),
+        })?;
+        let record = done.record;
+        let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
+        let mut value = Value::group([
+            ("summary", tree(&record.summary)?),
+            ("history", table(|out| csv_table::table(out, provenance, &record.history))?),
+            ("mesh_cycle", table(|out| csv_table::table(out, provenance, &record.mesh_cycle))?),
+        ]);
+        for gear in Gear::BOTH {
+            let flank = &record.flanks[gear];
+            let mut columns = table(|out| tables::flank(out, provenance, flank))?;
+            columns.add("path_point_radius_mm", tree(&flank.path_point_radius_mm)?);
+            // The wear at each row of the history, a column a row: `profiles.csv` of one gear.
+            let snapshots = flank.snapshot_wear_um.iter().map(|profile| Value::column(profile.iter().copied()));
+            columns.add("snapshot_wear_um", Value::List(snapshots.collect()));
+            value.add(gear.name(), columns);
+        }
+        if let Some(slices) = &record.slices {
+            let path = &record.summary.geometry.curvature_radius_mm;
+            value.add("slices", table(|out| slice_table::slices(out, provenance, slices, path))?);
+        }
+        let work = counts(&tree(&record.summary.work)?);
+        let failure = done.failure.map(|failure| failure.to_string()).or_else(|| of_stop(record.summary.stopped));
+        Ok(Executed::of(value, work, failure, soundness::fault(&record)))
+    }
+
+    fn finite_elements(&self) -> Result<Executed, Failed> {
+        let mut file: toml::Table = self.text()?.parse().map_err(|error: toml::de::Error| refused(error))?;
+        if file.contains_key("pair") {
+            return self.finite_element_pair();
+        }
+        for (key, value) in &self.member.set {
+            draft::set(&mut file, key, value.clone());
+        }
+        let problem = FemProblem::from_toml(&file.to_string()).map_err(wrong)?;
+        let record = fem_problem::run(&problem, self.folder, self.watch).map_err(|error| match error {
+            FemProblemError::Input(problems) => wrong(problems),
+            FemProblemError::Solve(error) => not_converged(error),
+        })?;
+        let provenance = Provenance::of_problem(&record.summary.program_version, &record.summary.problem_hash);
+        let contact = table(|out| report::fem::contact_table(out, provenance, &record.contacts))?;
+        let value = Value::group([("summary", tree(&record.summary)?), ("contact", contact)]);
+        Ok(Executed::of(value, counts(&tree(&record.summary.work)?), None, None))
+    }
+
+    fn finite_element_pair(&self) -> Result<Executed, Failed> {
+        let resolved = self.resolved(self.draft()?)?;
+        let asked = fem_scene::Asked { position_mm: self.run.position_mm, full: self.run.full };
+        let done = fem_scene::run(&resolved, asked, self.watch).map_err(|error| match &error {
+            FemPairError::Position { .. }
+            | FemPairError::Pair(_)
+            | FemPairError::Quality { .. }
+            | FemPairError::Model(_) => refused(error),
+            _ => not_converged(error),
+        })?;
+        let record = done.record;
+        let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
+        let pressure = table(|out| report::fem_pair::pressure_table::pressure(out, provenance, &record.pressure))?;
+        let value = Value::group([
+            ("summary", tree(&record.summary)?),
+            ("mesh_cycle", table(|out| csv_table::table(out, provenance, &record.mesh_cycle))?),
+            ("pressure", pressure),
+        ]);
+        let work = [("iterations", record.summary.iterations as u64), ("positions", record.summary.positions as u64)];
+        let failure = done.failure.map(|failure| failure.to_string()).or_else(|| of_stop(record.summary.stopped));
+        Ok(Executed::of(value, work.map(|(name, count)| (name.to_owned(), count)).into(), failure, None))
+    }
+
+    fn calibrated(&self) -> Result<Executed, Failed> {
+        let resolved = self.resolved(self.draft()?)?;
+        let extent = if self.run.full { Extent::Whole } else { Extent::FastModel };
+        let done = calibrate::run(&resolved.scene, extent, self.watch).map_err(|error| match &error {
+            CalibrateError::Pair(_) => refused(error),
+            _ => not_converged(error),
+        })?;
+        let calibration = done.calibration;
+        let positions = (calibration.deflection.len() + calibration.single_contact.len()) as u64;
+        let value = Value::group([("calibration", tree(&calibration)?)]);
+        let work = BTreeMap::from([("loaded positions".to_owned(), positions)]);
+        Ok(Executed { calibration: Some(calibration), ..Executed::of(value, work, None, None) })
+    }
 }
 
 /// The tree of anything that can be written as JSON.
 fn tree(summary: &impl Serialize) -> Result<Value, Failed> {
-    let json = serde_json::to_value(summary).map_err(|error| Failed::NotConverged(error.to_string()))?;
-    Ok(Value::of_json(json))
+    serde_json::to_value(summary).map(Value::of_json).map_err(not_converged)
 }
 
 /// Whole numbers of a group, as counts of work.
@@ -192,13 +272,8 @@ fn counts(value: &Value) -> BTreeMap<String, u64> {
 /// The table that `write` writes.
 fn table(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Value, Failed> {
     let mut bytes = Vec::new();
-    write(&mut bytes).map_err(|error| Failed::NotConverged(error.to_string()))?;
-    Value::of_csv(&bytes).map_err(|error| Failed::NotConverged(error.to_string()))
-}
-
-/// The wear at each row of the history, a column a row: `profiles.csv` of one gear.
-fn snapshots(wear_um: &[Vec<f64>]) -> Value {
-    Value::List(wear_um.iter().map(|profile| Value::column(profile.iter().copied())).collect())
+    write(&mut bytes).map_err(not_converged)?;
+    Value::of_csv(&bytes).map_err(not_converged)
 }
 
 fn of_stop(stop: StopReason) -> Option<String> {
@@ -207,118 +282,4 @@ fn of_stop(stop: StopReason) -> Option<String> {
         StopReason::Interrupted => Some("interrupted".to_owned()),
         StopReason::NotConverged => Some("the run did not converge".to_owned()),
     }
-}
-
-fn wear_run(
-    run: &RunSpec,
-    member: &Member,
-    folder: &Path,
-    calibration: Option<&Calibration>,
-    watch: &dyn Observer,
-) -> Result<RunOutput, Failed> {
-    let scene = loaded_scene(run, member, folder, calibration)?;
-    let done = pipeline::run(&scene, watch).map_err(|error| match &error {
-        RunError::Pair(_) | RunError::Stiffness(_) | RunError::FiniteElements(_) => Failed::Refused(error.to_string()),
-        _ => Failed::NotConverged(error.to_string()),
-    })?;
-    let record = done.record;
-    let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
-    let summary = tree(&record.summary)?;
-    let work = tree(&record.summary.work)?;
-    let mut value = BTreeMap::from([
-        ("summary".to_owned(), summary),
-        ("history".to_owned(), table(|out| csv_table::table(out, provenance, &record.history))?),
-        ("mesh_cycle".to_owned(), table(|out| csv_table::table(out, provenance, &record.mesh_cycle))?),
-    ]);
-    for gear in Gear::BOTH {
-        let flank = &record.flanks[gear];
-        let mut columns = table(|out| tables::flank(out, provenance, flank))?;
-        columns.add("path_point_radius_mm", tree(&flank.path_point_radius_mm)?);
-        columns.add("snapshot_wear_um", snapshots(&flank.snapshot_wear_um));
-        value.insert(gear.name().to_owned(), columns);
-    }
-    if let Some(slices) = &record.slices {
-        let path = &record.summary.geometry.curvature_radius_mm;
-        value.insert("slices".to_owned(), table(|out| slice_table::slices(out, provenance, slices, path))?);
-    }
-    Ok(RunOutput {
-        value,
-        fault: soundness::fault(&record),
-        not_converged: done.failure.map(|failure| failure.to_string()).or_else(|| of_stop(record.summary.stopped)),
-        calibration: None,
-        work: counts(&work),
-    })
-}
-
-fn finite_elements(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Observer) -> Result<RunOutput, Failed> {
-    let given = text(run, folder)?;
-    let mut file: toml::Table = given.parse().map_err(|error: toml::de::Error| Failed::Refused(error.to_string()))?;
-    if file.contains_key("pair") {
-        return finite_element_pair(run, member, folder, watch);
-    }
-    for (key, value) in &member.set {
-        draft::set(&mut file, key, value.clone());
-    }
-    let problem = FemProblem::from_toml(&file.to_string()).map_err(refused)?;
-    let record = fem_problem::run(&problem, folder, watch).map_err(|error| match error {
-        FemProblemError::Input(problems) => refused(problems),
-        FemProblemError::Solve(error) => Failed::NotConverged(error.to_string()),
-    })?;
-    let provenance = Provenance::of_problem(&record.summary.program_version, &record.summary.problem_hash);
-    let contact = table(|out| report::fem::contact_table(out, provenance, &record.contacts))?;
-    let work = counts(&tree(&record.summary.work)?);
-    Ok(RunOutput {
-        value: BTreeMap::from([("summary".to_owned(), tree(&record.summary)?), ("contact".to_owned(), contact)]),
-        work,
-        ..RunOutput::default()
-    })
-}
-
-fn finite_element_pair(
-    run: &RunSpec,
-    member: &Member,
-    folder: &Path,
-    watch: &dyn Observer,
-) -> Result<RunOutput, Failed> {
-    let resolved = scene(run, member, folder)?;
-    let asked = fem_scene::Asked { position_mm: run.position_mm, full: run.full };
-    let done = fem_scene::run(&resolved, asked, watch).map_err(|error| match &error {
-        FemPairError::Position { .. }
-        | FemPairError::Pair(_)
-        | FemPairError::Quality { .. }
-        | FemPairError::Model(_) => Failed::Refused(error.to_string()),
-        _ => Failed::NotConverged(error.to_string()),
-    })?;
-    let record = done.record;
-    let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
-    let mesh_cycle = table(|out| csv_table::table(out, provenance, &record.mesh_cycle))?;
-    let pressure = table(|out| report::fem_pair::pressure_table::pressure(out, provenance, &record.pressure))?;
-    let work = [("iterations", record.summary.iterations as u64), ("positions", record.summary.positions as u64)];
-    Ok(RunOutput {
-        value: BTreeMap::from([
-            ("summary".to_owned(), tree(&record.summary)?),
-            ("mesh_cycle".to_owned(), mesh_cycle),
-            ("pressure".to_owned(), pressure),
-        ]),
-        not_converged: done.failure.map(|failure| failure.to_string()).or_else(|| of_stop(record.summary.stopped)),
-        work: work.map(|(name, count)| (name.to_owned(), count)).into(),
-        ..RunOutput::default()
-    })
-}
-
-fn calibrated(run: &RunSpec, member: &Member, folder: &Path, watch: &dyn Observer) -> Result<RunOutput, Failed> {
-    let resolved = scene(run, member, folder)?;
-    let extent = if run.full { Extent::Whole } else { Extent::FastModel };
-    let done = calibrate::run(&resolved.scene, extent, watch).map_err(|error| match &error {
-        CalibrateError::Pair(_) => Failed::Refused(error.to_string()),
-        _ => Failed::NotConverged(error.to_string()),
-    })?;
-    let calibration = done.calibration;
-    let positions = (calibration.deflection.len() + calibration.single_contact.len()) as u64;
-    Ok(RunOutput {
-        value: BTreeMap::from([("calibration".to_owned(), tree(&calibration)?)]),
-        work: BTreeMap::from([("loaded positions".to_owned(), positions)]),
-        calibration: Some(calibration),
-        ..RunOutput::default()
-    })
 }

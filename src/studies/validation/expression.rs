@@ -28,38 +28,17 @@ pub(crate) struct ExpressionError {
 /// Why a term has no value.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum Fault {
-    /// A name that stands for nothing.
     #[error("found `{0}`, which stands for nothing")]
     UnknownName(String),
-    /// A name that a group has not.
     #[error("found no `{name}` in {of}")]
-    NoMember {
-        /// The name.
-        name: String,
-        /// What was looked in.
-        of: &'static str,
-    },
-    /// An index where nothing is.
-    #[error("a {what} of {points} {parts} has no {part} {index}")]
-    NoItem {
-        /// A column or a list.
-        what: &'static str,
-        /// What it has.
-        parts: &'static str,
-        /// One of those.
-        part: &'static str,
-        /// How many.
-        points: usize,
-        /// The index.
-        index: f64,
-    },
+    NoMember { name: String, of: &'static str },
+    #[error("a {what} of {length} {part}s has no {part} {index}")]
+    NoItem { what: &'static str, part: &'static str, length: usize, index: f64 },
     /// An operator or function for other things.
     #[error("found {0}, which there is not")]
     NoFunction(String),
-    /// A list too long to be kept.
     #[error("found a list too large; allowed: {MOST_ITEMS} items, those of lists in it included")]
     TooLarge,
-    /// A function of columns that has no value.
     #[error(transparent)]
     Column(#[from] column::ColumnError),
 }
@@ -105,7 +84,7 @@ impl Evaluator {
     pub(crate) fn number(&self, expression: &str) -> Result<f64, ExpressionError> {
         match self.value(expression)? {
             Value::Number(number) => Ok(number),
-            Value::Truth(truth) => Ok(f64::from(u8::from(truth))),
+            Value::Truth(truth) => Ok(f64::from(truth)),
             other => Err(unfit(expression, &other, "a number")),
         }
     }
@@ -200,35 +179,25 @@ fn member<'v>(of: Cow<'v, Value>, name: &str) -> Result<Cow<'v, Value>, Fault> {
 
 /// The item of a column or list with an index, or what a group has under a text.
 fn item<'v>(of: Cow<'v, Value>, index: &Value) -> Result<Cow<'v, Value>, Fault> {
-    let index = match (of.as_ref(), index) {
+    let (what, part, length, index) = match (of.as_ref(), index) {
         (_, Value::Text(name)) => return member(of, name),
-        (Value::Column(_) | Value::List(_), Value::Number(index)) => *index,
+        (Value::Column(x), Value::Number(index)) => ("column", "point", x.len(), *index),
+        (Value::List(items), Value::Number(index)) => ("list", "item", items.len(), *index),
         (other, index) => return Err(no_function("[ ]", &[other, index])),
     };
-    match of {
-        Cow::Borrowed(Value::List(items)) => {
-            Ok(Cow::Borrowed(&items[place_of_item(index, items.len(), ["list", "items", "item"])?]))
-        }
-        Cow::Owned(Value::List(mut items)) => {
-            let place = place_of_item(index, items.len(), ["list", "items", "item"])?;
-            Ok(Cow::Owned(items.swap_remove(place)))
-        }
+    let from_start = if index < 0.0 { index + length as f64 } else { index };
+    if from_start.fract() != 0.0 || !(0.0..length as f64).contains(&from_start) {
+        return Err(Fault::NoItem { what, part, length, index });
+    }
+    let place = from_start as usize;
+    Ok(match of {
+        Cow::Borrowed(Value::List(items)) => Cow::Borrowed(&items[place]),
+        Cow::Owned(Value::List(mut items)) => Cow::Owned(items.swap_remove(place)),
         other => match other.as_ref() {
-            Value::Column(x) => {
-                Ok(Cow::Owned(Value::Number(x[place_of_item(index, x.len(), ["column", "points", "point"])?])))
-            }
-            other => Err(no_function("[ ]", &[other])),
+            Value::Column(x) => Cow::Owned(Value::Number(x[place])),
+            _ => other,
         },
-    }
-}
-
-fn place_of_item(index: f64, points: usize, [what, parts, part]: [&'static str; 3]) -> Result<usize, Fault> {
-    let from_start = if index < 0.0 { index + points as f64 } else { index };
-    if from_start.fract() == 0.0 && from_start >= 0.0 && from_start < points as f64 {
-        Ok(from_start as usize)
-    } else {
-        Err(Fault::NoItem { what, parts, part, points, index })
-    }
+    })
 }
 
 /// Items of a list, those of lists in it included.

@@ -17,26 +17,19 @@ pub(super) fn columns(
     take: &BTreeMap<String, String>,
     e: &mut Evaluator,
 ) -> Result<Value, ExpressionError> {
-    let executed: Vec<&Executed> = family.executed.iter().flatten().collect();
-    let number_of = |of: fn(&Executed) -> f64| Value::column(executed.iter().map(|run| of(run)));
-    let mut group = BTreeMap::from([
-        ("count".to_owned(), Value::Number(executed.len() as f64)),
-        ("wall_s".to_owned(), number_of(|run| run.wall_s)),
-        ("sound".to_owned(), number_of(|run| f64::from(u8::from(run.outcome == RunOutcome::Sound)))),
-        (
-            "outcome".to_owned(),
-            Value::List(executed.iter().map(|run| Value::Text(run.outcome.name().to_owned())).collect()),
-        ),
-        (
-            "message".to_owned(),
-            Value::List(executed.iter().map(|run| Value::Text(run.said.clone().unwrap_or_default())).collect()),
-        ),
-        ("work".to_owned(), work(&executed)),
+    let executed: Vec<&Executed> = family.ended().map(|(_, run)| run).collect();
+    let numbers = |of: fn(&Executed) -> f64| Value::column(executed.iter().map(|run| of(run)));
+    let texts = |of: fn(&Executed) -> String| Value::List(executed.iter().map(|run| Value::Text(of(run))).collect());
+    let mut group = Value::group([
+        ("count", Value::Number(executed.len() as f64)),
+        ("wall_s", numbers(|run| run.wall_s)),
+        ("sound", numbers(|run| f64::from(run.outcome == RunOutcome::Sound))),
+        ("outcome", texts(|run| run.outcome.name().to_owned())),
+        ("message", texts(|run| run.said.clone().unwrap_or_default())),
+        ("work", work(&executed)),
     ]);
-    let names = family.members.first().map(|member| member.values.iter().map(|(name, _)| name.clone()));
-    for (place, name) in names.into_iter().flatten().enumerate() {
-        let values = family.members.iter().map(|member| member.values[place].1.clone()).collect();
-        group.insert(name, in_a_row(values));
+    for (place, (name, _)) in family.members.first().iter().flat_map(|member| &member.values).enumerate() {
+        group.add(name, in_a_row(family.members.iter().map(|member| member.values[place].1.clone()).collect()));
     }
     let mut taken: Vec<Vec<Value>> = vec![Vec::with_capacity(executed.len()); take.len()];
     for run in &executed {
@@ -51,8 +44,10 @@ pub(super) fn columns(
             Ok(())
         })?;
     }
-    group.extend(take.keys().cloned().zip(taken.into_iter().map(in_a_row)));
-    Ok(Value::Group(group))
+    for (name, values) in take.keys().zip(taken) {
+        group.add(name, in_a_row(values));
+    }
+    Ok(group)
 }
 
 /// What was counted by all members, each as a column.
@@ -68,7 +63,7 @@ fn work(executed: &[&Executed]) -> Value {
 fn in_a_row(values: Vec<Value>) -> Value {
     let number = |value: &Value| match value {
         Value::Number(number) => Some(*number),
-        Value::Truth(truth) => Some(f64::from(u8::from(*truth))),
+        Value::Truth(truth) => Some(f64::from(*truth)),
         _ => None,
     };
     match values.iter().map(number).collect::<Option<Vec<f64>>>() {

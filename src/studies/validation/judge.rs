@@ -6,7 +6,6 @@
 use std::collections::BTreeMap;
 
 use super::case_file::{Extent, Formula, QuantitySpec};
-use super::execution::Executed;
 use super::expression::{Evaluator, ExpressionError};
 use super::schedule::Members;
 use crate::studies::validation::record::{Criterion, QuantityRecord, RunOutcome, Standing};
@@ -17,37 +16,17 @@ const ROUNDING: f64 = 1e-9;
 /// Why a quantity could not be judged.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum JudgeError {
-    /// One of its expressions has no value.
-    #[error("{quantity}: {error}")]
-    Expression {
-        /// Its name.
-        quantity: String,
-        /// What is wrong.
-        error: ExpressionError,
-    },
+    #[error(transparent)]
+    Expression(#[from] ExpressionError),
     /// A reference, bound or tolerance that is no finite number.
-    #[error("{quantity}: found {found} for {what}; allowed: a finite number")]
-    NotFinite {
-        /// Its name.
-        quantity: String,
-        /// Which.
-        what: &'static str,
-        /// What it came to.
-        found: f64,
-    },
-    /// A tolerance that nothing justifies.
+    #[error("found {found} for {what}; allowed: a finite number")]
+    NotFinite { what: &'static str, found: f64 },
+    /// A tolerance that uncertainty and discretisation together do not justify.
     #[error(
-        "{quantity}: found a tolerance of {tolerance:e}, wider than the uncertainty of the reference and the discretisation \
-         together, {allowed:e}; allowed: one as narrow, or a sentence because = \"…\""
+        "found a tolerance of {tolerance:e}, wider than the uncertainty of the reference and the discretisation together, \
+         {allowed:e}; allowed: one as narrow, or a sentence because = \"…\""
     )]
-    TooWide {
-        /// Its name.
-        quantity: String,
-        /// The tolerance.
-        tolerance: f64,
-        /// Uncertainty and discretisation together.
-        allowed: f64,
-    },
+    TooWide { tolerance: f64, allowed: f64 },
 }
 
 /// Judges one quantity; `absent` holds the names of the files of numbers that are not there, with what is then not known.
@@ -74,17 +53,14 @@ pub(crate) fn judge(
     if missing.is_some() {
         return Ok(record);
     }
-    let wrong = |error| JudgeError::Expression { quantity: spec.name.clone(), error };
-    let Some(value) = spec.value.as_ref().map(|formula| number(formula, e)).transpose().map_err(wrong)? else {
-        return Ok(record);
-    };
+    let Some(value) = spec.value.as_ref().map(|formula| number(formula, e)).transpose()? else { return Ok(record) };
     record.value = Some(value).filter(|value| value.is_finite());
     let finite = |what: &'static str, found: Option<f64>| match found {
-        Some(found) if !found.is_finite() => Err(JudgeError::NotFinite { quantity: spec.name.clone(), what, found }),
+        Some(found) if !found.is_finite() => Err(JudgeError::NotFinite { what, found }),
         found => Ok(found),
     };
     let mut of = |what: &'static str, formula: &Option<Formula>| {
-        finite(what, formula.as_ref().map(|f| number(f, e)).transpose().map_err(wrong)?)
+        finite(what, formula.as_ref().map(|f| number(f, e)).transpose()?)
     };
     let near = of("near", &spec.near)?;
     let (at_least, at_most) = (of("at_least", &spec.at_least)?, of("at_most", &spec.at_most)?);
@@ -92,14 +68,14 @@ pub(crate) fn judge(
         (Some(reference), Some(within), ..) => {
             let scale = reference.abs();
             let mut of = |what: &'static str, extent: Option<&Extent>| {
-                finite(what, extent.map(|x| size(x, scale, e)).transpose().map_err(wrong)?)
+                finite(what, extent.map(|x| size(x, scale, e)).transpose()?)
             };
             let tolerance = of("within", Some(within))?.unwrap_or_default();
             record.uncertainty = of("uncertainty", spec.uncertainty.as_ref())?;
             record.discretisation = of("discretisation", spec.discretisation.as_ref())?;
             let allowed = record.uncertainty.unwrap_or_default() + record.discretisation.unwrap_or_default();
             if tolerance > allowed * (1.0 + ROUNDING) && spec.because.is_none() {
-                return Err(JudgeError::TooWide { quantity: spec.name.clone(), tolerance, allowed });
+                return Err(JudgeError::TooWide { tolerance, allowed });
             }
             let error = (value - reference).abs();
             record.criterion = Criterion::Near { reference, tolerance };
@@ -128,13 +104,12 @@ pub(crate) fn judge(
         }
         _ => None,
     };
-    record.standing = match holds {
+    record.standing = match (record.value, holds) {
         // No number fulfils nothing; where a failure is expected it is not that failure either.
-        _ if record.value.is_none() && expected == Standing::Fails => Standing::CannotBeCompared,
-        _ if record.value.is_none() => Standing::Fails,
-        Some(true) => Standing::Holds,
-        Some(false) => Standing::Fails,
-        None => Standing::CannotBeCompared,
+        (None, _) if expected == Standing::Fails => Standing::CannotBeCompared,
+        (None, _) | (_, Some(false)) => Standing::Fails,
+        (_, Some(true)) => Standing::Holds,
+        (_, None) => Standing::CannotBeCompared,
     };
     if holds.is_none() && record.value.is_some() {
         record.expected = Standing::CannotBeCompared;
@@ -144,9 +119,7 @@ pub(crate) fn judge(
 
 /// That every member of a run ended as it should.
 pub(crate) fn endings(run: &str, family: &Members) -> QuantityRecord {
-    let ended = family.executed.iter().zip(&family.members);
-    let as_expected =
-        ended.filter(|(executed, member)| executed.as_ref().is_some_and(|e| member.may_end(e.outcome))).count();
+    let as_expected = family.ended().filter(|(member, run)| member.may_end(run.outcome)).count();
     let (count, all) = (as_expected as f64, family.members.len() as f64);
     let refusals = family.members.iter().filter(|member| member.expected != RunOutcome::Sound).count();
     let may_be_refused = family.members.iter().any(|member| !member.accepted.is_empty());
@@ -157,8 +130,7 @@ pub(crate) fn endings(run: &str, family: &Members) -> QuantityRecord {
         _ => format!("{run}: members that end as they should, {refusals} of them not with a result"),
     };
     // Refusals that are accepted beside results prove nothing where there is no result.
-    let sound = |executed: &Option<Executed>| executed.as_ref().is_some_and(|e| e.outcome == RunOutcome::Sound);
-    let any_result = !may_be_refused || family.executed.iter().any(sound);
+    let any_result = !may_be_refused || family.ended().any(|(_, run)| run.outcome == RunOutcome::Sound);
     let standing = if as_expected == family.members.len() && any_result { Standing::Holds } else { Standing::Fails };
     QuantityRecord {
         value: Some(count),
@@ -174,15 +146,10 @@ pub(crate) fn endings(run: &str, family: &Members) -> QuantityRecord {
 
 /// What the first member that did not end as it should has said.
 fn first_surprise(family: &Members) -> Option<String> {
-    let (executed, member) = family
-        .executed
-        .iter()
-        .zip(&family.members)
-        .find(|(executed, member)| executed.as_ref().is_some_and(|e| !member.may_end(e.outcome)))?;
-    let executed = executed.as_ref()?;
-    let said = executed.said.as_deref().unwrap_or("nothing");
+    let (member, run) = family.ended().find(|(member, run)| !member.may_end(run.outcome))?;
+    let said = run.said.as_deref().unwrap_or("nothing");
     let place = if member.label.is_empty() { String::new() } else { format!("{}: ", member.label) };
-    Some(format!("{place}{}: {said}", executed.outcome.title()))
+    Some(format!("{place}{}: {said}", run.outcome.title()))
 }
 
 /// The number a formula stands for.

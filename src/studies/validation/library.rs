@@ -23,56 +23,24 @@ pub(crate) enum LibraryError {
     /// Neither the name of a built-in case nor a folder with a case.
     #[error(
         "found {found:?}; allowed: the name of a built-in case, or a folder with a file {CASE_FILE}{}",
-        near(nearest)
+        nearest.map_or_else(String::new, |nearest| format!("; did you mean {nearest:?}?"))
     )]
-    Unknown {
-        /// As given.
-        found: String,
-        /// The most similar name.
-        nearest: Option<&'static str>,
-    },
+    Unknown { found: String, nearest: Option<&'static str> },
     /// A case file that cannot be read.
     #[error("{}: {reason}", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        reason: io::Error,
-    },
+    Unreadable { path: PathBuf, reason: io::Error },
     /// A case file that is none.
     #[error("{}: line {line}: {reason}", path.display())]
-    NotACase {
-        /// The file.
-        path: PathBuf,
-        /// Line, from 1.
-        line: usize,
-        /// What is wrong.
-        reason: String,
-    },
+    NotACase { path: PathBuf, line: usize, reason: String },
     /// Two cases of one name: reports and later comparisons could not tell them apart.
     #[error("found two cases called {name:?}; allowed: each name once")]
-    Twice {
-        /// The name.
-        name: String,
-    },
+    Twice { name: String },
     /// What is there already is not written over: it may have been changed.
     #[error("found {} there already; allowed: a folder without it", path.display())]
-    Exists {
-        /// What is there.
-        path: PathBuf,
-    },
+    Exists { path: PathBuf },
     /// The built-in cases cannot be laid out in a folder.
     #[error("cannot write the built-in cases to {}: {reason}", folder.display())]
-    Export {
-        /// The folder.
-        folder: PathBuf,
-        /// What the system says.
-        reason: io::Error,
-    },
-}
-
-fn near(nearest: &Option<&str>) -> String {
-    nearest.map_or_else(String::new, |nearest| format!("; did you mean {nearest:?}?"))
+    Export { folder: PathBuf, reason: io::Error },
 }
 
 /// A case with its place on disk.
@@ -80,16 +48,13 @@ fn near(nearest: &Option<&str>) -> String {
 pub(crate) struct Case {
     /// Name of its folder.
     pub name: String,
-    /// The folder.
     pub folder: PathBuf,
-    /// What it says.
     pub file: CaseFile,
 }
 
 /// Cases, and the folder that keeps the built-in ones as long as they are needed.
 #[derive(Debug)]
 pub(crate) struct Library {
-    /// The cases.
     pub cases: Vec<Case>,
     _built_in: Option<TempDir>,
 }
@@ -136,18 +101,15 @@ impl Library {
             let nearest = crate::scene::nearest::nearest(found, &names);
             return Err(LibraryError::Unknown { found: found.clone(), nearest });
         }
-        let built_in_wanted = asked.is_empty() || asked.iter().any(|asked| !is_folder(&asked));
-        let built_in = match built_in_wanted {
-            true => {
-                let folder = tempfile::tempdir()
-                    .map_err(|reason| LibraryError::Export { folder: std::env::temp_dir(), reason })?;
-                export(folder.path())?;
-                Some(folder)
-            }
-            false => None,
-        };
         let all: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
         let asked = if asked.is_empty() { &all } else { asked };
+        let mut built_in = None;
+        if asked.iter().any(|asked| !is_folder(&asked)) {
+            let folder =
+                tempfile::tempdir().map_err(|reason| LibraryError::Export { folder: std::env::temp_dir(), reason })?;
+            export(folder.path())?;
+            built_in = Some(folder);
+        }
         let place = |asked: &String| match &built_in {
             Some(folder) if !is_folder(&asked) => folder.path().join("validation").join(asked),
             _ => PathBuf::from(asked),

@@ -11,7 +11,7 @@ pub(crate) struct Member {
     pub set: Vec<(String, toml::Value)>,
     /// Keys that are taken away.
     pub unset: Vec<String>,
-    /// What it is called; empty for a run alone.
+    /// Empty for a run alone.
     pub label: String,
     /// Columns of the family with this member's value.
     pub values: Vec<(String, Value)>,
@@ -25,6 +25,11 @@ impl Member {
     /// Whether it may end so.
     pub(crate) fn may_end(&self, outcome: RunOutcome) -> bool {
         outcome == self.expected || self.accepted.contains(&outcome)
+    }
+
+    /// Its value in a column of the family.
+    pub(super) fn value(&self, column: &str) -> Option<&Value> {
+        self.values.iter().find(|(name, _)| name == column).map(|(_, value)| value)
     }
 }
 
@@ -46,7 +51,7 @@ pub(super) fn members(run: &RunSpec) -> Vec<Member> {
     }
     // The last key runs fastest.
     run.vary.iter().fold(vec![alone], |members, varied| {
-        let values: Vec<toml::Value> = (0..varied.count()).map(|index| varied.at(index)).collect();
+        let values = varied.all();
         members.iter().flat_map(|member| values.iter().map(|value| with(member, varied, value.clone()))).collect()
     })
 }
@@ -57,35 +62,30 @@ impl VarySpec {
         self.values.as_ref().map_or(self.count.unwrap_or(2), |values| values.len())
     }
 
-    /// Value `index`.
-    fn at(&self, index: usize) -> toml::Value {
-        match &self.values {
-            Some(values) => values[index].clone(),
-            None => toml::Value::Float(self.between(index as f64 / (self.count().max(2) - 1) as f64)),
-        }
+    /// All values.
+    fn all(&self) -> Vec<toml::Value> {
+        let at = |index| self.between(index as f64 / (self.count().max(2) - 1) as f64);
+        self.values.clone().unwrap_or_else(|| (0..self.count()).map(at).collect())
     }
 
-    /// The number at `share` of the range; a share of the list where there is one is [`Self::chosen`].
-    fn between(&self, share: f64) -> f64 {
+    /// The number at `share` of the range.
+    fn between(&self, share: f64) -> toml::Value {
         let (from, to) = (self.from.unwrap_or_default(), self.to.unwrap_or_default());
-        if self.log { from * (to / from).powf(share) } else { from + (to - from) * share }
+        toml::Value::Float(if self.log { from * (to / from).powf(share) } else { from + (to - from) * share })
     }
 
     /// The value at `share` of the range or list.
     fn chosen(&self, share: f64) -> toml::Value {
         match &self.values {
             Some(values) => values[((share * values.len() as f64) as usize).min(values.len() - 1)].clone(),
-            None => toml::Value::Float(self.between(share)),
+            None => self.between(share),
         }
     }
 
-    /// The column of its values.
+    /// The column of its values: as it is named, or the last part of the key.
     fn column(&self) -> String {
-        let last_part = || {
-            let key = self.key.all().first().map(String::as_str).unwrap_or_default();
-            key.rsplit('.').next().unwrap_or(key).to_owned()
-        };
-        self.name.clone().unwrap_or_else(last_part)
+        let key = self.key.all().first().map(String::as_str).unwrap_or_default();
+        self.name.clone().unwrap_or_else(|| key.rsplit('.').next().unwrap_or(key).to_owned())
     }
 }
 

@@ -41,20 +41,15 @@ pub(crate) fn run(cases: &[Case], tier: Option<Tier>, threads: usize, observer: 
     let chosen: Vec<&Case> = cases.iter().filter(|case| tier.is_none_or(|tier| case.file.tier <= tier)).collect();
     let executed = schedule::carry_out(&chosen, threads, observer);
     let whole = |runs: &[Members]| runs.iter().all(|run| run.executed.iter().all(Option::is_some));
-    let mut records: Vec<CaseRecord> =
-        chosen.iter().zip(&executed).filter(|(_, runs)| whole(runs)).map(|(case, runs)| record(case, runs)).collect();
-    records.sort_by(|a, b| (&a.group, &a.name).cmp(&(&b.group, &b.name)));
+    let (finished, left_out): (Vec<_>, Vec<_>) = chosen.iter().zip(&executed).partition(|(_, runs)| whole(runs));
+    let mut cases: Vec<CaseRecord> = finished.into_iter().map(|(case, runs)| record(case, runs)).collect();
+    cases.sort_by(|a, b| (&a.group, &a.name).cmp(&(&b.group, &b.name)));
     ValidationRecord {
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         tier,
         threads,
-        not_run: chosen
-            .iter()
-            .zip(&executed)
-            .filter(|(_, runs)| !whole(runs))
-            .map(|(case, _)| case.name.clone())
-            .collect(),
-        cases: records,
+        not_run: left_out.into_iter().map(|(case, _)| case.name.clone()).collect(),
+        cases,
         wall_s: start.elapsed().as_secs_f64(),
     }
 }
@@ -63,7 +58,6 @@ pub(crate) fn run(cases: &[Case], tier: Option<Tier>, threads: usize, observer: 
 fn record(case: &Case, runs: &[Members]) -> CaseRecord {
     let file = &case.file;
     let runs_of_case: Vec<CaseRun> = file.run.iter().zip(runs).map(|(spec, family)| of_run(spec, family)).collect();
-    let work = together(runs_of_case.iter().map(|run| &run.work));
     let mut record = CaseRecord {
         name: case.name.clone(),
         title: file.title.clone(),
@@ -75,15 +69,11 @@ fn record(case: &Case, runs: &[Members]) -> CaseRecord {
         says: file.says.clone(),
         rests_on: file.rests_on.clone(),
         wall_s: runs_of_case.iter().map(|run| run.wall_s).sum(),
+        work: together(runs_of_case.iter().map(|run| &run.work)),
         runs: runs_of_case,
-        quantities: Vec::new(),
-        work_precision: Vec::new(),
-        stability: Vec::new(),
-        plots: Vec::new(),
-        failure: None,
-        work,
+        quantities: file.run.iter().zip(runs).map(|(spec, family)| judge::endings(&spec.name, family)).collect(),
+        ..CaseRecord::default()
     };
-    record.quantities = file.run.iter().zip(runs).map(|(spec, family)| judge::endings(&spec.name, family)).collect();
     record.failure = fill(&mut record, case, runs).err();
     record
 }
@@ -124,7 +114,8 @@ fn fill(record: &mut CaseRecord, case: &Case, runs: &[Members]) -> Result<(), St
         e.name(&definition.name, &value);
     }
     for spec in &file.quantity {
-        record.quantities.push(judge::judge(spec, &absent, &mut e).map_err(|error| error.to_string())?);
+        let judged = judge::judge(spec, &absent, &mut e);
+        record.quantities.push(judged.map_err(|error| format!("{}: {error}", spec.name))?);
     }
     for spec in &file.work_precision {
         if let Some(family) = of_family(&spec.family) {

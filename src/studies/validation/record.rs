@@ -10,9 +10,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 /// The whole suite, or the part of it that was asked for.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ValidationRecord {
-    /// Version of the program.
     pub program_version: String,
     /// The tier that was asked for; `None` where cases were named.
     pub tier: Option<Tier>,
@@ -27,10 +26,11 @@ pub(crate) struct ValidationRecord {
 }
 
 /// How long a suite may take: each tier holds those before it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Tier {
     /// Below three minutes on two cores: for every change.
+    #[default]
     Smoke,
     /// Below fifteen minutes on two cores: for every release.
     Full,
@@ -53,10 +53,11 @@ impl Tier {
 }
 
 /// What a case shows (after ASME V&V 10).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum CaseKind {
     /// The equations are solved right: against closed forms and orders of convergence.
+    #[default]
     CodeVerification,
     /// This solution is resolved: against finer ones.
     SolutionVerification,
@@ -79,11 +80,10 @@ impl CaseKind {
 }
 
 /// A case.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct CaseRecord {
     /// Name of its folder.
     pub name: String,
-    /// Title.
     pub title: String,
     /// The group it is shown in, such as `FZG test gears`.
     pub group: String,
@@ -91,7 +91,6 @@ pub(crate) struct CaseRecord {
     pub targets: Vec<String>,
     /// One sentence: what must be so.
     pub requirement: String,
-    /// What it shows.
     pub kind: CaseKind,
     /// The first tier that holds it.
     pub tier: Tier,
@@ -99,7 +98,6 @@ pub(crate) struct CaseRecord {
     pub says: Option<String>,
     /// The estimates it rests on, such as a torque that no text gives.
     pub rests_on: Vec<String>,
-    /// The runs it is made of.
     pub runs: Vec<CaseRun>,
     /// What was computed and judged.
     pub quantities: Vec<QuantityRecord>,
@@ -133,14 +131,13 @@ impl CaseRecord {
 }
 
 /// What a comparison says.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Standing {
-    /// Within its bound.
     Holds,
-    /// Outside it.
     Fails,
     /// There is nothing to compare with.
+    #[default]
     CannotBeCompared,
 }
 
@@ -158,29 +155,25 @@ impl Standing {
 /// A run of a case, or a family of runs that differ in some keys.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct CaseRun {
-    /// Its name in the case.
     pub name: String,
     /// The command that does the same, such as `run`, `fem`, `calibrate`.
     pub command: String,
     /// How many runs: 1, or the members of the family.
     pub members: usize,
-    /// How many ended in which way.
     pub outcomes: BTreeMap<RunOutcome, usize>,
-    /// Wall time of all together.
     pub wall_s: f64,
     /// Work of all together, by the name of what was counted.
     pub work: BTreeMap<String, u64>,
 }
 
 /// How a run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum RunOutcome {
     /// Complete, every number finite, no negative wear, every position in equilibrium.
+    #[default]
     Sound,
-    /// The input was refused with a message.
     Refused,
-    /// The solver said that it did not converge.
     NotConverged,
     /// Complete, but not sound.
     Unsound,
@@ -213,9 +206,8 @@ impl RunOutcome {
 }
 
 /// A number with what it is held against.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct QuantityRecord {
-    /// What it is.
     pub name: String,
     /// The one target of its case that it speaks to; `None`: all of them.
     pub target: Option<String>,
@@ -223,7 +215,6 @@ pub(crate) struct QuantityRecord {
     pub unit: String,
     /// The number; `None` where it could not be computed.
     pub value: Option<f64>,
-    /// What it is held against.
     pub criterion: Criterion,
     /// Where reference or bound come from.
     pub source: String,
@@ -252,24 +243,7 @@ pub(crate) struct QuantityRecord {
 impl QuantityRecord {
     /// A quantity that is expected to hold, without a value and held against nothing yet.
     pub(crate) fn named(name: &str) -> Self {
-        Self {
-            name: name.to_owned(),
-            target: None,
-            unit: String::new(),
-            value: None,
-            criterion: Criterion::Reported,
-            source: String::new(),
-            uncertainty: None,
-            discretisation: None,
-            because: None,
-            error: None,
-            relative_error: None,
-            share: None,
-            standing: Standing::CannotBeCompared,
-            expected: Standing::Holds,
-            remark: None,
-            counts_work: false,
-        }
+        Self { name: name.to_owned(), expected: Standing::Holds, ..Self::default() }
     }
 
     /// Whether it stands as the case says.
@@ -279,36 +253,29 @@ impl QuantityRecord {
 }
 
 /// What a quantity is held against.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "is")]
 pub(crate) enum Criterion {
     /// Within a tolerance of a reference, in the quantity's unit.
     Near {
-        /// The reference.
         reference: f64,
-        /// How far from it.
         tolerance: f64,
     },
-    /// At least.
     AtLeast {
-        /// The bound.
         bound: f64,
     },
-    /// At most.
     AtMost {
-        /// The bound.
         bound: f64,
     },
-    /// Between, ends included.
+    /// Ends included.
     Between {
-        /// Least.
         low: f64,
-        /// Greatest.
         high: f64,
     },
     /// A statement: 1 where it is true, 0 where it is not.
     True,
     /// Nothing: it is only reported, or there is nothing to compare with.
+    #[default]
     Reported,
 }
 
@@ -319,13 +286,11 @@ pub(crate) struct WorkPrecisionPoint {
     pub series: String,
     /// The setting, such as `200 positions, 40 steps`.
     pub setting: String,
-    /// Relative error.
+    /// Relative.
     pub error: f64,
-    /// Wall time of the run.
     pub wall_s: f64,
     /// Work, in what the case counts.
     pub work: f64,
-    /// What is counted.
     pub counted: String,
 }
 
@@ -338,9 +303,7 @@ pub(crate) struct StabilityPoint {
     pub value: f64,
     /// The value as text, with whatever goes with it.
     pub setting: String,
-    /// How the run ended.
     pub outcome: RunOutcome,
-    /// How it should have ended.
     pub expected: RunOutcome,
     /// What the program said, where it refused or did not converge, or what is unsound.
     pub said: Option<String>,
@@ -349,15 +312,17 @@ pub(crate) struct StabilityPoint {
 /// A plot.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CasePlot {
-    /// Heading.
     pub title: String,
     /// What one sees, in a sentence.
     pub reading: String,
     /// Title of the abscissa, unit included.
-    pub x: PlotAxis,
+    pub x: String,
     /// Title of the ordinate, unit included.
-    pub y: PlotAxis,
-    /// The curves.
+    pub y: String,
+    /// Whether the abscissa is logarithmic.
+    pub log_x: bool,
+    /// Whether the ordinate is logarithmic.
+    pub log_y: bool,
     pub curves: Vec<PlotCurve>,
     /// Lines across the plot at a value of the ordinate, with their names: references and bounds.
     pub levels: Vec<(String, f64)>,
@@ -365,35 +330,22 @@ pub(crate) struct CasePlot {
     pub marks: Vec<(String, f64)>,
 }
 
-/// An axis of a plot.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct PlotAxis {
-    /// Title, unit included.
-    pub title: String,
-    /// Whether it is logarithmic.
-    pub log: bool,
-}
-
 /// A curve of a plot.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PlotCurve {
-    /// Its name.
     pub name: String,
-    /// Abscissae.
     pub x: Vec<f64>,
-    /// Ordinates.
     pub y: Vec<f64>,
     /// Half the height of error bars, one for each point; empty: none.
     pub uncertainty: Vec<f64>,
-    /// How it is drawn.
     pub style: CurveStyle,
 }
 
 /// How a curve is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum CurveStyle {
-    /// A line.
+    #[default]
     Line,
     /// A dashed line: a reference.
     Dashed,
@@ -411,7 +363,6 @@ pub(crate) struct Changes {
     pub against_version: String,
     /// What got worse: a verdict, an error, work.
     pub worse: Vec<Change>,
-    /// What got better.
     pub better: Vec<Change>,
     /// Cases that only the new record has.
     pub added: Vec<String>,
@@ -422,13 +373,10 @@ pub(crate) struct Changes {
 /// One change.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Change {
-    /// The case.
     pub case: String,
     /// What of it: the name of a quantity or of what is counted, or `verdict`.
     pub what: String,
-    /// As it was.
     pub before: State,
-    /// As it is.
     pub now: State,
 }
 
@@ -438,11 +386,9 @@ pub(crate) struct Change {
 pub(crate) enum State {
     /// Whether the case could be carried out.
     Ran(bool),
-    /// The quantity is not there.
     Absent,
     /// What the comparison says.
     Stands(Standing),
-    /// How a run ended.
     Ended(RunOutcome),
     /// The share of its tolerance that a quantity uses.
     Uses(f64),
@@ -450,8 +396,6 @@ pub(crate) enum State {
     Is(Option<f64>, String),
     /// The error of a quantity, with its unit.
     Errs(f64, String),
-    /// What a quantity is held against.
     Against(Criterion),
-    /// A count of work.
     Counted(u64),
 }

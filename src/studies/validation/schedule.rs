@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use super::case_file::Command;
-use super::execution::{Executed, execute};
+use super::execution::{Executed, Task};
 use super::library::Case;
 use super::members::{Member, members};
 use crate::calibration::Calibration;
@@ -14,13 +14,19 @@ use crate::observer::{Observer, PartOf};
 /// A run, one or a family, with its members.
 #[derive(Debug)]
 pub(crate) struct Members {
-    /// Its members.
     pub members: Vec<Member>,
     /// What each came to; `None` where the suite was interrupted before.
     pub executed: Vec<Option<Executed>>,
 }
 
-/// One run to carry out.
+impl Members {
+    /// Those that ended, each with what it came to.
+    pub(super) fn ended(&self) -> impl Iterator<Item = (&Member, &Executed)> {
+        self.members.iter().zip(&self.executed).filter_map(|(member, executed)| Some((member, executed.as_ref()?)))
+    }
+}
+
+/// One run to carry out, by its indices.
 #[derive(Debug, Clone, Copy)]
 struct Job {
     case: usize,
@@ -64,10 +70,9 @@ pub(crate) fn carry_out(cases: &[&Case], threads: usize, observer: &dyn Observer
             let (case, family) = (cases[job.case], &all[job.case][job.run]);
             let spec = &case.file.run[job.run];
             let calibration = spec.calibration.as_ref().and_then(|name| made_by(case, &all[job.case], name));
-            let executed = match (&spec.calibration, &calibration) {
-                (Some(name), None) => Executed::without_calibration(name),
-                _ => execute(spec, &family.members[job.member], &case.folder, calibration, &PartOf::whole(observer)),
-            };
+            let member = &family.members[job.member];
+            let task = Task { run: spec, member, folder: &case.folder, calibration, watch: &PartOf::whole(observer) };
+            let executed = task.execute();
             observer.counted(
                 done.fetch_add(1, Ordering::Relaxed) + 1,
                 total,
@@ -95,10 +100,12 @@ fn made_by<'a>(case: &Case, runs: &'a [Members], name: &str) -> Option<&'a Calib
 fn spread<T: Send>(jobs: &[Job], threads: usize, work: impl Fn(&Job) -> T + Sync) -> Vec<T> {
     let next = AtomicUsize::new(0);
     let results: Mutex<Vec<(usize, T)>> = Mutex::new(Vec::with_capacity(jobs.len()));
+    let take = || {
+        let index = next.fetch_add(1, Ordering::Relaxed);
+        jobs.get(index).map(|job| (index, job))
+    };
     let hand_out = || {
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(job) = jobs.get(index) else { break };
+        while let Some((index, job)) = take() {
             let done = work(job);
             results.lock().unwrap_or_else(PoisonError::into_inner).push((index, done));
         }

@@ -21,43 +21,25 @@ const SIGNS: [&str; 21] =
 /// Why a text is no expression.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum SyntaxError {
-    /// Something that does not belong there.
     #[error("found {found} at character {place}; allowed: {allowed}")]
-    Unexpected {
-        /// What.
-        found: String,
-        /// Where, from 1.
-        place: usize,
-        /// What may stand there.
-        allowed: &'static str,
-    },
-    /// Brackets in brackets without end.
+    Unexpected { found: String, place: usize, allowed: &'static str },
     #[error("found terms nested deeper than {MOST_DEPTH} at character {place}; allowed: fewer, with [[define]]")]
-    TooDeep {
-        /// Where, from 1.
-        place: usize,
-    },
+    TooDeep { place: usize },
 }
 
 /// A term, and the character of the expression at which it stands, from 1.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Node {
-    /// What it is.
     pub term: Term,
-    /// Where it stands.
     pub place: usize,
 }
 
 /// What an expression is made of.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Term {
-    /// A number.
     Number(f64),
-    /// `true` or `false`.
     Truth(bool),
-    /// A text in quotes.
     Text(String),
-    /// What has a name.
     Name(String),
     /// `[a, b]`
     List(Vec<Node>),

@@ -7,19 +7,11 @@ use crate::report::chart::{Chart, Dash, MUTED, Trace, extent};
 use crate::report::html::number::plotted;
 use crate::studies::validation::record::{CasePlot, CaseRecord, CurveStyle, PlotCurve};
 
-/// How the curve of a number is told from the others: by colour and by sign.
-pub(super) struct FigureStyle {
-    /// Colour of line and marks.
-    pub(super) colour: &'static str,
-    /// Sign of its points.
-    pub(super) symbol: &'static str,
-}
-
-/// The style of the curve of that number; they recur.
-pub(super) fn style(number: usize) -> FigureStyle {
+/// By which colour and which sign the curve of that number is told from the others; they recur.
+pub(super) fn colour_and_symbol(number: usize) -> (&'static str, &'static str) {
     const COLOURS: [&str; 5] = ["var(--pinion)", "var(--wheel)", "var(--path)", "var(--worn)", "var(--new)"];
     const SYMBOLS: [&str; 7] = ["circle", "square", "diamond", "triangle-up", "cross", "triangle-down", "x"];
-    FigureStyle { colour: COLOURS[number % COLOURS.len()], symbol: SYMBOLS[number % SYMBOLS.len()] }
+    (COLOURS[number % COLOURS.len()], SYMBOLS[number % SYMBOLS.len()])
 }
 
 /// Curves with no more points than this show them.
@@ -39,16 +31,16 @@ fn figure(case: &CaseRecord, number: usize, of: &CasePlot) -> Chart {
         .height(400)
         .legend(of.curves.len() + of.levels.len() > 1)
         .read_nearest()
-        .x(&of.x.title)
+        .x(&of.x)
         .x_set("exponentformat", "power")
-        .y(&of.y.title)
+        .y(&of.y)
         .y_set("exponentformat", "power")
         .add_all(bands.into_iter().chain(curves).map(|(number, curve)| trace(number, curve)))
         .reading(&*of.reading);
-    if of.x.log {
+    if of.log_x {
         chart = chart.x_logarithmic();
     }
-    if of.y.log {
+    if of.log_y {
         chart = chart.y_logarithmic();
     }
     if let Some(ends) = ends(of) {
@@ -60,24 +52,22 @@ fn figure(case: &CaseRecord, number: usize, of: &CasePlot) -> Chart {
 }
 
 fn trace(number: usize, of: &PlotCurve) -> Trace {
-    let FigureStyle { colour, symbol } = style(number);
-    let xy = || (of.x.iter().copied(), of.y.iter().copied());
-    let line = |width_px, dash| Trace::line(&*of.name, xy().0, xy().1, (colour, width_px, dash));
+    let (colour, symbol) = colour_and_symbol(number);
+    let (x, y) = (of.x.iter().copied(), of.y.iter().copied());
+    let line = |width_px, dash| Trace::line(&*of.name, x.clone(), y.clone(), (colour, width_px, dash));
     let hover = "%{x:.5~g}, %{y:.5~g}";
     match of.style {
         CurveStyle::Line if of.x.len() <= FEW_POINTS => line(2.0, Dash::Solid).with_points(symbol, 6).hover(hover),
         CurveStyle::Line => line(2.0, Dash::Solid).hover(hover),
         CurveStyle::Dashed => line(1.8, Dash::Dashed).hover(hover),
         CurveStyle::Points => {
-            let points = Trace::points(&*of.name, xy().0, xy().1, (colour, symbol, 8)).hover(hover);
+            let points = Trace::points(&*of.name, x, y, (colour, symbol, 8)).hover(hover);
             if of.uncertainty.is_empty() {
                 return points;
             }
             let half: Vec<f64> = of.uncertainty.iter().copied().map(plotted).collect();
-            points.set(
-                "error_y",
-                json!({ "type": "data", "array": half, "color": colour, "thickness": 1.2, "width": 4.0 }),
-            )
+            let bars = json!({ "type": "data", "array": half, "color": colour, "thickness": 1.2, "width": 4.0 });
+            points.set("error_y", bars)
         }
         CurveStyle::Band => line(0.8, Dash::Solid).filled(["var(--pinion-fill)", "var(--wheel-fill)"][number % 2]),
     }
@@ -86,6 +76,6 @@ fn trace(number: usize, of: &PlotCurve) -> Trace {
 /// From the least to the greatest abscissa.
 fn ends(of: &CasePlot) -> Option<[f64; 2]> {
     let all = of.curves.iter().flat_map(|curve| curve.x.iter().copied());
-    let ends = extent(all.filter(|x| x.is_finite() && (!of.x.log || *x > 0.0)));
+    let ends = extent(all.filter(|x| x.is_finite() && (!of.log_x || *x > 0.0)));
     (ends[0] < ends[1]).then_some(ends)
 }

@@ -12,23 +12,20 @@ use super::verdict::Verdict;
 use super::words;
 use crate::studies::validation::record::{CaseRecord, QuantityRecord, ValidationRecord};
 
+/// The test of a case as a whole.
+const RUNS: &str = "the case runs to its end";
+
 /// Writes the record as JUnit XML.
 pub(super) fn write(out: &mut dyn Write, record: &ValidationRecord) -> io::Result<()> {
     let mut report = Report::new("gearwear validate");
     report.set_time(duration(record.wall_s));
     report.add_test_suites(record.cases.iter().map(suite));
-    report.add_test_suites(record.not_run.iter().map(|name| not_run(name)));
+    report.add_test_suites(record.not_run.iter().map(|name| {
+        let mut suite = TestSuite::new(name.as_str());
+        suite.add_test_case(test(RUNS, name, non_success(NonSuccessKind::Error, "interrupted before it")));
+        suite
+    }));
     report.serialize(out).map_err(io::Error::other)
-}
-
-/// A case that an interrupt left out.
-fn not_run(name: &str) -> TestSuite {
-    let mut suite = TestSuite::new(name);
-    let mut test =
-        TestCase::new("the case runs to its end", non_success(NonSuccessKind::Error, "interrupted before it"));
-    test.set_classname(name);
-    suite.add_test_case(test);
-    suite
 }
 
 fn suite(case: &CaseRecord) -> TestSuite {
@@ -48,9 +45,9 @@ fn suite(case: &CaseRecord) -> TestSuite {
         suite.add_property((format!("work: {name}").as_str(), count.to_string().as_str()));
     }
     if let Some(failure) = &case.failure {
-        suite.add_test_case(test("the case runs to its end", case, non_success(NonSuccessKind::Error, failure)));
+        suite.add_test_case(test(RUNS, &case.name, non_success(NonSuccessKind::Error, failure)));
     } else if case.quantities.is_empty() {
-        suite.add_test_case(test("the case runs to its end", case, TestCaseStatus::success()));
+        suite.add_test_case(test(RUNS, &case.name, TestCaseStatus::success()));
     }
     suite.add_test_cases(case.quantities.iter().map(|quantity| quantity_test(case, quantity)));
     suite
@@ -68,14 +65,14 @@ fn quantity_test(case: &CaseRecord, quantity: &QuantityRecord) -> TestCase {
         }
         Verdict::KnownNot | Verdict::Holds | Verdict::Reported => TestCaseStatus::success(),
     };
-    let mut test = test(&quantity.name, case, status);
+    let mut test = test(&quantity.name, &case.name, status);
     test.set_system_out(format!("{}: {said}", verdict.word()));
     test
 }
 
-fn test(name: &str, case: &CaseRecord, status: TestCaseStatus) -> TestCase {
+fn test(name: &str, case: &str, status: TestCaseStatus) -> TestCase {
     let mut test = TestCase::new(name, status);
-    test.set_classname(case.name.as_str());
+    test.set_classname(case);
     test
 }
 

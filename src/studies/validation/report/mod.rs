@@ -28,15 +28,15 @@ mod totals;
 mod verdict;
 mod words;
 mod work_precision_figures;
-mod work_precision_file;
 
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
+
 #[cfg(feature = "program")]
 pub(crate) use self::terminal::terminal;
-use self::work_precision_file::WorkPrecisionFile;
 use crate::report::files::{ReportError, create_folder, place, remove, write_json};
-use crate::studies::validation::record::{Changes, ValidationRecord};
+use crate::studies::validation::record::{Changes, ValidationRecord, WorkPrecisionPoint};
 
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "validation.json";
@@ -54,7 +54,26 @@ pub(crate) fn write(
         #[cfg(feature = "program")]
         place(dir, "junit.xml", |out| junit::write(out, record))?,
         place(dir, "summary.md", |out| out.write_all(markdown::text(record, changes).as_bytes()))?,
-        place(dir, "work_precision.json", |out| write_json(out, &WorkPrecisionFile::of(record)))?,
+        place(dir, "work_precision.json", |out| write_json(out, &work_precision(record)))?,
         place(dir, LAST, |out| write_json(out, record))?,
     ])
+}
+
+/// `work_precision.json`: error against cost of every setting, by case, so that a service can plot their history.
+fn work_precision(record: &ValidationRecord) -> impl Serialize {
+    #[derive(Serialize)]
+    struct File<'a> {
+        program_version: &'a str,
+        threads: usize,
+        cases: Vec<Case<'a>>,
+    }
+    #[derive(Serialize)]
+    struct Case<'a> {
+        case: &'a str,
+        title: &'a str,
+        points: &'a [WorkPrecisionPoint],
+    }
+    let cases = record.cases.iter().filter(|case| !case.work_precision.is_empty());
+    let cases = cases.map(|case| Case { case: &case.name, title: &case.title, points: &case.work_precision }).collect();
+    File { program_version: &record.program_version, threads: record.threads, cases }
 }

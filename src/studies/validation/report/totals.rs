@@ -13,17 +13,13 @@ pub(super) struct Totals {
     pub(super) passed: usize,
     /// Cases with a quantity that is not as expected.
     pub(super) missed: usize,
-    /// Cases that could not be carried out.
     pub(super) could_not_run: usize,
-    /// Cases that rest on an estimate.
     pub(super) on_estimates: usize,
-    /// All quantities.
     pub(super) quantities: usize,
     /// Quantities within their bounds.
     pub(super) hold: usize,
     /// Statements that are known not to hold.
     pub(super) known_not: usize,
-    /// Quantities that cannot be compared.
     pub(super) cannot_be_compared: usize,
 }
 
@@ -77,10 +73,9 @@ pub(super) fn sentence(record: &ValidationRecord) -> String {
         (known, open) => format!(" {} known not to hold, and {open} cannot be compared.", counted(known, "is", "are")),
     };
     format!(
-        "{verdict} Of {}, {} {}.{known} It took {} on {}.",
+        "{verdict} Of {}, {}.{known} It took {} on {}.",
         counted(t.quantities, "quantity", "quantities"),
-        t.hold,
-        if t.hold == 1 { "holds" } else { "hold" },
+        counted(t.hold, "holds", "hold"),
         time(record.wall_s),
         counted(record.threads, "thread", "threads"),
     )

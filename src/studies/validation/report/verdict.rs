@@ -38,10 +38,13 @@ impl Verdict {
 
     /// That of a quantity.
     pub(super) fn of_quantity(quantity: &QuantityRecord) -> Self {
+        // Nothing is missing to compare the number: nobody asked for a comparison.
+        let is_only_reported =
+            quantity.criterion == Criterion::Reported && quantity.value.is_some() && quantity.remark.is_none();
         match (quantity.as_expected(), quantity.standing) {
             (true, Standing::Holds) => Self::Holds,
             (true, Standing::Fails) => Self::KnownNot,
-            (true, Standing::CannotBeCompared) if is_only_reported(quantity) => Self::Reported,
+            (true, Standing::CannotBeCompared) if is_only_reported => Self::Reported,
             (true, Standing::CannotBeCompared) => Self::CannotBeCompared,
             (false, Standing::Holds) => Self::NowHolds,
             (false, Standing::Fails | Standing::CannotBeCompared) => Self::Missed,
@@ -70,40 +73,29 @@ impl Verdict {
 
     /// In words.
     pub(super) fn word(self) -> &'static str {
-        match self {
-            Self::CouldNotRun => "could not run",
-            Self::Missed => "missed",
-            Self::NowHolds => "holds unexpectedly",
-            Self::KnownNot => "known not to hold",
-            Self::CannotBeCompared => "cannot be compared",
-            Self::Holds => "holds",
-            Self::Reported => "reported",
-        }
+        self.shown()[0]
     }
 
     /// A sign of one letter, told apart without colour.
     pub(super) fn sign(self) -> &'static str {
-        match self {
-            Self::CouldNotRun => "‼",
-            Self::Missed => "✗",
-            Self::NowHolds => "↑",
-            Self::KnownNot => "≠",
-            Self::CannotBeCompared => "?",
-            Self::Holds => "✓",
-            Self::Reported => "·",
-        }
+        self.shown()[1]
     }
 
     /// Its name in the page's style sheet and script.
     pub(super) fn class(self) -> &'static str {
+        self.shown()[2]
+    }
+
+    /// Word, sign and class.
+    fn shown(self) -> [&'static str; 3] {
         match self {
-            Self::CouldNotRun => "could-not-run",
-            Self::Missed => "missed",
-            Self::NowHolds => "now-holds",
-            Self::KnownNot => "known-not",
-            Self::CannotBeCompared => "not-comparable",
-            Self::Holds => "holds",
-            Self::Reported => "reported",
+            Self::CouldNotRun => ["could not run", "‼", "could-not-run"],
+            Self::Missed => ["missed", "✗", "missed"],
+            Self::NowHolds => ["holds unexpectedly", "↑", "now-holds"],
+            Self::KnownNot => ["known not to hold", "≠", "known-not"],
+            Self::CannotBeCompared => ["cannot be compared", "?", "not-comparable"],
+            Self::Holds => ["holds", "✓", "holds"],
+            Self::Reported => ["reported", "·", "reported"],
         }
     }
 
@@ -111,9 +103,4 @@ impl Verdict {
     pub(super) fn is_failure(self) -> bool {
         matches!(self, Self::CouldNotRun | Self::Missed | Self::NowHolds)
     }
-}
-
-/// Whether nothing is missing to compare the number: nobody asked for a comparison.
-fn is_only_reported(quantity: &QuantityRecord) -> bool {
-    quantity.criterion == Criterion::Reported && quantity.value.is_some() && quantity.remark.is_none()
 }

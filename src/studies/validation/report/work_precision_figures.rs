@@ -1,6 +1,6 @@
 //! Error against run time of the cases that ask for it: one plot a case, one curve a series, both axes logarithmic.
 
-use super::case_figures::{FigureStyle, style};
+use super::case_figures::colour_and_symbol;
 use super::markup::identifier;
 use super::words::time;
 use crate::report::chart::{Chart, Dash, Trace};
@@ -25,7 +25,7 @@ fn figure(case: &CaseRecord) -> Chart {
     let series = names.iter().enumerate().map(|(number, name)| {
         let mut points: Vec<&WorkPrecisionPoint> = case.work_precision.iter().filter(|p| p.series == *name).collect();
         points.sort_by(|a, b| a.wall_s.total_cmp(&b.wall_s));
-        let FigureStyle { colour, symbol } = style(number);
+        let (colour, symbol) = colour_and_symbol(number);
         let x = points.iter().map(|point| point.wall_s);
         let y = points.iter().map(|point| point.error.max(LEAST_SHOWN));
         let line = Trace::line(*name, x, y, (colour, 1.2, Dash::Dot)).with_points(symbol, 9);
