@@ -172,9 +172,6 @@ impl Setting {
     }
 
     /// The scene it stands for. `calibration` is the name of the calibration file where there is a calibration.
-    ///
-    /// # Errors
-    /// What the checks of scenes find.
     pub(crate) fn scene(&self, base: &Resolved, calibration: Option<&str>) -> Result<Resolved, Vec<Problem>> {
         let mut file = base.file.clone();
         let contact = file.contact.get_or_insert_default();

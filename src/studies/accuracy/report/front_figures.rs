@@ -12,22 +12,10 @@ use crate::studies::accuracy::record::{AccuracyRecord, Quantity, VariantRecord, 
 const LEAST_SHOWN: f64 = 1e-5;
 
 /// Marks of the error axis: a whole decade and its third, as in engineering plots.
-const TICKS: [(f64, &str); 12] = [
-    (1e-5, "0.001 %"),
-    (3e-5, "0.003 %"),
-    (1e-4, "0.01 %"),
-    (3e-4, "0.03 %"),
-    (1e-3, "0.1 %"),
-    (3e-3, "0.3 %"),
-    (0.01, "1 %"),
-    (0.03, "3 %"),
-    (0.1, "10 %"),
-    (0.3, "30 %"),
-    (1.0, "100 %"),
-    (3.0, "300 %"),
-];
+const TICKS: [f64; 12] = [1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0];
+const TICK_TEXTS: [&str; 12] =
+    ["0.001 %", "0.003 %", "0.01 %", "0.03 %", "0.1 %", "0.3 %", "1 %", "3 %", "10 %", "30 %", "100 %", "300 %"];
 
-/// Whether a run is of a kind.
 type IsKind = fn(&VariantSettings) -> bool;
 
 /// The kinds of runs that the plots tell apart: name, colour, symbol, and which runs they are.
@@ -44,7 +32,6 @@ const KINDS: [(&str, &str, &str, IsKind); 6] = [
 const COUPLINGS: [(Option<&str>, &str, &str); 3] =
     [(None, "", ""), (Some("slicing"), ", coupled", ""), (Some("none"), ", uncoupled", "-open")];
 
-/// One plot for each quantity.
 pub(super) fn all(record: &AccuracyRecord) -> Vec<Chart> {
     Quantity::ALL.into_iter().filter(|q| record.measures(*q)).map(|quantity| front(record, quantity)).collect()
 }
@@ -66,8 +53,8 @@ fn front(record: &AccuracyRecord, quantity: Quantity) -> Chart {
         .x_logarithmic()
         .y("relative error")
         .y_logarithmic()
-        .y_set("tickvals", TICKS.map(|(level, _)| level).to_vec())
-        .y_set("ticktext", TICKS.map(|(_, text)| text).to_vec())
+        .y_set("tickvals", TICKS.to_vec())
+        .y_set("ticktext", TICK_TEXTS.to_vec())
         .reading(reading(record, quantity, uncertainty));
     let mut on_front: Vec<(f64, f64)> =
         runs().filter(|run| run.3).map(|(_, wall_s, error, _)| (wall_s, shown(error))).collect();

@@ -19,7 +19,6 @@ const DATA_FILES: [(&str, &str); 7] = [
     ("calibration.json", "the calibration that the runs read"),
 ];
 
-/// The whole page.
 pub(super) fn page(record: &AccuracyRecord) -> String {
     let mut charts = front_figures::all(record);
     charts.splice(1..1, profile_figures::all(record));

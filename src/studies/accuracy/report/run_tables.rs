@@ -125,7 +125,6 @@ pub(super) fn deep_runs(record: &AccuracyRecord) -> Markup {
     list(caption, columns, rows)
 }
 
-/// What was not run, and why.
 pub(super) fn left_out(record: &AccuracyRecord) -> Markup {
     html! {
         @if !record.left_out.is_empty() {

@@ -8,9 +8,9 @@ use std::io::{self, Write};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::gear::Gear;
-use crate::report::csv_table::{Provenance, columns, table, table_of, variants};
-use crate::studies::accuracy::record::{AccuracyRecord, Quantity, VariantRecord};
+use crate::gear::{Gear, PerGear};
+use crate::report::csv_table::{Provenance, table, table_of, variants};
+use crate::studies::accuracy::record::{AccuracyRecord, Quantity, ReferenceFlank, VariantRecord};
 
 #[derive(Serialize, JsonSchema)]
 struct OverWidthRow<'a> {
@@ -40,98 +40,53 @@ struct ProfileRow<'a> {
     difference_um: f64,
 }
 
-/// A run; beside these columns every quantity has its error and whether the run is on its Pareto front.
-#[derive(Serialize, JsonSchema)]
-struct RunRow<'a> {
-    /// of the run: surface · stiffness · resolution
-    name: &'a str,
-    /// contact surface
-    surface: &'a str,
-    /// what K/H shares with Hertz or the calibration; empty where the surface has no K/H
-    #[serde(rename = "match")]
-    match_criterion: Option<&'a str>,
-    /// whether K/H is the calibration's, for every position and load
-    calibrated: bool,
-    /// whether a tip edge is followed into contact before A and after E
-    tip_contact: bool,
-    /// tooth stiffness; empty for finite elements, which bring their own
-    stiffness: Option<&'a str>,
-    /// of surface fem
-    elements_per_half_width: Option<String>,
-    /// over the face width; empty where all sections are alike
-    slices: Option<usize>,
-    /// of the slices
-    coupling: Option<&'a str>,
-    /// intervals of a flank
-    flank_points: usize,
-    /// loading positions from A to E
-    positions: usize,
-    /// pinion revolutions a wear step
-    step_revolutions: String,
-    /// wall time of the wear run alone, the least of the repeats
-    simulation_s: Option<String>,
-    /// wall time of everything before it
-    setup_s: Option<String>,
-    /// how often it was run for its time
-    repeats: u32,
-    /// wear steps taken
-    wear_steps: Option<u64>,
-    /// equilibria solved
-    equilibria: Option<u64>,
-    /// iterations in all of them
-    newton_iterations: Option<u64>,
-    /// evaluations of a tooth pair's contact
-    pair_evaluations: Option<u64>,
-    /// greatest wear depth on the pinion's active profile, its tip edge apart
-    pinion_peak_wear_um: Option<String>,
-    /// the same of the wheel
-    wheel_peak_wear_um: Option<String>,
-    /// whether the reference was extrapolated from it
-    part_of_reference: bool,
-    /// why there is no result, where there is none
-    failure: Option<&'a str>,
-}
+/// Column, meaning and cell of a run, empty where there is none.
+type RunColumn = (&'static str, &'static str, fn(&VariantRecord) -> Option<String>);
 
-impl<'a> RunRow<'a> {
-    fn of(variant: &'a VariantRecord) -> Self {
-        let s = &variant.settings;
-        let (work, wear) = (variant.work, variant.peak_wear_um);
-        Self {
-            name: &variant.name,
-            surface: &s.surface,
-            match_criterion: s.match_criterion.as_deref(),
-            calibrated: s.calibrated,
-            tip_contact: s.tip_contact,
-            stiffness: s.stiffness.as_deref(),
-            elements_per_half_width: text(s.elements_per_half_width),
-            slices: s.slices,
-            coupling: s.coupling.as_deref(),
-            flank_points: s.flank_points,
-            positions: s.positions,
-            step_revolutions: s.step_revolutions.to_string(),
-            simulation_s: text(variant.simulation_s),
-            setup_s: text(variant.setup_s),
-            repeats: variant.repeats,
-            wear_steps: work.map(|work| work.wear_steps),
-            equilibria: work.map(|work| work.equilibria),
-            newton_iterations: work.map(|work| work.newton_iterations),
-            pair_evaluations: work.map(|work| work.pair_evaluations),
-            pinion_peak_wear_um: text(wear.map(|wear| wear.pinion)),
-            wheel_peak_wear_um: text(wear.map(|wear| wear.wheel)),
-            part_of_reference: variant.part_of_reference,
-            failure: variant.failure.as_deref(),
-        }
-    }
-}
+/// Beside these columns every quantity has its error and whether the run is on its Pareto front.
+const RUN_COLUMNS: [RunColumn; 23] = [
+    ("name", "of the run: surface · stiffness · resolution", |v| Some(v.name.clone())),
+    ("surface", "contact surface", |v| Some(v.settings.surface.clone())),
+    ("match", "what K/H shares with Hertz or the calibration; empty where the surface has no K/H", |v| {
+        v.settings.match_criterion.clone()
+    }),
+    ("calibrated", "whether K/H is the calibration's, for every position and load", |v| {
+        text(Some(v.settings.calibrated))
+    }),
+    ("tip_contact", "whether a tip edge is followed into contact before A and after E", |v| {
+        text(Some(v.settings.tip_contact))
+    }),
+    ("stiffness", "tooth stiffness; empty for finite elements, which bring their own", |v| {
+        v.settings.stiffness.clone()
+    }),
+    ("elements_per_half_width", "of surface fem", |v| text(v.settings.elements_per_half_width)),
+    ("slices", "over the face width; empty where all sections are alike", |v| text(v.settings.slices)),
+    ("coupling", "of the slices", |v| v.settings.coupling.clone()),
+    ("flank_points", "intervals of a flank", |v| text(Some(v.settings.flank_points))),
+    ("positions", "loading positions from A to E", |v| text(Some(v.settings.positions))),
+    ("step_revolutions", "pinion revolutions a wear step", |v| text(Some(v.settings.step_revolutions))),
+    ("simulation_s", "wall time of the wear run alone, the least of the repeats", |v| text(v.simulation_s)),
+    ("setup_s", "wall time of everything before it", |v| text(v.setup_s)),
+    ("repeats", "how often it was run for its time", |v| text(Some(v.repeats))),
+    ("wear_steps", "wear steps taken", |v| text(v.work.map(|work| work.wear_steps))),
+    ("equilibria", "equilibria solved", |v| text(v.work.map(|work| work.equilibria))),
+    ("newton_iterations", "iterations in all of them", |v| text(v.work.map(|work| work.newton_iterations))),
+    ("pair_evaluations", "evaluations of a tooth pair's contact", |v| text(v.work.map(|work| work.pair_evaluations))),
+    ("pinion_peak_wear_um", "greatest wear depth on the pinion's active profile, its tip edge apart", |v| {
+        text(v.peak_wear_um.map(|wear| wear.pinion))
+    }),
+    ("wheel_peak_wear_um", "the same of the wheel", |v| text(v.peak_wear_um.map(|wear| wear.wheel))),
+    ("part_of_reference", "whether the reference was extrapolated from it", |v| text(Some(v.part_of_reference))),
+    ("failure", "why there is no result, where there is none", |v| v.failure.clone()),
+];
 
 /// A number as it is, without the decimal point of a whole one.
-fn text(value: Option<f64>) -> Option<String> {
-    value.as_ref().map(ToString::to_string)
+fn text(value: Option<impl ToString>) -> Option<String> {
+    value.map(|value| value.to_string())
 }
 
-/// Writes `accuracy.csv`.
 pub(crate) fn runs(out: &mut dyn Write, provenance: Provenance, record: &AccuracyRecord) -> io::Result<()> {
-    let mut columns = columns::<RunRow>();
+    let mut columns = RUN_COLUMNS.map(|(name, meaning, _)| (name.to_owned(), meaning.to_owned())).to_vec();
     for (name, meaning) in variants::<Quantity>() {
         let on_front = "whether no faster run has a smaller one".to_owned();
         columns.extend([(format!("{name}_error"), meaning), (format!("{name}_on_front"), on_front)]);
@@ -139,19 +94,14 @@ pub(crate) fn runs(out: &mut dyn Write, provenance: Provenance, record: &Accurac
     let rows = record.variants.iter().map(|variant| {
         let errors = Quantity::ALL.map(|quantity| variant.errors.get(&quantity));
         let cells = errors.map(|error| (text(error.map(|error| error.relative)), error.map(|error| error.on_front)));
-        (RunRow::of(variant), cells)
+        (RUN_COLUMNS.map(|(_, _, cell)| cell(variant)), cells)
     });
     table_of(out, provenance, &columns, rows)
 }
 
-/// Writes `wear_profiles.csv`.
 pub(crate) fn profiles(out: &mut dyn Write, provenance: Provenance, record: &AccuracyRecord) -> io::Result<()> {
-    let reference = Gear::BOTH.map(|gear| ("reference", gear, &record.reference.flanks[gear].wear_um));
-    let runs = record.variants.iter().flat_map(|variant| {
-        let wear = variant.wear_um.as_ref();
-        Gear::BOTH.into_iter().filter_map(move |gear| Some((variant.name.as_str(), gear, &wear?[gear])))
-    });
-    let rows = reference.into_iter().chain(runs).flat_map(|(name, gear, wear_um)| {
+    let all = reference_and_runs(record, |flank| &flank.wear_um, |run| run.wear_um.as_ref());
+    let rows = all.flat_map(|(name, gear, wear_um)| {
         let flank = &record.reference.flanks[gear];
         flank.shown_slices().into_iter().flat_map(move |slice| {
             let values = flank.slice(wear_um, slice).iter().zip(flank.slice(&flank.wear_um, slice));
@@ -168,19 +118,27 @@ pub(crate) fn profiles(out: &mut dyn Write, provenance: Provenance, record: &Acc
     table(out, provenance, rows)
 }
 
-/// Writes `over_width.csv`.
 pub(crate) fn over_width(out: &mut dyn Write, provenance: Provenance, record: &AccuracyRecord) -> io::Result<()> {
-    let reference = Gear::BOTH.map(|gear| ("reference", gear, &record.reference.flanks[gear].root_wear_um));
-    let runs = record.variants.iter().flat_map(|variant| {
-        let root = variant.root_wear_um.as_ref();
-        Gear::BOTH.into_iter().filter_map(move |gear| Some((variant.name.as_str(), gear, &root?[gear])))
-    });
-    let rows = reference.into_iter().chain(runs).flat_map(|(name, gear, root_wear_um)| {
-        let widths = &record.reference.flanks[gear].width_mm;
-        let values = widths.iter().zip(root_wear_um);
+    let all = reference_and_runs(record, |flank| &flank.root_wear_um, |run| run.root_wear_um.as_ref());
+    let rows = all.flat_map(|(name, gear, root_wear_um)| {
+        let values = record.reference.flanks[gear].width_mm.iter().zip(root_wear_um);
         values.map(move |(&width_mm, &root_wear_um)| OverWidthRow { name, gear, width_mm, root_wear_um })
     });
     table(out, provenance, rows)
+}
+
+/// A depth of the reference, then of every run that keeps it, of both gears.
+fn reference_and_runs<'a>(
+    record: &'a AccuracyRecord,
+    of_reference: fn(&ReferenceFlank) -> &Vec<f64>,
+    of_run: fn(&VariantRecord) -> Option<&PerGear<Vec<f64>>>,
+) -> impl Iterator<Item = (&'a str, Gear, &'a Vec<f64>)> {
+    let reference = Gear::BOTH.map(|gear| ("reference", gear, of_reference(&record.reference.flanks[gear])));
+    let runs = record.variants.iter().flat_map(move |variant| {
+        let depths = of_run(variant);
+        Gear::BOTH.into_iter().filter_map(move |gear| Some((variant.name.as_str(), gear, &depths?[gear])))
+    });
+    reference.into_iter().chain(runs)
 }
 
 #[cfg(test)]
