@@ -90,7 +90,6 @@ pub(crate) struct RunSpec {
 }
 
 impl RunSpec {
-    /// Whether it is a family of runs.
     pub(crate) fn is_family(&self) -> bool {
         !self.vary.is_empty() || !self.each.is_empty() || self.sample.is_some()
     }
@@ -110,7 +109,6 @@ pub(crate) enum Command {
 }
 
 impl Command {
-    /// As the user writes it.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Run => "run",
@@ -150,7 +148,6 @@ pub(crate) enum OneOrMore {
 }
 
 impl OneOrMore {
-    /// All of them.
     pub(crate) fn all(&self) -> &[String] {
         match self {
             Self::One(one) => std::slice::from_ref(one),

@@ -28,14 +28,17 @@ impl CaseFault {
     }
 }
 
+/// The first of `faults` that is one: whether it is, what is found and what is allowed.
+fn first<const N: usize>(kind: &'static str, name: &str, faults: [(bool, &str, &str); N]) -> Result<(), CaseFault> {
+    let first = faults.into_iter().find(|(is_fault, ..)| *is_fault);
+    first.map_or(Ok(()), |(_, found, allowed)| Err(fault(kind, name, found, allowed)))
+}
+
 fn fault(kind: &'static str, name: &str, found: impl Into<String>, allowed: impl Into<String>) -> CaseFault {
     CaseFault { kind, name: name.to_owned(), found: found.into(), allowed: allowed.into() }
 }
 
 /// The first thing that is wrong with a case.
-///
-/// # Errors
-/// [`CaseFault`]
 pub(super) fn check(case: &CaseFile) -> Result<(), CaseFault> {
     let mut names = BTreeSet::from(["run"]);
     let all = case.run.iter().map(|run| run.name.as_str()).chain(case.data.iter().map(|data| data.name.as_str()));
@@ -75,22 +78,19 @@ pub(super) fn check(case: &CaseFile) -> Result<(), CaseFault> {
 fn check_run(run: &RunSpec, case: &CaseFile) -> Result<(), CaseFault> {
     let wrong = |found: &str, allowed: &str| Err(fault("run", &run.name, found, allowed));
     let ways = [!run.vary.is_empty(), !run.each.is_empty(), run.sample.is_some()];
-    if ways.iter().filter(|&&way| way).count() > 1 {
-        return wrong("more than one of vary, each and sample", "one of them");
-    }
-    if !run.is_family() && !run.take.is_empty() {
-        return wrong("take without a family", "take beside vary, each or sample");
-    }
-    if run.command != Command::Fem && run.position_mm.is_some() {
-        return wrong("position_mm", "it with command = \"fem\" alone");
-    }
-    if run.command == Command::Run && run.full {
-        return wrong("full", "it with command = \"fem\" or \"calibrate\" alone");
-    }
-    let is_defect = |outcome: &RunOutcome| matches!(outcome, RunOutcome::Unsound | RunOutcome::Panicked);
-    if run.accept.iter().any(is_defect) {
-        return wrong("accept of a defect", "accept of \"sound\", \"refused\" and \"not-converged\" alone");
-    }
+    let more_ways = ways.iter().filter(|&&way| way).count() > 1;
+    let no_family = !run.is_family() && !run.take.is_empty();
+    let (no_fem, is_run) = (run.command != Command::Fem, run.command == Command::Run);
+    let defect = run.accept.iter().any(|outcome| matches!(outcome, RunOutcome::Unsound | RunOutcome::Panicked));
+    let accepted = "accept of \"sound\", \"refused\" and \"not-converged\" alone";
+    let faults = [
+        (more_ways, "more than one of vary, each and sample", "one of them"),
+        (no_family, "take without a family", "take beside vary, each or sample"),
+        (no_fem && run.position_mm.is_some(), "position_mm", "it with command = \"fem\" alone"),
+        (is_run && run.full, "full", "it with command = \"fem\" or \"calibrate\" alone"),
+        (defect, "accept of a defect", accepted),
+    ];
+    first("run", &run.name, faults)?;
     for varied in run.vary.iter().chain(run.sample.iter().flat_map(|sample| &sample.of)) {
         check_varied(varied).map_err(|(found, allowed)| fault("run", &run.name, found, allowed))?;
     }
@@ -122,44 +122,33 @@ fn check_varied(varied: &VarySpec) -> Result<(), (String, &'static str)> {
 }
 
 fn check_quantity(quantity: &QuantitySpec, case: &CaseFile) -> Result<(), CaseFault> {
-    let wrong = |found: &str, allowed: &str| Err(fault("quantity", &quantity.name, found, allowed));
-    let bounded = quantity.at_least.is_some() || quantity.at_most.is_some();
-    if quantity.is_true == Some(false) {
-        return wrong("is_true = false", "is_true = true, with ! before a statement that must not be true");
-    }
     let blank = |text: &Option<String>| text.as_ref().is_some_and(|text| text.trim().is_empty());
-    if blank(&quantity.because) || blank(&quantity.remark) {
-        return wrong("because or remark without a word", "the reason");
-    }
+    let unreasoned = blank(&quantity.because) || blank(&quantity.remark);
+    let bounded = quantity.at_least.is_some() || quantity.at_most.is_some();
     let criteria = [quantity.near.is_some(), bounded, quantity.is_true.is_some()];
+    let several = criteria.iter().filter(|&&given| given).count() > 1;
+    let unsourced = criteria.contains(&true) && quantity.source.is_empty() && !quantity.work;
     let cannot = quantity.stands == Some(Standing::CannotBeCompared);
-    if criteria.iter().filter(|&&given| given).count() > 1 {
-        return wrong("more than one of near, at_least or at_most, and is_true", "one of them");
-    }
-    if quantity.near.is_some() != quantity.within.is_some() {
-        return wrong("only one of near and within", "both or none");
-    }
-    if criteria.contains(&true) && quantity.source.is_empty() && !quantity.work {
-        return wrong("no source", "where reference or bound come from");
-    }
-    if quantity.value.is_none() && !cannot {
-        return wrong("no value", "an expression, or stands = \"cannot-be-compared\"");
-    }
-    if bounded && quantity.because.is_none() && !quantity.work {
-        return wrong("a bound without because", "the reason for it");
-    }
-    if (cannot || quantity.stands == Some(Standing::Fails)) && quantity.remark.is_none() {
-        return wrong("stands without remark", "the reason");
-    }
-    if let Some(target) = &quantity.target
-        && !case.targets.contains(target)
-    {
-        return wrong(&format!("target = {target:?}"), "one of the case's targets");
-    }
-    if let Some(name) = &quantity.needs
-        && !case.data.iter().any(|data| data.name == *name && data.missing.is_some())
-    {
-        return wrong(&format!("needs = {name:?}"), "the name of a [[data]] that may be missing");
-    }
-    Ok(())
+    let stands = cannot || quantity.stands == Some(Standing::Fails);
+    let foreign = quantity.target.as_ref().filter(|target| !case.targets.contains(target));
+    let is_optional = |name: &str| case.data.iter().any(|data| data.name == name && data.missing.is_some());
+    let unknown = quantity.needs.as_ref().filter(|name| !is_optional(name));
+    let statement = "is_true = true, with ! before a statement that must not be true";
+    let faults = [
+        (quantity.is_true == Some(false), "is_true = false", statement),
+        (unreasoned, "because or remark without a word", "the reason"),
+        (several, "more than one of near, at_least or at_most, and is_true", "one of them"),
+        (quantity.near.is_some() != quantity.within.is_some(), "only one of near and within", "both or none"),
+        (unsourced, "no source", "where reference or bound come from"),
+        (quantity.value.is_none() && !cannot, "no value", "an expression, or stands = \"cannot-be-compared\""),
+        (bounded && quantity.because.is_none() && !quantity.work, "a bound without because", "the reason for it"),
+        (stands && quantity.remark.is_none(), "stands without remark", "the reason"),
+        (foreign.is_some(), &format!("target = {:?}", foreign.map_or("", |t| t)), "one of the case's targets"),
+        (
+            unknown.is_some(),
+            &format!("needs = {:?}", unknown.map_or("", |n| n)),
+            "the name of a [[data]] that may be missing",
+        ),
+    ];
+    first("quantity", &quantity.name, faults)
 }

@@ -47,7 +47,6 @@ pub(crate) enum ColumnError {
     NoForm(usize),
 }
 
-/// Refuses columns that do not go together.
 pub(crate) fn same_length(x: &[f64], y: &[f64]) -> Result<(), ColumnError> {
     if x.len() == y.len() { Ok(()) } else { Err(ColumnError::Lengths(x.len(), y.len())) }
 }
@@ -218,9 +217,6 @@ pub(crate) fn length(of: &Value) -> Option<Value> {
 }
 
 /// `left` and `right` with an operator between them; none where there is no such operator.
-///
-/// # Errors
-/// Columns that do not go together.
 pub(crate) fn operate(sign: &str, left: &Value, right: &Value) -> Result<Option<Value>, ColumnError> {
     use Value::{Column, Number, Text, Truth};
     let compared = match (sign, left, right) {
@@ -258,10 +254,7 @@ pub(crate) fn operate(sign: &str, left: &Value, right: &Value) -> Result<Option<
 }
 
 /// The value of a function; none where there is no such function of these.
-///
-/// # Errors
-/// [`ColumnError`]
-pub(crate) fn call(name: &str, arguments: &[&Value]) -> Result<Option<Value>, ColumnError> {
+pub(crate) fn call(name: &str, arguments: &[Value]) -> Result<Option<Value>, ColumnError> {
     use Value::{Column, List, Number, Text, Truth};
     if let ([of], Some(f)) = (arguments, point_by_point(name)) {
         return Ok(match of {

@@ -19,9 +19,6 @@ fn finished(family: &Members) -> impl Iterator<Item = (&Member, &Executed)> {
 }
 
 /// A plot; `families` finds one by its name.
-///
-/// # Errors
-/// An expression without a value.
 pub(crate) fn plot<'a>(
     spec: &PlotSpec,
     absent: &BTreeMap<&str, &str>,
@@ -72,9 +69,6 @@ fn curve(of: &CurveSpec, name: String, e: &mut Evaluator) -> Result<PlotCurve, E
 }
 
 /// Error against cost of the members of a family.
-///
-/// # Errors
-/// An expression without a value.
 pub(crate) fn work_precision(
     spec: &WorkPrecisionSpec,
     family: &Members,

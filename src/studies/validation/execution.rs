@@ -60,7 +60,7 @@ impl Executed {
 
     /// A run that has nothing to show.
     fn without_result(outcome: RunOutcome, said: String) -> Self {
-        let value = Value::Group(BTreeMap::new());
+        let value = Value::group::<&str>([]);
         Self { outcome, said: Some(said), value, calibration: None, wall_s: 0.0, work: BTreeMap::new() }
     }
 
@@ -105,7 +105,6 @@ pub(crate) struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// Carries it out.
     pub(crate) fn execute(&self) -> Executed {
         if let (Some(name), None) = (&self.run.calibration, self.calibration) {
             let said = format!("the calibration of {name:?} was not made");

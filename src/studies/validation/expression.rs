@@ -5,8 +5,6 @@
 //! first one does not decide; an index below zero counts from the end. What the outputs call `summary.new` may also be said
 //! `summary.unworn`. The functions are those of [`super::column`] and [`super::profile`].
 
-use std::borrow::Cow;
-
 use super::column;
 use super::profile;
 use super::syntax::{self, Node, SyntaxError, Term};
@@ -70,14 +68,10 @@ impl Evaluator {
     }
 
     /// The value of an expression.
-    ///
-    /// # Errors
-    /// [`ExpressionError`]
     pub(crate) fn value(&self, expression: &str) -> Result<Value, ExpressionError> {
         let error = |reason: String| ExpressionError { expression: expression.to_owned(), reason };
         let node = syntax::parse(expression).map_err(|wrong: SyntaxError| error(wrong.to_string()))?;
-        let found = self.evaluate(&node).map_err(|(fault, place)| error(format!("{fault} (character {place})")))?;
-        Ok(found.into_owned())
+        self.evaluate(&node).map_err(|(fault, place)| error(format!("{fault} (character {place})")))
     }
 
     /// The same, which must be a number; a truth is 1 or 0.
@@ -98,27 +92,24 @@ impl Evaluator {
     }
 
     /// The value of a term, or why it has none and the place of the term to blame.
-    fn evaluate(&self, node: &Node) -> Result<Cow<'_, Value>, (Fault, usize)> {
+    fn evaluate(&self, node: &Node) -> Result<Value, (Fault, usize)> {
         let blame = |fault: Fault| (fault, node.place);
-        let found = match &node.term {
+        Ok(match &node.term {
             Term::Number(number) => Value::Number(*number),
             Term::Truth(truth) => Value::Truth(*truth),
             Term::Text(text) => Value::Text(text.clone()),
             Term::Name(name) => {
                 let named = self.names.iter().rev().find(|(known, _)| known == name);
-                return named
-                    .map(|(_, value)| Cow::Borrowed(value))
-                    .ok_or_else(|| blame(Fault::UnknownName(name.clone())));
+                named.map(|(_, value)| value.clone()).ok_or_else(|| blame(Fault::UnknownName(name.clone())))?
             }
             Term::List(items) => {
-                let items = items.iter().map(|item| Ok(self.evaluate(item)?.into_owned()));
-                let list = Value::List(items.collect::<Result<_, _>>()?);
+                let list = Value::List(items.iter().map(|item| self.evaluate(item)).collect::<Result<_, _>>()?);
                 if items_of(&list) > MOST_ITEMS {
                     return Err(blame(Fault::TooLarge));
                 }
                 list
             }
-            Term::Minus(of) => match self.evaluate(of)?.as_ref() {
+            Term::Minus(of) => match self.evaluate(of)? {
                 Value::Number(number) => Value::Number(-number),
                 Value::Column(x) => Value::column(x.iter().map(|x| -x)),
                 other => return Err(blame(no_function("-", &[other]))),
@@ -127,77 +118,56 @@ impl Evaluator {
             Term::Both(terms) => Value::Truth(self.truth(&terms[0])? && self.truth(&terms[1])?),
             Term::Either(terms) => Value::Truth(self.truth(&terms[0])? || self.truth(&terms[1])?),
             Term::Binary(sign, terms) => {
-                let (left, right) = (self.evaluate(&terms[0])?, self.evaluate(&terms[1])?);
-                column::operate(sign, &left, &right)
-                    .map_err(|error| blame(error.into()))?
-                    .ok_or_else(|| blame(no_function(sign, &[&left, &right])))?
+                let terms = [self.evaluate(&terms[0])?, self.evaluate(&terms[1])?];
+                let found = column::operate(sign, &terms[0], &terms[1]).map_err(|error| blame(error.into()))?;
+                found.ok_or_else(|| blame(no_function(sign, &terms)))?
             }
-            Term::Member(of, name) => return member(self.evaluate(of)?, name).map_err(blame),
-            Term::Index(terms) => {
-                let (of, index) = (self.evaluate(&terms[0])?, self.evaluate(&terms[1])?);
-                return item(of, &index).map_err(blame);
-            }
+            Term::Member(of, name) => member(&self.evaluate(of)?, name).map_err(blame)?,
+            Term::Index(terms) => item(self.evaluate(&terms[0])?, self.evaluate(&terms[1])?).map_err(blame)?,
             Term::Call(name, arguments) => {
                 let arguments: Vec<_> = arguments.iter().map(|node| self.evaluate(node)).collect::<Result<_, _>>()?;
-                let arguments: Vec<&Value> = arguments.iter().map(AsRef::as_ref).collect();
                 let found = match column::call(name, &arguments).map_err(|error| blame(error.into()))? {
                     None => profile::call(name, &arguments).map_err(|error| blame(error.into()))?,
                     found => found,
                 };
                 found.ok_or_else(|| blame(no_function(name, &arguments)))?
             }
-        };
-        Ok(Cow::Owned(found))
+        })
     }
 
     fn truth(&self, node: &Node) -> Result<bool, (Fault, usize)> {
-        match self.evaluate(node)?.as_ref() {
-            Value::Truth(truth) => Ok(*truth),
+        match self.evaluate(node)? {
+            Value::Truth(truth) => Ok(truth),
             other => Err((no_function("a statement", &[other]), node.place)),
         }
     }
 }
 
 /// What has the name `name` in `of`.
-fn member<'v>(of: Cow<'v, Value>, name: &str) -> Result<Cow<'v, Value>, Fault> {
-    let missing = |of: &Value| Fault::NoMember { name: name.to_owned(), of: kind(of) };
-    let known = |entries: &std::collections::BTreeMap<String, Value>| {
-        if name == "unworn" && !entries.contains_key(name) { "new" } else { name }.to_owned()
+fn member(of: &Value, name: &str) -> Result<Value, Fault> {
+    let found = match of {
+        Value::Group(entries) if name == "unworn" && !entries.contains_key(name) => entries.get("new").cloned(),
+        Value::Group(entries) => entries.get(name).cloned(),
+        other if name == "len" => column::length(other),
+        _ => None,
     };
-    match of {
-        Cow::Borrowed(Value::Group(entries)) => {
-            entries.get(&known(entries)).map(Cow::Borrowed).ok_or_else(|| missing(&of))
-        }
-        Cow::Owned(Value::Group(mut entries)) => match entries.remove(&known(&entries)) {
-            Some(value) => Ok(Cow::Owned(value)),
-            None => Err(missing(&Value::Group(entries))),
-        },
-        other if name == "len" => column::length(&other).map(Cow::Owned).ok_or_else(|| missing(&other)),
-        other => Err(missing(&other)),
-    }
+    found.ok_or_else(|| Fault::NoMember { name: name.to_owned(), of: kind(of) })
 }
 
 /// The item of a column or list with an index, or what a group has under a text.
-fn item<'v>(of: Cow<'v, Value>, index: &Value) -> Result<Cow<'v, Value>, Fault> {
-    let (what, part, length, index) = match (of.as_ref(), index) {
-        (_, Value::Text(name)) => return member(of, name),
-        (Value::Column(x), Value::Number(index)) => ("column", "point", x.len(), *index),
-        (Value::List(items), Value::Number(index)) => ("list", "item", items.len(), *index),
-        (other, index) => return Err(no_function("[ ]", &[other, index])),
-    };
-    let from_start = if index < 0.0 { index + length as f64 } else { index };
-    if from_start.fract() != 0.0 || !(0.0..length as f64).contains(&from_start) {
-        return Err(Fault::NoItem { what, part, length, index });
+fn item(of: Value, index: Value) -> Result<Value, Fault> {
+    match (&of, &index) {
+        (_, Value::Text(name)) => member(&of, name),
+        (Value::Column(x), Value::Number(index)) => Ok(Value::Number(x[place("column", "point", x.len(), *index)?])),
+        (Value::List(items), Value::Number(index)) => Ok(items[place("list", "item", items.len(), *index)?].clone()),
+        _ => Err(no_function("[ ]", &[of, index])),
     }
-    let place = from_start as usize;
-    Ok(match of {
-        Cow::Borrowed(Value::List(items)) => Cow::Borrowed(&items[place]),
-        Cow::Owned(Value::List(mut items)) => Cow::Owned(items.swap_remove(place)),
-        other => match other.as_ref() {
-            Value::Column(x) => Cow::Owned(Value::Number(x[place])),
-            _ => other,
-        },
-    })
+}
+
+fn place(what: &'static str, part: &'static str, length: usize, index: f64) -> Result<usize, Fault> {
+    let from_start = if index < 0.0 { index + length as f64 } else { index };
+    let is_there = from_start.fract() == 0.0 && (0.0..length as f64).contains(&from_start);
+    if is_there { Ok(from_start as usize) } else { Err(Fault::NoItem { what, part, length, index }) }
 }
 
 /// Items of a list, those of lists in it included.
@@ -209,8 +179,8 @@ fn items_of(value: &Value) -> usize {
     }
 }
 
-fn no_function(name: &str, of: &[&Value]) -> Fault {
-    let kinds: Vec<&str> = of.iter().map(|value| kind(value)).collect();
+fn no_function(name: &str, of: &[Value]) -> Fault {
+    let kinds: Vec<&str> = of.iter().map(kind).collect();
     Fault::NoFunction(format!("`{name}` of ({})", kinds.join(", ")))
 }
 

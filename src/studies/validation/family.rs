@@ -52,7 +52,7 @@ pub(super) fn columns(
 
 /// What was counted by all members, each as a column.
 fn work(executed: &[&Executed]) -> Value {
-    let Some(counted) = executed.iter().find(|run| !run.work.is_empty()) else { return Value::Group(BTreeMap::new()) };
+    let Some(counted) = executed.iter().find(|run| !run.work.is_empty()) else { return Value::group::<&str>([]) };
     let count = |run: &Executed, name: &str| run.work.get(name).map_or(f64::NAN, |&count| count as f64);
     Value::group(
         counted.work.keys().map(|name| (name.clone(), Value::column(executed.iter().map(|run| count(run, name))))),
@@ -68,6 +68,6 @@ fn in_a_row(values: Vec<Value>) -> Value {
     };
     match values.iter().map(number).collect::<Option<Vec<f64>>>() {
         Some(numbers) => Value::column(numbers),
-        None => Value::List(values),
+        None => Value::List(values.into()),
     }
 }

@@ -30,9 +30,6 @@ pub(crate) enum JudgeError {
 }
 
 /// Judges one quantity; `absent` holds the names of the files of numbers that are not there, with what is then not known.
-///
-/// # Errors
-/// [`JudgeError`]
 pub(crate) fn judge(
     spec: &QuantitySpec,
     absent: &BTreeMap<&str, &str>,
@@ -152,7 +149,6 @@ fn first_surprise(family: &Members) -> Option<String> {
     Some(format!("{place}{}: {said}", run.outcome.title()))
 }
 
-/// The number a formula stands for.
 pub(crate) fn number(formula: &Formula, e: &mut Evaluator) -> Result<f64, ExpressionError> {
     match formula {
         Formula::Number(number) => Ok(*number),

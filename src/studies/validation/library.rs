@@ -59,16 +59,12 @@ pub(crate) struct Library {
     _built_in: Option<TempDir>,
 }
 
-/// Names of the built-in cases.
 pub(crate) fn names() -> Vec<&'static str> {
     let has_case = |dir: &&Dir<'static>| dir.contains(dir.path().join(CASE_FILE));
     CASES.dirs().filter(has_case).filter_map(|dir| dir.path().to_str()).collect()
 }
 
 /// Lays the built-in cases out in `folder`: `validation/` with one folder a case, and `meshes/` beside it.
-///
-/// # Errors
-/// [`LibraryError::Exists`], [`LibraryError::Export`]
 pub(crate) fn export(folder: &Path) -> Result<(), LibraryError> {
     for name in ["validation", "meshes"] {
         let path = folder.join(name);
@@ -88,9 +84,6 @@ pub(crate) fn export(folder: &Path) -> Result<(), LibraryError> {
 
 impl Library {
     /// The cases asked for, each by its name or by the folder it lies in; none asked for: all built-in ones.
-    ///
-    /// # Errors
-    /// [`LibraryError`]
     pub(crate) fn open(asked: &[String]) -> Result<Self, LibraryError> {
         let names = names();
         // A name of the program's own is that case; `./NAME` is a folder.
@@ -123,7 +116,6 @@ impl Library {
     }
 }
 
-/// Reads the case in `folder`.
 fn read(folder: &Path) -> Result<Case, LibraryError> {
     let path = folder.join(CASE_FILE);
     let text = fs::read_to_string(&path).map_err(|reason| LibraryError::Unreadable { path: path.clone(), reason })?;

@@ -57,12 +57,10 @@ pub(super) fn members(run: &RunSpec) -> Vec<Member> {
 }
 
 impl VarySpec {
-    /// How many values there are.
     pub(crate) fn count(&self) -> usize {
         self.values.as_ref().map_or(self.count.unwrap_or(2), |values| values.len())
     }
 
-    /// All values.
     fn all(&self) -> Vec<toml::Value> {
         let at = |index| self.between(index as f64 / (self.count().max(2) - 1) as f64);
         self.values.clone().unwrap_or_else(|| (0..self.count()).map(at).collect())

@@ -15,10 +15,7 @@ use crate::measurement::roughness;
 use crate::reference::separate_peaks::separate_peaks;
 
 /// The value of a function of profiles; none where there is no such function of these.
-///
-/// # Errors
-/// What is no profile.
-pub(crate) fn call(name: &str, arguments: &[&Value]) -> Result<Option<Value>, ColumnError> {
+pub(crate) fn call(name: &str, arguments: &[Value]) -> Result<Option<Value>, ColumnError> {
     use Value::{Column, Number};
     Ok(Some(match (name, arguments) {
         ("form_removed", [Column(x), Column(y)]) => Value::column(form_removed(x, y)?),

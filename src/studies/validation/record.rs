@@ -68,7 +68,6 @@ pub(crate) enum CaseKind {
 }
 
 impl CaseKind {
-    /// In words.
     pub(crate) fn title(self) -> &'static str {
         match self {
             Self::CodeVerification => "code verification",
@@ -142,7 +141,6 @@ pub(crate) enum Standing {
 }
 
 impl Standing {
-    /// In words.
     pub(crate) fn title(self) -> &'static str {
         match self {
             Self::Holds => "holds",
@@ -193,7 +191,6 @@ impl RunOutcome {
         }
     }
 
-    /// In words.
     pub(crate) fn title(self) -> &'static str {
         match self {
             Self::Sound => "sound",

@@ -38,17 +38,18 @@ fn not_finite(name: &str, numbers: impl IntoIterator<Item = f64>) -> Option<Stri
 }
 
 fn of_flank(gear: Gear, flanks: &PerGear<FlankRecord>) -> Option<String> {
-    let flank = &flanks[gear];
-    let name = |what: &str| format!("{} {what}", gear.name());
-    negative(&name("wear"), &flank.wear_um)
-        .or_else(|| negative(&name("pressure, new"), &flank.pressure_new_MPa))
-        .or_else(|| negative(&name("pressure, worn"), &flank.pressure_worn_MPa))
-        .or_else(|| negative(&name("sliding"), &flank.sliding_mm_per_mesh))
-        .or_else(|| {
-            let grows = |two: &[Vec<f64>]| two[0].iter().zip(&two[1]).all(|(before, after)| after >= before);
-            let snapshot = flank.snapshot_wear_um.windows(2).position(|two| !grows(two))?;
-            Some(format!("{} wear becomes less after snapshot {}", gear.name(), snapshot + 1))
-        })
+    let (name, flank) = (gear.name(), &flanks[gear]);
+    let columns = [
+        ("wear", &flank.wear_um),
+        ("pressure, new", &flank.pressure_new_MPa),
+        ("pressure, worn", &flank.pressure_worn_MPa),
+        ("sliding", &flank.sliding_mm_per_mesh),
+    ];
+    columns.into_iter().find_map(|(what, column)| negative(&format!("{name} {what}"), column)).or_else(|| {
+        let grows = |two: &[Vec<f64>]| two[0].iter().zip(&two[1]).all(|(before, after)| after >= before);
+        let snapshot = flank.snapshot_wear_um.windows(2).position(|two| !grows(two))?;
+        Some(format!("{name} wear becomes less after snapshot {}", snapshot + 1))
+    })
 }
 
 fn of_cycle(record: &RunRecord) -> Option<String> {

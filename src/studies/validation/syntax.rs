@@ -61,15 +61,7 @@ pub(crate) enum Term {
     Call(String, Vec<Node>),
 }
 
-/// Whether `name` is a word of the language.
-pub(crate) fn is_word(name: &str) -> bool {
-    matches!(name, "true" | "false")
-}
-
 /// The tree of an expression.
-///
-/// # Errors
-/// [`SyntaxError`]
 pub(crate) fn parse(expression: &str) -> Result<Node, SyntaxError> {
     let mut parser = Parser { tokens: tokens(expression)?, next: 0, end: expression.chars().count() + 1 };
     let whole = parser.expression(0, 0)?;
@@ -278,7 +270,7 @@ impl Parser {
         let term = match token {
             Token::Number(number) => Term::Number(number),
             Token::Text(text) => Term::Text(text),
-            Token::Name(name) if is_word(&name) => Term::Truth(name == "true"),
+            Token::Name(name) if name == "true" || name == "false" => Term::Truth(name == "true"),
             Token::Name(name) if self.takes("(") => Term::Call(name, self.list(")", depth + 1)?),
             Token::Name(name) => Term::Name(name),
             Token::Sign(_) => Term::List(self.list("]", depth + 1)?),

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// A node of the tree.
+/// A node of the tree; what is in it is shared by its copies.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Value {
     /// A number; NaN where the output has none.
@@ -18,26 +18,24 @@ pub(crate) enum Value {
     /// A column of a table, or a list of numbers.
     Column(Arc<[f64]>),
     /// Any other list.
-    List(Vec<Value>),
+    List(Arc<[Value]>),
     /// Names with their values.
-    Group(BTreeMap<String, Value>),
+    Group(Arc<BTreeMap<String, Value>>),
 }
 
 impl Value {
-    /// A column of these numbers.
     pub(crate) fn column(numbers: impl IntoIterator<Item = f64>) -> Self {
         Self::Column(numbers.into_iter().collect())
     }
 
-    /// A group of these.
     pub(crate) fn group<N: Into<String>>(entries: impl IntoIterator<Item = (N, Value)>) -> Self {
-        Self::Group(entries.into_iter().map(|(name, value)| (name.into(), value)).collect())
+        Self::Group(Arc::new(entries.into_iter().map(|(name, value)| (name.into(), value)).collect()))
     }
 
     /// Adds a name to a group; nothing else has names.
     pub(crate) fn add(&mut self, name: &str, value: Value) {
         if let Self::Group(entries) = self {
-            entries.insert(name.to_owned(), value);
+            Arc::make_mut(entries).insert(name.to_owned(), value);
         }
     }
 
@@ -83,7 +81,6 @@ impl Value {
         }
     }
 
-    /// From a value of a scene file.
     pub(crate) fn of_toml(value: &toml::Value) -> Self {
         match value {
             toml::Value::Integer(whole) => Self::Number(*whole as f64),
@@ -105,7 +102,7 @@ mod tests {
         let Value::Group(columns) = &table else { panic!("{table:?}") };
         assert_eq!(columns["x_mm"], Value::column([1.5, 2.0]));
         assert_eq!(columns["at_edge"], Value::column([1.0, 0.0]));
-        assert_eq!(columns["gear"], Value::List(vec![Value::Text("pinion".into()), Value::Text("wheel".into())]));
+        assert_eq!(columns["gear"], Value::List([Value::Text("pinion".into()), Value::Text("wheel".into())].into()));
         let Value::Column(rise) = &columns["rise"] else { panic!("{:?}", columns["rise"]) };
         assert!(rise[0].is_nan() && rise[1] == 3.0);
 
@@ -114,6 +111,6 @@ mod tests {
         let Value::Group(a) = &top["a"] else { panic!() };
         assert_eq!(a["b"], Value::column([1.0, 2.5]));
         assert!(matches!(a["c"], Value::Number(x) if x.is_nan()));
-        assert_eq!(a["e"], Value::List(Vec::new()));
+        assert_eq!(a["e"], Value::List([].into()));
     }
 }

@@ -17,7 +17,6 @@ pub(super) fn colour_and_symbol(number: usize) -> (&'static str, &'static str) {
 /// Curves with no more points than this show them.
 const FEW_POINTS: usize = 40;
 
-/// The figures of `case`.
 pub(super) fn all(case: &CaseRecord) -> Vec<Chart> {
     case.plots.iter().enumerate().map(|(number, plot)| figure(case, number, plot)).collect()
 }

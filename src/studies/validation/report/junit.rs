@@ -15,7 +15,6 @@ use crate::studies::validation::record::{CaseRecord, QuantityRecord, ValidationR
 /// The test of a case as a whole.
 const RUNS: &str = "the case runs to its end";
 
-/// Writes the record as JUnit XML.
 pub(super) fn write(out: &mut dyn Write, record: &ValidationRecord) -> io::Result<()> {
     let mut report = Report::new("gearwear validate");
     report.set_time(duration(record.wall_s));

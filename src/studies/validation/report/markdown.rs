@@ -6,7 +6,7 @@
 use super::totals::{self, Totals};
 use super::verdict::Verdict;
 use super::words::{self, counted, time};
-use crate::studies::validation::record::{CaseRecord, Change, Changes, QuantityRecord, ValidationRecord};
+use crate::studies::validation::record::{CaseRecord, Change, Changes, ValidationRecord};
 
 /// Bytes that one of the six tables may have: together they stay below 45 000.
 const TABLE_LIMIT: usize = 7_000;
@@ -14,7 +14,6 @@ const TABLE_LIMIT: usize = 7_000;
 /// Letters that one cell may have: a message of many lines belongs in the page.
 const CELL_LIMIT: usize = 600;
 
-/// The whole text.
 pub(super) fn text(record: &ValidationRecord, changes: Option<&Changes>) -> String {
     let all_stand = record.not_run.is_empty() && Totals::of(record).passed == record.cases.len();
     let verdict = if all_stand { "✓" } else { "✗" };
@@ -27,18 +26,12 @@ pub(super) fn text(record: &ValidationRecord, changes: Option<&Changes>) -> Stri
     if let Some(changes) = changes {
         text.push_str(&changed(changes));
     }
-    text.push_str(&of_verdict(
-        record,
-        Verdict::KnownNot,
-        "statement is known not to hold",
-        "statements are known not to hold",
-    ));
-    text.push_str(&of_verdict(
-        record,
-        Verdict::CannotBeCompared,
-        "quantity cannot be compared",
-        "quantities cannot be compared",
-    ));
+    for (verdict, one, many) in [
+        (Verdict::KnownNot, "statement is known not to hold", "statements are known not to hold"),
+        (Verdict::CannotBeCompared, "quantity cannot be compared", "quantities cannot be compared"),
+    ] {
+        text.push_str(&of_verdict(record, verdict, one, many));
+    }
     text.push_str(&estimates(record));
     text.push_str(&all_cases(record));
     text.push_str(&format!(
@@ -55,7 +48,7 @@ fn not_as_expected(record: &ValidationRecord) -> String {
     let mut rows = Vec::new();
     for case in record.cases.iter().filter(|case| !case.passed()) {
         if let Some(failure) = &case.failure {
-            rows.push(vec![signed(Verdict::CouldNotRun), case.name.clone(), NONE.to_owned(), failure.clone()]);
+            rows.push(vec![signed(Verdict::CouldNotRun), case.name.clone(), words::NONE.to_owned(), failure.clone()]);
         }
         rows.extend(case.quantities.iter().filter(|quantity| !quantity.as_expected()).map(|quantity| {
             let verdict = Verdict::of_quantity(quantity);
@@ -69,52 +62,31 @@ fn not_as_expected(record: &ValidationRecord) -> String {
 }
 
 fn of_verdict(record: &ValidationRecord, verdict: Verdict, one: &str, many: &str) -> String {
-    let of_case = |case: &CaseRecord, quantity: &QuantityRecord| {
-        vec![
-            quantity.target.clone().unwrap_or_else(|| case.targets.join(" ")),
-            case.name.clone(),
-            quantity.name.clone(),
-            words::deviation(quantity),
-        ]
-    };
-    let rows: Vec<Vec<String>> = record
-        .cases
-        .iter()
-        .flat_map(|case| case.quantities.iter().map(move |quantity| (case, quantity)))
-        .filter(|(_, quantity)| Verdict::of_quantity(quantity) == verdict)
-        .map(|(case, quantity)| of_case(case, quantity))
-        .collect();
+    let mut rows = Vec::new();
+    for case in &record.cases {
+        for quantity in case.quantities.iter().filter(|quantity| Verdict::of_quantity(quantity) == verdict) {
+            let target = quantity.target.clone().unwrap_or_else(|| case.targets.join(" "));
+            rows.push(vec![target, case.name.clone(), quantity.name.clone(), words::deviation(quantity)]);
+        }
+    }
     let columns = ["target", "case", "quantity", "what was found, and why"];
     folded(&counted(rows.len(), one, many), &columns, &rows)
 }
 
 fn estimates(record: &ValidationRecord) -> String {
-    let resting: Vec<Vec<String>> = record
-        .cases
-        .iter()
-        .filter(|case| !case.rests_on.is_empty())
-        .map(|case| vec![case.name.clone(), case.rests_on.join("; ")])
-        .collect();
+    let resting = record.cases.iter().filter(|case| !case.rests_on.is_empty());
+    let resting: Vec<_> = resting.map(|case| vec![case.name.clone(), case.rests_on.join("; ")]).collect();
     let heading = counted(resting.len(), "case rests on an estimate", "cases rest on estimates");
     folded(&heading, &["case", "what is estimated"], &resting)
 }
 
 fn all_cases(record: &ValidationRecord) -> String {
-    let rows: Vec<Vec<String>> = record
-        .cases
-        .iter()
-        .map(|case| {
-            let share = words::tightest(case.quantities.iter()).map(|(_, share)| share);
-            vec![
-                signed(Verdict::of_case(case)),
-                case.group.clone(),
-                case.name.clone(),
-                words::share(share),
-                words::main_work(case),
-                time(case.wall_s),
-            ]
-        })
-        .collect();
+    let row = |case: &CaseRecord| {
+        let share = words::share(words::tightest(case.quantities.iter()).map(|(_, share)| share));
+        let [group, name] = [&case.group, &case.name].map(String::clone);
+        vec![signed(Verdict::of_case(case)), group, name, share, words::main_work(case), time(case.wall_s)]
+    };
+    let rows: Vec<Vec<String>> = record.cases.iter().map(row).collect();
     let columns = ["", "group", "case", "of tolerance", "work", "time"];
     folded(&format!("What each of {} cost", counted(rows.len(), "case", "cases")), &columns, &rows)
 }
@@ -124,12 +96,8 @@ fn changed(changes: &Changes) -> String {
     if changes.worse.is_empty() && changes.better.is_empty() && changes.added.is_empty() && changes.gone.is_empty() {
         return format!("{against}: nothing changed beyond the noise.\n\n");
     }
-    let rows = |changes: &[Change]| -> Vec<Vec<String>> {
-        changes
-            .iter()
-            .map(|c| vec![c.case.clone(), c.what.clone(), words::state(&c.before), words::state(&c.now)])
-            .collect()
-    };
+    let row = |c: &Change| vec![c.case.clone(), c.what.clone(), words::state(&c.before), words::state(&c.now)];
+    let rows = |changes: &[Change]| changes.iter().map(row).collect::<Vec<_>>();
     let columns = ["case", "what", "before", "now"];
     let mut text = format!("{against}: {} worse, {} better.\n\n", changes.worse.len(), changes.better.len());
     if !changes.worse.is_empty() {
@@ -166,8 +134,6 @@ fn table(columns: &[&str], rows: &[Vec<String>]) -> String {
     }
     text
 }
-
-const NONE: &str = words::NONE;
 
 fn signed(verdict: Verdict) -> String {
     format!("{} {}", verdict.sign(), verdict.word())

@@ -36,12 +36,10 @@ pub(super) fn items(class: Option<&str>, items: impl IntoIterator<Item = Markup>
     html! { @if items.peek().is_some() { ul class=[class] { @for item in items { li { (item) } } } } }
 }
 
-/// The identifier of a case's section.
 pub(super) fn anchor(case: &CaseRecord) -> String {
     format!("case-{}", identifier(&case.name))
 }
 
-/// A link to a case's section.
 pub(super) fn link(case: &CaseRecord, text: &str) -> Markup {
     html! { a href={ "#" (anchor(case)) } { (text) } }
 }

@@ -10,7 +10,6 @@ use super::words::{self, counted, time};
 use crate::report::html::table::{cells, inner};
 use crate::studies::validation::record::{CaseRecord, ValidationRecord};
 
-/// The controls and the table.
 pub(super) fn html(record: &ValidationRecord) -> Markup {
     let rows = groups(record).into_iter().map(|group| {
         html! {

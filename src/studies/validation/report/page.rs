@@ -24,7 +24,6 @@ const DATA_FILES: &[(&str, &str)] = &[
     ("summary.md", "the summary for a comment"),
 ];
 
-/// The whole page.
 pub(super) fn page(record: &ValidationRecord, changes: Option<&Changes>) -> String {
     let parts = [
         ("wrong", "Not as it should be", not_as_expected(record)),

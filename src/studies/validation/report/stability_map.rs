@@ -15,18 +15,14 @@ use crate::studies::validation::record::{CaseRecord, RunOutcome, StabilityPoint,
 /// How many times the least value the greatest must be for a logarithmic axis.
 const LOGARITHMIC_FROM: f64 = 10.0;
 
-const OUTCOMES: [RunOutcome; 5] =
-    [RunOutcome::Sound, RunOutcome::Refused, RunOutcome::NotConverged, RunOutcome::Unsound, RunOutcome::Panicked];
-
-fn sign(outcome: RunOutcome) -> &'static str {
-    match outcome {
-        RunOutcome::Sound => "●",
-        RunOutcome::Refused => "■",
-        RunOutcome::NotConverged => "▲",
-        RunOutcome::Unsound => "✕",
-        RunOutcome::Panicked => "✖",
-    }
-}
+/// The sign of each outcome.
+const SIGNS: [(RunOutcome, &str); 5] = [
+    (RunOutcome::Sound, "●"),
+    (RunOutcome::Refused, "■"),
+    (RunOutcome::NotConverged, "▲"),
+    (RunOutcome::Unsound, "✕"),
+    (RunOutcome::Panicked, "✖"),
+];
 
 /// The map over all cases; empty where none has such points.
 pub(super) fn all(record: &ValidationRecord) -> Markup {
@@ -49,7 +45,7 @@ fn map<'a>(cases: impl Iterator<Item = &'a CaseRecord> + Clone, name: impl Fn(&C
     let mut unexpected = points.filter(|point| point.outcome != point.expected).peekable();
     html! {
         p.key {
-            @for outcome in OUTCOMES { span { b class=(outcome.name()) { (sign(outcome)) } " " (outcome.title()) } " " }
+            @for (outcome, sign) in SIGNS { span { b class=(outcome.name()) { (sign) } " " (outcome.title()) } " " }
             span { b.ring { "○" } " not as expected" }
         }
         div.stability { @for (case, parameter, points) in rows { (row(name(case, parameter), &points)) } }
@@ -89,7 +85,7 @@ fn row(name: Markup, points: &[&StabilityPoint]) -> Markup {
         let place = format!("left:{:.2}%", place(point.value));
         html! {
             span class={ "mark " (point.outcome.name()) @if point.outcome != point.expected { " ring" } } style=(place) {
-                (sign(point.outcome))
+                @for (outcome, sign) in SIGNS { @if outcome == point.outcome { (sign) } }
             }
             span.say { (said(point)) }
         }

@@ -24,7 +24,6 @@ pub(super) struct Totals {
 }
 
 impl Totals {
-    /// Those of `record`.
     pub(super) fn of(record: &ValidationRecord) -> Self {
         let cases = |wanted: &dyn Fn(&CaseRecord) -> bool| record.cases.iter().filter(|case| wanted(case)).count();
         let quantities = |wanted: &dyn Fn(Verdict) -> bool| {

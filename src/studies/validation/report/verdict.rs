@@ -36,7 +36,6 @@ impl Verdict {
         Self::Reported,
     ];
 
-    /// That of a quantity.
     pub(super) fn of_quantity(quantity: &QuantityRecord) -> Self {
         // Nothing is missing to compare the number: nobody asked for a comparison.
         let is_only_reported =
@@ -71,7 +70,6 @@ impl Verdict {
         }
     }
 
-    /// In words.
     pub(super) fn word(self) -> &'static str {
         self.shown()[0]
     }
