@@ -152,7 +152,6 @@ pub(crate) struct VariantRecord {
     pub root_wear_um: Option<PerGear<Vec<f64>>>,
 }
 
-/// What a run was made of.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct VariantSettings {
     pub surface: String,
@@ -189,7 +188,6 @@ pub(crate) struct MeasuredError {
     pub on_front: bool,
 }
 
-/// Something that was not run.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct LeftOut {
     pub what: String,
@@ -246,7 +244,6 @@ pub(crate) struct DeepRuns {
     pub rows: Vec<DeepRow>,
 }
 
-/// One model run to a greater depth.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub(crate) struct DeepRow {
     pub name: String,
@@ -264,7 +261,6 @@ pub(crate) struct DeepRow {
     pub failure: Option<String>,
 }
 
-/// One of its runs.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct DeepRun {
     pub wear_steps: u64,

@@ -57,7 +57,6 @@ pub(crate) enum Spacing {
     Step,
 }
 
-/// What is run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Selection {
     /// Every setting, in the order of the work; the first is the finest.

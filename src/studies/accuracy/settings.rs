@@ -57,7 +57,6 @@ pub(crate) struct Stiffness {
     pub name: String,
 }
 
-/// One setting.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Setting {
     /// How the flanks touch.

@@ -6,11 +6,10 @@
 
 use std::collections::BTreeMap;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::studies::validation::record::{CaseKind, CurveStyle, RunOutcome, Standing, Tier};
 
-/// A case.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CaseFile {
@@ -96,7 +95,7 @@ impl RunSpec {
 }
 
 /// The command that does the same from a terminal.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Command {
     /// The wear simulation.
@@ -108,17 +107,6 @@ pub(crate) enum Command {
     Calibrate,
 }
 
-impl Command {
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Run => "run",
-            Self::Fem => "fem",
-            Self::Calibrate => "calibrate",
-        }
-    }
-}
-
-/// A key that is varied.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct VarySpec {
@@ -139,7 +127,6 @@ pub(crate) struct VarySpec {
     pub log: bool,
 }
 
-/// One text or several.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum OneOrMore {
@@ -156,7 +143,6 @@ impl OneOrMore {
     }
 }
 
-/// A member of a family.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MemberSpec {
@@ -198,7 +184,6 @@ pub(crate) struct DataSpec {
     pub missing: Option<String>,
 }
 
-/// A name for an expression.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Definition {
@@ -206,7 +191,6 @@ pub(crate) struct Definition {
     pub value: String,
 }
 
-/// A number, or an expression for one.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(untagged)]
 pub(crate) enum Formula {
@@ -224,7 +208,6 @@ pub(crate) enum Extent {
     Absolute(Formula),
 }
 
-/// What is judged.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct QuantitySpec {
@@ -263,7 +246,6 @@ pub(crate) struct QuantitySpec {
     pub work: bool,
 }
 
-/// A plot.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlotSpec {
@@ -287,7 +269,6 @@ pub(crate) struct PlotSpec {
     pub mark: Vec<LineSpec>,
 }
 
-/// A curve.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct CurveSpec {

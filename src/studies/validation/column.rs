@@ -24,6 +24,7 @@
 use std::f64::consts;
 use std::sync::Arc;
 
+use super::profile;
 use super::value::Value;
 
 /// Why a function of columns has no value.
@@ -306,6 +307,6 @@ pub(crate) fn call(name: &str, arguments: &[Value]) -> Result<Option<Value>, Col
         ("share_within", [Column(claim), Column(truth), Number(above), Number(low), Number(high)]) => {
             Number(share_within(claim, truth, *above, *low, *high)?)
         }
-        _ => return Ok(None),
+        _ => return profile::call(name, arguments),
     }))
 }

@@ -34,7 +34,6 @@ use crate::studies::validation::record::RunOutcome;
 /// What a run came to.
 #[derive(Debug, Clone)]
 pub(crate) struct Executed {
-    /// How it ended.
     pub outcome: RunOutcome,
     /// What it said, where that is not sound.
     pub said: Option<String>,
@@ -67,7 +66,7 @@ impl Executed {
     /// As expressions see it.
     pub(crate) fn as_value(&self) -> Value {
         let mut group = self.value.clone();
-        group.add("outcome", Value::Text(self.outcome.name().to_owned()));
+        group.add("outcome", Value::Text(self.outcome.name()));
         group.add("message", Value::Text(self.said.clone().unwrap_or_default()));
         group.add("wall_s", Value::Number(self.wall_s));
         let work = self.work.iter().map(|(name, &count)| (name.as_str(), Value::Number(count as f64)));
@@ -192,7 +191,7 @@ impl Task<'_> {
             value.add("slices", table(|out| slice_table::slices(out, provenance, slices, path))?);
         }
         let work = counts(&tree(&record.summary.work)?);
-        let failure = done.failure.map(|failure| failure.to_string()).or_else(|| of_stop(record.summary.stopped));
+        let failure = failure(done.failure, record.summary.stopped);
         Ok(Executed::of(value, work, failure, soundness::fault(&record)))
     }
 
@@ -234,7 +233,7 @@ impl Task<'_> {
             ("pressure", pressure),
         ]);
         let work = [("iterations", record.summary.iterations as u64), ("positions", record.summary.positions as u64)];
-        let failure = done.failure.map(|failure| failure.to_string()).or_else(|| of_stop(record.summary.stopped));
+        let failure = failure(done.failure, record.summary.stopped);
         Ok(Executed::of(value, work.map(|(name, count)| (name.to_owned(), count)).into(), failure, None))
     }
 
@@ -275,10 +274,11 @@ fn table(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Value, 
     Value::of_csv(&bytes).map_err(not_converged)
 }
 
-fn of_stop(stop: StopReason) -> Option<String> {
-    match stop {
+/// Why a run has not converged, or was left before its end.
+fn failure(failure: Option<impl ToString>, stop: StopReason) -> Option<String> {
+    failure.map(|failure| failure.to_string()).or_else(|| match stop {
         StopReason::Completed => None,
         StopReason::Interrupted => Some("interrupted".to_owned()),
         StopReason::NotConverged => Some("the run did not converge".to_owned()),
-    }
+    })
 }

@@ -6,7 +6,6 @@
 //! `summary.unworn`. The functions are those of [`super::column`] and [`super::profile`].
 
 use super::column;
-use super::profile;
 use super::syntax::{self, Node, SyntaxError, Term};
 use super::value::Value;
 
@@ -126,10 +125,7 @@ impl Evaluator {
             Term::Index(terms) => item(self.evaluate(&terms[0])?, self.evaluate(&terms[1])?).map_err(blame)?,
             Term::Call(name, arguments) => {
                 let arguments: Vec<_> = arguments.iter().map(|node| self.evaluate(node)).collect::<Result<_, _>>()?;
-                let found = match column::call(name, &arguments).map_err(|error| blame(error.into()))? {
-                    None => profile::call(name, &arguments).map_err(|error| blame(error.into()))?,
-                    found => found,
-                };
+                let found = column::call(name, &arguments).map_err(|error| blame(error.into()))?;
                 found.ok_or_else(|| blame(no_function(name, &arguments)))?
             }
         })

@@ -24,7 +24,7 @@ pub(super) fn columns(
         ("count", Value::Number(executed.len() as f64)),
         ("wall_s", numbers(|run| run.wall_s)),
         ("sound", numbers(|run| f64::from(run.outcome == RunOutcome::Sound))),
-        ("outcome", texts(|run| run.outcome.name().to_owned())),
+        ("outcome", texts(|run| run.outcome.name())),
         ("message", texts(|run| run.said.clone().unwrap_or_default())),
         ("work", work(&executed)),
     ]);

@@ -20,16 +20,13 @@ const CASE_FILE: &str = "case.toml";
 /// Why there is no such case.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum LibraryError {
-    /// Neither the name of a built-in case nor a folder with a case.
     #[error(
         "found {found:?}; allowed: the name of a built-in case, or a folder with a file {CASE_FILE}{}",
         nearest.map_or_else(String::new, |nearest| format!("; did you mean {nearest:?}?"))
     )]
     Unknown { found: String, nearest: Option<&'static str> },
-    /// A case file that cannot be read.
     #[error("{}: {reason}", path.display())]
     Unreadable { path: PathBuf, reason: io::Error },
-    /// A case file that is none.
     #[error("{}: line {line}: {reason}", path.display())]
     NotACase { path: PathBuf, line: usize, reason: String },
     /// Two cases of one name: reports and later comparisons could not tell them apart.
@@ -38,7 +35,6 @@ pub(crate) enum LibraryError {
     /// What is there already is not written over: it may have been changed.
     #[error("found {} there already; allowed: a folder without it", path.display())]
     Exists { path: PathBuf },
-    /// The built-in cases cannot be laid out in a folder.
     #[error("cannot write the built-in cases to {}: {reason}", folder.display())]
     Export { folder: PathBuf, reason: io::Error },
 }

@@ -30,7 +30,7 @@ use std::collections::BTreeMap;
 use std::time::Instant;
 
 use crate::observer::Observer;
-use crate::studies::validation::record::{CaseRecord, CaseRun, RunOutcome, Tier, ValidationRecord};
+use crate::studies::validation::record::{CaseRecord, CaseRun, RunOutcome, Tier, ValidationRecord, written};
 use expression::Evaluator;
 use library::Case;
 use schedule::Members;
@@ -136,7 +136,7 @@ fn of_run(spec: &case_file::RunSpec, family: &Members) -> CaseRun {
     }
     CaseRun {
         name: spec.name.clone(),
-        command: spec.command.name().to_owned(),
+        command: written(spec.command),
         members: executed.len(),
         outcomes,
         wall_s: executed.iter().map(|run| run.wall_s).sum(),

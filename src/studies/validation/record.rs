@@ -9,6 +9,12 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+/// The name of a variant, as files write it.
+pub(crate) fn written(variant: impl Serialize) -> String {
+    let name = serde_json::to_value(variant).unwrap_or_default();
+    name.as_str().unwrap_or_default().to_owned()
+}
+
 /// The whole suite, or the part of it that was asked for.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct ValidationRecord {
@@ -68,17 +74,11 @@ pub(crate) enum CaseKind {
 }
 
 impl CaseKind {
-    pub(crate) fn title(self) -> &'static str {
-        match self {
-            Self::CodeVerification => "code verification",
-            Self::SolutionVerification => "solution verification",
-            Self::Validation => "validation",
-            Self::Regression => "regression",
-        }
+    pub(crate) fn title(self) -> String {
+        written(self).replace('-', " ")
     }
 }
 
-/// A case.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct CaseRecord {
     /// Name of its folder.
@@ -141,12 +141,8 @@ pub(crate) enum Standing {
 }
 
 impl Standing {
-    pub(crate) fn title(self) -> &'static str {
-        match self {
-            Self::Holds => "holds",
-            Self::Fails => "fails",
-            Self::CannotBeCompared => "cannot be compared",
-        }
+    pub(crate) fn title(self) -> String {
+        written(self).replace('-', " ")
     }
 }
 
@@ -164,7 +160,6 @@ pub(crate) struct CaseRun {
     pub work: BTreeMap<String, u64>,
 }
 
-/// How a run ended.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum RunOutcome {
@@ -181,14 +176,8 @@ pub(crate) enum RunOutcome {
 
 impl RunOutcome {
     /// As case files, expressions and style sheets write it.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Sound => "sound",
-            Self::Refused => "refused",
-            Self::NotConverged => "not-converged",
-            Self::Unsound => "unsound",
-            Self::Panicked => "panicked",
-        }
+    pub(crate) fn name(self) -> String {
+        written(self)
     }
 
     pub(crate) fn title(self) -> &'static str {
@@ -306,7 +295,6 @@ pub(crate) struct StabilityPoint {
     pub said: Option<String>,
 }
 
-/// A plot.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CasePlot {
     pub title: String,
@@ -327,7 +315,6 @@ pub(crate) struct CasePlot {
     pub marks: Vec<(String, f64)>,
 }
 
-/// A curve of a plot.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PlotCurve {
     pub name: String,
@@ -338,7 +325,6 @@ pub(crate) struct PlotCurve {
     pub style: CurveStyle,
 }
 
-/// How a curve is drawn.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum CurveStyle {
@@ -367,7 +353,6 @@ pub(crate) struct Changes {
     pub gone: Vec<String>,
 }
 
-/// One change.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Change {
     pub case: String,

@@ -30,11 +30,12 @@ pub(super) fn write(out: &mut dyn Write, record: &ValidationRecord) -> io::Resul
 fn suite(case: &CaseRecord) -> TestSuite {
     let mut suite = TestSuite::new(case.name.as_str());
     suite.set_time(duration(case.wall_s));
+    let kind = case.kind.title();
     let facts = [
         ("title", case.title.as_str()),
         ("group", &case.group),
         ("requirement", &case.requirement),
-        ("kind", case.kind.title()),
+        ("kind", &kind),
         ("tier", case.tier.name()),
     ];
     suite.add_properties(facts.into_iter().chain(case.targets.iter().map(|target| ("target", target.as_str()))));

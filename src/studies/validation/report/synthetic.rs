@@ -169,7 +169,6 @@ pub(super) fn repeated(times: usize) -> ValidationRecord {
     record
 }
 
-/// Something of every kind.
 pub(super) fn changes() -> Changes {
     let change =
         |what: &str, before, now| Change { case: "hertz-cylinders".to_owned(), what: what.to_owned(), before, now };

@@ -1,9 +1,10 @@
 //! What every file must hold, on a record with everything in it.
 
+use std::collections::BTreeMap;
 use std::fs;
 
 use quick_xml::Reader;
-use quick_xml::events::{BytesStart, Event};
+use quick_xml::events::Event;
 use tempfile::TempDir;
 
 use super::markup::anchor;
@@ -12,25 +13,15 @@ use super::words::as_written;
 use super::{junit, markdown, page, terminal, words, write};
 use crate::studies::validation::record::{CaseRecord, Criterion, ValidationRecord};
 
-/// An element of the JUnit file: its name and attributes.
-#[derive(Debug)]
+/// An element of the JUnit file.
 struct Element {
     name: String,
-    attributes: Vec<(String, String)>,
+    attributes: BTreeMap<String, String>,
 }
 
 impl Element {
-    fn of(start: &BytesStart) -> Self {
-        let attributes = start.attributes().map(|attribute| {
-            let attribute = attribute.unwrap();
-            let value = quick_xml::escape::unescape(&attribute.value).unwrap().into_owned();
-            (attribute.key.as_ref().to_owned(), value)
-        });
-        Self { name: start.name().as_ref().to_owned(), attributes: attributes.collect() }
-    }
-
     fn get(&self, key: &str) -> &str {
-        self.attributes.iter().find(|(name, _)| name == key).map_or("", |(_, value)| value)
+        self.attributes.get(key).map_or("", String::as_str)
     }
 }
 
@@ -41,7 +32,14 @@ fn junit_elements(record: &ValidationRecord) -> Vec<Element> {
     let (mut elements, mut buffer) = (Vec::new(), Vec::new());
     loop {
         match reader.read_event_into(&mut buffer).unwrap() {
-            Event::Start(start) | Event::Empty(start) => elements.push(Element::of(&start)),
+            Event::Start(start) | Event::Empty(start) => {
+                let attributes = start.attributes().map(|attribute| {
+                    let attribute = attribute.unwrap();
+                    let value = quick_xml::escape::unescape(&attribute.value).unwrap().into_owned();
+                    (attribute.key.as_ref().to_owned(), value)
+                });
+                elements.push(Element { name: start.name().as_ref().to_owned(), attributes: attributes.collect() });
+            }
             Event::Eof => return elements,
             _ => {}
         }

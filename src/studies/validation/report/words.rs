@@ -81,7 +81,7 @@ pub(super) fn state(state: &State) -> String {
         State::Ran(true) => "ran".to_owned(),
         State::Ran(false) => "could not run".to_owned(),
         State::Absent => "not there".to_owned(),
-        State::Stands(standing) => standing.title().to_owned(),
+        State::Stands(standing) => standing.title(),
         State::Ended(outcome) => outcome.title().to_owned(),
         State::Uses(used) => format!("{} of the tolerance", share(Some(*used))),
         State::Is(value, unit) => value.map_or_else(|| NONE.to_owned(), |value| with_unit(&digits(value), unit)),
