@@ -68,14 +68,12 @@ pub(crate) fn export(folder: &Path) -> Result<(), LibraryError> {
             return Err(LibraryError::Exists { path });
         }
     }
-    let lay_out = |dir: &Dir<'_>, name: &str| -> io::Result<()> {
+    for (name, dir) in [("validation", &CASES), ("meshes", &MESHES)] {
         let into = folder.join(name);
-        fs::create_dir_all(&into)?;
-        dir.extract(&into)
-    };
-    lay_out(&CASES, "validation")
-        .and_then(|()| lay_out(&MESHES, "meshes"))
-        .map_err(|reason| LibraryError::Export { folder: folder.into(), reason })
+        let laid_out = fs::create_dir_all(&into).and_then(|()| dir.extract(&into));
+        laid_out.map_err(|reason| LibraryError::Export { folder: folder.into(), reason })?;
+    }
+    Ok(())
 }
 
 impl Library {

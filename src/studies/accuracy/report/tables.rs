@@ -128,11 +128,11 @@ pub(crate) fn over_width(out: &mut dyn Write, provenance: Provenance, record: &A
 }
 
 /// A depth of the reference, then of every run that keeps it, of both gears.
-fn reference_and_runs<'a>(
-    record: &'a AccuracyRecord,
+fn reference_and_runs(
+    record: &AccuracyRecord,
     of_reference: fn(&ReferenceFlank) -> &Vec<f64>,
     of_run: fn(&VariantRecord) -> Option<&PerGear<Vec<f64>>>,
-) -> impl Iterator<Item = (&'a str, Gear, &'a Vec<f64>)> {
+) -> impl Iterator<Item = (&str, Gear, &Vec<f64>)> {
     let reference = Gear::BOTH.map(|gear| ("reference", gear, of_reference(&record.reference.flanks[gear])));
     let runs = record.variants.iter().flat_map(move |variant| {
         let depths = of_run(variant);

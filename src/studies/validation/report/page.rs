@@ -56,27 +56,20 @@ fn tiles(record: &ValidationRecord) -> Markup {
     let t = Totals::of(record);
     let alarm = |number: usize, class: &'static str| if number > 0 { class } else { "quiet" };
     let wrong = t.missed + t.could_not_run;
-    let unit = |one: &str, many: &str, number: usize| if number == 1 { one.to_owned() } else { many.to_owned() };
+    let tile = |class, number: usize, one: &'static str, many: &'static str| {
+        (class, number.to_string(), if number == 1 { one } else { many })
+    };
+    let (known_not, open) = (t.known_not, t.cannot_be_compared);
+    let threads = format!("on {}", words::counted(record.threads, "thread", "threads"));
+    let all_well = if wrong == 0 { "holds" } else { "" };
     let tiles = [
-        (
-            if wrong == 0 { "holds" } else { "" },
-            format!("{} / {}", t.passed, t.cases),
-            "cases stand as they should".to_owned(),
-        ),
-        (alarm(wrong, "missed"), wrong.to_string(), "missed or could not run".to_owned()),
-        ("", format!("{} / {}", t.hold, t.quantities), "quantities hold".to_owned()),
-        (
-            alarm(t.known_not, "known-not"),
-            t.known_not.to_string(),
-            unit("statement known not to hold", "statements known not to hold", t.known_not),
-        ),
-        (
-            alarm(t.cannot_be_compared, "not-comparable"),
-            t.cannot_be_compared.to_string(),
-            unit("quantity cannot be compared", "quantities cannot be compared", t.cannot_be_compared),
-        ),
-        ("", t.on_estimates.to_string(), unit("case rests on an estimate", "cases rest on estimates", t.on_estimates)),
-        ("", time(record.wall_s), format!("on {}", words::counted(record.threads, "thread", "threads"))),
+        (all_well, format!("{} / {}", t.passed, t.cases), "cases stand as they should"),
+        (alarm(wrong, "missed"), wrong.to_string(), "missed or could not run"),
+        ("", format!("{} / {}", t.hold, t.quantities), "quantities hold"),
+        tile(alarm(known_not, "known-not"), known_not, "statement known not to hold", "statements known not to hold"),
+        tile(alarm(open, "not-comparable"), open, "quantity cannot be compared", "quantities cannot be compared"),
+        tile("", t.on_estimates, "case rests on an estimate", "cases rest on estimates"),
+        ("", time(record.wall_s), &threads),
     ];
     html! {
         div.tiles { @for (class, number, words) in tiles { div class={ "tile " (class) } { b { (number) } " " span { (words) } } } }

@@ -63,8 +63,7 @@ pub(super) fn html(record: &ValidationRecord) -> Markup {
 }
 
 fn row(id: &str, words: &str, cases: &[&CaseRecord], verdict: Markup) -> Markup {
-    let speaking: Vec<_> = cases.iter().flat_map(|case| case.speaking_to(id)).collect();
-    let used = words::tightest(speaking.into_iter()).map(|(_, share)| share);
+    let used = words::tightest(cases.iter().flat_map(|case| case.speaking_to(id))).map(|(_, share)| share);
     line(cells![
         html! { b { (id) } " " (words) },
         verdict,
@@ -82,11 +81,8 @@ fn verdict(id: &str, cases: &[&CaseRecord]) -> Option<Markup> {
         None => Verdict::of_quantities(&case.speaking_to(id)),
     };
     let worst = cases.iter().map(of_case).min()?;
-    let compared: Vec<Verdict> = cases
-        .iter()
-        .flat_map(|case| case.speaking_to(id).into_iter().map(Verdict::of_quantity))
-        .filter(|verdict| !matches!(verdict, Verdict::Reported))
-        .collect();
+    let all = cases.iter().flat_map(|case| case.speaking_to(id)).map(Verdict::of_quantity);
+    let compared: Vec<Verdict> = all.filter(|verdict| *verdict != Verdict::Reported).collect();
     let hold = compared.iter().filter(|verdict| matches!(verdict, Verdict::Holds | Verdict::NowHolds)).count();
     Some(html! {
         (badge(worst))
