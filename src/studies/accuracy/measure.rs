@@ -17,6 +17,7 @@
 use std::collections::BTreeMap;
 
 use super::observed::{Observed, ObservedCycle, ObservedFlank};
+use super::over_width::OverWidth;
 use crate::gear::{Gear, PerGear};
 use crate::results::run::PathPoints;
 use crate::studies::accuracy::record::Quantity;
@@ -84,11 +85,22 @@ pub(crate) fn errors(observed: &Observed, reference: &Observed, windows: &Window
         (Quantity::WornTransmissionErrorPeakToPeak, between(|c| &c.worn_transmission_error_um)),
     ]);
     match (&observed.over_width, &reference.over_width) {
-        (Some(own), Some(of_reference)) => errors.extend(own.errors(of_reference)),
+        (Some(own), Some(of_reference)) => errors.extend(errors_over_width(own, of_reference)),
         // Where slices of one tooth enter while others leave, no pair ever carries the load alone.
         _ => errors.extend([(Quantity::HalfWidth, half_width())]),
     }
     errors
+}
+
+/// Errors over the face width, at the same places.
+fn errors_over_width(own: &OverWidth, reference: &OverWidth) -> [(Quantity, f64); 3] {
+    let root = |gear: Gear| relative_l2(&reference.width_mm, &own.root_wear_um[gear], &reference.root_wear_um[gear]);
+    let figure = |of: fn(&OverWidth) -> f64| relative_difference(of(own), of(reference));
+    [
+        (Quantity::RootWear, root(Gear::Pinion).max(root(Gear::Wheel))),
+        (Quantity::FaceLoadFactor, figure(|o| o.face_load_factor)),
+        (Quantity::WornFaceLoadFactor, figure(|o| o.worn_face_load_factor)),
+    ]
 }
 
 /// Relative L2 error of the depth over the whole flank; both at the same points and widths. Slices are as wide as each other.

@@ -1,9 +1,8 @@
 //! The curves of a run that errors are measured on, and how they are brought onto common coordinates.
 
-use super::over_width::{OverWidth, depths_at_widths, pressure_along_path_mpa};
+use super::over_width::{OverWidth, depths_at_widths, interpolated, pressure_along_path_mpa};
 use crate::gear::flank_zones::{FlankZone, FlankZones};
 use crate::gear::{Gear, PerGear};
-use crate::reference::linear_means::value_at;
 use crate::results::run::{FlankRecord, RunRecord};
 
 /// What errors are measured on.
@@ -158,30 +157,5 @@ impl ObservedFlank {
             self.slices().map(|slice| interpolated(&self.radius_mm, slice, radius_mm)).collect();
         let slices: Vec<&[f64]> = at_radii.iter().map(Vec::as_slice).collect();
         depths_at_widths(&self.width_mm, &slices, width_mm)
-    }
-}
-
-/// Values given at increasing `x`, at other places; beyond the ends the value there, 0 where there is none at all.
-pub(crate) fn interpolated(x: &[f64], values: &[f64], at: &[f64]) -> Vec<f64> {
-    at.iter()
-        .map(|&place| match (x.len(), values) {
-            (0, _) => 0.0,
-            (1, values) => values[0],
-            (_, values) => value_at(x, values, place),
-        })
-        .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// A straight line is met exactly between its points, and held beyond them.
-    #[test]
-    fn ver_interpolation_is_exact_for_straight_lines() {
-        let found = interpolated(&[0.0, 1.0, 3.0], &[1.0, 3.0, 7.0], &[-1.0, 0.5, 2.0, 3.0, 9.0]);
-        assert_eq!(found, [1.0, 2.0, 5.0, 7.0, 7.0]);
-        assert_eq!(interpolated(&[], &[], &[1.0]), [0.0]);
-        assert_eq!(interpolated(&[2.0], &[5.0], &[1.0, 3.0]), [5.0, 5.0]);
     }
 }

@@ -5,13 +5,9 @@
 //! holding the values there would leave an error of first order in the slices' width at both ends of the tooth. Depths are
 //! never negative.
 
-use std::collections::BTreeMap;
-
-use super::measure::{relative_difference, relative_l2};
-use super::observed::interpolated;
 use crate::gear::{Gear, PerGear};
+use crate::reference::linear_means::value_at;
 use crate::results::run::{RunRecord, SliceRecord};
-use crate::studies::accuracy::record::Quantity;
 
 /// Curves over the face width.
 #[derive(Debug, Clone, PartialEq)]
@@ -62,18 +58,6 @@ impl OverWidth {
             worn_face_load_factor: of(|o| o.worn_face_load_factor),
         }
     }
-
-    /// Errors against `reference`, at the same places.
-    pub(crate) fn errors(&self, reference: &Self) -> BTreeMap<Quantity, f64> {
-        let root =
-            |gear: Gear| relative_l2(&reference.width_mm, &self.root_wear_um[gear], &reference.root_wear_um[gear]);
-        let figure = |of: fn(&Self) -> f64| relative_difference(of(self), of(reference));
-        BTreeMap::from([
-            (Quantity::RootWear, root(Gear::Pinion).max(root(Gear::Wheel))),
-            (Quantity::FaceLoadFactor, figure(|o| o.face_load_factor)),
-            (Quantity::WornFaceLoadFactor, figure(|o| o.worn_face_load_factor)),
-        ])
-    }
 }
 
 /// Depths of slices at increasing `width_mm` (`slices`: one row of points each, all of the same length), at other widths, row
@@ -108,6 +92,17 @@ pub(crate) fn pressure_along_path_mpa(slices: &SliceRecord, position_mm: &[f64])
         greatest.iter_mut().zip(there).for_each(|(greatest, pressure)| *greatest = f64::max(*greatest, pressure));
     }
     greatest
+}
+
+/// Values given at increasing `x`, at other places; beyond the ends the value there, 0 where there is none at all.
+pub(crate) fn interpolated(x: &[f64], values: &[f64], at: &[f64]) -> Vec<f64> {
+    at.iter()
+        .map(|&place| match (x.len(), values) {
+            (0, _) => 0.0,
+            (1, values) => values[0],
+            (_, values) => value_at(x, values, place),
+        })
+        .collect()
 }
 
 #[cfg(test)]
@@ -154,5 +149,14 @@ mod tests {
             at_sharp_edge_worn: vec![false; 8],
         };
         assert_eq!(pressure_along_path_mpa(&slices, &[5.0, 6.0, 7.0]), [900.0, 300.0, 300.0]);
+    }
+
+    /// A straight line is met exactly between its points, and held beyond them.
+    #[test]
+    fn ver_interpolation_is_exact_for_straight_lines() {
+        let found = interpolated(&[0.0, 1.0, 3.0], &[1.0, 3.0, 7.0], &[-1.0, 0.5, 2.0, 3.0, 9.0]);
+        assert_eq!(found, [1.0, 2.0, 5.0, 7.0, 7.0]);
+        assert_eq!(interpolated(&[], &[], &[1.0]), [0.0]);
+        assert_eq!(interpolated(&[2.0], &[5.0], &[1.0, 3.0]), [5.0, 5.0]);
     }
 }
