@@ -7,7 +7,6 @@
 use super::measure::profile_error;
 use super::observed::Observed;
 use super::settings::{Setting, Surface};
-use super::sliced_comparison;
 use crate::gear::PerGear;
 use crate::scene::Resolved;
 use crate::scene::file::StiffnessModel;
@@ -23,12 +22,8 @@ pub(crate) struct Run<'a> {
     pub simulation_s: f64,
 }
 
-/// Tooth stiffnesses on the scene's surface, and contact surfaces with the best stiffness there is; where sections differ over the
-/// face width also the coupling of slices (`sliced_comparison`).
+/// Tooth stiffnesses on the scene's surface, and contact surfaces with the best stiffness there is, where all sections are alike.
 pub(crate) fn comparisons(resolved: &Resolved, runs: &[Run<'_>]) -> Vec<Comparison> {
-    if resolved.scene.slices.is_some() {
-        return sliced_comparison::comparisons(resolved, runs);
-    }
     let Some(finest) = runs.iter().map(|run| run.setting.coarsening.spacing).min() else { return Vec::new() };
     let even: Vec<Run<'_>> = runs
         .iter()

@@ -14,8 +14,7 @@ use crate::scene::Resolved;
 use crate::studies::accuracy::record::Comparison;
 
 /// All tables that have rows.
-pub(super) fn comparisons(resolved: &Resolved, runs: &[Run<'_>]) -> Vec<Comparison> {
-    let Some(own) = resolved.scene.slices else { return Vec::new() };
+pub(super) fn comparisons(resolved: &Resolved, own: SliceSettings, runs: &[Run<'_>]) -> Vec<Comparison> {
     let on_own_slices = runs.iter().copied().filter(|run| run.setting.slices.is_some_and(|s| s.count == own.count));
     let even: Vec<Run<'_>> =
         on_own_slices.filter(|run| run.setting.coarsening.spacing == run.setting.coarsening.step).collect();

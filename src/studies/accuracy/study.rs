@@ -10,6 +10,7 @@ use super::observed::Observed;
 use super::reference::{Correction, Reference};
 use super::selection::{Asked, Companions, Selection, Spacing};
 use super::settings::Setting;
+use super::sliced_comparison;
 use super::timed_run::{Finished, Measured, measure};
 use crate::calibration::Calibration;
 use crate::contact::settings::MatchCriterion;
@@ -111,7 +112,10 @@ pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) ->
         threads: rayon::current_num_threads(),
         within: asked.within,
         recommendations,
-        comparisons: comparison::comparisons(resolved, &compared),
+        comparisons: match resolved.scene.slices {
+            Some(own) => sliced_comparison::comparisons(resolved, own, &compared),
+            None => comparison::comparisons(resolved, &compared),
+        },
         deep_runs,
         reference: reference_record(&selection, &measured, reference, runs, &windows),
         variants,
