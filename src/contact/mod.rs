@@ -1,8 +1,8 @@
 //! Contact surfaces: how a tooth pair answers when its flanks are pressed together.
 //!
 //! One interface for all models. A [`ContactSurface`] prepares a [`PairContact`] for each tooth pair at each loading
-//! position; the mesh cycle then presses it and reads load and stiffness, and the wear collects what
-//! each flank point felt ([`Sweep`]). A contact reads the flank only as *removed material*: modifications and wear alike.
+//! position; the mesh cycle then presses it and reads load and stiffness, and the wear collects pressure
+//! and sliding of each flank point ([`Sweep`]). A contact reads the flank only as *removed material*: modifications and wear alike.
 //!
 //! | surface | pressure | load against approach |
 //! |---|---|---|
@@ -150,16 +150,16 @@ pub(crate) trait PairContact: Send {
     /// bit. For contacts that keep something from one wear step to the next.
     fn reset(&mut self) {}
 
-    /// Fills in what the points of a flank felt; nothing for a pair prepared without a [`PositionCell`].
+    /// Fills in pressure and sliding of the points of a flank; nothing for a pair prepared without a [`PositionCell`].
     fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep);
 
     /// Whether the points of a [`Sweep`] run across the contact from one end of its strip to the other, each under its own pressure;
-    /// otherwise they are those that pass the theoretical contact point, and each feels all of the contact.
+    /// otherwise they are those that pass the theoretical contact point, and each passes through all of the contact.
     fn sweeps_across(&self) -> bool {
         true
     }
 
-    /// What each point of that [`Sweep`] felt, for an observer.
+    /// The contact of each point of that [`Sweep`], for an observer.
     fn contact_of_points(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<PointContact>;
 
     /// Extent and greatest pressure.

@@ -44,7 +44,7 @@ impl SweptField {
         Self { field, width_mm, observed }
     }
 
-    /// Fills in what the points of a flank felt.
+    /// Fills in pressure and sliding of the points of a flank.
     pub(crate) fn sweep(&self, gear: Gear, sweep: &mut Sweep) {
         let Some(observed) = &self.observed else { return sweep.begin(0, &[]) };
         let (points, courses) = &observed[gear];
@@ -57,7 +57,7 @@ impl SweptField {
         }
     }
 
-    /// What each point of that [`Sweep`] felt.
+    /// The contact of each point of that [`Sweep`].
     pub(crate) fn contact_of_points(&self, gear: Gear) -> Vec<PointContact> {
         let Some(observed) = &self.observed else { return Vec::new() };
         let (points, courses) = &observed[gear];

@@ -50,7 +50,7 @@ const APART: Apart = Apart { half_widths: 0.5, limits: [0.5, 4.0] };
 const APART_AT_TIP_EDGES: Apart = Apart { half_widths: 0.15, limits: [0.25, 1.0] };
 /// How far the path is looked at beyond A and E, over how far unworn tip edges reach their mates under the approach at the pitch point.
 const AMPLE_APPROACH: f64 = 1.3;
-/// How far within A–E a contact still feels the tip edge, in Hertz half-widths at the pitch point.
+/// How far within A–E the tip edge still changes a contact, in Hertz half-widths at the pitch point.
 const WITHIN_HALF_WIDTHS: f64 = 2.0;
 
 /// By how much of itself the lever of a tooth pair's load may differ from that on the worn flanks, over the part of the load that other
@@ -420,7 +420,7 @@ impl LoadedPosition {
 
     fn solve(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
         let (is_new, windows) = (self.found.is_none(), self.windows);
-        let mut work = self.solve_as_reckoned(step)?;
+        let mut work = self.solve_linearised(step)?;
         if is_new || windows != self.windows {
             work += self.follow_tilt(step)?;
         }
@@ -434,13 +434,13 @@ impl LoadedPosition {
             if !self.is_tilted_anew(step) {
                 break;
             }
-            work += self.solve_as_reckoned(step)?;
+            work += self.solve_linearised(step)?;
         }
         Ok(work)
     }
 
     /// Finds the contact on the flanks as they are, in the directions that the position was made for.
-    fn solve_as_reckoned(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
+    fn solve_linearised(&mut self, step: &Step<'_>) -> Result<Work, EquilibriumError> {
         let position_mm = self.prepared.position_mm;
         let Self { prepared, stretch_mm, transfers, windows, about_rad, .. } = self;
         let mut opening = |prepared: &Prepared, gap_mm: &mut [f64]| {

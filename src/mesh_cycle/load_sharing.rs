@@ -185,8 +185,8 @@ impl<'a> MeshedPair<'a> {
     }
 }
 
-/// Equilibrium, by `balance`, of `pairs` on flanks that have lost `removed_mm` of each; pairs that turn out to touch beyond what they
-/// look at look wider.
+/// Equilibrium, by `balance`, of `pairs` on flanks that have lost `removed_mm` of each; the windows of pairs that turn out to touch
+/// beyond them are widened.
 ///
 /// # Errors
 /// That of `balance`.

@@ -155,7 +155,7 @@ pub(crate) struct CycleObservation {
     pub positions: Vec<PositionObservation>,
     /// Greatest pressure at any position and of any flank point.
     pub greatest_pressure: GreatestPressure,
-    /// Greatest pressure that each flank point felt, also at sharp tip edges, MPa.
+    /// Greatest pressure on each flank point, also at sharp tip edges, MPa.
     pub pressure_mpa: PerGear<Vec<f64>>,
     /// How far each flank point slid while in contact, mm.
     pub sliding_mm: PerGear<Vec<f64>>,
@@ -256,8 +256,8 @@ impl MeshCycle for LineOfActionCycle<'_> {
             for gear in Gear::BOTH {
                 let (pressure, sliding) = (&mut observation.pressure_mpa[gear], &mut observation.sliding_mm[gear]);
                 let contact = &*loaded.pairs[0].contact;
-                let felt = note_what_points_felt(contact, gear, removed_mm, &mut sweep, pressure, sliding);
-                observation.greatest_pressure.note(felt, contact.footprint().at_sharp_edge);
+                let greatest_mpa = note_contact_of_points(contact, gear, removed_mm, &mut sweep, pressure, sliding);
+                observation.greatest_pressure.note(greatest_mpa, contact.footprint().at_sharp_edge);
             }
         }
         observation.greatest_pressure.note_all(&observation.positions);
@@ -265,9 +265,9 @@ impl MeshCycle for LineOfActionCycle<'_> {
     }
 }
 
-/// Raises `pressure_mpa` at the points of a flank to what they felt of `contact`, and adds to `sliding_mm` how far they slid in it; answers
-/// the greatest pressure that any of them felt.
-fn note_what_points_felt(
+/// Raises `pressure_mpa` at the points of a flank to that of `contact`, and adds to `sliding_mm` how far they slid in it; answers
+/// the greatest pressure on any of them.
+fn note_contact_of_points(
     contact: &dyn PairContact,
     gear: Gear,
     removed_mm: PerGear<&[f64]>,
@@ -277,14 +277,14 @@ fn note_what_points_felt(
 ) -> f64 {
     contact.sweep(gear, removed_mm, sweep);
     let range = sweep.first_point..sweep.first_point + sweep.sliding_mm.len();
-    let felt = contact.contact_of_points(gear, removed_mm);
+    let contacts = contact.contact_of_points(gear, removed_mm);
     let points = pressure_mpa[range.clone()].iter_mut().zip(&mut sliding_mm[range]);
     let mut most_mpa = 0.0_f64;
-    for ((greatest, slid), (felt, &sliding)) in points.zip(felt.iter().zip(&sweep.sliding_mm)) {
+    for ((greatest, slid), (at, &sliding)) in points.zip(contacts.iter().zip(&sweep.sliding_mm)) {
         if sliding > 0.0 {
-            *greatest = greatest.max(felt.pressure_mpa);
-            *slid += sliding * felt.contact_fraction;
-            most_mpa = most_mpa.max(felt.pressure_mpa);
+            *greatest = greatest.max(at.pressure_mpa);
+            *slid += sliding * at.contact_fraction;
+            most_mpa = most_mpa.max(at.pressure_mpa);
         }
     }
     most_mpa

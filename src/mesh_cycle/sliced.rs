@@ -21,7 +21,7 @@ use super::sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh};
 use super::sliced_positions::{SliceContact, SlicedPosition};
 use super::sliced_sharing::balance_on_teeth;
 use super::sliced_teeth::SlicedTeeth;
-use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, note_what_points_felt};
+use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, note_contact_of_points};
 use crate::contact::{ContactSurface, Flanks, Sweep};
 use crate::gear::{Gear, PerGear, path_of_contact::PathOfContact};
 use crate::wear::WearModel;
@@ -184,8 +184,8 @@ impl MeshCycle for SlicedCycle<'_> {
                 for gear in Gear::BOTH {
                     let range = contact.slice * self.points[gear]..(contact.slice + 1) * self.points[gear];
                     let (pressure, sliding) = (&mut pressure_mpa[gear][range.clone()], &mut sliding_mm[gear][range]);
-                    let felt = note_what_points_felt(&*pair.contact, gear, own, &mut sweep, pressure, sliding);
-                    greatest_pressure.note(felt, pair.contact.footprint().at_sharp_edge);
+                    let greatest_mpa = note_contact_of_points(&*pair.contact, gear, own, &mut sweep, pressure, sliding);
+                    greatest_pressure.note(greatest_mpa, pair.contact.footprint().at_sharp_edge);
                 }
             }
             phases.push(loaded.observe(load, self.bodies_mm));

@@ -26,9 +26,9 @@ const FIRST_REACH: f64 = 25.0;
 const REACH_USED: f64 = 0.8;
 /// Half-widths on either side of the expected contact in which multipliers are looked for first.
 const FIRST_WINDOW: f64 = 1.4;
-/// How much wider each further look along the flanks is.
+/// How much wider each further window is.
 const WIDER: f64 = 1.6;
-/// How much farther each further look across the gap is.
+/// How much farther across the gap each further window reaches.
 const FARTHER: f64 = 3.0;
 /// Looks before giving up.
 const MOST_WINDOWS: usize = 8;

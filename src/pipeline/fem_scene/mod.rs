@@ -30,7 +30,7 @@ use crate::results::fem_pair::{FemPairRecord, FullModelSummary};
 use crate::results::run::StopReason;
 use crate::scene::Resolved;
 
-/// Positions solved between two looks at the observer.
+/// Positions solved before the observer is asked again.
 const BATCH: usize = 64;
 
 /// Why there is no result, or not the whole.

@@ -103,7 +103,7 @@ fn against_hertz(calibration: &Calibration) -> Chart {
         ))
 }
 
-/// Error of the fitted bed in the quantity it was fitted on.
+/// Error of the fitted foundation in the quantity it was fitted on.
 fn errors(calibration: &Calibration, criterion: MatchCriterion) -> Chart {
     let fit = calibration.foundation_fit.get(&criterion);
     let reading = fit.map_or_else(String::new, |fit| {

@@ -31,9 +31,9 @@ const SNAPSHOTS: u32 = 40;
 const SEPARATE_RUNS: u32 = 6;
 /// Longer runs have no more wear steps than one of this factor.
 const AS_FINE_UP_TO: f64 = 4.0;
-/// A course reaches this much further than the factor it is made for.
+/// A curve reaches this much further than the factor it is made for.
 const AHEAD: f64 = 2.0;
-/// Factors of severe wear whose courses are computed are this far apart, as a logarithm; between them it is interpolated.
+/// Factors of severe wear whose curves are computed are this far apart, as a logarithm; between them it is interpolated.
 const SEVERE_STEP: f64 = LN_2;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -104,7 +104,7 @@ impl<'a> Simulations<'a> {
         let Some(severe) = change.severe_factor else { return Ok(self.course(0, factor)?.at(factor)) };
         let place = (severe / self.severe_factor()).ln() / SEVERE_STEP;
         let before = place.floor();
-        // Lagrange's cubic through the courses at −1, 0, 1 and 2.
+        // Lagrange's cubic through the curves at −1, 0, 1 and 2.
         let t = place - before;
         let weights = [
             -t * (t - 1.0) * (t - 2.0) / 6.0,
@@ -121,7 +121,7 @@ impl<'a> Simulations<'a> {
         Ok(sum)
     }
 
-    /// The course with 2ⁿ times the scene's factor of severe wear, up to this factor at least.
+    /// The curve with 2ⁿ times the scene's factor of severe wear, up to this factor at least.
     fn course(&mut self, n: i32, up_to: f64) -> Result<&WearByCoefficient, CompareError> {
         let known = self.courses.iter().position(|(of, _)| *of == n);
         let index = match known {
