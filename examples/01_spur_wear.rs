@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let relief: toml::Table = "amount_um = 20.0\nlength_mm = 2.0".parse()?;
     let relieved = plain.with("pair.pinion.tip_relief", relief.clone())?.with("pair.wheel.tip_relief", relief)?;
     for (name, scene) in [("without relief", plain), ("with 20 µm of tip relief", relieved)] {
-        let run = gearwear::run(&scene, &Stages)?.record;
+        let run = gearwear::run(&scene, &Stages)?.complete()?;
         println!("\n{name}");
         show(&run);
     }

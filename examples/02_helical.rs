@@ -7,7 +7,7 @@ use gearwear::{LoadedScene, Unwatched};
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene =
         LoadedScene::preset("helical")?.with("helical.coupling", "slicing")?.with("numerics.error_estimate", false)?;
-    let run = gearwear::run(&scene, &Unwatched)?.record;
+    let run = gearwear::run(&scene, &Unwatched)?.complete()?;
     let helical = run.summary.helical.as_ref().ok_or("a helical pair has slices")?;
     println!(
         "total contact ratio {:.3}, K_Hβ {:.3} new, {:.3} worn",

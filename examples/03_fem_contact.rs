@@ -18,7 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("cylinder on block: {:.1} MPa, Hertz {:.1} MPa", contact.peak_pressure_MPa, hertz.peak_pressure_mpa);
 
     let scene = LoadedScene::preset("fzg-c")?;
-    let whole = gearwear::fem_pair(&scene, None, &Unwatched)?.record;
+    let whole = gearwear::fem_pair(&scene, None, &Unwatched)?.complete()?;
     let cycle = &whole.summary.new;
     println!(
         "FZG type C: transmission error {:.2} to {:.2} µm over {} positions, {} degrees of freedom",

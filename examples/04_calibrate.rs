@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     let fast = plain.with("contact.match", "half-width")?.with("numerics.verify", true)?;
     for (name, scene) in [("matched to Hertz", fast.clone()), ("calibrated", fast.with_calibration(calibration)?)] {
-        let run = gearwear::run(&scene, &Unwatched)?.record;
+        let run = gearwear::run(&scene, &Unwatched)?.complete()?;
         let error = run.summary.error.total.peak_wear.pinion;
         println!(
             "{name}: greatest wear of the pinion {:.2} µm, off by {} against finite elements",

@@ -42,12 +42,12 @@ fn scene(surface: &str, band_mpa: Option<f64>) -> Result<LoadedScene, LoadError>
 
 fn euler(scene: &LoadedScene, steps: f64) -> Result<RunRecord, Box<dyn std::error::Error>> {
     let step = table(&format!("revolutions = {:?}", REVOLUTIONS / steps));
-    Ok(gearwear::run(&scene.with("numerics.step", step)?, &Unwatched)?.record)
+    Ok(gearwear::run(&scene.with("numerics.step", step)?, &Unwatched)?.complete()?)
 }
 
 fn adaptive(scene: &LoadedScene, method: &str, tolerance_um: f64) -> Result<RunRecord, Box<dyn std::error::Error>> {
     let scene = scene.with("numerics.step", "adaptive")?.with("numerics.method", method)?;
-    Ok(gearwear::run(&scene.with("numerics.tolerance_um", tolerance_um)?, &Unwatched)?.record)
+    Ok(gearwear::run(&scene.with("numerics.tolerance_um", tolerance_um)?, &Unwatched)?.complete()?)
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -9,7 +9,7 @@
 //! use gearwear::{LoadedScene, Unwatched};
 //!
 //! let scene = LoadedScene::preset("fzg-c")?.with("operation.pinion_torque_Nm", 250.0)?.with("numerics.verify", false)?;
-//! let run = gearwear::run(&scene, &Unwatched)?.record;
+//! let run = gearwear::run(&scene, &Unwatched)?.complete()?;
 //!
 //! let pinion = &run.flanks.pinion;
 //! println!("{:.2} µm at most", run.summary.pinion.peak_wear_um);
@@ -33,8 +33,9 @@
 //! ```
 //! # use gearwear::{LoadedScene, Unwatched};
 //! # let scene = LoadedScene::preset("thesis-spur")?.with("numerics.error_estimate", false)?.with("numerics.verify", false)?;
-//! # let scene = scene.without("operation.snapshots_h")?.with("operation.hours", 1)?;
-//! # let run = gearwear::run(&scene, &Unwatched)?.record;
+//! // A shorter life has no moments of the longer one.
+//! let scene = scene.without("operation.snapshots_h")?.with("operation.hours", 1)?;
+//! let run = gearwear::run(&scene, &Unwatched)?.complete()?;
 //! let share: Vec<f64> = run.mesh_cycle.iter().map(|row| row.load_share_new).collect();
 //! let transmission_error_um: Vec<f64> = run.mesh_cycle.iter().map(|row| row.transmission_error_new_um).collect();
 //! # assert_eq!(share.len(), transmission_error_um.len());
@@ -42,8 +43,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! An [`Observer`] is told of stages, progress and warnings, and may stop the run; [`write`](fn@write) makes the folder that `gearwear run`
-//! makes. What is wrong with a scene is a [`SceneError`]: all of it at once, each [`Problem`] with its key, what was found and what is
+//! An [`Observer`] is told of stages, progress and what comes up on the way, and may stop the run; what is noticed in the scene itself is
+//! in [`LoadedScene::warnings`]. A value of several keys, such as a tip relief, is a [`toml`] table. [`write`](fn@write) makes the folder
+//! that `gearwear run` makes. What is wrong with a scene is a [`SceneError`]: all of it at once, each [`Problem`] with its key, what was found and what is
 //! allowed.
 //!
 //! ```
@@ -61,7 +63,7 @@
 //!
 //! let scene = LoadedScene::preset("fzg-c")?.with("contact.surface", "winkler")?;
 //! let calibration = gearwear::calibrate(&scene, &Unwatched)?.calibration;
-//! let run = gearwear::run(&scene.with_calibration(calibration)?, &Unwatched)?.record;
+//! let run = gearwear::run(&scene.with_calibration(calibration)?, &Unwatched)?.complete()?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
@@ -114,7 +116,8 @@ mod inside;
 pub use calibration::Calibration;
 #[cfg(feature = "program")]
 pub use cli::main as program;
-pub use gear::{Gear, PerGear};
+pub use contact::settings::MatchCriterion;
+pub use gear::{Gear, PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
 pub use observer::{Observer, Unwatched};
 pub use pipeline::calibrate::{CalibrateError, Calibrated};
 pub use pipeline::fem_problem::FemProblemError;
@@ -128,6 +131,21 @@ pub use scene::loaded::{LoadError, LoadedScene, SceneError, SceneText};
 pub use scene::presets::{PRESETS, Preset};
 pub use scene::schema::schema as scene_schema;
 pub use scene::{Problem, ProblemKind};
+// The values that `LoadedScene::with` takes.
+pub use toml;
+
+/// What the errors of the calls are made of.
+pub mod error {
+    pub use crate::calibration::CalibrationError;
+    pub use crate::calibration::file::CalibrationFileError;
+    pub use crate::fem::element::ElementError;
+    pub use crate::fem::equilibrium::SolveError;
+    pub use crate::fem::factor::FactorError;
+    pub use crate::fem::gear::{cycle::CycleError, full::FullError, model::ModelError};
+    pub use crate::gear::error::PairError;
+    pub use crate::simulation::wear_run::SimulationError;
+    pub use crate::stiffness::{StiffnessError, curve_file::CurveFileError};
+}
 
 use std::path::Path;
 
@@ -167,12 +185,13 @@ pub fn fem_problem(problem_toml: &str, folder: &Path, observer: &dyn Observer) -
     pipeline::fem_problem::run(&problem, folder, observer)
 }
 
-/// Writes what `gearwear run` writes into `folder`, which is made if need be: tables, page, summary.
+/// Writes what `gearwear run` writes into `folder`, which is made if need be: scene and input files, tables, page, summary.
 ///
 /// # Errors
 /// [`ReportError`] where a file cannot be written.
 pub fn write(run: &RunRecord, folder: &Path) -> Result<(), ReportError> {
     report::remove_summary(folder)?;
+    run.inputs.iter().try_for_each(|file| resume::folder::place(folder, &file.name, &file.bytes))?;
     report::write_data_and_page(run, folder)?;
     report::write_summary(&run.summary, folder).map(drop)
 }

@@ -133,9 +133,6 @@ struct SolvedPosition {
 
 /// Solves the pair alone at positions from A to E under all loads, in the order of the positions; `reference_n_per_mm` is
 /// the load of the scene.
-///
-/// # Errors
-/// [`CalibrationError::Contact`], [`CalibrationError::NoClearPosition`].
 pub(crate) fn solve(
     condensed: &CondensedPair<'_>,
     loaded: &LoadedPair<'_>,

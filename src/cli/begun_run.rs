@@ -2,7 +2,7 @@
 
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
+use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use crate::report;
@@ -59,8 +59,8 @@ pub(super) fn resume(scene: Option<&Path>, out: &Path) -> Result<Option<BegunRun
     }
 }
 
-fn named_as_copied(mut scene: LoadedScene) -> (LoadedScene, Identity) {
-    folder::name_inputs_as_copied(&mut scene.resolved, &mut Arc::make_mut(&mut scene.files).as_read);
+fn named_as_copied(scene: LoadedScene) -> (LoadedScene, Identity) {
+    let scene = scene.naming_copies();
     let identity = Identity::new(scene.resolved.to_toml(), &scene.files.as_read);
     (scene, identity)
 }

@@ -133,7 +133,7 @@ pub(super) enum InputError {
     Out(ReportError),
     #[error("{}", of_mesh(.0))]
     #[diagnostic(help("{}", mesh_help(.0)))]
-    PairMesh(#[from] PairMeshError),
+    PairMesh(PairMeshError),
     #[error("--out: {}", causes(.0))]
     #[diagnostic(help("a folder you may write to, and a name that ends in .msh, .vtu, .inp or .json"))]
     MeshFile(MeshFileError),
@@ -165,6 +165,8 @@ pub(super) enum InputError {
     /// None of the shards has the scene of the sweep beside its rows.
     #[error("no folder has the scene.toml of its sweep; allowed: folders as gearwear sweep wrote them")]
     MergeWithoutScene,
+    #[error("standard output cannot be written: {0}")]
+    Stdout(io::Error),
     #[error("--threads: {0}")]
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
@@ -282,7 +284,8 @@ impl Failure {
             Failure::Missed { .. } => 1,
             Failure::Interrupted => 130,
             Failure::Closed => 0,
-            _ => 3,
+            Failure::Run(_) | Failure::Solve(_) | Failure::FemPair(_) | Failure::Accuracy(_) => 3,
+            Failure::Calibrate(_) | Failure::NotFitted { .. } | Failure::NoCombination { .. } => 3,
         }
     }
 }
@@ -316,7 +319,9 @@ fn label(problem: &Problem) -> Option<LabeledSpan> {
 /// What is wrong with a mesh, at the option that is to blame.
 fn of_mesh(error: &PairMeshError) -> String {
     match error {
-        PairMeshError::Position { .. } => format!("--position: {error}"),
+        PairMeshError::Position { position_mm, from_mm, to_mm } => {
+            format!("--position: found {position_mm}; allowed: {from_mm:.4} (A) to {to_mm:.4} (E), in mm")
+        }
         _ => format!("the pair cannot be meshed: {error}"),
     }
 }

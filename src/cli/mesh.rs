@@ -33,7 +33,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     warn(resolved.scene.one_load_warning().as_slice());
     // Whether the ending is one of a mesh file is known before the work.
     let format = Format::of_path(&args.out).map_err(InputError::MeshFile)?;
-    let built = pair_mesh::build(&resolved.scene, args.position).map_err(InputError::from)?;
+    let built = pair_mesh::build(&resolved.scene, args.position).map_err(InputError::PairMesh)?;
     mesh::write_as(&built.mesh, &args.out, format).map_err(InputError::MeshFile)?;
     print(&text(&resolved.scene, &built, &args.out))
 }

@@ -19,7 +19,7 @@ mod schema;
 mod sweep;
 mod validate;
 
-use std::io::{IsTerminal, Write};
+use std::io::{ErrorKind, IsTerminal, Write};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -113,7 +113,10 @@ fn say(text: &str) {
 /// Prints `text` as it is on standard output, which may be closed early, as by `gearwear schema | head`.
 fn print(text: &str) -> Result<(), failure::Failure> {
     let mut out = std::io::stdout().lock();
-    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|_| failure::Failure::Closed)
+    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(|error| match error.kind() {
+        ErrorKind::BrokenPipe => failure::Failure::Closed,
+        _ => failure::InputError::Stdout(error).into(),
+    })
 }
 
 /// The command line, for completions.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::plan::{Plan, Stage};
 use clap::ValueEnum;
 
-use crate::scene::loaded::SceneText;
+use crate::scene::loaded::LoadedScene;
 
 use super::failure::Failure;
 use super::{print, warn};
@@ -28,11 +28,11 @@ enum Format {
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let resolved = SceneText::read(&args.scene)?.resolve()?;
-    warn(&resolved.warnings);
-    let plan = Plan::of(&resolved.scene);
+    let scene = LoadedScene::open(&args.scene)?;
+    warn(scene.warnings());
+    let plan = scene.plan();
     print(&match args.format {
-        Format::Text => text(&resolved.scene.title, &plan),
+        Format::Text => text(&scene.scene().title, &plan),
         Format::Json => serde_json::to_string_pretty(&plan).expect("a plan is names and texts") + "\n",
     })
 }

@@ -169,5 +169,10 @@ fn say_what_is_kept(record: &RunRecord, operation: &Operation, out: &Path) {
 }
 
 fn how_to_go_on(out: &Path) -> String {
-    format!("gearwear run --resume {} goes on with it", out.display())
+    let how = if out.join(folder::CHECKPOINT).exists() {
+        "goes on with it"
+    } else {
+        "begins it anew: it has no checkpoint yet"
+    };
+    format!("gearwear run --resume {} {how}", out.display())
 }

@@ -92,7 +92,7 @@ impl HalfSpace {
     }
 }
 
-/// Where a pair is.
+/// The flanks of a pair at its position.
 struct ObservedStretch<'a> {
     flanks: Flanks<'a>,
     position_mm: f64,

@@ -142,7 +142,7 @@ enum Observed {
     Swept(SweptField),
 }
 
-/// Where a pair is.
+/// The flanks of a pair at its position.
 struct ObservedStretch<'a> {
     flanks: Flanks<'a>,
     position_mm: f64,

@@ -1,4 +1,4 @@
-//! Which things hang together, from the pairs that do.
+//! Which members are connected, from the pairs that are.
 
 /// Sets that are joined pair by pair.
 pub(crate) struct DisjointSets {

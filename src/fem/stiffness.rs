@@ -225,7 +225,10 @@ impl NodeGraph {
 
     /// Place of node i > j, which couples with it, in the list of node j.
     fn place(&self, j: usize, i: u32) -> usize {
-        self.above[self.start[j]..self.start[j + 1]].partition_point(|&other| other < i)
+        let above = &self.above[self.start[j]..self.start[j + 1]];
+        let place = above.partition_point(|&other| other < i);
+        debug_assert_eq!(above.get(place), Some(&i), "the pattern is of these elements");
+        place
     }
 
     /// The pattern of the lower triangle with zeros in it.

@@ -153,9 +153,6 @@ pub(crate) struct MeasuredRow {
 }
 
 /// Reads the text of a file.
-///
-/// # Errors
-/// The first thing that is wrong with it.
 pub(crate) fn parse(text: &str) -> Result<MeasuredFile, DataTableError> {
     let table = DataTable::read(text, columns_allowed)?;
     let mut file = MeasuredFile::default();

@@ -70,9 +70,6 @@ pub(crate) struct Fitted {
 }
 
 /// Finds the parameters with the least sum of squares of `residuals`.
-///
-/// # Errors
-/// Those of `residuals`.
 pub(crate) fn least_squares<E>(parameters: &[Parameter], residuals: &mut Residuals<'_, E>) -> Result<Fitted, E> {
     let mut theta: Vec<f64> = parameters.iter().map(|p| p.start.clamp(p.least, p.greatest)).collect();
     let mut r = residuals(&theta)?;

@@ -43,9 +43,6 @@ impl Collected {
     }
 
     /// The depths of all groups together into `depth_mm`, and the work of one mesh cycle.
-    ///
-    /// # Errors
-    /// The first failure.
     pub(super) fn sum<'a>(
         groups: impl Iterator<Item = &'a Self>,
         depth_mm: &mut PerGear<Vec<f64>>,

@@ -68,7 +68,7 @@ struct LoadedPosition {
     stretch_mm: (f64, f64),
     /// Of each tooth pair that may touch.
     transfers: Vec<LoadTransfer>,
-    /// For how many windows that holds.
+    /// In which of the windows of `prepared` that was found.
     windows: usize,
     /// The tilt of the worn flanks that it is about; new ones if there is none.
     about_rad: Option<PerGear<Vec<f64>>>,

@@ -187,9 +187,6 @@ impl<'a> MeshedPair<'a> {
 
 /// Equilibrium, by `balance`, of `pairs` on flanks that have lost `removed_mm` of each; the windows of pairs that turn out to touch
 /// beyond them are widened.
-///
-/// # Errors
-/// That of `balance`.
 pub(crate) fn settled<'a, 'r>(
     pairs: &mut [MeshedPair<'a>],
     removed_mm: impl Fn(usize) -> PerGear<&'r [f64]>,

@@ -1,7 +1,7 @@
 //! The mesh cycle of a pair whose transverse sections differ: helical, or modified over the face width.
 //!
 //! The face width is cut into slices, each a thin spur pair in its own transverse section. At every phase of one base pitch
-//! ([`super::phases`]) all slices of all teeth in contact find their equilibrium together, under one approach of the rigid hubs:
+//! ([`super::sliced_positions`]) all slices of all teeth in contact find their equilibrium together, under one approach of the rigid hubs:
 //!
 //! ```text
 //! Σ w_ki Δz = F                δ = touch_ki + s_ki(w_ki) + u_ki

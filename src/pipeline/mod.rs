@@ -74,7 +74,7 @@ pub enum RunError {
 
 impl RunError {
     /// The scene's contradiction between stiffness model and contact surface, if that is what is wrong.
-    pub fn stiffness(&self) -> Option<&StiffnessError> {
+    pub(crate) fn stiffness(&self) -> Option<&StiffnessError> {
         match self {
             RunError::Stiffness(error) | RunError::Simulation(SimulationError::Stiffness(error)) => {
                 Some(error).filter(|error| matches!(error, StiffnessError::SurfaceTooSoft { .. }))
@@ -84,7 +84,7 @@ impl RunError {
     }
 
     /// The finite-element model that could not be made, if that is what is wrong.
-    pub fn model(&self) -> Option<&ModelError> {
+    pub(crate) fn model(&self) -> Option<&ModelError> {
         match self {
             RunError::FiniteElements(error) | RunError::Calibration(CalibrationError::Model(error)) => Some(error),
             _ => None,
@@ -97,8 +97,21 @@ impl RunError {
 pub struct Done<R = RunRecord, E = RunError> {
     /// Everything that was finished, or what is wanted of it.
     pub record: R,
-    /// Why that is not all.
+    /// What went wrong where that is not all; none also where the observer interrupted the work, which the record's summary says.
     pub failure: Option<E>,
+}
+
+impl<R, E> Done<R, E> {
+    /// The record, unless something went wrong.
+    ///
+    /// # Errors
+    /// What went wrong: what was finished by then is lost.
+    pub fn complete(self) -> Result<R, E> {
+        match self.failure {
+            None => Ok(self.record),
+            Some(failure) => Err(failure),
+        }
+    }
 }
 
 /// Micrometres, in which records are written.
@@ -179,13 +192,10 @@ impl Resumption<'_> {
 /// # Errors
 /// [`RunError`] where nothing was finished.
 pub fn run(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done, RunError> {
-    run_from(scene, Resumption::none(), observer)
+    run_from(&scene.clone().naming_copies(), Resumption::none(), observer)
 }
 
 /// The same for a run that may go on from a checkpoint, and gives new ones.
-///
-/// # Errors
-/// [`RunError`] where nothing was finished.
 pub(crate) fn run_from(
     scene: &LoadedScene,
     resumption: Resumption<'_>,
@@ -193,16 +203,13 @@ pub(crate) fn run_from(
 ) -> Result<Done, RunError> {
     let start = Instant::now();
     let mut done = carry_out(scene, resumption, observer, |model, found, summary| {
-        recording::record(&scene.resolved, model, found, summary)
+        recording::record(scene, model, found, summary)
     })?;
     done.record.summary.wall_s = start.elapsed().as_secs_f64();
     Ok(done)
 }
 
 /// The same for the main figures alone: what only a report reads is not made.
-///
-/// # Errors
-/// [`RunError`] where nothing was finished.
 pub(crate) fn summarise(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done<Summary>, RunError> {
     let start = Instant::now();
     let mut done = carry_out(scene, Resumption::none(), observer, |_, _, summary| summary)?;

@@ -10,10 +10,12 @@ use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::plan::Plan;
 use crate::results::error::ErrorSummary;
 use crate::results::run::{
-    ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, MeshCycleRow, PathPoints,
-    RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary, WorkSummary,
+    ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, InputFile, MeshCycleRow,
+    PathPoints, RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary,
+    WorkSummary,
 };
 use crate::scene::Resolved;
+use crate::scene::loaded::LoadedScene;
 use crate::simulation::figures::WearFigures;
 use crate::simulation::wear_run::Outcome;
 use crate::thermal::settings::TemperatureMethod;
@@ -34,11 +36,14 @@ pub(super) struct RunFindings<'a> {
 }
 
 /// The record of a run.
-pub(super) fn record(resolved: &Resolved, model: &Model<'_>, found: RunFindings<'_>, summary: Summary) -> RunRecord {
+pub(super) fn record(scene: &LoadedScene, model: &Model<'_>, found: RunFindings<'_>, summary: Summary) -> RunRecord {
     let outcome = found.outcome;
+    let inputs = scene.files.as_read.iter();
+    let inputs = inputs.map(|file| InputFile { name: file.name.clone(), bytes: file.bytes.clone() });
     RunRecord {
         summary,
-        scene_toml: resolved.to_toml(),
+        scene_toml: scene.resolved.to_toml(),
+        inputs: inputs.collect(),
         flanks: PerGear::from_fn(|gear| flank(model, found, gear)),
         history: outcome.snapshots.iter().map(|snapshot| history_row(model, outcome, snapshot)).collect(),
         mesh_cycle: mesh_cycle(model, found),

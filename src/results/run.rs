@@ -14,8 +14,11 @@ use crate::gear::{PerGear, flank_surface::FlankSurface, flank_zones::FlankZones}
 pub struct RunRecord {
     /// What `summary.json` holds.
     pub summary: Summary,
-    /// The resolved scene as TOML.
+    /// The resolved scene as TOML; input files have the names of `inputs`.
     pub scene_toml: String,
+    /// Copies of the files that the scene names.
+    #[serde(skip)]
+    pub inputs: Vec<InputFile>,
     /// Both flanks, point by point.
     pub flanks: PerGear<FlankRecord>,
     /// One row per snapshot reached.
@@ -26,6 +29,15 @@ pub struct RunRecord {
     pub slices: Option<SliceRecord>,
     /// The pair in mesh, to scale.
     pub drawing: PairDrawing,
+}
+
+/// A file that a scene names.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InputFile {
+    /// Its name in the folder of the run.
+    pub name: String,
+    /// What it holds.
+    pub bytes: Vec<u8>,
 }
 
 /// `summary.json`.

@@ -90,9 +90,6 @@ pub(crate) enum CheckpointError {
 }
 
 /// Writes a checkpoint of the run `identity` in the place of the one before, whole or not at all.
-///
-/// # Errors
-/// What the system says.
 pub(crate) fn write(path: &Path, identity: &Identity, warnings: &[String], checkpoint: &Checkpoint) -> io::Result<()> {
     let body = postcard::to_stdvec(&Body { identity, warnings, checkpoint }).map_err(io::Error::other)?;
     let header = Header {

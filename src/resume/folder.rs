@@ -4,7 +4,6 @@
 //! the beginning: the checkpoint of an earlier run goes first, then come input files and scene, and last goes the summary, which
 //! counts only beside a scene of its own hash.
 
-use std::ffi::OsStr;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -15,7 +14,6 @@ use super::file::{self, CheckpointError, CheckpointFile};
 use super::identity::{Identity, between_scenes};
 use crate::report::ReportError;
 use crate::results::run::StopReason;
-use crate::scene::Resolved;
 use crate::scene::loaded::NamedFile;
 use crate::whole_file;
 
@@ -23,7 +21,6 @@ use crate::whole_file;
 pub(crate) const SCENE: &str = "scene.toml";
 /// The last checkpoint.
 pub(crate) const CHECKPOINT: &str = "checkpoint.bin";
-const INPUTS: &str = "inputs";
 const SUMMARY: &str = "summary.json";
 
 /// What a folder holds of a run.
@@ -68,42 +65,23 @@ pub(crate) enum FolderError {
     },
 }
 
-/// Lets the scene name its input files as they lie in the folder of a run.
-pub(crate) fn name_inputs_as_copied(resolved: &mut Resolved, files: &mut [NamedFile]) {
-    let mut taken: Vec<String> = Vec::new();
-    for file in files {
-        let base = Path::new(&file.name).file_name().and_then(OsStr::to_str).unwrap_or(file.key);
-        let mut name = format!("{INPUTS}/{base}");
-        if taken.contains(&name) {
-            name = format!("{INPUTS}/{}-{base}", file.key);
-        }
-        resolved.rename_file(file.key, &name);
-        file.name.clone_from(&name);
-        taken.push(name);
-    }
-}
-
 /// Begins the run of `identity` in `dir`, which exists, with copies of its input files: what an earlier run could go on from is gone.
-///
-/// # Errors
-/// A file that cannot be written or taken away.
 pub(crate) fn begin(dir: &Path, identity: &Identity, files: &[NamedFile]) -> Result<(), ReportError> {
     remove_checkpoint(dir)?;
-    let place = |name: &str, bytes: &[u8]| {
-        let path = dir.join(name);
-        let written = path.parent().map_or(Ok(()), fs::create_dir_all);
-        written
-            .and_then(|()| whole_file::write(&path, |out| out.write_all(bytes)))
-            .map_err(|source| ReportError::WriteFile { path, source })
-    };
-    files.iter().try_for_each(|file| place(&file.name, &file.bytes))?;
-    place(SCENE, identity.scene_toml.as_bytes())
+    files.iter().try_for_each(|file| place(dir, &file.name, &file.bytes))?;
+    place(dir, SCENE, identity.scene_toml.as_bytes())
+}
+
+/// Writes the file `name` in `dir`, in a folder within it if its name says so.
+pub(crate) fn place(dir: &Path, name: &str, bytes: &[u8]) -> Result<(), ReportError> {
+    let path = dir.join(name);
+    let written = path.parent().map_or(Ok(()), fs::create_dir_all);
+    written
+        .and_then(|()| whole_file::write(&path, |out| out.write_all(bytes)))
+        .map_err(|source| ReportError::WriteFile { path, source })
 }
 
 /// Takes away the checkpoint in `dir`, if there is one.
-///
-/// # Errors
-/// One that cannot be.
 pub(crate) fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
     let path = dir.join(CHECKPOINT);
     match fs::remove_file(&path) {
@@ -113,9 +91,6 @@ pub(crate) fn remove_checkpoint(dir: &Path) -> Result<(), ReportError> {
 }
 
 /// What `dir` holds of the run of `identity` with the scene hash `scene_hash`.
-///
-/// # Errors
-/// [`FolderError`] where it holds another run, or what cannot be read.
 pub(crate) fn contents(dir: &Path, identity: &Identity, scene_hash: &str) -> Result<Contents, FolderError> {
     let Some(scene_toml) = read(&dir.join(SCENE))? else { return Ok(Contents::Nothing) };
     let other_run = |path: PathBuf, differences: Vec<String>| match differences.is_empty() {

@@ -34,8 +34,11 @@ pub(crate) fn set(table: &mut Table, key: &str, value: impl Into<Value>) {
     let mut table = table;
     for part in tables.into_iter().flat_map(|tables| tables.split('.')) {
         let below = table.entry(part).or_insert_with(|| Value::Table(Table::new()));
-        // Something else in the place of a table cannot be a scene's; resolving says so.
-        let Value::Table(below) = below else { return };
+        if !below.is_table() {
+            // Resolving says that this is no table.
+            *below = Value::Table(Table::new());
+        }
+        let Value::Table(below) = below else { unreachable!("it is a table now") };
         table = below;
     }
     table.insert(name.to_owned(), value.into());
@@ -50,9 +53,6 @@ pub(crate) struct Draft {
 
 impl Draft {
     /// Reads the text of a scene file.
-    ///
-    /// # Errors
-    /// Text that is not TOML.
     pub(crate) fn parse(text: &str) -> Result<Self, Vec<Problem>> {
         let (table, findings) = text::parse(text)?;
         Ok(Self { table, locator: findings.into_locator() })

@@ -31,6 +31,11 @@ pub(crate) enum KeyError {
     },
 }
 
+/// Whether a scene may have a key at this path.
+pub(crate) fn is_key(path: &str) -> bool {
+    path.split('.').try_fold(Node::root(schema()), |node, name| node.child(name)).is_some()
+}
+
 impl NumberKey {
     /// The key at `path`.
     ///

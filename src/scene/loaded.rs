@@ -3,6 +3,7 @@
 //! A scene may name a calibration (`contact.calibration`) and a curve of tooth stiffness (`stiffness.curve`). A [`LoadedScene`] cannot lack
 //! one: it comes into being where they are read, or is a variant of one that has them.
 
+use std::ffi::OsStr;
 use std::fmt;
 use std::fs;
 use std::io::{self, Read};
@@ -10,6 +11,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::draft::Draft;
+use super::key::is_key;
 use super::{Problem, ProblemKind, Resolved, Scene, presets};
 use crate::calibration::{Calibration, identity::Identity};
 use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
@@ -22,6 +24,10 @@ use crate::stiffness::settings::StiffnessSettings;
 pub(crate) const CALIBRATION: &str = "contact.calibration";
 /// The key that names a curve of tooth stiffness.
 pub(crate) const CURVE: &str = "stiffness.curve";
+/// The folder of a run's input files within its own.
+const INPUTS: &str = "inputs";
+/// What the name of a changed text ends in.
+const CHANGED: &str = " as changed";
 /// Part of a load that counts as within a range.
 const ROUNDING: f64 = 1e-9;
 
@@ -58,7 +64,8 @@ impl SceneError {
             let begin = problem.span.as_ref().map_or(0, |span| span.start).min(text.len());
             text.as_bytes()[..begin].iter().filter(|&&byte| byte == b'\n').count() + 1
         };
-        let of = |problem: &Problem| format!("{name}, line {}: {problem}", line(problem));
+        let help = |problem: &Problem| problem.help.as_ref().map_or_else(String::new, |help| format!(" ({help})"));
+        let of = |problem: &Problem| format!("{name}, line {}: {problem}{}", line(problem), help(problem));
         self.problems.iter().map(of).collect::<Vec<_>>().join("\n")
     }
 }
@@ -125,6 +132,8 @@ pub struct LoadedScene {
     pub(crate) resolved: Resolved,
     pub(crate) files: Arc<NamedFiles>,
     pub(crate) given: Arc<SceneText>,
+    /// Where files lie that are not read yet.
+    pub(crate) folder: Arc<Path>,
 }
 
 impl LoadedScene {
@@ -170,20 +179,25 @@ impl LoadedScene {
         }
     }
 
-    /// The same scene with `value` for `key`, such as `"pair.face_width_mm"`, as if the file said so.
+    /// The same scene with `value` for `key`, such as `"pair.face_width_mm"`, as if the file said so: a file that it names then lies in
+    /// the same folder. Errors name lines of the changed text.
     ///
     /// # Errors
     /// What is wrong with the scene then; a calibration that does not belong to it.
     pub fn with(&self, key: &str, value: impl Into<toml::Value>) -> Result<Self, LoadError> {
-        self.changed(|draft| draft.set(key, value), (*self.files).clone())
+        self.changed(|draft| draft.set(key, value), &self.files.as_read)
     }
 
     /// The same scene without `key`, as if the file left it out.
     ///
     /// # Errors
-    /// What is wrong with the scene then.
+    /// A key that no scene has; what is wrong with the scene then.
     pub fn without(&self, key: &str) -> Result<Self, LoadError> {
-        self.changed(|draft| draft.remove(key), (*self.files).clone())
+        if !is_key(key) {
+            // As a key that is given, it is refused with what was probably meant.
+            return self.with(key, true);
+        }
+        self.changed(|draft| draft.remove(key), &self.files.as_read)
     }
 
     /// Resolves the scene in `given` and reads the files it names from `folder`.
@@ -193,24 +207,34 @@ impl LoadedScene {
     }
 
     /// The resolved scene of `given` with the files it names, which lie in `folder`.
-    pub(crate) fn of(mut resolved: Resolved, given: SceneText, folder: &Path) -> Result<Self, LoadError> {
+    pub(crate) fn of(resolved: Resolved, given: SceneText, folder: &Path) -> Result<Self, LoadError> {
+        Self::reading(resolved, given, folder.into(), &[])
+    }
+
+    /// The same where files that are `known` need not be read.
+    fn reading(
+        resolved: Resolved,
+        given: SceneText,
+        folder: Arc<Path>,
+        known: &[NamedFile],
+    ) -> Result<Self, LoadError> {
         let mut files = NamedFiles::default();
-        if let Some((calibration, file)) = calibration(folder, &given, &mut resolved)? {
+        if let Some((calibration, file)) = calibration(&folder, known, &given, &resolved)? {
             files.calibration = Some(calibration);
             files.as_read.push(file);
         }
-        if let Some((curve, file)) = stiffness_curve(folder, &given, &resolved)? {
+        if let Some((curve, file)) = stiffness_curve(&folder, known, &given, &resolved)? {
             files.stiffness_curve = Some(curve);
             files.as_read.push(file);
         }
-        Ok(Self::with_files(resolved, given, files)?)
+        Ok(Self { folder, ..Self::with_files(resolved, given, files)? })
     }
 
-    /// The resolved scene of `given` with `files`.
+    /// The resolved scene of `given` with `files`; what the user should know of the calibration joins the scene's warnings.
     ///
     /// # Errors
     /// A file that it needs and that is not among them; a calibration of another pair.
-    pub(crate) fn with_files(resolved: Resolved, given: SceneText, files: NamedFiles) -> Result<Self, SceneError> {
+    pub(crate) fn with_files(mut resolved: Resolved, given: SceneText, files: NamedFiles) -> Result<Self, SceneError> {
         let foreign = files.foreign_to(&resolved);
         let name = resolved.scene.calibration_file.as_deref().unwrap_or_default();
         let belongs =
@@ -218,7 +242,27 @@ impl LoadedScene {
         belongs
             .and_then(|()| files.complete(&given.text, &resolved.scene))
             .map_err(|problem| given.refused(vec![*problem]))?;
-        Ok(Self { resolved, files: Arc::new(files), given: Arc::new(given) })
+        if let Some(calibration) = files.calibration.as_ref().filter(|_| !name.is_empty()) {
+            let warnings = warnings(name, calibration, &resolved.scene);
+            resolved.warnings.extend(warnings);
+        }
+        Ok(Self { resolved, files: Arc::new(files), given: Arc::new(given), folder: Path::new("").into() })
+    }
+
+    /// The scene as it stands in the folder of its run, naming the copies of its input files there.
+    pub(crate) fn naming_copies(mut self) -> Self {
+        let mut taken: Vec<String> = Vec::new();
+        for file in &mut Arc::make_mut(&mut self.files).as_read {
+            let base = Path::new(&file.name).file_name().and_then(OsStr::to_str).unwrap_or(file.key);
+            let mut name = format!("{INPUTS}/{base}");
+            if taken.contains(&name) {
+                name = format!("{INPUTS}/{}-{base}", file.key);
+            }
+            self.resolved.rename_file(file.key, &name);
+            file.name.clone_from(&name);
+            taken.push(name);
+        }
+        self
     }
 
     /// Another scene with the files of this one.
@@ -227,7 +271,7 @@ impl LoadedScene {
     /// A file that the other scene needs and this one does not have.
     pub(crate) fn variant(&self, resolved: Resolved) -> Result<Self, Box<Problem>> {
         self.files.complete(&self.given.text, &resolved.scene)?;
-        Ok(Self { resolved, files: Arc::clone(&self.files), given: Arc::clone(&self.given) })
+        Ok(Self { resolved, ..self.clone() })
     }
 
     /// The same scene with this calibration, as if the file named it.
@@ -235,16 +279,19 @@ impl LoadedScene {
     /// # Errors
     /// A calibration of another pair.
     pub fn with_calibration(&self, calibration: Calibration) -> Result<Self, LoadError> {
-        let files = NamedFiles { calibration: Some(calibration), ..(*self.files).clone() };
-        self.changed(|draft| draft.set(CALIBRATION, "calibration.json"), files)
+        let (key, name) = (CALIBRATION, "calibration.json".to_owned());
+        let mut known = self.files.as_read.clone();
+        known.retain(|file| file.key != key);
+        known.push(NamedFile { key, name: name.clone(), bytes: calibration.to_json().into_bytes() });
+        self.changed(|draft| draft.set(key, name), &known)
     }
 
-    fn changed(&self, change: impl FnOnce(&mut Draft), files: NamedFiles) -> Result<Self, LoadError> {
+    fn changed(&self, change: impl FnOnce(&mut Draft), known: &[NamedFile]) -> Result<Self, LoadError> {
         let mut draft = Draft::parse(&self.given.text).map_err(|problems| self.given.refused(problems))?;
         change(&mut draft);
-        let resolved = draft.resolve().map_err(|problems| self.given.refused(problems))?;
-        let given = SceneText { name: self.given.name.clone(), text: draft.to_toml() };
-        Ok(Self::with_files(resolved, given, files)?)
+        let name = format!("{}{CHANGED}", self.given.name.trim_end_matches(CHANGED));
+        let given = SceneText { name, text: draft.to_toml() };
+        Self::reading(given.resolve()?, given, Arc::clone(&self.folder), known)
     }
 
     /// The same with a calibration made for it, whether it asks for one or not.
@@ -339,26 +386,31 @@ const MAKE_CALIBRATION: &str = "gearwear calibrate SCENE --out FILE makes one";
 const CURVE_ALLOWED: &str = "a data file (CSV) of the stiffness along the path of contact";
 const CURVE_HELP: &str = "the file lies beside the scene; gearwear schema says what stands in it";
 
-/// The calibration that the scene names, and its file. What the user should know of it joins the scene's warnings.
+/// The text of the file `name` that `key` names: one that is `known`, or as it lies in `folder`. An error says what is wrong with it.
+fn text_of(folder: &Path, known: &[NamedFile], key: &str, name: &str) -> Result<String, String> {
+    let bytes = match known.iter().find(|file| file.key == key && file.name == name) {
+        Some(file) => file.bytes.clone(),
+        None => fs::read(folder.join(name)).map_err(|reason| format!("which cannot be read: {reason}"))?,
+    };
+    String::from_utf8(bytes)
+        .map_err(|error| format!("which is not UTF-8 text: byte {}", error.utf8_error().valid_up_to()))
+}
+
+/// The calibration that the scene names, and its file.
 fn calibration(
     folder: &Path,
+    known: &[NamedFile],
     given: &SceneText,
-    resolved: &mut Resolved,
+    resolved: &Resolved,
 ) -> Result<Option<(Calibration, NamedFile)>, LoadError> {
     let Some(name) = resolved.scene.calibration_file.clone() else { return Ok(None) };
     let refused = |what: String, help: &str| {
         let found = format!("{name:?}, {what}");
         given.refused(vec![Problem::of_named_file(&given.text, CALIBRATION, found, CALIBRATION_ALLOWED, help)])
     };
-    let bytes = fs::read(folder.join(&name))
-        .map_err(|reason| refused(format!("which cannot be read: {reason}"), MAKE_CALIBRATION))?;
-    let text = String::from_utf8(bytes).map_err(|error| {
-        refused(format!("which is not UTF-8 text: byte {}", error.utf8_error().valid_up_to()), MAKE_CALIBRATION)
-    })?;
+    let text = text_of(folder, known, CALIBRATION, &name).map_err(|what| refused(what, MAKE_CALIBRATION))?;
     let calibration = Calibration::from_json(&text)
         .map_err(|error| refused(format!("which is no calibration: {error}"), "calibrate anew"))?;
-    let warnings = warnings(&name, &calibration, &resolved.scene);
-    resolved.warnings.extend(warnings);
     Ok(Some((calibration, NamedFile { key: CALIBRATION, name, bytes: text.into_bytes() })))
 }
 
@@ -403,6 +455,7 @@ fn warnings(name: &str, calibration: &Calibration, scene: &Scene) -> Vec<String>
 /// The curve of tooth stiffness that the scene names, where its stiffness model has one, and its file.
 fn stiffness_curve(
     folder: &Path,
+    known: &[NamedFile],
     given: &SceneText,
     resolved: &Resolved,
 ) -> Result<Option<(PairCompliance, NamedFile)>, LoadError> {
@@ -416,13 +469,10 @@ fn stiffness_curve(
         let found = format!("{name:?}, {what}");
         given.refused(vec![Problem::of_named_file(&given.text, CURVE, found, CURVE_ALLOWED, CURVE_HELP)])
     };
-    let path = folder.join(name);
-    let bytes = fs::read(&path).map_err(|reason| refused(format!("which cannot be read: {reason}")))?;
-    let text = String::from_utf8(bytes)
-        .map_err(|error| refused(format!("which is not UTF-8 text: byte {}", error.utf8_error().valid_up_to())))?;
+    let text = text_of(folder, known, CURVE, name).map_err(refused)?;
     // The pair was checked when the scene was resolved.
     let pair = GearPair::new(&scene.pair).map_err(|error| refused(format!("but {error}")))?;
     let curve = curve_file::parse(&text, &pair.path)
-        .map_err(|error| LoadError::Curve { name: path.display().to_string(), error })?;
+        .map_err(|error| LoadError::Curve { name: folder.join(name).display().to_string(), error })?;
     Ok(Some((curve, NamedFile { key: CURVE, name: name.clone(), bytes: text.into_bytes() })))
 }

@@ -22,9 +22,6 @@ pub(super) struct Locator {
 
 impl Locator {
     /// Reads the places from the file's text.
-    ///
-    /// # Errors
-    /// Text that is not TOML.
     pub(super) fn new(text: &str) -> Result<Self, toml::de::Error> {
         let table = DeTable::parse(text)?;
         let mut locator = Self { places: BTreeMap::new(), end: text.len() };

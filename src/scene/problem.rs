@@ -49,7 +49,7 @@ pub struct Problem {
 
 impl Problem {
     /// The contact surface of the scene in `text` leaves nothing for the teeth of its stiffness model.
-    pub fn of_stiffness(text: &str, error: &StiffnessError) -> Self {
+    pub(crate) fn of_stiffness(text: &str, error: &StiffnessError) -> Self {
         let locator = Locator::new(text).unwrap_or_default();
         let by_hand = "contact.foundation_MPa_per_mm";
         let key = if locator.key(by_hand).is_some() { by_hand } else { "contact.match" };
@@ -67,7 +67,7 @@ impl Problem {
     }
 
     /// The sectors of the scene in `text` have fewer than the `least` teeth that touch.
-    pub fn of_sector_teeth(text: &str, teeth: u32, least: u32) -> Self {
+    pub(crate) fn of_sector_teeth(text: &str, teeth: u32, least: u32) -> Self {
         let key = "fem.sector_teeth";
         let span = Locator::new(text).unwrap_or_default().nearest(key);
         Self {
@@ -81,7 +81,7 @@ impl Problem {
     }
 
     /// The file that `key` of the scene in `text` names is not what it should be: `found` says how, after its name.
-    pub fn of_named_file(text: &str, key: &str, found: String, allowed: &str, help: &str) -> Self {
+    pub(crate) fn of_named_file(text: &str, key: &str, found: String, allowed: &str, help: &str) -> Self {
         Self {
             kind: ProblemKind::NotAllowed,
             key: key.to_owned(),
@@ -93,7 +93,7 @@ impl Problem {
     }
 
     /// Adds a sentence to the help.
-    pub fn add_help(&mut self, sentence: &str) {
+    pub(crate) fn add_help(&mut self, sentence: &str) {
         match &mut self.help {
             Some(help) => {
                 help.push_str("; ");

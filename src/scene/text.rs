@@ -8,9 +8,6 @@ use super::locate::Locator;
 use super::problem::{Problem, ProblemKind};
 
 /// The file as a table, and findings that know where each key stands.
-///
-/// # Errors
-/// Text that is not TOML.
 pub(super) fn parse(text: &str) -> Result<(Table, Findings), Vec<Problem>> {
     let read = || -> Result<(Table, Locator), toml::de::Error> { Ok((text.parse()?, Locator::new(text)?)) };
     let (table, locator) = read().map_err(|error| vec![syntax(&error, text)])?;

@@ -2,12 +2,12 @@
 //!
 //! Equilibria are sought from the last ones, so that the state of a run is more than what its flanks have lost: starts, windows that
 //! were widened, sets of contact that were found. All of that changes results in their last bits only, but it changes them. So a
-//! long run forgets it now and then ([`WearingPair::forget`]), whether checkpoints are written or not, after a number of
+//! long run forgets it now and then ([`WearingPair::reset`]), whether checkpoints are written or not, after a number of
 //! evaluations that is fixed by the scene ([`MeshContact::evaluations_between_clean_starts`]). At such a moment what the flanks have
 //! lost, the counters and the state of the step control are all there is, and only then a [`Checkpoint`] may be taken: a run that goes on from one
 //! evaluates the same flanks from the same clean start as the unbroken run did.
 //!
-//! [`WearingPair::forget`]: crate::mesh_cycle::wearing_pair::WearingPair::forget
+//! [`WearingPair::reset`]: crate::mesh_cycle::wearing_pair::WearingPair::reset
 //! [`MeshContact::evaluations_between_clean_starts`]: super::mesh_contact::MeshContact::evaluations_between_clean_starts
 
 use serde::{Deserialize, Serialize};

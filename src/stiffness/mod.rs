@@ -171,9 +171,6 @@ impl<'a> TeethSpring<'a> {
     }
 
     /// Stiffness of what a pair has to itself of the spring, beside the shared bodies, N/mm².
-    ///
-    /// # Errors
-    /// As [`Self::n_per_mm2`].
     pub(crate) fn own_n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
         let (whole, shared) = (1.0 / self.n_per_mm2(position_mm)?, self.shared_mm2_per_n());
         if shared < whole {
@@ -187,9 +184,6 @@ impl<'a> TeethSpring<'a> {
     }
 
     /// Stiffness of the whole pair, flattening included, at the reference load, N/mm².
-    ///
-    /// # Errors
-    /// As [`Self::n_per_mm2`].
     pub(crate) fn pair_n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
         Ok(1.0 / (1.0 / self.n_per_mm2(position_mm)? + self.surface_mm2_per_n(position_mm)))
     }

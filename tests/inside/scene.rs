@@ -280,3 +280,46 @@ fn a_loaded_scene_has_its_files() {
     assert_eq!(asks(&by_curve).unwrap_err().key, "stiffness.curve");
     asks(&|_| ()).unwrap();
 }
+
+/// What a program changes in a scene is as if the file said so: files that it names anew are read, keys that no scene has are refused,
+/// and the folder of its run is complete.
+#[test]
+fn a_changed_scene_is_as_if_the_file_said_so() {
+    use gearwear::pipeline::calibrate::{self, Extent};
+
+    let folder = tempfile::tempdir().unwrap();
+    let file = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    let text = presets::find("fzg-c").unwrap().text.replace("surface = \"half-space\"", "surface = \"winkler\"");
+    let scene = LoadedScene::open(file("scene.toml", &text)).unwrap();
+    let key_of = |scene: Result<LoadedScene, LoadError>| match scene {
+        Err(LoadError::Scene(SceneError { problems, .. })) => problems[0].key.clone(),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(key_of(scene.with("operation.hours.x", 3.0)), "operation.hours");
+    assert_eq!(key_of(scene.with("operation.hour", 3.0)), "operation.hour");
+    assert_eq!(key_of(scene.without("operation.hour")), "operation.hour");
+    assert_eq!(scene.without("fem").unwrap().resolved.scene.fem, scene.resolved.scene.fem);
+
+    let made = calibrate::run(scene.scene(), Extent::FastModel, &gearwear::Unwatched).unwrap().calibration;
+    file("other.json", "{}");
+    file("same.json", &made.to_json());
+    let calibrated = scene.with_calibration(made.clone()).unwrap();
+    assert_eq!(key_of(calibrated.with("contact.calibration", "other.json")), "contact.calibration");
+    let named = scene.with("contact.calibration", "same.json").unwrap();
+    assert_eq!(named.files.calibration.as_ref(), Some(&made));
+    // Without it there is none.
+    assert_eq!(named.without("contact.calibration").unwrap().files.calibration, None);
+
+    let quick = calibrated.without("operation.snapshots_h").unwrap().with("operation.hours", 1).unwrap();
+    let quick = ["numerics.verify", "numerics.error_estimate"].iter().fold(quick, |s, key| s.with(key, false).unwrap());
+    let run = gearwear::run(&quick, &gearwear::Unwatched).unwrap().complete().unwrap();
+    let out = folder.path().join("out");
+    gearwear::write(&run, &out).unwrap();
+    let again = LoadedScene::open(out.join("scene.toml")).unwrap();
+    assert_eq!(again.files.calibration.as_ref(), Some(&made));
+    assert_eq!(again.resolved.scene_hash(), run.summary.scene_hash);
+}

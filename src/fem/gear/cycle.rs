@@ -23,9 +23,6 @@ pub struct CycleError {
 }
 
 /// Solves at each of `positions_mm` under `line_load_n_per_mm`.
-///
-/// # Errors
-/// The failure at the first position that has none.
 pub(crate) fn cycle(
     pair: &CondensedPair<'_>,
     positions_mm: &[f64],

@@ -117,9 +117,6 @@ impl Whole {
 }
 
 /// Solves the whole model where `condensed` was solved, under the same load.
-///
-/// # Errors
-/// As the condensed model.
 pub(crate) fn solve(
     pair: &GearPair,
     meshed: &PerGear<MeshedGear>,

@@ -79,9 +79,6 @@ pub(crate) struct MeshedGear {
 
 impl MeshedGear {
     /// Meshes a gear of `pair` for contact under `line_load_n_per_mm`.
-    ///
-    /// # Errors
-    /// [`ModelError::Mesh`], [`ModelError::TooFewTeeth`].
     pub(crate) fn new(
         pair: &GearPair,
         gear: Gear,

@@ -49,7 +49,7 @@ pub(crate) struct Prepared {
     /// Where the next solution starts.
     pub(super) active: Option<Vec<bool>>,
     pub(super) kept: Option<Kept>,
-    /// How often the window was widened, and once.
+    /// Number of the window, from 1.
     windows: usize,
 }
 
@@ -126,7 +126,7 @@ impl<'a> CondensedPair<'a> {
                 Ok(_) | Err(_) => self.widen(prepared),
             }
         }
-        unreachable!("the last look returns")
+        unreachable!("the last attempt returns")
     }
 
     /// Makes a prepared position as if it had never been solved, and its wear never seen: it starts from no contact, in a window no
@@ -199,7 +199,7 @@ impl Prepared {
         self.window.line_load_n_per_mm
     }
 
-    /// How many windows there were, each wider than the one before.
+    /// Number of the window, from 1: each is wider than the one before.
     pub(crate) fn windows(&self) -> usize {
         self.windows
     }

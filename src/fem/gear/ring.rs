@@ -68,9 +68,6 @@ pub(crate) struct GearCompliance {
 impl GearCompliance {
     /// Joins `teeth` fine sectors, from clockwise to anticlockwise, with what surrounds them; `coarse` is needed where that
     /// has teeth.
-    ///
-    /// # Errors
-    /// A body that is not held.
     pub(crate) fn new(
         fine: CondensedSector,
         coarse: Option<&CondensedSector>,

@@ -189,9 +189,6 @@ impl Batch {
     }
 
     /// Work of the last evaluation.
-    ///
-    /// # Errors
-    /// Its failure.
     pub(crate) fn outcome(&self) -> Result<Work, EquilibriumError> {
         self.outcome.clone()
     }

@@ -16,7 +16,6 @@
 //! |---|---|
 //! | [`closed_form`] | approach of a contact under its load, prepared |
 //! | [`loaded_position`] | equilibrium of a phase from one wear step to the next |
-//! | [`bending`] | the same where the slices of a tooth hold each other |
 //! | [`exact`] | the general solver, where that one gives up |
 //! | [`batch`] | rows of contacts, from equilibrium to wear |
 //! | [`on_flanks`] | what snapshots show at the points of the flanks |

@@ -99,9 +99,6 @@ struct Solved {
 /// it goes.
 ///
 /// What is interrupted or does not converge gives the record of what was finished, and the failure in the latter case.
-///
-/// # Errors
-/// [`FemPairError`] where nothing was finished.
 pub(crate) fn run(
     resolved: &Resolved,
     asked: Asked,

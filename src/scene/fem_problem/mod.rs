@@ -59,9 +59,6 @@ pub(crate) struct Posed {
 
 impl FemProblem {
     /// Reads the text of a problem file, without its mesh.
-    ///
-    /// # Errors
-    /// Everything that is wrong with the file by itself.
     pub(crate) fn from_toml(text: &str) -> Result<Self, Vec<Problem>> {
         let (table, mut findings) = text::parse(text)?;
         let format = Format { root: Node::root(schema()), of_other_files: &[] };
@@ -80,9 +77,6 @@ impl FemProblem {
     }
 
     /// The problem on its mesh.
-    ///
-    /// # Errors
-    /// Everything about which file and mesh disagree.
     pub(crate) fn on(&self, mesh: &Mesh) -> Result<Posed, Vec<Problem>> {
         let (_, mut findings) = text::parse(&self.text)?;
         match pose(&self.file, mesh, &mut findings) {

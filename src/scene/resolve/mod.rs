@@ -29,18 +29,12 @@ const OF_OTHER_FILES: &[(&str, &str)] =
     &[("mesh", "a gear pair, [pair]; gearwear fem runs a problem with a mesh of its own")];
 
 /// Resolves the text of a scene file.
-///
-/// # Errors
-/// Everything that is wrong with it.
 pub(super) fn resolve(text: &str) -> Result<Resolved, Vec<Problem>> {
     let (table, findings) = text::parse(text)?;
     resolve_table(table, findings)
 }
 
 /// Resolves a scene file that was read before; `findings` know where its keys stand.
-///
-/// # Errors
-/// Everything that is wrong with it.
 pub(super) fn resolve_table(table: Table, mut findings: Findings) -> Result<Resolved, Vec<Problem>> {
     let format = Format { root: Node::root(schema()), of_other_files: OF_OTHER_FILES };
     let sound = with_preset(shape::check(format, &table, &mut findings));

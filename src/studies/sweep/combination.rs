@@ -30,9 +30,6 @@ impl Sweep {
     ///
     /// Snapshots are left out, as a row keeps only the end of the run; errors are estimated only where asked for, and rows verified
     /// only where the scene asks for it by name.
-    ///
-    /// # Errors
-    /// Text that is not TOML.
     pub(crate) fn new(given: &LoadedScene, axes: Vec<SweepAxis>, error_estimate: bool) -> Result<Self, Vec<Problem>> {
         let mut draft = Draft::parse(&given.given.text)?;
         let resolved = &given.resolved;

@@ -38,16 +38,10 @@ pub(crate) trait Rate {
     type Error;
 
     /// Fills in the rate of each place.
-    ///
-    /// # Errors
-    /// Where there is no rate at this state.
     fn evaluate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Self::Error>;
 
     /// A step to `state`, where `rate` was just found, is taken: the next one may begin with a rate made anew there, as long as within
     /// a step it remains one smooth function of the state. Answers the evaluations that took.
-    ///
-    /// # Errors
-    /// Where there is no rate at this state.
     fn begin_step(&mut self, _state: &[f64], _rate: &mut [f64]) -> Result<u64, Self::Error> {
         Ok(0)
     }

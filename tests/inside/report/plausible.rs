@@ -20,6 +20,7 @@ pub fn run() -> RunRecord {
     let history: Vec<HistoryRow> = HOURS.iter().map(|&hours| history_row(hours)).collect();
     RunRecord {
         summary: summary(),
+        inputs: Vec::new(),
         scene_toml: SCENE.into(),
         flanks,
         history,
