@@ -138,11 +138,13 @@ pub use toml;
 pub mod error {
     pub use crate::calibration::CalibrationError;
     pub use crate::calibration::file::CalibrationFileError;
+    pub use crate::fem::active_set::ActiveSetError;
     pub use crate::fem::element::ElementError;
     pub use crate::fem::equilibrium::SolveError;
     pub use crate::fem::factor::FactorError;
     pub use crate::fem::gear::{cycle::CycleError, full::FullError, model::ModelError};
     pub use crate::gear::error::PairError;
+    pub use crate::mesh_cycle::load_sharing::EquilibriumError;
     pub use crate::simulation::wear_run::SimulationError;
     pub use crate::stiffness::{StiffnessError, curve_file::CurveFileError};
 }

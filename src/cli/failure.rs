@@ -210,12 +210,15 @@ fn load_help(error: &LoadError) -> &'static str {
     }
 }
 
+/// A position where the pair does not touch.
+fn off_the_path(position_mm: f64, from_mm: f64, to_mm: f64) -> String {
+    format!("--position: found {position_mm}; allowed: {from_mm:.4} (A) to {to_mm:.4} (E), in mm")
+}
+
 /// A finite-element pair's error with the option it belongs to.
 fn fem_pair(error: &FemPairError) -> String {
     match error {
-        FemPairError::Position { given_mm, from_mm, to_mm } => {
-            format!("--position: found {given_mm}; allowed: {from_mm:.4} (A) to {to_mm:.4} (E), in mm")
-        }
+        FemPairError::Position { given_mm, from_mm, to_mm } => off_the_path(*given_mm, *from_mm, *to_mm),
         other => other.to_string(),
     }
 }
@@ -319,9 +322,7 @@ fn label(problem: &Problem) -> Option<LabeledSpan> {
 /// What is wrong with a mesh, at the option that is to blame.
 fn of_mesh(error: &PairMeshError) -> String {
     match error {
-        PairMeshError::Position { position_mm, from_mm, to_mm } => {
-            format!("--position: found {position_mm}; allowed: {from_mm:.4} (A) to {to_mm:.4} (E), in mm")
-        }
+        PairMeshError::Position { position_mm, from_mm, to_mm } => off_the_path(*position_mm, *from_mm, *to_mm),
         _ => format!("the pair cannot be meshed: {error}"),
     }
 }

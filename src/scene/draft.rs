@@ -35,11 +35,10 @@ pub(crate) fn set(table: &mut Table, key: &str, value: impl Into<Value>) {
     for part in tables.into_iter().flat_map(|tables| tables.split('.')) {
         let below = table.entry(part).or_insert_with(|| Value::Table(Table::new()));
         if !below.is_table() {
-            // Resolving says that this is no table.
+            // Resolving says that the key takes no table.
             *below = Value::Table(Table::new());
         }
-        let Value::Table(below) = below else { unreachable!("it is a table now") };
-        table = below;
+        table = below.as_table_mut().expect("it is a table now");
     }
     table.insert(name.to_owned(), value.into());
 }

@@ -31,9 +31,14 @@ pub(crate) enum KeyError {
     },
 }
 
+/// What the key at this path takes; none where no scene has it.
+fn node_at(path: &str) -> Option<Node<'static>> {
+    path.split('.').try_fold(Node::root(schema()), |node, name| node.child(name))
+}
+
 /// Whether a scene may have a key at this path.
 pub(crate) fn is_key(path: &str) -> bool {
-    path.split('.').try_fold(Node::root(schema()), |node, name| node.child(name)).is_some()
+    node_at(path).is_some()
 }
 
 impl NumberKey {
@@ -42,8 +47,7 @@ impl NumberKey {
     /// # Errors
     /// A path that leads nowhere, or to something that is no number.
     pub(crate) fn find(path: &str) -> Result<Self, KeyError> {
-        let node = path.split('.').try_fold(Node::root(schema()), |node, name| node.child(name));
-        let Some(node) = node else {
+        let Some(node) = node_at(path) else {
             return Err(KeyError::Unknown { key: path.to_owned(), nearest: nearest_number(path) });
         };
         if is_number(node) {

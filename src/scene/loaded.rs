@@ -251,6 +251,9 @@ impl LoadedScene {
 
     /// The scene as it stands in the folder of its run, naming the copies of its input files there.
     pub(crate) fn naming_copies(mut self) -> Self {
+        if self.files.as_read.is_empty() {
+            return self;
+        }
         let mut taken: Vec<String> = Vec::new();
         for file in &mut Arc::make_mut(&mut self.files).as_read {
             let base = Path::new(&file.name).file_name().and_then(OsStr::to_str).unwrap_or(file.key);

@@ -10,19 +10,17 @@
 
 mod case_figures;
 mod case_section;
-#[cfg(feature = "program")]
 mod junit;
 mod markdown;
 mod markup;
 mod overview;
 mod page;
 mod stability_map;
-#[cfg(all(test, feature = "program"))]
+#[cfg(test)]
 mod synthetic;
 mod targets_table;
-#[cfg(feature = "program")]
 mod terminal;
-#[cfg(all(test, feature = "program"))]
+#[cfg(test)]
 mod tests;
 mod totals;
 mod verdict;
@@ -31,12 +29,10 @@ mod work_precision_figures;
 
 use std::path::{Path, PathBuf};
 
-use serde::Serialize;
-
-#[cfg(feature = "program")]
 pub(crate) use self::terminal::terminal;
 use crate::report::files::{ReportError, create_folder, place, remove, write_json};
 use crate::studies::validation::record::{Changes, ValidationRecord, WorkPrecisionPoint};
+use serde::Serialize;
 
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "validation.json";
@@ -51,7 +47,6 @@ pub(crate) fn write(
     remove(dir, LAST)?;
     Ok(vec![
         place(dir, "report.html", |out| out.write_all(page::page(record, changes).as_bytes()))?,
-        #[cfg(feature = "program")]
         place(dir, "junit.xml", |out| junit::write(out, record))?,
         place(dir, "summary.md", |out| out.write_all(markdown::text(record, changes).as_bytes()))?,
         place(dir, "work_precision.json", |out| write_json(out, &work_precision(record)))?,

@@ -19,7 +19,6 @@ use crate::studies::validation::record::{Change, Changes, ValidationRecord};
 const DATA_FILES: &[(&str, &str)] = &[
     ("validation.json", "the whole record but the plots: what a later run is compared with"),
     ("work_precision.json", "error against cost of every setting"),
-    #[cfg(feature = "program")]
     ("junit.xml", "a test for each quantity, for services that collect test results"),
     ("summary.md", "the summary for a comment"),
 ];
