@@ -199,7 +199,7 @@ fn loaded(problem: &Problem, stiffness: &Stiffness, contact_forces: &[f64]) -> V
     if problem.held.iter().any(|support| support.displacement_mm != 0.0) {
         let mut given = vec![0.0; load.len()];
         set_held(problem, &mut given);
-        for (load, taken) in load.iter_mut().zip(stiffness.multiply(&given)) {
+        for (load, taken) in load.iter_mut().zip(stiffness.matrix().multiply(&given)) {
             *load -= taken;
         }
     }
@@ -226,7 +226,7 @@ impl Balance {
         contact_forces: &[f64],
         held: &[bool],
     ) -> Self {
-        let inner = stiffness.multiply(displacement_mm);
+        let inner = stiffness.matrix().multiply(displacement_mm);
         let (mut greatest, mut unbalanced) = (0.0_f64, 0.0_f64);
         let (mut sum, mut sum_of_sizes) = ([0.0_f64; 2], 0.0_f64);
         for dof in 0..inner.len() {

@@ -24,6 +24,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 
+use super::node_matrix::NodeMatrix;
 use super::stiffness::Stiffness;
 use super::support::Loose;
 
@@ -48,10 +49,12 @@ pub enum FactorError {
         held: usize,
     },
     /// A pivot is not positive: the stiffness holds values that are not finite, or is far too badly scaled.
-    #[error("the stiffness is not positive definite at degree of freedom {dof} (node {})", .dof / 2)]
+    #[error("the stiffness is not positive definite at degree of freedom {dof} (node {node})")]
     NotPositive {
         /// The degree of freedom whose pivot fails.
         dof: usize,
+        /// Its node.
+        node: usize,
     },
     /// The analysis does not fit into memory.
     #[error("the factorisation needs more memory than there is")]
@@ -81,21 +84,27 @@ impl Factor {
     /// # Panics
     /// Where `held` does not have an entry for each degree of freedom.
     pub(crate) fn new(stiffness: &Stiffness, held: &[bool]) -> Result<Self, FactorError> {
-        let dofs = stiffness.dofs();
-        assert_eq!(held.len(), dofs, "one entry for each degree of freedom");
+        assert_eq!(held.len(), stiffness.matrix().dofs(), "one entry for each degree of freedom");
         let parts = stiffness.parts();
         if let Some(Loose { node, held }) = parts.loose(held) {
             return Err(FactorError::Unsupported { node, held });
         }
+        Self::of_held(stiffness.matrix(), |dof| held[dof] || !parts.has(dof / 2))
+    }
+
+    /// Factorises `matrix` without the degrees of freedom that `is_held`; what is left must be held.
+    pub(crate) fn of_held(matrix: &NodeMatrix, is_held: impl Fn(usize) -> bool) -> Result<Self, FactorError> {
+        let dofs = matrix.dofs();
         let mut free_of_dof = vec![HELD; dofs];
         let mut dof_of_free = Vec::with_capacity(dofs);
         for dof in 0..dofs {
-            if !held[dof] && parts.has(dof / 2) {
+            if !is_held(dof) {
                 free_of_dof[dof] = dof_of_free.len() as u32;
                 dof_of_free.push(dof as u32);
             }
         }
-        let reduced = Reduced::new(stiffness, &free_of_dof, &dof_of_free);
+        let reduced = Reduced::new(matrix, &free_of_dof, &dof_of_free);
+        let per_node = matrix.per_node();
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
@@ -118,8 +127,9 @@ impl Factor {
         let stack = MemStack::new(&mut scratch);
         symbolic
             .factorize_numeric_llt(&mut values, matrix, Side::Lower, regularization, Par::Seq, stack, params)
-            .map_err(|LltError::NonPositivePivot { index }| FactorError::NotPositive {
-                dof: dof_of_place[index] as usize,
+            .map_err(|LltError::NonPositivePivot { index }| {
+                let dof = dof_of_place[index] as usize;
+                FactorError::NotPositive { dof, node: dof / per_node }
             })?;
         Ok(Self { place_of_dof, dof_of_place, symbolic, values })
     }
@@ -156,7 +166,7 @@ impl Factor {
     }
 
     /// Subtracts K_fh u_h from the forces: what given displacements of held degrees of freedom, (dof, mm), do to the others.
-    pub(crate) fn subtract_held(&self, stiffness: &Stiffness, held_mm: &[(u32, f64)], force_n_per_mm: &mut [f64]) {
+    pub(crate) fn subtract_held(&self, stiffness: &NodeMatrix, held_mm: &[(u32, f64)], force_n_per_mm: &mut [f64]) {
         let mut displacement_mm = vec![0.0; self.dofs()];
         for (dof, value) in held_mm {
             displacement_mm[*dof as usize] = *value;
@@ -191,8 +201,8 @@ impl Factor {
 }
 
 impl Reduced {
-    fn new(stiffness: &Stiffness, free_of_dof: &[u32], dof_of_free: &[u32]) -> Self {
-        let lower = stiffness.lower();
+    fn new(matrix: &NodeMatrix, free_of_dof: &[u32], dof_of_free: &[u32]) -> Self {
+        let lower = matrix.lower();
         let start = lower.indptr();
         let start = start.raw_storage();
         let mut columns = Vec::with_capacity(dof_of_free.len() + 1);

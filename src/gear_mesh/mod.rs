@@ -23,6 +23,7 @@ mod profile;
 pub(crate) mod settings;
 mod size_field;
 mod spacing;
+pub(crate) mod tooth_section;
 mod whole_gear;
 
 use std::ops::Range;

@@ -8,8 +8,10 @@
 pub(crate) mod bent_tooth;
 mod collected;
 pub(crate) mod condensed;
+mod coupled_teeth;
 mod heated;
 pub(crate) mod load_sharing;
+pub(crate) mod pair_in_space;
 pub(crate) mod positions;
 pub(crate) mod settings;
 pub(crate) mod simplified;

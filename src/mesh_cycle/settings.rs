@@ -12,6 +12,8 @@ pub enum Coupling {
     /// Through the tooth's bending: a loaded slice takes its neighbours along. Contact itself is still slice by slice, after
     /// Haines and Ollerton.
     Slicing,
+    /// Through the compliance of both gears in three-dimensional finite elements, neighbouring teeth and free end faces included.
+    Fem,
 }
 
 impl Coupling {
@@ -20,6 +22,7 @@ impl Coupling {
         match self {
             Self::None => "none",
             Self::Slicing => "slicing",
+            Self::Fem => "fem",
         }
     }
 }

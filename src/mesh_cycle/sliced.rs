@@ -8,22 +8,21 @@
 //! ```
 //!
 //! with the deflection u of the teeth slice by slice (u = q w: thin independent teeth) or coupled along each tooth
-//! ([`super::slice_coupling`]). The pressure of every contact sweeps over the points of its own slice and wears them.
+//! ([`super::slice_coupling`]), or of all teeth together ([`super::pair_in_space`]). The pressure of every contact sweeps over the points of its own slice and wears them.
 
 use rayon::prelude::*;
 
-use super::bent_tooth::BentTooth;
 use super::collected::Collected;
+use super::coupled_teeth::CoupledTeeth;
 use super::heated::{HeatedPlace, WornPoints};
 use super::load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
-use super::slice_coupling::SliceCoupling;
 use super::sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh};
 use super::sliced_positions::{SliceContact, SlicedPosition};
 use super::sliced_sharing::balance_on_teeth;
 use super::sliced_teeth::SlicedTeeth;
 use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, note_contact_of_points};
 use crate::contact::{ContactSurface, Flanks, Sweep};
-use crate::gear::{Gear, PerGear, path_of_contact::PathOfContact};
+use crate::gear::{Gear, GearPair, PerGear, path_of_contact::PathOfContact};
 use crate::wear::WearModel;
 
 /// The spring of the teeth along the path of contact, evaluated once for all slices.
@@ -63,6 +62,8 @@ impl SpringAlongPath {
 
 /// How the teeth of a slice yield, and where its load acts.
 pub(crate) struct SliceSprings<'a> {
+    /// The gears.
+    pub pair: &'a GearPair,
     /// Compliance of the teeth.
     pub along_path: &'a SpringAlongPath,
     /// Approach in its tangent frame over the transmission error, as torque over load and base radius: 1 on the line of action.
@@ -77,7 +78,7 @@ struct LoadedPosition<'a> {
     /// Of each contact.
     heated_places: Vec<HeatedPlace>,
     /// The teeth that the contacts belong to, where slices are coupled.
-    teeth: Vec<BentTooth>,
+    teeth: Option<CoupledTeeth>,
     equilibrium: Equilibrium,
 }
 
@@ -156,9 +157,8 @@ impl MeshCycle for SlicedCycle<'_> {
         stopped: &(dyn Fn() -> bool + Sync),
     ) -> Result<Work, EquilibriumError> {
         let (load, points) = (self.sum_of_line_loads(), self.points);
-        let coupling = self.sliced.coupling.as_ref();
         self.groups.par_iter_mut().for_each(|group| {
-            group.evaluate(lost.removed_mm, points, coupling, load, wear, stopped);
+            group.evaluate(lost.removed_mm, points, load, wear, stopped);
         });
         Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
     }
@@ -166,7 +166,7 @@ impl MeshCycle for SlicedCycle<'_> {
     fn reset(&mut self) {
         self.groups.par_iter_mut().flat_map(|group| &mut group.loaded_positions).for_each(|loaded| {
             loaded.pairs.iter_mut().for_each(MeshedPair::reset);
-            loaded.teeth.iter_mut().for_each(BentTooth::straighten);
+            loaded.teeth.iter_mut().for_each(CoupledTeeth::straighten);
         });
     }
 
@@ -202,18 +202,14 @@ impl Group<'_> {
         &mut self,
         removed_mm: PerGear<&[f64]>,
         points: PerGear<usize>,
-        coupling: Option<&SliceCoupling>,
         load: f64,
         wear: &WearModel<'_>,
         stopped: &(dyn Fn() -> bool + Sync),
     ) {
         self.collected.clear();
         for loaded in &mut self.loaded_positions {
-            let solved = if stopped() {
-                Err(EquilibriumError::Interrupted)
-            } else {
-                loaded.solve(removed_mm, points, coupling, load)
-            };
+            let solved =
+                if stopped() { Err(EquilibriumError::Interrupted) } else { loaded.solve(removed_mm, points, load) };
             if !self.collected.take(solved) {
                 return;
             }
@@ -236,7 +232,7 @@ impl<'a> LoadedPosition<'a> {
         springs: &SliceSprings<'_>,
     ) -> Self {
         let compliance = |contact: &SliceContact| springs.along_path.mm2_per_n(contact.cell.position_mm);
-        let coupled = sliced.coupling.is_some();
+        let teeth = sliced.coupled_teeth(springs.pair, &phase.contacts, compliance);
         let pairs = phase
             .contacts
             .iter()
@@ -244,12 +240,10 @@ impl<'a> LoadedPosition<'a> {
                 let position_mm = contact.cell.position_mm;
                 let touching = surface.pair(flanks, position_mm, Some(contact.cell));
                 // Where slices are coupled the teeth bend beside the pairs, not in them.
-                let teeth = if coupled { f64::INFINITY } else { 1.0 / compliance(contact) };
+                let teeth = if teeth.is_some() { f64::INFINITY } else { 1.0 / compliance(contact) };
                 MeshedPair::on_lever(touching, teeth, (springs.lever_ratio)(position_mm))
             })
             .collect();
-        let teeth =
-            if coupled { BentTooth::of_phase(&phase.contacts, sliced.slices.count(), compliance) } else { Vec::new() };
         Self {
             position_mm: phase.position_mm,
             contacts: phase.contacts.clone(),
@@ -265,14 +259,13 @@ impl<'a> LoadedPosition<'a> {
         &mut self,
         removed_mm: PerGear<&[f64]>,
         points: PerGear<usize>,
-        coupling: Option<&SliceCoupling>,
         load: f64,
     ) -> Result<Work, EquilibriumError> {
         let Self { position_mm, contacts, pairs, teeth, .. } = self;
         let removed_mm = |k: usize| of_slice(removed_mm, points, contacts[k].slice);
-        let (equilibrium, work) = settled(pairs, removed_mm, |pairs| match coupling {
+        let (equilibrium, work) = settled(pairs, removed_mm, |pairs| match teeth {
             None => balance(pairs, load, *position_mm),
-            Some(coupling) => balance_on_teeth(pairs, teeth, coupling, load, *position_mm),
+            Some(teeth) => balance_on_teeth(pairs, teeth, load, *position_mm),
         })?;
         self.equilibrium = equilibrium;
         Ok(work)

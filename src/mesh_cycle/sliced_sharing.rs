@@ -1,6 +1,6 @@
 //! Equilibrium of all slices in contact whose teeth hold their slices together.
 //!
-//! As in [`super::load_sharing`], but the teeth are no single springs ([`super::bent_tooth`]). With t_i the first touch of a contact,
+//! As in [`super::load_sharing`], but the teeth are no single springs ([`super::coupled_teeth`]). With t_i the first touch of a contact,
 //! s_i its indentation, f_i what its bodies approach beside that, and u_i the deflection of its tooth,
 //!
 //! ```text
@@ -10,9 +10,9 @@
 //! Only the contacts are nonlinear, ever steeper with their indentation: Newton converges from any start that carries too much, as for
 //! single springs.
 
-use super::bent_tooth::{BentTooth, ContactTangent, bend};
+use super::bent_tooth::ContactTangent;
+use super::coupled_teeth::CoupledTeeth;
 use super::load_sharing::{Equilibrium, EquilibriumError, GREATEST_IMBALANCE, MeshedPair, TOLERANCE};
-use super::slice_coupling::SliceCoupling;
 
 /// Newton steps before giving up; three to six are usual.
 const NEWTON_LIMIT: u64 = 80;
@@ -26,8 +26,7 @@ fn approach_mm(pair: &MeshedPair<'_>, base_mm: f64) -> f64 {
 /// line loads `line_load` (> 0).
 pub(crate) fn balance_on_teeth(
     pairs: &mut [MeshedPair<'_>],
-    teeth: &mut [BentTooth],
-    coupling: &SliceCoupling,
+    teeth: &mut CoupledTeeth,
     line_load: f64,
     position_mm: f64,
 ) -> Result<Equilibrium, EquilibriumError> {
@@ -52,7 +51,7 @@ pub(crate) fn balance_on_teeth(
             n_per_mm2: pairs[k].tangent_n_per_mm2(),
             approach_mm: approach_mm(&pairs[k], base_mm),
         };
-        let Some(delta_mm) = bend(teeth, coupling, line_load, tangent) else {
+        let Some(delta_mm) = teeth.bend(line_load, tangent) else {
             // No slice touches: begin again from where each would carry its part.
             for pair in pairs.iter_mut() {
                 let ample = pair.contact.ample_indentation_mm(expected);
@@ -67,23 +66,23 @@ pub(crate) fn balance_on_teeth(
         };
         let mut settled = (load - line_load).abs() <= tolerance * line_load;
         let mut greatest = 0.0_f64;
-        for (k, mm2_per_n, deflection_mm) in teeth.iter().flat_map(BentTooth::deflections_mm) {
+        teeth.each_deflection_mm(|k, mm2_per_n, deflection_mm| {
             let pair = &pairs[k];
             let step = step(pair, deflection_mm).abs();
             let stiffest = pair.response.stiffness_n_per_mm2.max(1.0 / mm2_per_n);
             settled &= step * stiffest <= tolerance * line_load || step <= pair.least_step_mm();
             greatest = greatest.max(step * stiffest);
-        }
+        });
         if settled {
             let transmission_error_mm = base_mm + delta_mm;
             return Ok(Equilibrium { transmission_error_mm, iterations, pair_evaluations: evaluations });
         }
         residual = greatest / line_load;
-        for (k, _, deflection_mm) in teeth.iter().flat_map(BentTooth::deflections_mm) {
+        teeth.each_deflection_mm(|k, _, deflection_mm| {
             let deeper = pairs[k].indentation_mm + step(&pairs[k], deflection_mm);
             pairs[k].load_at(deeper);
             evaluations += 1;
-        }
+        });
     }
     Err(EquilibriumError::NotConverged { position_mm, residual, evaluations })
 }

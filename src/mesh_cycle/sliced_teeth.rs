@@ -1,29 +1,98 @@
 //! What a wear run of a pair with slices is made of, beside the pair itself.
 
+use std::sync::Arc;
+
+use super::bent_tooth::BentTooth;
+use super::coupled_teeth::{CoupledTeeth, TeethTogether};
+use super::pair_in_space::PairInSpace;
 use super::settings::{Coupling, SliceSettings};
-use super::slice_coupling::SliceCoupling;
+use super::slice_coupling::{Reach, SliceCoupling};
+use super::sliced_positions::SliceContact;
 use crate::contact::settings::Material;
 use crate::gear::{GearPair, PerGear, slices::Slices};
 
 /// The slices of a pair, and how they hold each other.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Clone)]
 pub(crate) struct SlicedTeeth {
     /// As asked for.
     pub settings: SliceSettings,
     /// Where they are.
     pub slices: Slices,
-    /// How they are coupled; none: thin independent teeth.
-    pub coupling: Option<SliceCoupling>,
+    model: Model,
+}
+
+/// How slices are coupled.
+#[derive(Clone)]
+enum Model {
+    /// Not at all.
+    Thin,
+    /// Each tooth is a plate.
+    Plate(SliceCoupling),
+    /// All teeth in space.
+    InSpace(Arc<PairInSpace>),
 }
 
 impl SlicedTeeth {
-    /// Of a pair.
-    pub(crate) fn new(pair: &GearPair, material: &PerGear<Material>, settings: SliceSettings) -> Self {
+    /// Of a pair, coupled as `settings` say; `in_space` where that is by teeth in space, which are the same whatever the slices.
+    pub(crate) fn new(
+        pair: &GearPair,
+        material: &PerGear<Material>,
+        settings: SliceSettings,
+        in_space: Option<Arc<PairInSpace>>,
+    ) -> Self {
         let slices = Slices::new(pair, settings.count);
-        let coupling = match settings.coupling {
-            Coupling::None => None,
-            Coupling::Slicing => Some(SliceCoupling::of_pair(pair, material, &slices)),
+        let model = match (settings.coupling, in_space) {
+            (Coupling::Slicing, _) => Model::Plate(SliceCoupling::of_pair(pair, material, &slices)),
+            (Coupling::Fem, Some(teeth)) => Model::InSpace(teeth),
+            (Coupling::None | Coupling::Fem, _) => Model::Thin,
         };
-        Self { settings, slices, coupling }
+        Self { settings, slices, model }
+    }
+
+    /// Slices of the same teeth, `count` in number.
+    pub(crate) fn with_count(&self, pair: &GearPair, material: &PerGear<Material>, count: usize) -> Self {
+        Self::new(pair, material, SliceSettings { count, ..self.settings }, self.in_space().cloned())
+    }
+
+    /// Whether the slices of a tooth hold each other.
+    pub(crate) fn is_coupled(&self) -> bool {
+        !matches!(self.model, Model::Thin)
+    }
+
+    /// The teeth in space, where they couple the slices.
+    pub(crate) fn in_space(&self) -> Option<&Arc<PairInSpace>> {
+        match &self.model {
+            Model::InSpace(teeth) => Some(teeth),
+            Model::Thin | Model::Plate(_) => None,
+        }
+    }
+
+    /// How far a deflection reaches along a tooth that is a plate.
+    pub(crate) fn reach(&self) -> Option<Reach> {
+        match &self.model {
+            Model::Plate(coupling) => Some(coupling.reach),
+            Model::Thin | Model::InSpace(_) => None,
+        }
+    }
+
+    /// The teeth that `contacts`, tooth by tooth, belong to, not yet bent, where the pair has the compliance `mm2_per_n` at a contact;
+    /// none where slices are not coupled.
+    pub(crate) fn coupled_teeth(
+        &self,
+        pair: &GearPair,
+        contacts: &[SliceContact],
+        mm2_per_n: impl Fn(&SliceContact) -> f64,
+    ) -> Option<CoupledTeeth> {
+        match &self.model {
+            Model::Thin => None,
+            Model::Plate(coupling) => Some(CoupledTeeth::Plates {
+                teeth: BentTooth::of_phase(contacts, self.slices.count(), mm2_per_n),
+                coupling: coupling.clone(),
+            }),
+            Model::InSpace(teeth) => {
+                let influence = teeth.influence(pair, &self.slices, contacts, mm2_per_n);
+                Some(CoupledTeeth::InSpace(TeethTogether::new(influence)))
+            }
+        }
     }
 }

@@ -17,6 +17,7 @@ mod stage_clock;
 mod temperature;
 mod verification;
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use crate::calibration::{self, CalibrationError};
@@ -32,6 +33,7 @@ use crate::contact::{
 };
 use crate::fem::gear::model::ModelError;
 use crate::gear::{GearPair, PairError, PerGear, flank_zones::FlankZones};
+use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::observer::Observer;
 use crate::plan::{Plan, StageKind};
@@ -64,6 +66,9 @@ pub enum RunError {
     /// The finite-element model cannot be made.
     #[error(transparent)]
     FiniteElements(#[from] ModelError),
+    /// The teeth cannot be condensed in space.
+    #[error("the teeth in space, which couple the slices: {0}")]
+    TeethInSpace(#[from] PairInSpaceError),
     /// The tooth stiffness of finite elements cannot be computed.
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
@@ -282,8 +287,16 @@ fn carry_out<R>(
         true => stages.run(StageKind::ToothStiffness.name(), springs),
         false => springs(),
     }?;
+    let in_space = match plan.has(StageKind::TeethInSpace) {
+        true => Some(stages.run(StageKind::TeethInSpace.name(), || {
+            let material = scene.material.map(|material| material.elastic());
+            PairInSpace::new(&pair, &material, &scene.fem.clamp_radius_mm).map(Arc::new)
+        })?),
+        false => None,
+    };
     let sliced = scene.slices.map(|settings| {
-        stages.run(StageKind::HelicalSlices.name(), || SlicedTeeth::new(&pair, &scene.material, settings))
+        let slices = || SlicedTeeth::new(&pair, &scene.material, settings, in_space);
+        stages.run(StageKind::HelicalSlices.name(), slices)
     });
     let contact = |case: usize| match (&worn_elements, cases[case].surface.as_deref(), &teeth[case]) {
         (Some(model), ..) => MeshContact::FiniteElements(model),

@@ -45,10 +45,7 @@ pub(super) fn summary(model: &Model<'_>, outcome: &Outcome) -> Option<HelicalSum
     Some(HelicalSummary {
         slices: sliced.settings.count,
         coupling: sliced.settings.coupling.name().to_owned(),
-        coupling_reach_mm: sliced
-            .coupling
-            .as_ref()
-            .map(|coupling| [coupling.reach.twist_mm2.sqrt(), coupling.reach.bending_mm4.sqrt().sqrt()]),
+        coupling_reach_mm: sliced.reach().map(|reach| [reach.twist_mm2.sqrt(), reach.bending_mm4.sqrt().sqrt()]),
         helix_angle_deg: model.pair.spec.helix_angle_rad.to_degrees(),
         base_helix_angle_deg: model.pair.base_helix_angle_rad().to_degrees(),
         total_contact_ratio: model.pair.path.contact_ratio() + model.pair.overlap_ratio(),

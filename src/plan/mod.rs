@@ -28,6 +28,8 @@ pub enum StageKind {
     ContactMatch,
     /// The stiffness of the teeth along the path of contact.
     ToothStiffness,
+    /// One sector of each gear in three-dimensional finite elements, condensed onto its flank.
+    TeethInSpace,
     /// Slices over the face width.
     HelicalSlices,
     /// How long a wear step of Euler's method may be.
@@ -46,12 +48,13 @@ pub enum StageKind {
 
 impl StageKind {
     /// All stages, in the order of the work.
-    pub const ALL: [StageKind; 12] = [
+    pub const ALL: [StageKind; 13] = [
         StageKind::Geometry,
         StageKind::FiniteElementModel,
         StageKind::FiniteElementCalibration,
         StageKind::ContactMatch,
         StageKind::ToothStiffness,
+        StageKind::TeethInSpace,
         StageKind::HelicalSlices,
         StageKind::StepBound,
         StageKind::Simulation,
@@ -69,6 +72,7 @@ impl StageKind {
             StageKind::FiniteElementModel => "finite-element-model",
             StageKind::ContactMatch => "contact-match",
             StageKind::ToothStiffness => "tooth-stiffness",
+            StageKind::TeethInSpace => "teeth-in-space",
             StageKind::HelicalSlices => "helical-slices",
             StageKind::StepBound => "step-bound",
             StageKind::ContactTemperature => "contact-temperature",
@@ -144,6 +148,7 @@ fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
         StageKind::FiniteElementModel => finite_element_model(scene),
         StageKind::ContactMatch => contact_match(scene),
         StageKind::ToothStiffness => tooth_stiffness(scene),
+        StageKind::TeethInSpace => teeth_in_space(scene),
         StageKind::HelicalSlices => helical_slices(scene),
         StageKind::StepBound => step_bound(scene),
         StageKind::ContactTemperature => contact_temperature(scene),
@@ -229,6 +234,16 @@ fn tooth_stiffness(scene: &Scene) -> Result<String, String> {
     }
 }
 
+fn teeth_in_space(scene: &Scene) -> Result<String, String> {
+    match scene.slices.map(|slices| slices.coupling) {
+        None => Err("all sections are alike".to_owned()),
+        Some(Coupling::Fem) => {
+            Ok("helical.coupling: one sector of each gear over the whole face width, condensed".to_owned())
+        }
+        Some(coupling) => Err(format!("the coupling {} of the slices has none", coupling.name())),
+    }
+}
+
 fn helical_slices(scene: &Scene) -> Result<String, String> {
     let Some(slices) = scene.slices else {
         return Err("no helix angle and no modification over the face width: all sections are alike".to_owned());
@@ -236,6 +251,7 @@ fn helical_slices(scene: &Scene) -> Result<String, String> {
     let coupling = match slices.coupling {
         Coupling::None => "thin independent teeth on one hub",
         Coupling::Slicing => "coupled through the bending of the tooth",
+        Coupling::Fem => "coupled by three-dimensional finite elements of both gears",
     };
     Ok(format!("{} slices over the face width, {coupling}", slices.count))
 }

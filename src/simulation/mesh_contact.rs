@@ -56,6 +56,24 @@ const SHARE_OF_CLEAN_STARTS: f64 = 0.05;
 const SIMPLIFIED: Effort = Effort { of_equilibrium: 0.005, of_clean_start: 5.0 };
 const FINITE_ELEMENTS: Effort = Effort { of_equilibrium: 4.0, of_clean_start: 15.0 };
 
+/// Compliance of the bodies that all pairs in mesh share; those of teeth in space are part of what couples them.
+fn bodies_mm2_per_n(teeth: &TeethSpring<'_>, sliced: Option<&SlicedTeeth>) -> f64 {
+    if sliced.is_some_and(|sliced| sliced.in_space().is_some()) { 0.0 } else { teeth.shared_mm2_per_n() }
+}
+
+/// The spring of a slice beside its surface, N/mm²: of teeth in space, that of the whole section.
+fn slice_spring(
+    pair: &GearPair,
+    teeth: &TeethSpring<'_>,
+    sliced: &SlicedTeeth,
+    position_mm: f64,
+) -> Result<f64, StiffnessError> {
+    match sliced.in_space() {
+        Some(_) => teeth.oblique_n_per_mm2(position_mm, pair.base_helix_angle_rad()),
+        None => teeth.own_n_per_mm2(position_mm),
+    }
+}
+
 /// A pair under a load, at some resolution.
 pub(super) struct LoadedMesh<'a> {
     pub pair: &'a GearPair,
@@ -133,12 +151,12 @@ impl<'a> LoadedMesh<'a> {
         let springs = SlicesInSeries {
             pair: self.pair,
             material,
-            along_path: SpringAlongPath::new(path, count, [0.0; 2], |at| teeth.own_n_per_mm2(at))?,
+            along_path: SpringAlongPath::new(path, count, [0.0; 2], |at| slice_spring(self.pair, teeth, sliced, at))?,
             sliced,
             line_load_n_per_mm: line_load * sliced.slices.count() as f64,
         };
         let phases = sliced_positions(path, &sliced.slices, count, None);
-        let bodies_mm = teeth.shared_mm2_per_n() * line_load;
+        let bodies_mm = bodies_mm2_per_n(teeth, Some(sliced)) * line_load;
         Ok(SimplifiedPair::new(springs, phases, flanks.grid, modification_mm, count, bodies_mm))
     }
 
@@ -154,7 +172,7 @@ impl<'a> LoadedMesh<'a> {
         let line_load = self.line_load_n_per_mm;
         let (path, count) = (&self.pair.path, self.numerics.positions);
         let spring = |at| teeth.own_n_per_mm2(at);
-        let bodies = teeth.shared_mm2_per_n() * line_load;
+        let bodies = bodies_mm2_per_n(teeth, sliced) * line_load;
         let sharp_edges =
             self.pair.spec.gears.as_ref().map(|gear| tip_contact && gear.modification.tip_rounding_mm == 0.0);
         let flanks = Flanks { sharp_edges, ..flanks };
@@ -168,9 +186,10 @@ impl<'a> LoadedMesh<'a> {
             None
         };
         if let Some(sliced) = sliced {
+            let spring = |at| slice_spring(self.pair, teeth, sliced, at);
             let along = SpringAlongPath::new(path, count, beyond.unwrap_or_default(), spring)?;
             let phases = sliced_positions(path, &sliced.slices, count, beyond);
-            let springs = SliceSprings { along_path: &along, lever_ratio: &lever_ratio };
+            let springs = SliceSprings { pair: self.pair, along_path: &along, lever_ratio: &lever_ratio };
             let cycle = SlicedCycle::new(flanks, surface, sliced, &phases, &springs, path, count, line_load);
             return Ok(Box::new(cycle.on_bodies_that_yield_by(bodies)));
         }

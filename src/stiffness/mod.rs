@@ -183,6 +183,15 @@ impl<'a> TeethSpring<'a> {
         }
     }
 
+    /// Stiffness of the whole spring, shared bodies included, where the line of contact is oblique by `base_helix_rad`: what is local
+    /// acts in the normal section, and yields 1/cos β_b times as much along the transverse line of action. The surface keeps its own
+    /// approach, so that the spring takes its part too, N/mm².
+    pub(crate) fn oblique_n_per_mm2(&self, position_mm: f64, base_helix_rad: f64) -> Result<f64, StiffnessError> {
+        let per_cosine = 1.0 / base_helix_rad.cos();
+        let (spring, surface) = (1.0 / self.n_per_mm2(position_mm)?, self.surface_mm2_per_n(position_mm));
+        Ok(1.0 / (spring * per_cosine + surface * (per_cosine - 1.0)))
+    }
+
     /// Stiffness of the whole pair, flattening included, at the reference load, N/mm².
     pub(crate) fn pair_n_per_mm2(&self, position_mm: f64) -> Result<f64, StiffnessError> {
         Ok(1.0 / (1.0 / self.n_per_mm2(position_mm)? + self.surface_mm2_per_n(position_mm)))

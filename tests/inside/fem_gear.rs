@@ -208,8 +208,10 @@ fn ver_recovered_field_is_that_of_the_condensed_tooth() {
             for (k, &node) in condensed.sector.candidates.iter().enumerate() {
                 for component in 0..2 {
                     let row = 2 * k + component;
-                    let by_force: f64 = forces[tooth].iter().map(|&(c, f)| condensed.compliance[(row, c)] * f).sum();
-                    let by_cut: f64 = cuts.iter().enumerate().map(|(b, u)| condensed.carried[(row, b)] * u).sum();
+                    let by_force: f64 =
+                        forces[tooth].iter().map(|&(c, f)| condensed.matrices.compliance[(row, c)] * f).sum();
+                    let by_cut: f64 =
+                        cuts.iter().enumerate().map(|(b, u)| condensed.matrices.carried[(row, b)] * u).sum();
                     let difference = field[2 * node as usize + component] - (by_force + by_cut);
                     assert!(difference.abs() < 1e-9 * found.transmission_error_mm, "{} {tooth} {k}", gear.name());
                 }

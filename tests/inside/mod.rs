@@ -35,6 +35,7 @@ mod stepping_stability;
 mod stiffness;
 mod stiffness_curve;
 mod targets;
+mod teeth_in_space;
 mod temperature;
 mod tip_contact;
 mod tooth_mesh;

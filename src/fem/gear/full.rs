@@ -160,7 +160,7 @@ fn equilibrium(
     }
     let mut displacement = load.clone();
     factor.solve(1, &mut displacement);
-    let inner = stiffness.multiply(&displacement);
+    let inner = stiffness.matrix().multiply(&displacement);
     let free = (0..load.len()).filter(|&dof| !whole.held[dof]);
     let unbalanced = free.fold(0.0_f64, |most, dof| most.max((inner[dof] - load[dof]).abs()));
     let greatest = inner.iter().chain(&load).fold(0.0_f64, |most, force| most.max(force.abs()));

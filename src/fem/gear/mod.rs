@@ -6,6 +6,7 @@ mod facing_teeth;
 pub(crate) mod flank_nodes;
 pub(crate) mod flank_surface;
 pub(crate) mod full;
+pub(crate) mod in_space;
 pub(crate) mod load_transfer;
 pub(crate) mod model;
 pub(crate) mod placement;

@@ -19,7 +19,7 @@
 use faer::linalg::solvers::{DenseSolveCore, Llt, Solve};
 use faer::{Mat, Side};
 
-use super::sector::CondensedSector;
+use super::sector::{CondensedSector, SectorMatrices};
 use crate::fem::active_set::ActiveSetError;
 
 /// Forces on the candidates of one tooth: column and N/mm, by increasing column.
@@ -54,27 +54,22 @@ impl Surroundings {
     }
 }
 
-/// A gear as contact sees it: compliance between the candidate nodes of its fine teeth.
-pub(crate) struct GearCompliance {
-    /// The fine sector; all fine teeth are alike.
-    pub sector: CondensedSector,
-    teeth: usize,
-    /// C_pq for q ≤ p, row by row.
-    blocks: Vec<Mat<f64>>,
-    /// F: displacements of the fine group's cuts per force on them.
+/// Sectors side by side, from clockwise to anticlockwise, in what surrounds them.
+pub(crate) struct JoinedSectors {
+    /// F: displacements of the group's cuts per force on them.
     cut_compliance: Mat<f64>,
+    cut_dofs: usize,
 }
 
-impl GearCompliance {
-    /// Joins `teeth` fine sectors, from clockwise to anticlockwise, with what surrounds them; `coarse` is needed where that
-    /// has teeth.
+impl JoinedSectors {
+    /// Joins `teeth` sectors with what surrounds them; the cut stiffness of a `coarse` one is needed where that has teeth.
     pub(crate) fn new(
-        fine: CondensedSector,
-        coarse: Option<&CondensedSector>,
+        fine: &SectorMatrices,
+        coarse: Option<&Mat<f64>>,
         teeth: usize,
         surroundings: Surroundings,
     ) -> Result<Self, ActiveSetError> {
-        let n = fine.sector.cut_dofs();
+        let n = fine.cut_stiffness.nrows() / 2;
         let cuts = Cuts::new(teeth, surroundings);
         let mut joined = Mat::<f64>::zeros(n * cuts.unknown, n * cuts.unknown);
         let mut add = |block: &Mat<f64>, at: &[usize]| {
@@ -85,7 +80,7 @@ impl GearCompliance {
             add(&fine.cut_stiffness, &[tooth, tooth + 1]);
         }
         if let (Some(coarse), count @ 1..) = (coarse, surroundings.coarse()) {
-            let chain = chain(&coarse.cut_stiffness, count)?;
+            let chain = chain(coarse, count)?;
             match surroundings {
                 // The chain's clockwise cut is the group's anticlockwise one.
                 Surroundings::Ring { .. } => add(&chain, &[teeth, 0]),
@@ -105,18 +100,51 @@ impl GearCompliance {
                 (Some(row), Some(column)) => inverse[(n * row + i % n, n * column + j % n)],
                 _ => 0.0,
             });
-        let mut blocks = Vec::with_capacity(teeth * (teeth + 1) / 2);
-        for p in 0..teeth {
-            let carried = &fine.carried * cut_compliance.get(n * p..n * (p + 2), ..);
-            for q in 0..=p {
-                let mut block = carried.get(.., n * q..n * (q + 2)) * fine.carried.transpose();
-                if p == q {
-                    block += &fine.compliance;
-                }
-                blocks.push(block);
+        Ok(Self { cut_compliance, cut_dofs: n })
+    }
+
+    /// C_pq for all q of `others`: displacements of the candidates of sector p per force on those of sector q.
+    pub(crate) fn blocks(
+        &self,
+        fine: &SectorMatrices,
+        p: usize,
+        others: std::ops::RangeInclusive<usize>,
+    ) -> impl Iterator<Item = Mat<f64>> {
+        let n = self.cut_dofs;
+        let carried = &fine.carried * self.cut_compliance.get(n * p..n * (p + 2), ..);
+        others.map(move |q| {
+            let mut block = carried.get(.., n * q..n * (q + 2)) * fine.carried.transpose();
+            if p == q {
+                block += &fine.compliance;
             }
-        }
-        Ok(Self { sector: fine, teeth, blocks, cut_compliance })
+            block
+        })
+    }
+}
+
+/// A gear as contact sees it: compliance between the candidate nodes of its fine teeth.
+pub(crate) struct GearCompliance {
+    /// The fine sector; all fine teeth are alike.
+    pub sector: CondensedSector,
+    teeth: usize,
+    /// C_pq for q ≤ p, row by row.
+    blocks: Vec<Mat<f64>>,
+    joined: JoinedSectors,
+}
+
+impl GearCompliance {
+    /// Joins `teeth` fine sectors, from clockwise to anticlockwise, with what surrounds them; `coarse` is needed where that
+    /// has teeth.
+    pub(crate) fn new(
+        fine: CondensedSector,
+        coarse: Option<&CondensedSector>,
+        teeth: usize,
+        surroundings: Surroundings,
+    ) -> Result<Self, ActiveSetError> {
+        let coarse = coarse.map(|coarse| &coarse.matrices.cut_stiffness);
+        let joined = JoinedSectors::new(&fine.matrices, coarse, teeth, surroundings)?;
+        let blocks = (0..teeth).flat_map(|p| joined.blocks(&fine.matrices, p, 0..=p)).collect();
+        Ok(Self { sector: fine, teeth, blocks, joined })
     }
 
     /// Number of fine teeth.
@@ -137,12 +165,12 @@ impl GearCompliance {
         for (tooth, force) in forces.iter().enumerate() {
             for &(c, f) in force {
                 for b in 0..2 * n {
-                    load[n * tooth + b] += self.sector.carried[(c, b)] * f;
+                    load[n * tooth + b] += self.sector.matrices.carried[(c, b)] * f;
                 }
             }
         }
         let load = faer::Col::from_iter(load);
-        let moved = self.cut_compliance.get(n * p..n * (p + 2), ..) * load;
+        let moved = self.joined.cut_compliance.get(n * p..n * (p + 2), ..) * load;
         moved.iter().copied().collect()
     }
 
@@ -223,17 +251,30 @@ fn add_block(sum: &mut Mat<f64>, block: &Mat<f64>, place: impl Fn(usize) -> Opti
     }
 }
 
-/// A row of `count` sectors with cut stiffness `one`, on its two outer cuts.
+/// A row of `count` (≥ 1) sectors with cut stiffness `one`, on its two outer cuts: rows of 1, 2, 4 … of them, joined as the binary digits
+/// of the number say.
 fn chain(one: &Mat<f64>, count: usize) -> Result<Mat<f64>, ActiveSetError> {
     let n = one.nrows() / 2;
-    let mut row = one.clone();
-    for _ in 1..count {
+    let beside = |first: &Mat<f64>, second: &Mat<f64>| {
         let mut three = Mat::zeros(3 * n, 3 * n);
-        add_block(&mut three, &row, Some);
-        add_block(&mut three, one, |k| Some(n + k));
-        row = eliminated(&three, n, n)?;
+        add_block(&mut three, first, Some);
+        add_block(&mut three, second, |k| Some(n + k));
+        eliminated(&three, n, n)
+    };
+    let mut row: Option<Mat<f64>> = None;
+    let mut power = one.clone();
+    for digit in 0..=count.ilog2() {
+        if digit > 0 {
+            power = beside(&power, &power)?;
+        }
+        if count >> digit & 1 == 1 {
+            row = Some(match row {
+                Some(row) => beside(&row, &power)?,
+                None => power.clone(),
+            });
+        }
     }
-    Ok(row)
+    Ok(row.unwrap_or(power))
 }
 
 /// `stiffness` without the `count` free unknowns from `first` on.

@@ -54,6 +54,17 @@ pub(crate) struct Sector {
     pub working_side_probes: usize,
 }
 
+/// What a condensed sector is to those beside it: the matrices of the equations above.
+#[derive(Debug, Clone)]
+pub(crate) struct SectorMatrices {
+    /// C.
+    pub compliance: Mat<f64>,
+    /// Ψ at the candidates.
+    pub carried: Mat<f64>,
+    /// S: of the clockwise cut, then of the anticlockwise one.
+    pub cut_stiffness: Mat<f64>,
+}
+
 /// A condensed sector. Candidate columns are `2 · place in candidates + component`, cut columns `2 · place + component`
 /// (radial, circumferential) of the clockwise cut, then of the anticlockwise one.
 pub(crate) struct CondensedSector {
@@ -61,12 +72,8 @@ pub(crate) struct CondensedSector {
     pub sector: Sector,
     stiffness: Stiffness,
     factor: Factor,
-    /// C, mm per N/mm.
-    pub compliance: Mat<f64>,
-    /// Ψ at the candidates.
-    pub carried: Mat<f64>,
-    /// S, N/mm per mm.
-    pub cut_stiffness: Mat<f64>,
+    /// C in mm per N/mm, Ψ at the candidates, S in N/mm per mm.
+    pub matrices: SectorMatrices,
     /// Stress of each probe per force on each candidate.
     pub probe_by_force: Mat<f64>,
     /// Stress of each probe per displacement of the cuts.
@@ -110,7 +117,7 @@ impl Sector {
         let cuts = directions.len();
         // Two directions of each node, and as many degrees of freedom.
         let cut_dofs: Vec<u32> = directions.iter().step_by(2).flat_map(|(node, _)| [2 * node, 2 * node + 1]).collect();
-        let held_columns = stiffness.columns(&cut_dofs);
+        let held_columns = stiffness.matrix().columns(&cut_dofs);
         let along = |a: usize| [(a - a % 2, directions[a].1.x), (a - a % 2 + 1, directions[a].1.y)];
         let mut moved = vec![0.0; dofs * cuts];
         for (a, column) in moved.chunks_exact_mut(dofs).enumerate() {
@@ -147,9 +154,7 @@ impl Sector {
         Ok(CondensedSector {
             stiffness,
             factor,
-            compliance,
-            carried,
-            cut_stiffness: symmetric(&cut_stiffness),
+            matrices: SectorMatrices { compliance, carried, cut_stiffness: symmetric(&cut_stiffness) },
             probe_by_force,
             probe_by_cut,
             sector: self,
@@ -163,7 +168,7 @@ fn given(node: u32, displacement: Vector2<f64>) -> [(u32, f64); 2] {
 }
 
 /// Without the round-off that sets a matrix apart from its transpose.
-fn symmetric(matrix: &Mat<f64>) -> Mat<f64> {
+pub(super) fn symmetric(matrix: &Mat<f64>) -> Mat<f64> {
     Mat::from_fn(matrix.nrows(), matrix.ncols(), |i, j| 0.5 * (matrix[(i, j)] + matrix[(j, i)]))
 }
 
@@ -182,7 +187,7 @@ impl CondensedSector {
         for &(c, force) in candidate_force {
             field[2 * self.sector.candidates[c / 2] as usize + c % 2] = force;
         }
-        self.factor.subtract_held(&self.stiffness, &held, &mut field);
+        self.factor.subtract_held(self.stiffness.matrix(), &held, &mut field);
         self.factor.solve(1, &mut field);
         for (dof, value) in held {
             field[dof as usize] += value;
@@ -199,7 +204,7 @@ impl CondensedSector {
         }
         let own = lambda.clone();
         self.factor.solve(1, &mut lambda);
-        let reaction = self.stiffness.multiply(&lambda);
+        let reaction = self.stiffness.matrix().multiply(&lambda);
         let by_cut = self
             .sector
             .cut_directions()

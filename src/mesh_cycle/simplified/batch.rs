@@ -12,11 +12,11 @@
 use super::closed_form::ContactForms;
 use super::exact::SlicesInSeries;
 use super::lanes::{LANES, Lanes};
-use super::loaded_position::{Attempt, BentTeeth, Common, LoadedPosition, Pack, Tangent, UNUSED_GAP_MM};
+use super::loaded_position::{Attempt, Common, LoadedPosition, Pack, Tangent, UNUSED_GAP_MM};
 use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::{
     Work,
-    bent_tooth::BentTooth,
+    coupled_teeth::CoupledTeeth,
     load_sharing::EquilibriumError,
     sliced_positions::{SliceContact, SlicedPosition},
 };
@@ -49,7 +49,7 @@ pub(crate) struct Batch {
     /// How fast the surfaces move at the contact in each lane.
     ratios: Vec<SpeedRatios>,
     /// The teeth of each phase, where slices are coupled.
-    bent: Vec<Vec<BentTooth>>,
+    teeth: Vec<CoupledTeeth>,
     common: Common,
     /// Depth that both flanks have lost at each contact, mm.
     wear_mm: PerGear<Row>,
@@ -90,12 +90,12 @@ impl Batch {
         let unused = Pack { rigid: Lanes::splat(1.0), gap_mm: Lanes::splat(UNUSED_GAP_MM), ..Pack::default() };
         let (mut packs, mut per_root) = (vec![unused; count], vec![PerRoot::default(); count]);
         let mut ratios = vec![SpeedRatios::default(); LANES * count];
-        let coupled = springs.sliced.coupling.is_some();
+        let coupled = springs.sliced.is_coupled();
         let common = Common {
             log_compliance_mm2_per_n: forms.log_compliance_mm2_per_n(),
             line_load_n_per_mm: springs.line_load_n_per_mm,
         };
-        let (mut loaded_positions, mut bent, mut first) = (Vec::with_capacity(phases.len()), Vec::new(), 0);
+        let (mut loaded_positions, mut teeth_of_phases, mut first) = (Vec::with_capacity(phases.len()), Vec::new(), 0);
         for phase in &phases {
             let range = first..first + packs_of(phase);
             let mean = springs.line_load_n_per_mm / phase.contacts.len() as f64;
@@ -121,10 +121,8 @@ impl Batch {
                 }
                 greatest_load_n_per_mm = greatest_load_n_per_mm.min(form.greatest_load_n_per_mm);
             }
-            if coupled {
-                let compliance = |contact: &SliceContact| springs.along_path.mm2_per_n(contact.cell.position_mm);
-                bent.push(BentTooth::of_phase(&phase.contacts, springs.sliced.slices.count(), compliance));
-            }
+            let compliance = |contact: &SliceContact| springs.along_path.mm2_per_n(contact.cell.position_mm);
+            teeth_of_phases.extend(springs.sliced.coupled_teeth(springs.pair, &phase.contacts, compliance));
             loaded_positions.push(LoadedPosition {
                 position_mm: phase.position_mm,
                 transmission_error_mm: 0.0,
@@ -143,7 +141,7 @@ impl Batch {
             packs,
             per_root,
             ratios,
-            bent,
+            teeth: teeth_of_phases,
             common,
             wear_mm: PerGear::from_fn(|_| row(count)),
             depth_mm: PerGear::from_fn(|_| row(count)),
@@ -211,17 +209,15 @@ impl Batch {
         let loaded = &mut self.loaded_positions[index];
         let packs = &mut self.packs[loaded.packs.clone()];
         let tangents = &mut self.tangents[..packs.len()];
-        let teeth = self.bent.get_mut(index).map(Vec::as_mut_slice);
-        let coupled = teeth.zip(springs.sliced.coupling.as_ref());
-        let mut bent = coupled.map(|(teeth, coupling)| BentTeeth { teeth, coupling });
+        let mut teeth = self.teeth.get_mut(index);
         let mut iterations = 0;
         if self.begun {
-            match loaded.follow(packs, tangents, bent.as_mut(), &self.common) {
+            match loaded.follow(packs, tangents, teeth.as_deref_mut(), &self.common) {
                 Attempt::Settled(steps) => return Ok(steps),
                 Attempt::Lost(steps) => iterations += steps,
             }
         }
-        match loaded.settle(packs, tangents, bent.as_mut(), &self.common) {
+        match loaded.settle(packs, tangents, teeth.as_deref_mut(), &self.common) {
             Attempt::Settled(steps) => return Ok(iterations + steps),
             Attempt::Lost(steps) => iterations += steps,
         }
@@ -316,7 +312,7 @@ impl Batch {
                 (pack.log_load, pack.correction, pack.change) = Default::default();
             }
         }
-        self.bent.iter_mut().flatten().for_each(BentTooth::straighten);
+        self.teeth.iter_mut().for_each(CoupledTeeth::straighten);
         self.begun = false;
     }
 

@@ -6,7 +6,6 @@
 use crate::contact::{Footprint, PairContact, PointContact, Response, Sweep, hertz, settings::Material};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::mesh_cycle::{
-    bent_tooth::BentTooth,
     load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance},
     sliced::SpringAlongPath,
     sliced_positions::SliceContact,
@@ -75,25 +74,23 @@ impl SlicesInSeries<'_> {
         position_mm: f64,
     ) -> Result<(Vec<f64>, Equilibrium), EquilibriumError> {
         let compliance = |contact: &SliceContact| self.along_path.mm2_per_n(contact.cell.position_mm);
-        let coupling = self.sliced.coupling.as_ref();
+        let mut teeth = self.sliced.coupled_teeth(self.pair, contacts, compliance);
+        let coupled = teeth.is_some();
         let mut pairs: Vec<MeshedPair<'_>> = contacts
             .iter()
             .zip(gap_mm)
             .map(|(contact, gap_mm)| {
                 let flattening = hertz::flattening(self.pair, self.material, contact.cell.position_mm);
-                let teeth = if coupling.is_some() { f64::INFINITY } else { 1.0 / compliance(contact) };
+                let teeth = if coupled { f64::INFINITY } else { 1.0 / compliance(contact) };
                 let mut pair = MeshedPair::new(Box::new(GivenGap { flattening, gap_mm }), teeth);
                 let nothing = PerGear { pinion: &[][..], wheel: &[][..] };
                 pair.set_removed(nothing);
                 pair
             })
             .collect();
-        let equilibrium = match coupling {
+        let equilibrium = match &mut teeth {
             None => balance(&mut pairs, self.line_load_n_per_mm, position_mm)?,
-            Some(coupling) => {
-                let mut teeth = BentTooth::of_phase(contacts, self.sliced.slices.count(), compliance);
-                balance_on_teeth(&mut pairs, &mut teeth, coupling, self.line_load_n_per_mm, position_mm)?
-            }
+            Some(teeth) => balance_on_teeth(&mut pairs, teeth, self.line_load_n_per_mm, position_mm)?,
         };
         Ok((pairs.iter().map(|pair| pair.response.line_load_n_per_mm).collect(), equilibrium))
     }

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! with the gap g_m of the flanks at the contact point, worn and modified, the closed form of [`super::closed_form`], and, where slices
-//! are coupled, the deflection u of the teeth ([`BentTeeth`]; otherwise their compliance q is part of Q).
+//! are coupled, the deflection u of the teeth ([`CoupledTeeth`]; otherwise their compliance q is part of Q).
 //!
 //! A wear step changes loads by per cents. The next equilibrium is followed from the last three: loads change by e, as in the step
 //! before, and one Newton step corrects what that misses,
@@ -25,8 +25,8 @@
 //! solved with true logarithms, contacts coming and going ([`LoadedPosition::settle`]).
 
 use super::lanes::{LANES, Lanes};
-use crate::mesh_cycle::bent_tooth::{BentTooth, ContactTangent, bend};
-use crate::mesh_cycle::slice_coupling::SliceCoupling;
+use crate::mesh_cycle::bent_tooth::ContactTangent;
+use crate::mesh_cycle::coupled_teeth::CoupledTeeth;
 
 /// Correction over load at which an equilibrium that is followed is accepted.
 pub(crate) const SETTLED: f64 = 3e-5;
@@ -163,7 +163,7 @@ impl LoadedPosition {
         &mut self,
         packs: &mut [Pack],
         tangents: &mut [Tangent],
-        mut bent: Option<&mut BentTeeth<'_>>,
+        mut teeth: Option<&mut CoupledTeeth>,
         common: &Common,
     ) -> Attempt {
         let (phi, from_mm) = (common.log_compliance_mm2_per_n, self.transmission_error_mm);
@@ -183,9 +183,9 @@ impl LoadedPosition {
                 *tangent = Tangent { approach_mm, n_per_mm2, half_over_load };
                 sums.add(pack, tangent);
             }
-            let approach_mm = match &mut bent {
+            let approach_mm = match &mut teeth {
                 None => sums.approach_mm(common.line_load_n_per_mm),
-                Some(bent) => bent.bend(packs, tangents, common.line_load_n_per_mm),
+                Some(teeth) => bend(teeth, packs, tangents, common.line_load_n_per_mm),
             };
             let shift = shift.greatest();
             let (mut correction, mut strayed, mut greatest) = (Lanes::default(), Lanes::splat(-1.0), Lanes::default());
@@ -218,7 +218,7 @@ impl LoadedPosition {
         &mut self,
         packs: &mut [Pack],
         tangents: &mut [Tangent],
-        mut bent: Option<&mut BentTeeth<'_>>,
+        mut teeth: Option<&mut CoupledTeeth>,
         common: &Common,
     ) -> Attempt {
         let (phi, line_load) = (common.log_compliance_mm2_per_n, common.line_load_n_per_mm);
@@ -245,9 +245,9 @@ impl LoadedPosition {
                 }
                 continue;
             }
-            let approach_mm = match &mut bent {
+            let approach_mm = match &mut teeth {
                 None => sums.approach_mm(line_load),
-                Some(bent) => bent.bend(packs, tangents, line_load),
+                Some(teeth) => bend(teeth, packs, tangents, line_load),
             };
             let mut settled = approach_mm.is_finite();
             for (pack, tangent) in packs.iter_mut().zip(&*tangents) {
@@ -281,30 +281,20 @@ impl LoadedPosition {
     }
 }
 
-/// The teeth of a phase where their slices hold each other ([`crate::mesh_cycle::bent_tooth`]), for contacts side by side.
-pub(crate) struct BentTeeth<'a> {
-    /// Each.
-    pub teeth: &'a mut [BentTooth],
-    /// How their slices hold each other.
-    pub coupling: &'a SliceCoupling,
-}
-
-impl BentTeeth<'_> {
-    /// Bends the teeth for the Newton step of `tangents`, adds their deflection to its approaches, and gives δ; not a number where no
-    /// contact carries.
-    pub(crate) fn bend(&mut self, packs: &[Pack], tangents: &mut [Tangent], line_load: f64) -> f64 {
-        let tangent = |at: usize| {
-            let (pack, lane) = (at / LANES, at % LANES);
-            ContactTangent {
-                line_load_n_per_mm: packs[pack].load.0[lane],
-                n_per_mm2: tangents[pack].n_per_mm2.0[lane],
-                approach_mm: tangents[pack].approach_mm.0[lane],
-            }
-        };
-        let Some(approach_mm) = bend(self.teeth, self.coupling, line_load, tangent) else { return f64::NAN };
-        for (at, _, deflection_mm) in self.teeth.iter().flat_map(BentTooth::deflections_mm) {
-            tangents[at / LANES].approach_mm.0[at % LANES] += deflection_mm;
+/// Bends the teeth of a phase whose slices hold each other for the Newton step of `tangents`, adds their deflection to its approaches, and
+/// gives δ; not a number where no contact carries.
+fn bend(teeth: &mut CoupledTeeth, packs: &[Pack], tangents: &mut [Tangent], line_load: f64) -> f64 {
+    let tangent = |at: usize| {
+        let (pack, lane) = (at / LANES, at % LANES);
+        ContactTangent {
+            line_load_n_per_mm: packs[pack].load.0[lane],
+            n_per_mm2: tangents[pack].n_per_mm2.0[lane],
+            approach_mm: tangents[pack].approach_mm.0[lane],
         }
-        approach_mm
-    }
+    };
+    let Some(approach_mm) = teeth.bend(line_load, tangent) else { return f64::NAN };
+    teeth.each_deflection_mm(|at, _, deflection_mm| {
+        tangents[at / LANES].approach_mm.0[at % LANES] += deflection_mm;
+    });
+    approach_mm
 }

@@ -14,7 +14,7 @@ mod wear_runs;
 
 use super::Model;
 use crate::gear::PerGear;
-use crate::mesh_cycle::{settings::SliceSettings, sliced_teeth::SlicedTeeth};
+use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::observer::Observer;
 use crate::results::error::{ErrorSources, ErrorSummary};
 use crate::simulation::figures::WearFigures;
@@ -73,10 +73,10 @@ pub(super) fn estimate(
 /// Of a run with slices, half as many; as many where so few would leave positions without contact.
 fn coarse_slices(model: &Model<'_>) -> Option<SlicedTeeth> {
     let fine = model.sliced?;
-    let settings = SliceSettings { count: fine.settings.count.div_ceil(2), ..fine.settings };
-    let between = 1.0 - 1.0 / settings.count as f64;
+    let count = fine.settings.count.div_ceil(2);
+    let between = 1.0 - 1.0 / count as f64;
     let covers = model.pair.path.contact_ratio() + between * model.pair.overlap_ratio() >= 1.0;
-    Some(if covers { SlicedTeeth::new(model.pair, &model.scene.material, settings) } else { fine.clone() })
+    Some(if covers { fine.with_count(model.pair, &model.scene.material, count) } else { fine.clone() })
 }
 
 /// Greatest wear depth of each gear's flank.

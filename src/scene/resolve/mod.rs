@@ -117,7 +117,8 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let calibration_file = file.contact.as_ref().and_then(|contact| contact.calibration.clone());
     let surface = contact.map(|contact| contact.surface);
     let slices = pair.as_ref().and_then(|pair| slices::choose(&mut file.helical, pair, surface, findings));
-    let teeth = Teeth { surface, calibrated: calibration_file.is_some(), sliced };
+    let teeth =
+        Teeth { surface, calibrated: calibration_file.is_some(), coupling: slices.map(|slices| slices.coupling) };
     let stiffness = settings::stiffness(&mut file.stiffness, teeth, findings);
     let stiffness_by_default = file.stiffness.as_ref().is_none_or(|stiffness| stiffness.model.is_none());
     let stiffness_curve_file = file.stiffness.as_ref().and_then(|stiffness| stiffness.curve.clone());

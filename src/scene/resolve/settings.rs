@@ -2,6 +2,7 @@
 
 use crate::contact::settings::{ContactSettings, Foundation, Material, SurfaceKind};
 use crate::gear::PerGear;
+use crate::mesh_cycle::settings::Coupling;
 use crate::scene::file::{
     ContactFile, GearMaterialFile, MaterialFile, NamedStep, NumericsFile, StepFile, StiffnessFile, StiffnessModel,
 };
@@ -148,14 +149,14 @@ pub(super) struct Teeth {
     pub surface: Option<SurfaceKind>,
     /// Whether a calibration is given.
     pub calibrated: bool,
-    /// Whether there are slices over the face width.
-    pub sliced: bool,
+    /// How slices over the face width are coupled, where there are any.
+    pub coupling: Option<Coupling>,
 }
 
 /// Chooses the tooth stiffness.
 pub(super) fn stiffness(
     file: &mut Option<StiffnessFile>,
-    Teeth { surface, calibrated, sliced }: Teeth,
+    Teeth { surface, calibrated, coupling }: Teeth,
     findings: &mut Findings,
 ) -> Option<StiffnessSettings> {
     let key = "stiffness.pair_N_per_mm_um";
@@ -167,10 +168,20 @@ pub(super) fn stiffness(
         // Nothing reads it: what the user leaves out stays out.
         (Some(SurfaceKind::Fem), _) => file.model.unwrap_or_default(),
         (_, true) => *file.model.get_or_insert(StiffnessModel::Fem),
-        _ if sliced => *file.model.get_or_insert(StiffnessModel::WeberBanaschek),
+        _ if matches!(coupling, Some(Coupling::None | Coupling::Slicing)) => {
+            *file.model.get_or_insert(StiffnessModel::WeberBanaschek)
+        }
         // Left open, it is another where finite elements cannot be had: it stays open.
         _ => file.model.unwrap_or(StiffnessModel::Fem),
     };
+    if coupling == Some(Coupling::Fem) && model != StiffnessModel::Fem {
+        findings.not_allowed(
+            "stiffness.model",
+            "another model than \"fem\" with helical.coupling = \"fem\"",
+            "\"fem\", the stiffness of the same teeth in plane strain",
+        );
+        return None;
+    }
     let of_curve = matches!(model, StiffnessModel::Simon | StiffnessModel::WangCheng);
     if of_curve && file.curve.is_none() {
         findings.missing(&["stiffness.curve"], "the name of a data file");

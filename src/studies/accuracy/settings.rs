@@ -145,6 +145,7 @@ pub(crate) fn coupling_name(coupling: Coupling) -> &'static str {
     match coupling {
         Coupling::None => "uncoupled",
         Coupling::Slicing => "coupled",
+        Coupling::Fem => "coupled in space",
     }
 }
 

@@ -46,7 +46,7 @@ pub fn solve(
         held[*dof as usize] = true;
     }
     let factor = Factor::new(&stiffness, &held).unwrap();
-    factor.subtract_held(&stiffness, given, &mut forces);
+    factor.subtract_held(stiffness.matrix(), given, &mut forces);
     factor.solve(1, &mut forces);
     for (dof, value) in given {
         forces[*dof as usize] = *value;

@@ -27,7 +27,7 @@ fn folded_elements_are_named() {
                 assert!(solid.elements[element].nodes().contains(&nodes[0]), "{kind:?}");
                 assert!(determinant_mm2 <= 0.0 && at_mm.x.is_finite(), "{kind:?} {determinant_mm2}");
             }
-            result => panic!("{kind:?}: {:?}", result.map(|stiffness| stiffness.dofs())),
+            result => panic!("{kind:?}: {:?}", result.map(|stiffness| stiffness.matrix().dofs())),
         }
     }
 }

@@ -1,0 +1,264 @@
+//! The teeth of a gear in space, condensed onto the loads along their lines of contact.
+//!
+//! One pitch of the gear over its whole face width is condensed onto the nodes of its working flank, each with the one force that
+//! contact without friction exerts on it, and onto its cuts; the sectors join to the ring as in the plane (`fem::gear::ring`). A line
+//! load of 1 N in all along a piece of a line of contact is the row r of forces at the nodes around it, and
+//!
+//! ```text
+//! u_a = r_aᵀ C_pq r_b · F_b
+//! ```
+//!
+//! is how far a piece a of tooth p yields, on average over its length and along the transverse line of action, under the force F_b on
+//! piece b of tooth q. Forces are counted by their transverse component: the flank's normal carries tan β_b times as much along
+//! the axis, so that displacements along it are those of the transverse line of action.
+//!
+//! The elements are coarse. What they make of the neighbourhood of a load is the same as in the plane: the same section with the same
+//! elements in plane strain ([`PlaneSection`]) tells it, and it is exchanged there for what is known of it.
+
+use faer::Mat;
+use nalgebra::Vector2;
+
+use super::ring::{JoinedSectors, Surroundings};
+use super::sector::{Sector, SectorMatrices, symmetric};
+use crate::fem::active_set::ActiveSetError;
+use crate::fem::elastic::{Analysis, Elastic};
+use crate::fem::equilibrium::SolveError;
+use crate::fem::factor::{Factor, FactorError};
+use crate::fem::shape::{Shape, along_edge};
+use crate::fem::solid::{Element, ElementKind, Solid};
+use crate::fem::space::{FoldedHexahedron, stiffness};
+use crate::gear::tooth::Tooth;
+use crate::gear_mesh::tooth_section::{ExtrudedTooth, ToothSection};
+
+/// Why the teeth of a gear cannot be condensed in space.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum SpaceError {
+    /// The mesh has an element without volume.
+    #[error(transparent)]
+    Folded(#[from] FoldedHexahedron),
+    /// The stiffness cannot be factorised.
+    #[error(transparent)]
+    Factor(#[from] FactorError),
+    /// The section in the plane.
+    #[error(transparent)]
+    Plane(#[from] SolveError),
+    /// The sectors cannot be joined.
+    #[error(transparent)]
+    Join(#[from] ActiveSetError),
+}
+
+/// Forces at nodes of a working flank, by their place there, as parts of the load.
+pub(crate) type FlankForces = Vec<(u32, f64)>;
+
+/// The teeth of a gear in space.
+pub(crate) struct TeethInSpace {
+    mesh: ExtrudedTooth,
+    /// Place of each node among those of the flank, by place over the face width and node along the flank.
+    places: Vec<Vec<Option<u32>>>,
+    /// C of a tooth on itself, on its neighbour, and so on.
+    by_distance: Vec<Mat<f64>>,
+}
+
+/// The section of a gear in plane strain on the elements that the teeth in space have.
+pub(crate) struct PlaneSection {
+    section: ToothSection,
+    /// Compliance of the flank's nodes, mm per N/mm.
+    compliance: Mat<f64>,
+    /// Load at each node of the flank by component.
+    directions: Vec<Vector2<f64>>,
+}
+
+/// The direction of a load on the working flank (x < 0) at a radius, in the tooth's frame.
+fn load_direction(tooth: &Tooth, radius_mm: f64) -> Vector2<f64> {
+    let load_angle = tooth.load_line(tooth.involute.curvature_radius_mm(radius_mm)).load_angle_rad;
+    Vector2::new(load_angle.cos(), -load_angle.sin())
+}
+
+/// Radii of the nodes of a flank.
+fn flank_radii_mm(section: &ToothSection) -> impl Iterator<Item = f64> {
+    let ([first, last], intervals) = (section.flank_radius_mm, (section.flank.len() - 1) as f64);
+    (0..section.flank.len()).map(move |k| first + (last - first) * k as f64 / intervals)
+}
+
+impl PlaneSection {
+    /// Of a gear with such teeth.
+    pub(crate) fn new(tooth: &Tooth, section: &ToothSection, material: Elastic) -> Result<Self, SpaceError> {
+        let element = |nodes: &[u32; 8]| Element::new(ElementKind::Quad8, nodes, 0);
+        let solid =
+            Solid { points_mm: section.points_mm.clone(), elements: section.quads.iter().map(element).collect() };
+        let free = |cut: &Vec<u32>| cut.iter().copied().filter(|node| !section.clamp.contains(node)).collect();
+        let sector = Sector {
+            solid,
+            clamp: section.clamp.clone(),
+            cuts: section.cuts.each_ref().map(free),
+            half_angle_rad: std::f64::consts::PI / f64::from(tooth.teeth),
+            candidates: section.flank.clone(),
+            probes: Vec::new(),
+            working_side_probes: 0,
+        };
+        let matrices = sector.condense(material, Analysis::PlaneStrain)?.matrices;
+        let joined = joined(&matrices, tooth.teeth, 1)?;
+        let compliance = joined.blocks(&matrices, 0, 0..=0).next().expect("one sector");
+        let directions = flank_radii_mm(section).map(|radius_mm| load_direction(tooth, radius_mm)).collect();
+        Ok(Self { section: section.clone(), compliance, directions })
+    }
+
+    /// Compliance of a tooth under a line load at a radius of its flank, where it acts and along it, mm²/N.
+    pub(crate) fn mm2_per_n(&self, radius_mm: f64) -> f64 {
+        let (first, s) = self.section.on_flank(radius_mm);
+        let ([start, end, middle], _) = along_edge(true, s);
+        let forces = [(first, start), (first + 1, middle), (first + 2, end)];
+        let forces = forces.map(|(k, part)| (k, self.directions[k] * part));
+        let mut sum = 0.0;
+        for (i, f) in &forces {
+            for (j, g) in &forces {
+                for (r, f_r) in f.iter().enumerate() {
+                    for (c, g_c) in g.iter().enumerate() {
+                        sum += f_r * self.compliance[(2 * i + r, 2 * j + c)] * g_c;
+                    }
+                }
+            }
+        }
+        sum
+    }
+}
+
+/// The first `teeth` of a ring of `all`.
+fn joined(matrices: &SectorMatrices, all: u32, teeth: usize) -> Result<JoinedSectors, ActiveSetError> {
+    let surroundings = Surroundings::Ring { coarse: all as usize - teeth };
+    JoinedSectors::new(matrices, Some(&matrices.cut_stiffness), teeth, surroundings)
+}
+
+impl TeethInSpace {
+    /// Condenses the teeth of a gear, `teeth` of which (at most all of them) may be loaded together.
+    pub(crate) fn new(tooth: &Tooth, mesh: ExtrudedTooth, material: Elastic, teeth: usize) -> Result<Self, SpaceError> {
+        let mut count = 0;
+        let mut place = |node: Option<u32>| {
+            node.map(|_| {
+                count += 1;
+                count - 1
+            })
+        };
+        let over = |k: usize| mesh.section.flank.iter().map(move |node| (k, *node));
+        let places =
+            (0..mesh.z_mm.len()).map(|k| over(k).map(|(k, node)| place(mesh.node(node, k))).collect()).collect();
+        let matrices = condensed(tooth, &mesh, material)?;
+        let joined = joined(&matrices, tooth.teeth, teeth)?;
+        Ok(Self { by_distance: joined.blocks(&matrices, 0, 0..=teeth - 1).collect(), mesh, places })
+    }
+
+    /// Nodes of a working flank.
+    pub(crate) fn flank_nodes(&self) -> usize {
+        self.by_distance[0].nrows()
+    }
+
+    /// Adds a load of `part` at a radius of the working flank and a place over the face width.
+    pub(crate) fn add_load(&self, radius_mm: f64, z_mm: f64, part: f64, forces: &mut FlankForces) {
+        let (first, s) = self.mesh.section.on_flank(radius_mm);
+        let layers = self.mesh.z_mm.len() / 2;
+        let place = z_mm / self.mesh.z_mm[2 * layers] * layers as f64;
+        let layer = (place.max(0.0) as usize).min(layers - 1);
+        let t = 2.0 * (place - layer as f64) - 1.0;
+        let shape = Shape::at(ElementKind::Quad8, [s, t]);
+        let nodes = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1)];
+        for ((along, across), value) in nodes.into_iter().zip(shape.values) {
+            if let Some(node) = self.places[2 * layer + across][first + along] {
+                forces.push((node, part * value));
+            }
+        }
+    }
+
+    /// How far a load `of` on one tooth yields under the load `under` on a tooth so many pitches anticlockwise of it (clockwise where
+    /// negative), mm/N.
+    pub(crate) fn mm_per_n(&self, of: &FlankForces, under: &FlankForces, pitches: i32) -> f64 {
+        let block = &self.by_distance[pitches.unsigned_abs() as usize];
+        let (rows, columns) = if pitches >= 0 { (of, under) } else { (under, of) };
+        rows.iter()
+            .map(|(i, f)| f * columns.iter().map(|(j, g)| block[(*i as usize, *j as usize)] * g).sum::<f64>())
+            .sum()
+    }
+}
+
+/// One sector of a gear onto the loads on its working flank and onto its cuts; at each node of these along the radius, around and along
+/// the axis.
+fn condensed(tooth: &Tooth, mesh: &ExtrudedTooth, material: Elastic) -> Result<SectorMatrices, SpaceError> {
+    let matrix = stiffness(&mesh.points_mm, &mesh.hexahedra, &material)?;
+    let mut held = vec![false; mesh.points_mm.len()];
+    let clamp = mesh.over(&mesh.section.clamp);
+    clamp.iter().for_each(|node| held[*node as usize] = true);
+    let cut_nodes: Vec<u32> = mesh
+        .section
+        .cuts
+        .iter()
+        .flat_map(|cut| mesh.over(cut).into_iter().filter(|node| !held[*node as usize]).collect::<Vec<_>>())
+        .collect();
+    cut_nodes.iter().for_each(|node| held[*node as usize] = true);
+    let factor = Factor::of_held(&matrix, |dof| held[dof / 3])?;
+
+    let flank = flank_forces(tooth, mesh);
+    let loads = flank.len();
+    // K_ib by direction of the cuts' displacements.
+    let cut_dofs: Vec<u32> = cut_nodes.iter().flat_map(|node| [0, 1, 2].map(|k| 3 * node + k)).collect();
+    let of_dof = matrix.columns(&cut_dofs);
+    let directions: Vec<[[f64; 3]; 3]> = cut_nodes
+        .iter()
+        .map(|node| {
+            let point = mesh.points_mm[*node as usize];
+            let (x, y) = (point.x / point.xy().norm(), point.y / point.xy().norm());
+            [[x, y, 0.0], [-y, x, 0.0], [0.0, 0.0, 1.0]]
+        })
+        .collect();
+    let mut columns = flank;
+    let mut place_of_cut_dof = std::collections::BTreeMap::new();
+    (0..).zip(&cut_dofs).for_each(|(k, dof)| {
+        place_of_cut_dof.insert(*dof, k);
+    });
+    let cuts = cut_dofs.len();
+    let mut own = Mat::<f64>::zeros(cuts, cuts);
+    for (node, direction) in directions.iter().enumerate() {
+        for (c, parts) in direction.iter().enumerate() {
+            let entries = parts
+                .iter()
+                .enumerate()
+                .filter(|(_, part)| **part != 0.0)
+                .flat_map(|(k, part)| of_dof[3 * node + k].iter().map(move |(dof, value)| (*dof, part * value)));
+            let mut column = Vec::new();
+            for (dof, value) in entries {
+                match place_of_cut_dof.get(&dof) {
+                    Some(&row) => {
+                        let (other, k): (usize, usize) = (row / 3, row % 3);
+                        for (r, parts) in directions[other].iter().enumerate() {
+                            own[(3 * other + r, 3 * node + c)] += parts[k] * value;
+                        }
+                    }
+                    None if !held[dof as usize / 3] => column.push((dof, value)),
+                    None => {}
+                }
+            }
+            columns.push(column);
+        }
+    }
+    let all = factor.compliance(&columns);
+    let cut_stiffness = symmetric(&(own - all.get(loads.., loads..)));
+    Ok(SectorMatrices {
+        compliance: all.get(..loads, ..loads).to_owned(),
+        carried: Mat::from_fn(loads, cuts, |i, j| -all[(i, loads + j)]),
+        cut_stiffness,
+    })
+}
+
+/// The force at each node of the working flank whose transverse component is 1 N: along the flank's normal, which carries no load along
+/// the helix, F · (ẑ × x θ' + ẑ) = 0.
+fn flank_forces(tooth: &Tooth, mesh: &ExtrudedTooth) -> Vec<Vec<(u32, f64)>> {
+    let mut forces = Vec::new();
+    for k in 0..mesh.z_mm.len() {
+        for (node, radius_mm) in mesh.section.flank.iter().zip(flank_radii_mm(&mesh.section)) {
+            let Some(node) = mesh.node(*node, k) else { continue };
+            let turned = nalgebra::Rotation2::new(mesh.turn_rad(k)) * load_direction(tooth, radius_mm);
+            let point = mesh.points_mm[node as usize];
+            let along_axis = -mesh.twist_rad_per_mm * point.xy().perp(&turned);
+            forces.push(vec![(3 * node, turned.x), (3 * node + 1, turned.y), (3 * node + 2, along_axis)]);
+        }
+    }
+    forces
+}

@@ -1,0 +1,114 @@
+//! The teeth of a phase whose slices hold each other, in a Newton step: as plates ([`super::bent_tooth`]), or in space.
+//!
+//! In space the contacts of all teeth are coupled by one matrix, u = U w ([`super::pair_in_space`]). With w the load of a contact, c its
+//! tangent stiffness, h its approach so far without the deflection, and C the diagonal of the c, a Newton step with all unknowns
+//! together is
+//!
+//! ```text
+//! (I + √C U √C) y = (w − C h)/√c + δ √c          w⁺ = √C y          Σ w⁺ = F
+//! ```
+
+use faer::linalg::solvers::{Llt, PartialPivLu, Solve};
+use faer::{Mat, Side};
+
+use super::bent_tooth::{BentTooth, ContactTangent, bend};
+use super::pair_in_space::Influence;
+use super::slice_coupling::SliceCoupling;
+
+/// The teeth of a phase.
+pub(crate) enum CoupledTeeth {
+    /// Each a plate clamped at its root.
+    Plates {
+        /// Each.
+        teeth: Vec<BentTooth>,
+        /// How its slices hold each other.
+        coupling: SliceCoupling,
+    },
+    /// All together in space.
+    InSpace(TeethTogether),
+}
+
+/// Teeth that one matrix couples.
+pub(crate) struct TeethTogether {
+    influence: Influence,
+    deflection_mm: Vec<f64>,
+    /// Of the last step: √c, the matrix, both right-hand sides.
+    root: Vec<f64>,
+}
+
+impl TeethTogether {
+    /// Not yet bent.
+    pub(crate) fn new(influence: Influence) -> Self {
+        let count = influence.of_elements.len();
+        Self { influence, deflection_mm: vec![0.0; count], root: vec![0.0; count] }
+    }
+
+    fn bend(&mut self, line_load: f64, tangent: impl Fn(usize) -> ContactTangent) -> Option<f64> {
+        let count = self.root.len();
+        let tangents: Vec<ContactTangent> = (0..count).map(tangent).collect();
+        self.root.iter_mut().zip(&tangents).for_each(|(root, tangent)| *root = tangent.n_per_mm2.max(0.0).sqrt());
+        // Contacts that carry nothing have no part in the step.
+        let carrying: Vec<usize> = (0..count).filter(|k| self.root[*k] > 0.0).collect();
+        if carrying.is_empty() {
+            return None;
+        }
+        let (root, u) = (&self.root, &self.influence.mm2_per_n);
+        let n = carrying.len();
+        let matrix = Mat::from_fn(n, n, |i, j| {
+            let (a, b) = (carrying[i], carrying[j]);
+            f64::from(u8::from(a == b)) + root[a] * u[a * count + b] * root[b]
+        });
+        let given = Mat::from_fn(n, 2, |i, j| {
+            let ContactTangent { line_load_n_per_mm: w, n_per_mm2: c, approach_mm } = tangents[carrying[i]];
+            if j == 0 { (w - c * approach_mm) / root[carrying[i]] } else { root[carrying[i]] }
+        });
+        let solved = match Llt::new(matrix.as_ref(), Side::Lower) {
+            Ok(factor) => factor.solve(&given),
+            Err(_) => PartialPivLu::new(matrix.as_ref()).solve(&given),
+        };
+        let sum = |j: usize| (0..n).map(|i| root[carrying[i]] * solved[(i, j)]).sum::<f64>();
+        let (carried, stiffness) = (sum(0), sum(1));
+        if stiffness <= 0.0 {
+            return None;
+        }
+        let delta_mm = (line_load - carried) / stiffness;
+        let load: Vec<f64> = (0..n).map(|i| root[carrying[i]] * (solved[(i, 0)] + delta_mm * solved[(i, 1)])).collect();
+        for (row, deflection) in u.chunks_exact(count).zip(&mut self.deflection_mm) {
+            *deflection = carrying.iter().zip(&load).map(|(k, load)| row[*k] * load).sum();
+        }
+        Some(delta_mm)
+    }
+}
+
+impl CoupledTeeth {
+    /// Is straight again.
+    pub(crate) fn straighten(&mut self) {
+        match self {
+            Self::Plates { teeth, .. } => teeth.iter_mut().for_each(BentTooth::straighten),
+            Self::InSpace(teeth) => teeth.deflection_mm.fill(0.0),
+        }
+    }
+
+    /// Bends the teeth by a Newton step towards a sum of line loads `line_load`, with the `tangent` of every contact by its number in
+    /// the phase, and gives δ, from where the approaches are; `None`, and nothing bent, where no contact carries.
+    pub(crate) fn bend(&mut self, line_load: f64, tangent: impl Fn(usize) -> ContactTangent) -> Option<f64> {
+        match self {
+            Self::Plates { teeth, coupling } => bend(teeth, coupling, line_load, tangent),
+            Self::InSpace(teeth) => teeth.bend(line_load, tangent),
+        }
+    }
+
+    /// Each contact, by its number in the phase, with the compliance of the teeth there under its own load, mm²/N, and how far they are
+    /// bent, mm.
+    pub(crate) fn each_deflection_mm(&self, mut take: impl FnMut(usize, f64, f64)) {
+        match self {
+            Self::Plates { teeth, .. } => {
+                teeth.iter().flat_map(BentTooth::deflections_mm).for_each(|(k, mm2_per_n, mm)| take(k, mm2_per_n, mm));
+            }
+            Self::InSpace(TeethTogether { influence, deflection_mm, .. }) => {
+                let contacts = influence.of_elements.iter().zip(deflection_mm).enumerate();
+                contacts.for_each(|(k, (mm2_per_n, mm))| take(k, *mm2_per_n, *mm));
+            }
+        }
+    }
+}
