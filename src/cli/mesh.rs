@@ -7,7 +7,7 @@ use crate::gear::Gear;
 use crate::gear_mesh::settings::{Body, SectorSides};
 use crate::mesh::quality::Worst;
 use crate::mesh::{self, CellKind, Format};
-use crate::pipeline::pair_mesh::{self, PairMesh};
+use crate::pipeline::pair_mesh::{self, PairMesh, SpaceMesh};
 use crate::scene::Scene;
 use crate::scene::loaded::SceneText;
 
@@ -24,18 +24,47 @@ pub(super) struct Args {
     /// Where the teeth touch: radius of curvature of the pinion in mm, from A to E; default: the pitch point
     #[arg(long, value_name = "MM", allow_negative_numbers = true)]
     position: Option<f64>,
+    /// One pitch of each gear over the whole face width as hexahedra, as the coupling "fem" of slices has them
+    #[arg(long)]
+    three_dimensional: bool,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let resolved = SceneText::read(&args.scene)?.resolve()?;
     warn(&resolved.warnings);
-    warn(resolved.scene.plane_section_warning().as_slice());
-    warn(resolved.scene.one_load_warning().as_slice());
     // Whether the ending is one of a mesh file is known before the work.
     let format = Format::of_path(&args.out).map_err(InputError::MeshFile)?;
+    if args.three_dimensional {
+        let built = pair_mesh::build_in_space(&resolved.scene, args.position).map_err(InputError::PairMesh)?;
+        mesh::write_as(&built.mesh, &args.out, format).map_err(InputError::MeshFile)?;
+        return print(&text_in_space(&resolved.scene, &built, &args.out));
+    }
+    warn(resolved.scene.plane_section_warning().as_slice());
+    warn(resolved.scene.one_load_warning().as_slice());
     let built = pair_mesh::build(&resolved.scene, args.position).map_err(InputError::PairMesh)?;
     mesh::write_as(&built.mesh, &args.out, format).map_err(InputError::MeshFile)?;
     print(&text(&resolved.scene, &built, &args.out))
+}
+
+/// What was built in space.
+fn text_in_space(scene: &Scene, built: &SpaceMesh, out: &Path) -> String {
+    let mut text = format!("{}\n\n", scene.title);
+    let mut line = |name: &str, value: String| {
+        let _ = writeln!(text, "{name:18}{value}");
+    };
+    line("bodies", format!("one pitch of each gear, {} elements over the face width", built.layers));
+    line("position", format!("{:.4} mm in the middle of the face width", built.position_mm));
+    let nodes = built.mesh.points.len();
+    line("nodes", format!("{nodes}, {} degrees of freedom", 3 * nodes));
+    let cells: usize = built.mesh.cells.iter().map(|block| block.len()).sum();
+    line("cells", format!("{cells} twenty-node hexahedra"));
+    for gear in Gear::BOTH {
+        line(&format!("{} clamp", gear.name()), format!("radius {:.4} mm", scene.fem.clamp_radius_mm[gear]));
+        let worst = &built.quality[gear].scaled_jacobian;
+        line(&format!("{} section", gear.name()), format!("least scaled Jacobian {:.3}", worst.value));
+    }
+    line("mesh", out.display().to_string());
+    text
 }
 
 /// What was built.

@@ -22,6 +22,7 @@ pub(crate) mod pair_mesh;
 mod profile;
 pub(crate) mod settings;
 mod size_field;
+mod space_mesh;
 mod spacing;
 pub(crate) mod tooth_section;
 mod whole_gear;
@@ -32,6 +33,7 @@ use nalgebra::Vector2;
 
 pub(crate) use error::ToothMeshError;
 pub(crate) use pair_mesh::{gear_sector, pair_mesh, pair_sectors, touching_pairs, turn_rad};
+pub(crate) use space_mesh::space_mesh;
 pub(crate) use whole_gear::gear_mesh;
 
 use crate::gear::{Gear, GearPair, modification::Modification, tooth::Tooth};

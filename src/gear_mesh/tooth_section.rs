@@ -18,7 +18,8 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 use nalgebra::{Rotation2, Vector2, Vector3};
 
 use crate::gear::half_profile::in_tooth_frame;
-use crate::gear::tooth::Tooth;
+use crate::gear::{Gear, GearPair, tooth::Tooth};
+use crate::mesh::{CellBlock, CellKind, Mesh};
 
 /// Samples of the outline from which places by length of arc are taken.
 const SAMPLES: usize = 400;
@@ -40,6 +41,17 @@ pub(crate) struct SectionDivisions {
     pub land: usize,
     /// From the outline to the clamp circle.
     pub radial: usize,
+}
+
+/// How finely teeth are meshed in space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct SpaceResolution {
+    /// Elements of the section.
+    pub section: SectionDivisions,
+    /// Length of an element over the face width, in normal modules.
+    pub layer_modules: f64,
+    /// Least and greatest number of them.
+    pub layers: [usize; 2],
 }
 
 /// The section in the plane.
@@ -144,20 +156,17 @@ impl<'a> HalfOutline<'a> {
     }
 }
 
-impl SectionDivisions {
+impl SpaceResolution {
     /// What is enough for the compliance of a tooth beside its local flattening.
-    pub(crate) const USUAL: Self = Self { across: 6, fillet: 2, flank: 8, land: 1, radial: 3 };
+    pub(crate) const USUAL: Self = Self {
+        section: SectionDivisions { across: 6, fillet: 2, flank: 8, land: 1, radial: 3 },
+        layer_modules: 0.32,
+        layers: [6, 24],
+    };
 
-    /// `times` as fine.
-    pub(crate) fn refined(self, times: usize) -> Self {
-        let Self { across, fillet, flank, land, radial } = self;
-        Self {
-            across: times * across,
-            fillet: times * fillet,
-            flank: times * flank,
-            land: times * land,
-            radial: times * radial,
-        }
+    fn layers_over(&self, face_width_mm: f64, normal_module_mm: f64) -> usize {
+        let wanted = (face_width_mm / (self.layer_modules * normal_module_mm)).ceil() as usize;
+        wanted.clamp(self.layers[0], self.layers[1])
     }
 }
 
@@ -264,6 +273,16 @@ impl ToothSection {
         }
     }
 
+    /// The section as a plane mesh.
+    pub(crate) fn to_mesh(&self) -> Mesh {
+        let nodes = self.quads.iter().flatten().map(|node| *node as usize).collect();
+        Mesh {
+            points: self.points_mm.iter().map(|point| [point.x, point.y, 0.0]).collect(),
+            cells: vec![CellBlock { kind: CellKind::Quad8, nodes }],
+            ..Mesh::default()
+        }
+    }
+
     /// Where a radius of the flank lies among its nodes: the first node of the element, and ξ in it from −1 to 1; outside, in the
     /// element at that end.
     pub(crate) fn on_flank(&self, radius_mm: f64) -> (usize, f64) {
@@ -276,8 +295,27 @@ impl ToothSection {
 }
 
 impl ExtrudedTooth {
+    /// One pitch of a gear of `pair` over its face width, clamped at `clamp_radius_mm`.
+    pub(crate) fn of_gear(pair: &GearPair, gear: Gear, clamp_radius_mm: f64, resolution: &SpaceResolution) -> Self {
+        let (tooth, face_width_mm) = (&pair.teeth[gear], pair.spec.face_width_mm);
+        // Forward on the path of contact, where slices at small z are, is anticlockwise for the pinion.
+        let forward = match gear {
+            Gear::Pinion => 1.0,
+            Gear::Wheel => -1.0,
+        };
+        let twist_rad_per_mm = -forward * pair.base_helix_angle_rad().tan() / tooth.involute.base_radius_mm;
+        let section = ToothSection::new(tooth, clamp_radius_mm, resolution.section);
+        let layers = resolution.layers_over(face_width_mm, pair.spec.normal_module_mm);
+        Self::new(section, face_width_mm, layers, twist_rad_per_mm)
+    }
+
+    /// Elements over the face width.
+    pub(crate) fn layers(&self) -> usize {
+        self.z_mm.len() / 2
+    }
+
     /// `section` over the face width in so many `layers`.
-    pub(crate) fn new(section: ToothSection, face_width_mm: f64, layers: usize, twist_rad_per_mm: f64) -> Self {
+    fn new(section: ToothSection, face_width_mm: f64, layers: usize, twist_rad_per_mm: f64) -> Self {
         let z_mm: Vec<f64> = (0..=2 * layers).map(|k| face_width_mm * k as f64 / (2 * layers) as f64).collect();
         let mut is_corner = vec![false; section.points_mm.len()];
         section.quads.iter().for_each(|quad| quad[..4].iter().for_each(|node| is_corner[*node as usize] = true));

@@ -3,27 +3,26 @@
 //! The slices of all teeth in contact yield together,
 //!
 //! ```text
-//! u_a = Σ_b U_ab w_b + (q_a − q°_a/cos β_b) w_a
+//! u = U w + ½ (g P + P g) w          g = (q − q°)/cos β_b
 //! ```
 //!
 //! U is the compliance of both gears in three-dimensional finite elements ([`crate::fem::gear::in_space`]): bending, shear, bodies,
 //! neighbouring teeth and free end faces. Its elements are too coarse for what happens close to a line of contact. There, a slice is in
 //! plane strain: q° is the compliance of the transverse section on the same elements, q that of the same section as the stiffness model
-//! and the contact surface have it, so that their difference is what the elements make wrong, and it is local. Both count in the
+//! and the contact surface have it, so that their difference g is what the elements make wrong, and it is local. It counts in the
 //! normal section, where the same load per length of the line of contact gives an approach that is 1/cos β_b times as much along the
-//! transverse line of action.
+//! transverse line of action. The elements see of a load its projection P on their shape functions over the width alone, and are
+//! corrected for no more.
+
+use nalgebra::DMatrix;
 
 use super::sliced_positions::SliceContact;
 use crate::fem::elastic::Elastic;
 use crate::fem::gear::in_space::{FlankForces, PlaneSection, SpaceError, TeethInSpace};
 use crate::fem::quadrature::GAUSS_3;
+use crate::fem::shape::along_edge;
 use crate::gear::{Gear, GearPair, PerGear, slices::Slices};
-use crate::gear_mesh::tooth_section::{ExtrudedTooth, SectionDivisions, ToothSection};
-
-/// Length of an element over the face width, in normal modules.
-const LAYER_MODULES: f64 = 0.32;
-/// Least and greatest number of them.
-const LAYERS: [usize; 2] = [6, 24];
+use crate::gear_mesh::tooth_section::{ExtrudedTooth, SpaceResolution};
 
 /// Why a pair has no teeth in space.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -73,45 +72,36 @@ impl PairInSpace {
         pair: &GearPair,
         material: &PerGear<Elastic>,
         clamp_radius_mm: &PerGear<f64>,
+        resolution: &SpaceResolution,
     ) -> Result<Self, PairInSpaceError> {
-        let face_width_mm = pair.spec.face_width_mm;
-        let layers = (face_width_mm / (LAYER_MODULES * pair.spec.normal_module_mm)).ceil() as usize;
-        let layers = layers.clamp(LAYERS[0], LAYERS[1]);
-        let tan_base_helix = pair.base_helix_angle_rad().tan();
         let needed = teeth_together(pair);
         let gears = PerGear::try_in_parallel(|gear| {
             let tooth = &pair.teeth[gear];
             if needed > tooth.teeth as usize {
                 return Err(PairInSpaceError::TooFewTeeth { gear, teeth: tooth.teeth, needed });
             }
-            // Forward on the path of contact is anticlockwise for the pinion.
-            let forward = match gear {
-                Gear::Pinion => 1.0,
-                Gear::Wheel => -1.0,
-            };
-            let twist = -forward * tan_base_helix / tooth.involute.base_radius_mm;
-            let section = ToothSection::new(tooth, clamp_radius_mm[gear], SectionDivisions::USUAL);
+            let mesh = ExtrudedTooth::of_gear(pair, gear, clamp_radius_mm[gear], resolution);
             let build = || {
-                let plane = PlaneSection::new(tooth, &section, material[gear])?;
-                let mesh = ExtrudedTooth::new(section.clone(), face_width_mm, layers, twist);
-                let teeth = TeethInSpace::new(tooth, mesh, material[gear], needed)?;
-                Ok(GearInSpace { teeth, section: plane })
+                let section = PlaneSection::new(tooth, &mesh.section, material[gear])?;
+                Ok(GearInSpace { section, teeth: TeethInSpace::new(tooth, mesh, material[gear], needed)? })
             };
             build().map_err(|source| PairInSpaceError::Gear { gear, source: Box::new(source) })
         })?;
         Ok(Self { gears })
     }
 
-    /// Nodes of a working flank of each gear.
-    pub(crate) fn flank_nodes(&self) -> PerGear<usize> {
-        PerGear::from_fn(|gear| self.gears[gear].teeth.flank_nodes())
+    /// P: what the elements see of the loads of `count` slices, row by row.
+    pub(crate) fn seen(&self, count: usize) -> Vec<f64> {
+        projection(count, self.gears.pinion.teeth.layers())
     }
 
-    /// The coupling of `contacts`, where the transverse section has the compliance `section_mm2_per_n`, flattening included or not.
+    /// The coupling of `contacts`, where the transverse section has the compliance `section_mm2_per_n` beside its surface; `seen` is that of
+    /// these slices.
     pub(crate) fn influence(
         &self,
         pair: &GearPair,
         slices: &Slices,
+        seen: &[f64],
         contacts: &[SliceContact],
         section_mm2_per_n: impl Fn(&SliceContact) -> f64,
     ) -> Influence {
@@ -150,11 +140,57 @@ impl PairInSpace {
             }
         }
         let of_elements = (0..count).map(|a| mm2_per_n[a * (count + 1)]).collect();
-        for (a, contact) in contacts.iter().enumerate() {
-            mm2_per_n[a * (count + 1)] += section_mm2_per_n(contact) - of_section[a] / base_helix.cos();
+        let wrong: Vec<f64> = contacts
+            .iter()
+            .zip(&of_section)
+            .map(|(contact, of_section)| section_mm2_per_n(contact) - of_section / base_helix.cos())
+            .collect();
+        for a in 0..count {
+            for b in (0..count).filter(|b| contacts[*b].tooth == contacts[a].tooth) {
+                let seen = seen[contacts[a].slice * slices.count() + contacts[b].slice];
+                mm2_per_n[a * count + b] += 0.5 * (wrong[a] + wrong[b]) * seen;
+            }
         }
         Influence { mm2_per_n, of_elements }
     }
+}
+
+/// The projection of `count` loads, each even over its slice, on the quadratic shape functions of so many `layers`, averaged over the slices;
+/// row by row.
+fn projection(count: usize, layers: usize) -> Vec<f64> {
+    let nodes = 2 * layers + 1;
+    let mut mass = DMatrix::<f64>::zeros(nodes, nodes);
+    for layer in 0..layers {
+        for (s, weight) in GAUSS_3 {
+            let ([start, end, middle], _) = along_edge(true, s);
+            let values = [start, middle, end];
+            for (i, f) in values.iter().enumerate() {
+                for (j, g) in values.iter().enumerate() {
+                    mass[(2 * layer + i, 2 * layer + j)] += 0.5 * weight * f * g;
+                }
+            }
+        }
+    }
+    // Lengths are counted in layers; a slice's own integral is over the pieces that lie in one layer each.
+    let width = layers as f64 / count as f64;
+    let mut means = DMatrix::<f64>::zeros(nodes, count);
+    for slice in 0..count {
+        let (first, last) = (slice as f64 * width, (slice + 1) as f64 * width);
+        for layer in first as usize..(last.ceil() as usize).min(layers) {
+            let (from, to) = (first.max(layer as f64), last.min(layer as f64 + 1.0));
+            for (s, weight) in GAUSS_3 {
+                let at = 0.5 * (from + to) + 0.5 * (to - from) * s - layer as f64;
+                let ([start, end, middle], _) = along_edge(true, 2.0 * at - 1.0);
+                for (i, value) in [start, middle, end].into_iter().enumerate() {
+                    means[(2 * layer + i, slice)] += 0.5 * weight * (to - from) / width * value;
+                }
+            }
+        }
+    }
+    // The mass of independent functions is positive definite.
+    let solved = mass.cholesky().map_or_else(|| means.clone(), |factor| factor.solve(&means));
+    let product = means.transpose() * solved * width;
+    (0..count * count).map(|k| product[(k / count, k % count)]).collect()
 }
 
 /// Most teeth of a gear that touch at any phase, tip edges included.

@@ -29,7 +29,11 @@ enum Model {
     /// Each tooth is a plate.
     Plate(SliceCoupling),
     /// All teeth in space.
-    InSpace(Arc<PairInSpace>),
+    InSpace {
+        teeth: Arc<PairInSpace>,
+        /// What their elements see of the loads of the slices.
+        seen: Arc<[f64]>,
+    },
 }
 
 impl SlicedTeeth {
@@ -43,7 +47,7 @@ impl SlicedTeeth {
         let slices = Slices::new(pair, settings.count);
         let model = match (settings.coupling, in_space) {
             (Coupling::Slicing, _) => Model::Plate(SliceCoupling::of_pair(pair, material, &slices)),
-            (Coupling::Fem, Some(teeth)) => Model::InSpace(teeth),
+            (Coupling::Fem, Some(teeth)) => Model::InSpace { seen: teeth.seen(settings.count).into(), teeth },
             (Coupling::None | Coupling::Fem, _) => Model::Thin,
         };
         Self { settings, slices, model }
@@ -62,7 +66,7 @@ impl SlicedTeeth {
     /// The teeth in space, where they couple the slices.
     pub(crate) fn in_space(&self) -> Option<&Arc<PairInSpace>> {
         match &self.model {
-            Model::InSpace(teeth) => Some(teeth),
+            Model::InSpace { teeth, .. } => Some(teeth),
             Model::Thin | Model::Plate(_) => None,
         }
     }
@@ -71,7 +75,7 @@ impl SlicedTeeth {
     pub(crate) fn reach(&self) -> Option<Reach> {
         match &self.model {
             Model::Plate(coupling) => Some(coupling.reach),
-            Model::Thin | Model::InSpace(_) => None,
+            Model::Thin | Model::InSpace { .. } => None,
         }
     }
 
@@ -89,8 +93,8 @@ impl SlicedTeeth {
                 teeth: BentTooth::of_phase(contacts, self.slices.count(), mm2_per_n),
                 coupling: coupling.clone(),
             }),
-            Model::InSpace(teeth) => {
-                let influence = teeth.influence(pair, &self.slices, contacts, mm2_per_n);
+            Model::InSpace { teeth, seen } => {
+                let influence = teeth.influence(pair, &self.slices, seen, contacts, mm2_per_n);
                 Some(CoupledTeeth::InSpace(TeethTogether::new(influence)))
             }
         }

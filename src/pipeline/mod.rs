@@ -33,6 +33,7 @@ use crate::contact::{
 };
 use crate::fem::gear::model::ModelError;
 use crate::gear::{GearPair, PairError, PerGear, flank_zones::FlankZones};
+use crate::gear_mesh::tooth_section::SpaceResolution;
 use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::observer::Observer;
@@ -290,7 +291,7 @@ fn carry_out<R>(
     let in_space = match plan.has(StageKind::TeethInSpace) {
         true => Some(stages.run(StageKind::TeethInSpace.name(), || {
             let material = scene.material.map(|material| material.elastic());
-            PairInSpace::new(&pair, &material, &scene.fem.clamp_radius_mm).map(Arc::new)
+            PairInSpace::new(&pair, &material, &scene.fem.clamp_radius_mm, &SpaceResolution::USUAL).map(Arc::new)
         })?),
         false => None,
     };

@@ -3,6 +3,7 @@
 use crate::contact::hertz;
 use crate::gear::{Gear, GearPair, PairError, PerGear};
 use crate::gear_mesh::settings::Body;
+use crate::gear_mesh::tooth_section::{ExtrudedTooth, SpaceResolution};
 use crate::gear_mesh::{self, ToothMeshError};
 use crate::mesh::quality::{self, MeshQuality, QualityError};
 use crate::mesh::{CellKind, Mesh};
@@ -53,16 +54,52 @@ pub(crate) enum PairMeshError {
     Quality(#[from] QualityError),
 }
 
-/// Meshes the pair of `scene` in contact at `position_mm`, by default at the pitch point.
-pub(crate) fn build(scene: &Scene, position_mm: Option<f64>) -> Result<PairMesh, PairMeshError> {
+/// One pitch of each gear in space, as [`gear_mesh::space_mesh`] places it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SpaceMesh {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// How well shaped the quadrilaterals of both sections are.
+    pub quality: PerGear<MeshQuality>,
+    /// Elements over the face width.
+    pub layers: usize,
+    /// Where the reference pair touches in the middle of the face width: radius of curvature of the pinion, mm.
+    pub position_mm: f64,
+}
+
+/// Meshes one pitch of each gear of `scene` in space, the reference teeth in contact at `position_mm`, by default at the pitch point.
+pub(crate) fn build_in_space(scene: &Scene, position_mm: Option<f64>) -> Result<SpaceMesh, PairMeshError> {
     let pair = GearPair::new(&scene.pair)?;
+    let position_mm = on_path_mm(&pair, position_mm)?;
+    let of_gear = |gear| ExtrudedTooth::of_gear(&pair, gear, scene.fem.clamp_radius_mm[gear], &SpaceResolution::USUAL);
+    let teeth = PerGear::from_fn(of_gear);
+    let quality = |gear: Gear| quality::of_mesh(&teeth[gear].section.to_mesh());
+    Ok(SpaceMesh {
+        mesh: gear_mesh::space_mesh(&pair, &teeth, position_mm),
+        quality: PerGear { pinion: quality(Gear::Pinion)?, wheel: quality(Gear::Wheel)? },
+        layers: teeth.pinion.layers(),
+        position_mm,
+    })
+}
+
+/// A position as given, which must be on the path of contact; the pitch point where none is.
+fn on_path_mm(pair: &GearPair, position_mm: Option<f64>) -> Result<f64, PairMeshError> {
     let [from_mm, to_mm] = [pair.path.start_mm, pair.path.end_mm];
     let position_mm = position_mm.unwrap_or_else(|| pair.path.pitch_point_mm.clamp(from_mm, to_mm));
     // Ends are printed with four decimals and may be typed as printed.
     let rounding_mm = 1e-4;
-    if !(position_mm >= from_mm - rounding_mm && position_mm <= to_mm + rounding_mm) {
-        return Err(PairMeshError::Position { position_mm, from_mm, to_mm });
+    if position_mm >= from_mm - rounding_mm && position_mm <= to_mm + rounding_mm {
+        Ok(position_mm)
+    } else {
+        Err(PairMeshError::Position { position_mm, from_mm, to_mm })
     }
+}
+
+/// Meshes the pair of `scene` in contact at `position_mm`, by default at the pitch point.
+pub(crate) fn build(scene: &Scene, position_mm: Option<f64>) -> Result<PairMesh, PairMeshError> {
+    let pair = GearPair::new(&scene.pair)?;
+    let [from_mm, to_mm] = [pair.path.start_mm, pair.path.end_mm];
+    let position_mm = on_path_mm(&pair, position_mm)?;
     let line_load_n_per_mm = pair.line_load_n_per_mm(scene.operation.pinion_torque_n_mm);
     let half_width_mm = |position_mm: f64| {
         hertz::flattening(&pair, &scene.material, position_mm).contact.loaded(line_load_n_per_mm).half_width_mm

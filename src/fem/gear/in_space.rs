@@ -147,15 +147,15 @@ impl TeethInSpace {
         Ok(Self { by_distance: joined.blocks(&matrices, 0, 0..=teeth - 1).collect(), mesh, places })
     }
 
-    /// Nodes of a working flank.
-    pub(crate) fn flank_nodes(&self) -> usize {
-        self.by_distance[0].nrows()
+    /// Elements over the face width.
+    pub(crate) fn layers(&self) -> usize {
+        self.mesh.layers()
     }
 
     /// Adds a load of `part` at a radius of the working flank and a place over the face width.
     pub(crate) fn add_load(&self, radius_mm: f64, z_mm: f64, part: f64, forces: &mut FlankForces) {
         let (first, s) = self.mesh.section.on_flank(radius_mm);
-        let layers = self.mesh.z_mm.len() / 2;
+        let layers = self.layers();
         let place = z_mm / self.mesh.z_mm[2 * layers] * layers as f64;
         let layer = (place.max(0.0) as usize).min(layers - 1);
         let t = 2.0 * (place - layer as f64) - 1.0;

@@ -23,6 +23,8 @@ use super::schema::{Node, schema};
 use super::shape::{self, Format};
 use super::{Resolved, Scene, presets, text, unit_slip};
 use crate::contact::settings::SurfaceKind;
+use crate::gear_mesh::settings::Body;
+use crate::mesh_cycle::settings::Coupling;
 
 /// Keys that other files have, and what to do with those.
 const OF_OTHER_FILES: &[(&str, &str)] =
@@ -132,6 +134,10 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         findings,
     );
     let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
+    let in_space = slices.is_some_and(|slices| slices.coupling == Coupling::Fem);
+    if in_space && fem.is_some_and(|fem| fem.body != Body::Ring) {
+        findings.not_allowed("fem.body", "\"sector\" with helical.coupling = \"fem\"", "\"ring\"");
+    }
     let (pair, operation) = (pair?, operation?);
     let finely_resolved = matches!(surface, Some(SurfaceKind::Fem | SurfaceKind::HalfSpace));
     let is_severe = wear.is_some_and(|wear| wear.severe.is_some());

@@ -2,11 +2,13 @@
 
 use crate::contact::settings::SurfaceKind;
 use crate::gear::spec::PairSpec;
-use crate::mesh_cycle::settings::SliceSettings;
+use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::scene::file::HelicalFile;
 use crate::scene::findings::Findings;
 
 const SLICES: u32 = 20;
+/// Most slices that are coupled each with each: 400 positions then take less than 0.5 GB.
+const MOST_SLICES_IN_SPACE: u32 = 100;
 
 /// Chooses the slices of `pair`; none where all its transverse sections are alike.
 pub(super) fn choose(
@@ -35,8 +37,15 @@ pub(super) fn choose(
         );
     }
     let file = file.get_or_insert_default();
-    Some(SliceSettings {
-        count: *file.slices.get_or_insert(SLICES) as usize,
-        coupling: *file.coupling.get_or_insert_default(),
-    })
+    let (count, coupling) = (*file.slices.get_or_insert(SLICES), *file.coupling.get_or_insert_default());
+    if coupling == Coupling::Fem && count > MOST_SLICES_IN_SPACE {
+        findings.not_allowed(
+            "helical.slices",
+            format!("{count} with helical.coupling = \"fem\""),
+            format!(
+                "at most {MOST_SLICES_IN_SPACE}: every slice in contact is coupled with every other at every position"
+            ),
+        );
+    }
+    Some(SliceSettings { count: count as usize, coupling })
 }
