@@ -75,11 +75,14 @@ impl PairInSpace {
         resolution: &SpaceResolution,
     ) -> Result<Self, PairInSpaceError> {
         let needed = teeth_together(pair);
+        for gear in Gear::BOTH {
+            let teeth = pair.teeth[gear].teeth;
+            if needed > teeth as usize {
+                return Err(PairInSpaceError::TooFewTeeth { gear, teeth, needed });
+            }
+        }
         let gears = PerGear::try_in_parallel(|gear| {
             let tooth = &pair.teeth[gear];
-            if needed > tooth.teeth as usize {
-                return Err(PairInSpaceError::TooFewTeeth { gear, teeth: tooth.teeth, needed });
-            }
             let mesh = ExtrudedTooth::of_gear(pair, gear, clamp_radius_mm[gear], resolution);
             let build = || {
                 let section = PlaneSection::new(tooth, &mesh.section, material[gear])?;
@@ -105,7 +108,8 @@ impl PairInSpace {
         contacts: &[SliceContact],
         section_mm2_per_n: impl Fn(&SliceContact) -> f64,
     ) -> Influence {
-        let count = contacts.len();
+        let (count, layers) = (contacts.len(), self.gears.pinion.teeth.layers());
+        let layer_mm = pair.spec.face_width_mm / layers as f64;
         let base_helix = pair.base_helix_angle_rad();
         let [furthest_before, furthest_after] = pair.farthest_touch_mm();
         let (first_mm, last_mm) = (pair.path.start_mm - furthest_before, pair.path.end_mm + furthest_after);
@@ -113,16 +117,16 @@ impl PairInSpace {
         let mut forces: Vec<PerGear<FlankForces>> = Vec::with_capacity(count);
         for (contact, of_section) in contacts.iter().zip(&mut of_section) {
             let mut loads = PerGear::from_fn(|_| FlankForces::new());
-            for (place, weight) in GAUSS_3 {
-                let from_middle_mm = 0.5 * place * slices.slice_width_mm;
+            for (z_mm, weight) in points_of_slice(contact.slice, slices.count(), layers) {
+                let (z_mm, weight) = (z_mm * layer_mm, weight * layer_mm / slices.slice_width_mm);
+                let from_middle_mm = z_mm - slices.width_mm[contact.slice];
                 let at_mm = contact.cell.position_mm - from_middle_mm * base_helix.tan();
                 let touch = pair.touch(at_mm.clamp(first_mm, last_mm));
                 for gear in Gear::BOTH {
                     let radius_mm = pair.teeth[gear].involute.radius_mm(touch.rho_mm[gear]);
-                    let z_mm = slices.width_mm[contact.slice] + from_middle_mm;
                     let GearInSpace { teeth, section } = &self.gears[gear];
-                    teeth.add_load(radius_mm, z_mm, 0.5 * weight, &mut loads[gear]);
-                    *of_section += 0.5 * weight * section.mm2_per_n(radius_mm);
+                    teeth.add_load(radius_mm, z_mm, weight, &mut loads[gear]);
+                    *of_section += weight * section.mm2_per_n(radius_mm);
                 }
             }
             forces.push(loads);
@@ -155,6 +159,18 @@ impl PairInSpace {
     }
 }
 
+/// Points of integration of a slice with their weights, lengths counted in layers: three on each piece that lies in one layer.
+fn points_of_slice(slice: usize, count: usize, layers: usize) -> impl Iterator<Item = (f64, f64)> {
+    let width = layers as f64 / count as f64;
+    let (first, last) = (slice as f64 * width, (slice + 1) as f64 * width);
+    (first as usize..(last.ceil() as usize).min(layers)).flat_map(move |layer| {
+        let (from, to) = (first.max(layer as f64), last.min(layer as f64 + 1.0));
+        GAUSS_3
+            .into_iter()
+            .map(move |(s, weight)| (0.5 * (from + to) + 0.5 * (to - from) * s, 0.5 * weight * (to - from)))
+    })
+}
+
 /// The projection of `count` loads, each even over its slice, on the quadratic shape functions of so many `layers`, averaged over the slices;
 /// row by row.
 fn projection(count: usize, layers: usize) -> Vec<f64> {
@@ -171,19 +187,14 @@ fn projection(count: usize, layers: usize) -> Vec<f64> {
             }
         }
     }
-    // Lengths are counted in layers; a slice's own integral is over the pieces that lie in one layer each.
     let width = layers as f64 / count as f64;
     let mut means = DMatrix::<f64>::zeros(nodes, count);
     for slice in 0..count {
-        let (first, last) = (slice as f64 * width, (slice + 1) as f64 * width);
-        for layer in first as usize..(last.ceil() as usize).min(layers) {
-            let (from, to) = (first.max(layer as f64), last.min(layer as f64 + 1.0));
-            for (s, weight) in GAUSS_3 {
-                let at = 0.5 * (from + to) + 0.5 * (to - from) * s - layer as f64;
-                let ([start, end, middle], _) = along_edge(true, 2.0 * at - 1.0);
-                for (i, value) in [start, middle, end].into_iter().enumerate() {
-                    means[(2 * layer + i, slice)] += 0.5 * weight * (to - from) / width * value;
-                }
+        for (at, weight) in points_of_slice(slice, count, layers) {
+            let layer = (at as usize).min(layers - 1);
+            let ([start, end, middle], _) = along_edge(true, 2.0 * (at - layer as f64) - 1.0);
+            for (i, value) in [start, middle, end].into_iter().enumerate() {
+                means[(2 * layer + i, slice)] += weight / width * value;
             }
         }
     }

@@ -373,7 +373,8 @@ pub struct HelicalFile {
     /// Slices over the face width, 1 to 2000: thin spur pairs, each in its own transverse section. Default 20.
     #[schemars(range(min = 1, max = 2000))]
     pub slices: Option<u32>,
-    /// How neighbouring slices of a tooth are coupled. Default: none.
+    /// How neighbouring slices of a tooth are coupled; "fem" allows at most 100 slices, whole rings and the stiffness model "fem",
+    /// which is its default then. Default: none.
     pub coupling: Option<Coupling>,
 }
 

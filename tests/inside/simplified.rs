@@ -49,7 +49,7 @@ fn run(scene: &Scene) -> Outcome {
         severe: scene.severe,
         ..WearSettings::archard(scene.coefficient_mm2_per_n)
     });
-    let sliced = SlicedTeeth::new(&pair, &material, scene.slices.expect("a scene with slices"));
+    let sliced = SlicedTeeth::new(&pair, &material, scene.slices.expect("a scene with slices"), None);
     let phase = RunPhase {
         contact: MeshContact::Simplified { material: &material, teeth: &teeth, sliced: &sliced },
         wear: WearModel::cold(law.as_ref()),

@@ -15,8 +15,10 @@
 //! The elements are coarse. What they make of the neighbourhood of a load is the same as in the plane: the same section with the same
 //! elements in plane strain ([`PlaneSection`]) tells it, and it is exchanged there for what is known of it.
 
+use std::collections::BTreeMap;
+
 use faer::Mat;
-use nalgebra::Vector2;
+use nalgebra::{Rotation2, Vector2, Vector3};
 
 use super::ring::{JoinedSectors, Surroundings};
 use super::sector::{Sector, SectorMatrices, symmetric};
@@ -132,6 +134,18 @@ fn joined(matrices: &SectorMatrices, all: u32, teeth: usize) -> Result<JoinedSec
 impl TeethInSpace {
     /// Condenses the teeth of a gear, `teeth` of which (at most all of them) may be loaded together.
     pub(crate) fn new(tooth: &Tooth, mesh: ExtrudedTooth, material: Elastic, teeth: usize) -> Result<Self, SpaceError> {
+        let matrices = condensed(tooth, &mesh, material, false)?;
+        Self::joined(tooth, mesh, &matrices, teeth)
+    }
+
+    /// The same in plane strain: the end faces stay in their planes.
+    #[cfg(test)]
+    pub(crate) fn in_plane_strain(tooth: &Tooth, mesh: ExtrudedTooth, material: Elastic) -> Result<Self, SpaceError> {
+        let matrices = condensed(tooth, &mesh, material, true)?;
+        Self::joined(tooth, mesh, &matrices, 1)
+    }
+
+    fn joined(tooth: &Tooth, mesh: ExtrudedTooth, matrices: &SectorMatrices, teeth: usize) -> Result<Self, SpaceError> {
         let mut count = 0;
         let mut place = |node: Option<u32>| {
             node.map(|_| {
@@ -142,9 +156,8 @@ impl TeethInSpace {
         let over = |k: usize| mesh.section.flank.iter().map(move |node| (k, *node));
         let places =
             (0..mesh.z_mm.len()).map(|k| over(k).map(|(k, node)| place(mesh.node(node, k))).collect()).collect();
-        let matrices = condensed(tooth, &mesh, material)?;
-        let joined = joined(&matrices, tooth.teeth, teeth)?;
-        Ok(Self { by_distance: joined.blocks(&matrices, 0, 0..=teeth - 1).collect(), mesh, places })
+        let joined = joined(matrices, tooth.teeth, teeth)?;
+        Ok(Self { by_distance: joined.blocks(matrices, 0, 0..=teeth - 1).collect(), mesh, places })
     }
 
     /// Elements over the face width.
@@ -180,8 +193,13 @@ impl TeethInSpace {
 }
 
 /// One sector of a gear onto the loads on its working flank and onto its cuts; at each node of these along the radius, around and along
-/// the axis.
-fn condensed(tooth: &Tooth, mesh: &ExtrudedTooth, material: Elastic) -> Result<SectorMatrices, SpaceError> {
+/// the axis. The end faces are free, or stay in their planes.
+fn condensed(
+    tooth: &Tooth,
+    mesh: &ExtrudedTooth,
+    material: Elastic,
+    ends_stay: bool,
+) -> Result<SectorMatrices, SpaceError> {
     let matrix = stiffness(&mesh.points_mm, &mesh.hexahedra, &material)?;
     let mut held = vec![false; mesh.points_mm.len()];
     let clamp = mesh.over(&mesh.section.clamp);
@@ -193,49 +211,47 @@ fn condensed(tooth: &Tooth, mesh: &ExtrudedTooth, material: Elastic) -> Result<S
         .flat_map(|cut| mesh.over(cut).into_iter().filter(|node| !held[*node as usize]).collect::<Vec<_>>())
         .collect();
     cut_nodes.iter().for_each(|node| held[*node as usize] = true);
-    let factor = Factor::of_held(&matrix, |dof| held[dof / 3])?;
+    let ends = [0, mesh.z_mm.len() - 1].map(|k| mesh.z_mm[k]);
+    let stays = |dof: usize| ends_stay && dof % 3 == 2 && ends.contains(&mesh.points_mm[dof / 3].z);
+    let factor = Factor::of_held(&matrix, |dof| held[dof / 3] || stays(dof))?;
 
-    let flank = flank_forces(tooth, mesh);
-    let loads = flank.len();
-    // K_ib by direction of the cuts' displacements.
+    let mut columns = flank_forces(tooth, mesh);
+    let loads = columns.len();
+    // Displacements of the cuts, and for each node of a cut which of them are its own.
+    let mut displacements: Vec<(u32, Vector3<f64>)> = Vec::new();
+    let mut of_node = BTreeMap::new();
+    for node in &cut_nodes {
+        let first = displacements.len();
+        let radial = mesh.points_mm[*node as usize].xy().normalize();
+        displacements.push((*node, Vector3::new(radial.x, radial.y, 0.0)));
+        displacements.push((*node, Vector3::new(-radial.y, radial.x, 0.0)));
+        if !stays(3 * *node as usize + 2) {
+            displacements.push((*node, Vector3::z()));
+        }
+        of_node.insert(*node, first..displacements.len());
+    }
+    let cuts = displacements.len();
     let cut_dofs: Vec<u32> = cut_nodes.iter().flat_map(|node| [0, 1, 2].map(|k| 3 * node + k)).collect();
-    let of_dof = matrix.columns(&cut_dofs);
-    let directions: Vec<[[f64; 3]; 3]> = cut_nodes
-        .iter()
-        .map(|node| {
-            let point = mesh.points_mm[*node as usize];
-            let (x, y) = (point.x / point.xy().norm(), point.y / point.xy().norm());
-            [[x, y, 0.0], [-y, x, 0.0], [0.0, 0.0, 1.0]]
-        })
-        .collect();
-    let mut columns = flank;
-    let mut place_of_cut_dof = std::collections::BTreeMap::new();
-    (0..).zip(&cut_dofs).for_each(|(k, dof)| {
-        place_of_cut_dof.insert(*dof, k);
-    });
-    let cuts = cut_dofs.len();
+    let entries = matrix.columns(&cut_dofs);
     let mut own = Mat::<f64>::zeros(cuts, cuts);
-    for (node, direction) in directions.iter().enumerate() {
-        for (c, parts) in direction.iter().enumerate() {
-            let entries = parts
-                .iter()
-                .enumerate()
-                .filter(|(_, part)| **part != 0.0)
-                .flat_map(|(k, part)| of_dof[3 * node + k].iter().map(move |(dof, value)| (*dof, part * value)));
-            let mut column = Vec::new();
-            for (dof, value) in entries {
-                match place_of_cut_dof.get(&dof) {
-                    Some(&row) => {
-                        let (other, k): (usize, usize) = (row / 3, row % 3);
-                        for (r, parts) in directions[other].iter().enumerate() {
-                            own[(3 * other + r, 3 * node + c)] += parts[k] * value;
+    for (place, node) in cut_nodes.iter().enumerate() {
+        for column in of_node[node].clone() {
+            let direction = displacements[column].1;
+            let mut inside = Vec::new();
+            for (k, part) in direction.iter().enumerate().filter(|(_, part)| **part != 0.0) {
+                for &(dof, value) in &entries[3 * place + k] {
+                    match of_node.get(&(dof / 3)) {
+                        Some(rows) => {
+                            for row in rows.clone() {
+                                own[(row, column)] += displacements[row].1[dof as usize % 3] * value * part;
+                            }
                         }
+                        None if !held[dof as usize / 3] => inside.push((dof, part * value)),
+                        None => {}
                     }
-                    None if !held[dof as usize / 3] => column.push((dof, value)),
-                    None => {}
                 }
             }
-            columns.push(column);
+            columns.push(inside);
         }
     }
     let all = factor.compliance(&columns);
@@ -254,7 +270,7 @@ fn flank_forces(tooth: &Tooth, mesh: &ExtrudedTooth) -> Vec<Vec<(u32, f64)>> {
     for k in 0..mesh.z_mm.len() {
         for (node, radius_mm) in mesh.section.flank.iter().zip(flank_radii_mm(&mesh.section)) {
             let Some(node) = mesh.node(*node, k) else { continue };
-            let turned = nalgebra::Rotation2::new(mesh.turn_rad(k)) * load_direction(tooth, radius_mm);
+            let turned = Rotation2::new(mesh.turn_rad(k)) * load_direction(tooth, radius_mm);
             let point = mesh.points_mm[node as usize];
             let along_axis = -mesh.twist_rad_per_mm * point.xy().perp(&turned);
             forces.push(vec![(3 * node, turned.x), (3 * node + 1, turned.y), (3 * node + 2, along_axis)]);

@@ -217,7 +217,7 @@ impl Scene {
             severe: self.severe,
             ..WearSettings::archard(self.coefficient_mm2_per_n)
         });
-        let sliced = self.slices.map(|settings| SlicedTeeth::new(&pair, &steel(), settings));
+        let sliced = self.slices.map(|settings| SlicedTeeth::new(&pair, &steel(), settings, None));
         let phase = RunPhase {
             contact: MeshContact::LineOfAction {
                 surface: surface.as_ref(),
