@@ -36,7 +36,8 @@ fn val_unworn_flanks_touch_as_hertz_says() {
     }
 }
 
-/// 128 h: peak wear converges with the resolution, and is within the range of the other surfaces.
+/// 128 h: peak wear converges with the resolution: twice it would change the answer by less than 0.5 %. Of first order at the least, half
+/// as much again takes a third of the error away, where twice takes a half.
 #[test]
 fn ver_peak_wear_converges() {
     let peak = |scene: &Scene| {
@@ -52,9 +53,9 @@ fn ver_peak_wear_converges() {
             ..half_space()
         })
     };
-    let [coarse, standard, fine] = [1, 2, 4].map(at);
-    println!("{coarse:.6e} {standard:.6e} {fine:.6e}, winkler {:.6e}", peak(&fzg_c_scene()));
-    assert_close("standard against fine", standard, fine, 5e-3);
+    let [standard, fine] = [2, 3].map(at);
+    println!("{standard:.6e} {fine:.6e}");
+    assert_close("standard against fine", standard, fine, 5e-3 * 2.0 / 3.0);
 }
 
 /// Loads balance to 1e-10 in any case, and nothing blows up where flanks conform, part, or are worn away.

@@ -14,6 +14,7 @@ use super::common::loaded;
 fn run(preset: &str, set: &[(&str, toml::Value)]) -> RunRecord {
     let mut draft = Draft::parse(presets::find(preset).unwrap().text).unwrap();
     draft.set("numerics.error_estimate", false);
+    draft.set("numerics.verify", false);
     for (key, value) in set {
         draft.set(key, value.clone());
     }

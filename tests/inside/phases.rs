@@ -14,7 +14,7 @@ fn scene(operation: &str, contact: &str, coefficient: f64, more: &str) -> String
     let pair = if more.contains("[helical]") { "helical" } else { "fzg-c" };
     format!(
         "[pair]\npreset = \"{pair}\"\n[operation]\n{operation}\n[contact]\n{contact}\n[stiffness]\nmodel = \"weber-banaschek\"\n[wear]\nlaw = \"archard\"\n\
-         coefficient_m2_per_N = {coefficient:e}\n[numerics]\nerror_estimate = false\n{NUMERICS}{more}\n"
+         coefficient_m2_per_N = {coefficient:e}\n[numerics]\nerror_estimate = false\nverify = false\n{NUMERICS}{more}\n"
     )
 }
 

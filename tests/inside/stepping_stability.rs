@@ -154,17 +154,21 @@ fn ver_adaptive_steps_never_break() {
         for factor in [0.01, 1.0, 10.0, 100.0] {
             let revolutions = factor * bound;
             let step = (bound / 50.0).min(revolutions / 200.0);
-            let fine =
-                Scene { revolutions, stepping: Some(Stepping::Fixed { revolutions: step }), ..scene.clone() }.run();
+            let compared = surface == "winkler" || factor <= 10.0;
+            let fine = compared.then(|| {
+                Scene { revolutions, stepping: Some(Stepping::Fixed { revolutions: step }), ..scene.clone() }.run()
+            });
             for tolerance_um in [0.5, 0.05] {
                 let what = format!("{surface}, {factor} times the bound, {tolerance_um} µm");
                 let outcome = Scene { revolutions, stepping: chebyshev(tolerance_um), ..scene.clone() }.run();
                 assert_sound(&what, &outcome);
-                let (error, gear, place) = difference_um(&outcome, &fine);
-                let deepest = 1e3 * fine.worn.wear_mm.pinion.iter().copied().fold(0.0, f64::max);
-                println!("{what}: {error:.4} µm of {deepest:.1} at {gear:?} {place}, {:?}", outcome.steps);
-                let compared = surface == "winkler" || factor <= 10.0;
-                assert!(!compared || error <= tolerance_um, "{what}: {error}");
+                println!("{what}: {:?}", outcome.steps);
+                if let Some(fine) = &fine {
+                    let (error, gear, place) = difference_um(&outcome, fine);
+                    let deepest = 1e3 * fine.worn.wear_mm.pinion.iter().copied().fold(0.0, f64::max);
+                    println!("{error:.4} µm of {deepest:.1} at {gear:?} {place}");
+                    assert!(error <= tolerance_um, "{what}: {error}");
+                }
                 assert!(outcome.steps.accepted < 3000, "{what}: {:?}", outcome.steps);
             }
         }

@@ -37,7 +37,7 @@ fn run(edits: &[(&str, &str)], more: &str) -> RunRecord {
         ("hours = 127.75 ", "hours = 1.0 "),
         ("snapshots_h", "# snapshots_h"),
         ("step = { revolutions = 7665.0 }", "step = { revolutions = 9000.0 }"),
-        ("error_estimate = true", "error_estimate = false"),
+        ("error_estimate = true", "error_estimate = false\nverify = false"),
     ];
     for (from, to) in quick.iter().chain(edits) {
         assert!(text.contains(from), "{from}");

@@ -8,6 +8,7 @@ use gearwear::observer::Unwatched;
 use gearwear::pipeline;
 use gearwear::report;
 use gearwear::results::run::RunRecord;
+use gearwear::scene::loaded::LoadedScene;
 use gearwear::scene::{Resolved, Scene};
 use gearwear::studies::compare::question::{Asked, FitKind, Question};
 use gearwear::studies::compare::record::CompareRecord;
@@ -16,10 +17,11 @@ use gearwear::studies::compare::study;
 
 use super::super::common::loaded;
 
-/// A run in a folder, the noiseless trace of another one with other coefficients, and where its points are.
+/// A run as its folder has it, the noiseless trace of another one with other coefficients, and where its points are.
 pub struct Laboratory {
-    folder: tempfile::TempDir,
-    resolved: Resolved,
+    folder: RunFolder,
+    scene: LoadedScene,
+    pair: GearPair,
     /// Radii of the points of the trace.
     pub radius_mm: Vec<f64>,
     /// Arc lengths from the base circle.
@@ -50,7 +52,8 @@ impl Laboratory {
         let wear_um =
             arc_mm.iter().map(|&arc| interpolated(&flank.radius_mm, &flank.wear_um, radius_at(arc))).collect();
         let radius_mm = arc_mm.iter().map(|&arc| radius_at(arc)).collect();
-        Self { folder, resolved, radius_mm, arc_mm, wear_um }
+        let folder = RunFolder::read(folder.path()).unwrap();
+        Self { folder, scene: loaded(&resolved), pair, radius_mm, arc_mm, wear_um }
     }
 
     /// Greatest wear depth of the trace.
@@ -60,7 +63,7 @@ impl Laboratory {
 
     /// r_b of the pinion.
     pub fn base_radius_mm(&self) -> f64 {
-        GearPair::new(&self.resolved.scene.pair).unwrap().teeth.pinion.involute.base_radius_mm
+        self.pair.teeth.pinion.involute.base_radius_mm
     }
 
     /// A file of heights at the points.
@@ -71,11 +74,9 @@ impl Laboratory {
 
     /// What the comparison of a file with the run says.
     pub fn compare(&self, text: &str, asked: &Asked) -> CompareRecord {
-        let folder = RunFolder::read(self.folder.path()).unwrap();
-        let pair = GearPair::new(&self.resolved.scene.pair).unwrap();
         let file = file::parse(text).unwrap();
-        let question = Question::new(asked, &file, &folder, &self.resolved, &pair).unwrap();
-        study::run(&question, &folder, &loaded(&self.resolved), "trace.csv", &Unwatched).unwrap()
+        let question = Question::new(asked, &file, &self.folder, &self.scene.resolved, &self.pair).unwrap();
+        study::run(&question, &self.folder, &self.scene, "trace.csv", &Unwatched).unwrap()
     }
 }
 
