@@ -51,7 +51,7 @@ fn fzg_c_scene(elements_per_half_width: f64) -> Scene {
 /// The whole calibration of the preset, made once for all tests.
 fn calibration() -> &'static Calibration {
     static CALIBRATION: OnceLock<Calibration> = OnceLock::new();
-    CALIBRATION.get_or_init(|| calibrate::run(&fzg_c_scene(8.0), Extent::Whole, &Unwatched).unwrap().calibration)
+    CALIBRATION.get_or_init(|| calibrate::run(&fzg_c_scene(6.0), Extent::Whole, &Unwatched).unwrap().calibration)
 }
 
 /// Independent quadratic finite elements (another program, converged to 0.02 %): whole ring 16.99, three teeth with free
@@ -416,7 +416,7 @@ fn rounded_tips_and_other_orders_of_the_points_are_calibrated_too() {
 /// A relief changes the curvature of a flank where it begins; K/H is fitted without it, and is as good as that of plain flanks.
 #[test]
 fn relieved_flanks_have_the_foundation_of_plain_ones() {
-    let mut scene = fzg_c_scene(8.0);
+    let mut scene = fzg_c_scene(5.0);
     for gear in Gear::BOTH {
         let relief = Relief { amount_mm: 0.020, length_mm: 2.0, shape: ReliefShape::Linear };
         scene.pair.gears[gear].modification.tip_relief = Some(relief);

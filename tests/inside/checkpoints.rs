@@ -29,7 +29,7 @@ impl Keeper for AllKept {
 fn scene(pair: &str, contact: &str, numerics: &str, more: &str) -> String {
     format!(
         "[pair]\n{pair}\n[operation]\npinion_torque_Nm = 302.0\npinion_revolutions = 1e6\n[contact]\n{contact}\n\
-         [stiffness]\nmodel = \"weber-banaschek\"\n[wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 2e-17\n[numerics]\nerror_estimate = false\n{numerics}\n{more}\n"
+         [stiffness]\nmodel = \"weber-banaschek\"\n[wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 2e-17\n[numerics]\nerror_estimate = false\nverify = false\n{numerics}\n{more}\n"
     )
 }
 
@@ -44,14 +44,16 @@ fn run(text: &str, from: Option<Checkpoint>, keeper: &dyn Keeper) -> Result<RunR
     Ok(done.record)
 }
 
-/// Runs `text`, and again from its first and its last checkpoint; `least` of these there must be.
+/// Runs `text`, and again from its first checkpoint, that in the middle and its last; `least` of these there must be.
 fn goes_on_to_the_same_bits(text: &str, least: usize) {
     let all = AllKept::default();
     let whole = run(text, None, &all).unwrap();
     let kept = all.0.into_inner().unwrap();
     assert!(kept.len() >= least, "{} checkpoints; {:?}", kept.len(), whole.summary.work);
-    for bytes in [&kept[0], &kept[kept.len() / 2], &kept[kept.len() - 1]] {
-        let checkpoint: Checkpoint = postcard::from_bytes(bytes).unwrap();
+    let mut places = vec![0, kept.len() / 2, kept.len() - 1];
+    places.dedup();
+    for place in places {
+        let checkpoint: Checkpoint = postcard::from_bytes(&kept[place]).unwrap();
         let at = checkpoint.revolutions;
         let resumed = run(text, Some(checkpoint), &NothingKept).unwrap();
         assert_eq!(resumed.summary, whole.summary, "from {at}");
@@ -65,14 +67,17 @@ const HELICAL: &str = "preset = \"helical\"";
 
 #[test]
 fn on_winkler_beds() {
-    let numerics = "flank_points = 150\npositions = 400\nstep = { revolutions = 1200.0 }";
+    let numerics = "flank_points = 150\npositions = 400\nstep = { revolutions = 1300.0 }";
     goes_on_to_the_same_bits(&scene(SPUR, "surface = \"winkler\"\ntip_contact = true", numerics, ""), 3);
 }
 
+/// With the life on finite elements that a completed run is held against: it is the same however the run got there.
 #[test]
 fn with_hertz_pressure() {
     let numerics = "flank_points = 150\npositions = 200\nstep = { revolutions = 900.0 }";
-    goes_on_to_the_same_bits(&scene(SPUR, "surface = \"hertz\"", numerics, ""), 2);
+    let fem = "[fem]\nbody = \"sector\"\nsector_teeth = 3\nelements_per_half_width = 2";
+    let text = scene(SPUR, "surface = \"hertz\"", numerics, fem).replace("verify = false", "verify = true");
+    goes_on_to_the_same_bits(&text, 2);
 }
 
 #[test]
@@ -111,7 +116,7 @@ fn slice_by_slice() {
 fn at_contact_points() {
     for coupling in ["none", "slicing"] {
         let helical = format!("[helical]\nslices = 20\ncoupling = \"{coupling}\"");
-        let numerics = "flank_points = 60\npositions = 400\nstep = { revolutions = 180.0 }";
+        let numerics = "flank_points = 60\npositions = 400\nstep = { revolutions = 195.0 }";
         goes_on_to_the_same_bits(&scene(HELICAL, "surface = \"hertz-mean\"", numerics, &helical), 2);
     }
 }

@@ -51,6 +51,11 @@ fn with(surface: &str, by: usize, step_revolutions: f64) -> String {
     scene(&edits)
 }
 
+/// The same scene, held against no life on finite elements.
+fn unverified(text: &str) -> String {
+    text.replace("error_estimate = true", "error_estimate = true\nverify = false")
+}
+
 /// Whether an estimate is within a factor of three of the true value, or both are below what the truth itself is known to.
 fn assert_tells(what: &str, estimate: Option<f64>, truth: f64, negligible: f64) {
     let estimate = estimate.unwrap_or_else(|| panic!("{what}: not estimated"));
@@ -64,10 +69,11 @@ fn assert_tells(what: &str, estimate: Option<f64>, truth: f64, negligible: f64) 
 fn val_estimates_tell_the_errors_that_finer_runs_show() {
     let long_step = 20_000.0;
     for surface in ["winkler", "hertz"] {
-        let coarse = run(&with(surface, 2, long_step));
-        let fine_step = run(&with(surface, 2, long_step / 8.0));
+        let coarse = run(&unverified(&with(surface, 2, long_step)));
+        let fine_step = run(&unverified(&with(surface, 2, long_step / 8.0)));
         let fine_spacing =
-            run(&with(surface, 1, long_step).replace("points = 750", "points = 1500").replace("= 400", "= 800"));
+            with(surface, 1, long_step).replace("points = 750", "points = 1500").replace("= 400", "= 800");
+        let fine_spacing = run(&unverified(&fine_spacing));
         let peak = coarse.pinion.peak_wear_um;
         let truth = |finer: &Summary| (finer.pinion.peak_wear_um - peak).abs() / peak;
         assert_tells(&format!("{surface}, wear step"), coarse.error.wear_step, truth(&fine_step), 1e-3);
@@ -78,12 +84,12 @@ fn val_estimates_tell_the_errors_that_finer_runs_show() {
 /// The surface model is what a whole run on finite elements differs by, on another mesh than the verification's.
 #[test]
 fn val_the_surface_model_tells_the_difference_of_whole_runs() {
-    let elements = run(&with("fem", 1, 7_665.0)
+    let elements = run(&with("fem", 2, 15_330.0)
         .replace("[wear]", "[fem]\nelements_per_half_width = 5\n[wear]")
-        .replace("step = { revolutions = 7665.0 }", "step = \"adaptive\"\nverify = false")
+        .replace("step = { revolutions = 15330.0 }", "step = \"adaptive\"\nverify = false")
         .replace("tip_contact = false", "# tip_contact"));
     for surface in ["hertz", "winkler"] {
-        let own = run(&with(surface, 1, 7_665.0));
+        let own = run(&with(surface, 2, 15_330.0));
         let off = |own: f64, truth: f64| (own / truth - 1.0).abs();
         let truth = off(own.pinion.peak_wear_um, elements.pinion.peak_wear_um)
             .max(off(own.wheel.peak_wear_um, elements.wheel.peak_wear_um));
@@ -141,7 +147,11 @@ fn runs_are_verified_by_finite_elements() {
         ("[pair.pinion] ", "[pair.pinion]\ntip_rounding_mm = 0.1 "),
         ("[pair.wheel]", "[pair.wheel]\ntip_rounding_mm = 0.1"),
     ];
-    let profile = |edits: &[(&str, &str)]| run(&scene(edits)).error.total.profile;
+    let coarse = resolution(2, 20_000.0);
+    let profile = |edits: &[(&str, &str)]| {
+        let of_resolution = coarse.iter().map(|(from, to)| (*from, to.as_str()));
+        run(&scene(&of_resolution.chain(edits.iter().copied()).collect::<Vec<_>>())).error.total.profile
+    };
     let thesis = profile(&rounded);
     let half_planes = profile(
         &[
@@ -160,7 +170,7 @@ fn runs_are_verified_by_finite_elements() {
         let (coarse, fine) = (coarse.expect("verified"), fine.expect("verified"));
         assert!(coarse > 0.15 && fine < 0.06, "{coarse} {fine}");
     }
-    let unverified = run(&scene(&[("error_estimate = true", "error_estimate = true\nverify = false")]));
+    let unverified = run(&unverified(&with("winkler", 4, 100_000.0)));
     assert_eq!(unverified.error.total.peak_wear.pinion, None);
     assert!(unverified.error.total.how.contains("numerics.verify is false"), "{:?}", unverified.error.total);
     assert!(unverified.warnings.iter().any(|warning| warning.contains("nothing vouches")), "{:?}", unverified.warnings);
@@ -195,7 +205,7 @@ fn adaptive_steps_estimate_their_own_error() {
             let text = with(surface, 2, 7_665.0)
                 .replace("step = { revolutions = 7665.0 }", "step = \"adaptive\"")
                 .replace("coefficient_m2_per_N", &format!("{severe}coefficient_m2_per_N"));
-            let summary = run(&text);
+            let summary = run(&unverified(&text));
             let (error, work) = (summary.error, summary.work);
             let what = format!("{surface} {severe}: {error:?}, {work:?}");
             assert!(error.companions_cost.is_some_and(|cost| cost > 0.0 && cost <= 0.5), "{what}");
@@ -211,7 +221,8 @@ fn adaptive_steps_estimate_their_own_error() {
 /// for it.
 #[test]
 fn what_finite_elements_cannot_vouch_for_is_said() {
-    let light = run(&scene(&[("pinion_torque_Nm = 302.0", "pinion_torque_Nm = 0.1")]));
+    let light = with("winkler", 4, 100_000.0).replace("pinion_torque_Nm = 302.0", "pinion_torque_Nm = 0.1");
+    let light = run(&light);
     assert_eq!(light.error.total.peak_wear.pinion, None);
     assert!(light.error.total.how.contains("too narrow to be meshed"), "{:?}", light.error.total);
     assert!(light.warnings.iter().any(|warning| warning.contains("not verified")), "{:?}", light.warnings);

@@ -68,8 +68,8 @@ fn scene() -> impl Strategy<Value = Result<Resolved, String>> {
             }
             _ => draft.set("numerics.step.revolutions", revolutions / 4.0),
         }
-        draft.set("numerics.flank_points", 80);
-        draft.set("numerics.positions", 40);
+        draft.set("numerics.flank_points", 60);
+        draft.set("numerics.positions", 24);
         draft.set("numerics.error_estimate", false);
         let mut resolved = draft.resolve().map_err(|problems| problems[0].to_string())?;
         resolved.scene.verify = false;

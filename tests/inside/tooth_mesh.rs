@@ -507,12 +507,12 @@ fn what_cannot_be_meshed_is_refused() {
 #[test]
 fn any_load_gives_a_mesh() {
     let pair = pair(&modified(fzg_c(), 0.1));
-    for half_width_mm in [0.01, 0.05, 0.25, 1.0, 4.0] {
+    for (half_width_mm, elements_per_half_width) in [(0.01, 4.0), (0.05, 8.0), (0.25, 8.0), (1.0, 8.0), (4.0, 8.0)] {
         let half_width = move |_: f64| half_width_mm;
         for g in Gear::BOTH {
             let flank = FlankResolution {
                 half_width_mm: &half_width,
-                elements_per_half_width: 8.0,
+                elements_per_half_width,
                 margin_mm: 3.0 * half_width_mm,
                 depth_half_widths: 1.0,
             };

@@ -1,5 +1,7 @@
 //! The wear run as a numerical method: convergence, equilibrium, scaling, determinism, work.
 
+use std::sync::LazyLock;
+
 use gearwear::gear::{
     Gear,
     involute::{inv, inverse_inv},
@@ -12,9 +14,18 @@ use gearwear::stiffness::settings::StiffnessSettings;
 use super::common::{Scene, assert_close, fzg_a, fzg_c_scene, gear, pair, spur};
 
 fn peak_wear_mm(scene: &Scene) -> f64 {
-    let outcome = scene.run();
-    WearFigures::at(&pair(&scene.pair), Gear::Pinion, &outcome, &outcome.worn).peak_mm
+    peak_mm(&scene.run())
 }
+
+/// Of a run of the fzg-c pair.
+fn peak_mm(outcome: &Outcome) -> f64 {
+    WearFigures::at(&pair(&fzg_c_scene().pair), Gear::Pinion, outcome, &outcome.worn).peak_mm
+}
+
+/// The fzg-c scene, with twice its positions, and with twice its steps.
+static STANDARD: LazyLock<Outcome> = LazyLock::new(|| fzg_c_scene().run());
+static MORE_POSITIONS: LazyLock<Outcome> = LazyLock::new(|| Scene { positions: 800, ..fzg_c_scene() }.run());
+static MORE_STEPS: LazyLock<Outcome> = LazyLock::new(|| Scene { steps: 300.0, ..fzg_c_scene() }.run());
 
 fn worst_imbalance(outcome: &Outcome) -> f64 {
     let cycles = outcome.snapshots.iter().map(|s| &s.cycle).chain([&outcome.new.cycle, &outcome.worn.cycle]);
@@ -46,14 +57,14 @@ fn ver_peak_wear_converges() {
 /// Each of the three refinements alone.
 #[test]
 fn ver_each_refinement_alone_changes_little() {
-    let reference = peak_wear_mm(&fzg_c_scene());
+    let reference = peak_mm(&STANDARD);
     let refined = [
-        ("points", Scene { flank_points: 1500, ..fzg_c_scene() }),
-        ("positions", Scene { positions: 800, ..fzg_c_scene() }),
-        ("steps", Scene { steps: 300.0, ..fzg_c_scene() }),
+        ("points", peak_wear_mm(&Scene { flank_points: 1500, ..fzg_c_scene() })),
+        ("positions", peak_mm(&MORE_POSITIONS)),
+        ("steps", peak_mm(&MORE_STEPS)),
     ];
-    for (name, scene) in refined {
-        let change = (peak_wear_mm(&scene) / reference - 1.0).abs();
+    for (name, peak) in refined {
+        let change = (peak / reference - 1.0).abs();
         println!("{name}: {change:.2e}");
         assert!(change < 5e-3, "{name}: {change}");
     }
@@ -178,14 +189,15 @@ fn snapshots_are_hit_exactly() {
 /// Work is linear in positions × wear steps, and an equilibrium takes about three Newton steps.
 #[test]
 fn ver_work_is_linear_in_positions_and_steps() {
-    let work = |positions, steps: f64| Scene { positions, steps, ..fzg_c_scene() }.run().work;
-    let base = work(400, 150.0);
+    let base = STANDARD.work;
     assert_eq!(base.mesh_cycles, 151);
     assert_eq!(base.equilibria, 151 * 400);
     assert!(base.newton_iterations < 3 * base.equilibria, "{base:?}");
     assert!(base.pair_evaluations < 5 * base.equilibria, "{base:?}");
-    for (positions, steps) in [(800, 150.0), (400, 300.0), (800, 300.0)] {
-        let more = work(positions, steps);
+    let more_of_both = Scene { positions: 800, steps: 300.0, ..fzg_c_scene() }.run().work;
+    for (positions, steps, more) in
+        [(800, 150.0, MORE_POSITIONS.work), (400, 300.0, MORE_STEPS.work), (800, 300.0, more_of_both)]
+    {
         let times = more.pair_evaluations as f64 / base.pair_evaluations as f64;
         let expected = positions as f64 / 400.0 * steps / 150.0;
         // Shorter steps also bring the starts of Newton's method closer, so that somewhat fewer evaluations do.
