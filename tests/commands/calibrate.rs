@@ -16,7 +16,8 @@ fn scene(contact: &str, fem: &str) -> String {
         table.insert(name.to_owned(), toml::Value::Table(lines.parse().unwrap()));
     }
     table.remove("stiffness");
-    let numerics = "flank_points = 200\npositions = 60\nstep = { revolutions = 200000.0 }\nerror_estimate = false";
+    let numerics =
+        "flank_points = 200\npositions = 60\nstep = { revolutions = 200000.0 }\nerror_estimate = false\nverify = false";
     table.insert("numerics".to_owned(), toml::Value::Table(numerics.parse().unwrap()));
     toml::to_string(&table).unwrap()
 }

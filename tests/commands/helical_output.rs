@@ -289,7 +289,7 @@ fn a_spur_run_in_the_same_folder_takes_the_files_away() {
             ("flank_points = 750 ", "flank_points = 200 "),
             ("positions = 400 ", "positions = 60 "),
             ("step = { revolutions = 7665.0 }", "step = { revolutions = 100000.0 }"),
-            ("error_estimate = true ", "error_estimate = false "),
+            ("error_estimate = true ", "error_estimate = false\nverify = false "),
         ],
     );
     let printed = run(folder.path(), &spur);

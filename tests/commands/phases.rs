@@ -11,7 +11,7 @@ fn scene(operation: &str) -> String {
     format!(
         "[pair]\npreset = \"fzg-c\"\n[operation]\n{operation}\n[contact]\nsurface = \"winkler\"\ntip_contact = false\n\
          [stiffness]\nmodel = \"weber-banaschek\"\n[wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n[numerics]\n\
-         error_estimate = false\nflank_points = 120\npositions = 40\nstep = {{ revolutions = 10000.0 }}\n"
+         error_estimate = false\nverify = false\nflank_points = 120\npositions = 40\nstep = {{ revolutions = 10000.0 }}\n"
     )
 }
 

@@ -16,7 +16,7 @@ fn the_program_reads_the_curve_beside_the_scene() {
             "model" => "model = \"simon\"\n".to_owned(),
             "positions" => "positions = 40\n".to_owned(),
             "step" => "step = { revolutions = 200000 }\n".to_owned(),
-            "error_estimate" => "error_estimate = false\n".to_owned(),
+            "error_estimate" => "error_estimate = false\nverify = false\n".to_owned(),
             _ => format!("{line}\n"),
         })
         .collect();

@@ -21,7 +21,7 @@ const FILES: [&str; 7] = [
     "calibration.json",
 ];
 
-/// The thesis-spur scene at a resolution as coarse as it can be, on elements of a quarter of a half-width, tips rounded, K/H given.
+/// The thesis-spur scene at a resolution as coarse as it can be, on elements of a third of a half-width, tips rounded, K/H given.
 fn coarse_scene() -> String {
     exchanged(
         "thesis-spur",
@@ -31,7 +31,7 @@ fn coarse_scene() -> String {
             ("step = { revolutions = 7665.0 }", "step = { revolutions = 100000.0 }"),
             ("[pair.pinion] ", "[pair.pinion]\ntip_rounding_mm = 0.2 "),
             ("[pair.wheel]", "[pair.wheel]\ntip_rounding_mm = 0.2"),
-            ("[wear]", "[fem]\nelements_per_half_width = 4\n[wear]"),
+            ("[wear]", "[fem]\nelements_per_half_width = 3\n[wear]"),
         ],
     )
 }

@@ -14,12 +14,12 @@ fn coarse_scene() -> String {
     exchanged(
         "helical",
         &[
-            ("flank_points = 750 ", "flank_points = 160 "),
-            ("positions = 400 ", "positions = 60 "),
+            ("flank_points = 750 ", "flank_points = 120 "),
+            ("positions = 400 ", "positions = 40 "),
             ("revolutions = 10000.0", "revolutions = 60000.0"),
             ("snapshots_revolutions", "# snapshots_revolutions"),
             ("slices = 20 ", "slices = 4 "),
-            ("[wear]", "[fem]\nelements_per_half_width = 4\n[wear]"),
+            ("[wear]", "[fem]\nelements_per_half_width = 3\n[wear]"),
         ],
     )
 }

@@ -14,7 +14,7 @@ const SCENE: &str = "title = \"coarse\"\n[pair]\npreset = \"thesis-spur\"\n\
     [operation]\npinion_torque_Nm = 302.0\npinion_speed_rpm = 150.0\nhours = 127.75\nsnapshots_h = [31.75]\n\
     [contact]\nsurface = \"winkler\"\ntip_contact = false\n[stiffness]\nmodel = \"constant\"\npair_N_per_mm_um = 20.0\n\
     [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n\
-    [numerics]\nflank_points = 200\npositions = 100\nstep = { revolutions = 19162.5 }\nerror_estimate = false\n";
+    [numerics]\nflank_points = 200\npositions = 100\nstep = { revolutions = 19162.5 }\nerror_estimate = false\nverify = false\n";
 
 fn gearwear() -> Command {
     Command::cargo_bin("gearwear").unwrap()

@@ -129,11 +129,11 @@ fn wait_for_rows(out: &Path, count: usize) {
     }
 }
 
-/// The coarse scene, which asks by name for the verification.
+/// The coarse scene, which asks by name for the verification, on few elements.
 fn verified_scene() -> String {
     let (text, numerics) = (coarse_scene(), "[numerics]\n");
     assert!(text.contains(numerics));
-    text.replace(numerics, "[numerics]\nverify = true\n")
+    text.replace(numerics, "[fem]\nelements_per_half_width = 2\n[numerics]\nverify = true\n")
 }
 
 /// Names of the columns of claims, which are the paths of the same in the summary of a run.
