@@ -97,9 +97,9 @@ impl Factor {
         let dofs = matrix.dofs();
         let mut free_of_dof = vec![HELD; dofs];
         let mut dof_of_free = Vec::with_capacity(dofs);
-        for dof in 0..dofs {
+        for (dof, free) in free_of_dof.iter_mut().enumerate() {
             if !is_held(dof) {
-                free_of_dof[dof] = dof_of_free.len() as u32;
+                *free = dof_of_free.len() as u32;
                 dof_of_free.push(dof as u32);
             }
         }

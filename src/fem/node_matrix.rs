@@ -134,9 +134,9 @@ impl NodeMatrix {
         let column = |c: usize| first + c * (D + below) - c * c.saturating_sub(1) / 2;
         let data = |c: usize, row: usize| column(c) + row;
         if i as usize == j {
-            for c in 0..D {
-                for r in c..D {
-                    self.lower.data_mut()[data(c, r - c)] += block[r][c];
+            for (r, row) in block.iter().enumerate() {
+                for (c, value) in row.iter().enumerate().take(r + 1) {
+                    self.lower.data_mut()[data(c, r - c)] += value;
                 }
             }
         } else {

@@ -26,7 +26,9 @@ pub(crate) fn space_mesh(pair: &GearPair, teeth: &PerGear<ExtrudedTooth>, positi
         for (set, nodes) in
             [("flank", &tooth.section.flank), ("clamp", &tooth.section.clamp), ("right_cut", right), ("left_cut", left)]
         {
-            mesh.point_sets.insert(format!("{name}_{set}"), numbered(tooth.over(nodes)));
+            let mut nodes = numbered(tooth.over(nodes));
+            nodes.sort_unstable();
+            mesh.point_sets.insert(format!("{name}_{set}"), nodes);
         }
         let nodes = numbered(tooth.hexahedra.iter().flatten().copied().collect());
         mesh.cells.push(CellBlock { kind: CellKind::Hexahedron20, nodes });

@@ -231,7 +231,7 @@ impl ToothSection {
             points.into_iter().map(|row| row.into_iter().map(&mut of_point).collect()).collect()
         };
         // Middles of quadrilaterals are no nodes.
-        let is_node = |i: usize, j: usize| i % 2 == 0 || j % 2 == 0;
+        let is_node = |i: usize, j: usize| i.is_multiple_of(2) || j.is_multiple_of(2);
         let body =
             number((0..=rows).map(|j| (0..=columns).map(|i| is_node(i, j).then(|| in_body(i, j))).collect()).collect());
         let mut tooth_grid = vec![body[0][2 * land..=columns - 2 * land].to_vec()];
@@ -324,7 +324,7 @@ impl ExtrudedTooth {
         for (k, z) in z_mm.iter().enumerate() {
             let turn = Rotation2::new(twist_rad_per_mm * (z - 0.5 * face_width_mm));
             let mut of_node = |(point, is_corner): (&Vector2<f64>, &bool)| {
-                (k % 2 == 0 || *is_corner).then(|| {
+                (k.is_multiple_of(2) || *is_corner).then(|| {
                     let point = turn * point;
                     points_mm.push(Vector3::new(point.x, point.y, *z));
                     points_mm.len() as u32 - 1

@@ -28,6 +28,29 @@ fn the_plan_says_what_a_run_uses_the_table_for() {
     assert.stdout(predicate::str::contains("the stiffness of the teeth and the verification"));
 }
 
+/// One pitch of each gear in hexahedra, in every format alike.
+#[test]
+fn teeth_in_space_are_written_in_every_format() {
+    let folder = tempfile::tempdir().unwrap();
+    let meshes = ["teeth.json", "teeth.msh", "teeth.vtu", "teeth.inp"].map(|name| {
+        let assert = gearwear(folder.path(), &preset("helical"), name, &["--three-dimensional"]).success().stderr("");
+        assert
+            .stdout(predicate::str::contains("twenty-node hexahedra").and(predicate::str::contains("scaled Jacobian")));
+        mesh::read(folder.path().join(name)).unwrap()
+    });
+    let [first, others @ ..] = &meshes;
+    for set in ["pinion_flank", "pinion_clamp", "wheel_left_cut", "wheel_right_cut"] {
+        assert!(first.point_sets[set].len() > 100, "{set}");
+    }
+    let z = |mesh: &mesh::Mesh| mesh.points.iter().map(|point| point[2]).fold(0.0, f64::max);
+    assert_eq!(z(first), 20.0, "the face width");
+    for other in others {
+        let cells = |mesh: &mesh::Mesh| mesh.cells.iter().map(|block| (block.kind, block.len())).collect::<Vec<_>>();
+        assert_eq!(cells(first), cells(other));
+        assert_eq!(first.points.len(), other.points.len());
+    }
+}
+
 #[test]
 fn the_mesh_is_written_and_described() {
     let folder = tempfile::tempdir().unwrap();

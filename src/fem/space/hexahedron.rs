@@ -152,9 +152,8 @@ pub(crate) fn stiffness_n_per_mm(
         }
     }
     // ∫ ∇Nₐ ⊗ ∇N_b gives the deviatoric part, with λ' = −2μ/3.
-    for a in 0..NODES {
-        for b in a..NODES {
-            let g = &products[a][b];
+    for (a, of_a) in products.iter().enumerate() {
+        for (b, g) in of_a.iter().enumerate().skip(a) {
             let block = g * (-2.0 / 3.0 * mu) + g.transpose() * mu + Matrix3::identity() * (mu * g.trace());
             out.fixed_view_mut::<3, 3>(3 * a, 3 * b).copy_from(&block);
             out.fixed_view_mut::<3, 3>(3 * b, 3 * a).copy_from(&block.transpose());

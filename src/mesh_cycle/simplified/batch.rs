@@ -217,7 +217,7 @@ impl Batch {
                 Attempt::Lost(steps) => iterations += steps,
             }
         }
-        match loaded.settle(packs, tangents, teeth.as_deref_mut(), &self.common) {
+        match loaded.settle(packs, tangents, teeth, &self.common) {
             Attempt::Settled(steps) => return Ok(iterations + steps),
             Attempt::Lost(steps) => iterations += steps,
         }
