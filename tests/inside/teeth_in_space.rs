@@ -154,7 +154,8 @@ fn even_load(teeth: &TeethInSpace, radius_mm: f64, face_width_mm: f64) -> FlankF
     forces
 }
 
-/// Where nothing can happen along the axis, space is the plane: end faces held in their planes, or ν = 0 and free ones.
+/// Where nothing can happen along the axis, space is the plane: end faces held in their planes, or ν = 0 and free ones. There, the
+/// volume strain of an element is projected and its deviator is not, so that a little of one is left of the other.
 #[test]
 fn ver_plane_strain_from_three_dimensions() {
     let pair = GearPair::new(&fzg_c()).unwrap();
@@ -165,7 +166,7 @@ fn ver_plane_strain_from_three_dimensions() {
         let held = TeethInSpace::in_plane_strain(tooth, mesh(), STEEL).unwrap();
         let brittle = Elastic { poisson_ratio: 0.0, ..STEEL };
         let free = TeethInSpace::new(tooth, mesh(), brittle, 1).unwrap();
-        for (teeth, material, allowed) in [(held, STEEL, 1e-5), (free, brittle, 1e-4)] {
+        for (teeth, material, allowed) in [(held, STEEL, 1e-5), (free, brittle, 5e-4)] {
             let section = PlaneSection::new(tooth, &mesh().section, material).unwrap();
             let load = even_load(&teeth, radius_mm, width_mm);
             let in_space = width_mm * teeth.mm_per_n(&load, &load, 0);
