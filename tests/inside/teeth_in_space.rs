@@ -166,12 +166,14 @@ fn ver_plane_strain_from_three_dimensions() {
         let held = TeethInSpace::in_plane_strain(tooth, mesh(), STEEL).unwrap();
         let brittle = Elastic { poisson_ratio: 0.0, ..STEEL };
         let free = TeethInSpace::new(tooth, mesh(), brittle, 1).unwrap();
-        for (teeth, material, allowed) in [(held, STEEL, 1e-5), (free, brittle, 5e-4)] {
+        for (teeth, material, allowed) in [(held, STEEL, 2e-4), (free, brittle, 1e-3)] {
             let section = PlaneSection::new(tooth, &mesh().section, material).unwrap();
             let load = even_load(&teeth, radius_mm, width_mm);
             let in_space = width_mm * teeth.mm_per_n(&load, &load, 0);
             let name = format!("{} ν = {}", gear.name(), material.poisson_ratio);
-            assert_close(&name, in_space, section.mm2_per_n(radius_mm), allowed);
+            let in_plane = section.mm2_per_n(radius_mm);
+            println!("{name}: {:.1e}", in_space / in_plane - 1.0);
+            assert_close(&name, in_space, in_plane, allowed);
         }
     }
 }
