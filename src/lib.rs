@@ -142,9 +142,11 @@ pub mod error {
     pub use crate::fem::element::ElementError;
     pub use crate::fem::equilibrium::SolveError;
     pub use crate::fem::factor::FactorError;
-    pub use crate::fem::gear::{cycle::CycleError, full::FullError, model::ModelError};
+    pub use crate::fem::gear::{cycle::CycleError, full::FullError, in_space::SpaceError, model::ModelError};
+    pub use crate::fem::space::FoldedHexahedron;
     pub use crate::gear::error::PairError;
     pub use crate::mesh_cycle::load_sharing::EquilibriumError;
+    pub use crate::mesh_cycle::pair_in_space::PairInSpaceError;
     pub use crate::simulation::wear_run::SimulationError;
     pub use crate::stiffness::{StiffnessError, curve_file::CurveFileError};
 }

@@ -32,49 +32,45 @@ pub(crate) enum CoupledTeeth {
 pub(crate) struct TeethTogether {
     influence: Influence,
     deflection_mm: Vec<f64>,
-    /// Of the last step: √c, the matrix, both right-hand sides.
-    root: Vec<f64>,
 }
 
 impl TeethTogether {
     /// Not yet bent.
     pub(crate) fn new(influence: Influence) -> Self {
-        let count = influence.of_elements.len();
-        Self { influence, deflection_mm: vec![0.0; count], root: vec![0.0; count] }
+        Self { deflection_mm: vec![0.0; influence.of_elements.len()], influence }
     }
 
     fn bend(&mut self, line_load: f64, tangent: impl Fn(usize) -> ContactTangent) -> Option<f64> {
-        let count = self.root.len();
-        let tangents: Vec<ContactTangent> = (0..count).map(tangent).collect();
-        self.root.iter_mut().zip(&tangents).for_each(|(root, tangent)| *root = tangent.n_per_mm2.max(0.0).sqrt());
+        let (count, u) = (self.deflection_mm.len(), &self.influence.mm2_per_n);
         // Contacts that carry nothing have no part in the step.
-        let carrying: Vec<usize> = (0..count).filter(|k| self.root[*k] > 0.0).collect();
+        let carrying: Vec<(usize, ContactTangent)> =
+            (0..count).map(|k| (k, tangent(k))).filter(|(_, tangent)| tangent.n_per_mm2 > 0.0).collect();
         if carrying.is_empty() {
             return None;
         }
-        let (root, u) = (&self.root, &self.influence.mm2_per_n);
+        let root: Vec<f64> = carrying.iter().map(|(_, tangent)| tangent.n_per_mm2.sqrt()).collect();
         let n = carrying.len();
         let matrix = Mat::from_fn(n, n, |i, j| {
-            let (a, b) = (carrying[i], carrying[j]);
-            f64::from(u8::from(a == b)) + root[a] * u[a * count + b] * root[b]
+            f64::from(u8::from(i == j)) + root[i] * u[carrying[i].0 * count + carrying[j].0] * root[j]
         });
         let given = Mat::from_fn(n, 2, |i, j| {
-            let ContactTangent { line_load_n_per_mm: w, n_per_mm2: c, approach_mm } = tangents[carrying[i]];
-            if j == 0 { (w - c * approach_mm) / root[carrying[i]] } else { root[carrying[i]] }
+            let ContactTangent { line_load_n_per_mm: w, n_per_mm2: c, approach_mm } = carrying[i].1;
+            if j == 0 { (w - c * approach_mm) / root[i] } else { root[i] }
         });
+        // Positive definite but where elements and surface do not agree on what is local: a step is possible there too.
         let solved = match Llt::new(matrix.as_ref(), Side::Lower) {
             Ok(factor) => factor.solve(&given),
             Err(_) => PartialPivLu::new(matrix.as_ref()).solve(&given),
         };
-        let sum = |j: usize| (0..n).map(|i| root[carrying[i]] * solved[(i, j)]).sum::<f64>();
+        let sum = |j: usize| (0..n).map(|i| root[i] * solved[(i, j)]).sum::<f64>();
         let (carried, stiffness) = (sum(0), sum(1));
         if stiffness <= 0.0 {
             return None;
         }
         let delta_mm = (line_load - carried) / stiffness;
-        let load: Vec<f64> = (0..n).map(|i| root[carrying[i]] * (solved[(i, 0)] + delta_mm * solved[(i, 1)])).collect();
+        let load: Vec<f64> = (0..n).map(|i| root[i] * (solved[(i, 0)] + delta_mm * solved[(i, 1)])).collect();
         for (row, deflection) in u.chunks_exact(count).zip(&mut self.deflection_mm) {
-            *deflection = carrying.iter().zip(&load).map(|(k, load)| row[*k] * load).sum();
+            *deflection = carrying.iter().zip(&load).map(|((k, _), load)| row[*k] * load).sum();
         }
         Some(delta_mm)
     }

@@ -116,7 +116,7 @@ impl PairInSpace {
         let mut of_section = vec![0.0; count];
         let mut forces: Vec<PerGear<FlankForces>> = Vec::with_capacity(count);
         for (contact, of_section) in contacts.iter().zip(&mut of_section) {
-            let mut loads = PerGear::from_fn(|_| FlankForces::new());
+            let mut points = PerGear::from_fn(|_| Vec::new());
             for (z_mm, weight) in points_of_slice(contact.slice, slices.count(), layers) {
                 let (z_mm, weight) = (z_mm * layer_mm, weight * layer_mm / slices.slice_width_mm);
                 let from_middle_mm = z_mm - slices.width_mm[contact.slice];
@@ -124,12 +124,11 @@ impl PairInSpace {
                 let touch = pair.touch(at_mm.clamp(first_mm, last_mm));
                 for gear in Gear::BOTH {
                     let radius_mm = pair.teeth[gear].involute.radius_mm(touch.rho_mm[gear]);
-                    let GearInSpace { teeth, section } = &self.gears[gear];
-                    teeth.add_load(radius_mm, z_mm, weight, &mut loads[gear]);
-                    *of_section += weight * section.mm2_per_n(radius_mm);
+                    points[gear].push((radius_mm, z_mm, weight));
+                    *of_section += weight * self.gears[gear].section.mm2_per_n(radius_mm);
                 }
             }
-            forces.push(loads);
+            forces.push(PerGear::from_fn(|gear| self.gears[gear].teeth.load(points[gear].iter().copied())));
         }
         let mut mm2_per_n = vec![0.0; count * count];
         for a in 0..count {
@@ -199,7 +198,7 @@ fn projection(count: usize, layers: usize) -> Vec<f64> {
         }
     }
     // The mass of independent functions is positive definite.
-    let solved = mass.cholesky().map_or_else(|| means.clone(), |factor| factor.solve(&means));
+    let solved = mass.cholesky().expect("the functions are independent").solve(&means);
     let product = means.transpose() * solved * width;
     (0..count * count).map(|k| product[(k / count, k % count)]).collect()
 }

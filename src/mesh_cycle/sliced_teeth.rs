@@ -38,6 +38,9 @@ enum Model {
 
 impl SlicedTeeth {
     /// Of a pair, coupled as `settings` say; `in_space` where that is by teeth in space, which are the same whatever the slices.
+    ///
+    /// # Panics
+    /// Where the coupling is by teeth in space and there are none.
     pub(crate) fn new(
         pair: &GearPair,
         material: &PerGear<Material>,
@@ -45,10 +48,13 @@ impl SlicedTeeth {
         in_space: Option<Arc<PairInSpace>>,
     ) -> Self {
         let slices = Slices::new(pair, settings.count);
-        let model = match (settings.coupling, in_space) {
-            (Coupling::Slicing, _) => Model::Plate(SliceCoupling::of_pair(pair, material, &slices)),
-            (Coupling::Fem, Some(teeth)) => Model::InSpace { seen: teeth.seen(settings.count).into(), teeth },
-            (Coupling::None | Coupling::Fem, _) => Model::Thin,
+        let model = match settings.coupling {
+            Coupling::None => Model::Thin,
+            Coupling::Slicing => Model::Plate(SliceCoupling::of_pair(pair, material, &slices)),
+            Coupling::Fem => {
+                let teeth = in_space.expect("the coupling by teeth in space comes with them");
+                Model::InSpace { seen: teeth.seen(settings.count).into(), teeth }
+            }
         };
         Self { settings, slices, model }
     }

@@ -144,14 +144,9 @@ fn ver_thick_cylinder() {
 
 fn even_load(teeth: &TeethInSpace, radius_mm: f64, face_width_mm: f64) -> FlankForces {
     let layers = teeth.layers() as f64;
-    let mut forces = FlankForces::new();
-    for layer in 0..teeth.layers() {
-        for (place, weight) in GAUSS_3 {
-            let z_mm = face_width_mm * (layer as f64 + 0.5 * (1.0 + place)) / layers;
-            teeth.add_load(radius_mm, z_mm, 0.5 * weight / layers, &mut forces);
-        }
-    }
-    forces
+    let at = |layer: usize, place: f64| face_width_mm * (layer as f64 + 0.5 * (1.0 + place)) / layers;
+    let of_layer = |layer| GAUSS_3.map(|(place, weight)| (radius_mm, at(layer, place), 0.5 * weight / layers));
+    teeth.load((0..teeth.layers()).flat_map(of_layer))
 }
 
 /// Where nothing can happen along the axis, space is the plane: end faces held in their planes, or ν = 0 and free ones. There, the
@@ -184,12 +179,7 @@ fn ver_reciprocity() {
     let pair = GearPair::new(&fzg_c()).unwrap();
     let mesh = ExtrudedTooth::of_gear(&pair, Gear::Pinion, CLAMP_RADIUS_MM.pinion, &SpaceResolution::USUAL);
     let teeth = TeethInSpace::new(&pair.teeth.pinion, mesh, STEEL, 2).unwrap();
-    let load = |radius_mm: f64, z_mm: f64| {
-        let mut forces = FlankForces::new();
-        teeth.add_load(radius_mm, z_mm, 1.0, &mut forces);
-        forces
-    };
-    let (here, there) = (load(34.9, 1.3), load(40.2, 11.8));
+    let [here, there] = [(34.9, 1.3, 1.0), (40.2, 11.8, 1.0)].map(|point| teeth.load([point]));
     for pitches in [0, 1] {
         let [a, b] = [teeth.mm_per_n(&here, &there, pitches), teeth.mm_per_n(&there, &here, -pitches)];
         assert!((a / b - 1.0).abs() < 1e-10, "{pitches}: {a} {b}");

@@ -146,16 +146,10 @@ impl TeethInSpace {
     }
 
     fn joined(tooth: &Tooth, mesh: ExtrudedTooth, matrices: &SectorMatrices, teeth: usize) -> Result<Self, SpaceError> {
-        let mut count = 0;
-        let mut place = |node: Option<u32>| {
-            node.map(|_| {
-                count += 1;
-                count - 1
-            })
-        };
-        let over = |k: usize| mesh.section.flank.iter().map(move |node| (k, *node));
-        let places =
-            (0..mesh.z_mm.len()).map(|k| over(k).map(|(k, node)| place(mesh.node(node, k))).collect()).collect();
+        let mut next = 0..;
+        let mut places_at =
+            |k: usize| mesh.section.flank.iter().map(|node| mesh.node(*node, k).and_then(|_| next.next())).collect();
+        let places = (0..mesh.z_mm.len()).map(&mut places_at).collect();
         let joined = joined(matrices, tooth.teeth, teeth)?;
         Ok(Self { by_distance: joined.blocks(matrices, 0, 0..=teeth - 1).collect(), mesh, places })
     }
@@ -165,8 +159,16 @@ impl TeethInSpace {
         self.mesh.layers()
     }
 
-    /// Adds a load of `part` at a radius of the working flank and a place over the face width.
-    pub(crate) fn add_load(&self, radius_mm: f64, z_mm: f64, part: f64, forces: &mut FlankForces) {
+    /// Loads at points of the working flank, each its radius, its place over the face width and its part of the whole.
+    pub(crate) fn load(&self, points: impl IntoIterator<Item = (f64, f64, f64)>) -> FlankForces {
+        let mut forces = FlankForces::new();
+        points.into_iter().for_each(|(radius_mm, z_mm, part)| self.add_load(radius_mm, z_mm, part, &mut forces));
+        // Neighbouring points load the same nodes.
+        forces.sort_by_key(|(node, _)| *node);
+        forces.chunk_by(|a, b| a.0 == b.0).map(|same| (same[0].0, same.iter().map(|(_, part)| part).sum())).collect()
+    }
+
+    fn add_load(&self, radius_mm: f64, z_mm: f64, part: f64, forces: &mut FlankForces) {
         let (first, s) = self.mesh.section.on_flank(radius_mm);
         let layers = self.layers();
         let place = z_mm / self.mesh.z_mm[2 * layers] * layers as f64;
@@ -218,15 +220,14 @@ fn condensed(
     let mut columns = flank_forces(tooth, mesh);
     let loads = columns.len();
     // Displacements of the cuts, and for each node of a cut which of them are its own.
-    let mut displacements: Vec<(u32, Vector3<f64>)> = Vec::new();
+    let mut displacements: Vec<Vector3<f64>> = Vec::new();
     let mut of_node = BTreeMap::new();
     for node in &cut_nodes {
         let first = displacements.len();
         let radial = mesh.points_mm[*node as usize].xy().normalize();
-        displacements.push((*node, Vector3::new(radial.x, radial.y, 0.0)));
-        displacements.push((*node, Vector3::new(-radial.y, radial.x, 0.0)));
+        displacements.extend([Vector3::new(radial.x, radial.y, 0.0), Vector3::new(-radial.y, radial.x, 0.0)]);
         if !stays(3 * *node as usize + 2) {
-            displacements.push((*node, Vector3::z()));
+            displacements.push(Vector3::z());
         }
         of_node.insert(*node, first..displacements.len());
     }
@@ -236,14 +237,14 @@ fn condensed(
     let mut own = Mat::<f64>::zeros(cuts, cuts);
     for (place, node) in cut_nodes.iter().enumerate() {
         for column in of_node[node].clone() {
-            let direction = displacements[column].1;
+            let direction = displacements[column];
             let mut inside = Vec::new();
             for (k, part) in direction.iter().enumerate().filter(|(_, part)| **part != 0.0) {
                 for &(dof, value) in &entries[3 * place + k] {
                     match of_node.get(&(dof / 3)) {
                         Some(rows) => {
                             for row in rows.clone() {
-                                own[(row, column)] += displacements[row].1[dof as usize % 3] * value * part;
+                                own[(row, column)] += displacements[row][dof as usize % 3] * value * part;
                             }
                         }
                         None if !held[dof as usize / 3] => inside.push((dof, part * value)),
