@@ -12,7 +12,7 @@ mod common;
 
 /// The preset `helical`, some keys replaced.
 fn scene(edits: &[(&str, &str)]) -> LoadedScene {
-    common::scene("helical", "operation.snapshots_revolutions", edits)
+    common::scene("thesis-helical", "operation.snapshots_revolutions", edits)
 }
 
 /// Wall time of the wear run alone, in `times` runs.

@@ -2,7 +2,7 @@
 //! are held.
 //!
 //! Names and units are those of the scene's keys, so that a difference can be told in the user's words. The face width is
-//! not among them: everything is per mm of it.
+//! not among them: everything is per mm of it. Neither is the helix angle by itself: pairs of one transverse section share their calibrations.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -166,12 +166,41 @@ impl Identity {
     /// What `scene` has otherwise, as `key: calibration …, scene …`; the bodies are compared where `bodies_too`.
     pub fn differences(&self, scene: &Identity, bodies_too: bool) -> Vec<String> {
         let mut found = Vec::new();
-        compare("pair", &json(&self.pair), &json(&scene.pair), &mut found);
+        let (own, other) = match self.pair.helix_angle_deg == scene.pair.helix_angle_deg {
+            true => (json(&self.pair), json(&scene.pair)),
+            false => (self.pair.transverse_section(), scene.pair.transverse_section()),
+        };
+        compare("pair", &own, &other, &mut found);
         compare("material", &json(&self.material), &json(&scene.material), &mut found);
         if bodies_too {
             compare("fem", &json(&self.fem), &json(&scene.fem), &mut found);
         }
         found
+    }
+}
+
+impl PairIdentity {
+    /// Its transverse section, as the scene's transverse keys would give it.
+    fn transverse_section(&self) -> Value {
+        let cos = self.helix_angle_deg.to_radians().cos();
+        let RackIdentity { addendum_factor, dedendum_factor, fillet_radius_factor } = self.basic_rack;
+        let gear = |gear: &GearIdentity| GearIdentity {
+            profile_shift: gear.profile_shift * cos,
+            tooth_thickness_allowance_um: gear.tooth_thickness_allowance_um / cos,
+            ..gear.clone()
+        };
+        serde_json::json!({
+            "transverse_module_mm": self.normal_module_mm / cos,
+            "transverse_pressure_angle_deg": (self.pressure_angle_deg.to_radians().tan() / cos).atan().to_degrees(),
+            "centre_distance_mm": self.centre_distance_mm,
+            "basic_rack": RackIdentity {
+                addendum_factor: addendum_factor * cos,
+                dedendum_factor: dedendum_factor * cos,
+                fillet_radius_factor: fillet_radius_factor * cos,
+            },
+            "pinion": gear(&self.pinion),
+            "wheel": gear(&self.wheel),
+        })
     }
 }
 

@@ -7,10 +7,11 @@
 //! | [`tooth_family`], [`stiffness_variation`] | the same as families of curves: by number of teeth, and over the path |
 //! | [`single_contact`] | the pair alone in contact: half-width, peak pressure, approach by position and load |
 //! | [`foundation_fit`] | K/H as a curve that a Winkler foundation can use, with its error where it was not fitted |
+//! | [`slice_fit`] | how the slices of a pair yield together, from its teeth in space |
 //! | [`wear_reference`] | what one mesh of unworn flanks wears |
 //! | [`identity`], [`mod@file`] | what the calibration belongs to, and the file it is kept in |
 //!
-//! Everything is per mm of face width, elastic, without friction, in plane strain.
+//! Everything is per mm of face width, elastic, without friction, and but for [`slice_fit`] in plane strain.
 
 pub(crate) mod bodies;
 pub(crate) mod file;
@@ -18,6 +19,7 @@ pub(crate) mod foundation_fit;
 pub(crate) mod identity;
 pub(crate) mod loaded_tooth;
 pub(crate) mod single_contact;
+pub(crate) mod slice_fit;
 pub(crate) mod stiffness_variation;
 pub(crate) mod tooth_family;
 pub(crate) mod tooth_stiffness;
@@ -31,6 +33,7 @@ use self::bodies::{NeighbourRow, ResolutionRow, RimRow};
 use self::foundation_fit::FoundationFit;
 use self::identity::Identity;
 use self::single_contact::SingleContact;
+use self::slice_fit::SliceFit;
 use self::stiffness_variation::StiffnessVariation;
 use self::tooth_family::FamilyMember;
 use self::tooth_stiffness::{LoadedPair, PairDeflection};
@@ -121,6 +124,9 @@ pub struct Calibration {
     pub courses: Vec<StiffnessVariation>,
     /// What one mesh of unworn flanks wears.
     pub wear_reference: Vec<WearReference>,
+    /// How its slices yield together; none where its sections are alike over the face width.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slices: Option<SliceFit>,
 }
 
 impl Calibration {

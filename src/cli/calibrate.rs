@@ -87,6 +87,7 @@ fn refused(error: CalibrateError, text: &SceneText) -> Failure {
     match error {
         CalibrateError::Interrupted => Failure::Interrupted,
         CalibrateError::Pair(_)
+        | CalibrateError::Stiffness(_)
         | CalibrateError::Calibration(
             CalibrationError::NoClearPosition { .. } | CalibrationError::OffTheFlank { .. },
         ) => InputError::Calibrate(error).into(),
@@ -110,6 +111,11 @@ fn table(title: &str, done: &Calibrated, out: &Path) -> String {
             let values = [&fit.fitted, &fit.held_out].map(|errors| figures::digits(100.0 * errors.worst_matched));
             text.push_str(&figures::row(&format!("  in the {}", criterion.name()), [&values[0], &values[1]]));
         }
+    }
+    if let Some(fit) = &calibration.slices {
+        let values = [fit.compliance.teeth, 100.0 * fit.residual].map(figures::digits);
+        text.push_str(&figures::row("slices, fitted to teeth in space", ["teeth ×", "residual, %"]));
+        text.push_str(&figures::row("  compliance", [&values[0], &values[1]]));
     }
     let page = report::calibration::page_beside(out);
     text.push_str(&format!(

@@ -73,10 +73,10 @@ pub(crate) struct DefaultClamp {
     pub small_gear: bool,
 }
 
-/// The clamp radius of a gear where none is given: the root radius less 2.5 normal modules, or 0.4 of the root radius
-/// where that would leave less than 0.2 of it.
-pub(crate) fn default_clamp(root_radius_mm: f64, normal_module_mm: f64) -> DefaultClamp {
-    let radius_mm = root_radius_mm - BODY_MODULES * normal_module_mm;
+/// The clamp radius of a gear where none is given: the root radius less 2.5 transverse modules, so that pairs of the same transverse section
+/// have the same bodies, or 0.4 of the root radius where that would leave less than 0.2 of it.
+pub(crate) fn default_clamp(root_radius_mm: f64, transverse_module_mm: f64) -> DefaultClamp {
+    let radius_mm = root_radius_mm - BODY_MODULES * transverse_module_mm;
     if radius_mm > LEAST_OVER_ROOT * root_radius_mm {
         DefaultClamp { radius_mm, small_gear: false }
     } else {

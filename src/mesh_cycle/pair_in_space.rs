@@ -14,6 +14,9 @@
 //! transverse line of action. The elements see of a load its projection P on their shape functions over the width alone, and are
 //! corrected for no more.
 
+use std::fmt;
+use std::sync::{Arc, Mutex, PoisonError};
+
 use nalgebra::DMatrix;
 
 use super::sliced_positions::SliceContact;
@@ -21,7 +24,7 @@ use crate::fem::elastic::Elastic;
 use crate::fem::gear::in_space::{FlankForces, PlaneSection, SpaceError, TeethInSpace};
 use crate::fem::quadrature::GAUSS_3;
 use crate::fem::shape::along_edge;
-use crate::gear::{Gear, GearPair, PerGear, slices::Slices};
+use crate::gear::{Gear, GearPair, PerGear, slices::Slices, spec::PairSpec};
 use crate::gear_mesh::tooth_section::{ExtrudedTooth, SpaceResolution};
 
 /// Why a pair has no teeth in space.
@@ -56,6 +59,49 @@ struct GearInSpace {
 /// Both gears.
 pub(crate) struct PairInSpace {
     gears: PerGear<GearInSpace>,
+}
+
+/// The pair that was condensed last, shared by the scenes that were made of one another: most of them have the same teeth.
+#[derive(Clone, Default)]
+pub(crate) struct KeptInSpace(Arc<Mutex<Option<Kept>>>);
+
+/// Both gears, and what they are made of.
+struct Kept {
+    of: (PairSpec, PerGear<Elastic>, PerGear<f64>),
+    teeth: Arc<PairInSpace>,
+}
+
+/// What is kept says nothing of a scene.
+impl PartialEq for KeptInSpace {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl fmt::Debug for KeptInSpace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("KeptInSpace")
+    }
+}
+
+impl KeptInSpace {
+    /// The teeth of `pair`, condensed unless they are kept.
+    pub(crate) fn condensed(
+        &self,
+        pair: &GearPair,
+        material: PerGear<Elastic>,
+        clamp_radius_mm: PerGear<f64>,
+    ) -> Result<Arc<PairInSpace>, PairInSpaceError> {
+        // Another thread may have failed at its pair: that says nothing of this one.
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let of = (pair.spec.clone(), material, clamp_radius_mm);
+        if let Some(Kept { teeth, .. }) = kept.as_ref().filter(|kept| kept.of == of) {
+            return Ok(Arc::clone(teeth));
+        }
+        let teeth = Arc::new(PairInSpace::new(pair, &material, &clamp_radius_mm, &SpaceResolution::USUAL)?);
+        *kept = Some(Kept { of, teeth: Arc::clone(&teeth) });
+        Ok(teeth)
+    }
 }
 
 /// What couples the contacts of a phase.

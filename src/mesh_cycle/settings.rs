@@ -2,12 +2,14 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Most slices that are coupled each with each: 400 positions then take less than 0.5 GB.
+pub(crate) const MOST_SLICES_IN_SPACE: usize = 100;
+
 /// How neighbouring slices of a tooth hold each other.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Coupling {
     /// Not at all: thin independent teeth on one rigid hub.
-    #[default]
     None,
     /// Through the tooth's bending: a loaded slice takes its neighbours along. Contact itself is still slice by slice, after
     /// Haines and Ollerton.

@@ -32,15 +32,51 @@
 //! Elastic Foundations* (1966); S. Timoshenko and S. Woinowsky-Krieger, *Theory of Plates and Shells* (1959), for
 //! the plate under a point load.
 
+use serde::{Deserialize, Serialize};
+
 use crate::contact::settings::Material;
 use crate::gear::{Gear, GearPair, PerGear, half_profile::half_profile, slices::Slices, tooth::Tooth};
 
 /// Samples of the profile on fillet and flank each.
 const SAMPLES: usize = 400;
 
+/// How slices yield, beside what the transverse section of their pair tells.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SliceCompliance {
+    /// Compliance of the teeth of a slice over that of the section.
+    pub teeth: f64,
+    /// What either end face, z = 0 first, adds to it there, in parts of it; that decays over a transverse module.
+    pub ends: [f64; 2],
+    /// How far a deflection reaches.
+    pub reach: Reach,
+    /// Compliance of what all pairs in mesh share over that of the section.
+    pub bodies: f64,
+}
+
+impl SliceCompliance {
+    /// In closed form. Teeth bend in the normal section: as plates, an oblique one is cos β times as thick and 1/cos β times as
+    /// long, and yields 1/cos⁴ β times as much along the transverse line of action. That is said where `is_oblique`; other stiffness models
+    /// state what slices have.
+    pub(crate) fn of_plates(pair: &GearPair, material: &PerGear<Material>, is_oblique: bool) -> Self {
+        let teeth = if is_oblique { pair.spec.helix_angle_rad.cos().powi(-4) } else { 1.0 };
+        Self { teeth, ends: [0.0; 2], reach: Reach::of_pair(pair, material), bodies: 1.0 }
+    }
+
+    /// Compliance of the teeth of each slice over that of the section.
+    pub(crate) fn of_slices(&self, pair: &GearPair, slices: &Slices) -> Vec<f64> {
+        let (module_mm, face_width_mm) = (pair.spec.transverse_module_mm(), pair.spec.face_width_mm);
+        let [first, last] = self.ends;
+        let fades = |distance_mm: f64| (-distance_mm / module_mm).exp();
+        let of_slice = |z: &f64| self.teeth * (1.0 + first * fades(*z) + last * fades(face_width_mm - z));
+        slices.width_mm.iter().map(of_slice).collect()
+    }
+}
+
 /// How far a deflection reaches along a tooth.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Reach {
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Reach {
     /// ℓ₁², mm²: from twisting.
     pub twist_mm2: f64,
     /// ℓ₂⁴, mm⁴: from bending along the tooth.
@@ -125,11 +161,6 @@ impl SliceCoupling {
     pub(crate) fn new(reach: Reach, count: usize, slice_width_mm: f64) -> Self {
         let square = slice_width_mm * slice_width_mm;
         Self { reach, count, twist: reach.twist_mm2 / square, bending: reach.bending_mm4 / (square * square) }
-    }
-
-    /// Of the slices of a pair.
-    pub(crate) fn of_pair(pair: &GearPair, material: &PerGear<Material>, slices: &Slices) -> Self {
-        Self::new(Reach::of_pair(pair, material), slices.count(), slices.slice_width_mm)
     }
 
     /// The operator on `v`, into `result`; by differences of differences, so that little is lost to rounding where slices are

@@ -231,7 +231,7 @@ impl<'a> LoadedPosition<'a> {
         phase: &SlicedPosition,
         springs: &SliceSprings<'_>,
     ) -> Self {
-        let compliance = |contact: &SliceContact| springs.along_path.mm2_per_n(contact.cell.position_mm);
+        let compliance = |contact: &SliceContact| sliced.mm2_per_n(contact, springs.along_path);
         let teeth = sliced.coupled_teeth(springs.pair, &phase.contacts, compliance);
         let pairs = phase
             .contacts

@@ -6,10 +6,10 @@ use super::bent_tooth::BentTooth;
 use super::coupled_teeth::{CoupledTeeth, TeethTogether};
 use super::pair_in_space::PairInSpace;
 use super::settings::{Coupling, SliceSettings};
-use super::slice_coupling::{Reach, SliceCoupling};
+use super::slice_coupling::{Reach, SliceCompliance, SliceCoupling};
+use super::sliced::SpringAlongPath;
 use super::sliced_positions::SliceContact;
-use crate::contact::settings::Material;
-use crate::gear::{GearPair, PerGear, slices::Slices};
+use crate::gear::{GearPair, slices::Slices};
 
 /// The slices of a pair, and how they hold each other.
 #[derive(Clone)]
@@ -18,6 +18,10 @@ pub(crate) struct SlicedTeeth {
     pub settings: SliceSettings,
     /// Where they are.
     pub slices: Slices,
+    /// How they yield where they are not coupled in space.
+    compliance: SliceCompliance,
+    /// Compliance of the teeth of each slice over that of the section.
+    softness: Arc<[f64]>,
     model: Model,
 }
 
@@ -43,25 +47,42 @@ impl SlicedTeeth {
     /// Where the coupling is by teeth in space and there are none.
     pub(crate) fn new(
         pair: &GearPair,
-        material: &PerGear<Material>,
         settings: SliceSettings,
+        compliance: SliceCompliance,
         in_space: Option<Arc<PairInSpace>>,
     ) -> Self {
         let slices = Slices::new(pair, settings.count);
         let model = match settings.coupling {
             Coupling::None => Model::Thin,
-            Coupling::Slicing => Model::Plate(SliceCoupling::of_pair(pair, material, &slices)),
+            Coupling::Slicing => {
+                Model::Plate(SliceCoupling::new(compliance.reach, slices.count(), slices.slice_width_mm))
+            }
             Coupling::Fem => {
                 let teeth = in_space.expect("the coupling by teeth in space comes with them");
                 Model::InSpace { seen: teeth.seen(settings.count).into(), teeth }
             }
         };
-        Self { settings, slices, model }
+        let softness = match settings.coupling {
+            Coupling::Fem => vec![1.0; settings.count].into(),
+            Coupling::None | Coupling::Slicing => compliance.of_slices(pair, &slices).into(),
+        };
+        Self { settings, slices, compliance, softness, model }
+    }
+
+    /// Compliance of the teeth at a contact, mm²/N, by that of their section along the path of contact.
+    pub(crate) fn mm2_per_n(&self, contact: &SliceContact, section: &SpringAlongPath) -> f64 {
+        self.softness[contact.slice] * section.mm2_per_n(contact.cell.position_mm)
+    }
+
+    /// Compliance of the bodies that all pairs in mesh share, where the section's is given, mm²/N; those of teeth in space are part of what
+    /// couples them.
+    pub(crate) fn bodies_mm2_per_n(&self, section_mm2_per_n: f64) -> f64 {
+        if self.in_space().is_some() { 0.0 } else { self.compliance.bodies * section_mm2_per_n }
     }
 
     /// Slices of the same teeth, `count` in number.
-    pub(crate) fn with_count(&self, pair: &GearPair, material: &PerGear<Material>, count: usize) -> Self {
-        Self::new(pair, material, SliceSettings { count, ..self.settings }, self.in_space().cloned())
+    pub(crate) fn with_count(&self, pair: &GearPair, count: usize) -> Self {
+        Self::new(pair, SliceSettings { count, ..self.settings }, self.compliance, self.in_space().cloned())
     }
 
     /// Whether the slices of a tooth hold each other.

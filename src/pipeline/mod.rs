@@ -28,13 +28,14 @@ use crate::contact::{
     half_space::HalfSpace,
     hertz::{self, Hertz},
     hertz_mean::HertzMean,
-    settings::{Foundation, MatchCriterion, SurfaceKind},
+    settings::{Foundation, MatchCriterion, Material, SurfaceKind},
     winkler::{Winkler, WinklerFoundation},
 };
 use crate::fem::gear::model::ModelError;
 use crate::gear::{GearPair, PairError, PerGear, flank_zones::FlankZones};
-use crate::gear_mesh::tooth_section::SpaceResolution;
 use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
+use crate::mesh_cycle::settings::{Coupling, SliceSettings};
+use crate::mesh_cycle::slice_coupling::SliceCompliance;
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::observer::Observer;
 use crate::plan::{Plan, StageKind};
@@ -53,7 +54,7 @@ use crate::thermal::ContactHeat;
 use crate::wear::{self, FlankWear, WearModel};
 use recording::RunFindings;
 use stage_clock::StageClock;
-use verification::{Elements, Verified};
+use verification::{Elements, Means, Verified};
 
 /// Why a plan could not be carried out.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -290,13 +291,16 @@ fn carry_out<R>(
     }?;
     let in_space = match plan.has(StageKind::TeethInSpace) {
         true => Some(stages.run(StageKind::TeethInSpace.name(), || {
-            let material = scene.material.map(|material| material.elastic());
-            PairInSpace::new(&pair, &material, &scene.fem.clamp_radius_mm, &SpaceResolution::USUAL).map(Arc::new)
-        })?),
+            let material = scene.material.map(Material::elastic);
+            loaded.teeth_in_space.condensed(&pair, material, scene.fem.clamp_radius_mm)
+        })),
         false => None,
     };
-    let sliced = scene.slices.map(|settings| {
-        let slices = || SlicedTeeth::new(&pair, &scene.material, settings, in_space);
+    let (slices, coupling_warning) = own_slices(scene, stiffness, in_space.as_ref())?;
+    let sliced = slices.map(|settings| {
+        let coupling = in_space.as_ref().and_then(|teeth| teeth.as_ref().ok()).cloned();
+        let compliance = slice_compliance(&pair, scene, files, teeth[0].as_ref());
+        let slices = || SlicedTeeth::new(&pair, settings, compliance, coupling);
         stages.run(StageKind::HelicalSlices.name(), slices)
     });
     let contact = |case: usize| match (&worn_elements, cases[case].surface.as_deref(), &teeth[case]) {
@@ -366,7 +370,10 @@ fn carry_out<R>(
 
     let verified = match (outcome.stop, plan.left_out_because(StageKind::Verification)) {
         (StopReason::Completed, None) => {
-            stages.run(StageKind::Verification.name(), || verification::verify(&model, &outcome, elements, observer))
+            let curve =
+                files.calibration.as_ref().map(|calibration| &calibration.pair_compliance).or(computed.as_ref());
+            let means = Means { elements, curve, in_space };
+            stages.run(StageKind::Verification.name(), || verification::verify(&model, &outcome, means, observer))
         }
         (StopReason::Completed, Some(reason)) => Verified::none(reason),
         _ => Verified::none(not_estimated_because(&outcome)),
@@ -375,7 +382,7 @@ fn carry_out<R>(
 
     let found = RunFindings { verified: Some(&verified), ..found };
     let mut summary = recording::summary(resolved, plan, &model, found, error, judged)?;
-    summary.warnings.extend(stiffness_warning);
+    summary.warnings.extend(stiffness_warning.into_iter().chain(coupling_warning));
     summary.stages = stages.times;
     let record = keep(&model, found, summary);
     Ok(Done { record, failure: outcome.failure.map(RunError::from) })
@@ -405,7 +412,7 @@ fn own_stiffness(
     });
     match curve {
         Ok(curve) => Ok((scene.stiffness, Some(curve), None)),
-        Err(error) if scene.stiffness_by_default => {
+        Err(error) if scene.stiffness_by_default && !asks_for_space(scene) => {
             let warning = format!(
                 "stiffness.model: Weber and Banaschek's, as finite elements, the default, cannot be had for this pair: {error}"
             );
@@ -413,6 +420,49 @@ fn own_stiffness(
         }
         Err(error) => Err(error.into()),
     }
+}
+
+/// How slices yield that are not coupled in space: as the calibration of this very pair found, otherwise in closed form.
+fn slice_compliance(
+    pair: &GearPair,
+    scene: &Scene,
+    files: &NamedFiles,
+    teeth: Option<&TeethSpring<'_>>,
+) -> SliceCompliance {
+    let states_the_section = teeth.is_some_and(TeethSpring::states_the_section);
+    let fitted = files.calibration.as_ref().and_then(|calibration| calibration.slices);
+    match fitted.filter(|fit| scene.stiffness == StiffnessSettings::Fem && fit.is_of(pair)) {
+        Some(fit) => fit.compliance,
+        None => SliceCompliance::of_plates(pair, &scene.material, states_the_section),
+    }
+}
+
+/// Whether the scene asks for slices coupled in space by name, which need the stiffness of plane finite elements.
+fn asks_for_space(scene: &Scene) -> bool {
+    !scene.coupling_by_default && scene.slices.is_some_and(|slices| slices.coupling == Coupling::Fem)
+}
+
+/// The slices of a run. Where they are coupled in space, that cannot be had, and the scene does not ask for it by name, they are coupled
+/// as plates, with a warning.
+fn own_slices(
+    scene: &Scene,
+    stiffness: StiffnessSettings,
+    in_space: Option<&Result<Arc<PairInSpace>, PairInSpaceError>>,
+) -> Result<(Option<SliceSettings>, Option<String>), RunError> {
+    let Some(settings) = scene.slices.filter(|slices| slices.coupling == Coupling::Fem) else {
+        return Ok((scene.slices, None));
+    };
+    let reason = match in_space {
+        Some(Err(error)) if asks_for_space(scene) => return Err(error.clone().into()),
+        Some(Err(error)) => error.to_string(),
+        // By default too, or the run would have ended there.
+        _ if stiffness != StiffnessSettings::Fem => "there are no plane ones".to_owned(),
+        _ => return Ok((Some(settings), None)),
+    };
+    let warning = format!(
+        "helical.coupling: \"slicing\", as three-dimensional finite elements, the default, cannot be had for this pair: {reason}"
+    );
+    Ok((Some(SliceSettings { coupling: Coupling::Slicing, ..settings }), Some(warning)))
 }
 
 fn not_estimated_because(outcome: &Outcome) -> &'static str {

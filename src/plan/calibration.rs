@@ -21,6 +21,8 @@ pub(crate) enum CalibrationStage {
     Neighbours,
     /// Gears of other numbers of teeth.
     ToothFamily,
+    /// The slices of a pair whose sections differ, fitted to its teeth in space.
+    Slices,
     /// One mesh of unworn flanks.
     WearReference,
     /// The files.
@@ -40,6 +42,7 @@ impl CalibrationStage {
             Self::RimDepth => "rim-depth",
             Self::Neighbours => "neighbours",
             Self::ToothFamily => "tooth-family",
+            Self::Slices => "slices",
             Self::WearReference => "wear-reference",
             Self::Report => "report",
         }

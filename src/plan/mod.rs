@@ -6,7 +6,8 @@ pub(crate) mod fem_pair;
 use serde::{Serialize, Serializer};
 
 use crate::contact::settings::{Foundation, SurfaceKind};
-use crate::mesh_cycle::settings::Coupling;
+use crate::gear_mesh::settings::Body;
+use crate::mesh_cycle::settings::{Coupling, MOST_SLICES_IN_SPACE, SliceSettings};
 use crate::scene::Scene;
 use crate::scene::loaded::LoadedScene;
 use crate::simulation::settings::{AdaptiveMethod, Operation, Stepping};
@@ -180,8 +181,8 @@ fn verification(scene: &Scene) -> Result<String, String> {
     if !scene.verify {
         return Err("numerics.verify is false: nothing vouches for the answer".to_owned());
     }
-    if scene.slices.is_some() {
-        return Err("plane finite elements vouch for nothing over the face width".to_owned());
+    if let Some(slices) = scene.slices {
+        return verification_in_space(scene, slices);
     }
     Ok(match scene.contact.surface {
         SurfaceKind::Fem => "numerics.verify: the same life on another mesh of finite elements".to_owned(),
@@ -189,8 +190,33 @@ fn verification(scene: &Scene) -> Result<String, String> {
     })
 }
 
+/// The same where sections differ over the face width.
+fn verification_in_space(scene: &Scene, slices: SliceSettings) -> Result<String, String> {
+    if scene.fem.body != Body::Ring {
+        return Err("fem.body is \"sector\": teeth in space are those of whole rings".to_owned());
+    }
+    if slices.count > MOST_SLICES_IN_SPACE {
+        return Err(format!(
+            "{} slices: at most {MOST_SLICES_IN_SPACE} are coupled by three-dimensional finite elements",
+            slices.count
+        ));
+    }
+    let other = if is_finest_in_space(scene) { ", on other slices" } else { "" };
+    Ok(format!(
+        "numerics.verify: the same life on elastic half-planes coupled by three-dimensional finite elements{other}, which gives error.total"
+    ))
+}
+
+/// Whether a run with slices is itself of the kind that vouches for others.
+pub(crate) fn is_finest_in_space(scene: &Scene) -> bool {
+    let coupling = scene.slices.map(|slices| slices.coupling);
+    scene.contact.surface == SurfaceKind::HalfSpace && scene.contact.tip_contact && coupling == Some(Coupling::Fem)
+}
+
 fn finite_element_model(scene: &Scene) -> Result<String, String> {
-    let (stiffness, verified) = (calibration(scene).is_ok(), verification(scene).is_ok());
+    let stiffness = calibration(scene).is_ok();
+    // With slices, all that is read of it is a curve that a calibration has too.
+    let verified = verification(scene).is_ok() && (scene.slices.is_none() || scene.calibration_file.is_none());
     let of = match (scene.contact.surface, stiffness, verified) {
         (SurfaceKind::Fem, ..) => "the surface fem",
         (_, true, true) => "the stiffness of the teeth and the verification",
@@ -239,6 +265,9 @@ fn teeth_in_space(scene: &Scene) -> Result<String, String> {
         None => Err("all sections are alike".to_owned()),
         Some(Coupling::Fem) => {
             Ok("helical.coupling: one sector of each gear over the whole face width, condensed".to_owned())
+        }
+        Some(_) if verification(scene).is_ok() => {
+            Ok("the verification: one sector of each gear over the whole face width, condensed".to_owned())
         }
         Some(coupling) => Err(format!("the coupling {} of the slices has none", coupling.name())),
     }

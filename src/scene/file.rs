@@ -30,9 +30,9 @@ pub struct SceneFile {
     pub material: Option<MaterialFile>,
     /// Load, speed and duration.
     pub operation: OperationFile,
-    /// Contact of the flanks. Default: elastic half-planes; with slices, a Winkler foundation matched on half-width.
+    /// Contact of the flanks. Default: elastic half-planes.
     pub contact: Option<ContactFile>,
-    /// Stiffness of the teeth. Default: by finite elements; with slices, Weber and Banaschek.
+    /// Stiffness of the teeth. Default: by finite elements.
     pub stiffness: Option<StiffnessFile>,
     /// The finite-element bodies: read by contact.surface = "fem", by the stiffness of the teeth, by the verification of
     /// a run, and by gearwear fem, mesh and calibrate. Default: whole rings.
@@ -57,7 +57,7 @@ pub struct PairFile {
     /// A pair of the library; a key given beside it overrides the preset's. fzg-c and fzg-a: gears of ISO 14635-1, FZG
     /// type C (face width 14 mm) and A (20 mm). thesis-spur, fzg-test: type C again; the scenes of these names are the
     /// thesis's model of it with every choice written out, and its wear test. helical: the transverse section of type C
-    /// with a helix of 15°, 20 mm wide. h501, h701, h951: the public helical pairs of FEUP. Default: none.
+    /// with a helix of 15°, 20 mm wide; thesis-helical: the same, its scene the thesis's model. h501, h701, h951: the public helical pairs of FEUP. Default: none.
     #[schemars(extend("enum" = presets::names()))]
     pub preset: Option<String>,
     /// Normal module m_n in mm, > 0. Profile shifts and rack factors are then factors of it. Required without a preset,
@@ -266,7 +266,7 @@ pub struct PhaseFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ContactFile {
-    /// Model of the surfaces in contact. Default: half-space; winkler with slices, and where a calibration or K/H is given or matched.
+    /// Model of the surfaces in contact. Default: half-space; winkler where a calibration or K/H is given or matched.
     pub surface: Option<SurfaceKind>,
     /// What the Winkler foundation shares with Hertz's contact at the pitch point under the whole load: one of them,
     /// never all; read by winkler. With half-width the peak pressure at the pitch point is 1.178 times Hertz's. Default:
@@ -289,8 +289,7 @@ pub struct ContactFile {
 #[serde(deny_unknown_fields)]
 pub struct StiffnessFile {
     /// Model of the stiffness of a tooth pair. Default: fem, from the run's own finite elements or the calibration that is given (where
-    /// they cannot be had, weber-banaschek with a warning); with slices and no calibration weber-banaschek. Not read with
-    /// contact.surface = "fem".
+    /// they cannot be had, weber-banaschek with a warning). Not read with contact.surface = "fem".
     pub model: Option<StiffnessModel>,
     /// Combined stiffness of a tooth pair without contact flattening in N/(mm·µm), > 0: force per mm of face width and µm
     /// of approach. For model = "constant" only, which needs it.
@@ -334,7 +333,7 @@ pub struct FemFile {
     pub sector_teeth: Option<u32>,
     /// What holds the cut sides of a sector; read with body = "sector". Default: free.
     pub sector_sides: Option<SectorSides>,
-    /// Radii at which the bodies are held or turned rigidly, rim or bore. Default: root radius less 2.5 normal modules,
+    /// Radii at which the bodies are held or turned rigidly, rim or bore. Default: root radius less 2.5 transverse modules,
     /// or the bore where that is larger.
     pub clamp_radius_mm: Option<ClampRadiusFile>,
     /// Elements in the half-width of contact under the whole load, 2 to 60: the resolution. Default 10, and 3 in a wear
@@ -358,10 +357,10 @@ pub enum BodyKind {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ClampRadiusFile {
-    /// Of the pinion in mm, > 0. Default: root radius less 2.5 normal modules, or the bore where that is larger.
+    /// Of the pinion in mm, > 0. Default: root radius less 2.5 transverse modules, or the bore where that is larger.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion: Option<f64>,
-    /// Of the wheel in mm, > 0. Default: root radius less 2.5 normal modules, or the bore where that is larger.
+    /// Of the wheel in mm, > 0. Default: root radius less 2.5 transverse modules, or the bore where that is larger.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub wheel: Option<f64>,
 }
@@ -373,8 +372,8 @@ pub struct HelicalFile {
     /// Slices over the face width, 1 to 2000: thin spur pairs, each in its own transverse section. Default 20.
     #[schemars(range(min = 1, max = 2000))]
     pub slices: Option<u32>,
-    /// How neighbouring slices of a tooth are coupled; "fem" allows at most 100 slices, whole rings and the stiffness model "fem",
-    /// which is its default then. Default: none.
+    /// How neighbouring slices of a tooth are coupled. Default: "fem", which allows at most 100 slices, whole rings and the stiffness model
+    /// "fem"; where the scene asks for something else there, "slicing".
     pub coupling: Option<Coupling>,
 }
 
@@ -395,7 +394,7 @@ pub struct NumericsFile {
     pub verify: Option<bool>,
     /// Length of a wear step as a table for Euler's method (a warning says when it is too long to be stable), or
     /// "adaptive": as long as the error allows, stable in any case. Default: "adaptive" on the surfaces half-space and
-    /// fem of a pair without slices and where wear may turn severe, otherwise 1/150 of the duration.
+    /// fem and where wear may turn severe, otherwise 1/150 of the duration.
     pub step: Option<StepFile>,
     /// Error of the wear depth allowed in µm, > 0, at least 0.0001; read with step = "adaptive". Default 0.05.
     #[schemars(extend("exclusiveMinimum" = 0))]

@@ -16,6 +16,7 @@ use super::{Problem, ProblemKind, Resolved, Scene, presets};
 use crate::calibration::{Calibration, identity::Identity};
 use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use crate::gear::GearPair;
+use crate::mesh_cycle::{pair_in_space::KeptInSpace, settings::Coupling};
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::curve_file::{self, CurveFileError};
 use crate::stiffness::settings::StiffnessSettings;
@@ -134,6 +135,8 @@ pub struct LoadedScene {
     pub(crate) given: Arc<SceneText>,
     /// Where files lie that are not read yet.
     pub(crate) folder: Arc<Path>,
+    /// Teeth in space that a run of it, or of a scene it was made of, has condensed.
+    pub(crate) teeth_in_space: KeptInSpace,
 }
 
 impl LoadedScene {
@@ -246,7 +249,8 @@ impl LoadedScene {
             let warnings = warnings(name, calibration, &resolved.scene);
             resolved.warnings.extend(warnings);
         }
-        Ok(Self { resolved, files: Arc::new(files), given: Arc::new(given), folder: Path::new("").into() })
+        let (files, given, folder) = (Arc::new(files), Arc::new(given), Path::new("").into());
+        Ok(Self { resolved, files, given, folder, teeth_in_space: KeptInSpace::default() })
     }
 
     /// The scene as it stands in the folder of its run, naming the copies of its input files there.
@@ -294,7 +298,8 @@ impl LoadedScene {
         change(&mut draft);
         let name = format!("{}{CHANGED}", self.given.name.trim_end_matches(CHANGED));
         let given = SceneText { name, text: draft.to_toml() };
-        Self::reading(given.resolve()?, given, Arc::clone(&self.folder), known)
+        let changed = Self::reading(given.resolve()?, given, Arc::clone(&self.folder), known)?;
+        Ok(Self { teeth_in_space: self.teeth_in_space.clone(), ..changed })
     }
 
     /// The same with a calibration made for it, whether it asks for one or not.
@@ -444,6 +449,12 @@ fn warnings(name: &str, calibration: &Calibration, scene: &Scene) -> Vec<String>
     }
     let (least, greatest) = calibration.fitted_loads_n_per_mm();
     let Ok(pair) = GearPair::new(&scene.pair) else { return warnings };
+    let plates = scene.slices.is_some_and(|slices| slices.coupling != Coupling::Fem);
+    if plates && scene.stiffness == StiffnessSettings::Fem && calibration.slices.is_none_or(|fit| !fit.is_of(&pair)) {
+        warnings.push(format!(
+            "{CALIBRATION}: {name} has no slices of this helix angle and face width: they yield as plates in closed form"
+        ));
+    }
     let loads = scene.operation.phases.iter().map(|phase| pair.line_load_n_per_mm(phase.pinion_torque_n_mm));
     let is_outside = |load: &f64| *load < least * (1.0 - ROUNDING) || *load > greatest * (1.0 + ROUNDING);
     if let Some(load) = loads.into_iter().find(is_outside) {

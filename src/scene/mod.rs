@@ -58,6 +58,8 @@ pub struct Scene {
     pub wear_elements_per_half_width: f64,
     /// Slices over the face width; none where all sections are alike.
     pub slices: Option<SliceSettings>,
+    /// Whether the scene leaves their coupling open.
+    pub coupling_by_default: bool,
     /// Contact temperatures; none where nothing asks for them.
     pub heat: Option<HeatSettings>,
     /// Wear law.

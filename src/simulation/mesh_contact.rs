@@ -56,9 +56,10 @@ const SHARE_OF_CLEAN_STARTS: f64 = 0.05;
 const SIMPLIFIED: Effort = Effort { of_equilibrium: 0.005, of_clean_start: 5.0 };
 const FINITE_ELEMENTS: Effort = Effort { of_equilibrium: 4.0, of_clean_start: 15.0 };
 
-/// Compliance of the bodies that all pairs in mesh share; those of teeth in space are part of what couples them.
+/// Compliance of the bodies that all pairs in mesh share.
 fn bodies_mm2_per_n(teeth: &TeethSpring<'_>, sliced: Option<&SlicedTeeth>) -> f64 {
-    if sliced.is_some_and(|sliced| sliced.in_space().is_some()) { 0.0 } else { teeth.shared_mm2_per_n() }
+    let of_section = teeth.shared_mm2_per_n();
+    sliced.map_or(of_section, |sliced| sliced.bodies_mm2_per_n(of_section))
 }
 
 /// The spring of a slice beside its surface, N/mm²: of teeth in space, that of the whole section.
@@ -70,7 +71,7 @@ fn slice_spring(
 ) -> Result<f64, StiffnessError> {
     match sliced.in_space() {
         Some(_) => teeth.oblique_n_per_mm2(position_mm, pair.base_helix_angle_rad()),
-        None => teeth.own_n_per_mm2(position_mm),
+        None => teeth.slice_n_per_mm2(position_mm, pair.base_helix_angle_rad()),
     }
 }
 

@@ -183,6 +183,24 @@ impl<'a> TeethSpring<'a> {
         }
     }
 
+    /// Stiffness of what a slice has to itself of the spring, N/mm²; what a model that states the section alone says of its flattening counts in
+    /// the normal section, as in [`Self::oblique_n_per_mm2`].
+    pub(crate) fn slice_n_per_mm2(&self, position_mm: f64, base_helix_rad: f64) -> Result<f64, StiffnessError> {
+        let own = self.own_n_per_mm2(position_mm)?;
+        if !self.states_the_section() {
+            return Ok(own);
+        }
+        Ok(1.0 / (1.0 / own + self.surface_mm2_per_n(position_mm) * (1.0 / base_helix_rad.cos() - 1.0)))
+    }
+
+    /// Whether the model speaks of the transverse section alone, and not of oblique teeth too.
+    pub(crate) fn states_the_section(&self) -> bool {
+        match &self.curve {
+            Curve::WeberBanaschek | Curve::Given(_) => true,
+            Curve::Teeth(_) | Curve::WholePair(_) => false,
+        }
+    }
+
     /// Stiffness of the whole spring, shared bodies included, where the line of contact is oblique by `base_helix_rad`: what is local
     /// acts in the normal section, and yields 1/cos β_b times as much along the transverse line of action. The surface keeps its own
     /// approach, so that the spring takes its part too, N/mm².

@@ -14,16 +14,16 @@ use crate::program::{exchanged, gearwear};
 const SLICES: usize = 5;
 const POINTS: usize = 301;
 
-/// The preset `helical` with five slices, and fewer points and steps.
+/// The preset `thesis-helical` with five slices, and fewer points and steps.
 fn quick_helical() -> String {
     exchanged(
-        "helical",
+        "thesis-helical",
         &[
             ("slices = 20 ", "slices = 5 "),
             ("flank_points = 750 ", "flank_points = 300 "),
             ("positions = 400 ", "positions = 60 "),
             ("step = { revolutions = 10000.0 }", "step = { revolutions = 100000.0 }"),
-            ("error_estimate = true ", "error_estimate = false "),
+            ("error_estimate = true ", "verify = false\nerror_estimate = false "),
         ],
     )
 }

@@ -27,7 +27,7 @@ use gearwear::scene::Scene;
 use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
 use nalgebra::Vector2;
 
-use super::common::{assert_close, fzg_a, fzg_c, steel};
+use super::common::{assert_close, fzg_a, fzg_c, preset, steel};
 
 /// 302 N·m over base radius and face width.
 const LINE_LOAD_N_PER_MM: f64 = 637.66;
@@ -366,6 +366,15 @@ fn differences_are_told_by_the_keys_of_the_scene() {
     wide.face_width_mm *= 2.0;
     wide.centre_distance_mm *= 1.0 + 1e-12;
     assert_eq!(own.differences(&identity(&wide, 20.0), true), Vec::<String>::new());
+    // Neither is another helix angle of the same transverse section.
+    assert_eq!(own.differences(&identity(&preset("helical"), 20.0), true), Vec::<String>::new());
+    let mut steeper = preset("helical");
+    steeper.helix_angle_rad *= 2.0;
+    let told = own.differences(&identity(&steeper, 20.0), true);
+    assert!(
+        told.iter().any(|difference| difference.starts_with("pair.transverse_module_mm: calibration 4.5")),
+        "{told:?}"
+    );
     let mut other = fzg_c();
     other.gears.wheel.profile_shift = 0.17;
     other.gears.pinion.modification.tip_rounding_mm = 0.1;

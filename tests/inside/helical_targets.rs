@@ -177,7 +177,7 @@ fn val_h5_an_overlap_of_one_wears_evenly() {
 
 /// A run of the preset `helical` on a surface, ten times as long as that of H1–H4, in so many wear steps.
 fn deep_run(surface: &str, steps: f64) -> RunRecord {
-    let mut text = gearwear::scene::presets::find("helical").unwrap().text.to_owned();
+    let mut text = gearwear::scene::presets::find("thesis-helical").unwrap().text.to_owned();
     let step = format!("step = {{ revolutions = {:?} }}", 6e6 / steps);
     for (from, to) in [
         ("surface = \"hertz\" ", format!("surface = \"{surface}\" ")),

@@ -153,7 +153,7 @@ fn slices_have_the_same_figures() {
         ("numerics.step.revolutions", 60_000.0.into()),
     ];
     for radius_mm in [0.0, 0.1] {
-        let record = run("helical", &[rounded(radius_mm).as_slice(), &coarse].concat());
+        let record = run("thesis-helical", &[rounded(radius_mm).as_slice(), &coarse].concat());
         assert_zones(&record, radius_mm, 4.5 * 15f64.to_radians().cos());
         let slices = record.slices.as_ref().unwrap();
         let is_sharp = slices.at_sharp_edge_new.iter().any(|sharp| *sharp);

@@ -11,6 +11,7 @@ use gearwear::mesh_cycle::simplified::closed_form::{AMPLE_LOADS, ContactForms, R
 use gearwear::mesh_cycle::wearing_pair::Snapshot;
 use gearwear::mesh_cycle::{
     settings::{Coupling, SliceSettings},
+    slice_coupling::SliceCompliance,
     sliced_mesh::SlicedMesh,
     sliced_positions::sliced_positions,
     sliced_teeth::SlicedTeeth,
@@ -49,7 +50,8 @@ fn run(scene: &Scene) -> Outcome {
         severe: scene.severe,
         ..WearSettings::archard(scene.coefficient_mm2_per_n)
     });
-    let sliced = SlicedTeeth::new(&pair, &material, scene.slices.expect("a scene with slices"), None);
+    let compliance = SliceCompliance::of_plates(&pair, &material, teeth.states_the_section());
+    let sliced = SlicedTeeth::new(&pair, scene.slices.expect("a scene with slices"), compliance, None);
     let phase = RunPhase {
         contact: MeshContact::Simplified { material: &material, teeth: &teeth, sliced: &sliced },
         wear: WearModel::cold(law.as_ref()),

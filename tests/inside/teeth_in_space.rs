@@ -4,15 +4,19 @@
 //! The independent one: Hex20 sectors condensed to the flank, the whole ring by block-circulant coupling, line contact in Galerkin form,
 //! complementarity over all lines; its own uncertainty is 0.5 % in transmission error and 1 % in load away from the end faces.
 
+use std::sync::Arc;
+
 use gearwear::fem::elastic::Elastic;
 use gearwear::fem::gear::in_space::{FlankForces, PlaneSection, TeethInSpace};
 use gearwear::fem::quadrature::GAUSS_3;
 use gearwear::fem::space::hexahedron::{REFERENCE_NODES, Shape};
 use gearwear::fem::space::stiffness;
-use gearwear::gear::{Gear, GearPair, PerGear};
+use gearwear::gear::{Gear, GearPair, PerGear, spec::PairSpec};
 use gearwear::gear_mesh::tooth_section::{ExtrudedTooth, SpaceResolution};
 use gearwear::mesh::quality;
-use gearwear::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
+use gearwear::mesh_cycle::pair_in_space::{KeptInSpace, PairInSpace, PairInSpaceError};
+use gearwear::pipeline::RunError;
+use gearwear::pipeline::calibrate::{self, Extent};
 use gearwear::{LoadedScene, RunRecord, Unwatched};
 use nalgebra::{Rotation3, Vector3};
 
@@ -260,4 +264,116 @@ fn val_face_load_factor() {
         let found = run.summary.helical.as_ref().unwrap().K_Hbeta_new;
         assert_close(&format!("{width_mm} mm, {helix_deg}°"), found, factor, 0.02);
     }
+}
+
+/// A coarse scene of the preset `helical`, changed by `changes`.
+fn coarse(changes: &[(&str, toml::Value)]) -> LoadedScene {
+    let mut scene = LoadedScene::preset("helical").unwrap();
+    let short = [
+        ("operation.snapshots_revolutions", toml::Value::Array(vec![6e5.into()])),
+        ("numerics.flank_points", 150.into()),
+        ("numerics.positions", 60.into()),
+        ("numerics.error_estimate", false.into()),
+    ];
+    for (key, value) in short.iter().chain(changes) {
+        scene = scene.with(key, value.clone()).unwrap();
+    }
+    scene
+}
+
+fn completed(scene: &LoadedScene) -> RunRecord {
+    gearwear::run(scene, &Unwatched).unwrap().complete().unwrap()
+}
+
+/// What a run says of its error covers its difference to 36 slices in space: the default run, and thin slices with Hertz's pressure between
+/// A and E, whose claim is no more than 2.5 times as wide.
+#[test]
+fn val_slices_know_their_error() {
+    let truth = completed(&coarse(&[("helical.slices", 36.into()), ("numerics.verify", false.into())]));
+    let cheap: &[(&str, toml::Value)] = &[
+        ("contact.surface", "hertz".into()),
+        ("helical.coupling", "none".into()),
+        ("stiffness.model", "weber-banaschek".into()),
+        ("helical.slices", 18.into()),
+    ];
+    for (changes, least) in [(&[("helical.slices", toml::Value::from(12))][..], 0.0), (cheap, 0.05)] {
+        let run = completed(&coarse(changes));
+        let total = &run.summary.error.total;
+        let peaks = |run: &RunRecord| [run.summary.pinion.peak_wear_um, run.summary.wheel.peak_wear_um];
+        for ((own, there), claim) in
+            peaks(&run).into_iter().zip(peaks(&truth)).zip([total.peak_wear.pinion, total.peak_wear.wheel])
+        {
+            let (off, claim) = ((own / there - 1.0).abs(), claim.expect(&total.how));
+            assert!(off <= claim && off >= least, "{changes:?}: {off} {claim}");
+            assert!(claim <= 2.5 * off.max(0.02), "{changes:?}: {off} {claim}");
+        }
+        let [own, there] = [&run, &truth].map(|run| run.summary.worn.transmission_error_um.peak_to_peak);
+        let claim = total.transmission_error_peak_to_peak.unwrap();
+        assert!((own / there - 1.0).abs() <= claim, "{changes:?}: {own} {there} {claim}");
+        assert!(total.profile.pinion.is_some() && total.pressure_between_tips.is_some(), "{total:?}");
+    }
+}
+
+/// Slices as plates with the calibration of their pair against those in space: mean and range of the transmission error within 2 %, loads within
+/// 0.06 of their mean (root mean square).
+#[test]
+fn val_calibrated_slices() {
+    let short: &[(&str, toml::Value)] = &[
+        ("operation.pinion_revolutions", 10.0.into()),
+        ("operation.snapshots_revolutions", toml::Value::Array(vec![10.0.into()])),
+        ("numerics.verify", false.into()),
+    ];
+    let scene = coarse(short);
+    let calibrated = calibrate::run(scene.scene(), Extent::FastModel, &Unwatched).unwrap().calibration;
+    let fit = calibrated.slices.expect("a pair with slices");
+    assert!(
+        fit.residual < 0.05 && fit.compliance.teeth > 1.1 && fit.compliance.ends.iter().all(|end| *end > 0.0),
+        "{fit:?}"
+    );
+    let space = completed(&scene);
+    let plates = scene.with_calibration(calibrated).unwrap().with("helical.coupling", "slicing").unwrap();
+    assert!(plates.warnings().iter().all(|warning| !warning.contains("has no slices")), "{:?}", plates.warnings());
+    let plates = completed(&plates.with("contact.surface", "half-space").unwrap());
+    let errors = |run: &RunRecord| {
+        let error = &run.summary.new.transmission_error_um;
+        [0.5 * (error.min + error.max), error.peak_to_peak]
+    };
+    for (own, there) in errors(&plates).into_iter().zip(errors(&space)) {
+        assert_close("transmission error", own, there, 0.02);
+    }
+    let loads = |run: &RunRecord| run.slices.as_ref().unwrap().line_load_new_N_per_mm.clone();
+    let (own, there) = (loads(&plates), loads(&space));
+    let count = there.iter().filter(|load| **load > 0.0).count() as f64;
+    let mean = there.iter().sum::<f64>() / count;
+    let square: f64 = own.iter().zip(&there).map(|(own, there)| (own - there).powi(2)).sum();
+    assert!((square / count).sqrt() < 0.06 * mean, "{}", (square / count).sqrt() / mean);
+}
+
+/// Scenes that were made of one another share their teeth; other teeth are condensed anew.
+#[test]
+fn teeth_are_condensed_once() {
+    let kept = KeptInSpace::default();
+    let steel = PerGear::from_fn(|_| STEEL);
+    let condensed = |spec: &PairSpec| kept.condensed(&GearPair::new(spec).unwrap(), steel, CLAMP_RADIUS_MM).unwrap();
+    let (first, again) = (condensed(&fzg_c()), condensed(&fzg_c()));
+    assert!(Arc::ptr_eq(&first, &again));
+    let wider = PairSpec { face_width_mm: 15.0, ..fzg_c() };
+    assert!(!Arc::ptr_eq(&first, &condensed(&wider)));
+}
+
+/// Where teeth cannot be had in space, a scene that does not ask for them by name runs on plates, and is told.
+#[test]
+fn plates_stand_in_for_teeth_in_space() {
+    let wide = [
+        ("pair.face_width_mm", 900.0.into()),
+        ("operation.pinion_torque_Nm", 13_590.0.into()),
+        ("operation.pinion_revolutions", 10.0.into()),
+        ("operation.snapshots_revolutions", toml::Value::Array(vec![10.0.into()])),
+    ];
+    let run = completed(&coarse(&wide));
+    assert_eq!(run.summary.helical.as_ref().unwrap().coupling, "slicing");
+    assert!(run.summary.warnings.iter().any(|warning| warning.starts_with("helical.coupling: \"slicing\"")));
+    assert!(run.summary.error.total.how.contains("teeth may touch together"), "{}", run.summary.error.total.how);
+    let asked = coarse(&wide).with("helical.coupling", "fem").unwrap();
+    assert!(matches!(gearwear::run(&asked, &Unwatched), Err(RunError::TeethInSpace(_))));
 }

@@ -1,4 +1,4 @@
-//! `gearwear accuracy` for a pair whose sections differ over the face width: no finite elements to compare with, slices coupled
+//! `gearwear accuracy` for a pair whose sections differ over the face width: against slices coupled in space, slices coupled as plates
 //! and uncoupled, the whole flank, and runs to a greater depth.
 
 use std::collections::BTreeSet;
@@ -12,7 +12,7 @@ use crate::program::{exchanged, gearwear, json};
 /// The helical preset with 4 slices, few points, positions and steps, its calibration on coarse elements.
 fn coarse_scene() -> String {
     exchanged(
-        "helical",
+        "thesis-helical",
         &[
             ("flank_points = 750 ", "flank_points = 120 "),
             ("positions = 400 ", "positions = 40 "),
@@ -52,7 +52,8 @@ fn slices_are_compared_coupled_and_uncoupled_over_the_whole_flank() {
     let variants = record["variants"].as_array().unwrap();
     assert!(variants.iter().all(|v| v["failure"].is_null()), "{}", record["variants"]);
 
-    // Every surface but the plane finite elements, coupled and uncoupled, on 2, 4 and 8 slices.
+    // Every surface but the plane finite elements, coupled as plates and uncoupled, on 2, 4 and 8 slices; coupled in space on the scene's,
+    // and the reference on twice as many.
     let combinations: BTreeSet<(&str, &str, u64)> = variants
         .iter()
         .map(|v| {
@@ -60,19 +61,22 @@ fn slices_are_compared_coupled_and_uncoupled_over_the_whole_flank() {
             (s["surface"].as_str().unwrap(), s["coupling"].as_str().unwrap(), s["slices"].as_u64().unwrap())
         })
         .collect();
-    let expected: BTreeSet<(&str, &str, u64)> = ["hertz-mean", "hertz", "winkler", "half-space"]
+    let mut expected: BTreeSet<(&str, &str, u64)> = ["hertz-mean", "hertz", "winkler", "half-space"]
         .into_iter()
         .flat_map(|surface| ["none", "slicing"].map(move |coupling| (surface, coupling)))
         .flat_map(|(surface, coupling)| [2, 4, 8].map(|slices| (surface, coupling, slices)))
         .collect();
+    expected.extend(["hertz-mean", "hertz", "winkler", "half-space"].map(|surface| (surface, "fem", 4)));
+    expected.insert(("half-space", "fem", 8));
     assert_eq!(combinations, expected);
+    assert_eq!(variants[0]["settings"]["coupling"], "fem");
 
     // What does not fit is left out, and said.
     let left_out: Vec<&str> =
         record["left_out"].as_array().unwrap().iter().map(|l| l["what"].as_str().unwrap()).collect();
     assert!(left_out.contains(&"surface fem") && left_out.contains(&"half-width"), "{left_out:?}");
     assert!(left_out.contains(&"a quarter of the scene's 4 slices"), "{left_out:?}");
-    assert!(record["reference"]["does_not_tell"].as_str().unwrap().contains("no three-dimensional"));
+    assert!(record["reference"]["does_not_tell"].as_str().unwrap().contains("plane in every slice"));
 
     // The reference has an uncertainty of its own in every quantity: the error of the finest run.
     let uncertainty = record["reference"]["uncertainty"].as_object().unwrap();
@@ -94,7 +98,9 @@ fn slices_are_compared_coupled_and_uncoupled_over_the_whole_flank() {
     };
     let coupling = names("Coupling of slices");
     for surface in ["hertz-mean", "hertz", "winkler half-width, tip contact", "half-space, tip contact"] {
-        assert!(coupling.contains(&&*format!("{surface}, uncoupled")), "{coupling:?}");
+        for how in ["uncoupled", "coupled"] {
+            assert!(coupling.contains(&&*format!("{surface}, {how}")), "{coupling:?}");
+        }
     }
     assert_eq!(names("Simplified model"), ["hertz-mean, coupled", "hertz-mean, uncoupled"]);
     assert!(names("Tooth stiffness").contains(&"constant 20"));

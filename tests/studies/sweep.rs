@@ -511,7 +511,7 @@ fn a_full_disk_is_an_error_and_what_was_written_is_kept() {
 /// Figures of slices are there for every combination with a helix, and empty for the spur pair that a range from 0° begins with.
 #[test]
 fn a_helical_sweep_keeps_the_figures_of_slices() {
-    let scene = gearwear::PRESETS.iter().find(|preset| preset.name == "helical").unwrap().text;
+    let scene = gearwear::PRESETS.iter().find(|preset| preset.name == "thesis-helical").unwrap().text;
     let mut coarse = scene.to_owned();
     for (from, to) in [
         ("surface = \"hertz\" ", "surface = \"hertz-mean\" "),

@@ -105,7 +105,7 @@ impl Batch {
                 let position = contact.cell.position_mm;
                 let form = forms.at(position);
                 ratios[LANES * first + at] = SpeedRatios::over(springs.pair, position, position);
-                let teeth = if coupled { 0.0 } else { springs.along_path.mm2_per_n(position) };
+                let teeth = if coupled { 0.0 } else { springs.sliced.mm2_per_n(contact, &springs.along_path) };
                 let (row, roots) = (&mut packs[pack], &mut per_root[pack]);
                 row.rigid.0[k] = form.surface_mm2_per_n + teeth;
                 for (series, own) in row.series.iter_mut().zip(form.series) {
@@ -121,7 +121,7 @@ impl Batch {
                 }
                 greatest_load_n_per_mm = greatest_load_n_per_mm.min(form.greatest_load_n_per_mm);
             }
-            let compliance = |contact: &SliceContact| springs.along_path.mm2_per_n(contact.cell.position_mm);
+            let compliance = |contact: &SliceContact| springs.sliced.mm2_per_n(contact, &springs.along_path);
             teeth_of_phases.extend(springs.sliced.coupled_teeth(springs.pair, &phase.contacts, compliance));
             loaded_positions.push(LoadedPosition {
                 position_mm: phase.position_mm,

@@ -73,7 +73,7 @@ impl SlicesInSeries<'_> {
         gap_mm: impl Iterator<Item = f64>,
         position_mm: f64,
     ) -> Result<(Vec<f64>, Equilibrium), EquilibriumError> {
-        let compliance = |contact: &SliceContact| self.along_path.mm2_per_n(contact.cell.position_mm);
+        let compliance = |contact: &SliceContact| self.sliced.mm2_per_n(contact, &self.along_path);
         let mut teeth = self.sliced.coupled_teeth(self.pair, contacts, compliance);
         let coupled = teeth.is_some();
         let mut pairs: Vec<MeshedPair<'_>> = contacts

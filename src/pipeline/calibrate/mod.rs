@@ -8,21 +8,25 @@ use std::time::Instant;
 use crate::calibration::bodies::Setup;
 use crate::calibration::identity::Identity;
 use crate::calibration::single_contact::SingleContact;
+use crate::calibration::slice_fit::SliceFit;
 use crate::calibration::tooth_stiffness::LoadedPair;
 use crate::calibration::{
-    Calibration, CalibrationError, STIFFNESS_POSITIONS, foundation_fit, single_contact, stiffness_variation,
+    Calibration, CalibrationError, STIFFNESS_POSITIONS, foundation_fit, single_contact, slice_fit, stiffness_variation,
     tooth_family,
 };
+use crate::contact::settings::Material;
 use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::gear::modification::Modification;
 use crate::gear::{Gear, GearPair, PairError};
+use crate::gear_mesh::{settings::Body, tooth_section::SpaceResolution};
 use crate::mesh_cycle::load_sharing::EquilibriumError;
+use crate::mesh_cycle::pair_in_space::PairInSpace;
 use crate::observer::Observer;
 use crate::pipeline::stage_clock::StageClock;
 use crate::plan::calibration::CalibrationStage;
 use crate::results::run::StageTime;
 use crate::scene::Scene;
-use crate::stiffness::iso6336;
+use crate::stiffness::{StiffnessError, curve::PairCompliance, iso6336};
 
 /// Why there is no calibration.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -33,6 +37,9 @@ pub enum CalibrateError {
     /// Finite elements gave none.
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
+    /// The flattening of the surfaces alone is more than the whole pair yields.
+    #[error(transparent)]
+    Stiffness(#[from] StiffnessError),
     /// The mesh cycle of unworn flanks has no equilibrium.
     #[error("mesh cycle under {line_load_n_per_mm:.2} N/mm: {source}")]
     Cycle {
@@ -105,6 +112,12 @@ pub(crate) fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Res
         neighbours = stages.run(Stage::Neighbours, || setup.neighbours())?;
         family = stages.run(Stage::ToothFamily, || tooth_family::family(&setup))?;
     }
+    let pair_compliance = loaded.curve(&deflection, w);
+    let in_slices = scene.slices.is_some() && scene.fem.body == Body::Ring;
+    let slices = match in_slices {
+        true => stages.run(Stage::Slices, || slices(scene, &pair, &pair_compliance, w))?,
+        false => None,
+    };
     let stopped = || observer.interrupted();
     let wear_reference = stages.run(Stage::WearReference, || wear_reference::references(&condensed, w, &stopped))?;
     let mut calibration = Calibration {
@@ -114,7 +127,7 @@ pub(crate) fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Res
         elements_per_half_width: scene.fem.elements_per_half_width,
         line_load_n_per_mm: w,
         path_points_mm,
-        pair_compliance: loaded.curve(&deflection, w),
+        pair_compliance,
         foundation,
         foundation_fit,
         deflection_at_points: path_points_mm.map(|position_mm| loaded.deflection(position_mm, w)),
@@ -127,9 +140,24 @@ pub(crate) fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Res
         neighbours,
         family,
         wear_reference,
+        slices,
     };
     calibration.hash = calibration.content_hash();
     Ok(Calibrated { calibration, stages: stages.0.times, wall_s: start.elapsed().as_secs_f64() })
+}
+
+/// How the slices of the pair yield together; none where its teeth cannot be had in space.
+fn slices(
+    scene: &Scene,
+    pair: &GearPair,
+    curve: &PairCompliance,
+    line_load_n_per_mm: f64,
+) -> Result<Option<SliceFit>, StiffnessError> {
+    let elastic = scene.material.map(Material::elastic);
+    match PairInSpace::new(pair, &elastic, &scene.fem.clamp_radius_mm, &SpaceResolution::USUAL) {
+        Ok(in_space) => slice_fit::fit(pair, &scene.material, &in_space, curve, line_load_n_per_mm).map(Some),
+        Err(_) => Ok(None),
+    }
 }
 
 /// The pair alone in contact, without relief and crowning: K/H belongs to the curvature of the involute, and a relief changes

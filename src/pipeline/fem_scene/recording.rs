@@ -280,7 +280,8 @@ impl Parts<'_> {
         }
         let is_default = |gear: Gear| {
             let root_mm = self.model.pair.teeth[gear].root_radius_mm;
-            default_clamp(root_mm, self.model.pair.spec.normal_module_mm).radius_mm == self.bodies.clamp_radius_mm[gear]
+            default_clamp(root_mm, self.model.pair.spec.transverse_module_mm()).radius_mm
+                == self.bodies.clamp_radius_mm[gear]
         };
         if Gear::BOTH.into_iter().any(is_default) {
             let radii = self.bodies.clamp_radius_mm;

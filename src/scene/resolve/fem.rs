@@ -82,7 +82,7 @@ fn clamp_radius(given: &mut Option<f64>, gear: Gear, pair: &PairSpec, findings: 
     let bore_mm = pair.gears[gear].bore_diameter_mm.map_or(0.0, |diameter| 0.5 * diameter);
     let greatest_mm = greatest_clamp_mm(root_mm, pair.normal_module_mm);
     let Some(radius_mm) = *given else {
-        let DefaultClamp { radius_mm, small_gear } = default_clamp(root_mm, pair.normal_module_mm);
+        let DefaultClamp { radius_mm, small_gear } = default_clamp(root_mm, pair.transverse_module_mm());
         // A body ends at its bore.
         let radius_mm = radius_mm.max(bore_mm).min(greatest_mm);
         if small_gear && bore_mm == 0.0 {

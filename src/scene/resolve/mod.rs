@@ -114,11 +114,11 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let pair = pair::choose(&mut file.pair, findings);
     let materials = settings::material(&mut file.material, findings);
     let operation = operation::choose(&mut file.operation, findings);
-    let sliced = pair.as_ref().is_some_and(|pair| !pair.is_alike_over_width());
-    let contact = settings::contact(&mut file.contact, sliced, findings);
+    let contact = settings::contact(&mut file.contact, findings);
     let calibration_file = file.contact.as_ref().and_then(|contact| contact.calibration.clone());
     let surface = contact.map(|contact| contact.surface);
-    let slices = pair.as_ref().and_then(|pair| slices::choose(&mut file.helical, pair, surface, findings));
+    let slices = pair.as_ref().and_then(|pair| slices::choose(&mut file, pair, surface, findings));
+    let coupling_by_default = file.helical.as_ref().is_none_or(|helical| helical.coupling.is_none());
     let teeth =
         Teeth { surface, calibrated: calibration_file.is_some(), coupling: slices.map(|slices| slices.coupling) };
     let stiffness = settings::stiffness(&mut file.stiffness, teeth, findings);
@@ -141,7 +141,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let (pair, operation) = (pair?, operation?);
     let finely_resolved = matches!(surface, Some(SurfaceKind::Fem | SurfaceKind::HalfSpace));
     let is_severe = wear.is_some_and(|wear| wear.severe.is_some());
-    let adaptive = finely_resolved && !sliced || is_severe;
+    let adaptive = finely_resolved || is_severe;
     let numerics = settings::numerics(&mut file.numerics, operation.pinion_revolutions, adaptive, findings);
     let verify = *file.numerics.get_or_insert_default().verify.get_or_insert(true);
     if !verify {
@@ -172,6 +172,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         fem: fem?,
         wear_elements_per_half_width: fem::wear_elements_per_half_width(file.fem.as_ref(), is_severe),
         slices,
+        coupling_by_default,
         heat: heat?,
         wear: wear?,
         numerics: numerics?,

@@ -89,16 +89,11 @@ fn properties(file: &GearMaterialFile) -> Option<(Material, ThermalMaterial)> {
     Some((elastic, thermal))
 }
 
-/// Chooses the contact surface of a pair, which may be cut into slices over the face width: elastic half-planes, unless there are slices
-/// or something is given that only a Winkler foundation reads.
-pub(super) fn contact(
-    file: &mut Option<ContactFile>,
-    sliced: bool,
-    findings: &mut Findings,
-) -> Option<ContactSettings> {
+/// Chooses the contact surface: elastic half-planes, unless something is given that only a Winkler foundation reads.
+pub(super) fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -> Option<ContactSettings> {
     let file = file.get_or_insert_default();
     let of_foundation = file.foundation_MPa_per_mm.is_some() || file.match_criterion.is_some();
-    let default = match sliced || of_foundation || file.calibration.is_some() {
+    let default = match of_foundation || file.calibration.is_some() {
         true => SurfaceKind::Winkler,
         false => SurfaceKind::HalfSpace,
     };
@@ -168,9 +163,6 @@ pub(super) fn stiffness(
         // Nothing reads it: what the user leaves out stays out.
         (Some(SurfaceKind::Fem), _) => file.model.unwrap_or_default(),
         (_, true) => *file.model.get_or_insert(StiffnessModel::Fem),
-        _ if matches!(coupling, Some(Coupling::None | Coupling::Slicing)) => {
-            *file.model.get_or_insert(StiffnessModel::WeberBanaschek)
-        }
         // Left open, it is another where finite elements cannot be had: it stays open.
         _ => file.model.unwrap_or(StiffnessModel::Fem),
     };

@@ -2,21 +2,23 @@
 
 use crate::contact::settings::SurfaceKind;
 use crate::gear::spec::PairSpec;
+use crate::mesh_cycle::settings::MOST_SLICES_IN_SPACE;
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
-use crate::scene::file::HelicalFile;
+use crate::scene::file::{BodyKind, SceneFile, StiffnessModel};
 use crate::scene::findings::Findings;
 
 const SLICES: u32 = 20;
-/// Most slices that are coupled each with each: 400 positions then take less than 0.5 GB.
-const MOST_SLICES_IN_SPACE: u32 = 100;
 
 /// Chooses the slices of `pair`; none where all its transverse sections are alike.
 pub(super) fn choose(
-    file: &mut Option<HelicalFile>,
+    file: &mut SceneFile,
     pair: &PairSpec,
     surface: Option<SurfaceKind>,
     findings: &mut Findings,
 ) -> Option<SliceSettings> {
+    let stiffness = file.stiffness.as_ref().and_then(|stiffness| stiffness.model);
+    let body = file.fem.as_ref().and_then(|fem| fem.body);
+    let file = &mut file.helical;
     if pair.is_alike_over_width() {
         if file.is_some() {
             findings.warnings.push(
@@ -37,8 +39,16 @@ pub(super) fn choose(
         );
     }
     let file = file.get_or_insert_default();
-    let (count, coupling) = (*file.slices.get_or_insert(SLICES), *file.coupling.get_or_insert_default());
-    if coupling == Coupling::Fem && count > MOST_SLICES_IN_SPACE {
+    let count = *file.slices.get_or_insert(SLICES);
+    // What is right where it can be had. Left open, it is another where teeth in space cannot be meshed: it stays open.
+    let in_space = count as usize <= MOST_SLICES_IN_SPACE
+        && stiffness.is_none_or(|model| model == StiffnessModel::Fem)
+        && body != Some(BodyKind::Sector);
+    let coupling = match in_space {
+        true => file.coupling.unwrap_or(Coupling::Fem),
+        false => *file.coupling.get_or_insert(Coupling::Slicing),
+    };
+    if coupling == Coupling::Fem && count as usize > MOST_SLICES_IN_SPACE {
         findings.not_allowed(
             "helical.slices",
             format!("{count} with helical.coupling = \"fem\""),

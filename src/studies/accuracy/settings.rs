@@ -140,7 +140,7 @@ pub(crate) fn euler_revolutions(scene: &Scene) -> f64 {
     scene.numerics.stepping.euler_revolutions(scene.operation.pinion_revolutions)
 }
 
-/// `coupled`, `uncoupled`.
+/// As tables and plots say it.
 pub(crate) fn coupling_name(coupling: Coupling) -> &'static str {
     match coupling {
         Coupling::None => "uncoupled",

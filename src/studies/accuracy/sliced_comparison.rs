@@ -2,13 +2,14 @@
 //!
 //! | table | differs in | against |
 //! |---|---|---|
-//! | coupling | whether slices are coupled | the same surface, coupled |
+//! | coupling | how slices are coupled | the same surface, coupled as the reference |
 //! | simplified model | mean pressure in place of Hertz's ellipse | `hertz` with the same coupling |
 //! | contact surface | the surface, all of them coupled | `half-space`, tip edges followed |
 //! | tooth stiffness | the stiffness, on the scene's surface | that of finite elements |
 
 use super::comparison::{Run, row, stiffnesses, table};
 use super::settings::{Setting, Surface, coupling_name};
+use super::sliced_selection::{slices_of_any_stiffness, truest};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::scene::Resolved;
 use crate::studies::accuracy::record::Comparison;
@@ -25,11 +26,14 @@ pub(super) fn comparisons(resolved: &Resolved, own: SliceSettings, runs: &[Run<'
     // Stiffnesses are tried at the second resolution where there is one.
     let scenes_own: Vec<Run<'_>> = [2 * finest, finest]
         .into_iter()
-        .map(|by| at(by).into_iter().filter(|run| run.setting.slices == Some(own)).collect::<Vec<_>>())
+        .map(|by| {
+            let slices = Some(slices_of_any_stiffness(own));
+            at(by).into_iter().filter(|run| run.setting.slices == slices).collect::<Vec<_>>()
+        })
         .find(|runs| !runs.is_empty())
         .unwrap_or_default();
     [
-        coupling(&runs, own.count),
+        coupling(&runs, own.count, truest(&resolved.scene, own.count)),
         simplified(&runs, own.count),
         surfaces(&runs, own.count),
         stiffnesses(resolved, &scenes_own),
@@ -50,19 +54,21 @@ fn coupling_of(run: &Run<'_>) -> Coupling {
     run.setting.slices.map_or(Coupling::None, |slices| slices.coupling)
 }
 
-/// Every surface uncoupled, against itself coupled.
-fn coupling(runs: &[Run<'_>], slices: usize) -> Option<Comparison> {
+/// Every surface against itself with the truest coupling.
+fn coupling(runs: &[Run<'_>], slices: usize, truest: Coupling) -> Option<Comparison> {
     let rows = runs
         .iter()
-        .filter(|run| coupling_of(run) == Coupling::None)
+        .filter(|run| coupling_of(run) != truest)
         .filter_map(|run| {
             let coupled = counterpart(runs, run, |setting| {
-                setting.slices = setting.slices.map(|s| SliceSettings { coupling: Coupling::Slicing, ..s });
+                setting.slices = setting.slices.map(|s| SliceSettings { coupling: truest, ..s });
             })?;
-            Some(row(format!("{}, uncoupled", run.setting.surface_name()), run, &coupled))
+            let coupling = coupling_name(coupling_of(run));
+            Some(row(format!("{}, {coupling}", run.setting.surface_name()), run, &coupled))
         })
         .collect();
-    table("Coupling of slices", format!("{slices} slices, each surface by itself"), "the same surface, coupled", rows)
+    let against = format!("the same surface, {}", coupling_name(truest));
+    table("Coupling of slices", format!("{slices} slices, each surface by itself"), &against, rows)
 }
 
 /// The simplified model against the distributed pressure it stands for.

@@ -1,29 +1,53 @@
 //! Which settings are run where sections differ over the face width.
 //!
-//! There is no finite-element solution of such a pair to measure against: the finite elements are plane. The truest model
-//! there is takes its place, elastic half-planes whose slices are coupled through the tooth's bending, tip edges followed, on
-//! twice the scene's slices. The plan is
+//! Plane finite elements are no solution of such a pair. The truest model there is takes their place, elastic half-planes whose slices are
+//! coupled by three-dimensional finite elements of both gears, tip edges followed, on twice the scene's slices; where teeth cannot be had
+//! in space, or so many slices not be coupled there, the slices are coupled as plates. The plan is
 //!
 //! * the reference and its companions: steps twice as long, half of the slices, half of the points and positions;
-//! * every surface, coupled and uncoupled, at every resolution of points, positions and steps, on the scene's slices;
+//! * the surfaces that stand for the others, coupled in space, at the finest resolution;
+//! * every surface, coupled as plates and uncoupled, at every resolution of points, positions and steps, on the scene's slices;
 //! * other numbers of slices with the surfaces that stand for the others, at the second resolution;
 //! * other tooth stiffnesses on the scene's own surface, and tip edges that are not followed.
 
 use super::selection::{COMPANION_STEP, Companions, Selection, Spacing, Stiffnesses, surfaces};
 use super::settings::{Coarsening, Setting, Stiffness, Surface};
 use crate::contact::settings::{Foundation, MatchCriterion};
-use crate::mesh_cycle::settings::{Coupling, SliceSettings};
-use crate::scene::Resolved;
+use crate::gear_mesh::settings::Body;
+use crate::mesh_cycle::settings::{Coupling, MOST_SLICES_IN_SPACE, SliceSettings};
+use crate::scene::{Resolved, Scene};
 
-/// Most slices that a scene may have.
-const MOST_SLICES: usize = 2000;
 /// Fewest slices that tell something of the width.
 const LEAST_SLICES: usize = 2;
 /// The K/H that stands for the others.
 const CRITERION: MatchCriterion = MatchCriterion::HalfWidth;
 const MATCHED: Surface = Surface::Winkler(Foundation::Matched(CRITERION));
-/// The true coupling first.
+/// Of every surface, the truer one first.
 const COUPLINGS: [Coupling; 2] = [Coupling::Slicing, Coupling::None];
+
+/// The coupling of the reference to a scene with so many slices: in space where its teeth can be had there.
+pub(super) fn truest(scene: &Scene, slices: usize) -> Coupling {
+    match scene.fem.body == Body::Ring && slices <= MOST_SLICES_IN_SPACE {
+        true => Coupling::Fem,
+        false => Coupling::Slicing,
+    }
+}
+
+/// Most slices that the reference may have.
+fn most_slices(coupling: Coupling) -> usize {
+    match coupling {
+        Coupling::Fem => MOST_SLICES_IN_SPACE,
+        Coupling::None | Coupling::Slicing => 2000,
+    }
+}
+
+/// The slices that stiffnesses are compared on, of a scene that has `own`: in space there is one alone.
+pub(super) fn slices_of_any_stiffness(own: SliceSettings) -> SliceSettings {
+    match own.coupling {
+        Coupling::Fem => SliceSettings { coupling: Coupling::Slicing, ..own },
+        Coupling::None | Coupling::Slicing => own,
+    }
+}
 
 /// Adds the settings of a pair with slices to `selection`.
 pub(super) fn add(
@@ -35,10 +59,14 @@ pub(super) fn add(
     stiffnesses: &Stiffnesses,
 ) {
     let best = stiffnesses.best();
-    reference(selection, own.count, levels, best);
+    let truest = truest(&resolved.scene, own.count);
+    reference(selection, SliceSettings { coupling: truest, ..own }, levels, best);
     let finest = levels[0];
     let second = levels.get(1).copied().unwrap_or(finest);
     for surface in surfaces(resolved, calibrated) {
+        if truest == Coupling::Fem && stands_for_others(surface) {
+            selection.add(setting(surface, best, SliceSettings { coupling: truest, ..own }, Coarsening::even(finest)));
+        }
         for &by in levels {
             for coupling in COUPLINGS {
                 if stands_for_others(surface) || (by == finest && coupling == Coupling::Slicing) {
@@ -55,7 +83,8 @@ pub(super) fn add(
         }
     }
     for stiffness in &stiffnesses.all {
-        selection.add(setting(Surface::of_scene(resolved), stiffness, own, Coarsening::even(second)));
+        let slices = slices_of_any_stiffness(own);
+        selection.add(setting(Surface::of_scene(resolved), stiffness, slices, Coarsening::even(second)));
     }
     let coupled = SliceSettings { coupling: Coupling::Slicing, ..own };
     for (surface, by) in [(MATCHED, finest), (Surface::HalfSpace, second)] {
@@ -66,14 +95,14 @@ pub(super) fn add(
 }
 
 /// The reference, first of all, with its companions.
-fn reference(selection: &mut Selection, slices: usize, levels: &[u32], stiffness: &Stiffness) {
-    let finest = levels[0];
+fn reference(selection: &mut Selection, own: SliceSettings, levels: &[u32], stiffness: &Stiffness) {
+    let (finest, slices) = (levels[0], own.count);
     let of = |count: usize, coarsening: Coarsening| {
-        let slices = SliceSettings { count, coupling: Coupling::Slicing };
+        let slices = SliceSettings { count, ..own };
         setting(Surface::HalfSpace, stiffness, slices, coarsening)
     };
     let long_steps = Coarsening { spacing: finest, step: COMPANION_STEP * finest };
-    let most = (2 * slices).min(MOST_SLICES);
+    let most = (2 * slices).min(most_slices(own.coupling));
     selection.add(of(most, Coarsening::even(finest)));
     let long = selection.add(of(most, long_steps));
     selection.companions.push(Companions { fine: 0, coarse: long, spacing: Spacing::Step });
@@ -92,7 +121,9 @@ fn reference(selection: &mut Selection, slices: usize, levels: &[u32], stiffness
 /// A quarter, half and twice the scene's slices, as far as these are slices at all.
 fn other_counts(selection: &mut Selection, own: usize) -> Vec<usize> {
     let mut counts: Vec<usize> = Vec::new();
-    for (count, name) in [(own / 4, "a quarter"), (own / 2, "half"), ((2 * own).min(MOST_SLICES), "twice")] {
+    for (count, name) in
+        [(own / 4, "a quarter"), (own / 2, "half"), ((2 * own).min(most_slices(Coupling::Slicing)), "twice")]
+    {
         if count < LEAST_SLICES || count == own {
             selection.leave_out(&format!("{name} of the scene's {own} slices"), "not between 2 and 2000 slices");
         } else {
@@ -123,6 +154,10 @@ fn stands_for_others(surface: Surface) -> bool {
 fn leave_out(selection: &mut Selection) {
     for (what, reason) in [
         ("surface fem", "the finite elements are plane: they calibrate the slices, but are no slices themselves"),
+        (
+            "other surfaces, stiffnesses, numbers of slices and resolutions coupled in space",
+            "the coupling changes them as it changes those that are run",
+        ),
         ("half-width", "where slices of one tooth enter while others leave, no pair ever carries the load alone"),
         (
             "Winkler foundations on peak pressure and approach uncoupled, and at coarser resolutions",

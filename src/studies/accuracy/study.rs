@@ -27,10 +27,10 @@ use crate::studies::accuracy::record::{
 
 /// Least ratio of the wear steps taken of which anything is learned.
 const LEAST_STEP_RATIO: f64 = 1.2;
-/// What a reference without finite elements over the face width leaves open.
-const DOES_NOT_TELL: &str = "There is no three-dimensional finite-element solution of the pair: the finite elements are plane. \
-                             The errors are those of the contact surface, of the coupling of slices against that of the reference, \
-                             and of the resolution; how true the coupling itself is they do not tell.";
+/// What a reference on half-planes leaves open.
+const DOES_NOT_TELL: &str = "The teeth of the reference are three-dimensional finite elements, or plates where these cannot be had; contact \
+                             itself is plane in every slice, on half-planes. The errors are those of the contact surface, of the coupling of \
+                             slices and of the resolution; what half-planes themselves leave out at tip edges and end faces they do not tell.";
 
 /// Why there is nothing to compare.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

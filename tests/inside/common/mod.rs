@@ -102,7 +102,7 @@ use gearwear::contact::{
     settings::MatchCriterion,
     winkler::{Winkler, WinklerFoundation},
 };
-use gearwear::mesh_cycle::{settings::SliceSettings, sliced_teeth::SlicedTeeth};
+use gearwear::mesh_cycle::{settings::SliceSettings, slice_coupling::SliceCompliance, sliced_teeth::SlicedTeeth};
 use gearwear::observer::Unwatched;
 use gearwear::simulation::mesh_contact::MeshContact;
 use gearwear::simulation::settings::{Numerics, Stepping};
@@ -217,7 +217,8 @@ impl Scene {
             severe: self.severe,
             ..WearSettings::archard(self.coefficient_mm2_per_n)
         });
-        let sliced = self.slices.map(|settings| SlicedTeeth::new(&pair, &steel(), settings, None));
+        let compliance = SliceCompliance::of_plates(&pair, &steel(), teeth.states_the_section());
+        let sliced = self.slices.map(|settings| SlicedTeeth::new(&pair, settings, compliance, None));
         let phase = RunPhase {
             contact: MeshContact::LineOfAction {
                 surface: surface.as_ref(),

@@ -1,6 +1,6 @@
 //! Error against run time, one plot for each quantity, with its Pareto front.
 //!
-//! Colours and shapes are the surfaces; of pairs with slices, full marks are coupled slices and open ones uncoupled.
+//! Colours and shapes are the surfaces; of pairs with slices, full marks are slices coupled as plates, those with a dot in space, open ones uncoupled.
 
 use serde_json::json;
 
@@ -29,8 +29,12 @@ const KINDS: [(&str, &str, &str, IsKind); 6] = [
 ];
 
 /// Couplings of slices, `None` without slices, with what they add to the name and to the symbol of a kind.
-const COUPLINGS: [(Option<&str>, &str, &str); 3] =
-    [(None, "", ""), (Some("slicing"), ", coupled", ""), (Some("none"), ", uncoupled", "-open")];
+const COUPLINGS: [(Option<&str>, &str, &str); 4] = [
+    (None, "", ""),
+    (Some("fem"), ", coupled in space", "-dot"),
+    (Some("slicing"), ", coupled", ""),
+    (Some("none"), ", uncoupled", "-open"),
+];
 
 pub(super) fn all(record: &AccuracyRecord) -> Vec<Chart> {
     Quantity::ALL.into_iter().filter(|q| record.measures(*q)).map(|quantity| front(record, quantity)).collect()

@@ -63,7 +63,7 @@ fn style(variant: &VariantRecord) -> SurfaceStyle {
 /// Full lines are coupled slices, dashed ones uncoupled; of the Winkler beds the one on half-width is drawn to begin with.
 fn style_of_slices(variant: &VariantRecord) -> SurfaceStyle {
     let s = &variant.settings;
-    let coupled = s.coupling.as_deref() == Some("slicing");
+    let coupled = s.coupling.as_deref() != Some("none");
     let dash = if coupled { Dash::Solid } else { Dash::Dashed };
     let (colour, stands_for_others) = match s.surface.as_str() {
         "hertz-mean" => ("var(--new)", true),
@@ -80,6 +80,7 @@ fn surface(variant: &VariantRecord) -> String {
     let surface = variant.name.split(" · ").next().unwrap_or(&variant.name);
     match variant.settings.coupling.as_deref() {
         None => surface.to_owned(),
+        Some("fem") => format!("{surface}, coupled in space"),
         Some("slicing") => format!("{surface}, coupled"),
         Some(_) => format!("{surface}, uncoupled"),
     }

@@ -14,8 +14,11 @@
 //! pressure      √(mean of (p/p_f − 1)²) + u               of the greatest pressure at the positions between the tip edges, on worn flanks
 //! ```
 //!
-//! A run on finite elements is held against a finer mesh of them.
+//! A run on finite elements is held against a finer mesh of them; a run with slices against another in space ([`in_space`]).
 
+mod in_space;
+
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::Model;
@@ -25,7 +28,9 @@ use crate::fem::gear::{condensed_pair::CondensedPair, model::ModelError};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::BodySettings;
 use crate::mesh_cycle::CycleObservation;
+use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::observer::Observer;
+use crate::plan::is_finest_in_space;
 use crate::reference::flattening::Flattening;
 use crate::results::error::{ErrorPerGear, ErrorSummary, TotalError};
 use crate::results::run::StopReason;
@@ -34,6 +39,7 @@ use crate::simulation::figures::WearFigures;
 use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::settings::{AdaptiveMethod, Numerics, Phase, Stepping};
 use crate::simulation::wear_run::{Outcome, RunPhase, WearRun};
+use crate::stiffness::curve::PairCompliance;
 
 /// Least half-width of contact at the pitch point that is meshed, in modules: the flank then has some thousand nodes.
 const LEAST_HALF_WIDTH_MODULES: f64 = 0.015;
@@ -48,15 +54,48 @@ const MOST_STEPS: u64 = 200;
 /// Half-widths of contact at the pitch point from A and E within which the tip edges shape the pressure.
 const NEAR_TIP_EDGES: f64 = 3.0;
 
-/// The finite elements' own uncertainty: of the profile, the peak wear, the transmission error and the pressure.
-const OWN_PROFILE: f64 = 0.006;
-const OWN_PEAK: f64 = 0.006;
-const OWN_TRANSMISSION_ERROR: f64 = 0.005;
-const OWN_PRESSURE: f64 = 0.02;
-/// Of the tip edges, whose contact is narrower than what the elements are meshed for.
-const OWN_TIP_EDGE: f64 = 0.015;
+/// A life's own uncertainty, relative.
+struct Uncertainty {
+    profile: f64,
+    peak: f64,
+    tip_edge: f64,
+    transmission_error: f64,
+    pressure: f64,
+}
+
+/// Of plane finite elements. Tip edges have a contact narrower than what the elements are meshed for.
+const OF_ELEMENTS: Uncertainty =
+    Uncertainty { profile: 0.006, peak: 0.006, tip_edge: 0.015, transmission_error: 0.005, pressure: 0.02 };
 /// Of the profile and the peak wear where wear is severe: what elements twice as fine find differs by that on nine of ten random pairs.
-const OWN_SEVERE: f64 = 0.02;
+const SEVERE: f64 = 0.02;
+
+impl Uncertainty {
+    /// Where wear may be severe.
+    fn severe(self) -> Self {
+        let Self { profile, peak, tip_edge, .. } = self;
+        Self { profile: profile.max(SEVERE), peak: peak.max(SEVERE), tip_edge: tip_edge.max(SEVERE), ..self }
+    }
+}
+
+/// What the verification of a run is made with.
+pub(super) struct Means<'a, 'b> {
+    /// Plane finite elements of the pair.
+    pub elements: Option<Result<Elements<'a>, ModelError>>,
+    /// Stiffness along the path of contact that finite elements have told already.
+    pub curve: Option<&'b PairCompliance>,
+    /// The teeth in space, of a run with slices.
+    pub in_space: Option<Result<Arc<PairInSpace>, PairInSpaceError>>,
+}
+
+/// The same life on what vouches for the run.
+struct Life {
+    outcome: Outcome,
+    own: Uncertainty,
+    /// What the flank points of the run have lost there.
+    wear_mm: PerGear<Vec<f64>>,
+    /// What it was.
+    on: String,
+}
 
 /// What the finite elements say.
 #[derive(Default)]
@@ -153,31 +192,16 @@ pub(super) fn condensed<'a>(
     CondensedPair::build(pair, &scene.material.map(Material::elastic), line_load_n_per_mm, &bodies)
 }
 
-/// Verifies the completed run `outcome` on `elements`, or on others of its own. Whatever happens to the finite elements never costs
-/// the run its result.
+/// Verifies the completed run `outcome`. Whatever happens to the finite elements never costs the run its result.
 pub(super) fn verify<'a>(
     model: &Model<'a>,
     outcome: &Outcome,
-    elements: Option<Result<Elements<'a>, ModelError>>,
+    means: Means<'a, '_>,
     observer: &dyn Observer,
 ) -> Verified {
-    let other_mesh = || {
-        let greatest_load = model.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max);
-        let finer = model.scene.wear_elements_per_half_width + 1.0;
-        condensed(model.scene, model.pair, greatest_load, finer)
-    };
-    let life = || {
-        let condensed = match elements {
-            Some(Ok(Elements { half_width_mm: (half_width, least), .. })) if half_width < least => {
-                return Err(format!(
-                    "the contact is too narrow to be meshed for a verification: its half-width at the pitch point is {half_width:.2e} mm, \
-                     at least {least:.2e} mm is wanted, for narrower contact takes too many elements"
-                ));
-            }
-            Some(elements) => elements.map(|elements| elements.condensed),
-            None => other_mesh(),
-        };
-        life(model, outcome, &condensed.map_err(|error| error.to_string())?, observer)
+    let life = || match model.sliced {
+        None => on_elements(model, outcome, means.elements, observer),
+        Some(_) => in_space::life(model, outcome, means, observer),
     };
     match guarded(life) {
         Ok(Ok(life)) => compared(model, outcome, &life),
@@ -185,23 +209,50 @@ pub(super) fn verify<'a>(
     }
 }
 
-/// The life on finite elements; where it does not come to its end, why.
+/// The life on plane finite elements, others than the run's own; where it does not come to its end, why.
+fn on_elements<'a>(
+    model: &Model<'a>,
+    outcome: &Outcome,
+    elements: Option<Result<Elements<'a>, ModelError>>,
+    observer: &dyn Observer,
+) -> Result<Life, String> {
+    let other_mesh = || {
+        let greatest_load = model.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max);
+        let finer = model.scene.wear_elements_per_half_width + 1.0;
+        condensed(model.scene, model.pair, greatest_load, finer)
+    };
+    let elements = match elements {
+        Some(Ok(Elements { half_width_mm: (half_width, least), .. })) if half_width < least => {
+            return Err(format!(
+                "the contact is too narrow to be meshed for a verification: its half-width at the pitch point is {half_width:.2e} mm, \
+                 at least {least:.2e} mm is wanted, for narrower contact takes too many elements"
+            ));
+        }
+        Some(elements) => elements.map(|elements| elements.condensed),
+        None => other_mesh(),
+    };
+    let elements = elements.map_err(|error| error.to_string())?;
+    let contacts = model.phases.iter().map(|_| MeshContact::FiniteElements(&elements)).collect();
+    let life = life(model, outcome, contacts, POSITIONS, observer)?;
+    let own = if wears_severely(model, &life) { OF_ELEMENTS.severe() } else { OF_ELEMENTS };
+    Ok(Life { wear_mm: life.worn.wear_mm.clone(), outcome: life, own, on: "finite elements".to_owned() })
+}
+
+/// The life with these contacts in the phases of the run; where it does not come to its end, why.
 fn life(
     model: &Model<'_>,
     outcome: &Outcome,
-    elements: &CondensedPair<'_>,
+    contacts: Vec<MeshContact<'_>>,
+    positions: usize,
     observer: &dyn Observer,
 ) -> Result<Outcome, String> {
     let scene = model.scene;
-    let phases: Vec<RunPhase<'_>> = model
-        .phases
-        .iter()
-        .map(|phase| RunPhase { contact: MeshContact::FiniteElements(elements), ..*phase })
-        .collect();
+    let phases: Vec<RunPhase<'_>> =
+        model.phases.iter().zip(contacts).map(|(phase, contact)| RunPhase { contact, ..*phase }).collect();
     let deepest = |gear: Gear| outcome.worn.wear_mm[gear].iter().copied().fold(0.0, f64::max);
     let tolerance_mm = (TOLERANCE * deepest(Gear::Pinion).max(deepest(Gear::Wheel))).max(LEAST_TOLERANCE_MM);
     let stepping = Stepping::Adaptive { tolerance_mm, method: AdaptiveMethod::RungeKuttaChebyshev };
-    let numerics = Numerics { positions: POSITIONS, stepping, ..scene.numerics };
+    let numerics = Numerics { positions, stepping, ..scene.numerics };
     let run = WearRun { phases: &phases, numerics, snapshots_revolutions: &[], ..model.wear_run() };
     let bounded = Bounded { observer, steps: AtomicU64::new(0) };
     let life = run.run(&bounded).map_err(|error| error.to_string())?;
@@ -217,30 +268,29 @@ fn life(
 }
 
 /// How far the run is from the finite elements.
-fn compared(model: &Model<'_>, run: &Outcome, life: &Outcome) -> Verified {
-    let (own_profile, own_peak) =
-        if wears_severely(model, life) { (OWN_SEVERE, OWN_SEVERE) } else { (OWN_PROFILE, OWN_PEAK) };
+fn compared(model: &Model<'_>, run: &Outcome, Life { outcome: life, own: of_life, wear_mm, on }: &Life) -> Verified {
     let per_gear = |of: &dyn Fn(Gear) -> Option<f64>| ErrorPerGear { pinion: of(Gear::Pinion), wheel: of(Gear::Wheel) };
     let profile = per_gear(&|gear| {
-        let (own, truth) = (&run.worn.wear_mm[gear], &life.worn.wear_mm[gear]);
+        let (own, truth, grid) = (&run.worn.wear_mm[gear], &wear_mm[gear], &run.grid[gear]);
         let square = |of: &dyn Fn(usize) -> f64| {
             let squares: Vec<f64> = (0..own.len()).map(|i| of(i).powi(2)).collect();
-            run.grid[gear].integral(&squares)
+            squares.chunks_exact(grid.len()).map(|slice| grid.integral(slice)).sum::<f64>()
         };
         let whole = square(&|i| truth[i]);
-        (whole > 0.0).then(|| (square(&|i| own[i] - truth[i]) / whole).sqrt() + own_profile)
+        (whole > 0.0).then(|| (square(&|i| own[i] - truth[i]) / whole).sqrt() + of_life.profile)
     });
     let figures =
         |outcome: &Outcome| PerGear::from_fn(|gear| WearFigures::at(model.pair, gear, outcome, &outcome.worn));
     let (own, truth) = (figures(run), figures(life));
     let off = |gear: Gear| relative(own[gear].peak_mm, truth[gear].peak_mm);
-    let peak_wear = per_gear(&|gear| off(gear).map(|off| off + own_peak));
+    let peak_wear = per_gear(&|gear| off(gear).map(|off| off + of_life.peak));
     let tip_edge_wear = per_gear(&|gear| {
         let off = relative(own[gear].tip_edge.depth_mm, truth[gear].tip_edge.depth_mm);
-        off.map(|off| off + own_peak.max(OWN_TIP_EDGE))
+        off.map(|off| off + of_life.tip_edge)
     });
     let surface_model = match model.scene.contact.surface {
         SurfaceKind::Fem => None,
+        _ if is_finest_in_space(model.scene) => None,
         _ => Gear::BOTH.into_iter().filter_map(off).reduce(f64::max),
     };
     let peak_to_peak = |outcome: &Outcome| {
@@ -252,20 +302,20 @@ fn compared(model: &Model<'_>, run: &Outcome, life: &Outcome) -> Verified {
         peak_wear,
         tip_edge_wear,
         transmission_error_peak_to_peak: relative(peak_to_peak(run), peak_to_peak(life))
-            .map(|off| off + OWN_TRANSMISSION_ERROR),
-        pressure_between_tips: pressure(model, &run.worn.cycle, &life.worn.cycle).map(|off| off + OWN_PRESSURE),
+            .map(|off| off + of_life.transmission_error),
+        pressure_between_tips: pressure(model, &run.worn.cycle, &life.worn.cycle).map(|off| off + of_life.pressure),
         how: format!(
-            "the same life on finite elements ({} positions in a base pitch, {} wear steps, {} mesh cycles); their own uncertainty is added: \
+            "the same life on {on} ({} positions in a base pitch, {} wear steps, {} mesh cycles); their own uncertainty is added: \
              {} % of the profile, {} % of the greatest wear and {} % of that of the tip edges",
             life.work.equilibria / life.work.mesh_cycles.max(1),
             life.steps.accepted,
             life.work.mesh_cycles,
-            100.0 * own_profile,
-            100.0 * own_peak,
-            100.0 * own_peak.max(OWN_TIP_EDGE),
+            100.0 * of_life.profile,
+            100.0 * of_life.peak,
+            100.0 * of_life.tip_edge,
         ),
     };
-    Verified { total, surface_model, wear_mm: Some(life.worn.wear_mm.clone()), warning: None }
+    Verified { total, surface_model, wear_mm: Some(wear_mm.clone()), warning: None }
 }
 
 /// Whether the pressure reaches a transition to severe wear at any moment that is kept.

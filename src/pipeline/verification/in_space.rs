@@ -1,0 +1,106 @@
+//! The life that vouches for a run with slices: on elastic half-planes, tip edges followed, slices coupled by three-dimensional finite
+//! elements of both gears ([`crate::mesh_cycle::pair_in_space`]), teeth as stiff as plane finite elements have them.
+//!
+//! A run that is of this kind itself is held against one on other slices, a third more of them: what is left of its error is that of the
+//! slices, for positions, points and steps have estimates of their own.
+
+use std::sync::Arc;
+
+use super::{Elements, Life, Means, Uncertainty, life as run_life, wears_severely};
+use crate::calibration;
+use crate::contact::half_space::HalfSpace;
+use crate::gear::slices::Slices;
+use crate::gear::{Gear, PerGear};
+use crate::mesh_cycle::settings::{Coupling, MOST_SLICES_IN_SPACE, SliceSettings};
+use crate::mesh_cycle::slice_coupling::SliceCompliance;
+use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
+use crate::observer::Observer;
+use crate::pipeline::Model;
+use crate::plan::is_finest_in_space;
+use crate::simulation::mesh_contact::MeshContact;
+use crate::simulation::wear_run::Outcome;
+use crate::stiffness::settings::StiffnessSettings;
+use crate::stiffness::{StiffnessError, TeethSpring, curve::PairCompliance};
+
+/// Positions from A to E.
+const POSITIONS: usize = 200;
+/// Fewest slices: with fewer the loads at the ends of the lines of contact are lost.
+const LEAST_SLICES: usize = 15;
+/// Of half-planes in place of finite elements, whose teeth end, and of elements and slices (docs/accuracy.md).
+const OF_HALF_PLANES: Uncertainty =
+    Uncertainty { profile: 0.03, peak: 0.015, tip_edge: 0.06, transmission_error: 0.01, pressure: 0.03 };
+
+/// The life in space; where it does not come to its end, why.
+pub(super) fn life(
+    model: &Model<'_>,
+    outcome: &Outcome,
+    means: Means<'_, '_>,
+    observer: &dyn Observer,
+) -> Result<Life, String> {
+    let Model { scene, pair, .. } = *model;
+    let in_space = match means.in_space {
+        Some(Ok(teeth)) => teeth,
+        Some(Err(error)) => return Err(error.to_string()),
+        None => return Err("there are no teeth in space".to_owned()),
+    };
+    let own_curve;
+    let curve: &PairCompliance = match (means.curve, means.elements) {
+        (Some(curve), _) => curve,
+        (None, Some(Ok(Elements { condensed, line_load_n_per_mm, .. }))) => {
+            let curve = calibration::pair_compliance(&condensed, &scene.material, line_load_n_per_mm);
+            own_curve = curve.map_err(|error| error.to_string())?;
+            &own_curve
+        }
+        (None, Some(Err(error))) => return Err(error.to_string()),
+        (None, None) => return Err("there are no plane finite elements".to_owned()),
+    };
+    let own = outcome.slices.count();
+    let count = if is_finest_in_space(scene) { own + own.div_ceil(3) } else { own };
+    let count = count.clamp(LEAST_SLICES, MOST_SLICES_IN_SPACE);
+    let settings = SliceSettings { count, coupling: Coupling::Fem };
+    let unread = SliceCompliance::of_plates(pair, &scene.material, true);
+    let sliced = SlicedTeeth::new(pair, settings, unread, Some(Arc::clone(&in_space)));
+    let loads = || model.phases.iter().map(|phase| phase.line_load_n_per_mm);
+    let half_plane = |expected_line_load_n_per_mm| HalfSpace { material: scene.material, expected_line_load_n_per_mm };
+    let surfaces: Vec<HalfSpace> = loads().map(half_plane).collect();
+    let spring =
+        |(surface, load)| TeethSpring::new(StiffnessSettings::Fem, Some(curve), pair, &scene.material, surface, load);
+    let teeth: Vec<TeethSpring<'_>> = surfaces
+        .iter()
+        .map(|surface| surface as &dyn crate::contact::ContactSurface)
+        .zip(loads())
+        .map(spring)
+        .collect::<Result<_, StiffnessError>>()
+        .map_err(|error| error.to_string())?;
+    let contact =
+        |(surface, teeth)| MeshContact::LineOfAction { surface, teeth, tip_contact: true, sliced: Some(&sliced) };
+    let contacts = surfaces.iter().map(|surface| surface as _).zip(&teeth).map(contact).collect();
+    let life = run_life(model, outcome, contacts, POSITIONS, observer)?;
+    let own = if wears_severely(model, &life) { OF_HALF_PLANES.severe() } else { OF_HALF_PLANES };
+    let wear_mm = PerGear::from_fn(|gear: Gear| {
+        let points = outcome.grid[gear].len();
+        over_slices(&life.worn.wear_mm[gear], points, &life.slices, &outcome.slices)
+    });
+    let on = format!("elastic half-planes in {count} slices, coupled by three-dimensional finite elements");
+    Ok(Life { outcome: life, own, wear_mm, on })
+}
+
+/// What so many `points` of slices have lost, as means over other slices of the same face width.
+fn over_slices(wear_mm: &[f64], points: usize, from: &Slices, to: &Slices) -> Vec<f64> {
+    if from.count() == to.count() {
+        return wear_mm.to_vec();
+    }
+    let mut means = vec![0.0; points * to.count()];
+    for (own, mean) in means.chunks_exact_mut(points).enumerate() {
+        let begins = own as f64 * to.slice_width_mm;
+        for (other, slice) in wear_mm.chunks_exact(points).enumerate() {
+            let other = other as f64 * from.slice_width_mm;
+            let shared = (begins + to.slice_width_mm).min(other + from.slice_width_mm) - begins.max(other);
+            if shared > 0.0 {
+                let weight = shared / to.slice_width_mm;
+                mean.iter_mut().zip(slice).for_each(|(mean, wear)| *mean += weight * wear);
+            }
+        }
+    }
+    means
+}
