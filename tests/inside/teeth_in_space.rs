@@ -214,15 +214,17 @@ fn gears_with_too_few_teeth_are_refused() {
     assert!(matches!(refused, Err(PairInSpaceError::TooFewTeeth { gear: Gear::Pinion, .. })), "{refused:?}");
 }
 
-/// The preset `helical` with new flanks, coupled in space, changed by `changes`.
-fn new_flanks(changes: &[(&str, toml::Value)]) -> RunRecord {
-    let mut scene = LoadedScene::preset("helical").unwrap();
+/// The preset `helical` with new flanks, coupled in space, changed by `changes`; bodies are held 2.5 normal modules below the root circles.
+fn new_flanks(helix_deg: f64, changes: &[(&str, toml::Value)]) -> RunRecord {
+    let mut scene = LoadedScene::preset("helical").unwrap().with("pair.helix_angle_deg", helix_deg).unwrap();
+    let depth_mm = 2.5 * scene.scene().pair.normal_module_mm;
+    let clamp_mm = PerGear::from_fn(|gear| scene.scene().pair.root_radius_mm(gear) - depth_mm);
     let first = toml::toml! {
         step = { revolutions = 10.0 }
     };
     for (key, value) in [
-        ("stiffness.model", "fem".into()),
-        ("helical.coupling", "fem".into()),
+        ("fem.clamp_radius_mm.pinion", clamp_mm.pinion.into()),
+        ("fem.clamp_radius_mm.wheel", clamp_mm.wheel.into()),
         ("operation.snapshots_revolutions", toml::Value::Array(vec![10.0.into()])),
         ("operation.pinion_revolutions", 10.0.into()),
         ("numerics.step", first["step"].clone()),
@@ -242,7 +244,9 @@ fn new_flanks(changes: &[(&str, toml::Value)]) -> RunRecord {
 #[test]
 fn val_transmission_error_of_a_helical_pair() {
     for (surface, tip_contact, greatest_um) in [("hertz", false, 31.1), ("half-space", true, 30.8)] {
-        let run = new_flanks(&[("contact.surface", surface.into()), ("contact.tip_contact", tip_contact.into())]);
+        let mut changes = vec![("contact.surface", toml::Value::from(surface))];
+        changes.extend(tip_contact.then(|| ("contact.tip_contact", true.into())));
+        let run = new_flanks(15.0, &changes);
         let (new, helical) = (&run.summary.new, run.summary.helical.as_ref().unwrap());
         assert_close(surface, new.transmission_error_um.min, 20.2, 0.01);
         assert_close(surface, new.transmission_error_um.max, greatest_um, 0.01);
@@ -254,13 +258,10 @@ fn val_transmission_error_of_a_helical_pair() {
 #[test]
 fn val_face_load_factor() {
     for (width_mm, helix_deg, slope_um, factor) in [(14.0, 0.0, 20.0, 1.52), (20.0, 30.0, 0.0, 1.085)] {
-        let run = new_flanks(&[
-            ("contact.surface", "half-space".into()),
-            ("contact.tip_contact", true.into()),
-            ("pair.face_width_mm", width_mm.into()),
-            ("pair.helix_angle_deg", helix_deg.into()),
-            ("pair.pinion.helix_slope_deviation_um", slope_um.into()),
-        ]);
+        let run = new_flanks(
+            helix_deg,
+            &[("pair.face_width_mm", width_mm.into()), ("pair.pinion.helix_slope_deviation_um", slope_um.into())],
+        );
         let found = run.summary.helical.as_ref().unwrap().K_Hbeta_new;
         assert_close(&format!("{width_mm} mm, {helix_deg}°"), found, factor, 0.02);
     }
