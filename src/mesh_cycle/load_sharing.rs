@@ -159,6 +159,40 @@ impl<'a> MeshedPair<'a> {
         self.indentation_mm + self.response.line_load_n_per_mm / self.teeth_n_per_mm2 + self.further.0
     }
 
+    /// Presses the pair until it has approached by `whole_mm` beyond its first touch; answers how many evaluations that took.
+    pub(super) fn press_to(&mut self, whole_mm: f64) -> u64 {
+        self.load_at(whole_mm);
+        let mut evaluations = 1;
+        // Without what is beside the indentation it is all of the approach, and as much less as that is.
+        let beside = self.beyond_touch_mm() - whole_mm;
+        let (mut low, mut high) = (whole_mm - beside.max(0.0), whole_mm);
+        while self.beyond_touch_mm() < whole_mm && evaluations < 2 + BISECTION_LIMIT as u64 {
+            (low, high) = (high, high + 2.0 * (whole_mm - self.beyond_touch_mm()));
+            self.load_at(high);
+            evaluations += 1;
+        }
+        for _ in 0..BISECTION_LIMIT {
+            let lacks = whole_mm - self.beyond_touch_mm();
+            if lacks.abs() <= self.least_step_mm() {
+                break;
+            }
+            if lacks > 0.0 {
+                low = self.indentation_mm;
+            } else {
+                high = self.indentation_mm;
+            }
+            // Newton's step, or half of what is left where that leads beyond it.
+            let step = self.indentation_mm + lacks / self.series();
+            let next = if step > low && step < high { step } else { low.midpoint(high) };
+            if next <= low || next >= high {
+                break;
+            }
+            self.load_at(next);
+            evaluations += 1;
+        }
+        evaluations
+    }
+
     /// Approach of the whole pair.
     pub(super) fn whole_approach_mm(&self) -> f64 {
         self.touch_mm + self.beyond_touch_mm()

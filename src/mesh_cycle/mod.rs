@@ -8,7 +8,7 @@
 pub(crate) mod bent_tooth;
 mod collected;
 pub(crate) mod condensed;
-mod coupled_teeth;
+pub(crate) mod coupled_teeth;
 mod heated;
 pub(crate) mod load_sharing;
 pub(crate) mod pair_in_space;

@@ -1,6 +1,13 @@
 //! How slices of a tooth hold each other: limit cases, and the plate that a tooth is taken for.
 
+use gearwear::contact::{Footprint, PairContact, PointContact, PositionCell, Response, Sweep};
+use gearwear::gear::{Gear, PerGear};
+use gearwear::mesh_cycle::bent_tooth::BentTooth;
+use gearwear::mesh_cycle::coupled_teeth::CoupledTeeth;
+use gearwear::mesh_cycle::load_sharing::MeshedPair;
 use gearwear::mesh_cycle::slice_coupling::{Factors, Reach, SliceCoupling};
+use gearwear::mesh_cycle::sliced_positions::SliceContact;
+use gearwear::mesh_cycle::sliced_sharing::balance_on_teeth;
 
 use super::common::{assert_close, fzg_c, pair, steel};
 
@@ -129,4 +136,80 @@ fn val_reach_of_fzg_teeth() {
     // Even plate as high as the load: 0.71 and 0.53 of the load's height, which is about half the tooth's at mid-path.
     assert!((0.25..0.71).contains(&twist), "{twist}");
     assert!((0.2..0.53).contains(&bending), "{bending}");
+}
+
+/// A contact that rises steepest at its first touch, w = C s^{2/3}: a whole cell of a calibrated foundation at once.
+struct Softening {
+    touch_mm: f64,
+}
+
+/// C, N/mm^{5/3}: about that of FZG type C.
+const RISE: f64 = 5e3;
+
+impl PairContact for Softening {
+    fn set_removed(&mut self, _: PerGear<&[f64]>) {}
+
+    fn touch_mm(&self) -> f64 {
+        self.touch_mm
+    }
+
+    fn load_at(&mut self, indentation_mm: f64) -> Response {
+        if indentation_mm <= 0.0 {
+            return Response::default();
+        }
+        let line_load_n_per_mm = RISE * indentation_mm.powf(2.0 / 3.0);
+        Response { line_load_n_per_mm, stiffness_n_per_mm2: 2.0 / 3.0 * line_load_n_per_mm / indentation_mm }
+    }
+
+    fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64 {
+        2.0 * (line_load_n_per_mm / RISE).powf(1.5)
+    }
+
+    fn sweep(&self, _: Gear, _: PerGear<&[f64]>, _: &mut Sweep) {}
+
+    fn contact_of_points(&self, _: Gear, _: PerGear<&[f64]>) -> Vec<PointContact> {
+        Vec::new()
+    }
+
+    fn footprint(&self) -> Footprint {
+        Footprint::default()
+    }
+}
+
+/// Slices that soften with their load balance on their tooth however far apart they touch: the last in contact is on the verge of
+/// it for some. Residuals of the equations, with the deflections solved anew from the loads.
+#[test]
+fn ver_softening_slices_balance() {
+    let (count, mm2_per_n) = (20, 5e-5);
+    let coupling = SliceCoupling::new(Reach::of_pair(&pair(&fzg_c()), &steel()), count, 2.0);
+    let cell = PositionCell { position_mm: 0.0, lower_mm: 0.0, upper_mm: 0.0 };
+    let contacts: Vec<SliceContact> = (0..count).map(|slice| SliceContact { tooth: 0, slice, cell }).collect();
+    for (load, tilts) in [(2e3, 100), (20.0, 30)] {
+        for tilt_mm in (1..=tilts).map(|n| 4e-5 * f64::from(n)) {
+            let touch_mm = |slice: usize| tilt_mm * slice as f64;
+            let mut pairs: Vec<MeshedPair<'_>> = (0..count)
+                .map(|slice| MeshedPair::new(Box::new(Softening { touch_mm: touch_mm(slice) }), f64::INFINITY))
+                .collect();
+            pairs.iter_mut().for_each(|pair| pair.set_removed(PerGear::default()));
+            let teeth = BentTooth::of_phase(&contacts, count, |_| mm2_per_n);
+            let mut teeth = CoupledTeeth::Plates { teeth, coupling: coupling.clone() };
+            let found =
+                balance_on_teeth(&mut pairs, &mut teeth, load, 0.0).unwrap_or_else(|e| panic!("{tilt_mm}: {e}"));
+            assert!(found.iterations < 30, "{tilt_mm}: {}", found.iterations);
+
+            let loads: Vec<f64> = pairs.iter().map(|pair| pair.response.line_load_n_per_mm).collect();
+            assert_close("load", loads.iter().sum(), load, 1e-10);
+            // u = √q K⁻¹ √q w.
+            let mut bent: Vec<f64> = loads.iter().map(|w| mm2_per_n * w).collect();
+            let mut factors = Factors::default();
+            coupling.factorise(&vec![0.0; count], &mut factors);
+            factors.solve(&mut bent);
+            for (slice, (w, u)) in loads.iter().zip(&bent).enumerate() {
+                let indentation_mm = found.transmission_error_mm - touch_mm(slice) - u;
+                let lacks_mm = (w / RISE).powf(1.5) - indentation_mm;
+                let holds = if *w > 0.0 { lacks_mm.abs() < 1e-12 } else { indentation_mm < 1e-12 };
+                assert!(holds, "{tilt_mm} {slice}: {w} {lacks_mm:e}");
+            }
+        }
+    }
 }
