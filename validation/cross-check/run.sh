@@ -1,7 +1,7 @@
 #!/bin/sh
-# Solves the NAFEMS cylinder and the fzg-c pair with CalculiX, with sharp tips and with rounded ones that touch, writes the
-# results beside this file and prints them beside gearwear's. Needs Python 3.10, ccx (or CCX=…) and gearwear (or GEARWEAR=…);
-# about three quarters of an hour.
+# Solves the NAFEMS cylinder and the fzg-c pair with CalculiX, with sharp tips and with rounded ones that touch, and pinion teeth in
+# space, writes the results beside this file and prints those of contact beside gearwear's. Needs Python 3.10, ccx (or CCX=…) and
+# gearwear (or GEARWEAR=…); about an hour.
 set -eu
 here=$(dirname "$0")
 for program in "${CCX:-ccx}" "${GEARWEAR:-gearwear}"; do
@@ -13,4 +13,5 @@ trap 'rm -rf "$work"' EXIT
 python3 "$here"/nafems_cylinder.py "$work"
 python3 "$here"/fzg_c_pair.py "$work"
 python3 "$here"/tip_edges.py "$work"
+python3 "$here"/teeth_in_space.py "$work"
 python3 "$here"/compare.py "$work"

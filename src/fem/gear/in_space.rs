@@ -99,7 +99,7 @@ impl PlaneSection {
             working_side_probes: 0,
         };
         let matrices = sector.condense(material, Analysis::PlaneStrain)?.matrices;
-        let joined = joined(&matrices, tooth.teeth, 1)?;
+        let joined = joined(&matrices, 1, ring(tooth.teeth, 1))?;
         let compliance = joined.blocks(&matrices, 0, 0..=0).next().expect("one sector");
         let directions = flank_radii_mm(section).map(|radius_mm| load_direction(tooth, radius_mm)).collect();
         Ok(Self { section: section.clone(), compliance, directions })
@@ -125,9 +125,17 @@ impl PlaneSection {
     }
 }
 
-/// The first `teeth` of a ring of `all`.
-fn joined(matrices: &SectorMatrices, all: u32, teeth: usize) -> Result<JoinedSectors, ActiveSetError> {
-    let surroundings = Surroundings::Ring { coarse: all as usize - teeth };
+/// What surrounds the first `teeth` of a ring of `all`.
+fn ring(all: u32, teeth: usize) -> Surroundings {
+    Surroundings::Ring { coarse: all as usize - teeth }
+}
+
+/// So many `teeth` among others like them.
+fn joined(
+    matrices: &SectorMatrices,
+    teeth: usize,
+    surroundings: Surroundings,
+) -> Result<JoinedSectors, ActiveSetError> {
     JoinedSectors::new(matrices, Some(&matrices.cut_stiffness), teeth, surroundings)
 }
 
@@ -135,22 +143,39 @@ impl TeethInSpace {
     /// Condenses the teeth of a gear, `teeth` of which (at most all of them) may be loaded together.
     pub(crate) fn new(tooth: &Tooth, mesh: ExtrudedTooth, material: Elastic, teeth: usize) -> Result<Self, SpaceError> {
         let matrices = condensed(tooth, &mesh, material, false)?;
-        Self::joined(tooth, mesh, &matrices, teeth)
+        Self::joined(mesh, &matrices, teeth, ring(tooth.teeth, teeth))
     }
 
     /// The same in plane strain: the end faces stay in their planes.
     #[cfg(test)]
     pub(crate) fn in_plane_strain(tooth: &Tooth, mesh: ExtrudedTooth, material: Elastic) -> Result<Self, SpaceError> {
         let matrices = condensed(tooth, &mesh, material, true)?;
-        Self::joined(tooth, mesh, &matrices, 1)
+        Self::joined(mesh, &matrices, 1, ring(tooth.teeth, 1))
     }
 
-    fn joined(tooth: &Tooth, mesh: ExtrudedTooth, matrices: &SectorMatrices, teeth: usize) -> Result<Self, SpaceError> {
+    /// Two teeth in a row with `beside` more on either side, its outer cuts held.
+    #[cfg(test)]
+    pub(crate) fn in_a_row(
+        tooth: &Tooth,
+        mesh: ExtrudedTooth,
+        material: Elastic,
+        beside: usize,
+    ) -> Result<Self, SpaceError> {
+        let matrices = condensed(tooth, &mesh, material, false)?;
+        Self::joined(mesh, &matrices, 2, Surroundings::ClampedSector { coarse: beside })
+    }
+
+    fn joined(
+        mesh: ExtrudedTooth,
+        matrices: &SectorMatrices,
+        teeth: usize,
+        surroundings: Surroundings,
+    ) -> Result<Self, SpaceError> {
         let mut next = 0..;
         let mut places_at =
             |k: usize| mesh.section.flank.iter().map(|node| mesh.node(*node, k).and_then(|_| next.next())).collect();
         let places = (0..mesh.z_mm.len()).map(&mut places_at).collect();
-        let joined = joined(matrices, tooth.teeth, teeth)?;
+        let joined = joined(matrices, teeth, surroundings)?;
         Ok(Self { by_distance: joined.blocks(matrices, 0, 0..=teeth - 1).collect(), mesh, places })
     }
 
