@@ -28,7 +28,7 @@ use crate::stiffness::{StiffnessError, TeethSpring, curve::PairCompliance};
 const SLICES: usize = 20;
 /// Positions from A to E.
 const POSITIONS: usize = 16;
-/// Unknowns of the fit: teeth, both ends, both reaches, bodies, height.
+/// Unknowns of the fit: teeth, both ends, both reaches, bodies, length of the ends.
 const UNKNOWNS: usize = 7;
 /// Steps at the most; ten are usual.
 const MOST_STEPS: usize = 60;
@@ -87,8 +87,6 @@ struct Fit<'a> {
     pair: &'a GearPair,
     slices: Slices,
     phases: Vec<Phase>,
-    /// Compliance of the section at the pitch point, mm²/N.
-    at_pitch_point_mm2_per_n: f64,
     /// Compliance of what pairs share, mm²/N.
     shared_mm2_per_n: f64,
     /// The closed forms.
@@ -140,8 +138,7 @@ pub(crate) fn fit(
         phases.push(Phase { cases: cases.collect(), lines });
     }
     let start = SliceCompliance::of_plates(pair, material, true);
-    let at_pitch_point_mm2_per_n = 1.0 / teeth.slice_n_per_mm2(pair.path.pitch_point_mm, base_helix)?;
-    let fit = Fit { pair, slices, phases, at_pitch_point_mm2_per_n, shared_mm2_per_n: teeth.shared_mm2_per_n(), start };
+    let fit = Fit { pair, slices, phases, shared_mm2_per_n: teeth.shared_mm2_per_n(), start };
     let (compliance, residual) = fit.solve();
     let spec = &pair.spec;
     Ok(SliceFit {
@@ -180,7 +177,7 @@ impl Fit<'_> {
                 bending_mm4: start.reach.bending_mm4 * x[4].exp(),
             },
             bodies: x[5].exp(),
-            height: 1.0 + x[6],
+            end_length_mm: start.end_length_mm * x[6].exp(),
         }
     }
 
@@ -199,10 +196,7 @@ impl Fit<'_> {
                 let shared = bodies * n_per_mm.iter().sum::<f64>();
                 let size = deflection_mm.iter().map(|u| u * u).sum::<f64>().sqrt();
                 for line in lines {
-                    let root = |k: usize| {
-                        let of_height = compliance.of_height(line.mm2_per_n[k], self.at_pitch_point_mm2_per_n);
-                        (of_height * softness[line.slices[k]]).sqrt()
-                    };
+                    let root = |k: usize| (line.mm2_per_n[k] * softness[line.slices[k]]).sqrt();
                     let mut v = vec![0.0; count];
                     for (k, slice) in line.slices.iter().enumerate() {
                         v[*slice] = root(k) * n_per_mm[line.first + k];
@@ -235,7 +229,7 @@ impl Fit<'_> {
             for k in 0..UNKNOWNS {
                 normal[(k, k)] *= 1.0 + damping;
                 // What the loads do not tell stays as it is: a spur pair without shared bodies.
-                normal[(k, k)] += 1e-9;
+                normal[(k, k)] += f64::MIN_POSITIVE + 1e-9;
             }
             let Some(step) = normal.cholesky().map(|factor| factor.solve(&gradient)) else { break };
             let candidate = x - step.map(|part| part.clamp(-1.0, 1.0));

@@ -44,13 +44,12 @@ const SAMPLES: usize = 400;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SliceCompliance {
-    /// Compliance of the teeth of a slice over that of the section, at the pitch point.
+    /// Compliance of the teeth of a slice over that of the section.
     pub teeth: f64,
-    /// The power of the section's compliance, over that at the pitch point, with which it goes elsewhere: what bends is the higher the longer the
-    /// lever, and oblique teeth bend more.
-    pub height: f64,
-    /// What either end face, z = 0 first, adds to it there, in parts of it; that decays over a transverse module.
+    /// What either end face, z = 0 first, adds to it there, in parts of it.
     pub ends: [f64; 2],
+    /// Over which length that decays, mm.
+    pub end_length_mm: f64,
     /// How far a deflection reaches.
     pub reach: Reach,
     /// Compliance of what all pairs in mesh share over that of the section.
@@ -63,23 +62,15 @@ impl SliceCompliance {
     /// state what slices have.
     pub(crate) fn of_plates(pair: &GearPair, material: &PerGear<Material>, is_oblique: bool) -> Self {
         let teeth = if is_oblique { pair.spec.helix_angle_rad.cos().powi(-4) } else { 1.0 };
-        Self { teeth, height: 1.0, ends: [0.0; 2], reach: Reach::of_pair(pair, material), bodies: 1.0 }
+        let end_length_mm = pair.spec.transverse_module_mm();
+        Self { teeth, ends: [0.0; 2], end_length_mm, reach: Reach::of_pair(pair, material), bodies: 1.0 }
     }
 
-    /// Compliance of the teeth where their section has `section_mm2_per_n` and `at_pitch_point` at the pitch point, over `teeth` and the
-    /// ends, mm²/N.
-    pub(crate) fn of_height(&self, section_mm2_per_n: f64, at_pitch_point: f64) -> f64 {
-        if self.height == 1.0 {
-            return section_mm2_per_n;
-        }
-        at_pitch_point * (section_mm2_per_n / at_pitch_point).powf(self.height)
-    }
-
-    /// Compliance of the teeth of each slice over that of the section at the same height.
+    /// Compliance of the teeth of each slice over that of the section.
     pub(crate) fn of_slices(&self, pair: &GearPair, slices: &Slices) -> Vec<f64> {
-        let (module_mm, face_width_mm) = (pair.spec.transverse_module_mm(), pair.spec.face_width_mm);
+        let face_width_mm = pair.spec.face_width_mm;
         let [first, last] = self.ends;
-        let fades = |distance_mm: f64| (-distance_mm / module_mm).exp();
+        let fades = |distance_mm: f64| (-distance_mm / self.end_length_mm).exp();
         let of_slice = |z: &f64| self.teeth * (1.0 + first * fades(*z) + last * fades(face_width_mm - z));
         slices.width_mm.iter().map(of_slice).collect()
     }

@@ -18,7 +18,6 @@ pub(crate) struct SlicedTeeth {
     pub settings: SliceSettings,
     /// Where they are.
     pub slices: Slices,
-    pitch_point_mm: f64,
     /// How they yield where they are not coupled in space.
     compliance: SliceCompliance,
     /// Compliance of the teeth of each slice over that of the section.
@@ -63,24 +62,22 @@ impl SlicedTeeth {
                 Model::InSpace { seen: teeth.seen(settings.count).into(), teeth }
             }
         };
-        // Teeth in space have all of it.
-        let compliance = match settings.coupling {
-            Coupling::Fem => SliceCompliance { teeth: 1.0, height: 1.0, ends: [0.0; 2], bodies: 0.0, ..compliance },
-            Coupling::None | Coupling::Slicing => compliance,
+        let softness = match settings.coupling {
+            Coupling::Fem => vec![1.0; settings.count].into(),
+            Coupling::None | Coupling::Slicing => compliance.of_slices(pair, &slices).into(),
         };
-        let (softness, pitch_point_mm) = (compliance.of_slices(pair, &slices).into(), pair.path.pitch_point_mm);
-        Self { settings, slices, pitch_point_mm, compliance, softness, model }
+        Self { settings, slices, compliance, softness, model }
     }
 
     /// Compliance of the teeth at a contact, mm²/N, by that of their section along the path of contact.
     pub(crate) fn mm2_per_n(&self, contact: &SliceContact, section: &SpringAlongPath) -> f64 {
-        let [here, at_pitch_point] = [contact.cell.position_mm, self.pitch_point_mm].map(|at| section.mm2_per_n(at));
-        self.softness[contact.slice] * self.compliance.of_height(here, at_pitch_point)
+        self.softness[contact.slice] * section.mm2_per_n(contact.cell.position_mm)
     }
 
-    /// Compliance of the bodies that all pairs in mesh share, where the section's is given, mm²/N.
+    /// Compliance of the bodies that all pairs in mesh share, where the section's is given, mm²/N; those of teeth in space are part of what
+    /// couples them.
     pub(crate) fn bodies_mm2_per_n(&self, section_mm2_per_n: f64) -> f64 {
-        self.compliance.bodies * section_mm2_per_n
+        if self.in_space().is_some() { 0.0 } else { self.compliance.bodies * section_mm2_per_n }
     }
 
     /// Slices of the same teeth, `count` in number.
