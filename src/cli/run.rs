@@ -109,6 +109,9 @@ fn in_the_scene(error: RunError, scene: &LoadedScene) -> Failure {
     if let Some(stiffness) = error.stiffness() {
         return scene.given.refused(vec![Problem::of_stiffness(&scene.given.text, stiffness)]).into();
     }
+    if let RunError::TeethInSpace(error) = &error {
+        return scene.given.refused(vec![Problem::of_teeth_in_space(&scene.given.text, error)]).into();
+    }
     let of_model = error.model().and_then(|model| failure::of_model(model, &scene.given));
     of_model.unwrap_or(Failure::Run(error))
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use super::locate::Locator;
 use crate::gear::PairError;
+use crate::mesh_cycle::pair_in_space::PairInSpaceError;
 use crate::stiffness::StiffnessError;
 
 /// The nature of a problem.
@@ -77,6 +78,26 @@ impl Problem {
             allowed: format!("an odd number, at least {least}: so many teeth touch over the mesh cycle"),
             help: Some("body = \"ring\" has all teeth".to_owned()),
             span: Some(span),
+        }
+    }
+
+    /// The teeth of the scene in `text` cannot be had in space: its face width asks for too many of them, or its body cannot be meshed.
+    pub(crate) fn of_teeth_in_space(text: &str, error: &PairInSpaceError) -> Self {
+        let (key, allowed) = match error {
+            PairInSpaceError::TooFewTeeth { .. } => {
+                ("pair.face_width_mm".to_owned(), "fewer teeth in mesh than a gear has")
+            }
+            PairInSpaceError::Gear { gear, .. } => {
+                (format!("fem.clamp_radius_mm.{}", gear.name()), "a body whose section can be meshed")
+            }
+        };
+        Self {
+            kind: ProblemKind::NotAllowed,
+            span: Some(Locator::new(text).unwrap_or_default().nearest(&key)),
+            key,
+            found: format!("a pair whose teeth cannot be had in space ({error})"),
+            allowed: allowed.to_owned(),
+            help: Some("helical.coupling = \"slicing\" takes the teeth for plates".to_owned()),
         }
     }
 

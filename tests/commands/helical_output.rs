@@ -316,3 +316,20 @@ fn a_crowned_spur_pair_is_shown_slice_by_slice() {
         assert_eq!(page.contains("The modifications take up to 6.400\u{a0}µm"), shown, "{slices} slices");
     }
 }
+
+/// A face width that asks for more teeth in mesh than a gear has, with slices coupled in space by name.
+#[test]
+fn teeth_that_cannot_be_had_in_space_are_refused_at_their_key() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("scene.toml");
+    let wide = exchanged(
+        "helical",
+        &[("face_width_mm = 20.0", "face_width_mm = 900.0"), ("# coupling = \"slicing\" ", "coupling = \"fem\" ")],
+    );
+    fs::write(&file, wide).unwrap();
+    let output = gearwear().arg("run").arg(&file).arg("--out").arg(folder.path().join("out")).output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains("pair.face_width_mm") && told.contains("teeth may touch together"), "{told}");
+    assert!(!folder.path().join("out").join("summary.json").exists());
+}

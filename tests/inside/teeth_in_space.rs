@@ -417,19 +417,23 @@ fn val_face_load_factor() {
     }
 }
 
+/// `scene`, changed by `changes`.
+fn changed(mut scene: LoadedScene, changes: &[(&str, toml::Value)]) -> LoadedScene {
+    for (key, value) in changes {
+        scene = scene.with(key, value.clone()).unwrap();
+    }
+    scene
+}
+
 /// A coarse scene of the preset `helical`, changed by `changes`.
 fn coarse(changes: &[(&str, toml::Value)]) -> LoadedScene {
-    let mut scene = LoadedScene::preset("helical").unwrap();
-    let short = [
-        ("operation.snapshots_revolutions", toml::Value::Array(vec![6e5.into()])),
+    let coarse = [
+        ("operation.snapshots_revolutions", toml::Value::Array(vec![10.0.into()])),
         ("numerics.flank_points", 150.into()),
         ("numerics.positions", 60.into()),
         ("numerics.error_estimate", false.into()),
     ];
-    for (key, value) in short.iter().chain(changes) {
-        scene = scene.with(key, value.clone()).unwrap();
-    }
-    scene
+    changed(changed(LoadedScene::preset("helical").unwrap(), &coarse), changes)
 }
 
 fn completed(scene: &LoadedScene) -> RunRecord {
@@ -440,7 +444,9 @@ fn completed(scene: &LoadedScene) -> RunRecord {
 /// A and E, whose claim is no more than 2.5 times as wide.
 #[test]
 fn val_slices_know_their_error() {
-    let truth = completed(&coarse(&[("helical.slices", 36.into()), ("numerics.verify", false.into())]));
+    let scene = coarse(&[]);
+    let run_of = |changes: &[(&str, toml::Value)]| completed(&changed(scene.clone(), changes));
+    let truth = run_of(&[("helical.slices", 36.into()), ("numerics.verify", false.into())]);
     let cheap: &[(&str, toml::Value)] = &[
         ("contact.surface", "hertz".into()),
         ("helical.coupling", "none".into()),
@@ -448,7 +454,7 @@ fn val_slices_know_their_error() {
         ("helical.slices", 18.into()),
     ];
     for (changes, least) in [(&[("helical.slices", toml::Value::from(12))][..], 0.0), (cheap, 0.05)] {
-        let run = completed(&coarse(changes));
+        let run = run_of(changes);
         let total = &run.summary.error.total;
         let peaks = |run: &RunRecord| [run.summary.pinion.peak_wear_um, run.summary.wheel.peak_wear_um];
         for ((own, there), claim) in
@@ -469,12 +475,7 @@ fn val_slices_know_their_error() {
 /// 0.06 of their mean (root mean square).
 #[test]
 fn val_calibrated_slices() {
-    let short: &[(&str, toml::Value)] = &[
-        ("operation.pinion_revolutions", 10.0.into()),
-        ("operation.snapshots_revolutions", toml::Value::Array(vec![10.0.into()])),
-        ("numerics.verify", false.into()),
-    ];
-    let scene = coarse(short);
+    let scene = coarse(&[("operation.pinion_revolutions", 10.0.into()), ("numerics.verify", false.into())]);
     let calibrated = calibrate::run(scene.scene(), Extent::FastModel, &Unwatched).unwrap().calibration;
     let fit = calibrated.slices.expect("a pair with slices");
     assert!(
@@ -519,7 +520,6 @@ fn plates_stand_in_for_teeth_in_space() {
         ("pair.face_width_mm", 900.0.into()),
         ("operation.pinion_torque_Nm", 13_590.0.into()),
         ("operation.pinion_revolutions", 10.0.into()),
-        ("operation.snapshots_revolutions", toml::Value::Array(vec![10.0.into()])),
     ];
     let run = completed(&coarse(&wide));
     assert_eq!(run.summary.helical.as_ref().unwrap().coupling, "slicing");

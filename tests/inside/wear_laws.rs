@@ -149,12 +149,17 @@ fn ver_slices_wear_by_the_mean_coefficient() {
         let run = |law: (&str, &str)| {
             let edits = [
                 law,
-                ("surface = \"hertz\"", &surface_line),
+                ("surface = \"half-space\"", &surface_line),
+                ("# [stiffness] ", "[stiffness] "),
+                ("# model = \"weber-banaschek\"", "model = \"weber-banaschek\""),
+                ("# coupling = \"slicing\" ", "coupling = \"none\" "),
                 ("pinion_revolutions = 6e5", "pinion_revolutions = 10.0"),
                 ("flank_points = 750 ", "flank_points = 300 "),
                 ("positions = 400 ", "positions = 100 "),
-                ("step = { revolutions = 4000.0 }", "step = { revolutions = 10.0 }"),
-                NO_ESTIMATE,
+                ("step = \"adaptive\" ", "step = { revolutions = 10.0 } "),
+                ("tolerance_um", "# tolerance_um"),
+                ("error_estimate = true ", "error_estimate = false "),
+                ("verify = true ", "verify = false "),
             ];
             run_preset("h951", &edits, &format!("[temperature]\nmethod = \"{method}\"\n"))
         };

@@ -91,6 +91,8 @@ pub(super) struct Means<'a, 'b> {
 struct Life {
     outcome: Outcome,
     own: Uncertainty,
+    /// How many times the difference to it is what the run's slices leave: more than 1 where the life has slices too.
+    beyond: f64,
     /// What the flank points of the run have lost there.
     wear_mm: PerGear<Vec<f64>>,
     /// What it was.
@@ -235,7 +237,7 @@ fn on_elements<'a>(
     let contacts = model.phases.iter().map(|_| MeshContact::FiniteElements(&elements)).collect();
     let life = life(model, outcome, contacts, POSITIONS, observer)?;
     let own = if wears_severely(model, &life) { OF_ELEMENTS.severe() } else { OF_ELEMENTS };
-    Ok(Life { wear_mm: life.worn.wear_mm.clone(), outcome: life, own, on: "finite elements".to_owned() })
+    Ok(Life { wear_mm: life.worn.wear_mm.clone(), outcome: life, own, beyond: 1.0, on: "finite elements".to_owned() })
 }
 
 /// The life with these contacts in the phases of the run; where it does not come to its end, why.
@@ -268,7 +270,11 @@ fn life(
 }
 
 /// How far the run is from the finite elements.
-fn compared(model: &Model<'_>, run: &Outcome, Life { outcome: life, own: of_life, wear_mm, on }: &Life) -> Verified {
+fn compared(
+    model: &Model<'_>,
+    run: &Outcome,
+    Life { outcome: life, own: of_life, beyond, wear_mm, on }: &Life,
+) -> Verified {
     let per_gear = |of: &dyn Fn(Gear) -> Option<f64>| ErrorPerGear { pinion: of(Gear::Pinion), wheel: of(Gear::Wheel) };
     let profile = per_gear(&|gear| {
         let (own, truth, grid) = (&run.worn.wear_mm[gear], &wear_mm[gear], &run.grid[gear]);
@@ -277,16 +283,16 @@ fn compared(model: &Model<'_>, run: &Outcome, Life { outcome: life, own: of_life
             squares.chunks_exact(grid.len()).map(|slice| grid.integral(slice)).sum::<f64>()
         };
         let whole = square(&|i| truth[i]);
-        (whole > 0.0).then(|| (square(&|i| own[i] - truth[i]) / whole).sqrt() + of_life.profile)
+        (whole > 0.0).then(|| beyond * (square(&|i| own[i] - truth[i]) / whole).sqrt() + of_life.profile)
     });
     let figures =
         |outcome: &Outcome| PerGear::from_fn(|gear| WearFigures::at(model.pair, gear, outcome, &outcome.worn));
     let (own, truth) = (figures(run), figures(life));
     let off = |gear: Gear| relative(own[gear].peak_mm, truth[gear].peak_mm);
-    let peak_wear = per_gear(&|gear| off(gear).map(|off| off + of_life.peak));
+    let peak_wear = per_gear(&|gear| off(gear).map(|off| beyond * off + of_life.peak));
     let tip_edge_wear = per_gear(&|gear| {
         let off = relative(own[gear].tip_edge.depth_mm, truth[gear].tip_edge.depth_mm);
-        off.map(|off| off + of_life.tip_edge)
+        off.map(|off| beyond * off + of_life.tip_edge)
     });
     let surface_model = match model.scene.contact.surface {
         SurfaceKind::Fem => None,
