@@ -187,7 +187,7 @@ fn deep_run(surface: &str, steps: f64) -> RunRecord {
         ("flank_points = 750 ", "flank_points = 375 ".to_owned()),
         ("positions = 400 ", "positions = 200 ".to_owned()),
         ("slices = 20 ", "slices = 10 ".to_owned()),
-        ("error_estimate = true", "error_estimate = false".to_owned()),
+        ("error_estimate = true", "error_estimate = false\nverify = false".to_owned()),
     ] {
         assert!(text.contains(from), "{from}");
         text = text.replace(from, &to);

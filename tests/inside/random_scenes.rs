@@ -45,7 +45,7 @@ fn scene() -> impl Strategy<Value = Result<Resolved, String>> {
             draft.set("pair.helix_angle_deg", helix_angle_deg);
             draft.set("pair.pinion.helix_slope_deviation_um", slope_um);
             draft.set("helical.slices", 5);
-            draft.set("helical.coupling", if relief_um > 15.0 { "slicing" } else { "none" });
+            draft.set("helical.coupling", if relief_um > 25.0 { "slicing" } else { "none" });
         } else {
             draft.set("pair.pressure_angle_deg", pressure_angle_deg);
         }

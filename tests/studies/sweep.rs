@@ -652,13 +652,14 @@ fn shards_are_verified_when_they_are_merged() {
     assert_eq!(table(&bench.out("again")), table(&out));
 }
 
-/// Slices have no finite elements; a scene that does not ask for the verification by name gets none.
+/// Teeth of a sector cannot be had in space; a scene that does not ask for the verification by name gets none.
 #[test]
 fn rows_that_cannot_be_verified_say_why() {
-    let bench = Bench::of(&verified_scene());
+    let bench = Bench::of(&verified_scene().replace("[fem]\n", "[fem]\nbody = \"sector\"\n"));
     done(&bench.sweep("out", &["pair.pinion.lead_crowning_um=5:10:2"], &["--quiet"]));
     let how = column(&bench.out("out"), "error.total.how");
-    assert!(how.iter().all(|how| how == "not verified: plane finite elements vouch for nothing over the face width"));
+    let why = "not verified: fem.body is \"sector\": teeth in space are those of whole rings";
+    assert!(how.iter().all(|how| how == why), "{how:?}");
     let unasked = Bench::new();
     let output = unasked.sweep("out", &[WIDTHS], &[]);
     done(&output);
