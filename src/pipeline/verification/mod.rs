@@ -292,7 +292,7 @@ fn compared(
     let peak_wear = per_gear(&|gear| off(gear).map(|off| beyond * off + of_life.peak));
     let tip_edge_wear = per_gear(&|gear| {
         let off = relative(own[gear].tip_edge.depth_mm, truth[gear].tip_edge.depth_mm);
-        off.map(|off| beyond * off + of_life.tip_edge)
+        off.map(|off| off + of_life.tip_edge)
     });
     let surface_model = match model.scene.contact.surface {
         SurfaceKind::Fem => None,
