@@ -88,7 +88,13 @@ pub(super) fn life(
         let points = outcome.grid[gear].len();
         over_slices(&life.worn.wear_mm[gear], points, &life.slices, &outcome.slices)
     });
-    let on = format!("elastic half-planes in {count} slices, coupled by three-dimensional finite elements");
+    let counts = match is_finest_in_space(scene) {
+        true => format!(
+            ", to which differences of the active profile count {beyond:.1} times, for wear converges with the width of the slices"
+        ),
+        false => String::new(),
+    };
+    let on = format!("elastic half-planes in {count} slices, coupled by three-dimensional finite elements{counts}");
     Ok(Life { outcome: life, own, beyond, wear_mm, on })
 }
 
