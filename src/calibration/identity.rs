@@ -15,6 +15,11 @@ use crate::gear_mesh::settings::{Body, BodySettings, SectorSides};
 /// Relative difference of two numbers below which they are the same: round-off of units.
 const SAME: f64 = 1e-9;
 
+/// Whether two numbers are the same but for round-off of units.
+pub(super) fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SAME * a.abs().max(b.abs())
+}
+
 /// What a calibration belongs to.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -225,8 +230,7 @@ fn compare(key: &str, calibration: &Value, scene: &Value, found: &mut Vec<String
         }
         (Value::Number(own), Value::Number(other)) => {
             let (own, other) = (own.as_f64().unwrap_or(f64::NAN), other.as_f64().unwrap_or(f64::NAN));
-            let same = (own - other).abs() <= SAME * own.abs().max(other.abs());
-            if !same {
+            if !same(own, other) {
                 found.push(format!("{key}: calibration {own}, scene {other}"));
             }
         }

@@ -16,10 +16,13 @@
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 use serde::{Deserialize, Serialize};
 
+use super::STIFFNESS_POSITIONS;
+use super::identity::same;
 use crate::contact::{half_space::HalfSpace, settings::Material};
 use crate::gear::{GearPair, PerGear, slices::Slices};
 use crate::mesh_cycle::pair_in_space::PairInSpace;
 use crate::mesh_cycle::slice_coupling::{Factors, Reach, SliceCompliance, SliceCoupling};
+use crate::mesh_cycle::sliced::SpringAlongPath;
 use crate::mesh_cycle::sliced_positions::{SliceContact, sliced_positions};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::stiffness::{StiffnessError, TeethSpring, curve::PairCompliance};
@@ -30,12 +33,12 @@ const SLICES: usize = 20;
 const POSITIONS: usize = 16;
 /// Unknowns of the fit: teeth, both ends, both reaches, bodies, length of the ends.
 const UNKNOWNS: usize = 7;
+/// Weight of lines that are loaded evenly, which is what they nearly are on new flanks.
+const EVEN_WEIGHT: f64 = 3.0;
 /// Steps at the most; ten are usual.
 const MOST_STEPS: usize = 60;
 /// Step of the difference quotients.
 const DIFFERENCE: f64 = 1e-6;
-/// Relative difference of two numbers below which they are the same: round-off of units.
-const SAME: f64 = 1e-9;
 /// Decrease of the sum of squares, relative, that ends the fit.
 const SETTLED: f64 = 1e-9;
 
@@ -54,9 +57,8 @@ pub struct SliceFit {
 }
 
 impl SliceFit {
-    /// Whether it is of a pair whose section it has been told to belong to.
+    /// Whether it is of `pair`, whose transverse section it is known to have.
     pub(crate) fn is_of(&self, pair: &GearPair) -> bool {
-        let same = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
         let spec = &pair.spec;
         same(self.helix_angle_deg, spec.helix_angle_rad.to_degrees()) && same(self.face_width_mm, spec.face_width_mm)
     }
@@ -105,29 +107,30 @@ pub(crate) fn fit(
     let teeth = TeethSpring::new(StiffnessSettings::Fem, Some(curve), pair, material, &surface, line_load_n_per_mm)?;
     let (slices, base_helix) = (Slices::new(pair, SLICES), pair.base_helix_angle_rad());
     let seen = in_space.seen(SLICES);
+    // The whole spring, which teeth in space have beside the surface, and what slices have of it to themselves.
+    let along = |spring: &dyn Fn(f64) -> Result<f64, StiffnessError>| {
+        SpringAlongPath::new(&pair.path, STIFFNESS_POSITIONS, [0.0; 2], spring)
+    };
+    let whole = along(&|at| teeth.oblique_n_per_mm2(at, base_helix))?;
+    let own = along(&|at| teeth.slice_n_per_mm2(at, base_helix))?;
     let mut phases = Vec::new();
     for phase in sliced_positions(&pair.path, &slices, POSITIONS, None) {
         let contacts = &phase.contacts;
         let at = |contact: &SliceContact| contact.cell.position_mm;
-        // What is not stated anywhere on the path is an error here, once.
-        for contact in contacts {
-            teeth.slice_n_per_mm2(at(contact), base_helix)?;
-        }
-        let whole = |contact: &SliceContact| {
-            teeth.oblique_n_per_mm2(at(contact), base_helix).map_or(0.0, |stiffness| 1.0 / stiffness)
-        };
-        let section = |contact: &SliceContact| {
-            teeth.slice_n_per_mm2(at(contact), base_helix).map_or(0.0, |stiffness| 1.0 / stiffness)
-        };
-        let influence = in_space.influence(pair, &slices, &seen, contacts, whole).mm2_per_n;
+        let influence =
+            in_space.influence(pair, &slices, &seen, contacts, |contact| whole.mm2_per_n(at(contact))).mm2_per_n;
         let mut first = 0;
         let lines: Vec<LineOfContact> = contacts
             .chunk_by(|a, b| a.tooth == b.tooth)
-            .map(|own| {
+            .map(|of_tooth| {
                 let begins = first;
-                first += own.len();
-                let mm2_per_n = own.iter().map(section).collect();
-                LineOfContact { first: begins, slices: own.iter().map(|c| c.slice).collect(), mm2_per_n }
+                first += of_tooth.len();
+                let mm2_per_n = of_tooth.iter().map(|contact| own.mm2_per_n(at(contact))).collect();
+                LineOfContact {
+                    first: begins,
+                    slices: of_tooth.iter().map(|contact| contact.slice).collect(),
+                    mm2_per_n,
+                }
             })
             .collect();
         let count = contacts.len();
@@ -162,9 +165,6 @@ fn loads(lines: &[LineOfContact], count: usize) -> impl Iterator<Item = (Vec<f64
     std::iter::once((vec![1.0; count], EVEN_WEIGHT))
         .chain(each.into_iter().map(move |(first, last)| (on(first, last), 1.0)))
 }
-
-/// Of lines that are loaded evenly, which is what they are on new flanks.
-const EVEN_WEIGHT: f64 = 3.0;
 
 impl Fit<'_> {
     fn compliance(&self, x: &SVector<f64, UNKNOWNS>) -> SliceCompliance {
