@@ -127,7 +127,9 @@ impl Stiffness {
 
     /// The scene's own.
     pub(crate) fn of_scene(resolved: &Resolved) -> Self {
-        let file = resolved.file.stiffness.clone().unwrap_or_default();
+        let mut file = resolved.file.stiffness.clone().unwrap_or_default();
+        // Left open, it is that of finite elements.
+        file.model.get_or_insert(StiffnessModel::Fem);
         match file.pair_N_per_mm_um.filter(|_| file.model == Some(StiffnessModel::Constant)) {
             Some(value) => Self::constant(value),
             None => Self { file, name: resolved.scene.stiffness.name().to_owned() },
