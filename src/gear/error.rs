@@ -122,6 +122,16 @@ pub enum PairError {
         /// What a flank may lose.
         greatest_mm: f64,
     },
+    /// The axes are so far from parallel that the flanks hardly meet.
+    #[error(
+        "axes that are not parallel make a helix slope of {slope_mm:.4} mm: at most {greatest_mm:.4} mm leave a flank"
+    )]
+    AxesTooFarFromParallel {
+        /// Of the working flanks over the face width.
+        slope_mm: f64,
+        /// What a flank may lose.
+        greatest_mm: f64,
+    },
     /// The rounding of the tip edge takes more of the flank or of the tip land than there is.
     #[error("the {} tip rounding has radius {radius_mm:.4} mm: at most {greatest_mm:.4} mm fit", .gear.name())]
     TipRoundingTooLarge {

@@ -15,6 +15,7 @@ pub(crate) mod path_of_contact;
 pub(crate) mod per_gear;
 pub(crate) mod removed_material;
 pub(crate) mod root_trochoid;
+pub(crate) mod shaft;
 pub(crate) mod slices;
 pub(crate) mod spec;
 pub(crate) mod tip_touch;

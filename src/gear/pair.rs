@@ -83,6 +83,13 @@ impl GearPair {
         self.path.involute[gear].base_radius_mm / self.working_pressure_angle_rad.cos()
     }
 
+    /// Helix slope of the working flanks that axes which are not parallel make over the face width, mm.
+    pub(crate) fn slope_of_axes_mm(&self) -> f64 {
+        let axes = self.spec.axis_parallelism;
+        let (sin, cos) = self.working_pressure_angle_rad.sin_cos();
+        axes.in_plane_mm * sin + axes.out_of_plane_mm * cos
+    }
+
     /// Radius at which a gear's flank touches its mate at `position_mm` on the path of contact.
     pub fn radius_at_mm(&self, gear: Gear, position_mm: f64) -> f64 {
         self.path.involute[gear].radius_mm(self.path.rho_mm(gear, position_mm))
@@ -160,6 +167,10 @@ impl GearPair {
     fn check_modifications(&self) -> Result<(), PairError> {
         let available_mm = self.path.end_mm - self.path.start_mm;
         let greatest_mm = GREATEST_REMOVAL_MODULES * self.spec.normal_module_mm;
+        let slope_mm = self.slope_of_axes_mm();
+        if slope_mm.abs() > greatest_mm {
+            return Err(PairError::AxesTooFarFromParallel { slope_mm, greatest_mm });
+        }
         for gear in Gear::BOTH {
             let modification = &self.spec.gears[gear].modification;
             let reliefs = [("tip relief", modification.tip_relief), ("root relief", modification.root_relief)];

@@ -17,7 +17,9 @@
 //! helix slope    f z/b            f > 0; |f| (1 − z/b) where f < 0: a flank only ever lacks material
 //! ```
 //!
-//! Source: ISO 21771-1, profile and helix modifications; the rounding is the circle tangent to flank and tip circle.
+//! Axes that are not parallel are a helix slope of the pinion, f_Σδ sin α_wt + f_Σβ cos α_wt.
+//!
+//! Source: ISO 21771-1, profile and helix modifications; ISO/TR 10064-3 for the axes; the rounding is the circle tangent to flank and tip circle.
 
 use super::{
     Gear, GearPair,
@@ -29,7 +31,9 @@ use super::{
 
 /// The modifications of a gear's flank as removed material at its points, slice after slice, mm.
 pub(crate) fn modifications_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid, slices: &Slices) -> Vec<f64> {
-    let (modification, tooth) = (&pair.spec.gears[gear].modification, &pair.teeth[gear]);
+    let (own, tooth) = (pair.spec.gears[gear].modification, &pair.teeth[gear]);
+    let of_axes_mm = if gear == Gear::Pinion { pair.slope_of_axes_mm() } else { 0.0 };
+    let modification = &Modification { helix_slope_mm: own.helix_slope_mm + of_axes_mm, ..own };
     let start = pair.active_start_rho_mm(gear);
     let profile: Vec<f64> = grid.coordinate_mm.iter().map(|&rho| removed_mm(modification, tooth, start, rho)).collect();
     let over_width = slices.width_mm.iter().map(|&z| lead_removed_mm(modification, pair.spec.face_width_mm, z));

@@ -5,6 +5,7 @@
 use super::{
     modification::Modification,
     per_gear::{Gear, PerGear},
+    shaft::Shaft,
 };
 
 /// The basic rack that generates the teeth (ISO 53), as factors of the normal module.
@@ -40,6 +41,18 @@ pub struct GearSpec {
     pub bore_diameter_mm: Option<f64>,
     /// Deliberate deviations from the involute.
     pub modification: Modification,
+    /// What twists under the torque over the face width; `None`: rigid but for the body of the finite elements.
+    pub shaft: Option<Shaft>,
+}
+
+/// Deviation from parallel of the axes over the face width (ISO/TR 10064-3): positive, the working flanks come apart towards the full
+/// width.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct AxisParallelism {
+    /// f_Σδ, in the common plane of the axes, mm.
+    pub in_plane_mm: f64,
+    /// f_Σβ, across it, mm.
+    pub out_of_plane_mm: f64,
 }
 
 /// The pair as given.
@@ -57,6 +70,8 @@ pub struct PairSpec {
     pub face_width_mm: f64,
     /// The generating rack, the same for both gears.
     pub rack: BasicRack,
+    /// How far the axes are from parallel.
+    pub axis_parallelism: AxisParallelism,
     /// The gears.
     pub gears: PerGear<GearSpec>,
 }
@@ -72,9 +87,13 @@ impl PairSpec {
         (self.normal_pressure_angle_rad.tan() / self.helix_angle_rad.cos()).atan()
     }
 
-    /// Whether every transverse section of the pair is alike: no helix, and no modification over the face width.
+    /// Whether every transverse section of the pair is alike: no helix, parallel axes, and neither a modification over the face width
+    /// nor a shaft that twists.
     pub fn is_alike_over_width(&self) -> bool {
-        self.helix_angle_rad == 0.0 && Gear::BOTH.iter().all(|&gear| !self.gears[gear].modification.varies_over_width())
+        let is_alike = |own: &GearSpec| !own.modification.varies_over_width() && own.shaft.is_none();
+        self.helix_angle_rad == 0.0
+            && self.axis_parallelism == AxisParallelism::default()
+            && Gear::BOTH.iter().all(|&gear| is_alike(&self.gears[gear]))
     }
 
     /// Radius of the reference circle, r = m_t z / 2.

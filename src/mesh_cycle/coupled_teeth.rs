@@ -1,6 +1,7 @@
-//! The teeth of a phase whose slices hold each other, in a Newton step: as plates ([`super::bent_tooth`]), or in space.
+//! The teeth of a phase whose slices act on each other, in a Newton step: as plates ([`super::bent_tooth`]), or all together.
 //!
-//! In space the contacts of all teeth are coupled by one matrix, u = U w ([`super::pair_in_space`]). With w the load of a contact, c its
+//! In space, or on a shaft that twists, the contacts of all teeth are coupled by one matrix, u = U w ([`super::pair_in_space`],
+//! [`crate::gear::shaft`]). With w the load of a contact, c its
 //! tangent stiffness, h its approach so far without the deflection, and C the diagonal of the c, a Newton step with all unknowns
 //! together is
 //!
@@ -12,8 +13,8 @@ use faer::linalg::solvers::{Llt, PartialPivLu, Solve};
 use faer::{Mat, Side};
 
 use super::bent_tooth::{BentTooth, ContactTangent, bend};
-use super::pair_in_space::Influence;
 use super::slice_coupling::SliceCoupling;
+use super::sliced_positions::SliceContact;
 
 /// The teeth of a phase.
 pub(crate) enum CoupledTeeth {
@@ -24,8 +25,33 @@ pub(crate) enum CoupledTeeth {
         /// How its slices hold each other.
         coupling: SliceCoupling,
     },
-    /// All together in space.
-    InSpace(TeethTogether),
+    /// All together by one matrix.
+    Together(TeethTogether),
+}
+
+/// What couples the contacts of a phase.
+pub(crate) struct Influence {
+    /// Compliance between all of them by line load, mm²/N, row by row.
+    pub mm2_per_n: Vec<f64>,
+    /// What the teeth alone give on the diagonal, mm²/N: in space, their finite elements.
+    pub of_teeth: Vec<f64>,
+}
+
+impl Influence {
+    /// Of thin slices with the compliance `mm2_per_n` at a contact, that nothing couples.
+    pub(crate) fn of_thin_slices(contacts: &[SliceContact], mm2_per_n: impl Fn(&SliceContact) -> f64) -> Self {
+        let count = contacts.len();
+        let of_teeth: Vec<f64> = contacts.iter().map(mm2_per_n).collect();
+        let mut coupling = vec![0.0; count * count];
+        of_teeth.iter().enumerate().for_each(|(k, own)| coupling[k * (count + 1)] = *own);
+        Self { mm2_per_n: coupling, of_teeth }
+    }
+
+    /// Adds a compliance by two contacts, mm²/N.
+    pub(crate) fn add(&mut self, mm2_per_n: impl Fn(usize, usize) -> f64) {
+        let count = self.of_teeth.len();
+        self.mm2_per_n.iter_mut().enumerate().for_each(|(k, own)| *own += mm2_per_n(k / count, k % count));
+    }
 }
 
 /// Teeth that one matrix couples.
@@ -37,7 +63,7 @@ pub(crate) struct TeethTogether {
 impl TeethTogether {
     /// Not yet bent.
     pub(crate) fn new(influence: Influence) -> Self {
-        Self { deflection_mm: vec![0.0; influence.of_elements.len()], influence }
+        Self { deflection_mm: vec![0.0; influence.of_teeth.len()], influence }
     }
 
     fn bend(&mut self, line_load: f64, tangent: impl Fn(usize) -> ContactTangent) -> Option<f64> {
@@ -81,7 +107,7 @@ impl CoupledTeeth {
     pub(crate) fn straighten(&mut self) {
         match self {
             Self::Plates { teeth, .. } => teeth.iter_mut().for_each(BentTooth::straighten),
-            Self::InSpace(teeth) => teeth.deflection_mm.fill(0.0),
+            Self::Together(teeth) => teeth.deflection_mm.fill(0.0),
         }
     }
 
@@ -90,7 +116,7 @@ impl CoupledTeeth {
     pub(crate) fn bend(&mut self, line_load: f64, tangent: impl Fn(usize) -> ContactTangent) -> Option<f64> {
         match self {
             Self::Plates { teeth, coupling } => bend(teeth, coupling, line_load, tangent),
-            Self::InSpace(teeth) => teeth.bend(line_load, tangent),
+            Self::Together(teeth) => teeth.bend(line_load, tangent),
         }
     }
 
@@ -101,8 +127,8 @@ impl CoupledTeeth {
             Self::Plates { teeth, .. } => {
                 teeth.iter().flat_map(BentTooth::deflections_mm).for_each(|(k, mm2_per_n, mm)| take(k, mm2_per_n, mm));
             }
-            Self::InSpace(TeethTogether { influence, deflection_mm, .. }) => {
-                let contacts = influence.of_elements.iter().zip(deflection_mm).enumerate();
+            Self::Together(TeethTogether { influence, deflection_mm, .. }) => {
+                let contacts = influence.of_teeth.iter().zip(deflection_mm).enumerate();
                 contacts.for_each(|(k, (mm2_per_n, mm))| take(k, *mm2_per_n, *mm));
             }
         }

@@ -19,6 +19,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::DMatrix;
 
+use super::coupled_teeth::Influence;
 use super::sliced_positions::SliceContact;
 use crate::fem::elastic::Elastic;
 use crate::fem::gear::in_space::{FlankForces, PlaneSection, SpaceError, TeethInSpace};
@@ -104,14 +105,6 @@ impl KeptInSpace {
     }
 }
 
-/// What couples the contacts of a phase.
-pub(crate) struct Influence {
-    /// Compliance between all of them by line load, mm²/N, row by row.
-    pub mm2_per_n: Vec<f64>,
-    /// What finite elements alone give on the diagonal, mm²/N.
-    pub of_elements: Vec<f64>,
-}
-
 impl PairInSpace {
     /// Condenses both gears, clamped at `clamp_radius_mm`.
     pub(crate) fn new(
@@ -188,7 +181,7 @@ impl PairInSpace {
                 mm2_per_n[b * count + a] = value;
             }
         }
-        let of_elements = (0..count).map(|a| mm2_per_n[a * (count + 1)]).collect();
+        let of_teeth = (0..count).map(|a| mm2_per_n[a * (count + 1)]).collect();
         let wrong: Vec<f64> = contacts
             .iter()
             .zip(&of_section)
@@ -200,7 +193,7 @@ impl PairInSpace {
                 mm2_per_n[a * count + b] += 0.5 * (wrong[a] + wrong[b]) * seen;
             }
         }
-        Influence { mm2_per_n, of_elements }
+        Influence { mm2_per_n, of_teeth }
     }
 }
 

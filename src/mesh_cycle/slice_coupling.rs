@@ -34,6 +34,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::coupled_teeth::Influence;
+use super::sliced_positions::SliceContact;
 use crate::contact::settings::Material;
 use crate::gear::{Gear, GearPair, PerGear, half_profile::half_profile, slices::Slices, tooth::Tooth};
 
@@ -201,6 +203,25 @@ impl SliceCoupling {
             (per_pivot[i], first[i], second[i]) = (per_own, l_1, l_2);
             (per_second, per_before, first_before) = (per_before, per_own, l_1);
         }
+    }
+
+    /// What couples `contacts`, tooth by tooth, where the pair has the compliance `mm2_per_n` at a contact.
+    pub(crate) fn influence(&self, contacts: &[SliceContact], mm2_per_n: impl Fn(&SliceContact) -> f64) -> Influence {
+        let mut influence = Influence::of_thin_slices(contacts, mm2_per_n);
+        let root: Vec<f64> = influence.of_teeth.iter().map(|own| own.sqrt()).collect();
+        let mut factors = Factors::default();
+        self.factorise(&vec![0.0; self.count], &mut factors);
+        let count = contacts.len();
+        let mut bent = vec![0.0; self.count];
+        for (a, loaded) in contacts.iter().enumerate() {
+            bent.fill(0.0);
+            bent[loaded.slice] = root[a];
+            factors.solve(&mut bent);
+            for (b, other) in contacts.iter().enumerate().filter(|(_, other)| other.tooth == loaded.tooth) {
+                influence.mm2_per_n[b * count + a] = root[b] * bent[other.slice];
+            }
+        }
+        influence
     }
 
     /// Row i of the operator: on the diagonal, one and two places before it.

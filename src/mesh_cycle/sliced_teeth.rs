@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use super::bent_tooth::BentTooth;
-use super::coupled_teeth::{CoupledTeeth, TeethTogether};
+use super::coupled_teeth::{CoupledTeeth, Influence, TeethTogether};
 use super::pair_in_space::PairInSpace;
 use super::settings::{Coupling, SliceSettings};
 use super::slice_coupling::{Reach, SliceCompliance, SliceCoupling};
 use super::sliced::SpringAlongPath;
 use super::sliced_positions::SliceContact;
-use crate::gear::{GearPair, slices::Slices};
+use crate::contact::settings::Material;
+use crate::gear::{Gear, GearPair, PerGear, slices::Slices};
 
 /// The slices of a pair, and how they hold each other.
 #[derive(Clone)]
@@ -23,6 +24,10 @@ pub(crate) struct SlicedTeeth {
     /// Compliance of the teeth of each slice over that of the section.
     softness: Arc<[f64]>,
     model: Model,
+    /// Of both gears.
+    material: PerGear<Material>,
+    /// What the twist of the shafts adds between slices, of whatever tooth, mm²/N, row by row; none where nothing twists.
+    twist: Option<Arc<[f64]>>,
 }
 
 /// How slices are coupled.
@@ -47,6 +52,7 @@ impl SlicedTeeth {
     /// Where the coupling is by teeth in space and there are none.
     pub(crate) fn new(
         pair: &GearPair,
+        material: &PerGear<Material>,
         settings: SliceSettings,
         compliance: SliceCompliance,
         in_space: Option<Arc<PairInSpace>>,
@@ -66,7 +72,8 @@ impl SlicedTeeth {
             Coupling::Fem => vec![1.0; settings.count].into(),
             Coupling::None | Coupling::Slicing => compliance.of_slices(pair, &slices).into(),
         };
-        Self { settings, slices, compliance, softness, model }
+        let twist = twist(pair, material, &slices).map(Arc::from);
+        Self { settings, slices, compliance, softness, model, material: *material, twist }
     }
 
     /// Compliance of the teeth at a contact, mm²/N, by that of their section along the path of contact.
@@ -82,12 +89,18 @@ impl SlicedTeeth {
 
     /// Slices of the same teeth, `count` in number.
     pub(crate) fn with_count(&self, pair: &GearPair, count: usize) -> Self {
-        Self::new(pair, SliceSettings { count, ..self.settings }, self.compliance, self.in_space().cloned())
+        Self::new(
+            pair,
+            &self.material,
+            SliceSettings { count, ..self.settings },
+            self.compliance,
+            self.in_space().cloned(),
+        )
     }
 
-    /// Whether the slices of a tooth hold each other.
+    /// Whether the slices of a tooth act on each other.
     pub(crate) fn is_coupled(&self) -> bool {
-        !matches!(self.model, Model::Thin)
+        !matches!(self.model, Model::Thin) || self.twist.is_some()
     }
 
     /// The teeth in space, where they couple the slices.
@@ -114,16 +127,32 @@ impl SlicedTeeth {
         contacts: &[SliceContact],
         mm2_per_n: impl Fn(&SliceContact) -> f64,
     ) -> Option<CoupledTeeth> {
-        match &self.model {
-            Model::Thin => None,
-            Model::Plate(coupling) => Some(CoupledTeeth::Plates {
-                teeth: BentTooth::of_phase(contacts, self.slices.count(), mm2_per_n),
-                coupling: coupling.clone(),
-            }),
-            Model::InSpace { teeth, seen } => {
-                let influence = teeth.influence(pair, &self.slices, seen, contacts, mm2_per_n);
-                Some(CoupledTeeth::InSpace(TeethTogether::new(influence)))
+        let mut influence = match (&self.model, &self.twist) {
+            (Model::Thin, None) => return None,
+            (Model::Plate(coupling), None) => {
+                return Some(CoupledTeeth::Plates {
+                    teeth: BentTooth::of_phase(contacts, self.slices.count(), mm2_per_n),
+                    coupling: coupling.clone(),
+                });
             }
+            (Model::Thin, Some(_)) => Influence::of_thin_slices(contacts, mm2_per_n),
+            (Model::Plate(coupling), Some(_)) => coupling.influence(contacts, mm2_per_n),
+            (Model::InSpace { teeth, seen }, _) => teeth.influence(pair, &self.slices, seen, contacts, mm2_per_n),
+        };
+        if let Some(twist) = &self.twist {
+            influence.add(|a, b| twist[contacts[a].slice * self.slices.count() + contacts[b].slice]);
         }
+        Some(CoupledTeeth::Together(TeethTogether::new(influence)))
     }
+}
+
+/// What the twist of both shafts adds between slices, mm²/N, row by row; none where nothing twists.
+fn twist(pair: &GearPair, material: &PerGear<Material>, slices: &Slices) -> Option<Vec<f64>> {
+    let of_gear = |gear: Gear| {
+        let shaft = pair.spec.gears[gear].shaft?;
+        let shear_modulus_mpa = material[gear].elastic().shear_modulus_mpa();
+        Some(shaft.mm2_per_n(pair.teeth[gear].involute.base_radius_mm, shear_modulus_mpa, slices))
+    };
+    let sum = |a: Vec<f64>, b: Vec<f64>| a.iter().zip(&b).map(|(a, b)| a + b).collect();
+    Gear::BOTH.into_iter().filter_map(of_gear).reduce(sum)
 }

@@ -70,7 +70,7 @@ mod tests {
     use super::*;
     use crate::gear::flank_surface::FlankSurface;
     use crate::gear::modification::Modification;
-    use crate::gear::spec::{BasicRack, GearSpec, PairSpec};
+    use crate::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
 
     /// The flanks in space, cut in the middle of the face width, are the working flanks drawn, but for the chords between the
     /// drawing's points. The pair is the preset h501 (FEUP).
@@ -83,6 +83,7 @@ mod tests {
             tooth_thickness_allowance_mm: 0.0,
             bore_diameter_mm: None,
             modification: Modification::default(),
+            shaft: None,
         };
         let pair = GearPair::new(&PairSpec {
             normal_module_mm: 3.5,
@@ -91,6 +92,7 @@ mod tests {
             centre_distance_mm: 91.5,
             face_width_mm: 23.0,
             rack: BasicRack::default(),
+            axis_parallelism: AxisParallelism::default(),
             gears: PerGear { pinion: gear(20, 0.1809), wheel: gear(30, 0.0891) },
         })
         .unwrap();

@@ -300,7 +300,7 @@ fn carry_out<R>(
     let sliced = slices.map(|settings| {
         let coupling = in_space.as_ref().and_then(|teeth| teeth.as_ref().ok()).cloned();
         let compliance = slice_compliance(&pair, scene, files, teeth[0].as_ref());
-        let slices = || SlicedTeeth::new(&pair, settings, compliance, coupling);
+        let slices = || SlicedTeeth::new(&pair, &scene.material, settings, compliance, coupling);
         stages.run(StageKind::HelicalSlices.name(), slices)
     });
     let contact = |case: usize| match (&worn_elements, cases[case].surface.as_deref(), &teeth[case]) {

@@ -13,6 +13,7 @@ use super::presets;
 use super::wear_file::{TemperatureFile, WearFile};
 use crate::contact::settings::{MatchCriterion, SurfaceKind};
 use crate::gear::modification::ReliefShape;
+use crate::gear::shaft::EndFace;
 use crate::gear_mesh::settings::SectorSides;
 use crate::mesh_cycle::settings::Coupling;
 use crate::simulation::settings::AdaptiveMethod;
@@ -41,8 +42,8 @@ pub struct SceneFile {
     pub temperature: Option<TemperatureFile>,
     /// The wear law.
     pub wear: WearFile,
-    /// Slices over the face width, read only where sections differ: with a helix angle, or a modification over the face
-    /// width. With slices, contact.surface = "hertz-mean" is the simplified model of the thesis, whose wear is kept at
+    /// Slices over the face width, read only where sections differ: with a helix angle, a modification over the face
+    /// width, a shaft that twists, or axes that are not parallel. With slices, contact.surface = "hertz-mean" is the simplified model of the thesis, whose wear is kept at
     /// the contact points themselves. The surface "fem" is plane and has no slices; gearwear mesh, fem and calibrate take
     /// the transverse section of a helical pair, and its calibration serves every slice.
     pub helical: Option<HelicalFile>,
@@ -85,6 +86,8 @@ pub struct PairFile {
     pub face_width_mm: Option<f64>,
     /// The rack that generates the teeth. Default: profile A of ISO 53.
     pub basic_rack: Option<BasicRackFile>,
+    /// How far the axes are from parallel, from offsets of their bearings. Default: parallel.
+    pub axis_parallelism: Option<AxisParallelismFile>,
     /// The driving gear. Required without a preset.
     pub pinion: Option<GearFile>,
     /// The driven gear. Required without a preset.
@@ -105,6 +108,34 @@ pub struct BasicRackFile {
     /// helix has no room for it.
     #[schemars(range(min = 0, max = 1))]
     pub fillet_radius_factor: Option<f64>,
+}
+
+/// Deviations from parallel of the axes (ISO/TR 10064-3), positive where the working flanks come apart towards the full width.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct AxisParallelismFile {
+    /// In-plane deviation f_Σδ in µm: of the distance between the axes. Default 0.
+    pub in_plane_um: Option<f64>,
+    /// Out-of-plane deviation f_Σβ in µm: across the plane of the axes. Default 0.
+    pub out_of_plane_um: Option<f64>,
+    /// Length in mm over which the deviations are given, > 0, such as the distance between the bearings. Default: the face
+    /// width.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub over_length_mm: Option<f64>,
+}
+
+/// What carries the teeth of a gear and twists under the torque.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ShaftFile {
+    /// Diameter that twists in mm, > 0; of a pinion shaft close to the root diameter.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub diameter_mm: f64,
+    /// Diameter of its bore in mm, 0 or more. Default 0.
+    #[schemars(range(min = 0))]
+    pub bore_diameter_mm: Option<f64>,
+    /// The end face at which the torque enters: start at width 0, end at the full width. Default: start.
+    pub driven_at: Option<EndFace>,
 }
 
 /// One gear.
@@ -146,6 +177,8 @@ pub struct GearFile {
     pub root_relief: Option<ReliefFile>,
     /// Relief towards both ends of the face width. Default: none.
     pub end_relief: Option<ReliefFile>,
+    /// Elastic twist over the face width under the torque. Default: none.
+    pub shaft: Option<ShaftFile>,
 }
 
 /// Tip, root or end relief.

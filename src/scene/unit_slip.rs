@@ -122,12 +122,9 @@ impl Search<'_> {
             if let Some(z) = teeth {
                 let (credible, usual) = ([0.05 * z * module, 20.0 * z * module], [0.5 * z * module, 2.0 * z * module]);
                 self.judge(&format!("pair.{gear}.tip_diameter_mm"), credible, usual, &[METRES, MICROMETRES]);
-                self.judge(
-                    &format!("pair.{gear}.bore_diameter_mm"),
-                    [0.02 * module, 20.0 * z * module],
-                    usual,
-                    &[METRES],
-                );
+                for key in ["bore_diameter_mm", "shaft.diameter_mm"] {
+                    self.judge(&format!("pair.{gear}.{key}"), [0.02 * module, 20.0 * z * module], usual, &[METRES]);
+                }
                 let (credible, usual) = ([0.01 * z * module, 2.0 * z * module], [0.1 * z * module, 0.6 * z * module]);
                 self.judge(&format!("fem.clamp_radius_mm.{gear}"), credible, usual, &[METRES, MICROMETRES]);
             }

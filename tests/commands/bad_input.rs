@@ -451,6 +451,20 @@ fn helical_pairs_out_of_range() {
             "helix_slope_deviation_um",
             "at most 1125 µm",
         ),
+        (
+            "pair.pinion",
+            "teeth",
+            "teeth = 16\nshaft = { diameter_mm = 40.0, bore_diameter_mm = 50.0 }",
+            "shaft",
+            "less than pair.pinion.shaft.diameter_mm, 40 mm",
+        ),
+        (
+            "pair",
+            "face_width_mm",
+            "face_width_mm = 14.0\naxis_parallelism = { out_of_plane_um = -9000.0 }",
+            "axis_parallelism",
+            "at most 1125 µm",
+        ),
     ] {
         let case = Case::fzg_c().with(table, key, line);
         let line = case.line_of(at);

@@ -29,6 +29,7 @@ mod plan;
 mod random_scenes;
 mod report;
 mod scene;
+mod shaft;
 mod simplified;
 mod slice_coupling;
 mod stepping_stability;

@@ -51,7 +51,7 @@ fn run(scene: &Scene) -> Outcome {
         ..WearSettings::archard(scene.coefficient_mm2_per_n)
     });
     let compliance = SliceCompliance::of_plates(&pair, &material, teeth.states_the_section());
-    let sliced = SlicedTeeth::new(&pair, scene.slices.expect("a scene with slices"), compliance, None);
+    let sliced = SlicedTeeth::new(&pair, &material, scene.slices.expect("a scene with slices"), compliance, None);
     let phase = RunPhase {
         contact: MeshContact::Simplified { material: &material, teeth: &teeth, sliced: &sliced },
         wear: WearModel::cold(law.as_ref()),

@@ -64,7 +64,7 @@ pub(super) fn life(
     };
     let settings = SliceSettings { count, coupling: Coupling::Fem };
     let unread = SliceCompliance::of_plates(pair, &scene.material, true);
-    let sliced = SlicedTeeth::new(pair, settings, unread, Some(in_space));
+    let sliced = SlicedTeeth::new(pair, &scene.material, settings, unread, Some(in_space));
     let loads = || model.phases.iter().map(|phase| phase.line_load_n_per_mm);
     let half_plane = |expected_line_load_n_per_mm| HalfSpace { material: scene.material, expected_line_load_n_per_mm };
     let surfaces: Vec<HalfSpace> = loads().map(half_plane).collect();

@@ -177,6 +177,12 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
             allowed: format!("at most {:.0} µm, a quarter of the module", 1e3 * greatest_mm),
             help: "amounts are in µm".to_owned(),
         },
+        PairError::AxesTooFarFromParallel { slope_mm, greatest_mm } => Cause {
+            key: "pair.axis_parallelism".to_owned(),
+            found: format!("a helix slope of {:.0} µm over the face width", 1e3 * slope_mm),
+            allowed: format!("at most {:.0} µm, a quarter of the module", 1e3 * greatest_mm),
+            help: "deviations are in µm, over over_length_mm where that is given".to_owned(),
+        },
         PairError::TipRoundingTooLarge { gear, radius_mm, greatest_mm } => Cause {
             key: key_of(gear, "tip_rounding_mm"),
             found: number(radius_mm),
@@ -259,6 +265,7 @@ mod tests {
                 PairError::ModificationTooDeep { gear, modification: "tip relief", amount_mm: 2.0, greatest_mm: 1.1 },
                 of_pinion("tip_relief.amount_um"),
             ),
+            (PairError::AxesTooFarFromParallel { slope_mm: 2.0, greatest_mm: 1.1 }, "pair.axis_parallelism".to_owned()),
             (PairError::TipRoundingTooLarge { gear, radius_mm: 2.7, greatest_mm: 2.6 }, of_pinion("tip_rounding_mm")),
         ];
         let text = presets::PRESETS[0].text;

@@ -5,9 +5,10 @@
 
 use crate::gear::modification::{EndRelief, Modification, Relief};
 use crate::gear::root_trochoid::greatest_fillet_radius_factor;
-use crate::gear::spec::{BasicRack, GearSpec, PairSpec};
+use crate::gear::shaft::Shaft;
+use crate::gear::spec::{AxisParallelism, BasicRack, GearSpec, PairSpec};
 use crate::gear::{Gear, PerGear};
-use crate::scene::file::{BasicRackFile, GearFile, PairFile, ReliefFile};
+use crate::scene::file::{AxisParallelismFile, BasicRackFile, GearFile, PairFile, ReliefFile, ShaftFile};
 use crate::scene::findings::Findings;
 
 const UM: f64 = 1e-3;
@@ -27,6 +28,9 @@ pub(super) fn choose(file: &mut PairFile, findings: &mut Findings) -> Option<Pai
     let rack = rack(file.basic_rack.get_or_insert_default(), factor_scale, normal_pressure_angle_rad, findings);
     let pinion = gear(file.pinion.get_or_insert_default(), Gear::Pinion, factor_scale, findings);
     let wheel = gear(file.wheel.get_or_insert_default(), Gear::Wheel, factor_scale, findings);
+    let axis_parallelism = face_width_mm
+        .zip(file.axis_parallelism.as_mut())
+        .map(|(face_width_mm, axes)| axis_parallelism(axes, face_width_mm));
     Some(PairSpec {
         normal_module_mm: normal_module_mm?,
         normal_pressure_angle_rad: normal_pressure_angle_rad?,
@@ -34,6 +38,7 @@ pub(super) fn choose(file: &mut PairFile, findings: &mut Findings) -> Option<Pai
         centre_distance_mm: centre_distance_mm?,
         face_width_mm: face_width_mm?,
         rack,
+        axis_parallelism: axis_parallelism.unwrap_or_default(),
         gears: PerGear { pinion: pinion?, wheel: wheel? },
     })
 }
@@ -131,7 +136,30 @@ fn gear(file: &mut GearFile, which: Gear, factor_scale: f64, findings: &mut Find
             }),
             helix_slope_mm: UM * *file.helix_slope_deviation_um.get_or_insert(0.0),
         },
+        shaft: file.shaft.as_mut().and_then(|file| shaft(file, &key("shaft"), findings)),
     })
+}
+
+fn shaft(file: &mut ShaftFile, key: &str, findings: &mut Findings) -> Option<Shaft> {
+    let bore_diameter_mm = *file.bore_diameter_mm.get_or_insert(0.0);
+    if bore_diameter_mm >= file.diameter_mm {
+        findings.not_allowed(
+            &format!("{key}.bore_diameter_mm"),
+            bore_diameter_mm.to_string(),
+            format!("less than {key}.diameter_mm, {} mm", file.diameter_mm),
+        );
+        return None;
+    }
+    let driven_at = *file.driven_at.get_or_insert_default();
+    Some(Shaft { diameter_mm: file.diameter_mm, bore_diameter_mm, driven_at })
+}
+
+fn axis_parallelism(file: &mut AxisParallelismFile, face_width_mm: f64) -> AxisParallelism {
+    let over_face_width = UM * face_width_mm / *file.over_length_mm.get_or_insert(face_width_mm);
+    AxisParallelism {
+        in_plane_mm: over_face_width * *file.in_plane_um.get_or_insert(0.0),
+        out_of_plane_mm: over_face_width * *file.out_of_plane_um.get_or_insert(0.0),
+    }
 }
 
 fn relief(file: &mut ReliefFile) -> Relief {

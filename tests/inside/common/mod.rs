@@ -10,7 +10,7 @@ use gearwear::gear::{
     GearPair, PerGear,
     flank_zones::FlankZones,
     modification::Modification,
-    spec::{BasicRack, GearSpec, PairSpec},
+    spec::{AxisParallelism, BasicRack, GearSpec, PairSpec},
 };
 use gearwear::scene::Resolved;
 use gearwear::scene::loaded::{LoadedScene, NamedFiles, SceneText};
@@ -41,6 +41,7 @@ pub fn gear(teeth: u32, profile_shift: f64, tip_diameter_mm: Option<f64>) -> Gea
         tooth_thickness_allowance_mm: 0.0,
         bore_diameter_mm: None,
         modification: Modification::default(),
+        shaft: None,
     }
 }
 
@@ -53,6 +54,7 @@ pub fn spur(module: f64, centre_distance_mm: f64, face_width_mm: f64, pinion: Ge
         centre_distance_mm,
         face_width_mm,
         rack: BasicRack::default(),
+        axis_parallelism: AxisParallelism::default(),
         gears: PerGear { pinion, wheel },
     }
 }
@@ -218,7 +220,7 @@ impl Scene {
             ..WearSettings::archard(self.coefficient_mm2_per_n)
         });
         let compliance = SliceCompliance::of_plates(&pair, &steel(), teeth.states_the_section());
-        let sliced = self.slices.map(|settings| SlicedTeeth::new(&pair, settings, compliance, None));
+        let sliced = self.slices.map(|settings| SlicedTeeth::new(&pair, &steel(), settings, compliance, None));
         let phase = RunPhase {
             contact: MeshContact::LineOfAction {
                 surface: surface.as_ref(),
