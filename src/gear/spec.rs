@@ -90,10 +90,15 @@ impl PairSpec {
     /// Whether every transverse section of the pair is alike: no helix, parallel axes, and neither a modification over the face width
     /// nor a shaft that twists.
     pub fn is_alike_over_width(&self) -> bool {
-        let is_alike = |own: &GearSpec| !own.modification.varies_over_width() && own.shaft.is_none();
         self.helix_angle_rad == 0.0
             && self.axis_parallelism == AxisParallelism::default()
-            && Gear::BOTH.iter().all(|&gear| is_alike(&self.gears[gear]))
+            && !self.has_shafts()
+            && Gear::BOTH.iter().all(|&gear| !self.gears[gear].modification.varies_over_width())
+    }
+
+    /// Whether what carries the teeth of either gear twists.
+    pub fn has_shafts(&self) -> bool {
+        Gear::BOTH.iter().any(|&gear| self.gears[gear].shaft.is_some())
     }
 
     /// Radius of the reference circle, r = m_t z / 2.

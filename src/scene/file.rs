@@ -177,7 +177,7 @@ pub struct GearFile {
     pub root_relief: Option<ReliefFile>,
     /// Relief towards both ends of the face width. Default: none.
     pub end_relief: Option<ReliefFile>,
-    /// Elastic twist over the face width under the torque. Default: none.
+    /// Elastic twist over the face width under the torque, with at most 100 slices. Default: none.
     pub shaft: Option<ShaftFile>,
 }
 

@@ -48,10 +48,14 @@ pub(super) fn choose(
         true => file.coupling.unwrap_or(Coupling::Fem),
         false => *file.coupling.get_or_insert(Coupling::Slicing),
     };
-    if coupling == Coupling::Fem && count as usize > MOST_SLICES_IN_SPACE {
+    let couples_all = match coupling {
+        Coupling::Fem => Some("helical.coupling = \"fem\""),
+        Coupling::None | Coupling::Slicing => pair.has_shafts().then_some("a shaft that twists"),
+    };
+    if let Some(what) = couples_all.filter(|_| count as usize > MOST_SLICES_IN_SPACE) {
         findings.not_allowed(
             "helical.slices",
-            format!("{count} with helical.coupling = \"fem\""),
+            format!("{count} with {what}"),
             format!(
                 "at most {MOST_SLICES_IN_SPACE}: every slice in contact is coupled with every other at every position"
             ),
