@@ -10,8 +10,7 @@
 //!
 //! r_b (T/2) b/(G J) at the far end under an even load. It adds to the compliance of the teeth, and is symmetric as that is.
 //!
-//! Source: torsion of round bars after Saint-Venant, e.g. S. Timoshenko and J. N. Goodier, *Theory of Elasticity* (1970), chapter 10;
-//! the even load is that of ISO 6336-1, annex on the equivalent misalignment.
+//! Source: torsion of round bars after Saint-Venant, S. Timoshenko and J. N. Goodier, *Theory of Elasticity* (1970), chapter 10.
 
 use std::f64::consts::PI;
 

@@ -96,6 +96,12 @@ impl PairSpec {
             && Gear::BOTH.iter().all(|&gear| !self.gears[gear].modification.varies_over_width())
     }
 
+    /// The same gears on parallel axes and rigid shafts: what the teeth themselves are made of.
+    pub(crate) fn on_rigid_parallel_shafts(&self) -> Self {
+        let gears = self.gears.clone().map(|gear| GearSpec { shaft: None, ..gear });
+        Self { axis_parallelism: AxisParallelism::default(), gears, ..self.clone() }
+    }
+
     /// Whether what carries the teeth of either gear twists.
     pub fn has_shafts(&self) -> bool {
         Gear::BOTH.iter().any(|&gear| self.gears[gear].shaft.is_some())

@@ -1,9 +1,8 @@
 //! The teeth of a phase whose slices act on each other, in a Newton step: as plates ([`super::bent_tooth`]), or all together.
 //!
-//! In space, or on a shaft that twists, the contacts of all teeth are coupled by one matrix, u = U w ([`super::pair_in_space`],
-//! [`crate::gear::shaft`]). With w the load of a contact, c its
-//! tangent stiffness, h its approach so far without the deflection, and C the diagonal of the c, a Newton step with all unknowns
-//! together is
+//! In space, or on a shaft that twists, the contacts of all teeth are coupled by one matrix, u = U w ([`super::influence`]). With w the load of
+//! a contact, c its tangent stiffness, h its approach so far without the deflection, and C the diagonal of the c, a Newton step with all
+//! unknowns together is
 //!
 //! ```text
 //! (I + √C U √C) y = (w − C h)/√c + δ √c          w⁺ = √C y          Σ w⁺ = F
@@ -13,8 +12,8 @@ use faer::linalg::solvers::{Llt, PartialPivLu, Solve};
 use faer::{Mat, Side};
 
 use super::bent_tooth::{BentTooth, ContactTangent, bend};
+use super::influence::Influence;
 use super::slice_coupling::SliceCoupling;
-use super::sliced_positions::SliceContact;
 
 /// The teeth of a phase.
 pub(crate) enum CoupledTeeth {
@@ -27,31 +26,6 @@ pub(crate) enum CoupledTeeth {
     },
     /// All together by one matrix.
     Together(TeethTogether),
-}
-
-/// What couples the contacts of a phase.
-pub(crate) struct Influence {
-    /// Compliance between all of them by line load, mm²/N, row by row.
-    pub mm2_per_n: Vec<f64>,
-    /// What the teeth alone give on the diagonal, mm²/N: in space, their finite elements.
-    pub of_teeth: Vec<f64>,
-}
-
-impl Influence {
-    /// Of thin slices with the compliance `mm2_per_n` at a contact, that nothing couples.
-    pub(crate) fn of_thin_slices(contacts: &[SliceContact], mm2_per_n: impl Fn(&SliceContact) -> f64) -> Self {
-        let count = contacts.len();
-        let of_teeth: Vec<f64> = contacts.iter().map(mm2_per_n).collect();
-        let mut coupling = vec![0.0; count * count];
-        of_teeth.iter().enumerate().for_each(|(k, own)| coupling[k * (count + 1)] = *own);
-        Self { mm2_per_n: coupling, of_teeth }
-    }
-
-    /// Adds a compliance by two contacts, mm²/N.
-    pub(crate) fn add(&mut self, mm2_per_n: impl Fn(usize, usize) -> f64) {
-        let count = self.of_teeth.len();
-        self.mm2_per_n.iter_mut().enumerate().for_each(|(k, own)| *own += mm2_per_n(k / count, k % count));
-    }
 }
 
 /// Teeth that one matrix couples.

@@ -10,6 +10,7 @@ mod collected;
 pub(crate) mod condensed;
 pub(crate) mod coupled_teeth;
 mod heated;
+pub(crate) mod influence;
 pub(crate) mod load_sharing;
 pub(crate) mod pair_in_space;
 pub(crate) mod positions;

@@ -19,7 +19,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::DMatrix;
 
-use super::coupled_teeth::Influence;
+use super::influence::Influence;
 use super::sliced_positions::SliceContact;
 use crate::fem::elastic::Elastic;
 use crate::fem::gear::in_space::{FlankForces, PlaneSection, SpaceError, TeethInSpace};
@@ -95,7 +95,7 @@ impl KeptInSpace {
     ) -> Result<Arc<PairInSpace>, PairInSpaceError> {
         // Another thread may have failed at its pair: that says nothing of this one.
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let of = (pair.spec.clone(), material, clamp_radius_mm);
+        let of = (pair.spec.on_rigid_parallel_shafts(), material, clamp_radius_mm);
         if let Some(Kept { teeth, .. }) = kept.as_ref().filter(|kept| kept.of == of) {
             return Ok(Arc::clone(teeth));
         }

@@ -34,7 +34,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::coupled_teeth::Influence;
+use super::influence::Influence;
 use super::sliced_positions::SliceContact;
 use crate::contact::settings::Material;
 use crate::gear::{Gear, GearPair, PerGear, half_profile::half_profile, slices::Slices, tooth::Tooth};

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use super::bent_tooth::BentTooth;
-use super::coupled_teeth::{CoupledTeeth, Influence, TeethTogether};
+use super::coupled_teeth::{CoupledTeeth, TeethTogether};
+use super::influence::Influence;
 use super::pair_in_space::PairInSpace;
 use super::settings::{Coupling, SliceSettings};
 use super::slice_coupling::{Reach, SliceCompliance, SliceCoupling};
@@ -24,8 +25,6 @@ pub(crate) struct SlicedTeeth {
     /// Compliance of the teeth of each slice over that of the section.
     softness: Arc<[f64]>,
     model: Model,
-    /// Of both gears.
-    material: PerGear<Material>,
     /// What the twist of the shafts adds between slices, of whatever tooth, mm²/N, row by row; none where nothing twists.
     twist: Option<Arc<[f64]>>,
 }
@@ -73,7 +72,7 @@ impl SlicedTeeth {
             Coupling::None | Coupling::Slicing => compliance.of_slices(pair, &slices).into(),
         };
         let twist = twist(pair, material, &slices).map(Arc::from);
-        Self { settings, slices, compliance, softness, model, material: *material, twist }
+        Self { settings, slices, compliance, softness, model, twist }
     }
 
     /// Compliance of the teeth at a contact, mm²/N, by that of their section along the path of contact.
@@ -88,14 +87,9 @@ impl SlicedTeeth {
     }
 
     /// Slices of the same teeth, `count` in number.
-    pub(crate) fn with_count(&self, pair: &GearPair, count: usize) -> Self {
-        Self::new(
-            pair,
-            &self.material,
-            SliceSettings { count, ..self.settings },
-            self.compliance,
-            self.in_space().cloned(),
-        )
+    pub(crate) fn with_count(&self, pair: &GearPair, material: &PerGear<Material>, count: usize) -> Self {
+        let settings = SliceSettings { count, ..self.settings };
+        Self::new(pair, material, settings, self.compliance, self.in_space().cloned())
     }
 
     /// Whether the slices of a tooth act on each other.

@@ -43,9 +43,10 @@ pub struct SceneFile {
     /// The wear law.
     pub wear: WearFile,
     /// Slices over the face width, read only where sections differ: with a helix angle, a modification over the face
-    /// width, a shaft that twists, or axes that are not parallel. With slices, contact.surface = "hertz-mean" is the simplified model of the thesis, whose wear is kept at
-    /// the contact points themselves. The surface "fem" is plane and has no slices; gearwear mesh, fem and calibrate take
-    /// the transverse section of a helical pair, and its calibration serves every slice.
+    /// width, a shaft that twists, or axes that are not parallel. With slices, contact.surface = "hertz-mean" is the
+    /// simplified model of the thesis, whose wear is kept at the contact points themselves. The surface "fem" is plane and
+    /// has no slices; gearwear mesh, fem and calibrate take the transverse section of a helical pair, and its calibration
+    /// serves every slice.
     pub helical: Option<HelicalFile>,
     /// Resolution in space and time.
     pub numerics: Option<NumericsFile>,

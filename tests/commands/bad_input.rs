@@ -470,6 +470,11 @@ fn helical_pairs_out_of_range() {
         let line = case.line_of(at);
         case.refused().at_line(line).says(&[says]);
     }
+    Case::fzg_c()
+        .with("pair.pinion", "teeth", "teeth = 16\nshaft = { diameter_mm = 40.0 }")
+        .with("numerics", "error_estimate", "[helical]\nslices = 101\ncoupling = \"slicing\"")
+        .refused()
+        .says(&["helical.slices: found 101 with a shaft that twists; allowed: at most 100"]);
 }
 
 /// Where no part of the face width is in contact at some position, or none of so few slices.
@@ -480,11 +485,6 @@ fn helical_pairs_without_contact_at_some_position() {
         assert!(text.contains(from));
         Case { text: text.replace(from, to), folder: tempfile::tempdir().unwrap() }
     };
-    Case::fzg_c()
-        .with("pair.pinion", "teeth", "teeth = 16\nshaft = { diameter_mm = 40.0 }")
-        .with("numerics", "error_estimate", "[helical]\nslices = 101\ncoupling = \"slicing\"")
-        .refused()
-        .says(&["helical.slices: found 101 with a shaft that twists; allowed: at most 100"]);
     let narrow = h951("face_width_mm = 21.2418", "face_width_mm = 1.0");
     narrow.refused().says(&["pair.face_width_mm", "no part of the face width is in contact", "overlap ratio 0.0471"]);
     let few = h951("face_width_mm = 21.2418", "face_width_mm = 1.5");

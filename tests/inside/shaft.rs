@@ -34,7 +34,6 @@ fn val_twist_of_a_pinion() {
 
 fn run(changes: &[(&str, toml::Value)]) -> RunRecord {
     let coarse = [
-        ("pair.preset", toml::Value::from("fzg-c")),
         ("operation.snapshots_h", toml::Value::Array(vec![0.1.into()])),
         ("operation.hours", 0.1.into()),
         ("numerics.flank_points", 120.into()),

@@ -13,7 +13,9 @@ use gearwear::fem::gear::in_space::{FlankForces, PlaneSection, TeethInSpace};
 use gearwear::fem::quadrature::GAUSS_3;
 use gearwear::fem::space::hexahedron::{REFERENCE_NODES, Shape};
 use gearwear::fem::space::stiffness;
-use gearwear::gear::{Gear, GearPair, PerGear, spec::PairSpec};
+use gearwear::gear::shaft::{EndFace, Shaft};
+use gearwear::gear::spec::{AxisParallelism, PairSpec};
+use gearwear::gear::{Gear, GearPair, PerGear};
 use gearwear::gear_mesh::tooth_section::{ExtrudedTooth, SectionDivisions, SpaceResolution};
 use gearwear::mesh::quality;
 use gearwear::mesh_cycle::pair_in_space::{KeptInSpace, PairInSpace, PairInSpaceError};
@@ -509,6 +511,12 @@ fn teeth_are_condensed_once() {
     let condensed = |spec: &PairSpec| kept.condensed(&GearPair::new(spec).unwrap(), steel, CLAMP_RADIUS_MM).unwrap();
     let (first, again) = (condensed(&fzg_c()), condensed(&fzg_c()));
     assert!(Arc::ptr_eq(&first, &again));
+    // What carries the teeth is no part of them.
+    let mut on_a_shaft = fzg_c();
+    let shaft = Shaft { diameter_mm: 40.0, bore_diameter_mm: 0.0, driven_at: EndFace::Start };
+    on_a_shaft.gears.pinion.shaft = Some(shaft);
+    on_a_shaft.axis_parallelism = AxisParallelism { in_plane_mm: 0.01, out_of_plane_mm: 0.01 };
+    assert!(Arc::ptr_eq(&first, &condensed(&on_a_shaft)));
     let wider = PairSpec { face_width_mm: 15.0, ..fzg_c() };
     assert!(!Arc::ptr_eq(&first, &condensed(&wider)));
 }

@@ -76,7 +76,7 @@ fn coarse_slices(model: &Model<'_>) -> Option<SlicedTeeth> {
     let count = fine.settings.count.div_ceil(2);
     let between = 1.0 - 1.0 / count as f64;
     let covers = model.pair.path.contact_ratio() + between * model.pair.overlap_ratio() >= 1.0;
-    Some(if covers { fine.with_count(model.pair, count) } else { fine.clone() })
+    Some(if covers { fine.with_count(model.pair, &model.scene.material, count) } else { fine.clone() })
 }
 
 /// Greatest wear depth of each gear's flank.

@@ -144,8 +144,9 @@ impl Sweep {
         if !differences.is_empty() {
             return Err(format!("contact.calibration belongs to another pair: {}", differences.join("; ")));
         }
-        let pair = &self.given.resolved.scene.pair;
-        let same_section = |own: &PairSpec| PairSpec { face_width_mm: pair.face_width_mm, ..own.clone() } == *pair;
+        let pair = self.given.resolved.scene.pair.on_rigid_parallel_shafts();
+        let same_section =
+            |own: &PairSpec| PairSpec { face_width_mm: pair.face_width_mm, ..own.on_rigid_parallel_shafts() } == pair;
         if self.given.files.stiffness_curve.is_some() && !same_section(&resolved.scene.pair) {
             return Err("stiffness.curve belongs to the pair of the scene as given".to_owned());
         }
