@@ -179,7 +179,7 @@ pub fn fem_pair(
     pipeline::fem_scene::run(&scene.resolved, pipeline::fem_scene::Asked { position_mm, full: false }, observer)
 }
 
-/// Solves a plane contact problem of finite elements on a mesh of one's own: `problem_toml` is the text of a problem file
+/// Solves a problem of finite elements on a mesh of one's own, plane with contact or three-dimensional without: `problem_toml` is the text of a problem file
 /// (`docs/fem-problems.md`), whose mesh file lies in `folder`.
 ///
 /// # Errors
@@ -196,6 +196,7 @@ pub fn fem_problem(problem_toml: &str, folder: &Path, observer: &dyn Observer) -
 pub fn write(run: &RunRecord, folder: &Path) -> Result<(), ReportError> {
     report::remove_summary(folder)?;
     run.inputs.iter().try_for_each(|file| resume::folder::place(folder, &file.name, &file.bytes))?;
-    report::write_data_and_page(run, folder)?;
+    report::write_data(run, folder)?;
+    report::write_page(run, folder)?;
     report::write_summary(&run.summary, folder).map(drop)
 }

@@ -1,4 +1,4 @@
-//! `gearwear compare`: a measured flank profile against a finished run.
+//! `gearwear compare`: a measured flank profile against a finished run, or runs side by side ([`super::variants`]).
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -20,6 +20,7 @@ use super::failure::{Failure, InputError};
 use super::figures::digits;
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
+use super::variants::{self, MOST_RUNS, Variants, is_run};
 use super::{print, say, warn};
 
 /// Longest shift along the flank, where nothing else is asked, mm.
@@ -40,10 +41,11 @@ where material is gone) or wear_um or wear_mm (rises there); then a row for each
 #[derive(Debug, clap::Args)]
 #[command(after_help = FILE_HELP)]
 pub(super) struct Args {
-    /// The folder of a finished `gearwear run`
+    /// The folder of a finished `gearwear run`; beside other runs a scene too, which is run first
     run: PathBuf,
-    /// The measured profile, a CSV file; - reads standard input
-    measured: PathBuf,
+    /// The measured profile, a CSV file (- reads standard input); or one to five more runs, to be shown side by side
+    #[arg(value_name = "MEASURED|RUN", required = true, num_args = 1..MOST_RUNS)]
+    with: Vec<PathBuf>,
     /// Whose flank it is, where the file does not say
     #[arg(long, value_name = "GEAR", value_parser = gear)]
     gear: Option<Gear>,
@@ -57,7 +59,7 @@ pub(super) struct Args {
     /// How far the profile may be shifted along the flank to where it fits best; 0: not at all
     #[arg(long, value_name = "MM", default_value_t = SHIFT_WITHIN_MM, value_parser = length)]
     shift_within: f64,
-    /// The folder for the results; default: compare/NAME in RUN, with the name of the measured file
+    /// The folder for the results; default: compare/NAME in RUN, with the name of the measured file or of the second run
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Number of threads; default: all cores. Never changes the results
@@ -81,19 +83,38 @@ fn length(text: &str) -> Result<f64, String> {
 }
 
 impl Args {
+    /// The measured profile.
+    fn measured(&self) -> &Path {
+        &self.with[0]
+    }
+
+    /// The runs to be shown side by side; none where there is a measured profile.
+    fn variants(&self) -> Option<Variants<'_>> {
+        let runs: Vec<&Path> = [&self.run].into_iter().chain(&self.with).map(PathBuf::as_path).collect();
+        let wanted = self.with.len() > 1 || is_run(self.measured());
+        wanted.then_some(Variants { runs, out: self.out.as_deref(), threads: self.threads, quiet: self.quiet })
+    }
+
     /// Where the results go.
     fn out(&self) -> PathBuf {
-        let name = self.measured.file_stem().filter(|stem| *stem != "-").unwrap_or("measured".as_ref());
+        let name = self.measured().file_stem().filter(|stem| *stem != "-").unwrap_or("measured".as_ref());
         self.out.clone().unwrap_or_else(|| self.run.join("compare").join(name))
     }
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    if let Some(variants) = args.variants() {
+        return match (args.gear, args.form) {
+            (Some(_), _) => Err(InputError::OnlyForMeasured { option: "--gear" }.into()),
+            (_, Some(_)) => Err(InputError::OnlyForMeasured { option: "--form" }.into()),
+            _ => variants::run(&variants),
+        };
+    }
     let folder = RunFolder::read(&args.run).map_err(InputError::RunFolder)?;
     let scene = LoadedScene::open(RunFolder::scene_path(&args.run))?;
     let resolved = &scene.resolved;
     folder.check_scene(resolved).map_err(InputError::RunFolder)?;
-    let text = SceneText::read(&args.measured)?;
+    let text = SceneText::read(args.measured())?;
     let refused = |error: QuestionError| InputError::Measured { name: text.name.clone(), error };
     let file = file::parse(&text.text).map_err(|error| refused(error.into()))?;
     // The pair was checked when the scene was resolved.

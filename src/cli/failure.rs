@@ -54,7 +54,7 @@ pub(super) enum Failure {
     /// No combination of a sweep has a result; its rows are written.
     #[error("none of {count} combinations has a result; the first says: {error}")]
     NoCombination { count: usize, error: String },
-    /// Cases of the validation suite that do not stand as they should; the reports are written.
+    /// Cases of the validation suite that are not as expected; the reports are written.
     #[error("{} of the validation suite's cases missed: {}", cases.len(), cases.join(", "))]
     Missed { cases: Vec<String> },
     /// The user interrupted the run; it was said what is kept.
@@ -114,15 +114,18 @@ pub(super) enum InputError {
     #[error("RUN: {0}")]
     #[diagnostic(help("gearwear run SCENE --out RUN makes one"))]
     RunFolder(RunFolderError),
+    /// `compare` of runs with an option for measured profiles.
+    #[error("{option}: found beside runs; allowed: beside a measured profile")]
+    #[diagnostic(help("leave {option} out"))]
+    OnlyForMeasured { option: &'static str },
+    /// `compare` of scenes without a folder.
+    #[error("--out: missing; needed where the first run is a scene, whose results need a folder")]
+    #[diagnostic(help("gearwear compare A.toml B.toml --out DIR"))]
+    NoOutForScenes,
     /// A measured profile that cannot be compared with the run.
     #[error("{name}: {error}")]
     #[diagnostic(help("gearwear compare --help says what stands in a measured file"))]
     Measured { name: String, error: QuestionError },
-    #[error(transparent)]
-    #[diagnostic(help(
-        "try another fem.elements_per_half_width: elements grow with the load and shrink with this number"
-    ))]
-    Model(ModelError),
     /// `init` with a name that is no preset.
     #[error("unknown preset {name:?}; allowed: {}", presets::names().join(", "))]
     #[diagnostic(help("{}", presets::nearest(name).map_or_else(
@@ -188,13 +191,13 @@ impl From<ReportError> for Failure {
 
 /// The failure that a finite-element model which cannot be made is, if the scene is to blame: at its key, where it has one.
 pub(super) fn of_model(error: &ModelError, text: &SceneText) -> Option<Failure> {
-    match *error {
-        ModelError::TooFewTeeth { teeth, least, .. } => {
-            Some(text.refused(vec![Problem::of_sector_teeth(&text.text, teeth, least)]).into())
-        }
-        ModelError::Mesh { .. } | ModelError::TooFine { .. } => Some(InputError::Model(error.clone()).into()),
-        ModelError::Condense { .. } => None,
-    }
+    let problem = match error {
+        ModelError::TooFewTeeth { teeth, least, .. } => Problem::of_sector_teeth(&text.text, *teeth, *least),
+        ModelError::Mesh { gear, source } => Problem::of_tooth_mesh(&text.text, Some(*gear), source),
+        ModelError::TooFine { .. } => Problem::of_elements(&text.text, error.to_string()),
+        ModelError::Condense { .. } => return None,
+    };
+    Some(text.refused(vec![problem]).into())
 }
 
 /// What to do about a file that cannot be opened as a scene.
@@ -317,6 +320,14 @@ fn label(problem: &Problem) -> Option<LabeledSpan> {
         _ => format!("found {}", problem.found),
     };
     problem.span.clone().map(|span| LabeledSpan::new_primary_with_span(Some(text), span))
+}
+
+/// The failure that a mesh which cannot be made is: at its key or its option.
+pub(super) fn no_mesh(error: PairMeshError, text: &SceneText) -> Failure {
+    match &error {
+        PairMeshError::Tooth(tooth) => text.refused(vec![Problem::of_tooth_mesh(&text.text, None, tooth)]).into(),
+        _ => InputError::PairMesh(error).into(),
+    }
 }
 
 /// What is wrong with a mesh, at the option that is to blame.

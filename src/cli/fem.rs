@@ -117,9 +117,23 @@ fn summary(summary: &FemSummary) -> String {
             text.push_str(&figures::row(name, [&figures::digits(value), &other]));
         }
     }
+    if let Some(greatest) = summary.in_space {
+        for (name, value, at_mm) in [
+            ("greatest displacement, mm", greatest.greatest_displacement_mm, greatest.greatest_displacement_at_mm),
+            ("greatest von Mises stress, MPa", summary.peak_von_mises_MPa, greatest.peak_von_mises_at_mm),
+        ] {
+            let [x, y, z] = at_mm.map(figures::digits);
+            let row = figures::row(name, [&figures::digits(value), ""]);
+            text.push_str(&format!("{} at {x}, {y}, {z} mm\n", row.trim_end()));
+        }
+    }
+    let sets = match summary.in_space {
+        Some(_) => String::new(),
+        None => format!(", {} active sets", summary.iterations),
+    };
     text.push_str(&format!(
-        "\n{} elements, {} degrees of freedom, {} active sets, computed in {:.2} s\n",
-        summary.elements, summary.dofs, summary.iterations, summary.wall_s
+        "\n{} elements, {} degrees of freedom{sets}, computed in {:.2} s\n",
+        summary.elements, summary.dofs, summary.wall_s
     ));
     text
 }

@@ -2,16 +2,20 @@
 
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::gear::Gear;
 use crate::gear_mesh::settings::{Body, SectorSides};
 use crate::mesh::quality::Worst;
 use crate::mesh::{self, CellKind, Format};
+use crate::pipeline::deformed_teeth::{DeformedTeethError, deformed_teeth};
 use crate::pipeline::pair_mesh::{self, PairMesh, SpaceMesh};
 use crate::scene::Scene;
-use crate::scene::loaded::SceneText;
+use crate::scene::loaded::{LoadedScene, SceneText};
 
-use super::failure::{Failure, InputError};
+use super::failure::{Failure, InputError, no_mesh};
+use super::progress::Progress;
+use super::run::in_the_scene;
 use super::{print, warn};
 
 #[derive(Debug, clap::Args)]
@@ -27,30 +31,67 @@ pub(super) struct Args {
     /// One pitch of each gear over the whole face width as hexahedra, as the coupling "fem" of slices has them
     #[arg(long)]
     three_dimensional: bool,
+    /// With displacement and stress of the teeth under the scene's torque, on unworn flanks
+    #[arg(long, requires = "three_dimensional")]
+    loaded: bool,
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    let resolved = SceneText::read(&args.scene)?.resolve()?;
-    warn(&resolved.warnings);
     // Whether the ending is one of a mesh file is known before the work.
     let format = Format::of_path(&args.out).map_err(InputError::MeshFile)?;
+    if args.loaded {
+        return loaded(args, format);
+    }
+    let text = SceneText::read(&args.scene)?;
+    let resolved = text.resolve()?;
+    warn(&resolved.warnings);
     if args.three_dimensional {
-        let built = pair_mesh::build_in_space(&resolved.scene, args.position).map_err(InputError::PairMesh)?;
+        let built = pair_mesh::in_space(&resolved.scene, args.position).map_err(|error| no_mesh(error, &text))?;
         mesh::write_as(&built.mesh, &args.out, format).map_err(InputError::MeshFile)?;
         return print(&text_in_space(&resolved.scene, &built, &args.out));
     }
     warn(resolved.scene.plane_section_warning().as_slice());
     warn(resolved.scene.one_load_warning().as_slice());
-    let built = pair_mesh::build(&resolved.scene, args.position).map_err(InputError::PairMesh)?;
+    let built = pair_mesh::build(&resolved.scene, args.position).map_err(|error| no_mesh(error, &text))?;
     mesh::write_as(&built.mesh, &args.out, format).map_err(InputError::MeshFile)?;
-    print(&text(&resolved.scene, &built, &args.out))
+    print(&described(&resolved.scene, &built, &args.out))
+}
+
+/// The teeth in space under load.
+fn loaded(args: &Args, format: Format) -> Result<(), Failure> {
+    let scene = LoadedScene::open(&args.scene)?;
+    warn(scene.warnings());
+    let progress = Progress::new(false, Arc::default());
+    let deformed = deformed_teeth(&scene, args.position, &progress);
+    progress.finish();
+    let deformed = deformed.map_err(|error| match error {
+        DeformedTeethError::Mesh(error) => no_mesh(error, &scene.given),
+        DeformedTeethError::Run(error) => in_the_scene(error, &scene),
+        DeformedTeethError::Teeth(error) => in_the_scene(error.into(), &scene),
+    })?;
+    mesh::write_as(&deformed.space.mesh, &args.out, format).map_err(InputError::MeshFile)?;
+    let mut text = text_in_space(scene.scene(), &deformed.space, &args.out);
+    let mut line = |name: &str, value: String| {
+        let _ = writeln!(text, "{name:20}{value}");
+    };
+    let share = 100.0 * deformed.load_n / deformed.whole_load_n;
+    line("load", format!("{:.0} N, {share:.1} % of it on these teeth", deformed.whole_load_n));
+    line("transmission error", format!("{:.2} µm", deformed.transmission_error_um));
+    for gear in Gear::BOTH {
+        let (u, stress) = (deformed.greatest_displacement_um[gear], deformed.greatest_von_mises_mpa[gear]);
+        line(
+            &format!("{} tooth", gear.name()),
+            format!("displacement up to {u:.2} µm, von Mises stress up to {stress:.0} MPa"),
+        );
+    }
+    print(&text)
 }
 
 /// What was built in space.
 fn text_in_space(scene: &Scene, built: &SpaceMesh, out: &Path) -> String {
     let mut text = format!("{}\n\n", scene.title);
     let mut line = |name: &str, value: String| {
-        let _ = writeln!(text, "{name:18}{value}");
+        let _ = writeln!(text, "{name:20}{value}");
     };
     line("bodies", format!("one pitch of each gear, {} elements over the face width", built.layers));
     line("position", format!("{:.4} mm in the middle of the face width", built.position_mm));
@@ -68,10 +109,10 @@ fn text_in_space(scene: &Scene, built: &SpaceMesh, out: &Path) -> String {
 }
 
 /// What was built.
-fn text(scene: &Scene, built: &PairMesh, out: &Path) -> String {
+fn described(scene: &Scene, built: &PairMesh, out: &Path) -> String {
     let mut text = format!("{}\n\n", scene.title);
     let mut line = |name: &str, value: String| {
-        let _ = writeln!(text, "{name:18}{value}");
+        let _ = writeln!(text, "{name:20}{value}");
     };
     let body = match scene.fem.body {
         Body::Ring => "whole rings".to_owned(),

@@ -18,6 +18,7 @@ mod run;
 mod schema;
 mod sweep;
 mod validate;
+mod variants;
 
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::process::ExitCode;

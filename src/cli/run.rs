@@ -39,6 +39,9 @@ pub(super) struct Args {
     /// Number of threads; default: all cores. Never changes the results
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
+    /// Write no report.html, the data files alone
+    #[arg(long)]
+    no_report: bool,
     /// Show neither progress nor figures, only what is wrong
     #[arg(long, short)]
     quiet: bool,
@@ -73,7 +76,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let done = pool.install(|| -> Result<Done, Failure> {
         let resumption = Resumption { from, keeper: &keeper };
         let mut done = pipeline::run_from(&scene, resumption, &progress)?;
-        write(&mut done.record, &out, &progress)?;
+        write(&mut done.record, &out, !args.no_report, &progress)?;
         if done.record.summary.stopped != StopReason::Interrupted {
             folder::remove_checkpoint(&out)?;
         }
@@ -91,8 +94,11 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     })?;
     warn(&progress.not_yet_told(&record.summary.warnings[resolved.warnings.len()..]));
     if !args.quiet {
-        let report = out.join("report.html");
-        print(&format!("{}report: {}\n", figures::table(&record.summary), report.display()))?;
+        let (name, path) = match args.no_report {
+            true => ("results", out.clone()),
+            false => ("report", out.join("report.html")),
+        };
+        print(&format!("{}{name}: {}\n", figures::table(&record.summary), path.display()))?;
     }
     if record.summary.stopped != StopReason::Completed {
         say_what_is_kept(&record, &resolved.scene.operation, &out);
@@ -105,7 +111,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// Puts a failure that the scene is to blame for at its key.
-fn in_the_scene(error: RunError, scene: &LoadedScene) -> Failure {
+pub(super) fn in_the_scene(error: RunError, scene: &LoadedScene) -> Failure {
     if let Some(stiffness) = error.stiffness() {
         return scene.given.refused(vec![Problem::of_stiffness(&scene.given.text, stiffness)]).into();
     }
@@ -117,10 +123,14 @@ fn in_the_scene(error: RunError, scene: &LoadedScene) -> Failure {
 }
 
 /// The last stage: the output folder. Its own time is in the summary, which is therefore written last.
-fn write(record: &mut RunRecord, out: &Path, progress: &Progress) -> Result<(), ReportError> {
+fn write(record: &mut RunRecord, out: &Path, with_page: bool, progress: &Progress) -> Result<(), ReportError> {
     progress.stage(StageKind::Report.name());
     let start = Instant::now();
-    report::write_data_and_page(record, out)?;
+    report::write_data(record, out)?;
+    match with_page {
+        true => report::write_page(record, out).map(drop),
+        false => report::remove_page(out),
+    }?;
     let wall_s = start.elapsed().as_secs_f64();
     record.summary.stages.push(StageTime { name: StageKind::Report.name().to_owned(), wall_s });
     record.summary.wall_s += wall_s;

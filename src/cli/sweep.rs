@@ -38,7 +38,8 @@ pub(super) struct RunArgs {
     /// The scene file; - reads standard input
     #[arg(required = true)]
     scene: PathBuf,
-    /// A key of the scene that takes a number, and its values: COUNT of them evenly from FROM to TO, both included.
+    /// A key of the scene that takes a number, and its values: COUNT of them evenly from FROM to TO, both included, by equal
+    /// ratios with :log after it, or a list, KEY=VALUE,VALUE,… Keys that have the same value: pair.{pinion,wheel}.teeth.
     /// May be given several times: all combinations are run
     #[arg(long, value_name = "KEY=FROM:TO:COUNT", required = true)]
     vary: Vec<String>,

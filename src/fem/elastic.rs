@@ -8,15 +8,12 @@
 //! Source: S. P. Timoshenko and J. N. Goodier, *Theory of Elasticity* (1970), sections 8 to 11.
 
 use nalgebra::Matrix3;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 use crate::gear::{Gear, PerGear};
 use crate::reference::hertz_line;
 
-/// What the third direction does.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
+/// What the direction across the plane does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Analysis {
     /// No strain across the plane: a long body, a wide gear.
     #[default]

@@ -24,6 +24,7 @@ use super::element::ElementError;
 use super::factor::{Factor, FactorError};
 use super::problem::{ContactNode, ContactState, Problem, Solution, Stop, Work};
 use super::rigid_body::{RigidMotion, describe, free_motions};
+use super::space::FoldedHexahedron;
 use super::stiffness::Stiffness;
 
 /// Why a problem has no solution.
@@ -32,6 +33,9 @@ pub enum SolveError {
     /// An element is no element.
     #[error(transparent)]
     Element(#[from] ElementError),
+    /// A hexahedron is none.
+    #[error(transparent)]
+    Hexahedron(#[from] FoldedHexahedron),
     /// The stiffness matrix cannot be factorised.
     #[error(transparent)]
     Factor(#[from] FactorError),

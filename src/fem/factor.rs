@@ -142,6 +142,9 @@ impl Factor {
     pub(crate) fn solve(&self, columns: usize, x: &mut [f64]) {
         let (dofs, free) = (self.dofs(), self.dof_of_place.len());
         assert_eq!(x.len(), columns * dofs, "one entry for each degree of freedom and column");
+        if free == 0 {
+            return x.fill(0.0);
+        }
         let at_once = columns.min(COLUMNS_AT_ONCE);
         let mut block = vec![0.0; at_once * free];
         let mut scratch = MemBuffer::new(self.supernodes().solve_in_place_scratch::<f64>(at_once, Par::Seq));

@@ -1,4 +1,4 @@
-//! Plane finite elements: elements, assembly, factorisation, contact of meshes.
+//! Finite elements: plane elements and hexahedra, assembly, factorisation, contact of plane meshes.
 
 pub(crate) mod active_set;
 pub(crate) mod contact;
@@ -11,6 +11,7 @@ pub(crate) mod factor;
 pub(crate) mod gear;
 pub(crate) mod loads;
 pub(crate) mod locate;
+pub(crate) mod nodal_fields;
 mod nodal_triangle;
 pub(crate) mod node_matrix;
 pub(crate) mod problem;

@@ -1,10 +1,24 @@
 //! A static problem of elastic bodies in contact, and what its solution is.
 
 use nalgebra::Vector2;
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::elastic::{Analysis, Elastic};
 use super::solid::Solid;
+
+/// What the third direction does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ThirdDirection {
+    /// No strain across the plane: a long body, a wide gear.
+    #[default]
+    PlaneStrain,
+    /// No stress across the plane: a thin sheet.
+    PlaneStress,
+    /// Bodies of hexahedra in space, without contact.
+    ThreeDimensional,
+}
 
 /// One edge of an element on the surface of a body, the body on its left; linear (two nodes) or quadratic (ends, middle).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -13,6 +27,22 @@ pub struct Edge {
     pub ends: [u32; 2],
     /// The middle node of a quadratic edge.
     pub middle: Option<u32>,
+}
+
+impl ThirdDirection {
+    /// The analysis in the plane; `None` in space.
+    pub(crate) fn in_plane(self) -> Option<Analysis> {
+        match self {
+            Self::PlaneStrain => Some(Analysis::PlaneStrain),
+            Self::PlaneStress => Some(Analysis::PlaneStress),
+            Self::ThreeDimensional => None,
+        }
+    }
+
+    /// Directions in which a node moves.
+    pub(crate) fn directions(self) -> usize {
+        if self == Self::ThreeDimensional { 3 } else { 2 }
+    }
 }
 
 /// Two surfaces that may touch; the slave carries the multipliers.
@@ -27,7 +57,7 @@ pub struct ContactPair {
 /// A degree of freedom with a given displacement.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Held {
-    /// 2 · node + component.
+    /// d · node + component, with d = 2 in the plane and 3 in space.
     pub dof: u32,
     /// Its displacement, mm.
     pub displacement_mm: f64,

@@ -26,6 +26,7 @@ use super::element::{ElementError, Fold, MOST_DOFS};
 use super::enhanced_quad::EnhancedQuad;
 use super::nodal_triangle::{Patch, patches};
 use super::projected_volume::ProjectedVolume;
+use super::quadrature::GAUSS_2;
 use super::shape::Shape;
 use super::solid::{ElementKind, Solid};
 use super::stiffness::check_references;
@@ -59,12 +60,16 @@ pub(crate) struct NodalStress {
 }
 
 impl NodalStress {
-    /// σ_v = √(½ [(σ_x − σ_y)² + (σ_y − σ_z)² + (σ_z − σ_x)²] + 3 τ²), MPa.
+    /// σ_v, MPa.
     pub(crate) fn von_mises_mpa(&self) -> f64 {
-        let (x, y, z) = (self.sigma_x_mpa, self.sigma_y_mpa, self.sigma_z_mpa);
-        let squares = (x - y).powi(2) + (y - z).powi(2) + (z - x).powi(2);
-        (0.5 * squares + 3.0 * self.tau_xy_mpa.powi(2)).sqrt()
+        von_mises_mpa([self.sigma_x_mpa, self.sigma_y_mpa, self.sigma_z_mpa, self.tau_xy_mpa, 0.0, 0.0])
     }
+}
+
+/// σ_v = √(½ [(σ_x − σ_y)² + (σ_y − σ_z)² + (σ_z − σ_x)²] + 3 (τ_xy² + τ_yz² + τ_zx²)) of (x, y, z, xy, yz, zx), MPa.
+pub(crate) fn von_mises_mpa([x, y, z, xy, yz, zx]: [f64; 6]) -> f64 {
+    let squares = (x - y).powi(2) + (y - z).powi(2) + (z - x).powi(2);
+    (0.5 * squares + 3.0 * (xy.powi(2) + yz.powi(2) + zx.powi(2))).sqrt()
 }
 
 /// Recovers stresses from displacements of one solid.
@@ -243,7 +248,7 @@ fn law(d_mpa: &Matrix3<f64>, analysis: Analysis) -> Matrix4x3<f64> {
 }
 
 /// 1/√3.
-const GAUSS: f64 = 0.577_350_269_189_625_8;
+const GAUSS: f64 = GAUSS_2[1].0;
 
 /// Where stresses are best, in the order of the corners.
 fn sample_points(kind: ElementKind) -> &'static [[f64; 2]] {

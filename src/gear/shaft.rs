@@ -46,6 +46,18 @@ impl Shaft {
         PI / 32.0 * (self.diameter_mm.powi(4) - self.bore_diameter_mm.powi(4))
     }
 
+    /// How far the teeth give way at the end that is not driven under an even line load, mm: r_b (T/2) b/(G J).
+    pub(crate) fn twist_mm(
+        &self,
+        base_radius_mm: f64,
+        shear_modulus_mpa: f64,
+        face_width_mm: f64,
+        line_load_n_per_mm: f64,
+    ) -> f64 {
+        let half_torque_n_mm = 0.5 * base_radius_mm * face_width_mm * line_load_n_per_mm;
+        base_radius_mm * half_torque_n_mm * face_width_mm / (shear_modulus_mpa * self.polar_moment_mm4())
+    }
+
     /// How far the teeth give way on average in one slice under a line load that is even in another, mm²/N, row by row, on a base circle
     /// of `base_radius_mm` and with the shear modulus `shear_modulus_mpa`.
     pub(crate) fn mm2_per_n(&self, base_radius_mm: f64, shear_modulus_mpa: f64, slices: &Slices) -> Vec<f64> {

@@ -17,6 +17,7 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use nalgebra::{Rotation2, Vector2, Vector3};
 
+use super::settings::{SectionDivisions, SpaceResolution};
 use crate::gear::half_profile::in_tooth_frame;
 use crate::gear::{Gear, GearPair, tooth::Tooth};
 use crate::mesh::{CellBlock, CellKind, Mesh};
@@ -27,32 +28,6 @@ const SAMPLES: usize = 400;
 const SAG: f64 = 0.27;
 /// Each element towards the clamp circle over the one before.
 const RADIAL_GROWTH: f64 = 1.5;
-
-/// Elements along each side of the grids.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct SectionDivisions {
-    /// Across the tooth.
-    pub across: usize,
-    /// Along the upper half of a fillet.
-    pub fillet: usize,
-    /// Along a flank.
-    pub flank: usize,
-    /// Along the outline from a cut to the middle of the fillet.
-    pub land: usize,
-    /// From the outline to the clamp circle.
-    pub radial: usize,
-}
-
-/// How finely teeth are meshed in space.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct SpaceResolution {
-    /// Elements of the section.
-    pub section: SectionDivisions,
-    /// Length of an element over the face width, in normal modules.
-    pub layer_modules: f64,
-    /// Least and greatest number of them.
-    pub layers: [usize; 2],
-}
 
 /// The section in the plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -153,20 +128,6 @@ impl<'a> HalfOutline<'a> {
     fn flank(&self, radius_mm: f64) -> Vector2<f64> {
         let half_angle = self.tooth.half_angle_rad(radius_mm);
         radius_mm * Vector2::new(half_angle.sin(), half_angle.cos())
-    }
-}
-
-impl SpaceResolution {
-    /// What is enough for the compliance of a tooth beside its local flattening.
-    pub(crate) const USUAL: Self = Self {
-        section: SectionDivisions { across: 6, fillet: 2, flank: 8, land: 1, radial: 3 },
-        layer_modules: 0.32,
-        layers: [6, 24],
-    };
-
-    fn layers_over(&self, face_width_mm: f64, normal_module_mm: f64) -> usize {
-        let wanted = (face_width_mm / (self.layer_modules * normal_module_mm)).ceil() as usize;
-        wanted.clamp(self.layers[0], self.layers[1])
     }
 }
 
@@ -305,7 +266,7 @@ impl ExtrudedTooth {
         };
         let twist_rad_per_mm = -forward * pair.base_helix_angle_rad().tan() / tooth.involute.base_radius_mm;
         let section = ToothSection::new(tooth, clamp_radius_mm, resolution.section);
-        let layers = resolution.layers_over(face_width_mm, pair.spec.normal_module_mm);
+        let layers = resolution.layers_over(&pair.spec);
         Self::new(section, face_width_mm, layers, twist_rad_per_mm)
     }
 

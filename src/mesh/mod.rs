@@ -90,6 +90,11 @@ pub struct PhysicalTag {
 }
 
 impl Mesh {
+    /// Adds numbers at the points, so many `components` of each.
+    pub(crate) fn add_point_data(&mut self, name: &str, components: usize, values: Vec<f64>) {
+        self.point_data.insert(name.to_owned(), DataArray { components, values: Values::Reals(values) });
+    }
+
     /// Cells counted over all blocks, from `lists` of their numbers within each.
     fn over_all<'m>(&'m self, lists: &'m [Vec<usize>]) -> impl Iterator<Item = usize> + 'm {
         let mut start = 0;

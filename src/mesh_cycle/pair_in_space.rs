@@ -22,11 +22,11 @@ use nalgebra::DMatrix;
 use super::influence::Influence;
 use super::sliced_positions::SliceContact;
 use crate::fem::elastic::Elastic;
-use crate::fem::gear::in_space::{FlankForces, PlaneSection, SpaceError, TeethInSpace};
+use crate::fem::gear::in_space::{DeformedTooth, FlankForces, PlaneSection, SpaceError, TeethInSpace};
 use crate::fem::quadrature::GAUSS_3;
 use crate::fem::shape::along_edge;
 use crate::gear::{Gear, GearPair, PerGear, slices::Slices, spec::PairSpec};
-use crate::gear_mesh::tooth_section::{ExtrudedTooth, SpaceResolution};
+use crate::gear_mesh::{settings::SpaceResolution, tooth_section::ExtrudedTooth};
 
 /// Why a pair has no teeth in space.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -132,6 +132,54 @@ impl PairInSpace {
         Ok(Self { gears })
     }
 
+    /// Points of integration of a contact on each flank: radius, place over the face width, and weight.
+    fn points(&self, pair: &GearPair, slices: &Slices, contact: &SliceContact) -> PerGear<Vec<(f64, f64, f64)>> {
+        let layers = self.gears.pinion.teeth.layers();
+        let layer_mm = pair.spec.face_width_mm / layers as f64;
+        let base_helix = pair.base_helix_angle_rad();
+        let [furthest_before, furthest_after] = pair.farthest_touch_mm();
+        let (first_mm, last_mm) = (pair.path.start_mm - furthest_before, pair.path.end_mm + furthest_after);
+        let mut points = PerGear::from_fn(|_| Vec::new());
+        for (z_mm, weight) in points_of_slice(contact.slice, slices.count(), layers) {
+            let (z_mm, weight) = (z_mm * layer_mm, weight * layer_mm / slices.slice_width_mm);
+            let from_middle_mm = z_mm - slices.width_mm[contact.slice];
+            let at_mm = contact.cell.position_mm - from_middle_mm * base_helix.tan();
+            let touch = pair.touch(at_mm.clamp(first_mm, last_mm));
+            for gear in Gear::BOTH {
+                points[gear].push((pair.teeth[gear].involute.radius_mm(touch.rho_mm[gear]), z_mm, weight));
+            }
+        }
+        points
+    }
+
+    /// The load of a contact, 1 N in all, as forces on both flanks.
+    fn forces(&self, points: &PerGear<Vec<(f64, f64, f64)>>) -> PerGear<FlankForces> {
+        PerGear::from_fn(|gear| self.gears[gear].teeth.load(points[gear].iter().copied()))
+    }
+
+    /// The reference teeth of both gears, deformed by `contacts`, each with its load, N.
+    pub(crate) fn deformed(
+        &self,
+        pair: &GearPair,
+        material: &PerGear<Elastic>,
+        slices: &Slices,
+        contacts: &[(SliceContact, f64)],
+    ) -> Result<PerGear<DeformedTooth>, PairInSpaceError> {
+        let forces: Vec<PerGear<FlankForces>> =
+            contacts.iter().map(|(contact, _)| self.forces(&self.points(pair, slices, contact))).collect();
+        PerGear::try_in_parallel(|gear| {
+            // A tooth ahead on the path of contact is anticlockwise on the pinion.
+            let anticlockwise = |ahead: i32| if gear == Gear::Pinion { ahead } else { -ahead };
+            let loads: Vec<(i32, f64, FlankForces)> = contacts
+                .iter()
+                .zip(&forces)
+                .map(|((contact, load_n), forces)| (anticlockwise(contact.tooth), *load_n, forces[gear].clone()))
+                .collect();
+            let deformed = self.gears[gear].teeth.deformed(&pair.teeth[gear], material[gear], &loads);
+            deformed.map_err(|source| PairInSpaceError::Gear { gear, source: Box::new(source) })
+        })
+    }
+
     /// P: what the elements see of the loads of `count` slices, row by row.
     pub(crate) fn seen(&self, count: usize) -> Vec<f64> {
         projection(count, self.gears.pinion.teeth.layers())
@@ -147,27 +195,18 @@ impl PairInSpace {
         contacts: &[SliceContact],
         section_mm2_per_n: impl Fn(&SliceContact) -> f64,
     ) -> Influence {
-        let (count, layers) = (contacts.len(), self.gears.pinion.teeth.layers());
-        let layer_mm = pair.spec.face_width_mm / layers as f64;
+        let count = contacts.len();
         let base_helix = pair.base_helix_angle_rad();
-        let [furthest_before, furthest_after] = pair.farthest_touch_mm();
-        let (first_mm, last_mm) = (pair.path.start_mm - furthest_before, pair.path.end_mm + furthest_after);
-        let mut of_section = vec![0.0; count];
+        let mut of_section = Vec::with_capacity(count);
         let mut forces: Vec<PerGear<FlankForces>> = Vec::with_capacity(count);
-        for (contact, of_section) in contacts.iter().zip(&mut of_section) {
-            let mut points = PerGear::from_fn(|_| Vec::new());
-            for (z_mm, weight) in points_of_slice(contact.slice, slices.count(), layers) {
-                let (z_mm, weight) = (z_mm * layer_mm, weight * layer_mm / slices.slice_width_mm);
-                let from_middle_mm = z_mm - slices.width_mm[contact.slice];
-                let at_mm = contact.cell.position_mm - from_middle_mm * base_helix.tan();
-                let touch = pair.touch(at_mm.clamp(first_mm, last_mm));
-                for gear in Gear::BOTH {
-                    let radius_mm = pair.teeth[gear].involute.radius_mm(touch.rho_mm[gear]);
-                    points[gear].push((radius_mm, z_mm, weight));
-                    *of_section += weight * self.gears[gear].section.mm2_per_n(radius_mm);
-                }
-            }
-            forces.push(PerGear::from_fn(|gear| self.gears[gear].teeth.load(points[gear].iter().copied())));
+        for contact in contacts {
+            let points = self.points(pair, slices, contact);
+            let of_gear = |gear: Gear| -> f64 {
+                let section = &self.gears[gear].section;
+                points[gear].iter().map(|(radius_mm, _, weight)| weight * section.mm2_per_n(*radius_mm)).sum()
+            };
+            of_section.push(of_gear(Gear::Pinion) + of_gear(Gear::Wheel));
+            forces.push(self.forces(&points));
         }
         let mut mm2_per_n = vec![0.0; count * count];
         for a in 0..count {

@@ -3,6 +3,7 @@
 //! This is the one way in which the program runs anything; the only clock it reads times the stages.
 
 pub(crate) mod calibrate;
+pub(crate) mod deformed_teeth;
 mod drawing;
 mod error_estimates;
 pub(crate) mod fem_problem;

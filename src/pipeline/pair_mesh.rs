@@ -2,8 +2,8 @@
 
 use crate::contact::hertz;
 use crate::gear::{Gear, GearPair, PairError, PerGear};
-use crate::gear_mesh::settings::Body;
-use crate::gear_mesh::tooth_section::{ExtrudedTooth, SpaceResolution};
+use crate::gear_mesh::settings::{Body, SpaceResolution};
+use crate::gear_mesh::tooth_section::ExtrudedTooth;
 use crate::gear_mesh::{self, ToothMeshError};
 use crate::mesh::quality::{self, MeshQuality, QualityError};
 use crate::mesh::{CellKind, Mesh};
@@ -68,14 +68,19 @@ pub(crate) struct SpaceMesh {
 }
 
 /// Meshes one pitch of each gear of `scene` in space, the reference teeth in contact at `position_mm`, by default at the pitch point.
-pub(crate) fn build_in_space(scene: &Scene, position_mm: Option<f64>) -> Result<SpaceMesh, PairMeshError> {
+pub(crate) fn in_space(scene: &Scene, position_mm: Option<f64>) -> Result<SpaceMesh, PairMeshError> {
     let pair = GearPair::new(&scene.pair)?;
     let position_mm = on_path_mm(&pair, position_mm)?;
-    let of_gear = |gear| ExtrudedTooth::of_gear(&pair, gear, scene.fem.clamp_radius_mm[gear], &SpaceResolution::USUAL);
+    in_space_at(scene, &pair, position_mm)
+}
+
+/// The same of its `pair` at a position, be it on the path of contact or beyond.
+pub(super) fn in_space_at(scene: &Scene, pair: &GearPair, position_mm: f64) -> Result<SpaceMesh, PairMeshError> {
+    let of_gear = |gear| ExtrudedTooth::of_gear(pair, gear, scene.fem.clamp_radius_mm[gear], &SpaceResolution::USUAL);
     let teeth = PerGear::from_fn(of_gear);
     let quality = |gear: Gear| quality::of_mesh(&teeth[gear].section.to_mesh());
     Ok(SpaceMesh {
-        mesh: gear_mesh::space_mesh(&pair, &teeth, position_mm),
+        mesh: gear_mesh::space_mesh(pair, &teeth, position_mm),
         quality: PerGear { pinion: quality(Gear::Pinion)?, wheel: quality(Gear::Wheel)? },
         layers: teeth.pinion.layers(),
         position_mm,
@@ -83,7 +88,7 @@ pub(crate) fn build_in_space(scene: &Scene, position_mm: Option<f64>) -> Result<
 }
 
 /// A position as given, which must be on the path of contact; the pitch point where none is.
-fn on_path_mm(pair: &GearPair, position_mm: Option<f64>) -> Result<f64, PairMeshError> {
+pub(super) fn on_path_mm(pair: &GearPair, position_mm: Option<f64>) -> Result<f64, PairMeshError> {
     let [from_mm, to_mm] = [pair.path.start_mm, pair.path.end_mm];
     let position_mm = position_mm.unwrap_or_else(|| pair.path.pitch_point_mm.clamp(from_mm, to_mm));
     // Ends are printed with four decimals and may be typed as printed.

@@ -1,6 +1,7 @@
 //! The record of a pair slice by slice.
 
 use super::{Model, UM_PER_MM};
+use crate::gear::spec::AxisParallelism;
 use crate::gear::{Gear, PerGear, flank_surface::FlankSurface};
 use crate::mesh_cycle::sliced_mesh::SlicedMesh;
 use crate::results::run::{HelicalSummary, LineOfContactSummary, OverWidthSummary, SliceRecord};
@@ -46,6 +47,9 @@ pub(super) fn summary(model: &Model<'_>, outcome: &Outcome) -> Option<HelicalSum
         slices: sliced.settings.count,
         coupling: sliced.settings.coupling.name().to_owned(),
         coupling_reach_mm: sliced.reach().map(|reach| [reach.twist_mm2.sqrt(), reach.bending_mm4.sqrt().sqrt()]),
+        shaft_twist_um: PerGear::from_fn(|gear| shaft_twist_mm(model, gear).map(|mm| mm * UM_PER_MM)),
+        slope_of_axes_um: (model.pair.spec.axis_parallelism != AxisParallelism::default())
+            .then(|| model.pair.slope_of_axes_mm() * UM_PER_MM),
         helix_angle_deg: model.pair.spec.helix_angle_rad.to_degrees(),
         base_helix_angle_deg: model.pair.base_helix_angle_rad().to_degrees(),
         total_contact_ratio: model.pair.path.contact_ratio() + model.pair.overlap_ratio(),
@@ -57,6 +61,14 @@ pub(super) fn summary(model: &Model<'_>, outcome: &Outcome) -> Option<HelicalSum
         mesh_orders_worn_um: um(worn.mesh_orders_mm(MESH_ORDERS)),
         wear: PerGear::from_fn(|gear| over_width(model, outcome, gear)),
     })
+}
+
+fn shaft_twist_mm(model: &Model<'_>, gear: Gear) -> Option<f64> {
+    let shaft = model.pair.spec.gears[gear].shaft?;
+    let (base_radius_mm, material) = (model.pair.teeth[gear].involute.base_radius_mm, model.scene.material[gear]);
+    let shear_modulus_mpa = material.elastic().shear_modulus_mpa();
+    let (width_mm, load_n_per_mm) = (model.pair.spec.face_width_mm, model.first().line_load_n_per_mm);
+    Some(shaft.twist_mm(base_radius_mm, shear_modulus_mpa, width_mm, load_n_per_mm))
 }
 
 fn line_of_contact(model: &Model<'_>, outcome: &Outcome, mesh: &SlicedMesh) -> LineOfContactSummary {

@@ -12,7 +12,7 @@ use crate::wear::{self, WearModel, settings::WearSettings};
 pub(super) struct Judged {
     pub warnings: Vec<String>,
     pub evaluations: u64,
-    /// The step over the longest safe one, of the phase where that is most; 0 where nothing can swing.
+    /// The step over the longest safe one, of the phase where that is most; 0 where there is no limit.
     pub step_over_safe: f64,
 }
 

@@ -6,7 +6,7 @@ pub(crate) mod fem_pair;
 use serde::{Serialize, Serializer};
 
 use crate::contact::settings::{Foundation, SurfaceKind};
-use crate::gear_mesh::settings::Body;
+use crate::gear_mesh::settings::{Body, SpaceResolution};
 use crate::mesh_cycle::settings::{Coupling, MOST_SLICES_IN_SPACE, SliceSettings};
 use crate::scene::Scene;
 use crate::scene::loaded::LoadedScene;
@@ -261,14 +261,14 @@ fn tooth_stiffness(scene: &Scene) -> Result<String, String> {
 }
 
 fn teeth_in_space(scene: &Scene) -> Result<String, String> {
+    let needs = |what: &str| {
+        let gb = SpaceResolution::USUAL.memory_gb(&scene.pair);
+        Ok(format!("{what}: one sector of each gear over the whole face width, condensed in some {gb:.1} GB"))
+    };
     match scene.slices.map(|slices| slices.coupling) {
         None => Err("all sections are alike".to_owned()),
-        Some(Coupling::Fem) => {
-            Ok("helical.coupling: one sector of each gear over the whole face width, condensed".to_owned())
-        }
-        Some(_) if verification(scene).is_ok() => {
-            Ok("the verification: one sector of each gear over the whole face width, condensed".to_owned())
-        }
+        Some(Coupling::Fem) => needs("helical.coupling"),
+        Some(_) if verification(scene).is_ok() => needs("the verification"),
         Some(coupling) => Err(format!("the coupling {} of the slices has none", coupling.name())),
     }
 }
@@ -290,7 +290,7 @@ fn step_bound(scene: &Scene) -> Result<String, String> {
     match (scene.numerics.stepping, scene.contact.surface) {
         (Stepping::Adaptive { .. }, _) => Err("adaptive steps are stable by themselves".to_owned()),
         (_, SurfaceKind::Hertz | SurfaceKind::HertzMean) => {
-            Err(format!("on the surface {} no wave of wear can swing", scene.contact.surface.name()))
+            Err(format!("the surface {} sets no limit on the step", scene.contact.surface.name()))
         }
         (Stepping::Fixed { .. }, _) => {
             Ok("how long a step of Euler's method may be: the spectral radius of the mesh cycle".to_owned())

@@ -91,10 +91,10 @@ impl PointData {
 
     fn into_mesh(self, mesh: &mut Mesh) {
         for (name, values) in NAMES.into_iter().zip(self.reals) {
-            vtu_file::add(mesh, name, 1, values);
+            mesh.add_point_data(name, 1, values);
         }
         let slice = DataArray { components: 1, values: Values::Integers(self.slice) };
         mesh.point_data.insert("slice".to_owned(), slice);
-        vtu_file::add(mesh, "transverse_normal", 3, self.normal);
+        mesh.add_point_data("transverse_normal", 3, self.normal);
     }
 }

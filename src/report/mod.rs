@@ -5,6 +5,7 @@
 //! | `summary.json` | [`Summary`](crate::results::run::Summary) |
 //! | `pinion.csv`, `wheel.csv`, `profiles.csv` | [`tables`] |
 //! | `history.csv`, `mesh_cycle.csv` | [`HistoryRow`](crate::results::run::HistoryRow), [`MeshCycleRow`](crate::results::run::MeshCycleRow) |
+//! | `columns.json` | what the columns of the CSV files hold ([`csv_table`]) |
 //! | `slices.csv`, `flank.vtu` | [`slice_table`], [`flank_mesh`]; only where the sections of the pair differ |
 //! | `scene.toml` | the resolved scene, byte for byte, so that its SHA-256 begins with the scene hash |
 //! | `report.html` | [`html`] |
@@ -29,39 +30,51 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
-use self::csv_table::{Provenance, table};
+use self::csv_table::{CsvFiles, Provenance, table};
 pub(crate) use self::files::{ReportError, create_folder, writable};
 use self::files::{place, remove, write_json};
 use crate::gear::Gear;
 use crate::results::run::RunRecord;
 
-/// Writes all files of `record` but `summary.json` into `dir`, which is made if need be; returns their paths in the order
+/// Writes all files of `record` but the page and `summary.json` into `dir`, which is made if need be; returns their paths in the order
 /// written. The files that only a pair with slices has are taken away where `record` has none.
-pub(crate) fn write_data_and_page(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+pub(crate) fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
     let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
-    let flank = |gear: Gear| move |out: &mut dyn Write| tables::flank(out, provenance, &record.flanks[gear]);
+    let mut csv = CsvFiles::new(dir, provenance);
+    let flank = |gear: Gear| move |out: &mut dyn Write| tables::flank(out, &record.flanks[gear]);
     let mut paths = vec![
         place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?,
-        place(dir, "pinion.csv", flank(Gear::Pinion))?,
-        place(dir, "wheel.csv", flank(Gear::Wheel))?,
-        place(dir, "history.csv", |out| table(out, provenance, &record.history))?,
-        place(dir, "profiles.csv", |out| tables::profiles(out, provenance, record))?,
-        place(dir, "mesh_cycle.csv", |out| table(out, provenance, &record.mesh_cycle))?,
+        csv.place("pinion.csv", flank(Gear::Pinion))?,
+        csv.place("wheel.csv", flank(Gear::Wheel))?,
+        csv.place("history.csv", |out| table(out, &record.history))?,
+        csv.place("profiles.csv", |out| tables::profiles(out, record))?,
+        csv.place("mesh_cycle.csv", |out| table(out, &record.mesh_cycle))?,
     ];
     match &record.slices {
         Some(slices) => {
             let path = &record.summary.geometry.curvature_radius_mm;
-            paths.push(place(dir, SLICES, |out| slice_table::slices(out, provenance, slices, path))?);
+            paths.push(csv.place(SLICES, |out| slice_table::slices(out, slices, path))?);
             paths.push(place(dir, FLANK, |out| flank_mesh::write(out, record, slices))?);
         }
         // What an earlier run left there would pass for this one's.
         None => [SLICES, FLANK].into_iter().try_for_each(|name| remove(dir, name))?,
     }
-    paths.push(place(dir, "report.html", |out| out.write_all(html::run_page::page(record).as_bytes()))?);
+    paths.push(csv.finish()?);
     Ok(paths)
 }
 
+/// Writes the page of `record` into `dir`.
+pub(crate) fn write_page(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportError> {
+    place(dir, PAGE, |out| out.write_all(html::run_page::page(record).as_bytes()))
+}
+
+/// Takes away the page of an earlier run, if there is one: it would pass for that of a run without.
+pub(crate) fn remove_page(dir: &Path) -> Result<(), ReportError> {
+    remove(dir, PAGE)
+}
+
+const PAGE: &str = "report.html";
 const SLICES: &str = "slices.csv";
 const FLANK: &str = "flank.vtu";
 

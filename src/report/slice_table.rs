@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::csv_table::{Provenance, table};
+use super::csv_table::{Column, table};
 use crate::results::run::{PathPoints, SliceRecord};
 
 /// Positions are compared with A and E to this part of A–E.
@@ -40,12 +40,7 @@ struct Row {
 }
 
 /// Writes it; `path` are the positions of A–E.
-pub(crate) fn slices(
-    out: &mut dyn Write,
-    provenance: Provenance,
-    record: &SliceRecord,
-    path: &PathPoints,
-) -> io::Result<()> {
+pub(crate) fn slices(out: &mut dyn Write, record: &SliceRecord, path: &PathPoints) -> io::Result<Vec<Column>> {
     let count = record.width_mm.len();
     let slack = SAME_PLACE * (path.E - path.A);
     let rows = record.position_mm.iter().enumerate().flat_map(|(position, &position_mm)| {
@@ -70,5 +65,5 @@ pub(crate) fn slices(
             || row.line_load_new_N_per_mm > 0.0
             || row.line_load_worn_N_per_mm > 0.0
     };
-    table(out, provenance, rows.filter(in_contact))
+    table(out, rows.filter(in_contact))
 }

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::csv_table::{Provenance, table};
+use super::csv_table::{Column, table};
 use crate::gear::Gear;
 use crate::results::run::{FlankRecord, RunRecord};
 
@@ -56,7 +56,7 @@ struct ProfileRow {
     phase: usize,
 }
 
-pub(crate) fn flank(out: &mut dyn Write, provenance: Provenance, flank: &FlankRecord) -> io::Result<()> {
+pub(crate) fn flank(out: &mut dyn Write, flank: &FlankRecord) -> io::Result<Vec<Column>> {
     let points = flank.radius_mm.len();
     let rows = flank.width_mm.iter().enumerate().flat_map(|(slice, &width_mm)| {
         (0..points).map(move |point| {
@@ -75,10 +75,10 @@ pub(crate) fn flank(out: &mut dyn Write, provenance: Provenance, flank: &FlankRe
             }
         })
     });
-    table(out, provenance, rows)
+    table(out, rows)
 }
 
-pub(crate) fn profiles(out: &mut dyn Write, provenance: Provenance, record: &RunRecord) -> io::Result<()> {
+pub(crate) fn profiles(out: &mut dyn Write, record: &RunRecord) -> io::Result<Vec<Column>> {
     let rows = record.history.iter().enumerate().flat_map(|(snapshot, at)| {
         Gear::BOTH.into_iter().flat_map(move |gear| {
             let flank = &record.flanks[gear];
@@ -97,5 +97,5 @@ pub(crate) fn profiles(out: &mut dyn Write, provenance: Provenance, record: &Run
             })
         })
     });
-    table(out, provenance, rows)
+    table(out, rows)
 }

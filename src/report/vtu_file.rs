@@ -2,20 +2,17 @@
 
 use std::io::{self, Write};
 
+use crate::fem::nodal_fields::add_nodal_fields;
 use crate::mesh::vtu::VtuEncoding;
-use crate::mesh::{DataArray, Format, Mesh, Values, to_bytes};
+use crate::mesh::{Format, Mesh, to_bytes};
 use crate::results::fem_problem::NodalStress;
 
-pub(super) fn add(mesh: &mut Mesh, name: &str, components: usize, values: Vec<f64>) {
-    mesh.point_data.insert(name.to_owned(), DataArray { components, values: Values::Reals(values) });
-}
-
+/// Adds a plane solution.
 pub(super) fn add_solution(mesh: &mut Mesh, displacement_mm: &[[f64; 2]], stress: &[NodalStress]) {
-    // A symmetric tensor in VTK's order: xx, yy, zz, xy, yz, xz.
     let tensor = |[x, y, z, xy]: [f64; 4]| [x, y, z, xy, 0.0, 0.0];
-    add(mesh, "displacement_mm", 3, displacement_mm.iter().flat_map(|&[x, y]| [x, y, 0.0]).collect());
-    add(mesh, "stress_MPa", 6, stress.iter().flat_map(|stress| tensor(stress.components_MPa)).collect());
-    add(mesh, "von_mises_MPa", 1, stress.iter().map(|stress| stress.von_mises_MPa).collect());
+    let displacement_mm = displacement_mm.iter().map(|&[x, y]| [x, y, 0.0]);
+    let stress_mpa = stress.iter().map(|stress| tensor(stress.components_MPa));
+    add_nodal_fields(mesh, displacement_mm, stress_mpa, stress.iter().map(|stress| stress.von_mises_MPa));
 }
 
 /// Writes a mesh in the form ParaView reads.

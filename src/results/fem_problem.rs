@@ -9,8 +9,8 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::run::StageTime;
-use crate::fem::elastic::Analysis;
-use crate::fem::problem::{Problem, Stop, Work};
+use crate::fem::problem::{Problem, Stop, ThirdDirection, Work};
+use crate::fem::space;
 use crate::mesh::quality::MeshQuality;
 
 /// A solved problem.
@@ -20,16 +20,71 @@ pub struct FemRecord {
     pub summary: FemSummary,
     /// The resolved problem as TOML.
     pub problem_toml: String,
-    /// Bodies, supports, loads and surfaces as the solver took them; the material is the number of the body.
-    pub problem: Problem,
     /// Groups of the bodies.
     pub bodies: Vec<String>,
+    /// What was solved, and what was found at its nodes.
+    pub solution: FemSolution,
+}
+
+/// A problem with its fields.
+#[derive(Debug, Clone, PartialEq)]
+pub enum FemSolution {
+    /// In the plane.
+    Plane(PlaneSolution),
+    /// In space.
+    InSpace(SpaceSolution),
+}
+
+/// A plane problem with its fields.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlaneSolution {
+    /// Bodies, supports, loads and surfaces as the solver took them; the material is the number of the body.
+    pub problem: Problem,
     /// Displacement [x, y] of every node, mm.
     pub displacement_mm: Vec<[f64; 2]>,
     /// Stress of every node: the mean over the elements of its body, and over bodies that are joined there.
     pub stress: Vec<NodalStress>,
     /// The pressure along each contact, in the order of the summary.
     pub contacts: Vec<ContactCurve>,
+}
+
+/// A three-dimensional problem with its fields.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpaceSolution {
+    /// Bodies, supports and loads as the solver took them.
+    pub problem: space::problem::Problem,
+    /// The tables of supports and loads, in the order of the problem.
+    pub boundary: Vec<BoundaryRow>,
+    /// Displacement [x, y, z] of every node, mm.
+    pub displacement_mm: Vec<[f64; 3]>,
+    /// Stress of every node (xx, yy, zz, xy, yz, xz, the order of VTK), MPa: the mean over the elements of its body, and over bodies
+    /// that are joined there.
+    pub stress_MPa: Vec<[f64; 6]>,
+    /// von Mises stress of every node, MPa.
+    pub von_mises_MPa: Vec<f64>,
+}
+
+/// A support or a load.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BoundaryRow {
+    /// Its group.
+    pub group: String,
+    /// What it does: held, displacement, force.
+    pub what: &'static str,
+    /// Unit of its values.
+    pub unit: &'static str,
+    /// Along x, y and z; none where the direction is free.
+    pub along: [Option<f64>; 3],
+}
+
+impl FemRecord {
+    /// The pressure along each contact, in the order of the summary; none in space.
+    pub fn contacts(&self) -> &[ContactCurve] {
+        match &self.solution {
+            FemSolution::Plane(solution) => &solution.contacts,
+            FemSolution::InSpace(_) => &[],
+        }
+    }
 }
 
 /// `summary.json` of a finite-element problem.
@@ -43,19 +98,20 @@ pub struct FemSummary {
     pub problem_hash: String,
     /// The mesh.
     pub mesh: MeshSummary,
-    /// Plane strain or plane stress.
-    pub analysis: Analysis,
+    /// Plane strain, plane stress, or three-dimensional.
+    pub analysis: ThirdDirection,
     /// Why the solver stopped.
     pub stopped: Stop,
     /// Degrees of freedom, supports included.
     pub dofs: usize,
     /// Elements.
     pub elements: usize,
-    /// Active sets tried.
+    /// Active sets tried; in space 1.
     pub iterations: usize,
     /// Largest unbalanced nodal force over the largest force that acts.
     pub residual: f64,
-    /// Unbalance of all external forces, reactions included, over the largest of them.
+    /// Unbalance of all external forces, reactions included, over the largest of them; in space that of their moments too, over the sum of
+    /// their sizes.
     pub force_balance: f64,
     /// Work done.
     pub work: Work,
@@ -67,8 +123,22 @@ pub struct FemSummary {
     pub contact: Vec<ContactSummary>,
     /// Greatest von Mises stress at a node, MPa.
     pub peak_von_mises_MPa: f64,
+    /// What three-dimensional problems have beside.
+    #[serde(flatten)]
+    pub in_space: Option<InSpaceSummary>,
     /// What the user should know.
     pub warnings: Vec<String>,
+}
+
+/// Where a three-dimensional problem has its greatest values.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct InSpaceSummary {
+    /// Where the von Mises stress is greatest, [x, y, z] in mm.
+    pub peak_von_mises_at_mm: [f64; 3],
+    /// Greatest displacement of a node, mm.
+    pub greatest_displacement_mm: f64,
+    /// Where it is, before deformation, [x, y, z] in mm.
+    pub greatest_displacement_at_mm: [f64; 3],
 }
 
 /// The mesh of a problem.
@@ -80,7 +150,7 @@ pub struct MeshSummary {
     pub hash: String,
     /// Nodes that belong to a body.
     pub nodes: usize,
-    /// Its worst elements.
+    /// Its worst elements; none in space.
     pub quality: Option<MeshQuality>,
 }
 

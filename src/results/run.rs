@@ -242,6 +242,11 @@ pub struct HelicalSummary {
     pub coupling: String,
     /// ℓ₁ and ℓ₂ of the coupling: how far a deflection reaches along a tooth; `None` without coupling.
     pub coupling_reach_mm: Option<[f64; 2]>,
+    /// How far each shaft's twist lets the teeth give way at the end that is not driven, under the load of the first phase spread evenly;
+    /// none where it is rigid.
+    pub shaft_twist_um: PerGear<Option<f64>>,
+    /// Helix slope that axes out of parallel make over the face width; none where they are parallel.
+    pub slope_of_axes_um: Option<f64>,
     /// β at the reference cylinder.
     pub helix_angle_deg: f64,
     /// β_b.

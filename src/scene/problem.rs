@@ -4,7 +4,8 @@ use std::fmt;
 use std::ops::Range;
 
 use super::locate::Locator;
-use crate::gear::PairError;
+use crate::gear::{Gear, PairError};
+use crate::gear_mesh::ToothMeshError;
 use crate::mesh_cycle::pair_in_space::PairInSpaceError;
 use crate::stiffness::StiffnessError;
 
@@ -78,6 +79,49 @@ impl Problem {
             allowed: format!("an odd number, at least {least}: so many teeth touch over the mesh cycle"),
             help: Some("body = \"ring\" has all teeth".to_owned()),
             span: Some(span),
+        }
+    }
+
+    /// A tooth of the scene in `text` cannot be meshed, of `gear` where one of them alone is to blame.
+    pub(crate) fn of_tooth_mesh(text: &str, gear: Option<Gear>, error: &ToothMeshError) -> Self {
+        let below = |table: &str, key: &str| {
+            let gear = gear.map(|gear| format!(".{}", gear.name())).unwrap_or_default();
+            if table == "pair" { format!("pair{gear}{key}") } else { format!("{table}{gear}") }
+        };
+        let (key, allowed) = match error {
+            ToothMeshError::ClampRadius { .. } => (below("fem.clamp_radius_mm", ""), "a circle below the teeth"),
+            ToothMeshError::SectorTeeth { .. } => ("fem.sector_teeth".to_owned(), "an odd number, at most all teeth"),
+            ToothMeshError::NotPositive { .. }
+            | ToothMeshError::ElementLength { .. }
+            | ToothMeshError::TooFine { .. } => return Self::of_elements(text, error.to_string()),
+            ToothMeshError::ReliefBeyondCurvature { .. } => (below("pair", ".root_relief"), "less relief at the root"),
+            ToothMeshError::PointedTip { .. } => (below("pair", ".tip_relief"), "relief that leaves a tip land"),
+            ToothMeshError::TipRounding { .. } => {
+                (below("pair", ".tip_rounding_mm"), "a rounding that fits on the tip")
+            }
+            ToothMeshError::CrossedOutline { .. } | ToothMeshError::Inverted { .. } => {
+                (below("pair", ""), "a tooth with a body between its flanks")
+            }
+        };
+        let help = "what the gears and their modifications are decides, and fem.clamp_radius_mm where their bodies end";
+        Self::of_body(text, key, format!("a pair that cannot be meshed ({error})"), allowed, help)
+    }
+
+    /// The elements of the scene in `text` are too many, or none; `found` says so.
+    pub(crate) fn of_elements(text: &str, found: String) -> Self {
+        let (key, allowed) = ("fem.elements_per_half_width".to_owned(), "another number");
+        let help = "elements grow with the load and shrink with this number";
+        Self::of_body(text, key, format!("a pair that cannot be meshed ({found})"), allowed, help)
+    }
+
+    fn of_body(text: &str, key: String, found: String, allowed: &str, help: &str) -> Self {
+        Self {
+            kind: ProblemKind::NotAllowed,
+            span: Some(Locator::new(text).unwrap_or_default().nearest(&key)),
+            key,
+            found,
+            allowed: allowed.to_owned(),
+            help: Some(help.to_owned()),
         }
     }
 

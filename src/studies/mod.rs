@@ -4,3 +4,4 @@ pub(crate) mod accuracy;
 pub(crate) mod compare;
 pub(crate) mod sweep;
 pub(crate) mod validation;
+pub(crate) mod variants;

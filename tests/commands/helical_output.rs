@@ -57,7 +57,7 @@ fn number(value: &Value, pointer: &str) -> f64 {
 
 /// Columns of numbers by name; other text is left out.
 fn columns(name: &str) -> BTreeMap<String, Vec<f64>> {
-    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(path(name)).unwrap();
+    let mut reader = csv::Reader::from_path(path(name)).unwrap();
     let header: Vec<String> = reader.headers().unwrap().iter().map(String::from).collect();
     let mut columns: BTreeMap<String, Vec<f64>> = header.iter().map(|name| (name.clone(), Vec::new())).collect();
     for row in reader.records() {

@@ -52,6 +52,62 @@ fn teeth_in_space_are_written_in_every_format() {
 }
 
 #[test]
+fn loaded_teeth_have_displacement_and_stress() {
+    let folder = tempfile::tempdir().unwrap();
+    // A spur pair has no slices of its own, and its load is 302 N·m over the base radius.
+    let options = ["--three-dimensional", "--loaded", "--position", "12.0"];
+    gearwear(folder.path(), &preset("fzg-c"), "teeth.vtu", &options)
+        .success()
+        .stdout(predicate::str::contains("8927 N").and(predicate::str::contains("von Mises stress")));
+    let mesh = mesh::read(folder.path().join("teeth.vtu")).unwrap();
+    let values = |name: &str| match &mesh.point_data[name].values {
+        mesh::Values::Reals(values) => values.clone(),
+        mesh::Values::Integers(_) => panic!("{name}"),
+    };
+    let (u, stress, von_mises) = (values("displacement_mm"), values("stress_MPa"), values("von_mises_MPa"));
+    assert_eq!([u.len(), stress.len(), von_mises.len()], [3, 6, 1].map(|count| count * mesh.points.len()));
+    for node in mesh.point_sets["pinion_clamp"].iter().chain(&mesh.point_sets["wheel_clamp"]) {
+        assert!(u[3 * node..3 * node + 3].iter().all(|u| *u == 0.0), "the clamp circle moves");
+    }
+    // The phase next to A may lie before it.
+    let options = ["--three-dimensional", "--loaded", "--position", "4.4723"];
+    gearwear(folder.path(), &preset("fzg-c"), "at-a.vtu", &options).success();
+    // Some 10 µm, and a stress that steel bears in bending and beside the contact.
+    let greatest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    assert!((0.005..0.05).contains(&greatest(&u)), "{}", greatest(&u));
+    assert!((100.0..1500.0).contains(&greatest(&von_mises)), "{}", greatest(&von_mises));
+}
+
+#[test]
+fn teeth_that_cannot_be_had_in_space_are_refused_at_their_key() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = preset("helical").replace("face_width_mm = 20.0", "face_width_mm = 900.0");
+    let options = ["--three-dimensional", "--loaded"];
+    gearwear(folder.path(), &text, "teeth.vtu", &options)
+        .code(2)
+        .stderr(predicate::str::contains("pair.face_width_mm").and(predicate::str::contains("900")));
+    assert!(!folder.path().join("teeth.vtu").exists());
+}
+
+/// A load so light that its contact asks for more elements than a tooth may have: the key that says how many is marked, by every command that
+/// meshes.
+#[test]
+fn what_cannot_be_meshed_is_refused_at_its_key() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = preset("fzg-c").replace("pinion_torque_Nm = 302.0", "pinion_torque_Nm = 1e-6");
+    assert!(text.contains("1e-6"), "{text}");
+    for (command, out) in [("mesh", "pair.msh"), ("fem", "out"), ("calibrate", "pair.calibration.json")] {
+        let mut program = Command::cargo_bin("gearwear").unwrap();
+        let assert =
+            program.current_dir(folder.path()).args([command, "-", "--out", out]).write_stdin(text.clone()).assert();
+        let marked =
+            predicate::str::contains("fem.elements_per_half_width").and(predicate::str::contains("cannot be meshed"));
+        assert.code(2).stderr(marked.and(predicate::str::contains("standard input:")));
+        assert!(!folder.path().join(out).exists(), "{command}");
+    }
+}
+
+#[test]
 fn the_mesh_is_written_and_described() {
     let folder = tempfile::tempdir().unwrap();
     let text = scene("body = \"sector\"\nsector_teeth = 3\nelements_per_half_width = 8");

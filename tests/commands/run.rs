@@ -10,8 +10,9 @@ use serde_json::Value;
 
 use crate::program::{exchanged, gearwear};
 
-const FILES: [&str; 8] = [
+const FILES: [&str; 9] = [
     "summary.json",
+    "columns.json",
     "pinion.csv",
     "wheel.csv",
     "history.csv",
@@ -57,6 +58,20 @@ fn quick_and_verified() -> String {
 }
 
 #[test]
+fn a_run_without_report_leaves_the_data_alone() {
+    let dir = tempfile::tempdir().unwrap();
+    run(dir.path(), &quick(), "out", &[]);
+    let page = dir.path().join("out/report.html");
+    assert!(page.exists());
+    // The same folder again: the page of the run before would pass for one of this.
+    run(dir.path(), &quick(), "out", &["--no-report"]);
+    assert!(!page.exists());
+    for file in FILES.iter().filter(|file| **file != "report.html") {
+        assert!(dir.path().join("out").join(file).metadata().unwrap().len() > 0, "{file}");
+    }
+}
+
+#[test]
 fn the_preset_runs_and_writes_everything_the_contract_names() {
     let dir = tempfile::tempdir().unwrap();
     let summary = run(dir.path(), &exchanged("thesis-spur", &[]), "out", &[]);
@@ -97,7 +112,7 @@ fn the_preset_runs_and_writes_everything_the_contract_names() {
     // Rows: points 0 to 750, positions, snapshots.
     let rows = |file: &str| {
         let text = fs::read_to_string(dir.path().join("out").join(file)).unwrap();
-        text.lines().filter(|line| !line.starts_with('#')).count() - 1
+        text.lines().count() - 1
     };
     assert_eq!(
         [rows("pinion.csv"), rows("wheel.csv"), rows("mesh_cycle.csv"), rows("history.csv")],
@@ -212,7 +227,7 @@ fn an_interrupt_keeps_what_is_finished() {
     assert!(reached > 9.0 && reached < 1_149_750.0, "{reached}");
     // The header, the snapshot reached, and the state at the interrupt.
     let history = fs::read_to_string(out.join("history.csv")).unwrap();
-    assert_eq!(history.lines().filter(|line| !line.starts_with('#')).count(), 3);
+    assert_eq!(history.lines().count(), 3);
 }
 
 /// A run whose wear grows beyond all numbers ends with status 3, says where, and keeps the snapshots before that; what

@@ -9,7 +9,7 @@ use std::fmt::Write;
 use serde_json::Value;
 
 /// Ends of key names, the unit each stands for, and how descriptions word it. The longer of two that fit comes first.
-const UNITS: [(&str, &str, &str); 24] = [
+const UNITS: [(&str, &str, &str); 25] = [
     ("_kg_per_m2s", "kg/(m²·s)", "kg/(m²·s)"),
     ("_kg_per_m3", "kg/m³", "kg/m³"),
     ("_W_per_mK", "W/(m·K)", "W/(m·K)"),
@@ -19,6 +19,7 @@ const UNITS: [(&str, &str, &str); 24] = [
     ("_MPa_per_mm", "MPa/mm", "MPa/mm"),
     ("_N_per_mm_um", "N/(mm·µm)", "N/(mm·µm)"),
     ("_N_per_mm", "N/mm", "N per mm of thickness"),
+    ("_N", "N", "N"),
     ("_kJ_per_mol", "kJ/mol", "kJ/mol"),
     ("_GPa", "GPa", "GPa"),
     ("_MPa", "MPa", "MPa"),
@@ -205,9 +206,12 @@ fn type_name(node: &Value) -> String {
         Some("boolean") => "`true` or `false`".to_owned(),
         Some("string") => "text".to_owned(),
         Some("object") => "table".to_owned(),
-        Some("array") => match node["maxItems"].as_u64() {
-            Some(count) => format!("list of {count}: {}", type_name(&node["items"])),
-            None => format!("list: {}", type_name(&node["items"])),
+        Some("array") => match (node["minItems"].as_u64(), node["maxItems"].as_u64()) {
+            (Some(least), Some(most)) if least < most => {
+                format!("list of {least} or {most}: {}", type_name(&node["items"]))
+            }
+            (_, Some(count)) => format!("list of {count}: {}", type_name(&node["items"])),
+            (_, None) => format!("list: {}", type_name(&node["items"])),
         },
         other => panic!("a type that no table has yet: {other:?}"),
     }

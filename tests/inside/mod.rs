@@ -21,6 +21,7 @@ mod half_space;
 mod helical;
 mod helical_convergence;
 mod helical_targets;
+mod hexahedra;
 mod mesh_files;
 mod mesh_files_fuzz;
 mod peak_figures;

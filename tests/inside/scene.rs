@@ -34,6 +34,13 @@ fn val_presets_are_the_fzg_gears() {
     }
 }
 
+#[test]
+fn a_decimal_comma_is_recognised() {
+    let help = |text: &str| Scene::from_toml(text).unwrap_err()[0].help.clone().unwrap();
+    assert!(help(&LEAST.replace("= 302", "= 30,5")).contains("30.5, not 30,5"));
+    assert!(!help(&LEAST.replace("= 302", "= 30,")).contains("point"));
+}
+
 /// 302 N·m, 150 rpm, 127.75 h, Winkler matched on half-width from A to E, 20 N/(mm·µm), 1e-17 m²/N, 150 wear steps; whatever the
 /// defaults become.
 #[test]

@@ -13,6 +13,8 @@ fn val_twist_of_a_pinion() {
     let shaft = Shaft { diameter_mm: 102.37, bore_diameter_mm: 0.0, driven_at: EndFace::End };
     let (line_load, face_width_mm) = (1319.34, 127.0);
     let base_radius_mm = 8962.5e3 / (line_load * face_width_mm);
+    let whole = shaft.twist_mm(base_radius_mm, 210e3 / 2.6, face_width_mm, line_load);
+    assert_close("closed form", 1e3 * whole, 34.96, 2e-4);
     for count in [1, 7, 2000] {
         let slice_width_mm = face_width_mm / count as f64;
         let width_mm = (0..count).map(|i| (i as f64 + 0.5) * slice_width_mm).collect();

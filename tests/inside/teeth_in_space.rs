@@ -11,144 +11,21 @@ use std::sync::Arc;
 use gearwear::fem::elastic::Elastic;
 use gearwear::fem::gear::in_space::{FlankForces, PlaneSection, TeethInSpace};
 use gearwear::fem::quadrature::GAUSS_3;
-use gearwear::fem::space::hexahedron::{REFERENCE_NODES, Shape};
-use gearwear::fem::space::stiffness;
 use gearwear::gear::shaft::{EndFace, Shaft};
 use gearwear::gear::spec::{AxisParallelism, PairSpec};
 use gearwear::gear::{Gear, GearPair, PerGear};
-use gearwear::gear_mesh::tooth_section::{ExtrudedTooth, SectionDivisions, SpaceResolution};
+use gearwear::gear_mesh::settings::{SectionDivisions, SpaceResolution};
+use gearwear::gear_mesh::tooth_section::ExtrudedTooth;
 use gearwear::mesh::quality;
 use gearwear::mesh_cycle::pair_in_space::{KeptInSpace, PairInSpace, PairInSpaceError};
 use gearwear::pipeline::RunError;
 use gearwear::pipeline::calibrate::{self, Extent};
 use gearwear::{LoadedScene, RunRecord, Unwatched};
-use nalgebra::{Rotation3, Vector3};
 
 use super::common::{assert_close, fzg_c};
 
 const STEEL: Elastic = Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 };
 const CLAMP_RADIUS_MM: PerGear<f64> = PerGear { pinion: 19.943, wheel: 37.897 };
-
-/// Two elements side by side with curved edges, no two nodes on a line, turned in space.
-fn two_elements() -> (Vec<Vector3<f64>>, [[u32; 20]; 2]) {
-    let mut points: Vec<Vector3<f64>> = Vec::new();
-    let turn = Rotation3::from_euler_angles(0.3, -0.4, 0.7);
-    let hexahedra = [0.0, 2.0].map(|beside| {
-        REFERENCE_NODES.map(|[x, y, z]| {
-            let x = x + beside;
-            let bent = Vector3::new(x + 0.08 * y * z, 0.7 * y + 0.05 * x * x, 0.9 * z + 0.06 * x * y);
-            let point = turn * bent;
-            let known = points.iter().position(|other| (other - point).norm() < 1e-9);
-            known.unwrap_or_else(|| {
-                points.push(point);
-                points.len() - 1
-            }) as u32
-        })
-    });
-    (points, hexahedra)
-}
-
-#[test]
-fn ver_shape_functions_are_one_at_their_node_and_their_slopes_are_derivatives() {
-    const H: f64 = 1e-5;
-    for (a, at) in REFERENCE_NODES.iter().enumerate() {
-        for (b, value) in Shape::at(*at).values.iter().enumerate() {
-            assert_eq!(*value, f64::from(u8::from(a == b)), "{a} {b}");
-        }
-    }
-    let at = [0.21, 0.34, -0.47];
-    let shape = Shape::at(at);
-    assert_close("sum", shape.values.iter().sum::<f64>(), 1.0, 1e-14);
-    for k in 0..3 {
-        let (mut ahead, mut behind) = (at, at);
-        ahead[k] += H;
-        behind[k] -= H;
-        let (ahead, behind) = (Shape::at(ahead), Shape::at(behind));
-        for (a, slope) in shape.slopes.iter().enumerate() {
-            let difference = (ahead.values[a] - behind.values[a]) / (2.0 * H);
-            assert!((difference - slope[k]).abs() < 1e-9, "{a} {k}");
-        }
-    }
-}
-
-/// Rigid motions need no force; an even strain leaves the node in the middle of the two elements' common face without any.
-#[test]
-fn ver_rigid_motions_and_even_strains() {
-    let (points, hexahedra) = two_elements();
-    for poisson_ratio in [0.0, 0.3, 0.4999] {
-        let matrix = stiffness(&points, &hexahedra, &Elastic { poisson_ratio, ..STEEL }).unwrap();
-        let scale = matrix.lower().data().iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        let force = |of: &dyn Fn(&Vector3<f64>) -> Vector3<f64>| {
-            matrix.multiply(&points.iter().flat_map(|point| <[f64; 3]>::from(of(point))).collect::<Vec<_>>())
-        };
-        for k in 0..3 {
-            let along = Vector3::ith(k, 1.0);
-            for forces in [force(&|_| along), force(&|x| along.cross(x))] {
-                let most = forces.into_iter().fold(0.0_f64, |most, f| most.max(f.abs()));
-                assert!(most < 1e-12 * scale, "{poisson_ratio} {k}: {most:.1e} of {scale:.1e}");
-            }
-        }
-        let strain = |x: &Vector3<f64>| Vector3::new(x.x + 0.3 * x.y, 0.2 * x.z - 0.5 * x.y, 0.4 * x.x + 0.1 * x.z);
-        let inner: Vec<usize> =
-            (0..points.len()).filter(|node| hexahedra.iter().all(|nodes| nodes.contains(&(*node as u32)))).collect();
-        assert_eq!(inner.len(), 8, "a face");
-        // The forces of an even stress on a closed surface add up to nothing, and so do their moments.
-        let forces = force(&strain);
-        let sum: Vector3<f64> = forces.chunks_exact(3).map(|f| Vector3::new(f[0], f[1], f[2])).sum();
-        let moment: Vector3<f64> =
-            forces.chunks_exact(3).zip(&points).map(|(f, x)| x.cross(&Vector3::new(f[0], f[1], f[2]))).sum();
-        assert!(sum.norm() + moment.norm() < 1e-12 * scale, "{sum} {moment}");
-    }
-}
-
-/// A thick cylinder between given displacements of its inner and outer surface in plane strain, u = A r + B/r (S. P. Timoshenko and
-/// J. N. Goodier, *Theory of Elasticity*, 1970, section 28): what is between follows, also for a nearly incompressible material.
-#[test]
-fn ver_thick_cylinder() {
-    use gearwear::fem::factor::Factor;
-    let (inner, outer, rings, sectors) = (1.0, 2.0, 3, 6);
-    let mut points: Vec<Vector3<f64>> = Vec::new();
-    let mut hexahedra = Vec::new();
-    for i in 0..rings {
-        for j in 0..sectors {
-            hexahedra.push(REFERENCE_NODES.map(|[x, y, z]| {
-                let radius = inner + (outer - inner) * (f64::from(i) + 0.5 * (x + 1.0)) / f64::from(rings);
-                let angle = std::f64::consts::FRAC_PI_2 * (f64::from(j) + 0.5 * (y + 1.0)) / f64::from(sectors);
-                let point = Vector3::new(radius * angle.cos(), radius * angle.sin(), 0.5 * z);
-                let known = points.iter().position(|other| (other - point).norm() < 1e-9);
-                known.unwrap_or_else(|| {
-                    points.push(point);
-                    points.len() - 1
-                }) as u32
-            }));
-        }
-    }
-    for (poisson_ratio, allowed) in [(0.3, 4e-5), (0.4999, 4e-5)] {
-        // Without a change of volume the field is B/r alone.
-        let (a, b) = if poisson_ratio > 0.4 { (0.0, 1e-3) } else { (4e-4, 1e-3) };
-        let exact = |point: &Vector3<f64>| {
-            let radius = point.xy().norm();
-            let u = a * radius + b / radius;
-            Vector3::new(u * point.x / radius, u * point.y / radius, 0.0)
-        };
-        let matrix = stiffness(&points, &hexahedra, &Elastic { poisson_ratio, ..STEEL }).unwrap();
-        let is_held = |dof: usize| {
-            let (point, radius) = (points[dof / 3], points[dof / 3].xy().norm());
-            let on_surface = (radius - inner).abs() < 1e-9 || (radius - outer).abs() < 1e-9;
-            on_surface || dof % 3 == 2 || (dof.is_multiple_of(3) && point.x < 1e-9) || (dof % 3 == 1 && point.y < 1e-9)
-        };
-        let factor = Factor::of_held(&matrix, is_held).unwrap();
-        let whole: Vec<f64> = points.iter().flat_map(|point| <[f64; 3]>::from(exact(point))).collect();
-        let given: Vec<(u32, f64)> =
-            (0..whole.len()).filter(|dof| is_held(*dof)).map(|dof| (dof as u32, whole[dof])).collect();
-        let mut found = vec![0.0; whole.len()];
-        factor.subtract_held(&matrix, &given, &mut found);
-        factor.solve(1, &mut found);
-        given.iter().for_each(|(dof, value)| found[*dof as usize] = *value);
-        let most = found.iter().zip(&whole).map(|(u, exact)| (u - exact).abs()).fold(0.0, f64::max);
-        assert!(most < allowed * b * 10.0, "{poisson_ratio}: {most:.2e} of {b:.0e}");
-    }
-}
 
 fn even_load(teeth: &TeethInSpace, radius_mm: f64, face_width_mm: f64) -> FlankForces {
     let layers = teeth.layers() as f64;

@@ -30,7 +30,7 @@ fn number(value: &Value, path: &str) -> f64 {
 
 fn rows(path: &Path) -> Vec<csv::StringRecord> {
     let text = fs::read_to_string(path).unwrap();
-    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).has_headers(false).from_reader(text.as_bytes());
+    let mut reader = csv::ReaderBuilder::new().has_headers(false).from_reader(text.as_bytes());
     reader.records().map(Result::unwrap).collect()
 }
 

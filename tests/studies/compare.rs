@@ -37,7 +37,7 @@ fn shared_run() -> PathBuf {
 /// Columns of a CSV file by name.
 fn column(path: &Path, name: &str) -> Vec<f64> {
     let text = fs::read_to_string(path).unwrap();
-    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
+    let mut lines = text.lines();
     let index = lines.next().unwrap().split(',').position(|n| n == name).unwrap_or_else(|| panic!("{name}"));
     lines.map(|line| line.split(',').nth(index).unwrap().parse().unwrap()).collect()
 }

@@ -8,3 +8,4 @@ mod compare;
 mod program;
 mod sweep;
 mod validate;
+mod variants;

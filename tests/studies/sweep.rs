@@ -94,7 +94,7 @@ fn refused(output: &Output, parts: &[&str]) {
 
 /// Header and rows of `sweep.csv`, the columns of times left out.
 fn table(out: &Path) -> (Vec<String>, Vec<Vec<String>>) {
-    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(out.join("sweep.csv")).unwrap();
+    let mut reader = csv::Reader::from_path(out.join("sweep.csv")).unwrap();
     let names: Vec<String> = reader.headers().unwrap().iter().map(str::to_owned).collect();
     let timeless: Vec<usize> =
         (0..names.len()).filter(|&at| !["simulation_s", "wall_s"].contains(&&*names[at])).collect();

@@ -18,9 +18,9 @@
 use std::collections::BTreeMap;
 
 use faer::Mat;
-use nalgebra::{Rotation2, Vector2, Vector3};
+use nalgebra::{Rotation2, Vector2, Vector3, Vector6};
 
-use super::ring::{JoinedSectors, Surroundings};
+use super::ring::{JoinedSectors, Surroundings, ToothForce};
 use super::sector::{Sector, SectorMatrices, symmetric};
 use crate::fem::active_set::ActiveSetError;
 use crate::fem::elastic::{Analysis, Elastic};
@@ -28,7 +28,7 @@ use crate::fem::equilibrium::SolveError;
 use crate::fem::factor::{Factor, FactorError};
 use crate::fem::shape::{Shape, along_edge};
 use crate::fem::solid::{Element, ElementKind, Solid};
-use crate::fem::space::{FoldedHexahedron, stiffness};
+use crate::fem::space::{FoldedHexahedron, Hexahedron, nodal_stresses_mpa, stiffness};
 use crate::gear::tooth::Tooth;
 use crate::gear_mesh::tooth_section::{ExtrudedTooth, ToothSection};
 
@@ -59,6 +59,14 @@ pub(crate) struct TeethInSpace {
     places: Vec<Vec<Option<u32>>>,
     /// C of a tooth on itself, on its neighbour, and so on.
     by_distance: Vec<Mat<f64>>,
+}
+
+/// A tooth under load, by the nodes of its mesh.
+pub(crate) struct DeformedTooth {
+    /// Displacement against the clamp circle, mm.
+    pub displacement_mm: Vec<Vector3<f64>>,
+    /// x, y, z, xy, yz, zx, MPa.
+    pub stress_mpa: Vec<Vector6<f64>>,
 }
 
 /// The section of a gear in plane strain on the elements that the teeth in space have.
@@ -142,14 +150,14 @@ fn joined(
 impl TeethInSpace {
     /// Condenses the teeth of a gear, `teeth` of which (at most all of them) may be loaded together.
     pub(crate) fn new(tooth: &Tooth, mesh: ExtrudedTooth, material: Elastic, teeth: usize) -> Result<Self, SpaceError> {
-        let matrices = condensed(tooth, &mesh, material, false)?;
+        let matrices = SectorInSpace::new(tooth, &mesh, material, false)?.matrices;
         Self::joined(mesh, &matrices, teeth, ring(tooth.teeth, teeth))
     }
 
     /// The same in plane strain: the end faces stay in their planes.
     #[cfg(test)]
     pub(crate) fn in_plane_strain(tooth: &Tooth, mesh: ExtrudedTooth, material: Elastic) -> Result<Self, SpaceError> {
-        let matrices = condensed(tooth, &mesh, material, true)?;
+        let matrices = SectorInSpace::new(tooth, &mesh, material, true)?.matrices;
         Self::joined(mesh, &matrices, 1, ring(tooth.teeth, 1))
     }
 
@@ -161,7 +169,7 @@ impl TeethInSpace {
         material: Elastic,
         beside: usize,
     ) -> Result<Self, SpaceError> {
-        let matrices = condensed(tooth, &mesh, material, false)?;
+        let matrices = SectorInSpace::new(tooth, &mesh, material, false)?.matrices;
         Self::joined(mesh, &matrices, 2, Surroundings::ClampedSector { coarse: beside })
     }
 
@@ -208,6 +216,34 @@ impl TeethInSpace {
         }
     }
 
+    /// Displacement of all nodes of a tooth of gear `tooth`, mm, and the stress there (x, y, z, xy, yz, zx), MPa, in its own frame under loads,
+    /// N, on it and on teeth so many pitches anticlockwise of it.
+    ///
+    /// The sector is condensed anew: what this takes in memory is not kept for runs that do not ask.
+    pub(crate) fn deformed(
+        &self,
+        tooth: &Tooth,
+        material: Elastic,
+        loads: &[(i32, f64, FlankForces)],
+    ) -> Result<DeformedTooth, SpaceError> {
+        let pitches = || loads.iter().map(|(pitches, ..)| *pitches).chain([0]);
+        let (first, last) = (pitches().min().unwrap_or(0), pitches().max().unwrap_or(0));
+        let teeth = (last - first + 1) as usize;
+        let mut forces: Vec<ToothForce> = vec![Vec::new(); teeth];
+        for (pitches, load_n, parts) in loads {
+            let of_tooth = &mut forces[(pitches - first) as usize];
+            of_tooth.extend(parts.iter().map(|(node, part)| (*node as usize, load_n * part)));
+        }
+        let sector = SectorInSpace::new(tooth, &self.mesh, material, false)?;
+        let joined = joined(&sector.matrices, teeth, ring(tooth.teeth, teeth))?;
+        let shown = -first as usize;
+        let cuts_mm = joined.cut_displacement_mm(&sector.matrices, shown, &forces);
+        let displacement_mm = sector.displacement_mm(&forces[shown], &cuts_mm);
+        let stress_mpa = nodal_stresses_mpa(&self.mesh.points_mm, elements(&self.mesh, &material), &displacement_mm)?;
+        let displacement_mm = displacement_mm.chunks_exact(3).map(|u| Vector3::new(u[0], u[1], u[2])).collect();
+        Ok(DeformedTooth { displacement_mm, stress_mpa })
+    }
+
     /// How far a load `of` on one tooth yields under the load `under` on a tooth so many pitches anticlockwise of it (clockwise where
     /// negative), mm/N.
     pub(crate) fn mm_per_n(&self, of: &FlankForces, under: &FlankForces, pitches: i32) -> f64 {
@@ -219,74 +255,103 @@ impl TeethInSpace {
     }
 }
 
-/// One sector of a gear onto the loads on its working flank and onto its cuts; at each node of these along the radius, around and along
-/// the axis. The end faces are free, or stay in their planes.
-fn condensed(
-    tooth: &Tooth,
-    mesh: &ExtrudedTooth,
-    material: Elastic,
-    ends_stay: bool,
-) -> Result<SectorMatrices, SpaceError> {
-    let matrix = stiffness(&mesh.points_mm, &mesh.hexahedra, &material)?;
-    let mut held = vec![false; mesh.points_mm.len()];
-    let clamp = mesh.over(&mesh.section.clamp);
-    clamp.iter().for_each(|node| held[*node as usize] = true);
-    let cut_nodes: Vec<u32> = mesh
-        .section
-        .cuts
-        .iter()
-        .flat_map(|cut| mesh.over(cut).into_iter().filter(|node| !held[*node as usize]).collect::<Vec<_>>())
-        .collect();
-    cut_nodes.iter().for_each(|node| held[*node as usize] = true);
-    let ends = [0, mesh.z_mm.len() - 1].map(|k| mesh.z_mm[k]);
-    let stays = |dof: usize| ends_stay && dof % 3 == 2 && ends.contains(&mesh.points_mm[dof / 3].z);
-    let factor = Factor::of_held(&matrix, |dof| held[dof / 3] || stays(dof))?;
+/// One sector of a gear, factorised with its cuts held, and condensed onto the loads on its working flank and onto its cuts.
+struct SectorInSpace {
+    factor: Factor,
+    /// Forces by degree of freedom: under the load of 1 N at each node of the flank, and what holds the inner nodes against each
+    /// displacement of the cuts.
+    columns: Vec<Vec<(u32, f64)>>,
+    /// Displacements of the cuts: at each of their nodes along the radius, around and along the axis.
+    of_cuts: Vec<(u32, Vector3<f64>)>,
+    matrices: SectorMatrices,
+}
 
-    let mut columns = flank_forces(tooth, mesh);
-    let loads = columns.len();
-    // Displacements of the cuts, and for each node of a cut which of them are its own.
-    let mut displacements: Vec<Vector3<f64>> = Vec::new();
-    let mut of_node = BTreeMap::new();
-    for node in &cut_nodes {
-        let first = displacements.len();
-        let radial = mesh.points_mm[*node as usize].xy().normalize();
-        displacements.extend([Vector3::new(radial.x, radial.y, 0.0), Vector3::new(-radial.y, radial.x, 0.0)]);
-        if !stays(3 * *node as usize + 2) {
-            displacements.push(Vector3::z());
+impl SectorInSpace {
+    /// The end faces are free, or stay in their planes.
+    fn new(tooth: &Tooth, mesh: &ExtrudedTooth, material: Elastic, ends_stay: bool) -> Result<Self, SpaceError> {
+        let matrix = stiffness(&mesh.points_mm, || elements(mesh, &material))?;
+        let mut held = vec![false; mesh.points_mm.len()];
+        let clamp = mesh.over(&mesh.section.clamp);
+        clamp.iter().for_each(|node| held[*node as usize] = true);
+        let cut_nodes: Vec<u32> = mesh
+            .section
+            .cuts
+            .iter()
+            .flat_map(|cut| mesh.over(cut).into_iter().filter(|node| !held[*node as usize]).collect::<Vec<_>>())
+            .collect();
+        cut_nodes.iter().for_each(|node| held[*node as usize] = true);
+        let ends = [0, mesh.z_mm.len() - 1].map(|k| mesh.z_mm[k]);
+        let stays = |dof: usize| ends_stay && dof % 3 == 2 && ends.contains(&mesh.points_mm[dof / 3].z);
+        let factor = Factor::of_held(&matrix, |dof| held[dof / 3] || stays(dof))?;
+
+        let mut columns = flank_forces(tooth, mesh);
+        let loads = columns.len();
+        let mut of_cuts: Vec<(u32, Vector3<f64>)> = Vec::new();
+        // For each node of a cut which displacements are its own.
+        let mut of_node = BTreeMap::new();
+        for node in &cut_nodes {
+            let first = of_cuts.len();
+            let radial = mesh.points_mm[*node as usize].xy().normalize();
+            of_cuts.push((*node, Vector3::new(radial.x, radial.y, 0.0)));
+            of_cuts.push((*node, Vector3::new(-radial.y, radial.x, 0.0)));
+            if !stays(3 * *node as usize + 2) {
+                of_cuts.push((*node, Vector3::z()));
+            }
+            of_node.insert(*node, first..of_cuts.len());
         }
-        of_node.insert(*node, first..displacements.len());
-    }
-    let cuts = displacements.len();
-    let cut_dofs: Vec<u32> = cut_nodes.iter().flat_map(|node| [0, 1, 2].map(|k| 3 * node + k)).collect();
-    let entries = matrix.columns(&cut_dofs);
-    let mut own = Mat::<f64>::zeros(cuts, cuts);
-    for (place, node) in cut_nodes.iter().enumerate() {
-        for column in of_node[node].clone() {
-            let direction = displacements[column];
-            let mut inside = Vec::new();
-            for (k, part) in direction.iter().enumerate().filter(|(_, part)| **part != 0.0) {
-                for &(dof, value) in &entries[3 * place + k] {
-                    match of_node.get(&(dof / 3)) {
-                        Some(rows) => {
-                            for row in rows.clone() {
-                                own[(row, column)] += displacements[row][dof as usize % 3] * value * part;
+        let cuts = of_cuts.len();
+        let cut_dofs: Vec<u32> = cut_nodes.iter().flat_map(|node| [0, 1, 2].map(|k| 3 * node + k)).collect();
+        let entries = matrix.columns(&cut_dofs);
+        let mut own = Mat::<f64>::zeros(cuts, cuts);
+        for (place, node) in cut_nodes.iter().enumerate() {
+            for column in of_node[node].clone() {
+                let (_, direction) = of_cuts[column];
+                let mut inside = Vec::new();
+                for (k, part) in direction.iter().enumerate().filter(|(_, part)| **part != 0.0) {
+                    for &(dof, value) in &entries[3 * place + k] {
+                        match of_node.get(&(dof / 3)) {
+                            Some(rows) => {
+                                for row in rows.clone() {
+                                    own[(row, column)] += of_cuts[row].1[dof as usize % 3] * value * part;
+                                }
                             }
+                            None if !held[dof as usize / 3] => inside.push((dof, part * value)),
+                            None => {}
                         }
-                        None if !held[dof as usize / 3] => inside.push((dof, part * value)),
-                        None => {}
                     }
                 }
+                columns.push(inside);
             }
-            columns.push(inside);
         }
+        let all = factor.compliance(&columns);
+        let matrices = SectorMatrices {
+            compliance: all.get(..loads, ..loads).to_owned(),
+            carried: Mat::from_fn(loads, cuts, |i, j| -all[(i, loads + j)]),
+            cut_stiffness: symmetric(&(own - all.get(loads.., loads..))),
+        };
+        Ok(Self { factor, columns, of_cuts, matrices })
     }
-    let all = factor.compliance(&columns);
-    let cut_stiffness = symmetric(&(own - all.get(loads.., loads..)));
-    Ok(SectorMatrices {
-        compliance: all.get(..loads, ..loads).to_owned(),
-        carried: Mat::from_fn(loads, cuts, |i, j| -all[(i, loads + j)]),
-        cut_stiffness,
-    })
+
+    /// Displacement of every degree of freedom under loads on its flank and displacements of its cuts, mm.
+    fn displacement_mm(&self, loads: &[(usize, f64)], cuts_mm: &[f64]) -> Vec<f64> {
+        let mut u = vec![0.0; self.factor.dofs()];
+        let mut add = |column: usize, part: f64| {
+            self.columns[column].iter().for_each(|(dof, force)| u[*dof as usize] += part * force);
+        };
+        loads.iter().for_each(|(node, load)| add(*node, *load));
+        let of_loads = self.columns.len() - self.of_cuts.len();
+        cuts_mm.iter().enumerate().for_each(|(k, cut)| add(of_loads + k, -cut));
+        self.factor.solve(1, &mut u);
+        for ((node, direction), cut) in self.of_cuts.iter().zip(cuts_mm) {
+            (0..3).for_each(|k| u[3 * *node as usize + k] += cut * direction[k]);
+        }
+        u
+    }
+}
+
+/// The elements of a sector.
+fn elements<'a>(mesh: &'a ExtrudedTooth, material: &'a Elastic) -> impl Iterator<Item = Hexahedron<'a>> {
+    mesh.hexahedra.iter().map(move |nodes| Hexahedron { nodes, material })
 }
 
 /// The force at each node of the working flank whose transverse component is 1 N: along the flank's normal, which carries no load along
@@ -303,4 +368,45 @@ fn flank_forces(tooth: &Tooth, mesh: &ExtrudedTooth) -> Vec<Vec<(u32, f64)>> {
         }
     }
     forces
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gear::{Gear, GearPair};
+    use crate::gear_mesh::settings::SpaceResolution;
+    use crate::scene::loaded::LoadedScene;
+
+    /// What the deformed tooth of a ring shows is what its compliance says, also under the load of a neighbour.
+    #[test]
+    fn ver_deformed_teeth_are_those_of_the_compliance() {
+        let steel = Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 };
+        let scene = LoadedScene::preset("helical").unwrap();
+        let pair = GearPair::new(&scene.scene().pair).unwrap();
+        let tooth = &pair.teeth.pinion;
+        let clamp_mm = scene.scene().fem.clamp_radius_mm.pinion;
+        let coarse = SpaceResolution { layers: [4, 4], ..SpaceResolution::USUAL };
+        let mesh = ExtrudedTooth::of_gear(&pair, Gear::Pinion, clamp_mm, &coarse);
+        let normals = flank_forces(tooth, &mesh);
+        let teeth = TeethInSpace::new(tooth, mesh, steel, 2).unwrap();
+        let own = teeth.load([(35.1, 4.0, 0.7), (35.3, 9.0, 0.3)]);
+        let beside = teeth.load([(39.0, 16.0, 1.0)]);
+        for pitches in [-1, 1] {
+            let loads = [(0, 300.0, own.clone()), (pitches, 500.0, beside.clone())];
+            let deformed = teeth.deformed(tooth, steel, &loads).unwrap();
+            let along = |forces: &FlankForces| -> f64 {
+                let of_node = |(node, part): &(u32, f64)| {
+                    let dot = |(dof, force): &(u32, f64)| {
+                        force * deformed.displacement_mm[*dof as usize / 3][*dof as usize % 3]
+                    };
+                    part * normals[*node as usize].iter().map(dot).sum::<f64>()
+                };
+                forces.iter().map(of_node).sum()
+            };
+            let expected = 300.0 * teeth.mm_per_n(&own, &own, 0) + 500.0 * teeth.mm_per_n(&own, &beside, pitches);
+            let found = along(&own);
+            assert!((found / expected - 1.0).abs() < 1e-9, "{pitches}: {found} instead of {expected}");
+            assert!(deformed.stress_mpa.iter().all(|stress| stress.amax() < 500.0));
+        }
+    }
 }

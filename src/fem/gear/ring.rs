@@ -120,6 +120,22 @@ impl JoinedSectors {
             block
         })
     }
+
+    /// Displacements of both cuts of sector `p` under candidate forces on all of them.
+    pub(crate) fn cut_displacement_mm(&self, fine: &SectorMatrices, p: usize, forces: &[ToothForce]) -> Vec<f64> {
+        let n = self.cut_dofs;
+        let mut load = vec![0.0; self.cut_compliance.nrows()];
+        for (tooth, force) in forces.iter().enumerate() {
+            for &(c, f) in force {
+                for b in 0..2 * n {
+                    load[n * tooth + b] += fine.carried[(c, b)] * f;
+                }
+            }
+        }
+        let load = faer::Col::from_iter(load);
+        let moved = self.cut_compliance.get(n * p..n * (p + 2), ..) * load;
+        moved.iter().copied().collect()
+    }
 }
 
 /// A gear as contact sees it: compliance between the candidate nodes of its fine teeth.
@@ -160,18 +176,7 @@ impl GearCompliance {
 
     /// Displacements of both cuts of tooth `p` under candidate forces on the fine teeth, mm.
     pub(crate) fn cut_displacement_mm(&self, p: usize, forces: &[ToothForce]) -> Vec<f64> {
-        let n = self.sector.sector.cut_dofs();
-        let mut load = vec![0.0; n * (self.teeth + 1)];
-        for (tooth, force) in forces.iter().enumerate() {
-            for &(c, f) in force {
-                for b in 0..2 * n {
-                    load[n * tooth + b] += self.sector.matrices.carried[(c, b)] * f;
-                }
-            }
-        }
-        let load = faer::Col::from_iter(load);
-        let moved = self.joined.cut_compliance.get(n * p..n * (p + 2), ..) * load;
-        moved.iter().copied().collect()
+        self.joined.cut_displacement_mm(&self.sector.matrices, p, forces)
     }
 
     /// Stress of each probe of tooth `p` under candidate forces on the fine teeth, MPa.

@@ -94,11 +94,6 @@ impl Sector {
         directions
     }
 
-    /// Number of cut columns of one side.
-    pub(crate) fn cut_dofs(&self) -> usize {
-        2 * self.cuts[0].len()
-    }
-
     /// Condenses the sector.
     ///
     /// # Errors

@@ -18,7 +18,7 @@ use crate::contact::settings::Material;
 use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::gear::modification::Modification;
 use crate::gear::{Gear, GearPair, PairError};
-use crate::gear_mesh::{settings::Body, tooth_section::SpaceResolution};
+use crate::gear_mesh::settings::{Body, SpaceResolution};
 use crate::mesh_cycle::load_sharing::EquilibriumError;
 use crate::mesh_cycle::pair_in_space::PairInSpace;
 use crate::observer::Observer;

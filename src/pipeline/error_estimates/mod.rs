@@ -42,7 +42,7 @@ impl Estimate {
 }
 
 /// Estimates the errors of the pinion's peak wear in `outcome`. A companion that fails leaves its estimate out, never the
-/// result of the run. `step_over_safe` is the run's step over the longest safe one, 0 where nothing can swing.
+/// result of the run. `step_over_safe` is the run's step over the longest safe one, 0 where there is no limit.
 pub(super) fn estimate(
     model: &Model<'_>,
     outcome: &Outcome,

@@ -1,6 +1,7 @@
 //! Carries out a finite-element problem of one's own: mesh, problem, solution, stresses, record.
 
 mod hertz_comparison;
+mod in_space;
 mod recording;
 
 use std::path::Path;
@@ -44,11 +45,24 @@ pub(crate) fn run(problem: &FemProblem, folder: &Path, observer: &dyn Observer) 
         let mesh = mesh::from_bytes(format, &bytes).map_err(content).map_err(unreadable)?;
         Ok((mesh, short_hash(&bytes)))
     })?;
-    let posed = stages.run("problem", || problem.on(&mesh)).map_err(FemProblemError::Input)?;
-    let solution = stages.run("solution", || fem::solve(&posed.problem))?;
-    let stress =
-        stages.run("stresses", || recording::nodal_stress(&posed.problem, &solution)).map_err(SolveError::from)?;
-    let mut record = recording::record(problem, posed, &solution, stress, mesh_hash);
+    let mut record = match problem.file.third_direction().in_plane() {
+        Some(_) => {
+            let posed = stages.run("problem", || problem.on(&mesh)).map_err(FemProblemError::Input)?;
+            let solution = stages.run("solution", || fem::solve(&posed.problem))?;
+            let stress = stages
+                .run("stresses", || recording::nodal_stress(&posed.problem, &solution))
+                .map_err(SolveError::from)?;
+            recording::record(problem, posed, &solution, stress, mesh_hash)
+        }
+        None => {
+            let posed = stages.run("problem", || problem.in_space_on(&mesh)).map_err(FemProblemError::Input)?;
+            let solution = stages.run("solution", || fem::space::problem::solve(&posed.problem))?;
+            let stress = stages
+                .run("stresses", || posed.problem.nodal_stresses_mpa(&solution.displacement_mm))
+                .map_err(SolveError::from)?;
+            in_space::record(problem, posed, &solution, &stress, mesh_hash)
+        }
+    };
     record.summary.stages = stages.times;
     record.summary.wall_s = start.elapsed().as_secs_f64();
     Ok(record)

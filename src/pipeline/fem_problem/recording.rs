@@ -6,10 +6,11 @@ use super::hertz_comparison::{self, Patch};
 use crate::fem::element::ElementError;
 use crate::fem::problem::{ContactPair, ContactState, Problem, Solution};
 use crate::fem::stress::{self, StressRecovery};
-use crate::mesh::quality;
+use crate::mesh::quality::{self, MeshQuality};
 use crate::pipeline::UM_PER_MM;
 use crate::results::fem_problem::{
-    ContactCurve, ContactRow, ContactSummary, FemRecord, FemSummary, MeshSummary, NodalStress,
+    ContactCurve, ContactRow, ContactSummary, FemRecord, FemSolution, FemSummary, MeshSummary, NodalStress,
+    PlaneSolution,
 };
 use crate::scene::fem_problem::{FemProblem, Posed};
 
@@ -23,7 +24,7 @@ const BALANCED: f64 = 1e-6;
 /// The record of a solution, without the times of its stages.
 pub(super) fn record(
     problem: &FemProblem,
-    posed: Posed,
+    posed: Posed<Problem>,
     solution: &Solution,
     stress: Vec<NodalStress>,
     mesh_hash: String,
@@ -42,24 +43,18 @@ pub(super) fn record(
         .unzip();
     let mut warnings: Vec<String> = problem.warnings.iter().cloned().chain(warnings).collect();
     warnings.extend(contact.iter().enumerate().filter_map(|(number, contact)| contact_warning(number, contact)));
-    let balanced = solution.force_balance <= BALANCED;
-    if !balanced {
-        warnings.push(format!(
-            "external forces and reactions are out of balance by {:.1e}, relatively",
-            solution.force_balance
-        ));
-    }
+    warnings.extend(out_of_balance(solution.force_balance));
     let summary = FemSummary {
         title: problem.file.title.clone().unwrap_or_default(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         problem_hash: problem.hash(),
-        mesh: MeshSummary {
-            file: problem.file.mesh.file.clone(),
-            hash: mesh_hash,
-            nodes: solved.solid.points_mm.len(),
-            quality: quality::of_mesh(&solved.solid.to_mesh()).ok(),
-        },
-        analysis: solved.analysis,
+        mesh: mesh_summary(
+            problem,
+            mesh_hash,
+            solved.solid.points_mm.len(),
+            quality::of_mesh(&solved.solid.to_mesh()).ok(),
+        ),
+        analysis: problem.file.third_direction(),
         stopped: solution.stop,
         dofs: solved.solid.dofs(),
         elements: solved.solid.elements.len(),
@@ -71,17 +66,28 @@ pub(super) fn record(
         wall_s: 0.0,
         contact,
         peak_von_mises_MPa: stress.iter().map(|stress| stress.von_mises_MPa).fold(0.0, f64::max),
+        in_space: None,
         warnings,
     };
-    FemRecord {
-        summary,
-        problem_toml: problem.to_toml(),
-        problem: solved,
-        bodies,
-        displacement_mm: solution.displacement_mm.chunks_exact(2).map(|u| [u[0], u[1]]).collect(),
-        stress,
-        contacts,
-    }
+    let displacement_mm = solution.displacement_mm.chunks_exact(2).map(|u| [u[0], u[1]]).collect();
+    let solution = FemSolution::Plane(PlaneSolution { problem: solved, displacement_mm, stress, contacts });
+    FemRecord { summary, problem_toml: problem.to_toml(), bodies, solution }
+}
+
+/// The mesh of `problem`, which has so many `nodes` that belong to a body.
+pub(super) fn mesh_summary(
+    problem: &FemProblem,
+    hash: String,
+    nodes: usize,
+    quality: Option<MeshQuality>,
+) -> MeshSummary {
+    MeshSummary { file: problem.file.mesh.file.clone(), hash, nodes, quality }
+}
+
+/// What is to be said where external forces and reactions do not balance.
+pub(super) fn out_of_balance(force_balance: f64) -> Option<String> {
+    let balanced = force_balance <= BALANCED;
+    (!balanced).then(|| format!("external forces and reactions are out of balance by {force_balance:.1e}, relatively"))
 }
 
 /// The pressure along a slave surface.

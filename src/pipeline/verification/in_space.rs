@@ -3,9 +3,11 @@
 //!
 //! A run that is of this kind itself is held against one on other slices, m in place of n: what is left of its error is that of the slices, for
 //! positions, points and steps have estimates of their own. Loads gather in the last slices of a line of contact, so that wear converges with the
-//! first order of their width, and the whole error is m/(m − n) times the difference (Richardson).
+//! first order of their width, and the whole error is m/(m − n) times the difference (Richardson). At tip edges and below the start of active
+//! profile it counts once: positions and points make it there, not slices. The transmission error is a sum over the slices and converges about
+//! with the second order, m²/(m² − n²) times (docs/accuracy.md).
 
-use super::{Elements, Life, Means, Uncertainty, life as run_life};
+use super::{Beyond, Elements, Life, Means, Uncertainty, life as run_life};
 use crate::calibration;
 use crate::contact::{ContactSurface, half_space::HalfSpace};
 use crate::gear::slices::Slices;
@@ -58,9 +60,11 @@ pub(super) fn life(
         let count = (own + own.div_ceil(3)).clamp(LEAST_SLICES, MOST_SLICES_IN_SPACE);
         // As many are no other slices: then fewer of them tell.
         let count = if count > own { count } else { own - own / 4 };
-        (count, count as f64 / (count as f64 - own as f64).abs())
+        let (m, n) = (count as f64, own as f64);
+        let beyond = Beyond { wear: m / (m - n).abs(), transmission_error: m.powi(2) / (m.powi(2) - n.powi(2)).abs() };
+        (count, beyond)
     } else {
-        (own.clamp(LEAST_SLICES, MOST_SLICES_IN_SPACE), 1.0)
+        (own.clamp(LEAST_SLICES, MOST_SLICES_IN_SPACE), Beyond::NONE)
     };
     let settings = SliceSettings { count, coupling: Coupling::Fem };
     let unread = SliceCompliance::of_plates(pair, &scene.material, true);
@@ -87,7 +91,9 @@ pub(super) fn life(
     });
     let counts = match is_finest_in_space(scene) {
         true => format!(
-            ", to which differences of the active profile count {beyond:.1} times, for wear converges with the width of the slices"
+            ", to which differences of the active profile count {:.1} times, for wear converges with the width of the slices, and of the \
+             transmission error {:.1} times, for it converges with its square",
+            beyond.wear, beyond.transmission_error
         ),
         false => String::new(),
     };

@@ -25,7 +25,7 @@ use super::Model;
 use super::guarded::guarded;
 use crate::contact::settings::{Material, SurfaceKind};
 use crate::fem::gear::{condensed_pair::CondensedPair, model::ModelError};
-use crate::gear::{Gear, GearPair, PerGear};
+use crate::gear::{Gear, GearPair, PerGear, flank_zones::FlankZone};
 use crate::gear_mesh::settings::BodySettings;
 use crate::mesh_cycle::CycleObservation;
 use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
@@ -87,12 +87,26 @@ pub(super) struct Means<'a, 'b> {
     pub in_space: Option<Result<Arc<PairInSpace>, PairInSpaceError>>,
 }
 
+/// How many times a difference is what the run leaves: more than 1 where the life has slices as the run has.
+#[derive(Debug, Clone, Copy)]
+struct Beyond {
+    /// Of wear of the active profile.
+    wear: f64,
+    /// Of the transmission error.
+    transmission_error: f64,
+}
+
+impl Beyond {
+    /// The difference is the error.
+    const NONE: Self = Self { wear: 1.0, transmission_error: 1.0 };
+}
+
 /// The same life on what vouches for the run.
 struct Life {
     outcome: Outcome,
     own: Uncertainty,
-    /// How many times the difference to it is what the run's slices leave: more than 1 where the life has slices too.
-    beyond: f64,
+    /// How many times differences to it are what the run leaves.
+    beyond: Beyond,
     /// What the flank points of the run have lost there.
     wear_mm: PerGear<Vec<f64>>,
     /// What it was.
@@ -237,7 +251,13 @@ fn on_elements<'a>(
     let contacts = model.phases.iter().map(|_| MeshContact::FiniteElements(&elements)).collect();
     let life = life(model, outcome, contacts, POSITIONS, observer)?;
     let own = if wears_severely(model, &life) { OF_ELEMENTS.severe() } else { OF_ELEMENTS };
-    Ok(Life { wear_mm: life.worn.wear_mm.clone(), outcome: life, own, beyond: 1.0, on: "finite elements".to_owned() })
+    Ok(Life {
+        wear_mm: life.worn.wear_mm.clone(),
+        outcome: life,
+        own,
+        beyond: Beyond::NONE,
+        on: "finite elements".to_owned(),
+    })
 }
 
 /// The life with these contacts in the phases of the run; where it does not come to its end, why.
@@ -282,14 +302,21 @@ fn compared(
             let squares: Vec<f64> = (0..own.len()).map(|i| of(i).powi(2)).collect();
             squares.chunks_exact(grid.len()).map(|slice| grid.integral(slice)).sum::<f64>()
         };
+        let involute = model.pair.teeth[gear].involute;
+        let counts = |&rho_mm: &f64| match run.zones[gear].at(involute.radius_mm(rho_mm)) {
+            FlankZone::Active => beyond.wear,
+            FlankZone::BelowActive | FlankZone::TipEdge => 1.0,
+        };
+        let counts: Vec<f64> = grid.coordinate_mm.iter().map(counts).collect();
         let whole = square(&|i| truth[i]);
-        (whole > 0.0).then(|| beyond * (square(&|i| own[i] - truth[i]) / whole).sqrt() + of_life.profile)
+        let off = |i: usize| counts[i % counts.len()] * (own[i] - truth[i]);
+        (whole > 0.0).then(|| (square(&off) / whole).sqrt() + of_life.profile)
     });
     let figures =
         |outcome: &Outcome| PerGear::from_fn(|gear| WearFigures::at(model.pair, gear, outcome, &outcome.worn));
     let (own, truth) = (figures(run), figures(life));
     let off = |gear: Gear| relative(own[gear].peak_mm, truth[gear].peak_mm);
-    let peak_wear = per_gear(&|gear| off(gear).map(|off| beyond * off + of_life.peak));
+    let peak_wear = per_gear(&|gear| off(gear).map(|off| beyond.wear * off + of_life.peak));
     let tip_edge_wear = per_gear(&|gear| {
         let off = relative(own[gear].tip_edge.depth_mm, truth[gear].tip_edge.depth_mm);
         off.map(|off| off + of_life.tip_edge)
@@ -308,7 +335,7 @@ fn compared(
         peak_wear,
         tip_edge_wear,
         transmission_error_peak_to_peak: relative(peak_to_peak(run), peak_to_peak(life))
-            .map(|off| off + of_life.transmission_error),
+            .map(|off| beyond.transmission_error * off + of_life.transmission_error),
         pressure_between_tips: pressure(model, &run.worn.cycle, &life.worn.cycle).map(|off| off + of_life.pressure),
         how: format!(
             "the same life on {on} ({} positions in a base pitch, {} wear steps, {} mesh cycles); their own uncertainty is added: \

@@ -11,7 +11,7 @@ use crate::report::html::number::{change, fixed, percent, significant};
 use crate::report::html::table::{cells, row, table};
 
 pub(super) fn tables(calibration: &Calibration) -> impl Iterator<Item = Markup> {
-    [points, parts, fits, convergence, rims, neighbours, courses].into_iter().map(|of| of(calibration))
+    [points, parts, fits, slices, convergence, rims, neighbours, courses].into_iter().map(|of| of(calibration))
 }
 
 const NAMES: [&str; 5] = ["A", "B", "C", "D", "E"];
@@ -64,6 +64,23 @@ fn fits(calibration: &Calibration) -> Markup {
     }
     let columns = ["greatest", "half-width", "pressure", "approach"];
     table("Winkler’s bed against finite elements: greatest error of what is matched, mean errors", &columns, rows)
+}
+
+/// What the slices have from the teeth in space; nothing where sections are alike over the face width.
+fn slices(calibration: &Calibration) -> Markup {
+    let Some(fit) = calibration.slices else { return Markup::default() };
+    let of = fit.compliance;
+    let rows = [
+        row("Compliance of the teeth over that of the section", "", [significant(of.teeth, 4)]),
+        row("More at the end face at width 0", "%", [fixed(100.0 * of.ends[0], 1)]),
+        row("More at the end face at the full width", "%", [fixed(100.0 * of.ends[1], 1)]),
+        row("Length over which that decays", "mm", [significant(of.end_length_mm, 3)]),
+        row("Reach along the tooth, twist", "mm", [significant(of.reach.twist_mm2.sqrt(), 3)]),
+        row("Reach along the tooth, bending", "mm", [significant(of.reach.bending_mm4.sqrt().sqrt(), 3)]),
+        row("Compliance of the bodies over that of the section", "", [significant(of.bodies, 4)]),
+        row("Residual, root mean square", "%", [fixed(100.0 * fit.residual, 1)]),
+    ];
+    table("Slices, fitted to the teeth in space", &["value"], rows)
 }
 
 fn convergence(calibration: &Calibration) -> Markup {

@@ -5,7 +5,7 @@ use crate::report::chart::{Chart, INK, MUTED, Trace};
 use crate::report::html::field_plot::{self, Bodies, Window, greatest_near, segments, side_lines, to_scale};
 use crate::report::html::number::{count, figure, significant};
 use crate::report::html::reading::greatest;
-use crate::results::fem_problem::{ContactCurve, FemRecord};
+use crate::results::fem_problem::{ContactCurve, FemRecord, FemSummary, PlaneSolution};
 
 /// Half the height of the picture of a contact, in half-widths.
 const AROUND: f64 = 2.0;
@@ -13,12 +13,12 @@ const AROUND: f64 = 2.0;
 const MOST_MARKS: usize = 200;
 
 /// The undeformed mesh with its supports, loads and surfaces.
-pub(super) fn model(record: &FemRecord) -> Chart {
-    let solid = &record.problem.solid;
+pub(super) fn model(record: &FemRecord, PlaneSolution { problem, .. }: &PlaneSolution) -> Chart {
+    let solid = &problem.solid;
     let points: Vec<[f64; 2]> = solid.points_mm.iter().map(|p| [p.x, p.y]).collect();
     let bodies = Bodies { points_mm: &points, elements: &solid.elements };
     let window = Window::around(&points);
-    let materials = record.bodies.iter().zip(&record.problem.materials).map(|(body, material)| {
+    let materials = record.bodies.iter().zip(&problem.materials).map(|(body, material)| {
         format!(
             "{body} of {} GPa and Poisson’s ratio {}",
             significant(material.young_modulus_mpa / 1e3, 4),
@@ -33,7 +33,7 @@ pub(super) fn model(record: &FemRecord) -> Chart {
     ));
     let (inner, outline) = side_lines(bodies, window, ("var(--rule)", 0.7), ("outline", INK, 1.2));
     chart = chart.add_all(inner.into_iter().chain([outline]).map(Trace::unlisted));
-    for (contact, names) in record.problem.contacts.iter().zip(&record.summary.contact) {
+    for (contact, names) in problem.contacts.iter().zip(&record.summary.contact) {
         for (edges, name, colour) in [
             (&contact.slave, format!("slave {}", names.slave), "var(--pinion)"),
             (&contact.master, format!("master {}", names.master), "var(--wheel)"),
@@ -41,12 +41,11 @@ pub(super) fn model(record: &FemRecord) -> Chart {
             chart = chart.add(segments(&name, bodies, &along(edges), colour, 3.0));
         }
     }
-    let held = |component: u32| {
-        record.problem.held.iter().filter(move |held| held.dof % 2 == component).map(|held| held.dof / 2)
-    };
+    let held =
+        |component: u32| problem.held.iter().filter(move |held| held.dof % 2 == component).map(|held| held.dof / 2);
     let loaded = (0..points.len() as u32).filter(|&node| {
         let dof = 2 * node as usize;
-        record.problem.forces_n_per_mm[dof..dof + 2].iter().any(|force| *force != 0.0)
+        problem.forces_n_per_mm[dof..dof + 2].iter().any(|force| *force != 0.0)
     });
     for (name, symbol, nodes) in [
         ("held along x", "triangle-right-open", held(0).collect::<Vec<_>>()),
@@ -74,11 +73,11 @@ fn marks(name: &str, symbol: &str, nodes: &[u32], points: &[[f64; 2]]) -> Trace 
 }
 
 /// The von Mises stress: over all bodies, and around each contact that carries load; deformed as computed.
-pub(super) fn von_mises(record: &FemRecord) -> Vec<Chart> {
-    let solid = &record.problem.solid;
-    let deformed = field_plot::deformed(solid.points_mm.iter().map(|p| [p.x, p.y]), &record.displacement_mm);
+pub(super) fn von_mises(summary: &FemSummary, plane: &PlaneSolution) -> Vec<Chart> {
+    let solid = &plane.problem.solid;
+    let deformed = field_plot::deformed(solid.points_mm.iter().map(|p| [p.x, p.y]), &plane.displacement_mm);
     let bodies = Bodies { points_mm: &deformed, elements: &solid.elements };
-    let values: Vec<f64> = record.stress.iter().map(|stress| stress.von_mises_MPa).collect();
+    let values: Vec<f64> = plane.stress.iter().map(|stress| stress.von_mises_MPa).collect();
     let picture = |chart: Chart, window: Window| field_plot::von_mises(chart, bodies, &values, window);
     let whole = greatest(&values).map_or_else(String::new, |peak| {
         let at = solid.points_mm[peak.index];
@@ -92,7 +91,7 @@ pub(super) fn von_mises(record: &FemRecord) -> Vec<Chart> {
     });
     let chart = Chart::new("stress", "Von Mises stress").reading(whole);
     let mut charts = vec![picture(chart, Window::around(&deformed))];
-    for (index, (summary, contact)) in record.summary.contact.iter().zip(&record.contacts).enumerate() {
+    for (index, (summary, contact)) in summary.contact.iter().zip(&plane.contacts).enumerate() {
         let Some(middle) = middle(contact) else { continue };
         if summary.half_width_mm <= 0.0 {
             continue;

@@ -3,47 +3,72 @@
 //! | file | from |
 //! |---|---|
 //! | `summary.json` | [`crate::results::fem_problem::FemSummary`] |
-//! | `contact.csv` | [`contact_table`] |
+//! | `contact.csv` | [`contact_table`], of plane problems |
 //! | `solution.vtu` | displacement and stress at the nodes, for ParaView |
 //! | `problem.toml` | the resolved problem |
-//! | `report.html` | `page` |
+//! | `report.html` | `page`, in space `page_in_space` |
 
 mod field_figures;
 mod page;
+mod page_in_space;
 mod pressure_figure;
 
 use std::io::{self, Write};
 use std::path::Path;
 
-use super::csv_table::{Provenance, table};
-use super::files::{ReportError, create_folder, place};
+use super::csv_table::{COLUMNS, Column, CsvFiles, Provenance, table};
+use super::files::{ReportError, create_folder, place, remove};
 use super::vtu_file;
+use crate::fem::nodal_fields::add_nodal_fields;
 use crate::mesh::Mesh;
-use crate::results::fem_problem::{ContactCurve, FemRecord};
+use crate::results::fem_problem::{ContactCurve, FemRecord, FemSolution, PlaneSolution, SpaceSolution};
+
+const CONTACT: &str = "contact.csv";
 
 /// Writes all files of `record` but `summary.json` into `dir`, which is made if need be.
 pub(crate) fn write_data_and_page(record: &FemRecord, dir: &Path) -> Result<(), ReportError> {
     create_folder(dir)?;
-    let provenance = Provenance::of_problem(&record.summary.program_version, &record.summary.problem_hash);
     place(dir, "problem.toml", |out| out.write_all(record.problem_toml.as_bytes()))?;
-    place(dir, "contact.csv", |out| contact_table(out, provenance, &record.contacts))?;
-    place(dir, "solution.vtu", |out| vtu_file::write(out, &solution(record)))?;
-    place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes())).map(drop)
+    let (mesh, page) = match &record.solution {
+        FemSolution::Plane(plane) => {
+            let summary = &record.summary;
+            let provenance = Provenance::of_problem(&summary.program_version, &summary.problem_hash);
+            let mut csv = CsvFiles::new(dir, provenance);
+            csv.place(CONTACT, |out| contact_table(out, &plane.contacts))?;
+            csv.finish()?;
+            (solution(plane), page::page(record, plane))
+        }
+        FemSolution::InSpace(space) => {
+            // Those of a plane problem that was solved there before would pass for this one's.
+            [CONTACT, COLUMNS].into_iter().try_for_each(|name| remove(dir, name))?;
+            (solution_in_space(space), page_in_space::page(record, space))
+        }
+    };
+    place(dir, "solution.vtu", |out| vtu_file::write(out, &mesh))?;
+    place(dir, "report.html", |out| out.write_all(page.as_bytes())).map(drop)
 }
 
 /// Writes `contact.csv`: the nodes of the slave surfaces, each in the order of its surface.
-pub(crate) fn contact_table(out: &mut dyn Write, provenance: Provenance, contacts: &[ContactCurve]) -> io::Result<()> {
-    table(out, provenance, contacts.iter().flat_map(|contact| &contact.rows))
+pub(crate) fn contact_table(out: &mut dyn Write, contacts: &[ContactCurve]) -> io::Result<Vec<Column>> {
+    table(out, contacts.iter().flat_map(|contact| &contact.rows))
 }
 
 /// The bodies with displacement, stress and contact pressure at their nodes.
-fn solution(record: &FemRecord) -> Mesh {
+fn solution(record: &PlaneSolution) -> Mesh {
     let mut mesh = record.problem.solid.to_mesh();
     vtu_file::add_solution(&mut mesh, &record.displacement_mm, &record.stress);
     let mut pressure_mpa = vec![0.0; mesh.points.len()];
     for row in record.contacts.iter().flat_map(|contact| &contact.rows) {
         pressure_mpa[row.node as usize] = row.pressure_MPa;
     }
-    vtu_file::add(&mut mesh, "pressure_MPa", 1, pressure_mpa);
+    mesh.add_point_data("pressure_MPa", 1, pressure_mpa);
+    mesh
+}
+
+/// Bodies in space with displacement and stress at their nodes.
+fn solution_in_space(found: &SpaceSolution) -> Mesh {
+    let mut mesh = found.problem.solid.to_mesh();
+    let von_mises = found.von_mises_MPa.iter().copied();
+    add_nodal_fields(&mut mesh, found.displacement_mm.iter().copied(), found.stress_MPa.iter().copied(), von_mises);
     mesh
 }

@@ -3,12 +3,11 @@
 use maud::{Markup, html};
 
 use super::{field_figures, pressure_figure};
-use crate::fem::elastic::Analysis;
-use crate::fem::problem::Stop;
+use crate::fem::problem::{Stop, ThirdDirection};
 use crate::report::html::number::{change, figure, significant};
 use crate::report::html::page::{self, Page, plots, section, sources_list, stages_table};
 use crate::report::html::table::{NONE, cells, row, table};
-use crate::results::fem_problem::{ContactSummary, FemRecord, FemSummary};
+use crate::results::fem_problem::{ContactSummary, FemRecord, FemSummary, PlaneSolution};
 
 const DATA_FILES: [(&str, &str); 4] = [
     ("summary.json", "the main figures"),
@@ -17,16 +16,16 @@ const DATA_FILES: [(&str, &str); 4] = [
     ("problem.toml", "the resolved problem"),
 ];
 
-pub(super) fn page(record: &FemRecord) -> String {
+pub(super) fn page(record: &FemRecord, plane: &PlaneSolution) -> String {
     let s = &record.summary;
-    let mut charts = vec![field_figures::model(record)];
-    let contacts = s.contact.iter().zip(&record.contacts).enumerate();
+    let mut charts = vec![field_figures::model(record, plane)];
+    let contacts = s.contact.iter().zip(&plane.contacts).enumerate();
     charts.extend(
         contacts.filter_map(|(index, (summary, contact))| {
             pressure_figure::pressure(index, s.contact.len(), summary, contact)
         }),
     );
-    charts.extend(field_figures::von_mises(record));
+    charts.extend(field_figures::von_mises(&record.summary, plane));
     let figures = s.contact.iter().map(contact_table).chain([model_table(s), solver_table(s)]);
     let work = page::tables([stages_table(&s.stages, s.wall_s), work_table(s)]);
     let sources = sources_list(&DATA_FILES, "The resolved problem, every default filled in", &record.problem_toml);
@@ -92,34 +91,35 @@ fn contact_table(contact: &ContactSummary) -> Markup {
     table(caption, &["finite elements", "Hertz", "difference"], rows)
 }
 
-fn model_table(s: &FemSummary) -> Markup {
+pub(super) fn model_table(s: &FemSummary) -> Markup {
     let analysis = match s.analysis {
-        Analysis::PlaneStrain => "plane strain",
-        Analysis::PlaneStress => "plane stress",
+        ThirdDirection::PlaneStrain => "plane strain",
+        ThirdDirection::PlaneStress => "plane stress",
+        ThirdDirection::ThreeDimensional => "three-dimensional",
     };
     let rows = [
         row("Mesh file", "", [&*s.mesh.file]),
         row("Nodes", "", [s.mesh.nodes]),
         row("Elements", "", [s.elements]),
         row("Degrees of freedom, supports included", "", [s.dofs]),
-        row("Across the plane", "", [analysis]),
+        row("Analysis", "", [analysis]),
         row("Greatest von Mises stress at a node", "MPa", [s.peak_von_mises_MPa]),
     ];
     table("Model", &["value"], rows)
 }
 
-fn solver_table(s: &FemSummary) -> Markup {
+pub(super) fn solver_table(s: &FemSummary) -> Markup {
     let stop = match s.stopped {
         Stop::Converged => "converged",
         Stop::ConvergedAfterCycle => "converged after a cycle of active sets was broken",
     };
+    let sets = s.in_space.is_none().then(|| row("Active sets tried", "", [s.iterations]));
     let rows = [
         row("Stopped", "", [stop]),
-        row("Active sets tried", "", [s.iterations]),
         row("Largest unbalanced nodal force, relative", "", [significant(s.residual, 2)]),
         row("Unbalance of external forces, relative", "", [significant(s.force_balance, 2)]),
     ];
-    table("Solver", &["value"], rows)
+    table("Solver", &["value"], sets.into_iter().chain(rows))
 }
 
 fn work_table(s: &FemSummary) -> Markup {

@@ -19,7 +19,7 @@ use std::path::Path;
 
 use nalgebra::Vector2;
 
-use super::csv_table::{Provenance, table};
+use super::csv_table::{CsvFiles, Provenance, table};
 use super::files::{ReportError, create_folder, place};
 use super::vtu_file;
 use crate::fem::solid::Solid;
@@ -31,8 +31,10 @@ pub(crate) fn write_data_and_page(record: &FemPairRecord, dir: &Path) -> Result<
     create_folder(dir)?;
     let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
     place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?;
-    place(dir, "mesh_cycle.csv", |out| table(out, provenance, &record.mesh_cycle))?;
-    place(dir, "pressure.csv", |out| pressure_table::pressure(out, provenance, &record.pressure))?;
+    let mut csv = CsvFiles::new(dir, provenance);
+    csv.place("mesh_cycle.csv", |out| table(out, &record.mesh_cycle))?;
+    csv.place("pressure.csv", |out| pressure_table::pressure(out, &record.pressure))?;
+    csv.finish()?;
     if let Some(solution) = &record.solution {
         place(dir, "solution.vtu", |out| vtu_file::write(out, &mesh(solution)))?;
     }

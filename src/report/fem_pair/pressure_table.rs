@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::reference::hertz_line::LineContact;
-use crate::report::csv_table::{Provenance, table};
+use crate::report::csv_table::{Column, table};
 use crate::results::fem_pair::PressureCurve;
 
 /// A node of the flank with the multipliers around a contact; rows run towards the pinion's tip.
@@ -28,7 +28,7 @@ struct PressureRow {
     point: Option<&'static str>,
 }
 
-pub(crate) fn pressure(out: &mut dyn Write, provenance: Provenance, curves: &[PressureCurve]) -> io::Result<()> {
+pub(crate) fn pressure(out: &mut dyn Write, curves: &[PressureCurve]) -> io::Result<Vec<Column>> {
     let rows = curves.iter().flat_map(|curve| {
         let hertz = hertz(curve);
         curve.along_mm.iter().zip(&curve.pressure_MPa).map(move |(&along_mm, &pressure_mpa)| PressureRow {
@@ -40,7 +40,7 @@ pub(crate) fn pressure(out: &mut dyn Write, provenance: Provenance, curves: &[Pr
             point: curve.point,
         })
     });
-    table(out, provenance, rows)
+    table(out, rows)
 }
 
 /// Hertz's contact under the load of a curve.

@@ -111,7 +111,10 @@ fn contact(s: &Summary) -> Markup {
             row("at a line load of", "N/mm", [k.reference_line_load_N_per_mm]),
         ]);
         let remainder = k.split_remainder_at_half_load.map(percent);
-        rows.extend(remainder.map(|share| row("Left over by the split, at half load", "", [share])));
+        rows.extend(
+            remainder
+                .map(|share| row("Residual of the split of tooth and contact compliance, at 50 % load", "", [share])),
+        );
     }
     table("Contact and stiffness", &["value"], rows)
 }

@@ -2,7 +2,7 @@
 
 use super::active_flank::ActiveFlank;
 use super::number::{figure, given, percent, plotted, revolutions, significant};
-use super::reading::{Extreme, greatest, place_on_flank, tip_edge_note};
+use super::reading::{Extreme, greatest, place_on_flank, tip_edge_note, yield_note};
 use crate::gear::Gear;
 use crate::report::chart::{Chart, Dash, INK, Trace, extent, gear_colour, gear_colour_at};
 use crate::results::run::{HistoryRow, RunRecord};
@@ -118,13 +118,14 @@ fn pressure_on(record: &RunRecord, gear: Gear, top_mpa: f64) -> Chart {
     let place = |at: Extreme| place_on_flank(flank, flank.radius_mm[at.index]);
     let reading = match (greatest(&flank.pressure_new_MPa), greatest(&flank.pressure_worn_MPa)) {
         (Some(new), Some(worn)) => format!(
-            "During one mesh the {}’s flank feels at most {} MPa new, {}, and {} MPa worn, {}.{}",
+            "The greatest pressure on the {}’s flank during one mesh is {} MPa new, {}, and {} MPa worn, {}.{}{}",
             gear.name(),
             figure(new.value),
             place(new),
             figure(worn.value),
             place(worn),
             tip_edge_note(&flank.path_point_radius_mm.named(), flank.radius_mm[worn.index]),
+            yield_note(new.value.max(worn.value)),
         ),
         _ => format!("No pressure was computed on the {}’s flank.", gear.name()),
     };

@@ -13,13 +13,14 @@ use crate::report::chart::Chart;
 use crate::results::run::{RunRecord, Summary};
 
 /// The data files named in the page, which lie beside it; two more where sections differ.
-const DATA_FILES: [(&str, &str); 7] = [
+const DATA_FILES: [(&str, &str); 8] = [
     ("summary.json", "the main figures"),
     ("pinion.csv", "the pinion’s flank, point by point"),
     ("wheel.csv", "the wheel’s flank, point by point"),
     ("history.csv", "the snapshots"),
     ("profiles.csv", "both flanks at every snapshot"),
     ("mesh_cycle.csv", "the mesh cycle"),
+    ("columns.json", "what the columns of these tables hold"),
     ("scene.toml", "the resolved scene"),
 ];
 const SLICED_FILES: [(&str, &str); 2] =

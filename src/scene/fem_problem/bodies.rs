@@ -1,12 +1,18 @@
-//! From the cells of the `[[body]]` groups to elements: all anticlockwise, none tangled, each in one body.
+//! The bodies of a plane problem: elements all anticlockwise, none tangled.
+
+use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
 
 use super::file::FemProblemFile;
-use super::groups::{CellRef, Groups};
-use super::sides::corners;
+use super::groups::Groups;
+use super::meshed_groups::Bodies;
+use super::owned_cells::{BodyNodes, OwnedCell, owned_cells};
+use super::sides::{Side, Sides, corners};
 use crate::fem::elastic::Elastic;
 use crate::fem::element;
+use crate::fem::loads::add_spread_force;
+use crate::fem::problem::Edge;
 use crate::fem::solid::{Element, ElementKind, Solid};
 use crate::mesh::{CellKind, Mesh};
 use crate::scene::findings::Findings;
@@ -16,19 +22,51 @@ const MPA_PER_GPA: f64 = 1e3;
 /// A node may lie this far from the plane z = 0, relative to the mesh's extent: what writing decimals leaves.
 const FLAT: f64 = 1e-9;
 
-/// The bodies with the way back to the mesh.
-#[derive(Debug)]
-pub(super) struct Meshed {
+/// The bodies of a plane problem.
+pub(super) struct PlaneBodies {
     /// Nodes and elements.
     pub solid: Solid,
-    /// For each node of the mesh its number in the solid.
-    solid_node: Vec<Option<u32>>,
+    /// The sides of the elements.
+    pub sides: Sides,
+    nodes: BodyNodes,
 }
 
-impl Meshed {
-    /// The number that a node of the mesh has in the solid, if it belongs to a body.
-    pub(super) fn node(&self, mesh_node: usize) -> Option<u32> {
-        self.solid_node.get(mesh_node).copied().flatten()
+impl PlaneBodies {
+    /// The side of an element along the line on these nodes of the mesh (ends, middle).
+    pub(super) fn line_side(&self, line: &[usize]) -> Option<&Side> {
+        let ends = [self.nodes.node(*line.first()?)?, self.nodes.node(*line.get(1)?)?];
+        let side = self.sides.find(ends)?;
+        match line.get(2) {
+            Some(&middle) => side.edge.middle.is_some_and(|own| Some(own) == self.nodes.node(middle)).then_some(side),
+            None => Some(side),
+        }
+    }
+}
+
+impl Bodies for PlaneBodies {
+    const DIRECTIONS: usize = 2;
+    const CARRIER: &'static str = "lines";
+    const PART: &'static str = "side";
+    const PARTS: &'static str = "lines along the elements of a body";
+
+    fn nodes(&self) -> &BodyNodes {
+        &self.nodes
+    }
+
+    fn middles(&self, cell: &[usize]) -> Vec<u32> {
+        self.line_side(cell).and_then(|side| side.edge.middle).into_iter().collect()
+    }
+
+    fn spread<'m>(&self, mut lines: impl Iterator<Item = &'m [usize]>) -> Option<BTreeMap<u32, f64>> {
+        let sides = lines.try_fold(BTreeMap::new(), |mut sides: BTreeMap<[u32; 2], Edge>, line| {
+            let edge = self.line_side(line)?.edge;
+            sides.insert(edge.ends, edge);
+            Some(sides)
+        })?;
+        let edges: Vec<Edge> = sides.into_values().collect();
+        let mut unit = vec![0.0; self.solid.dofs()];
+        add_spread_force(&self.solid, &edges, Vector2::x(), &mut unit);
+        Some(edges.iter().flat_map(|edge| edge.nodes()).map(|node| (node, unit[2 * node as usize])).collect())
     }
 }
 
@@ -47,119 +85,45 @@ pub(super) fn mesh_bodies(
     mesh: &Mesh,
     groups: &Groups<'_>,
     findings: &mut Findings,
-) -> Option<Meshed> {
+) -> Option<PlaneBodies> {
     let before = findings.problems.len();
     check_cells(mesh, findings);
-    let owned = owners(file, mesh, groups, findings);
+    let (cells, nodes) = owned_cells(file, mesh, groups, (2, "triangles or quadrilaterals"), findings)?;
     if findings.problems.len() > before {
         return None;
     }
-    warn_of_leftovers(mesh, &owned, findings);
-    let meshed = number_nodes(mesh, groups, owned);
-    check_plane(mesh, &meshed, findings);
-    let meshed = turned(file, meshed, findings);
-    (findings.problems.len() == before).then_some(meshed)
+    let element = |cell: OwnedCell| element_kind(cell.kind).map(|kind| Element::new(kind, &cell.nodes, cell.body));
+    let mut solid = Solid {
+        points_mm: nodes.points_mm.iter().map(|&[x, y, _]| Vector2::new(x, y)).collect(),
+        elements: cells.into_iter().filter_map(element).collect(),
+    };
+    check_plane(mesh, &nodes, findings);
+    turn(file, &mut solid, findings);
+    let sides = Sides::of(&solid);
+    (findings.problems.len() == before).then_some(PlaneBodies { solid, sides, nodes })
 }
 
-/// Refuses cells the solver has no element for, and nodes that are not there.
+/// Refuses cells the solver has no element for.
 fn check_cells(mesh: &Mesh, findings: &mut Findings) {
     let plane = "lines, triangles (3 or 6 nodes) and quadrilaterals (4, 8 or 9 nodes) in the plane";
-    let mut solids: Vec<String> = Vec::new();
-    for kind in CellKind::ALL.into_iter().filter(|kind| kind.dimension() == 3) {
-        let count: usize = mesh.cells.iter().filter(|block| block.kind == kind).map(|block| block.len()).sum();
-        if count > 0 {
-            solids.push(format!("{count} of type {}", name_of(kind)));
-        }
-    }
+    let solids = in_words(mesh.cells.iter().filter(|block| block.kind.dimension() == 3).map(|b| (b.kind, b.len())));
     if !solids.is_empty() {
-        findings.not_allowed("mesh.file", format!("solid cells: {}", solids.join(", ")), plane);
+        findings.not_allowed("mesh.file", format!("solid cells: {solids}"), plane);
+        findings.help("three-dimensional problems have analysis = \"three-dimensional\"");
     }
-    if let Err(inconsistency) = mesh.check() {
-        findings.not_allowed("mesh.file", inconsistency.to_string(), "a mesh without contradictions");
-    }
-    if u32::try_from(mesh.points.len()).is_err() {
-        let found = format!("{} nodes", mesh.points.len());
-        findings.not_allowed("mesh.file", found, format!("at most {} nodes", u32::MAX));
-    }
+}
+
+/// Cells counted by kind: `3 of type tetra, 1 of type wedge`.
+pub(super) fn in_words(cells: impl Iterator<Item = (CellKind, usize)>) -> String {
+    let mut counts: BTreeMap<CellKind, usize> = BTreeMap::new();
+    cells.for_each(|(kind, count)| *counts.entry(kind).or_default() += count);
+    let words = counts.iter().filter(|(_, count)| **count > 0);
+    words.map(|(kind, count)| format!("{count} of type {}", name_of(*kind))).collect::<Vec<_>>().join(", ")
 }
 
 /// A kind of cell under meshio's name.
 fn name_of(kind: CellKind) -> String {
     serde_json::to_value(kind).ok().and_then(|name| name.as_str().map(str::to_owned)).unwrap_or_default()
-}
-
-/// For each block of the mesh the body of each of its cells.
-fn owners(file: &FemProblemFile, mesh: &Mesh, groups: &Groups<'_>, findings: &mut Findings) -> Vec<Vec<Option<u16>>> {
-    let mut owner: Vec<Vec<Option<u16>>> = mesh.cells.iter().map(|block| vec![None; block.len()]).collect();
-    for (i, body) in file.body.iter().enumerate() {
-        let key = format!("body[{i}].group");
-        let Some(group) = groups.find(&body.group, &key, findings) else { continue };
-        let Ok(number) = u16::try_from(i) else {
-            let found = format!("{} bodies", file.body.len());
-            findings.not_allowed(&key, found, format!("at most {}", 1 + usize::from(u16::MAX)));
-            break;
-        };
-        if group.cells[2].is_empty() {
-            let found = format!("{:?}, which holds {}", body.group, group.in_words());
-            findings.not_allowed(&key, found, "a group of triangles or quadrilaterals");
-        }
-        let mut taken: Option<(u16, usize)> = None;
-        for &(block, cell) in &group.cells[2] {
-            match &mut owner[block][cell] {
-                Some(other) if *other == number => {}
-                Some(other) => taken = Some((*other, taken.map_or(0, |(_, count)| count) + 1)),
-                free => *free = Some(number),
-            }
-        }
-        if let Some((other, count)) = taken {
-            let other = &file.body[usize::from(other)].group;
-            let found = format!("{:?}, of which {count} elements belong to the body {other:?} too", body.group);
-            findings.not_allowed(&key, found, "every element in one body");
-        }
-    }
-    owner
-}
-
-fn warn_of_leftovers(mesh: &Mesh, owner: &[Vec<Option<u16>>], findings: &mut Findings) {
-    let surfaces = mesh.cells.iter().zip(owner).filter(|(block, _)| block.kind.dimension() == 2);
-    let left = surfaces.flat_map(|(_, owner)| owner).filter(|owner| owner.is_none()).count();
-    if left > 0 {
-        let elements = if left == 1 { "element belongs" } else { "elements belong" };
-        findings.warnings.push(format!("{left} {elements} to no [[body]]: left out"));
-    }
-}
-
-/// Elements as they stand in the mesh, nodes numbered in the mesh's order without those of no body.
-fn number_nodes(mesh: &Mesh, groups: &Groups<'_>, owner: Vec<Vec<Option<u16>>>) -> Meshed {
-    let owned = || {
-        owner.iter().enumerate().flat_map(|(block, cells)| {
-            cells.iter().enumerate().filter_map(move |(cell, owner)| owner.map(|body| ((block, cell), body)))
-        })
-    };
-    let mut used = vec![false; mesh.points.len()];
-    for (cell, _) in owned() {
-        for &node in groups.cell(cell).1 {
-            used[node] = true;
-        }
-    }
-    let mut points_mm = Vec::new();
-    let solid_node: Vec<Option<u32>> = used
-        .into_iter()
-        .zip(&mesh.points)
-        .map(|(used, &[x, y, _])| {
-            used.then(|| {
-                points_mm.push(Vector2::new(x, y));
-                points_mm.len() as u32 - 1
-            })
-        })
-        .collect();
-    let element = |(cell, body): (CellRef, u16)| {
-        let (kind, nodes) = groups.cell(cell);
-        let nodes: Vec<u32> = nodes.iter().filter_map(|&node| solid_node[node]).collect();
-        element_kind(kind).map(|kind| Element::new(kind, &nodes, body))
-    };
-    let elements = owned().filter_map(element).collect();
-    Meshed { solid: Solid { points_mm, elements }, solid_node }
 }
 
 fn element_kind(kind: CellKind) -> Option<ElementKind> {
@@ -173,21 +137,21 @@ fn element_kind(kind: CellKind) -> Option<ElementKind> {
     }
 }
 
-fn check_plane(mesh: &Mesh, meshed: &Meshed, findings: &mut Findings) {
-    let extent = meshed.solid.points_mm.iter().fold(0.0, |extent: f64, p| extent.max(p.amax()));
-    let off = |(node, point): &(usize, &[f64; 3])| meshed.node(*node).is_some() && point[2].abs() > FLAT * extent;
+fn check_plane(mesh: &Mesh, nodes: &BodyNodes, findings: &mut Findings) {
+    let extent = nodes.points_mm.iter().fold(0.0, |extent: f64, p| extent.max(p[0].abs()).max(p[1].abs()));
+    let off = |(node, point): &(usize, &[f64; 3])| nodes.node(*node).is_some() && point[2].abs() > FLAT * extent;
     if let Some((node, [x, y, z])) = mesh.points.iter().enumerate().find(off) {
         let found = format!("node {} at x = {}, y = {}, z = {}", node + 1, number(*x), number(*y), number(*z));
         findings.not_allowed("mesh.file", found, "a mesh in the plane z = 0");
     }
 }
 
-/// The same with clockwise elements turned; refuses what is no element either way round.
-fn turned(file: &FemProblemFile, mut meshed: Meshed, findings: &mut Findings) -> Meshed {
+/// Turns clockwise elements; refuses what is no element either way round.
+fn turn(file: &FemProblemFile, solid: &mut Solid, findings: &mut Findings) {
     let bodies = file.body.len();
     let (mut clockwise, mut all) = (vec![0_usize; bodies], vec![0_usize; bodies]);
     let mut tangled: Vec<Vec<Vector2<f64>>> = vec![Vec::new(); bodies];
-    let Solid { points_mm, elements } = &mut meshed.solid;
+    let Solid { points_mm, elements } = solid;
     for element in elements {
         let body = usize::from(element.material);
         all[body] += 1;
@@ -218,7 +182,6 @@ fn turned(file: &FemProblemFile, mut meshed: Meshed, findings: &mut Findings) ->
             findings.not_allowed(&format!("body[{i}].group"), found, allowed);
         }
     }
-    meshed
 }
 
 /// Twice the signed area of the polygon of the corners.

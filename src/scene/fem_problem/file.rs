@@ -1,14 +1,14 @@
 //! The problem file, key by key: a mesh, and what its named groups are.
 //!
 //! As with the scene, these structures are the one description of the file: `gearwear schema --problem` prints their JSON
-//! schema, and a file is checked against it. Forces are per mm of thickness; coordinates of the mesh are in mm.
+//! schema, and a file is checked against it. In the plane forces are per mm of thickness; coordinates of the mesh are in mm.
 
 #![allow(non_snake_case, reason = "key names end in their unit as engineers write it")]
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::fem::elastic::Analysis;
+use crate::fem::problem::ThirdDirection;
 
 /// Elastic bodies on a mesh of one's own, their supports, loads and contacts.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -18,7 +18,7 @@ pub(crate) struct FemProblemFile {
     /// Title of the report. Default: the name of the mesh file.
     pub title: Option<String>,
     /// What the third direction does. Default: plane-strain.
-    pub analysis: Option<Analysis>,
+    pub analysis: Option<ThirdDirection>,
     /// The mesh.
     pub mesh: MeshFile,
     /// The bodies: every element belongs to one of them.
@@ -29,7 +29,7 @@ pub(crate) struct FemProblemFile {
     /// Forces and given displacements.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub load: Vec<LoadFile>,
-    /// Surfaces that may touch.
+    /// Surfaces that may touch, in plane problems.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub contact: Vec<ContactFile>,
 }
@@ -38,15 +38,17 @@ pub(crate) struct FemProblemFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct MeshFile {
-    /// Its file, relative to the folder of this one: Gmsh 4.1 or 2.2 (.msh), VTU or Abaqus (.inp); coordinates in mm, z = 0.
+    /// Its file, relative to the folder of this one: Gmsh 4.1 or 2.2 (.msh), VTU or Abaqus (.inp); coordinates in mm, in
+    /// plane problems z = 0.
     pub file: String,
 }
 
-/// A body: a group of triangles and quadrilaterals of one material.
+/// A body: a group of elements of one material.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BodyFile {
-    /// Physical group or element set of the mesh: triangles or quadrilaterals, linear or quadratic.
+    /// Physical group or element set of the mesh: triangles or quadrilaterals, linear or quadratic; in three dimensions hexahedra of 8
+    /// or 20 nodes.
     pub group: String,
     /// Young's modulus E in GPa, > 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -62,11 +64,11 @@ pub(crate) struct BodyFile {
 pub(crate) struct FixedFile {
     /// Group of the mesh: points, lines or surfaces, or a set of nodes.
     pub group: String,
-    /// Directions that are held. Default: both.
+    /// Directions that are held. Default: all.
     pub components: Option<Vec<Component>>,
 }
 
-/// A direction of the plane.
+/// A direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Component {
@@ -74,20 +76,27 @@ pub(crate) enum Component {
     X,
     /// Along y.
     Y,
+    /// Along z, in three dimensions.
+    Z,
 }
 
 /// A force or a given displacement: one of the two.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct LoadFile {
-    /// Group of the mesh: lines or points for a force; any group for a displacement.
+    /// Group of the mesh: lines, in three dimensions quadrilaterals that are faces of elements, or points for a force; any group for a
+    /// displacement.
     pub group: String,
-    /// Resultant force [x, y] over the group in N per mm of thickness: spread evenly over its lines as a uniform traction,
-    /// or shared evenly by its points.
+    /// Resultant force [x, y] over the group in N per mm of thickness, in plane problems: spread evenly over its lines as a uniform
+    /// traction, or shared evenly by its points.
     pub force_N_per_mm: Option<[f64; 2]>,
-    /// Displacement [x, y] of the whole group in mm.
-    pub displacement_mm: Option<[f64; 2]>,
-    /// Directions in which the displacement is given; the other one stays free. Default: both.
+    /// Resultant force [x, y, z] over the group in N, in three dimensions: spread evenly over its quadrilaterals as a uniform
+    /// traction, or shared evenly by its points.
+    pub force_N: Option<[f64; 3]>,
+    /// Displacement of the whole group in mm: [x, y], in three dimensions [x, y, z].
+    #[schemars(length(min = 2, max = 3))]
+    pub displacement_mm: Option<Vec<f64>>,
+    /// Directions in which the displacement is given; the others stay free. Default: all.
     pub components: Option<Vec<Component>>,
 }
 
@@ -105,27 +114,42 @@ pub(crate) struct ContactFile {
 }
 
 impl Component {
-    /// Both.
-    pub(crate) const BOTH: [Component; 2] = [Component::X, Component::Y];
+    /// All, in the order of their numbers.
+    pub(crate) const ALL: [Component; 3] = [Component::X, Component::Y, Component::Z];
 
-    /// 0 along x, 1 along y.
+    /// 0 along x, 1 along y, 2 along z.
     pub(crate) fn index(self) -> usize {
         match self {
             Component::X => 0,
             Component::Y => 1,
+            Component::Z => 2,
         }
     }
 
-    /// `x` or `y`.
+    /// `x`, `y` or `z`.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Component::X => "x",
             Component::Y => "y",
+            Component::Z => "z",
         }
     }
 }
 
+impl LoadFile {
+    /// The force with its key; `None` where a displacement is given.
+    pub(crate) fn force(&self) -> Option<(&'static str, &[f64])> {
+        let plane = self.force_N_per_mm.as_ref().map(|force| ("force_N_per_mm", &force[..]));
+        plane.or(self.force_N.as_ref().map(|force| ("force_N", &force[..])))
+    }
+}
+
 impl FemProblemFile {
+    /// What the third direction does.
+    pub(crate) fn third_direction(&self) -> ThirdDirection {
+        self.analysis.unwrap_or_default()
+    }
+
     /// The problem as TOML text.
     pub(crate) fn to_toml(&self) -> String {
         // Plain structs with text keys: nothing in them that TOML could not express.

@@ -16,7 +16,6 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, SymmetricEigen, Vector2};
 
-use super::bodies::Meshed;
 use crate::fem::disjoint_sets::DisjointSets;
 use crate::fem::problem::{Edge, Problem};
 use crate::fem::solid::Solid;
@@ -43,8 +42,7 @@ struct Pieces {
 type Equation = Vec<(usize, [f64; WAYS])>;
 
 /// Refuses bodies that can move whatever the contacts do.
-pub(super) fn check(problem: &Problem, meshed: &Meshed, findings: &mut Findings) {
-    let solid = &meshed.solid;
+pub(super) fn check(problem: &Problem, solid: &Solid, findings: &mut Findings) {
     let pieces = Pieces::of(solid);
     let mut equations: Vec<Equation> = Vec::new();
     for held in &problem.held {

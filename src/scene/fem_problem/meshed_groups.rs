@@ -1,24 +1,44 @@
 //! The named groups of a mesh on its bodies: where supports, loads and contacts are.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::bodies::Meshed;
+use super::file::Component;
 use super::groups::Groups;
-use super::sides::{Side, Sides};
+use super::owned_cells::BodyNodes;
 use crate::scene::findings::Findings;
+use crate::scene::problem::number;
 
-/// Groups, bodies and the sides of their elements: where the other tables of a problem look.
-#[derive(Clone, Copy)]
-pub(super) struct MeshedGroups<'a> {
+/// The bodies of a problem, as supports and loads see them.
+pub(super) trait Bodies {
+    /// Directions in which a node moves.
+    const DIRECTIONS: usize;
+    /// The cells over which a force is spread: `lines`.
+    const CARRIER: &'static str;
+    /// What such a cell is of an element: its `side`.
+    const PART: &'static str;
+    /// The cells that are: `lines along the elements of a body`.
+    const PARTS: &'static str;
+
+    /// Their nodes.
+    fn nodes(&self) -> &BodyNodes;
+
+    /// The middle nodes that quadratic elements have along a cell on these nodes of the mesh, which may be linear.
+    fn middles(&self, cell: &[usize]) -> Vec<u32>;
+
+    /// The share that each node takes of a force spread evenly over cells on these nodes of the mesh; together 1. `None` where one of them
+    /// is no part of an element.
+    fn spread<'m>(&self, cells: impl Iterator<Item = &'m [usize]>) -> Option<BTreeMap<u32, f64>>;
+}
+
+/// Groups and bodies: where the other tables of a problem look.
+pub(super) struct MeshedGroups<'a, B> {
     /// The groups.
     pub groups: &'a Groups<'a>,
     /// The bodies.
-    pub meshed: &'a Meshed,
-    /// The sides of their elements.
-    pub sides: &'a Sides,
+    pub bodies: &'a B,
 }
 
-impl MeshedGroups<'_> {
+impl<B: Bodies> MeshedGroups<'_, B> {
     /// The nodes of bodies in the group that `key` names, in increasing order; reported where there are none, or where the
     /// name stands for cells of several dimensions, of which one was meant.
     pub(super) fn nodes(&self, name: &str, key: &str, findings: &mut Findings) -> Vec<u32> {
@@ -28,14 +48,13 @@ impl MeshedGroups<'_> {
             findings.not_allowed(key, found, "a group of points, of lines or of surfaces, not of both");
             return Vec::new();
         }
-        let mut nodes: BTreeSet<u32> = group.nodes.iter().filter_map(|&node| self.meshed.node(node)).collect();
+        let node = |node: &usize| self.bodies.nodes().node(*node);
+        let mut nodes: BTreeSet<u32> = group.nodes.iter().filter_map(node).collect();
         for &cell in group.cells.iter().flatten() {
             let (_, own) = self.groups.cell(cell);
-            nodes.extend(own.iter().filter_map(|&node| self.meshed.node(node)));
+            nodes.extend(own.iter().filter_map(node));
             // A line of two nodes along a quadratic element holds the middle node too.
-            if let Some(middle) = self.line_side(own).and_then(|side| side.edge.middle) {
-                nodes.insert(middle);
-            }
+            nodes.extend(self.bodies.middles(own));
         }
         if nodes.is_empty() {
             let found = format!("{name:?}, of which no node belongs to a body");
@@ -44,13 +63,22 @@ impl MeshedGroups<'_> {
         nodes.into_iter().collect()
     }
 
-    /// The side of an element along the line on these nodes of the mesh (ends, middle).
-    pub(super) fn line_side(&self, line: &[usize]) -> Option<&Side> {
-        let ends = [self.meshed.node(*line.first()?)?, self.meshed.node(*line.get(1)?)?];
-        let side = self.sides.find(ends)?;
-        match line.get(2) {
-            Some(&middle) => side.edge.middle.is_some_and(|own| Some(own) == self.meshed.node(middle)).then_some(side),
-            None => Some(side),
-        }
+    /// Where a node lies, in words: `x = 1, y = 2`.
+    pub(super) fn place(&self, node: u32) -> String {
+        place(&self.bodies.nodes().points_mm[node as usize][..B::DIRECTIONS])
     }
 }
+
+/// Coordinates in words.
+pub(super) fn place(at_mm: &[f64]) -> String {
+    let words = Component::ALL.iter().zip(at_mm).map(|(along, value)| format!("{} = {}", along.name(), number(*value)));
+    words.collect::<Vec<_>>().join(", ")
+}
+
+impl<B> Clone for MeshedGroups<'_, B> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<B> Copy for MeshedGroups<'_, B> {}

@@ -2,17 +2,21 @@
 //!
 //! A problem file is checked twice. [`FemProblem::from_toml`] reads it by itself: names, types, ranges, and what keys say
 //! about each other. [`FemProblem::on`] then looks for its groups in the mesh and makes of both what the solver takes
-//! ([`crate::fem::problem::Problem`]), after checks that need both: elements that belong to no body or to two, contact
+//! ([`crate::fem::problem::Problem`]), [`FemProblem::in_space_on`] of three-dimensional problems
+//! ([`crate::fem::space::problem::Problem`]), after checks that need both: elements that belong to no body or to two, contact
 //! edges inside a body, supports that contradict each other, bodies that nothing holds.
 //! Each step reports all that is wrong, at its key.
 
 mod bodies;
 mod file;
 mod floating;
+mod floating_in_space;
 mod groups;
 mod loads;
 mod meshed_groups;
+mod owned_cells;
 mod sides;
+mod space_bodies;
 mod surfaces;
 
 use std::sync::OnceLock;
@@ -25,6 +29,7 @@ use super::schema::{Node, schema_of};
 use super::shape::{self, Format};
 use super::{short_hash, text, unit_slip};
 use crate::fem;
+use crate::fem::problem::ThirdDirection;
 use crate::mesh::Mesh;
 
 pub(crate) use file::{BodyFile, Component, FemProblemFile, LoadFile};
@@ -48,9 +53,9 @@ pub(crate) struct FemProblem {
 
 /// A problem on its mesh: what the solver takes, and the names that go with it.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Posed {
+pub(crate) struct Posed<P> {
     /// For the solver. Its nodes are those of the mesh that belong to a body, in the mesh's order.
-    pub problem: fem::problem::Problem,
+    pub problem: P,
     /// Groups of the bodies, numbered as the elements' materials are.
     pub bodies: Vec<String>,
     /// What the user should know although the problem can be solved.
@@ -76,11 +81,23 @@ impl FemProblem {
         }
     }
 
-    /// The problem on its mesh.
-    pub(crate) fn on(&self, mesh: &Mesh) -> Result<Posed, Vec<Problem>> {
+    /// A plane problem on its mesh.
+    pub(crate) fn on(&self, mesh: &Mesh) -> Result<Posed<fem::problem::Problem>, Vec<Problem>> {
+        self.posed(|findings| pose(&self.file, mesh, findings))
+    }
+
+    /// A three-dimensional problem on its mesh.
+    pub(crate) fn in_space_on(&self, mesh: &Mesh) -> Result<Posed<fem::space::problem::Problem>, Vec<Problem>> {
+        self.posed(|findings| pose_in_space(&self.file, mesh, findings))
+    }
+
+    fn posed<P>(&self, pose: impl FnOnce(&mut Findings) -> Option<P>) -> Result<Posed<P>, Vec<Problem>> {
         let (_, mut findings) = text::parse(&self.text)?;
-        match pose(&self.file, mesh, &mut findings) {
-            Some(posed) if findings.problems.is_empty() => Ok(Posed { warnings: findings.warnings, ..posed }),
+        match pose(&mut findings) {
+            Some(problem) if findings.problems.is_empty() => {
+                let bodies = self.file.body.iter().map(|body| body.group.clone()).collect();
+                Ok(Posed { problem, bodies, warnings: findings.warnings })
+            }
             _ => Err(findings.in_order()),
         }
     }
@@ -111,7 +128,7 @@ impl FemProblem {
 /// Makes every choice the file leaves open, and checks what keys say about each other.
 fn choose(mut file: FemProblemFile, findings: &mut Findings) -> FemProblemFile {
     file.title.get_or_insert_with(|| file.mesh.file.clone());
-    file.analysis.get_or_insert_default();
+    let third = *file.analysis.get_or_insert_default();
     if file.body.is_empty() {
         findings.missing(&["body"], "at least one [[body]] with group, young_modulus_GPa, poisson_ratio");
     }
@@ -120,10 +137,14 @@ fn choose(mut file: FemProblemFile, findings: &mut Findings) -> FemProblemFile {
         findings.warnings.extend(slip.map(|slip| slip.warning()));
     }
     for (i, fixed) in file.fixed.iter_mut().enumerate() {
-        components(&mut fixed.components, &format!("fixed[{i}].components"), findings);
+        components(&mut fixed.components, third, &format!("fixed[{i}].components"), findings);
     }
     for (i, load) in file.load.iter_mut().enumerate() {
-        choose_load(load, &format!("load[{i}]"), findings);
+        choose_load(load, third, &format!("load[{i}]"), findings);
+    }
+    if third.in_plane().is_none() && !file.contact.is_empty() {
+        findings.not_allowed("contact", "a contact", "none: three-dimensional problems have no contact");
+        findings.help("bodies that share nodes are joined");
     }
     for (i, contact) in file.contact.iter_mut().enumerate() {
         let friction = *contact.friction.get_or_insert(0.0);
@@ -139,10 +160,18 @@ fn choose(mut file: FemProblemFile, findings: &mut Findings) -> FemProblemFile {
     file
 }
 
-fn choose_load(load: &mut LoadFile, key: &str, findings: &mut Findings) {
-    let force = format!("{key}.force_N_per_mm");
+fn choose_load(load: &mut LoadFile, third: ThirdDirection, key: &str, findings: &mut Findings) {
     let displacement = format!("{key}.displacement_mm");
-    match (load.force_N_per_mm, load.displacement_mm) {
+    // The force of such a problem, that of the others and whether it is given, and what a vector is.
+    let (force, (other, is_given), vector) = match third.in_plane() {
+        Some(_) => ("force_N_per_mm", ("force_N", load.force_N.is_some()), "two numbers, [x, y]"),
+        None => ("force_N", ("force_N_per_mm", load.force_N_per_mm.is_some()), "three numbers, [x, y, z]"),
+    };
+    if is_given {
+        let found = format!("{other} in a problem with analysis = {}", in_quotes(third));
+        findings.not_allowed(&format!("{key}.{other}"), found, format!("{force}, {vector}"));
+    }
+    match (load.force(), &load.displacement_mm) {
         (Some(_), None) => {
             if load.components.is_some() {
                 findings.not_allowed(
@@ -152,38 +181,58 @@ fn choose_load(load: &mut LoadFile, key: &str, findings: &mut Findings) {
                 );
             }
         }
-        (None, Some(_)) => components(&mut load.components, &format!("{key}.components"), findings),
-        (Some(_), Some(_)) => {
+        (None, Some(given)) => {
+            if given.len() != third.directions() {
+                let found = format!("a list of {} in a problem with analysis = {}", given.len(), in_quotes(third));
+                findings.not_allowed(&displacement, found, vector);
+            }
+            components(&mut load.components, third, &format!("{key}.components"), findings);
+        }
+        (Some((force, _)), Some(_)) => {
             findings.not_allowed(
                 &displacement,
-                "a displacement beside force_N_per_mm",
+                format!("a displacement beside {force}"),
                 "one of the two: where the displacement is given, the force follows",
             );
         }
-        (None, None) => findings.missing(&[&force, &displacement], "two numbers, [x, y]"),
+        (None, None) => findings.missing(&[&format!("{key}.{force}"), &displacement], vector),
     }
 }
 
-/// Fills in both directions; refuses none and repetitions.
-fn components(given: &mut Option<Vec<Component>>, key: &str, findings: &mut Findings) {
-    let given = given.get_or_insert_with(|| Component::BOTH.to_vec());
+/// An analysis as the file writes it.
+fn in_quotes(third: ThirdDirection) -> String {
+    serde_json::to_string(&third).unwrap_or_default()
+}
+
+/// Fills in all directions; refuses none, repetitions, and in the plane z.
+fn components(given: &mut Option<Vec<Component>>, third: ThirdDirection, key: &str, findings: &mut Findings) {
+    let all = &Component::ALL[..third.directions()];
+    let given = given.get_or_insert_with(|| all.to_vec());
+    for (i, component) in given.iter().enumerate().filter(|(_, component)| !all.contains(component)) {
+        let found = format!("{:?} in a problem with analysis = {}", component.name(), in_quotes(third));
+        let names: Vec<String> = all.iter().map(|component| format!("{:?}", component.name())).collect();
+        findings.not_allowed(&format!("{key}[{i}]"), found, names.join(" or "));
+    }
     let mut unique = given.clone();
     unique.sort();
     unique.dedup();
     if given.is_empty() || unique.len() != given.len() {
         let found = if given.is_empty() { "an empty list" } else { "a direction twice" };
-        findings.not_allowed(key, found, r#"["x"], ["y"] or ["x", "y"]"#);
+        let allowed = match third.in_plane() {
+            Some(_) => r#"["x"], ["y"] or ["x", "y"]"#,
+            None => r#"one or more of "x", "y", "z""#,
+        };
+        findings.not_allowed(key, found, allowed);
     }
 }
 
 /// Everything on the mesh; `None` where a body is in doubt, without which nothing else can be checked.
-fn pose(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) -> Option<Posed> {
+fn pose(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) -> Option<fem::problem::Problem> {
     let groups = groups::Groups::new(mesh);
-    let meshed = bodies::mesh_bodies(file, mesh, &groups, findings)?;
-    let sides = sides::Sides::of(&meshed.solid);
-    let place = meshed_groups::MeshedGroups { groups: &groups, meshed: &meshed, sides: &sides };
+    let bodies = bodies::mesh_bodies(file, mesh, &groups, findings)?;
+    let place = meshed_groups::MeshedGroups { groups: &groups, bodies: &bodies };
     let mut problem = fem::problem::Problem {
-        analysis: file.analysis.unwrap_or_default(),
+        analysis: file.third_direction().in_plane().unwrap_or_default(),
         contacts: surfaces::contacts(file, place, findings),
         held: loads::held(file, place, findings),
         ..Default::default()
@@ -191,8 +240,21 @@ fn pose(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) -> Option<P
     problem.forces_n_per_mm = loads::forces(file, place, &problem.held, findings);
     problem.materials = bodies::materials(file);
     if findings.problems.is_empty() {
-        floating::check(&problem, &meshed, findings);
+        floating::check(&problem, &bodies.solid, findings);
     }
-    problem.solid = meshed.solid;
-    Some(Posed { problem, bodies: file.body.iter().map(|body| body.group.clone()).collect(), warnings: Vec::new() })
+    problem.solid = bodies.solid;
+    Some(problem)
+}
+
+/// The same in space.
+fn pose_in_space(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) -> Option<fem::space::problem::Problem> {
+    let groups = groups::Groups::new(mesh);
+    let bodies = space_bodies::mesh_bodies(file, mesh, &groups, findings)?;
+    let place = meshed_groups::MeshedGroups { groups: &groups, bodies: &bodies };
+    let held = loads::held(file, place, findings);
+    let forces_n = loads::forces(file, place, &held, findings);
+    if findings.problems.is_empty() {
+        floating_in_space::check(&bodies, &held, findings);
+    }
+    Some(fem::space::problem::Problem { materials: bodies::materials(file), solid: bodies.solid, held, forces_n })
 }

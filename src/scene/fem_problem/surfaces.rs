@@ -2,14 +2,19 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::bodies::PlaneBodies;
 use super::file::FemProblemFile;
-use super::meshed_groups::MeshedGroups;
+use super::meshed_groups::{Bodies, MeshedGroups};
 use super::sides::Side;
 use crate::fem::problem::{ContactPair, Edge};
 use crate::scene::findings::Findings;
 
 /// All pairs of surfaces.
-pub(super) fn contacts(file: &FemProblemFile, place: MeshedGroups<'_>, findings: &mut Findings) -> Vec<ContactPair> {
+pub(super) fn contacts(
+    file: &FemProblemFile,
+    place: MeshedGroups<'_, PlaneBodies>,
+    findings: &mut Findings,
+) -> Vec<ContactPair> {
     let mut slaves: BTreeMap<[u32; 2], usize> = BTreeMap::new();
     let mut pairs = Vec::new();
     for (i, contact) in file.contact.iter().enumerate() {
@@ -36,13 +41,13 @@ pub(super) fn contacts(file: &FemProblemFile, place: MeshedGroups<'_>, findings:
 
 /// The edges of the group that `key` names: its lines, or, of a set of nodes, the sides on the surface all of whose nodes
 /// it holds.
-fn surface(name: &str, key: &str, place: MeshedGroups<'_>, findings: &mut Findings) -> Vec<Edge> {
+fn surface(name: &str, key: &str, place: MeshedGroups<'_, PlaneBodies>, findings: &mut Findings) -> Vec<Edge> {
     let Some(group) = place.groups.find(name, key, findings) else { return Vec::new() };
     let lines = &group.cells[1];
     if lines.is_empty() {
-        let held: BTreeSet<u32> = group.nodes.iter().filter_map(|&node| place.meshed.node(node)).collect();
+        let held: BTreeSet<u32> = group.nodes.iter().filter_map(|&node| place.bodies.nodes().node(node)).collect();
         let inside = |edge: &Edge| edge.ends.iter().chain(&edge.middle).all(|node| held.contains(node));
-        let edges: Vec<Edge> = place.sides.surface().map(|side| side.edge).filter(inside).collect();
+        let edges: Vec<Edge> = place.bodies.sides.surface().map(|side| side.edge).filter(inside).collect();
         if edges.is_empty() {
             let found = format!("{name:?}, which holds {}", group.in_words());
             let allowed = "a group of lines, or a set of nodes that holds whole edges of a surface";
@@ -53,7 +58,7 @@ fn surface(name: &str, key: &str, place: MeshedGroups<'_>, findings: &mut Findin
     let mut edges: BTreeMap<[u32; 2], Edge> = BTreeMap::new();
     let (mut nowhere, mut inside) = (0, None);
     for &line in lines {
-        match place.line_side(place.groups.cell(line).1) {
+        match place.bodies.line_side(place.groups.cell(line).1) {
             None => nowhere += 1,
             Some(side) if !side.is_on_surface() => inside = Some((side, inside.map_or(0, |(_, count)| count) + 1)),
             Some(side) => {
@@ -75,8 +80,8 @@ fn surface(name: &str, key: &str, place: MeshedGroups<'_>, findings: &mut Findin
 }
 
 /// Inside which body a side lies, or between which two.
-fn where_inside(side: &Side, place: MeshedGroups<'_>) -> String {
-    let body = |element: Option<usize>| element.map(|number| place.meshed.solid.elements[number].material);
+fn where_inside(side: &Side, place: MeshedGroups<'_, PlaneBodies>) -> String {
+    let body = |element: Option<usize>| element.map(|number| place.bodies.solid.elements[number].material);
     match side.elements.map(body) {
         [Some(one), Some(other)] if one != other => "between bodies that are joined there".to_owned(),
         _ => "inside a body".to_owned(),

@@ -7,6 +7,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 
 use crate::gear::{Gear, PerGear};
 use crate::scene::Resolved;
@@ -42,7 +43,6 @@ pub(crate) struct Summary {
     pub title: String,
     program_version: String,
     scene_hash: String,
-    stopped: String,
 }
 
 /// What is read of a row of the profiles.
@@ -74,17 +74,7 @@ impl RunFolder {
 
     /// Reads the folder of a finished run.
     pub(crate) fn read(folder: &Path) -> Result<Self, RunFolderError> {
-        let path = folder.join(SUMMARY);
-        let text = read(&path)?;
-        let summary: Summary = serde_json::from_str(&text).map_err(|error| RunFolderError::Damaged {
-            path: path.clone(),
-            line: error.line() as u64,
-            found: error.to_string(),
-            allowed: "what gearwear run writes".to_owned(),
-        })?;
-        if summary.stopped != "completed" {
-            return Err(RunFolderError::Unfinished { path, found: summary.stopped });
-        }
+        let summary = summary(folder)?;
         let snapshots = snapshots(&folder.join(PROFILES))?;
         // The scene is resolved by others, who say better what is wrong with it; that it is there belongs here.
         read(&folder.join(SCENE))?;
@@ -117,14 +107,37 @@ impl RunFolder {
     }
 }
 
-fn read(path: &Path) -> Result<String, RunFolderError> {
+/// What `S` holds of the summary of a finished run.
+pub(crate) fn summary<S: DeserializeOwned>(folder: &Path) -> Result<S, RunFolderError> {
+    #[derive(Deserialize)]
+    struct Ended<S> {
+        stopped: String,
+        #[serde(flatten)]
+        rest: S,
+    }
+    let path = folder.join(SUMMARY);
+    let ended: Ended<S> = serde_json::from_str(&read(&path)?).map_err(|error| RunFolderError::Damaged {
+        path: path.clone(),
+        line: error.line() as u64,
+        found: error.to_string(),
+        allowed: "what gearwear run writes".to_owned(),
+    })?;
+    if ended.stopped == "completed" {
+        Ok(ended.rest)
+    } else {
+        Err(RunFolderError::Unfinished { path, found: ended.stopped })
+    }
+}
+
+/// The text of a file of a run.
+pub(crate) fn read(path: &Path) -> Result<String, RunFolderError> {
     fs::read_to_string(path).map_err(|reason| RunFolderError::Unreadable { path: path.to_owned(), reason })
 }
 
 /// The wear in `profiles.csv`.
 fn snapshots(path: &Path) -> Result<Vec<Snapshot>, RunFolderError> {
     let text = read(path)?;
-    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes());
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
     let mut snapshots: Vec<Snapshot> = Vec::new();
     for row in reader.deserialize::<ProfileRow>() {
         let row = row.map_err(|error| RunFolderError::Damaged {

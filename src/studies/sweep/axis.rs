@@ -1,22 +1,23 @@
-//! A key that is varied, as the user writes it: `KEY=FROM:TO:COUNT`.
+//! A key that is varied, as the user writes it: `KEY=FROM:TO:COUNT`, `KEY=FROM:TO:COUNT:log` or `KEY=VALUE,VALUE,…`.
 
 use std::str::FromStr;
 
 use crate::scene::draft::other_way_to_say;
 use crate::scene::key::{KeyError, NumberKey};
-use crate::studies::sweep::record::{SweepAxis, plain};
+use crate::studies::sweep::record::{Spacing, SweepAxis, linked_keys, plain};
 
 /// Values of one key.
 pub(crate) const MOST_VALUES: usize = 100_000;
 /// Combinations of a sweep.
 pub(crate) const MOST_COMBINATIONS: usize = 1_000_000;
 
-const FORM: &str = "KEY=FROM:TO:COUNT, such as pair.face_width_mm=10:30:21";
+const FORM: &str =
+    "KEY=FROM:TO:COUNT, such as pair.face_width_mm=10:30:21, with :log for equal ratios, or KEY=VALUE,VALUE,…";
 
 /// What is wrong with what is to be varied.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum AxisError {
-    /// Not of the form `KEY=FROM:TO:COUNT`.
+    /// Not of one of the forms.
     #[error("found {given:?}; allowed: {FORM}")]
     Form { given: String },
     #[error(transparent)]
@@ -33,6 +34,15 @@ pub(crate) enum AxisError {
     /// Several values, but one end.
     #[error("{key}: found {count} values for the range {from}:{from}; allowed: {from}:{from}:1, or FROM below TO", from = plain(*.from))]
     SameEnds { key: String, from: f64, count: usize },
+    /// Ratios of numbers of which one is not positive.
+    #[error("{key}: found the range {from}:{to} by equal ratios; allowed: FROM above 0", from = plain(*.from), to = plain(*.to))]
+    NoRatio { key: String, from: f64, to: f64 },
+    /// A list that falls or repeats a value.
+    #[error("{key}: found {value} after {before}; allowed: rising values", value = plain(*.value), before = plain(*.before))]
+    NotRising { key: String, before: f64, value: f64 },
+    /// Alternatives of a key without an end.
+    #[error("found {key:?}; allowed: alternatives in braces, such as pair.{{pinion,wheel}}.tip_rounding_mm")]
+    Braces { key: String },
     /// A value between whole numbers for a key that takes only those.
     #[error("{key}: found the value {value}; allowed: whole numbers, so choose a COUNT that steps over whole numbers")]
     NotWhole {
@@ -66,41 +76,72 @@ impl AxisError {
     }
 }
 
-/// Reads `KEY=FROM:TO:COUNT` and checks it against what the key takes.
+/// Reads a key with its values and checks them against what the key takes.
 ///
 /// A range that lies partly outside what the key takes is kept: those combinations become rows with their error.
 pub(crate) fn parse(given: &str) -> Result<SweepAxis, AxisError> {
     let form = || AxisError::Form { given: given.to_owned() };
-    let (key, range) = given.split_once('=').ok_or_else(form)?;
-    let key = key.trim();
-    let parts: Vec<&str> = range.split(':').map(str::trim).collect();
-    let [from, to, count] = parts[..] else { return Err(form()) };
-    let takes = NumberKey::find(key)?;
-    let owned = || key.to_owned();
-    let end = |end: &'static str, text: &str| {
-        let value = f64::from_str(text).ok().filter(|value| value.is_finite());
-        value.ok_or_else(|| AxisError::NotANumber { key: owned(), end, found: text.to_owned() })
+    let (key, values) = given.split_once('=').ok_or_else(form)?;
+    let key = key.trim().to_owned();
+    let keys = linked_keys(&key);
+    if keys.iter().any(|key| key.contains(['{', '}'])) {
+        return Err(AxisError::Braces { key });
+    }
+    let takes = keys.iter().map(|key| NumberKey::find(key)).collect::<Result<Vec<_>, _>>()?;
+    let whole = takes.iter().any(NumberKey::whole);
+    let parts: Vec<&str> = values.split(':').map(str::trim).collect();
+    let axis = match parts[..] {
+        [list] if !list.is_empty() => listed(key, list, whole)?,
+        [from, to, count] => range(key, [from, to], count, Spacing::Even, whole)?,
+        [from, to, count, "log"] => range(key, [from, to], count, Spacing::Logarithmic, whole)?,
+        _ => return Err(form()),
     };
-    let (from, to) = (end("FROM", from)?, end("TO", to)?);
-    let counted = count.parse::<usize>().ok().filter(|count| (1..=MOST_VALUES).contains(count));
-    let count = counted.ok_or_else(|| AxisError::Count { key: owned(), found: count.to_owned() })?;
-    if from > to {
-        return Err(AxisError::Reversed { key: owned(), from, to });
-    }
-    match (count, from == to) {
-        (1, false) => return Err(AxisError::OneValue { key: owned(), from, to }),
-        (2.., true) => return Err(AxisError::SameEnds { key: owned(), from, count }),
-        _ => {}
-    }
-    let axis = SweepAxis { key: owned(), from, to, count, whole: takes.whole() };
     let values = axis.values();
     if let Some(&value) = values.iter().find(|value| axis.whole && value.fract() != 0.0) {
-        return Err(AxisError::NotWhole { key: owned(), value });
+        return Err(AxisError::NotWhole { key: axis.key, value });
     }
-    if !values.iter().any(|&value| takes.holds(value)) {
-        return Err(AxisError::NotAllowed { key: owned(), from, to, allowed: takes.allowed() });
+    match takes.iter().find(|takes| !values.iter().any(|&value| takes.holds(value))) {
+        Some(takes) => {
+            let SweepAxis { key, from, to, .. } = axis;
+            Err(AxisError::NotAllowed { key, from, to, allowed: takes.allowed() })
+        }
+        None => Ok(axis),
     }
-    Ok(axis)
+}
+
+fn number(key: &str, end: &'static str, text: &str) -> Result<f64, AxisError> {
+    let value = f64::from_str(text).ok().filter(|value| value.is_finite());
+    value.ok_or_else(|| AxisError::NotANumber { key: key.to_owned(), end, found: text.to_owned() })
+}
+
+/// Values one by one.
+fn listed(key: String, list: &str, whole: bool) -> Result<SweepAxis, AxisError> {
+    let values = list.split(',').map(|value| number(&key, "a value", value.trim())).collect::<Result<Vec<f64>, _>>()?;
+    if let Some(two) = values.windows(2).find(|two| two[1] <= two[0]) {
+        return Err(AxisError::NotRising { key, before: two[0], value: two[1] });
+    }
+    let (from, to) = (values[0], values[values.len() - 1]);
+    Ok(SweepAxis { key, from, to, count: values.len(), whole, spacing: Spacing::Listed(values) })
+}
+
+/// Values between two ends.
+fn range(
+    key: String,
+    [from, to]: [&str; 2],
+    count: &str,
+    spacing: Spacing,
+    whole: bool,
+) -> Result<SweepAxis, AxisError> {
+    let (from, to) = (number(&key, "FROM", from)?, number(&key, "TO", to)?);
+    let counted = count.parse::<usize>().ok().filter(|count| (1..=MOST_VALUES).contains(count));
+    let Some(count) = counted else { return Err(AxisError::Count { key, found: count.to_owned() }) };
+    match (count, from == to) {
+        _ if from > to => Err(AxisError::Reversed { key, from, to }),
+        _ if spacing == Spacing::Logarithmic && from <= 0.0 => Err(AxisError::NoRatio { key, from, to }),
+        (1, false) => Err(AxisError::OneValue { key, from, to }),
+        (2.., true) => Err(AxisError::SameEnds { key, from, count }),
+        _ => Ok(SweepAxis { key, from, to, count, whole, spacing }),
+    }
 }
 
 /// Reads all of them and checks that they go together.
@@ -108,13 +149,15 @@ pub(crate) fn parse_all<'a>(given: impl IntoIterator<Item = &'a str>) -> Result<
     let mut axes: Vec<SweepAxis> = Vec::new();
     for given in given {
         let axis = parse(given)?;
-        for before in &axes {
-            if before.key == axis.key {
-                return Err(AxisError::Twice { key: axis.key });
+        let mut varied: Vec<String> = axes.iter().flat_map(|axis| linked_keys(&axis.key)).collect();
+        for key in linked_keys(&axis.key) {
+            if varied.contains(&key) {
+                return Err(AxisError::Twice { key });
             }
-            if other_way_to_say(&axis.key) == Some(before.key.as_str()) {
-                return Err(AxisError::SaidTwice { key: before.key.clone(), other: axis.key });
+            if let Some(before) = varied.iter().find(|before| other_way_to_say(&key) == Some(before.as_str())) {
+                return Err(AxisError::SaidTwice { key: before.clone(), other: key });
             }
+            varied.push(key);
         }
         axes.push(axis);
     }
@@ -128,7 +171,7 @@ pub(crate) fn parse_all<'a>(given: impl IntoIterator<Item = &'a str>) -> Result<
 
 /// Values of `axis` that the key does not take, in words; `None` where it takes all.
 pub(crate) fn partly_not_allowed(axis: &SweepAxis) -> Option<String> {
-    let takes = NumberKey::find(&axis.key).ok()?;
+    let takes = NumberKey::find(linked_keys(&axis.key).first()?).ok()?;
     let refused = axis.values().into_iter().filter(|&value| !takes.holds(value)).count();
     let (key, allowed, all) = (&axis.key, takes.allowed(), axis.count);
     (refused > 0).then(|| format!("{key}: {refused} of {all} values are not allowed ({allowed}): rows with an error"))
@@ -157,10 +200,32 @@ mod tests {
     }
 
     #[test]
+    fn lists_ratios_and_linked_keys_are_read() {
+        let listed = parse("operation.pinion_torque_Nm=100, 250,400").unwrap();
+        assert_eq!(listed.values(), [100.0, 250.0, 400.0]);
+        assert_eq!(listed.as_given(), "operation.pinion_torque_Nm=100,250,400");
+        let ratios = parse("wear.coefficient_m2_per_N=1e-19:1e-17:5:log").unwrap();
+        let expected = [1e-19, 3.16227766017e-19, 1e-18, 3.16227766017e-18, 1e-17];
+        assert!(ratios.values().iter().zip(expected).all(|(value, expected)| (value / expected - 1.0).abs() < 1e-11));
+        assert_eq!(ratios.value(2), 1e-18, "rounded as one would write it");
+        let linked = parse("pair.{pinion,wheel}.tip_relief.amount_um=0:20:3").unwrap();
+        assert_eq!(linked.values(), [0.0, 10.0, 20.0]);
+        assert_eq!(linked_keys(&linked.key), ["pair.pinion.tip_relief.amount_um", "pair.wheel.tip_relief.amount_um"]);
+    }
+
+    #[test]
     fn what_is_wrong_is_said() {
         for (given, parts) in [
             (&["pair.face_width_mm"][..], &["found \"pair.face_width_mm\"", "KEY=FROM:TO:COUNT"][..]),
             (&["pair.face_width_mm=10:30"], &["KEY=FROM:TO:COUNT"]),
+            (&["pair.face_width_mm="], &["KEY=FROM:TO:COUNT"]),
+            (&["pair.face_width_mm=10,30,20"], &["found 20 after 30", "rising"]),
+            (&["pair.face_width_mm=10,,20"], &["\"\" as a value"]),
+            (&["pair.profile_shift_sum=0:1:3:log"], &["unknown key"]),
+            (&["wear.coefficient_m2_per_N=0:1e-17:3:log"], &["by equal ratios", "FROM above 0"]),
+            (&["pair.{pinion,wheel.tip_rounding_mm=0,0.1"], &["alternatives in braces"]),
+            (&["pair.{pinion,rack}.teeth=20,21"], &["unknown key pair.rack.teeth"]),
+            (&["pair.{pinion,wheel}.teeth=20,21", "pair.wheel.teeth=30,31"], &["pair.wheel.teeth twice"]),
             (&["pair.face_width_mm=10:30:21:2"], &["KEY=FROM:TO:COUNT"]),
             (&["pair.face_widht_mm=10:30:21"], &["unknown key pair.face_widht_mm"]),
             (&["contact.surface=1:2:2"], &["contact.surface takes", "\"winkler\""]),

@@ -12,7 +12,7 @@ use crate::scene::draft::Draft;
 use crate::scene::loaded::{LoadedScene, NamedFiles};
 use crate::scene::{Problem, Resolved, short_hash};
 use crate::studies::sweep::figures::FIGURES;
-use crate::studies::sweep::record::{SweepAxis, SweepIdentity, SweepRow};
+use crate::studies::sweep::record::{SweepAxis, SweepIdentity, SweepRow, linked_keys};
 use crate::studies::sweep::verification::{Chosen, RowVerification};
 
 /// A sweep that can be run.
@@ -56,7 +56,7 @@ impl Sweep {
         for (axis, value) in self.identity.axes.iter().zip(self.identity.values(index)) {
             // Whole numbers were checked to be whole; a cast keeps any that are of a size that a scene allows.
             let value = if axis.whole { toml::Value::Integer(value as i64) } else { toml::Value::Float(value) };
-            draft.set(&axis.key, value);
+            linked_keys(&axis.key).iter().for_each(|key| draft.set(key, value.clone()));
         }
         let mut resolved = draft.resolve()?;
         resolved.scene.verify = false;

@@ -8,32 +8,66 @@ use super::verification::{RowVerification, SweepVerification};
 /// Digits of a value between the ends of a range.
 const DIGITS: i32 = 12;
 
-/// A key of the scene with the values it takes, evenly spaced, both ends included.
+/// How the values of a key are spaced.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Spacing {
+    /// Evenly, both ends included.
+    #[default]
+    Even,
+    /// By equal ratios, both ends included.
+    Logarithmic,
+    /// As they are listed, rising.
+    Listed(Vec<f64>),
+}
+
+impl Spacing {
+    fn is_even(&self) -> bool {
+        *self == Self::Even
+    }
+}
+
+/// A key of the scene with the values it takes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct SweepAxis {
-    /// Path of the key, such as `pair.face_width_mm`.
+    /// Path of the key, such as `pair.face_width_mm`, or of several that have the same value: `pair.{pinion,wheel}.tip_rounding_mm`.
     pub key: String,
     pub from: f64,
     pub to: f64,
     pub count: usize,
     /// Whether the key takes whole numbers.
     pub whole: bool,
+    #[serde(default, skip_serializing_if = "Spacing::is_even")]
+    pub spacing: Spacing,
+}
+
+/// The keys that a path with alternatives stands for: `a.{b,c}.d` for `a.b.d` and `a.c.d`.
+pub(crate) fn linked_keys(key: &str) -> Vec<String> {
+    let Some((before, rest)) = key.split_once('{') else { return vec![key.to_owned()] };
+    let Some((alternatives, after)) = rest.split_once('}') else { return vec![key.to_owned()] };
+    let each = |name: &str| linked_keys(&format!("{before}{}{after}", name.trim()));
+    alternatives.split(',').flat_map(each).collect()
 }
 
 impl SweepAxis {
     /// The value number `index`, from 0:
     ///
     /// ```text
-    /// x_i = ((n − 1 − i) from + i to) / (n − 1)
+    /// x_i = ((n − 1 − i) from + i to) / (n − 1)            x_i = from (to/from)^(i/(n − 1))
     /// ```
     ///
     /// Values between the ends are rounded to twelve digits of the larger end, so that they read as one would write them.
     pub(crate) fn value(&self, index: usize) -> f64 {
         let last = self.count.saturating_sub(1);
-        if index == 0 {
+        if let Spacing::Listed(values) = &self.spacing {
+            values[index.min(last)]
+        } else if index == 0 {
             self.from
         } else if index >= last {
             self.to
+        } else if self.spacing == Spacing::Logarithmic {
+            let between = self.from * (self.to / self.from).powf(index as f64 / last as f64);
+            format!("{between:.*e}", (DIGITS - 1) as usize).parse().unwrap_or(between)
         } else {
             let between = ((last - index) as f64 * self.from + index as f64 * self.to) / last as f64;
             let largest = self.from.abs().max(self.to.abs());
@@ -45,6 +79,17 @@ impl SweepAxis {
 
     pub(crate) fn values(&self) -> Vec<f64> {
         (0..self.count).map(|index| self.value(index)).collect()
+    }
+
+    /// As the user may write it: `pair.face_width_mm=10:30:21`.
+    pub(crate) fn as_given(&self) -> String {
+        let range = || format!("{}:{}:{}", plain(self.from), plain(self.to), self.count);
+        let values = match &self.spacing {
+            Spacing::Even => range(),
+            Spacing::Logarithmic => format!("{}:log", range()),
+            Spacing::Listed(values) => values.iter().map(|value| plain(*value)).collect::<Vec<_>>().join(","),
+        };
+        format!("{}={values}", self.key)
     }
 }
 
@@ -114,8 +159,7 @@ impl SweepIdentity {
     /// What is not the same in `other`, in words; empty where both are one sweep.
     pub(crate) fn differences(&self, other: &Self) -> Vec<String> {
         let axes = |of: &Self| {
-            let said: Vec<String> =
-                of.axes.iter().map(|a| format!("{}={}:{}:{}", a.key, plain(a.from), plain(a.to), a.count)).collect();
+            let said: Vec<String> = of.axes.iter().map(SweepAxis::as_given).collect();
             said.join(" ")
         };
         let yes = |is: bool| if is { "yes" } else { "no" }.to_owned();
@@ -265,7 +309,7 @@ mod tests {
     use super::*;
 
     fn axis(key: &str, from: f64, to: f64, count: usize) -> SweepAxis {
-        SweepAxis { key: key.to_owned(), from, to, count, whole: false }
+        SweepAxis { key: key.to_owned(), from, to, count, whole: false, spacing: Spacing::Even }
     }
 
     /// Ends are as given, and the values between them as one would write them.

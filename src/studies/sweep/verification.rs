@@ -238,10 +238,11 @@ impl<'a> SweepVerification<'a> {
 mod tests {
     use super::*;
     use crate::studies::sweep::figures::FIGURES;
-    use crate::studies::sweep::record::SweepAxis;
+    use crate::studies::sweep::record::{Spacing, SweepAxis};
 
     fn identity(counts: &[usize]) -> SweepIdentity {
-        let axis = |&count| SweepAxis { key: "k".to_owned(), from: 0.0, to: 1.0, count, whole: false };
+        let axis =
+            |&count| SweepAxis { key: "k".to_owned(), from: 0.0, to: 1.0, count, whole: false, spacing: Spacing::Even };
         SweepIdentity { verify: true, axes: counts.iter().map(axis).collect(), ..SweepIdentity::default() }
     }
 

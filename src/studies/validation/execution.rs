@@ -21,7 +21,7 @@ use crate::pipeline::fem_scene::{self, FemPairError};
 use crate::pipeline::guarded::guarded;
 use crate::pipeline::{self, RunError};
 use crate::report;
-use crate::report::csv_table::{self, Provenance};
+use crate::report::csv_table::{self, Column};
 use crate::report::slice_table;
 use crate::report::tables;
 use crate::results::run::StopReason;
@@ -171,15 +171,14 @@ impl Task<'_> {
             _ => not_converged(error),
         })?;
         let record = done.record;
-        let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
         let mut value = Value::group([
             ("summary", tree(&record.summary)?),
-            ("history", table(|out| csv_table::table(out, provenance, &record.history))?),
-            ("mesh_cycle", table(|out| csv_table::table(out, provenance, &record.mesh_cycle))?),
+            ("history", table(|out| csv_table::table(out, &record.history))?),
+            ("mesh_cycle", table(|out| csv_table::table(out, &record.mesh_cycle))?),
         ]);
         for gear in Gear::BOTH {
             let flank = &record.flanks[gear];
-            let mut columns = table(|out| tables::flank(out, provenance, flank))?;
+            let mut columns = table(|out| tables::flank(out, flank))?;
             columns.add("path_point_radius_mm", tree(&flank.path_point_radius_mm)?);
             // The wear at each row of the history, a column a row: `profiles.csv` of one gear.
             let snapshots = flank.snapshot_wear_um.iter().map(|profile| Value::column(profile.iter().copied()));
@@ -188,7 +187,7 @@ impl Task<'_> {
         }
         if let Some(slices) = &record.slices {
             let path = &record.summary.geometry.curvature_radius_mm;
-            value.add("slices", table(|out| slice_table::slices(out, provenance, slices, path))?);
+            value.add("slices", table(|out| slice_table::slices(out, slices, path))?);
         }
         let work = counts(&tree(&record.summary.work)?);
         let failure = failure(done.failure, record.summary.stopped);
@@ -208,8 +207,7 @@ impl Task<'_> {
             FemProblemError::Input(problems) => wrong(problems),
             FemProblemError::Solve(error) => not_converged(error),
         })?;
-        let provenance = Provenance::of_problem(&record.summary.program_version, &record.summary.problem_hash);
-        let contact = table(|out| report::fem::contact_table(out, provenance, &record.contacts))?;
+        let contact = table(|out| report::fem::contact_table(out, record.contacts()))?;
         let value = Value::group([("summary", tree(&record.summary)?), ("contact", contact)]);
         Ok(Executed::of(value, counts(&tree(&record.summary.work)?), None, None))
     }
@@ -225,11 +223,10 @@ impl Task<'_> {
             _ => not_converged(error),
         })?;
         let record = done.record;
-        let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
-        let pressure = table(|out| report::fem_pair::pressure_table::pressure(out, provenance, &record.pressure))?;
+        let pressure = table(|out| report::fem_pair::pressure_table::pressure(out, &record.pressure))?;
         let value = Value::group([
             ("summary", tree(&record.summary)?),
-            ("mesh_cycle", table(|out| csv_table::table(out, provenance, &record.mesh_cycle))?),
+            ("mesh_cycle", table(|out| csv_table::table(out, &record.mesh_cycle))?),
             ("pressure", pressure),
         ]);
         let work = [("iterations", record.summary.iterations as u64), ("positions", record.summary.positions as u64)];
@@ -268,7 +265,7 @@ fn counts(value: &Value) -> BTreeMap<String, u64> {
 }
 
 /// The table that `write` writes.
-fn table(write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<Value, Failed> {
+fn table(write: impl FnOnce(&mut dyn Write) -> io::Result<Vec<Column>>) -> Result<Value, Failed> {
     let mut bytes = Vec::new();
     write(&mut bytes).map_err(not_converged)?;
     Value::of_csv(&bytes).map_err(not_converged)

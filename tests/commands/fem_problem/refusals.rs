@@ -155,7 +155,7 @@ fn bodies_that_nothing_holds() {
 
 impl Case {
     /// Runs it, which must be refused saying all of `parts`.
-    fn says(&self, parts: &[&str]) {
+    pub(super) fn says(&self, parts: &[&str]) {
         let (status, _, message) = self.run();
         assert_eq!(status, Some(2), "{message}");
         for part in parts {

@@ -38,7 +38,7 @@ impl Laboratory {
     pub fn new(scene: &str, truth: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let (resolved, record) = run(scene);
-        report::write_data_and_page(&record, folder.path()).unwrap();
+        report::write_data(&record, folder.path()).unwrap();
         report::write_summary(&record.summary, folder.path()).unwrap();
         let pair = GearPair::new(&resolved.scene.pair).unwrap();
         let involute = pair.teeth.pinion.involute;

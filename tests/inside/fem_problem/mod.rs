@@ -3,6 +3,7 @@
 mod case;
 #[path = "../../program/cylinder_on_block.rs"]
 mod cylinder_on_block;
+mod in_space;
 
 use case::mesh_of;
 use cylinder_on_block::TEXT;
@@ -21,7 +22,7 @@ fn coarse(kind: ElementKind) -> Problem {
     CylinderOnBlock::nafems(kind, 2.0).problem()
 }
 
-fn posed(text: &str, mesh: &Mesh) -> Posed {
+fn posed(text: &str, mesh: &Mesh) -> Posed<Problem> {
     FemProblem::from_toml(text).unwrap().on(mesh).unwrap_or_else(|problems| panic!("{problems:?}"))
 }
 

@@ -10,7 +10,8 @@ use gearwear::report;
 use gearwear::report::ReportError;
 use gearwear::results::run::RunRecord;
 
-const FILES: [&str; 8] = [
+const FILES: [&str; 9] = [
+    "columns.json",
     "history.csv",
     "mesh_cycle.csv",
     "pinion.csv",
@@ -36,12 +37,13 @@ fn names_in(dir: &Path) -> Vec<String> {
 
 /// Everything a run leaves behind.
 fn write_all(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
-    let mut paths = report::write_data_and_page(record, dir)?;
+    let mut paths = report::write_data(record, dir)?;
+    paths.push(report::write_page(record, dir)?);
     paths.push(report::write_summary(&record.summary, dir)?);
     Ok(paths)
 }
 fn read_csv(dir: &Path, name: &str) -> (Vec<String>, Vec<Vec<String>>) {
-    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_path(dir.join(name)).unwrap();
+    let mut reader = csv::Reader::from_path(dir.join(name)).unwrap();
     let header = reader.headers().unwrap().iter().map(String::from).collect();
     let rows = reader.records().map(|row| row.unwrap().iter().map(String::from).collect()).collect();
     (header, rows)
@@ -146,12 +148,20 @@ fn profiles_hold_both_flanks_at_every_snapshot() {
     assert_eq!(wheel_at_first, record.flanks.wheel.snapshot_wear_um[0]);
 }
 
+/// Any plain reader reads the tables: their first line names the columns, and what these hold stands beside.
 #[test]
-fn tables_say_where_they_come_from() {
+fn columns_are_described_beside_the_tables() {
     let dir = written(&plausible::run());
+    let text = fs::read_to_string(dir.path().join("columns.json")).unwrap();
+    let columns: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!([&columns["program_version"], &columns["scene_hash"]], ["0.1.0", "0123456789abcdef"]);
     for name in FILES.iter().filter(|name| name.ends_with(".csv")) {
-        let text = fs::read_to_string(dir.path().join(name)).unwrap();
-        assert!(text.starts_with("# gearwear 0.1.0, scene 0123456789abcdef\n"), "{name}");
+        let (header, _) = read_csv(dir.path(), name);
+        let described = columns["files"][name].as_object().unwrap();
+        assert_eq!(described.len(), header.len(), "{name}");
+        for column in header {
+            assert!(!described[&column].as_str().unwrap().is_empty(), "{name}: {column}");
+        }
     }
 }
 

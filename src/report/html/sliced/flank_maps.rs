@@ -11,7 +11,7 @@ use crate::gear::Gear;
 use crate::report::chart::{Chart, Dash, Trace, label};
 use crate::report::html::active_flank::ActiveFlank;
 use crate::report::html::number::{figure, significant};
-use crate::report::html::reading::{greatest, place_on_flank};
+use crate::report::html::reading::{greatest, place_on_flank, yield_note};
 use crate::results::run::FlankRecord;
 
 /// Positions of the tooth whose lines of contact are drawn.
@@ -181,7 +181,9 @@ fn sliding_reading(flank: &FlankRecord) -> String {
 /// Where the pressure is greatest, and what it is where the first slice begins its contact.
 fn pressure_reading(run: SlicedRun<'_>, gear: Gear, field: &[f64], when: &str) -> String {
     let flank = &run.record.flanks[gear];
-    let mut reading = format!("{when}, the {} feels at most {}.", gear.name(), peak_of(flank, field, "MPa"));
+    let mut reading =
+        format!("{when}, the greatest pressure on the {} is {}.", gear.name(), peak_of(flank, field, "MPa"));
+    reading.push_str(yield_note(greatest(field).map_or(0.0, |at| at.value)));
     // The slice that is farthest ahead enters first.
     if let Some(entering) = greatest(&run.slices.ahead_mm) {
         let points = flank.radius_mm.len();

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::gear::PerGear;
+use crate::gear::{Gear, PerGear};
 use crate::report::html::number::{change, fixed, percent, significant};
 use crate::report::html::table::{Cell, cells, row, table};
 use crate::results::run::{HelicalSummary, OverWidthSummary};
@@ -27,6 +27,15 @@ fn slices(h: &HelicalSummary) -> Markup {
     if let Some([twist, bending]) = h.coupling_reach_mm {
         rows.push(row("Reach of the coupling, twist", "mm", [significant(twist, 3)]));
         rows.push(row("Reach of the coupling, bending", "mm", [significant(bending, 3)]));
+    }
+    for gear in Gear::BOTH {
+        if let Some(twist_um) = h.shaft_twist_um[gear] {
+            let label = format!("Twist of the {} under an even load, far end", gear.name());
+            rows.push(row(label, "µm", [significant(twist_um, 3)]));
+        }
+    }
+    if let Some(slope_um) = h.slope_of_axes_um {
+        rows.push(row("Helix slope of axes out of parallel", "µm", [significant(slope_um, 3)]));
     }
     table("Face width and slices", &["value"], rows)
 }

@@ -17,7 +17,7 @@ pub(crate) mod tables;
 
 use std::path::{Path, PathBuf};
 
-use crate::report::csv_table::Provenance;
+use crate::report::csv_table::{CsvFiles, Provenance};
 use crate::report::files::{ReportError, create_folder, place, remove, write_json};
 use crate::studies::accuracy::record::{AccuracyRecord, CALIBRATION_FILE, OVER_WIDTH_FILE};
 
@@ -33,6 +33,7 @@ pub(crate) fn write(record: &AccuracyRecord, dir: &Path) -> Result<Vec<PathBuf>,
     remove(dir, RECOMMENDED)?;
     remove(dir, OVER_WIDTH_FILE)?;
     let provenance = Provenance::of_scene(&record.program_version, &record.scene_hash);
+    let mut csv = CsvFiles::new(dir, provenance);
     let mut written = vec![place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?];
     for (name, text) in [(CALIBRATION_FILE, &record.calibration_json), (RECOMMENDED, &record.recommended_toml)] {
         if let Some(text) = text {
@@ -40,13 +41,14 @@ pub(crate) fn write(record: &AccuracyRecord, dir: &Path) -> Result<Vec<PathBuf>,
         }
     }
     written.extend([
-        place(dir, "accuracy.csv", |out| tables::runs(out, provenance, record))?,
-        place(dir, "wear_profiles.csv", |out| tables::profiles(out, provenance, record))?,
+        csv.place("accuracy.csv", |out| tables::runs(out, record))?,
+        csv.place("wear_profiles.csv", |out| tables::profiles(out, record))?,
     ]);
     if record.has_slices() {
-        written.push(place(dir, OVER_WIDTH_FILE, |out| tables::over_width(out, provenance, record))?);
+        written.push(csv.place(OVER_WIDTH_FILE, |out| tables::over_width(out, record))?);
     }
     written.extend([
+        csv.finish()?,
         place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?,
         place(dir, LAST, |out| write_json(out, record))?,
     ]);

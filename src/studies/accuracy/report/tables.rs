@@ -9,7 +9,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::gear::{Gear, PerGear};
-use crate::report::csv_table::{Provenance, table, table_of, variants};
+use crate::report::csv_table::{Column, table, table_of, variants};
 use crate::studies::accuracy::record::{AccuracyRecord, Quantity, ReferenceFlank, VariantRecord};
 
 #[derive(Serialize, JsonSchema)]
@@ -85,7 +85,7 @@ fn text(value: Option<impl ToString>) -> Option<String> {
     value.map(|value| value.to_string())
 }
 
-pub(crate) fn runs(out: &mut dyn Write, provenance: Provenance, record: &AccuracyRecord) -> io::Result<()> {
+pub(crate) fn runs(out: &mut dyn Write, record: &AccuracyRecord) -> io::Result<Vec<Column>> {
     let mut columns = RUN_COLUMNS.map(|(name, meaning, _)| (name.to_owned(), meaning.to_owned())).to_vec();
     for (name, meaning) in variants::<Quantity>() {
         let on_front = "whether no faster run has a smaller one".to_owned();
@@ -96,10 +96,10 @@ pub(crate) fn runs(out: &mut dyn Write, provenance: Provenance, record: &Accurac
         let cells = errors.map(|error| (text(error.map(|error| error.relative)), error.map(|error| error.on_front)));
         (RUN_COLUMNS.map(|(_, _, cell)| cell(variant)), cells)
     });
-    table_of(out, provenance, &columns, rows)
+    table_of(out, columns, rows)
 }
 
-pub(crate) fn profiles(out: &mut dyn Write, provenance: Provenance, record: &AccuracyRecord) -> io::Result<()> {
+pub(crate) fn profiles(out: &mut dyn Write, record: &AccuracyRecord) -> io::Result<Vec<Column>> {
     let all = reference_and_runs(record, |flank| &flank.wear_um, |run| run.wear_um.as_ref());
     let rows = all.flat_map(|(name, gear, wear_um)| {
         let flank = &record.reference.flanks[gear];
@@ -115,16 +115,16 @@ pub(crate) fn profiles(out: &mut dyn Write, provenance: Provenance, record: &Acc
             })
         })
     });
-    table(out, provenance, rows)
+    table(out, rows)
 }
 
-pub(crate) fn over_width(out: &mut dyn Write, provenance: Provenance, record: &AccuracyRecord) -> io::Result<()> {
+pub(crate) fn over_width(out: &mut dyn Write, record: &AccuracyRecord) -> io::Result<Vec<Column>> {
     let all = reference_and_runs(record, |flank| &flank.root_wear_um, |run| run.root_wear_um.as_ref());
     let rows = all.flat_map(|(name, gear, root_wear_um)| {
         let values = record.reference.flanks[gear].width_mm.iter().zip(root_wear_um);
         values.map(move |(&width_mm, &root_wear_um)| OverWidthRow { name, gear, width_mm, root_wear_um })
     });
-    table(out, provenance, rows)
+    table(out, rows)
 }
 
 /// A depth of the reference, then of every run that keeps it, of both gears.

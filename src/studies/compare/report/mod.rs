@@ -11,7 +11,7 @@ mod page;
 
 use std::path::Path;
 
-use crate::report::csv_table::{Provenance, table};
+use crate::report::csv_table::{CsvFiles, Provenance, table};
 use crate::report::files::{ReportError, create_folder, place, remove, write_json};
 use crate::studies::compare::record::CompareRecord;
 
@@ -23,7 +23,9 @@ pub(crate) fn write(record: &CompareRecord, dir: &Path) -> Result<(), ReportErro
     create_folder(dir)?;
     remove(dir, LAST)?;
     let provenance = Provenance::of_scene(&record.program_version, &record.scene_hash);
-    place(dir, "compare.csv", |out| table(out, provenance, &record.rows))?;
+    let mut csv = CsvFiles::new(dir, provenance);
+    csv.place("compare.csv", |out| table(out, &record.rows))?;
+    csv.finish()?;
     place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?;
     place(dir, LAST, |out| write_json(out, record)).map(drop)
 }

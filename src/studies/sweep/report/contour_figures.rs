@@ -7,7 +7,7 @@ use crate::report::chart::{Chart, MUTED, Trace, padded};
 use crate::report::html::number::{figure as shown_number, given, plotted};
 use crate::report::html::reading::capitalised;
 use crate::studies::sweep::figures::SweepFigure;
-use crate::studies::sweep::record::{SweepRecord, SweepRow};
+use crate::studies::sweep::record::{Spacing, SweepRecord, SweepRow};
 
 /// The plot of `figure` over the keys `x` and `y`; further keys stay at the values where the figure is least.
 pub(super) fn contour(
@@ -45,12 +45,18 @@ pub(super) fn contour(
         .height(460)
         .read_nearest()
         .x(&x.axis.key)
-        .x_range(padded(x.axis.from, x.axis.to))
+        .x_range(ends(x))
         .y(&y.axis.key)
-        .y_range(padded(y.axis.from, y.axis.to))
+        .y_range(ends(y))
         .without_grid()
         .add(contours)
         .reading(reading(record, figure, best, &[x, y]));
+    if x.axis.spacing == Spacing::Logarithmic {
+        chart = chart.x_logarithmic();
+    }
+    if y.axis.spacing == Spacing::Logarithmic {
+        chart = chart.y_logarithmic();
+    }
     if !failed.is_empty() {
         let along = |axis: &ShownAxis<'_>| failed.iter().map(|row| row.values[axis.at]).collect::<Vec<_>>();
         let errors = failed.iter().map(|row| row.error.clone().unwrap_or_default()).collect();
@@ -58,6 +64,15 @@ pub(super) fn contour(
     }
     let least_at = Trace::points("least", [best.values[x.at]], [best.values[y.at]], ("#ff5a36", "star", 15));
     Some(chart.add(least_at.hover(format!("least: {} {unit}<extra></extra>", shown_number(least)))))
+}
+
+/// The ends of an axis as plotly takes them: of a logarithmic one the exponents.
+fn ends(of: &ShownAxis<'_>) -> [f64; 2] {
+    let (from, to) = (of.axis.from, of.axis.to);
+    match of.axis.spacing {
+        Spacing::Logarithmic => padded(from.log10(), to.log10()),
+        Spacing::Even | Spacing::Listed(_) => padded(from, to),
+    }
 }
 
 pub(super) fn id(kind: &str, figure: &SweepFigure) -> String {

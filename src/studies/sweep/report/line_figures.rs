@@ -6,7 +6,7 @@ use crate::report::chart::{Chart, Dash, Trace};
 use crate::report::html::number::figure as shown_number;
 use crate::report::html::reading::capitalised;
 use crate::studies::sweep::figures::SweepFigure;
-use crate::studies::sweep::record::SweepRecord;
+use crate::studies::sweep::record::{Spacing, SweepRecord};
 
 /// The plot of `figure` over the key `x`.
 pub(super) fn along(record: &SweepRecord, figure: &SweepFigure, x: &ShownAxis<'_>) -> Option<Chart> {
@@ -30,5 +30,5 @@ pub(super) fn along(record: &SweepRecord, figure: &SweepFigure, x: &ShownAxis<'_
         .add(line.hover(format!("%{{x}}: %{{y:.5~g}} {}<extra></extra>", figure.unit)))
         .add(least_at.hover(format!("least: {} {}<extra></extra>", shown_number(least), figure.unit)))
         .reading(reading(record, figure, best, &[x]));
-    Some(chart)
+    Some(if x.axis.spacing == Spacing::Logarithmic { chart.x_logarithmic() } else { chart })
 }

@@ -3,6 +3,7 @@
 //! | file | from |
 //! |---|---|
 //! | `sweep.csv` | [`tables`] |
+//! | `columns.json` | what its columns hold |
 //! | `sweep.parquet` | the same table, with the feature `parquet` |
 //! | `report.html` | `page` |
 //! | `scene.toml` | the scene as the user gave it |
@@ -21,7 +22,7 @@ pub(crate) mod tables;
 
 use std::path::Path;
 
-use crate::report::csv_table::Provenance;
+use crate::report::csv_table::{CsvFiles, Provenance};
 use crate::report::files::{ReportError, create_folder, place, remove, write_json};
 use crate::studies::sweep::record::SweepRecord;
 
@@ -42,7 +43,9 @@ pub(crate) fn write(record: &SweepRecord, dir: &Path) -> Result<(), ReportError>
     begin(&record.scene_toml, dir)?;
     remove(dir, PARQUET)?;
     let provenance = Provenance::of_scene(&record.identity.program_version, &record.identity.scene_hash);
-    place(dir, "sweep.csv", |out| tables::rows(out, provenance, record))?;
+    let mut csv = CsvFiles::new(dir, provenance);
+    csv.place("sweep.csv", |out| tables::rows(out, record))?;
+    csv.finish()?;
     if record.shard.is_none() {
         #[cfg(feature = "parquet")]
         place(dir, PARQUET, |out| out.write_all(&parquet_table::bytes(record).map_err(std::io::Error::other)?))?;

@@ -4,9 +4,9 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use crate::report::csv_table::{Column, Provenance, table_of};
+use crate::report::csv_table::{Column, table_of};
 use crate::studies::sweep::figures::FIGURES;
-use crate::studies::sweep::record::{SweepRecord, SweepRow, plain};
+use crate::studies::sweep::record::{SweepRecord, SweepRow};
 use crate::studies::sweep::verification::CLAIMS;
 
 /// A cell of the table; empty where there is nothing to say.
@@ -43,7 +43,7 @@ pub(crate) fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
     let whole = |count: usize| Cell::Whole(i64::try_from(count).ok());
     let mut columns = vec![SweepColumn::new("index", "number of the combination, from 0", move |row| whole(row.index))];
     for (at, axis) in record.identity.axes.iter().enumerate() {
-        let meaning = format!("varied from {} to {} in {} values", plain(axis.from), plain(axis.to), axis.count);
+        let meaning = format!("varied: {}", axis.as_given());
         let is_whole = axis.whole;
         columns.push(SweepColumn::new(&axis.key, meaning, move |row| {
             let value = row.values.get(at).copied();
@@ -86,9 +86,9 @@ pub(crate) fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
     columns
 }
 
-pub(crate) fn rows(out: &mut dyn Write, provenance: Provenance, record: &SweepRecord) -> io::Result<()> {
+pub(crate) fn rows(out: &mut dyn Write, record: &SweepRecord) -> io::Result<Vec<Column>> {
     let columns = columns(record);
     let names: Vec<Column> = columns.iter().map(|column| (column.name.clone(), column.meaning.clone())).collect();
     let rows = record.rows.iter().map(|row| columns.iter().map(|column| column.cell(row)).collect::<Vec<_>>());
-    table_of(out, provenance, &names, rows)
+    table_of(out, names, rows)
 }

@@ -37,7 +37,7 @@ pub(super) fn page(record: &ValidationRecord, changes: Option<&Changes>) -> Stri
     let tier = record.tier.map_or_else(String::new, |tier| format!(" · {} tier", tier.name()));
     Page {
         kind: "Validation suite",
-        title: "What gearwear’s results can be held to",
+        title: "Validation report",
         answer: &totals::sentence(record),
         interruption: (!record.not_run.is_empty())
             .then_some("The suite was interrupted; the cases shown are those that were finished."),
@@ -62,7 +62,7 @@ fn tiles(record: &ValidationRecord) -> Markup {
     let threads = format!("on {}", words::counted(record.threads, "thread", "threads"));
     let all_well = if wrong == 0 { "holds" } else { "" };
     let tiles = [
-        (all_well, format!("{} / {}", t.passed, t.cases), "cases stand as they should"),
+        (all_well, format!("{} / {}", t.passed, t.cases), "cases as expected"),
         (alarm(wrong, "missed"), wrong.to_string(), "missed or could not run"),
         ("", format!("{} / {}", t.hold, t.quantities), "quantities hold"),
         tile(alarm(known_not, "known-not"), known_not, "statement known not to hold", "statements known not to hold"),

@@ -9,8 +9,10 @@ use crate::studies::validation::record::{CaseRecord, ValidationRecord};
 pub(super) struct Totals {
     /// Cases carried out or tried.
     pub(super) cases: usize,
-    /// Cases that stand as they say.
+    /// Cases that are as expected.
     pub(super) passed: usize,
+    /// Those of them with a statement that is known not to hold.
+    pub(super) deviating: usize,
     /// Cases with a quantity that is not as expected.
     pub(super) missed: usize,
     pub(super) could_not_run: usize,
@@ -21,6 +23,8 @@ pub(super) struct Totals {
     /// Statements that are known not to hold.
     pub(super) known_not: usize,
     pub(super) cannot_be_compared: usize,
+    /// Numbers that nothing is held against.
+    pub(super) reported: usize,
 }
 
 impl Totals {
@@ -33,6 +37,10 @@ impl Totals {
         Self {
             cases: record.cases.len(),
             passed: cases(&CaseRecord::passed),
+            deviating: cases(&|case| {
+                let known_not = |quantity| Verdict::of_quantity(quantity) == Verdict::KnownNot;
+                case.passed() && case.quantities.iter().any(known_not)
+            }),
             missed: cases(&|case| case.failure.is_none() && !case.passed()),
             could_not_run: cases(&|case| case.failure.is_some()),
             on_estimates: cases(&|case| !case.rests_on.is_empty()),
@@ -40,6 +48,7 @@ impl Totals {
             hold: quantities(&|verdict| matches!(verdict, Verdict::Holds | Verdict::NowHolds)),
             known_not: quantities(&|verdict| verdict == Verdict::KnownNot),
             cannot_be_compared: quantities(&|verdict| verdict == Verdict::CannotBeCompared),
+            reported: quantities(&|verdict| verdict == Verdict::Reported),
         }
     }
 }
@@ -50,32 +59,32 @@ pub(super) fn sentence(record: &ValidationRecord) -> String {
     if t.cases == 0 {
         return "No case was run.".to_owned();
     }
-    let verdict = if t.passed == t.cases {
-        match t.cases {
-            1 => "The case stands as it should.".to_owned(),
-            cases => format!("All {cases} cases stand as they should."),
-        }
-    } else {
-        let mut wrong = Vec::new();
-        if t.missed > 0 {
-            wrong.push(format!("{} missed", t.missed));
-        }
-        if t.could_not_run > 0 {
-            wrong.push(format!("{} could not run", t.could_not_run));
-        }
-        format!("{} of {} cases stand as they should; {}.", t.passed, t.cases, wrong.join(", "))
-    };
-    let known = match (t.known_not, t.cannot_be_compared) {
-        (0, 0) => String::new(),
-        (known, 0) => format!(" {} known not to hold.", counted(known, "is", "are")),
-        (0, open) => format!(" {open} cannot be compared."),
-        (known, open) => format!(" {} known not to hold, and {open} cannot be compared.", counted(known, "is", "are")),
-    };
+    let deviate = if t.deviating == 1 { "contains documented deviations" } else { "contain documented deviations" };
+    let cases = listed(&[
+        (t.passed - t.deviating, "pass"),
+        (t.deviating, deviate),
+        (t.missed, "missed"),
+        (t.could_not_run, "could not run"),
+    ]);
+    let failed = t.quantities - t.hold - t.known_not - t.cannot_be_compared - t.reported;
+    let quantities = listed(&[
+        (t.hold, if t.hold == 1 { "holds" } else { "hold" }),
+        (failed, "missed"),
+        (t.known_not, if t.known_not == 1 { "is known not to hold" } else { "are known not to hold" }),
+        (t.cannot_be_compared, "cannot be compared"),
+        (t.reported, if t.reported == 1 { "is reported alone" } else { "are reported alone" }),
+    ]);
     format!(
-        "{verdict} Of {}, {}.{known} It took {} on {}.",
+        "Of {}, {cases}. Of {}, {quantities}. It took {} on {}.",
+        counted(t.cases, "case", "cases"),
         counted(t.quantities, "quantity", "quantities"),
-        counted(t.hold, "holds", "hold"),
         time(record.wall_s),
         counted(record.threads, "thread", "threads"),
     )
+}
+
+/// Counts with what they are of; those of nothing are left out.
+fn listed(counts: &[(usize, &str)]) -> String {
+    let some = counts.iter().filter(|(count, _)| *count > 0);
+    some.map(|(count, what)| format!("{count} {what}")).collect::<Vec<_>>().join(", ")
 }

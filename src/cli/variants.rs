@@ -1,0 +1,149 @@
+//! `gearwear compare RUN RUN …`: finished runs, or scenes that are run first, side by side.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::pipeline::{self, Done};
+use crate::report;
+use crate::results::run::StopReason;
+use crate::scene::loaded::LoadedScene;
+use crate::studies::variants;
+use crate::studies::variants::finished_run::FinishedRun;
+use crate::studies::variants::record::{VariantRow, VariantsRecord};
+
+use super::failure::{Failure, InputError};
+use super::figures::digits;
+use super::progress::Progress;
+use super::run::{in_the_scene, pool, watch_for_interrupt};
+use super::{print, warn};
+
+/// Most runs side by side.
+pub(super) const MOST_RUNS: usize = 6;
+
+/// What is compared, and how.
+pub(super) struct Variants<'a> {
+    /// Folders of runs, or scenes.
+    pub runs: Vec<&'a Path>,
+    pub out: Option<&'a Path>,
+    pub threads: Option<NonZeroUsize>,
+    pub quiet: bool,
+}
+
+/// Whether something is a run or a scene, and not a measured profile.
+pub(super) fn is_run(path: &Path) -> bool {
+    path.is_dir() || is_scene(path)
+}
+
+fn is_scene(path: &Path) -> bool {
+    !path.is_dir() && path.extension().is_some_and(|ending| ending == "toml")
+}
+
+pub(super) fn run(asked: &Variants<'_>) -> Result<(), Failure> {
+    let names = names(&asked.runs);
+    let out = match asked.out {
+        Some(out) => out.to_owned(),
+        None if is_scene(asked.runs[0]) => return Err(InputError::NoOutForScenes.into()),
+        None => asked.runs[0].join("compare").join(&names[1]),
+    };
+    report::writable(&out)?;
+    let progress = Progress::new(asked.quiet, Arc::clone(&watch_for_interrupt()));
+    let mut runs = Vec::new();
+    for (path, name) in asked.runs.iter().zip(names) {
+        let folder = if is_scene(path) {
+            run_scene(path, &out.join(&name), asked.threads, &progress)?
+        } else {
+            path.to_path_buf()
+        };
+        runs.push(FinishedRun::read(&folder, name).map_err(InputError::RunFolder)?);
+    }
+    let record = VariantsRecord::new(&runs);
+    variants::report::write(&record, &runs, &out)?;
+    warn(&record.warnings);
+    if !asked.quiet {
+        print(&format!("{}report: {}\n", table(&record), out.join("report.html").display()))?;
+    }
+    Ok(())
+}
+
+/// Carries out a scene into a folder of its own.
+fn run_scene(
+    path: &Path,
+    folder: &Path,
+    threads: Option<NonZeroUsize>,
+    progress: &Progress,
+) -> Result<PathBuf, Failure> {
+    let scene = LoadedScene::open(path)?;
+    warn(scene.warnings());
+    let done = pool(threads)?.install(|| pipeline::run(&scene, progress));
+    progress.finish();
+    let record = done.and_then(Done::complete).map_err(|error| in_the_scene(error, &scene))?;
+    crate::write(&record, folder)?;
+    match record.summary.stopped {
+        StopReason::Interrupted => Err(Failure::Interrupted),
+        _ => Ok(folder.to_owned()),
+    }
+}
+
+/// The runs by the last part of their paths that tells them apart.
+fn names(paths: &[&Path]) -> Vec<String> {
+    let parts = |path: &Path, count: usize| -> String {
+        let path = if is_scene(path) { path.with_extension("") } else { path.to_owned() };
+        let all: Vec<String> = path
+            .components()
+            .filter(|part| matches!(part, std::path::Component::Normal(_)))
+            .map(|part| part.as_os_str().to_string_lossy().into_owned())
+            .collect();
+        all[all.len().saturating_sub(count)..].join("-")
+    };
+    let distinct = |names: &[String]| {
+        let mut sorted = names.to_vec();
+        sorted.sort();
+        sorted.dedup();
+        sorted.len() == names.len() && names.iter().all(|name| !name.is_empty())
+    };
+    let by_parts = |count: usize| paths.iter().map(|path| parts(path, count)).collect::<Vec<_>>();
+    let found = (1..=4).map(by_parts).find(|names| distinct(names));
+    found.unwrap_or_else(|| (1..=paths.len()).map(|number| format!("run-{number}")).collect())
+}
+
+/// What was found, for the terminal.
+fn table(record: &VariantsRecord) -> String {
+    let mut text = String::new();
+    let line = |name: &str, cells: Vec<String>| {
+        let cells: String = cells.iter().map(|cell| format!("{cell:>22}")).collect();
+        format!("  {name:48}{cells}\n")
+    };
+    text.push_str(&line("", record.runs.iter().map(|run| run.name.clone()).collect()));
+    for of_runs in record.figures() {
+        let cell = |row: &VariantRow| match (row.value, row.difference) {
+            (None, _) => "–".to_owned(),
+            (Some(value), None) => digits(value),
+            (Some(value), Some(difference)) => {
+                let sign = match row.significant {
+                    Some(true) => "",
+                    Some(false) => " ≈",
+                    None => " ?",
+                };
+                format!("{} ({:+.1} %{sign})", digits(value), 100.0 * difference)
+            }
+        };
+        text.push_str(&line(&of_runs[0].named(), of_runs.iter().map(cell).collect()));
+    }
+    text.push_str("\n  ≈ within the errors of both runs together, ? errors not known\n\n");
+    format!("{text}{}\n", record.answer.replace(". The", ".\nThe"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_are_named_by_what_tells_them_apart() {
+        let names = |paths: &[&str]| names(&paths.iter().map(Path::new).collect::<Vec<_>>());
+        assert_eq!(names(&["out/plain", "out/relief"]), ["plain", "relief"]);
+        assert_eq!(names(&["a/out", "b/out/"]), ["a-out", "b-out"]);
+        assert_eq!(names(&["plain.toml", "relief.toml"]), ["plain", "relief"]);
+        assert_eq!(names(&["out", "out"]), ["run-1", "run-2"]);
+    }
+}

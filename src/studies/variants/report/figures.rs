@@ -1,0 +1,77 @@
+//! The plots of runs side by side: wear of both flanks, pressure, load share and transmission error over the mesh cycle.
+
+use crate::gear::Gear;
+use crate::report::chart::{Chart, Dash, colour_between_gears, extent, padded};
+use crate::report::html::number::{figure, significant};
+use crate::report::html::reading::greatest;
+use crate::studies::variants::finished_run::FinishedRun;
+
+const DASHES: [Dash; 4] = [Dash::Solid, Dash::Dashed, Dash::Dot, Dash::Mixed];
+
+pub(super) fn all(runs: &[FinishedRun]) -> Vec<Chart> {
+    let mut charts: Vec<Chart> = Gear::BOTH.into_iter().map(|gear| wear(runs, gear)).collect();
+    charts.extend([
+        over_mesh(runs, "pressure-worn", "Greatest pressure, worn", "pressure, MPa", "peak_pressure_worn_MPa"),
+        over_mesh(runs, "load-share-worn", "Load share, worn", "load share", "load_share_worn"),
+        over_mesh(runs, "te-new", "Transmission error, new", "transmission error, µm", "transmission_error_new_um"),
+        over_mesh(runs, "te-worn", "Transmission error, worn", "transmission error, µm", "transmission_error_worn_um"),
+    ]);
+    charts
+}
+
+/// Colour, width and dash of the run at a place among `count`.
+fn stroke(place: usize, count: usize) -> (String, f64, Dash) {
+    (colour_between_gears(place as f64 / (count - 1).max(1) as f64), 2.0, DASHES[place % DASHES.len()])
+}
+
+fn wear(runs: &[FinishedRun], gear: Gear) -> Chart {
+    let profiles: Vec<(Vec<f64>, Vec<f64>)> = runs.iter().map(|run| run.wear_profile(gear)).collect();
+    // The flank below the first point that wears is empty.
+    let worn = |(radii, wear): &(Vec<f64>, Vec<f64>)| -> Vec<f64> {
+        radii.iter().zip(wear).filter(|(_, wear)| **wear > 0.0).map(|(radius, _)| *radius).collect()
+    };
+    let [low, high] = extent(profiles.iter().flat_map(worn));
+    let deepest = profiles.iter().flat_map(|(_, wear)| wear.iter().copied()).fold(0.0, f64::max);
+    let words = runs.iter().zip(&profiles).filter_map(|(run, (radii, wear))| {
+        let at = greatest(wear)?;
+        Some(format!("{} {} µm at {} mm", run.name, figure(at.value), significant(radii[at.index], 4)))
+    });
+    let words: Vec<String> = words.collect();
+    let mut chart = Chart::new(format!("wear-{}", gear.name()), format!("Wear depth of the {}", gear.name()))
+        .wide()
+        .height(460)
+        .reading(format!(
+            "Greatest over the face width at each radius. Deepest, tip edges included: {}.",
+            words.join(", ")
+        ))
+        .x(&format!("radius on the {}, mm", gear.name()))
+        .x_range(padded(low, high))
+        .x_format(".3f")
+        .y("wear depth, µm")
+        .y_down_to(deepest);
+    for (place, (run, (radii, wear))) in runs.iter().zip(profiles).enumerate() {
+        chart = chart.line(&run.name, radii, wear, stroke(place, runs.len()), "%{y:.3f} µm");
+    }
+    chart
+}
+
+fn over_mesh(runs: &[FinishedRun], id: &str, title: &str, axis: &str, column: &str) -> Chart {
+    let values = |run: &FinishedRun| run.mesh_cycle.get(column).to_vec();
+    let [low, high] = extent(runs.iter().flat_map(|run| run.mesh_cycle.get("position_mm").iter().copied()));
+    let words = runs.iter().filter_map(|run| {
+        let most = greatest(&values(run))?.value;
+        Some(format!("{} {}", run.name, figure(most)))
+    });
+    let words: Vec<String> = words.collect();
+    let mut chart = Chart::new(id, title)
+        .reading(format!("Greatest: {}.", words.join(", ")))
+        .x("contact position, mm")
+        .x_range(padded(low, high))
+        .x_format(".3f")
+        .y(axis);
+    for (place, run) in runs.iter().enumerate() {
+        let positions = run.mesh_cycle.get("position_mm").to_vec();
+        chart = chart.line(&run.name, positions, values(run), stroke(place, runs.len()), "%{y:.4g}");
+    }
+    chart
+}

@@ -1,0 +1,84 @@
+//! `report.html` of runs side by side.
+
+use maud::{Markup, html};
+
+use super::figures;
+use crate::report::html::number::{change, figure, percent};
+use crate::report::html::page::{Page, files_list, note, plots, section};
+use crate::report::html::table::{Cell, NONE, line, list};
+use crate::studies::variants::finished_run::FinishedRun;
+use crate::studies::variants::record::{VariantRow, VariantsRecord};
+
+const DATA_FILES: [(&str, &str); 3] = [
+    ("variants.json", "the runs and the keys in which they differ"),
+    ("variants.csv", "every figure of every run, its error and its difference to the first"),
+    ("columns.json", "what the columns of that table hold"),
+];
+
+pub(super) fn page(record: &VariantsRecord, runs: &[FinishedRun]) -> String {
+    let names: Vec<&str> = record.runs.iter().map(|run| run.name.as_str()).collect();
+    Page {
+        kind: "Variants side by side",
+        title: &names.join(" – "),
+        answer: &record.answer,
+        interruption: None,
+        warnings: &record.warnings,
+        main: html! {
+            (section("figures", "Main figures", differences(record, &names)))
+            (section("keys", "What differs between the scenes", keys(record, &names)))
+            (section("plots", "Profiles and mesh cycle", plots(&figures::all(runs))))
+            (section("sources", "Data", files_list(&DATA_FILES)))
+        },
+        footer: &format!("gearwear {}", record.program_version),
+    }
+    .html()
+}
+
+/// Every figure with its error, and the difference of each variant to the first run.
+fn differences(record: &VariantsRecord, names: &[&str]) -> Markup {
+    let mut columns = vec![String::new(), names[0].to_owned()];
+    columns.extend(
+        names[1..]
+            .iter()
+            .flat_map(|name| [(*name).to_owned(), "difference".to_owned(), "more than the errors".to_owned()]),
+    );
+    let rows = record.figures().map(|of_runs| {
+        let mut cells = vec![with_error(&of_runs[0])];
+        for run in &of_runs[1..] {
+            let difference = match (of_runs[0].value, run.value) {
+                (Some(first), Some(value)) => change(first, value),
+                _ => NONE.to_owned(),
+            };
+            let judged = match run.significant {
+                Some(true) => "yes",
+                Some(false) => "no",
+                None => NONE,
+            };
+            cells.extend([with_error(run), Cell::from(difference), Cell::from(judged)]);
+        }
+        line([Cell::from(of_runs[0].named())].into_iter().chain(cells))
+    });
+    html! {
+        div.scroll { (list("Each run with the error it states of itself, and its difference to the first", columns, rows)) }
+        (note("A difference is more than the errors where it exceeds those of both runs together, each against the same \
+               operation on finite elements; errors that are not stated are –."))
+    }
+}
+
+fn with_error(row: &VariantRow) -> Cell {
+    let Some(value) = row.value else { return Cell::from(NONE) };
+    Cell::from(match row.error {
+        Some(error) => format!("{} ± {}", figure(value), percent(error)),
+        None => figure(value),
+    })
+}
+
+fn keys(record: &VariantsRecord, names: &[&str]) -> Markup {
+    if record.keys.is_empty() {
+        return html! { p { "Their scenes are the same." } };
+    }
+    let columns = ["key"].into_iter().chain(names.iter().copied());
+    let value = |text: &String| if text.is_empty() { NONE.to_owned() } else { text.clone() };
+    let rows = record.keys.iter().map(|key| line([key.key.clone()].into_iter().chain(key.values.iter().map(value))));
+    html! { div.scroll { (list("Keys", columns, rows)) } }
+}
