@@ -167,7 +167,7 @@ fn say_what_is_kept(record: &RunRecord, operation: &Operation, out: &Path) {
     let planned = &operation.snapshots_revolutions;
     let reached = record.history.iter().filter(|row| planned.contains(&row.revolutions)).count();
     let stopped = match record.summary.stopped {
-        StopReason::NotConverged => "the last state kept is that",
+        StopReason::NotConverged | StopReason::WornThrough => "the last state kept is that",
         StopReason::Interrupted | StopReason::Completed => "interrupted",
     };
     say(&format!(

@@ -48,7 +48,7 @@ use crate::scene::loaded::{LoadedScene, NamedFiles};
 use crate::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
 use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::settings::Phase;
-use crate::simulation::wear_run::{Outcome, RunPhase, SimulationError, WearRun};
+use crate::simulation::wear_run::{Outcome, RunPhase, SimulationError, WearRun, reference_phase};
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
 use crate::thermal::ContactHeat;
@@ -128,7 +128,7 @@ const UM_PER_MM: f64 = 1e3;
 /// less load see fewer elements, and wear little.
 const LEAST_MESHED_LOAD: f64 = 0.25;
 
-/// What a run is made of, beyond the scene's own data. Where loads of phases differ, figures of one load are of the first phase.
+/// What a run is made of, beyond the scene's own data. Where loads of phases differ, figures of one load are of the greatest.
 struct Model<'a> {
     scene: &'a Scene,
     /// The model of the teeth's stiffness that is used.
@@ -163,9 +163,9 @@ impl Model<'_> {
         FlankZones::of_pair(self.pair, self.at_pitch.contact.loaded(greatest).half_width_mm)
     }
 
-    /// The first phase.
-    fn first(&self) -> &RunPhase<'_> {
-        &self.phases[0]
+    /// The phase of the greatest load.
+    fn reference(&self) -> &RunPhase<'_> {
+        &self.phases[reference_phase(&self.phases)]
     }
 }
 
@@ -327,7 +327,7 @@ fn carry_out<R>(
         })
         .collect();
     let foundations_mpa_per_mm = case_of_phase.iter().map(|&case| cases[case].foundation_mpa_per_mm).collect();
-    let phases = scene
+    let phases: Vec<RunPhase<'_>> = scene
         .operation
         .phases
         .iter()
@@ -340,13 +340,14 @@ fn carry_out<R>(
             end_revolutions: phase.end_revolutions,
         })
         .collect();
+    let reference = reference_phase(&phases);
     let model = Model {
         scene,
         stiffness,
         pair: &pair,
         phases,
         sliced: sliced.as_ref(),
-        teeth: teeth[0].as_ref(),
+        teeth: teeth[case_of_phase[reference]].as_ref(),
         at_pitch,
         foundations_mpa_per_mm,
     };
@@ -471,6 +472,7 @@ fn not_estimated_because(outcome: &Outcome) -> &'static str {
         StopReason::Completed => "numerics.error_estimate is false",
         StopReason::Interrupted => "the run was interrupted",
         StopReason::NotConverged => "the run did not converge",
+        StopReason::WornThrough => "a tooth is worn through",
     }
 }
 

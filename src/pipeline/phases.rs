@@ -25,7 +25,8 @@ pub(super) fn summaries(model: &Model<'_>, outcome: &Outcome) -> Vec<PhaseSummar
         // The ends of phases are among the snapshots.
         let after = outcome.snapshots.iter().rfind(|snapshot| snapshot.revolutions <= end).unwrap_or(before);
         let load = run.line_load_n_per_mm;
-        let heat = model.scene.heat.and_then(|asked| Some((asked, temperature::observe_at(model, outcome, after)?)));
+        let heat =
+            model.scene.heat.and_then(|asked| Some((asked, temperature::observe_at(model, outcome, after, index)?)));
         summaries.push(PhaseSummary {
             number: index + 1,
             hours: phase.pinion_speed_rpm.map(|rpm| (end - begin) / (60.0 * rpm)),

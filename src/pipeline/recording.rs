@@ -63,7 +63,7 @@ pub(super) fn summary(
 ) -> Result<Summary, RunError> {
     let (scene, pair) = (model.scene, model.pair);
     let outcome = found.outcome;
-    let law = temperature::law(model, outcome, found.heat);
+    let law = temperature::law(model, found.heat);
     let mut warnings = resolved.warnings.clone();
     warnings.extend(temperature::warnings(&law));
     warnings.extend(judged.warnings);
@@ -91,7 +91,8 @@ pub(super) fn summary(
         wall_s: 0.0,
         geometry: geometry(pair),
         helical: slices::summary(model, outcome),
-        contact: contact(model),
+        contact: contact(model, outcome),
+        reference_phase: outcome.reference_phase + 1,
         phases: phases::summaries(model, outcome),
         stiffness: stiffness(model)?,
         wear: law,
@@ -176,12 +177,12 @@ pub(super) fn geometry(pair: &GearPair) -> GeometrySummary {
     }
 }
 
-fn contact(model: &Model<'_>) -> ContactSummary {
-    let at_pitch = model.at_pitch.contact.loaded(model.first().line_load_n_per_mm);
+fn contact(model: &Model<'_>, outcome: &Outcome) -> ContactSummary {
+    let at_pitch = model.at_pitch.contact.loaded(model.reference().line_load_n_per_mm);
     ContactSummary {
         surface: model.scene.contact.surface.name().to_owned(),
-        line_load_N_per_mm: model.first().line_load_n_per_mm,
-        foundation_MPa_per_mm: model.foundations_mpa_per_mm[0],
+        line_load_N_per_mm: model.reference().line_load_n_per_mm,
+        foundation_MPa_per_mm: model.foundations_mpa_per_mm[outcome.reference_phase],
         hertz_half_width_mm: at_pitch.half_width_mm,
         hertz_peak_pressure_MPa: at_pitch.peak_pressure_mpa,
     }

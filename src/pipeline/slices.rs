@@ -67,7 +67,7 @@ fn shaft_twist_mm(model: &Model<'_>, gear: Gear) -> Option<f64> {
     let shaft = model.pair.spec.gears[gear].shaft?;
     let (base_radius_mm, material) = (model.pair.teeth[gear].involute.base_radius_mm, model.scene.material[gear]);
     let shear_modulus_mpa = material.elastic().shear_modulus_mpa();
-    let (width_mm, load_n_per_mm) = (model.pair.spec.face_width_mm, model.first().line_load_n_per_mm);
+    let (width_mm, load_n_per_mm) = (model.pair.spec.face_width_mm, model.reference().line_load_n_per_mm);
     Some(shaft.twist_mm(base_radius_mm, shear_modulus_mpa, width_mm, load_n_per_mm))
 }
 

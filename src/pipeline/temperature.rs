@@ -18,13 +18,18 @@ pub(super) struct ObservedHeat {
 
 /// Looks at both; none where nobody asks for temperatures.
 pub(super) fn observe(model: &Model<'_>, outcome: &Outcome) -> Option<ObservedHeat> {
-    let of = |snapshot| observe_at(model, outcome, snapshot);
+    let of = |snapshot| observe_at(model, outcome, snapshot, outcome.reference_phase);
     Some(ObservedHeat { new: of(&outcome.new)?, worn: of(&outcome.worn)? })
 }
 
-/// Looks at a snapshot, under the speed and load of its phase.
-pub(super) fn observe_at(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> Option<HeatObservation> {
-    let phase = &model.phases[model.scene.operation.phase_at(snapshot.revolutions)];
+/// Looks at a snapshot under the speed and load of a phase.
+pub(super) fn observe_at(
+    model: &Model<'_>,
+    outcome: &Outcome,
+    snapshot: &Snapshot,
+    phase: usize,
+) -> Option<HeatObservation> {
+    let phase = &model.phases[phase];
     let observer = HeatObserver {
         pair: model.pair,
         heat: phase.wear.heat?,
@@ -66,17 +71,14 @@ pub(super) fn summary(model: &Model<'_>, observed: &ObservedHeat) -> Option<Temp
 }
 
 /// What the summary says of the wear law.
-pub(super) fn law(model: &Model<'_>, outcome: &Outcome, observed: Option<&ObservedHeat>) -> WearLawSummary {
+pub(super) fn law(model: &Model<'_>, observed: Option<&ObservedHeat>) -> WearLawSummary {
     let wear = &model.scene.wear;
-    let mild = |snapshot: &Snapshot, of: Option<&HeatObservation>| match of {
+    let mild = |of: Option<&HeatObservation>| match of {
         Some(heat) => heat.law.mean_coefficient_mm2_per_n,
-        None => {
-            let phase = &model.phases[model.scene.operation.phase_at(snapshot.revolutions)];
-            phase.wear.law.mild_coefficient_mm2_per_n(None)
-        }
+        None => model.reference().wear.law.mild_coefficient_mm2_per_n(None),
     };
-    let new = mild(&outcome.new, observed.map(|heat| &heat.new));
-    let worn = mild(&outcome.worn, observed.map(|heat| &heat.worn));
+    let new = mild(observed.map(|heat| &heat.new));
+    let worn = mild(observed.map(|heat| &heat.worn));
     let severe = wear.severe.map(|severe| severe.factor * new);
     let outside =
         |of: fn(&ObservedHeat) -> &HeatObservation| observed.and_then(|heat| of(heat).law.work_outside_validity);

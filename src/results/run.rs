@@ -65,8 +65,10 @@ pub struct Summary {
     pub geometry: GeometrySummary,
     /// Of the slices over the face width; `None` where all sections are alike.
     pub helical: Option<HelicalSummary>,
-    /// Of the contact at the pitch point with the whole load of the first phase.
+    /// Of the contact at the pitch point with the whole load of the reference phase.
     pub contact: ContactSummary,
+    /// Number, from 1, of the phase of the greatest load: `new`, `worn` and `contact` are under that load.
+    pub reference_phase: usize,
     /// The phases that the run came to, in order; one where the operation has none of its own.
     pub phases: Vec<PhaseSummary>,
     /// Of the tooth pair as a spring; `None` with finite elements, whose teeth are no springs.
@@ -75,9 +77,9 @@ pub struct Summary {
     pub wear: WearLawSummary,
     /// Of the contact's temperatures; `None` where nobody asks for them.
     pub temperature: Option<TemperatureSummary>,
-    /// The mesh cycle of the unworn pair, under the load of the first phase.
+    /// The mesh cycle of the unworn pair, under the load of the reference phase.
     pub new: CycleSummary,
-    /// The mesh cycle of the worn pair, under the load of the last phase.
+    /// The mesh cycle of the worn pair, under the same load.
     pub worn: CycleSummary,
     /// Wear of one pinion flank.
     pub pinion: WearSummary,
@@ -144,6 +146,8 @@ pub enum StopReason {
     Interrupted,
     /// The tooth pairs found no equilibrium; what was finished is kept.
     NotConverged,
+    /// The wear came to the thickness of a tooth, which no result can stand for; what was kept before is that.
+    WornThrough,
 }
 
 /// A stage and how long it took.
@@ -242,7 +246,7 @@ pub struct HelicalSummary {
     pub coupling: String,
     /// ℓ₁ and ℓ₂ of the coupling: how far a deflection reaches along a tooth; `None` without coupling.
     pub coupling_reach_mm: Option<[f64; 2]>,
-    /// How far each shaft's twist lets the teeth give way at the end that is not driven, under the load of the first phase spread evenly;
+    /// How far each shaft's twist lets the teeth give way at the end that is not driven, under the load of the reference phase spread evenly;
     /// none where it is rigid.
     pub shaft_twist_um: PerGear<Option<f64>>,
     /// Helix slope that axes out of parallel make over the face width; none where they are parallel.

@@ -430,7 +430,8 @@ pub struct NumericsFile {
     /// "adaptive": as long as the error allows, stable in any case. Default: "adaptive" on the surfaces half-space and
     /// fem and where wear may turn severe, otherwise 1/150 of the duration.
     pub step: Option<StepFile>,
-    /// Error of the wear depth allowed in µm, > 0, at least 0.0001; read with step = "adaptive". Default 0.05.
+    /// Error of the wear depth allowed in µm, > 0, at least 0.0001; where more than 50 µm are worn it grows in proportion to the
+    /// wear. Read with step = "adaptive". Default 0.05.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub tolerance_um: Option<f64>,
     /// How the wear is integrated; read with step = "adaptive". Default: runge-kutta-chebyshev, the better one by far;

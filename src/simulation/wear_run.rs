@@ -12,7 +12,8 @@ use super::mesh_contact::{LoadedMesh, MeshContact};
 use super::settings::Numerics;
 use crate::contact::Flanks;
 use crate::gear::{
-    GearPair, PerGear, flank::FlankGrid, flank_zones::FlankZones, removed_material::modifications_mm, slices::Slices,
+    Gear, GearPair, PerGear, flank::FlankGrid, flank_zones::FlankZones, removed_material::modifications_mm,
+    slices::Slices,
 };
 use crate::mesh_cycle::wearing_pair::{Snapshot, WearingPair};
 use crate::mesh_cycle::{Work, load_sharing::EquilibriumError};
@@ -34,6 +35,22 @@ pub enum SimulationError {
         revolutions: f64,
         /// What happened.
         source: EquilibriumError,
+    },
+    /// More is worn off than there is.
+    #[error(
+        "worn through after {revolutions:.4e} pinion revolutions: with one more mesh a flank of the {} has lost {depth_mm:.3e} mm, and its \
+         tooth is {thickness_mm:.3} mm thick at the reference circle; look at the wear coefficient and the duration",
+        gear.name()
+    )]
+    WornThrough {
+        /// How far the run had come.
+        revolutions: f64,
+        /// Whose flank.
+        gear: Gear,
+        /// Its greatest wear.
+        depth_mm: f64,
+        /// Transverse thickness of its teeth at the reference circle.
+        thickness_mm: f64,
     },
     /// A checkpoint with other rows or phases than the run has.
     #[error("the checkpoint is not of this run")]
@@ -83,12 +100,14 @@ pub(crate) struct Outcome {
     pub slices: Slices,
     /// Material removed by the modifications, slice after slice as all fields of a flank.
     pub modification_mm: PerGear<Vec<f64>>,
-    /// The unworn pair.
+    /// The unworn pair, under the greatest load of any phase.
     pub new: Snapshot,
     /// The pair at each snapshot reached, in order; where the run was interrupted, also at that moment.
     pub snapshots: Vec<Snapshot>,
-    /// The pair when the run ended: the last of the snapshots.
+    /// The pair when the run ended: the last of the snapshots, but under the load that `new` is under.
     pub worn: Snapshot,
+    /// Index of the phase of that load. Where the worn pair finds no equilibrium under it, `worn` is under that of its own phase.
+    pub reference_phase: usize,
     /// Wear steps taken, and what else came of them.
     pub steps: StepCounts,
     /// Of adaptive steps: the estimated error of each gear's wear at the place where it is greatest, mm.
@@ -115,6 +134,8 @@ struct RunState {
     states: Vec<Snapshot>,
     /// What the flanks have lost, where they are not new.
     wear_mm: Option<PerGear<Vec<f64>>>,
+    /// What they had lost, place by place, at the last of the states; none before the first and after a checkpoint.
+    wear_of_last_state_mm: Option<PerGear<Vec<f64>>>,
     /// How many of the snapshots asked for were due so far.
     passed: usize,
     /// Whether it goes on from a checkpoint: its state is evaluated once more, but its work and its snapshot are already there.
@@ -175,13 +196,14 @@ impl WearRun<'_> {
             run_state.phase += 1;
         }
         let stop = match &failure {
+            Some(SimulationError::WornThrough { .. }) => StopReason::WornThrough,
             Some(_) => StopReason::NotConverged,
             None if self.due(run_state.passed).is_none() => StopReason::Completed,
             None => StopReason::Interrupted,
         };
         let (steps, step_error_mm) = (run_state.stepper.counts(), run_state.stepper.error_mm());
-        let new = run_state.states.remove(0);
-        let worn = run_state.states.last().unwrap_or(&new).clone();
+        let [new, worn] = self.new_and_worn(&mut run_state, &flanks)?;
+        run_state.states.remove(0);
         let UnwornFlanks { grid, slices, modification_mm } = flanks;
         Ok(Outcome {
             stop,
@@ -193,10 +215,44 @@ impl WearRun<'_> {
             new,
             snapshots: run_state.states,
             worn,
+            reference_phase: reference_phase(self.phases),
             steps,
             step_error_mm,
             work: run_state.work,
         })
+    }
+
+    /// The first and the last of the states under the load of the reference phase, where that finds an equilibrium.
+    fn new_and_worn(&self, run_state: &mut RunState, flanks: &UnwornFlanks) -> Result<[Snapshot; 2], SimulationError> {
+        let reference = reference_phase(self.phases);
+        let last_phase = run_state.phase.min(self.phases.len() - 1);
+        let last_wear_mm = run_state.wear_of_last_state_mm.take();
+        let RunState { states, work, .. } = run_state;
+        let mut under_reference = |own: &Snapshot, phase: usize, wear_mm: Option<&PerGear<Vec<f64>>>| {
+            if phase == reference {
+                return Ok(own.clone());
+            }
+            let mut pair = self.wearing_pair(&self.phases[reference], flanks)?;
+            if let Some(wear_mm) =
+                wear_mm.filter(|wear_mm| wear_mm.as_ref().map(Vec::len) == pair.wear_mm().map(|row| row.len()))
+            {
+                pair.set_wear_mm(wear_mm);
+            }
+            let evaluated = pair.evaluate(&self.phases[reference].wear, &|| false);
+            let state = evaluated.and_then(|done| {
+                *work += done;
+                pair.snapshot(own.revolutions)
+            });
+            Ok::<_, SimulationError>(state.unwrap_or_else(|_| own.clone()))
+        };
+        let (first, last) = (&states[0], &states[states.len() - 1]);
+        let new = under_reference(first, 0, None)?;
+        let worn = match (states.len(), last_wear_mm) {
+            (1, _) => new.clone(),
+            (_, None) => last.clone(),
+            (_, Some(wear_mm)) => under_reference(last, last_phase, Some(&wear_mm))?,
+        };
+        Ok([new, worn])
     }
 
     /// The flanks as they are made, in these slices.
@@ -234,6 +290,7 @@ impl WearRun<'_> {
             work: Work::default(),
             states: Vec::new(),
             wear_mm: None,
+            wear_of_last_state_mm: None,
             passed: 0,
             is_repeated: false,
         }
@@ -275,6 +332,25 @@ impl WearRun<'_> {
         }
     }
 
+    /// What is wrong where `pair`, which is evaluated, has lost the thickness of a tooth, or will have with one more mesh.
+    fn worn_through(&self, pair: &dyn WearingPair, revolutions: f64) -> Option<SimulationError> {
+        let wear_mm = pair.wear_mm();
+        let mut next_mm = wear_mm.clone();
+        pair.depth_mm(&mut next_mm);
+        Gear::BOTH.into_iter().find_map(|gear| {
+            let tooth = &self.pair.teeth[gear];
+            let thickness_mm = tooth.thickness_mm(tooth.reference_radius_mm);
+            let depths = wear_mm[gear].iter().zip(&next_mm[gear]).map(|(worn, next)| worn + next);
+            let depth_mm = depths.fold(0.0, f64::max);
+            (depth_mm >= thickness_mm).then_some(SimulationError::WornThrough {
+                revolutions,
+                gear,
+                depth_mm,
+                thickness_mm,
+            })
+        })
+    }
+
     /// Runs to the end of the phase that `run_state` is in.
     ///
     /// # Errors
@@ -306,19 +382,27 @@ impl WearRun<'_> {
             let revolutions = run_state.revolutions;
             let is_due = self.due(run_state.passed).is_some_and(|next| revolutions >= next);
             let interrupted = progress.interrupted();
-            let keep = run_state.states.is_empty() || is_due || interrupted;
+            let worn_through = evaluated.is_ok().then(|| self.worn_through(pair, revolutions)).flatten();
+            let keep = run_state.states.is_empty() || (worn_through.is_none() && (is_due || interrupted));
             let state = evaluated.and_then(|done| {
                 run_state.work += done;
                 keep.then(|| pair.snapshot(revolutions)).transpose()
             });
             match state {
-                Ok(state) => run_state.states.extend(state),
+                Ok(Some(state)) => {
+                    run_state.states.push(state);
+                    run_state.wear_of_last_state_mm = Some(pair.wear_mm());
+                }
+                Ok(None) => {}
                 // Before anything is finished there is nothing to keep.
                 Err(source) if run_state.states.is_empty() => {
                     return Err(SimulationError::Equilibrium { revolutions, source });
                 }
                 Err(EquilibriumError::Interrupted) => return Ok(PhaseEnd::Stopped),
                 Err(source) => return Ok(PhaseEnd::Failed(SimulationError::Equilibrium { revolutions, source })),
+            }
+            if let Some(worn_through) = worn_through {
+                return Ok(PhaseEnd::Failed(worn_through));
             }
             self.pass_due(run_state);
             progress.progress(revolutions, self.end_revolutions());
@@ -339,6 +423,17 @@ impl WearRun<'_> {
             (run_state.revolutions, evaluated) = (advanced.revolutions, advanced.evaluated);
         }
     }
+}
+
+/// Index of the phase of the greatest load, the first of equals: what is said of the new and of the worn pair is under that load.
+pub(crate) fn reference_phase(phases: &[RunPhase<'_>]) -> usize {
+    let heavier = |best: usize, (index, phase): (usize, &RunPhase<'_>)| match phase.line_load_n_per_mm
+        > phases[best].line_load_n_per_mm
+    {
+        true => index,
+        false => best,
+    };
+    phases.iter().enumerate().fold(0, heavier)
 }
 
 impl RunState {

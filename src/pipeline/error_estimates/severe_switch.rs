@@ -57,8 +57,8 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
         WearRun { numerics, snapshots_revolutions: &[], ..model.wear_run() }
     };
     let mild = wear::of(&WearSettings { severe: None, ..scene.wear });
-    let first = model.first();
-    let phase = RunPhase { wear: WearModel { law: mild.as_ref(), ..first.wear }, ..*first };
+    let reference = model.reference();
+    let phase = RunPhase { wear: WearModel { law: mild.as_ref(), ..reference.wear }, ..*reference };
     let bound = match coarse(fewest, duration).step_bound(&phase, false, &|| observer.gives_up()) {
         Ok(bound) => bound.revolutions / own.factor.max(1.0),
         Err(error) => return (Estimate::none(&error.to_string()), 0.0),

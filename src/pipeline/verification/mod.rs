@@ -40,6 +40,7 @@ use crate::simulation::mesh_contact::MeshContact;
 use crate::simulation::settings::{AdaptiveMethod, Numerics, Phase, Stepping};
 use crate::simulation::wear_run::{Outcome, RunPhase, WearRun};
 use crate::stiffness::curve::PairCompliance;
+use crate::wear::stepping::adaptive::SHALLOW_MM;
 
 /// Least half-width of contact at the pitch point that is meshed, in modules: the flank then has some thousand nodes.
 const LEAST_HALF_WIDTH_MODULES: f64 = 0.015;
@@ -272,7 +273,9 @@ fn life(
     let phases: Vec<RunPhase<'_>> =
         model.phases.iter().zip(contacts).map(|(phase, contact)| RunPhase { contact, ..*phase }).collect();
     let deepest = |gear: Gear| outcome.worn.wear_mm[gear].iter().copied().fold(0.0, f64::max);
-    let tolerance_mm = (TOLERANCE * deepest(Gear::Pinion).max(deepest(Gear::Wheel))).max(LEAST_TOLERANCE_MM);
+    let deepest_mm = deepest(Gear::Pinion).max(deepest(Gear::Wheel));
+    // Beyond it grows with the wear by itself.
+    let tolerance_mm = (TOLERANCE * deepest_mm.min(SHALLOW_MM)).max(LEAST_TOLERANCE_MM);
     let stepping = Stepping::Adaptive { tolerance_mm, method: AdaptiveMethod::RungeKuttaChebyshev };
     let numerics = Numerics { positions, stepping, ..scene.numerics };
     let run = WearRun { phases: &phases, numerics, snapshots_revolutions: &[], ..model.wear_run() };
@@ -366,7 +369,7 @@ fn relative(own: f64, truth: f64) -> Option<f64> {
 /// The difference of the greatest pressures between the tip edges.
 fn pressure(model: &Model<'_>, own: &CycleObservation, truth: &CycleObservation) -> Option<f64> {
     let path = &model.pair.path;
-    let near_mm = NEAR_TIP_EDGES * model.at_pitch.contact.loaded(model.first().line_load_n_per_mm).half_width_mm;
+    let near_mm = NEAR_TIP_EDGES * model.at_pitch.contact.loaded(model.reference().line_load_n_per_mm).half_width_mm;
     let between = path.start_mm + near_mm..path.end_mm - near_mm;
     let (mut sum, mut count) = (0.0, 0.0);
     for at in own.positions.iter().filter(|at| between.contains(&at.position_mm)) {

@@ -156,10 +156,11 @@ pub(crate) fn phases(s: &Summary) -> Markup {
     html! {
         div.phases { (list("Phases of the operation", columns, s.phases.iter().take(MOST_PHASES).map(phase))) }
         @if more > 0 { (page::note(&format!("{more} more phases are in summary.json."))) }
-        (page::note(
-            "New is the unworn pair under the load of the first phase, worn the worn pair under that of the last. Line load, K/H, \
-             Hertz pressure and the temperatures of a new pair are those of the first phase; all are in summary.json."
-        ))
+        (page::note(&format!(
+            "New and worn pair, line load, K/H, Hertz pressure and the temperatures of both are under the greatest load of any phase, \
+             that of phase {}; so that what wear changes can be read from them.",
+            s.reference_phase
+        )))
     }
 }
 

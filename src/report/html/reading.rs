@@ -161,6 +161,7 @@ pub(crate) fn interruption(summary: &Summary) -> Option<String> {
         StopReason::Completed => return None,
         StopReason::Interrupted => "was interrupted",
         StopReason::NotConverged => "did not converge; its last state kept is that",
+        StopReason::WornThrough => "ended with a tooth worn through; its last state kept is that",
     };
     Some(format!(
         "The run {how} after {}. What was finished until then is shown; it is not the whole duration asked for.",

@@ -277,5 +277,6 @@ fn failure(failure: Option<impl ToString>, stop: StopReason) -> Option<String> {
         StopReason::Completed => None,
         StopReason::Interrupted => Some("interrupted".to_owned()),
         StopReason::NotConverged => Some("the run did not converge".to_owned()),
+        StopReason::WornThrough => Some("a tooth is worn through".to_owned()),
     })
 }

@@ -3,7 +3,7 @@
 //! **What the tolerance means.** It is a depth. The estimated error of a step, at whichever place it is greatest, stays below
 //!
 //! ```text
-//! 0.3 · tolerance
+//! 0.3 · tolerance · max(1, greatest wear / 0.05 mm)
 //! ```
 //!
 //! which leaves room for several steps whose errors add up where the wear is neutral (its mean over a contact); elsewhere later steps
@@ -27,6 +27,8 @@ use super::{
 
 /// Part of the tolerance that any step may spend.
 const SHARE: f64 = 0.3;
+/// Wear to which the tolerance itself holds, mm; beyond it grows in proportion: the default of 0.05 µm is a thousandth of it.
+pub(crate) const SHALLOW_MM: f64 = 0.05;
 /// Probes of the Jacobian over the tolerance.
 const PROBE: f64 = 0.1;
 /// Accepted steps until the spectral radius or the diagonal is estimated anew.
@@ -122,6 +124,12 @@ impl Adaptive {
         &self.accumulated
     }
 
+    /// What a step from `state` may be wrong by, mm.
+    fn tolerance_at(&self, state: &[f64]) -> f64 {
+        // The greater of 1 and what is not a number is 1.
+        self.tolerance * (greatest(state) / SHALLOW_MM).max(1.0)
+    }
+
     /// The rate is another one from here on: nothing that was learned holds any longer.
     pub(crate) fn start_anew(&mut self) {
         (self.control, self.run, self.age) = (StepControl::default(), 0.0, 0);
@@ -167,7 +175,7 @@ impl Adaptive {
                 }
                 Err(failure) => return Err(failure),
             }
-            let allowed = SHARE * self.tolerance;
+            let allowed = SHARE * self.tolerance_at(state);
             let error = greatest(&self.error) / allowed;
             let verdict = self.control.judge(length, error, length < planned);
             if verdict == Verdict::Rejected && !(at_floor && error.is_finite()) {
@@ -205,7 +213,7 @@ impl Adaptive {
         slope: &[f64],
         length: &mut f64,
     ) -> Result<(), R::Error> {
-        let probe = PROBE * self.tolerance;
+        let probe = PROBE * self.tolerance_at(state);
         let start = (state, slope);
         let error_factor = match &mut self.method {
             Method::Chebyshev { step, radius } => {
@@ -252,7 +260,7 @@ impl Adaptive {
         room: f64,
     ) -> Result<f64, R::Error> {
         let fastest = greatest(slope);
-        let allowed = SHARE * self.tolerance;
+        let allowed = SHARE * self.tolerance_at(state);
         if fastest * room <= allowed {
             return Ok(room);
         }

@@ -258,6 +258,7 @@ fn summary() -> Summary {
             hertz_half_width_mm: 0.2452,
             hertz_peak_pressure_MPa: 1655.8,
         },
+        reference_phase: 1,
         phases: Vec::new(),
         stiffness: Some(StiffnessSummary {
             model: "constant".into(),
