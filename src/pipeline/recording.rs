@@ -17,15 +17,13 @@ use crate::results::run::{
 use crate::scene::Resolved;
 use crate::scene::loaded::LoadedScene;
 use crate::simulation::figures::WearFigures;
-use crate::simulation::wear_run::Outcome;
+use crate::simulation::wear_run::{Outcome, SMALL_WEAR_MODULES};
 use crate::thermal::settings::TemperatureMethod;
 
 /// Pitch point index of the contract: on a flank of this many points.
 const INDEX_POINTS: f64 = 750.0;
 /// Difference of the volumes that both flanks of a contact lose, over the greater, that is worth a warning.
 const IMBALANCE: f64 = 0.02;
-/// Wear beyond this part of the module is no longer small against the tooth.
-const SMALL_WEAR_MODULES: f64 = 0.05;
 
 /// What a run found, and what was seen of its temperatures.
 #[derive(Clone, Copy)]

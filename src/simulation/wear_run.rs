@@ -22,6 +22,9 @@ use crate::results::run::StopReason;
 use crate::stiffness::StiffnessError;
 use crate::wear::{WearModel, stepping::adaptive::StepCounts};
 
+/// Wear beyond this part of the module is no longer small against the tooth.
+pub(crate) const SMALL_WEAR_MODULES: f64 = 0.05;
+
 /// Why a wear run could not go on.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SimulationError {
@@ -39,7 +42,7 @@ pub enum SimulationError {
     /// More is worn off than there is.
     #[error(
         "worn through after {revolutions:.4e} pinion revolutions: with one more mesh a flank of the {} has lost {depth_mm:.3e} mm, and its \
-         tooth is {thickness_mm:.3} mm thick at the reference circle; look at the wear coefficient and the duration",
+         tooth is {thickness_mm:.3} mm thick there; look at the wear coefficient and the duration",
         gear.name()
     )]
     WornThrough {
@@ -47,9 +50,9 @@ pub enum SimulationError {
         revolutions: f64,
         /// Whose flank.
         gear: Gear,
-        /// Its greatest wear.
+        /// Its wear where there is least left.
         depth_mm: f64,
-        /// Transverse thickness of its teeth at the reference circle.
+        /// Transverse thickness of its unworn teeth there, at least half a module.
         thickness_mm: f64,
     },
     /// A checkpoint with other rows or phases than the run has.
@@ -121,6 +124,8 @@ pub(super) struct UnwornFlanks {
     pub grid: PerGear<FlankGrid>,
     pub slices: Slices,
     pub modification_mm: PerGear<Vec<f64>>,
+    /// Wear that is as deep as the tooth is thick, at every point of the grid.
+    thickness_mm: PerGear<Vec<f64>>,
 }
 
 /// A run on its way.
@@ -185,7 +190,12 @@ impl WearRun<'_> {
         while run_state.phase < self.phases.len() {
             let phase = &self.phases[run_state.phase];
             let mut pair = self.wearing_pair(phase, &flanks)?;
-            match self.through_phase(&mut run_state, &mut *pair, Attendants { keeper, progress })? {
+            match self.through_phase(
+                &mut run_state,
+                &mut *pair,
+                &flanks.thickness_mm,
+                Attendants { keeper, progress },
+            )? {
                 PhaseEnd::Reached => run_state.wear_mm = Some(pair.wear_mm()),
                 PhaseEnd::Stopped => break,
                 PhaseEnd::Failed(error) => {
@@ -204,7 +214,7 @@ impl WearRun<'_> {
         let (steps, step_error_mm) = (run_state.stepper.counts(), run_state.stepper.error_mm());
         let [new, worn] = self.new_and_worn(&mut run_state, &flanks)?;
         run_state.states.remove(0);
-        let UnwornFlanks { grid, slices, modification_mm } = flanks;
+        let UnwornFlanks { grid, slices, modification_mm, .. } = flanks;
         Ok(Outcome {
             stop,
             failure,
@@ -259,7 +269,8 @@ impl WearRun<'_> {
     pub(super) fn unworn_flanks(&self, slices: Slices) -> UnwornFlanks {
         let grid = PerGear::from_fn(|gear| FlankGrid::new(self.pair, gear, self.numerics.flank_points));
         let modification_mm = PerGear::from_fn(|gear| modifications_mm(self.pair, gear, &grid[gear], &slices));
-        UnwornFlanks { grid, slices, modification_mm }
+        let thickness_mm = PerGear::from_fn(|gear| thickness_mm(self.pair, gear, &grid[gear]));
+        UnwornFlanks { grid, slices, modification_mm, thickness_mm }
     }
 
     /// The pair under the load of `phase`.
@@ -333,21 +344,39 @@ impl WearRun<'_> {
     }
 
     /// What is wrong where `pair`, which is evaluated, has lost the thickness of a tooth, or will have with one more mesh.
-    fn worn_through(&self, pair: &dyn WearingPair, revolutions: f64) -> Option<SimulationError> {
+    fn worn_through(
+        pair: &dyn WearingPair,
+        thickness_mm: &PerGear<Vec<f64>>,
+        revolutions: f64,
+    ) -> Option<SimulationError> {
         let wear_mm = pair.wear_mm();
         let mut next_mm = wear_mm.clone();
         pair.depth_mm(&mut next_mm);
         Gear::BOTH.into_iter().find_map(|gear| {
-            let tooth = &self.pair.teeth[gear];
-            let thickness_mm = tooth.thickness_mm(tooth.reference_radius_mm);
-            let depths = wear_mm[gear].iter().zip(&next_mm[gear]).map(|(worn, next)| worn + next);
-            let depth_mm = depths.fold(0.0, f64::max);
+            let depths_mm = wear_mm[gear].iter().zip(&next_mm[gear]).map(|(worn, next)| worn + next);
+            let points = depths_mm.zip(thickness_mm[gear].iter().cycle());
+            let (depth_mm, &thickness_mm) = points.max_by(|a, b| (a.0 / a.1).total_cmp(&(b.0 / b.1)))?;
             (depth_mm >= thickness_mm).then_some(SimulationError::WornThrough {
                 revolutions,
                 gear,
                 depth_mm,
                 thickness_mm,
             })
+        })
+    }
+
+    /// What is to be said before a run in which the unworn `pair`, which is evaluated, wears as it does until the end.
+    fn deep_wear_ahead(&self, pair: &dyn WearingPair) -> Option<String> {
+        let mut depth_mm = pair.wear_mm();
+        pair.depth_mm(&mut depth_mm);
+        let turns = PerGear { pinion: 1.0, wheel: self.pair.wheel_turns_per_pinion_turn() };
+        let deepest_mm = Gear::BOTH.map(|gear| turns[gear] * depth_mm[gear].iter().copied().fold(0.0, f64::max));
+        let ahead = self.end_revolutions() * deepest_mm[0].max(deepest_mm[1]) / self.pair.spec.normal_module_mm;
+        (ahead > SMALL_WEAR_MODULES).then(|| {
+            format!(
+                "at the rate of the unworn flanks the greatest wear comes to {ahead:.3} modules: beyond {SMALL_WEAR_MODULES} modules steps \
+                 stay short, which may take minutes, and the result is no longer reliable; a run ends where the wear is as deep as the tooth is thick"
+            )
         })
     }
 
@@ -359,6 +388,7 @@ impl WearRun<'_> {
         &self,
         run_state: &mut RunState,
         pair: &mut dyn WearingPair,
+        thickness_mm: &PerGear<Vec<f64>>,
         Attendants { keeper, progress }: Attendants<'_>,
     ) -> Result<PhaseEnd, SimulationError> {
         let phase = &self.phases[run_state.phase];
@@ -382,7 +412,7 @@ impl WearRun<'_> {
             let revolutions = run_state.revolutions;
             let is_due = self.due(run_state.passed).is_some_and(|next| revolutions >= next);
             let interrupted = progress.interrupted();
-            let worn_through = evaluated.is_ok().then(|| self.worn_through(pair, revolutions)).flatten();
+            let worn_through = evaluated.is_ok().then(|| Self::worn_through(pair, thickness_mm, revolutions)).flatten();
             let keep = run_state.states.is_empty() || (worn_through.is_none() && (is_due || interrupted));
             let state = evaluated.and_then(|done| {
                 run_state.work += done;
@@ -404,6 +434,11 @@ impl WearRun<'_> {
             if let Some(worn_through) = worn_through {
                 return Ok(PhaseEnd::Failed(worn_through));
             }
+            if revolutions == 0.0
+                && let Some(warning) = self.deep_wear_ahead(pair)
+            {
+                progress.warning(&warning);
+            }
             self.pass_due(run_state);
             progress.progress(revolutions, self.end_revolutions());
             let Some(next) = self.due(run_state.passed).filter(|_| !interrupted) else { return Ok(PhaseEnd::Stopped) };
@@ -423,6 +458,13 @@ impl WearRun<'_> {
             (run_state.revolutions, evaluated) = (advanced.revolutions, advanced.evaluated);
         }
     }
+}
+
+/// Transverse thickness of a tooth at every point of its flank; near a pointed tip half a module.
+fn thickness_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid) -> Vec<f64> {
+    let tooth = &pair.teeth[gear];
+    let at = |&rho: &f64| tooth.thickness_mm(tooth.involute.radius_mm(rho)).max(0.5 * pair.spec.normal_module_mm);
+    grid.coordinate_mm.iter().map(at).collect()
 }
 
 /// Index of the phase of the greatest load, the first of equals: what is said of the new and of the worn pair is under that load.

@@ -133,27 +133,35 @@ fn ver_negligible_wear_adds_up_whatever_the_order() {
     assert_close("2 k", two.coefficient_m2_per_N / one.coefficient_m2_per_N, 2.0, 1e-12);
 }
 
-/// Each phase runs under its own load with the K/H and the stiffness that belong to it: new is the first, worn the last.
+/// Each phase runs under its own load with the K/H and the stiffness that belong to it; new and worn are both under the greatest load.
 #[test]
 fn val_each_phase_has_the_contact_of_its_own_load() {
     let at = |torque: &str| format!("pinion_revolutions = 1e5\npinion_torque_Nm = {torque}");
     let (light, heavy) = (at("100.0"), at("400.0"));
     let both = spectrum(&[&light, &heavy], WINKLER, NEGLIGIBLE, "");
-    let (of_light, of_heavy) =
-        (spectrum(&[&light], WINKLER, NEGLIGIBLE, ""), spectrum(&[&heavy], WINKLER, NEGLIGIBLE, ""));
-    for (what, own, alone) in
-        [("new", &both.summary.new, &of_light.summary.new), ("worn", &both.summary.worn, &of_heavy.summary.worn)]
-    {
-        assert_close(what, own.pitch_pressure_MPa, alone.pitch_pressure_MPa, 1e-6);
-        assert_close(what, own.transmission_error_um.max, alone.transmission_error_um.max, 1e-6);
+    let backwards = spectrum(&[&heavy, &light], WINKLER, NEGLIGIBLE, "");
+    assert_eq!([&both, &backwards].map(|record| record.summary.reference_phase), [2, 1]);
+    let of_heavy = spectrum(&[&heavy], WINKLER, NEGLIGIBLE, "");
+    for record in [&both, &backwards] {
+        for (what, own) in [("new", &record.summary.new), ("worn", &record.summary.worn)] {
+            let alone = &of_heavy.summary.new;
+            assert_close(what, own.pitch_pressure_MPa, alone.pitch_pressure_MPa, 1e-6);
+            assert_close(what, own.transmission_error_um.max, alone.transmission_error_um.max, 1e-6);
+        }
+        assert_eq!(record.summary.contact, of_heavy.summary.contact);
     }
+    // What is worn lowers the pressure under the load that made it, whichever phase was the last: the load is the same.
+    let worn = spectrum(&[&heavy, &light], WINKLER, 2e-17, "").summary;
+    assert_close("new", worn.new.pitch_pressure_MPa, of_heavy.summary.new.pitch_pressure_MPa, 1e-6);
+    let loads = [&worn.new, &worn.worn].map(|cycle| cycle.transmission_error_um.max);
+    assert!((loads[1] / loads[0] - 1.0).abs() < 0.1, "{loads:?}");
     let [first, second] = &both.summary.phases[..] else { panic!() };
     // Hertz: p₀ ∝ √w, a ∝ √w; K/H of equal half-width ∝ 1/a (K. L. Johnson, Contact Mechanics, sections 4.2 and 4.3).
     assert_close("line load", second.line_load_N_per_mm / first.line_load_N_per_mm, 4.0, 1e-12);
     assert_close("p₀", second.hertz_peak_pressure_MPa / first.hertz_peak_pressure_MPa, 2.0, 1e-12);
     let foundation = |phase: usize| both.summary.phases[phase].foundation_MPa_per_mm.unwrap();
     assert_close("K/H", foundation(1) / foundation(0), 0.5, 1e-9);
-    assert_eq!(both.summary.contact.line_load_N_per_mm, first.line_load_N_per_mm);
+    assert_eq!(both.summary.contact.line_load_N_per_mm, second.line_load_N_per_mm);
 }
 
 /// Hours count at the speed of their phase, snapshots in hours too; the phase at its end is that which ends.
