@@ -20,6 +20,7 @@ pub(crate) mod fem_pair;
 pub(crate) mod files;
 pub(crate) mod flank_mesh;
 pub(crate) mod html;
+mod plot_script;
 mod pressure_plot;
 pub(crate) mod slice_table;
 pub(crate) mod tables;

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::page::{Page, note, plots, section, sources_list, stages_table};
+use super::page::{Page, Plots, note, section, sources_list, stages_table};
 use super::sliced::raster::{MOST_ACROSS, MOST_ALONG};
 use super::sliced::{self, sliced_run::SlicedRun};
 use super::table::{cells, line, list};
@@ -56,6 +56,7 @@ pub(crate) fn page(record: &RunRecord) -> String {
         (law_table::note(s))
         (figures_table::errors(&s.error))
     };
+    let plots = Plots::default();
     Page {
         kind: "Wear of a gear pair",
         title: &s.title,
@@ -64,10 +65,11 @@ pub(crate) fn page(record: &RunRecord) -> String {
         warnings: &s.warnings,
         main: html! {
             (section("figures", "Main figures", figures))
-            (section("plots", "Plots", html! { (note(&legend)) (plots(&charts)) }))
+            (section("plots", "Plots", html! { (note(&legend)) (plots.show(&charts)) }))
             (section("work", "How it was computed", work(s)))
             (section("sources", "Data and scene", sources(record)))
         },
+        plots,
         footer: &format!("gearwear {} · scene {}", s.program_version, s.scene_hash),
     }
     .html()

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::raster::SlicedRaster;
 use super::sliced_run::SlicedRun;
 use crate::gear::Gear;
-use crate::report::chart::{Chart, Trace};
+use crate::report::chart::{Chart, Trace, TraceKind};
 use crate::report::html::number::{figure, plotted};
 use crate::report::html::reading::greatest;
 
@@ -72,7 +72,7 @@ fn surface(run: SlicedRun<'_>, gear: Gear, shown: &Shown<'_>, visible: bool) -> 
     let width = std::iter::once(0.0).chain(raster.across.middles()).chain([face_width]).map(plotted);
     let radius = raster.along.middles().into_iter().map(plotted);
     let unit = shown.unit;
-    Trace::new("surface", shown.label)
+    Trace::new(TraceKind::Surface, shown.label)
         .set("x", width.collect::<Vec<f64>>())
         .set("y", radius.collect::<Vec<f64>>())
         .set("z", values.collect::<Vec<_>>())
