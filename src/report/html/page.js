@@ -81,15 +81,26 @@
     return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).text();
   }
 
+  // A frame whose document is open: the page counts as loaded, and whoever prints it unseen waits, until it is closed.
+  const frame = document.createElement("iframe");
+  frame.hidden = true;
+  document.body.append(frame);
+  frame.contentDocument.open();
+  const loaded = () => {
+    frame.contentDocument.close();
+    frame.remove();
+  };
+
   try {
     const script = document.createElement("script");
     script.textContent = await unpack(document.getElementById("plot-script").textContent);
     document.head.append(script);
   } catch {
     for (const message of document.querySelectorAll(".not-drawn")) message.hidden = false;
-    return;
+    return loaded();
   }
   drawAll();
+  loaded();
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawAll);
   const room = new ResizeObserver(drawWhatHasOtherRoom);
   for (const { node } of plots) room.observe(node);
