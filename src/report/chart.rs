@@ -1,4 +1,4 @@
-//! Charts: what is drawn, in the words of plotly.js, which draws them in the page.
+//! Charts: what is drawn, in the words of plotly.js, which draws them in the page; as files they are drawn by `figure`.
 //!
 //! A [`Chart`] is built line by line; what has no method of its own is set under plotly's name, as plotly's reference has it,
 //! <https://plotly.com/javascript/reference/>. Which bundle of the script goes into a page follows from its traces (`plot_script`).
@@ -104,6 +104,11 @@ impl Trace {
 
     fn of_kind(kind: TraceKind) -> Self {
         Self { kind, attributes: Map::new() }.set("type", kind.name())
+    }
+
+    /// An attribute under plotly's name; null where it is not set.
+    pub(crate) fn get(&self, key: &str) -> &Value {
+        self.attributes.get(key).unwrap_or(&Value::Null)
     }
 
     /// Sets an attribute under plotly's name.
@@ -337,6 +342,11 @@ impl Chart {
     pub(crate) fn add(mut self, trace: Trace) -> Self {
         self.traces.push(trace);
         self
+    }
+
+    /// Everything but its traces, in plotly's words.
+    pub(crate) fn layout(&self) -> &Value {
+        &self.layout
     }
 
     pub(crate) fn traces(&self) -> impl Iterator<Item = &Trace> {

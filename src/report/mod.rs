@@ -9,6 +9,8 @@
 //! | `slices.csv`, `flank.vtu` | [`slice_table`], [`flank_mesh`]; only where the sections of the pair differ |
 //! | `scene.toml` | the resolved scene, byte for byte, so that its SHA-256 begins with the scene hash |
 //! | `report.html` | [`html`] |
+//! | `results.xlsx`, where asked for | [`workbook`], from the CSV files |
+//! | figures in a folder of their own, where asked for | [`figure`], from the plots of the page |
 //!
 //! `summary.json` comes last, so that its presence says the others are complete.
 
@@ -17,6 +19,7 @@ pub(crate) mod chart;
 pub(crate) mod csv_table;
 pub(crate) mod fem;
 pub(crate) mod fem_pair;
+mod figure;
 pub(crate) mod files;
 pub(crate) mod flank_mesh;
 pub(crate) mod html;
@@ -25,6 +28,7 @@ mod pressure_plot;
 pub(crate) mod slice_table;
 pub(crate) mod tables;
 mod vtu_file;
+mod workbook;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -44,13 +48,14 @@ pub(crate) fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>,
     let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
     let mut csv = CsvFiles::new(dir, provenance);
     let flank = |gear: Gear| move |out: &mut dyn Write| tables::flank(out, &record.flanks[gear]);
+    let [pinion, wheel, history, profiles, mesh_cycle] = TABLES;
     let mut paths = vec![
         place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?,
-        csv.place("pinion.csv", flank(Gear::Pinion))?,
-        csv.place("wheel.csv", flank(Gear::Wheel))?,
-        csv.place("history.csv", |out| table(out, &record.history))?,
-        csv.place("profiles.csv", |out| tables::profiles(out, record))?,
-        csv.place("mesh_cycle.csv", |out| table(out, &record.mesh_cycle))?,
+        csv.place(pinion, flank(Gear::Pinion))?,
+        csv.place(wheel, flank(Gear::Wheel))?,
+        csv.place(history, |out| table(out, &record.history))?,
+        csv.place(profiles, |out| tables::profiles(out, record))?,
+        csv.place(mesh_cycle, |out| table(out, &record.mesh_cycle))?,
     ];
     match &record.slices {
         Some(slices) => {
@@ -70,11 +75,30 @@ pub(crate) fn write_page(record: &RunRecord, dir: &Path) -> Result<PathBuf, Repo
     place(dir, PAGE, |out| out.write_all(html::run_page::page(record).as_bytes()))
 }
 
+/// Writes the plots of the page of `record` as SVG and PNG into `dir`.
+pub(crate) fn write_figures(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+    figure::write_all(&html::run_page::charts(record), dir)
+}
+
+/// Writes the tables of `record`, which stand in `dir`, as a workbook beside them.
+pub(crate) fn write_workbook(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportError> {
+    let sliced = record.slices.is_some().then_some(SLICES);
+    let tables: Vec<&str> = TABLES.into_iter().chain(sliced).collect();
+    workbook::write(&record.summary, &tables, dir)
+}
+
+/// Takes away the workbook of an earlier run, if there is one.
+pub(crate) fn remove_workbook(dir: &Path) -> Result<(), ReportError> {
+    remove(dir, workbook::WORKBOOK)
+}
+
 /// Takes away the page of an earlier run, if there is one: it would pass for that of a run without.
 pub(crate) fn remove_page(dir: &Path) -> Result<(), ReportError> {
     remove(dir, PAGE)
 }
 
+/// The tables of every run.
+const TABLES: [&str; 5] = ["pinion.csv", "wheel.csv", "history.csv", "profiles.csv", "mesh_cycle.csv"];
 const PAGE: &str = "report.html";
 const SLICES: &str = "slices.csv";
 const FLANK: &str = "flank.vtu";

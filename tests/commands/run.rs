@@ -71,6 +71,41 @@ fn a_run_without_report_leaves_the_data_alone() {
     }
 }
 
+/// The plots of the page as drawings and pictures, and the tables as a workbook.
+#[test]
+fn figures_and_workbook_are_written_where_asked_for() {
+    let dir = tempfile::tempdir().unwrap();
+    let figures = dir.path().join("plots/new");
+    run(dir.path(), &quick(), "out", &["--workbook", "--figures", figures.to_str().unwrap()]);
+    let page = fs::read_to_string(dir.path().join("out/report.html")).unwrap();
+    let plots: Vec<&str> =
+        page.split("<div class=\"plot\" id=\"").skip(1).map(|at| at.split('"').next().unwrap()).collect();
+    assert!(plots.contains(&"wear-pinion"), "{plots:?}");
+    for plot in &plots {
+        let svg = fs::read_to_string(figures.join(format!("{plot}.svg"))).unwrap();
+        assert!(svg.starts_with("<svg") && !svg.contains("NaN") && !svg.contains("var("), "{plot}");
+        assert!(fs::read(figures.join(format!("{plot}.png"))).unwrap().starts_with(b"\x89PNG"), "{plot}");
+    }
+    assert_eq!(fs::read_dir(&figures).unwrap().count(), 2 * plots.len());
+    let workbook = dir.path().join("out/results.xlsx");
+    assert!(fs::read(&workbook).unwrap().starts_with(b"PK"));
+    // The same folder again: the workbook of the run before would pass for one of this.
+    run(dir.path(), &quick(), "out", &[]);
+    assert!(!workbook.exists());
+}
+
+#[test]
+fn figures_that_cannot_be_written_are_refused_before_the_run() {
+    let dir = tempfile::tempdir().unwrap();
+    let (scene, file) = (dir.path().join("scene.toml"), dir.path().join("file"));
+    fs::write(&scene, quick()).unwrap();
+    fs::write(&file, "").unwrap();
+    let out = dir.path().join("out");
+    let output = gearwear().arg("run").arg(&scene).arg("--out").arg(&out).arg("--figures").arg(&file).output().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("is not a folder") && !out.exists());
+}
+
 #[test]
 fn the_preset_runs_and_writes_everything_the_contract_names() {
     let dir = tempfile::tempdir().unwrap();

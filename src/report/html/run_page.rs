@@ -45,10 +45,7 @@ fn sliced_note() -> String {
 
 pub(crate) fn page(record: &RunRecord) -> String {
     let s = &record.summary;
-    let charts = match SlicedRun::of(record) {
-        Some(run) => sliced::figures(run),
-        None => figures_of_equal_sections(record),
-    };
+    let charts = charts(record);
     let legend = if record.slices.is_some() { sliced_note() } else { NOTE.to_owned() };
     let figures = html! {
         (figures_table::tables(record))
@@ -73,6 +70,14 @@ pub(crate) fn page(record: &RunRecord) -> String {
         footer: &format!("gearwear {} · scene {}", s.program_version, s.scene_hash),
     }
     .html()
+}
+
+/// The plots of a run, in the order of its page.
+pub(crate) fn charts(record: &RunRecord) -> Vec<Chart> {
+    match SlicedRun::of(record) {
+        Some(run) => sliced::figures(run),
+        None => figures_of_equal_sections(record),
+    }
 }
 
 fn figures_of_equal_sections(record: &RunRecord) -> Vec<Chart> {
