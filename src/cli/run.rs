@@ -45,6 +45,9 @@ pub(super) struct Args {
     /// Write results.xlsx too, a workbook with a sheet per table
     #[arg(long)]
     workbook: bool,
+    /// Write flank.pvd too: both flanks in space at the beginning and at every snapshot, for ParaView
+    #[arg(long)]
+    series: bool,
     /// Write each plot of the page into this folder too, as SVG and PNG; files of the same names are replaced
     #[arg(long, value_name = "DIR")]
     figures: Option<PathBuf>,
@@ -139,6 +142,10 @@ fn write(record: &mut RunRecord, out: &Path, args: &Args, progress: &Progress) -
     match args.no_report {
         true => report::remove_page(out),
         false => report::write_page(record, out).map(drop),
+    }?;
+    match args.series {
+        true => report::write_series(record, out).map(drop),
+        false => report::remove_series(out),
     }?;
     match args.workbook {
         true => report::write_workbook(record, out).map(drop),

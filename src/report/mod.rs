@@ -6,7 +6,8 @@
 //! | `pinion.csv`, `wheel.csv`, `profiles.csv` | [`tables`] |
 //! | `history.csv`, `mesh_cycle.csv` | [`HistoryRow`](crate::results::run::HistoryRow), [`MeshCycleRow`](crate::results::run::MeshCycleRow) |
 //! | `columns.json` | what the columns of the CSV files hold ([`csv_table`]) |
-//! | `slices.csv`, `flank.vtu` | [`slice_table`], [`flank_mesh`]; only where the sections of the pair differ |
+//! | `slices.csv` | [`slice_table`]; only where the sections of the pair differ |
+//! | `flank.vtu`; where asked for `flank.pvd`, `flank_000.vtu` … | [`flank_mesh`] |
 //! | `scene.toml` | the resolved scene, byte for byte, so that its SHA-256 begins with the scene hash |
 //! | `report.html` | [`html`] |
 //! | `results.xlsx`, where asked for | [`workbook`], from the CSV files |
@@ -42,7 +43,7 @@ use crate::gear::Gear;
 use crate::results::run::RunRecord;
 
 /// Writes all files of `record` but the page and `summary.json` into `dir`, which is made if need be; returns their paths in the order
-/// written. The files that only a pair with slices has are taken away where `record` has none.
+/// written. The file that only a pair with slices has is taken away where `record` has none.
 pub(crate) fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
     let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
@@ -61,11 +62,11 @@ pub(crate) fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>,
         Some(slices) => {
             let path = &record.summary.geometry.curvature_radius_mm;
             paths.push(csv.place(SLICES, |out| slice_table::slices(out, slices, path))?);
-            paths.push(place(dir, FLANK, |out| flank_mesh::write(out, record, slices))?);
         }
         // What an earlier run left there would pass for this one's.
-        None => [SLICES, FLANK].into_iter().try_for_each(|name| remove(dir, name))?,
+        None => remove(dir, SLICES)?,
     }
+    paths.push(place(dir, FLANK, |out| flank_mesh::write(out, record))?);
     paths.push(csv.finish()?);
     Ok(paths)
 }
@@ -92,6 +93,32 @@ pub(crate) fn remove_workbook(dir: &Path) -> Result<(), ReportError> {
     remove(dir, workbook::WORKBOOK)
 }
 
+/// Writes both flanks of `record` at the beginning and at every snapshot into `dir`, and the list of these files.
+pub(crate) fn write_series(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportError> {
+    let files: Vec<String> = (0..flank_mesh::moments(record)).map(flank_at).collect();
+    for (moment, file) in files.iter().enumerate() {
+        place(dir, file, |out| flank_mesh::write_moment(out, record, moment))?;
+    }
+    remove_moments(dir, files.len())?;
+    place(dir, SERIES, |out| flank_mesh::write_series(out, record, &files))
+}
+
+/// Takes away the series of an earlier run, if there is one.
+pub(crate) fn remove_series(dir: &Path) -> Result<(), ReportError> {
+    remove(dir, SERIES)?;
+    remove_moments(dir, 0)
+}
+
+fn remove_moments(dir: &Path, from: usize) -> Result<(), ReportError> {
+    let names = (from..).map(flank_at).take_while(|name| dir.join(name).exists());
+    names.into_iter().try_for_each(|name| remove(dir, &name))
+}
+
+/// The file of both flanks at a moment of a series.
+fn flank_at(moment: usize) -> String {
+    format!("flank_{moment:03}.vtu")
+}
+
 /// Takes away the page of an earlier run, if there is one: it would pass for that of a run without.
 pub(crate) fn remove_page(dir: &Path) -> Result<(), ReportError> {
     remove(dir, PAGE)
@@ -102,6 +129,7 @@ const TABLES: [&str; 5] = ["pinion.csv", "wheel.csv", "history.csv", "profiles.c
 const PAGE: &str = "report.html";
 const SLICES: &str = "slices.csv";
 const FLANK: &str = "flank.vtu";
+const SERIES: &str = "flank.pvd";
 
 /// Writes `summary.json` into `dir`, of a wear run or of finite elements, after everything else.
 pub(crate) fn write_summary(summary: &impl Serialize, dir: &Path) -> Result<PathBuf, ReportError> {

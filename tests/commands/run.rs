@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use crate::program::{exchanged, gearwear};
 
-const FILES: [&str; 9] = [
+const FILES: [&str; 10] = [
     "summary.json",
     "columns.json",
     "pinion.csv",
@@ -18,6 +18,7 @@ const FILES: [&str; 9] = [
     "history.csv",
     "profiles.csv",
     "mesh_cycle.csv",
+    "flank.vtu",
     "scene.toml",
     "report.html",
 ];
@@ -92,6 +93,40 @@ fn figures_and_workbook_are_written_where_asked_for() {
     // The same folder again: the workbook of the run before would pass for one of this.
     run(dir.path(), &quick(), "out", &[]);
     assert!(!workbook.exists());
+}
+
+/// Both flanks in space at the beginning and at every snapshot, listed with their times.
+#[test]
+fn a_series_has_a_file_for_every_snapshot() {
+    let dir = tempfile::tempdir().unwrap();
+    run(dir.path(), &quick(), "out", &["--series"]);
+    let out = dir.path().join("out");
+    let list = fs::read_to_string(out.join("flank.pvd")).unwrap();
+    let hours: Vec<f64> = csv::Reader::from_path(out.join("history.csv"))
+        .unwrap()
+        .deserialize()
+        .map(|row: Result<std::collections::BTreeMap<String, String>, _>| row.unwrap()["hours"].parse().unwrap())
+        .collect();
+    assert_eq!(list.matches("<DataSet").count(), hours.len() + 1);
+    for (moment, hours) in [0.0].into_iter().chain(hours).enumerate() {
+        let file = format!("flank_{moment:03}.vtu");
+        assert!(list.contains(&format!("timestep=\"{hours}\" group=\"\" part=\"0\" file=\"{file}\"")), "{list}");
+        let vtk = vtkio::Vtk::parse_xml(fs::read(out.join(&file)).unwrap().as_slice()).expect("vtkio reads it");
+        let vtkio::model::DataSet::UnstructuredGrid { pieces, .. } = vtk.data else {
+            panic!("not an unstructured grid")
+        };
+        let piece = pieces[0].load_piece_data(None).unwrap();
+        let wear = piece.data.point.iter().find_map(|attribute| match attribute {
+            vtkio::model::Attribute::DataArray(array) if array.name == "wear_um" => {
+                array.data.clone().cast_into::<f64>()
+            }
+            _ => None,
+        });
+        assert_eq!(wear.unwrap().iter().any(|&wear| wear > 0.0), moment > 0, "{file}");
+    }
+    // The same folder again: the series of the run before would pass for one of this.
+    run(dir.path(), &quick(), "out", &[]);
+    assert!(!out.join("flank.pvd").exists() && !out.join("flank_000.vtu").exists());
 }
 
 #[test]

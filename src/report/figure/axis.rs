@@ -30,6 +30,8 @@ impl Axis {
         let room = if tight { 0.0 } else { ROOM * (high - low) };
         let around = match (categories.len(), high - low) {
             (1.., _) => [-0.5, categories.len() as f64 - 0.5],
+            // Bars stand on the axis.
+            (0, width) if width > 0.0 && width.is_finite() && low == 0.0 => [0.0, high + room],
             (0, width) if width > 0.0 && width.is_finite() => [low - room, high + room],
             _ if low.is_finite() && high.is_finite() => [low - 0.5, high + 0.5],
             _ => [0.0, 1.0],

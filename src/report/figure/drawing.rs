@@ -240,7 +240,7 @@ impl<'a> Drawing<'a> {
         }
         if mode.contains("markers") {
             for &[x, y] in points.iter().filter(|point| point.iter().all(|value| value.is_finite())) {
-                self.sign(trace.get("marker"), [x, y]);
+                self.sign(trace, [x, y]);
             }
         }
         if mode.contains("text") {
@@ -253,8 +253,11 @@ impl<'a> Drawing<'a> {
         self.add("</g>");
     }
 
-    fn sign(&mut self, marker: &Value, [x, y]: [f64; 2]) {
-        let paint = colour(marker["color"].as_str().unwrap_or(INK));
+    /// The sign of a point, in the colour of the line where it has none of its own.
+    fn sign(&mut self, trace: &Trace, [x, y]: [f64; 2]) {
+        let marker = trace.get("marker");
+        let own = marker["color"].as_str().or(trace.get("line")["color"].as_str());
+        let paint = colour(own.unwrap_or(INK));
         let half = 0.5 * marker["size"].as_f64().unwrap_or(6.0);
         let (symbol, is_open) = match marker["symbol"].as_str().unwrap_or("circle") {
             symbol if symbol.ends_with("-open") => (symbol.trim_end_matches("-open"), true),
@@ -376,7 +379,7 @@ impl<'a> Drawing<'a> {
             self.add(format!("<path d=\"M{x:.2} {y:.2}h{LEGEND_SIGN}\" fill=\"none\" {}/>", stroke(trace.get("line"))));
         }
         if mode.contains("markers") {
-            self.sign(trace.get("marker"), [x + 0.5 * LEGEND_SIGN, y]);
+            self.sign(trace, [x + 0.5 * LEGEND_SIGN, y]);
         }
     }
 }

@@ -12,19 +12,19 @@ use super::{
 use crate::report::chart::Chart;
 use crate::results::run::{RunRecord, Summary};
 
-/// The data files named in the page, which lie beside it; two more where sections differ.
-const DATA_FILES: [(&str, &str); 8] = [
+/// The data files named in the page, which lie beside it; one more where sections differ.
+const DATA_FILES: [(&str, &str); 9] = [
     ("summary.json", "the main figures"),
     ("pinion.csv", "the pinion’s flank, point by point"),
     ("wheel.csv", "the wheel’s flank, point by point"),
     ("history.csv", "the snapshots"),
     ("profiles.csv", "both flanks at every snapshot"),
     ("mesh_cycle.csv", "the mesh cycle"),
+    ("flank.vtu", "both flanks in space, for ParaView"),
     ("columns.json", "what the columns of these tables hold"),
     ("scene.toml", "the resolved scene"),
 ];
-const SLICED_FILES: [(&str, &str); 2] =
-    [("slices.csv", "the load of every slice over the mesh"), ("flank.vtu", "both flanks in space, for ParaView")];
+const SLICES_FILE: (&str, &str) = ("slices.csv", "the load of every slice over the mesh");
 
 /// What the plots of a pair have in common.
 pub(crate) const NOTE: &str = "A to E are the points of the path of contact: contact begins at A and ends at E, a \
@@ -120,7 +120,7 @@ fn work(s: &Summary) -> Markup {
 fn sources(record: &RunRecord) -> Markup {
     let mut files = DATA_FILES.to_vec();
     if record.slices.is_some() {
-        files.extend(SLICED_FILES);
+        files.push(SLICES_FILE);
     }
     sources_list(&files, "The resolved scene, every default filled in", &record.scene_toml)
 }

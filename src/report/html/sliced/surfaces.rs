@@ -61,7 +61,7 @@ pub(super) fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Chart {
 /// The surface, drawn on to both end faces with the values of the first and the last slice.
 fn surface(run: SlicedRun<'_>, gear: Gear, shown: &Shown<'_>, visible: bool) -> Trace {
     let flank = &run.record.flanks[gear];
-    let face_width = run.slices.surface[gear].face_width_mm;
+    let face_width = run.record.surface[gear].face_width_mm;
     let raster = SlicedRaster::of_flank(flank, face_width);
     let points = flank.radius_mm.len();
     let to_ends = |row: Vec<f64>| -> Vec<f64> {
