@@ -20,6 +20,7 @@ pub(crate) mod chart;
 pub(crate) mod csv_table;
 pub(crate) mod fem;
 pub(crate) mod fem_pair;
+#[cfg(feature = "program")]
 mod figure;
 pub(crate) mod files;
 pub(crate) mod flank_mesh;
@@ -29,6 +30,7 @@ mod pressure_plot;
 pub(crate) mod slice_table;
 pub(crate) mod tables;
 mod vtu_file;
+#[cfg(feature = "program")]
 mod workbook;
 
 use std::io::Write;
@@ -77,11 +79,13 @@ pub(crate) fn write_page(record: &RunRecord, dir: &Path) -> Result<PathBuf, Repo
 }
 
 /// Writes the plots of the page of `record` as SVG and PNG into `dir`.
+#[cfg(feature = "program")]
 pub(crate) fn write_figures(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     figure::write_all(&html::run_page::charts(record), dir)
 }
 
 /// Writes the tables of `record`, which stand in `dir`, as a workbook beside them.
+#[cfg(feature = "program")]
 pub(crate) fn write_workbook(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportError> {
     let sliced = record.slices.is_some().then_some(SLICES);
     let tables: Vec<&str> = TABLES.into_iter().chain(sliced).collect();
@@ -89,6 +93,7 @@ pub(crate) fn write_workbook(record: &RunRecord, dir: &Path) -> Result<PathBuf, 
 }
 
 /// Takes away the workbook of an earlier run, if there is one.
+#[cfg(feature = "program")]
 pub(crate) fn remove_workbook(dir: &Path) -> Result<(), ReportError> {
     remove(dir, workbook::WORKBOOK)
 }

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::report::chart::extent;
-use crate::report::html::number::superscript;
+use crate::report::html::number::{superscript, to_digits};
 
 /// Of a range that follows from the values, the part that is added on either side.
 const ROOM: f64 = 0.05;
@@ -116,11 +116,13 @@ impl Axis {
 
 /// A number of a scale whose numbers are `step` apart.
 fn label(value: f64, step: f64) -> String {
-    let text = if (1e-4..1e6).contains(&step.abs()) || value == 0.0 {
+    let text = if (1e-4..1e6).contains(&step) {
         let decimals = (-step.log10().floor()).max(0.0) as usize;
         format!("{value:.decimals$}")
+    } else if value == 0.0 {
+        "0".to_owned()
     } else {
-        format!("{value:e}")
+        format!("{:e}", to_digits(value, 6))
     };
     text.replace('-', "−")
 }
@@ -151,6 +153,7 @@ mod tests {
         assert_eq!(labels(&json!({ "range": [-1.0, 1.0] }), &[]), ["−1.0", "−0.5", "0.0", "0.5", "1.0"]);
         assert_eq!(labels(&json!({ "range": [8.5, -0.2] }), &[]), ["0", "2", "4", "6", "8"]);
         assert_eq!(labels(&json!({ "type": "log" }), &[1e-2, 1e1]), ["10⁻²", "10⁻¹", "10⁰", "10¹"]);
+        assert_eq!(labels(&json!({ "range": [0.0, 5e-5] }), &[]), ["0", "1e−5", "2e−5", "3e−5", "4e−5", "5e−5"]);
         assert_eq!(labels(&json!({}), &[]).len(), 6);
         assert_eq!(labels(&json!({}), &[3.0]).first().unwrap(), "2.6");
     }
