@@ -10,8 +10,9 @@ use gearwear::report;
 use gearwear::report::ReportError;
 use gearwear::results::run::RunRecord;
 
-const FILES: [&str; 9] = [
+const FILES: [&str; 10] = [
     "columns.json",
+    "flank.vtu",
     "history.csv",
     "mesh_cycle.csv",
     "pinion.csv",
