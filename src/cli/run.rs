@@ -42,6 +42,15 @@ pub(super) struct Args {
     /// Write no report.html, the data files alone
     #[arg(long)]
     no_report: bool,
+    /// Write results.xlsx too, a workbook with a sheet per table
+    #[arg(long)]
+    workbook: bool,
+    /// Write flank.pvd too: both flanks in space at the beginning and at every snapshot, for ParaView
+    #[arg(long)]
+    series: bool,
+    /// Write each plot of the page into this folder too, as SVG and PNG; files of the same names are replaced
+    #[arg(long, value_name = "DIR")]
+    figures: Option<PathBuf>,
     /// Show neither progress nor figures, only what is wrong
     #[arg(long, short)]
     quiet: bool,
@@ -49,6 +58,9 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let pool = pool(args.threads)?;
+    if let Some(figures) = &args.figures {
+        report::writable(figures)?;
+    }
     let begun = match (&args.scene, &args.out, &args.resume) {
         (scene, _, Some(folder)) => match begun_run::resume(scene.as_deref(), folder)? {
             Some(begun) => begun,
@@ -76,7 +88,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let done = pool.install(|| -> Result<Done, Failure> {
         let resumption = Resumption { from, keeper: &keeper };
         let mut done = pipeline::run_from(&scene, resumption, &progress)?;
-        write(&mut done.record, &out, !args.no_report, &progress)?;
+        write(&mut done.record, &out, args, &progress)?;
         if done.record.summary.stopped != StopReason::Interrupted {
             folder::remove_checkpoint(&out)?;
         }
@@ -123,14 +135,25 @@ pub(super) fn in_the_scene(error: RunError, scene: &LoadedScene) -> Failure {
 }
 
 /// The last stage: the output folder. Its own time is in the summary, which is therefore written last.
-fn write(record: &mut RunRecord, out: &Path, with_page: bool, progress: &Progress) -> Result<(), ReportError> {
+fn write(record: &mut RunRecord, out: &Path, args: &Args, progress: &Progress) -> Result<(), ReportError> {
     progress.stage(StageKind::Report.name());
     let start = Instant::now();
     report::write_data(record, out)?;
-    match with_page {
-        true => report::write_page(record, out).map(drop),
-        false => report::remove_page(out),
+    match args.no_report {
+        true => report::remove_page(out),
+        false => report::write_page(record, out).map(drop),
     }?;
+    match args.series {
+        true => report::write_series(record, out).map(drop),
+        false => report::remove_series(out),
+    }?;
+    match args.workbook {
+        true => report::write_workbook(record, out).map(drop),
+        false => report::remove_workbook(out),
+    }?;
+    if let Some(figures) = &args.figures {
+        report::write_figures(record, figures)?;
+    }
     let wall_s = start.elapsed().as_secs_f64();
     record.summary.stages.push(StageTime { name: StageKind::Report.name().to_owned(), wall_s });
     record.summary.wall_s += wall_s;

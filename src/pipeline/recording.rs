@@ -4,7 +4,7 @@ use super::temperature::{self, ObservedHeat};
 use super::{
     Model, RunError, UM_PER_MM, drawing, error_estimates, phases, slices, stability::Judged, verification::Verified,
 };
-use crate::gear::{Gear, GearPair, PerGear};
+use crate::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
 use crate::mesh_cycle::CycleObservation;
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::plan::Plan;
@@ -45,7 +45,8 @@ pub(super) fn record(scene: &LoadedScene, model: &Model<'_>, found: RunFindings<
         flanks: PerGear::from_fn(|gear| flank(model, found, gear)),
         history: outcome.snapshots.iter().map(|snapshot| history_row(model, outcome, snapshot)).collect(),
         mesh_cycle: mesh_cycle(model, found),
-        slices: slices::record(model, outcome),
+        surface: PerGear::from_fn(|gear| FlankSurface::new(model.pair, gear)),
+        slices: slices::record(outcome),
         drawing: drawing::draw(model.pair),
     }
 }
@@ -249,6 +250,7 @@ fn flank(model: &Model<'_>, RunFindings { outcome, verified, .. }: RunFindings<'
         pressure_new_MPa: outcome.new.cycle.pressure_mpa[gear].clone(),
         pressure_worn_MPa: outcome.worn.cycle.pressure_mpa[gear].clone(),
         snapshot_wear_um: outcome.snapshots.iter().map(|snapshot| um(&snapshot.wear_mm[gear])).collect(),
+        snapshot_pressure_MPa: outcome.snapshots.iter().map(|s| s.cycle.pressure_mpa[gear].clone()).collect(),
         path_point_radius_mm: path_points(pair.path.points_mm().map(|position| pair.radius_at_mm(gear, position))),
         zones: outcome.zones[gear],
     }

@@ -2,7 +2,7 @@
 
 use super::{Model, UM_PER_MM};
 use crate::gear::spec::AxisParallelism;
-use crate::gear::{Gear, PerGear, flank_surface::FlankSurface};
+use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::sliced_mesh::SlicedMesh;
 use crate::results::run::{HelicalSummary, LineOfContactSummary, OverWidthSummary, SliceRecord};
 use crate::simulation::figures::{SliceFigures, WearFigures, variation};
@@ -115,12 +115,11 @@ fn over_width(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> OverWidthSumm
 }
 
 /// The mesh of one tooth; none where all sections are alike.
-pub(super) fn record(model: &Model<'_>, outcome: &Outcome) -> Option<SliceRecord> {
+pub(super) fn record(outcome: &Outcome) -> Option<SliceRecord> {
     let [new, worn] = meshes(outcome)?;
     Some(SliceRecord {
         width_mm: outcome.slices.width_mm.clone(),
         ahead_mm: outcome.slices.ahead_mm.clone(),
-        surface: PerGear::from_fn(|gear| FlankSurface::new(model.pair, gear)),
         position_mm: new.position_mm.clone(),
         line_load_new_N_per_mm: new.line_load_n_per_mm.clone(),
         line_load_worn_N_per_mm: worn.line_load_n_per_mm.clone(),

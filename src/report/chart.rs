@@ -1,23 +1,17 @@
-//! Charts: what is drawn, in the words of plotly.js, which draws them in the page.
+//! Charts: what is drawn, in the words of plotly.js, which draws them in the page; as files they are drawn by `figure`.
 //!
 //! A [`Chart`] is built line by line; what has no method of its own is set under plotly's name, as plotly's reference has it,
-//! <https://plotly.com/javascript/reference/>. The script itself is in `assets`, with its licence, and goes into every page.
+//! <https://plotly.com/javascript/reference/>. Which bundle of the script goes into a page follows from its traces (`plot_script`).
 //!
 //! Colours are tokens, `var(--name)` or `mix(--from,--to,share)`. The page's script replaces them by the custom properties
 //! of `page.css` in force, so that one place holds the palette and charts follow the light, dark or printed page.
 
-use std::io::Read;
-
-use flate2::read::GzDecoder;
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use super::html::number::plotted;
 use crate::gear::Gear;
 use crate::results::run::PathPoints;
-
-/// plotly.js 3.0.1, compressed.
-const SCRIPT: &[u8] = include_bytes!("assets/plotly.min.js.gz");
 
 pub(crate) const NEW: &str = "var(--new)";
 pub(crate) const WORN: &str = "var(--worn)";
@@ -30,13 +24,6 @@ pub(crate) const INK: &str = "var(--ink)";
 const RULE: &str = "var(--rule)";
 const PAPER: &str = "var(--paper)";
 const NOTHING: &str = "rgba(0,0,0,0)";
-
-pub(crate) fn script() -> String {
-    let mut script = String::new();
-    let read = GzDecoder::new(SCRIPT).read_to_string(&mut script);
-    read.expect("the script is part of the program");
-    script
-}
 
 pub(crate) fn gear_colour(gear: Gear) -> &'static str {
     match gear {
@@ -74,9 +61,36 @@ pub(crate) enum Dash {
     Mixed,
 }
 
+/// plotly's types of traces that charts use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum TraceKind {
+    /// Lines and points.
+    Scatter,
+    Bar,
+    HeatMap,
+    Contour,
+    Surface,
+}
+
+impl TraceKind {
+    /// As plotly calls it.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Scatter => "scatter",
+            Self::Bar => "bar",
+            Self::HeatMap => "heatmap",
+            Self::Contour => "contour",
+            Self::Surface => "surface",
+        }
+    }
+}
+
 /// One of the things that a chart shows.
 #[derive(Debug, Clone)]
-pub(crate) struct Trace(Map<String, Value>);
+pub(crate) struct Trace {
+    pub kind: TraceKind,
+    attributes: Map<String, Value>,
+}
 
 /// Numbers rounded to what a chart needs; what is none, or no number, is a gap.
 fn rounded(values: impl IntoIterator<Item = impl Into<Option<f64>>>) -> Value {
@@ -84,14 +98,22 @@ fn rounded(values: impl IntoIterator<Item = impl Into<Option<f64>>>) -> Value {
 }
 
 impl Trace {
-    /// A trace of one of plotly's types.
-    pub(crate) fn new(kind: &str, name: impl Into<String>) -> Self {
-        Self(Map::new()).set("type", kind).set("name", name.into())
+    pub(crate) fn new(kind: TraceKind, name: impl Into<String>) -> Self {
+        Self::of_kind(kind).set("name", name.into())
+    }
+
+    fn of_kind(kind: TraceKind) -> Self {
+        Self { kind, attributes: Map::new() }.set("type", kind.name())
+    }
+
+    /// An attribute under plotly's name; null where it is not set.
+    pub(crate) fn get(&self, key: &str) -> &Value {
+        self.attributes.get(key).unwrap_or(&Value::Null)
     }
 
     /// Sets an attribute under plotly's name.
     pub(crate) fn set(mut self, key: &str, value: impl Into<Value>) -> Self {
-        self.0.insert(key.to_owned(), value.into());
+        self.attributes.insert(key.to_owned(), value.into());
         self
     }
 
@@ -102,7 +124,7 @@ impl Trace {
         y: impl IntoIterator<Item = impl Into<Option<f64>>>,
         (colour, width_px, dash): (impl Into<String>, f64, Dash),
     ) -> Self {
-        let points = Self::new("scatter", name).set("x", rounded(x)).set("y", rounded(y));
+        let points = Self::new(TraceKind::Scatter, name).set("x", rounded(x)).set("y", rounded(y));
         // Through all its points: plotly would leave some out, which puts corners into smooth curves.
         let line = json!({ "color": colour.into(), "width": width_px, "dash": dash, "simplify": false });
         points.set("mode", "lines").set("line", line)
@@ -115,14 +137,14 @@ impl Trace {
         y: impl IntoIterator<Item = impl Into<Option<f64>>>,
         (colour, symbol, size_px): (&str, &str, i32),
     ) -> Self {
-        let points = Self::new("scatter", name).set("x", rounded(x)).set("y", rounded(y));
+        let points = Self::new(TraceKind::Scatter, name).set("x", rounded(x)).set("y", rounded(y));
         points.set("mode", "markers").set("marker", json!({ "color": colour, "symbol": symbol, "size": size_px }))
     }
 
     /// Colours over cells.
     pub(crate) fn heat_map(unit: &str, x: &[f64], y: &[f64], z: impl Into<Value>) -> Self {
         let edges = |edges: &[f64]| rounded(edges.iter().copied());
-        Self(Map::new()).set("type", "heatmap").set("x", edges(x)).set("y", edges(y)).set("z", z).colour_bar(unit)
+        Self::of_kind(TraceKind::HeatMap).set("x", edges(x)).set("y", edges(y)).set("z", z).colour_bar(unit)
     }
 
     /// Colours for values, with their scale beside the chart.
@@ -133,13 +155,13 @@ impl Trace {
 
     /// The scale of colours farther out, as part of the chart's width.
     pub(crate) fn colour_bar_at(mut self, x: f64) -> Self {
-        self.0["colorbar"]["x"] = x.into();
+        self.attributes["colorbar"]["x"] = x.into();
         self
     }
 
     /// The signs of a line's points too.
     pub(crate) fn with_points(self, symbol: &str, size_px: i32) -> Self {
-        let colour = self.0["line"]["color"].clone();
+        let colour = self.attributes["line"]["color"].clone();
         let marker = json!({ "color": colour, "symbol": symbol, "size": size_px });
         self.set("mode", "lines+markers").set("marker", marker)
     }
@@ -193,7 +215,7 @@ pub(crate) struct Chart {
     pub reading: String,
     /// Over the whole width of the page, or beside the next one where there is room.
     pub is_wide: bool,
-    traces: Vec<Value>,
+    traces: Vec<Trace>,
     layout: Value,
 }
 
@@ -318,8 +340,17 @@ impl Chart {
     }
 
     pub(crate) fn add(mut self, trace: Trace) -> Self {
-        self.traces.push(Value::Object(trace.0));
+        self.traces.push(trace);
         self
+    }
+
+    /// Everything but its traces, in plotly's words.
+    pub(crate) fn layout(&self) -> &Value {
+        &self.layout
+    }
+
+    pub(crate) fn traces(&self) -> impl Iterator<Item = &Trace> {
+        self.traces.iter()
     }
 
     /// Draws all of `traces`, one over the other.
@@ -381,7 +412,7 @@ impl Chart {
     pub(crate) fn to_json(&self) -> String {
         #[derive(Serialize)]
         struct Whole<'a> {
-            data: &'a [Value],
+            data: Vec<&'a Map<String, Value>>,
             layout: &'a Value,
             config: Value,
         }
@@ -392,7 +423,8 @@ impl Chart {
             "doubleClick": "reset+autosize",
             "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d", "toggleSpikelines"],
         });
-        let whole = Whole { data: &self.traces, layout: &self.layout, config };
+        let whole =
+            Whole { data: self.traces.iter().map(|trace| &trace.attributes).collect(), layout: &self.layout, config };
         serde_json::to_string(&whole).expect("numbers and texts are JSON")
     }
 }
@@ -439,13 +471,6 @@ pub(crate) fn extent(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn the_script_is_whole() {
-        let script = script();
-        assert!(script.contains("plotly.js v3.0.1") && script.trim_end().ends_with([';', '}']), "cut short");
-        assert!(!script.contains("<script"));
-    }
 
     #[test]
     fn charts_are_in_the_words_of_the_script() {

@@ -1,5 +1,5 @@
 //! `flank.vtu`: the working flanks of one tooth pair in space, where they touch at the pitch point in the middle of the face
-//! width; for ParaView.
+//! width; for ParaView. `flank.pvd`, where asked for: the same at the beginning and at every snapshot.
 //!
 //! Points lie on the nominal flanks ([`crate::gear::flank_surface`]), from the root form circle to the tip circle and from one
 //! end face to the other: at the middle of every slice, and at both end faces with the values of the slice next to them. Wear
@@ -8,13 +8,70 @@
 
 use std::io::{self, Write};
 
-use super::vtu_file;
-use crate::gear::Gear;
-use crate::mesh::{CellBlock, CellKind, DataArray, Mesh, Values};
-use crate::results::run::{FlankRecord, RunRecord, SliceRecord};
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, Event};
 
-pub(crate) fn write(out: &mut dyn Write, record: &RunRecord, slices: &SliceRecord) -> io::Result<()> {
-    vtu_file::write(out, &mesh(record, slices))
+use super::vtu_file;
+use crate::gear::{Gear, PerGear};
+use crate::mesh::{CellBlock, CellKind, DataArray, Mesh, Values};
+use crate::results::run::{FlankRecord, RunRecord};
+
+/// Names and values of what is told of the points of a flank, slice after slice.
+type Fields<'a> = Vec<(&'static str, &'a [f64])>;
+
+/// Writes both flanks at the end of the run.
+pub(crate) fn write(out: &mut dyn Write, record: &RunRecord) -> io::Result<()> {
+    let fields = |gear: Gear| {
+        let flank = &record.flanks[gear];
+        let pressures =
+            [("pressure_new_MPa", &flank.pressure_new_MPa), ("pressure_worn_MPa", &flank.pressure_worn_MPa)];
+        with_unworn(flank, [("wear_um", &flank.wear_um), pressures[0], pressures[1]])
+    };
+    vtu_file::write(out, &mesh(record, PerGear::from_fn(fields)))
+}
+
+/// How many files [`write_moment`] can write: the beginning and every snapshot.
+pub(crate) fn moments(record: &RunRecord) -> usize {
+    record.history.len() + 1
+}
+
+/// Writes both flanks at the beginning (0) or at a snapshot, from 1.
+pub(crate) fn write_moment(out: &mut dyn Write, record: &RunRecord, moment: usize) -> io::Result<()> {
+    let unworn = PerGear::from_fn(|gear| vec![0.0; record.flanks[gear].wear_um.len()]);
+    let fields = |gear: Gear| {
+        let flank = &record.flanks[gear];
+        let (wear_um, pressure_mpa) = match moment.checked_sub(1) {
+            None => (&unworn[gear], &flank.pressure_new_MPa),
+            Some(snapshot) => (&flank.snapshot_wear_um[snapshot], &flank.snapshot_pressure_MPa[snapshot]),
+        };
+        with_unworn(flank, [("wear_um", wear_um), ("pressure_MPa", pressure_mpa)])
+    };
+    vtu_file::write(out, &mesh(record, PerGear::from_fn(fields)))
+}
+
+/// Writes the list of the `files` of all moments, each with its time: running time in hours, pinion revolutions where there is none.
+pub(crate) fn write_series(out: &mut dyn Write, record: &RunRecord, files: &[String]) -> io::Result<()> {
+    let times = record.history.iter().map(|row| row.hours.unwrap_or(row.revolutions).to_string());
+    let mut xml = Writer::new_with_indent(out, b' ', 2);
+    xml.write_event(Event::Decl(BytesDecl::new("1.0", None, None)))?;
+    let whole = xml.create_element("VTKFile").with_attributes([("type", "Collection"), ("version", "0.1")]);
+    whole.write_inner_content(|xml| {
+        xml.create_element("Collection").write_inner_content(|xml| {
+            for (time, file) in std::iter::once("0".to_owned()).chain(times).zip(files) {
+                let set = [("timestep", time.as_str()), ("group", ""), ("part", "0"), ("file", file.as_str())];
+                xml.create_element("DataSet").with_attributes(set).write_empty()?;
+            }
+            Ok(())
+        })?;
+        Ok(())
+    })?;
+    Ok(())
+}
+
+/// What does not change with wear, and then `worn`.
+fn with_unworn<'a, const N: usize>(flank: &'a FlankRecord, worn: [(&'static str, &'a Vec<f64>); N]) -> Fields<'a> {
+    let unworn = [("removed_um", &flank.removed_um), ("sliding_mm_per_mesh", &flank.sliding_mm_per_mesh)];
+    unworn.into_iter().chain(worn).map(|(name, values)| (name, values.as_slice())).collect()
 }
 
 /// Places over the face width, each with the slice whose values it has.
@@ -24,13 +81,14 @@ fn sections(width_mm: &[f64], face_width_mm: f64) -> Vec<(f64, usize)> {
     std::iter::once((0.0, 0)).chain(middles).chain([(face_width_mm, last)]).collect()
 }
 
-fn mesh(record: &RunRecord, slices: &SliceRecord) -> Mesh {
+fn mesh(record: &RunRecord, fields: PerGear<Fields<'_>>) -> Mesh {
     let mut mesh = Mesh::default();
     let (mut quads, mut gear_of_quad) = (Vec::new(), Vec::new());
-    let mut data = PointData::default();
+    let (mut radius, mut width, mut slice_of, mut normal) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut values: Vec<(&'static str, Vec<f64>)> = fields.pinion.iter().map(|(name, _)| (*name, Vec::new())).collect();
     for gear in Gear::BOTH {
         let flank = &record.flanks[gear];
-        let surface = &slices.surface[gear];
+        let surface = &record.surface[gear];
         let position_mm = record.summary.geometry.curvature_radius_mm.C;
         let root_form_mm = 0.5 * record.summary.geometry.gears[gear].root_form_diameter_mm;
         let on_involute = flank.radius_mm.partition_point(|&radius| radius < root_form_mm)..flank.radius_mm.len();
@@ -40,8 +98,13 @@ fn mesh(record: &RunRecord, slices: &SliceRecord) -> Mesh {
             for point in on_involute.clone() {
                 let rho = surface.rho_mm(flank.radius_mm[point]);
                 mesh.points.push(surface.point_mm(rho, width_mm, position_mm));
-                data.normal.extend(surface.transverse_normal(rho, width_mm, position_mm));
-                data.push(flank, point, width_mm, slice);
+                normal.extend(surface.transverse_normal(rho, width_mm, position_mm));
+                radius.push(flank.radius_mm[point]);
+                width.push(width_mm);
+                slice_of.push(slice as i64);
+                for ((_, all), (_, field)) in values.iter_mut().zip(&fields[gear]) {
+                    all.push(field[slice * flank.radius_mm.len() + point]);
+                }
             }
         }
         for across in 0..sections.len().saturating_sub(1) {
@@ -55,46 +118,12 @@ fn mesh(record: &RunRecord, slices: &SliceRecord) -> Mesh {
         }
     }
     mesh.cells.push(CellBlock { kind: CellKind::Quad, nodes: quads });
-    let gears = DataArray { components: 1, values: Values::Integers(gear_of_quad) };
-    mesh.cell_data.insert("gear".to_owned(), vec![gears]);
-    data.into_mesh(&mut mesh);
+    let integers = |values| DataArray { components: 1, values: Values::Integers(values) };
+    mesh.cell_data.insert("gear".to_owned(), vec![integers(gear_of_quad)]);
+    for (name, values) in [("radius_mm", radius), ("width_mm", width)].into_iter().chain(values) {
+        mesh.add_point_data(name, 1, values);
+    }
+    mesh.point_data.insert("slice".to_owned(), integers(slice_of));
+    mesh.add_point_data("transverse_normal", 3, normal);
     mesh
-}
-
-/// What is told of every point.
-#[derive(Default)]
-struct PointData {
-    reals: [Vec<f64>; 7],
-    slice: Vec<i64>,
-    normal: Vec<f64>,
-}
-
-/// Names of the scalars, in the order in which [`PointData::push`] adds them.
-const NAMES: [&str; 7] =
-    ["radius_mm", "width_mm", "removed_um", "sliding_mm_per_mesh", "wear_um", "pressure_new_MPa", "pressure_worn_MPa"];
-
-impl PointData {
-    fn push(&mut self, flank: &FlankRecord, point: usize, width_mm: f64, slice: usize) {
-        let place = slice * flank.radius_mm.len() + point;
-        let values = [
-            flank.radius_mm[point],
-            width_mm,
-            flank.removed_um[place],
-            flank.sliding_mm_per_mesh[place],
-            flank.wear_um[place],
-            flank.pressure_new_MPa[place],
-            flank.pressure_worn_MPa[place],
-        ];
-        self.reals.iter_mut().zip(values).for_each(|(all, value)| all.push(value));
-        self.slice.push(slice as i64);
-    }
-
-    fn into_mesh(self, mesh: &mut Mesh) {
-        for (name, values) in NAMES.into_iter().zip(self.reals) {
-            mesh.add_point_data(name, 1, values);
-        }
-        let slice = DataArray { components: 1, values: Values::Integers(self.slice) };
-        mesh.point_data.insert("slice".to_owned(), slice);
-        mesh.add_point_data("transverse_normal", 3, self.normal);
-    }
 }

@@ -6,9 +6,12 @@
 //! | `pinion.csv`, `wheel.csv`, `profiles.csv` | [`tables`] |
 //! | `history.csv`, `mesh_cycle.csv` | [`HistoryRow`](crate::results::run::HistoryRow), [`MeshCycleRow`](crate::results::run::MeshCycleRow) |
 //! | `columns.json` | what the columns of the CSV files hold ([`csv_table`]) |
-//! | `slices.csv`, `flank.vtu` | [`slice_table`], [`flank_mesh`]; only where the sections of the pair differ |
+//! | `slices.csv` | [`slice_table`]; only where the sections of the pair differ |
+//! | `flank.vtu`; where asked for `flank.pvd`, `flank_000.vtu` … | [`flank_mesh`] |
 //! | `scene.toml` | the resolved scene, byte for byte, so that its SHA-256 begins with the scene hash |
 //! | `report.html` | [`html`] |
+//! | `results.xlsx`, where asked for | [`workbook`], from the CSV files |
+//! | figures in a folder of their own, where asked for | [`figure`], from the plots of the page |
 //!
 //! `summary.json` comes last, so that its presence says the others are complete.
 
@@ -17,13 +20,18 @@ pub(crate) mod chart;
 pub(crate) mod csv_table;
 pub(crate) mod fem;
 pub(crate) mod fem_pair;
+#[cfg(feature = "program")]
+mod figure;
 pub(crate) mod files;
 pub(crate) mod flank_mesh;
 pub(crate) mod html;
+mod plot_script;
 mod pressure_plot;
 pub(crate) mod slice_table;
 pub(crate) mod tables;
 mod vtu_file;
+#[cfg(feature = "program")]
+mod workbook;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -37,29 +45,30 @@ use crate::gear::Gear;
 use crate::results::run::RunRecord;
 
 /// Writes all files of `record` but the page and `summary.json` into `dir`, which is made if need be; returns their paths in the order
-/// written. The files that only a pair with slices has are taken away where `record` has none.
+/// written. The file that only a pair with slices has is taken away where `record` has none.
 pub(crate) fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
     let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
     let mut csv = CsvFiles::new(dir, provenance);
     let flank = |gear: Gear| move |out: &mut dyn Write| tables::flank(out, &record.flanks[gear]);
+    let [pinion, wheel, history, profiles, mesh_cycle] = TABLES;
     let mut paths = vec![
         place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?,
-        csv.place("pinion.csv", flank(Gear::Pinion))?,
-        csv.place("wheel.csv", flank(Gear::Wheel))?,
-        csv.place("history.csv", |out| table(out, &record.history))?,
-        csv.place("profiles.csv", |out| tables::profiles(out, record))?,
-        csv.place("mesh_cycle.csv", |out| table(out, &record.mesh_cycle))?,
+        csv.place(pinion, flank(Gear::Pinion))?,
+        csv.place(wheel, flank(Gear::Wheel))?,
+        csv.place(history, |out| table(out, &record.history))?,
+        csv.place(profiles, |out| tables::profiles(out, record))?,
+        csv.place(mesh_cycle, |out| table(out, &record.mesh_cycle))?,
     ];
     match &record.slices {
         Some(slices) => {
             let path = &record.summary.geometry.curvature_radius_mm;
             paths.push(csv.place(SLICES, |out| slice_table::slices(out, slices, path))?);
-            paths.push(place(dir, FLANK, |out| flank_mesh::write(out, record, slices))?);
         }
         // What an earlier run left there would pass for this one's.
-        None => [SLICES, FLANK].into_iter().try_for_each(|name| remove(dir, name))?,
+        None => remove(dir, SLICES)?,
     }
+    paths.push(place(dir, FLANK, |out| flank_mesh::write(out, record))?);
     paths.push(csv.finish()?);
     Ok(paths)
 }
@@ -69,14 +78,63 @@ pub(crate) fn write_page(record: &RunRecord, dir: &Path) -> Result<PathBuf, Repo
     place(dir, PAGE, |out| out.write_all(html::run_page::page(record).as_bytes()))
 }
 
+/// Writes the plots of the page of `record` as SVG and PNG into `dir`.
+#[cfg(feature = "program")]
+pub(crate) fn write_figures(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
+    figure::write_all(&html::run_page::charts(record), dir)
+}
+
+/// Writes the tables of `record`, which stand in `dir`, as a workbook beside them.
+#[cfg(feature = "program")]
+pub(crate) fn write_workbook(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportError> {
+    let sliced = record.slices.is_some().then_some(SLICES);
+    let tables: Vec<&str> = TABLES.into_iter().chain(sliced).collect();
+    workbook::write(&record.summary, &tables, dir)
+}
+
+/// Takes away the workbook of an earlier run, if there is one.
+#[cfg(feature = "program")]
+pub(crate) fn remove_workbook(dir: &Path) -> Result<(), ReportError> {
+    remove(dir, workbook::WORKBOOK)
+}
+
+/// Writes both flanks of `record` at the beginning and at every snapshot into `dir`, and the list of these files.
+pub(crate) fn write_series(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportError> {
+    let files: Vec<String> = (0..flank_mesh::moments(record)).map(flank_at).collect();
+    for (moment, file) in files.iter().enumerate() {
+        place(dir, file, |out| flank_mesh::write_moment(out, record, moment))?;
+    }
+    remove_moments(dir, files.len())?;
+    place(dir, SERIES, |out| flank_mesh::write_series(out, record, &files))
+}
+
+/// Takes away the series of an earlier run, if there is one.
+pub(crate) fn remove_series(dir: &Path) -> Result<(), ReportError> {
+    remove(dir, SERIES)?;
+    remove_moments(dir, 0)
+}
+
+fn remove_moments(dir: &Path, from: usize) -> Result<(), ReportError> {
+    let names = (from..).map(flank_at).take_while(|name| dir.join(name).exists());
+    names.into_iter().try_for_each(|name| remove(dir, &name))
+}
+
+/// The file of both flanks at a moment of a series.
+fn flank_at(moment: usize) -> String {
+    format!("flank_{moment:03}.vtu")
+}
+
 /// Takes away the page of an earlier run, if there is one: it would pass for that of a run without.
 pub(crate) fn remove_page(dir: &Path) -> Result<(), ReportError> {
     remove(dir, PAGE)
 }
 
+/// The tables of every run.
+const TABLES: [&str; 5] = ["pinion.csv", "wheel.csv", "history.csv", "profiles.csv", "mesh_cycle.csv"];
 const PAGE: &str = "report.html";
 const SLICES: &str = "slices.csv";
 const FLANK: &str = "flank.vtu";
+const SERIES: &str = "flank.pvd";
 
 /// Writes `summary.json` into `dir`, of a wear run or of finite elements, after everything else.
 pub(crate) fn write_summary(summary: &impl Serialize, dir: &Path) -> Result<PathBuf, ReportError> {

@@ -25,6 +25,8 @@ pub struct RunRecord {
     pub history: Vec<HistoryRow>,
     /// One row per loading position.
     pub mesh_cycle: Vec<MeshCycleRow>,
+    /// Each gear's working flank in space.
+    pub surface: PerGear<FlankSurface>,
     /// The mesh of one tooth slice by slice; `None` where all sections are alike.
     pub slices: Option<SliceRecord>,
     /// The pair in mesh, to scale.
@@ -452,6 +454,9 @@ pub struct FlankRecord {
     pub pressure_worn_MPa: Vec<f64>,
     /// Wear depth at each snapshot of the history.
     pub snapshot_wear_um: Vec<Vec<f64>>,
+    /// Greatest pressure during one mesh at each snapshot of the history. No column.
+    #[serde(skip)]
+    pub snapshot_pressure_MPa: Vec<Vec<f64>>,
     /// Radii worth marking: start of active profile (A on the pinion, E on the wheel) to tip.
     pub path_point_radius_mm: PathPoints,
     /// Its parts, of which figures speak.
@@ -543,8 +548,6 @@ pub struct SliceRecord {
     pub width_mm: Vec<f64>,
     /// How far the theoretical contact point of each slice is ahead of that in the middle of the face width.
     pub ahead_mm: Vec<f64>,
-    /// Each gear's working flank in space.
-    pub surface: PerGear<FlankSurface>,
     /// Position of the tooth in the middle of the face width: the pinion's radius of curvature, also before A and after E.
     pub position_mm: Vec<f64>,
     /// Load of each slice at each position, position after position, N per mm of face width; new.

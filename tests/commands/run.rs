@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use crate::program::{exchanged, gearwear};
 
-const FILES: [&str; 9] = [
+const FILES: [&str; 10] = [
     "summary.json",
     "columns.json",
     "pinion.csv",
@@ -18,6 +18,7 @@ const FILES: [&str; 9] = [
     "history.csv",
     "profiles.csv",
     "mesh_cycle.csv",
+    "flank.vtu",
     "scene.toml",
     "report.html",
 ];
@@ -69,6 +70,75 @@ fn a_run_without_report_leaves_the_data_alone() {
     for file in FILES.iter().filter(|file| **file != "report.html") {
         assert!(dir.path().join("out").join(file).metadata().unwrap().len() > 0, "{file}");
     }
+}
+
+/// The plots of the page as drawings and pictures, and the tables as a workbook.
+#[test]
+fn figures_and_workbook_are_written_where_asked_for() {
+    let dir = tempfile::tempdir().unwrap();
+    let figures = dir.path().join("plots/new");
+    run(dir.path(), &quick(), "out", &["--workbook", "--figures", figures.to_str().unwrap()]);
+    let page = fs::read_to_string(dir.path().join("out/report.html")).unwrap();
+    let plots: Vec<&str> =
+        page.split("<div class=\"plot\" id=\"").skip(1).map(|at| at.split('"').next().unwrap()).collect();
+    assert!(plots.contains(&"wear-pinion"), "{plots:?}");
+    for plot in &plots {
+        let svg = fs::read_to_string(figures.join(format!("{plot}.svg"))).unwrap();
+        assert!(svg.starts_with("<svg") && !svg.contains("NaN") && !svg.contains("var("), "{plot}");
+        assert!(fs::read(figures.join(format!("{plot}.png"))).unwrap().starts_with(b"\x89PNG"), "{plot}");
+    }
+    assert_eq!(fs::read_dir(&figures).unwrap().count(), 2 * plots.len());
+    let workbook = dir.path().join("out/results.xlsx");
+    assert!(fs::read(&workbook).unwrap().starts_with(b"PK"));
+    // The same folder again: the workbook of the run before would pass for one of this.
+    run(dir.path(), &quick(), "out", &[]);
+    assert!(!workbook.exists());
+}
+
+/// Both flanks in space at the beginning and at every snapshot, listed with their times.
+#[test]
+fn a_series_has_a_file_for_every_snapshot() {
+    let dir = tempfile::tempdir().unwrap();
+    run(dir.path(), &quick(), "out", &["--series"]);
+    let out = dir.path().join("out");
+    let list = fs::read_to_string(out.join("flank.pvd")).unwrap();
+    let hours: Vec<f64> = csv::Reader::from_path(out.join("history.csv"))
+        .unwrap()
+        .deserialize()
+        .map(|row: Result<std::collections::BTreeMap<String, String>, _>| row.unwrap()["hours"].parse().unwrap())
+        .collect();
+    assert_eq!(list.matches("<DataSet").count(), hours.len() + 1);
+    for (moment, hours) in [0.0].into_iter().chain(hours).enumerate() {
+        let file = format!("flank_{moment:03}.vtu");
+        assert!(list.contains(&format!("timestep=\"{hours}\" group=\"\" part=\"0\" file=\"{file}\"")), "{list}");
+        let vtk = vtkio::Vtk::parse_xml(fs::read(out.join(&file)).unwrap().as_slice()).expect("vtkio reads it");
+        let vtkio::model::DataSet::UnstructuredGrid { pieces, .. } = vtk.data else {
+            panic!("not an unstructured grid")
+        };
+        let piece = pieces[0].load_piece_data(None).unwrap();
+        let wear = piece.data.point.iter().find_map(|attribute| match attribute {
+            vtkio::model::Attribute::DataArray(array) if array.name == "wear_um" => {
+                array.data.clone().cast_into::<f64>()
+            }
+            _ => None,
+        });
+        assert_eq!(wear.unwrap().iter().any(|&wear| wear > 0.0), moment > 0, "{file}");
+    }
+    // The same folder again: the series of the run before would pass for one of this.
+    run(dir.path(), &quick(), "out", &[]);
+    assert!(!out.join("flank.pvd").exists() && !out.join("flank_000.vtu").exists());
+}
+
+#[test]
+fn figures_that_cannot_be_written_are_refused_before_the_run() {
+    let dir = tempfile::tempdir().unwrap();
+    let (scene, file) = (dir.path().join("scene.toml"), dir.path().join("file"));
+    fs::write(&scene, quick()).unwrap();
+    fs::write(&file, "").unwrap();
+    let out = dir.path().join("out");
+    let output = gearwear().arg("run").arg(&scene).arg("--out").arg(&out).arg("--figures").arg(&file).output().unwrap();
+    assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("is not a folder") && !out.exists());
 }
 
 #[test]

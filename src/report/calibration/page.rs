@@ -6,7 +6,7 @@ use super::{foundation_figures, stiffness_figures, tables, wear_figure};
 use crate::calibration::Calibration;
 use crate::contact::settings::MatchCriterion;
 use crate::report::html::number::{figure, percent};
-use crate::report::html::page::{self, Page, plots, section, sources_list, stages_table};
+use crate::report::html::page::{self, Page, Plots, section, sources_list, stages_table};
 use crate::report::html::run_page::NOTE;
 use crate::results::run::StageTime;
 
@@ -20,6 +20,7 @@ pub(super) fn page(calibration: &Calibration, stages: &[StageTime], title: &str,
     // As many digits of a hash as one compares by eye.
     let hash = calibration.hash.get(..16).unwrap_or(&calibration.hash);
     let files = [(file, "all numbers, as scenes read them")];
+    let plots = Plots::default();
     Page {
         kind: "Calibration of a gear pair by finite elements",
         title,
@@ -28,10 +29,11 @@ pub(super) fn page(calibration: &Calibration, stages: &[StageTime], title: &str,
         warnings: &[],
         main: html! {
             (section("figures", "Main figures", page::tables(tables::tables(calibration))))
-            (section("plots", "Plots", html! { (page::note(NOTE)) (plots(&charts)) }))
+            (section("plots", "Plots", html! { (page::note(NOTE)) (plots.show(&charts)) }))
             (section("work", "How it was computed", page::tables([stages_table(stages, wall_s)])))
             (section("sources", "Data", sources_list(&files, "What it belongs to", &belongs_to)))
         },
+        plots,
         footer: &format!("gearwear {} · calibration {}", calibration.program_version, hash),
     }
     .html()

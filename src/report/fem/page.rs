@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::{field_figures, pressure_figure};
 use crate::fem::problem::{Stop, ThirdDirection};
 use crate::report::html::number::{change, figure, significant};
-use crate::report::html::page::{self, Page, plots, section, sources_list, stages_table};
+use crate::report::html::page::{self, Page, Plots, section, sources_list, stages_table};
 use crate::report::html::table::{NONE, cells, row, table};
 use crate::results::fem_problem::{ContactSummary, FemRecord, FemSummary, PlaneSolution};
 
@@ -29,6 +29,7 @@ pub(super) fn page(record: &FemRecord, plane: &PlaneSolution) -> String {
     let figures = s.contact.iter().map(contact_table).chain([model_table(s), solver_table(s)]);
     let work = page::tables([stages_table(&s.stages, s.wall_s), work_table(s)]);
     let sources = sources_list(&DATA_FILES, "The resolved problem, every default filled in", &record.problem_toml);
+    let plots = Plots::default();
     Page {
         kind: "Elastic bodies in contact",
         title: &s.title,
@@ -37,10 +38,11 @@ pub(super) fn page(record: &FemRecord, plane: &PlaneSolution) -> String {
         warnings: &s.warnings,
         main: html! {
             (section("figures", "Main figures", page::tables(figures)))
-            (section("plots", "Plots", plots(&charts)))
+            (section("plots", "Plots", plots.show(&charts)))
             (section("work", "How it was computed", work))
             (section("sources", "Data and problem", sources))
         },
+        plots,
         footer: &format!("gearwear {} · problem {} · mesh {}", s.program_version, s.problem_hash, s.mesh.hash),
     }
     .html()

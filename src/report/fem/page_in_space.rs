@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::page::{model_table, solver_table};
 use crate::report::html::number::{figure, significant};
-use crate::report::html::page::{self, Page, note, section, sources_list, stages_table};
+use crate::report::html::page::{self, Page, Plots, note, section, sources_list, stages_table};
 use crate::report::html::table::{cells, line, list, row, table};
 use crate::results::fem_problem::{FemRecord, FemSummary, InSpaceSummary, SpaceSolution};
 
@@ -38,6 +38,7 @@ pub(super) fn page(record: &FemRecord, found: &SpaceSolution) -> String {
             (section("work", "How it was computed", work))
             (section("sources", "Data and problem", sources))
         },
+        plots: Plots::default(),
         footer: &format!("gearwear {} · problem {} · mesh {}", s.program_version, s.problem_hash, s.mesh.hash),
     }
     .html()

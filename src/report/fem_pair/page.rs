@@ -4,7 +4,7 @@ use maud::html;
 
 use super::{cycle_figures, field_figures, figures_table, pressure_figure};
 use crate::report::html::number::{figure, significant};
-use crate::report::html::page::{self, Page, plots, section, sources_list, stages_table};
+use crate::report::html::page::{self, Page, Plots, section, sources_list, stages_table};
 use crate::report::html::reading::among;
 use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
 use crate::results::run::StopReason;
@@ -33,6 +33,7 @@ pub(super) fn page(record: &FemPairRecord) -> String {
     let is_there = |(name, _): &(&str, &str)| *name != "solution.vtu" || record.solution.is_some();
     let files: Vec<_> = DATA_FILES.into_iter().filter(is_there).collect();
     let work = html! { (stages_table(&s.stages, s.wall_s)) (figures_table::checks(s)) };
+    let plots = Plots::default();
     Page {
         kind: "Finite-element contact of a gear pair",
         title: &s.title,
@@ -41,10 +42,11 @@ pub(super) fn page(record: &FemPairRecord) -> String {
         warnings: &s.warnings,
         main: html! {
             (section("figures", "Main figures", figures_table::tables(s)))
-            (section("plots", "Plots", html! { (page::note(LEGEND)) (plots(&charts)) }))
+            (section("plots", "Plots", html! { (page::note(LEGEND)) (plots.show(&charts)) }))
             (section("work", "How it was computed", page::tables([work])))
             (section("sources", "Data and scene", sources_list(&files, "The resolved scene, every default filled in", &record.scene_toml)))
         },
+        plots,
         footer: &format!("gearwear {} · scene {}", s.program_version, s.scene_hash),
     }
     .html()

@@ -117,7 +117,8 @@ fn grouped(digits: &str) -> String {
     text
 }
 
-fn superscript(exponent: i32) -> String {
+/// As small raised digits.
+pub(crate) fn superscript(exponent: i32) -> String {
     const DIGITS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let sign = if exponent < 0 { "⁻" } else { "" };
     let digits = exponent.unsigned_abs().to_string();

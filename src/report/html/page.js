@@ -1,6 +1,6 @@
 // Draws the plots in the colours of the style sheet: again when those change, when the room for a plot changes, and
-// when the page is printed.
-(() => {
+// when the page is printed. The script that draws them stands in the page compressed.
+(async () => {
   "use strict";
   const PRINT_WIDTH = 670; // px: an A4 page less its margins
   const NARROW = 480; // px: below this a plot is that of a phone
@@ -76,7 +76,31 @@
     for (const plot of plots) if (hasRoom(plot) && plot.node.clientWidth !== plot.width) draw(plot, palette());
   }
 
+  async function unpack(base64) {
+    const bytes = Uint8Array.from(atob(base64), (character) => character.charCodeAt(0));
+    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"))).text();
+  }
+
+  // A frame whose document is open: the page counts as loaded, and whoever prints it unseen waits, until it is closed.
+  const frame = document.createElement("iframe");
+  frame.hidden = true;
+  document.body.append(frame);
+  frame.contentDocument.open();
+  const loaded = () => {
+    frame.contentDocument.close();
+    frame.remove();
+  };
+
+  try {
+    const script = document.createElement("script");
+    script.textContent = await unpack(document.getElementById("plot-script").textContent);
+    document.head.append(script);
+  } catch {
+    for (const message of document.querySelectorAll(".not-drawn")) message.hidden = false;
+    return loaded();
+  }
   drawAll();
+  loaded();
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawAll);
   const room = new ResizeObserver(drawWhatHasOtherRoom);
   for (const { node } of plots) room.observe(node);

@@ -1,11 +1,14 @@
 //! What every report page is made of: the page itself, its sections, its charts.
 
+use std::cell::Cell;
+
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::number::fixed;
 use super::reading::bound;
 use super::table::{inner, line, list};
-use crate::report::chart::{self, Chart};
+use crate::report::chart::Chart;
+use crate::report::plot_script::PlotScript;
 use crate::results::run::StageTime;
 
 pub(crate) struct Page<'a> {
@@ -19,6 +22,8 @@ pub(crate) struct Page<'a> {
     /// What the reader should know.
     pub warnings: &'a [String],
     pub main: Markup,
+    /// Those that `main` shows.
+    pub plots: Plots,
     /// Program and input.
     pub footer: &'a str,
 }
@@ -59,8 +64,11 @@ impl Page<'_> {
                         (self.main)
                     }
                     footer { (self.footer) }
-                    script { (PreEscaped(chart::script())) }
-                    script { (PreEscaped(include_str!("page.js"))) (PreEscaped(script)) }
+                    @if let Some(bundle) = self.plots.script.get() {
+                        script type="application/gzip" id="plot-script" { (PreEscaped(bundle.in_base64())) }
+                        script { (PreEscaped(include_str!("page.js"))) }
+                    }
+                    @if !script.is_empty() { script { (PreEscaped(script)) } }
                 }
             }
         };
@@ -82,11 +90,24 @@ pub(crate) fn tables(tables: impl IntoIterator<Item = Markup>) -> Markup {
     html! { div.tables { @for table in tables { (table) } } }
 }
 
-/// The charts, numbered from 1.
-pub(crate) fn plots(charts: &[Chart]) -> Markup {
-    html! {
-        noscript { p.notice { "The plots need JavaScript; all their numbers are in the data files." } }
-        div.plots { @for (number, chart) in (1..).zip(charts) { (plot(number, chart)) } }
+/// The plots of a page, shown group by group: what draws them follows from them.
+#[derive(Default)]
+pub(crate) struct Plots {
+    script: Cell<Option<PlotScript>>,
+}
+
+impl Plots {
+    /// The charts, numbered from 1.
+    pub(crate) fn show(&self, charts: &[Chart]) -> Markup {
+        self.script.set(self.script.get().max(PlotScript::of(charts)));
+        html! {
+            noscript { p.notice { "The plots need JavaScript; all their numbers are in the data files." } }
+            p.notice.not-drawn hidden role="alert" {
+                "The plots cannot be drawn: this browser cannot unpack the script that draws them. Chrome and Edge from version 80, Firefox from \
+                 113 and Safari from 16.4 can. All numbers of the plots are in the data files."
+            }
+            div.plots { @for (number, chart) in (1..).zip(charts) { (plot(number, chart)) } }
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::page::{Page, note, plots, section, sources_list, stages_table};
+use super::page::{Page, Plots, note, section, sources_list, stages_table};
 use super::sliced::raster::{MOST_ACROSS, MOST_ALONG};
 use super::sliced::{self, sliced_run::SlicedRun};
 use super::table::{cells, line, list};
@@ -12,19 +12,19 @@ use super::{
 use crate::report::chart::Chart;
 use crate::results::run::{RunRecord, Summary};
 
-/// The data files named in the page, which lie beside it; two more where sections differ.
-const DATA_FILES: [(&str, &str); 8] = [
+/// The data files named in the page, which lie beside it; one more where sections differ.
+const DATA_FILES: [(&str, &str); 9] = [
     ("summary.json", "the main figures"),
     ("pinion.csv", "the pinion’s flank, point by point"),
     ("wheel.csv", "the wheel’s flank, point by point"),
     ("history.csv", "the snapshots"),
     ("profiles.csv", "both flanks at every snapshot"),
     ("mesh_cycle.csv", "the mesh cycle"),
+    ("flank.vtu", "both flanks in space, for ParaView"),
     ("columns.json", "what the columns of these tables hold"),
     ("scene.toml", "the resolved scene"),
 ];
-const SLICED_FILES: [(&str, &str); 2] =
-    [("slices.csv", "the load of every slice over the mesh"), ("flank.vtu", "both flanks in space, for ParaView")];
+const SLICES_FILE: (&str, &str) = ("slices.csv", "the load of every slice over the mesh");
 
 /// What the plots of a pair have in common.
 pub(crate) const NOTE: &str = "A to E are the points of the path of contact: contact begins at A and ends at E, a \
@@ -45,10 +45,7 @@ fn sliced_note() -> String {
 
 pub(crate) fn page(record: &RunRecord) -> String {
     let s = &record.summary;
-    let charts = match SlicedRun::of(record) {
-        Some(run) => sliced::figures(run),
-        None => figures_of_equal_sections(record),
-    };
+    let charts = charts(record);
     let legend = if record.slices.is_some() { sliced_note() } else { NOTE.to_owned() };
     let figures = html! {
         (figures_table::tables(record))
@@ -56,6 +53,7 @@ pub(crate) fn page(record: &RunRecord) -> String {
         (law_table::note(s))
         (figures_table::errors(&s.error))
     };
+    let plots = Plots::default();
     Page {
         kind: "Wear of a gear pair",
         title: &s.title,
@@ -64,13 +62,22 @@ pub(crate) fn page(record: &RunRecord) -> String {
         warnings: &s.warnings,
         main: html! {
             (section("figures", "Main figures", figures))
-            (section("plots", "Plots", html! { (note(&legend)) (plots(&charts)) }))
+            (section("plots", "Plots", html! { (note(&legend)) (plots.show(&charts)) }))
             (section("work", "How it was computed", work(s)))
             (section("sources", "Data and scene", sources(record)))
         },
+        plots,
         footer: &format!("gearwear {} · scene {}", s.program_version, s.scene_hash),
     }
     .html()
+}
+
+/// The plots of a run, in the order of its page.
+pub(crate) fn charts(record: &RunRecord) -> Vec<Chart> {
+    match SlicedRun::of(record) {
+        Some(run) => sliced::figures(run),
+        None => figures_of_equal_sections(record),
+    }
 }
 
 fn figures_of_equal_sections(record: &RunRecord) -> Vec<Chart> {
@@ -113,7 +120,7 @@ fn work(s: &Summary) -> Markup {
 fn sources(record: &RunRecord) -> Markup {
     let mut files = DATA_FILES.to_vec();
     if record.slices.is_some() {
-        files.extend(SLICED_FILES);
+        files.push(SLICES_FILE);
     }
     sources_list(&files, "The resolved scene, every default filled in", &record.scene_toml)
 }

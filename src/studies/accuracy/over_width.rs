@@ -108,7 +108,6 @@ pub(crate) fn interpolated(x: &[f64], values: &[f64], at: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gear::flank_surface::FlankSurface;
 
     /// Two points a slice, straight over the width: met exactly between the middles and over the outer halves, and never below
     /// zero; a single slice stands for all.
@@ -130,15 +129,6 @@ mod tests {
         let slices = SliceRecord {
             width_mm: vec![5.0, 15.0],
             ahead_mm: vec![1.0, -1.0],
-            surface: PerGear::from_fn(|gear| FlankSurface {
-                gear,
-                base_radius_mm: 30.0,
-                base_helix_tangent: 0.2,
-                face_width_mm: 20.0,
-                axis_y_mm: 0.0,
-                tangent_point_rad: 0.0,
-                line_of_action_mm: 20.0,
-            }),
             position_mm: vec![4.0, 5.0, 6.0, 7.0],
             line_load_new_N_per_mm: vec![0.0; 8],
             line_load_worn_N_per_mm: vec![0.0; 8],

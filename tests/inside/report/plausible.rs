@@ -1,6 +1,6 @@
 //! A run that never happened but looks like one: an FZG type C pair with a made-up wear that grows with time.
 
-use gearwear::gear::{Gear, PerGear, flank_zones::FlankZones};
+use gearwear::gear::{Gear, PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
 use gearwear::results::chemistry::WearLawSummary;
 use gearwear::results::error::*;
 use gearwear::results::run::*;
@@ -25,6 +25,7 @@ pub fn run() -> RunRecord {
         flanks,
         history,
         mesh_cycle: mesh_cycle(),
+        surface: PerGear::from_fn(surface),
         slices: None,
         drawing: drawing(),
     }
@@ -36,6 +37,7 @@ pub fn interrupted() -> RunRecord {
     record.history.clear();
     for flank in [&mut record.flanks.pinion, &mut record.flanks.wheel] {
         flank.snapshot_wear_um.clear();
+        flank.snapshot_pressure_MPa.clear();
         flank.wear_um.fill(0.0);
     }
     let s = &mut record.summary;
@@ -59,6 +61,19 @@ pub fn interrupted() -> RunRecord {
 }
 
 const SCENE: &str = "title = \"<b>FZG</b> type C & \\\"128\\\" hours\"\n\n[pair]\npreset = \"fzg-c\"\n\n[operation]\npinion_torque_Nm = 302.0\nhours = 127.75\n";
+
+fn surface(gear: Gear) -> FlankSurface {
+    let (axis_y_mm, tangent_point_rad) = [(0.0, 1.18), (91.5, -1.96)][gear as usize];
+    FlankSurface {
+        gear,
+        base_radius_mm: base(gear),
+        base_helix_tangent: 0.0,
+        face_width_mm: 14.0,
+        axis_y_mm,
+        tangent_point_rad,
+        line_of_action_mm: LINE_OF_ACTION_MM,
+    }
+}
 
 fn base(gear: Gear) -> f64 {
     BASE_RADIUS_MM[gear as usize]
@@ -123,6 +138,7 @@ fn flank(gear: Gear) -> FlankRecord {
         pressure_new_MPa: within(&|p| pressure(p, false)),
         pressure_worn_MPa: within(&|p| pressure(p, true)),
         snapshot_wear_um: HOURS.iter().map(|&hours| within(&|p| wear(gear, p, hours))).collect(),
+        snapshot_pressure_MPa: HOURS.iter().map(|_| within(&|p| pressure(p, true))).collect(),
         path_point_radius_mm: path_points(gear),
         zones: FlankZones {
             active_start_radius_mm: [34.123, 51.998][gear as usize],

@@ -63,7 +63,7 @@ fn on_active_flank(flank: &FlankRecord, field: &[f64]) -> Vec<f64> {
 
 fn map(run: SlicedRun<'_>, gear: Gear, quantity: Quantity<'_>) -> Chart {
     let flank = &run.record.flanks[gear];
-    let raster = SlicedRaster::of_flank(flank, run.slices.surface[gear].face_width_mm);
+    let raster = SlicedRaster::of_flank(flank, run.record.surface[gear].face_width_mm);
     let points = flank.radius_mm.len();
     let values = raster.rows(|point, slice| quantity.values[slice * points + point]);
     let unit = quantity.unit;
@@ -110,7 +110,7 @@ fn lines_of_contact(run: SlicedRun<'_>, gear: Gear) -> Trace {
 
 /// Those lines as points (width, radius), mm.
 fn lines_mm(run: SlicedRun<'_>, gear: Gear) -> Vec<Vec<[f64; 2]>> {
-    let surface = &run.slices.surface[gear];
+    let surface = &run.record.surface[gear];
     let path = &run.record.summary.geometry.curvature_radius_mm;
     let reach = 0.5 * surface.face_width_mm * surface.base_helix_tangent.abs();
     let (first, last) = (path.A - reach, path.E + reach);

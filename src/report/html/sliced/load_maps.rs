@@ -16,7 +16,7 @@ pub(super) fn new_and_worn(run: SlicedRun<'_>) -> Vec<Chart> {
 fn map(run: SlicedRun<'_>, when: &str, loads: &[f64], top: f64) -> Chart {
     let slices = run.slices;
     let count = slices.width_mm.len();
-    let raster = SlicedRaster::of_path(&slices.position_mm, &slices.width_mm, slices.surface.pinion.face_width_mm);
+    let raster = SlicedRaster::of_path(&slices.position_mm, &slices.width_mm, run.record.surface.pinion.face_width_mm);
     let values = raster.columns(|position, slice| loads[position * count + slice]);
     let colours = Trace::heat_map("N/mm", &raster.along.edges, &raster.across.edges, values)
         .set("zmin", 0.0)

@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use super::sliced_run::SlicedRun;
-use crate::report::chart::{Chart, NEW, Trace, WORN};
+use crate::report::chart::{Chart, NEW, Trace, TraceKind, WORN};
 use crate::report::html::number::{change, figure, plotted};
 
 pub(super) fn new_and_worn(run: SlicedRun<'_>) -> Chart {
@@ -11,7 +11,7 @@ pub(super) fn new_and_worn(run: SlicedRun<'_>) -> Chart {
     let bars = [("new", NEW), ("worn", WORN)].into_iter().zip(orders).map(|((name, colour), amplitudes)| {
         let names: Vec<String> = (1..=amplitudes.len()).map(|order| format!("{order}×")).collect();
         let heights: Vec<f64> = amplitudes.iter().map(|&um| plotted(um)).collect();
-        let bars = Trace::new("bar", name).set("x", names).set("y", heights);
+        let bars = Trace::new(TraceKind::Bar, name).set("x", names).set("y", heights);
         bars.set("marker", json!({ "color": colour })).hover("%{y:.4~g} µm")
     });
     let reading = match (orders[0].first(), orders[1].first()) {

@@ -44,7 +44,7 @@ pub(super) fn root_and_tip(run: SlicedRun<'_>, gear: Gear) -> Chart {
     };
     chart
         .x("face width, mm")
-        .x_range([0.0, run.slices.surface[gear].face_width_mm])
+        .x_range([0.0, run.record.surface[gear].face_width_mm])
         .x_format(".2f")
         .y("wear over its mean")
         .y_up_to(highest)

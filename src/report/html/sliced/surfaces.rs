@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use super::raster::SlicedRaster;
 use super::sliced_run::SlicedRun;
 use crate::gear::Gear;
-use crate::report::chart::{Chart, Trace};
+use crate::report::chart::{Chart, Trace, TraceKind};
 use crate::report::html::number::{figure, plotted};
 use crate::report::html::reading::greatest;
 
@@ -61,7 +61,7 @@ pub(super) fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Chart {
 /// The surface, drawn on to both end faces with the values of the first and the last slice.
 fn surface(run: SlicedRun<'_>, gear: Gear, shown: &Shown<'_>, visible: bool) -> Trace {
     let flank = &run.record.flanks[gear];
-    let face_width = run.slices.surface[gear].face_width_mm;
+    let face_width = run.record.surface[gear].face_width_mm;
     let raster = SlicedRaster::of_flank(flank, face_width);
     let points = flank.radius_mm.len();
     let to_ends = |row: Vec<f64>| -> Vec<f64> {
@@ -72,7 +72,7 @@ fn surface(run: SlicedRun<'_>, gear: Gear, shown: &Shown<'_>, visible: bool) -> 
     let width = std::iter::once(0.0).chain(raster.across.middles()).chain([face_width]).map(plotted);
     let radius = raster.along.middles().into_iter().map(plotted);
     let unit = shown.unit;
-    Trace::new("surface", shown.label)
+    Trace::new(TraceKind::Surface, shown.label)
         .set("x", width.collect::<Vec<f64>>())
         .set("y", radius.collect::<Vec<f64>>())
         .set("z", values.collect::<Vec<_>>())

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::{front_figures, profile_figures, run_tables};
 use crate::report::html::number::{percent, significant};
-use crate::report::html::page::{Page, plots, section, sources_list};
+use crate::report::html::page::{Page, Plots, section, sources_list};
 use crate::results::run::StopReason;
 use crate::studies::accuracy::record::{AccuracyRecord, CALIBRATION_FILE, OVER_WIDTH_FILE, Quantity};
 
@@ -30,6 +30,7 @@ pub(super) fn page(record: &AccuracyRecord) -> String {
     };
     let runs = html! { (run_tables::runs(record)) (run_tables::left_out(record)) };
     let input = "The resolved scene, every default filled in";
+    let plots = Plots::default();
     Page {
         kind: "Error against run time",
         title: &record.title,
@@ -40,10 +41,11 @@ pub(super) fn page(record: &AccuracyRecord) -> String {
         warnings: &record.warnings,
         main: html! {
             (section("recommendation", "Recommendation", recommendation))
-            (section("plots", "Error against run time", plots(&charts)))
+            (section("plots", "Error against run time", plots.show(&charts)))
             (section("runs", "All runs", runs))
             (section("sources", "Data and scene", sources_list(&data_files(record), input, &record.scene_toml)))
         },
+        plots,
         footer: &format!("gearwear {} · scene {}", record.program_version, record.scene_hash),
     }
     .html()

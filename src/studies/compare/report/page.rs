@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::figures;
 use crate::measurement::fit::FitStop;
 use crate::report::html::number::{figure, given, revolutions, significant};
-use crate::report::html::page::{Page, plots, section, sources_list};
+use crate::report::html::page::{Page, Plots, section, sources_list};
 use crate::report::html::reading::capitalised;
 use crate::report::html::table::{NONE, row, table};
 use crate::studies::compare::record::{CompareRecord, Estimate};
@@ -17,6 +17,7 @@ const DATA_FILES: [(&str, &str); 2] = [
 
 pub(super) fn page(record: &CompareRecord) -> String {
     let sources = sources_list(&DATA_FILES, "The resolved scene of the run", &record.scene_toml);
+    let plots = Plots::default();
     Page {
         kind: "Measured profile against a run",
         title: &format!("{} – {}", record.title, record.measured),
@@ -25,9 +26,10 @@ pub(super) fn page(record: &CompareRecord) -> String {
         warnings: &record.warnings,
         main: html! {
             (section("fit", "What the profile says", tables(record)))
-            (section("plots", "Profiles", plots(&figures::all(record))))
+            (section("plots", "Profiles", plots.show(&figures::all(record))))
             (section("sources", "Data and scene", sources))
         },
+        plots,
         footer: &format!("gearwear {} · scene {}", record.program_version, record.scene_hash),
     }
     .html()

@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use super::section_plane::{self, ShownAxis, range};
-use crate::report::chart::{Chart, MUTED, Trace, padded};
+use crate::report::chart::{Chart, MUTED, Trace, TraceKind, padded};
 use crate::report::html::number::{figure as shown_number, given, plotted};
 use crate::report::html::reading::capitalised;
 use crate::studies::sweep::figures::SweepFigure;
@@ -30,7 +30,7 @@ pub(super) fn contour(
         .filter(|row| row.error.is_some())
         .collect();
     let unit = figure.unit;
-    let contours = Trace::new("contour", figure.title)
+    let contours = Trace::new(TraceKind::Contour, figure.title)
         .set("x", x.values())
         .set("y", y.values())
         .set("z", z)

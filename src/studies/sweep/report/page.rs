@@ -6,7 +6,7 @@ use super::section_plane::{differs, varied};
 use super::{best_tables, contour_figures, line_figures};
 use crate::report::chart::Chart;
 use crate::report::html::number::{count, figure as shown_number, given, significant};
-use crate::report::html::page::{Page, plots, section, sources_list};
+use crate::report::html::page::{Page, Plots, section, sources_list};
 use crate::studies::sweep::figures::{FIGURES, SweepFigure};
 use crate::studies::sweep::record::SweepRecord;
 use crate::studies::sweep::verification::SweepVerification;
@@ -27,6 +27,7 @@ pub(super) fn page(record: &SweepRecord) -> String {
     let charts = figures(record);
     let identity = &record.identity;
     let sources = sources_list(DATA_FILES, "The scene as given", &record.scene_toml);
+    let plots = Plots::default();
     Page {
         kind: "Sweep",
         title: &identity.title,
@@ -36,10 +37,11 @@ pub(super) fn page(record: &SweepRecord) -> String {
         main: html! {
             (section("figures", "Main figures", html! { (best_tables::best(record)) (best_tables::failed(record)) }))
             @if let Some(verification) = record.verification() { (verified(record, &verification)) }
-            @if !charts.is_empty() { (section("plots", "Plots", plots(&charts))) }
+            @if !charts.is_empty() { (section("plots", "Plots", plots.show(&charts))) }
             (section("work", "How it was computed", work(record)))
             (section("sources", "Data and scene", sources))
         },
+        plots,
         footer: &format!("gearwear {} · scene {}", identity.program_version, identity.scene_hash),
     }
     .html()

@@ -8,12 +8,12 @@ use super::stability_map;
 use super::verdict::Verdict;
 use super::words::{self, NONE, time};
 use crate::report::html::number::count;
-use crate::report::html::page::plots;
+use crate::report::html::page::Plots;
 use crate::report::html::table::{cells, line};
 use crate::studies::validation::record::{CaseRecord, CaseRun, QuantityRecord, RunOutcome};
 
 /// The section, open from the start where something is not as expected.
-pub(super) fn html(case: &CaseRecord) -> Markup {
+pub(super) fn html(case: &CaseRecord, plots: &Plots) -> Markup {
     let verdict = Verdict::of_case(case);
     let charts = case_figures::all(case);
     let stability = stability_map::of_case(case);
@@ -27,7 +27,7 @@ pub(super) fn html(case: &CaseRecord) -> Markup {
             @if !case.quantities.is_empty() { (quantities(case)) }
             @if !stability.0.is_empty() { h4 { "Outcomes over the range" } (stability) }
             @if !case.runs.is_empty() { h4 { "What it cost" } (runs(case)) }
-            @if !charts.is_empty() { (plots(&charts)) }
+            @if !charts.is_empty() { (plots.show(&charts)) }
         }
     }
 }

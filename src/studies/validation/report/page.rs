@@ -11,7 +11,7 @@ use super::totals::{self, Totals};
 use super::verdict::Verdict;
 use super::words::{self, time};
 use super::{case_section, overview, stability_map, targets_table, work_precision_figures};
-use crate::report::html::page::{Page, files_list, note, plots, section};
+use crate::report::html::page::{Page, Plots, files_list, note, section};
 use crate::report::html::table::{cells, line};
 use crate::studies::validation::record::{Change, Changes, ValidationRecord};
 
@@ -24,14 +24,15 @@ const DATA_FILES: &[(&str, &str)] = &[
 ];
 
 pub(super) fn page(record: &ValidationRecord, changes: Option<&Changes>) -> String {
+    let plots = Plots::default();
     let parts = [
         ("wrong", "Not as it should be", not_as_expected(record)),
         ("changes", "What changed", changes.map_or_else(Markup::default, changed)),
         ("targets", "What the thesis says", targets_table::html(record)),
         ("cases", "All cases", overview::html(record)),
         ("stability", "Stability map", stability(record)),
-        ("cost", "Error against run time", work_precision(record)),
-        ("details", "Case by case", cases(record)),
+        ("cost", "Error against run time", work_precision(record, &plots)),
+        ("details", "Case by case", cases(record, &plots)),
         ("sources", "Data", files_list(DATA_FILES)),
     ];
     let tier = record.tier.map_or_else(String::new, |tier| format!(" · {} tier", tier.name()));
@@ -46,6 +47,7 @@ pub(super) fn page(record: &ValidationRecord, changes: Option<&Changes>) -> Stri
             (tiles(record))
             @for (id, heading, content) in parts { @if !content.0.is_empty() { (section(id, heading, content)) } }
         },
+        plots,
         footer: &format!("gearwear {}{tier}", record.program_version),
     }
     .html_with(include_str!("validation.css"), include_str!("validation.js"))
@@ -122,21 +124,21 @@ fn stability(record: &ValidationRecord) -> Markup {
     }
 }
 
-fn work_precision(record: &ValidationRecord) -> Markup {
+fn work_precision(record: &ValidationRecord, plots: &Plots) -> Markup {
     let charts = work_precision_figures::all(record);
     html! {
         @if !charts.is_empty() {
             (note("Errors and work counts are judged; wall times depend on the machine and are only reported."))
-            (plots(&charts))
+            (plots.show(&charts))
         }
     }
 }
 
-fn cases(record: &ValidationRecord) -> Markup {
+fn cases(record: &ValidationRecord, plots: &Plots) -> Markup {
     html! {
         @for group in overview::groups(record) {
             h3.group { (group) }
-            @for case in record.cases.iter().filter(|case| case.group == group) { (case_section::html(case)) }
+            @for case in record.cases.iter().filter(|case| case.group == group) { (case_section::html(case, plots)) }
         }
     }
 }

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::figures;
 use crate::report::html::number::{change, figure, percent};
-use crate::report::html::page::{Page, files_list, note, plots, section};
+use crate::report::html::page::{Page, Plots, files_list, note, section};
 use crate::report::html::table::{Cell, NONE, line, list};
 use crate::studies::variants::finished_run::FinishedRun;
 use crate::studies::variants::record::{VariantRow, VariantsRecord};
@@ -17,6 +17,7 @@ const DATA_FILES: [(&str, &str); 3] = [
 
 pub(super) fn page(record: &VariantsRecord, runs: &[FinishedRun]) -> String {
     let names: Vec<&str> = record.runs.iter().map(|run| run.name.as_str()).collect();
+    let plots = Plots::default();
     Page {
         kind: "Variants side by side",
         title: &names.join(" – "),
@@ -26,9 +27,10 @@ pub(super) fn page(record: &VariantsRecord, runs: &[FinishedRun]) -> String {
         main: html! {
             (section("figures", "Main figures", differences(record, &names)))
             (section("keys", "What differs between the scenes", keys(record, &names)))
-            (section("plots", "Profiles and mesh cycle", plots(&figures::all(runs))))
+            (section("plots", "Profiles and mesh cycle", plots.show(&figures::all(runs))))
             (section("sources", "Data", files_list(&DATA_FILES)))
         },
+        plots,
         footer: &format!("gearwear {}", record.program_version),
     }
     .html()
