@@ -34,7 +34,7 @@ PAGES = {
     "sweep-2d": [
         "sweep {s}/spur.toml --vary operation.pinion_torque_Nm=100:300:4 --vary pair.pinion.profile_shift=0.1:0.2:3 --out {o}"
     ],
-    "compare-measured": ["run {s}/spur.toml --out {o}", "compare {o} {s}/trace.csv --out {o}/compared"],
+    "compare-measured": ["run {s}/spur.toml --out {o}", "compare {o} {s}/trace.csv --shift-within 0 --out {o}/compared"],
     "compare-runs": ["compare {s}/spur.toml {s}/heavy.toml --out {o}"],
     "accuracy": ["accuracy {s}/spur.toml --out {o}"],
     "validate": ["validate fzg-c-geometry exact-wear nafems-cylinder --out {o}"],
