@@ -73,7 +73,7 @@ fn at(file: &Path, first: f64, column: &str) -> f64 {
     let index = table.headers().unwrap().iter().position(|name| name == column).unwrap();
     let number = |row: &csv::StringRecord, i: usize| row[i].parse::<f64>().unwrap();
     let rows: Vec<[f64; 2]> =
-        table.records().map(|row| row.unwrap()).map(|row| [number(&row, 0), number(&row, index)]).collect();
+        table.records().map(Result::unwrap).map(|row| [number(&row, 0), number(&row, index)]).collect();
     let pair = rows.windows(2).find(|pair| pair[0][0] <= first && first < pair[1][0]).unwrap();
     let t = (first - pair[0][0]) / (pair[1][0] - pair[0][0]);
     pair[0][1] + t * (pair[1][1] - pair[0][1])
