@@ -46,10 +46,10 @@ pub(super) struct Args {
     /// The measured profile, a CSV file (- reads standard input); or one to five more runs, to be shown side by side
     #[arg(value_name = "MEASURED|RUN", required = true, num_args = 1..MOST_RUNS)]
     with: Vec<PathBuf>,
-    /// Whose flank it is, where the file does not say
+    /// The gear that was measured, where the file does not say
     #[arg(long, value_name = "GEAR", value_parser = gear)]
     gear: Option<Gear>,
-    /// What is taken away for the form, of the measured and the simulated profile alike; default: cubic of heights, none of
+    /// The form removed from the measured and the simulated profile alike; default: cubic of heights, none of
     /// wear depths
     #[arg(long, value_enum)]
     form: Option<Form>,

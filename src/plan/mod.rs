@@ -179,7 +179,7 @@ fn calibration(scene: &Scene) -> Result<String, String> {
 /// Finite elements vouch for the answer, where they can.
 fn verification(scene: &Scene) -> Result<String, String> {
     if !scene.verify {
-        return Err("numerics.verify is false: nothing vouches for the answer".to_owned());
+        return Err("numerics.verify is false: the error against finite elements is unknown".to_owned());
     }
     if let Some(slices) = scene.slices {
         return verification_in_space(scene, slices);

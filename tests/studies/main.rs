@@ -7,5 +7,6 @@ mod compare;
 #[path = "../program/mod.rs"]
 mod program;
 mod sweep;
+mod tutorials;
 mod validate;
 mod variants;

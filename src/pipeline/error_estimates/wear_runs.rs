@@ -137,7 +137,7 @@ impl<'a> Companions<'a> {
         }
         if coarser.step * self.step_over_safe > 1.0 {
             return Err(format!(
-                "a companion run with wear steps {} times as long would swing, as they would be longer than the longest safe step",
+                "a companion run with wear steps {} times as long would be unstable, as they would be longer than the longest stable step",
                 coarser.step
             ));
         }

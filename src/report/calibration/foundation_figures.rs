@@ -118,7 +118,7 @@ fn errors(calibration: &Calibration, criterion: MatchCriterion) -> Chart {
         .map(|(other, mean)| format!("its {} is {} off", words(other), signed(mean)))
         .collect();
         format!(
-            "Where it was held out, a Winkler bed with this K/H has the {} of finite elements within {}; {} on average.",
+            "Where it was held out, a Winkler foundation with this K/H has the {} of finite elements within {}; {} on average.",
             words(criterion),
             percent(worst_matched),
             others.join(" and ")

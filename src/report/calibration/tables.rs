@@ -63,7 +63,7 @@ fn fits(calibration: &Calibration) -> Markup {
         rows.push(row(format!("{}, held out", criterion.name()), "%", cells(&fit.held_out)));
     }
     let columns = ["greatest", "half-width", "pressure", "approach"];
-    table("Winkler’s bed against finite elements: greatest error of what is matched, mean errors", &columns, rows)
+    table("Winkler foundation against finite elements: greatest error of what is matched, mean errors", &columns, rows)
 }
 
 /// What the slices have from the teeth in space; nothing where sections are alike over the face width.
@@ -72,8 +72,8 @@ fn slices(calibration: &Calibration) -> Markup {
     let of = fit.compliance;
     let rows = [
         row("Compliance of the teeth over that of the section", "", [significant(of.teeth, 4)]),
-        row("More at the end face at width 0", "%", [fixed(100.0 * of.ends[0], 1)]),
-        row("More at the end face at the full width", "%", [fixed(100.0 * of.ends[1], 1)]),
+        row("Added compliance at the end face z = 0", "%", [fixed(100.0 * of.ends[0], 1)]),
+        row("Added compliance at the end face z = b", "%", [fixed(100.0 * of.ends[1], 1)]),
         row("Length over which that decays", "mm", [significant(of.end_length_mm, 3)]),
         row("Reach along the tooth, twist", "mm", [significant(of.reach.twist_mm2.sqrt(), 3)]),
         row("Reach along the tooth, bending", "mm", [significant(of.reach.bending_mm4.sqrt().sqrt(), 3)]),

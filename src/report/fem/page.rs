@@ -127,7 +127,7 @@ pub(super) fn solver_table(s: &FemSummary) -> Markup {
 fn work_table(s: &FemSummary) -> Markup {
     let rows = [
         row("Active sets tried", "", [s.work.iterations]),
-        row("Nodes that entered or left them", "", [s.work.active_set_changes]),
+        row("Changes of a node’s contact state", "", [s.work.active_set_changes]),
         row("Cycles broken", "", [s.work.cycles_broken]),
         row("Sparse factorisations", "", [s.work.factorisations]),
         row("Right-hand sides", "", [s.work.right_hand_sides]),

@@ -88,7 +88,7 @@ fn interruption(s: &FemPairSummary) -> Option<String> {
     let how = match s.stopped {
         StopReason::Completed => return None,
         StopReason::Interrupted => "The run was interrupted",
-        StopReason::NotConverged | StopReason::WornThrough => "The contact at the next position was not found",
+        StopReason::NotConverged | StopReason::WornThrough => "The contact at the next position did not converge",
     };
     Some(format!("{how} after {} positions; those are shown, and nothing is said of the rest.", s.positions))
 }

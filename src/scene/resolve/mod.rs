@@ -145,7 +145,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let numerics = settings::numerics(&mut file.numerics, operation.pinion_revolutions, adaptive, findings);
     let verify = *file.numerics.get_or_insert_default().verify.get_or_insert(true);
     if !verify {
-        findings.warnings.push("numerics.verify is false: nothing vouches for the answer".to_owned());
+        findings.warnings.push("numerics.verify is false: the error against finite elements is unknown".to_owned());
     }
     if let (Some(numerics), Some(surface)) = (&numerics, surface) {
         settings::memory(numerics, surface, slices.map_or(1, |slices| slices.count), findings);

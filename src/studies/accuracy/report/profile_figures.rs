@@ -151,7 +151,7 @@ fn differences(record: &AccuracyRecord, shown: &[&VariantRecord], gear: Gear) ->
     };
     let at_once: Vec<String> =
         shown.iter().filter(|v| v.settings.surface != "fem" && style(v).2).filter_map(|v| worst(v)).collect();
-    let title = format!("Where on the {}’s flank each surface is off{}", gear.name(), where_over_width(reference));
+    let title = format!("Error of each surface along the {}’s flank{}", gear.name(), where_over_width(reference));
     let chart = Chart::new(format!("differences-{}", gear.name()), title)
         .y("wear depth less the reference’s, µm")
         .add_all(of_runs(shown, reference, gear, |wear, there| wear - there))

@@ -79,13 +79,13 @@ fn depths(record: &CompareRecord) -> Chart {
     let stands = match record.form.as_str() {
         "none" => "",
         _ => {
-            " The measured profile stands on it by the form that is left open: only its shape is measured, not its level."
+            " The measured profile is aligned with the simulated one by the form removed: only its shape is measured, not its level."
         }
     };
     let reading = at.map_or_else(String::new, |at| {
         let radius = record.rows[at.index].radius_mm;
         format!(
-            "The simulation is deepest over the measured stretch with {} µm at {} mm, {}.{stands}",
+            "The greatest simulated wear within the measured range is {} µm at {} mm, {}.{stands}",
             figure(at.value),
             significant(radius, 4),
             among(&places, radius)
@@ -109,7 +109,7 @@ fn differences(record: &CompareRecord) -> Chart {
         ),
         None => String::new(),
     };
-    let mut chart = Chart::new("differences", "What the simulation leaves unexplained")
+    let mut chart = Chart::new("differences", "Residuals: measured less simulated")
         .height(460)
         .y("measured less simulated height, µm")
         .reading(format!(

@@ -58,7 +58,7 @@ fn not_as_expected(record: &ValidationRecord) -> String {
     if rows.is_empty() {
         return String::new();
     }
-    format!("### Not as it should be\n\n{}\n", table(&["", "case", "quantity", "what was found"], &rows))
+    format!("### Not as expected\n\n{}\n", table(&["", "case", "quantity", "what was found"], &rows))
 }
 
 fn of_verdict(record: &ValidationRecord, verdict: Verdict, one: &str, many: &str) -> String {

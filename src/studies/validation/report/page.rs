@@ -26,9 +26,9 @@ const DATA_FILES: &[(&str, &str)] = &[
 pub(super) fn page(record: &ValidationRecord, changes: Option<&Changes>) -> String {
     let plots = Plots::default();
     let parts = [
-        ("wrong", "Not as it should be", not_as_expected(record)),
+        ("wrong", "Not as expected", not_as_expected(record)),
         ("changes", "What changed", changes.map_or_else(Markup::default, changed)),
-        ("targets", "What the thesis says", targets_table::html(record)),
+        ("targets", "Statements of the thesis", targets_table::html(record)),
         ("cases", "All cases", overview::html(record)),
         ("stability", "Stability map", stability(record)),
         ("cost", "Error against run time", work_precision(record, &plots)),

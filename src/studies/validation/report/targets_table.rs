@@ -54,7 +54,9 @@ pub(super) fn html(record: &ValidationRecord) -> Markup {
     let columns = ["statement", "verdict", "of tolerance used", "rests on", "cases"];
     html! {
         (note(
-            "The statements of the thesis that can be computed, in our own words. The measured curves exist only as pictures, so \
+            "The thesis is A. Flodin, Wear of spur and helical gears, doctoral thesis, KTH, Stockholm 2000. Its statements that can be \
+             computed are numbered here, in our own words: S for simulated spur gears, D for the measured wear test and the measured profiles, \
+             K for tooth stiffness, H for helical gears. The measured curves exist only as pictures, so \
              that what rests on them is compared with their axes and with what the text says."
         ))
         (scrolling("targets", &columns, rows))

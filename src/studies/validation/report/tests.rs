@@ -129,7 +129,7 @@ fn markdown_says_what_failed_what_is_known_and_what_changed() {
     for wanted in [
         "## ✗ Validation suite",
         "2 missed, 1 could not run.",
-        "### Not as it should be",
+        "### Not as expected",
         "| ✗ missed | pitch-point | greatest pressure |",
         "<summary>1 statement is known not to hold</summary>",
         "<summary>2 quantities cannot be compared</summary>",

@@ -1,0 +1,209 @@
+"""Opens a page of every kind in headless Chromium and checks how it is drawn.
+
+    pip install playwright                       # and Chromium from the system
+    python tests/pages/screenshots.py --program target/release/gearwear --out out/pages
+
+Small examples of every kind of page are computed into --out/runs (those that are there already are kept), and each page is
+opened at 1280 and 390 px, light and dark, and once for print. PNGs go to --out. It fails where a page
+
+- writes an error to the console,
+- is wider than the window,
+- has labels of one axis, or of one plot, that overlap,
+- has a curve that is drawn outside its plot area (not clipped to it).
+
+Only some: --only run-spur --only sweep-2d.
+"""
+
+import argparse
+import pathlib
+import shutil
+import subprocess
+import sys
+
+REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+
+# Every page: its name, and the commands that make its folder. {s}: folder of the scenes, {o}: folder of the page.
+PAGES = {
+    "run-spur": ["run {s}/spur.toml --out {o}"],
+    "run-helical": ["run {s}/helical.toml --out {o}"],
+    "calibrate": ["calibrate {s}/spur.toml --out {o}/pair.calibration.json"],
+    "fem-pair": ["fem {s}/spur.toml --out {o}"],
+    "fem-plane": ["fem {s}/roller.toml --out {o}"],
+    "fem-space": ["fem {s}/plate.toml --out {o}"],
+    "sweep-1d": ["sweep {s}/spur.toml --vary operation.pinion_torque_Nm=100:300:4 --out {o}"],
+    "sweep-2d": [
+        "sweep {s}/spur.toml --vary operation.pinion_torque_Nm=100:300:4 --vary pair.pinion.profile_shift=0.1:0.2:3 --out {o}"
+    ],
+    "compare-measured": ["run {s}/spur.toml --out {o}", "compare {o} {s}/trace.csv --shift-within 0 --out {o}/compared"],
+    "compare-runs": ["compare {s}/spur.toml {s}/heavy.toml --out {o}"],
+    "accuracy": ["accuracy {s}/spur.toml --out {o}"],
+    "validate": ["validate fzg-c-geometry exact-wear nafems-cylinder --out {o}"],
+}
+
+# In the page: what is wrong with it as it is drawn.
+LOOK = r"""() => {
+    const wrong = [];
+    const root = document.documentElement;
+    if (root.scrollWidth > root.clientWidth + 1) {
+        let widest = null;
+        for (const e of document.body.querySelectorAll("*")) {
+            const box = e.getBoundingClientRect();
+            if (box.right > root.clientWidth + 1 && (!widest || box.right > widest.getBoundingClientRect().right)) widest = e;
+        }
+        wrong.push(`page ${root.scrollWidth} px wide in ${root.clientWidth} px` +
+            (widest ? `: <${widest.tagName.toLowerCase()} class="${widest.getAttribute("class") || ""}"> ` +
+                (widest.textContent || "").trim().slice(0, 40) : ""));
+    }
+    const name = e => (e.closest("section,figure,details") || document.body).querySelector("h2,h3,figcaption,summary")?.textContent.slice(0, 50);
+    const over = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1.5 &&
+        Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 2.5;
+    for (const svg of document.querySelectorAll("svg")) {
+        const texts = [...svg.querySelectorAll("text")].filter(t => {
+            const box = t.getBoundingClientRect();
+            const style = getComputedStyle(t);
+            return box.width > 0 && t.textContent.trim() && style.visibility !== "hidden" && +style.opacity > 0.05 &&
+                !t.closest(".hoverlayer,.modebar,[transform*='rotate'],defs") && !/rotate\((?!0)/.test(t.getAttribute("transform") || "");
+        });
+        for (let i = 0; i < texts.length; i++) for (let j = i + 1; j < texts.length; j++) {
+            const [a, b] = [texts[i].getBoundingClientRect(), texts[j].getBoundingClientRect()];
+            if (over(a, b)) wrong.push(`labels overlap in “${name(svg)}”: “${texts[i].textContent}” and “${texts[j].textContent}”`);
+        }
+    }
+    for (const plot of document.querySelectorAll(".js-plotly-plot .cartesianlayer .plot")) {
+        // Plotly clips curves to their plot area; without the clip a curve that leaves it is drawn over the axes.
+        const areas = plot.closest("svg").querySelectorAll(".bglayer .bg, .nsewdrag");
+        for (const path of plot.querySelectorAll(".scatterlayer path.js-line")) {
+            if (path.closest("[clip-path]:not([clip-path='none'])")) continue;
+            const box = path.getBoundingClientRect();
+            const inside = [...areas].some(area => {
+                const a = area.getBoundingClientRect();
+                return box.left >= a.left - 2 && box.right <= a.right + 2 && box.top >= a.top - 2 && box.bottom <= a.bottom + 2;
+            });
+            if (areas.length && !inside) wrong.push(`a curve leaves its plot area in “${name(plot)}”`);
+        }
+    }
+    return [...new Set(wrong)];
+}"""
+
+
+def scenes(program: str, folder: pathlib.Path) -> None:
+    """The scenes, problems and the measured profile of the examples."""
+    folder.mkdir(parents=True, exist_ok=True)
+
+    def preset(name: str) -> str:
+        return subprocess.run([program, "init", name], check=True, capture_output=True, text=True).stdout
+
+    def exchanged(text: str, *pairs: tuple[str, str]) -> str:
+        for old, new in pairs:
+            if old not in text:
+                sys.exit(f"the preset has no {old!r} any more")
+            text = text.replace(old, new)
+        return text
+
+    small = [("flank_points = 750 ", "flank_points = 200 "), ("positions = 400 ", "positions = 60 ")]
+    spur = exchanged(preset("fzg-c"), *small)
+    (folder / "spur.toml").write_text(spur)
+    (folder / "heavy.toml").write_text(exchanged(spur, ("pinion_torque_Nm = 302.0", "pinion_torque_Nm = 350.0")))
+    (folder / "helical.toml").write_text(preset("thesis-helical"))
+    for mesh, problem in [("roller.msh", ROLLER), ("plate-hex8.msh", PLATE)]:
+        shutil.copy(REPOSITORY / "meshes" / mesh, folder)
+        (folder / f"{mesh.split('-')[0].split('.')[0]}.toml").write_text(problem)
+    rows = [(34.3 + 0.02 * i, -8 * 2.718 ** (-i / 60) + 0.1 * (i * 7 % 5 - 2)) for i in range(300)]
+    lines = ["# invented", "# gear = pinion", "# uncertainty_um = 0.15", "radius_mm,height_um"]
+    (folder / "trace.csv").write_text("\n".join(lines + [f"{r:.3f},{h:.3f}" for r, h in rows]) + "\n")
+
+
+ROLLER = """title = "Roller on a block"
+mesh = { file = "roller.msh" }
+body = [{ group = "roller", young_modulus_GPa = 206.0, poisson_ratio = 0.3 }, { group = "block", young_modulus_GPa = 206.0, poisson_ratio = 0.3 }]
+fixed = [{ group = "symmetry", components = ["x"] }, { group = "base" }]
+load = [{ group = "top", force_N_per_mm = [0.0, -250.0] }]
+contact = [{ slave = "running-surface", master = "track" }]
+"""
+
+PLATE = """title = "Plate"
+analysis = "three-dimensional"
+mesh = { file = "plate-hex8.msh" }
+body = [{ group = "plate", young_modulus_GPa = 206.0, poisson_ratio = 0.3 }]
+fixed = [{ group = "supported-x" }, { group = "supported-y" }, { group = "middle-x", components = ["x"] }, { group = "middle-y", components = ["y"] }]
+load = [{ group = "top", force_N = [0.0, 0.0, -100.0] }]
+"""
+
+
+def compute(program: str, name: str, scene_folder: pathlib.Path, folder: pathlib.Path) -> list[pathlib.Path]:
+    """The pages of one kind: those of its folder and of the folder of its comparison."""
+    if not list(folder.rglob("*.html")):
+        folder.mkdir(parents=True, exist_ok=True)
+        for command in PAGES[name]:
+            arguments = [part.format(s=scene_folder, o=folder) for part in command.split()]
+            done = subprocess.run([program, *arguments], capture_output=True, text=True)
+            if done.returncode != 0:
+                raise RuntimeError(f"gearwear {' '.join(arguments)}\n{done.stderr.strip()}")
+    pages = sorted(folder.rglob("*.html"))
+    if name == "compare-measured":
+        pages = [page for page in pages if page.parent != folder]
+    if name == "compare-runs":
+        pages = [page for page in pages if page.parent == folder]
+    if not pages:
+        raise RuntimeError("no page was written")
+    return pages
+
+
+def look(browser, page_file: pathlib.Path, name: str, out: pathlib.Path) -> list[str]:
+    """Opens a page in all five ways, keeps a picture of each, and says what is wrong."""
+    wrong = []
+    ways = [(w, s, "screen") for w in (1280, 390) for s in ("light", "dark")] + [(1280, "light", "print")]
+    for width, scheme, media in ways:
+        way = "print" if media == "print" else f"{width}-{scheme}"
+        # Height of a page at once, so that what is drawn when it is scrolled into view is drawn.
+        context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
+        tab = context.new_page()
+        tab.on("console", lambda m, way=way: wrong.append(f"{way}: console: {m.text}") if m.type == "error" else None)
+        tab.on("pageerror", lambda e, way=way: wrong.append(f"{way}: console: {e}"))
+        tab.goto(page_file.as_uri())
+        height = tab.evaluate("document.documentElement.scrollHeight")
+        for y in range(0, height, 800):
+            tab.evaluate(f"window.scrollTo(0, {y})")
+            tab.wait_for_timeout(25)
+        tab.evaluate("window.scrollTo(0, 0)")
+        if media == "print":
+            tab.emulate_media(media="print")
+        tab.wait_for_timeout(150)
+        wrong += [f"{way}: {found}" for found in tab.evaluate(LOOK)]
+        tab.screenshot(path=out / f"{name}-{way}.png", full_page=True)
+        context.close()
+    return wrong
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", default=str(REPOSITORY / "target/release/gearwear"))
+    parser.add_argument("--out", type=pathlib.Path, required=True, help="folder of the pictures")
+    parser.add_argument("--chromium", default=shutil.which("chromium") or shutil.which("chromium-browser"))
+    parser.add_argument("--only", action="append", choices=PAGES)
+    options = parser.parse_args()
+    from playwright.sync_api import sync_playwright
+
+    program = str(pathlib.Path(options.program).resolve())
+    out = options.out.resolve()
+    out.mkdir(parents=True, exist_ok=True)
+    scenes(program, out / "runs" / "scenes")
+    failed = 0
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=options.chromium, args=["--no-sandbox"])
+        for name in options.only or PAGES:
+            try:
+                wrong = []
+                for page in compute(program, name, out / "runs" / "scenes", out / "runs" / name):
+                    wrong += look(browser, page, name, out)
+            except RuntimeError as error:
+                wrong = [str(error)]
+            failed += bool(wrong)
+            print(f"{'wrong' if wrong else 'ok   '} {name}", *wrong, sep="\n      ", flush=True)
+        browser.close()
+    print(f"pictures: {options.out}")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
