@@ -96,17 +96,22 @@ fn table(record: &AccuracyRecord) -> String {
         let wall_s = variant.simulation_s.map_or_else(|| "–".to_owned(), digits);
         text.push_str(&line(&variant.name, [&wall_s, &cells[0], &cells[1], &cells[2]]));
     }
-    text.push_str(&format!("\ncheapest within {}\n", per_cent(record.within)));
+    if !record.recommendations.is_empty() {
+        text.push_str(&format!("\ncheapest within {}\n", per_cent(record.within)));
+    }
     for r in &record.recommendations {
         let Some(variant) = record.variants.get(r.variant) else { continue };
         let found = error(variant, r.quantity).map_or_else(String::new, per_cent);
         let none = if r.is_within { "" } else { "none; closest: " };
         let wall_s = variant.simulation_s.map_or_else(String::new, |s| format!(", {} s", digits(s)));
-        let uncertain = record.reference.uncertainty.get(&r.quantity).filter(|&&known| known > record.within);
-        let beside = uncertain.map_or_else(String::new, |&known| {
-            format!("; the reference is uncertain by {}, so this says little", per_cent(known))
-        });
-        text.push_str(&format!("  {:44}{none}{} ({found}{wall_s}){beside}\n", r.quantity.title(), variant.name));
+        text.push_str(&format!("  {:44}{none}{} ({found}{wall_s})\n", r.quantity.title(), variant.name));
+    }
+    if !record.not_ranked.is_empty() {
+        text.push_str(&format!("\nnot ranked: the reference is more uncertain than {}\n", per_cent(record.within)));
+    }
+    for not in &record.not_ranked {
+        let uncertain = per_cent(not.uncertainty);
+        text.push_str(&format!("  {:44}{uncertain}; to converge: {}\n", not.quantity.title(), not.remedy));
     }
     let failed: Vec<&VariantRecord> = record.variants.iter().filter(|v| v.failure.is_some()).collect();
     if !failed.is_empty() {

@@ -119,6 +119,8 @@ pub struct FemCycleSummary {
     pub peak_pressure_position_mm: Option<f64>,
     /// Number of the tooth pair there.
     pub peak_pressure_pair: Option<i32>,
+    /// Position of that pair itself.
+    pub peak_pressure_pair_position_mm: Option<f64>,
     /// Radius on the pinion there.
     pub peak_pressure_pinion_radius_mm: Option<f64>,
     /// Greatest pressure found at a sharp tip edge: it grows with every refinement.
@@ -212,6 +214,8 @@ pub struct FemCycleRow {
     pub position_mm: f64,
     /// tooth pair: 0 the reference pair, 1 the one a base pitch ahead, -1 the one behind
     pub pair: i32,
+    /// radius of curvature of the pinion's flank at the theoretical contact point of this pair: before A or after E where a tip edge touches
+    pub pair_position_mm: f64,
     /// the pair's part of the torque over base radius and face width
     pub line_load_N_per_mm: f64,
     /// greatest contact pressure of the pair

@@ -128,6 +128,8 @@ fn every_model_is_compared_with_finite_elements() {
         assert_eq!(wall_s, cheapest, "{quantity}");
     }
 
+    assert!(record["not_ranked"].as_array().unwrap().is_empty(), "{}", record["not_ranked"]);
+
     // One row per run; the columns of errors are those of the JSON.
     let csv = fs::read_to_string(out.join("accuracy.csv")).unwrap();
     let mut rows = csv::Reader::from_reader(csv.as_bytes());
@@ -152,6 +154,34 @@ fn every_model_is_compared_with_finite_elements() {
     assert!(run.status.success(), "{}", said(&run));
     let summary = json(&again.join("summary.json"));
     assert_eq!(number(&summary, "/pinion/peak_wear_um"), number(variant, "/peak_wear_um/pinion"));
+}
+
+/// The same runs are not known to a tenth of a per cent: nothing is ranked that the reference does not know, and the remedy is named.
+#[test]
+fn a_reference_that_is_not_converged_ranks_nothing() {
+    let dir = tempfile::tempdir().unwrap();
+    let out = dir.path().join("out");
+    let output = accuracy(&write(dir.path(), &coarse_scene()), &out, &["--quick", "--within", "0.1"]);
+    assert!(output.status.success(), "{}", said(&output));
+    let record = json(&out.join("accuracy.json"));
+    let not_ranked = record["not_ranked"].as_array().unwrap();
+    let is_not = |quantity: &str| not_ranked.iter().find(|one| one["quantity"] == quantity);
+    let uncertainty = record["reference"]["uncertainty"].as_object().unwrap();
+    for (quantity, value) in uncertainty {
+        assert_eq!(is_not(quantity).is_some(), value.as_f64().unwrap() > 1e-3, "{quantity}: {value}");
+        let recommended = record["recommendations"].as_array().unwrap().iter().any(|r| r["quantity"] == **quantity);
+        assert_ne!(recommended, is_not(quantity).is_some(), "{quantity}");
+    }
+    let profile = is_not("wear_profile").expect("elements of a third of a half-width are not so good");
+    assert!(
+        profile["remedy"].as_str().unwrap().contains("numerics.")
+            || profile["remedy"].as_str().unwrap().contains("fem.")
+    );
+    assert!(points(&record, "wear_profile").iter().all(|point| !point.2));
+    assert!(!out.join("recommended.toml").exists());
+    let page = fs::read_to_string(out.join("report.html")).unwrap();
+    assert!(page.contains("No ranking by wear profile"));
+    assert!(String::from_utf8_lossy(&output.stdout).contains("not ranked: the reference is more uncertain than 0.1"));
 }
 
 /// A bed too soft for the tooth stiffness of ISO 6336 cannot be run; the others can.

@@ -97,14 +97,20 @@ fn slices_are_compared_coupled_and_uncoupled_over_the_whole_flank() {
         table(title)["rows"].as_array().unwrap().iter().map(|row| row["name"].as_str().unwrap()).collect()
     };
     let coupling = names("Coupling of slices");
-    for surface in ["hertz-mean", "hertz", "winkler half-width, tip contact", "half-space, tip contact"] {
-        for how in ["uncoupled", "coupled"] {
+    for surface in [
+        "Hertz, mean pressure",
+        "Hertz",
+        "Winkler, K/H from Hertz by half-width, tip contact",
+        "elastic half-planes, tip contact",
+    ] {
+        for how in ["uncoupled", "coupled as plates"] {
             assert!(coupling.contains(&&*format!("{surface}, {how}")), "{coupling:?}");
         }
     }
-    let simplified = ["hertz-mean, coupled in space", "hertz-mean, coupled", "hertz-mean, uncoupled"];
+    let simplified =
+        ["mean pressure, coupled by teeth in space", "mean pressure, coupled as plates", "mean pressure, uncoupled"];
     assert_eq!(names("Simplified model"), simplified);
-    assert!(names("Tooth stiffness").contains(&"constant 20"));
+    assert!(names("Tooth stiffness").contains(&"teeth of 20 N/(mm·µm)"));
     for row in table("Coupling of slices")["rows"].as_array().unwrap() {
         let difference = number(row, "/wear_profile/pinion");
         assert!(difference > 1e-3 && difference < 1.0, "{row}");

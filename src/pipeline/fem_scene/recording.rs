@@ -131,6 +131,7 @@ impl Parts<'_> {
         FemCycleRow {
             position_mm: at.position_mm,
             pair: contact.pair,
+            pair_position_mm: own_mm,
             line_load_N_per_mm: contact.line_load_n_per_mm,
             peak_pressure_MPa: contact.peak_pressure_mpa,
             half_width_mm: contact.half_width_mm,
@@ -196,6 +197,7 @@ impl Parts<'_> {
             peak_pressure_MPa: peak.map(|row| row.peak_pressure_MPa),
             peak_pressure_position_mm: peak.map(|row| row.position_mm),
             peak_pressure_pair: peak.map(|row| row.pair),
+            peak_pressure_pair_position_mm: peak.map(|row| row.pair_position_mm),
             peak_pressure_pinion_radius_mm: peak.map(|row| row.pinion_radius_mm),
             sharp_edge_pressure_MPa: sharp.map(|row| row.peak_pressure_MPa),
             pitch_pressure_MPa: at_c.as_ref().map(|row| row.peak_pressure_MPa),

@@ -1,7 +1,7 @@
 //! Over the path of contact from A to E: load sharing, pressure, transmission error, stress at the roots.
 
 use crate::gear::Gear;
-use crate::report::chart::{Chart, Dash, MUTED, NEW, PATH, Trace, WORN, from_zero, gear_colour};
+use crate::report::chart::{Chart, Dash, MUTED, NEW, PATH, Trace, WORN, extent, gear_colour, padded};
 use crate::report::html::number::{figure, percent, significant};
 use crate::results::fem_pair::{FemCycleRow, FemPairRecord, RootSummary};
 
@@ -10,8 +10,9 @@ pub(super) fn all(record: &FemPairRecord) -> Vec<Chart> {
         return Vec::new();
     }
     let points = &record.summary.geometry.curvature_radius_mm;
-    let charts = [load_sharing(record), pressure(record), transmission_error(record), root_stress(record)];
-    charts.map(|chart| chart.over_path(points)).into()
+    let [sharing, error, root] =
+        [load_sharing(record), transmission_error(record), root_stress(record)].map(|chart| chart.over_path(points));
+    vec![sharing, pressure(record), error, root]
 }
 
 fn of_pair(record: &FemPairRecord, pair: i32) -> Vec<&FemCycleRow> {
@@ -72,25 +73,35 @@ fn load_sharing(record: &FemPairRecord) -> Chart {
     chart.add_all(shares).reading(reading)
 }
 
+/// One tooth pair from its first contact to its last: the reference pair from A to E, its neighbours where they touch before and after.
+fn one_pair(record: &FemPairRecord) -> Vec<&FemCycleRow> {
+    let of = |pair: i32, keep: &dyn Fn(f64) -> bool| -> Vec<&FemCycleRow> {
+        of_pair(record, pair).into_iter().filter(|row| keep(row.pair_position_mm)).collect()
+    };
+    let points = &record.summary.geometry.curvature_radius_mm;
+    [of(-1, &|at| at < points.A), of(0, &|_| true), of(1, &|at| at > points.E)].concat()
+}
+
 fn pressure(record: &FemPairRecord) -> Chart {
     const HOVER: &str = "%{y:.1f} MPa";
-    let rows = of_pair(record, 0);
-    let x = || rows.iter().map(|row| row.position_mm);
+    let rows = one_pair(record);
+    let x = || rows.iter().map(|row| row.pair_position_mm);
     // A gap where the edge carries load: the line is of finite pressures only.
     let finite = rows.iter().map(|row| (!row.at_sharp_edge).then_some(row.peak_pressure_MPa));
     let hertz = rows.iter().map(|row| row.hertz_pressure_MPa);
-    let top = finite.clone().flatten().chain(hertz.clone()).fold(0.0, f64::max);
-    // Singular peaks may be many times as high: those above the frame are drawn at its edge.
     let sharp: Vec<&&FemCycleRow> = rows.iter().filter(|row| row.at_sharp_edge).collect();
-    let [_, frame] = from_zero(1.25 * top);
-    let mut chart = Chart::new("cycle-pressure", "Greatest pressure of the reference pair")
-        .y("greatest pressure, MPa")
-        .y_range([0.0, frame])
-        .line("finite elements", x(), finite, (PATH, 2.4, Dash::Solid), HOVER)
-        .line("Hertz, same load", x(), hertz, (MUTED, 2.0, Dash::Dashed), HOVER);
+    let [first, last] = extent(x());
+    let mut chart =
+        Chart::new("cycle-pressure", "Greatest pressure of a tooth pair from its first to its last contact")
+            .over_path(&record.summary.geometry.curvature_radius_mm)
+            .x_range(padded(first, last))
+            .y("greatest pressure, MPa")
+            .y_up_to(rows.iter().map(|row| row.peak_pressure_MPa).chain(hertz.clone()).fold(0.0, f64::max))
+            .line("finite elements", x(), finite, (PATH, 2.4, Dash::Solid), HOVER)
+            .line("Hertz, same load", x(), hertz, (MUTED, 2.0, Dash::Dashed), HOVER);
     if !sharp.is_empty() {
-        let shown = sharp.iter().map(|row| row.peak_pressure_MPa.min(0.98 * frame));
-        let x = sharp.iter().map(|row| row.position_mm);
+        let shown = sharp.iter().map(|row| row.peak_pressure_MPa);
+        let x = sharp.iter().map(|row| row.pair_position_mm);
         let said = sharp.iter().map(|row| format!("{} MPa, singular", figure(row.peak_pressure_MPa)));
         let marks = Trace::points("at a sharp tip edge", x, shown, (WORN, "triangle-up-open", 6));
         chart = chart.add(marks.set("text", said.collect::<Vec<_>>()).hover("%{text}"));
@@ -108,8 +119,8 @@ fn pressure(record: &FemPairRecord) -> Chart {
         String::new()
     } else {
         format!(
-            "At {} of {} positions a sharp tip edge carries load (marked; drawn at the frame where beyond it): the pressure \
-             there grows with every refinement, and only a tip rounding gives it a true value. Hertz knows no edge.",
+            "At {} of {} positions of the pair a sharp tip edge carries load (marked): the pressure there grows with every \
+             refinement, and only a tip rounding gives it a defined value. Hertz’s contact has no edge.",
             sharp.len(),
             rows.len()
         )

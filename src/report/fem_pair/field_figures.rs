@@ -13,28 +13,39 @@ const AROUND: f64 = 2.0;
 /// The elements of the teeth, undeformed.
 pub(super) fn mesh(s: &FemPairSummary, solution: &PairSolution) -> Chart {
     let gears = &s.model.gears;
-    let reading = format!(
-        "{} elements on {} nodes, at the contact position of {} mm before loading; drag over a contact to see them. They \
-         are part of bodies of {} degrees of freedom (pinion, held rigidly at {} mm and turned by the torque) and {} \
-         (wheel, held at {} mm).",
-        count(solution.elements.len() as u64),
-        count(solution.points_mm.len() as u64),
-        significant(solution.position_mm, 5),
-        count(gears.pinion.dofs as u64),
-        significant(gears.pinion.clamp_radius_mm, 4),
-        count(gears.wheel.dofs as u64),
-        significant(gears.wheel.clamp_radius_mm, 4),
-    );
+    let reading = |shown: &str| {
+        format!(
+            "{} elements on {} nodes, at the contact position of {} mm before loading; {shown}. They \
+         are part of bodies of {} degrees of freedom (pinion, rigid at {} mm and rotated by the torque) and {} \
+         (wheel, fixed at {} mm).",
+            count(solution.elements.len() as u64),
+            count(solution.points_mm.len() as u64),
+            significant(solution.position_mm, 5),
+            count(gears.pinion.dofs as u64),
+            significant(gears.pinion.clamp_radius_mm, 4),
+            count(gears.wheel.dofs as u64),
+            significant(gears.wheel.clamp_radius_mm, 4),
+        )
+    };
     let window = Window::around(&solution.points_mm);
-    let mut chart = Chart::new("mesh", "Finite elements of the teeth that may touch").wide().reading(reading);
+    let (mut all_inner, mut outlines) = (Vec::new(), Vec::new());
     for (gear, material) in Gear::BOTH.into_iter().zip(0..) {
         let own: Vec<Element> = solution.elements.iter().filter(|e| e.material == material).copied().collect();
         let bodies = Bodies { points_mm: &solution.points_mm, elements: &own };
         let own_outline = (gear.name(), gear_colour(gear), 1.4);
         let (inner, outline) = side_lines(bodies, window, ("var(--rule)", 0.6), own_outline);
-        chart = chart.add_all(inner.map(Trace::unlisted)).add(outline);
+        all_inner.push(inner.map(Trace::unlisted));
+        outlines.push(outline);
     }
-    to_scale(chart, window)
+    // Of both gears or of neither.
+    let inner = all_inner.into_iter().collect::<Option<Vec<Trace>>>();
+    let shown = if inner.is_some() {
+        "drag over a contact to see them"
+    } else {
+        "too many to be drawn here; solution.vtu has them"
+    };
+    let chart = Chart::new("mesh", "Finite elements of the teeth that may touch").wide().reading(reading(shown));
+    to_scale(chart.add_all(inner.into_iter().flatten()).add_all(outlines), window)
 }
 
 /// The von Mises stress in the teeth, and around each contact, deformed as computed.

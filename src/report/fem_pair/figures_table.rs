@@ -20,7 +20,9 @@ fn cycle(s: &FemPairSummary) -> Markup {
     let mut rows: Vec<Markup> = Vec::new();
     rows.extend(new.peak_pressure_MPa.map(|p| one("Greatest pressure away from sharp edges", "MPa", p)));
     rows.extend(
-        new.peak_pressure_position_mm.filter(|_| s.position_mm.is_none()).map(|at| one("at position", "mm", at)),
+        new.peak_pressure_pair_position_mm
+            .filter(|_| s.position_mm.is_none())
+            .map(|at| one("its tooth pair at", "mm", at)),
     );
     rows.extend(new.peak_pressure_pinion_radius_mm.map(|r| one("at radius on the pinion", "mm", r)));
     rows.extend(new.sharp_edge_pressure_MPa.map(|p| one("At a sharp tip edge, singular", "MPa", p)));
@@ -85,7 +87,7 @@ fn model(s: &FemPairSummary) -> Markup {
         &["value"],
         [
             row("Body", "", [body]),
-            row("Across the plane", "", ["plane strain"]),
+            row("Analysis", "", ["plane strain"]),
             row("Elements along Hertz’s half-width", "", [significant(m.elements_per_half_width, 3)]),
             row("Degrees of freedom, supports included", "", [s.dofs]),
             row("Elements", "", [s.elements]),
@@ -102,7 +104,7 @@ fn gears(s: &FemPairSummary) -> Markup {
         "Finite elements of the gears",
         &["pinion", "wheel"],
         [
-            both("Held or turned at radius", "mm", &|g| fixed(g.clamp_radius_mm, 3)),
+            both("Fixed (wheel) or rotated (pinion) at radius", "mm", &|g| fixed(g.clamp_radius_mm, 3)),
             both("Degrees of freedom", "", &|g| count(g.dofs as u64)),
             both("Elements", "", &|g| count(g.elements as u64)),
             both("Teeth with a resolved flank", "", &|g| g.resolved_teeth.to_string()),

@@ -20,7 +20,7 @@ const DATA_FILES: [(&str, &str); 5] = [
 const LEGEND: &str = "A to E are the points of the path of contact: theoretical contact begins at A \
      and ends at E, a tooth pair carries the load alone between B and D where no more than two pairs share it, and C is the \
      pitch point. The contact position is the radius of curvature of the pinion’s flank at the theoretical contact point of \
-     the reference pair. Under load teeth bend, and pairs touch a little before A and after E as well, at a tip edge.";
+     the reference pair, or in plots of one pair its own. Under load teeth bend, and pairs touch a little before A and after E as well, at a tip edge.";
 
 pub(super) fn page(record: &FemPairRecord) -> String {
     let s = &record.summary;
@@ -54,9 +54,9 @@ pub(super) fn page(record: &FemPairRecord) -> String {
 
 fn answer(s: &FemPairSummary) -> String {
     let (new, te) = (&s.new, &s.new.transmission_error_um);
-    let mut text = match (new.peak_pressure_MPa, new.peak_pressure_position_mm) {
+    let mut text = match (new.peak_pressure_MPa, new.peak_pressure_pair_position_mm) {
         (Some(peak), Some(at)) if s.position_mm.is_none() => format!(
-            "Away from sharp tip edges the pressure reaches {} MPa at {} mm, {}.",
+            "Away from sharp tip edges the pressure reaches {} MPa, where its tooth pair is at {} mm, {}.",
             figure(peak),
             significant(at, 4),
             among(&s.geometry.curvature_radius_mm.named(), at)

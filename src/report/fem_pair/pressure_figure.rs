@@ -8,8 +8,6 @@ use crate::results::fem_pair::{FemPairRecord, PressureCurve};
 
 /// Half-widths shown on either side.
 const SHOWN: f64 = 1.6;
-/// Hertz's pressures shown at the most: a singular peak is cut off above.
-const MOST_HERTZ: f64 = 2.0;
 
 /// The reference pair's at A–E, every pair's at a position asked for.
 pub(super) fn all(record: &FemPairRecord) -> Vec<Chart> {
@@ -21,7 +19,7 @@ fn pressure(of: &PressureCurve) -> Chart {
     let reach_mm = SHOWN * hertz.half_width_mm.max(of.row.half_width_mm);
     let nodes = of.along_mm.iter().copied().zip(of.pressure_MPa.iter().copied());
     let shown: Vec<(f64, f64)> = nodes.filter(|(s, _)| s.abs() <= reach_mm).collect();
-    let top = of.row.peak_pressure_MPa.clamp(hertz.peak_pressure_mpa, MOST_HERTZ * hertz.peak_pressure_mpa);
+    let top = of.row.peak_pressure_MPa.max(hertz.peak_pressure_mpa);
     let (id, title) = match (of.point, of.row.pair) {
         (Some(point), _) => (format!("pressure-{}", point.to_lowercase()), format!("Contact pressure at {point}")),
         (None, 0) => ("pressure-reference".to_owned(), "Contact pressure of the reference pair".to_owned()),
@@ -40,7 +38,7 @@ fn reading(of: &PressureCurve) -> String {
     if row.at_sharp_edge {
         return format!(
             "{loaded}; a sharp tip edge takes part of it. The peak of {} MPa there is singular: it grows with every \
-             refinement and is cut off in this picture; Hertz, who knows no edge, has {} MPa.",
+             refinement; Hertz’s contact, which has no edge, has {} MPa.",
             figure(row.peak_pressure_MPa),
             figure(row.hertz_pressure_MPa)
         );

@@ -6,7 +6,7 @@
 
 use super::measure::profile_error;
 use super::observed::Observed;
-use super::settings::{Setting, Surface};
+use super::settings::{Setting, Stiffness, Surface};
 use crate::gear::PerGear;
 use crate::scene::Resolved;
 use crate::scene::file::StiffnessModel;
@@ -40,13 +40,13 @@ pub(super) fn stiffnesses(resolved: &Resolved, runs: &[Run<'_>]) -> Option<Compa
     let model = |run: &Run<'_>| run.setting.stiffness.as_ref().and_then(|stiffness| stiffness.file.model);
     let with = |wanted| on_it.iter().copied().find(|run| model(run) == Some(wanted));
     let baseline = with(StiffnessModel::Fem).or_else(|| with(StiffnessModel::WeberBanaschek))?;
-    let name = |run: &Run<'_>| run.setting.stiffness.as_ref().map_or_else(String::new, |s| s.name.clone());
+    let name = |run: &Run<'_>| run.setting.stiffness.as_ref().map_or_else(String::new, Stiffness::title);
     let rows: Vec<ComparisonRow> = on_it
         .iter()
         .filter(|run| run.setting.tip_contact == baseline.setting.tip_contact && name(run) != name(&baseline))
         .map(|run| row(name(run), run, &baseline))
         .collect();
-    table("Tooth stiffness", format!("surface {}", surface.name()), &format!("stiffness {}", name(&baseline)), rows)
+    table("Tooth stiffness", format!("contact: {}", surface.name()), &name(&baseline), rows)
 }
 
 /// None where nothing is to be compared.
@@ -67,8 +67,8 @@ fn surfaces(runs: &[Run<'_>]) -> Option<Comparison> {
     let others: Vec<&Run<'_>> = runs.iter().filter(|run| !is_fem(run) && rank(run) == best).collect();
     let stiffness = others.iter().find_map(|run| run.setting.stiffness.as_ref())?;
     let rows = others.iter().map(|run| row(run.setting.surface_name(), run, baseline)).collect();
-    let common = format!("stiffness {} on the line of action", stiffness.name);
-    table("Contact surface", common, &format!("surface {}", baseline.setting.surface.name()), rows)
+    let common = format!("{} on the line of action", stiffness.title());
+    table("Contact surface", common, &baseline.setting.surface.name(), rows)
 }
 
 pub(super) fn row(name: String, run: &Run<'_>, baseline: &Run<'_>) -> ComparisonRow {

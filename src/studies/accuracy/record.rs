@@ -37,8 +37,10 @@ pub(crate) struct AccuracyRecord {
     /// Every run, in the order of the work.
     pub variants: Vec<VariantRecord>,
     pub left_out: Vec<LeftOut>,
-    /// The cheapest setting for each quantity.
+    /// The cheapest setting for each quantity that can be ranked.
     pub recommendations: Vec<Recommendation>,
+    /// The quantities in which the reference is too uncertain for a ranking.
+    pub not_ranked: Vec<NotRanked>,
     pub comparisons: Vec<Comparison>,
     /// Runs to a greater depth; `None` where the scene has no slices.
     pub deep_runs: Option<DeepRuns>,
@@ -65,6 +67,11 @@ impl AccuracyRecord {
         let chosen = self.recommendations.iter().find(|r| r.quantity == quantity)?;
         let variant = self.variants.get(chosen.variant)?;
         Some((chosen.is_within, variant, variant.errors.get(&quantity)?.relative, variant.simulation_s?))
+    }
+
+    /// Why no run is ranked by `quantity`, where none is.
+    pub(crate) fn not_ranked(&self, quantity: Quantity) -> Option<&NotRanked> {
+        self.not_ranked.iter().find(|one| one.quantity == quantity)
     }
 
     /// Whether any run has an error of `quantity`.
@@ -184,7 +191,7 @@ pub(crate) struct VariantSettings {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct MeasuredError {
     pub relative: f64,
-    /// Whether no faster run has a smaller error, the reference's uncertainty considered.
+    /// Whether no faster run has a smaller error, the reference's uncertainty considered; never of a quantity that is not ranked.
     pub on_front: bool,
 }
 
@@ -202,6 +209,16 @@ pub(crate) struct Recommendation {
     pub variant: usize,
     /// Whether its error is within the one wanted.
     pub is_within: bool,
+}
+
+/// A quantity of which the reference is more uncertain than the error wanted: no run is ranked or recommended by it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct NotRanked {
+    pub quantity: Quantity,
+    /// Of the reference, relative.
+    pub uncertainty: f64,
+    /// What would make the reference more certain, the greatest part of the uncertainty first.
+    pub remedy: String,
 }
 
 /// Runs that differ in one respect only.

@@ -57,6 +57,18 @@ pub(crate) enum Spacing {
     Step,
 }
 
+impl Spacing {
+    /// What in the scene makes it less.
+    pub(crate) fn remedy(self) -> &'static str {
+        match self {
+            Self::Elements(_) => "more fem.elements_per_half_width",
+            Self::Points(_) => "more numerics.flank_points and numerics.positions",
+            Self::Slices(_) => "more helical.slices",
+            Self::Step => "a shorter numerics.step or a lower numerics.tolerance_um",
+        }
+    }
+}
+
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Selection {
     /// Every setting, in the order of the work; the first is the finest.

@@ -3,8 +3,9 @@
 //! The scene is the user's file with some keys changed, resolved again: what was measured can be repeated by
 //! `gearwear run` on that file, and the checks of scenes hold for settings as well.
 
-use crate::contact::settings::{Foundation, SurfaceKind};
+use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
+use crate::report::html::number::significant;
 use crate::scene::file::{HelicalFile, NumericsFile, StepFile, StiffnessFile, StiffnessModel};
 use crate::scene::{Problem, Resolved, Scene};
 use crate::studies::accuracy::record::VariantSettings;
@@ -37,13 +38,14 @@ impl Coarsening {
         Self { spacing: by, step: by }
     }
 
-    /// "1", "1/2", "points 1, steps 1/4".
-    fn name(self) -> String {
-        let part = |by: u32| if by == 1 { "1".to_owned() } else { format!("1/{by}") };
-        if self.spacing == self.step {
-            part(self.spacing)
-        } else {
-            format!("points {}, steps {}", part(self.spacing), part(self.step))
+    /// "1/2 of points, positions and steps", "1/4 of steps"; none where nothing is coarser.
+    fn name(self) -> Option<String> {
+        let of = |by: u32, what: &str| (by != 1).then(|| format!("1/{by} of {what}"));
+        match self {
+            Self { spacing, step } if spacing == step => of(step, "points, positions and steps"),
+            Self { spacing, step: 1 } => of(spacing, "points and positions"),
+            Self { spacing: 1, step } => of(step, "steps"),
+            Self { spacing, step } => Some(format!("1/{spacing} of points and positions, 1/{step} of steps")),
         }
     }
 }
@@ -82,14 +84,19 @@ impl Surface {
         }
     }
 
-    /// `winkler peak-pressure, calibrated`, `fem 10`.
+    /// "Winkler, K/H calibrated by peak pressure", "finite elements, 10 in a half-width".
     pub(crate) fn name(self) -> String {
+        let by = |criterion: MatchCriterion| criterion.name().replace("peak-", "peak ");
         match self {
-            Self::HertzMean | Self::Hertz | Self::HalfSpace => self.kind().name().to_owned(),
-            Self::Winkler(Foundation::Given { .. }) => "winkler, K/H given".to_owned(),
-            Self::Winkler(Foundation::Matched(criterion)) => format!("winkler {}", criterion.name()),
-            Self::Winkler(Foundation::Calibrated(criterion)) => format!("winkler {}, calibrated", criterion.name()),
-            Self::Fem { elements_per_half_width } => format!("fem {elements_per_half_width}"),
+            Self::HertzMean => "Hertz, mean pressure".to_owned(),
+            Self::Hertz => "Hertz".to_owned(),
+            Self::HalfSpace => "elastic half-planes".to_owned(),
+            Self::Winkler(Foundation::Given { .. }) => "Winkler, K/H given".to_owned(),
+            Self::Winkler(Foundation::Matched(criterion)) => format!("Winkler, K/H from Hertz by {}", by(criterion)),
+            Self::Winkler(Foundation::Calibrated(criterion)) => format!("Winkler, K/H calibrated by {}", by(criterion)),
+            Self::Fem { elements_per_half_width } => {
+                format!("finite elements, {} in a half-width", significant(elements_per_half_width, 3))
+            }
         }
     }
 
@@ -113,6 +120,20 @@ impl Stiffness {
     /// A model without data of its own.
     pub(crate) fn of_model(model: StiffnessModel, name: &str) -> Self {
         Self { file: StiffnessFile { model: Some(model), ..StiffnessFile::default() }, name: name.to_owned() }
+    }
+
+    /// As tables and plots say it: "teeth by ISO 6336".
+    pub(crate) fn title(&self) -> String {
+        let how = match self.file.model {
+            Some(StiffnessModel::Constant) => {
+                return format!("teeth of {} N/(mm·µm)", self.name.trim_start_matches("constant "));
+            }
+            Some(StiffnessModel::Iso6336) => "ISO 6336",
+            Some(StiffnessModel::WeberBanaschek) => "Weber and Banaschek",
+            Some(StiffnessModel::Fem) => "finite elements",
+            _ => &self.name,
+        };
+        format!("teeth by {how}")
     }
 
     /// One value for the spring of the teeth, N/(mm·µm).
@@ -146,8 +167,8 @@ pub(crate) fn euler_revolutions(scene: &Scene) -> f64 {
 pub(crate) fn coupling_name(coupling: Coupling) -> &'static str {
     match coupling {
         Coupling::None => "uncoupled",
-        Coupling::Slicing => "coupled",
-        Coupling::Fem => "coupled in space",
+        Coupling::Slicing => "coupled as plates",
+        Coupling::Fem => "coupled by teeth in space",
     }
 }
 
@@ -155,8 +176,8 @@ impl Setting {
     /// What it is called in tables and plots.
     pub(crate) fn name(&self) -> String {
         let slices = self.slices.map(|s| format!("{} slices, {}", s.count, coupling_name(s.coupling)));
-        let stiffness = self.stiffness.as_ref().map(|stiffness| stiffness.name.clone());
-        let parts = [Some(self.surface_name()), stiffness, slices, Some(self.coarsening.name())];
+        let stiffness = self.stiffness.as_ref().map(Stiffness::title);
+        let parts = [Some(self.surface_name()), stiffness, slices, self.coarsening.name()];
         parts.into_iter().flatten().collect::<Vec<_>>().join(" · ")
     }
 

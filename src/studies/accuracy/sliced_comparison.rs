@@ -8,7 +8,7 @@
 //! | tooth stiffness | the stiffness, on the scene's surface | that of finite elements |
 
 use super::comparison::{Run, row, stiffnesses, table};
-use super::settings::{Setting, Surface, coupling_name};
+use super::settings::{Setting, Stiffness, Surface, coupling_name};
 use super::sliced_selection::{slices_of_any_stiffness, truest};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::scene::Resolved;
@@ -78,10 +78,15 @@ fn simplified(runs: &[Run<'_>], slices: usize) -> Option<Comparison> {
         .filter(|run| run.setting.surface == Surface::HertzMean)
         .filter_map(|run| {
             let hertz = counterpart(runs, run, |setting| setting.surface = Surface::Hertz)?;
-            Some(row(format!("hertz-mean, {}", coupling_name(coupling_of(run))), run, &hertz))
+            Some(row(format!("mean pressure, {}", coupling_name(coupling_of(run))), run, &hertz))
         })
         .collect();
-    table("Simplified model", format!("{slices} slices, coupling alike"), "surface hertz", rows)
+    table(
+        "Simplified model",
+        format!("{slices} slices, coupling alike"),
+        "Hertz with its distribution of pressure",
+        rows,
+    )
 }
 
 /// All coupled surfaces against elastic half-planes.
@@ -95,7 +100,7 @@ fn surfaces(runs: &[Run<'_>], slices: usize) -> Option<Comparison> {
         .filter(|run| run.setting.stiffness == *stiffness && run.setting != baseline.setting)
         .map(|run| row(run.setting.surface_name(), run, baseline))
         .collect();
-    let name = stiffness.as_ref().map_or("", |stiffness| &stiffness.name);
-    let common = format!("{slices} slices, coupled, stiffness {name}");
-    table("Contact surface", common, "surface half-space, tip contact", rows)
+    let teeth = stiffness.as_ref().map_or_else(String::new, Stiffness::title);
+    let common = format!("{slices} slices, {}, {teeth}", coupling_name(Coupling::Slicing));
+    table("Contact surface", common, &baseline.setting.surface_name(), rows)
 }

@@ -21,8 +21,8 @@ use crate::results::run::StopReason;
 use crate::scene::Resolved;
 use crate::scene::loaded::LoadedScene;
 use crate::studies::accuracy::record::{
-    AccuracyRecord, CALIBRATION_FILE, MeasuredError, Quantity, Recommendation, ReferenceFlank, ReferenceRecord,
-    VariantRecord,
+    AccuracyRecord, CALIBRATION_FILE, MeasuredError, NotRanked, Quantity, Recommendation, ReferenceFlank,
+    ReferenceRecord, VariantRecord,
 };
 
 /// Least ratio of the wear steps taken of which anything is learned.
@@ -71,7 +71,8 @@ pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) ->
     let is_complete = all_measured && deep_runs.is_some() == resolved.scene.slices.is_some();
     let stopped = if is_complete { StopReason::Completed } else { StopReason::Interrupted };
     let windows = windows(resolved, &measured)?;
-    let (reference, runs) = reference(&selection, &measured, &windows)?;
+    let (reference, runs, spacings) = reference(&selection, &measured, &windows)?;
+    let not_ranked = not_ranked(&reference, &spacings, asked.within);
     let at_reference: Vec<Option<Observed>> = measured
         .iter()
         .map(|one| one.finished.as_ref().map(|run| run.observed.at_coordinates_of(&reference.observed)))
@@ -81,6 +82,9 @@ pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) ->
         variants[index].part_of_reference = true;
     }
     add_errors(&mut variants, &at_reference, &reference, &windows);
+    for quantity in Quantity::ALL.into_iter().filter(|&q| not_ranked.iter().all(|one| one.quantity != q)) {
+        mark_front(&mut variants, quantity, reference.uncertainty.get(&quantity).copied().unwrap_or(0.0));
+    }
     let finest = selection.settings[0].coarsening;
     for ((variant, observed), setting) in variants.iter_mut().zip(&at_reference).zip(&selection.settings) {
         // The reference's own slices would show the same curves once more.
@@ -100,7 +104,8 @@ pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) ->
             Some(Run { setting, observed: observed.as_ref()?, simulation_s: variant.simulation_s? })
         })
         .collect();
-    let recommendations = recommendations(&variants, asked.within);
+    let mut recommendations = recommendations(&variants, asked.within);
+    recommendations.retain(|one| not_ranked.iter().all(|not| not.quantity != one.quantity));
     Ok(AccuracyRecord {
         recommended_toml: recommended_toml(&recommendations, &selection.settings, resolved),
         calibration_json: made.map(Calibration::to_json),
@@ -112,6 +117,7 @@ pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) ->
         threads: rayon::current_num_threads(),
         within: asked.within,
         recommendations,
+        not_ranked,
         comparisons: match resolved.scene.slices {
             Some(own) => sliced_comparison::comparisons(resolved, own, &compared),
             None => comparison::comparisons(resolved, &compared),
@@ -170,14 +176,14 @@ fn windows(resolved: &Resolved, measured: &[Measured]) -> Result<Windows, Accura
     Ok(Windows::new(&summary.geometry.curvature_radius_mm, sharp, summary.contact.hertz_half_width_mm))
 }
 
-/// The reference, and the indices of the runs it was made from.
+/// The reference, the indices of the runs it was made from, and what each of its corrections is for.
 fn reference(
     selection: &Selection,
     measured: &[Measured],
     windows: &Windows,
-) -> Result<(Reference, Vec<usize>), AccuracyError> {
+) -> Result<(Reference, Vec<usize>, Vec<Spacing>), AccuracyError> {
     let finest = &finished(measured, 0)?.observed;
-    let mut corrections = Vec::new();
+    let (mut corrections, mut spacings) = (Vec::new(), Vec::new());
     let mut runs = vec![0];
     for &Companions { fine, coarse, spacing } in &selection.companions {
         let (fine_run, coarse_run) = (finished(measured, fine)?, finished(measured, coarse)?);
@@ -190,14 +196,33 @@ fn reference(
         runs.extend([fine, coarse]);
         if ratio >= LEAST_STEP_RATIO {
             corrections.push(Correction { fine: &fine_run.observed, coarse: &coarse_run.observed, ratio, order });
+            spacings.push(spacing);
         }
     }
     runs.sort_unstable();
     runs.dedup();
-    Ok((Reference::extrapolated(finest, &corrections, windows), runs))
+    Ok((Reference::extrapolated(finest, &corrections, windows), runs, spacings))
 }
 
-/// Measures every run against the reference, and marks the fronts.
+/// The quantities of which `reference` is more uncertain than the error wanted.
+fn not_ranked(reference: &Reference, spacings: &[Spacing], within: f64) -> Vec<NotRanked> {
+    let of = |(&quantity, &uncertainty): (&Quantity, &f64)| {
+        if uncertainty <= within {
+            return None;
+        }
+        let part = |index: usize| reference.parts[index].get(&quantity).copied().unwrap_or(0.0);
+        let mut by: Vec<usize> = (0..spacings.len()).collect();
+        by.sort_by(|&a, &b| part(b).total_cmp(&part(a)));
+        let greatest = by.first().map_or(0.0, |&index| part(index));
+        // What is less than a third of the greatest part would not help.
+        by.retain(|&index| part(index) > 0.0 && 3.0 * part(index) >= greatest);
+        let remedies: Vec<&str> = by.iter().map(|&index| spacings[index].remedy()).collect();
+        Some(NotRanked { quantity, uncertainty, remedy: remedies.join("; ") })
+    };
+    reference.uncertainty.iter().filter_map(of).collect()
+}
+
+/// Measures every run against the reference.
 fn add_errors(variants: &mut [VariantRecord], at: &[Option<Observed>], reference: &Reference, windows: &Windows) {
     for (variant, observed) in variants.iter_mut().zip(at) {
         let all = observed.as_ref().map(|observed| errors(observed, &reference.observed, windows));
@@ -205,12 +230,13 @@ fn add_errors(variants: &mut [VariantRecord], at: &[Option<Observed>], reference
         let measured = measured.map(|(quantity, relative)| (quantity, MeasuredError { relative, on_front: false }));
         variant.errors.extend(measured);
     }
-    for quantity in Quantity::ALL {
-        let uncertainty = reference.uncertainty.get(&quantity).copied().unwrap_or(0.0);
-        let front = on_front(&points(variants, quantity), uncertainty);
-        for (variant, on_front) in variants.iter_mut().zip(front) {
-            variant.errors.entry(quantity).and_modify(|error| error.on_front = on_front);
-        }
+}
+
+/// Marks the runs on the Pareto front of `quantity`.
+fn mark_front(variants: &mut [VariantRecord], quantity: Quantity, uncertainty: f64) {
+    let front = on_front(&points(variants, quantity), uncertainty);
+    for (variant, on_front) in variants.iter_mut().zip(front) {
+        variant.errors.entry(quantity).and_modify(|error| error.on_front = on_front);
     }
 }
 
@@ -254,7 +280,7 @@ fn reference_record(
         if parts.is_empty() { "nothing".to_owned() } else { parts.join("; ") }
     );
     let points = measured[0].finished.as_ref().map(|run| run.path_point_radius_mm);
-    let Reference { observed, uncertainty } = reference;
+    let Reference { observed, uncertainty, .. } = reference;
     ReferenceRecord {
         how,
         does_not_tell: observed.over_width.is_some().then(|| DOES_NOT_TELL.to_owned()),

@@ -20,19 +20,19 @@ type IsKind = fn(&VariantSettings) -> bool;
 
 /// The kinds of runs that the plots tell apart: name, colour, symbol, and which runs they are.
 const KINDS: [(&str, &str, &str, IsKind); 6] = [
-    ("hertz-mean", "var(--new)", "circle", |s| s.surface == "hertz-mean"),
-    ("hertz", "var(--wheel)", "square", |s| s.surface == "hertz"),
-    ("winkler, one K/H", "var(--pinion)", "triangle-down", |s| s.surface == "winkler" && !s.calibrated),
-    ("winkler, calibrated", "var(--pinion)", "diamond", |s| s.surface == "winkler" && s.calibrated),
-    ("half-space", "var(--path)", "triangle-up", |s| s.surface == "half-space"),
-    ("fem", "var(--worn)", "cross", |s| s.surface == "fem"),
+    ("Hertz, mean pressure", "var(--new)", "circle", |s| s.surface == "hertz-mean"),
+    ("Hertz", "var(--wheel)", "square", |s| s.surface == "hertz"),
+    ("Winkler, one K/H", "var(--pinion)", "triangle-down", |s| s.surface == "winkler" && !s.calibrated),
+    ("Winkler, K/H calibrated", "var(--pinion)", "diamond", |s| s.surface == "winkler" && s.calibrated),
+    ("elastic half-planes", "var(--path)", "triangle-up", |s| s.surface == "half-space"),
+    ("finite elements", "var(--worn)", "cross", |s| s.surface == "fem"),
 ];
 
 /// Couplings of slices, `None` without slices, with what they add to the name and to the symbol of a kind.
 const COUPLINGS: [(Option<&str>, &str, &str); 4] = [
     (None, "", ""),
-    (Some("fem"), ", coupled in space", "-dot"),
-    (Some("slicing"), ", coupled", ""),
+    (Some("fem"), ", coupled by teeth in space", "-dot"),
+    (Some("slicing"), ", coupled as plates", ""),
     (Some("none"), ", uncoupled", "-open"),
 ];
 
@@ -116,9 +116,14 @@ fn reading(record: &AccuracyRecord, quantity: Quantity, uncertainty: f64) -> Str
             format!(" No run is within {within}; the closest is {found}")
         }
     });
-    format!(
-        "Error: {}.{found} Below {} errors are not told apart. Smaller marks are coarser runs.",
-        quantity.measure(),
-        percent(uncertainty)
-    )
+    let told_apart = match record.not_ranked(quantity) {
+        Some(not) => format!(
+            " No ranking: the reference itself is uncertain by {}, more than the {} wanted. What would make it converge: {}.",
+            percent(uncertainty),
+            percent(record.within),
+            not.remedy
+        ),
+        None => format!(" Errors below {} cannot be distinguished.", percent(uncertainty)),
+    };
+    format!("Error: {}.{found}{told_apart} Smaller marks are coarser runs.", quantity.measure())
 }

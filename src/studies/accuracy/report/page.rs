@@ -75,6 +75,15 @@ fn data_files(record: &AccuracyRecord) -> Vec<(&'static str, &'static str)> {
 
 /// What to use, in a sentence or two.
 fn answer(record: &AccuracyRecord) -> String {
+    if let Some(not) = record.not_ranked(Quantity::WearProfile) {
+        return format!(
+            "No ranking by wear profile, and no recommendation: the reference itself is uncertain by {}, more than the {} wanted. \
+             What would make it converge: {}.",
+            percent(not.uncertainty),
+            percent(record.within),
+            not.remedy
+        );
+    }
     let Some((is_within, variant, error, wall_s)) = record.recommended(Quantity::WearProfile) else {
         return "No run could be compared with the reference.".to_owned();
     };

@@ -34,7 +34,24 @@ pub(super) fn recommendations(record: &AccuracyRecord) -> Markup {
         ]))
     });
     let columns = ["quantity", "run", "error", "time, s", "reference’s uncertainty"];
-    list(format!("Cheapest run within {}", percent(record.within)), columns, rows)
+    html! {
+        (list(format!("Cheapest run within {}", percent(record.within)), columns, rows))
+        (not_ranked(record))
+    }
+}
+
+/// The quantities without a ranking, and what would give them one.
+fn not_ranked(record: &AccuracyRecord) -> Markup {
+    if record.not_ranked.is_empty() {
+        return Markup::default();
+    }
+    let rows =
+        record.not_ranked.iter().map(|one| line(cells![one.quantity.title(), percent(one.uncertainty), &*one.remedy]));
+    let caption = format!(
+        "Not ranked: the uncertainty of the reference is above the {} wanted, so that no run is known to be better than another",
+        percent(record.within)
+    );
+    list(caption, ["quantity", "reference’s uncertainty", "what would make the reference converge"], rows)
 }
 
 /// Every run, the most accurate wear profile first, those without a result last.

@@ -45,7 +45,9 @@ type RunColumn = (&'static str, &'static str, fn(&VariantRecord) -> Option<Strin
 
 /// Beside these columns every quantity has its error and whether the run is on its Pareto front.
 const RUN_COLUMNS: [RunColumn; 23] = [
-    ("name", "of the run: surface · stiffness · resolution", |v| Some(v.name.clone())),
+    ("name", "of the run: contact surface · tooth stiffness · slices · what is coarser than in the scene", |v| {
+        Some(v.name.clone())
+    }),
     ("surface", "contact surface", |v| Some(v.settings.surface.clone())),
     ("match", "what K/H shares with Hertz or the calibration; empty where the surface has no K/H", |v| {
         v.settings.match_criterion.clone()
