@@ -97,7 +97,7 @@ fn table(summary: &FemPairSummary) -> String {
     if summary.position_mm.is_some() {
         one("transmission error, µm", &figures::digits(te.max));
     } else {
-        one("  at position, mm", &or_none(new.peak_pressure_position_mm));
+        one("  its tooth pair at, mm", &or_none(new.peak_pressure_pair_position_mm));
         one("transmission error, least, µm", &figures::digits(te.min));
         one("transmission error, greatest, µm", &figures::digits(te.max));
     }

@@ -214,8 +214,6 @@ pub struct FemCycleRow {
     pub position_mm: f64,
     /// tooth pair: 0 the reference pair, 1 the one a base pitch ahead, -1 the one behind
     pub pair: i32,
-    /// radius of curvature of the pinion's flank at the theoretical contact point of this pair: before A or after E where a tip edge touches
-    pub pair_position_mm: f64,
     /// the pair's part of the torque over base radius and face width
     pub line_load_N_per_mm: f64,
     /// greatest contact pressure of the pair
@@ -246,6 +244,8 @@ pub struct FemCycleRow {
     pub torque_ratio: f64,
     /// active sets tried at this position
     pub iterations: usize,
+    /// radius of curvature of the pinion's flank at the theoretical contact point of this pair: before A or after E where a tip edge touches
+    pub pair_position_mm: f64,
 }
 
 /// Pressure of one tooth pair along the flank that carries the multipliers.

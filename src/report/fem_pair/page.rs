@@ -7,7 +7,7 @@ use crate::report::html::number::{figure, significant};
 use crate::report::html::page::{self, Page, Plots, section, sources_list, stages_table};
 use crate::report::html::reading::among;
 use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
-use crate::results::run::StopReason;
+use crate::results::run::{PathPoints, StopReason};
 
 const DATA_FILES: [(&str, &str); 5] = [
     ("summary.json", "the main figures"),
@@ -59,7 +59,7 @@ fn answer(s: &FemPairSummary) -> String {
             "Away from sharp tip edges the pressure reaches {} MPa, where its tooth pair is at {} mm, {}.",
             figure(peak),
             significant(at, 4),
-            among(&s.geometry.curvature_radius_mm.named(), at)
+            where_on_path(&s.geometry.curvature_radius_mm, at)
         ),
         (Some(peak), _) => format!("Away from sharp tip edges the pressure reaches {} MPa.", figure(peak)),
         (None, _) => "Every contact touches a sharp tip edge, where pressure has no finite value.".to_owned(),
@@ -82,6 +82,14 @@ fn answer(s: &FemPairSummary) -> String {
         ));
     }
     text
+}
+
+fn where_on_path(points: &PathPoints, at_mm: f64) -> String {
+    match at_mm {
+        at if at < points.A => "before A".to_owned(),
+        at if at > points.E => "after E".to_owned(),
+        at => among(&points.named(), at),
+    }
 }
 
 fn interruption(s: &FemPairSummary) -> Option<String> {

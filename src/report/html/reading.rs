@@ -35,15 +35,14 @@ pub(crate) fn among(places: &[(&str, f64)], at: f64) -> String {
     }
     match sorted.windows(2).find(|pair| (pair[0].1..pair[1].1).contains(&at)) {
         Some(pair) => format!("between {} and {}", pair[0].0, pair[1].0),
-        None if at < first.1 => format!("before {}", first.0),
-        None => format!("after {}", last.0),
+        None => "outside the active flank".into(),
     }
 }
 
 /// What to say of a pressure that is greatest at A or E, where one flank ends in its tip edge; empty elsewhere.
 pub(crate) fn tip_edge_note(places: &[(&str, f64)], at: f64) -> &'static str {
     match among(places, at).as_str() {
-        "close to A" | "close to E" | "before A" | "after E" => {
+        "close to A" | "close to E" | "outside the active flank" => {
             " This is at a tip edge: where the edge is sharp, or has worn to an edge again, the pressure depends on the \
              contact model and on the spacing of points and positions, and only an unworn tip rounding gives it a true value."
         }
