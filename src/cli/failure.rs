@@ -20,6 +20,7 @@ use crate::studies::accuracy::study::AccuracyError;
 use crate::studies::compare::question::QuestionError;
 use crate::studies::compare::run_folder::RunFolderError;
 use crate::studies::sweep::axis::AxisError;
+use crate::studies::sweep::goal::GoalError;
 use crate::studies::sweep::journal::JournalError;
 use crate::studies::sweep::merge::MergeError;
 use crate::studies::validation::library::LibraryError;
@@ -156,6 +157,9 @@ pub(super) enum InputError {
     #[error("--vary: {0}")]
     #[diagnostic(help("{}", .0.help().unwrap_or_else(|| "for example --vary pair.face_width_mm=10:30:21".to_owned())))]
     Vary(AxisError),
+    #[error("--best, --subject-to: {0}")]
+    #[diagnostic(help("for example --best pinion_peak_wear_um --subject-to \"wheel_peak_wear_um<=8\""))]
+    Goal(GoalError),
     #[error("--out: {0}")]
     #[diagnostic(help("{}", journal_help(.0)))]
     Journal(JournalError),

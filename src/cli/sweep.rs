@@ -11,6 +11,7 @@ use crate::scene::draft::Draft;
 use crate::scene::loaded::LoadedScene;
 use crate::studies::sweep::axis::{self, AxisError};
 use crate::studies::sweep::combination::Sweep;
+use crate::studies::sweep::goal::{Goal, Optimum};
 use crate::studies::sweep::journal::{self, Contents, Journal, JournalError};
 use crate::studies::sweep::merge::merge;
 use crate::studies::sweep::record::{Shard, SweepRecord};
@@ -38,11 +39,18 @@ pub(super) struct RunArgs {
     /// The scene file; - reads standard input
     #[arg(required = true)]
     scene: PathBuf,
-    /// A key of the scene that takes a number, and its values: COUNT of them evenly from FROM to TO, both included, by equal
-    /// ratios with :log after it, or a list, KEY=VALUE,VALUE,… Keys that have the same value: pair.{pinion,wheel}.teeth.
-    /// May be given several times: all combinations are run
+    /// A key of the scene, and its values: COUNT of them evenly from FROM to TO, both included, by equal ratios with :log after
+    /// it, or a list, KEY=VALUE,VALUE,… of numbers or words. Keys that have the same value: pair.{pinion,wheel}.teeth; of
+    /// phases: operation.phases.2.hours. May be given several times: all combinations are run
     #[arg(long, value_name = "KEY=FROM:TO:COUNT", required = true)]
     vary: Vec<String>,
+    /// The figure that is to be least, a column of sweep.csv: its best combination is verified by finite elements, and those
+    /// that are as good within its error are named
+    #[arg(long, value_name = "FIGURE")]
+    best: Option<String>,
+    /// A limit that the best combination keeps to: FIGURE<=VALUE or FIGURE>=VALUE. May be given several times
+    #[arg(long, value_name = "FIGURE<=VALUE", requires = "best")]
+    subject_to: Vec<String>,
     /// The folder for the results; a sweep that was stopped goes on where it was
     #[arg(long, value_name = "DIR", required = true)]
     out: PathBuf,
@@ -102,8 +110,14 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
     let scene = LoadedScene::open(&args.scene)?;
     warn(scene.warnings());
     let axes = axis::parse_all(args.vary.iter().map(String::as_str)).map_err(InputError::Vary)?;
+    let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
+    axis::check_phases(&axes, &draft).map_err(InputError::Vary)?;
     warn(&axes.iter().filter_map(axis::partly_not_allowed).collect::<Vec<_>>());
-    let sweep = Sweep::new(&scene, axes, args.error_estimate).map_err(|problems| scene.given.refused(problems))?;
+    let limits =
+        args.subject_to.iter().map(|limit| limit.parse()).collect::<Result<_, _>>().map_err(InputError::Goal)?;
+    let goal = args.best.as_ref().map(|figure| Goal::new(figure, limits)).transpose().map_err(InputError::Goal)?;
+    let sweep =
+        Sweep::new(&scene, axes, goal, args.error_estimate).map_err(|problems| scene.given.refused(problems))?;
     if let Some(problems) = sweep.unbuildable() {
         return Err(InputError::NothingToVary(problems).into());
     }
@@ -243,6 +257,14 @@ fn table(record: &SweepRecord, out: &Path) -> String {
         let place = record.identity.in_words(best.index);
         text.push_str(&format!("  {:42}{:>12}   {place}\n", best.figure, digits(best.value)));
     }
+    if let Some(goal) = &record.identity.goal {
+        text.push_str(
+            &summary.optimum.as_ref().map_or_else(
+                || format!("\nno combination has {}\n", goal.in_words()),
+                |optimum| found(record, optimum),
+            ),
+        );
+    }
     if let Some(verification) = &summary.verification {
         text.push_str(&verified(record, verification));
     }
@@ -251,6 +273,23 @@ fn table(record: &SweepRecord, out: &Path) -> String {
     if cfg!(not(feature = "parquet")) && record.shard.is_none() {
         text.push_str("no sweep.parquet: this program was built without --features parquet\n");
     }
+    text
+}
+
+/// The combination asked for, and those that are as good within the error, for the terminal.
+fn found(record: &SweepRecord, optimum: &Optimum) -> String {
+    let place = record.identity.in_words(optimum.index);
+    let mut text = format!("\nleast {}: {} at {place}\n", optimum.goal.in_words(), digits(optimum.value));
+    text.push_str(&match (&optimum.error, &optimum.plateau, &optimum.plateau_keys) {
+        (Some(error), Some(plateau), Some(keys)) => format!(
+            "  {} of {} combinations are not known to be worse, its error being {} %: {}\n",
+            plateau.len(),
+            optimum.within_limits,
+            two_digits(100.0 * error),
+            keys.join("; ")
+        ),
+        _ => format!("  how many are as good is not known: {}\n", optimum.why_no_error.as_deref().unwrap_or_default()),
+    });
     text
 }
 

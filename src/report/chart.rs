@@ -149,7 +149,8 @@ impl Trace {
 
     /// Colours for values, with their scale beside the chart.
     pub(crate) fn colour_bar(self, unit: &str) -> Self {
-        let title = json!({ "text": unit, "font": { "size": 12 } });
+        // With an empty line below, so that the unit stands clear of the topmost number.
+        let title = json!({ "text": format!("{unit}<br> "), "font": { "size": 12 } });
         self.set("colorscale", "Viridis").set("colorbar", json!({ "title": title, "thickness": 12 }))
     }
 

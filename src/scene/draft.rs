@@ -28,12 +28,18 @@ pub(crate) fn other_way_to_say(key: &str) -> Option<&'static str> {
     })
 }
 
-/// Gives the key at the path `key` of `table` this value.
+/// Gives the key at the path `key` of `table` this value. Items of lists are numbered from 1; where the list has no such item, nothing
+/// is given.
 pub(crate) fn set(table: &mut Table, key: &str, value: impl Into<Value>) {
     let (tables, name) = key.rsplit_once('.').map_or((None, key), |(tables, name)| (Some(tables), name));
     let mut table = table;
-    for part in tables.into_iter().flat_map(|tables| tables.split('.')) {
-        let below = table.entry(part).or_insert_with(|| Value::Table(Table::new()));
+    let mut path = tables.into_iter().flat_map(|tables| tables.split('.')).peekable();
+    while let Some(part) = path.next() {
+        let mut below = table.entry(part).or_insert_with(|| Value::Table(Table::new()));
+        if let Some(number) = path.next_if(|next| below.is_array() && next.parse::<usize>().is_ok()) {
+            let Some(item) = item_mut(below, number) else { return };
+            below = item;
+        }
         if !below.is_table() {
             // Resolving says that the key takes no table.
             *below = Value::Table(Table::new());
@@ -41,6 +47,12 @@ pub(crate) fn set(table: &mut Table, key: &str, value: impl Into<Value>) {
         table = below.as_table_mut().expect("it is a table now");
     }
     table.insert(name.to_owned(), value.into());
+}
+
+/// The item of a list that has this number, from 1.
+fn item_mut<'a>(list: &'a mut Value, number: &str) -> Option<&'a mut Value> {
+    let index = number.parse::<usize>().ok()?.checked_sub(1)?;
+    list.as_array_mut()?.get_mut(index)
 }
 
 /// A scene file, read but not resolved.
@@ -69,20 +81,29 @@ impl Draft {
     pub(crate) fn gives(&self, key: &str) -> bool {
         let mut parts = key.split('.');
         let first = parts.next().and_then(|part| self.table.get(part));
-        parts.try_fold(first, |value, part| value.map(|value| value.get(part))).flatten().is_some()
+        let below = |value: &'_ Value, part: &str| match (value.as_array(), part.parse::<usize>()) {
+            (Some(list), Ok(number)) => list.get(number.checked_sub(1)?).cloned(),
+            _ => value.get(part).cloned(),
+        };
+        parts.try_fold(first.cloned(), |value, part| value.map(|value| below(&value, part))).flatten().is_some()
     }
 
     /// Takes the key at the path `key` away, if it is there.
     pub(crate) fn remove(&mut self, key: &str) {
         let mut parts = key.split('.').rev();
         let Some(name) = parts.next() else { return };
-        let table = parts.rev().try_fold(&mut self.table, |table, part| match table.get_mut(part) {
-            Some(Value::Table(below)) => Some(below),
-            _ => None,
-        });
-        if let Some(table) = table {
-            table.remove(name);
+        let mut table = &mut self.table;
+        let mut path = parts.rev().peekable();
+        while let Some(part) = path.next() {
+            let Some(mut below) = table.get_mut(part) else { return };
+            if let Some(number) = path.next_if(|next| below.is_array() && next.parse::<usize>().is_ok()) {
+                let Some(item) = item_mut(below, number) else { return };
+                below = item;
+            }
+            let Some(next) = below.as_table_mut() else { return };
+            table = next;
         }
+        table.remove(name);
     }
 
     /// Resolves what it says now.
@@ -108,6 +129,24 @@ impl Draft {
 mod tests {
     use super::*;
     use crate::scene::{Scene, presets};
+
+    /// Keys of phases are numbered from 1.
+    #[test]
+    fn items_of_lists_are_exchanged() {
+        let text = "[operation]\n[[operation.phases]]\nhours = 1.0\n[[operation.phases]]\nhours = 2.0\n";
+        let mut draft = Draft::parse(text).unwrap();
+        assert!(draft.gives("operation.phases.2.hours") && !draft.gives("operation.phases.3.hours"));
+        draft.set("operation.phases.2.hours", 5.0);
+        draft.set("operation.phases.3.hours", 7.0);
+        draft.remove("operation.phases.1.hours");
+        let hours: Vec<Option<f64>> = draft.table["operation"]["phases"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|phase| phase.get("hours").and_then(Value::as_float))
+            .collect();
+        assert_eq!(hours, [None, Some(5.0)]);
+    }
 
     /// Exchanging values gives the same scene as writing them into the text.
     #[test]

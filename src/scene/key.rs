@@ -31,9 +31,23 @@ pub(crate) enum KeyError {
     },
 }
 
-/// What the key at this path takes; none where no scene has it.
+/// What the key at this path takes; none where no scene has it. Items of lists are numbered from 1.
 fn node_at(path: &str) -> Option<Node<'static>> {
-    path.split('.').try_fold(Node::root(schema()), |node, name| node.child(name))
+    let below = |node: Node<'static>, name: &str| match name.parse::<usize>() {
+        Ok(1..) => node.items(),
+        _ => node.child(name),
+    };
+    path.split('.').try_fold(Node::root(schema()), below)
+}
+
+/// The words that the key at `path` takes, "true" and "false" where it is said so; none where it takes no words.
+pub(crate) fn words(path: &str) -> Option<Vec<&'static str>> {
+    let node = node_at(path)?;
+    match (node.type_name(), node.choices()) {
+        ("boolean", _) => Some(vec!["false", "true"]),
+        (_, choices) if !choices.is_empty() => Some(choices),
+        _ => None,
+    }
 }
 
 /// Whether a scene may have a key at this path.

@@ -4,7 +4,7 @@
     python tests/pages/screenshots.py --program target/release/gearwear --out out/pages
 
 Small examples of every kind of page are computed into --out/runs (those that are there already are kept), and each page is
-opened at 1280 and 390 px, light and dark, and once for print. PNGs go to --out. It fails where a page
+opened at 1280 and 390 px, light and dark, and printed. Pictures (PNG, PDF) go to --out. It fails where a page
 
 - writes an error to the console,
 - is wider than the window,
@@ -166,9 +166,11 @@ def look(browser, page_file: pathlib.Path, name: str, out: pathlib.Path) -> list
             tab.evaluate(f"window.scrollTo(0, {y})")
             tab.wait_for_timeout(25)
         tab.evaluate("window.scrollTo(0, 0)")
-        if media == "print":
-            tab.emulate_media(media="print")
         tab.wait_for_timeout(150)
+        if media == "print":
+            tab.pdf(path=out / f"{name}-print.pdf", prefer_css_page_size=True)
+            context.close()
+            continue
         wrong += [f"{way}: {found}" for found in tab.evaluate(LOOK)]
         tab.screenshot(path=out / f"{name}-{way}.png", full_page=True)
         context.close()

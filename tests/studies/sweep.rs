@@ -420,7 +420,7 @@ fn bad_input_is_refused_before_any_work() {
         (&["pair.face_width_mm=10:30"], &[], &["KEY=FROM:TO:COUNT"]),
         (&["pair.face_width_mm=a:30:5"], &[], &["found \"a\" as FROM"]),
         (&["pair.face_width_mm=-30:-10:5"], &[], &["found -30 to -10", "greater than 0"]),
-        (&["contact.surface=1:2:2"], &[], &["contact.surface takes", "hertz-mean"]),
+        (&["contact.surface=1:2:2"], &[], &["contact.surface: found", "hertz-mean"]),
         (&["pair.pinion.teeth=16:17:3"], &[], &["pair.pinion.teeth: found the value 16.5", "whole numbers"]),
         (&[WIDTHS, WIDTHS], &[], &["pair.face_width_mm twice"]),
         (&["pair.normal_module_mm=4:5:2", "pair.transverse_module_mm=4:5:2"], &[], &["say the same thing"]),
@@ -667,4 +667,39 @@ fn rows_that_cannot_be_verified_say_why() {
     assert!(column(&unasked.out("out"), "verified").iter().all(String::is_empty));
     let summary = json(&unasked.out("out").join("sweep.json"));
     assert_eq!((&summary["verify"], &summary["verification"]), (&false.into(), &Value::Null));
+}
+
+/// Words are values like numbers, phases are numbered from 1, and an optimum is a plateau as wide as the error of its figure.
+#[test]
+fn words_phases_and_the_best_within_limits() {
+    let bench = Bench::new();
+    let surfaces = "contact.surface=hertz-mean,hertz";
+    let output = bench.sweep("words", &[surfaces, "operation.pinion_torque_Nm=200,300"], &[]);
+    done(&output);
+    assert_eq!(column(&bench.out("words"), "contact.surface"), ["hertz-mean", "hertz-mean", "hertz", "hertz"]);
+    let page = fs::read_to_string(bench.out("words/report.html")).unwrap();
+    assert!(page.contains("pinion torque, N·m") && page.contains("hertz-mean or hertz"));
+
+    let phased = coarse_scene().replace(
+        "[contact]",
+        "[[operation.phases]]\nhours = 27.75\n[[operation.phases]]\nhours = 100.0\npinion_torque_Nm = 100.0\n[contact]",
+    );
+    let phased = Bench::of(&phased.replace("snapshots_h", "# snapshots_h"));
+    let goal = ["--best", "pinion_peak_wear_um", "--subject-to", "wheel_peak_wear_um<=1000"];
+    let torques = "operation.phases.2.pinion_torque_Nm=100,200";
+    let output = phased.sweep("phases", &[torques], &goal);
+    done(&output);
+    let summary = json(&phased.out("phases/sweep.json"));
+    let optimum = &summary["optimum"];
+    assert_eq!((&optimum["index"], &optimum["within_limits"]), (&Value::from(0), &Value::from(2)));
+    assert!(optimum["error"].is_number() != optimum["why_no_error"].is_string(), "{optimum}");
+    for (torque, more, message) in [
+        ("operation.phases.3.pinion_torque_Nm=100,200", &[][..], "a phase that the scene has"),
+        (torques, &["--best", "pinion_wear"], "unknown figure pinion_wear"),
+        (torques, &["--best", "pinion_peak_wear_um", "--subject-to", "wheel_peak_wear_um=8"], "FIGURE<=VALUE"),
+    ] {
+        let output = phased.sweep("refused", &[torque], more);
+        refused(&output, &[message]);
+        assert!(!phased.out("refused").exists());
+    }
 }

@@ -332,7 +332,10 @@ impl<'a> Drawing<'a> {
             self.add(format!("<path d=\"{path}\" fill=\"{paint}\" stroke=\"{paint}\" stroke-width=\"0.3\"/>"));
         }
         self.add("</g></g>");
-        self.colour_scale([low, high], trace.get("colorbar")["title"]["text"].as_str().unwrap_or_default());
+        self.colour_scale(
+            [low, high],
+            trace.get("colorbar")["title"]["text"].as_str().unwrap_or_default().trim_end_matches("<br> "),
+        );
         self.add("<g clip-path=\"url(#plot)\" stroke-linejoin=\"round\">");
     }
 

@@ -92,7 +92,7 @@ pub(crate) fn list(
     whole(None, Some(html! { (caption) }), columns, rows)
 }
 
-/// A table with its class and caption, where it has them; a column without a name has no head.
+/// A table with its class and caption, where it has them; a column without a name has no head. Where it is wider than its room it scrolls.
 pub(crate) fn whole(
     class: Option<&str>,
     caption: Option<Markup>,
@@ -100,10 +100,12 @@ pub(crate) fn whole(
     rows: impl IntoIterator<Item = Markup>,
 ) -> Markup {
     html! {
-        table class=[class] {
-            @if let Some(caption) = caption { caption { (caption) } }
-            thead { tr { @for column in columns { (head(column.into())) } } }
-            tbody { @for row in rows { (row) } }
+        div.scroll {
+            table class=[class] {
+                @if let Some(caption) = caption { caption { (caption) } }
+                thead { tr { @for column in columns { (head(column.into())) } } }
+                tbody { @for row in rows { (row) } }
+            }
         }
     }
 }

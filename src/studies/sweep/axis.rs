@@ -1,9 +1,10 @@
-//! A key that is varied, as the user writes it: `KEY=FROM:TO:COUNT`, `KEY=FROM:TO:COUNT:log` or `KEY=VALUE,VALUE,…`.
+//! A key that is varied, as the user writes it: `KEY=FROM:TO:COUNT`, `KEY=FROM:TO:COUNT:log` or `KEY=VALUE,VALUE,…`, whose values are
+//! numbers or words.
 
 use std::str::FromStr;
 
-use crate::scene::draft::other_way_to_say;
-use crate::scene::key::{KeyError, NumberKey};
+use crate::scene::draft::{Draft, other_way_to_say};
+use crate::scene::key::{self, KeyError, NumberKey};
 use crate::studies::sweep::record::{Spacing, SweepAxis, linked_keys, plain};
 
 /// Values of one key.
@@ -40,6 +41,14 @@ pub(crate) enum AxisError {
     /// A list that falls or repeats a value.
     #[error("{key}: found {value} after {before}; allowed: rising values", value = plain(*.value), before = plain(*.before))]
     NotRising { key: String, before: f64, value: f64 },
+    /// None of the words that the key takes.
+    #[error("{key}: found {found:?}; allowed: a list of {allowed}")]
+    NotAWord { key: String, found: String, allowed: String },
+    #[error("{key}: found {word:?} twice; allowed: each word once")]
+    WordTwice { key: String, word: String },
+    /// A phase that the scene does not have.
+    #[error("found {key}; allowed: a phase that the scene has, numbered from 1")]
+    NoPhase { key: String },
     /// Alternatives of a key without an end.
     #[error("found {key:?}; allowed: alternatives in braces, such as pair.{{pinion,wheel}}.tip_rounding_mm")]
     Braces { key: String },
@@ -87,6 +96,10 @@ pub(crate) fn parse(given: &str) -> Result<SweepAxis, AxisError> {
     if keys.iter().any(|key| key.contains(['{', '}'])) {
         return Err(AxisError::Braces { key });
     }
+    let choices: Vec<Vec<&str>> = keys.iter().filter_map(|key| key::words(key)).collect();
+    if choices.len() == keys.len() {
+        return words(key, values, &choices);
+    }
     let takes = keys.iter().map(|key| NumberKey::find(key)).collect::<Result<Vec<_>, _>>()?;
     let whole = takes.iter().any(NumberKey::whole);
     let parts: Vec<&str> = values.split(':').map(str::trim).collect();
@@ -122,6 +135,23 @@ fn listed(key: String, list: &str, whole: bool) -> Result<SweepAxis, AxisError> 
     }
     let (from, to) = (values[0], values[values.len() - 1]);
     Ok(SweepAxis { key, from, to, count: values.len(), whole, spacing: Spacing::Listed(values) })
+}
+
+/// Words one by one, of which every linked key takes each.
+fn words(key: String, list: &str, choices: &[Vec<&str>]) -> Result<SweepAxis, AxisError> {
+    let mut words: Vec<String> = Vec::new();
+    for word in list.split(',').map(|word| word.trim().trim_matches('"')) {
+        if choices.iter().any(|choices| !choices.contains(&word)) {
+            let allowed = choices.first().map_or_else(String::new, |choices| choices.join(", "));
+            return Err(AxisError::NotAWord { key, found: word.to_owned(), allowed });
+        }
+        if words.iter().any(|before| before == word) {
+            return Err(AxisError::WordTwice { key, word: word.to_owned() });
+        }
+        words.push(word.to_owned());
+    }
+    let count = words.len();
+    Ok(SweepAxis { key, from: 0.0, to: (count - 1) as f64, count, whole: false, spacing: Spacing::Words(words) })
 }
 
 /// Values between two ends.
@@ -169,8 +199,21 @@ pub(crate) fn parse_all<'a>(given: impl IntoIterator<Item = &'a str>) -> Result<
     }
 }
 
+/// Refuses keys of phases that `scene` does not have.
+pub(crate) fn check_phases(axes: &[SweepAxis], scene: &Draft) -> Result<(), AxisError> {
+    let has_phase = |key: &String| {
+        let number = key.strip_prefix("operation.phases.").and_then(|rest| rest.split('.').next());
+        number.is_none_or(|number| scene.gives(&format!("operation.phases.{number}")))
+    };
+    let missing = axes.iter().flat_map(|axis| linked_keys(&axis.key)).find(|key| !has_phase(key));
+    missing.map_or(Ok(()), |key| Err(AxisError::NoPhase { key }))
+}
+
 /// Values of `axis` that the key does not take, in words; `None` where it takes all.
 pub(crate) fn partly_not_allowed(axis: &SweepAxis) -> Option<String> {
+    if axis.words().is_some() {
+        return None;
+    }
     let takes = NumberKey::find(linked_keys(&axis.key).first()?).ok()?;
     let refused = axis.values().into_iter().filter(|&value| !takes.holds(value)).count();
     let (key, allowed, all) = (&axis.key, takes.allowed(), axis.count);
@@ -214,6 +257,16 @@ mod tests {
     }
 
     #[test]
+    fn words_are_read() {
+        let surfaces = parse("contact.surface=half-space, winkler").unwrap();
+        assert_eq!(surfaces.values(), [0.0, 1.0]);
+        assert_eq!((surfaces.said(1.0).as_str(), surfaces.word(0.0)), ("winkler", Some("half-space")));
+        assert_eq!(surfaces.as_given(), "contact.surface=half-space,winkler");
+        assert_eq!(parse("contact.tip_contact=true,false").unwrap().said(0.0), "true");
+        assert!(parse("operation.phases.2.pinion_torque_Nm=100:300:3").is_ok());
+    }
+
+    #[test]
     fn what_is_wrong_is_said() {
         for (given, parts) in [
             (&["pair.face_width_mm"][..], &["found \"pair.face_width_mm\"", "KEY=FROM:TO:COUNT"][..]),
@@ -228,7 +281,9 @@ mod tests {
             (&["pair.{pinion,wheel}.teeth=20,21", "pair.wheel.teeth=30,31"], &["pair.wheel.teeth twice"]),
             (&["pair.face_width_mm=10:30:21:2"], &["KEY=FROM:TO:COUNT"]),
             (&["pair.face_widht_mm=10:30:21"], &["unknown key pair.face_widht_mm"]),
-            (&["contact.surface=1:2:2"], &["contact.surface takes", "\"winkler\""]),
+            (&["contact.surface=1:2:2"], &["contact.surface: found \"1:2:2\"", "winkler"]),
+            (&["contact.surface=hertz,hertz"], &["\"hertz\" twice"]),
+            (&["contact.tip_contact=yes"], &["found \"yes\"", "false, true"]),
             (&["pair.face_width_mm=ten:30:21"], &["\"ten\" as FROM"]),
             (&["pair.face_width_mm=10:inf:21"], &["\"inf\" as TO"]),
             (&["pair.face_width_mm=10:30:0"], &["\"0\" as COUNT", "from 1 to 100000"]),

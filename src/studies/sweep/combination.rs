@@ -12,6 +12,7 @@ use crate::scene::draft::Draft;
 use crate::scene::loaded::{LoadedScene, NamedFiles};
 use crate::scene::{Problem, Resolved, short_hash};
 use crate::studies::sweep::figures::FIGURES;
+use crate::studies::sweep::goal::Goal;
 use crate::studies::sweep::record::{SweepAxis, SweepIdentity, SweepRow, linked_keys};
 use crate::studies::sweep::verification::{Chosen, RowVerification};
 
@@ -29,8 +30,13 @@ impl Sweep {
     /// The sweep of the scene `given`.
     ///
     /// Snapshots are left out, as a row keeps only the end of the run; errors are estimated only where asked for, and rows verified
-    /// only where the scene asks for it by name.
-    pub(crate) fn new(given: &LoadedScene, axes: Vec<SweepAxis>, error_estimate: bool) -> Result<Self, Vec<Problem>> {
+    /// only where the scene asks for it by name, or where there is a goal and the scene does not refuse it.
+    pub(crate) fn new(
+        given: &LoadedScene,
+        axes: Vec<SweepAxis>,
+        goal: Option<Goal>,
+        error_estimate: bool,
+    ) -> Result<Self, Vec<Problem>> {
         let mut draft = Draft::parse(&given.given.text)?;
         let resolved = &given.resolved;
         let identity = SweepIdentity {
@@ -40,9 +46,10 @@ impl Sweep {
             given_hash: draft.hash(),
             inputs_hash: hash_of(&given.files),
             error_estimate,
-            verify: resolved.scene.verify && draft.gives("numerics.verify"),
+            verify: resolved.scene.verify && (draft.gives("numerics.verify") || goal.is_some()),
             axes,
             figures: FIGURES.iter().map(|figure| figure.name.to_owned()).collect(),
+            goal,
         };
         draft.remove("operation.snapshots_h");
         draft.remove("operation.snapshots_revolutions");
@@ -54,8 +61,13 @@ impl Sweep {
     pub(crate) fn scene(&self, index: usize) -> Result<Resolved, Vec<Problem>> {
         let mut draft = self.draft.clone();
         for (axis, value) in self.identity.axes.iter().zip(self.identity.values(index)) {
-            // Whole numbers were checked to be whole; a cast keeps any that are of a size that a scene allows.
-            let value = if axis.whole { toml::Value::Integer(value as i64) } else { toml::Value::Float(value) };
+            let value = match axis.word(value) {
+                Some(truth @ ("true" | "false")) => toml::Value::Boolean(truth == "true"),
+                Some(word) => toml::Value::String(word.to_owned()),
+                // Whole numbers were checked to be whole; a cast keeps any that are of a size that a scene allows.
+                None if axis.whole => toml::Value::Integer(value as i64),
+                None => toml::Value::Float(value),
+            };
             linked_keys(&axis.key).iter().for_each(|key| draft.set(key, value.clone()));
         }
         let mut resolved = draft.resolve()?;

@@ -136,6 +136,11 @@ pub(crate) const FIGURES: &[SweepFigure] = &[
 ];
 
 impl SweepFigure {
+    /// The figure whose column has this name.
+    pub(crate) fn find(name: &str) -> Option<&'static Self> {
+        FIGURES.iter().find(|figure| figure.name == name)
+    }
+
     const fn of(self, of: fn(&Summary) -> Option<f64>) -> Self {
         Self { of, ..self }
     }

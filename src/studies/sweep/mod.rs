@@ -8,6 +8,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`axis`] | a varied key as the user writes it, checked |
+//! | [`goal`] | what is to be least, and what is as good within the error |
 //! | [`combination`] | the scene of a combination, and its row |
 //! | [`journal`] | the rows finished so far, kept on disk |
 //! | [`study`] | runs what is missing on all threads |
@@ -16,6 +17,7 @@
 pub(crate) mod axis;
 pub(crate) mod combination;
 pub(crate) mod figures;
+pub(crate) mod goal;
 pub(crate) mod journal;
 pub(crate) mod merge;
 pub(crate) mod record;

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::figures::{FIGURES, SweepFigure};
+use super::goal::{Goal, Optimum};
 use super::verification::{RowVerification, SweepVerification};
 
 /// Digits of a value between the ends of a range.
@@ -19,6 +20,8 @@ pub(crate) enum Spacing {
     Logarithmic,
     /// As they are listed, rising.
     Listed(Vec<f64>),
+    /// Words as they are listed; the values are their places, from 0.
+    Words(Vec<String>),
 }
 
 impl Spacing {
@@ -59,7 +62,9 @@ impl SweepAxis {
     /// Values between the ends are rounded to twelve digits of the larger end, so that they read as one would write them.
     pub(crate) fn value(&self, index: usize) -> f64 {
         let last = self.count.saturating_sub(1);
-        if let Spacing::Listed(values) = &self.spacing {
+        if self.words().is_some() {
+            index as f64
+        } else if let Spacing::Listed(values) = &self.spacing {
             values[index.min(last)]
         } else if index == 0 {
             self.from
@@ -88,10 +93,68 @@ impl SweepAxis {
             Spacing::Even => range(),
             Spacing::Logarithmic => format!("{}:log", range()),
             Spacing::Listed(values) => values.iter().map(|value| plain(*value)).collect::<Vec<_>>().join(","),
+            Spacing::Words(words) => words.join(","),
         };
         format!("{}={values}", self.key)
     }
+
+    /// The words, where the key takes words.
+    pub(crate) fn words(&self) -> Option<&[String]> {
+        match &self.spacing {
+            Spacing::Words(words) => Some(words),
+            _ => None,
+        }
+    }
+
+    /// The word that `value` stands for, where the key takes words.
+    pub(crate) fn word(&self, value: f64) -> Option<&str> {
+        self.words()?.get(value as usize).map(String::as_str)
+    }
+
+    /// A value as one would write it.
+    pub(crate) fn said(&self, value: f64) -> String {
+        self.word(value).map_or_else(|| plain(value), str::to_owned)
+    }
+
+    /// For an axis of a plot, with the unit that ends the name of the key: `tip relief, amount, pinion and wheel, µm`.
+    pub(crate) fn title(&self) -> String {
+        let mut parts: Vec<String> = self.key.split('.').skip(1).map(|part| part.replace('_', " ")).collect();
+        let Some(last) = parts.pop() else { return self.key.clone() };
+        let ending = UNITS.iter().find_map(|(suffix, unit)| Some((last.strip_suffix(suffix)?, *unit)));
+        let (name, unit) = ending.map_or((last.as_str(), None), |(name, unit)| (name, Some(unit)));
+        parts.push(name.to_owned());
+        if let Some(gears) = parts.iter().position(|part| ["pinion", "wheel", "{pinion,wheel}"].contains(&&**part)) {
+            let gears = parts.remove(gears);
+            parts.push(gears.trim_matches(['{', '}']).replace(',', " and "));
+        }
+        parts.extend(unit.map(str::to_owned));
+        parts.join(", ")
+    }
 }
+
+/// How names of keys end, and the unit that it stands for.
+const UNITS: [(&str, &str); 20] = [
+    (" N per mm um", "N/(mm·µm)"),
+    (" MPa per mm", "MPa/mm"),
+    (" kg per m3", "kg/m³"),
+    (" m2 per N", "m²/N"),
+    (" m2 per s", "m²/s"),
+    (" mm3 per Nm", "mm³/(N·m)"),
+    (" W per mK", "W/(m·K)"),
+    (" kJ per mol", "kJ/mol"),
+    (" J per mol", "J/mol"),
+    (" um", "µm"),
+    (" mm", "mm"),
+    (" deg", "°"),
+    (" Nm", "N·m"),
+    (" rpm", "rpm"),
+    (" GPa", "GPa"),
+    (" MPa", "MPa"),
+    (" C", "°C"),
+    (" s", "s"),
+    (" h", "h"),
+    (" K", "K"),
+];
 
 /// A number as one would write it: `10`, `0.5`, `1e-17`.
 pub(crate) fn plain(value: f64) -> String {
@@ -125,6 +188,9 @@ pub(crate) struct SweepIdentity {
     pub axes: Vec<SweepAxis>,
     /// Names of the figures of a row, in order.
     pub figures: Vec<String>,
+    /// What is to be least; rows do not depend on it, so that it may be another one at the next start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub goal: Option<Goal>,
 }
 
 impl SweepIdentity {
@@ -152,7 +218,7 @@ impl SweepIdentity {
     pub(crate) fn in_words(&self, index: usize) -> String {
         let values = self.values(index);
         let said: Vec<String> =
-            self.axes.iter().zip(values).map(|(axis, value)| format!("{} = {}", axis.key, plain(value))).collect();
+            self.axes.iter().zip(values).map(|(axis, value)| format!("{} = {}", axis.key, axis.said(value))).collect();
         said.join(", ")
     }
 
@@ -246,6 +312,8 @@ pub(crate) struct SweepSummary<'a> {
     pub failed: usize,
     /// The best combination by each figure that has a best.
     pub best: Vec<BestCombination>,
+    /// The combination that is asked for; null where none is asked for or none keeps to the limits.
+    pub optimum: Option<Optimum>,
     /// What finite elements say of the best rows and the corners; null where the scene does not ask for it, and in a shard, which
     /// does not know the best of all rows.
     pub verification: Option<SweepVerification<'a>>,
@@ -274,6 +342,11 @@ impl SweepRecord {
         self.rows.iter().filter(|row| row.error.is_some()).count()
     }
 
+    /// The combination that is asked for; `None` where none is, or where no combination keeps to the limits.
+    pub(crate) fn optimum(&self) -> Option<Optimum> {
+        self.identity.goal.as_ref()?.optimum(&self.identity, &self.rows)
+    }
+
     /// What finite elements say; `None` where they are not asked.
     pub(crate) fn verification(&self) -> Option<SweepVerification<'_>> {
         let asked = self.identity.verify && self.shard.is_none();
@@ -296,6 +369,7 @@ impl SweepRecord {
                     Some(BestCombination { figure: figure.name, value, index: row.index, values: row.values.clone() })
                 })
                 .collect(),
+            optimum: self.optimum(),
             verification: self.verification(),
             combinations_wall_s: self.rows.iter().map(|row| row.wall_s).sum(),
             wall_s: self.wall_s,
@@ -322,6 +396,21 @@ mod tests {
         assert_eq!(axis("k", -0.1, 0.6, 15).values()[1..4], [-0.05, 0.0, 0.05]);
         assert_eq!(axis("k", 1e-18, 3e-18, 3).values(), [1e-18, 2e-18, 3e-18]);
         assert_eq!(axis("k", 0.0, 3e15, 4).values(), [0.0, 1e15, 2e15, 3e15]);
+    }
+
+    /// What a key says, without its section, and its unit.
+    #[test]
+    fn axes_have_titles_with_units() {
+        for (key, title) in [
+            ("pair.{pinion,wheel}.tip_relief.amount_um", "tip relief, amount, pinion and wheel, µm"),
+            ("operation.pinion_torque_Nm", "pinion torque, N·m"),
+            ("wear.coefficient_m2_per_N", "coefficient, m²/N"),
+            ("pair.pinion.teeth", "teeth, pinion"),
+            ("numerics.positions", "positions"),
+            ("operation.phases.2.pinion_speed_rpm", "phases, 2, pinion speed, rpm"),
+        ] {
+            assert_eq!(axis(key, 0.0, 1.0, 2).title(), title);
+        }
     }
 
     /// The first key changes slowest.

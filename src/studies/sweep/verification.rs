@@ -1,7 +1,7 @@
 //! The rows of a sweep that finite elements verify, and what they say of them.
 //!
 //! A verification ([`TotalError`]) takes as long as a row on elastic half-planes and several times as long as one on springs, so
-//! that it is spent where the answer is read: on the rows one would choose, which are those with the least [`OBJECTIVE`], and on the
+//! that it is spent where the answer is read: on the rows one would choose, which are those with the least [`objective`], and on the
 //! corners of the box that is swept, where the pair is furthest from the middle of it.
 //!
 //! A corner has every varied key at its first or at its last value. k keys have 2^k of them; of more than [`MOST_CORNERS`] an
@@ -20,11 +20,15 @@ use std::collections::{BTreeMap, BTreeSet};
 use serde::{Deserialize, Serialize};
 
 use super::figures::{PEAK_WEAR, SweepFigure};
+use super::goal::Goal;
 use super::record::{SweepIdentity, SweepRow};
 use crate::results::error::TotalError;
 
-/// The figure by which rows are best: a sweep states no goal of its own, and the program is about wear.
-pub(crate) const OBJECTIVE: SweepFigure = PEAK_WEAR;
+/// The figure by which rows are best: that of the goal; of a sweep without one wear, which the program is about.
+pub(crate) fn objective(identity: &SweepIdentity) -> &'static SweepFigure {
+    identity.goal.as_ref().map_or(&PEAK_WEAR, Goal::figure)
+}
+
 /// Best rows that are verified: the least is one that somebody will use, and two more tell whether it is least by more than its
 /// error.
 pub(crate) const MOST_BEST: usize = 3;
@@ -124,7 +128,7 @@ pub(crate) fn intention(identity: &SweepIdentity) -> String {
     let best = MOST_BEST.min(identity.combinations());
     let corners = if taken < all { format!("{taken} of the {all} corners") } else { format!("the corners ({taken})") };
     let most = (best + taken).min(identity.combinations());
-    let by = OBJECTIVE.name;
+    let by = identity.goal.as_ref().map_or_else(|| PEAK_WEAR.name.to_owned(), Goal::in_words);
     format!("the best ({best}, by {by}) and {corners} of what is varied, at most {most} combinations")
 }
 
@@ -140,7 +144,9 @@ pub(crate) fn chosen<'a>(
         if corners.contains(&row.index) {
             chosen.entry(row.index).or_default().corner = true;
         }
-        ranked.extend(row.figure(&OBJECTIVE).map(|value| (value, row.index)));
+        if identity.goal.as_ref().is_none_or(|goal| goal.allows(row)) {
+            ranked.extend(row.figure(objective(identity)).map(|value| (value, row.index)));
+        }
     }
     ranked.sort_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
     for &(_, index) in ranked.iter().take(MOST_BEST) {
@@ -173,8 +179,10 @@ pub(crate) struct SweepVerification<'a> {
 pub(crate) struct VerifiedRow<'a> {
     pub index: usize,
     pub values: &'a [f64],
-    /// The figure by which rows are best.
+    /// The greatest wear of both gears.
     pub peak_wear_um: Option<f64>,
+    /// The figure by which rows are best.
+    pub objective: Option<f64>,
     #[serde(flatten)]
     pub verification: &'a RowVerification,
 }
@@ -198,8 +206,8 @@ impl<'a> SweepVerification<'a> {
             .iter()
             .filter_map(|row| {
                 let verification = row.verification.as_ref()?;
-                let peak_wear_um = row.figure(&OBJECTIVE);
-                Some(VerifiedRow { index: row.index, values: &row.values, peak_wear_um, verification })
+                let (peak_wear_um, objective) = (row.figure(&PEAK_WEAR), row.figure(objective(identity)));
+                Some(VerifiedRow { index: row.index, values: &row.values, peak_wear_um, objective, verification })
             })
             .collect();
         let worst = CLAIMS.iter().filter_map(|claim| {

@@ -8,8 +8,9 @@ use crate::report::html::number::{count, given, significant};
 use crate::report::html::reading::capitalised;
 use crate::report::html::table::{Cell, NONE, cells, line, list};
 use crate::studies::sweep::figures::FIGURES;
-use crate::studies::sweep::record::{SweepRecord, SweepRow};
-use crate::studies::sweep::verification::{CLAIMS, OBJECTIVE, SweepVerification};
+use crate::studies::sweep::goal::Optimum;
+use crate::studies::sweep::record::{SweepAxis, SweepRecord, SweepRow};
+use crate::studies::sweep::verification::{CLAIMS, SweepVerification, objective};
 
 /// Combinations without a result that the page lists; all are in the table.
 const MOST_LISTED: usize = 20;
@@ -21,8 +22,13 @@ fn keys(record: &SweepRecord) -> impl Iterator<Item = Cell> + '_ {
     record.identity.axes.iter().map(move |axis| key(&axis.key).into())
 }
 
-fn values(values: &[f64]) -> impl Iterator<Item = Cell> + '_ {
-    values.iter().map(|&value| given(value).into())
+fn values<'a>(record: &'a SweepRecord, values: &'a [f64]) -> impl Iterator<Item = Cell> + 'a {
+    record.identity.axes.iter().zip(values).map(|(axis, &value)| shown_value(axis, value).into())
+}
+
+/// A value of a varied key, with its digits in groups.
+pub(super) fn shown_value(axis: &SweepAxis, value: f64) -> String {
+    axis.word(value).map_or_else(|| given(value), str::to_owned)
 }
 
 /// For each figure the range over all combinations, and where it is least.
@@ -33,11 +39,34 @@ pub(super) fn best(record: &SweepRecord) -> Markup {
         let cells = cells![capitalised(figure.title), least, greatest, figure.unit].into_iter();
         let best = record.least(figure).filter(|_| figure.less_is_better && least < greatest);
         Some(match best {
-            Some((row, _)) => line(cells.chain(values(&row.values))),
+            Some((row, _)) => line(cells.chain(values(record, &row.values))),
             None => line(cells.chain(record.identity.axes.iter().map(|_| NONE.into()))),
         })
     });
     list("Each figure over all combinations, and where it is least", columns, rows)
+}
+
+/// The combination asked for, and those that are as good within the error.
+pub(super) fn optimum(optimum: &Optimum) -> Markup {
+    let figure = optimum.goal.figure();
+    let said = |value: f64| format!("{} {}", significant(value, 4), figure.unit);
+    html! {
+        p {
+            "Asked for: the least " (optimum.goal.in_words()) ". It is " b { (said(optimum.value)) } " in combination " (optimum.index) "; "
+            (count(optimum.within_limits as u64)) " combinations keep to the limits. "
+            @match (&optimum.error, &optimum.plateau, &optimum.plateau_keys) {
+                (Some(error), Some(plateau), Some(keys)) => {
+                    "The error of this figure is " (within(*error)) ", the greatest that a verified combination states: "
+                    @if plateau.len() == 1 {
+                        "every other combination is worse by more than that."
+                    } @else {
+                        (count(plateau.len() as u64)) " combinations are not known to be worse, with " (keys.join("; ")) "."
+                    }
+                }
+                _ => { "How many are as good is not known: " (optimum.why_no_error.as_deref().unwrap_or_default()) "." }
+            }
+        }
+    }
 }
 
 /// A claim as a percentage: more than two digits it does not have.
@@ -49,12 +78,12 @@ pub(super) fn within(claim: f64) -> String {
 pub(super) fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> Markup {
     let claims = CLAIMS.iter().map(|claim| claim.title.into());
     let columns = cells!["combination", "chosen as"].into_iter().chain(keys(record));
-    let columns = columns.chain([OBJECTIVE.with_unit().into()]).chain(claims);
+    let columns = columns.chain([objective(&record.identity).with_unit().into()]).chain(claims);
     let share = |value: Option<f64>| Cell::from(value.map(within));
     let rows = verification.rows.iter().map(|row| {
         let claims = CLAIMS.iter().map(|claim| share((claim.of)(&row.verification.total)));
         let name = cells![row.index.to_string(), row.verification.chosen.name()].into_iter();
-        line(name.chain(values(row.values)).chain([row.peak_wear_um.into()]).chain(claims))
+        line(name.chain(values(record, row.values)).chain([row.objective.into()]).chain(claims))
     });
     let worst = CLAIMS
         .iter()
@@ -80,7 +109,7 @@ fn without<'a>(
 ) -> Markup {
     let columns = ["combination".into()].into_iter().chain(keys(record)).chain([Cell::sentence("error")]);
     let row = |(index, at, reason): (usize, &'a [f64], &'a str)| {
-        line([index.to_string().into()].into_iter().chain(values(at)).chain([Cell::sentence(reason)]))
+        line([index.to_string().into()].into_iter().chain(values(record, at)).chain([Cell::sentence(reason)]))
     };
     html! { div.errors { (list(caption, columns, rows.map(row))) } }
 }

@@ -2,9 +2,10 @@
 
 use serde_json::json;
 
+use super::best_tables::shown_value;
 use super::section_plane::{self, ShownAxis, range};
 use crate::report::chart::{Chart, MUTED, Trace, TraceKind, padded};
-use crate::report::html::number::{figure as shown_number, given, plotted};
+use crate::report::html::number::{figure as shown_number, plotted};
 use crate::report::html::reading::capitalised;
 use crate::studies::sweep::figures::SweepFigure;
 use crate::studies::sweep::record::{Spacing, SweepRecord, SweepRow};
@@ -44,13 +45,20 @@ pub(super) fn contour(
     let mut chart = Chart::new(id("contour", figure), capitalised(figure.title))
         .height(460)
         .read_nearest()
-        .x(&x.axis.key)
+        .x(&x.axis.title())
         .x_range(ends(x))
-        .y(&y.axis.key)
+        .y(&y.axis.title())
         .y_range(ends(y))
         .without_grid()
         .add(contours)
         .reading(reading(record, figure, best, &[x, y]));
+    let places = |words: &[String]| (0..words.len()).map(|place| place as f64).collect::<Vec<_>>();
+    if let Some(words) = x.axis.words() {
+        chart = chart.x_set("tickvals", places(words)).x_set("ticktext", words.to_vec());
+    }
+    if let Some(words) = y.axis.words() {
+        chart = chart.y_set("tickvals", places(words)).y_set("ticktext", words.to_vec());
+    }
     if x.axis.spacing == Spacing::Logarithmic {
         chart = chart.x_logarithmic();
     }
@@ -71,7 +79,7 @@ fn ends(of: &ShownAxis<'_>) -> [f64; 2] {
     let (from, to) = (of.axis.from, of.axis.to);
     match of.axis.spacing {
         Spacing::Logarithmic => padded(from.log10(), to.log10()),
-        Spacing::Even | Spacing::Listed(_) => padded(from, to),
+        Spacing::Even | Spacing::Listed(_) | Spacing::Words(_) => padded(from, to),
     }
 }
 
@@ -82,7 +90,9 @@ pub(super) fn id(kind: &str, figure: &SweepFigure) -> String {
 /// Where the figure is least, and how far it is from there to its greatest.
 pub(super) fn reading(record: &SweepRecord, figure: &SweepFigure, best: &SweepRow, shown: &[&ShownAxis<'_>]) -> String {
     let Some((least, greatest)) = range(record, figure) else { return String::new() };
-    let value_of = |at: usize| format!("{} = {}", record.identity.axes[at].key, given(best.values[at]));
+    let value_of = |at: usize| {
+        format!("{} = {}", record.identity.axes[at].key, shown_value(&record.identity.axes[at], best.values[at]))
+    };
     let places: Vec<String> = shown.iter().map(|axis| value_of(axis.at)).collect();
     let others: Vec<String> = (0..record.identity.axes.len())
         .filter(|at| record.identity.axes[*at].count > 1 && shown.iter().all(|axis| axis.at != *at))

@@ -25,10 +25,17 @@ pub(super) fn along(record: &SweepRecord, figure: &SweepFigure, x: &ShownAxis<'_
     let least_at = Trace::points("least", [best.values[x.at]], [least], ("var(--alert)", "star", 14));
     let chart = Chart::new(id("line", figure), capitalised(figure.title))
         .read_nearest()
-        .x(&x.axis.key)
+        .x(&x.axis.title())
         .y(&figure.with_unit())
         .add(line.hover(format!("%{{x}}: %{{y:.5~g}} {}<extra></extra>", figure.unit)))
         .add(least_at.hover(format!("least: {} {}<extra></extra>", shown_number(least), figure.unit)))
         .reading(reading(record, figure, best, &[x]));
+    let chart = match x.axis.words() {
+        Some(words) => {
+            let places: Vec<f64> = (0..words.len()).map(|place| place as f64).collect();
+            chart.x_set("tickvals", places).x_set("ticktext", words.to_vec())
+        }
+        None => chart,
+    };
     Some(if x.axis.spacing == Spacing::Logarithmic { chart.x_logarithmic() } else { chart })
 }

@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::best_tables::shown_value;
 use super::section_plane::{differs, varied};
 use super::{best_tables, contour_figures, line_figures};
 use crate::report::chart::Chart;
@@ -36,6 +37,7 @@ pub(super) fn page(record: &SweepRecord) -> String {
         warnings: &[],
         main: html! {
             (section("figures", "Main figures", html! { (best_tables::best(record)) (best_tables::failed(record)) }))
+            @if let Some(optimum) = record.optimum() { (section("optimum", "Optimum", best_tables::optimum(&optimum))) }
             @if let Some(verification) = record.verification() { (verified(record, &verification)) }
             @if !charts.is_empty() { (section("plots", "Plots", plots.show(&charts))) }
             (section("work", "How it was computed", work(record)))
@@ -66,7 +68,8 @@ fn answer(record: &SweepRecord) -> String {
         .axes
         .iter()
         .map(|axis| match axis.count {
-            1 => format!("{} = {}", axis.key, given(axis.from)),
+            1 => format!("{} = {}", axis.key, shown_value(axis, axis.from)),
+            _ if axis.words().is_some() => format!("{} = {}", axis.key, axis.words().unwrap_or_default().join(" or ")),
             n => format!("{} from {} to {} ({n} values)", axis.key, given(axis.from), given(axis.to)),
         })
         .collect();
@@ -85,7 +88,7 @@ fn answer(record: &SweepRecord) -> String {
             .axes
             .iter()
             .zip(&row.values)
-            .map(|(axis, &value)| format!("{} = {}", axis.key, given(value)))
+            .map(|(axis, &value)| format!("{} = {}", axis.key, shown_value(axis, value)))
             .collect();
         text.push_str(&format!(
             " The {} is least, {}{}{}, at {}.",
@@ -95,6 +98,11 @@ fn answer(record: &SweepRecord) -> String {
             figure.unit,
             place.join(" and ")
         ));
+    }
+    if let Some(goal) = &identity.goal
+        && record.optimum().is_none()
+    {
+        text.push_str(&format!(" No combination has {}.", goal.in_words()));
     }
     text.push_str(&vouched(record));
     text

@@ -47,7 +47,9 @@ pub(crate) fn bytes(record: &SweepRecord) -> Result<Vec<u8>, ParquetError> {
             )?,
             _ => write::<ByteArrayType>(
                 &mut writer,
-                cells.map(|cell| if let Cell::Text(text) = cell { text.map(ByteArray::from) } else { None }),
+                cells.map(
+                    |cell| if let Cell::Text(text) = cell { text.map(|text| ByteArray::from(&*text)) } else { None },
+                ),
             )?,
         }
         writer.close()?;

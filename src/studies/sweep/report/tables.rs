@@ -1,5 +1,6 @@
 //! `sweep.csv`: one row per combination. `sweep.parquet` has the same columns.
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 
 use serde::Serialize;
@@ -10,12 +11,12 @@ use crate::studies::sweep::record::{SweepRecord, SweepRow};
 use crate::studies::sweep::verification::CLAIMS;
 
 /// A cell of the table; empty where there is nothing to say.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub(crate) enum Cell<'a> {
     Whole(Option<i64>),
     Number(Option<f64>),
-    Text(Option<&'a str>),
+    Text(Option<Cow<'a, str>>),
 }
 
 pub(crate) struct SweepColumn {
@@ -44,6 +45,13 @@ pub(crate) fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
     let mut columns = vec![SweepColumn::new("index", "number of the combination, from 0", move |row| whole(row.index))];
     for (at, axis) in record.identity.axes.iter().enumerate() {
         let meaning = format!("varied: {}", axis.as_given());
+        if let Some(words) = axis.words().map(<[String]>::to_vec) {
+            columns.push(SweepColumn::new(&axis.key, meaning, move |row| {
+                let place = row.values.get(at).map(|&value| value as usize);
+                Cell::Text(place.and_then(|place| words.get(place)).map(|word| Cow::Owned(word.clone())))
+            }));
+            continue;
+        }
         let is_whole = axis.whole;
         columns.push(SweepColumn::new(&axis.key, meaning, move |row| {
             let value = row.values.get(at).copied();
@@ -52,7 +60,7 @@ pub(crate) fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
         }));
     }
     columns.push(SweepColumn::new("status", "ok, or failed: then the figures are empty and error says why", |row| {
-        Cell::Text(Some(if row.error.is_none() { "ok" } else { "failed" }))
+        Cell::Text(Some(if row.error.is_none() { "ok" } else { "failed" }.into()))
     }));
     for figure in FIGURES {
         columns.push(SweepColumn::new(figure.name, figure.meaning, |row| Cell::Number(row.figure(figure))));
@@ -65,8 +73,12 @@ pub(crate) fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
         }),
         SweepColumn::new("simulation_s", "wall time of the wear run alone", |row| Cell::Number(row.simulation_s)),
         SweepColumn::new("wall_s", all_of_it, |row| Cell::Number(Some(row.wall_s))),
-        SweepColumn::new("error", "why there are no figures", |row| Cell::Text(row.error.as_deref())),
-        SweepColumn::new("verified", why, |row| Cell::Text(row.verification.as_ref().map(|of| of.chosen.name()))),
+        SweepColumn::new("error", "why there are no figures", |row| {
+            Cell::Text(row.error.as_deref().map(Cow::Borrowed))
+        }),
+        SweepColumn::new("verified", why, |row| {
+            Cell::Text(row.verification.as_ref().map(|of| of.chosen.name().into()))
+        }),
     ]);
     for claim in CLAIMS {
         let meaning = format!(
@@ -81,7 +93,7 @@ pub(crate) fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
     columns.push(SweepColumn::new(
         "error.total.how",
         "how the row was verified, or why that was not possible",
-        |row| Cell::Text(row.verification.as_ref().map(|of| of.total.how.as_str())),
+        |row| Cell::Text(row.verification.as_ref().map(|of| of.total.how.as_str().into())),
     ));
     columns
 }

@@ -61,7 +61,7 @@ fn differences(record: &VariantsRecord, names: &[&str]) -> Markup {
         line([Cell::from(of_runs[0].named())].into_iter().chain(cells))
     });
     html! {
-        div.scroll { (list("Each run with the error it states of itself, and its difference to the first", columns, rows)) }
+        (list("Each run with the error it states of itself, and its difference to the first", columns, rows))
         (note("A difference is more than the errors where it exceeds those of both runs together, each against the same \
                operation on finite elements; errors that are not stated are –."))
     }
@@ -82,5 +82,5 @@ fn keys(record: &VariantsRecord, names: &[&str]) -> Markup {
     let columns = ["key"].into_iter().chain(names.iter().copied());
     let value = |text: &String| if text.is_empty() { NONE.to_owned() } else { text.clone() };
     let rows = record.keys.iter().map(|key| line([key.key.clone()].into_iter().chain(key.values.iter().map(value))));
-    html! { div.scroll { (list("Keys", columns, rows)) } }
+    list("Keys", columns, rows)
 }

@@ -1,0 +1,249 @@
+//! What a sweep is for: the combination where a figure is least, among those that keep to some limits.
+//!
+//! An optimum is only as good as the error of the figure: every combination that is not worse by more than that belongs to it. With the
+//! relative error e of the least value y and of another one, z, which is taken to be as great, z is not known to be worse where
+//!
+//! ```text
+//! z (1 − e) ≤ y (1 + e)
+//! ```
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+use super::figures::{FIGURES, PEAK_WEAR, SweepFigure};
+use super::record::{SweepIdentity, SweepRow, plain};
+use crate::results::error::TotalError;
+use crate::scene::nearest::nearest;
+
+/// The figure that is to be least, and the limits of others.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Goal {
+    /// Name of its column.
+    pub figure: String,
+    pub limits: Vec<Limit>,
+}
+
+/// A figure that must not pass a value.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Limit {
+    /// Name of its column.
+    pub figure: String,
+    /// Whether the value is the most that it may be; else the least.
+    pub at_most: bool,
+    pub value: f64,
+}
+
+/// What is wrong with a goal.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub(crate) enum GoalError {
+    #[error("unknown figure {name}; allowed: a column of sweep.csv such as pinion_peak_wear_um{}", meant.as_ref().map_or_else(String::new, |meant| format!("; did you mean {meant}?")))]
+    Unknown { name: String, meant: Option<&'static str> },
+    #[error("found {given:?}; allowed: FIGURE<=VALUE or FIGURE>=VALUE, such as \"wheel_peak_wear_um<=8\"")]
+    Form { given: String },
+}
+
+impl FromStr for Limit {
+    type Err = GoalError;
+
+    fn from_str(given: &str) -> Result<Self, GoalError> {
+        let form = || GoalError::Form { given: given.to_owned() };
+        let split = |sign: &str| given.split_once(sign).map(|(figure, value)| (figure, value, sign == "<="));
+        let (figure, value, at_most) = split("<=").or_else(|| split(">=")).ok_or_else(form)?;
+        let value = value.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(form)?;
+        Ok(Self { figure: known(figure.trim())?.name.to_owned(), at_most, value })
+    }
+}
+
+impl fmt::Display for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {} {}", self.figure, if self.at_most { "≤" } else { "≥" }, plain(self.value))
+    }
+}
+
+fn known(name: &str) -> Result<&'static SweepFigure, GoalError> {
+    let names: Vec<&'static str> = FIGURES.iter().map(|figure| figure.name).collect();
+    SweepFigure::find(name).ok_or_else(|| GoalError::Unknown { name: name.to_owned(), meant: nearest(name, &names) })
+}
+
+impl Goal {
+    /// The least of the figure `name` within `limits`.
+    ///
+    /// # Errors
+    /// A name that no column has.
+    pub(crate) fn new(name: &str, limits: Vec<Limit>) -> Result<Self, GoalError> {
+        Ok(Self { figure: known(name)?.name.to_owned(), limits })
+    }
+
+    pub(crate) fn figure(&self) -> &'static SweepFigure {
+        // A journal of another version may name one that is gone.
+        SweepFigure::find(&self.figure).unwrap_or(&PEAK_WEAR)
+    }
+
+    /// Whether `row` has the figure and keeps to all limits.
+    pub(crate) fn allows(&self, row: &SweepRow) -> bool {
+        let keeps = |limit: &Limit| {
+            let value = SweepFigure::find(&limit.figure).and_then(|figure| row.figure(figure));
+            value.is_some_and(|value| if limit.at_most { value <= limit.value } else { value >= limit.value })
+        };
+        row.error.is_none() && row.figure(self.figure()).is_some() && self.limits.iter().all(keeps)
+    }
+
+    /// In words: "pinion_peak_wear_um, with wheel_peak_wear_um ≤ 8".
+    pub(crate) fn in_words(&self) -> String {
+        let limits: Vec<String> = self.limits.iter().map(ToString::to_string).collect();
+        if limits.is_empty() { self.figure.clone() } else { format!("{}, with {}", self.figure, limits.join(" and ")) }
+    }
+
+    /// The optimum among `rows`; `None` where none keeps to the limits.
+    pub(crate) fn optimum(&self, identity: &SweepIdentity, rows: &[SweepRow]) -> Option<Optimum> {
+        let figure = self.figure();
+        let allowed: Vec<(&SweepRow, f64)> =
+            rows.iter().filter(|row| self.allows(row)).filter_map(|row| Some((row, row.figure(figure)?))).collect();
+        let &(best, value) = allowed.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let claims = allowed.iter().filter_map(|(row, _)| claim(&self.figure, &row.verification.as_ref()?.total));
+        let own = best.verification.as_ref().and_then(|of| claim(&self.figure, &of.total));
+        // The row's own error and those of the verified ones beside it: the greatest.
+        let error = own.map(|own| claims.fold(own, f64::max));
+        let plateau: Option<Vec<usize>> = error.map(|e| {
+            let as_good = allowed.iter().filter(|(_, other)| other * (1.0 - e) <= value * (1.0 + e));
+            as_good.map(|(row, _)| row.index).collect()
+        });
+        let why_no_error = match (error, &best.verification) {
+            (Some(_), _) => None,
+            (None, None) => Some("the best combination is not verified by finite elements".to_owned()),
+            (None, Some(of)) if claim_of(&self.figure).is_none() => {
+                Some(format!("the verification states no error of {} ({})", self.figure, of.total.how))
+            }
+            (None, Some(of)) => Some(of.total.how.clone()),
+        };
+        Some(Optimum {
+            goal: self.clone(),
+            within_limits: allowed.len(),
+            index: best.index,
+            values: best.values.clone(),
+            value,
+            error,
+            why_no_error,
+            plateau_keys: plateau.as_ref().map(|plateau| {
+                let of_axis = |at: usize| {
+                    let axis = &identity.axes[at];
+                    let mut places: Vec<usize> = plateau.iter().map(|&index| identity.digits(index)[at]).collect();
+                    places.sort_unstable();
+                    places.dedup();
+                    match (axis.words(), places.first(), places.last()) {
+                        (None, Some(&first), Some(&last)) if places.len() > 2 && places.len() == last - first + 1 => {
+                            format!("{} from {} to {}", axis.key, plain(axis.value(first)), plain(axis.value(last)))
+                        }
+                        _ => {
+                            let said: Vec<String> = places.iter().map(|&place| axis.said(axis.value(place))).collect();
+                            format!("{} = {}", axis.key, said.join(", "))
+                        }
+                    }
+                };
+                (0..identity.axes.len()).map(of_axis).collect()
+            }),
+            plateau,
+        })
+    }
+}
+
+/// The best combination, and how far it is known to be the best.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct Optimum {
+    #[serde(flatten)]
+    pub goal: Goal,
+    /// Combinations that keep to the limits.
+    pub within_limits: usize,
+    pub index: usize,
+    pub values: Vec<f64>,
+    pub value: f64,
+    /// Relative error of the figure: the greatest that a verified combination states.
+    pub error: Option<f64>,
+    /// Why there is none.
+    pub why_no_error: Option<String>,
+    /// The combinations that are not known to be worse, itself among them; null where the error is not known.
+    pub plateau: Option<Vec<usize>>,
+    /// Which values each key has among them.
+    pub plateau_keys: Option<Vec<String>>,
+}
+
+type Claimed = fn(&TotalError) -> Option<f64>;
+
+/// Which claim of a verification is about the figure of this name.
+fn claim_of(figure: &str) -> Option<Claimed> {
+    Some(match figure {
+        "peak_wear_um" => |total| Some(total.peak_wear.pinion?.max(total.peak_wear.wheel?)),
+        "pinion_peak_wear_um" => |total| total.peak_wear.pinion,
+        "wheel_peak_wear_um" => |total| total.peak_wear.wheel,
+        "pinion_tip_edge_wear_um" => |total| total.tip_edge_wear.pinion,
+        "wheel_tip_edge_wear_um" => |total| total.tip_edge_wear.wheel,
+        "transmission_error_peak_to_peak_new_um" | "transmission_error_peak_to_peak_worn_um" => {
+            |total| total.transmission_error_peak_to_peak
+        }
+        _ => return None,
+    })
+}
+
+fn claim(figure: &str, total: &TotalError) -> Option<f64> {
+    claim_of(figure).and_then(|of| of(total))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::studies::sweep::record::{Spacing, SweepAxis};
+    use crate::studies::sweep::verification::{Chosen, RowVerification};
+
+    fn rows(wear: &[f64]) -> (SweepIdentity, Vec<SweepRow>) {
+        let axis = SweepAxis {
+            key: "pair.pinion.tip_relief.amount_um".to_owned(),
+            from: 0.0,
+            to: (wear.len() - 1) as f64,
+            count: wear.len(),
+            whole: false,
+            spacing: Spacing::Even,
+        };
+        let identity = SweepIdentity { axes: vec![axis], ..SweepIdentity::default() };
+        let row = |(index, &wear): (usize, &f64)| {
+            let of =
+                |figure: &SweepFigure| Some(if figure.name == "pinion_peak_wear_um" { wear } else { index as f64 });
+            let figures = FIGURES.iter().map(of).collect();
+            SweepRow { index, values: identity.values(index), figures, ..SweepRow::default() }
+        };
+        let rows = wear.iter().enumerate().map(row).collect();
+        (identity, rows)
+    }
+
+    /// Among 10.0, 9.0, 8.9, 9.2 and 12, with an error of 2 %, those up to 8.9 · 1.02/0.98 = 9.263 are as good as 8.9.
+    #[test]
+    fn ver_an_optimum_is_a_plateau_of_the_width_of_its_error() {
+        let (identity, mut rows) = rows(&[10.0, 9.0, 8.9, 9.2, 12.0]);
+        let goal = Goal::new("pinion_peak_wear_um", Vec::new()).unwrap();
+        let unknown = goal.optimum(&identity, &rows).unwrap();
+        assert_eq!((unknown.index, unknown.value, unknown.error, unknown.plateau), (2, 8.9, None, None));
+        assert!(unknown.why_no_error.unwrap().contains("not verified"));
+        let mut total = TotalError::none("");
+        total.peak_wear.pinion = Some(0.02);
+        rows[2].verification = Some(RowVerification { chosen: Chosen::default(), total, wall_s: 0.0 });
+        let found = goal.optimum(&identity, &rows).unwrap();
+        assert_eq!(found.plateau, Some(vec![1, 2, 3]));
+        assert_eq!(found.plateau_keys.unwrap(), ["pair.pinion.tip_relief.amount_um from 1 to 3"]);
+        // Every figure but this one is the number of the row.
+        let limited = Goal::new("pinion_peak_wear_um", vec!["wheel_peak_wear_um<=1".parse().unwrap()]).unwrap();
+        let found = limited.optimum(&identity, &rows).unwrap();
+        assert_eq!((found.index, found.within_limits), (1, 2));
+        let never = Goal::new("pinion_peak_wear_um", vec!["wheel_peak_wear_um >= 9".parse().unwrap()]).unwrap();
+        assert_eq!(never.optimum(&identity, &rows), None);
+    }
+
+    #[test]
+    fn what_is_wrong_with_a_goal_is_said() {
+        let unknown = Goal::new("pinion_peak_wear", Vec::new()).unwrap_err().to_string();
+        assert!(unknown.contains("did you mean pinion_peak_wear_um?"), "{unknown}");
+        for given in ["wheel_peak_wear_um<8", "wheel_peak_wear_um<=", "wheel_peak_wear_um<=eight"] {
+            assert!(given.parse::<Limit>().unwrap_err().to_string().contains("FIGURE<=VALUE"), "{given}");
+        }
+    }
+}
