@@ -150,7 +150,7 @@ impl Trace {
     /// Colours for values, with their scale beside the chart.
     pub(crate) fn colour_bar(self, unit: &str) -> Self {
         // With an empty line below, so that the unit stands clear of the topmost number.
-        let title = json!({ "text": format!("{unit}<br> "), "font": { "size": 12 } });
+        let title = json!({ "text": format!("{unit}<br>\u{a0}"), "font": { "size": 12 } });
         self.set("colorscale", "Viridis").set("colorbar", json!({ "title": title, "thickness": 12 }))
     }
 

@@ -334,7 +334,7 @@ impl<'a> Drawing<'a> {
         self.add("</g></g>");
         self.colour_scale(
             [low, high],
-            trace.get("colorbar")["title"]["text"].as_str().unwrap_or_default().trim_end_matches("<br> "),
+            trace.get("colorbar")["title"]["text"].as_str().unwrap_or_default().trim_end_matches("<br>\u{a0}"),
         );
         self.add("<g clip-path=\"url(#plot)\" stroke-linejoin=\"round\">");
     }

@@ -13,6 +13,12 @@ const MOST_PHASES: usize = 60;
 
 pub(crate) fn tables(record: &RunRecord) -> Markup {
     let s = &record.summary;
+    let tables = figures(record);
+    html! { (tables) (page::note(&pitch_pressure_note(s))) }
+}
+
+fn figures(record: &RunRecord) -> Markup {
+    let s = &record.summary;
     let sliced = s.helical.as_ref().map_or_else(Markup::default, sliced::tables::tables);
     page::tables([new_and_worn(s), wear(s), law_table::tables(s), sliced, pair(s), gears(s), contact(s)])
 }
@@ -26,11 +32,19 @@ fn new_and_worn(s: &Summary) -> Markup {
     if sharp.iter().any(Option::is_some) {
         rows.push(row("Found at sharp tip edges, not defined", "MPa", cells![sharp[0], sharp[1], ""]));
     }
+    let [over_new, over_worn] = over_hertz(s);
     rows.extend([
         compare("Pressure at the pitch point C", "MPa", new.pitch_pressure_MPa, worn.pitch_pressure_MPa),
+        row("Over Hertz’s with the whole load", "", cells![fixed(over_new, 3), fixed(over_worn, 3), ""]),
         compare("Transmission error, peak to peak", "µm", te_new.peak_to_peak, te_worn.peak_to_peak),
         compare("Transmission error, least", "µm", te_new.min, te_worn.min),
         compare("Transmission error, greatest", "µm", te_new.max, te_worn.max),
+        // What one flank of a contact loses the other does too: what differs is error.
+        row(
+            "Volumes that both flanks lose in one mesh, difference",
+            "",
+            cells![percent(s.wear_balance.new), percent(s.wear_balance.worn), ""],
+        ),
     ]);
     table("Mesh cycle", &["new", "worn", "change"], rows)
 }
@@ -51,6 +65,41 @@ fn wear(s: &Summary) -> Markup {
             both("Mass, whole gear", "mg", |w| w.worn_mass_mg),
         ],
     )
+}
+
+/// The pressure at C, new and worn, over Hertz's of unmodified involutes under the whole load.
+fn over_hertz(s: &Summary) -> [f64; 2] {
+    [s.new.pitch_pressure_MPa, s.worn.pitch_pressure_MPa].map(|pressure| pressure / s.contact.hertz_peak_pressure_MPa)
+}
+
+/// Why the pressure at C is not Hertz's.
+fn pitch_pressure_note(s: &Summary) -> String {
+    let [new, worn] = over_hertz(s);
+    let of_surface = match &*s.contact.surface {
+        "hertz-mean" => Some("the surface takes the mean pressure of the contact, π/4 = 0.785 of the greatest"),
+        "winkler" => Some(
+            "a Winkler foundation has a parabolic pressure, 3π/8 = 1.178 times Hertz’s at the same half-width and the same pressure at another",
+        ),
+        _ => None,
+    };
+    let shared = "at C the load is shared with another pair or spread over slices (the pressure goes with the square root of the load), or a \
+                  modification has changed the curvature";
+    let mut text = format!(
+        "At C the new pair has {} times the pressure of Hertz’s contact of plain involutes under the whole load",
+        fixed(new, 3)
+    );
+    match (of_surface, (new - 1.0).abs() < 0.02) {
+        (_, true) => text.push('.'),
+        (Some(reason), false) => text.push_str(&format!(": {reason}; where that is not all of it, {shared}.")),
+        (None, false) => text.push_str(&format!(": {shared}.")),
+    }
+    if (worn / new - 1.0).abs() >= 0.02 {
+        text.push_str(&format!(
+            " Worn it has {} times: wear has changed the curvature of both flanks there.",
+            fixed(worn, 3)
+        ));
+    }
+    text
 }
 
 fn pair(s: &Summary) -> Markup {

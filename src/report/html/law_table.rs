@@ -46,6 +46,11 @@ pub(crate) fn note(s: &Summary) -> Markup {
         w.effective_coefficient_new_mm3_per_Nm,
         w.irg_regime.name()
     );
+    text.push_str(
+        " The coefficient k is the volume that each flank loses per newton of load and metre of sliding; depth is k times pressure times \
+         sliding distance (1e-17 m²/N is 1e-8 mm³/(N·m)). Repeated tests under equal conditions scatter by about half of it, and the depth \
+         of wear with it, whatever the error of the computation.",
+    );
     if let (Some(k), Some(regime)) = (w.severe_coefficient_mm3_per_Nm, w.irg_regime_severe) {
         text.push_str(&format!(" Where wear is severe it is {k:.2e} mm³/(N·m), regime {}.", regime.name()));
     }

@@ -101,6 +101,7 @@ pub(crate) fn answer(record: &RunRecord) -> String {
         figure(s.new.transmission_error_um.peak_to_peak),
         figure(s.worn.transmission_error_um.peak_to_peak),
     ));
+    text.push_str(yield_note(s.new.peak_pressure_MPa.max(s.worn.peak_pressure_MPa)));
     if let Some(helical) = &s.helical {
         let wear = &helical.wear.pinion;
         text.push_str(&format!(
