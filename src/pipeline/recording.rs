@@ -11,10 +11,11 @@ use crate::plan::Plan;
 use crate::results::error::ErrorSummary;
 use crate::results::run::{
     ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, InputFile, MeshCycleRow,
-    PathPoints, RangeSummary, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary,
+    PathPoints, RangeSummary, ReportedBy, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary,
     WorkSummary,
 };
 use crate::scene::Resolved;
+use crate::scene::file::ReportFile;
 use crate::scene::loaded::LoadedScene;
 use crate::simulation::figures::WearFigures;
 use crate::simulation::wear_run::{Outcome, SMALL_WEAR_MODULES};
@@ -76,6 +77,11 @@ pub(super) fn summary(
     let reached = outcome.worn.revolutions;
     Ok(Summary {
         title: scene.title.clone(),
+        report: resolved.file.report.clone().map(|ReportFile { author, company, date }| ReportedBy {
+            author,
+            company,
+            date,
+        }),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_hash: resolved.scene_hash(),
         stopped: outcome.stop,

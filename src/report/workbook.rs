@@ -10,7 +10,7 @@ use serde_json::Value;
 
 use super::csv_table::COLUMNS;
 use super::files::{ReportError, place};
-use crate::results::run::Summary;
+use crate::results::run::{ReportedBy, Summary};
 
 pub(crate) const WORKBOOK: &str = "results.xlsx";
 
@@ -60,7 +60,14 @@ fn bytes(summary: &Summary, tables: &[&str], dir: &Path) -> io::Result<Vec<u8>> 
     let mut workbook = Workbook::new();
     // The same bytes for the same run, whenever it is written.
     let created = ExcelDateTime::from_ymd(2000, 1, 1).map_err(io::Error::other)?;
-    workbook.set_properties(&DocProperties::new().set_title(&summary.title).set_creation_datetime(&created));
+    let ReportedBy { author, company, .. } = summary.report.clone().unwrap_or_default();
+    workbook.set_properties(
+        &DocProperties::new()
+            .set_title(&summary.title)
+            .set_author(author.unwrap_or_default())
+            .set_company(company.unwrap_or_default())
+            .set_creation_datetime(&created),
+    );
     let summary = serde_json::to_value(summary)?;
     main_figures(workbook.add_worksheet(), &summary).map_err(io::Error::other)?;
     let mut columns = Vec::new();

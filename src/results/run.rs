@@ -47,6 +47,8 @@ pub struct InputFile {
 pub struct Summary {
     /// The scene's title.
     pub title: String,
+    /// Who reports, and when; null where the scene does not say it.
+    pub report: Option<ReportedBy>,
     /// Version of the program.
     pub program_version: String,
     /// First 16 hexadecimal digits of the SHA-256 of the resolved scene.
@@ -136,6 +138,17 @@ pub struct PhaseWear {
     pub greatest_depth_um: f64,
     /// Worn off the whole gear: all teeth, whole width.
     pub worn_volume_mm3: f64,
+}
+
+/// Who reports, and when, each as the scene says it.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+pub struct ReportedBy {
+    /// Who made the calculation.
+    pub author: Option<String>,
+    /// For whom, or where.
+    pub company: Option<String>,
+    /// The day.
+    pub date: Option<String>,
 }
 
 /// Why a wear run ended.

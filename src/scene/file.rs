@@ -25,6 +25,8 @@ use crate::simulation::settings::AdaptiveMethod;
 pub struct SceneFile {
     /// Title of the report. Default: the numbers of teeth.
     pub title: Option<String>,
+    /// Who reports, and when: shown on the pages of runs and in their workbooks, read by nothing else.
+    pub report: Option<ReportFile>,
     /// The gear pair.
     pub pair: PairFile,
     /// Material of both gears, or of each. Default: steel.
@@ -50,6 +52,18 @@ pub struct SceneFile {
     pub helical: Option<HelicalFile>,
     /// Resolution in space and time.
     pub numerics: Option<NumericsFile>,
+}
+
+/// Who reports, and when.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ReportFile {
+    /// Who made the calculation. Default: not said.
+    pub author: Option<String>,
+    /// For whom, or where. Default: not said.
+    pub company: Option<String>,
+    /// The day, as it is to be shown. Default: not said, so that the same scene gives the same page.
+    pub date: Option<String>,
 }
 
 /// The gear pair: a preset, or module, pressure angle, centre distance, face width and both gears.

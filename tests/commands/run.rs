@@ -322,6 +322,20 @@ fn a_run_that_fails_keeps_what_is_finished() {
     assert!(summary["revolutions"].as_f64().unwrap() >= 1.0, "{said}");
 }
 
+/// Who reports, and when, is shown, and no figure depends on it.
+#[test]
+fn who_reports_is_shown() {
+    let dir = tempfile::tempdir().unwrap();
+    let plain = run(dir.path(), &quick(), "plain", &[]);
+    let text =
+        format!("{}\n[report]\nauthor = \"A. <b>Tester</b>\"\ncompany = \"Works\"\ndate = \"2026-11-24\"\n", quick());
+    let named = run(dir.path(), &text, "named", &["--workbook"]);
+    assert_eq!((&named["report"]["company"], &plain["report"]), (&Value::from("Works"), &Value::Null));
+    assert_eq!(named["pinion"], plain["pinion"]);
+    let page = fs::read_to_string(dir.path().join("named/report.html")).unwrap();
+    assert!(page.contains("A. &lt;b&gt;Tester&lt;/b&gt; · Works · 2026-11-24"));
+}
+
 /// Nobody listening is no reason to panic.
 #[cfg(unix)]
 #[test]

@@ -24,6 +24,7 @@ pub(super) fn page(calibration: &Calibration, stages: &[StageTime], title: &str,
     Page {
         kind: "Calibration of a gear pair by finite elements",
         title,
+        byline: "",
         answer: &answer(calibration),
         interruption: None,
         warnings: &[],

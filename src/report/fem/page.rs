@@ -33,6 +33,7 @@ pub(super) fn page(record: &FemRecord, plane: &PlaneSolution) -> String {
     Page {
         kind: "Elastic bodies in contact",
         title: &s.title,
+        byline: "",
         answer: &answer(s),
         interruption: None,
         warnings: &s.warnings,

@@ -24,6 +24,7 @@ pub(super) fn page(record: &FemRecord, found: &SpaceSolution) -> String {
     Page {
         kind: "Elastic bodies in space",
         title: &s.title,
+        byline: "",
         answer: &format!(
             "The bodies move by up to {} mm; the von Mises stress reaches {} MPa.",
             figure(displacement_mm),

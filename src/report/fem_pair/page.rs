@@ -37,6 +37,7 @@ pub(super) fn page(record: &FemPairRecord) -> String {
     Page {
         kind: "Finite-element contact of a gear pair",
         title: &s.title,
+        byline: "",
         answer: &answer(s),
         interruption: interruption(s).as_deref(),
         warnings: &s.warnings,

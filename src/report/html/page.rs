@@ -15,6 +15,8 @@ pub(crate) struct Page<'a> {
     /// What kind of report it is, above the title.
     pub kind: &'a str,
     pub title: &'a str,
+    /// Who reports, and when; empty where that is not said.
+    pub byline: &'a str,
     /// The result in a sentence or two.
     pub answer: &'a str,
     /// Why this is not the whole, where it is not.
@@ -49,6 +51,7 @@ impl Page<'_> {
                     header {
                         p.kind { (self.kind) }
                         h1 { (self.title) }
+                        @if !self.byline.is_empty() { p.kind { (self.byline) } }
                         p.answer { (bound(self.answer)) }
                     }
                     main {

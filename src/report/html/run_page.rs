@@ -10,7 +10,7 @@ use super::{
     cycle_plots, drawing_plot, figures_table, flank_plots, history_plot, law_table, reading, temperature_plot,
 };
 use crate::report::chart::Chart;
-use crate::results::run::{RunRecord, Summary};
+use crate::results::run::{ReportedBy, RunRecord, Summary};
 
 /// The data files named in the page, which lie beside it; one more where sections differ.
 const DATA_FILES: [(&str, &str); 9] = [
@@ -57,6 +57,7 @@ pub(crate) fn page(record: &RunRecord) -> String {
     Page {
         kind: "Wear of a gear pair",
         title: &s.title,
+        byline: &byline(s),
         answer: &reading::answer(record),
         interruption: reading::interruption(s).as_deref(),
         warnings: &s.warnings,
@@ -70,6 +71,12 @@ pub(crate) fn page(record: &RunRecord) -> String {
         footer: &format!("gearwear {} · scene {}", s.program_version, s.scene_hash),
     }
     .html()
+}
+
+/// Who reports, and when, as far as the scene says it.
+fn byline(s: &Summary) -> String {
+    let Some(ReportedBy { author, company, date }) = &s.report else { return String::new() };
+    [author, company, date].into_iter().flatten().map(String::as_str).collect::<Vec<_>>().join(" · ")
 }
 
 /// The plots of a run, in the order of its page.

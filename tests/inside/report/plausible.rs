@@ -236,6 +236,7 @@ fn summary() -> Summary {
     let stage = |name: &str, wall_s| StageTime { name: name.into(), wall_s };
     Summary {
         title: "<b>FZG</b> type C & \"128\" hours".into(),
+        report: None,
         program_version: "0.1.0".into(),
         scene_hash: "0123456789abcdef".into(),
         stopped: StopReason::Completed,

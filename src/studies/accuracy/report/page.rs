@@ -34,6 +34,7 @@ pub(super) fn page(record: &AccuracyRecord) -> String {
     Page {
         kind: "Error against run time",
         title: &record.title,
+        byline: "",
         answer: &answer(record),
         interruption: (record.stopped != StopReason::Completed)
             .then(|| format!("The comparison was interrupted after {} runs; those are shown.", record.variants.len()))

@@ -21,6 +21,7 @@ pub(super) fn page(record: &CompareRecord) -> String {
     Page {
         kind: "Measured profile against a run",
         title: &format!("{} – {}", record.title, record.measured),
+        byline: "",
         answer: &answer(record),
         interruption: None,
         warnings: &record.warnings,

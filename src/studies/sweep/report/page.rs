@@ -32,6 +32,7 @@ pub(super) fn page(record: &SweepRecord) -> String {
     Page {
         kind: "Sweep",
         title: &identity.title,
+        byline: "",
         answer: &answer(record),
         interruption: None,
         warnings: &[],

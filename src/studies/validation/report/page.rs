@@ -39,6 +39,7 @@ pub(super) fn page(record: &ValidationRecord, changes: Option<&Changes>) -> Stri
     Page {
         kind: "Validation suite",
         title: "Validation report",
+        byline: "",
         answer: &totals::sentence(record),
         interruption: (!record.not_run.is_empty())
             .then_some("The suite was interrupted; the cases shown are those that were finished."),

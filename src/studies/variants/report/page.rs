@@ -21,6 +21,7 @@ pub(super) fn page(record: &VariantsRecord, runs: &[FinishedRun]) -> String {
     Page {
         kind: "Variants side by side",
         title: &names.join(" – "),
+        byline: "",
         answer: &record.answer,
         interruption: None,
         warnings: &record.warnings,
