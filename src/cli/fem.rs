@@ -55,7 +55,9 @@ impl Args {
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let text = SceneText::read(&args.file)?;
     // Text that is no TOML is refused, with its place, by whoever reads it next.
-    let table: toml::Table = text.text.parse().unwrap_or_default();
+    let Ok(table) = text.text.parse::<toml::Table>() else {
+        return if args.of_a_pair().is_some() { fem_scene::run(args, text) } else { problem(args, text) };
+    };
     match (table.contains_key("mesh"), table.contains_key("pair")) {
         (true, true) => Err(InputError::MeshAndPair { name: text.name }.into()),
         (false, true) => fem_scene::run(args, text),

@@ -145,6 +145,30 @@ fn threads_change_no_bit() {
 }
 
 /// Every refusal names what was found and what is allowed, leaves status 2 and no files.
+/// What takes much memory says so before it begins, and what no computer holds is refused.
+#[test]
+fn much_memory_is_announced() {
+    let dir = tempfile::tempdir().unwrap();
+    let with = |elements: u32| {
+        let text = format!("{}\n[fem]\nelements_per_half_width = {elements}\n", preset("thesis-spur"));
+        let output = fem(dir.path(), &text, "out", &["--position", "12"]);
+        (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    let (code, said) = with(24);
+    assert!(code == Some(0) && said.contains("their condensation takes some 1."), "{code:?} {said}");
+    let (code, said) = with(60);
+    assert!(code == Some(2) && said.contains("scene.toml") && said.contains("nodes"), "{code:?} {said}");
+}
+
+/// Text that is no TOML is said to be that, whatever options stand beside it.
+#[test]
+fn text_that_is_no_toml_is_refused_with_its_place() {
+    let dir = tempfile::tempdir().unwrap();
+    let output = fem(dir.path(), "[pair]\nteeth = 1\nteeth = 2\n", "out", &["--position", "12"]);
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.code() == Some(2) && said.contains("scene.toml:3"), "{said}");
+}
+
 #[test]
 fn refusals() {
     let dir = tempfile::tempdir().unwrap();

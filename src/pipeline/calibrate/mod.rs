@@ -15,7 +15,7 @@ use crate::calibration::{
     tooth_family,
 };
 use crate::contact::settings::Material;
-use crate::fem::gear::condensed_pair::CondensedPair;
+use crate::fem::gear::{condensed_pair::CondensedPair, model::much_memory};
 use crate::gear::modification::Modification;
 use crate::gear::{Gear, GearPair, PairError};
 use crate::gear_mesh::settings::{Body, SpaceResolution};
@@ -27,6 +27,10 @@ use crate::plan::calibration::CalibrationStage;
 use crate::results::run::StageTime;
 use crate::scene::Scene;
 use crate::stiffness::{StiffnessError, curve::PairCompliance, iso6336};
+
+/// The memory of a calibration at its peak over that of its own pair of bodies: finer meshes and other rims stand beside it. 1.3 to 1.7 on FZG type
+/// C with tip roundings of 0.1 and 0.001 mm.
+const BODIES_AT_ONCE: f64 = 1.7;
 
 /// Why there is no calibration.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -98,6 +102,9 @@ pub(crate) fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Res
     let setup = setup(scene, &pair);
     let w = setup.line_load_n_per_mm;
     let meshed = stages.run(Stage::Meshing, || setup.meshed())?;
+    if let Some(warning) = much_memory(&meshed, BODIES_AT_ONCE) {
+        observer.warning(&warning);
+    }
     let condensed = stages.run(Stage::Condensation, || setup.condensed(&meshed))?;
     let loaded = LoadedPair::new(&condensed, &scene.material);
     let deflection = stages.run(Stage::ToothStiffness, || loaded.along_the_path(STIFFNESS_POSITIONS, w))?;

@@ -17,7 +17,7 @@ use crate::fem::element::ElementError;
 use crate::fem::gear::condensed_pair::CondensedPair;
 use crate::fem::gear::cycle::{CycleError, cycle};
 use crate::fem::gear::full::FullError;
-use crate::fem::gear::model::{MeshedGear, ModelError};
+use crate::fem::gear::model::{MeshedGear, ModelError, much_memory};
 use crate::fem::gear::position::PositionContact;
 use crate::gear::path_of_contact::PathOfContact;
 use crate::gear::{Gear, GearPair, PairError, PerGear};
@@ -117,6 +117,9 @@ pub(crate) fn run(
         let mesh = |gear| MeshedGear::new(&pair, gear, &material, line_load_n_per_mm, &scene.fem);
         PerGear::try_in_parallel(mesh)
     })?;
+    if let Some(warning) = much_memory(&meshed, 1.0) {
+        observer.warning(&warning);
+    }
     let gears = stages.run(FemPairStage::Condensation.name(), || {
         PerGear::try_in_parallel(|gear| meshed[gear].condense(&pair, material[gear]))
     })?;
