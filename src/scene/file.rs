@@ -261,9 +261,9 @@ pub struct GearMaterialFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OperationFile {
-    /// Torque on the pinion in N·m, > 0.
+    /// Torque on the pinion in N·m, > 0. Required, unless every phase gives its own: then the greatest of these.
     #[schemars(extend("exclusiveMinimum" = 0))]
-    pub pinion_torque_Nm: f64,
+    pub pinion_torque_Nm: Option<f64>,
     /// Speed of the pinion in revolutions per minute, > 0. Needed with hours, with snapshots_h and with contact
     /// temperatures.
     #[schemars(extend("exclusiveMinimum" = 0))]

@@ -164,6 +164,26 @@ fn val_each_phase_has_the_contact_of_its_own_load() {
     assert_eq!(both.summary.contact.line_load_N_per_mm, second.line_load_N_per_mm);
 }
 
+/// Where every phase has its own torque and speed, none is needed outside; one that has none is refused.
+#[test]
+fn phases_need_no_load_outside() {
+    let of = |list: &[&str]| scene(&phases(list), WINKLER, NEGLIGIBLE, "");
+    let own =
+        |hours: f64, torque: f64| format!("hours = {hours:?}\npinion_torque_Nm = {torque:?}\npinion_speed_rpm = 150.0");
+    let (light, heavy) = (own(10.0, 100.0), own(1.0, 400.0));
+    let alone = run(&of(&[&light, &heavy]));
+    let beside = run(&scene(&format!("{OPERATION}{}", phases(&[&light, &heavy])), WINKLER, NEGLIGIBLE, ""));
+    assert_eq!((&alone.flanks, alone.summary.reference_phase), (&beside.flanks, 2));
+    let problems = Scene::from_toml(&of(&[&light, "hours = 1.0\npinion_speed_rpm = 150.0"])).unwrap_err();
+    let said: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    assert!(
+        said.len() == 1
+            && said[0].contains("operation.pinion_torque_Nm")
+            && said[0].contains("each of operation.phases"),
+        "{said:?}"
+    );
+}
+
 /// Hours count at the speed of their phase, snapshots in hours too; the phase at its end is that which ends.
 #[test]
 fn hours_over_phases_of_different_speed() {

@@ -14,8 +14,17 @@ const HALVINGS: i32 = 6;
 
 /// Chooses what `[operation]` leaves open.
 pub(super) fn choose(file: &mut OperationFile, findings: &mut Findings) -> Option<Operation> {
+    let of_phases = file.phases.iter().flatten().map(|phase| phase.pinion_torque_Nm);
+    let greatest = of_phases.reduce(|greatest, torque| Some(greatest?.max(torque?))).flatten();
+    file.pinion_torque_Nm = file.pinion_torque_Nm.or(greatest);
+    let is_loaded = file.pinion_torque_Nm.is_some();
+    if !is_loaded {
+        let allowed = "a number greater than 0, or a pinion_torque_Nm in each of operation.phases";
+        findings.missing(&["operation.pinion_torque_Nm"], allowed);
+    }
     let of_whole = Phase {
-        pinion_torque_n_mm: 1e3 * file.pinion_torque_Nm,
+        // What else is wrong is found with any load.
+        pinion_torque_n_mm: 1e3 * file.pinion_torque_Nm.unwrap_or(1.0),
         pinion_speed_rpm: file.pinion_speed_rpm,
         coefficient_mm2_per_n: None,
         end_revolutions: 0.0,
@@ -51,7 +60,7 @@ pub(super) fn choose(file: &mut OperationFile, findings: &mut Findings) -> Optio
         }
     }
     operation.snapshots_revolutions.sort_by(f64::total_cmp);
-    Some(operation)
+    is_loaded.then_some(operation)
 }
 
 /// A duration said in one of two ways, in revolutions of the pinion.
