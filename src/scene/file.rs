@@ -191,20 +191,40 @@ pub struct GearFile {
     /// Relief towards the root. Default: none.
     pub root_relief: Option<ReliefFile>,
     /// Relief towards both ends of the face width. Default: none.
-    pub end_relief: Option<ReliefFile>,
+    pub end_relief: Option<EndReliefFile>,
     /// Elastic twist over the face width under the torque, with at most 100 slices. Default: none.
     pub shaft: Option<ShaftFile>,
 }
 
-/// Tip, root or end relief.
+/// Tip or root relief.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReliefFile {
     /// Material removed at the end of the flank along its normal in µm, 0 or more.
     #[schemars(range(min = 0))]
     pub amount_um: f64,
-    /// Length over which it runs out in mm, > 0: roll length, along the path of contact, of tip and root relief; along the face
-    /// width of an end relief.
+    /// Roll length, along the path of contact, over which it runs out in mm, > 0. Required, or begins_at_diameter_mm, or
+    /// begins_at_roll_angle_deg.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub length_mm: Option<f64>,
+    /// Diameter at which it begins in mm, between start of active profile and tip circle, instead of its length.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub begins_at_diameter_mm: Option<f64>,
+    /// Roll angle in the transverse section at which it begins in degrees, instead of its length.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub begins_at_roll_angle_deg: Option<f64>,
+    /// How it grows from its start. Default: linear.
+    pub shape: Option<ReliefShape>,
+}
+
+/// End relief.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EndReliefFile {
+    /// Material removed at the end faces along the normal of the flank in µm, 0 or more.
+    #[schemars(range(min = 0))]
+    pub amount_um: f64,
+    /// Part of the face width over which it runs out at either end in mm, > 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub length_mm: f64,
     /// How it grows from its start. Default: linear.

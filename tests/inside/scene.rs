@@ -332,3 +332,25 @@ fn a_changed_scene_is_as_if_the_file_said_so() {
     assert_eq!(again.files.calibration.as_ref(), Some(&made));
     assert_eq!(again.resolved.scene_hash(), run.summary.scene_hash);
 }
+
+/// A relief is said in one way, between start of active profile and tip circle.
+#[test]
+fn reliefs_by_where_they_begin() {
+    let with = |relief: &str| {
+        let text = presets::find("fzg-c").unwrap().text;
+        Scene::from_toml(&text.replace("[pair.wheel]\n", &format!("[pair.wheel]\ntip_relief = {{ {relief} }}\n")))
+    };
+    let length = |relief: &str| with(relief).unwrap().scene.pair.gears.wheel.modification.tip_relief.unwrap().length_mm;
+    // ρ_a = √(59.18² − 50.7434²) = 30.4529 mm; 29 mm at a diameter of 116.8913 mm and a roll angle of 32.7447°.
+    for relief in ["begins_at_diameter_mm = 116.8913", "begins_at_roll_angle_deg = 32.7447"] {
+        let found = length(&format!("amount_um = 15.0, {relief}"));
+        assert!((found - 1.4529).abs() < 2e-4, "{relief}: {found}");
+    }
+    let said = |relief: &str| with(relief).unwrap_err().iter().map(ToString::to_string).collect::<Vec<_>>().join("; ");
+    let both = said("amount_um = 15.0, length_mm = 2.0, begins_at_diameter_mm = 116.0");
+    assert!(both.contains("length_mm") && both.contains("begins_at_diameter_mm"), "{both}");
+    let none = said("amount_um = 15.0");
+    assert!(none.contains("pair.wheel.tip_relief.length_mm is missing"), "{none}");
+    let outside = said("amount_um = 15.0, begins_at_diameter_mm = 120.0");
+    assert!(outside.contains("start of active profile, 103.99") && outside.contains("tip circle, 118.36"), "{outside}");
+}
