@@ -82,7 +82,7 @@ fn check_run(run: &RunSpec, case: &CaseFile) -> Result<(), CaseFault> {
     let no_family = !run.is_family() && !run.take.is_empty();
     let (no_fem, is_run) = (run.command != Command::Fem, run.command == Command::Run);
     let defect = run.accept.iter().any(|outcome| matches!(outcome, RunOutcome::Unsound | RunOutcome::Panicked));
-    let accepted = "accept of \"sound\", \"refused\" and \"not-converged\" alone";
+    let accepted = "accept of \"sound\", \"refused\", \"not-converged\" and \"worn-through\" alone";
     let faults = [
         (more_ways, "more than one of vary, each and sample", "one of them"),
         (no_family, "take without a family", "take beside vary, each or sample"),

@@ -47,14 +47,14 @@ pub(crate) struct Executed {
 }
 
 impl Executed {
-    /// A run that left `value` behind, and why it did not converge or cannot be sound.
-    fn of(value: Value, work: BTreeMap<String, u64>, not_converged: Option<String>, fault: Option<String>) -> Self {
-        let outcome = match (&not_converged, &fault) {
-            (Some(_), _) => RunOutcome::NotConverged,
-            (None, Some(_)) => RunOutcome::Unsound,
-            (None, None) => RunOutcome::Sound,
+    /// A run that left `value` behind, and why it did not come to its end or cannot be sound.
+    fn of(value: Value, work: BTreeMap<String, u64>, failure: Option<Failed>, fault: Option<String>) -> Self {
+        let fault = fault.map(|fault| Failed(RunOutcome::Unsound, fault));
+        let (outcome, said) = match failure.or(fault) {
+            Some(Failed(outcome, said)) => (outcome, Some(said)),
+            None => (RunOutcome::Sound, None),
         };
-        Self { outcome, said: not_converged.or(fault), value, calibration: None, wall_s: 0.0, work }
+        Self { outcome, said, value, calibration: None, wall_s: 0.0, work }
     }
 
     /// A run that has nothing to show.
@@ -272,11 +272,12 @@ fn table(write: impl FnOnce(&mut dyn Write) -> io::Result<Vec<Column>>) -> Resul
 }
 
 /// Why a run has not converged, or was left before its end.
-fn failure(failure: Option<impl ToString>, stop: StopReason) -> Option<String> {
-    failure.map(|failure| failure.to_string()).or_else(|| match stop {
-        StopReason::Completed => None,
-        StopReason::Interrupted => Some("interrupted".to_owned()),
-        StopReason::NotConverged => Some("the run did not converge".to_owned()),
-        StopReason::WornThrough => Some("a tooth is worn through".to_owned()),
-    })
+fn failure(failure: Option<impl ToString>, stop: StopReason) -> Option<Failed> {
+    let (outcome, said) = match stop {
+        StopReason::Completed => return failure.map(not_converged),
+        StopReason::Interrupted => (RunOutcome::NotConverged, "interrupted"),
+        StopReason::NotConverged => (RunOutcome::NotConverged, "the run did not converge"),
+        StopReason::WornThrough => (RunOutcome::WornThrough, "a tooth is worn through"),
+    };
+    Some(Failed(outcome, failure.map_or_else(|| said.to_owned(), |failure| failure.to_string())))
 }

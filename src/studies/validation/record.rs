@@ -168,6 +168,8 @@ pub(crate) enum RunOutcome {
     Sound,
     Refused,
     NotConverged,
+    /// The wear came to the thickness of a tooth.
+    WornThrough,
     /// Complete, but not sound.
     Unsound,
     /// A defect of the program.
@@ -185,6 +187,7 @@ impl RunOutcome {
             Self::Sound => "sound",
             Self::Refused => "refused with a message",
             Self::NotConverged => "did not converge and says so",
+            Self::WornThrough => "worn through and says so",
             Self::Unsound => "unsound",
             Self::Panicked => "panicked",
         }

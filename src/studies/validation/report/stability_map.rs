@@ -16,10 +16,11 @@ use crate::studies::validation::record::{CaseRecord, RunOutcome, StabilityPoint,
 const LOGARITHMIC_FROM: f64 = 10.0;
 
 /// The sign of each outcome.
-const SIGNS: [(RunOutcome, &str); 5] = [
+const SIGNS: [(RunOutcome, &str); 6] = [
     (RunOutcome::Sound, "●"),
     (RunOutcome::Refused, "■"),
     (RunOutcome::NotConverged, "▲"),
+    (RunOutcome::WornThrough, "▼"),
     (RunOutcome::Unsound, "✕"),
     (RunOutcome::Panicked, "✖"),
 ];
