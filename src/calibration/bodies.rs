@@ -17,7 +17,7 @@ use crate::fem::gear::ring::ToothForce;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::settings::{Body, BodySettings, SectorSides, greatest_clamp_mm};
 
-/// Elements in a half-width that the tables of rim and neighbours are made with; the convergence table shows that it is
+/// Elements per half-width that the tables of rim and neighbours are made with; the convergence table shows that it is
 /// enough.
 pub(crate) const TABLE_ELEMENTS_PER_HALF_WIDTH: f64 = 4.0;
 const RESOLUTIONS: [f64; 5] = [4.0, 6.0, 8.0, 10.0, 14.0];
@@ -43,7 +43,7 @@ pub(crate) struct Setup<'a> {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ResolutionRow {
-    /// Elements in a half-width.
+    /// Elements per half-width.
     pub elements_per_half_width: f64,
     /// Degrees of freedom of both gears.
     pub dofs: usize,

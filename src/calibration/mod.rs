@@ -91,7 +91,7 @@ pub struct Calibration {
     pub hash: String,
     /// What it belongs to.
     pub belongs_to: Identity,
-    /// Elements in a half-width of contact of the mesh it was made with.
+    /// Elements per half-width of contact of the mesh it was made with.
     pub elements_per_half_width: f64,
     /// The scene's whole line load: that of the stiffness curve, and the unit of the loads of K/H, N/mm.
     pub line_load_n_per_mm: f64,

@@ -85,7 +85,7 @@ fn table(record: &AccuracyRecord) -> String {
     let line = |name: &str, cells: [&str; 4]| {
         format!("  {name:width$}{:>10}{:>12}{:>12}{:>12}\n", cells[0], cells[1], cells[2], cells[3])
     };
-    text.push_str(&line("on the front of the wear profile", ["time, s", "profile", "pressure", "trans. err"]));
+    text.push_str(&line("Pareto front of the wear profile", ["time, s", "profile", "pressure", "trans. err"]));
     let error = |v: &VariantRecord, quantity| v.errors.get(&quantity).map(|error| error.relative);
     let mut front: Vec<&VariantRecord> =
         record.variants.iter().filter(|v| v.errors.get(&Quantity::WearProfile).is_some_and(|e| e.on_front)).collect();
@@ -97,7 +97,7 @@ fn table(record: &AccuracyRecord) -> String {
         text.push_str(&line(&variant.name, [&wall_s, &cells[0], &cells[1], &cells[2]]));
     }
     if !record.recommendations.is_empty() {
-        text.push_str(&format!("\ncheapest within {}\n", per_cent(record.within)));
+        text.push_str(&format!("\nfastest within {}\n", per_cent(record.within)));
     }
     for r in &record.recommendations {
         let Some(variant) = record.variants.get(r.variant) else { continue };

@@ -114,7 +114,7 @@ fn table(title: &str, done: &Calibrated, out: &Path) -> String {
     }
     if let Some(fit) = &calibration.slices {
         let values = [fit.compliance.teeth, 100.0 * fit.residual].map(figures::digits);
-        text.push_str(&figures::row("slices, fitted to teeth in space", ["teeth ×", "residual, %"]));
+        text.push_str(&figures::row("slices, fitted to 3-D finite elements", ["teeth ×", "residual, %"]));
         text.push_str(&figures::row("  compliance", [&values[0], &values[1]]));
     }
     let page = report::calibration::page_beside(out);

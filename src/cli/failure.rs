@@ -93,7 +93,7 @@ pub(super) enum InputError {
     NothingToVary(String),
     /// A file that is both a problem with its own mesh and a gear pair.
     #[error("{name}: found both [mesh] and [pair]; allowed: one of them")]
-    #[diagnostic(help("a problem with its own mesh has [mesh], a gear pair has [pair]"))]
+    #[diagnostic(help("a problem with its own mesh has [mesh]; a gear pair has [pair]"))]
     MeshAndPair { name: String },
     /// `fem` of a problem with an option that only a gear pair has.
     #[error(
@@ -251,7 +251,7 @@ fn journal_help(error: &JournalError) -> &'static str {
         }
         JournalError::InUse { .. } => "wait for it to end, or choose another folder; each shard needs its own",
         JournalError::NoSweep { .. } => "give the folders that gearwear sweep --shard wrote",
-        JournalError::Write { .. } | JournalError::Removed { .. } => "the same command goes on with the missing rows",
+        JournalError::Write { .. } | JournalError::Removed { .. } => "the same command continues with the missing rows",
         JournalError::Open { .. } | JournalError::Lost { .. } => "choose a folder you may write to",
     }
 }
@@ -266,7 +266,7 @@ fn merge_help(error: &MergeError) -> String {
             "give the folders of all shards; run the shards that were not".to_owned()
         }
         MergeError::Incomplete { unfinished, .. } => {
-            format!("not finished: {}; the command of a shard goes on where it was", unfinished.join(", "))
+            format!("not finished: {}; the command of a shard continues where it was", unfinished.join(", "))
         }
     }
 }

@@ -131,7 +131,7 @@ fn summary(summary: &FemSummary) -> String {
     }
     let sets = match summary.in_space {
         Some(_) => String::new(),
-        None => format!(", {} active sets", summary.iterations),
+        None => format!(", {} active-set iterations", summary.iterations),
     };
     text.push_str(&format!(
         "\n{} elements, {} degrees of freedom{sets}, computed in {:.2} s\n",

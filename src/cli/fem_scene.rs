@@ -112,7 +112,7 @@ fn table(summary: &FemPairSummary) -> String {
         }
     }
     text.push_str(&format!(
-        "\n{} position{}, {} degrees of freedom, {:.1} active sets a position, computed in {:.2} s\n",
+        "\n{} position{}, {} degrees of freedom, {:.1} active-set iterations per position, computed in {:.2} s\n",
         summary.positions,
         if summary.positions == 1 { "" } else { "s" },
         summary.dofs,

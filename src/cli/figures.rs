@@ -25,7 +25,7 @@ pub(super) fn table(summary: &Summary) -> String {
     let sharp = [new.sharp_edge_pressure_MPa, worn.sharp_edge_pressure_MPa];
     if sharp.iter().any(Option::is_some) {
         let [new, worn] = sharp.map(|pressure| pressure.map_or_else(|| "–".to_owned(), digits));
-        text.push_str(&row("at sharp tip edges, not defined, MPa", [&new, &worn]));
+        text.push_str(&row("at sharp tip edges (not defined), MPa", [&new, &worn]));
     }
     text.push_str(&over_the_width(summary.helical.as_ref()));
     text.push_str(&verified(&summary.error.total));
@@ -65,7 +65,7 @@ fn verified(total: &TotalError) -> String {
         return format!("\n  {}\n", total.how);
     }
     [
-        row("within, of finite elements", ["pinion", "wheel"]),
+        row("difference from finite elements", ["pinion", "wheel"]),
         both("peak wear, %", &total.peak_wear),
         both("wear of the tip edge, %", &total.tip_edge_wear),
         both("wear over the flank (rms), %", &total.profile),
@@ -81,7 +81,7 @@ fn estimated_errors(error: &ErrorSummary) -> String {
         ("points and positions", error.discretisation),
         ("wear step", error.wear_step),
         ("contact surface", error.surface_model),
-        ("hard switch against a band", error.severe_switch),
+        ("abrupt against smoothed transition", error.severe_switch),
     ]
     .into_iter()
     .filter_map(|(name, estimate)| Some(format!("{name} {} %", two_digits(100.0 * estimate?))))

@@ -77,7 +77,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     warn(&resolved.warnings);
     if let Some(from) = from.as_ref().filter(|_| !args.quiet) {
         let whole = resolved.scene.operation.pinion_revolutions;
-        say(&format!("goes on at {:.0} of {whole:.0} pinion revolutions", from.revolutions));
+        say(&format!("continues at {:.0} of {whole:.0} pinion revolutions", from.revolutions));
     }
 
     let interrupted = watch_for_interrupt();
@@ -206,9 +206,9 @@ fn say_what_is_kept(record: &RunRecord, operation: &Operation, out: &Path) {
 
 fn how_to_go_on(out: &Path) -> String {
     let how = if out.join(folder::CHECKPOINT).exists() {
-        "goes on with it"
+        "continues it"
     } else {
-        "begins it anew: it has no checkpoint yet"
+        "starts it again: it has no checkpoint yet"
     };
     format!("gearwear run --resume {} {how}", out.display())
 }

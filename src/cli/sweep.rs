@@ -142,7 +142,7 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
             verified => format!(", {verified} of them verified,"),
         };
         say(&format!(
-            "interrupted: {finished} of {total} combinations are finished{verified} and kept in {out}; the same command goes on there"
+            "interrupted: {finished} of {total} combinations are finished{verified} and kept in {out}; the same command continues there"
         ));
         return Err(Failure::Interrupted);
     }
@@ -282,13 +282,16 @@ fn found(record: &SweepRecord, optimum: &Optimum) -> String {
     let mut text = format!("\nleast {}: {} at {place}\n", optimum.goal.in_words(), digits(optimum.value));
     text.push_str(&match (&optimum.error, &optimum.plateau, &optimum.plateau_keys) {
         (Some(error), Some(plateau), Some(keys)) => format!(
-            "  {} of {} combinations are not known to be worse, its error being {} %: {}\n",
+            "  {} of {} combinations cannot be told from it within its error of {} %: {}\n",
             plateau.len(),
             optimum.within_limits,
             two_digits(100.0 * error),
             keys.join("; ")
         ),
-        _ => format!("  how many are as good is not known: {}\n", optimum.why_no_error.as_deref().unwrap_or_default()),
+        _ => format!(
+            "  the number of equivalent combinations is not known: {}\n",
+            optimum.why_no_error.as_deref().unwrap_or_default()
+        ),
     });
     text
 }
@@ -298,7 +301,7 @@ fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> Strin
     let SweepVerification { intention, chosen, verified, unanswered, open, .. } = verification;
     let mut text = format!("\nverified by finite elements: {verified} of {chosen} chosen\n  {intention}\n");
     if !verification.worst.is_empty() {
-        text.push_str("the worst of them within, %\n");
+        text.push_str("greatest difference of all, %\n");
     }
     for worst in &verification.worst {
         let place = record.identity.in_words(worst.index);

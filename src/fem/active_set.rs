@@ -87,7 +87,7 @@ pub enum ActiveSetError {
         least_gap_mm: f64,
     },
     /// Contact does not hold the bodies against a rigid motion.
-    #[error("neither supports nor contact hold the bodies against a rigid motion: a body floats for ever")]
+    #[error("neither supports nor contact hold the bodies against a rigid motion: no equilibrium exists")]
     Floating {
         /// One such motion: the amplitude of each free rigid motion of the problem.
         amplitudes: Vec<f64>,

@@ -40,7 +40,7 @@ pub(super) const HELD: u32 = u32::MAX;
 pub enum FactorError {
     /// A body can move without strain.
     #[error(
-        "the body with node {node} can move freely: {held} held degrees of freedom do not keep it from shifting or turning"
+        "the body with node {node} can move as a rigid body: {held} fixed degrees of freedom do not prevent translation or rotation"
     )]
     Unsupported {
         /// The lowest of the body's nodes.

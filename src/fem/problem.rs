@@ -125,7 +125,7 @@ pub enum Stop {
 /// Counts of the work done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 pub struct Work {
-    /// Active sets tried.
+    /// Active-set iterations.
     pub iterations: usize,
     /// Nodes that entered or left the active set, all iterations together.
     pub active_set_changes: usize,

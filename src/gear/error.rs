@@ -14,7 +14,7 @@ pub enum PairError {
         least_mm: f64,
     },
     /// The teeth jam: together they are thicker than the pitch on the working circles.
-    #[error("the teeth jam: backlash is {backlash_mm:.4} mm at centre distance {centre_distance_mm} mm")]
+    #[error("the teeth interfere: backlash is {backlash_mm:.4} mm at centre distance {centre_distance_mm} mm")]
     NegativeBacklash {
         /// Circumferential, on the working pitch circles.
         backlash_mm: f64,

@@ -1,6 +1,7 @@
 //! Geometry of cylindrical involute gears, after ISO 21771: from the data of a pair to its teeth, their outline, the path
 //! of contact and the flank's field of removed material.
 
+pub(crate) mod backlash;
 pub(crate) mod conjugate;
 pub(crate) mod error;
 pub(crate) mod flank;
@@ -19,6 +20,7 @@ pub(crate) mod shaft;
 pub(crate) mod slices;
 pub(crate) mod spec;
 pub(crate) mod tip_touch;
+pub(crate) mod tolerance;
 pub(crate) mod tooth;
 
 pub(crate) use error::PairError;

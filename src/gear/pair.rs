@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 
 use super::{
-    Gear, PairError, PerGear, involute::inverse_inv, path_of_contact::PathOfContact,
+    Gear, PairError, PerGear, backlash::Backlash, path_of_contact::PathOfContact,
     removed_material::tip_rounding_length_mm, spec::PairSpec, tooth::Tooth,
 };
 
@@ -129,12 +129,8 @@ impl GearPair {
         let backlash_mm = pitch_mm - on_pitch_circle(Gear::Pinion) - on_pitch_circle(Gear::Wheel);
         if backlash_mm < -BACKLASH_ROUNDING_MODULES * self.spec.normal_module_mm {
             let centre_distance_mm = self.spec.centre_distance_mm;
-            // Both teeth fill the pitch where z1 ψ1 + z2 ψ2 − (z1 + z2) inv α_w = π, ψ taken at the base circles.
-            let teeth = self.teeth.as_ref().map(|tooth| f64::from(tooth.teeth));
-            let filled = PerGear::from_fn(|g| teeth[g] * self.teeth[g].base_half_angle_rad).sum() - PI;
-            let tight_angle = inverse_inv(filled / teeth.sum());
-            let base_radii = self.path.involute.map(|flank| flank.base_radius_mm).sum();
-            let least_mm = base_radii / tight_angle.cos();
+            let tight = self.spec.centre_distance_with_mm(Backlash::Normal(0.0));
+            let least_mm = tight.unwrap_or(centre_distance_mm);
             return Err(PairError::NegativeBacklash { backlash_mm, centre_distance_mm, least_mm });
         }
         Ok(backlash_mm.max(0.0))

@@ -31,13 +31,25 @@ use super::{
 
 /// The modifications of a gear's flank as removed material at its points, slice after slice, mm.
 pub(crate) fn modifications_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid, slices: &Slices) -> Vec<f64> {
-    let (own, tooth) = (pair.spec.gears[gear].modification, &pair.teeth[gear]);
-    let of_axes_mm = if gear == Gear::Pinion { pair.slope_of_axes_mm() } else { 0.0 };
-    let modification = &Modification { helix_slope_mm: own.helix_slope_mm + of_axes_mm, ..own };
+    let (modification, tooth) = (&with_axes(pair, gear), &pair.teeth[gear]);
     let start = pair.active_start_rho_mm(gear);
     let profile: Vec<f64> = grid.coordinate_mm.iter().map(|&rho| removed_mm(modification, tooth, start, rho)).collect();
     let over_width = slices.width_mm.iter().map(|&z| lead_removed_mm(modification, pair.spec.face_width_mm, z));
     over_width.flat_map(|lead| profile.iter().map(move |removed| removed + lead)).collect()
+}
+
+/// The modification of a gear's flank, with what axes that are not parallel make of it.
+fn with_axes(pair: &GearPair, gear: Gear) -> Modification {
+    let own = pair.spec.gears[gear].modification;
+    let of_axes_mm = if gear == Gear::Pinion { pair.slope_of_axes_mm() } else { 0.0 };
+    Modification { helix_slope_mm: own.helix_slope_mm + of_axes_mm, ..own }
+}
+
+/// What all modifications of a gear's flank but the rounding of its tip edge remove at radius of curvature `rho_mm` and `width_mm`.
+pub(crate) fn without_rounding_mm(pair: &GearPair, gear: Gear, width_mm: f64, rho_mm: f64) -> f64 {
+    let modification = Modification { tip_rounding_mm: 0.0, ..with_axes(pair, gear) };
+    removed_mm(&modification, &pair.teeth[gear], pair.active_start_rho_mm(gear), rho_mm)
+        + lead_removed_mm(&modification, pair.spec.face_width_mm, width_mm)
 }
 
 /// Material removed at `width_mm` of a face of width `face_width_mm` by what varies over it alone.

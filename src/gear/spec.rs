@@ -2,7 +2,10 @@
 //!
 //! Profile shifts and rack factors are coefficients of the *normal* module (ISO 21771).
 
+use std::f64::consts::FRAC_PI_2;
+
 use super::{
+    involute::inv,
     modification::Modification,
     per_gear::{Gear, PerGear},
     shaft::Shaft,
@@ -110,6 +113,21 @@ impl PairSpec {
     /// Radius of the reference circle, r = m_t z / 2.
     pub fn reference_radius_mm(&self, gear: Gear) -> f64 {
         0.5 * self.transverse_module_mm() * f64::from(self.gears[gear].teeth)
+    }
+
+    /// x_E m_n: the profile shift that generates the tooth of `gear`, its thickness allowance included, mm.
+    pub(crate) fn generating_shift_mm(&self, gear: Gear) -> f64 {
+        let own = &self.gears[gear];
+        own.profile_shift * self.normal_module_mm
+            + own.tooth_thickness_allowance_mm / (2.0 * self.normal_pressure_angle_rad.tan())
+    }
+
+    /// ψ_b: half the angle of the tooth of `gear` at its base circle, ψ_b = (π/2 + 2 x_E tan α_n)/z + inv α_t.
+    pub(crate) fn base_half_angle_rad(&self, gear: Gear) -> f64 {
+        let (m_n, alpha_n) = (self.normal_module_mm, self.normal_pressure_angle_rad);
+        let shift_mm = self.generating_shift_mm(gear);
+        (FRAC_PI_2 + 2.0 * shift_mm / m_n * alpha_n.tan()) / f64::from(self.gears[gear].teeth)
+            + inv(self.transverse_pressure_angle_rad())
     }
 
     /// Radius of the root circle that the rack cuts, r_f = r + x_E m_n − h_fP* m_n with the generating profile shift x_E.

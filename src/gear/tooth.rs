@@ -55,7 +55,6 @@ impl Tooth {
     pub fn new(spec: &PairSpec, gear: Gear, tip_radius_mm: f64) -> Result<Self, PairError> {
         let own = &spec.gears[gear];
         let (m_n, alpha_n) = (spec.normal_module_mm, spec.normal_pressure_angle_rad);
-        let teeth = f64::from(own.teeth);
         let alpha_t = spec.transverse_pressure_angle_rad();
         let reference_radius_mm = spec.reference_radius_mm(gear);
         let involute = Involute { base_radius_mm: reference_radius_mm * alpha_t.cos() };
@@ -71,10 +70,10 @@ impl Tooth {
         if rack.fillet_radius_factor > greatest {
             return Err(PairError::RackTipPointed { greatest });
         }
-        let generating_shift_mm = own.profile_shift * m_n + own.tooth_thickness_allowance_mm / (2.0 * alpha_n.tan());
+        let generating_shift_mm = spec.generating_shift_mm(gear);
         let trochoid = RootTrochoid::new(&rack, reference_radius_mm, generating_shift_mm);
         let root_radius_mm = trochoid.root_radius_mm();
-        let base_half_angle_rad = (FRAC_PI_2 + 2.0 * generating_shift_mm / m_n * alpha_n.tan()) / teeth + inv(alpha_t);
+        let base_half_angle_rad = spec.base_half_angle_rad(gear);
 
         let tooth = Self {
             teeth: own.teeth,

@@ -84,7 +84,7 @@ pub(crate) struct SectorSettings<'a> {
 pub(crate) struct FlankResolution<'a> {
     /// Half-width of contact by the flank's radius of curvature, mm.
     pub half_width_mm: &'a dyn Fn(f64) -> f64,
-    /// Elements in a half-width.
+    /// Elements per half-width.
     pub elements_per_half_width: f64,
     /// Length of flank by which the resolved part begins below the start of active profile, mm.
     pub margin_mm: f64,

@@ -9,6 +9,7 @@ mod error_estimates;
 pub(crate) mod fem_problem;
 pub(crate) mod fem_scene;
 pub(crate) mod guarded;
+mod left_out_contact;
 pub(crate) mod pair_mesh;
 mod phases;
 mod recording;
@@ -70,7 +71,7 @@ pub enum RunError {
     #[error(transparent)]
     FiniteElements(#[from] ModelError),
     /// The teeth cannot be condensed in space.
-    #[error("the teeth in space, which couple the slices: {0}")]
+    #[error("the three-dimensional teeth, which couple the slices: {0}")]
     TeethInSpace(#[from] PairInSpaceError),
     /// The tooth stiffness of finite elements cannot be computed.
     #[error(transparent)]

@@ -2,7 +2,8 @@
 
 use super::temperature::{self, ObservedHeat};
 use super::{
-    Model, RunError, UM_PER_MM, drawing, error_estimates, phases, slices, stability::Judged, verification::Verified,
+    Model, RunError, UM_PER_MM, drawing, error_estimates, left_out_contact, phases, slices, stability::Judged,
+    verification::Verified,
 };
 use crate::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
 use crate::mesh_cycle::CycleObservation;
@@ -68,6 +69,7 @@ pub(super) fn summary(
     warnings.extend(temperature::warnings(&law));
     warnings.extend(judged.warnings);
     warnings.extend(sharp_edge_warning(pair, outcome));
+    warnings.extend(left_out_contact::warning(model, outcome));
     warnings.extend(deep_wear_warning(pair, outcome));
     let wear_balance = WearBalance { new: imbalance(outcome, &outcome.new), worn: imbalance(outcome, &outcome.worn) };
     warnings.extend(imbalance_warning(&wear_balance));

@@ -66,7 +66,7 @@ pub(super) fn judge(model: &Model<'_>, observer: &dyn Observer) -> Judged {
             let where_severe = if severe.is_some() { " where wear is severe" } else { "" };
             let warning = format!(
                 "numerics.step: with {step:.4} revolutions a step the wear{of_phase} may oscillate{where_severe}; the longest \
-                 safe step is {safe:.4} revolutions, and step = \"adaptive\" is safe by itself"
+                 stable step is {safe:.4} revolutions, and step = \"adaptive\" keeps to it by itself"
             );
             observer.warning(&warning);
             judged.warnings.push(warning);

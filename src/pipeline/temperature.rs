@@ -102,7 +102,7 @@ pub(super) fn warnings(law: &WearLawSummary) -> Vec<String> {
     let mut warnings = Vec::new();
     if !law.typical_constants.is_empty() {
         warnings.push(format!(
-            "[wear.{}] {}: typical value{}, an order of magnitude that belongs to no lubricant or steel in particular",
+            "[wear.{}] {}: typical value{}, an order of magnitude, not measured for a particular lubricant or steel",
             law.law,
             law.typical_constants.join(", "),
             if law.typical_constants.len() > 1 { "s" } else { "" },

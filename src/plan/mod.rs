@@ -155,7 +155,8 @@ fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
         StageKind::ContactTemperature => contact_temperature(scene),
         StageKind::Simulation => Ok(simulation(scene)),
         StageKind::ErrorEstimates if scene.numerics.error_estimate => {
-            Ok("numerics.error_estimate: coarser companion runs; at most half of the run's work".to_owned())
+            Ok("numerics.error_estimate: Richardson extrapolation from coarser runs; at most half of the run's work"
+                .to_owned())
         }
         StageKind::ErrorEstimates => Err("numerics.error_estimate is false".to_owned()),
         StageKind::Verification => verification(scene),
@@ -165,7 +166,7 @@ fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
 
 fn calibration(scene: &Scene) -> Result<String, String> {
     match (&scene.calibration_file, scene.contact.surface, scene.stiffness) {
-        (_, SurfaceKind::Fem, _) => Err("the surface fem is the finite-element model itself".to_owned()),
+        (_, SurfaceKind::Fem, _) => Err("contact.surface = \"fem\" is the finite-element model itself".to_owned()),
         (Some(file), ..) => Err(format!("{file} is given")),
         (None, _, StiffnessSettings::Fem) => {
             Ok("the tooth stiffness of finite elements, as no calibration is given".to_owned())
@@ -185,15 +186,15 @@ fn verification(scene: &Scene) -> Result<String, String> {
         return verification_in_space(scene, slices);
     }
     Ok(match scene.contact.surface {
-        SurfaceKind::Fem => "numerics.verify: the same life on another mesh of finite elements".to_owned(),
-        _ => "numerics.verify: the same life on finite elements, which gives error.total".to_owned(),
+        SurfaceKind::Fem => "numerics.verify: the same wear simulation on another finite-element mesh".to_owned(),
+        _ => "numerics.verify: the same wear simulation with finite elements, which gives error.total".to_owned(),
     })
 }
 
 /// The same where sections differ over the face width.
 fn verification_in_space(scene: &Scene, slices: SliceSettings) -> Result<String, String> {
     if scene.fem.body != Body::Ring {
-        return Err("fem.body is \"sector\": teeth in space are those of whole rings".to_owned());
+        return Err("fem.body is \"sector\": three-dimensional teeth need whole rings".to_owned());
     }
     if slices.count > MOST_SLICES_IN_SPACE {
         return Err(format!(
@@ -203,7 +204,7 @@ fn verification_in_space(scene: &Scene, slices: SliceSettings) -> Result<String,
     }
     let other = if is_finest_in_space(scene) { ", on other slices" } else { "" };
     Ok(format!(
-        "numerics.verify: the same life on elastic half-planes coupled by three-dimensional finite elements{other}, which gives error.total"
+        "numerics.verify: the same wear simulation with elastic half-planes coupled by three-dimensional finite elements{other}, which gives error.total"
     ))
 }
 
@@ -243,7 +244,7 @@ fn contact_temperature(scene: &Scene) -> Result<String, String> {
 /// Stiffness of the teeth as springs.
 fn tooth_stiffness(scene: &Scene) -> Result<String, String> {
     if scene.contact.surface == SurfaceKind::Fem {
-        return Err("the finite-element model bends its own teeth".to_owned());
+        return Err("the finite-element model has the compliance of the teeth itself".to_owned());
     }
     match scene.stiffness {
         StiffnessSettings::Constant { pair_n_per_mm2 } => {
@@ -278,8 +279,8 @@ fn helical_slices(scene: &Scene) -> Result<String, String> {
         return Err("no helix angle and no modification over the face width: all sections are alike".to_owned());
     };
     let coupling = match slices.coupling {
-        Coupling::None => "thin independent teeth on one hub",
-        Coupling::Slicing => "coupled through the bending of the tooth",
+        Coupling::None => "independent thin slices on a common hub",
+        Coupling::Slicing => "coupled by plate theory through the bending of the tooth",
         Coupling::Fem => "coupled by three-dimensional finite elements of both gears",
     };
     Ok(format!("{} slices over the face width, {coupling}", slices.count))
@@ -288,7 +289,7 @@ fn helical_slices(scene: &Scene) -> Result<String, String> {
 /// On Hertz's ellipse the pressure does not answer to short waves of wear, so that no step makes them grow.
 fn step_bound(scene: &Scene) -> Result<String, String> {
     match (scene.numerics.stepping, scene.contact.surface) {
-        (Stepping::Adaptive { .. }, _) => Err("adaptive steps are stable by themselves".to_owned()),
+        (Stepping::Adaptive { .. }, _) => Err("adaptive steps keep to the stability limit by themselves".to_owned()),
         (_, SurfaceKind::Hertz | SurfaceKind::HertzMean) => {
             Err(format!("the surface {} sets no limit on the step", scene.contact.surface.name()))
         }

@@ -9,6 +9,7 @@
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
+use super::control::Control;
 use super::html::number::plotted;
 use crate::gear::Gear;
 use crate::results::run::PathPoints;
@@ -216,6 +217,8 @@ pub(crate) struct Chart {
     pub reading: String,
     /// Over the whole width of the page, or beside the next one where there is room.
     pub is_wide: bool,
+    /// What the reader may move.
+    pub control: Option<Control>,
     traces: Vec<Trace>,
     layout: Value,
 }
@@ -238,7 +241,7 @@ impl Chart {
             },
         });
         let (id, title) = (id.into(), title.into());
-        Self { id, title, reading: String::new(), is_wide: false, traces: Vec::new(), layout }
+        Self { id, title, reading: String::new(), is_wide: false, control: None, traces: Vec::new(), layout }
     }
 
     pub(crate) fn reading(mut self, text: impl Into<String>) -> Self {
@@ -253,6 +256,13 @@ impl Chart {
 
     pub(crate) fn wide_if(mut self, is_wide: bool) -> Self {
         self.is_wide = is_wide;
+        self
+    }
+
+    /// With a slider below it; states of which there is only one need none.
+    pub(crate) fn movable(mut self, control: Control) -> Self {
+        let moves = !matches!(&control, Control::Steps { steps, .. } if steps.len() < 2);
+        self.control = moves.then_some(control);
         self
     }
 
@@ -416,6 +426,8 @@ impl Chart {
             data: Vec<&'a Map<String, Value>>,
             layout: &'a Value,
             config: Value,
+            #[serde(skip_serializing_if = "Option::is_none")]
+            control: Option<&'a Control>,
         }
         let config = json!({
             "typesetMath": false,
@@ -424,8 +436,8 @@ impl Chart {
             "doubleClick": "reset+autosize",
             "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d", "toggleSpikelines"],
         });
-        let whole =
-            Whole { data: self.traces.iter().map(|trace| &trace.attributes).collect(), layout: &self.layout, config };
+        let data = self.traces.iter().map(|trace| &trace.attributes).collect();
+        let whole = Whole { data, layout: &self.layout, config, control: self.control.as_ref() };
         serde_json::to_string(&whole).expect("numbers and texts are JSON")
     }
 }

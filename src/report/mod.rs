@@ -17,6 +17,7 @@
 
 pub(crate) mod calibration;
 pub(crate) mod chart;
+pub(crate) mod control;
 pub(crate) mod csv_table;
 pub(crate) mod fem;
 pub(crate) mod fem_pair;

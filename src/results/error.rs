@@ -1,8 +1,8 @@
-//! What a run says of its own error: how far it is from the same life on finite elements, and the estimates of its companions.
+//! What a run says of its own error: how far it is from the same wear simulation with finite elements, and the estimates of its companions.
 
 use serde::{Deserialize, Serialize};
 
-/// How far the run is from the same life on finite elements, whose own uncertainty is added; relative. `None`: not known, and `how` says
+/// How far the run is from the same wear simulation with finite elements, whose own uncertainty is added; relative. `None`: not known, and `how` says
 /// why.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct TotalError {
@@ -39,15 +39,15 @@ impl TotalError {
 /// Relative error estimates of the peak wear; `None`: not estimated.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct ErrorSummary {
-    /// Against the same life on finite elements.
+    /// Against the same wear simulation with finite elements.
     pub total: TotalError,
     /// From the spacing of flank points and positions.
     pub discretisation: Option<f64>,
     /// From the length of the wear step.
     pub wear_step: Option<f64>,
-    /// From the contact surface and the stiffness of the teeth: difference to the same life on finite elements; of both gears the larger.
+    /// From the contact surface and the stiffness of the teeth: difference from the same wear simulation with finite elements; of both gears the larger.
     pub surface_model: Option<f64>,
-    /// Between a hard switch to severe wear and one over a band; `None` where no wear is severe. Not an error but a choice of the scene.
+    /// Between an abrupt transition to severe wear and one over a band; `None` where no wear is severe. Not an error but a choice of the scene.
     pub severe_switch: Option<f64>,
     /// What the estimates cost over what the run itself did, counted in equilibria weighted by their time.
     pub companions_cost: Option<f64>,

@@ -201,7 +201,7 @@ pub struct FullModelSummary {
     pub peak_pressure_difference: f64,
     /// Largest unbalanced nodal force over the largest nodal force.
     pub residual: f64,
-    /// Active sets tried.
+    /// Active-set iterations.
     pub iterations: usize,
     /// Wall time, s.
     pub wall_s: f64,
@@ -242,7 +242,7 @@ pub struct FemCycleRow {
     pub wheel_root_compression_MPa: f64,
     /// |T2/T1| at this position
     pub torque_ratio: f64,
-    /// active sets tried at this position
+    /// active-set iterations at this position
     pub iterations: usize,
     /// radius of curvature of the pinion's flank at the theoretical contact point of this pair: before A or after E where a tip edge touches
     pub pair_position_mm: f64,

@@ -106,7 +106,7 @@ pub struct FemSummary {
     pub dofs: usize,
     /// Elements.
     pub elements: usize,
-    /// Active sets tried; in space 1.
+    /// Active-set iterations; in space 1.
     pub iterations: usize,
     /// Largest unbalanced nodal force over the largest force that acts.
     pub residual: f64,

@@ -77,7 +77,7 @@ pub(crate) enum CheckpointError {
         found: String,
     },
     /// Not as long as it says.
-    #[error("it is torn: {found} bytes where its first line says {said}")]
+    #[error("it is incomplete: {found} bytes where its first line says {said}")]
     Torn {
         /// Bytes there are.
         found: usize,

@@ -6,26 +6,63 @@
 use toml::{Table, Value};
 
 use super::findings::Findings;
-use super::locate::Locator;
+use super::locate::{Locator, join};
 use super::problem::Problem;
 use super::{Resolved, resolve, short_hash, text};
 
-/// Keys that say the same thing in two ways: giving one takes the other away.
-const SAME_THING: [[&str; 2]; 5] = [
-    ["pair.normal_module_mm", "pair.transverse_module_mm"],
-    ["pair.pressure_angle_deg", "pair.transverse_pressure_angle_deg"],
-    ["operation.hours", "operation.pinion_revolutions"],
-    ["wear.coefficient_m2_per_N", "wear.coefficient_mm3_per_Nm"],
-    ["contact.foundation_MPa_per_mm", "contact.match"],
+/// Keys that say the same thing in different ways: giving one takes the others away.
+const SAME_THING: [&[&str]; 6] = [
+    &["pair.normal_module_mm", "pair.transverse_module_mm"],
+    &["pair.pressure_angle_deg", "pair.transverse_pressure_angle_deg"],
+    &["pair.centre_distance_mm", "pair.backlash_um", "pair.normal_backlash_um"],
+    &["operation.hours", "operation.pinion_revolutions"],
+    &["wear.coefficient_m2_per_N", "wear.coefficient_mm3_per_Nm"],
+    &["contact.foundation_MPa_per_mm", "contact.match"],
 ];
 
-/// The other key that says what `key` says, if there is one.
-pub(crate) fn other_way_to_say(key: &str) -> Option<&'static str> {
-    SAME_THING.iter().find_map(|&[one, other]| match key {
-        _ if key == one => Some(other),
-        _ if key == other => Some(one),
-        _ => None,
-    })
+/// The same of `pair.pinion` and `pair.wheel`.
+const SAME_THING_OF_GEAR: [&[&str]; 3] = [
+    &["tip_relief.length_mm", "tip_relief.begins_at_diameter_mm", "tip_relief.begins_at_roll_angle_deg"],
+    &["root_relief.length_mm", "root_relief.begins_at_diameter_mm", "root_relief.begins_at_roll_angle_deg"],
+    &["helix_slope_deviation_um", "helix_slope_class"],
+];
+
+/// The other keys that say what `key` says.
+pub(crate) fn other_ways_to_say(key: &str) -> Vec<String> {
+    let of_gear =
+        ["pair.pinion.", "pair.wheel."].iter().find_map(|gear| key.strip_prefix(gear).map(|name| (*gear, name)));
+    let (table, name, groups): (_, _, &[&[&str]]) = match of_gear {
+        Some((gear, name)) => (gear, name, &SAME_THING_OF_GEAR),
+        None => ("", key, &SAME_THING),
+    };
+    let group = groups.iter().find(|group| group.contains(&name)).copied().unwrap_or_default();
+    group.iter().filter(|other| **other != name).map(|other| format!("{table}{other}")).collect()
+}
+
+/// The paths of all values of `table`, which stands at `path`, that are no tables.
+pub(crate) fn keys_of(table: &Table, path: &str) -> Vec<String> {
+    let below = |(name, value): (&String, &Value)| match value {
+        Value::Table(table) => keys_of(table, &join(path, name)),
+        _ => vec![join(path, name)],
+    };
+    table.iter().flat_map(below).collect()
+}
+
+/// Takes the key at the path `key` of `table` away, if it is there. Items of lists are numbered from 1.
+pub(crate) fn remove(mut table: &mut Table, key: &str) {
+    let mut parts = key.split('.').rev();
+    let Some(name) = parts.next() else { return };
+    let mut path = parts.rev().peekable();
+    while let Some(part) = path.next() {
+        let Some(mut below) = table.get_mut(part) else { return };
+        if let Some(number) = path.next_if(|next| below.is_array() && next.parse::<usize>().is_ok()) {
+            let Some(item) = item_mut(below, number) else { return };
+            below = item;
+        }
+        let Some(next) = below.as_table_mut() else { return };
+        table = next;
+    }
+    table.remove(name);
 }
 
 /// Gives the key at the path `key` of `table` this value. Items of lists are numbered from 1; where the list has no such item, nothing
@@ -69,10 +106,10 @@ impl Draft {
         Ok(Self { table, locator: findings.into_locator() })
     }
 
-    /// Gives the key at the path `key` this value, and takes away the key that says the same in another way.
+    /// Gives the key at the path `key` this value, and takes away the keys that say the same in another way.
     pub(crate) fn set(&mut self, key: &str, value: impl Into<Value>) {
-        if let Some(other) = other_way_to_say(key) {
-            self.remove(other);
+        for other in other_ways_to_say(key) {
+            self.remove(&other);
         }
         set(&mut self.table, key, value);
     }
@@ -90,20 +127,7 @@ impl Draft {
 
     /// Takes the key at the path `key` away, if it is there.
     pub(crate) fn remove(&mut self, key: &str) {
-        let mut parts = key.split('.').rev();
-        let Some(name) = parts.next() else { return };
-        let mut table = &mut self.table;
-        let mut path = parts.rev().peekable();
-        while let Some(part) = path.next() {
-            let Some(mut below) = table.get_mut(part) else { return };
-            if let Some(number) = path.next_if(|next| below.is_array() && next.parse::<usize>().is_ok()) {
-                let Some(item) = item_mut(below, number) else { return };
-                below = item;
-            }
-            let Some(next) = below.as_table_mut() else { return };
-            table = next;
-        }
-        table.remove(name);
+        remove(&mut self.table, key);
     }
 
     /// Resolves what it says now.

@@ -93,9 +93,18 @@ pub struct PairFile {
     /// Default 0.
     #[schemars(range(min = -45, max = 45))]
     pub helix_angle_deg: Option<f64>,
-    /// Working centre distance a in mm, > 0; sets working pressure angle and backlash. Required without a preset.
+    /// Working centre distance a in mm, > 0; sets working pressure angle and backlash. Required without a preset, or backlash_um or
+    /// normal_backlash_um.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub centre_distance_mm: Option<f64>,
+    /// Circumferential backlash j_wt on the working circles in the transverse section in µm, 0 or more, instead of the centre distance, which
+    /// follows from it with the tooth thickness allowances as they are; 0: no backlash.
+    #[schemars(range(min = 0))]
+    pub backlash_um: Option<f64>,
+    /// Normal backlash j_bn in µm, 0 or more, the shortest distance between the rear flanks, j_wt cos α_wt cos β_b; instead of the centre
+    /// distance.
+    #[schemars(range(min = 0))]
+    pub normal_backlash_um: Option<f64>,
     /// Common face width b in mm, > 0. Required without a preset.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub face_width_mm: Option<f64>,
@@ -183,6 +192,10 @@ pub struct GearFile {
     /// Helix-slope deviation over the face width in µm, misalignment included: positive, material is missing at the full
     /// width; negative, at width 0. Default 0.
     pub helix_slope_deviation_um: Option<f64>,
+    /// Flank tolerance class of ISO 1328-1:2013, 1 to 11, instead of the helix-slope deviation, which is then the whole tolerance f_HβT of the
+    /// reference diameter and the face width, positive: material is missing at the full width. Of both gears they add up.
+    #[schemars(range(min = 1, max = 11))]
+    pub helix_slope_class: Option<u32>,
     /// Radius of the rounding of the tip edge in mm, 0 or more. Default 0.
     #[schemars(range(min = 0))]
     pub tip_rounding_mm: Option<f64>,
@@ -196,21 +209,21 @@ pub struct GearFile {
     pub shaft: Option<ShaftFile>,
 }
 
-/// Tip or root relief.
+/// Tip or root relief; where it begins is said in one of three ways.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReliefFile {
     /// Material removed at the end of the flank along its normal in µm, 0 or more.
     #[schemars(range(min = 0))]
     pub amount_um: f64,
-    /// Roll length, along the path of contact, over which it runs out in mm, > 0. Required, or begins_at_diameter_mm, or
+    /// Roll length, along the path of contact, over which it runs out in mm, > 0. Required, or begins_at_diameter_mm or
     /// begins_at_roll_angle_deg.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub length_mm: Option<f64>,
-    /// Diameter at which it begins in mm, between start of active profile and tip circle, instead of its length.
+    /// Diameter at which it begins in mm, > 0, instead of its length: between the start of active profile (SAP) and the tip circle.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub begins_at_diameter_mm: Option<f64>,
-    /// Roll angle in the transverse section at which it begins in degrees, instead of its length.
+    /// Roll angle from the base circle at which it begins in degrees, > 0, instead of its length.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub begins_at_roll_angle_deg: Option<f64>,
     /// How it grows from its start. Default: linear.
@@ -224,7 +237,7 @@ pub struct EndReliefFile {
     /// Material removed at the end faces along the normal of the flank in µm, 0 or more.
     #[schemars(range(min = 0))]
     pub amount_um: f64,
-    /// Part of the face width over which it runs out at either end in mm, > 0.
+    /// Length along the face width over which it runs out at either end in mm, > 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub length_mm: f64,
     /// How it grows from its start. Default: linear.

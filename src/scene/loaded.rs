@@ -452,7 +452,7 @@ fn warnings(name: &str, calibration: &Calibration, scene: &Scene) -> Vec<String>
     let plates = scene.slices.is_some_and(|slices| slices.coupling != Coupling::Fem);
     if plates && scene.stiffness == StiffnessSettings::Fem && calibration.slices.is_none_or(|fit| !fit.is_of(&pair)) {
         warnings.push(format!(
-            "{CALIBRATION}: {name} has no slices of this helix angle and face width: they yield as plates in closed form"
+            "{CALIBRATION}: {name} has no slices of this helix angle and face width: their compliance is that of plate theory, in closed form"
         ));
     }
     let loads = scene.operation.phases.iter().map(|phase| pair.line_load_n_per_mm(phase.pinion_torque_n_mm));

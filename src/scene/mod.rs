@@ -1,5 +1,6 @@
 //! The user's scene: the file with its checks and presets, resolved into the settings of each layer.
 
+pub(crate) mod decimal_comma;
 pub(crate) mod draft;
 pub(crate) mod fem_problem;
 pub(crate) mod file;

@@ -141,7 +141,7 @@ impl Problem {
             key,
             found: format!("a pair whose teeth cannot be had in space ({error})"),
             allowed: allowed.to_owned(),
-            help: Some("helical.coupling = \"slicing\" takes the teeth for plates".to_owned()),
+            help: Some("helical.coupling = \"slicing\" couples them by plate theory".to_owned()),
         }
     }
 

@@ -5,6 +5,7 @@
 
 use toml::{Table, Value};
 
+use super::decimal_comma;
 use super::findings::Findings;
 use super::locate::join;
 use super::nearest::nearest;
@@ -78,6 +79,10 @@ fn check_value(format: Format, node: Node<'_>, value: &Value, key: &str, finding
             findings.problem(ProblemKind::WrongType, key, words(value), node.allowed());
             if value.is_table() && node.items().is_some_and(|item| item.type_name() == "object") {
                 findings.help(format!("there may be several: write [[{key}]] for each"));
+            }
+            let number = value.as_str().filter(|_| matches!(node.type_name(), "number" | "integer"));
+            if let Some(help) = number.and_then(decimal_comma::help) {
+                findings.help(format!("{help}, without quotes"));
             }
             None
         }

@@ -3,6 +3,7 @@
 use serde::de::DeserializeOwned;
 use toml::{Table, Value};
 
+use super::decimal_comma;
 use super::findings::Findings;
 use super::locate::Locator;
 use super::problem::{Problem, ProblemKind};
@@ -10,31 +11,25 @@ use super::problem::{Problem, ProblemKind};
 /// The file as a table, and findings that know where each key stands.
 pub(super) fn parse(text: &str) -> Result<(Table, Findings), Vec<Problem>> {
     let read = || -> Result<(Table, Locator), toml::de::Error> { Ok((text.parse()?, Locator::new(text)?)) };
-    let (table, locator) = read().map_err(|error| vec![syntax(&error, text)])?;
+    let (table, locator) = read().map_err(|error| syntax(&error, text))?;
     Ok((table, Findings::new(locator)))
 }
 
-fn syntax(error: &toml::de::Error, text: &str) -> Problem {
+fn syntax(error: &toml::de::Error, text: &str) -> Vec<Problem> {
     let span = error.span().unwrap_or(text.len()..text.len());
-    let help = match has_decimal_comma(text, span.start) {
-        true => "decimals stand after a point: 30.5, not 30,5",
-        false => "is the file complete? texts need quotes, lists need both brackets, a key stands once",
-    };
-    Problem {
+    let commas = decimal_comma::problems(text, span.start);
+    if !commas.is_empty() {
+        return commas;
+    }
+    let help = "is the file complete? texts need quotes, lists need both brackets, a key stands once";
+    vec![Problem {
         kind: ProblemKind::Syntax,
         key: String::new(),
         found: error.message().replace('\n', ", "),
         allowed: "TOML: [table] headers and lines of key = value".to_owned(),
         help: Some(help.to_owned()),
         span: Some(span),
-    }
-}
-
-/// Whether a comma between digits stands at `at`.
-fn has_decimal_comma(text: &str, at: usize) -> bool {
-    let bytes = text.as_bytes();
-    let is_digit = |at: Option<usize>| at.and_then(|at| bytes.get(at)).is_some_and(u8::is_ascii_digit);
-    bytes.get(at) == Some(&b',') && is_digit(at.checked_sub(1)) && is_digit(Some(at + 1))
+    }]
 }
 
 /// A table whose shape was checked, as the structure `F` it was checked for.

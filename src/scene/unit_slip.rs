@@ -74,6 +74,14 @@ fn judge(key: &str, value: f64, credible: [f64; 2], usual: [f64; 2], conversions
     })
 }
 
+fn as_number(value: &Value) -> Option<f64> {
+    match value {
+        Value::Integer(n) => Some(*n as f64),
+        Value::Float(x) => Some(*x),
+        _ => None,
+    }
+}
+
 struct Search<'a> {
     scene: &'a Table,
     slips: Vec<UnitSlip>,
@@ -84,11 +92,7 @@ impl Search<'_> {
     fn get(&self, key: &str) -> Option<f64> {
         let (path, last) = key.rsplit_once('.')?;
         let table = path.split('.').try_fold(self.scene, |table, name| table.get(name)?.as_table())?;
-        match table.get(last)? {
-            Value::Integer(n) => Some(*n as f64),
-            Value::Float(x) => Some(*x),
-            _ => None,
-        }
+        as_number(table.get(last)?)
     }
 
     /// Suspects the value of `key` as [`judge`] does.
@@ -116,12 +120,22 @@ impl Search<'_> {
             let close = [0.6 * reference, 1.7 * reference];
             self.judge("pair.centre_distance_mm", [0.1 * reference, 10.0 * reference], close, &[METRES, MICROMETRES]);
         }
+        for key in ["pair.backlash_um", "pair.normal_backlash_um"] {
+            // Some hundredths of the module are usual.
+            if self.get(key) != Some(0.0) {
+                let conversions = [MILLIMETRES, METRES_FOR_MICROMETRES];
+                self.judge(key, [0.3 * module, 1e3 * module], [2.0 * module, 500.0 * module], &conversions);
+            }
+        }
         let width = [0.05 * module, 1000.0 * module];
         self.judge("pair.face_width_mm", width, [module, 100.0 * module], &[METRES, MICROMETRES]);
         for (gear, teeth) in ["pinion", "wheel"].into_iter().zip(teeth) {
             if let Some(z) = teeth {
                 let (credible, usual) = ([0.05 * z * module, 20.0 * z * module], [0.5 * z * module, 2.0 * z * module]);
-                self.judge(&format!("pair.{gear}.tip_diameter_mm"), credible, usual, &[METRES, MICROMETRES]);
+                for key in ["tip_diameter_mm", "tip_relief.begins_at_diameter_mm", "root_relief.begins_at_diameter_mm"]
+                {
+                    self.judge(&format!("pair.{gear}.{key}"), credible, usual, &[METRES, MICROMETRES]);
+                }
                 for key in ["bore_diameter_mm", "shaft.diameter_mm"] {
                     self.judge(&format!("pair.{gear}.{key}"), [0.02 * module, 20.0 * z * module], usual, &[METRES]);
                 }
@@ -174,7 +188,14 @@ impl Search<'_> {
             let torque_per_mpa = z1 * module * module * width / 2000.0;
             let usual = [1e-3 * torque_per_mpa, GREATEST_TOOTH_LOAD_MPA / 5.0 * torque_per_mpa];
             let credible = [0.0, GREATEST_TOOTH_LOAD_MPA * torque_per_mpa];
-            self.judge("operation.pinion_torque_Nm", credible, usual, &[(1e-3, "N·mm given for N·m")]);
+            let conversions = [(1e-3, "N·mm given for N·m")];
+            self.judge("operation.pinion_torque_Nm", credible, usual, &conversions);
+            let phases = self.scene.get("operation").and_then(|operation| operation.get("phases"));
+            for (index, phase) in phases.and_then(Value::as_array).into_iter().flatten().enumerate() {
+                let key = format!("operation.phases[{index}].pinion_torque_Nm");
+                let torque = phase.get("pinion_torque_Nm").and_then(as_number);
+                self.slips.extend(torque.and_then(|torque| judge(&key, torque, credible, usual, &conversions)));
+            }
         }
         let hours = [0.0, 2e5];
         self.judge(
@@ -248,6 +269,8 @@ mod tests {
             ("pair.face_width_mm", 0.014, 14.0),
             ("pair.pinion.tip_diameter_mm", 0.08246, 82.46),
             ("pair.pinion.tip_relief.amount_um", 0.02, 20.0),
+            ("pair.pinion.tip_relief.begins_at_diameter_mm", 0.0801, 80.1),
+            ("pair.backlash_um", 0.15, 150.0),
             ("pair.pressure_angle_deg", 0.349, 20.0),
             ("operation.pinion_torque_Nm", 302_000.0, 302.0),
             ("operation.hours", 459_900.0, 127.75),

@@ -57,7 +57,7 @@ const SIMPLIFIED: Effort = Effort { of_equilibrium: 0.005, of_clean_start: 5.0 }
 const FINITE_ELEMENTS: Effort = Effort { of_equilibrium: 4.0, of_clean_start: 15.0 };
 
 /// Compliance of the bodies that all pairs in mesh share.
-fn bodies_mm2_per_n(teeth: &TeethSpring<'_>, sliced: Option<&SlicedTeeth>) -> f64 {
+pub(crate) fn bodies_mm2_per_n(teeth: &TeethSpring<'_>, sliced: Option<&SlicedTeeth>) -> f64 {
     let of_section = teeth.shared_mm2_per_n();
     sliced.map_or(of_section, |sliced| sliced.bodies_mm2_per_n(of_section))
 }

@@ -332,6 +332,89 @@ fn output_folder_that_cannot_be_written() {
     assert_eq!(fs::read_to_string(&file).unwrap(), "in the way");
 }
 
+/// Drawings say where a relief begins, how much backlash there is, and which class a helix slope is of: once, and within the gear.
+#[test]
+fn data_of_drawings() {
+    let relief = |lines: &str| {
+        Case::fzg_c().with("pair.pinion", "tip_diameter_mm", &format!("tip_diameter_mm = 82.46\n{lines}"))
+    };
+    for (lines, parts) in [
+        (
+            "tip_relief = { amount_um = 20.0, length_mm = 2.0, begins_at_diameter_mm = 80.1 }",
+            &["tip_relief.length_mm and pair.pinion.tip_relief.begins_at_diameter_mm", "say the same thing"][..],
+        ),
+        (
+            "tip_relief = { amount_um = 20.0 }",
+            &["pair.pinion.tip_relief.length_mm is missing", "begins_at_diameter_mm", "begins_at_roll_angle_deg"],
+        ),
+        (
+            "tip_relief = { amount_um = 20.0, begins_at_diameter_mm = 82.46 }",
+            &[
+                "tip_relief.begins_at_diameter_mm: found 82.46",
+                "at the start of active profile",
+                "82.4600 mm at the tip",
+            ],
+        ),
+        (
+            "root_relief = { amount_um = 20.0, begins_at_diameter_mm = 60.0 }",
+            &["root_relief.begins_at_diameter_mm: found 60", "between 68.2"],
+        ),
+        (
+            "root_relief = { amount_um = 20.0, begins_at_roll_angle_deg = 45.0 }",
+            &["root_relief.begins_at_roll_angle_deg: found 45", "39.9", "° at the tip circle"],
+        ),
+        ("end_relief = { amount_um = 20.0, begins_at_diameter_mm = 80.1 }", &["unknown key", "end_relief.begins_at"]),
+        ("helix_slope_class = 12", &["pair.pinion.helix_slope_class: found 12", "at least 1 and at most 11"]),
+        (
+            "helix_slope_class = 6\nhelix_slope_deviation_um = 8.0",
+            &["helix_slope_deviation_um and pair.pinion.helix_slope_class", "say the same thing"],
+        ),
+    ] {
+        let case = relief(lines);
+        let at = case.line_of(lines.lines().next().unwrap().split(' ').next().unwrap());
+        let refused = case.refused();
+        refused.says(parts);
+        if !lines.contains('\n') {
+            refused.at_line(at);
+        }
+    }
+    let distance = |lines: &str| Case::fzg_c().with("pair", "centre_distance_mm", lines);
+    distance("centre_distance_mm = 91.5\nbacklash_um = 50.0")
+        .refused()
+        .says(&["pair.centre_distance_mm and pair.backlash_um", "say the same thing"]);
+    distance("backlash_um = 50.0\nnormal_backlash_um = 50.0").refused().says(&["say the same thing"]);
+    distance("backlash_um = -1.0").refused().says(&["pair.backlash_um: found -1", "at least 0"]);
+    distance("").refused().says(&["pair.centre_distance_mm is missing", "pair.backlash_um = 0"]);
+    // So much that a tooth leaves before the next one comes.
+    let case = distance("backlash_um = 4000.0");
+    case.refused().at_line(case.line_of("backlash_um")).says(&["pair.backlash_um", "contact ratio", "centre distance"]);
+    let case =
+        distance("backlash_um = 50.0").with("pair.wheel", "teeth", "teeth = 24\ntooth_thickness_allowance_um = -3000");
+    case.refused()
+        .at_line(case.line_of("backlash_um"))
+        .says(&["pair.backlash_um: found 50; allowed: more than", "thin"]);
+}
+
+/// Every value with a decimal comma, at its line and with its key.
+#[test]
+fn decimal_commas() {
+    let case = Case::fzg_c().with("pair", "face_width_mm", "face_width_mm = 30,5").with(
+        "pair.wheel",
+        "teeth",
+        "teeth = 24\nroot_relief = { amount_um = 7,5, length_mm = 2.0 }",
+    );
+    let refused = case.refused();
+    for (start, key, found, meant) in [
+        ("face_width_mm", "pair.face_width_mm", "30,5", "write 30.5"),
+        ("root_relief", "pair.wheel.root_relief.amount_um", "7,5", "write 7.5"),
+    ] {
+        let said = format!("{key}: found {found}; allowed: a decimal point, not a comma");
+        refused.at_line(case.line_of(start)).says(&[&said, meant]);
+    }
+    let list = Case::fzg_c().with("operation", "snapshots_h", "snapshots_h = [1,5, 2,5]");
+    list.refused().at_line(list.line_of("snapshots_h")).says(&["commas separate times", "after a point"]);
+}
+
 #[test]
 fn truncated_file() {
     let mut case = Case::fzg_c();

@@ -235,7 +235,7 @@ fn a_step_too_long_for_euler_is_warned_of_with_the_longest_safe_one() {
     let text = quick().replace("coefficient_m2_per_N = 1e-17", "coefficient_m2_per_N = 2e-16");
     let summary = run(dir.path(), &text, "out", &[]);
     let warnings = summary["warnings"].to_string();
-    assert!(warnings.contains("longest safe step"), "{warnings}");
+    assert!(warnings.contains("longest stable step"), "{warnings}");
 }
 
 /// A foundation so soft that nothing of the pair's stiffness is left for the teeth is a mistake in the scene.

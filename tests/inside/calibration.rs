@@ -234,7 +234,7 @@ fn ver_the_fit_finds_hertz() {
     assert_close("width", fits[&MatchCriterion::PeakPressure].fitted.mean_half_width, price, 1e-9);
 }
 
-/// What a Winkler bed calibrated on finite elements keeps and what it pays, at positions and loads that the fit has not
+/// What a Winkler foundation calibrated on finite elements keeps and what it pays, at positions and loads that the fit has not
 /// seen: 2 % in what it is matched on, 17.8 % (3π/8 − 1) in the other.
 #[test]
 fn val_calibrated_bed_where_it_was_held_out() {

@@ -139,7 +139,7 @@ fn finite_elements_are_verified_on_a_finer_mesh() {
     assert_eq!(error.surface_model, None, "finite elements are their own reference");
 }
 
-/// A run is held against the same life on finite elements: the thesis's model, which stops at A and E, misses the wear at the tips by
+/// A run is held against the same wear simulation with finite elements: the thesis's model, which stops at A and E, misses the wear at the tips by
 /// far, and half-planes with contact at tip edges do not; without verification nothing is claimed, and that is said.
 #[test]
 fn runs_are_verified_by_finite_elements() {

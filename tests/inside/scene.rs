@@ -1,7 +1,7 @@
 //! Scenes: presets, defaults, overrides, and the resolved scene that says it all.
 
 use gearwear::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
-use gearwear::gear::Gear;
+use gearwear::gear::{Gear, GearPair};
 use gearwear::scene::loaded::{LoadError, LoadedScene, SceneError};
 use gearwear::scene::{Resolved, Scene, presets, schema};
 use gearwear::simulation::settings::Stepping;
@@ -36,9 +36,13 @@ fn val_presets_are_the_fzg_gears() {
 
 #[test]
 fn a_decimal_comma_is_recognised() {
-    let help = |text: &str| Scene::from_toml(text).unwrap_err()[0].help.clone().unwrap();
-    assert!(help(&LEAST.replace("= 302", "= 30,5")).contains("30.5, not 30,5"));
-    assert!(!help(&LEAST.replace("= 302", "= 30,")).contains("point"));
+    let problems = |value: &str| Scene::from_toml(&LEAST.replace("= 302", value)).unwrap_err();
+    let said = &problems("= 30,5")[0];
+    assert_eq!((said.key.as_str(), said.found.as_str()), ("operation.pinion_torque_Nm", "30,5"));
+    assert!(said.allowed.contains("decimal point, not a comma") && said.help.as_ref().unwrap().contains("30.5"));
+    assert!(!problems("= 30,")[0].to_string().contains("point"));
+    let quoted = &problems("= \"30,5\"")[0];
+    assert!(quoted.help.as_ref().unwrap().contains("decimal point, not comma: 30.5, without quotes"), "{quoted}");
 }
 
 /// 302 N·m, 150 rpm, 127.75 h, Winkler matched on half-width from A to E, 20 N/(mm·µm), 1e-17 m²/N, 150 wear steps; whatever the
@@ -178,6 +182,85 @@ fn the_resolved_scene_says_the_same_bit_for_bit() {
         assert!(!resolved.to_toml().contains("preset"));
         assert!(resolved.to_toml().contains("coefficient_m2_per_N = 1e-17\n"));
     }
+}
+
+/// Resolving `more` beside the least scene, and the scene that it writes: the same to the bit.
+fn resolved_twice(more: &str) -> Resolved {
+    let resolved = resolve(&format!("{LEAST}{more}"));
+    let again = resolve(&resolved.to_toml());
+    assert_eq!((&again.scene, again.to_toml()), (&resolved.scene, resolved.to_toml()), "{more}");
+    resolved
+}
+
+/// FZG type C, ISO 21771: inv α_wt = inv 20° + 2 tan 20° · 0.3532/40 = 0.0213323, α_wt = 22.4384°, a = 90 cos 20°/cos α_wt = 91.5003 mm without
+/// backlash. With j_wt or j_bn = j_wt cos α_wt the pair has it, instead of the preset's centre distance.
+#[test]
+fn val_the_centre_distance_follows_from_the_backlash() {
+    for key in ["backlash_um", "normal_backlash_um"] {
+        let spec = resolved_twice(&format!("[pair]\n{key} = 0\n").replace("pair.preset", "")).scene.pair;
+        assert!((spec.centre_distance_mm - 91.5003).abs() < 1e-4, "{key}: {}", spec.centre_distance_mm);
+    }
+    let resolved = resolved_twice("[pair]\nbacklash_um = 150\n");
+    let pair = GearPair::new(&resolved.scene.pair).unwrap();
+    assert!((pair.backlash_mm - 0.15).abs() < 1e-12, "{}", pair.backlash_mm);
+    assert!(resolved.to_toml().contains("centre_distance_mm = 91.6") && !resolved.to_toml().contains("backlash"));
+    let normal_um = 150.0 * pair.working_pressure_angle_rad.cos();
+    let normal = resolved_twice(&format!("[pair]\nnormal_backlash_um = {normal_um:?}\n")).scene.pair;
+    assert!((normal.centre_distance_mm / pair.spec.centre_distance_mm - 1.0).abs() < 1e-14);
+}
+
+/// ρ = √((d/2)² − r_b²) = r_b φ, r_b = 36 cos 20° of the pinion, 54 cos 20° of the wheel.
+#[test]
+fn val_reliefs_begin_at_a_diameter_or_a_roll_angle() {
+    let resolved = resolved_twice(
+        "[pair.pinion]\ntip_relief = { amount_um = 20, begins_at_diameter_mm = 80.1 }\n\
+         root_relief = { amount_um = 10, begins_at_roll_angle_deg = 12 }\n\
+         [pair.wheel]\nroot_relief = { amount_um = 10, begins_at_diameter_mm = 106.0, shape = \"parabolic\" }\n",
+    );
+    let pair = GearPair::new(&resolved.scene.pair).unwrap();
+    let rb = [36.0, 54.0].map(|r| r * 20.0_f64.to_radians().cos());
+    let rho = |diameter: f64, rb: f64| ((0.5 * diameter).powi(2) - rb * rb).sqrt();
+    let of = |gear: Gear| pair.spec.gears[gear].modification;
+    let tip = of(Gear::Pinion).tip_relief.unwrap();
+    assert!((tip.length_mm - (rho(82.46, rb[0]) - rho(80.1, rb[0]))).abs() < 1e-10, "{}", tip.length_mm);
+    // SAP: 2 ρ_Nf from the mate's tip, ρ_1 + ρ_2 = √(a² − (r_b1 + r_b2)²).
+    let tangents = (91.5_f64.powi(2) - (rb[0] + rb[1]).powi(2)).sqrt();
+    let root = of(Gear::Pinion).root_relief.unwrap();
+    let expected = rb[0] * 12.0_f64.to_radians() - (tangents - rho(118.36, rb[1]));
+    assert!((root.length_mm - expected).abs() < 1e-10, "{}", root.length_mm);
+    let of_wheel = of(Gear::Wheel).root_relief.unwrap();
+    let expected = rho(106.0, rb[1]) - (tangents - rho(82.46, rb[0]));
+    assert!((of_wheel.length_mm - expected).abs() < 1e-10, "{}", of_wheel.length_mm);
+    assert!(!resolved.to_toml().contains("begins_at"));
+}
+
+/// ISO 1328-1:2013, formula (10): d = 72 mm, b = 14 mm, class 6: (0.05 √72 + 0.35 √14 + 4) √2 = 8.11, rounded to 8 µm; class 8 of the wheel,
+/// d = 108 mm: 5.829 · 2√2 = 16.49, rounded to 16 µm.
+#[test]
+fn val_a_class_is_the_whole_tolerance_of_the_helix_slope() {
+    let resolved = resolved_twice("[pair.pinion]\nhelix_slope_class = 6\n[pair.wheel]\nhelix_slope_class = 8\n");
+    let slopes = Gear::BOTH.map(|gear| resolved.scene.pair.gears[gear].modification.helix_slope_mm);
+    assert_eq!(slopes, [8.0 * 1e-3, 16.0 * 1e-3]);
+    assert!(resolved.to_toml().contains("helix_slope_deviation_um = 8.0") && !resolved.to_toml().contains("class"));
+    let wide = resolve(&format!("{LEAST}[pair]\nface_width_mm = 3.0\npinion = {{ helix_slope_class = 6 }}\n"));
+    assert!(
+        wide.warnings.iter().any(|warning| warning.contains("face width of 3 mm") && warning.contains("4 to 1200"))
+    );
+}
+
+/// A key changed in one way of saying takes the place of the other, also of a preset's.
+#[test]
+fn a_changed_key_takes_the_place_of_the_other_ways_to_say_it() {
+    let scene =
+        LoadedScene::from_toml(&format!("{LEAST}[pair.pinion]\ntip_relief = {{ amount_um = 20, length_mm = 2 }}\n"))
+            .unwrap();
+    let tip =
+        |scene: &LoadedScene| scene.to_toml().lines().find(|line| line.starts_with("length_mm")).unwrap().to_owned();
+    let begun = scene.with("pair.pinion.tip_relief.begins_at_diameter_mm", 80.1).unwrap();
+    assert!(tip(&scene) == "length_mm = 2.0" && tip(&begun).starts_with("length_mm = 2.1"), "{}", tip(&begun));
+    assert_eq!(tip(&begun.with("pair.pinion.tip_relief.length_mm", 3.0).unwrap()), "length_mm = 3.0");
+    let close = scene.with("pair.backlash_um", 0.0).unwrap();
+    assert!(close.with("pair.centre_distance_mm", 91.6).unwrap().to_toml().contains("centre_distance_mm = 91.6"));
 }
 
 #[test]

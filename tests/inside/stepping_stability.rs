@@ -56,7 +56,7 @@ fn every(step: f64) -> Vec<f64> {
     (1..=STEPS).map(|n| f64::from(n) * step).collect()
 }
 
-/// Two thirds of the bound are stable, half as much again is not: on Winkler beds and on half-planes.
+/// Two thirds of the bound are stable, half as much again is not: on Winkler foundations and on half-planes.
 #[test]
 fn ver_eulers_steps_break_where_the_bound_says() {
     for surface in ["winkler", "half-space"] {
@@ -143,7 +143,7 @@ fn difference_um(one: &Outcome, other: &Outcome) -> (f64, Gear, usize) {
     greatest
 }
 
-/// Runs of 1/100 to 100 times the bound are sound, with few steps. On the Winkler bed, and up to ten times the bound (the 128 h of the
+/// Runs of 1/100 to 100 times the bound are sound, with few steps. On the Winkler foundation, and up to ten times the bound (the 128 h of the
 /// scene) on half-planes, the error stays within the tolerance, against Euler's method with steps of a fiftieth of the bound. Beyond,
 /// points below the wheel's active profile differ by more (docs/stepping.md).
 #[test]

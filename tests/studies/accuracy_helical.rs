@@ -1,4 +1,4 @@
-//! `gearwear accuracy` for a pair whose sections differ over the face width: against slices coupled in space, slices coupled as plates
+//! `gearwear accuracy` for a pair whose sections differ over the face width: against slices coupled in space, slices coupled by plate theory
 //! and uncoupled, the whole flank, and runs to a greater depth.
 
 use std::collections::BTreeSet;
@@ -52,7 +52,7 @@ fn slices_are_compared_coupled_and_uncoupled_over_the_whole_flank() {
     let variants = record["variants"].as_array().unwrap();
     assert!(variants.iter().all(|v| v["failure"].is_null()), "{}", record["variants"]);
 
-    // Every surface but the plane finite elements, coupled as plates and uncoupled, on 2, 4 and 8 slices; coupled in space on the scene's,
+    // Every surface but the plane finite elements, coupled by plate theory and uncoupled, on 2, 4 and 8 slices; coupled in space on the scene's,
     // and the reference on twice as many.
     let combinations: BTreeSet<(&str, &str, u64)> = variants
         .iter()
@@ -103,12 +103,15 @@ fn slices_are_compared_coupled_and_uncoupled_over_the_whole_flank() {
         "Winkler, K/H from Hertz by half-width, tip contact",
         "elastic half-planes, tip contact",
     ] {
-        for how in ["uncoupled", "coupled as plates"] {
+        for how in ["uncoupled", "coupled by plate theory"] {
             assert!(coupling.contains(&&*format!("{surface}, {how}")), "{coupling:?}");
         }
     }
-    let simplified =
-        ["mean pressure, coupled by teeth in space", "mean pressure, coupled as plates", "mean pressure, uncoupled"];
+    let simplified = [
+        "mean pressure, coupled by three-dimensional finite elements",
+        "mean pressure, coupled by plate theory",
+        "mean pressure, uncoupled",
+    ];
     assert_eq!(names("Simplified model"), simplified);
     assert!(names("Tooth stiffness").contains(&"teeth of 20 N/(mm·µm)"));
     for row in table("Coupling of slices")["rows"].as_array().unwrap() {

@@ -484,7 +484,10 @@ fn a_folder_removed_on_the_way_is_an_error_and_its_rows_are_kept() {
     // In one step, as a folder is moved or removed by other programs.
     fs::rename(&out, bench.out("elsewhere")).unwrap();
     let output = child.wait_with_output().unwrap();
-    refused(&output, &["rows.jsonl was removed while the sweep ran", "written there anew", "the same command goes on"]);
+    refused(
+        &output,
+        &["rows.jsonl was removed while the sweep ran", "written there anew", "the same command continues"],
+    );
     let kept = journaled(&out);
     assert!((5..2000).contains(&kept), "{kept}");
 }
@@ -658,7 +661,7 @@ fn rows_that_cannot_be_verified_say_why() {
     let bench = Bench::of(&verified_scene().replace("[fem]\n", "[fem]\nbody = \"sector\"\n"));
     done(&bench.sweep("out", &["pair.pinion.lead_crowning_um=5:10:2"], &["--quiet"]));
     let how = column(&bench.out("out"), "error.total.how");
-    let why = "not verified: fem.body is \"sector\": teeth in space are those of whole rings";
+    let why = "not verified: fem.body is \"sector\": three-dimensional teeth need whole rings";
     assert!(how.iter().all(|how| how == why), "{how:?}");
     let unasked = Bench::new();
     let output = unasked.sweep("out", &[WIDTHS], &[]);

@@ -52,7 +52,7 @@ pub(crate) struct FullContact {
     pub peak_pressure_mpa: Vec<(i32, f64)>,
     /// Largest unbalanced nodal force over the largest nodal force.
     pub residual: f64,
-    /// Active sets tried.
+    /// Active-set iterations.
     pub iterations: usize,
 }
 

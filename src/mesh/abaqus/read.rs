@@ -135,8 +135,10 @@ impl Content {
         self.cells.begin(kind);
         let mut numbers: Vec<u64> = Vec::new();
         let mut nodes: Vec<usize> = Vec::new();
-        let expected =
-            format!("an element's number and its {} nodes, with a comma where a line goes on", kind.node_count());
+        let expected = format!(
+            "an element's number and its {} nodes, with a comma where the line is continued",
+            kind.node_count()
+        );
         for &(line, text) in &keyword.data {
             let wrong = || keyword.fault(line, Problem::unexpected(text, expected.clone()));
             for (place, field) in split(text).into_iter().map(str::trim).filter(|field| !field.is_empty()).enumerate() {

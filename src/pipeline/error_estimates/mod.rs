@@ -6,7 +6,7 @@
 //! | wear step of adaptive runs | none: their own steps estimate it | [`wear_runs`] |
 //! | severe switch: hard or over a band | two short wear runs | [`severe_switch`] |
 //!
-//! What the contact surface and the stiffness of the teeth make is told by the same life on finite elements
+//! What the contact surface and the stiffness of the teeth make is told by the same wear simulation with finite elements
 //! ([`super::verification`]). Cost is counted in equilibria of the run itself.
 
 mod severe_switch;

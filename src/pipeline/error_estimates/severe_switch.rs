@@ -69,7 +69,9 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
         POSITIONS_SPACINGS.map(|spacing| fine.positions / spacing).into_iter().find(|&n| cost(n) <= budget);
     let Some(positions) = affordable else {
         return (
-            Estimate::none("two more runs with steps as short as the switch needs are not cheap beside this one"),
+            Estimate::none(
+                "two more runs with steps as short as the transition needs would cost too much beside this one",
+            ),
             0.0,
         );
     };
@@ -106,12 +108,12 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
             Estimate {
                 relative: Some(of(Gear::Pinion).max(of(Gear::Wheel))),
                 how: format!(
-                    "difference of two short wear runs, with the hard switch and with a band of {band_mpa:.0} MPa: {flank_points} \
+                    "difference of two short wear runs, with the abrupt transition and with a band of {band_mpa:.0} MPa: {flank_points} \
                      flank points, {positions} positions, {steps} wear steps"
                 ),
             }
         }
-        Err(error) => Estimate::none(&format!("a companion run failed: {error}")),
+        Err(error) => Estimate::none(&format!("a coarser run failed: {error}")),
     };
     (estimate, equilibria as f64 / outcome.work.equilibria as f64)
 }

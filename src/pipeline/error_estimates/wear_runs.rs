@@ -137,7 +137,7 @@ impl<'a> Companions<'a> {
         }
         if coarser.step * self.step_over_safe > 1.0 {
             return Err(format!(
-                "a companion run with wear steps {} times as long would be unstable, as they would be longer than the longest stable step",
+                "a second run with wear steps {} times as long would be unstable, as they would be longer than the longest stable step",
                 coarser.step
             ));
         }
@@ -146,7 +146,7 @@ impl<'a> Companions<'a> {
             |phase: &RunPhase<'a>| RunPhase { contact: self.with_spacing(phase.contact, coarser.spacing), ..*phase };
         let phases: Vec<RunPhase<'_>> = self.model.phases.iter().map(of_phase).collect();
         let run = WearRun { phases: &phases, numerics, snapshots_revolutions: &[], ..self.model.wear_run() };
-        let failed = |error: SimulationError| format!("a companion run failed: {error}");
+        let failed = |error: SimulationError| format!("a coarser run failed: {error}");
         let part = PartOf { observer: self.observer, before: begin, share: end - begin, of: 1.0 };
         let outcome = run.run(&part).map_err(failed)?;
         self.cost += outcome.work.equilibria as f64;
@@ -182,7 +182,7 @@ pub(super) fn estimate<'a>(
             let discretisation = few.map(|few| {
                 let (order, divisor) = if first_order { ("first", 3.0) } else { ("second", 15.0) };
                 let how = format!(
-                    "Richardson, {order} order, from a companion run with one in four of the points and positions"
+                    "Richardson, {order} order, from a coarser run with one in four of the points and positions"
                 );
                 (companions.relative(peaks_mm, few) / divisor, how)
             });
@@ -217,7 +217,7 @@ fn from_fixed_steps(companions: &mut Companions<'_>, reference: PerGear<f64>) ->
     let discretisation = stepped.clone().and_then(|stepped| {
         let half = companions.peaks_mm(Coarser { spacing: 2, step }, (0.5, 0.75))?;
         let (order, divisor) = if companions.first_order() { ("first", 1.0) } else { ("second", 3.0) };
-        let how = format!("Richardson, {order} order, from companion runs with {}", companions.spacings());
+        let how = format!("Richardson, {order} order, from coarser runs with {}", companions.spacings());
         Ok((companions.relative(stepped, half) / divisor, how))
     });
     let duration = companions.model.scene.operation.pinion_revolutions;
@@ -226,7 +226,7 @@ fn from_fixed_steps(companions: &mut Companions<'_>, reference: PerGear<f64>) ->
         if ratio < LEAST_STEP_RATIO {
             return Err("the run is hardly longer than one wear step".to_owned());
         }
-        let how = format!("Richardson, first order, from a companion run with wear steps {step} times as long");
+        let how = format!("Richardson, first order, from a second run with wear steps {step} times as long");
         Ok((companions.relative(reference, stepped) / (ratio - 1.0), how))
     });
     [discretisation, wear_step]

@@ -42,7 +42,7 @@ pub(super) fn life(
     let in_space = match means.in_space {
         Some(Ok(teeth)) => teeth,
         Some(Err(error)) => return Err(error.to_string()),
-        None => return Err("there are no teeth in space".to_owned()),
+        None => return Err("there are no three-dimensional teeth".to_owned()),
     };
     let own_curve;
     let curve: &PairCompliance = match (means.curve, means.elements) {

@@ -138,7 +138,7 @@ impl Verified {
         error.total = self.total.clone();
         error.surface_model = self.surface_model;
         error.how.surface_model = match self.surface_model {
-            Some(_) => "difference of the greatest wear to the same life on finite elements, of both gears the larger"
+            Some(_) => "difference of the greatest wear from the same wear simulation with finite elements, of both gears the larger"
                 .to_owned(),
             None => self.total.how.clone(),
         };
@@ -341,7 +341,7 @@ fn compared(
             .map(|off| beyond.transmission_error * off + of_life.transmission_error),
         pressure_between_tips: pressure(model, &run.worn.cycle, &life.worn.cycle).map(|off| off + of_life.pressure),
         how: format!(
-            "the same life on {on} ({} positions in a base pitch, {} wear steps, {} mesh cycles); their own uncertainty is added: \
+            "the same wear simulation with {on} ({} positions in a base pitch, {} wear steps, {} mesh cycles); their own uncertainty is added: \
              {} % of the profile, {} % of the greatest wear and {} % of that of the tip edges",
             life.work.equilibria / life.work.mesh_cycles.max(1),
             life.steps.accepted,

@@ -50,7 +50,7 @@ fn answer(calibration: &Calibration) -> String {
     });
     if let Some(fit) = calibration.foundation_fit.get(&MatchCriterion::HalfWidth) {
         text.push_str(&format!(
-            "A Winkler bed calibrated on the half-width meets that of finite elements within {} at positions and loads that \
+            "A Winkler foundation calibrated on the half-width meets that of finite elements within {} at positions and loads that \
              were held out, and its peak pressure is {} too high.",
             percent(fit.held_out.worst_matched),
             percent(fit.held_out.mean_peak_pressure)

@@ -74,13 +74,13 @@ fn slices(calibration: &Calibration) -> Markup {
         row("Compliance of the teeth over that of the section", "", [significant(of.teeth, 4)]),
         row("Added compliance at the end face z = 0", "%", [fixed(100.0 * of.ends[0], 1)]),
         row("Added compliance at the end face z = b", "%", [fixed(100.0 * of.ends[1], 1)]),
-        row("Length over which that decays", "mm", [significant(of.end_length_mm, 3)]),
-        row("Reach along the tooth, twist", "mm", [significant(of.reach.twist_mm2.sqrt(), 3)]),
-        row("Reach along the tooth, bending", "mm", [significant(of.reach.bending_mm4.sqrt().sqrt(), 3)]),
+        row("Decay length of that", "mm", [significant(of.end_length_mm, 3)]),
+        row("Decay length along the tooth, twist", "mm", [significant(of.reach.twist_mm2.sqrt(), 3)]),
+        row("Decay length along the tooth, bending", "mm", [significant(of.reach.bending_mm4.sqrt().sqrt(), 3)]),
         row("Compliance of the bodies over that of the section", "", [significant(of.bodies, 4)]),
         row("Residual, root mean square", "%", [fixed(100.0 * fit.residual, 1)]),
     ];
-    table("Slices, fitted to the teeth in space", &["value"], rows)
+    table("Slices, fitted to three-dimensional finite elements", &["value"], rows)
 }
 
 fn convergence(calibration: &Calibration) -> Markup {
@@ -90,7 +90,7 @@ fn convergence(calibration: &Calibration) -> Markup {
         let cells = cells![at.dofs, significant(at.pair_n_per_mm_um, 6), off];
         row(significant(at.elements_per_half_width, 3), "", cells)
     });
-    table("Elements in a half-width", &["unknowns", "stiffness at C, N/(mm·µm)", "off the finest, %"], rows)
+    table("Elements per half-width", &["unknowns", "stiffness at C, N/(mm·µm)", "difference from the finest, %"], rows)
 }
 
 fn rims(calibration: &Calibration) -> Markup {

@@ -114,9 +114,9 @@ pub(super) fn model_table(s: &FemSummary) -> Markup {
 pub(super) fn solver_table(s: &FemSummary) -> Markup {
     let stop = match s.stopped {
         Stop::Converged => "converged",
-        Stop::ConvergedAfterCycle => "converged after a cycle of active sets was broken",
+        Stop::ConvergedAfterCycle => "converged after an active-set cycle was broken",
     };
-    let sets = s.in_space.is_none().then(|| row("Active sets tried", "", [s.iterations]));
+    let sets = s.in_space.is_none().then(|| row("Active-set iterations", "", [s.iterations]));
     let rows = [
         row("Stopped", "", [stop]),
         row("Largest unbalanced nodal force, relative", "", [significant(s.residual, 2)]),
@@ -127,11 +127,11 @@ pub(super) fn solver_table(s: &FemSummary) -> Markup {
 
 fn work_table(s: &FemSummary) -> Markup {
     let rows = [
-        row("Active sets tried", "", [s.work.iterations]),
+        row("Active-set iterations", "", [s.work.iterations]),
         row("Changes of a node’s contact state", "", [s.work.active_set_changes]),
         row("Cycles broken", "", [s.work.cycles_broken]),
         row("Sparse factorisations", "", [s.work.factorisations]),
         row("Right-hand sides", "", [s.work.right_hand_sides]),
     ];
-    table("Work of the solver", &["count"], rows)
+    table("Computational work of the solver", &["count"], rows)
 }

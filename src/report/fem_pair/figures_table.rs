@@ -109,7 +109,7 @@ fn gears(s: &FemPairSummary) -> Markup {
             both("Elements", "", &|g| count(g.elements as u64)),
             both("Teeth with a resolved flank", "", &|g| g.resolved_teeth.to_string()),
             both("Nodes of a flank that may carry load", "", &|g| count(g.candidates as u64)),
-            both("Least angle of an element", "°", &|g| fixed(g.quality.least_angle_deg.value, 1)),
+            both("Smallest angle of an element", "°", &|g| fixed(g.quality.least_angle_deg.value, 1)),
             both("Least Jacobian ratio", "", &|g| fixed(g.quality.jacobian_ratio.value, 3)),
             both("Greatest aspect ratio", "", &|g| fixed(g.quality.aspect_ratio.value, 2)),
         ],
@@ -130,11 +130,11 @@ pub(super) fn checks(s: &FemPairSummary) -> Markup {
     rows.extend([
         row("Load not balanced, relative", "", [significant(c.load_imbalance, 2)]),
         row("Largest penetration", "µm", [significant(c.max_penetration_um, 2)]),
-        row("Active sets a position, mean", "", [significant(c.iterations_per_position, 3)]),
-        row("Active sets a position, most", "", [c.most_iterations]),
-        row("Cycles of active sets broken", "", [c.cycles_broken]),
+        row("Active-set iterations per position, mean", "", [significant(c.iterations_per_position, 3)]),
+        row("Active-set iterations per position, greatest", "", [c.most_iterations]),
+        row("Active-set cycles broken", "", [c.cycles_broken]),
     ]);
-    rows.extend(s.wall_per_position_s.map(|wall_s| row("Time a position", "ms", [significant(1e3 * wall_s, 3)])));
+    rows.extend(s.wall_per_position_s.map(|wall_s| row("Time per position", "ms", [significant(1e3 * wall_s, 3)])));
     let note = page::note(&format!("{}.", c.torque_ratio));
     html! { (table("Checks", &["value"], rows)) (note) @for at in s.full.iter().flatten() { (full(at)) } }
 }

@@ -6,7 +6,8 @@ use serde_json::{Value, json};
 
 use super::number::{figure, significant};
 use crate::gear::Gear;
-use crate::report::chart::{Chart, Dash, MUTED, PATH, Trace, extent, gear_colour, gear_fill, label};
+use crate::report::chart::{Chart, Dash, INK, MUTED, PATH, Trace, extent, gear_colour, gear_fill, label};
+use crate::report::control::{Control, MeshMotion, TurningBody};
 use crate::results::run::{GearCircles, PairDrawing, RunRecord};
 
 /// Points of a drawn circle: its sagitta stays below 1e-4 of the radius.
@@ -39,6 +40,7 @@ pub(super) fn pair(record: &RunRecord) -> Chart {
         .add(line_of_action)
         .add(path_of_contact(drawing))
         .reading(reading(record));
+    let chart = with_motion(chart, record);
     let pinion = &record.summary.geometry.gears.pinion;
     let around = 3.0 * pinion.reference_diameter_mm / f64::from(pinion.teeth.max(1));
     if drawing.path_of_contact.is_empty() || !around.is_finite() {
@@ -49,6 +51,40 @@ pub(super) fn pair(record: &RunRecord) -> Chart {
         [low - around, high + around]
     });
     chart.x_range(x).y_range(y)
+}
+
+/// The pair, which the reader turns through the mesh, and the points where its flanks touch.
+fn with_motion(chart: Chart, record: &RunRecord) -> Chart {
+    let (drawing, geometry) = (&record.drawing, &record.summary.geometry);
+    let [from, to] = drawing.line_of_action;
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let length_mm = along[0].hypot(along[1]);
+    let path = &geometry.curvature_radius_mm;
+    let at_mm = [path.A, path.C, path.E];
+    if record.mesh_cycle.is_empty() || length_mm <= 0.0 || at_mm.iter().any(|at| !at.is_finite()) {
+        return chart;
+    }
+    let (origin_mm, direction) = (from, along.map(|component| component / length_mm));
+    // Base circles roll off the line of action, the pinion's anticlockwise.
+    let turning = [(Gear::Pinion, 1.0), (Gear::Wheel, -1.0)].map(|(gear, sense)| TurningBody {
+        trace: gear as usize,
+        centre_mm: drawing.axis[gear],
+        radians_per_mm: sense / drawing.circles_mm[gear].base,
+    });
+    let motion = MeshMotion {
+        bodies: turning,
+        drawn_at_mm: path.C,
+        path_mm: [path.A, path.E],
+        base_pitch_mm: geometry.base_pitch_mm,
+        contacts: chart.traces().count(),
+        origin_mm,
+        direction,
+        position_mm: record.mesh_cycle.iter().map(|row| to_scale(row.position_mm)).collect(),
+        load_share: record.mesh_cycle.iter().map(|row| to_scale(row.load_share_worn)).collect(),
+    };
+    let at_c = [0, 1].map(|axis| [origin_mm[axis] + path.C * direction[axis]]);
+    let contacts = Trace::points("contact", at_c[0], at_c[1], (INK, "circle", 9)).silent();
+    chart.add(contacts).movable(Control::Mesh(motion))
 }
 
 fn polyline(name: &str, points: &[[f64; 2]], stroke: (&str, f64, Dash)) -> Trace {
@@ -111,7 +147,8 @@ fn reading(record: &RunRecord) -> String {
     let length = geometry.curvature_radius_mm.E - geometry.curvature_radius_mm.A;
     format!(
         "The flanks touch along the path of contact from A to E, {} mm of the {} mm long line of action at {}°; a tooth \
-         pair follows every {} mm, so {} pairs are in contact on average. Double-click shows both gears whole.",
+         pair follows every {} mm, so {} pairs are in contact on average. Double-click shows both gears whole; the \
+         slider turns the pair through the mesh and tells what share of the load each contact of the worn pair carries.",
         figure(length),
         figure(geometry.line_of_action_mm),
         figure(geometry.working_pressure_angle_deg),

@@ -30,7 +30,7 @@ fn new_and_worn(s: &Summary) -> Markup {
     let mut rows = vec![compare("Greatest pressure", "MPa", new.peak_pressure_MPa, worn.peak_pressure_MPa)];
     let sharp = [new.sharp_edge_pressure_MPa, worn.sharp_edge_pressure_MPa];
     if sharp.iter().any(Option::is_some) {
-        rows.push(row("Found at sharp tip edges, not defined", "MPa", cells![sharp[0], sharp[1], ""]));
+        rows.push(row("At sharp tip edges (not defined)", "MPa", cells![sharp[0], sharp[1], ""]));
     }
     let [over_new, over_worn] = over_hertz(s);
     rows.extend([
@@ -227,7 +227,7 @@ pub(crate) fn errors(error: &ErrorSummary) -> Markup {
         ("Finite elements: pressure between the tip edges", total.pressure_between_tips, above),
         ("Points and positions", error.discretisation, &*how.discretisation),
         ("Wear step", error.wear_step, &*how.wear_step),
-        ("Hard switch to severe wear against a band", error.severe_switch, &*how.severe_switch),
+        ("Abrupt against smoothed transition to severe wear", error.severe_switch, &*how.severe_switch),
     ]
     .map(|(label, estimate, how)| {
         let estimate = estimate.map_or_else(|| "not estimated".into(), |e| significant(e * 100.0, 2) + "\u{202f}%");

@@ -5,6 +5,7 @@ use super::number::{figure, given, percent, plotted, revolutions, significant};
 use super::reading::{Extreme, greatest, place_on_flank, tip_edge_note, yield_note};
 use crate::gear::Gear;
 use crate::report::chart::{Chart, Dash, INK, Trace, extent, gear_colour, gear_colour_at};
+use crate::report::control::{Control, Step};
 use crate::results::run::{HistoryRow, RunRecord};
 
 /// At most so many snapshots are drawn, evenly chosen: more curves than that cannot be told apart.
@@ -48,9 +49,16 @@ fn wear_of(record: &RunRecord, gear: Gear, depth_um: f64) -> Chart {
             trace.hover("%{y:.3f} µm")
         });
     }
+    let curves = drawn.len();
     if let Some(verified) = &flank.verified_wear_um {
         chart = add_verified(chart, gear, &radius, &active.cut(&flank.wear_um), &active.cut(verified));
     }
+    // Up to each snapshot; what finite elements say, at the end.
+    let all = chart.traces().count();
+    let up_to = |last: usize| (0..all).map(move |trace| trace <= last || trace >= curves && last + 1 == curves);
+    let steps =
+        drawn.iter().enumerate().map(|(i, &snapshot)| Step::showing(moment(&record.history[snapshot]), up_to(i)));
+    let chart = chart.movable(Control::Steps { name: "time", steps: steps.collect() });
     active.across(chart, gear)
 }
 
@@ -92,7 +100,7 @@ fn wear_reading(record: &RunRecord, gear: Gear, drawn: usize) -> String {
     );
     if let Some(off) = profile {
         reading.push_str(&format!(
-            " Dashed: the same life on finite elements; over the flank the two differ by {} of the wear (root mean square), the \
+            " Dashed: the same wear simulation with finite elements; over the flank the two differ by {} of the wear (root mean square), the \
              uncertainty of the finite elements included.",
             percent(off)
         ));
@@ -177,7 +185,7 @@ fn gear_wear(record: &RunRecord, gear: Gear) -> &crate::results::run::WearSummar
 }
 
 /// Indices of the snapshots drawn out of `count`: all, or evenly chosen with the last one.
-fn drawn_snapshots(count: usize) -> Vec<usize> {
+pub(super) fn drawn_snapshots(count: usize) -> Vec<usize> {
     if count <= CURVES {
         return (0..count).collect();
     }
@@ -185,7 +193,7 @@ fn drawn_snapshots(count: usize) -> Vec<usize> {
 }
 
 /// "31.75 h", or revolutions where the scene gives no speed.
-fn moment(row: &HistoryRow) -> String {
+pub(super) fn moment(row: &HistoryRow) -> String {
     match row.hours {
         Some(hours) => format!("{} h", given(hours)),
         None => format!("{} rev", revolutions(row.revolutions)),

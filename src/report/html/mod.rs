@@ -18,3 +18,4 @@ pub(crate) mod run_page;
 mod sliced;
 pub(crate) mod table;
 mod temperature_plot;
+mod terms;

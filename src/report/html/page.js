@@ -13,6 +13,7 @@
     node,
     source: JSON.parse(document.getElementById(node.id + "-data").textContent),
     width: 0,
+    at: null, // value of its slider, where it has been moved
   }));
 
   // Printing itself changes the preferred colours and the room for the plots: whatever redraws must ask.
@@ -59,6 +60,102 @@
       layout.height += BUTTONS;
     }
     Plotly.react(plot.node, data, layout, config);
+    if (plot.at !== null && !printing()) show(plot, plot.at);
+  }
+
+  // What a slider does to its plot: from one state to another, or both gears turned and their points of contact moved.
+  function show(plot, at) {
+    const { control } = plot.source;
+    plot.at = at;
+    const [said, update, traces] = control.kind === "steps" ? state(control, at) : mesh(plot.source.data, control, at);
+    plot.slider.querySelector("output").textContent = said;
+    return Plotly.restyle(plot.node, update, traces);
+  }
+
+  const state = ({ steps }, at) => [steps[at].label, steps[at].set, steps[at].traces];
+
+  function mesh(data, control, at) {
+    const turned = control.bodies.map(({ trace, centre_mm: [cx, cy], radians_per_mm }) => {
+      const angle = (at - control.drawn_at_mm) * radians_per_mm;
+      const [sin, cos] = [Math.sin(angle), Math.cos(angle)];
+      const { x, y } = data[trace];
+      return [x.map((px, i) => cx + cos * (px - cx) - sin * (y[i] - cy)), y.map((py, i) => cy + sin * (x[i] - cx) + cos * (py - cy))];
+    });
+    const [first, last] = control.path_mm;
+    const pitch = control.base_pitch_mm;
+    const inContact = [];
+    for (let place = at - Math.floor((at - first) / pitch) * pitch; place <= last; place += pitch) inContact.push(place);
+    const share = (place) => {
+      const { position_mm: places, load_share: shares } = control;
+      const after = places.findIndex((other) => other >= place);
+      if (after < 1) return after === 0 ? shares[0] : shares[shares.length - 1];
+      const part = (place - places[after - 1]) / (places[after] - places[after - 1] || 1);
+      return shares[after - 1] + part * (shares[after] - shares[after - 1]);
+    };
+    const shares = inContact.map(share);
+    const along = (axis) => inContact.map((place) => control.origin_mm[axis] + place * control.direction[axis]);
+    const said = `${at.toFixed(2)} mm; load shares ${shares.map((one) => one.toFixed(2)).join(", ")}`;
+    return [
+      said,
+      { x: [...turned.map(([x]) => x), along(0)], y: [...turned.map(([, y]) => y), along(1)] },
+      [...control.bodies.map(({ trace }) => trace), control.contacts],
+    ];
+  }
+
+  const PLAY_STEPS = 900; // ms from one snapshot to the next
+  const PLAY_MESH = 3000; // ms for a base pitch
+
+  // Joins a plot and the slider below it.
+  function slide(plot) {
+    const { control } = plot.source;
+    const slider = (plot.slider = plot.node.parentNode.querySelector(".slider"));
+    const [button, input] = [slider.querySelector("button"), slider.querySelector("input")];
+    const isMesh = control.kind === "mesh";
+    const [least, most] = isMesh ? control.path_mm : [0, control.steps.length - 1];
+    const first = isMesh ? control.drawn_at_mm : most;
+    Object.assign(input, { min: least, max: most, step: isMesh ? (most - least) / 400 : 1, value: first });
+    const move = (at) => {
+      input.value = at;
+      return show(plot, at);
+    };
+    let playing = null;
+    const stop = () => {
+      cancelAnimationFrame(playing);
+      playing = null;
+      button.textContent = "▶";
+      button.setAttribute("aria-label", "play");
+    };
+    const play = () => {
+      let [before, at] = [performance.now(), plot.at ?? first];
+      if (!isMesh && at >= most) move((at = least));
+      const next = async (now) => {
+        const passed = now - before;
+        if (isMesh) {
+          at += (passed / PLAY_MESH) * control.base_pitch_mm;
+          // A base pitch later the mesh repeats itself.
+          if (at > most) at -= Math.max(1, Math.floor((at - least) / control.base_pitch_mm)) * control.base_pitch_mm;
+          before = now;
+          await move(at);
+        } else if (passed >= PLAY_STEPS) {
+          at += 1;
+          before = now;
+          await move(at);
+          if (at >= most) return stop();
+        }
+        if (playing !== null) playing = requestAnimationFrame(next);
+      };
+      button.textContent = "❚❚";
+      button.setAttribute("aria-label", "pause");
+      playing = requestAnimationFrame(next);
+    };
+    button.addEventListener("click", () => (playing === null ? play() : stop()));
+    input.addEventListener("input", () => {
+      stop();
+      show(plot, Number(input.value));
+    });
+    slider.hidden = false;
+    const [said] = isMesh ? mesh(plot.source.data, control, first) : state(control, most);
+    slider.querySelector("output").textContent = said;
   }
 
   const hasRoom = ({ node }) => node.clientWidth > 0 && !node.closest("details:not([open])");
@@ -99,6 +196,7 @@
     for (const message of document.querySelectorAll(".not-drawn")) message.hidden = false;
     return loaded();
   }
+  for (const plot of plots) if (plot.source.control) slide(plot);
   drawAll();
   loaded();
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", drawAll);

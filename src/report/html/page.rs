@@ -7,7 +7,9 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 use super::number::fixed;
 use super::reading::bound;
 use super::table::{inner, line, list};
+use super::terms::terms;
 use crate::report::chart::Chart;
+use crate::report::control::Control;
 use crate::report::plot_script::PlotScript;
 use crate::results::run::StageTime;
 
@@ -56,7 +58,7 @@ impl Page<'_> {
                     }
                     main {
                         @if let Some(text) = self.interruption {
-                            p.notice.interrupted role="alert" { strong { "Not the whole run." } " " (text) }
+                            p.notice.interrupted role="alert" { strong { "Incomplete run." } " " (text) }
                         }
                         @if !self.warnings.is_empty() {
                             section.notice aria-labelledby="warnings" {
@@ -65,6 +67,7 @@ impl Page<'_> {
                             }
                         }
                         (self.main)
+                        (terms())
                     }
                     footer { (self.footer) }
                     @if let Some(bundle) = self.plots.script.get() {
@@ -122,8 +125,24 @@ fn plot(number: usize, chart: &Chart) -> Markup {
         figure class=[chart.is_wide.then_some("wide")] {
             h3 id={ (id) "-title" } { (chart.title) }
             div.plot id=(id) role="img" aria-labelledby={ (id) "-title" } aria-describedby={ (id) "-reading" } {}
+            @if let Some(control) = &chart.control { (slider(control)) }
             figcaption id={ (id) "-reading" } { b { "Figure " (number) "." } " " (bound(&chart.reading)) }
             script type="application/json" id={ (id) "-data" } { (PreEscaped(data)) }
+        }
+    }
+}
+
+/// The slider of a chart, which the page's script fills and moves.
+fn slider(control: &Control) -> Markup {
+    let name = match control {
+        Control::Steps { name, .. } => name,
+        Control::Mesh(_) => "contact position, mm",
+    };
+    html! {
+        div.slider hidden {
+            button type="button" aria-label="play" { "▶" }
+            input type="range" aria-label=(name);
+            output {}
         }
     }
 }

@@ -85,7 +85,9 @@ pub(crate) fn answer(record: &RunRecord) -> String {
         }
     };
     let vouched = match s.error.total.peak_wear.pinion.or(s.error.total.peak_wear.wheel) {
-        Some(_) => " ± is the difference to the same life on finite elements, with their own uncertainty.",
+        Some(_) => {
+            " ± is the difference from the same wear simulation with finite elements, with their own uncertainty."
+        }
         None => "",
     };
     let mut text = format!("After {} {lost}.{vouched}", duration(s));

@@ -113,7 +113,7 @@ fn work(s: &Summary) -> Markup {
     html! {
         div.tables {
             (stages_table(&s.stages, s.wall_s))
-            (list("Work of the simulation", ["", "count"], counts.map(|(name, number)| line(cells![name, number]))))
+            (list("Computational work of the simulation", ["", "count"], counts.map(|(name, number)| line(cells![name, number]))))
             @if !s.left_out.is_empty() {
                 div {
                     h3 { "Stages left out" }

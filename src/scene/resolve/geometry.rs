@@ -1,5 +1,6 @@
 //! Puts what is wrong with the gear pair at the key that can mend it.
 
+use super::centre_distance;
 use crate::gear::pair::GearPair;
 use crate::gear::spec::PairSpec;
 use crate::gear::{Gear, PairError};
@@ -66,9 +67,16 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
         }
     };
     let tip_found = |gear: Gear, tip_mm: f64| format!("tip diameter {} of the {}", short(tip_mm), gear.name());
+    // Where the centre distance follows from the backlash, that is what mends it.
+    let centre_key = centre_distance::KEYS.into_iter().find(|key| findings.is_in_file(key));
+    let centre_key = centre_key.unwrap_or("pair.centre_distance_mm");
+    let centre_found = match centre_key {
+        "pair.centre_distance_mm" => number(spec.centre_distance_mm),
+        _ => format!("a backlash that gives centre distance {}", short(spec.centre_distance_mm)),
+    };
     let centre = |least_mm: f64, help: &str| Cause {
-        key: "pair.centre_distance_mm".to_owned(),
-        found: number(spec.centre_distance_mm),
+        key: centre_key.to_owned(),
+        found: centre_found.clone(),
         allowed: format!("a centre distance of at least {least_mm:.4} mm"),
         help: help.to_owned(),
     };
@@ -90,8 +98,8 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
                 .to_owned(),
         },
         PairError::ContactRatioBelowOne { contact_ratio, .. } => Cause {
-            key: "pair.centre_distance_mm".to_owned(),
-            found: format!("{}, contact ratio {contact_ratio:.4}", number(spec.centre_distance_mm)),
+            key: centre_key.to_owned(),
+            found: format!("{centre_found}, contact ratio {contact_ratio:.4}"),
             allowed: "a transverse contact ratio of at least 1".to_owned(),
             help: "a smaller centre distance, larger tip diameters, more teeth or a smaller pressure angle raise it"
                 .to_owned(),
@@ -167,6 +175,9 @@ fn place(error: &PairError, spec: &PairSpec, findings: &Findings) -> Cause {
             key: key_of(
                 gear,
                 &match modification {
+                    "helix slope deviation" if findings.is_in_file(&key_of(gear, "helix_slope_class")) => {
+                        "helix_slope_class".to_owned()
+                    }
                     crowning @ ("profile crowning" | "lead crowning" | "helix slope deviation") => {
                         format!("{}_um", crowning.replace(' ', "_"))
                     }

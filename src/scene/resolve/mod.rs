@@ -3,9 +3,11 @@
 //! In order: TOML, shape (names, types, ranges), preset, defaults and what keys say about each other, units, and last
 //! the gear pair itself. Each step reports all it finds and passes on what is sound.
 
+mod centre_distance;
 mod contact_size;
 mod fem;
 mod geometry;
+mod modifications;
 mod operation;
 mod pair;
 mod settings;
@@ -21,7 +23,7 @@ use super::problem::{Problem, ProblemKind};
 use super::resolve::settings::Teeth;
 use super::schema::{Node, schema};
 use super::shape::{self, Format};
-use super::{Resolved, Scene, presets, text, unit_slip};
+use super::{Resolved, Scene, draft, presets, text, unit_slip};
 use crate::contact::settings::SurfaceKind;
 use crate::gear_mesh::settings::Body;
 use crate::mesh_cycle::settings::Coupling;
@@ -81,16 +83,14 @@ fn with_preset(mut scene: Table) -> Table {
     let preset = pair.get("preset").and_then(Value::as_str).and_then(presets::find);
     if let Some(preset) = preset {
         pair.remove("preset");
-        let mut below = preset.pair();
-        // A module or angle of the file replaces the preset's, whichever section it is given in.
-        for [one, other] in
-            [["normal_module_mm", "transverse_module_mm"], ["pressure_angle_deg", "transverse_pressure_angle_deg"]]
-        {
-            if pair.contains_key(one) || pair.contains_key(other) {
-                below.remove(one);
-                below.remove(other);
+        // What the file says in another way replaces the preset's, whichever way that is.
+        let mut below = Table::from_iter([("pair".to_owned(), Value::Table(preset.pair()))]);
+        for key in draft::keys_of(pair, "pair") {
+            for other in draft::other_ways_to_say(&key) {
+                draft::remove(&mut below, &other);
             }
         }
+        let Some(Value::Table(below)) = below.remove("pair") else { return scene };
         lay_below(pair, below);
     }
     scene

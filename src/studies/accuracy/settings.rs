@@ -167,8 +167,8 @@ pub(crate) fn euler_revolutions(scene: &Scene) -> f64 {
 pub(crate) fn coupling_name(coupling: Coupling) -> &'static str {
     match coupling {
         Coupling::None => "uncoupled",
-        Coupling::Slicing => "coupled as plates",
-        Coupling::Fem => "coupled by teeth in space",
+        Coupling::Slicing => "coupled by plate theory",
+        Coupling::Fem => "coupled by three-dimensional finite elements",
     }
 }
 

@@ -2,11 +2,11 @@
 //!
 //! Plane finite elements are no solution of such a pair. The truest model there is takes their place, elastic half-planes whose slices are
 //! coupled by three-dimensional finite elements of both gears, tip edges followed, on twice the scene's slices; where teeth cannot be had
-//! in space, or so many slices not be coupled there, the slices are coupled as plates. The plan is
+//! in space, or so many slices not be coupled there, the slices are coupled by plate theory. The plan is
 //!
 //! * the reference and its companions: steps twice as long, half of the slices, half of the points and positions;
 //! * the surfaces that stand for the others, coupled in space, at the finest resolution;
-//! * every surface, coupled as plates and uncoupled, at every resolution of points, positions and steps, on the scene's slices;
+//! * every surface, coupled by plate theory and uncoupled, at every resolution of points, positions and steps, on the scene's slices;
 //! * other numbers of slices with the surfaces that stand for the others, at the second resolution;
 //! * other tooth stiffnesses on the scene's own surface, and tip edges that are not followed.
 

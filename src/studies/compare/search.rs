@@ -9,7 +9,7 @@
 //! the factor of severe wear, and the shift d along the flank. |r|² is least over profiles interpolated between runs
 //! ([`Simulations::about`]); then runs with just the parameters found take the place of the interpolation, and Gauss–Newton
 //! steps on their residuals go on until they no longer matter. The result is that of the exact runs, the best of them; only the
-//! derivatives are interpolated. Where wear does not change smoothly with the coefficient (a hard switch to severe wear, wear steps
+//! derivatives are interpolated. Where wear does not change smoothly with the coefficient (an abrupt transition to severe wear, wear steps
 //! beyond the stable one), exact runs scatter: steps of up to half a standard deviation are then left, and reported.
 
 use super::question::Question;

@@ -198,7 +198,7 @@ fn warnings(fit: &FitRecord, figures: &CompareFigures, unsettled: Option<f64>) -
     if let Some(step) = unsettled {
         warnings.push(format!(
             "the last run would still move the fit by {step:.2} of a standard deviation: the wear of this scene does not change smoothly \
-             with what is fitted (a hard switch to severe wear, or wear steps beyond the stable one): a run with wear.severe.band_MPa and \
+             with what is fitted (an abrupt transition to severe wear, or wear steps beyond the stable one): a run with wear.severe.band_MPa and \
              numerics.step = \"adaptive\" does"
         ));
     }

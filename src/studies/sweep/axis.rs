@@ -3,7 +3,8 @@
 
 use std::str::FromStr;
 
-use crate::scene::draft::{Draft, other_way_to_say};
+use crate::scene::decimal_comma;
+use crate::scene::draft::{Draft, other_ways_to_say};
 use crate::scene::key::{self, KeyError, NumberKey};
 use crate::studies::sweep::record::{Spacing, SweepAxis, linked_keys, plain};
 
@@ -80,6 +81,11 @@ impl AxisError {
         match self {
             Self::Key(KeyError::Unknown { nearest: Some(nearest), .. }) => Some(format!("did you mean {nearest}?")),
             Self::Key(_) => Some("gearwear schema prints all keys with their ranges".to_owned()),
+            Self::NotANumber { found, .. } | Self::Count { found, .. } => decimal_comma::help(found),
+            Self::NotRising { before, value, .. } if before.fract() == 0.0 && value.fract() == 0.0 => {
+                let (before, value) = (plain(*before), plain(*value));
+                Some(format!("commas separate values; decimal point, not comma: {before}.{value}"))
+            }
             _ => None,
         }
     }
@@ -184,7 +190,7 @@ pub(crate) fn parse_all<'a>(given: impl IntoIterator<Item = &'a str>) -> Result<
             if varied.contains(&key) {
                 return Err(AxisError::Twice { key });
             }
-            if let Some(before) = varied.iter().find(|before| other_way_to_say(&key) == Some(before.as_str())) {
+            if let Some(before) = varied.iter().find(|before| other_ways_to_say(&key).contains(before)) {
                 return Err(AxisError::SaidTwice { key: before.clone(), other: key });
             }
             varied.push(key);
@@ -302,6 +308,13 @@ mod tests {
             for part in parts {
                 assert!(message.contains(part), "{part:?} in {message}");
             }
+        }
+        for (given, help) in [
+            ("pair.face_width_mm=10,5:30:21", "decimal point, not comma: 10.5"),
+            ("pair.face_width_mm=10:30,5:21", "decimal point, not comma: 30.5"),
+            ("pair.face_width_mm=30,5", "decimal point, not comma: 30.5"),
+        ] {
+            assert!(parse(given).unwrap_err().help().unwrap().contains(help), "{given}");
         }
         assert_eq!(parse("pair.width_mm=1:2:2").unwrap_err().help().unwrap(), "did you mean pair.face_width_mm?");
     }

@@ -5,7 +5,7 @@
 //! | `x + y`, `2 * x`, `-x`, `x ** 2`, `x % 1` | point by point; of two numbers likewise |
 //! | `abs(x)`, `sqrt(x)`, `exp(x)`, `ln(x)`, `log(x)`, `sin(x)`, `cos(x)`, `tan(x)`, `asin(x)`, `acos(x)`, `atan(x)`, `sinh(x)`, `cosh(x)`, `tanh(x)`, `floor(x)`, `ceiling(x)`, `round(x)` | the same; `log` is to base 10, angles are in radians |
 //! | `PI()`, `E()`, `max(a, b)`, `min(a, b)`, `is_nan(a)`, `is_finite(a)` | of numbers |
-//! | `a == b`, `a != b`, `a < b`, `a <= b`, `a > b`, `a >= b`, `text.contains(part)` | truths; the first two also of texts and truths |
+//! | `a == b`, `a != b`, `a < b`, `a <= b`, `a > b`, `a >= b`, `text.contains(part)` | truths; the first two also of texts and truths, the last also of a list of texts: whether any does |
 //! | `x[3]`, `x.len`, `first(x)`, `last(x)` | points of a column; `len` and an index also of a list or a text |
 //! | `max(x)`, `min(x)`, `mean(x)`, `sum(x)`, `rms(x)`, `quantile(x, q)` | figures of a column |
 //! | `at(x, y, x0)`, `resample(x, y, places)` | y at x0 (at places), linear between the points |
@@ -272,6 +272,11 @@ pub(crate) fn call(name: &str, arguments: &[Value]) -> Result<Option<Value>, Col
         ("is_nan", [Number(a)]) => Truth(a.is_nan()),
         ("is_finite", [Number(a)]) => Truth(a.is_finite()),
         ("contains", [Text(text), Text(part)]) => Truth(text.contains(part.as_str())),
+        ("contains", [List(items), Text(part)]) => {
+            Truth(items.iter().any(|item| matches!(item, Text(text) if text.contains(part.as_str()))))
+        }
+        // A list without items.
+        ("contains", [Column(x), Text(_)]) if x.is_empty() => Truth(false),
         ("len", [of]) => return Ok(length(of)),
 
         ("column", [List(items)]) => Column(column(items)?),

@@ -9,7 +9,9 @@ use super::raster::SlicedRaster;
 use super::sliced_run::{SlicedRun, slice_name};
 use crate::gear::Gear;
 use crate::report::chart::{Chart, Dash, Trace, label};
+use crate::report::control::{Control, Step};
 use crate::report::html::active_flank::ActiveFlank;
+use crate::report::html::flank_plots::{drawn_snapshots, moment};
 use crate::report::html::number::{figure, significant};
 use crate::report::html::reading::{greatest, place_on_flank, yield_note};
 use crate::results::run::FlankRecord;
@@ -40,8 +42,9 @@ pub(super) fn all(run: SlicedRun<'_>, gear: Gear) -> Vec<Chart> {
     let (new, worn) = (&flank.pressure_new_MPa, &flank.pressure_worn_MPa);
     let pressure_top = top(new).max(top(worn));
     let pressure = |field, when| pressure_reading(run, gear, field, when);
+    let worn_off = draw("wear", ["Wear of", ""], "µm", wear, top(wear), wear_reading(run, gear));
     let mut charts = vec![
-        draw("wear", ["Wear of", ""], "µm", wear, top(wear), wear_reading(run, gear)),
+        worn_off.movable(over_time(run, gear)),
         draw("sliding", ["Sliding of", " during one mesh, new"], "mm", sliding, top(sliding), sliding_reading(flank)),
         draw("pressure-new", ["Greatest pressure on", ", new"], "MPa", new, pressure_top, pressure(new, "New")),
         draw("pressure-worn", ["Greatest pressure on", ", worn"], "MPa", worn, pressure_top, pressure(worn, "Worn")),
@@ -52,6 +55,18 @@ pub(super) fn all(run: SlicedRun<'_>, gear: Gear) -> Vec<Chart> {
         charts.push(draw("modifications", ["Modifications of", ""], "µm", &flank.removed_um, top(&shown), reading));
     }
     charts
+}
+
+/// The wear at every snapshot that is drawn.
+fn over_time(run: SlicedRun<'_>, gear: Gear) -> Control {
+    let (flank, history) = (&run.record.flanks[gear], &run.record.history);
+    let raster = SlicedRaster::of_flank(flank, run.record.surface[gear].face_width_mm);
+    let points = flank.radius_mm.len();
+    let steps = drawn_snapshots(history.len()).into_iter().map(|snapshot| {
+        let wear = &flank.snapshot_wear_um[snapshot];
+        Step::cells(moment(&history[snapshot]), raster.rows(|point, slice| wear[slice * points + point]))
+    });
+    Control::Steps { name: "time", steps: steps.collect() }
 }
 
 /// The `field` with no value where it is not shown.

@@ -25,8 +25,8 @@ fn slices(h: &HelicalSummary) -> Markup {
         row("Coupling", "", [&*h.coupling]),
     ];
     if let Some([twist, bending]) = h.coupling_reach_mm {
-        rows.push(row("Reach of the coupling, twist", "mm", [significant(twist, 3)]));
-        rows.push(row("Reach of the coupling, bending", "mm", [significant(bending, 3)]));
+        rows.push(row("Decay length of the coupling, twist", "mm", [significant(twist, 3)]));
+        rows.push(row("Decay length of the coupling, bending", "mm", [significant(bending, 3)]));
     }
     for gear in Gear::BOTH {
         if let Some(twist_um) = h.shaft_twist_um[gear] {

@@ -30,7 +30,7 @@ pub(super) fn load_share(run: SlicedRun<'_>) -> Chart {
         .map(|loads| at_each_position(run, loads, mean).into_iter().map(|load| load / whole).collect::<Vec<f64>>());
     let reading = match [most_of_the_load(run, &shares[0]), most_of_the_load(run, &shares[1])] {
         [Some(new), Some(worn)] => format!(
-            "New, a tooth carries {new}; worn, {worn}. Each step of the curves is a slice that enters or leaves, on this tooth or a neighbour."
+            "New, a tooth carries {new}; worn, {worn}. Each step of the curves is a slice that enters or leaves the mesh, on this tooth or a neighbour."
         ),
         _ => NOT_COMPUTED.into(),
     };

@@ -1,6 +1,6 @@
 //! Error against run time, one plot for each quantity, with its Pareto front.
 //!
-//! Colours and shapes are the surfaces; of pairs with slices, full marks are slices coupled as plates, those with a dot in space, open ones uncoupled.
+//! Colours and shapes are the surfaces; of pairs with slices, full marks are slices coupled by plate theory, those with a dot in space, open ones uncoupled.
 
 use serde_json::json;
 
@@ -31,8 +31,8 @@ const KINDS: [(&str, &str, &str, IsKind); 6] = [
 /// Couplings of slices, `None` without slices, with what they add to the name and to the symbol of a kind.
 const COUPLINGS: [(Option<&str>, &str, &str); 4] = [
     (None, "", ""),
-    (Some("fem"), ", coupled by teeth in space", "-dot"),
-    (Some("slicing"), ", coupled as plates", ""),
+    (Some("fem"), ", coupled by three-dimensional finite elements", "-dot"),
+    (Some("slicing"), ", coupled by plate theory", ""),
     (Some("none"), ", uncoupled", "-open"),
 ];
 
@@ -111,14 +111,14 @@ fn reading(record: &AccuracyRecord, quantity: Quantity, uncertainty: f64) -> Str
         let within = percent(record.within);
         let found = format!("{}: {} in {} s.", variant.name, percent(error), significant(wall_s, 3));
         if is_within {
-            format!(" The cheapest run within {within} is {found}")
+            format!(" The fastest run within {within} is {found}")
         } else {
             format!(" No run is within {within}; the closest is {found}")
         }
     });
     let told_apart = match record.not_ranked(quantity) {
         Some(not) => format!(
-            " No ranking: the reference itself is uncertain by {}, more than the {} wanted. What would make it converge: {}.",
+            " No ranking: the reference itself is uncertain by {}, more than the {} wanted. To converge, it needs: {}.",
             percent(uncertainty),
             percent(record.within),
             not.remedy

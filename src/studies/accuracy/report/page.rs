@@ -79,7 +79,7 @@ fn answer(record: &AccuracyRecord) -> String {
     if let Some(not) = record.not_ranked(Quantity::WearProfile) {
         return format!(
             "No ranking by wear profile, and no recommendation: the reference itself is uncertain by {}, more than the {} wanted. \
-             What would make it converge: {}.",
+             To converge, it needs: {}.",
             percent(not.uncertainty),
             percent(record.within),
             not.remedy
@@ -100,7 +100,7 @@ fn answer(record: &AccuracyRecord) -> String {
     let within = percent(record.within);
     let found = format!("{}: {} off in {} s.{against}", variant.name, percent(error), significant(wall_s, 3));
     if is_within {
-        format!("The cheapest run whose wear profile is within {within} of the reference on both gears is {found}")
+        format!("The fastest run whose wear profile is within {within} of the reference on both gears is {found}")
     } else {
         format!("No run has a wear profile within {within} of the reference on both gears; the closest is {found}")
     }

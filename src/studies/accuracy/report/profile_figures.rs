@@ -60,7 +60,7 @@ fn style(variant: &VariantRecord) -> SurfaceStyle {
     }
 }
 
-/// Full lines are coupled slices, dashed ones uncoupled; of the Winkler beds the one on half-width is drawn to begin with.
+/// Full lines are coupled slices, dashed ones uncoupled; of the Winkler foundations the one on half-width is drawn to begin with.
 fn style_of_slices(variant: &VariantRecord) -> SurfaceStyle {
     let s = &variant.settings;
     let coupled = s.coupling.as_deref() != Some("none");

@@ -35,7 +35,7 @@ pub(super) fn recommendations(record: &AccuracyRecord) -> Markup {
     });
     let columns = ["quantity", "run", "error", "time, s", "reference’s uncertainty"];
     html! {
-        (list(format!("Cheapest run within {}", percent(record.within)), columns, rows))
+        (list(format!("Fastest run within {}", percent(record.within)), columns, rows))
         (not_ranked(record))
     }
 }
@@ -51,7 +51,7 @@ fn not_ranked(record: &AccuracyRecord) -> Markup {
         "Not ranked: the uncertainty of the reference is above the {} wanted, so that no run is known to be better than another",
         percent(record.within)
     );
-    list(caption, ["quantity", "reference’s uncertainty", "what would make the reference converge"], rows)
+    list(caption, ["quantity", "reference’s uncertainty", "needed for the reference to converge"], rows)
 }
 
 /// Every run, the most accurate wear profile first, those without a result last.

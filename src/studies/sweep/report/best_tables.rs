@@ -52,18 +52,18 @@ pub(super) fn optimum(optimum: &Optimum) -> Markup {
     let said = |value: f64| format!("{} {}", significant(value, 4), figure.unit);
     html! {
         p {
-            "Asked for: the least " (optimum.goal.in_words()) ". It is " b { (said(optimum.value)) } " in combination " (optimum.index) "; "
-            (count(optimum.within_limits as u64)) " combinations keep to the limits. "
+            "Objective: the least " (optimum.goal.in_words()) ". It is " b { (said(optimum.value)) } " in combination " (optimum.index) "; "
+            (count(optimum.within_limits as u64)) " combinations satisfy the constraints. "
             @match (&optimum.error, &optimum.plateau, &optimum.plateau_keys) {
                 (Some(error), Some(plateau), Some(keys)) => {
                     "The error of this figure is " (within(*error)) ", the greatest that a verified combination states: "
                     @if plateau.len() == 1 {
                         "every other combination is worse by more than that."
                     } @else {
-                        (count(plateau.len() as u64)) " combinations are not known to be worse, with " (keys.join("; ")) "."
+                        (count(plateau.len() as u64)) " combinations cannot be told from it within that error, with " (keys.join("; ")) "."
                     }
                 }
-                _ => { "How many are as good is not known: " (optimum.why_no_error.as_deref().unwrap_or_default()) "." }
+                _ => { "The number of equivalent combinations is not known: " (optimum.why_no_error.as_deref().unwrap_or_default()) "." }
             }
         }
     }
@@ -90,7 +90,8 @@ pub(super) fn verified(record: &SweepRecord, verification: &SweepVerification<'_
         .map(|claim| share(verification.worst.iter().find(|worst| worst.claim == claim.name).map(|worst| worst.value)));
     let blank = (0..record.identity.axes.len() + 2).map(|_| "".into());
     let last = line(["worst".into()].into_iter().chain(blank).chain(worst));
-    let caption = "Relative difference of each to the same life on finite elements, their own uncertainty added";
+    let caption =
+        "Relative difference of each to the same wear simulation with finite elements, their own uncertainty added";
     let unanswered = verification.rows.iter().filter(|row| !row.verification.has_answer());
     let reasons = unanswered.map(|row| (row.index, row.values, &*row.verification.total.how));
     html! {

@@ -71,7 +71,7 @@ pub(super) fn contour(
         chart = chart.add(Trace::points("no result", along(x), along(y), (MUTED, "x", 6)).hover_texts(errors));
     }
     let least_at = Trace::points("least", [best.values[x.at]], [best.values[y.at]], ("#ff5a36", "star", 15));
-    Some(chart.add(least_at.hover(format!("least: {} {unit}<extra></extra>", shown_number(least)))))
+    Some(chart.add(least_at.hover(format!("minimum: {} {unit}<extra></extra>", shown_number(least)))))
 }
 
 /// The ends of an axis as plotly takes them: of a logarithmic one the exponents.

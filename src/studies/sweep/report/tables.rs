@@ -82,7 +82,7 @@ pub(crate) fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
     ]);
     for claim in CLAIMS {
         let meaning = format!(
-            "{}: relative difference to the same life on finite elements, their own uncertainty added; as in summary.json of a run; \
+            "{}: relative difference from the same wear simulation with finite elements, their own uncertainty added; as in summary.json of a run; \
              empty where not verified",
             claim.title
         );

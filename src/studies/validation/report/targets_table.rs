@@ -60,7 +60,7 @@ pub(super) fn html(record: &ValidationRecord) -> Markup {
              that what rests on them is compared with their axes and with what the text says."
         ))
         (scrolling("targets", &columns, rows))
-        @if !absent.is_empty() { p.muted { "No case of this run speaks to " (absent.join(", ")) "." } }
+        @if !absent.is_empty() { p.muted { "No case of this run examines " (absent.join(", ")) "." } }
     }
 }
 

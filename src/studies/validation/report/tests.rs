@@ -217,7 +217,7 @@ fn the_page_names_all_targets() {
         assert!(page.contains(&format!("<b>{id}</b> ")), "{id}");
     }
     assert!(page.contains(
-        "No case of this run speaks to S2, S3, S4, S5, S6, S7, S8, S9, S11, S12, K2, H1, H2, H3, H4, H5, H6."
+        "No case of this run examines S2, S3, S4, S5, S6, S7, S8, S9, S11, S12, K2, H1, H2, H3, H4, H5, H6."
     ));
 }
 

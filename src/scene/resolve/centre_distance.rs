@@ -1,0 +1,69 @@
+//! The centre distance, as given or from the backlash it is to leave.
+
+use super::pair::PRESET;
+use crate::gear::backlash::{Backlash, TeethTooThin};
+use crate::gear::spec::PairSpec;
+use crate::scene::file::PairFile;
+use crate::scene::findings::Findings;
+use crate::scene::problem::number;
+
+/// The keys that say it, one of which is given.
+pub(super) const KEYS: [&str; 3] = ["pair.centre_distance_mm", "pair.backlash_um", "pair.normal_backlash_um"];
+
+const UM: f64 = 1e-3;
+
+/// How the file gives it.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum CentreDistance {
+    Given { centre_distance_mm: f64 },
+    Leaves { key: &'static str, backlash: Backlash },
+}
+
+/// How the file gives it; `None` where it does not, or twice.
+pub(super) fn given(file: &PairFile, findings: &mut Findings) -> Option<CentreDistance> {
+    let [centre, circumferential, normal] = KEYS;
+    match (file.centre_distance_mm, file.backlash_um, file.normal_backlash_um) {
+        (Some(centre_distance_mm), None, None) => Some(CentreDistance::Given { centre_distance_mm }),
+        (None, Some(um), None) => {
+            Some(CentreDistance::Leaves { key: circumferential, backlash: Backlash::Circumferential(UM * um) })
+        }
+        (None, None, Some(um)) => Some(CentreDistance::Leaves { key: normal, backlash: Backlash::Normal(UM * um) }),
+        (None, None, None) => {
+            findings.missing(&[centre, PRESET], "a number greater than 0");
+            findings.help(format!("{circumferential} = 0 or {normal} = 0 is a pair without backlash"));
+            None
+        }
+        (distance, j_wt, j_bn) => {
+            findings.said_twice(&[
+                (centre, distance.is_some()),
+                (circumferential, j_wt.is_some()),
+                (normal, j_bn.is_some()),
+            ]);
+            None
+        }
+    }
+}
+
+/// The centre distance of `spec`, which has all else, written into the file.
+pub(super) fn choose(
+    given: CentreDistance,
+    file: &mut PairFile,
+    spec: &PairSpec,
+    findings: &mut Findings,
+) -> Option<f64> {
+    let centre_distance_mm = match given {
+        CentreDistance::Given { centre_distance_mm } => centre_distance_mm,
+        CentreDistance::Leaves { key, backlash } => match spec.centre_distance_with_mm(backlash) {
+            Ok(centre_distance_mm) => centre_distance_mm,
+            Err(TeethTooThin { least_mm }) => {
+                let (Backlash::Circumferential(found_mm) | Backlash::Normal(found_mm)) = backlash;
+                let allowed = format!("more than {:.1}", least_mm / UM);
+                findings.not_allowed(key, number(found_mm / UM), allowed);
+                findings.help("such thin teeth have as much at any centre distance: check profile shifts and tooth_thickness_allowance_um");
+                return None;
+            }
+        },
+    };
+    (file.centre_distance_mm, file.backlash_um, file.normal_backlash_um) = (Some(centre_distance_mm), None, None);
+    Some(centre_distance_mm)
+}
