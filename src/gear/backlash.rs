@@ -134,7 +134,7 @@ mod tests {
     #[test]
     fn teeth_that_are_too_thin_are_told() {
         let mut spec = spec("fzg-c");
-        spec.gears.wheel.tooth_thickness_allowance_mm = -3.0;
+        spec.gears.wheel.tooth_thickness_allowance_mm = -5.0;
         let TeethTooThin { least_mm } = spec.centre_distance_with_mm(Backlash::Circumferential(0.1)).unwrap_err();
         assert!(spec.centre_distance_with_mm(Backlash::Circumferential(1.01 * least_mm)).is_ok());
         assert!(spec.centre_distance_with_mm(Backlash::Normal(0.99 * least_mm)).is_err());

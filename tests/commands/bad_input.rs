@@ -389,7 +389,7 @@ fn data_of_drawings() {
     let case = distance("backlash_um = 4000.0");
     case.refused().at_line(case.line_of("backlash_um")).says(&["pair.backlash_um", "contact ratio", "centre distance"]);
     let case =
-        distance("backlash_um = 50.0").with("pair.wheel", "teeth", "teeth = 24\ntooth_thickness_allowance_um = -3000");
+        distance("backlash_um = 50.0").with("pair.wheel", "teeth", "teeth = 24\ntooth_thickness_allowance_um = -5000");
     case.refused()
         .at_line(case.line_of("backlash_um"))
         .says(&["pair.backlash_um: found 50; allowed: more than", "thin"]);
