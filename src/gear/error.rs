@@ -13,7 +13,7 @@ pub enum PairError {
         /// Sum of the base radii.
         least_mm: f64,
     },
-    /// The teeth jam: together they are thicker than the pitch on the working circles.
+    /// The teeth interfere: together they are thicker than the pitch on the working circles.
     #[error("the teeth interfere: backlash is {backlash_mm:.4} mm at centre distance {centre_distance_mm} mm")]
     NegativeBacklash {
         /// Circumferential, on the working pitch circles.

@@ -13,7 +13,7 @@ use super::{
 };
 
 /// Rounded profile shifts and centre distances give a few tenths of a micrometre of negative backlash on paper; real
-/// teeth jam when it exceeds this part of the normal module (4.5 µm for module 4.5).
+/// teeth interfere when it exceeds this part of the normal module (4.5 µm for module 4.5).
 const BACKLASH_ROUNDING_MODULES: f64 = 1e-3;
 
 /// Modifications take micrometres off a flank; one that takes more than this part of the module leaves none.

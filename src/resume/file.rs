@@ -6,7 +6,7 @@
 //! gearwear checkpoint {"format":1,"program_version":"0.1.0","body_bytes":123456,"body_sha256":"…"}
 //! ```
 //!
-//! Length and SHA-256 tell a file that was torn or edited. The program's version is checked too, as another version may compute other
+//! Length and SHA-256 tell a file that is incomplete or edited. The program's version is checked too, as another version may compute other
 //! last bits.
 
 use std::fs;

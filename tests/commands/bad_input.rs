@@ -232,7 +232,7 @@ fn negative_backlash() {
     let line = case.line_of("centre_distance_mm");
     case.refused().at_line(line).says(&[
         "pair.centre_distance_mm",
-        "jam",
+        "the teeth interfere",
         "allowed: a centre distance of at least 91.",
     ]);
 }

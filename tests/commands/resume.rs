@@ -188,7 +188,7 @@ fn checkpoints_of_another_run_or_damaged_are_refused() {
     refused(&[&other, &"--resume", &out], &["another scene", "operation.hours: 128.0 there, 129.0 here"]);
 
     fs::write(&checkpoint, &sound[..sound.len() - 10]).unwrap();
-    refused(&[&"--resume", &out], &["checkpoint.bin", "torn", "remove the checkpoint"]);
+    refused(&[&"--resume", &out], &["checkpoint.bin", "incomplete", "remove the checkpoint"]);
     let mut edited = sound.clone();
     let last = edited.len() - 100;
     edited[last] ^= 1;

@@ -401,7 +401,7 @@ fn what_is_no_part_of_the_sweep_is_not_merged() {
     done(&bench.sweep("same", &[WIDTHS], &["--quiet", "--shard", "1/2"]));
     let journal = bench.out("same").join("rows.jsonl");
     let text = fs::read_to_string(&journal).unwrap();
-    fs::write(&journal, text.replacen("\"warnings\":0", "\"warnings\":1", 1)).unwrap();
+    fs::write(&journal, text.replacen("\"warnings\":", "\"warnings\":9", 1)).unwrap();
     refused(&bench.merge(&["one", "same"], "all"), &["another result", "pair.face_width_mm = "]);
 }
 

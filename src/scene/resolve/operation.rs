@@ -201,6 +201,9 @@ fn snapshots(file: &mut OperationFile, operation: &Operation, findings: &mut Fin
         if revolutions > duration || snapshots.last().is_some_and(|&last| revolutions <= last) {
             let allowed = format!("increasing times up to the duration, {}", number(whole));
             findings.not_allowed(&format!("{key}[{index}]"), number(time), allowed);
+            if index > 0 && time <= given[index - 1] {
+                findings.help("commas separate times, decimals stand after a point");
+            }
             return None;
         }
         snapshots.push(revolutions);
