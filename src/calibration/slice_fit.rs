@@ -23,7 +23,7 @@ use crate::gear::{GearPair, PerGear, slices::Slices};
 use crate::mesh_cycle::pair_in_space::PairInSpace;
 use crate::mesh_cycle::slice_coupling::{Factors, Reach, SliceCompliance, SliceCoupling};
 use crate::mesh_cycle::sliced::SpringAlongPath;
-use crate::mesh_cycle::sliced_positions::{SliceContact, sliced_positions};
+use crate::mesh_cycle::sliced_positions::{SliceContact, SliceEnds, sliced_positions};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::stiffness::{StiffnessError, TeethSpring, curve::PairCompliance};
 
@@ -114,7 +114,7 @@ pub(crate) fn fit(
     let whole = along(&|at| teeth.oblique_n_per_mm2(at, base_helix))?;
     let own = along(&|at| teeth.slice_n_per_mm2(at, base_helix))?;
     let mut phases = Vec::new();
-    for phase in sliced_positions(&pair.path, &slices, POSITIONS, None) {
+    for phase in sliced_positions(&pair.path, &slices, POSITIONS, SliceEnds::AtOnce) {
         let contacts = &phase.contacts;
         let at = |contact: &SliceContact| contact.cell.position_mm;
         let influence =

@@ -37,6 +37,10 @@ impl ContactSurface for HertzMean {
     fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
         super::hertz::flattening(geometry, &self.material, position_mm).approach_mm(line_load_n_per_mm)
     }
+
+    fn touches_in_points(&self) -> bool {
+        true
+    }
 }
 
 /// The points that the theoretical contact point passes while it moves through a cell.

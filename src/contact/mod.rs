@@ -183,6 +183,12 @@ pub(crate) trait ContactSurface: Sync {
     /// Approach of plain involutes under a line load at `position_mm`, away from the tip edges.
     fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64;
 
+    /// Whether a pair touches in the theoretical contact point alone, so that the wear of a contact is that of one place of the flanks; else it
+    /// touches over a strip.
+    fn touches_in_points(&self) -> bool {
+        false
+    }
+
     /// How long equilibria take.
     fn effort(&self) -> Effort {
         Effort { of_equilibrium: 1.0, of_clean_start: 4.0 }

@@ -26,6 +26,8 @@ pub(crate) struct Slices {
     pub ahead_mm: Vec<f64>,
     /// Width of each.
     pub slice_width_mm: f64,
+    /// By how much the theoretical contact point of a section is further ahead at one side of a slice than at the other.
+    pub ahead_varies_mm: f64,
 }
 
 impl Slices {
@@ -36,7 +38,7 @@ impl Slices {
         let width_mm: Vec<f64> = (0..count).map(|i| (i as f64 + 0.5) * slice_width_mm).collect();
         let tan_beta_b = pair.base_helix_angle_rad().tan();
         let ahead_mm = width_mm.iter().map(|z| (0.5 * face_width - z) * tan_beta_b).collect();
-        Self { width_mm, ahead_mm, slice_width_mm }
+        Self { width_mm, ahead_mm, slice_width_mm, ahead_varies_mm: slice_width_mm * tan_beta_b.abs() }
     }
 
     /// How many.

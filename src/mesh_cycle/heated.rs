@@ -15,6 +15,8 @@ pub(super) struct HeatedPlace {
     ratios: SpeedRatios,
     /// Distance of each flank's points there, mm.
     spacing_mm: PerGear<f64>,
+    /// Part of the width that is in contact, and carries all of its load.
+    part: f64,
 }
 
 /// A contact under its load, and where it is.
@@ -31,7 +33,13 @@ impl HeatedPlace {
         Self {
             ratios: SpeedRatios::over(flanks.geometry, cell.lower_mm, cell.upper_mm),
             spacing_mm: PerGear::from_fn(|gear| point_distance_mm(flanks, gear, cell.position_mm)),
+            part: 1.0,
         }
+    }
+
+    /// The same where only this part of the width is in contact.
+    pub(super) fn of_part(self, part: f64) -> Self {
+        Self { part, ..self }
     }
 
     /// A pair that is pressed together here; none where the law does not read what heat does.
@@ -45,7 +53,7 @@ impl HeatedPlace {
             contact: HeatedContact {
                 heat,
                 ratios: self.ratios,
-                line_load_n_per_mm,
+                line_load_n_per_mm: line_load_n_per_mm / self.part,
                 half_width_mm: pair.footprint().half_width_mm,
             },
             spacing_mm: self.spacing_mm,

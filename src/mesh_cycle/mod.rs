@@ -13,6 +13,7 @@ mod heated;
 pub(crate) mod influence;
 pub(crate) mod load_sharing;
 pub(crate) mod pair_in_space;
+pub(crate) mod part_of_slice;
 pub(crate) mod positions;
 pub(crate) mod settings;
 pub(crate) mod simplified;

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! with the deflection u of the teeth slice by slice (u = q w: thin independent teeth) or coupled along each tooth
-//! ([`super::slice_coupling`]), or of all teeth together ([`super::pair_in_space`]). The pressure of every contact sweeps over the points of its own slice and wears them.
+//! ([`super::slice_coupling`]), or of all teeth together ([`super::pair_in_space`]). Of a slice that the line of contact has entered in part,
+//! w is the load of that part over the width of the slice ([`super::part_of_slice`]). The pressure of every contact sweeps over the points of its own slice and wears them.
 
 use rayon::prelude::*;
 
@@ -16,6 +17,7 @@ use super::collected::Collected;
 use super::coupled_teeth::CoupledTeeth;
 use super::heated::{HeatedPlace, WornPoints};
 use super::load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
+use super::part_of_slice::PartOfSlice;
 use super::sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh};
 use super::sliced_positions::{SliceContact, SlicedPosition};
 use super::sliced_sharing::balance_on_teeth;
@@ -239,8 +241,9 @@ impl<'a> LoadedPosition<'a> {
             .map(|contact| {
                 let position_mm = contact.cell.position_mm;
                 let touching = surface.pair(flanks, position_mm, Some(contact.cell));
+                let touching = PartOfSlice::of(touching, contact.part);
                 // Where slices are coupled the teeth bend beside the pairs, not in them.
-                let teeth = if teeth.is_some() { f64::INFINITY } else { 1.0 / compliance(contact) };
+                let teeth = if teeth.is_some() { f64::INFINITY } else { contact.part.of_width / compliance(contact) };
                 MeshedPair::on_lever(touching, teeth, (springs.lever_ratio)(position_mm))
             })
             .collect();
@@ -248,7 +251,11 @@ impl<'a> LoadedPosition<'a> {
             position_mm: phase.position_mm,
             contacts: phase.contacts.clone(),
             pairs,
-            heated_places: phase.contacts.iter().map(|contact| HeatedPlace::new(flanks, contact.cell)).collect(),
+            heated_places: phase
+                .contacts
+                .iter()
+                .map(|contact| HeatedPlace::new(flanks, contact.cell).of_part(contact.part.of_width))
+                .collect(),
             teeth,
             equilibrium: Equilibrium::default(),
         }
@@ -276,6 +283,7 @@ impl<'a> LoadedPosition<'a> {
         let contacts = self.contacts.iter().zip(&self.pairs).map(|(contact, pair)| ObservedContact {
             tooth: contact.tooth,
             slice: contact.slice,
+            part_of_width: contact.part.of_width,
             line_load_n_per_mm: pair.response.line_load_n_per_mm,
             footprint: pair.contact.footprint(),
         });

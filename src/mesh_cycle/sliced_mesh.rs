@@ -16,7 +16,9 @@ pub(crate) struct ObservedContact {
     pub tooth: i32,
     /// Which slice.
     pub slice: usize,
-    /// Load, N per mm of face width.
+    /// Part of its width that is in contact.
+    pub part_of_width: f64,
+    /// Load, N per mm of its whole width.
     pub line_load_n_per_mm: f64,
     /// Its contact.
     pub footprint: Footprint,
@@ -56,8 +58,8 @@ pub(crate) struct SlicedMesh {
     pub first_phase_mm: f64,
     /// The base pitch.
     pub base_pitch_mm: f64,
-    /// Slices within A–E at each phase, all teeth together, whether they carry load or not.
-    pub contacts_at_phases: Vec<usize>,
+    /// Slices within A–E at each phase, all teeth together and parts as such, whether they carry load or not.
+    pub contacts_at_phases: Vec<f64>,
     /// Greatest imbalance of loads at any phase.
     pub load_imbalance: f64,
 }
@@ -92,7 +94,10 @@ impl SlicedMesh {
             transmission_error_mm: phases.iter().map(|phase| phase.transmission_error_mm).collect(),
             first_phase_mm: phases[0].position_mm,
             base_pitch_mm,
-            contacts_at_phases: phases.iter().map(|phase| phase.contacts.len()).collect(),
+            contacts_at_phases: phases
+                .iter()
+                .map(|phase| phase.contacts.iter().map(|contact| contact.part_of_width).sum())
+                .collect(),
             load_imbalance: phases.iter().map(|phase| phase.load_imbalance.abs()).fold(0.0, f64::max),
         };
         for (j, phase) in phases.iter().enumerate() {

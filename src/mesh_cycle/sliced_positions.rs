@@ -16,12 +16,27 @@
 //! ```text
 //! Σ Δξ Δz / (p_bt cos β_b) = ε_α b / cos β_b
 //! ```
+//!
+//! The line of contact is oblique, so that it enters a slice gradually: over its width Δz, ξ_ki varies by Δa = Δz tan β_b, and the part
+//!
+//! ```text
+//! f(ξ_ki) = |[ξ_ki − Δa/2, ξ_ki + Δa/2] ∩ [A, E]| / Δa
+//! ```
+//!
+//! of the slice is in contact ([`SliceEnds::Gradual`]). A phase has the mean of f over its stretch: load, stiffness and wear then grow and fall
+//! without a jump, and the lines of contact keep their length exactly. Where the middle of a slice is before A or after E, the part of
+//! it that is in contact is not: its stretch is folded back at A or E. Since f is the indicator of [A, E] averaged over Δa, what is folded there
+//! adds to 1 with what is not, ∫ f over all ξ_ki that stand for a place of the path is 1 at every place, and every place is worn as often as
+//! any other.
 
 use crate::contact::PositionCell;
 use crate::gear::{path_of_contact::PathOfContact, slices::Slices};
 
 /// Distances along the path are compared to this part of the base pitch.
 const SAME_PLACE: f64 = 1e-9;
+
+/// A slice of which no more than this part is in contact carries nothing.
+const LEAST_PART: f64 = 1e-9;
 
 /// A slice of a tooth in contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,6 +47,33 @@ pub(crate) struct SliceContact {
     pub slice: usize,
     /// Where its theoretical contact point is, and the stretch of the path that stands for.
     pub cell: PositionCell,
+    /// How much of the slice that is.
+    pub part: ContactPart,
+}
+
+/// How much of the width of a slice is in contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct ContactPart {
+    /// Part of its width, as mean over the phase: above 0, and 1 at most.
+    pub of_width: f64,
+    /// Part of its width that passes the stretch of the contact: another one only where the stretch is folded in itself.
+    pub of_passage: f64,
+}
+
+impl ContactPart {
+    /// The whole width.
+    pub(crate) const WHOLE: Self = Self { of_width: 1.0, of_passage: 1.0 };
+}
+
+/// How slices come into contact, and leave it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum SliceEnds {
+    /// All at once, at A and E.
+    AtOnce,
+    /// As the line of contact enters them at A and leaves them at E; all at once where it does so between two positions.
+    Gradual,
+    /// By first touch, at most so far before A and after E, mm.
+    Beyond([f64; 2]),
 }
 
 /// A place of the gears and everything that touches there.
@@ -43,17 +85,17 @@ pub(crate) struct SlicedPosition {
     pub contacts: Vec<SliceContact>,
 }
 
-/// Phases of one base pitch, no farther apart than `positions` (≥ 2) from A to E would be. With `beyond_mm`, slices may touch so
-/// far before A and after E, where they begin and end without a jump, and no stretch is cut.
+/// Phases of one base pitch, no farther apart than `positions` (≥ 2) from A to E would be. Where slices come into contact all at once,
+/// stretches are cut.
 pub(crate) fn sliced_positions(
     path: &PathOfContact,
     slices: &Slices,
     positions: usize,
-    beyond_mm: Option<[f64; 2]>,
+    ends: SliceEnds,
 ) -> Vec<SlicedPosition> {
     let pitch = path.base_pitch_mm;
     let count = (((positions - 1) as f64 / path.contact_ratio() * (1.0 - SAME_PLACE)).ceil() as usize).max(1);
-    let [before, after] = beyond_mm.unwrap_or_default();
+    let [before, after] = if let SliceEnds::Beyond(beyond_mm) = ends { beyond_mm } else { [0.0; 2] };
     let passage = SlicePassage {
         first_mm: path.start_mm - before,
         last_mm: path.end_mm + after,
@@ -62,8 +104,16 @@ pub(crate) fn sliced_positions(
     };
     let spacing = pitch / count as f64;
     let places: Vec<f64> = (0..count).map(|j| path.start_mm + (j as f64 + 0.5) * spacing).collect();
+    let varies_mm = slices.ahead_varies_mm;
+    if ends == SliceEnds::Gradual && varies_mm >= spacing {
+        let position = |&position_mm: &f64| {
+            let contacts = passage.parts(position_mm, 0.5 * spacing, varies_mm);
+            SlicedPosition { position_mm, contacts }
+        };
+        return places.iter().map(position).collect();
+    }
     // Where each place's contacts are decided, and where its stretch begins and ends.
-    let (decided_at, bounds) = if beyond_mm.is_some() {
+    let (decided_at, bounds) = if matches!(ends, SliceEnds::Beyond(_)) {
         let bounds = places.iter().map(|place| [place - 0.5 * spacing, place + 0.5 * spacing]).collect();
         (places.clone(), bounds)
     } else {
@@ -114,11 +164,8 @@ impl SlicePassage<'_> {
     /// touches in the stretch before, here, and after.
     fn contacts(&self, bounds: [f64; 2], decided_at: [f64; 3]) -> Vec<SliceContact> {
         let [before, here, after] = decided_at;
-        let reach = self.ahead_mm.iter().fold(0.0, |reach: f64, ahead| reach.max(ahead.abs()));
-        let first_tooth = ((self.first_mm - here - reach) / self.pitch_mm).floor() as i32;
-        let last_tooth = ((self.last_mm - here + reach) / self.pitch_mm).ceil() as i32;
         let mut contacts = Vec::new();
-        for tooth in first_tooth..=last_tooth {
+        for tooth in self.teeth_near(here, 0.0) {
             for (slice, ahead) in self.ahead_mm.iter().enumerate() {
                 let shift = f64::from(tooth) * self.pitch_mm + ahead;
                 if !self.touches(here + shift) {
@@ -128,10 +175,67 @@ impl SlicePassage<'_> {
                 let upper_mm = if self.touches(after + shift) { bounds[1] + shift } else { self.last_mm };
                 // A contact stands in the middle of its stretch, so that what a cut stretch wears is of second order too.
                 let position_mm = lower_mm.midpoint(upper_mm);
-                contacts.push(SliceContact { tooth, slice, cell: PositionCell { position_mm, lower_mm, upper_mm } });
+                let cell = PositionCell { position_mm, lower_mm, upper_mm };
+                contacts.push(SliceContact { tooth, slice, cell, part: ContactPart::WHOLE });
             }
         }
         contacts
+    }
+
+    /// Teeth that may have a slice in contact with the reference tooth at `at_mm`, where slices reach so far beyond their middles.
+    fn teeth_near(&self, at_mm: f64, beyond_middle_mm: f64) -> std::ops::RangeInclusive<i32> {
+        let reach = self.ahead_mm.iter().fold(0.0, |reach: f64, ahead| reach.max(ahead.abs())) + beyond_middle_mm;
+        let first_tooth = ((self.first_mm - at_mm - reach) / self.pitch_mm).floor() as i32;
+        let last_tooth = ((self.last_mm - at_mm + reach) / self.pitch_mm).ceil() as i32;
+        first_tooth..=last_tooth
+    }
+
+    /// The contacts in the stretch `half_mm` to either side of the reference tooth at `at_mm`, each of the part of its slice over which the
+    /// line of contact has entered and not left; the place of the contact varies by `varies_mm` over the width of a slice.
+    fn parts(&self, at_mm: f64, half_mm: f64, varies_mm: f64) -> Vec<SliceContact> {
+        let (first, last) = (self.first_mm, self.last_mm);
+        // ∫ f from far before A.
+        let integral = |x: f64| {
+            // ∫ of the ramp from 0 to 1 over Δa around `middle`.
+            let ramp = |middle: f64| {
+                let along = (x - middle + 0.5 * varies_mm).max(0.0);
+                if along < varies_mm { 0.5 * along * along / varies_mm } else { along - 0.5 * varies_mm }
+            };
+            ramp(first) - ramp(last)
+        };
+        let mut contacts = Vec::new();
+        for tooth in self.teeth_near(at_mm, 0.5 * varies_mm + half_mm) {
+            for (slice, ahead) in self.ahead_mm.iter().enumerate() {
+                let middle = at_mm + f64::from(tooth) * self.pitch_mm + ahead;
+                let in_contact_mm = integral(middle + half_mm) - integral(middle - half_mm);
+                let of_width = (in_contact_mm / (2.0 * half_mm)).min(1.0);
+                if of_width <= LEAST_PART {
+                    continue;
+                }
+                let [lower_mm, upper_mm] = self.folded([middle - half_mm, middle + half_mm]);
+                let of_passage = in_contact_mm / (upper_mm - lower_mm);
+                let cell = PositionCell { position_mm: lower_mm.midpoint(upper_mm), lower_mm, upper_mm };
+                // What is left of rounding makes no part of a whole.
+                let is_whole = of_width > 1.0 - LEAST_PART;
+                let part = if is_whole { ContactPart::WHOLE } else { ContactPart { of_width, of_passage } };
+                contacts.push(SliceContact { tooth, slice, cell, part });
+            }
+        }
+        contacts
+    }
+
+    /// The stretch between A and E that `stretch` covers, folded back there.
+    fn folded(&self, stretch: [f64; 2]) -> [f64; 2] {
+        let (first, length) = (self.first_mm, self.last_mm - self.first_mm);
+        let fold = |x: f64| {
+            let within = (x - first).rem_euclid(2.0 * length);
+            first + if within > length { 2.0 * length - within } else { within }
+        };
+        let (begin, end) = (fold(stretch[0]), fold(stretch[1]));
+        let (low, high) = (begin.min(end), begin.max(end));
+        // An end of the path inside the stretch is the end of what it covers.
+        let holds = |place: f64| stretch[0] < place && place < stretch[1];
+        [if holds(first) { first } else { low }, if holds(self.last_mm) { self.last_mm } else { high }]
     }
 }
 

@@ -20,7 +20,7 @@ use crate::gear_mesh::settings::Body;
 use crate::mesh_cycle::pair_in_space::PairInSpaceError;
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::mesh_cycle::sliced_mesh::SlicedMesh;
-use crate::mesh_cycle::sliced_positions::SliceContact;
+use crate::mesh_cycle::sliced_positions::{ContactPart, SliceContact};
 use crate::observer::Observer;
 use crate::scene::loaded::LoadedScene;
 use crate::simulation::settings::Operation;
@@ -136,7 +136,8 @@ fn deformed(model: &Model<'_>, mesh: &SlicedMesh, position_mm: f64) -> Result<De
             let ahead_mm = (middle_mm - slices.width_mm[slice]) * pair.base_helix_angle_rad().tan();
             let position_mm = mesh.position_mm[at] + ahead_mm;
             let cell = PositionCell { position_mm, lower_mm: position_mm, upper_mm: position_mm };
-            contacts.push((SliceContact { tooth, slice, cell }, load * slices.slice_width_mm));
+            let contact = SliceContact { tooth, slice, cell, part: ContactPart::WHOLE };
+            contacts.push((contact, load * slices.slice_width_mm));
         }
     }
     let material = scene.material.map(Material::elastic);

@@ -73,7 +73,7 @@ pub(super) fn summary(
     warnings.extend(deep_wear_warning(pair, outcome));
     let wear_balance = WearBalance { new: imbalance(outcome, &outcome.new), worn: imbalance(outcome, &outcome.worn) };
     warnings.extend(imbalance_warning(&wear_balance));
-    warnings.extend(slices::warning(outcome));
+    warnings.extend(slices::warning(model, outcome));
     warnings.extend(error_estimates::warnings(&error));
     warnings.extend(found.verified.and_then(|verified| verified.warning.clone()));
     let reached = outcome.worn.revolutions;

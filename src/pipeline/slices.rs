@@ -1,6 +1,7 @@
 //! The record of a pair slice by slice.
 
 use super::{Model, UM_PER_MM};
+use crate::contact::settings::SurfaceKind;
 use crate::gear::spec::AxisParallelism;
 use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::sliced_mesh::SlicedMesh;
@@ -19,9 +20,13 @@ fn meshes(outcome: &Outcome) -> Option<[&SlicedMesh; 2]> {
 /// Part of the peak-to-peak transmission error above which the step of a single slice is warned of.
 const TELLING_STEP: f64 = 0.25;
 
-/// Warns where the transmission error varies by little more than the steps of slices that enter and leave.
-pub(super) fn warning(outcome: &Outcome) -> Option<String> {
+/// Warns where the transmission error varies by little more than the steps of slices that enter and leave: those of the simplified model do so
+/// all at once.
+pub(super) fn warning(model: &Model<'_>, outcome: &Outcome) -> Option<String> {
     let [new, _] = meshes(outcome)?;
+    if model.scene.contact.surface != SurfaceKind::HertzMean {
+        return None;
+    }
     let errors = || new.transmission_error_mm.iter().copied();
     let peak_to_peak = errors().fold(f64::NEG_INFINITY, f64::max) - errors().fold(f64::INFINITY, f64::min);
     // Slices that enter within one phase of each other make a step that is real, as spur teeth do.
@@ -31,7 +36,8 @@ pub(super) fn warning(outcome: &Outcome) -> Option<String> {
     (apart && outcome.slices.count() > 1 && step > TELLING_STEP * peak_to_peak).then(|| {
         format!(
             "helical.slices: the transmission error varies by {:.3} µm peak to peak, of which {:.3} µm is the step of a single slice that \
-             enters or leaves: that part is of the slices, not of the gears; the mesh orders see less of it, and more slices make it smaller",
+             enters or leaves: that part is of the slices, which \"hertz-mean\" has in contact as a whole or not at all, and not of the gears; the mesh orders see \
+             less of it, more slices make it smaller, and other surfaces have no steps",
             peak_to_peak * UM_PER_MM,
             step * UM_PER_MM
         )
@@ -73,12 +79,11 @@ fn shaft_twist_mm(model: &Model<'_>, gear: Gear) -> Option<f64> {
 
 fn line_of_contact(model: &Model<'_>, outcome: &Outcome, mesh: &SlicedMesh) -> LineOfContactSummary {
     let in_contact = &mesh.contacts_at_phases;
-    let length =
-        |contacts: usize| contacts as f64 * outcome.slices.slice_width_mm / model.pair.base_helix_angle_rad().cos();
+    let length = |contacts: f64| contacts * outcome.slices.slice_width_mm / model.pair.base_helix_angle_rad().cos();
     let pair = model.pair;
     LineOfContactSummary {
-        min: length(in_contact.iter().copied().min().unwrap_or(0)),
-        max: length(in_contact.iter().copied().max().unwrap_or(0)),
+        min: length(in_contact.iter().copied().fold(f64::INFINITY, f64::min)),
+        max: length(in_contact.iter().copied().fold(0.0, f64::max)),
         mean: pair.path.contact_ratio() * pair.spec.face_width_mm / pair.base_helix_angle_rad().cos(),
     }
 }

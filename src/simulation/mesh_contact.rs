@@ -11,7 +11,7 @@ use crate::mesh_cycle::{
     condensed::CondensedCycle,
     positions::{loading_positions, positions_with_tip_contact},
     sliced::{SliceSprings, SlicedCycle, SpringAlongPath},
-    sliced_positions::sliced_positions,
+    sliced_positions::{SliceEnds, sliced_positions},
     sliced_teeth::SlicedTeeth,
     tip_contact,
 };
@@ -156,7 +156,7 @@ impl<'a> LoadedMesh<'a> {
             sliced,
             line_load_n_per_mm: line_load * sliced.slices.count() as f64,
         };
-        let phases = sliced_positions(path, &sliced.slices, count, None);
+        let phases = sliced_positions(path, &sliced.slices, count, SliceEnds::AtOnce);
         let bodies_mm = bodies_mm2_per_n(teeth, Some(sliced)) * line_load;
         Ok(SimplifiedPair::new(springs, phases, flanks.grid, modification_mm, count, bodies_mm))
     }
@@ -189,7 +189,12 @@ impl<'a> LoadedMesh<'a> {
         if let Some(sliced) = sliced {
             let spring = |at| slice_spring(self.pair, teeth, sliced, at);
             let along = SpringAlongPath::new(path, count, beyond.unwrap_or_default(), spring)?;
-            let phases = sliced_positions(path, &sliced.slices, count, beyond);
+            let ends = match beyond {
+                Some(beyond_mm) => SliceEnds::Beyond(beyond_mm),
+                None if surface.touches_in_points() => SliceEnds::AtOnce,
+                None => SliceEnds::Gradual,
+            };
+            let phases = sliced_positions(path, &sliced.slices, count, ends);
             let springs = SliceSprings { pair: self.pair, along_path: &along, lever_ratio: &lever_ratio };
             let cycle = SlicedCycle::new(flanks, surface, sliced, &phases, &springs, path, count, line_load);
             return Ok(Box::new(cycle.on_bodies_that_yield_by(bodies)));

@@ -18,7 +18,7 @@ fn val_twist_of_a_pinion() {
     for count in [1, 7, 2000] {
         let slice_width_mm = face_width_mm / count as f64;
         let width_mm = (0..count).map(|i| (i as f64 + 0.5) * slice_width_mm).collect();
-        let slices = Slices { width_mm, ahead_mm: vec![0.0; count], slice_width_mm };
+        let slices = Slices { width_mm, ahead_mm: vec![0.0; count], slice_width_mm, ahead_varies_mm: 0.0 };
         let coupling = shaft.mm2_per_n(base_radius_mm, 210e3 / 2.6, &slices);
         let twist_um: Vec<f64> =
             coupling.chunks_exact(count).map(|row| 1e3 * line_load * row.iter().sum::<f64>()).collect();

@@ -13,7 +13,7 @@ use gearwear::mesh_cycle::{
     settings::{Coupling, SliceSettings},
     slice_coupling::SliceCompliance,
     sliced_mesh::SlicedMesh,
-    sliced_positions::sliced_positions,
+    sliced_positions::{SliceEnds, sliced_positions},
     sliced_teeth::SlicedTeeth,
 };
 use gearwear::observer::Unwatched;
@@ -207,7 +207,7 @@ fn val_exact_wear_of_every_slice() {
     for (count, coupling) in [(1, Coupling::None), (6, Coupling::None), (20, Coupling::None), (20, Coupling::Slicing)] {
         let scene = Scene { steps: 10.0, ..scene(count, coupling) };
         let (outcome, pair) = (run(&scene), pair(&scene.pair));
-        let phases = sliced_positions(&pair.path, &outcome.slices, scene.positions, None);
+        let phases = sliced_positions(&pair.path, &outcome.slices, scene.positions, SliceEnds::AtOnce);
         for snapshot in [&outcome.new, &outcome.worn] {
             let mesh = mesh(snapshot);
             let spacing = mesh.base_pitch_mm / mesh.transmission_error_mm.len() as f64;

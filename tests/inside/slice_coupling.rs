@@ -6,7 +6,7 @@ use gearwear::mesh_cycle::bent_tooth::BentTooth;
 use gearwear::mesh_cycle::coupled_teeth::CoupledTeeth;
 use gearwear::mesh_cycle::load_sharing::MeshedPair;
 use gearwear::mesh_cycle::slice_coupling::{Factors, Reach, SliceCoupling};
-use gearwear::mesh_cycle::sliced_positions::SliceContact;
+use gearwear::mesh_cycle::sliced_positions::{ContactPart, SliceContact};
 use gearwear::mesh_cycle::sliced_sharing::balance_on_teeth;
 
 use super::common::{assert_close, fzg_c, pair, steel};
@@ -183,7 +183,8 @@ fn ver_softening_slices_balance() {
     let (count, mm2_per_n) = (20, 5e-5);
     let coupling = SliceCoupling::new(Reach::of_pair(&pair(&fzg_c()), &steel()), count, 2.0);
     let cell = PositionCell { position_mm: 0.0, lower_mm: 0.0, upper_mm: 0.0 };
-    let contacts: Vec<SliceContact> = (0..count).map(|slice| SliceContact { tooth: 0, slice, cell }).collect();
+    let contacts: Vec<SliceContact> =
+        (0..count).map(|slice| SliceContact { tooth: 0, slice, cell, part: ContactPart::WHOLE }).collect();
     for (load, tilts) in [(2e3, 100), (20.0, 30)] {
         for tilt_mm in (1..=tilts).map(|n| 4e-5 * f64::from(n)) {
             let touch_mm = |slice: usize| tilt_mm * slice as f64;

@@ -132,6 +132,7 @@ impl<'a> SimplifiedPair<'a> {
                 let contacts: Vec<ObservedContact> = batch
                     .contacts(index)
                     .map(|(contact, _, state)| ObservedContact {
+                        part_of_width: contact.part.of_width,
                         tooth: contact.tooth,
                         slice: contact.slice,
                         line_load_n_per_mm: state.line_load_n_per_mm,

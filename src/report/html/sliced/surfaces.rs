@@ -1,4 +1,5 @@
-//! Wear and pressure as surfaces over the flank, to be turned and read; buttons choose which one is shown.
+//! Wear and pressure over the flank, to be turned and read; buttons choose which one is shown. Wear is taken off the flank, so that it stands there
+//! as the grooves it is; pressure stands on it.
 
 use serde_json::{Value, json};
 
@@ -9,6 +10,9 @@ use crate::report::chart::{Chart, Trace, TraceKind};
 use crate::report::html::number::{figure, plotted};
 use crate::report::html::reading::greatest;
 
+/// Wear is in µm, the flank in mm.
+const MM_PER_UM: f64 = 1e-3;
+
 struct Shown<'a> {
     /// On its button.
     label: &'static str,
@@ -17,7 +21,19 @@ struct Shown<'a> {
     unit: &'static str,
     values: &'a [f64],
     top: f64,
+    /// Whether it is depth, below the unworn flank.
+    is_depth: bool,
 }
+
+impl Shown<'_> {
+    /// Of the axis that it is drawn along.
+    fn range(&self) -> [f64; 2] {
+        if self.is_depth { [-self.top, 0.0] } else { [0.0, self.top] }
+    }
+}
+
+/// Length of the face width and of the greatest height as drawn.
+const DRAWN: [f64; 2] = [1.7, 0.55];
 
 pub(super) fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Chart {
     let flank = &run.record.flanks[gear];
@@ -25,19 +41,28 @@ pub(super) fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Chart {
     let pressure = top(&flank.pressure_new_MPa).max(top(&flank.pressure_worn_MPa));
     let up_to = |top: f64| if top > 0.0 { top } else { 1.0 };
     let shown = [
-        ("wear", "wear, µm", "µm", &flank.wear_um, top(&flank.wear_um)),
-        ("pressure, new", "pressure, MPa", "MPa", &flank.pressure_new_MPa, pressure),
-        ("pressure, worn", "pressure, MPa", "MPa", &flank.pressure_worn_MPa, pressure),
+        ("wear", "worn flank, µm", "µm", &flank.wear_um, top(&flank.wear_um), true),
+        ("pressure, new", "pressure, MPa", "MPa", &flank.pressure_new_MPa, pressure, false),
+        ("pressure, worn", "pressure, MPa", "MPa", &flank.pressure_worn_MPa, pressure, false),
     ]
-    .map(|(label, axis, unit, values, top)| Shown { label, axis, unit, values, top: up_to(top) });
+    .map(|(label, axis, unit, values, top, is_depth)| Shown {
+        label,
+        axis,
+        unit,
+        values,
+        top: up_to(top),
+        is_depth,
+    });
+    let [width_drawn, height_drawn] = DRAWN;
+    let exaggeration = height_drawn / (shown[0].top * MM_PER_UM) * run.record.surface[gear].face_width_mm / width_drawn;
     let mut height = scene_axis(shown[0].axis);
-    height["range"] = json!([0.0, shown[0].top]);
+    height["range"] = json!(shown[0].range());
     let scene = json!({
         "xaxis": scene_axis("face width, mm"),
         "yaxis": scene_axis("radius, mm"),
         "zaxis": height,
         "aspectmode": "manual",
-        "aspectratio": { "x": 1.7, "y": 1.2, "z": 0.55 },
+        "aspectratio": { "x": width_drawn, "y": 1.2, "z": height_drawn },
         "camera": { "center": { "x": 0.0, "y": 0.0, "z": -0.15 }, "eye": { "x": -0.95, "y": -1.55, "z": 1.5 } },
         "dragmode": "turntable",
     });
@@ -50,9 +75,11 @@ pub(super) fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Chart {
         .set("updatemenus", json!([buttons(&shown)]))
         .add_all(shown.iter().enumerate().map(|(i, shown)| surface(run, gear, shown, i == 0)))
         .reading(format!(
-            "Height and colour are the wear ({} µm at most) or the greatest pressure during one mesh ({} MPa at most new, {} MPa worn); \
-             drag to turn. Each cell shows the greatest of the flank points it stands for.",
+            "Wear ({} µm at most) is taken off the unworn flank at 0, which is drawn flat: grooves point down, {} times as deep as the face \
+             width is drawn to scale. Pressure stands up: the greatest during one mesh ({} MPa at most new, {} MPa worn). Colour is the same \
+             quantity; drag to turn. Each cell shows the greatest of the flank points it stands for.",
             figure(top(&flank.wear_um)),
+            figure(exaggeration),
             figure(top(&flank.pressure_new_MPa)),
             figure(top(&flank.pressure_worn_MPa)),
         ))
@@ -68,14 +95,18 @@ fn surface(run: SlicedRun<'_>, gear: Gear, shown: &Shown<'_>, visible: bool) -> 
         let (first, last) = (row.first().copied(), row.last().copied());
         first.into_iter().chain(row).chain(last).collect()
     };
-    let values = raster.rows(|point, slice| shown.values[slice * points + point]).into_iter().map(to_ends);
+    let values: Vec<Vec<f64>> =
+        raster.rows(|point, slice| shown.values[slice * points + point]).into_iter().map(to_ends).collect();
+    let sign = if shown.is_depth { -1.0 } else { 1.0 };
+    let height: Vec<Vec<f64>> = values.iter().map(|row| row.iter().map(|value| sign * value).collect()).collect();
     let width = std::iter::once(0.0).chain(raster.across.middles()).chain([face_width]).map(plotted);
     let radius = raster.along.middles().into_iter().map(plotted);
     let unit = shown.unit;
     Trace::new(TraceKind::Surface, shown.label)
         .set("x", width.collect::<Vec<f64>>())
         .set("y", radius.collect::<Vec<f64>>())
-        .set("z", values.collect::<Vec<_>>())
+        .set("z", height)
+        .set("surfacecolor", values)
         .set("visible", visible)
         .set("cmin", 0.0)
         .set("cmax", shown.top)
@@ -90,8 +121,8 @@ fn scene_axis(title: &str) -> Value {
 fn buttons(shown: &[Shown<'_>]) -> Value {
     let button = |chosen: usize| {
         let visible: Vec<bool> = (0..shown.len()).map(|i| i == chosen).collect();
-        let Shown { label, axis, top, .. } = &shown[chosen];
-        let layout = json!({ "scene.zaxis.title.text": axis, "scene.zaxis.range": [0.0, top] });
+        let Shown { label, axis, .. } = &shown[chosen];
+        let layout = json!({ "scene.zaxis.title.text": axis, "scene.zaxis.range": shown[chosen].range() });
         json!({ "label": label, "method": "update", "args": [{ "visible": visible }, layout] })
     };
     json!({
