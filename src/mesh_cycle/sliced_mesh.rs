@@ -44,7 +44,9 @@ pub(crate) struct SlicedMesh {
     pub slices: usize,
     /// Positions of the tooth in the middle of the face width, evenly spaced, from its first touch to its last.
     pub position_mm: Vec<f64>,
-    /// Load of each slice at each position, position after position; 0 without contact; N per mm of face width.
+    /// Part of the width of each slice that is in contact at each position, position after position; 0 without contact.
+    pub part_of_width: Vec<f64>,
+    /// Its load, N per mm of its whole width.
     pub line_load_n_per_mm: Vec<f64>,
     /// Its greatest pressure, MPa.
     pub peak_pressure_mpa: Vec<f64>,
@@ -87,6 +89,7 @@ impl SlicedMesh {
         let mut mesh = Self {
             slices,
             position_mm,
+            part_of_width: field(),
             line_load_n_per_mm: field(),
             peak_pressure_mpa: field(),
             half_width_mm: field(),
@@ -104,6 +107,7 @@ impl SlicedMesh {
             for contact in &phase.contacts {
                 let row = (contact.tooth - first) as usize * count + j;
                 let place = row * slices + contact.slice;
+                mesh.part_of_width[place] = contact.part_of_width;
                 mesh.line_load_n_per_mm[place] = contact.line_load_n_per_mm;
                 mesh.peak_pressure_mpa[place] = contact.footprint.peak_pressure_mpa;
                 mesh.half_width_mm[place] = contact.footprint.half_width_mm;
@@ -117,7 +121,8 @@ impl SlicedMesh {
     fn between(mut self, [first, last]: [usize; 2]) -> Self {
         let n = self.slices;
         self.position_mm = self.position_mm[first..=last].to_vec();
-        for field in [&mut self.line_load_n_per_mm, &mut self.peak_pressure_mpa, &mut self.half_width_mm] {
+        let Self { part_of_width, line_load_n_per_mm, peak_pressure_mpa, half_width_mm, .. } = &mut self;
+        for field in [part_of_width, line_load_n_per_mm, peak_pressure_mpa, half_width_mm] {
             *field = field[first * n..(last + 1) * n].to_vec();
         }
         self.at_sharp_edge = self.at_sharp_edge[first * n..(last + 1) * n].to_vec();

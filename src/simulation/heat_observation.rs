@@ -141,11 +141,17 @@ impl HeatObserver<'_> {
                     HeatAtPosition { position_mm, rise_k: [0.0; 3], peclet: PerGear::default(), loaded: false };
                 for (slice, ahead) in self.ahead_mm.iter().enumerate().take(mesh.slices) {
                     let place = row * mesh.slices + slice;
+                    let part = mesh.part_of_width[place];
+                    if part <= 0.0 {
+                        continue;
+                    }
+                    let within = |at: f64| at.clamp(self.pair.path.start_mm, self.pair.path.end_mm);
+                    let middle_mm = position_mm + ahead;
                     let contact = Seen {
-                        position_mm: position_mm + ahead,
-                        line_load_n_per_mm: mesh.line_load_n_per_mm[place],
+                        position_mm: if part < 1.0 { within(middle_mm) } else { middle_mm },
+                        line_load_n_per_mm: mesh.line_load_n_per_mm[place] / part,
                         half_width_mm: mesh.half_width_mm[place],
-                        length_mm: spacing,
+                        length_mm: part * spacing,
                     };
                     self.weigh(&contact, sums);
                     hottest.take_hotter(&self.at(&contact));

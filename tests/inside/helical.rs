@@ -160,7 +160,7 @@ fn ver_parts_of_slices_have_the_length_of_the_lines() {
         let pair = pair(&preset(name));
         let path = &pair.path;
         // With one slice the place of contact varies by more over its width than from A to E, so that it is folded at both.
-        for (count, positions) in [(1, 400), (7, 100), (20, 400), (50, 23)] {
+        for (count, positions) in [(1, 400), (7, 100), (20, 400), (30, 600)] {
             let slices = Slices::new(&pair, count);
             let phases = sliced_positions(path, &slices, positions, SliceEnds::Gradual);
             let spacing = path.base_pitch_mm / phases.len() as f64;
@@ -202,15 +202,15 @@ fn greatest_second_difference(scene: &Scene) -> f64 {
 /// whatever the positions.
 #[test]
 fn ver_transmission_error_has_no_steps() {
-    for coupling in [Coupling::None, Coupling::Slicing] {
+    // Thin independent slices spread the kinks; coupled ones pass the whole load of a corner on within a few slices.
+    for (coupling, greatest) in [(Coupling::None, 0.02), (Coupling::Slicing, 0.09)] {
         let at = |count, positions| {
             greatest_second_difference(&Scene { positions, ..helical_scene("hertz", count, coupling) })
         };
         let [coarse, fine, more_slices] = [at(20, 200), at(20, 400), at(40, 400)];
-        println!("{coupling:?}: {coarse} {fine} {more_slices}, finest {}", at(20, 800));
         assert!(fine <= 0.7 * coarse, "{coupling:?}: {coarse} {fine}");
-        assert!(fine <= 0.035, "{coupling:?}: {fine}");
-        assert!(fine <= 3.0 * more_slices, "{coupling:?}: {fine} {more_slices}");
+        assert!(fine <= greatest, "{coupling:?}: {fine}");
+        assert!((fine / more_slices - 1.0).abs() <= 0.05, "{coupling:?}: {fine} {more_slices}");
     }
 }
 
