@@ -11,8 +11,8 @@ use crate::results::run::{PathPoints, SliceRecord};
 /// Positions are compared with A and E to this part of A–E.
 const SAME_PLACE: f64 = 1e-9;
 
-/// A slice at a position of the tooth; rows by position, and there by slice: those that are between A and E, or loaded at a tip
-/// edge outside.
+/// A slice at a position of the tooth; rows by position, and there by slice: those whose middle is between A and E, or that are loaded
+/// outside, in part of their width or at a tip edge.
 #[allow(non_snake_case, reason = "the contract's column names")]
 #[derive(Serialize, JsonSchema)]
 struct Row {
