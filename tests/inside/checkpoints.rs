@@ -105,11 +105,15 @@ fn with_adaptive_steps() {
 
 #[test]
 fn slice_by_slice() {
-    for coupling in ["none", "slicing"] {
+    let numerics = "flank_points = 60\npositions = 60\nstep = { revolutions = 3500.0 }";
+    let coupled = |coupling: &str| {
         let helical = format!("[helical]\nslices = 8\ncoupling = \"{coupling}\"");
-        let numerics = "flank_points = 60\npositions = 60\nstep = { revolutions = 3500.0 }";
-        goes_on_to_the_same_bits(&scene(HELICAL, "surface = \"winkler\"", numerics, &helical), 1);
-    }
+        scene(HELICAL, "surface = \"winkler\"", numerics, &helical)
+    };
+    goes_on_to_the_same_bits(&coupled("none"), 1);
+    goes_on_to_the_same_bits(&coupled("slicing"), 1);
+    let in_space = coupled("fem").replace("\"weber-banaschek\"", "\"fem\"");
+    goes_on_to_the_same_bits(&in_space, 1);
 }
 
 #[test]

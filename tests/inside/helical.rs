@@ -29,7 +29,7 @@ fn slices(count: usize, coupling: Coupling) -> Option<SliceSettings> {
 /// The preset `helical`, coarse, for one step; 302 N·m.
 fn helical_scene(surface: &'static str, count: usize, coupling: Coupling) -> Scene {
     Scene {
-        pair: preset("helical"),
+        pair: preset("thesis-helical"),
         revolutions: 6e5,
         surface,
         stiffness: StiffnessSettings::WeberBanaschek,

@@ -12,7 +12,7 @@ const BOTH: [Coupling; 2] = [Coupling::None, Coupling::Slicing];
 
 fn scene(coupling: Coupling, slices: usize, positions: usize, steps: f64) -> Scene {
     Scene {
-        pair: preset("helical"),
+        pair: preset("thesis-helical"),
         revolutions: 6e5,
         surface: "hertz",
         stiffness: StiffnessSettings::WeberBanaschek,

@@ -19,7 +19,7 @@ const BOTH: [Coupling; 2] = [Coupling::None, Coupling::Slicing];
 
 fn scene(surface: &'static str, coupling: Coupling) -> Scene {
     Scene {
-        pair: preset("helical"),
+        pair: preset("thesis-helical"),
         revolutions: REVOLUTIONS,
         surface,
         stiffness: StiffnessSettings::WeberBanaschek,
@@ -141,7 +141,7 @@ fn val_h4_transmission_error_varies_less_after_wear() {
 #[test]
 fn val_h5_an_overlap_of_one_wears_evenly() {
     let variations = |degrees: f64, width_mm: f64| {
-        let helical = preset("helical");
+        let helical = preset("thesis-helical");
         let beta = degrees.to_radians();
         // The transverse section is kept.
         let normal_module_mm = 4.5 * beta.cos();

@@ -190,3 +190,23 @@ fn finite_elements_have_the_same_figures() {
         assert!(new.peak_pressure_MPa > new.pitch_pressure_MPa);
     }
 }
+
+/// A preset that is not one of the thesis's model has rounded tip edges, so that all of its pressures are defined, and nothing else to be
+/// warned of, but that these runs are not verified.
+#[test]
+fn presets_do_not_warn_against_themselves() {
+    for preset in ["fzg-c", "fzg-a", "helical", "h501", "h701", "h951"] {
+        let coarse = [("numerics.flank_points", toml::Value::from(150)), ("numerics.positions", 60.into())];
+        let few_slices = [
+            ("helical.slices", toml::Value::from(6)),
+            ("operation.pinion_revolutions", 2e4.into()),
+            ("operation.snapshots_revolutions", toml::Value::Array(Vec::new())),
+        ];
+        let sliced = if preset.starts_with('h') { &few_slices[..] } else { &[] };
+        let record = run(preset, &[&coarse[..], sliced].concat());
+        assert_eq!(record.summary.new.sharp_edge_pressure_MPa, None, "{preset}");
+        let told: Vec<&String> =
+            record.summary.warnings.iter().filter(|said| !said.contains("numerics.verify")).collect();
+        assert!(told.is_empty(), "{preset}: {told:?}");
+    }
+}

@@ -12,8 +12,9 @@ const NUMERICS: &str = "flank_points = 120\npositions = 40\nstep = { revolutions
 
 fn scene(operation: &str, contact: &str, coefficient: f64, more: &str) -> String {
     let pair = if more.contains("[helical]") { "helical" } else { "fzg-c" };
+    let stiffness = if more.contains("coupling = \"fem\"") { "fem" } else { "weber-banaschek" };
     format!(
-        "[pair]\npreset = \"{pair}\"\n[operation]\n{operation}\n[contact]\n{contact}\n[stiffness]\nmodel = \"weber-banaschek\"\n[wear]\nlaw = \"archard\"\n\
+        "[pair]\npreset = \"{pair}\"\n[operation]\n{operation}\n[contact]\n{contact}\n[stiffness]\nmodel = \"{stiffness}\"\n[wear]\nlaw = \"archard\"\n\
          coefficient_m2_per_N = {coefficient:e}\n[numerics]\nerror_estimate = false\nverify = false\n{NUMERICS}{more}\n"
     )
 }
@@ -67,6 +68,7 @@ fn ver_two_equal_phases_are_one_run() {
         (WINKLER, "[helical]\nslices = 4"),
         ("surface = \"hertz-mean\"", "[helical]\nslices = 4"),
         ("surface = \"hertz-mean\"", "[helical]\nslices = 4\ncoupling = \"slicing\""),
+        ("surface = \"half-space\"", "[helical]\nslices = 4\ncoupling = \"fem\""),
     ];
     for (contact, more) in cases {
         let plain = format!("{OPERATION}pinion_revolutions = 4e5\nsnapshots_revolutions = [2e5, 4e5]\n");

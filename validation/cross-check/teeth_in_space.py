@@ -50,7 +50,7 @@ class Case:
 
 
 CASES = (
-    Case("helical", "helical-pinion-in-space.csv", 15.0, 20.0, (
+    Case("thesis-helical", "helical-pinion-in-space.csv", 15.0, 20.0, (
         (TEETH, 1, 1, "C3D20"), (TEETH, 1, 1, "C3D20R"),
         (4, 1, 1, "C3D20"), (4, 1, 1, "C3D20R"), (4, 2, 1, "C3D20"), (4, 1, 2, "C3D20"))),
     Case("fzg-c", "fzg-c-pinion-in-space.csv", 0.0, 14.0, ((TEETH, 1, 1, "C3D20"), (TEETH, 1, 1, "C3D20R"))),

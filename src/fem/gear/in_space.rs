@@ -381,7 +381,7 @@ mod tests {
     #[test]
     fn ver_deformed_teeth_are_those_of_the_compliance() {
         let steel = Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 };
-        let scene = LoadedScene::preset("helical").unwrap();
+        let scene = LoadedScene::preset("thesis-helical").unwrap();
         let pair = GearPair::new(&scene.scene().pair).unwrap();
         let tooth = &pair.teeth.pinion;
         let clamp_mm = scene.scene().fem.clamp_radius_mm.pinion;
