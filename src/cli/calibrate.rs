@@ -3,12 +3,12 @@
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use crate::calibration::CalibrationError;
 use crate::contact::settings::MatchCriterion;
 use crate::observer::Observer;
 use crate::pipeline::calibrate::{self, CalibrateError, Calibrated, Extent};
 use crate::plan::calibration::CalibrationStage;
 use crate::report;
+use crate::scene::Problem;
 use crate::scene::loaded::SceneText;
 
 use super::failure::{Failure, InputError};
@@ -77,22 +77,18 @@ fn check_out(out: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// A failure, told apart by who is to blame: the input, with its place where it has one, or the solver.
+/// A failure, told apart by who is to blame: the input, at its place, or the solver.
 fn refused(error: CalibrateError, text: &SceneText) -> Failure {
-    if let CalibrateError::Calibration(CalibrationError::Model(model)) = &error
-        && let Some(failure) = failure::of_model(model, text)
-    {
-        return failure;
-    }
-    match error {
-        CalibrateError::Interrupted => Failure::Interrupted,
-        CalibrateError::Pair(_)
-        | CalibrateError::Stiffness(_)
-        | CalibrateError::Calibration(
-            CalibrationError::NoClearPosition { .. } | CalibrationError::OffTheFlank { .. },
-        ) => InputError::Calibrate(error).into(),
-        CalibrateError::Calibration(_) | CalibrateError::Cycle { .. } => Failure::Calibrate(error),
-    }
+    let problem = match &error {
+        CalibrateError::Interrupted => return Failure::Interrupted,
+        CalibrateError::Calibration(calibration) => {
+            return failure::of_calibration(calibration, text).unwrap_or(Failure::Calibrate(error));
+        }
+        CalibrateError::Cycle { .. } => return Failure::Calibrate(error),
+        CalibrateError::Pair(pair) => Problem::of_pair(&text.text, pair),
+        CalibrateError::Stiffness(stiffness) => Problem::of_stiffness(&text.text, stiffness),
+    };
+    text.refused(vec![problem]).into()
 }
 
 /// The main figures, for the terminal.

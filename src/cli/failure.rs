@@ -4,6 +4,7 @@ use std::io;
 use std::sync::Arc;
 
 use super::say;
+use crate::calibration::CalibrationError;
 use crate::fem::SolveError;
 use crate::fem::gear::model::ModelError;
 use crate::mesh::MeshFileError;
@@ -101,13 +102,10 @@ pub(super) enum InputError {
     )]
     #[diagnostic(help("leave {option} out"))]
     OnlyForPair { name: String, option: &'static str },
-    /// `fem` of a gear pair that cannot be modelled as asked.
-    #[error("{}", fem_pair(.0))]
-    FemPair(FemPairError),
-    /// `calibrate` of a gear pair that cannot be modelled as asked.
-    #[error("the pair cannot be calibrated: {0}")]
-    #[diagnostic(help("try other values of fem.elements_per_half_width and fem.clamp_radius_mm"))]
-    Calibrate(CalibrateError),
+    /// A position where the reference pair does not touch.
+    #[error("--position: found {found_mm}; allowed: {from_mm:.4} (A) to {to_mm:.4} (E), in mm")]
+    #[diagnostic(help("positions are radii of curvature of the pinion"))]
+    Position { found_mm: f64, from_mm: f64, to_mm: f64 },
     /// `calibrate` with an output file that cannot be one.
     #[error("--out: found {name}, {what}; allowed: a file name such as pair.calibration.json")]
     CalibrationOut { name: String, what: &'static str },
@@ -135,9 +133,6 @@ pub(super) enum InputError {
     #[error("--out: {}", causes(.0))]
     #[diagnostic(help("choose a folder you may write to, or a name that is still free"))]
     Out(ReportError),
-    #[error("{}", of_mesh(.0))]
-    #[diagnostic(help("{}", mesh_help(.0)))]
-    PairMesh(PairMeshError),
     #[error("--out: {}", causes(.0))]
     #[diagnostic(help("a folder you may write to, and a name that ends in .msh, .vtu, .inp or .json"))]
     MeshFile(MeshFileError),
@@ -193,15 +188,23 @@ impl From<ReportError> for Failure {
     }
 }
 
-/// The failure that a finite-element model which cannot be made is, if the scene is to blame: at its key, where it has one.
-pub(super) fn of_model(error: &ModelError, text: &SceneText) -> Option<Failure> {
+/// The failure that a finite-element model which cannot be made is: at its key.
+pub(super) fn of_model(error: &ModelError, text: &SceneText) -> Failure {
     let problem = match error {
         ModelError::TooFewTeeth { teeth, least, .. } => Problem::of_sector_teeth(&text.text, *teeth, *least),
         ModelError::Mesh { gear, source } => Problem::of_tooth_mesh(&text.text, Some(*gear), source),
         ModelError::TooFine { .. } => Problem::of_elements(&text.text, error.to_string()),
-        ModelError::Condense { .. } => return None,
+        ModelError::Condense { gear, source } => Problem::of_condensation(&text.text, *gear, source),
     };
-    Some(text.refused(vec![problem]).into())
+    text.refused(vec![problem]).into()
+}
+
+/// The failure that a calibration which cannot be made is, if the scene is to blame.
+pub(super) fn of_calibration(error: &CalibrationError, text: &SceneText) -> Option<Failure> {
+    match error {
+        CalibrationError::Model(model) => Some(of_model(model, text)),
+        other => Problem::of_contact_strip(&text.text, other).map(|problem| text.refused(vec![problem]).into()),
+    }
 }
 
 /// What to do about a file that cannot be opened as a scene.
@@ -214,19 +217,6 @@ fn load_help(error: &LoadError) -> &'static str {
         LoadError::Unreadable { .. } | LoadError::Scene(_) => {
             "give the name of a file you may read, or - for standard input"
         }
-    }
-}
-
-/// A position where the pair does not touch.
-fn off_the_path(position_mm: f64, from_mm: f64, to_mm: f64) -> String {
-    format!("--position: found {position_mm}; allowed: {from_mm:.4} (A) to {to_mm:.4} (E), in mm")
-}
-
-/// A finite-element pair's error with the option it belongs to.
-fn fem_pair(error: &FemPairError) -> String {
-    match error {
-        FemPairError::Position { given_mm, from_mm, to_mm } => off_the_path(*given_mm, *from_mm, *to_mm),
-        other => other.to_string(),
     }
 }
 
@@ -327,24 +317,14 @@ fn label(problem: &Problem) -> Option<LabeledSpan> {
 }
 
 /// The failure that a mesh which cannot be made is: at its key or its option.
-pub(super) fn no_mesh(error: PairMeshError, text: &SceneText) -> Failure {
-    match &error {
-        PairMeshError::Tooth(tooth) => text.refused(vec![Problem::of_tooth_mesh(&text.text, None, tooth)]).into(),
-        _ => InputError::PairMesh(error).into(),
-    }
-}
-
-/// What is wrong with a mesh, at the option that is to blame.
-fn of_mesh(error: &PairMeshError) -> String {
-    match error {
-        PairMeshError::Position { position_mm, from_mm, to_mm } => off_the_path(*position_mm, *from_mm, *to_mm),
-        _ => format!("the pair cannot be meshed: {error}"),
-    }
-}
-
-fn mesh_help(error: &PairMeshError) -> &'static str {
-    match error {
-        PairMeshError::Position { .. } => "positions are radii of curvature of the pinion; left out: the pitch point",
-        _ => "try other values of fem.elements_per_half_width and fem.clamp_radius_mm",
-    }
+pub(super) fn no_mesh(error: &PairMeshError, text: &SceneText) -> Failure {
+    let problem = match error {
+        PairMeshError::Position { position_mm: found_mm, from_mm, to_mm } => {
+            return InputError::Position { found_mm: *found_mm, from_mm: *from_mm, to_mm: *to_mm }.into();
+        }
+        PairMeshError::Tooth(tooth) => Problem::of_tooth_mesh(&text.text, None, tooth),
+        PairMeshError::Pair(pair) => Problem::of_pair(&text.text, pair),
+        PairMeshError::Quality { gear, source } => Problem::of_mesh_quality(&text.text, *gear, source),
+    };
+    text.refused(vec![problem]).into()
 }

@@ -13,6 +13,7 @@ use crate::report;
 use crate::report::ReportError;
 use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
 use crate::results::run::{StageTime, StopReason};
+use crate::scene::Problem;
 use crate::scene::loaded::SceneText;
 
 use super::failure::{Failure, InputError};
@@ -60,18 +61,18 @@ pub(super) fn run(args: &Args, text: SceneText) -> Result<(), Failure> {
     }
 }
 
-/// A failure, told apart by who is to blame: the input, with its place where it has one, or the solver.
+/// A failure, told apart by who is to blame: the input, at its place, or the solver.
 fn refused(error: FemPairError, text: &SceneText) -> Failure {
-    let of_model = match &error {
-        FemPairError::Model(model) => failure::of_model(model, text),
-        _ => None,
-    };
-    of_model.unwrap_or_else(|| match error {
-        FemPairError::Position { .. } | FemPairError::Pair(_) | FemPairError::Quality { .. } => {
-            InputError::FemPair(error).into()
+    let problem = match &error {
+        FemPairError::Model(model) => return failure::of_model(model, text),
+        FemPairError::Position { given_mm: found_mm, from_mm, to_mm } => {
+            return InputError::Position { found_mm: *found_mm, from_mm: *from_mm, to_mm: *to_mm }.into();
         }
-        other => Failure::FemPair(other),
-    })
+        FemPairError::Pair(pair) => Problem::of_pair(&text.text, pair),
+        FemPairError::Quality { gear, source } => Problem::of_mesh_quality(&text.text, Some(*gear), source),
+        _ => return Failure::FemPair(error),
+    };
+    text.refused(vec![problem]).into()
 }
 
 /// The last stage: the output folder. Its own time is in the summary, which is therefore written last.

@@ -30,6 +30,9 @@ pub(super) fn table(summary: &Summary) -> String {
     text.push_str(&over_the_width(summary.helical.as_ref()));
     text.push_str(&verified(&summary.error.total));
     text.push_str(&estimated_errors(&summary.error));
+    if let Some(balance) = summary.error.volume_balance {
+        text.push_str(&format!("\n  worn volumes of pinion and wheel differ by {} %\n", two_digits(100.0 * balance)));
+    }
     let hours = summary.hours.map_or_else(String::new, |hours| format!(" ({} h)", digits(hours)));
     text.push_str(&format!(
         "\n{} pinion revolutions{hours}, computed in {:.2} s\n",

@@ -46,13 +46,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let resolved = text.resolve()?;
     warn(&resolved.warnings);
     if args.three_dimensional {
-        let built = pair_mesh::in_space(&resolved.scene, args.position).map_err(|error| no_mesh(error, &text))?;
+        let built = pair_mesh::in_space(&resolved.scene, args.position).map_err(|error| no_mesh(&error, &text))?;
         mesh::write_as(&built.mesh, &args.out, format).map_err(InputError::MeshFile)?;
         return print(&text_in_space(&resolved.scene, &built, &args.out));
     }
     warn(resolved.scene.plane_section_warning().as_slice());
     warn(resolved.scene.one_load_warning().as_slice());
-    let built = pair_mesh::build(&resolved.scene, args.position).map_err(|error| no_mesh(error, &text))?;
+    let built = pair_mesh::build(&resolved.scene, args.position).map_err(|error| no_mesh(&error, &text))?;
     mesh::write_as(&built.mesh, &args.out, format).map_err(InputError::MeshFile)?;
     print(&described(&resolved.scene, &built, &args.out))
 }
@@ -65,7 +65,7 @@ fn loaded(args: &Args, format: Format) -> Result<(), Failure> {
     let deformed = deformed_teeth(&scene, args.position, &progress);
     progress.finish();
     let deformed = deformed.map_err(|error| match error {
-        DeformedTeethError::Mesh(error) => no_mesh(error, &scene.given),
+        DeformedTeethError::Mesh(error) => no_mesh(&error, &scene.given),
         DeformedTeethError::Run(error) => in_the_scene(error, &scene),
         DeformedTeethError::Teeth(error) => in_the_scene(error.into(), &scene),
     })?;

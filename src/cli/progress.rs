@@ -32,12 +32,24 @@ impl<L> Display<L> {
     }
 }
 
-/// The stage that was begun last, and when.
-type Begun = Option<(String, Instant)>;
+/// A stage takes this long before how long it takes in all is judged by.
+const JUDGED_AFTER_S: f64 = 2.0;
+/// What takes longer is said, s.
+const LONG_S: f64 = 20.0;
+
+/// The stage that was begun last.
+struct Begun {
+    name: String,
+    start: Instant,
+    /// Its progress when that was first told, and when.
+    first: Option<(f64, Instant)>,
+    /// Whether it was said how long it takes.
+    is_said: bool,
+}
 
 /// Watches a run for the user, who may interrupt it.
 pub(super) struct Progress {
-    display: Display<Begun>,
+    display: Display<Option<Begun>>,
     interrupted: Arc<AtomicBool>,
     /// When the interrupt was first noticed.
     first_heard: OnceLock<Instant>,
@@ -70,7 +82,10 @@ impl Observer for Progress {
     fn stage(&self, name: &str) {
         match &self.display {
             Display::Quiet => {}
-            Display::Log(stage) => log_end(stage, Some((name.to_owned(), Instant::now()))),
+            Display::Log(stage) => {
+                let begun = Begun { name: name.to_owned(), start: Instant::now(), first: None, is_said: false };
+                log_end(stage, Some(begun));
+            }
             Display::Bar(bar) => {
                 bar.reset();
                 bar.set_message(name.to_owned());
@@ -87,10 +102,13 @@ impl Observer for Progress {
     }
 
     fn progress(&self, done: f64, total: f64) {
-        if let Display::Bar(bar) = &self.display
-            && total > 0.0
-        {
-            bar.set_position((done / total * PARTS as f64) as u64);
+        if total <= 0.0 {
+            return;
+        }
+        match &self.display {
+            Display::Quiet => {}
+            Display::Log(stage) => log_long(stage, done / total),
+            Display::Bar(bar) => bar.set_position((done / total * PARTS as f64) as u64),
         }
     }
 
@@ -124,9 +142,40 @@ fn bar() -> ProgressBar {
 }
 
 /// Logs the stage that ends, with its time, and remembers the next.
-fn log_end(stage: &Mutex<Begun>, next: Begun) {
+fn log_end(stage: &Mutex<Option<Begun>>, next: Option<Begun>) {
     let Ok(mut stage) = stage.lock() else { return };
-    if let Some((name, start)) = std::mem::replace(&mut *stage, next) {
+    if let Some(Begun { name, start, .. }) = std::mem::replace(&mut *stage, next) {
         super::say(&format!("{name}: {:.2} s", start.elapsed().as_secs_f64()));
+    }
+}
+
+/// Says once of a stage, of which the part `done` is finished, that it takes long.
+fn log_long(stage: &Mutex<Option<Begun>>, done: f64) {
+    let Ok(mut stage) = stage.lock() else { return };
+    let Some(begun) = stage.as_mut().filter(|begun| !begun.is_said) else { return };
+    let (before, start) = *begun.first.get_or_insert_with(|| (done, Instant::now()));
+    let elapsed_s = start.elapsed().as_secs_f64();
+    if elapsed_s < JUDGED_AFTER_S {
+        return;
+    }
+    if let Some(left_s) = left_s(elapsed_s, done - before, 1.0 - done).filter(|left_s| elapsed_s + left_s > LONG_S) {
+        begun.is_said = true;
+        super::say(&format!("{}: takes some {left_s:.0} s more", begun.name));
+    }
+}
+
+/// What is left takes as long for each part as what is finished took; `None` where nothing is.
+fn left_s(elapsed_s: f64, finished: f64, left: f64) -> Option<f64> {
+    (finished > 0.0).then(|| elapsed_s / finished * left)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_follows_from_what_is_finished() {
+        assert_eq!(left_s(2.0, 0.05, 0.95), Some(38.0));
+        assert_eq!(left_s(2.0, 0.0, 1.0), None);
     }
 }

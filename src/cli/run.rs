@@ -130,8 +130,13 @@ pub(super) fn in_the_scene(error: RunError, scene: &LoadedScene) -> Failure {
     if let RunError::TeethInSpace(error) = &error {
         return scene.given.refused(vec![Problem::of_teeth_in_space(&scene.given.text, error)]).into();
     }
-    let of_model = error.model().and_then(|model| failure::of_model(model, &scene.given));
-    of_model.unwrap_or(Failure::Run(error))
+    let of_scene = match &error {
+        RunError::FiniteElements(model) => Some(failure::of_model(model, &scene.given)),
+        RunError::Calibration(calibration) => failure::of_calibration(calibration, &scene.given),
+        RunError::Pair(pair) => Some(scene.given.refused(vec![Problem::of_pair(&scene.given.text, pair)]).into()),
+        _ => None,
+    };
+    of_scene.unwrap_or(Failure::Run(error))
 }
 
 /// The last stage: the output folder. Its own time is in the summary, which is therefore written last.

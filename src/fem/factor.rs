@@ -78,6 +78,73 @@ struct Reduced {
     values: Vec<f64>,
 }
 
+/// A stiffness analysed for its factorisation: what that takes is known, and nothing of it taken yet.
+pub(crate) struct Analysis {
+    reduced: Reduced,
+    dofs: usize,
+    per_node: usize,
+    dof_of_free: Vec<u32>,
+    symbolic: SymbolicCholesky<u32>,
+}
+
+impl Analysis {
+    /// Analyses `matrix` without the degrees of freedom that `is_held`; what is left must be held.
+    pub(crate) fn new(matrix: &NodeMatrix, is_held: impl Fn(usize) -> bool) -> Result<Self, FactorError> {
+        let dofs = matrix.dofs();
+        let mut free_of_dof = vec![HELD; dofs];
+        let mut dof_of_free = Vec::with_capacity(dofs);
+        for (dof, free) in free_of_dof.iter_mut().enumerate() {
+            if !is_held(dof) {
+                *free = dof_of_free.len() as u32;
+                dof_of_free.push(dof as u32);
+            }
+        }
+        let reduced = Reduced::new(matrix, &free_of_dof, &dof_of_free);
+        let params = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
+            ..Default::default()
+        };
+        let pattern = reduced.matrix();
+        let symbolic = factorize_symbolic_cholesky(pattern.symbolic(), Side::Lower, SymmetricOrdering::Amd, params)
+            .map_err(|_| FactorError::OutOfMemory)?;
+        Ok(Self { reduced, dofs, per_node: matrix.per_node(), dof_of_free, symbolic })
+    }
+
+    /// Memory that the factor takes, GB.
+    pub(crate) fn factor_gb(&self) -> f64 {
+        const BYTES: f64 = size_of::<f64>() as f64;
+        1e-9 * BYTES * self.symbolic.len_val() as f64
+    }
+
+    /// The factor.
+    pub(crate) fn factorised(self) -> Result<Factor, FactorError> {
+        let Self { reduced, dofs, per_node, dof_of_free, symbolic } = self;
+        let matrix = reduced.matrix();
+        let needed = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
+        let mut scratch = MemBuffer::try_new(needed).map_err(|_| FactorError::OutOfMemory)?;
+        let mut place_of_dof = vec![HELD; dofs];
+        let dof_of_place: Vec<u32> = match symbolic.perm() {
+            Some(order) => order.arrays().0.iter().map(|free| dof_of_free[*free as usize]).collect(),
+            None => dof_of_free,
+        };
+        for (place, dof) in (0..).zip(&dof_of_place) {
+            place_of_dof[*dof as usize] = place;
+        }
+        let mut values = Vec::new();
+        values.try_reserve_exact(symbolic.len_val()).map_err(|_| FactorError::OutOfMemory)?;
+        values.resize(symbolic.len_val(), 0.0);
+        let (regularization, params) = (Default::default(), Default::default());
+        let stack = MemStack::new(&mut scratch);
+        symbolic
+            .factorize_numeric_llt(&mut values, matrix, Side::Lower, regularization, Par::Seq, stack, params)
+            .map_err(|LltError::NonPositivePivot { index }| {
+                let dof = dof_of_place[index] as usize;
+                FactorError::NotPositive { dof, node: dof / per_node }
+            })?;
+        Ok(Factor { place_of_dof, dof_of_place, symbolic, values })
+    }
+}
+
 impl Factor {
     /// Factorises `stiffness` with the degrees of freedom struck out whose displacement is given (`held[dof]`).
     ///
@@ -94,44 +161,7 @@ impl Factor {
 
     /// Factorises `matrix` without the degrees of freedom that `is_held`; what is left must be held.
     pub(crate) fn of_held(matrix: &NodeMatrix, is_held: impl Fn(usize) -> bool) -> Result<Self, FactorError> {
-        let dofs = matrix.dofs();
-        let mut free_of_dof = vec![HELD; dofs];
-        let mut dof_of_free = Vec::with_capacity(dofs);
-        for (dof, free) in free_of_dof.iter_mut().enumerate() {
-            if !is_held(dof) {
-                *free = dof_of_free.len() as u32;
-                dof_of_free.push(dof as u32);
-            }
-        }
-        let reduced = Reduced::new(matrix, &free_of_dof, &dof_of_free);
-        let per_node = matrix.per_node();
-        let params = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-            ..Default::default()
-        };
-        let matrix = reduced.matrix();
-        let symbolic = factorize_symbolic_cholesky(matrix.symbolic(), Side::Lower, SymmetricOrdering::Amd, params)
-            .map_err(|_| FactorError::OutOfMemory)?;
-        let needed = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
-        let mut scratch = MemBuffer::try_new(needed).map_err(|_| FactorError::OutOfMemory)?;
-        let mut place_of_dof = vec![HELD; dofs];
-        let dof_of_place: Vec<u32> = match symbolic.perm() {
-            Some(order) => order.arrays().0.iter().map(|free| dof_of_free[*free as usize]).collect(),
-            None => dof_of_free,
-        };
-        for (place, dof) in (0..).zip(&dof_of_place) {
-            place_of_dof[*dof as usize] = place;
-        }
-        let mut values = vec![0.0; symbolic.len_val()];
-        let (regularization, params) = (Default::default(), Default::default());
-        let stack = MemStack::new(&mut scratch);
-        symbolic
-            .factorize_numeric_llt(&mut values, matrix, Side::Lower, regularization, Par::Seq, stack, params)
-            .map_err(|LltError::NonPositivePivot { index }| {
-                let dof = dof_of_place[index] as usize;
-                FactorError::NotPositive { dof, node: dof / per_node }
-            })?;
-        Ok(Self { place_of_dof, dof_of_place, symbolic, values })
+        Analysis::new(matrix, is_held)?.factorised()
     }
 
     /// Solves K u = F in place for `columns` right-hand sides, one after the other in `x`, each with an entry for every

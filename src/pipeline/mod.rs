@@ -40,7 +40,7 @@ use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::mesh_cycle::slice_coupling::SliceCompliance;
 use crate::mesh_cycle::sliced_teeth::SlicedTeeth;
 use crate::observer::Observer;
-use crate::plan::{Plan, StageKind};
+use crate::plan::{Plan, StageKind, memory_in_space_gb};
 use crate::reference::flattening::Flattening;
 use crate::results::error::ErrorSummary;
 use crate::results::run::{RunRecord, StopReason, Summary};
@@ -91,14 +91,6 @@ impl RunError {
             _ => None,
         }
     }
-
-    /// The finite-element model that could not be made, if that is what is wrong.
-    pub(crate) fn model(&self) -> Option<&ModelError> {
-        match self {
-            RunError::FiniteElements(error) | RunError::Calibration(CalibrationError::Model(error)) => Some(error),
-            _ => None,
-        }
-    }
 }
 
 /// What a computation came to.
@@ -123,6 +115,19 @@ impl<R, E> Done<R, E> {
     }
 }
 
+/// What is to be said before teeth are condensed in space, where that takes much.
+fn much_in_space(scene: &Scene) -> Option<String> {
+    let gb = memory_in_space_gb(scene);
+    (gb > MUCH_IN_SPACE_GB).then(|| {
+        format!(
+            "the teeth in space take some {gb:.1} GB, and a minute or more; a smaller pair.face_width_mm, fewer helical.slices, \
+             numerics.positions or loads of operation.phases, or numerics.verify = false take less"
+        )
+    })
+}
+
+/// What teeth in space take more than this is said before, GB.
+const MUCH_IN_SPACE_GB: f64 = 0.8;
 /// Micrometres, in which records are written.
 const UM_PER_MM: f64 = 1e3;
 /// Part of the greatest load whose contact is still resolved by the elements that wear: half as wide as that of the whole. Phases under
@@ -242,13 +247,12 @@ fn carry_out<R>(
     let line_load = |phase: &Phase| pair.line_load_n_per_mm(phase.pinion_torque_n_mm);
     let base_radius = pair.path.involute.pinion.base_radius_mm;
     // One model of finite elements serves the stiffness of the teeth and the verification.
-    let elements =
-        match plan.has(StageKind::FiniteElementModel) && scene.contact.surface != SurfaceKind::Fem {
-            true => Some(stages.run(StageKind::FiniteElementModel.name(), || {
-                verification::elements(scene, &pair, &at_pitch, line_load)
-            })),
-            false => None,
-        };
+    let elements = match plan.has(StageKind::FiniteElementModel) && scene.contact.surface != SurfaceKind::Fem {
+        true => Some(stages.run(StageKind::FiniteElementModel.name(), || {
+            verification::elements(scene, &pair, &at_pitch, line_load, observer)
+        })),
+        false => None,
+    };
     let (stiffness, computed, stiffness_warning) =
         own_stiffness(scene, plan, files, elements.as_ref(), &calibrate::setup(scene, &pair), &mut stages)?;
     // All phases wear the nodes of one mesh.
@@ -257,7 +261,7 @@ fn carry_out<R>(
             let loads = || scene.operation.phases.iter().map(line_load);
             let (least, greatest) = (loads().fold(f64::INFINITY, f64::min), loads().fold(0.0, f64::max));
             let load = least.max(LEAST_MESHED_LOAD * greatest);
-            verification::condensed(scene, &pair, load, scene.wear_elements_per_half_width)
+            verification::condensed(scene, &pair, load, scene.wear_elements_per_half_width, observer)
         })?),
         _ => None,
     };
@@ -291,6 +295,11 @@ fn carry_out<R>(
         true => stages.run(StageKind::ToothStiffness.name(), springs),
         false => springs(),
     }?;
+    if plan.has(StageKind::TeethInSpace)
+        && let Some(much) = much_in_space(scene)
+    {
+        observer.warning(&much);
+    }
     let in_space = match plan.has(StageKind::TeethInSpace) {
         true => Some(stages.run(StageKind::TeethInSpace.name(), || {
             let material = scene.material.map(Material::elastic);

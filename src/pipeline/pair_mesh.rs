@@ -50,8 +50,13 @@ pub(crate) enum PairMeshError {
     #[error(transparent)]
     Tooth(#[from] ToothMeshError),
     /// The mesh is no good.
-    #[error(transparent)]
-    Quality(#[from] QualityError),
+    #[error("{source}")]
+    Quality {
+        /// Whose, where each has its own.
+        gear: Option<Gear>,
+        /// Why.
+        source: QualityError,
+    },
 }
 
 /// One pitch of each gear in space, as [`gear_mesh::space_mesh`] places it.
@@ -78,7 +83,10 @@ pub(crate) fn in_space(scene: &Scene, position_mm: Option<f64>) -> Result<SpaceM
 pub(super) fn in_space_at(scene: &Scene, pair: &GearPair, position_mm: f64) -> Result<SpaceMesh, PairMeshError> {
     let of_gear = |gear| ExtrudedTooth::of_gear(pair, gear, scene.fem.clamp_radius_mm[gear], &SpaceResolution::USUAL);
     let teeth = PerGear::from_fn(of_gear);
-    let quality = |gear: Gear| quality::of_mesh(&teeth[gear].section.to_mesh());
+    let quality = |gear: Gear| {
+        let section = teeth[gear].section.to_mesh();
+        quality::of_mesh(&section).map_err(|source| PairMeshError::Quality { gear: Some(gear), source })
+    };
     Ok(SpaceMesh {
         mesh: gear_mesh::space_mesh(pair, &teeth, position_mm),
         quality: PerGear { pinion: quality(Gear::Pinion)?, wheel: quality(Gear::Wheel)? },
@@ -115,7 +123,7 @@ pub(crate) fn build(scene: &Scene, position_mm: Option<f64>) -> Result<PairMesh,
         fine_teeth.retain(|index| 2 * index.unsigned_abs() < teeth);
     }
     let mesh = gear_mesh::pair_mesh(&pair, &scene.fem, &sectors, &fine_teeth, position_mm)?;
-    let quality = quality::of_mesh(&mesh)?;
+    let quality = quality::of_mesh(&mesh).map_err(|source| PairMeshError::Quality { gear: None, source })?;
     let at_pitch_mm = half_width_mm(pair.path.pitch_point_mm.clamp(from_mm, to_mm));
     Ok(PairMesh {
         mesh,

@@ -59,7 +59,7 @@ pub(super) fn summary(
     plan: &Plan,
     model: &Model<'_>,
     found: RunFindings<'_>,
-    error: ErrorSummary,
+    mut error: ErrorSummary,
     judged: Judged,
 ) -> Result<Summary, RunError> {
     let (scene, pair) = (model.scene, model.pair);
@@ -72,7 +72,11 @@ pub(super) fn summary(
     warnings.extend(left_out_contact::warning(model, outcome));
     warnings.extend(deep_wear_warning(pair, outcome));
     let wear_balance = WearBalance { new: imbalance(outcome, &outcome.new), worn: imbalance(outcome, &outcome.worn) };
-    warnings.extend(imbalance_warning(&wear_balance));
+    let worn = PerGear::from_fn(|gear| wear(model, outcome, gear));
+    error.volume_balance = volume_balance(&worn);
+    error.how.volume_balance =
+        "worn volumes of the whole gears, which are the same where contact and wear are resolved".to_owned();
+    warnings.extend(imbalance_warning(&wear_balance, error.volume_balance));
     warnings.extend(slices::warning(model, outcome));
     warnings.extend(error_estimates::warnings(&error));
     warnings.extend(found.verified.and_then(|verified| verified.warning.clone()));
@@ -106,8 +110,8 @@ pub(super) fn summary(
         temperature: found.heat.and_then(|heat| temperature::summary(model, heat)),
         new: cycle(pair, &outcome.new.cycle),
         worn: cycle(pair, &outcome.worn.cycle),
-        pinion: wear(model, outcome, Gear::Pinion),
-        wheel: wear(model, outcome, Gear::Wheel),
+        pinion: worn.pinion,
+        wheel: worn.wheel,
         wear_balance,
         error,
         work: WorkSummary {
@@ -135,12 +139,20 @@ fn imbalance(outcome: &Outcome, snapshot: &Snapshot) -> f64 {
     if greater > 0.0 { (lost.pinion - lost.wheel).abs() / greater } else { 0.0 }
 }
 
-/// Warns where the flanks of a contact do not lose the same.
-fn imbalance_warning(balance: &WearBalance) -> Option<String> {
-    let greatest = balance.new.max(balance.worn);
+/// |V₁ − V₂| over the greater, V: what all teeth of a gear lose in the whole run.
+fn volume_balance(worn: &PerGear<WearSummary>) -> Option<f64> {
+    let (pinion, wheel) = (worn.pinion.worn_volume_mm3, worn.wheel.worn_volume_mm3);
+    let greater = pinion.max(wheel);
+    (greater > 0.0).then(|| (pinion - wheel).abs() / greater)
+}
+
+/// Warns where the flanks of a contact do not lose the same, in one mesh or in the whole run.
+fn imbalance_warning(balance: &WearBalance, whole: Option<f64>) -> Option<String> {
+    let (in_one_mesh, whole) = (balance.new.max(balance.worn), whole.unwrap_or_default());
+    let (when, greatest) = if whole > IMBALANCE { ("in the whole run", whole) } else { ("in one mesh", in_one_mesh) };
     (greatest > IMBALANCE).then(|| {
         format!(
-            "in one mesh the flanks of pinion and wheel lose volumes that differ by {:.1} %, where both should lose the same: more \
+            "{when} the flanks of pinion and wheel lose volumes that differ by {:.1} %, where both should lose the same: more \
              numerics.flank_points and numerics.positions, or contact.surface = \"fem\", bring them together",
             100.0 * greatest
         )

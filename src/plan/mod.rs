@@ -10,11 +10,13 @@ use crate::gear_mesh::settings::{Body, SpaceResolution};
 use crate::mesh_cycle::settings::{Coupling, MOST_SLICES_IN_SPACE, SliceSettings};
 use crate::scene::Scene;
 use crate::scene::loaded::LoadedScene;
-use crate::simulation::settings::{AdaptiveMethod, Operation, Stepping};
+use crate::simulation::settings::{AdaptiveMethod, Operation, Phase, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
 
 /// Phases that are listed one by one.
 const PHASES_LISTED: usize = 8;
+/// Matrices that couple 100 slices with each other at 400 positions, GB.
+const COUPLED_GB: f64 = 0.5;
 
 /// A stage of the work, in the order of the work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -261,9 +263,21 @@ fn tooth_stiffness(scene: &Scene) -> Result<String, String> {
     }
 }
 
+/// Memory that the teeth in space of `scene` take, GB: their sectors, and for each of its loads the matrices that couple its slices.
+pub(crate) fn memory_in_space_gb(scene: &Scene) -> f64 {
+    let phases = &scene.operation.phases;
+    let is_first = |(at, phase): &(usize, &Phase)| {
+        phases[..*at].iter().all(|earlier| earlier.pinion_torque_n_mm != phase.pinion_torque_n_mm)
+    };
+    let loads = phases.iter().enumerate().filter(is_first).count() as f64;
+    let slices = scene.slices.map_or(0, |slices| slices.count) as f64;
+    let (slices, positions) = (slices / 100.0, scene.numerics.positions as f64 / 400.0);
+    SpaceResolution::USUAL.memory_gb(&scene.pair) + loads * COUPLED_GB * slices * slices * positions
+}
+
 fn teeth_in_space(scene: &Scene) -> Result<String, String> {
     let needs = |what: &str| {
-        let gb = SpaceResolution::USUAL.memory_gb(&scene.pair);
+        let gb = memory_in_space_gb(scene);
         Ok(format!("{what}: one sector of each gear over the whole face width, condensed in some {gb:.1} GB"))
     };
     match scene.slices.map(|slices| slices.coupling) {

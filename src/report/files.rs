@@ -6,7 +6,6 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Serialize;
-use tempfile::NamedTempFile;
 
 use crate::whole_file;
 
@@ -46,11 +45,12 @@ pub(crate) fn remove(dir: &Path, name: &str) -> Result<(), ReportError> {
     }
 }
 
-/// Checks, before work starts, that files can be written into `dir`; leaves nothing behind that was not there.
+/// Checks, before work starts, that files can be written into `dir`; leaves nothing behind that was not there, nor
+/// what a process that was killed left.
 pub(crate) fn writable(dir: &Path) -> Result<(), ReportError> {
     let missing: Vec<&Path> = dir.ancestors().take_while(|p| !p.as_os_str().is_empty() && !p.exists()).collect();
     let probed = create_folder(dir).and_then(|()| {
-        NamedTempFile::new_in(dir).map(drop).map_err(|source| ReportError::WriteFile { path: dir.into(), source })
+        whole_file::temporary(dir).map(drop).map_err(|source| ReportError::WriteFile { path: dir.into(), source })
     });
     // Deepest first. A folder that someone else has filled meanwhile is not empty, stays, and is no error of ours.
     for made in missing {

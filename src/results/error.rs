@@ -47,6 +47,9 @@ pub struct ErrorSummary {
     pub wear_step: Option<f64>,
     /// From the contact surface and the stiffness of the teeth: difference from the same wear simulation with finite elements; of both gears the larger.
     pub surface_model: Option<f64>,
+    /// Difference of the volumes that the whole run takes from all teeth of pinion and wheel, relative to the greater: what one flank of a
+    /// contact loses the other does too. `None` where nothing wears.
+    pub volume_balance: Option<f64>,
     /// Between an abrupt transition to severe wear and one over a band; `None` where no wear is severe. Not an error but a choice of the scene.
     pub severe_switch: Option<f64>,
     /// What the estimates cost over what the run itself did, counted in equilibria weighted by their time.
@@ -62,6 +65,7 @@ impl ErrorSummary {
             discretisation: format!("not estimated: {reason}"),
             wear_step: format!("not estimated: {reason}"),
             surface_model: format!("not estimated: {reason}"),
+            volume_balance: String::new(),
             severe_switch: format!("not estimated: {reason}"),
         };
         Self { how, ..Self::default() }
@@ -75,5 +79,6 @@ pub struct ErrorSources {
     pub discretisation: String,
     pub wear_step: String,
     pub surface_model: String,
+    pub volume_balance: String,
     pub severe_switch: String,
 }

@@ -4,8 +4,11 @@ use std::fmt;
 use std::ops::Range;
 
 use super::locate::Locator;
+use crate::calibration::CalibrationError;
+use crate::fem::SolveError;
 use crate::gear::{Gear, PairError};
 use crate::gear_mesh::ToothMeshError;
+use crate::mesh::quality::QualityError;
 use crate::mesh_cycle::pair_in_space::PairInSpaceError;
 use crate::stiffness::StiffnessError;
 
@@ -103,8 +106,7 @@ impl Problem {
                 (below("pair", ""), "a tooth with a body between its flanks")
             }
         };
-        let help = "what the gears and their modifications are decides, and fem.clamp_radius_mm where their bodies end";
-        Self::of_body(text, key, format!("a pair that cannot be meshed ({error})"), allowed, help)
+        Self::of_body(text, key, format!("a pair that cannot be meshed ({error})"), allowed, BODIES_HELP)
     }
 
     /// The elements of the scene in `text` are too many, or none; `found` says so.
@@ -112,6 +114,38 @@ impl Problem {
         let (key, allowed) = ("fem.elements_per_half_width".to_owned(), "another number");
         let help = "elements grow with the load and shrink with this number";
         Self::of_body(text, key, format!("a pair that cannot be meshed ({found})"), allowed, help)
+    }
+
+    /// The mesh of `gear`, or of both, is no good.
+    pub(crate) fn of_mesh_quality(text: &str, gear: Option<Gear>, error: &QualityError) -> Self {
+        let found = format!("a pair that cannot be meshed ({error})");
+        Self::of_body(text, clamp_key(gear), found, "a body whose section can be meshed", BODIES_HELP)
+    }
+
+    /// The finite elements of `gear` have no solution.
+    pub(crate) fn of_condensation(text: &str, gear: Gear, error: &SolveError) -> Self {
+        let found = format!("a body that cannot be condensed ({error})");
+        let allowed = "a body that its clamp holds";
+        Self::of_body(text, clamp_key(Some(gear)), found, allowed, BODIES_HELP)
+    }
+
+    /// The load of the scene in `text` asks for a strip of contact that the flanks do not have; `None` for errors of the solver.
+    pub(crate) fn of_contact_strip(text: &str, error: &CalibrationError) -> Option<Self> {
+        if !matches!(error, CalibrationError::OffTheFlank { .. } | CalibrationError::NoClearPosition { .. }) {
+            return None;
+        }
+        let locator = Locator::new(text).unwrap_or_default();
+        let (whole, phase) = ("operation.pinion_torque_Nm", "operation.phases[0].pinion_torque_Nm");
+        let key = if locator.key(whole).is_none() && locator.key(phase).is_some() { phase } else { whole };
+        let found = format!("a load under which the pair cannot be calibrated ({error})");
+        let help = "the strip widens with the load, and with softer materials; a greater face width makes it narrower";
+        Some(Self::of_body(text, key.to_owned(), found, "a load whose strip of contact lies on the flanks", help))
+    }
+
+    /// The pair of the scene in `text` that a command makes of it cannot exist.
+    pub(crate) fn of_pair(text: &str, error: &PairError) -> Self {
+        let help = "without modifications, as calibrate takes the pair, other limits hold";
+        Self::of_body(text, "pair".to_owned(), format!("a pair that cannot exist ({error})"), "other gears", help)
     }
 
     fn of_body(text: &str, key: String, found: String, allowed: &str, help: &str) -> Self {
@@ -127,13 +161,10 @@ impl Problem {
 
     /// The teeth of the scene in `text` cannot be had in space: its face width asks for too many of them, or its body cannot be meshed.
     pub(crate) fn of_teeth_in_space(text: &str, error: &PairInSpaceError) -> Self {
-        let (key, allowed) = match error {
-            PairInSpaceError::TooFewTeeth { .. } => {
-                ("pair.face_width_mm".to_owned(), "fewer teeth in mesh than a gear has")
-            }
-            PairInSpaceError::Gear { gear, .. } => {
-                (format!("fem.clamp_radius_mm.{}", gear.name()), "a body whose section can be meshed")
-            }
+        let key = key_of_teeth_in_space(error);
+        let allowed = match error {
+            PairInSpaceError::TooFewTeeth { .. } => "fewer teeth in mesh than a gear has",
+            PairInSpaceError::Gear { .. } => "a body whose section can be meshed",
         };
         Self {
             kind: ProblemKind::NotAllowed,
@@ -166,6 +197,23 @@ impl Problem {
             }
             None => self.help = Some(sentence.to_owned()),
         }
+    }
+}
+
+/// What decides whether a body can be meshed.
+const BODIES_HELP: &str =
+    "what the gears and their modifications are decides, and fem.clamp_radius_mm where their bodies end";
+
+/// The key that says where the body of `gear` ends, or of both.
+fn clamp_key(gear: Option<Gear>) -> String {
+    gear.map_or_else(|| "fem.clamp_radius_mm".to_owned(), |gear| format!("fem.clamp_radius_mm.{}", gear.name()))
+}
+
+/// The key to blame where the teeth of a pair cannot be had in space.
+pub(crate) fn key_of_teeth_in_space(error: &PairInSpaceError) -> String {
+    match error {
+        PairInSpaceError::TooFewTeeth { .. } => "pair.face_width_mm".to_owned(),
+        PairInSpaceError::Gear { gear, .. } => clamp_key(Some(*gear)),
     }
 }
 

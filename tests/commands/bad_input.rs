@@ -684,3 +684,20 @@ fn tolerance_of_adaptive_steps() {
         case.refused().at_line(line).says(&["numerics.tolerance_um", allowed]);
     }
 }
+
+/// The key furthest from what steel gears are like is to blame for a contact wider than a hundred times the relative radius (8.38 mm on
+/// fzg-c), or smaller than an atom.
+#[test]
+fn values_that_cannot_be_meant() {
+    let allowed = "a half-width of 1e-7 mm to 8.38";
+    for (table, key, value, named) in [
+        ("material", "young_modulus_GPa", "1e-265", "material.young_modulus_GPa: found 1e-265"),
+        ("operation", "pinion_torque_Nm", "1e75", "operation.pinion_torque_Nm: found 1e75"),
+        ("operation", "pinion_torque_Nm", "1e-300", "operation.pinion_torque_Nm: found 1e-300"),
+        ("pair", "face_width_mm", "1e-60", "pair.face_width_mm: found 1e-60"),
+    ] {
+        let line = format!("{key} = {value}");
+        let case = Case::fzg_c().with(table, key, &line);
+        case.refused().says(&[named, allowed, "check their units"]).at_line(case.line_of(&line));
+    }
+}

@@ -270,3 +270,51 @@ fn folders_without_a_run() {
     let output = run(&[&file, &"--resume", &out]);
     assert!(output.status.success() && said(&output).contains("is complete"), "{}", said(&output));
 }
+
+/// What a killed run was writing goes with the next run into its folder; files of others with such names stay.
+#[test]
+fn leftovers_of_a_killed_run_are_cleaned_by_the_next() {
+    let folder = Folder::new();
+    let (file, out) = broken_run(&folder);
+    // As SIGKILL leaves it between making and renaming, which is too short a moment to hit on purpose.
+    let (left, other) = (out.join(".gearwear-aB3dE9"), out.join(".gearwear-notes"));
+    fs::write(&left, "half a table").unwrap();
+    fs::write(&other, "of someone else").unwrap();
+    let output = run(&[&file, &"--resume", &out, &"--quiet"]);
+    assert!(output.status.success(), "{}", said(&output));
+    let hidden = |path: &Path| {
+        let names = fs::read_dir(path).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        names.filter(|name| name.starts_with('.')).collect::<Vec<_>>()
+    };
+    assert_eq!(hidden(&out), [".gearwear-notes"]);
+}
+
+/// The built-in cases lie in a folder for temporary files while they run.
+#[test]
+fn the_folder_of_a_killed_validation_goes_with_the_next() {
+    let folder = Folder::new();
+    let temporary = folder.path("temporary");
+    fs::create_dir(&temporary).unwrap();
+    let validate = |out: &str| {
+        let mut command = gearwear();
+        command
+            .env("TMPDIR", &temporary)
+            .args(["validate", "fzg-c-geometry", "--quiet", "--out"])
+            .arg(folder.path(out));
+        command
+    };
+    let count = || fs::read_dir(&temporary).unwrap().count();
+    let mut child = validate("killed").stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let begin = Instant::now();
+    while count() == 0 && begin.elapsed() < Duration::from_secs(60) {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    // Until its files are there, so that it is locked.
+    std::thread::sleep(Duration::from_millis(20));
+    child.kill().unwrap();
+    child.wait().unwrap();
+    // On a fast machine it may have ended.
+    assert!(count() <= 1);
+    assert!(validate("next").output().unwrap().status.success());
+    assert_eq!(count(), 0);
+}

@@ -31,7 +31,8 @@ fn condensed(pair: &GearPair, elements_per_half_width: f64) -> CondensedPair<'_>
     let settings = BodySettings { body: Body::Ring, clamp_radius_mm: PerGear::from_fn(clamp), elements_per_half_width };
     let material =
         steel().map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio });
-    CondensedPair::build(pair, &material, line_load(pair), &settings).expect("the pair of the test can be condensed")
+    CondensedPair::build(pair, &material, line_load(pair), &settings, &|_| {})
+        .expect("the pair of the test can be condensed")
 }
 
 fn grid(pair: &GearPair, flank_points: usize) -> PerGear<FlankGrid> {

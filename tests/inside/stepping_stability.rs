@@ -86,7 +86,8 @@ fn ver_eulers_steps_break_where_the_bound_says_on_finite_elements() {
     let material =
         steel().map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio });
     let scene = fzg_c_scene();
-    let model = CondensedPair::build(&pair, &material, scene.line_load(), &bodies).expect("the pair can be condensed");
+    let model =
+        CondensedPair::build(&pair, &material, scene.line_load(), &bodies, &|_| {}).expect("the pair can be condensed");
     let law = gearwear::wear::of(&WearSettings::archard(scene.coefficient_mm2_per_n));
     let run = |steps: f64, step: f64, snapshots: &[f64], bound: bool| {
         let phase = RunPhase {

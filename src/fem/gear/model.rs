@@ -19,8 +19,10 @@ const MOST_FLANK_NODES: usize = 2800;
 /// Measured on FZG type C with 10 and 14 elements in a half-width and tip roundings of 0.001 to 0.3 mm, both gears together 0.44 to 1.38 GB:
 /// within 10 % in proportion to the squares of their nodes.
 const GB_OF_MOST_NODES: f64 = 2.0;
-/// What takes more than this is said before it begins, GB.
-const MUCH_MEMORY_GB: f64 = 1.25;
+/// What takes more than this is said before it begins, GB; with a wear run or a mesh cycle on them, 20 s are reached about there.
+const MUCH_MEMORY_GB: f64 = 0.8;
+/// More than this is not begun, GB: both gears at the most of nodes.
+const MOST_MEMORY_GB: f64 = 2.0 * GB_OF_MOST_NODES;
 
 /// Why there is no model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -64,17 +66,25 @@ pub enum ModelError {
 }
 
 /// What is to be said before both gears are condensed, where that takes much; `bodies`: how often as much as one pair it takes at its peak.
-pub(crate) fn much_memory(meshed: &PerGear<MeshedGear>, bodies: f64) -> Option<String> {
+///
+/// # Errors
+/// [`ModelError::TooFine`] where it takes more than a computer is to be expected to have.
+pub(crate) fn much_memory(meshed: &PerGear<MeshedGear>, bodies: f64) -> Result<Option<String>, ModelError> {
     let nodes = meshed.as_ref().map(|meshed| meshed.flank().surface.mesh_nodes.len());
     let share = |nodes: usize| (nodes as f64 / MOST_FLANK_NODES as f64).powi(2);
     let gb = bodies * GB_OF_MOST_NODES * (share(nodes.pinion) + share(nodes.wheel));
-    (gb > MUCH_MEMORY_GB).then(|| {
+    if gb > MOST_MEMORY_GB {
+        let gear = if nodes.pinion > nodes.wheel { Gear::Pinion } else { Gear::Wheel };
+        let most = (MOST_FLANK_NODES as f64 * bodies.recip().sqrt()) as usize;
+        return Err(ModelError::TooFine { gear, nodes: nodes[gear], most });
+    }
+    Ok((gb > MUCH_MEMORY_GB).then(|| {
         format!(
             "the working flanks have {} nodes (pinion) and {} (wheel): their condensation takes some {gb:.1} GB, and a minute or more; fewer \
              fem.elements_per_half_width or a larger tip_rounding_mm takes less",
             nodes.pinion, nodes.wheel
         )
-    })
+    }))
 }
 
 /// One gear, meshed.
@@ -305,17 +315,20 @@ pub(crate) fn element(cell: &Cell, nodes: &[u32], material: u16) -> Element {
 
 impl<'a> CondensedPair<'a> {
     /// Meshes and condenses both gears of `pair` for contact under `line_load_n_per_mm`, at the same time where there are
-    /// threads for it; without stresses.
+    /// threads for it; without stresses. `announce` is told before that begins where it takes much.
     pub(crate) fn build(
         pair: &'a GearPair,
         material: &PerGear<Elastic>,
         line_load_n_per_mm: f64,
         settings: &BodySettings,
+        announce: &dyn Fn(&str),
     ) -> Result<Self, ModelError> {
-        let condensed = |gear| {
-            let meshed = MeshedGear::new(pair, gear, material, line_load_n_per_mm, settings)?;
-            meshed.condense_with(pair, material[gear], false)
-        };
+        let meshed =
+            PerGear::try_in_parallel(|gear| MeshedGear::new(pair, gear, material, line_load_n_per_mm, settings))?;
+        if let Some(much) = much_memory(&meshed, 1.0)? {
+            announce(&much);
+        }
+        let condensed = |gear: Gear| meshed[gear].condense_with(pair, material[gear], false);
         Ok(Self::new(pair, material, PerGear::try_in_parallel(condensed)?))
     }
 

@@ -15,7 +15,7 @@ use super::hexahedron::HexahedronKind;
 use super::{FoldedHexahedron, Hexahedron, PER_NODE, nodal_stresses_mpa, stiffness};
 use crate::fem::SolveError;
 use crate::fem::elastic::Elastic;
-use crate::fem::factor::Factor;
+use crate::fem::factor::Analysis;
 use crate::fem::node_matrix::NodeMatrix;
 use crate::fem::problem::{Held, Work};
 use crate::mesh::{CellBlock, DataArray, Mesh, Values};
@@ -124,12 +124,14 @@ impl Problem {
     }
 }
 
-/// Finds the equilibrium of `problem`, whose supports hold every body.
-pub(crate) fn solve(problem: &Problem) -> Result<Solution, SolveError> {
+/// Finds the equilibrium of `problem`, whose supports hold every body; `announce` is told what the factor takes, GB, before it is made.
+pub(crate) fn solve(problem: &Problem, announce: &dyn Fn(f64)) -> Result<Solution, SolveError> {
     let matrix = stiffness(&problem.solid.points_mm, || problem.hexahedra())?;
     let mut is_held = vec![false; problem.solid.dofs()];
     problem.held.iter().for_each(|held| is_held[held.dof as usize] = true);
-    let factor = Factor::of_held(&matrix, |dof| is_held[dof])?;
+    let analysis = Analysis::new(&matrix, |dof| is_held[dof])?;
+    announce(analysis.factor_gb());
+    let factor = analysis.factorised()?;
     let given: Vec<(u32, f64)> = problem.held.iter().map(|held| (held.dof, held.displacement_mm)).collect();
     let mut displacement_mm = problem.forces_n.clone();
     factor.subtract_held(&matrix, &given, &mut displacement_mm);

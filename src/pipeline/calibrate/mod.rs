@@ -26,6 +26,7 @@ use crate::pipeline::stage_clock::StageClock;
 use crate::plan::calibration::CalibrationStage;
 use crate::results::run::StageTime;
 use crate::scene::Scene;
+use crate::scene::problem::key_of_teeth_in_space;
 use crate::stiffness::{StiffnessError, curve::PairCompliance, iso6336};
 
 /// The memory of a calibration at its peak over that of its own pair of bodies: finer meshes and other rims stand beside it. 1.3 to 1.7 on FZG type
@@ -102,7 +103,7 @@ pub(crate) fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Res
     let setup = setup(scene, &pair);
     let w = setup.line_load_n_per_mm;
     let meshed = stages.run(Stage::Meshing, || setup.meshed())?;
-    if let Some(warning) = much_memory(&meshed, BODIES_AT_ONCE) {
+    if let Some(warning) = much_memory(&meshed, BODIES_AT_ONCE).map_err(CalibrationError::from)? {
         observer.warning(&warning);
     }
     let condensed = stages.run(Stage::Condensation, || setup.condensed(&meshed))?;
@@ -122,7 +123,7 @@ pub(crate) fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Res
     let pair_compliance = loaded.curve(&deflection, w);
     let in_slices = scene.slices.is_some() && scene.fem.body == Body::Ring;
     let slices = match in_slices {
-        true => stages.run(Stage::Slices, || slices(scene, &pair, &pair_compliance, w))?,
+        true => stages.run(Stage::Slices, || slices(scene, &pair, (&pair_compliance, w), observer))?,
         false => None,
     };
     let stopped = || observer.interrupted();
@@ -153,17 +154,23 @@ pub(crate) fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Res
     Ok(Calibrated { calibration, stages: stages.0.times, wall_s: start.elapsed().as_secs_f64() })
 }
 
-/// How the slices of the pair yield together; none where its teeth cannot be had in space.
+/// How the slices of the pair yield together; none, with a warning, where its teeth cannot be had in space.
 fn slices(
     scene: &Scene,
     pair: &GearPair,
-    curve: &PairCompliance,
-    line_load_n_per_mm: f64,
+    (curve, line_load_n_per_mm): (&PairCompliance, f64),
+    observer: &dyn Observer,
 ) -> Result<Option<SliceFit>, StiffnessError> {
     let elastic = scene.material.map(Material::elastic);
     match PairInSpace::new(pair, &elastic, &scene.fem.clamp_radius_mm, &SpaceResolution::USUAL) {
         Ok(in_space) => slice_fit::fit(pair, &scene.material, &in_space, curve, line_load_n_per_mm).map(Some),
-        Err(_) => Ok(None),
+        Err(error) => {
+            observer.warning(&format!(
+                "{}: the teeth cannot be had in space ({error}), so that the calibration says nothing of slices",
+                key_of_teeth_in_space(&error)
+            ));
+            Ok(None)
+        }
     }
 }
 

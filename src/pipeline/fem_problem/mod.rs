@@ -16,6 +16,9 @@ use crate::scene::Problem;
 use crate::scene::fem_problem::FemProblem;
 use crate::scene::short_hash;
 
+/// A factor that takes more than this is announced, GB; in space it takes 20 s about there.
+const MUCH_MEMORY_GB: f64 = 0.5;
+
 /// Why a problem was not solved.
 #[derive(Debug, thiserror::Error)]
 pub enum FemProblemError {
@@ -56,7 +59,13 @@ pub(crate) fn run(problem: &FemProblem, folder: &Path, observer: &dyn Observer) 
         }
         None => {
             let posed = stages.run("problem", || problem.in_space_on(&mesh)).map_err(FemProblemError::Input)?;
-            let solution = stages.run("solution", || fem::space::problem::solve(&posed.problem))?;
+            let announce = |gb: f64| {
+                if gb > MUCH_MEMORY_GB {
+                    let much = "the factor of the stiffness takes some";
+                    observer.warning(&format!("{much} {gb:.1} GB, and a minute or more; fewer elements take less"));
+                }
+            };
+            let solution = stages.run("solution", || fem::space::problem::solve(&posed.problem, &announce))?;
             let stress = stages
                 .run("stresses", || posed.problem.nodal_stresses_mpa(&solution.displacement_mm))
                 .map_err(SolveError::from)?;

@@ -117,7 +117,7 @@ pub(crate) fn run(
         let mesh = |gear| MeshedGear::new(&pair, gear, &material, line_load_n_per_mm, &scene.fem);
         PerGear::try_in_parallel(mesh)
     })?;
-    if let Some(warning) = much_memory(&meshed, 1.0) {
+    if let Some(warning) = much_memory(&meshed, 1.0)? {
         observer.warning(&warning);
     }
     let gears = stages.run(FemPairStage::Condensation.name(), || {

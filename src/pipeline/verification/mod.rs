@@ -188,13 +188,14 @@ pub(super) fn elements<'a>(
     pair: &'a GearPair,
     at_pitch: &Flattening,
     line_load_n_per_mm: impl Fn(&Phase) -> f64,
+    observer: &dyn Observer,
 ) -> Result<Elements<'a>, ModelError> {
     let greatest_load = scene.operation.phases.iter().map(line_load_n_per_mm).fold(0.0, f64::max);
     let half_width_mm = at_pitch.contact.loaded(greatest_load).half_width_mm;
     let least_mm = LEAST_HALF_WIDTH_MODULES * pair.spec.normal_module_mm;
     // a² is proportional to the load.
     let line_load_n_per_mm = greatest_load * (least_mm / half_width_mm).max(1.0).powi(2);
-    let condensed = condensed(scene, pair, line_load_n_per_mm, scene.wear_elements_per_half_width)?;
+    let condensed = condensed(scene, pair, line_load_n_per_mm, scene.wear_elements_per_half_width, observer)?;
     Ok(Elements { condensed, line_load_n_per_mm, half_width_mm: (half_width_mm, least_mm) })
 }
 
@@ -204,9 +205,11 @@ pub(super) fn condensed<'a>(
     pair: &'a GearPair,
     line_load_n_per_mm: f64,
     elements_per_half_width: f64,
+    observer: &dyn Observer,
 ) -> Result<CondensedPair<'a>, ModelError> {
     let bodies = BodySettings { elements_per_half_width, ..scene.fem };
-    CondensedPair::build(pair, &scene.material.map(Material::elastic), line_load_n_per_mm, &bodies)
+    let announce = |much: &str| observer.warning(much);
+    CondensedPair::build(pair, &scene.material.map(Material::elastic), line_load_n_per_mm, &bodies, &announce)
 }
 
 /// Verifies the completed run `outcome`. Whatever happens to the finite elements never costs the run its result.
@@ -236,7 +239,7 @@ fn on_elements<'a>(
     let other_mesh = || {
         let greatest_load = model.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max);
         let finer = model.scene.wear_elements_per_half_width + 1.0;
-        condensed(model.scene, model.pair, greatest_load, finer)
+        condensed(model.scene, model.pair, greatest_load, finer, observer)
     };
     let elements = match elements {
         Some(Ok(Elements { half_width_mm: (half_width, least), .. })) if half_width < least => {

@@ -227,6 +227,7 @@ pub(crate) fn errors(error: &ErrorSummary) -> Markup {
         ("Finite elements: pressure between the tip edges", total.pressure_between_tips, above),
         ("Points and positions", error.discretisation, &*how.discretisation),
         ("Wear step", error.wear_step, &*how.wear_step),
+        ("Worn volumes of pinion and wheel, difference", error.volume_balance, &*how.volume_balance),
         ("Abrupt against smoothed transition to severe wear", error.severe_switch, &*how.severe_switch),
     ]
     .map(|(label, estimate, how)| {

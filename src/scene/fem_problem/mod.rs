@@ -16,6 +16,7 @@ mod loads;
 mod meshed_groups;
 mod owned_cells;
 mod sides;
+mod size;
 mod space_bodies;
 mod surfaces;
 
@@ -31,6 +32,7 @@ use super::{short_hash, text, unit_slip};
 use crate::fem;
 use crate::fem::problem::ThirdDirection;
 use crate::mesh::Mesh;
+use meshed_groups::Bodies;
 
 pub(crate) use file::{BodyFile, Component, FemProblemFile, LoadFile};
 
@@ -231,6 +233,7 @@ fn pose(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) -> Option<f
     let groups = groups::Groups::new(mesh);
     let bodies = bodies::mesh_bodies(file, mesh, &groups, findings)?;
     let place = meshed_groups::MeshedGroups { groups: &groups, bodies: &bodies };
+    size::check(file, &bodies.nodes().points_mm, findings);
     let mut problem = fem::problem::Problem {
         analysis: file.third_direction().in_plane().unwrap_or_default(),
         contacts: surfaces::contacts(file, place, findings),
@@ -251,6 +254,7 @@ fn pose_in_space(file: &FemProblemFile, mesh: &Mesh, findings: &mut Findings) ->
     let groups = groups::Groups::new(mesh);
     let bodies = space_bodies::mesh_bodies(file, mesh, &groups, findings)?;
     let place = meshed_groups::MeshedGroups { groups: &groups, bodies: &bodies };
+    size::check(file, &bodies.nodes().points_mm, findings);
     let held = loads::held(file, place, findings);
     let forces_n = loads::forces(file, place, &held, findings);
     if findings.problems.is_empty() {

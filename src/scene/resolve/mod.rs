@@ -50,7 +50,7 @@ pub(super) fn resolve_table(table: Table, mut findings: Findings) -> Result<Reso
     if let Some((scene, _)) = &resolved
         && let Some(pair) = geometry::check(&scene.pair, scene.slices, &mut findings)
     {
-        findings.warnings.extend(contact_size::warnings(scene, &pair));
+        contact_size::check(scene, &pair, &mut findings);
     }
     let slips = slips.into_iter().filter(|slip| findings.is_in_file(&slip.key));
     match resolved {

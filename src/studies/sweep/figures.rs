@@ -133,6 +133,9 @@ pub(crate) const FIGURES: &[SweepFigure] = &[
         .of(|s| Some(s.wheel.below_sap_wear_um))
         .meaning("greatest wear depth below the start of active profile"),
     PEAK_WEAR,
+    describes("volume_balance", "difference of the worn volumes of pinion and wheel", "")
+        .of(|s| s.error.volume_balance)
+        .meaning("relative to the greater, over the whole run: an error, as both flanks of a contact lose the same; empty where nothing wears"),
 ];
 
 impl SweepFigure {

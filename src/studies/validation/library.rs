@@ -6,9 +6,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use include_dir::{Dir, include_dir};
-use tempfile::TempDir;
 
 use super::case_file::CaseFile;
+use crate::whole_file::TemporaryFolder;
 
 /// The cases of this version, with everything that they read.
 static CASES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/validation");
@@ -52,7 +52,7 @@ pub(crate) struct Case {
 #[derive(Debug)]
 pub(crate) struct Library {
     pub cases: Vec<Case>,
-    _built_in: Option<TempDir>,
+    _built_in: Option<TemporaryFolder>,
 }
 
 pub(crate) fn names() -> Vec<&'static str> {
@@ -92,8 +92,8 @@ impl Library {
         let asked = if asked.is_empty() { &all } else { asked };
         let mut built_in = None;
         if asked.iter().any(|asked| !is_folder(&asked)) {
-            let folder =
-                tempfile::tempdir().map_err(|reason| LibraryError::Export { folder: std::env::temp_dir(), reason })?;
+            let folder = TemporaryFolder::new()
+                .map_err(|reason| LibraryError::Export { folder: std::env::temp_dir(), reason })?;
             export(folder.path())?;
             built_in = Some(folder);
         }

@@ -56,6 +56,7 @@ pub(crate) struct FaceSummary {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(crate) struct ErrorSummary {
     pub total: TotalError,
+    pub volume_balance: Option<f64>,
 }
 
 /// Columns of numbers by name; an empty field is no number.

@@ -83,7 +83,7 @@ impl Figure {
     }
 }
 
-const FIGURES: [Figure; 12] = [
+const FIGURES: [Figure; 13] = [
     Figure::of(
         "pinion.peak_wear_um",
         "Greatest wear of the pinion, active profile",
@@ -142,6 +142,13 @@ const FIGURES: [Figure; 12] = [
         "Face load factor, worn",
         "",
         |s| s.helical.as_ref().and_then(|face| face.K_Hbeta_worn),
+        |_| None,
+    ),
+    Figure::of(
+        "error.volume_balance",
+        "Difference of the worn volumes of pinion and wheel",
+        "",
+        |s| s.error.volume_balance,
         |_| None,
     ),
 ];

@@ -163,3 +163,18 @@ impl Case {
         }
     }
 }
+
+/// The cylinder is 50 mm in radius, the block 200 mm wide: a strain of 100 is far from anything meant.
+#[test]
+fn loads_that_cannot_be_meant() {
+    let case = || Case::new(TEXT, &mesh());
+    case()
+        .with("-17500.0", "-1e70")
+        .refused("force_N_per_mm", &["load[0].force_N_per_mm", "1.000e70", "check the units"]);
+    case()
+        .with("young_modulus_GPa = 70.0", "young_modulus_GPa = 1e-265")
+        .refused("young_modulus_GPa = 1e-265", &["body[1].young_modulus_GPa: found 1e-265", "at least"]);
+    case()
+        .with("force_N_per_mm = [0.0, -17500.0]", "displacement_mm = [0.0, -1e9]")
+        .refused("displacement_mm", &["load[0].displacement_mm", "a hundred times their extent"]);
+}
