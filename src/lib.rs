@@ -53,6 +53,21 @@
 //! assert!(error.to_string().contains("fzg-c"), "{error}");
 //! ```
 //!
+//! # Many runs
+//!
+//! [`evaluate`] runs a scene for rows of values of its keys on several threads, and gives the outputs asked for, by their path in the summary:
+//!
+//! ```
+//! use gearwear::{LoadedScene, Unwatched};
+//!
+//! let scene = LoadedScene::preset("thesis-spur")?.with("contact.surface", "hertz-mean")?.with("numerics.positions", 40)?;
+//! let rows = [vec![200.0.into()], vec![300.0.into()], vec![(-1.0).into()]];
+//! let found = gearwear::evaluate(&scene, &["operation.pinion_torque_Nm"], &rows, &["pinion.peak_wear_um"], 2, &Unwatched)?;
+//! assert!(found.values[0][0] < found.values[1][0]);
+//! assert!(found.values[2][0].is_nan() && found.reasons[2].as_ref().is_some_and(|reason| reason.contains("pinion_torque_Nm")));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! # Finite elements
 //!
 //! [`calibrate`] teaches the fast model from finite elements, [`fem_pair`] solves the contact of the pair itself over the mesh
@@ -102,7 +117,6 @@ mod resume;
 mod scene;
 mod simulation;
 mod stiffness;
-#[cfg(feature = "program")]
 mod studies;
 mod thermal;
 mod wear;
@@ -131,6 +145,7 @@ pub use scene::loaded::{LoadError, LoadedScene, SceneError, SceneText};
 pub use scene::presets::{PRESETS, Preset};
 pub use scene::schema::schema as scene_schema;
 pub use scene::{Problem, ProblemKind};
+pub use studies::evaluate::{EvaluateError, Evaluation, evaluate};
 // The values that `LoadedScene::with` takes.
 pub use toml;
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::say;
 use crate::calibration::CalibrationError;
+use super::uncertainty::UncertaintyError;
 use crate::fem::SolveError;
 use crate::fem::gear::model::ModelError;
 use crate::mesh::MeshFileError;
@@ -56,6 +57,9 @@ pub(super) enum Failure {
     /// No combination of a sweep has a result; its rows are written.
     #[error("none of {count} combinations has a result; the first says: {error}")]
     NoCombination { count: usize, error: String },
+    /// No sample of a study of uncertainty has a result.
+    #[error("none of {count} samples has a result; the first says: {error}")]
+    NoSample { count: usize, error: String },
     /// Cases of the validation suite that are not as expected; the reports are written.
     #[error("{} of the validation suite's cases missed: {}", cases.len(), cases.join(", "))]
     Missed { cases: Vec<String> },
@@ -155,6 +159,10 @@ pub(super) enum InputError {
     #[error("--best, --subject-to: {0}")]
     #[diagnostic(help("for example --best pinion_peak_wear_um --subject-to \"wheel_peak_wear_um<=8\""))]
     Goal(GoalError),
+    /// `uncertainty` with a question that cannot be asked.
+    #[error("{0}")]
+    #[diagnostic(help("{}", .0.help()))]
+    Uncertainty(UncertaintyError),
     #[error("--out: {0}")]
     #[diagnostic(help("{}", journal_help(.0)))]
     Journal(JournalError),
@@ -285,7 +293,10 @@ impl Failure {
             Failure::Interrupted => 130,
             Failure::Closed => 0,
             Failure::Run(_) | Failure::Solve(_) | Failure::FemPair(_) | Failure::Accuracy(_) => 3,
-            Failure::Calibrate(_) | Failure::NotFitted { .. } | Failure::NoCombination { .. } => 3,
+            Failure::Calibrate(_)
+            | Failure::NotFitted { .. }
+            | Failure::NoCombination { .. }
+            | Failure::NoSample { .. } => 3,
         }
     }
 }

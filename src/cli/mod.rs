@@ -17,6 +17,7 @@ mod progress;
 mod run;
 mod schema;
 mod sweep;
+mod uncertainty;
 mod validate;
 mod variants;
 
@@ -54,6 +55,8 @@ enum Command {
     Accuracy(accuracy::Args),
     /// Run a scene for all combinations of varied keys: restartable, in shards on a cluster, with contour plots
     Sweep(sweep::Args),
+    /// Run a scene for samples of uncertain keys: quantiles of its figures, and which key is to blame (Sobol indices)
+    Uncertainty(uncertainty::Args),
     /// Calibrate the fast model: tooth stiffness and K/H from finite elements, against Hertz
     Calibrate(calibrate::Args),
     /// Compare a measured flank profile with a finished run, and fit the wear coefficient to it
@@ -83,6 +86,7 @@ pub fn main() -> ExitCode {
         Command::Fem(args) => fem::run(args),
         Command::Accuracy(args) => accuracy::run(args),
         Command::Sweep(args) => sweep::run(args),
+        Command::Uncertainty(args) => uncertainty::run(args),
         Command::Calibrate(args) => calibrate::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Validate(args) => validate::run(args),

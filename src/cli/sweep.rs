@@ -9,13 +9,14 @@ use std::time::Instant;
 use crate::report;
 use crate::scene::draft::Draft;
 use crate::scene::loaded::LoadedScene;
+use crate::studies::spread::Ended;
 use crate::studies::sweep::axis::{self, AxisError};
 use crate::studies::sweep::combination::Sweep;
 use crate::studies::sweep::goal::{Goal, Optimum};
 use crate::studies::sweep::journal::{self, Contents, Journal, JournalError};
 use crate::studies::sweep::merge::merge;
 use crate::studies::sweep::record::{Shard, SweepRecord};
-use crate::studies::sweep::study::{self, Ended};
+use crate::studies::sweep::study;
 use crate::studies::sweep::verification::{SweepVerification, intention};
 
 use super::counted_progress::CountedProgress;

@@ -37,7 +37,7 @@ impl Gear {
 }
 
 /// A value for the pinion and one for the wheel.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PerGear<T> {
     /// The pinion's.

@@ -44,6 +44,7 @@ use crate::plan::{Plan, StageKind, memory_in_space_gb};
 use crate::reference::flattening::Flattening;
 use crate::results::error::ErrorSummary;
 use crate::results::run::{RunRecord, StopReason, Summary};
+use crate::results::worn_pair::WornPair;
 use crate::scene::Scene;
 use crate::scene::loaded::{LoadedScene, NamedFiles};
 use crate::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
@@ -229,6 +230,11 @@ pub(crate) fn summarise(scene: &LoadedScene, observer: &dyn Observer) -> Result<
     let mut done = carry_out(scene, Resumption::none(), observer, |_, _, summary| summary)?;
     done.record.wall_s = start.elapsed().as_secs_f64();
     Ok(done)
+}
+
+/// The same for what a study of many runs keeps of each.
+pub(crate) fn worn_pair(scene: &LoadedScene, observer: &dyn Observer) -> Result<Done<WornPair>, RunError> {
+    carry_out(scene, Resumption::none(), observer, recording::worn_pair)
 }
 
 /// Carries out the plan of `loaded` and hands the outcome to `keep`, with a summary that lacks only the whole wall time.

@@ -15,6 +15,7 @@ use crate::results::run::{
     PathPoints, RangeSummary, ReportedBy, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary,
     WorkSummary,
 };
+use crate::results::worn_pair::{WearProfile, WornPair};
 use crate::scene::Resolved;
 use crate::scene::file::ReportFile;
 use crate::scene::loaded::LoadedScene;
@@ -50,6 +51,27 @@ pub(super) fn record(scene: &LoadedScene, model: &Model<'_>, found: RunFindings<
         surface: PerGear::from_fn(|gear| FlankSurface::new(model.pair, gear)),
         slices: slices::record(outcome),
         drawing: drawing::draw(model.pair),
+    }
+}
+
+/// The main figures, the history and the wear over both flanks.
+pub(super) fn worn_pair(model: &Model<'_>, found: RunFindings<'_>, summary: Summary) -> WornPair {
+    let outcome = found.outcome;
+    let profile = |gear: Gear| {
+        let involute = model.pair.teeth[gear].involute;
+        let rho = &outcome.grid[gear].coordinate_mm;
+        let wear_mm = &outcome.worn.wear_mm[gear];
+        let greatest = |point: usize| wear_mm.iter().skip(point).step_by(rho.len()).copied().fold(0.0, f64::max);
+        WearProfile {
+            radius_mm: rho.iter().map(|&rho| involute.radius_mm(rho)).collect(),
+            wear_um: (0..rho.len()).map(|point| greatest(point) * UM_PER_MM).collect(),
+            active_mm: [model.pair.active_start_radius_mm(gear), model.pair.teeth[gear].tip_radius_mm],
+        }
+    };
+    WornPair {
+        summary,
+        history: outcome.snapshots.iter().map(|snapshot| history_row(model, outcome, snapshot)).collect(),
+        flanks: PerGear::from_fn(profile),
     }
 }
 

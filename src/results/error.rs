@@ -1,10 +1,11 @@
 //! What a run says of its own error: how far it is from the same wear simulation with finite elements, and the estimates of its companions.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How far the run is from the same wear simulation with finite elements, whose own uncertainty is added; relative. `None`: not known, and `how` says
 /// why.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct TotalError {
     /// Of the wear over each flank, root mean square over that of the flank.
     pub profile: ErrorPerGear,
@@ -21,7 +22,7 @@ pub struct TotalError {
 }
 
 /// A relative error of each gear.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct ErrorPerGear {
     /// The pinion's.
     pub pinion: Option<f64>,
@@ -37,7 +38,7 @@ impl TotalError {
 }
 
 /// Relative error estimates of the peak wear; `None`: not estimated.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, JsonSchema)]
 pub struct ErrorSummary {
     /// Against the same wear simulation with finite elements.
     pub total: TotalError,
@@ -73,7 +74,7 @@ impl ErrorSummary {
 }
 
 /// How the error estimates were obtained.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, JsonSchema)]
 #[allow(missing_docs, reason = "named as in ErrorSummary")]
 pub struct ErrorSources {
     pub discretisation: String,

@@ -7,3 +7,4 @@ pub mod error;
 pub mod fem_pair;
 pub mod fem_problem;
 pub mod run;
+pub(crate) mod worn_pair;

@@ -43,7 +43,7 @@ pub struct InputFile {
 }
 
 /// `summary.json`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct Summary {
     /// The scene's title.
     pub title: String,
@@ -101,7 +101,7 @@ pub struct Summary {
 
 /// A phase of the operation.
 #[allow(non_snake_case, reason = "the contract's key names")]
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct PhaseSummary {
     /// Its number, from 1.
     pub number: usize,
@@ -132,7 +132,7 @@ pub struct PhaseSummary {
 }
 
 /// What a gear wore off in a phase.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct PhaseWear {
     /// Greatest depth that any place of the active profile lost, the zone of the tip edge apart.
     pub greatest_depth_um: f64,
@@ -141,7 +141,7 @@ pub struct PhaseWear {
 }
 
 /// Who reports, and when, each as the scene says it.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, JsonSchema)]
 pub struct ReportedBy {
     /// Who made the calculation.
     pub author: Option<String>,
@@ -152,7 +152,7 @@ pub struct ReportedBy {
 }
 
 /// Why a wear run ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum StopReason {
     /// The whole duration was run.
@@ -166,7 +166,7 @@ pub enum StopReason {
 }
 
 /// A stage and how long it took.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct StageTime {
     /// Name of the stage.
     pub name: String,
@@ -175,7 +175,7 @@ pub struct StageTime {
 }
 
 /// A stage that the scene does not need.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct StageLeftOut {
     /// Name of the stage.
     pub name: String,
@@ -184,7 +184,7 @@ pub struct StageLeftOut {
 }
 
 /// Geometry of the pair.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct GeometrySummary {
     /// ε_α.
     pub transverse_contact_ratio: f64,
@@ -207,7 +207,7 @@ pub struct GeometrySummary {
 }
 
 /// A value at each of the points A–E of the path of contact.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 #[allow(non_snake_case, reason = "the points' names")]
 pub struct PathPoints {
     /// Start of contact.
@@ -230,7 +230,7 @@ impl PathPoints {
 }
 
 /// Diameters and other data of one gear, mm.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[allow(missing_docs, reason = "the names of ISO 21771 say it")]
 pub struct GearSummary {
     pub teeth: u32,
@@ -253,7 +253,7 @@ pub struct GearSummary {
 
 /// The pair slice by slice.
 #[allow(non_snake_case, reason = "names that end in their unit, and symbols of the standards")]
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct HelicalSummary {
     /// Slices over the face width.
     pub slices: usize,
@@ -289,7 +289,7 @@ pub struct HelicalSummary {
 }
 
 /// All lines of contact together over a mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct LineOfContactSummary {
     /// Least length.
     pub min: f64,
@@ -300,7 +300,7 @@ pub struct LineOfContactSummary {
 }
 
 /// How wear varies over the face width of a flank.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct OverWidthSummary {
     /// Greatest depth in the root zone of each slice.
     pub root_wear_um: Vec<f64>,
@@ -324,7 +324,7 @@ pub struct OverWidthSummary {
 
 /// Contact at the pitch point with the whole load.
 #[allow(non_snake_case, reason = "the contract's key names")]
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct ContactSummary {
     /// Name of the surface model.
     pub surface: String,
@@ -340,7 +340,7 @@ pub struct ContactSummary {
 
 /// Stiffness of a tooth pair per mm of face width.
 #[allow(non_snake_case, reason = "the contract's key names")]
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct StiffnessSummary {
     /// Name of the stiffness model.
     pub model: String,
@@ -357,7 +357,7 @@ pub struct StiffnessSummary {
 
 /// One mesh cycle in figures.
 #[allow(non_snake_case, reason = "the contract's key names")]
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct CycleSummary {
     /// Greatest pressure of contact whose pressure is defined: not of that which a sharp tip edge cuts off.
     pub peak_pressure_MPa: f64,
@@ -373,7 +373,7 @@ pub struct CycleSummary {
 
 /// Difference of what both flanks lose in one mesh, relative to the greater: what one flank of a contact loses the other does too,
 /// where both wear by the same coefficient.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, JsonSchema)]
 pub struct WearBalance {
     /// The unworn pair.
     pub new: f64,
@@ -382,7 +382,7 @@ pub struct WearBalance {
 }
 
 /// Extremes and their difference.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct RangeSummary {
     /// Least value.
     pub min: f64,
@@ -393,7 +393,7 @@ pub struct RangeSummary {
 }
 
 /// Wear of a gear.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 pub struct WearSummary {
     /// Greatest wear depth on the active profile, the zone of the tip edge apart.
     pub peak_wear_um: f64,
@@ -418,7 +418,7 @@ pub struct WearSummary {
 }
 
 /// Work done by the wear simulation alone.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, JsonSchema)]
 pub struct WorkSummary {
     /// Wear steps taken.
     pub wear_steps: u64,

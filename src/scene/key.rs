@@ -87,14 +87,24 @@ impl NumberKey {
     }
 }
 
-fn is_number(node: Node<'_>) -> bool {
+pub(crate) fn is_number(node: Node<'_>) -> bool {
     node.choices().is_empty() && matches!(node.type_name(), "number" | "integer")
 }
 
 /// The path of a number that `path` is most like: one that ends in it, or the nearest in spelling.
 fn nearest_number(path: &str) -> Option<String> {
+    nearest_path(path, Node::root(schema()), is_number)
+}
+
+/// The key of a scene that `path` is most like, whatever it takes.
+pub(crate) fn nearest_key(path: &str) -> Option<String> {
+    nearest_path(path, Node::root(schema()), |node| node.keys().is_empty())
+}
+
+/// The path below `root` to what is `wanted` that `path` is most like: one that ends in it, or the nearest in spelling.
+pub(crate) fn nearest_path(path: &str, root: Node<'_>, wanted: fn(Node<'_>) -> bool) -> Option<String> {
     let mut known = Vec::new();
-    numbers_below(Node::root(schema()), "", &mut known);
+    paths_below(root, "", wanted, &mut known);
     let ending = format!(".{path}");
     if let Some(whole) = known.iter().find(|known| known.ends_with(&ending)) {
         return Some(whole.clone());
@@ -103,14 +113,14 @@ fn nearest_number(path: &str) -> Option<String> {
     nearest(path, &known).map(str::to_owned)
 }
 
-fn numbers_below(node: Node<'_>, path: &str, found: &mut Vec<String>) {
+fn paths_below(node: Node<'_>, path: &str, wanted: fn(Node<'_>) -> bool, found: &mut Vec<String>) {
     for name in node.keys() {
         let Some(child) = node.child(name) else { continue };
         let path = join(path, name);
-        if is_number(child) {
+        if wanted(child) {
             found.push(path);
         } else {
-            numbers_below(child, &path, found);
+            paths_below(child, &path, wanted, found);
         }
     }
 }

@@ -1,7 +1,17 @@
 //! Questions that take many runs: each with its record and its report in one place.
 
+#[cfg(feature = "program")]
 pub(crate) mod accuracy;
+#[cfg(feature = "program")]
 pub(crate) mod compare;
+pub(crate) mod evaluate;
+pub(crate) mod spread;
+#[cfg(feature = "program")]
 pub(crate) mod sweep;
+#[cfg(feature = "program")]
+pub(crate) mod uncertainty;
+#[cfg(feature = "program")]
 pub(crate) mod validation;
+#[cfg(feature = "program")]
 pub(crate) mod variants;
+pub(crate) mod varied_scene;

@@ -5,6 +5,7 @@ mod checkpoints;
 mod common;
 mod compare_fit;
 mod error_estimates;
+mod evaluate;
 mod exact_wear;
 mod fem_active_set;
 mod fem_contact;

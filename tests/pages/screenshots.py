@@ -34,6 +34,10 @@ PAGES = {
     "sweep-2d": [
         "sweep {s}/spur.toml --vary operation.pinion_torque_Nm=100:300:4 --vary pair.pinion.profile_shift=0.1:0.2:3 --out {o}"
     ],
+    "uncertainty": [
+        "uncertainty {s}/spur.toml --uncertain wear.coefficient_m2_per_N=lognormal:1.5 --uncertain operation.pinion_torque_Nm=±10% "
+        "--limit pinion.peak_wear_um=1 --samples 64 --out {o}"
+    ],
     "compare-measured": ["run {s}/spur.toml --out {o}", "compare {o} {s}/trace.csv --shift-within 0 --out {o}/compared"],
     "compare-runs": ["compare {s}/spur.toml {s}/heavy.toml --out {o}"],
     "accuracy": ["accuracy {s}/spur.toml --out {o}"],

@@ -8,5 +8,6 @@ mod compare;
 mod program;
 mod sweep;
 mod tutorials;
+mod uncertainty;
 mod validate;
 mod variants;

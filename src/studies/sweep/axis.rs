@@ -6,7 +6,8 @@ use std::str::FromStr;
 use crate::scene::decimal_comma;
 use crate::scene::draft::{Draft, other_ways_to_say};
 use crate::scene::key::{self, KeyError, NumberKey};
-use crate::studies::sweep::record::{Spacing, SweepAxis, linked_keys, plain};
+use crate::studies::sweep::record::{Spacing, SweepAxis, plain};
+use crate::studies::varied_scene::{linked_keys, missing_phase};
 
 /// Values of one key.
 pub(crate) const MOST_VALUES: usize = 100_000;
@@ -207,11 +208,7 @@ pub(crate) fn parse_all<'a>(given: impl IntoIterator<Item = &'a str>) -> Result<
 
 /// Refuses keys of phases that `scene` does not have.
 pub(crate) fn check_phases(axes: &[SweepAxis], scene: &Draft) -> Result<(), AxisError> {
-    let has_phase = |key: &String| {
-        let number = key.strip_prefix("operation.phases.").and_then(|rest| rest.split('.').next());
-        number.is_none_or(|number| scene.gives(&format!("operation.phases.{number}")))
-    };
-    let missing = axes.iter().flat_map(|axis| linked_keys(&axis.key)).find(|key| !has_phase(key));
+    let missing = missing_phase(axes.iter().flat_map(|axis| linked_keys(&axis.key)), scene);
     missing.map_or(Ok(()), |key| Err(AxisError::NoPhase { key }))
 }
 

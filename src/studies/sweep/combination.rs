@@ -2,9 +2,8 @@
 
 use std::time::Instant;
 
-use crate::gear::spec::PairSpec;
 use crate::observer::Observer;
-use crate::pipeline::{self, Done, guarded::guarded};
+use crate::pipeline::{self, guarded::guarded};
 use crate::plan::{Plan, StageKind};
 use crate::results::error::TotalError;
 use crate::results::run::{StopReason, Summary};
@@ -13,17 +12,15 @@ use crate::scene::loaded::{LoadedScene, NamedFiles};
 use crate::scene::{Problem, Resolved, short_hash};
 use crate::studies::sweep::figures::FIGURES;
 use crate::studies::sweep::goal::Goal;
-use crate::studies::sweep::record::{SweepAxis, SweepIdentity, SweepRow, linked_keys};
+use crate::studies::sweep::record::{SweepAxis, SweepIdentity, SweepRow};
 use crate::studies::sweep::verification::{Chosen, RowVerification};
+use crate::studies::varied_scene::{VariedScene, in_words, one_line};
 
 /// A sweep that can be run.
 #[derive(Debug, Clone)]
 pub(crate) struct Sweep {
     pub identity: SweepIdentity,
-    /// The scene without what a sweep leaves out.
-    draft: Draft,
-    /// The scene as given, with the files it names.
-    given: LoadedScene,
+    varied: VariedScene,
 }
 
 impl Sweep {
@@ -37,7 +34,7 @@ impl Sweep {
         goal: Option<Goal>,
         error_estimate: bool,
     ) -> Result<Self, Vec<Problem>> {
-        let mut draft = Draft::parse(&given.given.text)?;
+        let draft = Draft::parse(&given.given.text)?;
         let resolved = &given.resolved;
         let identity = SweepIdentity {
             title: resolved.scene.title.clone(),
@@ -51,16 +48,13 @@ impl Sweep {
             figures: FIGURES.iter().map(|figure| figure.name.to_owned()).collect(),
             goal,
         };
-        draft.remove("operation.snapshots_h");
-        draft.remove("operation.snapshots_revolutions");
-        draft.set("numerics.error_estimate", error_estimate);
-        Ok(Self { identity, draft, given: given.clone() })
+        Ok(Self { identity, varied: VariedScene::new(given, error_estimate)? })
     }
 
     /// The scene of combination `index`, which is not verified.
     pub(crate) fn scene(&self, index: usize) -> Result<Resolved, Vec<Problem>> {
-        let mut draft = self.draft.clone();
-        for (axis, value) in self.identity.axes.iter().zip(self.identity.values(index)) {
+        let values = self.identity.values(index);
+        self.varied.resolved(self.identity.axes.iter().zip(values).map(|(axis, value)| {
             let value = match axis.word(value) {
                 Some(truth @ ("true" | "false")) => toml::Value::Boolean(truth == "true"),
                 Some(word) => toml::Value::String(word.to_owned()),
@@ -68,13 +62,8 @@ impl Sweep {
                 None if axis.whole => toml::Value::Integer(value as i64),
                 None => toml::Value::Float(value),
             };
-            linked_keys(&axis.key).iter().for_each(|key| draft.set(key, value.clone()));
-        }
-        let mut resolved = draft.resolve()?;
-        resolved.scene.verify = false;
-        let operation = &mut resolved.scene.operation;
-        operation.snapshots_revolutions = vec![operation.pinion_revolutions];
-        Ok(resolved)
+            (axis.key.as_str(), value)
+        }))
     }
 
     /// Where not a single combination makes a scene, what is wrong with the first.
@@ -110,17 +99,8 @@ impl Sweep {
 
     fn run(&self, index: usize, observer: &dyn Observer) -> Result<Summary, String> {
         let resolved = self.scene(index).map_err(|problems| in_words(&problems))?;
-        self.inputs_belong_to(&resolved)?;
-        self.carry_out(resolved, observer)
-    }
-
-    fn carry_out(&self, resolved: Resolved, observer: &dyn Observer) -> Result<Summary, String> {
-        let scene = self.given.variant(resolved).map_err(|problem| problem.to_string())?;
-        match pipeline::summarise(&scene, observer) {
-            Ok(Done { failure: Some(failure), .. }) => Err(failure.to_string()),
-            Ok(Done { record: summary, failure: None }) => Ok(summary),
-            Err(failure) => Err(failure.to_string()),
-        }
+        self.varied.inputs_belong_to(&resolved)?;
+        self.varied.carry_out(resolved, observer, pipeline::summarise)
     }
 
     /// The finished row `row`, verified by finite elements; `None` where that was interrupted.
@@ -146,23 +126,8 @@ impl Sweep {
         let plan = Plan::of(&resolved.scene);
         match plan.left_out_because(StageKind::Verification) {
             Some(reason) => Err(reason.to_owned()),
-            None => self.carry_out(resolved, observer).map(|summary| summary.error.total),
+            None => self.varied.carry_out(resolved, observer, pipeline::summarise).map(|summary| summary.error.total),
         }
-    }
-
-    /// Whether the files that the scene names were made for the pair of this combination.
-    fn inputs_belong_to(&self, resolved: &Resolved) -> Result<(), String> {
-        let differences = self.given.files.foreign_to(resolved);
-        if !differences.is_empty() {
-            return Err(format!("contact.calibration belongs to another pair: {}", differences.join("; ")));
-        }
-        let pair = self.given.resolved.scene.pair.on_rigid_parallel_shafts();
-        let same_section =
-            |own: &PairSpec| PairSpec { face_width_mm: pair.face_width_mm, ..own.on_rigid_parallel_shafts() } == pair;
-        if self.given.files.stiffness_curve.is_some() && !same_section(&resolved.scene.pair) {
-            return Err("stiffness.curve belongs to the pair of the scene as given".to_owned());
-        }
-        Ok(())
     }
 }
 
@@ -177,12 +142,4 @@ fn hash_of(files: &NamedFiles) -> String {
 fn simulation_s(summary: &Summary) -> Option<f64> {
     let name = StageKind::Simulation.name();
     summary.stages.iter().find(|stage| stage.name == name).map(|stage| stage.wall_s)
-}
-
-fn in_words(problems: &[Problem]) -> String {
-    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
-}
-
-fn one_line(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -44,14 +44,6 @@ pub(crate) struct SweepAxis {
     pub spacing: Spacing,
 }
 
-/// The keys that a path with alternatives stands for: `a.{b,c}.d` for `a.b.d` and `a.c.d`.
-pub(crate) fn linked_keys(key: &str) -> Vec<String> {
-    let Some((before, rest)) = key.split_once('{') else { return vec![key.to_owned()] };
-    let Some((alternatives, after)) = rest.split_once('}') else { return vec![key.to_owned()] };
-    let each = |name: &str| linked_keys(&format!("{before}{}{after}", name.trim()));
-    alternatives.split(',').flat_map(each).collect()
-}
-
 impl SweepAxis {
     /// The value number `index`, from 0:
     ///

@@ -4,21 +4,13 @@
 //! depends neither on the number of threads nor on the order in which they finish. Where the sweep is verified, the same is done once
 //! more with the rows that are chosen for it, which are known when all rows are.
 
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
-use std::thread;
-
 use super::combination::Sweep;
 use super::journal::{Journal, JournalError};
 use crate::observer::Observer;
 use crate::studies::sweep::record::{Shard, SweepRow};
 use crate::studies::sweep::verification::{Chosen, chosen};
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Ended {
-    Completed,
-    Interrupted,
-}
+use crate::studies::spread::{Ended, spread};
 
 /// The combinations of a part of a sweep, in order: every `of`-th, beginning with `number`; `None`: all.
 pub(crate) fn part(combinations: usize, shard: Option<Shard>) -> impl Iterator<Item = usize> {
@@ -26,22 +18,9 @@ pub(crate) fn part(combinations: usize, shard: Option<Shard>) -> impl Iterator<I
     (first..combinations).step_by(step)
 }
 
-/// A run within a sweep: it stops when the sweep does.
-struct Within<'a> {
-    observer: &'a dyn Observer,
-    stopped: &'a AtomicBool,
-}
-
-impl Observer for Within<'_> {
-    fn interrupted(&self) -> bool {
-        self.stopped.load(Ordering::Relaxed) || self.observer.interrupted()
-    }
-}
-
-/// What the threads share.
+/// What the rows are kept in.
 struct Kept<'a, F> {
     journal: &'a mut Journal,
-    count: usize,
     tell: F,
     /// Why no row can be kept any more.
     error: Option<JournalError>,
@@ -56,7 +35,6 @@ impl<F: FnMut(&SweepRow)> Kept<'_, F> {
         let index = row.index;
         self.error = self.journal.append(row).err();
         if let (None, Some(row)) = (&self.error, self.journal.contents.rows.get(&index)) {
-            self.count += 1;
             (self.tell)(row);
         }
         self.error.is_none()
@@ -85,7 +63,7 @@ pub(crate) fn run(
         failed += usize::from(row.error.is_some());
         observer.counted(done, all.len(), "combinations", &with_failed(failed));
     };
-    let ended = spread(&missing, journal, threads, observer, |&index, within| sweep.row(index, within), tell)?;
+    let ended = keep_all(&missing, journal, threads, observer, |&index, within| sweep.row(index, within), tell)?;
     match ended {
         Ended::Completed if sweep.identity.verify && shard.is_none() => verify(sweep, journal, threads, observer),
         _ => Ok(ended),
@@ -113,51 +91,21 @@ fn verify(
         done += 1;
         observer.counted(done, chosen.len(), "verified", "");
     };
-    spread(&due, journal, threads, observer, |(row, chosen), within| sweep.verified(row, *chosen, within), tell)
+    keep_all(&due, journal, threads, observer, |(row, chosen), within| sweep.verified(row, *chosen, within), tell)
 }
 
 /// Does `work` for each of `tasks` on all threads, keeps the rows it comes to in `journal`, and tells of each.
-fn spread<T: Sync>(
+fn keep_all<T: Sync>(
     tasks: &[T],
     journal: &mut Journal,
     threads: usize,
     observer: &dyn Observer,
-    work: impl Fn(&T, &Within<'_>) -> Option<SweepRow> + Sync,
+    work: impl Fn(&T, &dyn Observer) -> Option<SweepRow> + Sync,
     tell: impl FnMut(&SweepRow) + Send,
 ) -> Result<Ended, JournalError> {
-    let next = AtomicUsize::new(0);
-    let stopped = AtomicBool::new(false);
-    let kept = Mutex::new(Kept { journal, count: 0, tell, error: None });
-    let within = Within { observer, stopped: &stopped };
-    let take = || {
-        while let Some(task) = tasks.get(next.fetch_add(1, Ordering::Relaxed)) {
-            if within.interrupted() {
-                break;
-            }
-            let Some(row) = work(task, &within) else { break };
-            // Nothing panics with the lock held that would leave the journal half changed: it only appends.
-            if !kept.lock().unwrap_or_else(PoisonError::into_inner).keep(row) {
-                stopped.store(true, Ordering::Relaxed);
-                break;
-            }
-        }
-    };
-    thread::scope(|scope| {
-        for _ in 0..threads.min(tasks.len()) {
-            scope.spawn(|| {
-                // What is parallel in it runs on this thread alone. Without a pool of its own it would use the program's, which gives
-                // the same results.
-                let _own = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
-                take();
-            });
-        }
-    });
-    let Kept { count, error, .. } = kept.into_inner().unwrap_or_else(PoisonError::into_inner);
-    match error {
-        Some(reason) => Err(reason),
-        None if count == tasks.len() => Ok(Ended::Completed),
-        None => Ok(Ended::Interrupted),
-    }
+    let mut kept = Kept { journal, tell, error: None };
+    let ended = spread(tasks, threads, observer, work, |row| kept.keep(row));
+    kept.error.map_or(Ok(ended), Err)
 }
 
 #[cfg(test)]

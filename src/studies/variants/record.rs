@@ -65,17 +65,22 @@ impl VariantRow {
 }
 
 /// A figure that runs are compared by.
-struct Figure {
+pub(crate) struct Figure {
     path: &'static str,
-    meaning: &'static str,
-    unit: &'static str,
+    pub meaning: &'static str,
+    pub unit: &'static str,
     value: Value,
-    error: Error,
+    pub error: Error,
+}
+
+/// What the figure at this path in `summary.json` is; none where it is none that runs are compared by.
+pub(crate) fn described(path: &str) -> Option<&'static Figure> {
+    FIGURES.iter().find(|figure| figure.path == path)
 }
 
 type Value = fn(&RunSummary) -> Option<f64>;
 /// Of the errors that a run states, the one of the figure; none where it states none.
-type Error = fn(&TotalError) -> Option<f64>;
+pub(crate) type Error = fn(&TotalError) -> Option<f64>;
 
 impl Figure {
     const fn of(path: &'static str, meaning: &'static str, unit: &'static str, value: Value, error: Error) -> Self {
@@ -83,7 +88,7 @@ impl Figure {
     }
 }
 
-const FIGURES: [Figure; 13] = [
+static FIGURES: [Figure; 13] = [
     Figure::of(
         "pinion.peak_wear_um",
         "Greatest wear of the pinion, active profile",

@@ -1,0 +1,228 @@
+//! `gearwear uncertainty`: quantiles and Sobol indices of uncertain keys.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::report;
+use crate::scene::draft::Draft;
+use crate::scene::loaded::LoadedScene;
+use crate::studies::evaluate::output::{Output, OutputError};
+use crate::studies::uncertainty::design::{self, CorrelationError, MOST_FACTORS, MOST_SAMPLES};
+use crate::studies::uncertainty::distribution::{self, FORMS, UncertainError};
+use crate::studies::uncertainty::life::LimitError;
+use crate::studies::uncertainty::record::UncertaintyRecord;
+use crate::studies::uncertainty::study::{self, Question, StudyError};
+use crate::studies::varied_scene::{linked_keys, missing_phase};
+
+use super::counted_progress::CountedProgress;
+use super::failure::{Failure, InputError};
+use super::figures::digits;
+use super::run::{thread_count, watch_for_interrupt};
+use super::{print, say, warn};
+
+const DEFAULT_OUTPUTS: [&str; 5] = [
+    "pinion.peak_wear_um",
+    "wheel.peak_wear_um",
+    "pinion.tip_edge_wear_um",
+    "wheel.tip_edge_wear_um",
+    "worn.transmission_error_um.peak_to_peak",
+];
+
+#[derive(Debug, clap::Args)]
+pub(super) struct Args {
+    /// The scene file; - reads standard input
+    scene: PathBuf,
+    /// A key of the scene, and its distribution: normal:MEAN:SD, lognormal:MEDIAN:FACTOR (68 % of the values lie from MEDIAN/FACTOR to
+    /// MEDIAN·FACTOR), uniform:LOW:HIGH, triangular:LOW:MODE:HIGH; about the scene's own value ±40%, normal:10% and lognormal:FACTOR.
+    /// Keys that have the same value: pair.{pinion,wheel}.tip_rounding_mm. May be given several times
+    #[arg(long, value_name = "KEY=DISTRIBUTION", required = true)]
+    uncertain: Vec<String>,
+    /// Correlation of two uncertain keys, of their normal scores. May be given several times; pairs that are not given are independent
+    #[arg(long, value_name = "KEY:KEY=R")]
+    correlation: Vec<String>,
+    /// The folder for the results; those of an earlier study are replaced
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Points of the Sobol sequence, best a power of two; each takes two runs and one more for every uncertain key
+    #[arg(long, value_name = "N", default_value_t = 512, value_parser = samples)]
+    samples: usize,
+    /// Another seed scrambles the sequence in another way
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u32,
+    /// Figures to keep, as paths in summary.json, separated by commas; default: greatest wear and tip-edge wear of both gears, transmission
+    /// error peak to peak, worn
+    #[arg(long, value_name = "PATH,…", value_delimiter = ',')]
+    outputs: Vec<String>,
+    /// Ask for the life until a depth of wear is reached, such as pinion.peak_wear_um=10. May be given several times
+    #[arg(long, value_name = "FIGURE=VALUE")]
+    limit: Vec<String>,
+    /// Number of threads; default: all cores. Never changes the results, but the times
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// Show neither progress nor figures, only what is wrong
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// What is wrong with the question.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum UncertaintyError {
+    #[error("--uncertain: {0}")]
+    Uncertain(#[from] UncertainError),
+    #[error("--correlation: {0}")]
+    Correlation(#[from] CorrelationError),
+    #[error("--limit: {0}")]
+    Limit(#[from] LimitError),
+    #[error(
+        "--outputs: unknown output {output}; allowed: the path of a number in summary.json, such as pinion.peak_wear_um"
+    )]
+    Output { output: String, nearest: Option<String> },
+    #[error("--uncertain: found {found} keys; allowed: at most {}", MOST_FACTORS - 1)]
+    TooMany { found: usize },
+    #[error("{0}")]
+    Study(StudyError),
+}
+
+impl UncertaintyError {
+    /// What to do about it.
+    pub(super) fn help(&self) -> String {
+        match self {
+            Self::Output { nearest: Some(nearest), .. } => format!("did you mean {nearest}?"),
+            Self::Output { .. } => "summary.json of a run has all of them".to_owned(),
+            Self::Correlation(CorrelationError::NotPositiveDefinite) => {
+                "keys that are both close to a third are close to one another".to_owned()
+            }
+            Self::Study(_) => "gearwear run SCENE says more".to_owned(),
+            _ => format!("KEY=DISTRIBUTION with one of {FORMS}"),
+        }
+    }
+}
+
+impl From<OutputError> for UncertaintyError {
+    fn from(OutputError { output, nearest }: OutputError) -> Self {
+        Self::Output { output, nearest }
+    }
+}
+
+fn samples(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(count) if (2..=MOST_SAMPLES).contains(&count) => Ok(count),
+        _ => Err(format!("allowed: a whole number from 2 to {MOST_SAMPLES}")),
+    }
+}
+
+pub(super) fn run(args: &Args) -> Result<(), Failure> {
+    let scene = LoadedScene::open(&args.scene)?;
+    warn(scene.warnings());
+    let question = question(args, &scene)?;
+    report::writable(&args.out)?;
+    let threads = thread_count(args.threads);
+    let interrupted = watch_for_interrupt();
+    crate::studies::uncertainty::report::begin(&args.out)?;
+    if !args.quiet {
+        say(&format!("{} samples of {} uncertain keys", question.samples, question.uncertain.len()));
+    }
+    let progress = CountedProgress::new(args.quiet, Arc::clone(&interrupted));
+    let record = study::run(&scene, &question, threads, &progress);
+    progress.finish();
+    let record = record.map_err(|error| match error {
+        StudyError::Interrupted => {
+            say(&format!("{error}: nothing to write"));
+            Failure::Interrupted
+        }
+        StudyError::AllFailed { runs, first } => Failure::NoSample { count: runs, error: first },
+        error => InputError::Uncertainty(UncertaintyError::Study(error)).into(),
+    })?;
+    crate::studies::uncertainty::report::write(&record, &args.out)?;
+    if !args.quiet {
+        print(&table(&record, &args.out))?;
+    }
+    if record.samples < record.samples_asked {
+        say(&format!("interrupted: {} of {} samples were finished and are kept", record.samples, record.samples_asked));
+        return Err(Failure::Interrupted);
+    }
+    Ok(())
+}
+
+fn question(args: &Args, scene: &LoadedScene) -> Result<Question, Failure> {
+    let refused = |error: UncertaintyError| Failure::from(InputError::Uncertainty(error));
+    let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
+    let resolved: toml::Table = scene.to_toml().parse().unwrap_or_default();
+    let own = |key: &str| number_at(&resolved, key);
+    let uncertain = distribution::parse_all(args.uncertain.iter().map(String::as_str), own);
+    let uncertain = uncertain.map_err(|error| refused(error.into()))?;
+    let all_keys = uncertain.iter().flat_map(|one| linked_keys(&one.key));
+    if let Some(key) = missing_phase(all_keys, &draft) {
+        return Err(refused(UncertainError::NoPhase { key }.into()));
+    }
+    // The error of the model takes one more.
+    if uncertain.len() >= MOST_FACTORS {
+        return Err(refused(UncertaintyError::TooMany { found: uncertain.len() }));
+    }
+    let keys: Vec<&str> = uncertain.iter().map(|one| one.key.as_str()).collect();
+    let correlation = design::correlation(&keys, &args.correlation).map_err(|error| refused(error.into()))?;
+    let limits = args.limit.iter().map(|text| text.parse()).collect::<Result<_, LimitError>>();
+    let limits = limits.map_err(|error| refused(error.into()))?;
+    let asked: Vec<&str> = match args.outputs.as_slice() {
+        [] => DEFAULT_OUTPUTS.to_vec(),
+        given => given.iter().map(|path| path.trim()).collect(),
+    };
+    let outputs = asked.into_iter().map(Output::find).collect::<Result<_, _>>();
+    let outputs = outputs.map_err(|error| refused(error.into()))?;
+    Ok(Question { uncertain, correlation, outputs, limits, samples: args.samples, seed: args.seed })
+}
+
+/// The number at the path `key` of a table; items of lists are numbered from 1.
+fn number_at(table: &toml::Table, key: &str) -> Option<f64> {
+    let mut parts = key.split('.');
+    let first = table.get(parts.next()?)?;
+    let value = parts.try_fold(first, |value, part| match value.as_array() {
+        Some(list) => list.get(part.parse::<usize>().ok()?.checked_sub(1)?),
+        None => value.get(part),
+    })?;
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+}
+
+/// Quantiles and indices, for the terminal.
+fn table(record: &UncertaintyRecord, out: &Path) -> String {
+    let cell = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), digits);
+    let mut text = format!(
+        "{}\n\n{} points, {} runs, {} failed, in {} s\n\n  {:42}{:>12}{:>12}{:>12}{:>12}\n",
+        record.title,
+        record.samples,
+        record.runs,
+        record.failed,
+        digits(record.wall_s),
+        "",
+        "as given",
+        "5 %",
+        "50 %",
+        "95 %"
+    );
+    for output in &record.outputs {
+        let [p05, _, p50, _, p95] = output.quantiles.all();
+        let cells = [output.nominal, p05, p50, p95].map(cell);
+        let [given, low, middle, high] = &cells;
+        text.push_str(&format!("  {:42}{given:>12}{low:>12}{middle:>12}{high:>12} {}\n", output.output, output.unit));
+        if let Some(censored) = output.censored.filter(|&part| part > 0.0) {
+            let part = digits(100.0 * censored);
+            text.push_str(&format!("    {part} % of the samples do not come to the limit within their duration\n"));
+        }
+    }
+    text.push_str(&format!("\n  {:42}{:>12}{:>12}\n", "Sobol indices", "first order", "total"));
+    for output in &record.outputs {
+        let because = output.no_indices_because.as_ref().map_or_else(String::new, |because| format!(": {because}"));
+        text.push_str(&format!("  {}{because}\n", output.output));
+        for one in output.indices.iter().flatten() {
+            let (first, total) = (one.first.value, one.total.value);
+            text.push_str(&format!("    {:40}{first:>12.3}{total:>12.3}\n", one.factor));
+        }
+    }
+    if let Some(first) = &record.first_failure {
+        text.push_str(&format!("\nthe first failure: {first}\n"));
+    }
+    text.push_str(&format!("\nerror of the fast model: {}\n", record.model_error_how));
+    text.push_str(&format!("report: {}\n", out.join("report.html").display()));
+    text
+}

@@ -1,0 +1,215 @@
+//! Outputs of a scene's run for rows of values of its keys: what sensitivity analyses, optimisers and samplers call.
+//!
+//! ```text
+//! y_ij = output j of the scene with keys k_1 … k_d = x_i1 … x_id
+//! ```
+//!
+//! An output is named by its path in `summary.json` ([`output`]). What the outputs do not need is left out of the runs: snapshots always,
+//! the error estimates and the verification by finite elements unless an output lies below `error`. A row that cannot be run gives no
+//! numbers and says why; it is no error of the others. Rows are run one a thread, and no number of threads changes a bit of them.
+
+pub(crate) mod output;
+
+use crate::observer::Observer;
+use crate::pipeline::{self, guarded::guarded};
+use crate::results::run::StopReason;
+use crate::scene::draft::{Draft, other_ways_to_say};
+use crate::scene::key::{self, NumberKey, is_key};
+use crate::scene::loaded::{LoadedScene, SceneError};
+use crate::studies::spread::spread;
+use crate::studies::varied_scene::{VariedScene, in_words, linked_keys, missing_phase, one_line};
+use output::{Output, OutputError};
+
+/// What came of each row.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evaluation {
+    /// The outputs of each row, in their order; NaN where there is none.
+    pub values: Vec<Vec<f64>>,
+    /// Why a row has a NaN, on one line; `None` where it has none.
+    pub reasons: Vec<Option<String>>,
+}
+
+/// What is wrong with what is to be evaluated; a row that cannot be run is none of it.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum EvaluateError {
+    /// No scene has the key.
+    #[error("unknown key {key}; allowed: a key of the scene, such as pair.face_width_mm{}", did_you_mean(.nearest))]
+    UnknownKey {
+        /// As given.
+        key: String,
+        /// What was probably meant.
+        nearest: Option<String>,
+    },
+    /// A phase that the scene does not have.
+    #[error("found {key}; allowed: a phase that the scene has, numbered from 1")]
+    NoPhase {
+        /// As given.
+        key: String,
+    },
+    /// A key twice, or two that say the same in different ways.
+    #[error("found {key} and {other}, which say the same thing; allowed: one of the two")]
+    SaidTwice {
+        /// The first.
+        key: String,
+        /// The second.
+        other: String,
+    },
+    /// No summary has the output.
+    #[error("unknown output {output}; allowed: the path of a number in summary.json, such as pinion.peak_wear_um{}", did_you_mean(.nearest))]
+    UnknownOutput {
+        /// As given.
+        output: String,
+        /// What was probably meant.
+        nearest: Option<String>,
+    },
+    /// A row of another length than the keys.
+    #[error("row {row}: found {found} values; allowed: {expected}, one for each key")]
+    RowLength {
+        /// Its number, from 0.
+        row: usize,
+        /// How many it has.
+        found: usize,
+        /// How many keys there are.
+        expected: usize,
+    },
+    /// A value that is no number.
+    #[error("row {row}, {key}: found {found}; allowed: a finite number")]
+    NotFinite {
+        /// Its number, from 0.
+        row: usize,
+        /// Whose value.
+        key: String,
+        /// The value.
+        found: f64,
+    },
+    /// The scene itself cannot be read again.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+}
+
+fn did_you_mean(nearest: &Option<String>) -> String {
+    nearest.as_ref().map_or_else(String::new, |nearest| format!("; did you mean {nearest}?"))
+}
+
+impl From<OutputError> for EvaluateError {
+    fn from(OutputError { output, nearest }: OutputError) -> Self {
+        Self::UnknownOutput { output, nearest }
+    }
+}
+
+/// Runs `scene` once for each of `rows`, which hold a value for each of `keys`, on `threads` threads, and keeps `outputs`.
+///
+/// Keys are paths in the scene, of several that have the same value with alternatives: `pair.{pinion,wheel}.tip_rounding_mm`; items of
+/// lists are numbered from 1 (`operation.phases.2.hours`). Outputs are paths of numbers in `summary.json`: `pinion.peak_wear_um`,
+/// `new.transmission_error_um.peak_to_peak`, `error.total.peak_wear.pinion`, `helical.width_mm.1`. Where the observer interrupts it, the rows
+/// that are not finished say so.
+///
+/// # Errors
+/// Keys or outputs that do not exist, rows that do not fit the keys.
+pub fn evaluate(
+    scene: &LoadedScene,
+    keys: &[impl AsRef<str>],
+    rows: &[Vec<toml::Value>],
+    outputs: &[impl AsRef<str>],
+    threads: usize,
+    observer: &dyn Observer,
+) -> Result<Evaluation, EvaluateError> {
+    let keys: Vec<&str> = keys.iter().map(AsRef::as_ref).collect();
+    let outputs: Vec<Output> = outputs.iter().map(|path| Output::find(path.as_ref())).collect::<Result<_, _>>()?;
+    let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
+    check_keys(&keys, &draft)?;
+    check_rows(&keys, rows)?;
+    let whole: Vec<bool> = keys.iter().map(|key| takes_whole_numbers(key)).collect();
+    let of_error = outputs.iter().any(Output::is_of_error);
+    let varied = VariedScene::new(scene, of_error && scene.scene().numerics.error_estimate);
+    let varied = varied.map_err(|problems| scene.given.refused(problems))?;
+
+    let run = |row: &[toml::Value], within: &dyn Observer| -> Result<Option<Vec<f64>>, String> {
+        let values = row.iter().zip(&whole).map(|(value, &whole)| if whole { as_whole(value) } else { value.clone() });
+        let resolved = varied.resolved(keys.iter().copied().zip(values)).map_err(|problems| in_words(&problems));
+        let mut resolved = resolved?;
+        resolved.scene.verify = of_error && scene.scene().verify;
+        varied.inputs_belong_to(&resolved)?;
+        let summary = varied.carry_out(resolved, within, pipeline::summarise)?;
+        if summary.stopped == StopReason::Interrupted {
+            return Ok(None);
+        }
+        let summary = serde_json::to_value(&summary).map_err(|error| error.to_string())?;
+        Ok(Some(outputs.iter().map(|output| output.of(&summary).unwrap_or(f64::NAN)).collect()))
+    };
+    let mut found = Evaluation {
+        values: vec![vec![f64::NAN; outputs.len()]; rows.len()],
+        reasons: vec![Some("interrupted".to_owned()); rows.len()],
+    };
+    let mut done = 0;
+    let tasks: Vec<usize> = (0..rows.len()).collect();
+    spread(
+        &tasks,
+        threads.max(1),
+        observer,
+        |&row, within| {
+            let run = guarded(|| run(&rows[row], within));
+            match run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}"))) {
+                Ok(values) => values.map(|values| (row, Ok(values))),
+                Err(_) if within.interrupted() => None,
+                Err(reason) => Some((row, Err(one_line(&reason)))),
+            }
+        },
+        |(row, result)| {
+            done += 1;
+            observer.counted(done, rows.len(), "rows", "");
+            match result {
+                Ok(values) => {
+                    found.reasons[row] = outputs.iter().zip(&values).find_map(|(output, value)| {
+                        (!value.is_finite()).then(|| format!("{}: the run has no such figure", output.path))
+                    });
+                    found.values[row] = values;
+                }
+                Err(reason) => found.reasons[row] = Some(reason),
+            }
+            true
+        },
+    );
+    Ok(found)
+}
+
+fn check_keys(keys: &[&str], draft: &Draft) -> Result<(), EvaluateError> {
+    let mut before: Vec<String> = Vec::new();
+    for key in keys.iter().flat_map(|key| linked_keys(key)) {
+        if !is_key(&key) {
+            return Err(EvaluateError::UnknownKey { nearest: key::nearest_key(&key), key });
+        }
+        let same = |other: &&String| **other == key || other_ways_to_say(&key).contains(other);
+        if let Some(other) = before.iter().find(same) {
+            return Err(EvaluateError::SaidTwice { key: other.clone(), other: key });
+        }
+        before.push(key);
+    }
+    missing_phase(before, draft).map_or(Ok(()), |key| Err(EvaluateError::NoPhase { key }))
+}
+
+fn check_rows(keys: &[&str], rows: &[Vec<toml::Value>]) -> Result<(), EvaluateError> {
+    for (row, values) in rows.iter().enumerate() {
+        if values.len() != keys.len() {
+            return Err(EvaluateError::RowLength { row, found: values.len(), expected: keys.len() });
+        }
+        let not_finite = |value: &toml::Value| value.as_float().filter(|value| !value.is_finite());
+        if let Some((key, found)) = keys.iter().zip(values).find_map(|(key, value)| Some((key, not_finite(value)?))) {
+            return Err(EvaluateError::NotFinite { row, key: (*key).to_owned(), found });
+        }
+    }
+    Ok(())
+}
+
+/// Whether a key takes whole numbers alone, so that `16.0` stands for `16`: arrays of numbers have but one kind.
+fn takes_whole_numbers(key: &str) -> bool {
+    linked_keys(key).iter().any(|key| NumberKey::find(key).is_ok_and(|key| key.whole()))
+}
+
+fn as_whole(value: &toml::Value) -> toml::Value {
+    match value.as_float() {
+        // A cast keeps any whole number that is of a size that a scene allows.
+        Some(number) if number.fract() == 0.0 => toml::Value::Integer(number as i64),
+        _ => value.clone(),
+    }
+}

@@ -1,0 +1,108 @@
+//! Many runs on several threads, one run a thread.
+//!
+//! A run is done by one thread from beginning to end: with many runs that loses nothing to waiting, and what one comes to depends
+//! neither on the number of threads nor on the order in which they finish.
+
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+
+use crate::observer::Observer;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ended {
+    Completed,
+    Interrupted,
+}
+
+/// A run among others: it stops when all do.
+struct Within<'a> {
+    observer: &'a dyn Observer,
+    stopped: &'a AtomicBool,
+}
+
+impl Observer for Within<'_> {
+    fn interrupted(&self) -> bool {
+        self.stopped.load(Ordering::Relaxed) || self.observer.interrupted()
+    }
+}
+
+/// Does `work` for each of `tasks` on `threads` threads and hands what it comes to to `keep`, one at a time in the order in which they
+/// are finished. `work` gives nothing where it was interrupted; where `keep` says no, all of it stops.
+pub(crate) fn spread<T: Sync, R>(
+    tasks: &[T],
+    threads: usize,
+    observer: &dyn Observer,
+    work: impl Fn(&T, &dyn Observer) -> Option<R> + Sync,
+    keep: impl FnMut(R) -> bool + Send,
+) -> Ended {
+    let next = AtomicUsize::new(0);
+    let stopped = AtomicBool::new(false);
+    let kept = Mutex::new((0, keep));
+    let within = Within { observer, stopped: &stopped };
+    let take = || {
+        while let Some(task) = tasks.get(next.fetch_add(1, Ordering::Relaxed)) {
+            if within.interrupted() {
+                break;
+            }
+            let Some(result) = work(task, &within) else { break };
+            // A panic with the lock held leaves what was kept before it.
+            let mut kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
+            if !(kept.1)(result) {
+                stopped.store(true, Ordering::Relaxed);
+                break;
+            }
+            kept.0 += 1;
+        }
+    };
+    thread::scope(|scope| {
+        for _ in 0..threads.min(tasks.len()) {
+            scope.spawn(|| {
+                // What is parallel in it runs on this thread alone. Without a pool of its own it would use the program's, which gives
+                // the same results.
+                let _own = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
+                take();
+            });
+        }
+    });
+    let (count, _) = kept.into_inner().unwrap_or_else(PoisonError::into_inner);
+    if count == tasks.len() { Ended::Completed } else { Ended::Interrupted }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::observer::Unwatched;
+
+    #[test]
+    fn all_tasks_are_done_once_and_a_refusal_stops_them() {
+        let tasks: Vec<usize> = (0..50).collect();
+        for threads in [1, 3] {
+            let mut found = Vec::new();
+            let ended = spread(
+                &tasks,
+                threads,
+                &Unwatched,
+                |&task, _| Some(task * task),
+                |square| {
+                    found.push(square);
+                    true
+                },
+            );
+            found.sort_unstable();
+            assert_eq!((ended, found), (Ended::Completed, tasks.iter().map(|task| task * task).collect::<Vec<_>>()));
+            let mut count = 0;
+            let ended = spread(
+                &tasks,
+                threads,
+                &Unwatched,
+                |&task, _| Some(task),
+                |_| {
+                    count += 1;
+                    count < 5
+                },
+            );
+            assert_eq!((ended, count), (Ended::Interrupted, 5));
+        }
+    }
+}

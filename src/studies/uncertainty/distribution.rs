@@ -1,0 +1,233 @@
+//! An uncertain key, as the user writes it: `KEY=DISTRIBUTION`.
+//!
+//! | form | values |
+//! |---|---|
+//! | `normal:MEAN:SD` | normal, with mean and standard deviation |
+//! | `lognormal:MEDIAN:FACTOR` | the logarithm is normal: half of the values lie below MEDIAN, and 68 % from MEDIAN/FACTOR to MEDIAN·FACTOR (σ of ln x is ln FACTOR) |
+//! | `uniform:LOW:HIGH` | all values between both alike |
+//! | `triangular:LOW:MODE:HIGH` | most likely MODE, never below LOW nor above HIGH |
+//! | `±40%`, `+-40%` | uniform within this part of the scene's own value |
+//! | `normal:10%` | normal about the scene's own value, with this part of it as standard deviation |
+//! | `lognormal:FACTOR` | lognormal about the scene's own value |
+
+use serde::Serialize;
+use statrs::distribution::{ContinuousCDF, Normal};
+
+use crate::scene::draft::other_ways_to_say;
+use crate::scene::key::{KeyError, NumberKey};
+use crate::studies::varied_scene::linked_keys;
+
+pub(crate) const FORMS: &str = "normal:MEAN:SD, lognormal:MEDIAN:FACTOR, uniform:LOW:HIGH, triangular:LOW:MODE:HIGH, ±40%, normal:10%, \
+     lognormal:FACTOR";
+
+/// What is wrong with what is to be uncertain.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub(crate) enum UncertainError {
+    #[error("found {given:?}; allowed: KEY=DISTRIBUTION, with one of {FORMS}")]
+    Form { given: String },
+    #[error(transparent)]
+    Key(#[from] KeyError),
+    /// Whole numbers have no such distribution.
+    #[error("{key} takes whole numbers; allowed: a key that takes any number")]
+    Whole { key: String },
+    /// A part of a value that the scene does not have, or of two that differ.
+    #[error("{key}: found {given}, a part of the scene's own value, {found}; allowed: one of {FORMS}")]
+    NoValue { key: String, given: String, found: &'static str },
+    #[error("{key}: found {given}; allowed: {allowed}")]
+    Parameters { key: String, given: String, allowed: &'static str },
+    #[error("found {key} and {other}, which say the same thing; allowed: one of the two")]
+    SaidTwice { key: String, other: String },
+    #[error("found {key}; allowed: a phase that the scene has, numbered from 1")]
+    NoPhase { key: String },
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(tag = "distribution", rename_all = "kebab-case")]
+pub(crate) enum Distribution {
+    Normal { mean: f64, standard_deviation: f64 },
+    Lognormal { median: f64, factor: f64 },
+    Uniform { low: f64, high: f64 },
+    Triangular { low: f64, mode: f64, high: f64 },
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct Uncertain {
+    /// Path of the key, or of several that have the same value: `pair.{pinion,wheel}.tip_rounding_mm`.
+    pub key: String,
+    /// As the user wrote it.
+    pub given: String,
+    #[serde(flatten)]
+    pub distribution: Distribution,
+}
+
+/// Φ⁻¹
+pub(crate) fn normal_quantile(u: f64) -> f64 {
+    Normal::standard().inverse_cdf(u)
+}
+
+/// Φ
+pub(crate) fn normal_share(z: f64) -> f64 {
+    Normal::standard().cdf(z)
+}
+
+impl Distribution {
+    /// The value below which a share 0 < `u` < 1 of all lies.
+    pub(crate) fn quantile(&self, u: f64) -> f64 {
+        match *self {
+            Self::Normal { mean, standard_deviation } => mean + standard_deviation * normal_quantile(u),
+            Self::Lognormal { median, factor } => median * (factor.ln() * normal_quantile(u)).exp(),
+            Self::Uniform { low, high } => low + u * (high - low),
+            Self::Triangular { low, mode, high } => {
+                let rising = (mode - low) / (high - low);
+                if u < rising {
+                    low + (u * (high - low) * (mode - low)).sqrt()
+                } else {
+                    high - ((1.0 - u) * (high - low) * (high - mode)).sqrt()
+                }
+            }
+        }
+    }
+}
+
+/// A per cent as a share.
+fn share(text: &str) -> Option<f64> {
+    let value: f64 = text.trim().strip_suffix('%')?.trim().parse().ok()?;
+    (value > 0.0 && value.is_finite()).then_some(value / 100.0)
+}
+
+/// Reads one uncertain key; `own` is the scene's own value of a key.
+pub(crate) fn parse(given: &str, own: impl Fn(&str) -> Option<f64>) -> Result<Uncertain, UncertainError> {
+    let form = || UncertainError::Form { given: given.to_owned() };
+    let (key, text) = given.split_once('=').ok_or_else(form)?;
+    let (key, text) = (key.trim().to_owned(), text.trim());
+    let keys = linked_keys(&key);
+    for one in &keys {
+        if NumberKey::find(one)?.whole() {
+            return Err(UncertainError::Whole { key: one.clone() });
+        }
+    }
+    let own = || {
+        let no = |found| UncertainError::NoValue { key: key.clone(), given: text.to_owned(), found };
+        let values: Vec<Option<f64>> = keys.iter().map(|key| own(key)).collect();
+        match values[0] {
+            None => Err(no("which it does not have")),
+            Some(_) if values.iter().any(|value| *value != values[0]) => Err(no("which is not the same for both")),
+            Some(0.0) => Err(no("which is 0")),
+            Some(value) => Ok(value),
+        }
+    };
+    let bad = |allowed| UncertainError::Parameters { key: key.clone(), given: text.to_owned(), allowed };
+    let within = text.strip_prefix('±').or_else(|| text.strip_prefix("+-"));
+    let (name, rest) = text.split_once(':').unwrap_or((text, ""));
+    let numbers: Option<Vec<f64>> =
+        rest.split(':').map(|part| part.trim().parse().ok().filter(|value: &f64| value.is_finite())).collect();
+    let distribution = match (within, name.trim(), numbers.as_deref()) {
+        (Some(part), ..) => {
+            let (value, part) = (own()?, share(part).ok_or_else(form)?);
+            let (one, other) = (value * (1.0 - part), value * (1.0 + part));
+            Distribution::Uniform { low: one.min(other), high: one.max(other) }
+        }
+        (_, "normal", None) => {
+            let (part, value) = (share(rest).ok_or_else(form)?, own()?);
+            Distribution::Normal { mean: value, standard_deviation: part * value.abs() }
+        }
+        (_, "normal", Some(&[mean, standard_deviation])) => Distribution::Normal { mean, standard_deviation },
+        (_, "lognormal", Some(&[factor])) => Distribution::Lognormal { median: own()?, factor },
+        (_, "lognormal", Some(&[median, factor])) => Distribution::Lognormal { median, factor },
+        (_, "uniform", Some(&[low, high])) => Distribution::Uniform { low, high },
+        (_, "triangular", Some(&[low, mode, high])) => Distribution::Triangular { low, mode, high },
+        _ => return Err(form()),
+    };
+    match distribution {
+        Distribution::Normal { standard_deviation, .. } if standard_deviation <= 0.0 => {
+            Err(bad("a standard deviation above 0"))
+        }
+        Distribution::Lognormal { median, factor } if median <= 0.0 || factor <= 1.0 => {
+            Err(bad("a median above 0 and a factor above 1"))
+        }
+        Distribution::Uniform { low, high } if low >= high => Err(bad("LOW below HIGH")),
+        Distribution::Triangular { low, mode, high } if !(low <= mode && mode <= high && low < high) => {
+            Err(bad("LOW, MODE and HIGH that rise"))
+        }
+        distribution => Ok(Uncertain { key, given: text.to_owned(), distribution }),
+    }
+}
+
+/// Reads all of them and checks that they go together.
+pub(crate) fn parse_all<'a>(
+    given: impl IntoIterator<Item = &'a str>,
+    own: impl Fn(&str) -> Option<f64>,
+) -> Result<Vec<Uncertain>, UncertainError> {
+    let mut all: Vec<Uncertain> = Vec::new();
+    let mut before: Vec<String> = Vec::new();
+    for given in given {
+        let uncertain = parse(given, &own)?;
+        for key in linked_keys(&uncertain.key) {
+            let same = |other: &&String| **other == key || other_ways_to_say(&key).contains(other);
+            if let Some(other) = before.iter().find(same) {
+                return Err(UncertainError::SaidTwice { key: other.clone(), other: key });
+            }
+            before.push(key);
+        }
+        all.push(uncertain);
+    }
+    Ok(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(given: &str) -> Result<Distribution, String> {
+        let own = |key: &str| (key == "pair.face_width_mm").then_some(20.0);
+        parse(given, own).map(|uncertain| uncertain.distribution).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn every_form_is_read() {
+        for (given, expected) in [
+            ("normal:20:0.5", Distribution::Normal { mean: 20.0, standard_deviation: 0.5 }),
+            ("normal:10%", Distribution::Normal { mean: 20.0, standard_deviation: 2.0 }),
+            ("lognormal:1.5", Distribution::Lognormal { median: 20.0, factor: 1.5 }),
+            ("lognormal:19:1.5", Distribution::Lognormal { median: 19.0, factor: 1.5 }),
+            ("uniform:19:21", Distribution::Uniform { low: 19.0, high: 21.0 }),
+            ("±5%", Distribution::Uniform { low: 19.0, high: 21.0 }),
+            ("+-5 %", Distribution::Uniform { low: 19.0, high: 21.0 }),
+            ("triangular:19:20:22", Distribution::Triangular { low: 19.0, mode: 20.0, high: 22.0 }),
+        ] {
+            assert_eq!(read(&format!("pair.face_width_mm={given}")), Ok(expected), "{given}");
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_said() {
+        for (given, part) in [
+            ("pair.face_width_mm", "KEY=DISTRIBUTION"),
+            ("pair.face_widht_mm=uniform:1:2", "unknown key"),
+            ("pair.pinion.teeth=uniform:15:17", "whole numbers"),
+            ("pair.face_width_mm=uniform:2:1", "LOW below HIGH"),
+            ("pair.face_width_mm=normal:1:-1", "above 0"),
+            ("pair.face_width_mm=lognormal:0.5", "factor above 1"),
+            ("pair.face_width_mm=gamma:1:2", "triangular:LOW:MODE:HIGH"),
+            ("operation.pinion_torque_Nm=±10%", "which it does not have"),
+        ] {
+            assert!(read(given).unwrap_err().contains(part), "{given}: {:?}", read(given));
+        }
+        let twice = parse_all(["operation.hours=uniform:1:2", "operation.pinion_revolutions=uniform:1:2"], |_| None);
+        assert!(matches!(twice, Err(UncertainError::SaidTwice { .. })));
+    }
+
+    /// Medians and 84.13 % points (Φ(1)), and the triangular distribution's closed form F(mode) = (mode − low)/(high − low).
+    #[test]
+    fn ver_quantiles_are_those_of_the_distributions() {
+        let phi = normal_share(1.0);
+        let near = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-7, "{found} for {expected}");
+        near(Distribution::Normal { mean: 3.0, standard_deviation: 2.0 }.quantile(phi), 5.0);
+        near(Distribution::Lognormal { median: 3.0, factor: 1.5 }.quantile(phi), 4.5);
+        near(Distribution::Lognormal { median: 3.0, factor: 1.5 }.quantile(0.5), 3.0);
+        near(Distribution::Uniform { low: 3.0, high: 5.0 }.quantile(0.25), 3.5);
+        near(Distribution::Triangular { low: 0.0, mode: 1.0, high: 4.0 }.quantile(0.25), 1.0);
+        // F(x) = 1 − (4 − x)²/12 = 0.75 at x = 4 − √3.
+        near(Distribution::Triangular { low: 0.0, mode: 1.0, high: 4.0 }.quantile(0.75), 4.0 - 3.0_f64.sqrt());
+    }
+}

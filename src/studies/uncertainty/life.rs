@@ -1,0 +1,105 @@
+//! Life: when a depth of wear comes to a limit, read off the history of the run.
+//!
+//! Between the moments of the history the depth is taken to grow evenly, from 0 at the beginning. A run that does not come to the limit
+//! says only that its life is longer than its duration: it is censored.
+
+use std::str::FromStr;
+
+use serde::Serialize;
+
+use crate::results::run::HistoryRow;
+use crate::scene::nearest::nearest;
+
+/// Depths that a history has, by their path in the summary.
+type Depth = (&'static str, fn(&HistoryRow) -> f64);
+
+const DEPTHS: [Depth; 6] = [
+    ("pinion.peak_wear_um", |row| row.pinion_peak_wear_um),
+    ("wheel.peak_wear_um", |row| row.wheel_peak_wear_um),
+    ("pinion.tip_edge_wear_um", |row| row.pinion_tip_edge_wear_um),
+    ("wheel.tip_edge_wear_um", |row| row.wheel_tip_edge_wear_um),
+    ("pinion.root_wear_um", |row| row.pinion_root_wear_um),
+    ("pinion.pitch_wear_um", |row| row.pinion_pitch_wear_um),
+];
+
+/// A depth that ends the life.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct Limit {
+    pub output: &'static str,
+    pub depth_um: f64,
+}
+
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub(crate) enum LimitError {
+    #[error("found {given:?}; allowed: FIGURE=VALUE with a value above 0, such as pinion.peak_wear_um=10")]
+    Form { given: String },
+    #[error("unknown figure {name}; allowed: {}{}", DEPTHS.map(|depth| depth.0).join(", "), meant.map_or_else(String::new, |meant| format!("; did you mean {meant}?")))]
+    Unknown { name: String, meant: Option<&'static str> },
+}
+
+impl FromStr for Limit {
+    type Err = LimitError;
+
+    fn from_str(given: &str) -> Result<Self, LimitError> {
+        let form = || LimitError::Form { given: given.to_owned() };
+        let (name, value) = given.split_once('=').ok_or_else(form)?;
+        let depth_um: f64 = value.trim().parse().ok().filter(|v: &f64| v.is_finite() && *v > 0.0).ok_or_else(form)?;
+        let name = name.trim();
+        let unknown =
+            || LimitError::Unknown { name: name.to_owned(), meant: nearest(name, &DEPTHS.map(|depth| depth.0)) };
+        let (output, _) = DEPTHS.iter().find(|depth| depth.0 == name).ok_or_else(unknown)?;
+        Ok(Self { output, depth_um })
+    }
+}
+
+/// Time, in hours where the scene has a speed and else in revolutions of the pinion, and depth at each moment.
+pub(crate) type Growth = Vec<(f64, f64)>;
+
+impl Limit {
+    /// How the depth grew.
+    pub(crate) fn growth(&self, history: &[HistoryRow]) -> Growth {
+        let Some((_, of)) = DEPTHS.iter().find(|depth| depth.0 == self.output) else { return Growth::new() };
+        history.iter().map(|row| (row.hours.unwrap_or(row.revolutions), of(row))).collect()
+    }
+
+    /// When the depth, `times` as great, comes to the limit; infinite where it does not, with the time until which that is known.
+    pub(crate) fn life(&self, growth: &Growth, times: f64) -> (f64, f64) {
+        let (mut time, mut depth) = (0.0, 0.0);
+        for &(next_time, next_depth) in growth {
+            let next_depth = times * next_depth;
+            if next_depth >= self.depth_um {
+                let part = (self.depth_um - depth) / (next_depth - depth);
+                let life = time + part * (next_time - time);
+                return (life, life);
+            }
+            (time, depth) = (next_time, next_depth);
+        }
+        (f64::INFINITY, time)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wear that grows evenly, 2 µm an hour.
+    #[test]
+    fn ver_life_of_linear_wear() {
+        let limit: Limit = "pinion.peak_wear_um = 5".parse().unwrap();
+        let growth = vec![(1.0, 2.0), (2.0, 4.0), (3.0, 6.0)];
+        assert_eq!(limit.life(&growth, 1.0), (2.5, 2.5));
+        assert_eq!(limit.life(&growth, 5.0), (0.5, 0.5));
+        assert_eq!(limit.life(&growth, 0.5), (f64::INFINITY, 3.0));
+    }
+
+    #[test]
+    fn what_is_no_limit_is_refused() {
+        for (given, part) in [
+            ("pinion.peak_wear_um", "FIGURE=VALUE"),
+            ("pinion.peak_wear_um=-1", "above 0"),
+            ("pinion.peek_wear_um=1", "did you mean pinion.peak_wear_um?"),
+        ] {
+            assert!(given.parse::<Limit>().unwrap_err().to_string().contains(part), "{given}");
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! Uncertainty: what a run's figures are worth where some of its keys are known only as distributions.
+//!
+//! The scene is run for samples of its uncertain keys. Quantiles say how far the figures scatter, Sobol indices which key is to blame. The
+//! fast model's own error, as finite elements find it on the scene as given, is one more uncertain factor.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`distribution`] | an uncertain key as the user writes it |
+//! | [`design`] | samples from a Sobol sequence, correlations |
+//! | [`study`] | runs them on all threads |
+//! | [`life`] | when wear comes to a limit |
+//! | [`statistics`], [`indices`] | quantiles and Sobol indices of any values |
+
+pub(crate) mod design;
+pub(crate) mod distribution;
+pub(crate) mod indices;
+pub(crate) mod life;
+pub(crate) mod record;
+pub(crate) mod report;
+pub(crate) mod statistics;
+pub(crate) mod study;

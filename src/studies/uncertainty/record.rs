@@ -1,0 +1,126 @@
+//! Everything a study of uncertainty leaves behind, as plain data: `uncertainty.json`, and what the other files are written from.
+
+use serde::Serialize;
+
+use super::distribution::Uncertain;
+use super::indices::Index;
+use super::life::Limit;
+use crate::gear::PerGear;
+
+/// How the factor that stands for the error of the fast model is called.
+pub(crate) const MODEL_ERROR: &str = "error of the fast model";
+
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct UncertaintyRecord {
+    pub title: String,
+    pub program_version: String,
+    /// First 16 hexadecimal digits of the SHA-256 of the scene as given, resolved.
+    pub scene_hash: String,
+    pub uncertain: Vec<Uncertain>,
+    pub limits: Vec<Limit>,
+    /// Of the normal scores of the uncertain keys, in their order; null where they are independent.
+    pub correlation: Option<Vec<Vec<f64>>>,
+    pub seed: u32,
+    /// Points of the Sobol sequence that were asked for.
+    pub samples_asked: usize,
+    /// Points that were finished: each gives two independent samples, on which the quantiles stand.
+    pub samples: usize,
+    /// Runs of these points, and how many of them failed.
+    pub runs: usize,
+    pub failed: usize,
+    /// Why the first of them failed.
+    pub first_failure: Option<String>,
+    /// How the error of the fast model was found, or why it was not.
+    pub model_error_how: String,
+    pub outputs: Vec<OutputRecord>,
+    /// Wear over the active flanks.
+    pub bands: PerGear<Band>,
+    pub threads: usize,
+    pub wall_s: f64,
+    /// The scene, as the user gave it.
+    #[serde(skip)]
+    pub scene_toml: String,
+    /// In `samples.csv`.
+    #[serde(skip)]
+    pub rows: Vec<SampleRow>,
+}
+
+/// A figure of the runs.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct OutputRecord {
+    /// Its path in `summary.json`, or of the depth that ends the life.
+    pub output: String,
+    pub meaning: String,
+    pub unit: String,
+    /// Of the scene as given.
+    pub nominal: Option<f64>,
+    /// Relative error that finite elements find of it there, within which it is varied evenly; null where it is not known.
+    pub model_error: Option<f64>,
+    /// Samples that have it.
+    pub samples: usize,
+    /// Part of them whose life is longer than their duration; null of what is no life.
+    pub censored: Option<f64>,
+    pub mean: Option<f64>,
+    pub standard_deviation: Option<f64>,
+    pub quantiles: Quantiles,
+    /// Null where `no_indices_because` says why.
+    pub indices: Option<Vec<FactorIndices>>,
+    pub no_indices_because: Option<String>,
+    /// All values, rising.
+    #[serde(skip)]
+    pub sorted: Vec<f64>,
+}
+
+/// Null where a quantile lies among lives that are longer than their duration, or there are no values.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub(crate) struct Quantiles {
+    pub p05: Option<f64>,
+    pub p25: Option<f64>,
+    pub p50: Option<f64>,
+    pub p75: Option<f64>,
+    pub p95: Option<f64>,
+}
+
+impl Quantiles {
+    pub(crate) fn all(&self) -> [Option<f64>; 5] {
+        [self.p05, self.p25, self.p50, self.p75, self.p95]
+    }
+}
+
+/// What a factor does to a figure.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct FactorIndices {
+    /// The key, or [`MODEL_ERROR`].
+    pub factor: String,
+    /// Part of the variance that it explains alone.
+    pub first: Index,
+    /// The same with all its interactions.
+    pub total: Index,
+}
+
+/// Quantiles of wear, place by place; empty where nothing was worn.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub(crate) struct Band {
+    /// Places on the flank of the scene as given.
+    pub radius_mm: Vec<f64>,
+    /// There.
+    pub nominal_um: Vec<f64>,
+    /// Below which 5, 25, 50, 75 and 95 % of the samples lie.
+    pub quantiles_um: [Vec<f64>; 5],
+}
+
+/// A run.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct SampleRow {
+    /// Number of the point of the sequence, from 0.
+    pub point: usize,
+    /// `A`, `B`, or the key that an A has from B.
+    pub matrix: String,
+    /// Of the uncertain keys.
+    pub values: Vec<f64>,
+    /// Where the error of the fast model lies within its bounds, -1 to 1; none where it is not known.
+    pub model_error: Option<f64>,
+    /// The figures, and after them the lives.
+    pub outputs: Vec<Option<f64>>,
+    pub error: Option<String>,
+}

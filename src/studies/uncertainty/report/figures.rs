@@ -1,0 +1,147 @@
+//! The plots of a study of uncertainty: distributions, indices, wear over both flanks.
+
+use serde_json::json;
+
+use crate::gear::Gear;
+use crate::report::chart::{Chart, Dash, INK, Trace, TraceKind, extent, gear_colour, gear_fill, padded};
+use crate::report::html::number::{figure, percent};
+use crate::studies::uncertainty::indices::Index;
+use crate::studies::uncertainty::record::{FactorIndices, OutputRecord, UncertaintyRecord};
+
+/// Bars of a distribution.
+const BARS: usize = 30;
+
+pub(super) fn all(record: &UncertaintyRecord) -> Vec<Chart> {
+    let bands = Gear::BOTH.into_iter().filter_map(|gear| band(record, gear));
+    let outputs = record.outputs.iter().enumerate();
+    let distributions = outputs.clone().filter_map(|(number, output)| distribution(number, output));
+    let indices = outputs.filter_map(|(number, output)| indices(number, output));
+    indices.chain(distributions).chain(bands).collect()
+}
+
+fn with_unit(output: &OutputRecord) -> String {
+    if output.unit.is_empty() { output.meaning.clone() } else { format!("{}, {}", output.meaning, output.unit) }
+}
+
+/// Where the samples lie, as parts of all between equal steps.
+fn distribution(number: usize, output: &OutputRecord) -> Option<Chart> {
+    let finite: Vec<f64> = output.sorted.iter().copied().filter(|value| value.is_finite()).collect();
+    let (low, high) = (*finite.first()?, *finite.last()?);
+    if high <= low {
+        return None;
+    }
+    let width = (high - low) / BARS as f64;
+    let mut counts = [0_usize; BARS];
+    finite.iter().for_each(|value| counts[(((value - low) / width) as usize).min(BARS - 1)] += 1);
+    let middles: Vec<f64> = (0..BARS).map(|bar| low + (bar as f64 + 0.5) * width).collect();
+    let parts: Vec<f64> = counts.iter().map(|&count| 100.0 * count as f64 / output.sorted.len() as f64).collect();
+    let bars = Trace::new(TraceKind::Bar, "samples")
+        .set("x", middles)
+        .set("y", parts)
+        .set("width", width)
+        .set("marker", json!({ "color": "var(--pinion)" }))
+        .hover("%{x:.4~g}: %{y:.2f} %<extra></extra>")
+        .unlisted();
+    let [p05, _, p50, _, p95] = output.quantiles.all();
+    let marks = [("5 %", p05), ("50 %", p50), ("95 %", p95)];
+    let marks = marks.into_iter().filter_map(|(name, value)| Some((name, value?)));
+    let unit = &output.unit;
+    let reading = match (p05, p95) {
+        (Some(p05), Some(p95)) => {
+            format!("Nine in ten samples lie between {} and {} {unit}.", figure(p05), figure(p95))
+        }
+        _ => format!(
+            "{} of the samples do not come to the limit within their duration and are not shown.",
+            percent(output.censored.unwrap_or(0.0))
+        ),
+    };
+    Some(
+        Chart::new(format!("distribution-{number}"), &output.meaning)
+            .read_nearest()
+            .legend(false)
+            .height(320)
+            .x(&with_unit(output))
+            .y("part of the samples, %")
+            .add(bars)
+            .mark(marks, "50 %")
+            .reading(reading),
+    )
+}
+
+/// What each factor explains, with intervals.
+fn indices(number: usize, output: &OutputRecord) -> Option<Chart> {
+    let indices = output.indices.as_ref()?;
+    // The first factor stands at the top.
+    let factors: Vec<String> = indices.iter().rev().map(|one| wrapped(&one.factor)).collect();
+    let bars = |name: &str, colour: &str, of: fn(&FactorIndices) -> Index| {
+        let of = || indices.iter().rev().map(of);
+        let above: Vec<f64> = of().map(|index| index.high - index.value).collect();
+        let below: Vec<f64> = of().map(|index| index.value - index.low).collect();
+        Trace::new(TraceKind::Bar, name)
+            .set("orientation", "h")
+            .set("y", factors.clone())
+            .set("x", of().map(|index| index.value).collect::<Vec<_>>())
+            .set("error_x", json!({ "type": "data", "symmetric": false, "array": above, "arrayminus": below, "thickness": 1, "color": INK }))
+            .set("marker", json!({ "color": colour }))
+            .hover("%{x:.3f}")
+    };
+    let most = indices.iter().max_by(|a, b| a.total.value.total_cmp(&b.total.value))?;
+    Some(
+        Chart::new(format!("indices-{number}"), format!("Sobol indices: {}", output.meaning))
+            .read_nearest()
+            .height(150 + 56 * indices.len())
+            .x("part of the variance")
+            .y("")
+            .set("barmode", "group")
+            .add(bars("total", "var(--wheel)", |one| one.total))
+            .add(bars("first order", "var(--pinion)", |one| one.first))
+            .reading(format!(
+                "{} matters most: without knowing it, {} of the variance stays; alone it explains {}. Lines: 95 % intervals.",
+                most.factor,
+                percent(most.total.value.clamp(0.0, 1.0)),
+                percent(most.first.value.clamp(0.0, 1.0)),
+            )),
+    )
+}
+
+/// A key on lines of its parts, so that the plot keeps its room.
+fn wrapped(key: &str) -> String {
+    key.rsplit_once('.').map_or_else(|| key.to_owned(), |(tables, name)| format!("{tables}.<br>{name}"))
+}
+
+/// Quantiles of wear over a flank.
+fn band(record: &UncertaintyRecord, gear: Gear) -> Option<Chart> {
+    let band = &record.bands[gear];
+    let [p05, p25, p50, p75, p95] = &band.quantiles_um;
+    let deepest = p95.iter().copied().fold(0.0, f64::max);
+    if deepest <= 0.0 {
+        return None;
+    }
+    let radius = &band.radius_mm;
+    let [low, high] = extent(radius.iter().copied());
+    let area = |name: &str, below: &[f64], above: &[f64], opacity: f64| {
+        let x = radius.iter().chain(radius.iter().rev()).copied();
+        let y = below.iter().chain(above.iter().rev()).copied();
+        Trace::line(name, x, y, ("rgba(0,0,0,0)", 0.0, Dash::Solid)).filled(gear_fill(gear)).opacity(opacity)
+    };
+    let line = |values: &[f64]| values.to_vec();
+    Some(
+        Chart::new(format!("band-{}", gear.name()), format!("Wear over the flank of the {}", gear.name()))
+            .wide()
+            .height(420)
+            .x(&format!("radius on the {}, mm", gear.name()))
+            .x_range(padded(low, high))
+            .x_format(".3f")
+            .y("wear depth, µm")
+            .y_down_to(deepest)
+            .add(area("5 to 95 %", p05, p95, 0.6))
+            .add(area("25 to 75 %", p25, p75, 1.0))
+            .line("median", radius.iter().copied(), line(p50), (gear_colour(gear), 2.2, Dash::Solid), "%{y:.3f} µm")
+            .line("scene as given", radius.iter().copied(), line(&band.nominal_um), (INK, 1.4, Dash::Dashed), "%{y:.3f} µm")
+            .reading(format!(
+                "Quantiles of the samples at each radius, greatest over the face width; at the deepest place 95 % of them have worn less than {} µm. The error \
+                 of the fast model is not in them.",
+                figure(deepest)
+            )),
+    )
+}

@@ -1,0 +1,445 @@
+//! Runs the samples on all threads, and makes figures of them.
+//!
+//! The scene as given is run first: its wear gives the places of the bands, and its verification by finite elements the relative errors
+//! e of the fast model. With a factor u of its own, between 0 and 1, the error is part of the samples without further runs:
+//!
+//! ```text
+//! y = y_model (1 + e (2 u − 1))
+//! ```
+//!
+//! One u stands for all outputs, as their errors have one cause. Snapshots, error estimates and verification are left out of the samples;
+//! where a life is asked for, their histories have [`MOMENTS`] moments.
+
+use std::time::Instant;
+
+use nalgebra::DMatrix;
+
+use super::design::{Design, Matrix};
+use super::distribution::Uncertain;
+use super::indices::indices;
+use super::life::{Growth, Limit};
+use super::record::{Band, FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, SampleRow, UncertaintyRecord};
+use super::statistics::{SHARES, mean, quantile, standard_deviation};
+use crate::gear::PerGear;
+use crate::observer::Observer;
+use crate::pipeline::{self, guarded::guarded};
+use crate::results::run::StopReason;
+use crate::results::worn_pair::{WearProfile, WornPair};
+use crate::scene::loaded::LoadedScene;
+use crate::studies::evaluate::output::Output;
+use crate::studies::spread::spread;
+use crate::studies::variants::record::described;
+use crate::studies::varied_scene::{VariedScene, in_words, one_line};
+
+/// Moments of a history, evenly over the duration.
+const MOMENTS: usize = 20;
+/// Places of a band over the flank at most.
+const PLACES: usize = 160;
+/// Finished points that a study which was interrupted can still speak of.
+pub(crate) const FEWEST_SAMPLES: usize = 8;
+
+/// What is asked.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Question {
+    pub uncertain: Vec<Uncertain>,
+    /// Matrix of the correlations and its lower factor.
+    pub correlation: Option<(DMatrix<f64>, DMatrix<f64>)>,
+    pub outputs: Vec<Output>,
+    pub limits: Vec<Limit>,
+    /// Points of the sequence.
+    pub samples: usize,
+    pub seed: u32,
+}
+
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub(crate) enum StudyError {
+    #[error("the scene as given cannot be run: {0}")]
+    Nominal(String),
+    #[error("none of {runs} samples has a result; the first says: {first}")]
+    AllFailed { runs: usize, first: String },
+    #[error("interrupted before {FEWEST_SAMPLES} samples were finished")]
+    Interrupted,
+}
+
+/// What is kept of a run.
+struct Ran {
+    outputs: Vec<f64>,
+    growths: Vec<Growth>,
+    /// At the places of the bands; of samples of A and B alone.
+    wear_um: Option<PerGear<Vec<f32>>>,
+}
+
+type Row = Result<Ran, String>;
+
+/// The samples with everything that they are made of.
+struct Samples<'a> {
+    question: &'a Question,
+    varied: &'a VariedScene,
+    nominal: &'a WornPair,
+    places: &'a PerGear<Vec<f64>>,
+    design: Design,
+    /// Relative error of the model in each output, then in the depth of each limit; empty where none is known.
+    errors: Vec<Option<f64>>,
+}
+
+impl Samples<'_> {
+    /// The runs that a point takes.
+    fn matrices(&self) -> Vec<Matrix> {
+        let mixed = match self.question.correlation {
+            None => self.question.uncertain.len(),
+            Some(_) => 0,
+        };
+        [Matrix::A, Matrix::B].into_iter().chain((0..mixed).map(Matrix::Mixed)).collect()
+    }
+
+    fn has_model_error(&self) -> bool {
+        self.design.factors > self.question.uncertain.len()
+    }
+
+    fn values(&self, point: usize, matrix: Matrix) -> Vec<f64> {
+        let u = self.design.sample(point, matrix);
+        self.question.uncertain.iter().zip(u).map(|(one, u)| one.distribution.quantile(u)).collect()
+    }
+
+    fn run(&self, point: usize, matrix: Matrix, observer: &dyn Observer) -> Option<Row> {
+        let values = self.values(point, matrix);
+        let run = guarded(|| -> Result<WornPair, String> {
+            let keys = self.question.uncertain.iter().map(|one| one.key.as_str());
+            let values = values.iter().map(|&value| toml::Value::Float(value));
+            worn(self.varied, keys.zip(values), !self.question.limits.is_empty(), observer)
+        });
+        match run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}"))) {
+            Ok(found) if found.summary.stopped == StopReason::Interrupted => None,
+            Ok(found) => Some(self.kept(&found, matrix)),
+            Err(_) if observer.interrupted() => None,
+            Err(error) => Some(Err(one_line(&error))),
+        }
+    }
+
+    fn kept(&self, found: &WornPair, matrix: Matrix) -> Row {
+        let at_places = || PerGear::from_fn(|gear| at(&found.flanks[gear], &self.places[gear]));
+        Ok(Ran {
+            outputs: outputs_of(self.question, found)?,
+            growths: self.question.limits.iter().map(|limit| limit.growth(&found.history)).collect(),
+            wear_um: matches!(matrix, Matrix::A | Matrix::B).then(at_places),
+        })
+    }
+
+    /// 1 + e (2 u − 1) of each output and limit.
+    fn times(&self, point: usize, matrix: Matrix) -> (Option<f64>, Vec<f64>) {
+        let u = self.has_model_error().then(|| self.design.sample(point, matrix)[self.design.factors - 1]);
+        let place = u.map(|u| 2.0 * u - 1.0);
+        (place, self.errors.iter().map(|error| 1.0 + error.unwrap_or(0.0) * place.unwrap_or(0.0)).collect())
+    }
+
+    /// The outputs and lives of a run as those of a sample, the error of the model included, and until when each is known.
+    fn figures(&self, ran: &Ran, point: usize, matrix: Matrix) -> Vec<(f64, f64)> {
+        let (_, times) = self.times(point, matrix);
+        let (of_outputs, of_limits) = times.split_at(self.question.outputs.len());
+        let outputs = ran.outputs.iter().zip(of_outputs).map(|(value, times)| (value * times, value * times));
+        let limits = self.question.limits.iter().zip(&ran.growths).zip(of_limits);
+        outputs.chain(limits.map(|((limit, growth), times)| limit.life(growth, *times))).collect()
+    }
+}
+
+/// Runs the scene with these values.
+fn worn<'a>(
+    varied: &VariedScene,
+    values: impl IntoIterator<Item = (&'a str, toml::Value)>,
+    with_history: bool,
+    observer: &dyn Observer,
+) -> Result<WornPair, String> {
+    let mut resolved = varied.resolved(values).map_err(|problems| in_words(&problems))?;
+    varied.inputs_belong_to(&resolved)?;
+    if with_history {
+        let operation = &mut resolved.scene.operation;
+        let moment = |number: usize| operation.pinion_revolutions * number as f64 / MOMENTS as f64;
+        operation.snapshots_revolutions = (1..=MOMENTS).map(moment).collect();
+    }
+    varied.carry_out(resolved, observer, pipeline::worn_pair)
+}
+
+fn outputs_of(question: &Question, found: &WornPair) -> Result<Vec<f64>, String> {
+    let summary = serde_json::to_value(&found.summary).map_err(|error| error.to_string())?;
+    Ok(question.outputs.iter().map(|output| output.of(&summary).unwrap_or(f64::NAN)).collect())
+}
+
+/// Wear at these radii, even between the points; 0 outside them.
+fn at(profile: &WearProfile, radii: &[f64]) -> Vec<f32> {
+    let (radius, wear) = (&profile.radius_mm, &profile.wear_um);
+    let value = |&r: &f64| {
+        let above = radius.partition_point(|&point| point < r);
+        let value = match (above.checked_sub(1), radius.get(above)) {
+            (Some(below), Some(&high)) => {
+                let part = (r - radius[below]) / (high - radius[below]);
+                wear[below] + part * (wear[above] - wear[below])
+            }
+            (None, Some(&high)) if high == r => wear[above],
+            _ => 0.0,
+        };
+        value as f32
+    };
+    radii.iter().map(value).collect()
+}
+
+/// Places of a band: points of the active profile, thinned.
+fn places(profile: &WearProfile) -> Vec<f64> {
+    let [low, high] = profile.active_mm;
+    let active: Vec<f64> = profile.radius_mm.iter().copied().filter(|r| (low..=high).contains(r)).collect();
+    let every = active.len().div_ceil(PLACES).max(1);
+    active.into_iter().step_by(every).collect()
+}
+
+/// Runs the study; where it is interrupted, of the points that were finished.
+pub(crate) fn run(
+    scene: &LoadedScene,
+    question: &Question,
+    threads: usize,
+    observer: &dyn Observer,
+) -> Result<UncertaintyRecord, StudyError> {
+    let start = Instant::now();
+    let varied = VariedScene::new(scene, false).map_err(|problems| StudyError::Nominal(in_words(&problems)))?;
+    let nominal = nominal(scene, &varied, question, observer)?;
+    let total = &nominal.summary.error.total;
+    let error_of = |path: &str| described(path).and_then(|known| (known.error)(total));
+    let paths = question.outputs.iter().map(|output| output.path.as_str());
+    let errors: Vec<Option<f64>> =
+        paths.chain(question.limits.iter().map(|limit| limit.output)).map(error_of).collect();
+    let factors = question.uncertain.len() + usize::from(errors.iter().any(Option::is_some));
+    let places = PerGear::from_fn(|gear| places(&nominal.flanks[gear]));
+    let correlation = question.correlation.as_ref().map(|(_, lower)| lower.clone());
+    let design = Design { factors, seed: question.seed, correlation };
+    let samples = Samples { question, varied: &varied, nominal: &nominal, places: &places, design, errors };
+
+    let matrices = samples.matrices();
+    let tasks: Vec<(usize, usize)> =
+        (0..question.samples).flat_map(|point| (0..matrices.len()).map(move |matrix| (point, matrix))).collect();
+    let mut rows: Vec<Option<Row>> = tasks.iter().map(|_| None).collect();
+    let (mut done, mut failed) = (0, 0);
+    spread(
+        &tasks,
+        threads.max(1),
+        observer,
+        |&(point, matrix), within| Some(((point, matrix), samples.run(point, matrices[matrix], within)?)),
+        |((point, matrix), row)| {
+            done += 1;
+            failed += usize::from(row.is_err());
+            let beside = if failed == 0 { String::new() } else { format!(", {failed} failed") };
+            observer.counted(done, tasks.len(), "samples", &beside);
+            rows[point * matrices.len() + matrix] = Some(row);
+            true
+        },
+    );
+    let whole: Vec<Row> = rows.into_iter().map_while(|row| row).collect();
+    let points = whole.len() / matrices.len();
+    if points < question.samples.min(FEWEST_SAMPLES) {
+        return Err(StudyError::Interrupted);
+    }
+    let rows: Vec<&[Row]> = whole.chunks_exact(matrices.len()).collect();
+    record(scene, &samples, &matrices, &rows, threads, start)
+}
+
+/// The scene as given, verified where it does not refuse that.
+fn nominal(
+    scene: &LoadedScene,
+    varied: &VariedScene,
+    question: &Question,
+    observer: &dyn Observer,
+) -> Result<WornPair, StudyError> {
+    observer.stage("the scene as given");
+    let run = guarded(|| -> Result<WornPair, String> {
+        let mut resolved = varied.resolved([]).map_err(|problems| in_words(&problems))?;
+        resolved.scene.verify = scene.scene().verify;
+        let operation = &mut resolved.scene.operation;
+        if !question.limits.is_empty() {
+            let moment = |number: usize| operation.pinion_revolutions * number as f64 / MOMENTS as f64;
+            operation.snapshots_revolutions = (1..=MOMENTS).map(moment).collect();
+        }
+        varied.carry_out(resolved, observer, pipeline::worn_pair)
+    });
+    let run = run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
+    match run {
+        Ok(found) if found.summary.stopped == StopReason::Interrupted => Err(StudyError::Interrupted),
+        Ok(found) => Ok(found),
+        Err(_) if observer.interrupted() => Err(StudyError::Interrupted),
+        Err(error) => Err(StudyError::Nominal(one_line(&error))),
+    }
+}
+
+fn record(
+    scene: &LoadedScene,
+    samples: &Samples<'_>,
+    matrices: &[Matrix],
+    rows: &[&[Row]],
+    threads: usize,
+    start: Instant,
+) -> Result<UncertaintyRecord, StudyError> {
+    let question = samples.question;
+    let all = || rows.iter().flat_map(|row| row.iter());
+    let (runs, failed) = (all().count(), all().filter(|row| row.is_err()).count());
+    let first_failure = all().find_map(|row| row.as_ref().err().cloned());
+    if let (true, Some(first)) = (failed == runs, &first_failure) {
+        return Err(StudyError::AllFailed { runs, first: first.clone() });
+    }
+    let figures = question.outputs.len() + question.limits.len();
+    Ok(UncertaintyRecord {
+        title: scene.scene().title.clone(),
+        program_version: env!("CARGO_PKG_VERSION").to_owned(),
+        scene_hash: scene.resolved.scene_hash(),
+        uncertain: question.uncertain.clone(),
+        limits: question.limits.clone(),
+        correlation: question
+            .correlation
+            .as_ref()
+            .map(|(matrix, _)| matrix.row_iter().map(|row| row.iter().copied().collect()).collect()),
+        seed: question.seed,
+        samples_asked: question.samples,
+        samples: rows.len(),
+        runs,
+        failed,
+        first_failure,
+        model_error_how: samples.nominal.summary.error.total.how.clone(),
+        outputs: (0..figures).map(|figure| output_record(samples, rows, figure)).collect(),
+        bands: PerGear::from_fn(|gear| {
+            let ran = rows.iter().flat_map(|row| &row[..2]).filter_map(|row| row.as_ref().ok()?.wear_um.as_ref());
+            let wear: Vec<&[f32]> = ran.map(|wear| wear[gear].as_slice()).collect();
+            band(&samples.places[gear], &samples.nominal.flanks[gear], &wear)
+        }),
+        threads,
+        wall_s: start.elapsed().as_secs_f64(),
+        scene_toml: scene.given.text.clone(),
+        rows: sample_rows(samples, matrices, rows),
+    })
+}
+
+fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> OutputRecord {
+    let question = samples.question;
+    let limit = figure.checked_sub(question.outputs.len()).map(|number| &question.limits[number]);
+    // Of the error of the model there are no runs: A's stand for them.
+    let row_of = |matrix: Matrix| match matrix {
+        Matrix::A => 0,
+        Matrix::B => 1,
+        Matrix::Mixed(factor) if factor < question.uncertain.len() => 2 + factor,
+        Matrix::Mixed(_) => 0,
+    };
+    let value = |point: usize, matrix: Matrix| -> Option<(f64, f64)> {
+        let ran = rows[point].get(row_of(matrix))?.as_ref().ok()?;
+        Some(samples.figures(ran, point, matrix)[figure]).filter(|(value, _)| !value.is_nan())
+    };
+    let both = (0..rows.len()).flat_map(|point| [value(point, Matrix::A), value(point, Matrix::B)]);
+    let known: Vec<(f64, f64)> = both.flatten().collect();
+    let mut sorted: Vec<f64> = known.iter().map(|known| known.0).collect();
+    sorted.sort_by(f64::total_cmp);
+    let censored = known.iter().filter(|(value, _)| value.is_infinite());
+    // A life that is known to be longer than t says nothing of quantiles above t.
+    let until = censored.clone().map(|known| known.1).fold(f64::INFINITY, f64::min);
+    let censored = censored.count();
+    let [p05, p25, p50, p75, p95] =
+        SHARES.map(|share| quantile(&sorted, share).filter(|value| censored == 0 || *value <= until));
+    let complete = censored == 0 && !sorted.is_empty();
+    let name = limit.map_or_else(|| question.outputs[figure].path.as_str(), |limit| limit.output);
+    let known = described(name);
+    let is_in_hours = samples.nominal.summary.hours.is_some();
+    let (output, meaning, unit) = match limit {
+        None => (
+            name.to_owned(),
+            known.map_or_else(|| name.to_owned(), |known| known.meaning.to_owned()),
+            known.map_or("", |known| known.unit),
+        ),
+        Some(limit) => (
+            format!("life.{name}={}", limit.depth_um),
+            format!("Life until {name} is {} µm", limit.depth_um),
+            if is_in_hours { "h" } else { "revolutions" },
+        ),
+    };
+    let nominal = match limit {
+        None => outputs_of(question, samples.nominal).ok().map(|values| values[figure]),
+        Some(limit) => Some(limit.life(&limit.growth(&samples.nominal.history), 1.0).0),
+    };
+    let found = match (&question.correlation, censored) {
+        (Some(_), _) => Err("the keys are correlated: no part of the variance belongs to one of them".to_owned()),
+        (None, 1..) => Err("some lives are longer than their duration".to_owned()),
+        (None, 0) => factor_indices(samples, rows.len(), figure, value),
+    };
+    OutputRecord {
+        output,
+        meaning,
+        unit: unit.to_owned(),
+        nominal: nominal.filter(|value| value.is_finite()),
+        model_error: samples.errors[figure],
+        samples: sorted.len(),
+        censored: limit.map(|_| censored as f64 / sorted.len().max(1) as f64),
+        mean: complete.then(|| mean(sorted.iter().copied())),
+        standard_deviation: complete.then(|| standard_deviation(&sorted)).flatten(),
+        quantiles: Quantiles { p05, p25, p50, p75, p95 },
+        no_indices_because: found.as_ref().err().cloned(),
+        indices: found.ok(),
+        sorted,
+    }
+}
+
+/// The indices of a figure, over the points all of whose runs have it.
+fn factor_indices(
+    samples: &Samples<'_>,
+    points: usize,
+    figure: usize,
+    value: impl Fn(usize, Matrix) -> Option<(f64, f64)>,
+) -> Result<Vec<FactorIndices>, String> {
+    let factors = samples.design.factors;
+    let (mut a, mut b) = (Vec::new(), Vec::new());
+    let mut mixed = vec![Vec::new(); factors];
+    for point in 0..points {
+        let of = |matrix| value(point, matrix).map(|known| known.0);
+        let of_mixed: Option<Vec<f64>> = (0..factors).map(|factor| of(Matrix::Mixed(factor))).collect();
+        if let (Some(of_a), Some(of_b), Some(of_mixed)) = (of(Matrix::A), of(Matrix::B), of_mixed) {
+            a.push(of_a);
+            b.push(of_b);
+            mixed.iter_mut().zip(of_mixed).for_each(|(all, value)| all.push(value));
+        }
+    }
+    let seed = u64::from(samples.question.seed).wrapping_add(figure as u64);
+    let found = indices(&a, &b, &mixed, seed).ok_or_else(|| match a.len() {
+        0 | 1 => "too few samples have it".to_owned(),
+        _ => "it does not vary".to_owned(),
+    })?;
+    let names = samples.question.uncertain.iter().map(|one| one.key.as_str()).chain([MODEL_ERROR]);
+    let both = found.first.into_iter().zip(found.total);
+    Ok(names.zip(both).map(|(name, (first, total))| FactorIndices { factor: name.to_owned(), first, total }).collect())
+}
+
+fn band(places: &[f64], nominal: &WearProfile, wear: &[&[f32]]) -> Band {
+    let mut quantiles_um = [const { Vec::new() }; 5];
+    for place in 0..places.len() {
+        let mut values: Vec<f64> = wear.iter().map(|wear| f64::from(wear[place])).collect();
+        values.sort_by(f64::total_cmp);
+        for (all, share) in quantiles_um.iter_mut().zip(SHARES) {
+            all.push(quantile(&values, share).unwrap_or(f64::NAN));
+        }
+    }
+    let nominal_um = at(nominal, places).into_iter().map(f64::from).collect();
+    Band { radius_mm: places.to_vec(), nominal_um, quantiles_um }
+}
+
+fn sample_rows(samples: &Samples<'_>, matrices: &[Matrix], rows: &[&[Row]]) -> Vec<SampleRow> {
+    let question = samples.question;
+    let of = |point: usize, matrix: Matrix, row: &Row| SampleRow {
+        point,
+        matrix: match matrix {
+            Matrix::A => "A".to_owned(),
+            Matrix::B => "B".to_owned(),
+            Matrix::Mixed(factor) => question.uncertain[factor].key.clone(),
+        },
+        values: samples.values(point, matrix),
+        model_error: samples.times(point, matrix).0,
+        outputs: match row {
+            Ok(ran) => {
+                let figures = samples.figures(ran, point, matrix);
+                figures.into_iter().map(|(value, _)| Some(value).filter(|value| value.is_finite())).collect()
+            }
+            Err(_) => vec![None; question.outputs.len() + question.limits.len()],
+        },
+        error: row.as_ref().err().cloned(),
+    };
+    let points = rows.iter().enumerate();
+    points.flat_map(|(point, row)| matrices.iter().zip(*row).map(move |(&m, row)| of(point, m, row))).collect()
+}

@@ -1,0 +1,105 @@
+//! A scene with some values exchanged, resolved anew for each of many runs.
+//!
+//! The text is read once. What the file leaves open is chosen anew each time; the files that it names, and teeth in space that a run
+//! of it has condensed, are shared.
+
+use crate::gear::spec::PairSpec;
+use crate::observer::Observer;
+use crate::pipeline::{Done, RunError};
+use crate::scene::draft::Draft;
+use crate::scene::loaded::LoadedScene;
+use crate::scene::{Problem, Resolved};
+
+/// The paths that one with alternatives stands for: `a.{b,c}.d` for `a.b.d` and `a.c.d`.
+pub(crate) fn linked_keys(key: &str) -> Vec<String> {
+    let Some((before, rest)) = key.split_once('{') else { return vec![key.to_owned()] };
+    let Some((alternatives, after)) = rest.split_once('}') else { return vec![key.to_owned()] };
+    let each = |name: &str| linked_keys(&format!("{before}{}{after}", name.trim()));
+    alternatives.split(',').flat_map(each).collect()
+}
+
+/// The first of `keys` that names a phase of the operation which `scene` does not have.
+pub(crate) fn missing_phase(keys: impl IntoIterator<Item = String>, scene: &Draft) -> Option<String> {
+    let has_phase = |key: &String| {
+        let number = key.strip_prefix("operation.phases.").and_then(|rest| rest.split('.').next());
+        number.is_none_or(|number| scene.gives(&format!("operation.phases.{number}")))
+    };
+    keys.into_iter().find(|key| !has_phase(key))
+}
+
+#[derive(Debug, Clone)]
+pub(crate) struct VariedScene {
+    /// The scene without what is left out of its runs.
+    draft: Draft,
+    /// The scene as given, with the files it names.
+    given: LoadedScene,
+}
+
+impl VariedScene {
+    /// Of the scene `given`, of whose runs only the end is kept: without snapshots.
+    pub(crate) fn new(given: &LoadedScene, error_estimate: bool) -> Result<Self, Vec<Problem>> {
+        let mut draft = Draft::parse(&given.given.text)?;
+        draft.remove("operation.snapshots_h");
+        draft.remove("operation.snapshots_revolutions");
+        draft.set("numerics.error_estimate", error_estimate);
+        Ok(Self { draft, given: given.clone() })
+    }
+
+    /// The scene with these values for these keys, which is not verified; keys with alternatives stand for all of them.
+    pub(crate) fn resolved<'a>(
+        &self,
+        values: impl IntoIterator<Item = (&'a str, toml::Value)>,
+    ) -> Result<Resolved, Vec<Problem>> {
+        let mut draft = self.draft.clone();
+        for (key, value) in values {
+            linked_keys(key).iter().for_each(|key| draft.set(key, value.clone()));
+        }
+        let mut resolved = draft.resolve()?;
+        resolved.scene.verify = false;
+        let operation = &mut resolved.scene.operation;
+        operation.snapshots_revolutions = vec![operation.pinion_revolutions];
+        Ok(resolved)
+    }
+
+    /// Whether the files that the scene names were made for the pair of `resolved`.
+    pub(crate) fn inputs_belong_to(&self, resolved: &Resolved) -> Result<(), String> {
+        let differences = self.given.files.foreign_to(resolved);
+        if !differences.is_empty() {
+            return Err(format!("contact.calibration belongs to another pair: {}", differences.join("; ")));
+        }
+        if self.given.files.stiffness_curve.is_none() {
+            return Ok(());
+        }
+        let pair = self.given.resolved.scene.pair.on_rigid_parallel_shafts();
+        let same_section =
+            |own: &PairSpec| PairSpec { face_width_mm: pair.face_width_mm, ..own.on_rigid_parallel_shafts() } == pair;
+        match same_section(&resolved.scene.pair) {
+            true => Ok(()),
+            false => Err("stiffness.curve belongs to the pair of the scene as given".to_owned()),
+        }
+    }
+
+    /// Runs `resolved` with `run`; whatever goes wrong is said.
+    pub(crate) fn carry_out<R>(
+        &self,
+        resolved: Resolved,
+        observer: &dyn Observer,
+        run: impl FnOnce(&LoadedScene, &dyn Observer) -> Result<Done<R>, RunError>,
+    ) -> Result<R, String> {
+        let scene = self.given.variant(resolved).map_err(|problem| problem.to_string())?;
+        match run(&scene, observer) {
+            Ok(Done { failure: Some(failure), .. }) => Err(failure.to_string()),
+            Ok(Done { record, failure: None }) => Ok(record),
+            Err(failure) => Err(failure.to_string()),
+        }
+    }
+}
+
+/// All of `problems` on one line.
+pub(crate) fn in_words(problems: &[Problem]) -> String {
+    problems.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}
+
+pub(crate) fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

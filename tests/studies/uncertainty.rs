@@ -1,0 +1,168 @@
+//! `gearwear uncertainty` from the outside: the whole path, the same bits on any number of threads, failed samples, bad input.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+use crate::program::{exchanged, gearwear, json};
+
+const K: &str = "wear.coefficient_m2_per_N=lognormal:1.3";
+const TORQUE: &str = "operation.pinion_torque_Nm=±10%";
+
+/// The thesis-spur scene with a surface and a resolution at which a run takes about a millisecond, and so little wear that it is linear.
+fn coarse_scene() -> String {
+    exchanged(
+        "thesis-spur",
+        &[
+            ("surface = \"winkler\"", "surface = \"hertz-mean\""),
+            ("match = \"half-width\"", "# match"),
+            ("flank_points = 750 ", "flank_points = 60 "),
+            ("positions = 400 ", "positions = 40 "),
+            ("step = { revolutions = 7665.0 }", "step = { revolutions = 200000.0 }"),
+        ],
+    )
+}
+
+struct Bench {
+    folder: tempfile::TempDir,
+}
+
+impl Bench {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("scene.toml"), coarse_scene()).unwrap();
+        Self { folder }
+    }
+
+    fn out(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn command(&self, out: &str, uncertain: &[&str], more: &[&str]) -> Command {
+        let mut command = gearwear();
+        command.arg("uncertainty").arg(self.out("scene.toml")).arg("--out").arg(self.out(out)).args(more);
+        for uncertain in uncertain {
+            command.args(["--uncertain", uncertain]);
+        }
+        command
+    }
+
+    fn study(&self, out: &str, uncertain: &[&str], more: &[&str]) -> Output {
+        self.command(out, uncertain, more).output().unwrap()
+    }
+}
+
+fn said(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn done(output: &Output) {
+    assert_eq!(output.status.code(), Some(0), "{}", said(output));
+}
+
+fn refused(output: &Output, parts: &[&str]) {
+    let message = said(output);
+    assert_eq!(output.status.code(), Some(2), "{message}");
+    for part in parts {
+        assert!(message.contains(part), "no {part:?} in:\n{message}");
+    }
+}
+
+/// The record without what may differ between two starts.
+fn timeless(out: &Path) -> Value {
+    let mut record = json(&out.join("uncertainty.json"));
+    record["wall_s"] = Value::Null;
+    record["threads"] = Value::Null;
+    record
+}
+
+fn output<'a>(record: &'a Value, name: &str) -> &'a Value {
+    record["outputs"].as_array().unwrap().iter().find(|one| one["output"] == name).unwrap()
+}
+
+#[test]
+fn a_study_is_written_and_threads_change_nothing() {
+    let bench = Bench::new();
+    let more = |threads: &'static str| ["--samples", "32", "--limit", "pinion.peak_wear_um=5", "--threads", threads];
+    done(&bench.study("one", &[K, TORQUE], &more("1")));
+    done(&bench.study("two", &[K, TORQUE], &more("2")));
+    assert_eq!(timeless(&bench.out("one")), timeless(&bench.out("two")));
+    for file in ["samples.csv", "columns.json", "scene.toml"] {
+        assert_eq!(fs::read(bench.out("one").join(file)).unwrap(), fs::read(bench.out("two").join(file)).unwrap());
+    }
+    let record = timeless(&bench.out("one"));
+    assert_eq!((record["samples"].as_u64(), record["runs"].as_u64()), (Some(32), Some(32 * 4)));
+    let peak = output(&record, "pinion.peak_wear_um");
+    let quantile = |name: &str| peak["quantiles"][name].as_f64().unwrap();
+    assert!(quantile("p05") < quantile("p50") && quantile("p50") < quantile("p95"));
+    assert_eq!(peak["indices"].as_array().unwrap()[0]["factor"], "wear.coefficient_m2_per_N");
+    assert_eq!(record["bands"]["pinion"]["quantiles_um"].as_array().unwrap().len(), 5);
+    // 32 points of four runs each, and the names.
+    let table = fs::read_to_string(bench.out("one").join("samples.csv")).unwrap();
+    assert_eq!(table.lines().count(), 1 + 32 * 4);
+    let page = fs::read_to_string(bench.out("one").join("report.html")).unwrap();
+    assert!(
+        page.contains("Sobol indices")
+            && page.contains("Quantiles")
+            && page.contains("Wear over the flank of the pinion")
+    );
+    // Another seed is another sample.
+    done(&bench.study("seed", &[K, TORQUE], &["--samples", "32", "--seed", "2"]));
+    assert_ne!(output(&timeless(&bench.out("seed")), "pinion.peak_wear_um")["mean"], peak["mean"]);
+}
+
+/// Wear within the first steps is proportional to k, so that its quantiles are those of k, and k alone explains all of it. The median of
+/// a lognormal k is the scene's own value.
+#[test]
+fn ver_linear_wear_has_the_distribution_of_k() {
+    let bench = Bench::new();
+    let tiny = "wear.coefficient_m2_per_N=lognormal:1e-21:1.3";
+    done(&bench.study("tiny", &[tiny], &["--samples", "256"]));
+    let record = timeless(&bench.out("tiny"));
+    let peak = output(&record, "pinion.peak_wear_um");
+    let quantile = |name: &str| peak["quantiles"][name].as_f64().unwrap();
+    // Φ⁻¹(0.95) = 1.6449
+    let expected = 1.3_f64.powf(1.6449);
+    assert!((quantile("p95") / quantile("p50") / expected - 1.0).abs() < 0.02, "{}", quantile("p95") / quantile("p50"));
+    let index = &peak["indices"][0];
+    assert!((index["first"]["value"].as_f64().unwrap() - 1.0).abs() < 0.02, "{index}");
+    assert!((index["total"]["value"].as_f64().unwrap() - 1.0).abs() < 0.02, "{index}");
+    // σ/μ of a lognormal is √(exp σ² − 1), σ = ln 1.3.
+    let variation = peak["standard_deviation"].as_f64().unwrap() / peak["mean"].as_f64().unwrap();
+    let closed_form = (1.3_f64.ln().powi(2).exp() - 1.0).sqrt();
+    assert!((variation / closed_form - 1.0).abs() < 0.03, "{variation} for {closed_form}");
+}
+
+#[test]
+fn failed_samples_censored_lives_and_correlations_are_said() {
+    let bench = Bench::new();
+    // A third of these torques is negative.
+    let bad = "operation.pinion_torque_Nm=uniform:-100:200";
+    done(&bench.study("bad", &[bad, K], &["--samples", "32", "--limit", "pinion.peak_wear_um=1e6"]));
+    let record = timeless(&bench.out("bad"));
+    assert!(record["failed"].as_u64().unwrap() > 0 && record["first_failure"].as_str().unwrap().contains("torque"));
+    let life = output(&record, "life.pinion.peak_wear_um=1000000");
+    assert_eq!((life["censored"].as_f64(), life["quantiles"]["p50"].as_f64()), (Some(1.0), None));
+    assert!(life["no_indices_because"].as_str().unwrap().contains("longer"));
+
+    let correlation = "operation.pinion_torque_Nm:wear.coefficient_m2_per_N=0.8";
+    done(&bench.study("correlated", &[K, TORQUE], &["--samples", "32", "--correlation", correlation]));
+    let record = timeless(&bench.out("correlated"));
+    let peak = output(&record, "pinion.peak_wear_um");
+    assert!(peak["indices"].is_null() && peak["quantiles"]["p50"].is_f64());
+    assert!(peak["no_indices_because"].as_str().unwrap().contains("correlated"));
+    assert_eq!(record["runs"].as_u64(), Some(64));
+}
+
+#[test]
+fn bad_input_is_refused() {
+    let bench = Bench::new();
+    refused(&bench.study("out", &["pair.face_widht_mm=±1%"], &[]), &["face_widht_mm", "KEY=DISTRIBUTION"]);
+    refused(&bench.study("out", &[K], &["--outputs", "pinion.peak_ware_um"]), &["did you mean pinion.peak_wear_um?"]);
+    refused(&bench.study("out", &[K], &["--limit", "pinion.peak_wear=1"]), &["did you mean pinion.peak_wear_um?"]);
+    refused(&bench.study("out", &[K], &["--correlation", "a:b=0.5"]), &["wear.coefficient_m2_per_N"]);
+    refused(&bench.study("out", &["operation.phases.1.hours=uniform:1:2"], &[]), &["operation.phases.1.hours"]);
+    assert!(!bench.out("out").exists());
+}
