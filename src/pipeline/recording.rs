@@ -21,6 +21,7 @@ use crate::scene::loaded::LoadedScene;
 use crate::simulation::figures::WearFigures;
 use crate::simulation::wear_run::{Outcome, SMALL_WEAR_MODULES};
 use crate::thermal::settings::TemperatureMethod;
+use crate::wear::settings::WearSettings;
 
 /// Pitch point index of the contract: on a flank of this many points.
 const INDEX_POINTS: f64 = 750.0;
@@ -64,14 +65,15 @@ pub(super) fn summary(
 ) -> Result<Summary, RunError> {
     let (scene, pair) = (model.scene, model.pair);
     let outcome = found.outcome;
-    let law = temperature::law(model, found.heat);
+    let wear = temperature::law(model, found.heat);
+    let wear_of_gear = temperature::law_of_gear(model, found.heat);
     let mut warnings = resolved.warnings.clone();
-    warnings.extend(temperature::warnings(&law));
+    warnings.extend(temperature::all_warnings(wear.as_ref(), &wear_of_gear));
     warnings.extend(judged.warnings);
     warnings.extend(sharp_edge_warning(pair, outcome));
     warnings.extend(left_out_contact::warning(model, outcome));
     warnings.extend(deep_wear_warning(pair, outcome));
-    let wear_balance = WearBalance { new: imbalance(outcome, &outcome.new), worn: imbalance(outcome, &outcome.worn) };
+    let wear_balance = balance(model, outcome);
     warnings.extend(imbalance_warning(&wear_balance));
     warnings.extend(slices::warning(model, outcome));
     warnings.extend(error_estimates::warnings(&error));
@@ -102,12 +104,13 @@ pub(super) fn summary(
         reference_phase: outcome.reference_phase + 1,
         phases: phases::summaries(model, outcome),
         stiffness: stiffness(model)?,
-        wear: law,
+        wear,
+        wear_of_gear,
         temperature: found.heat.and_then(|heat| temperature::summary(model, heat)),
         new: cycle(pair, &outcome.new.cycle),
         worn: cycle(pair, &outcome.worn.cycle),
-        pinion: wear(model, outcome, Gear::Pinion),
-        wheel: wear(model, outcome, Gear::Wheel),
+        pinion: wear_figures(model, outcome, Gear::Pinion),
+        wheel: wear_figures(model, outcome, Gear::Wheel),
         wear_balance,
         error,
         work: WorkSummary {
@@ -125,11 +128,31 @@ pub(super) fn summary(
     })
 }
 
-/// |V₁ − V₂| over the greater, V: what a flank loses in one mesh per mm of face width.
-fn imbalance(outcome: &Outcome, snapshot: &Snapshot) -> f64 {
+/// How far the volumes that both flanks lose are from what the wear laws say, where these tell it from the coefficients alone.
+fn balance(model: &Model<'_>, outcome: &Outcome) -> WearBalance {
+    let none = |reason: &str| WearBalance { not_compared: Some(reason.to_owned()), ..WearBalance::default() };
+    let own = model.scene.wear_in(&model.scene.operation.phases[outcome.reference_phase]);
+    let coefficients = own.map(|own| own.coefficient_mm2_per_n);
+    if let Some(gear) = Gear::BOTH.into_iter().find(|&gear| coefficients[gear] <= 0.0) {
+        return none(&format!("the {} does not wear", gear.name()));
+    }
+    if !own.map(|own| WearSettings { coefficient_mm2_per_n: 1.0, ..own }).are_alike() {
+        return none("the gears wear by different laws");
+    }
+    // Equal coefficients leave the volumes as they are.
+    let unit = match own.are_alike() {
+        true => PerGear { pinion: 1.0, wheel: 1.0 },
+        false => coefficients,
+    };
+    let [new, worn] = [&outcome.new, &outcome.worn].map(|snapshot| Some(imbalance(outcome, snapshot, unit)));
+    WearBalance { new, worn, not_compared: None }
+}
+
+/// |V₁/k₁ − V₂/k₂| over the greater, V: what a flank loses in one mesh per mm of face width, k: the unit it is measured in.
+fn imbalance(outcome: &Outcome, snapshot: &Snapshot, unit: PerGear<f64>) -> f64 {
     let lost = PerGear::from_fn(|gear| {
         let (grid, depth) = (&outcome.grid[gear], &snapshot.depth_per_mesh_mm[gear]);
-        depth.chunks_exact(grid.len()).map(|slice| grid.integral(slice)).sum::<f64>()
+        depth.chunks_exact(grid.len()).map(|slice| grid.integral(slice)).sum::<f64>() / unit[gear]
     });
     let greater = lost.pinion.max(lost.wheel);
     if greater > 0.0 { (lost.pinion - lost.wheel).abs() / greater } else { 0.0 }
@@ -137,10 +160,11 @@ fn imbalance(outcome: &Outcome, snapshot: &Snapshot) -> f64 {
 
 /// Warns where the flanks of a contact do not lose the same.
 fn imbalance_warning(balance: &WearBalance) -> Option<String> {
-    let greatest = balance.new.max(balance.worn);
+    let greatest = balance.new?.max(balance.worn?);
     (greatest > IMBALANCE).then(|| {
         format!(
-            "in one mesh the flanks of pinion and wheel lose volumes that differ by {:.1} %, where both should lose the same: more \
+            "in one mesh the flanks of pinion and wheel lose volumes that differ by {:.1} %, where both should lose the same for the same \
+             wear coefficient: more \
              numerics.flank_points and numerics.positions, or contact.surface = \"fem\", bring them together",
             100.0 * greatest
         )
@@ -223,7 +247,7 @@ fn cycle(pair: &GearPair, cycle: &CycleObservation) -> CycleSummary {
     }
 }
 
-fn wear(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> WearSummary {
+fn wear_figures(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> WearSummary {
     let (scene, pair) = (model.scene, model.pair);
     let figures = WearFigures::at(pair, gear, outcome, &outcome.worn);
     let volume_mm3 = figures.area_mm2 * scene.pair.face_width_mm * f64::from(scene.pair.gears[gear].teeth);
