@@ -10,7 +10,7 @@ use gearwear::scene::Scene;
 use super::common::loaded;
 
 /// One Euler step: all of it is worn on the unworn flanks.
-const ONE_STEP: &str = "pinion_revolutions = 100.0\n";
+const ONE_STEP: &str = "pinion_revolutions = 100.0\nsnapshots_revolutions = [100.0]\n";
 const SURFACES: [&str; 5] = ["hertz-mean", "hertz", "winkler", "half-space", "fem"];
 const BOTH: &str = "law = \"archard\"\ncoefficient_m2_per_N = 1e-17\n";
 
