@@ -501,7 +501,7 @@ impl LoadedPosition {
             rows.pressure_mpa.clear();
             rows.pressure_mpa.extend(force.iter().zip(&contact.weight_mm).map(|(force, weight)| force / weight));
             for gear in Gear::BOTH {
-                let conditions = step.wear.heat_of_law().map(|heat| {
+                let conditions = step.wear.heat_of_law(gear).map(|heat| {
                     let place = HeatedPlace { model: step.model, contact, stretch_mm: self.stretch_mm, gear };
                     rows.heated.conditions(heat, place, &rows.pressure_mpa)
                 });
@@ -509,7 +509,7 @@ impl LoadedPosition {
                     SlidingRow { pressure_mpa: &rows.pressure_mpa, sliding_mm: &contact.sliding_mm, conditions };
                 rows.depth_mm.clear();
                 rows.depth_mm.resize(contact.len(), 0.0);
-                step.wear.law.add_depth(&sliding_row, &mut rows.depth_mm);
+                step.wear.laws[gear].add_depth(&sliding_row, &mut rows.depth_mm);
                 contact.wear_nodes(gear, step.nodes[gear], &rows.depth_mm, &mut depth_mm[gear]);
             }
         }

@@ -42,7 +42,7 @@ impl HeatedPlace {
         Self { part, ..self }
     }
 
-    /// A pair that is pressed together here; none where the law does not read what heat does.
+    /// A pair that is pressed together here; none where neither law reads what heat does.
     fn under<'a>(
         &self,
         wear: &WearModel<'a>,
@@ -59,7 +59,7 @@ impl HeatedPlace {
             spacing_mm: self.spacing_mm,
             across: pair.sweeps_across(),
         };
-        wear.heat_of_law().map(heated)
+        wear.heat_of_laws().map(heated)
     }
 }
 
@@ -98,9 +98,10 @@ impl WornPoints {
         for gear in Gear::BOTH {
             pair.contact.sweep(gear, removed_mm, sweep);
             let points = first[gear] + sweep.first_point..first[gear] + sweep.first_point + sweep.sliding_mm.len();
-            let conditions = source.as_ref().map(|source| source.conditions(heated, gear, sweep));
+            let source = source.as_ref().filter(|_| wear.laws[gear].reads_conditions());
+            let conditions = source.map(|source| source.conditions(heated, gear, sweep));
             let row = SlidingRow { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, conditions };
-            wear.law.add_depth(&row, &mut depth_mm[gear][points]);
+            wear.laws[gear].add_depth(&row, &mut depth_mm[gear][points]);
         }
     }
 }

@@ -54,7 +54,7 @@ use crate::simulation::wear_run::{Outcome, RunPhase, SimulationError, WearRun, r
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
 use crate::thermal::ContactHeat;
-use crate::wear::{self, FlankWear, WearModel};
+use crate::wear::{self, Laws, WearModel};
 use recording::RunFindings;
 use stage_clock::StageClock;
 use verification::{Elements, Means, Verified};
@@ -330,7 +330,7 @@ fn carry_out<R>(
         },
         (None, ..) => unreachable!("every surface but fem has springs"),
     };
-    let laws: Vec<(Box<dyn FlankWear>, Option<ContactHeat>)> = scene
+    let laws: Vec<(Laws, Option<ContactHeat>)> = scene
         .operation
         .phases
         .iter()
@@ -339,7 +339,7 @@ fn carry_out<R>(
                 .heat
                 .zip(phase.pinion_speed_rpm)
                 .map(|(settings, rpm)| ContactHeat::new(settings, base_radius * std::f64::consts::TAU * rpm / 60.0));
-            (wear::of(&scene.wear_in(phase)), heat)
+            (wear::of_both(&scene.wear_in(phase)), heat)
         })
         .collect();
     let foundations_mpa_per_mm = case_of_phase.iter().map(|&case| cases[case].foundation_mpa_per_mm).collect();
@@ -349,9 +349,9 @@ fn carry_out<R>(
         .iter()
         .zip(&case_of_phase)
         .zip(&laws)
-        .map(|((phase, &case), (law, heat))| RunPhase {
+        .map(|((phase, &case), (laws, heat))| RunPhase {
             contact: contact(case),
-            wear: WearModel { law: law.as_ref(), heat: heat.as_ref() },
+            wear: WearModel::new(laws, heat.as_ref()),
             line_load_n_per_mm: cases[case].line_load_n_per_mm,
             end_revolutions: phase.end_revolutions,
         })

@@ -25,6 +25,7 @@ pub(super) fn summaries(model: &Model<'_>, outcome: &Outcome) -> Vec<PhaseSummar
         // The ends of phases are among the snapshots.
         let after = outcome.snapshots.iter().rfind(|snapshot| snapshot.revolutions <= end).unwrap_or(before);
         let load = run.line_load_n_per_mm;
+        let coefficient = model.scene.wear_in(phase).map(|own| own.coefficient_mm2_per_n / MM2_PER_N);
         let heat =
             model.scene.heat.and_then(|asked| Some((asked, temperature::observe_at(model, outcome, after, index)?)));
         summaries.push(PhaseSummary {
@@ -36,11 +37,11 @@ pub(super) fn summaries(model: &Model<'_>, outcome: &Outcome) -> Vec<PhaseSummar
             line_load_N_per_mm: load,
             foundation_MPa_per_mm: model.foundations_mpa_per_mm[index],
             hertz_peak_pressure_MPa: model.at_pitch.contact.loaded(load).peak_pressure_mpa,
-            coefficient_m2_per_N: model.scene.wear_in(phase).coefficient_mm2_per_n / MM2_PER_N,
+            coefficient_m2_per_N: (coefficient.pinion == coefficient.wheel).then_some(coefficient.pinion),
             greatest_rise_K: heat.as_ref().map(|(asked, found)| found.greatest_rise_k()[asked.method.index()]),
-            work_outside_validity: heat.and_then(|(_, found)| found.law.work_outside_validity),
-            pinion: wear(model, outcome, Gear::Pinion, [before, after]),
-            wheel: wear(model, outcome, Gear::Wheel, [before, after]),
+            work_outside_validity: heat.and_then(|(_, found)| found.law.both.work_outside_validity),
+            pinion: wear(model, outcome, (Gear::Pinion, coefficient.pinion), [before, after]),
+            wheel: wear(model, outcome, (Gear::Wheel, coefficient.wheel), [before, after]),
         });
         (begin, before) = (end, after);
     }
@@ -48,12 +49,18 @@ pub(super) fn summaries(model: &Model<'_>, outcome: &Outcome) -> Vec<PhaseSummar
 }
 
 /// What a gear lost from one state to another.
-fn wear(model: &Model<'_>, outcome: &Outcome, gear: Gear, [before, after]: [&Snapshot; 2]) -> PhaseWear {
+fn wear(
+    model: &Model<'_>,
+    outcome: &Outcome,
+    (gear, coefficient_m2_per_n): (Gear, f64),
+    [before, after]: [&Snapshot; 2],
+) -> PhaseWear {
     let states = after.wear_mm[gear].iter().zip(&before.wear_mm[gear]);
     let lost_mm: Vec<f64> = states.map(|(after, before)| after - before).collect();
     let lost = WearFigures::new(model.pair, gear, &outcome.grid[gear], &outcome.zones[gear], &lost_mm);
     let spec = &model.scene.pair;
     PhaseWear {
+        coefficient_m2_per_N: coefficient_m2_per_n,
         greatest_depth_um: lost.peak_mm * UM_PER_MM,
         worn_volume_mm3: lost.area_mm2 * spec.face_width_mm * f64::from(spec.gears[gear].teeth),
     }

@@ -22,6 +22,7 @@ use crate::scene::loaded::LoadedScene;
 use crate::simulation::figures::WearFigures;
 use crate::simulation::wear_run::{Outcome, SMALL_WEAR_MODULES};
 use crate::thermal::settings::TemperatureMethod;
+use crate::wear::settings::WearSettings;
 
 /// Pitch point index of the contract: on a flank of this many points.
 const INDEX_POINTS: f64 = 750.0;
@@ -86,18 +87,17 @@ pub(super) fn summary(
 ) -> Result<Summary, RunError> {
     let (scene, pair) = (model.scene, model.pair);
     let outcome = found.outcome;
-    let law = temperature::law(model, found.heat);
+    let wear = temperature::law(model, found.heat);
+    let wear_of_gear = temperature::law_of_gear(model, found.heat);
     let mut warnings = resolved.warnings.clone();
-    warnings.extend(temperature::warnings(&law));
+    warnings.extend(temperature::all_warnings(wear.as_ref(), &wear_of_gear));
     warnings.extend(judged.warnings);
     warnings.extend(sharp_edge_warning(pair, outcome));
     warnings.extend(left_out_contact::warning(model, outcome));
     warnings.extend(deep_wear_warning(pair, outcome));
-    let wear_balance = WearBalance { new: imbalance(outcome, &outcome.new), worn: imbalance(outcome, &outcome.worn) };
-    let worn = PerGear::from_fn(|gear| wear(model, outcome, gear));
-    error.volume_balance = volume_balance(&worn);
-    error.how.volume_balance =
-        "worn volumes of the whole gears, which are the same where contact and wear are resolved".to_owned();
+    let wear_balance = balance(model, outcome);
+    let worn = PerGear::from_fn(|gear| wear_figures(model, outcome, gear));
+    (error.volume_balance, error.how.volume_balance) = volume_balance(model, &worn);
     warnings.extend(imbalance_warning(&wear_balance, error.volume_balance));
     warnings.extend(slices::warning(model, outcome));
     warnings.extend(error_estimates::warnings(&error));
@@ -128,7 +128,8 @@ pub(super) fn summary(
         reference_phase: outcome.reference_phase + 1,
         phases: phases::summaries(model, outcome),
         stiffness: stiffness(model)?,
-        wear: law,
+        wear,
+        wear_of_gear,
         temperature: found.heat.and_then(|heat| temperature::summary(model, heat)),
         new: cycle(pair, &outcome.new.cycle),
         worn: cycle(pair, &outcome.worn.cycle),
@@ -151,30 +152,70 @@ pub(super) fn summary(
     })
 }
 
-/// |V₁ − V₂| over the greater, V: what a flank loses in one mesh per mm of face width.
-fn imbalance(outcome: &Outcome, snapshot: &Snapshot) -> f64 {
+/// The unit k that the volume a flank loses in this phase is measured in, so that both flanks lose the same.
+///
+/// # Errors
+/// Why the wear laws do not tell it from the coefficients alone.
+fn unit_of_volume(model: &Model<'_>, phase: usize) -> Result<PerGear<f64>, String> {
+    let own = model.scene.wear_in(&model.scene.operation.phases[phase]);
+    let coefficients = own.map(|own| own.coefficient_mm2_per_n);
+    if let Some(gear) = Gear::BOTH.into_iter().find(|&gear| coefficients[gear] <= 0.0) {
+        return Err(format!("the {} does not wear", gear.name()));
+    }
+    if !own.map(|own| WearSettings { coefficient_mm2_per_n: 1.0, ..own }).are_alike() {
+        return Err("the gears wear by different laws".to_owned());
+    }
+    // Equal coefficients leave the volumes as they are.
+    Ok(if own.are_alike() { PerGear { pinion: 1.0, wheel: 1.0 } } else { coefficients })
+}
+
+/// How far the volumes that both flanks lose are from what the wear laws say, where these tell it from the coefficients alone.
+fn balance(model: &Model<'_>, outcome: &Outcome) -> WearBalance {
+    match unit_of_volume(model, outcome.reference_phase) {
+        Err(reason) => WearBalance { not_compared: Some(reason), ..WearBalance::default() },
+        Ok(unit) => {
+            let [new, worn] = [&outcome.new, &outcome.worn].map(|snapshot| Some(imbalance(outcome, snapshot, unit)));
+            WearBalance { new, worn, not_compared: None }
+        }
+    }
+}
+
+/// |V₁/k₁ − V₂/k₂| over the greater, V: what a flank loses in one mesh per mm of face width, k: the unit it is measured in.
+fn imbalance(outcome: &Outcome, snapshot: &Snapshot, unit: PerGear<f64>) -> f64 {
     let lost = PerGear::from_fn(|gear| {
         let (grid, depth) = (&outcome.grid[gear], &snapshot.depth_per_mesh_mm[gear]);
-        depth.chunks_exact(grid.len()).map(|slice| grid.integral(slice)).sum::<f64>()
+        depth.chunks_exact(grid.len()).map(|slice| grid.integral(slice)).sum::<f64>() / unit[gear]
     });
     let greater = lost.pinion.max(lost.wheel);
     if greater > 0.0 { (lost.pinion - lost.wheel).abs() / greater } else { 0.0 }
 }
 
-/// |V₁ − V₂| over the greater, V: what all teeth of a gear lose in the whole run.
-fn volume_balance(worn: &PerGear<WearSummary>) -> Option<f64> {
-    let (pinion, wheel) = (worn.pinion.worn_volume_mm3, worn.wheel.worn_volume_mm3);
-    let greater = pinion.max(wheel);
-    (greater > 0.0).then(|| (pinion - wheel).abs() / greater)
+/// |V₁/k₁ − V₂/k₂| over the greater, V: what all teeth of a gear lose in the whole run, k: the unit it is measured in; with how it was
+/// obtained, or why it was not.
+fn volume_balance(model: &Model<'_>, worn: &PerGear<WearSummary>) -> (Option<f64>, String) {
+    let phases = 0..model.scene.operation.phases.len();
+    let unit = match phases.map(|phase| unit_of_volume(model, phase)).collect::<Result<Vec<_>, _>>() {
+        Err(reason) => return (None, reason),
+        Ok(units) => match units.split_first() {
+            Some((first, others)) if others.iter().all(|unit| unit == first) => *first,
+            _ => return (None, "the ratio of the wear coefficients is not the same in all phases".to_owned()),
+        },
+    };
+    let lost = PerGear::from_fn(|gear| worn[gear].worn_volume_mm3 / unit[gear]);
+    let greater = lost.pinion.max(lost.wheel);
+    let balance = (greater > 0.0).then(|| (lost.pinion - lost.wheel).abs() / greater);
+    let how = "worn volumes of the whole gears over their wear coefficients, which are the same where contact and wear are resolved";
+    (balance, how.to_owned())
 }
 
 /// Warns where the flanks of a contact do not lose the same, in one mesh or in the whole run.
 fn imbalance_warning(balance: &WearBalance, whole: Option<f64>) -> Option<String> {
-    let (in_one_mesh, whole) = (balance.new.max(balance.worn), whole.unwrap_or_default());
+    let (in_one_mesh, whole) = (balance.new?.max(balance.worn?), whole.unwrap_or_default());
     let (when, greatest) = if whole > IMBALANCE { ("in the whole run", whole) } else { ("in one mesh", in_one_mesh) };
     (greatest > IMBALANCE).then(|| {
         format!(
-            "{when} the flanks of pinion and wheel lose volumes that differ by {:.1} %, where both should lose the same: more \
+            "{when} the flanks of pinion and wheel lose volumes that differ by {:.1} %, where both should lose the same for the same \
+             wear coefficient: more \
              numerics.flank_points and numerics.positions, or contact.surface = \"fem\", bring them together",
             100.0 * greatest
         )
@@ -257,7 +298,7 @@ fn cycle(pair: &GearPair, cycle: &CycleObservation) -> CycleSummary {
     }
 }
 
-fn wear(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> WearSummary {
+fn wear_figures(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> WearSummary {
     let (scene, pair) = (model.scene, model.pair);
     let figures = WearFigures::at(pair, gear, outcome, &outcome.worn);
     let volume_mm3 = figures.area_mm2 * scene.pair.face_width_mm * f64::from(scene.pair.gears[gear].teeth);

@@ -1,11 +1,12 @@
 //! Whether Euler's steps are short enough, asked before the first of them.
 
 use super::Model;
+use crate::gear::PerGear;
 use crate::observer::Observer;
 use crate::simulation::settings::Stepping;
 use crate::simulation::stability::StepBound;
 use crate::simulation::wear_run::RunPhase;
-use crate::wear::{self, WearModel, settings::WearSettings};
+use crate::wear::{self, WearModel};
 
 /// What is said of the steps, and the mesh cycles that it took to know.
 #[derive(Default)]
@@ -21,7 +22,7 @@ pub(super) struct Judged {
 struct Conditions {
     line_load_n_per_mm: f64,
     pinion_speed_rpm: Option<f64>,
-    coefficient_mm2_per_n: f64,
+    coefficient_mm2_per_n: PerGear<f64>,
 }
 
 /// Warns of each phase whose steps are too long for Euler's method, and names the longest that are not. Tells `observer` at once.
@@ -37,19 +38,19 @@ pub(super) fn judge(model: &Model<'_>, observer: &dyn Observer) -> Judged {
         begin = phase.end_revolutions;
         let own = scene.wear_in(asked);
         // The transition counts as a factor: its jump has no rate of its own.
-        let mild = wear::of(&WearSettings { severe: None, ..own });
-        let phase = RunPhase { wear: WearModel { law: mild.as_ref(), ..phase.wear }, ..*phase };
+        let mild = wear::of_both(&own.with_severe(|_| None));
+        let phase = RunPhase { wear: WearModel::new(&mild, phase.wear.heat), ..*phase };
         let conditions = Conditions {
             line_load_n_per_mm: phase.line_load_n_per_mm,
             pinion_speed_rpm: asked.pinion_speed_rpm,
-            coefficient_mm2_per_n: own.coefficient_mm2_per_n,
+            coefficient_mm2_per_n: own.map(|own| own.coefficient_mm2_per_n),
         };
         let bound = match measured.iter().find(|(before, _)| *before == conditions) {
             Some(&(_, bound)) => bound,
             None => {
                 let stopped = || observer.gives_up();
                 // Where the unworn pair has no equilibrium, the run says so.
-                let Ok(bound) = model.wear_run().step_bound(&phase, scene.wear.severe.is_some(), &stopped) else {
+                let Ok(bound) = model.wear_run().step_bound(&phase, own.may_be_severe(), &stopped) else {
                     continue;
                 };
                 judged.evaluations += bound.evaluations;
@@ -57,9 +58,8 @@ pub(super) fn judge(model: &Model<'_>, observer: &dyn Observer) -> Judged {
                 bound
             }
         };
-        let severe =
-            scene.wear.severe.filter(|severe| bound.peak_pressure_mpa.is_some_and(|p| severe.factor_at(p) > 1.0));
-        let safe = bound.revolutions / severe.map_or(1.0, |severe| severe.factor.max(1.0));
+        let severe = bound.peak_pressure_mpa.and_then(|pressure| own.severe_factor_under(pressure));
+        let safe = bound.revolutions / severe.map_or(1.0, |factor| factor.max(1.0));
         judged.step_over_safe = judged.step_over_safe.max(step / safe);
         if step > safe {
             let of_phase = if model.phases.len() > 1 { format!(" of phase {}", index + 1) } else { String::new() };

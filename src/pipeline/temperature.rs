@@ -2,9 +2,10 @@
 
 use super::Model;
 use crate::contact::settings::SurfaceKind;
+use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::results::chemistry::{GreatestRise, RisesByMethod, TemperatureSummary, WearLawSummary};
-use crate::simulation::heat_observation::{HeatObservation, HeatObserver};
+use crate::simulation::heat_observation::{HeatObservation, HeatObserver, LawInHeat, LawOverMesh};
 use crate::simulation::wear_run::Outcome;
 use crate::thermal::band::Spread;
 use crate::thermal::settings::{ABSOLUTE_ZERO_C, TemperatureMethod};
@@ -33,8 +34,11 @@ pub(super) fn observe_at(
     let observer = HeatObserver {
         pair: model.pair,
         heat: phase.wear.heat?,
-        law: phase.wear.law,
-        valid_k: model.scene.wear.law.valid_temperature_c().map(|range| range.map(|at| at - ABSOLUTE_ZERO_C)),
+        laws: phase.wear.laws,
+        valid_k: model
+            .scene
+            .wear
+            .map(|own| own.law.valid_temperature_c().map(|range| range.map(|at| at - ABSOLUTE_ZERO_C))),
         spread: match model.scene.contact.surface {
             SurfaceKind::HertzMean => Spread::Even,
             _ => Spread::Ellipse,
@@ -70,18 +74,33 @@ pub(super) fn summary(model: &Model<'_>, observed: &ObservedHeat) -> Option<Temp
     })
 }
 
-/// What the summary says of the wear law.
-pub(super) fn law(model: &Model<'_>, observed: Option<&ObservedHeat>) -> WearLawSummary {
-    let wear = &model.scene.wear;
+/// What the summary says of the wear law of both gears; none where each has its own.
+pub(super) fn law(model: &Model<'_>, observed: Option<&ObservedHeat>) -> Option<WearLawSummary> {
+    model.scene.wear.are_alike().then(|| law_over(model, Gear::Pinion, observed, |heat| &heat.both))
+}
+
+/// What it says of the wear law of each gear.
+pub(super) fn law_of_gear(model: &Model<'_>, observed: Option<&ObservedHeat>) -> PerGear<WearLawSummary> {
+    PerGear::from_fn(|gear| law_over(model, gear, observed, |heat| &heat.of[gear]))
+}
+
+/// The law of `gear` over the flanks that `over` chooses.
+fn law_over(
+    model: &Model<'_>,
+    gear: Gear,
+    observed: Option<&ObservedHeat>,
+    over: impl Fn(&LawInHeat) -> &LawOverMesh,
+) -> WearLawSummary {
+    let wear = &model.scene.wear[gear];
     let mild = |of: Option<&HeatObservation>| match of {
-        Some(heat) => heat.law.mean_coefficient_mm2_per_n,
-        None => model.reference().wear.law.mild_coefficient_mm2_per_n(None),
+        Some(heat) => over(&heat.law).mean_coefficient_mm2_per_n,
+        None => model.reference().wear.laws[gear].mild_coefficient_mm2_per_n(None),
     };
     let new = mild(observed.map(|heat| &heat.new));
     let worn = mild(observed.map(|heat| &heat.worn));
     let severe = wear.severe.map(|severe| severe.factor * new);
     let outside =
-        |of: fn(&ObservedHeat) -> &HeatObservation| observed.and_then(|heat| of(heat).law.work_outside_validity);
+        |of: fn(&ObservedHeat) -> &HeatObservation| observed.and_then(|heat| over(&of(heat).law).work_outside_validity);
     WearLawSummary {
         law: wear.law.name().to_owned(),
         coefficient_mm3_per_Nm: MM3_PER_NM * wear.coefficient_mm2_per_n,
@@ -97,12 +116,22 @@ pub(super) fn law(model: &Model<'_>, observed: Option<&ObservedHeat>) -> WearLaw
     }
 }
 
+/// What the user should know of the law of both gears, or of that of each.
+pub(super) fn all_warnings(both: Option<&WearLawSummary>, of_gear: &PerGear<WearLawSummary>) -> Vec<String> {
+    match both {
+        Some(law) => warnings("wear", law),
+        None => {
+            Gear::BOTH.into_iter().flat_map(|gear| warnings(&format!("wear.{}", gear.name()), &of_gear[gear])).collect()
+        }
+    }
+}
+
 /// What the user should know of the law: constants that nobody measured, and work where it does not hold.
-pub(super) fn warnings(law: &WearLawSummary) -> Vec<String> {
+fn warnings(table: &str, law: &WearLawSummary) -> Vec<String> {
     let mut warnings = Vec::new();
     if !law.typical_constants.is_empty() {
         warnings.push(format!(
-            "[wear.{}] {}: typical value{}, an order of magnitude, not measured for a particular lubricant or steel",
+            "[{table}.{}] {}: typical value{}, an order of magnitude, not measured for a particular lubricant or steel",
             law.law,
             law.typical_constants.join(", "),
             if law.typical_constants.len() > 1 { "s" } else { "" },
@@ -113,7 +142,7 @@ pub(super) fn warnings(law: &WearLawSummary) -> Vec<String> {
         && (new > 0.0 || worn > 0.0)
     {
         warnings.push(format!(
-            "wear.law = {:?} holds for contact temperatures of about {low} to {high} °C: {:.1} % of the sliding work of a mesh is done \
+            "{table}.law = {:?} holds for contact temperatures of about {low} to {high} °C: {:.1} % of the sliding work of a mesh is done \
              outside them new and {:.1} % worn",
             law.law,
             100.0 * new,

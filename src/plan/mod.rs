@@ -233,8 +233,13 @@ fn finite_element_model(scene: &Scene) -> Result<String, String> {
 }
 
 fn contact_temperature(scene: &Scene) -> Result<String, String> {
-    let law = scene.wear.law.name();
-    match (scene.heat, scene.wear.law.reads_temperature()) {
+    let names = scene.wear.map(|own| own.law.name());
+    let law = match names.pinion == names.wheel {
+        true => names.pinion.to_owned(),
+        false => format!("{} of the pinion or {} of the wheel", names.pinion, names.wheel),
+    };
+    let reads_temperature = [scene.wear.pinion, scene.wear.wheel].iter().any(|own| own.law.reads_temperature());
+    match (scene.heat, reads_temperature) {
         (None, _) => Err(format!("the wear law {law} asks for no temperature, and neither does the scene")),
         (Some(_), false) => Ok("[temperature] asks for it; by all methods, new and worn".to_owned()),
         (Some(_), true) => Ok(format!(

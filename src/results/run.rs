@@ -77,8 +77,10 @@ pub struct Summary {
     pub phases: Vec<PhaseSummary>,
     /// Of the tooth pair as a spring; `None` with finite elements, whose teeth are no springs.
     pub stiffness: Option<StiffnessSummary>,
-    /// Of the wear law.
-    pub wear: WearLawSummary,
+    /// Of the wear law; `None` where each gear has its own.
+    pub wear: Option<WearLawSummary>,
+    /// Of the wear law of each gear.
+    pub wear_of_gear: PerGear<WearLawSummary>,
     /// Of the contact's temperatures; `None` where nobody asks for them.
     pub temperature: Option<TemperatureSummary>,
     /// The mesh cycle of the unworn pair, under the load of the reference phase.
@@ -119,8 +121,8 @@ pub struct PhaseSummary {
     pub foundation_MPa_per_mm: Option<f64>,
     /// Hertz's greatest pressure at the pitch point under the whole load.
     pub hertz_peak_pressure_MPa: f64,
-    /// Its wear coefficient.
-    pub coefficient_m2_per_N: f64,
+    /// Its wear coefficient; `None` where each gear has its own.
+    pub coefficient_m2_per_N: Option<f64>,
     /// Greatest rise of the contact temperature at its end, by the chosen method; `None` where nobody asks for temperatures.
     pub greatest_rise_K: Option<f64>,
     /// Part of the sliding work at its end that is outside the temperatures for which the wear law holds, where it names some.
@@ -132,8 +134,11 @@ pub struct PhaseSummary {
 }
 
 /// What a gear wore off in a phase.
+#[allow(non_snake_case, reason = "the contract's key names")]
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
 pub struct PhaseWear {
+    /// Its wear coefficient.
+    pub coefficient_m2_per_N: f64,
     /// Greatest depth that any place of the active profile lost, the zone of the tip edge apart.
     pub greatest_depth_um: f64,
     /// Worn off the whole gear: all teeth, whole width.
@@ -373,12 +378,14 @@ pub struct CycleSummary {
 
 /// Difference of what both flanks lose in one mesh, relative to the greater: what one flank of a contact loses the other does too,
 /// where both wear by the same coefficient.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, JsonSchema)]
 pub struct WearBalance {
-    /// The unworn pair.
-    pub new: f64,
+    /// The unworn pair; `None` where the wear laws of the gears do not say how the volumes compare.
+    pub new: Option<f64>,
     /// The worn one.
-    pub worn: f64,
+    pub worn: Option<f64>,
+    /// Why they are not compared, where they are not.
+    pub not_compared: Option<String>,
 }
 
 /// Extremes and their difference.

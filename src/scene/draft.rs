@@ -27,14 +27,20 @@ const SAME_THING_OF_GEAR: [&[&str]; 3] = [
     &["helix_slope_deviation_um", "helix_slope_class"],
 ];
 
+/// The same of `wear.pinion` and `wear.wheel`.
+const SAME_THING_OF_WEAR: [&[&str]; 1] = [&["coefficient_m2_per_N", "coefficient_mm3_per_Nm"]];
+
 /// The other keys that say what `key` says.
 pub(crate) fn other_ways_to_say(key: &str) -> Vec<String> {
-    let of_gear =
-        ["pair.pinion.", "pair.wheel."].iter().find_map(|gear| key.strip_prefix(gear).map(|name| (*gear, name)));
-    let (table, name, groups): (_, _, &[&[&str]]) = match of_gear {
-        Some((gear, name)) => (gear, name, &SAME_THING_OF_GEAR),
-        None => ("", key, &SAME_THING),
-    };
+    let tables: [(&str, &[&[&str]]); 5] = [
+        ("pair.pinion.", &SAME_THING_OF_GEAR),
+        ("pair.wheel.", &SAME_THING_OF_GEAR),
+        ("wear.pinion.", &SAME_THING_OF_WEAR),
+        ("wear.wheel.", &SAME_THING_OF_WEAR),
+        ("", &SAME_THING),
+    ];
+    let found = tables.into_iter().find_map(|(table, groups)| Some((table, key.strip_prefix(table)?, groups)));
+    let (table, name, groups) = found.unwrap_or_default();
     let group = groups.iter().find(|group| group.contains(&name)).copied().unwrap_or_default();
     group.iter().filter(|other| **other != name).map(|other| format!("{table}{other}")).collect()
 }

@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::presets;
-use super::wear_file::{TemperatureFile, WearFile};
+use super::wear_file::{GearWearFile, TemperatureFile, WearFile};
 use crate::contact::settings::{MatchCriterion, SurfaceKind};
 use crate::gear::modification::ReliefShape;
 use crate::gear::shaft::EndFace;
@@ -335,11 +335,28 @@ pub struct PhaseFile {
     /// Speed of the pinion in revolutions per minute, > 0. Default: operation.pinion_speed_rpm.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub pinion_speed_rpm: Option<f64>,
-    /// Wear coefficient in m²/N, > 0. Default: that of the wear law.
+    /// Wear coefficient of both gears in m²/N, > 0; not where those of `[wear.pinion]` and `[wear.wheel]` differ, which takes one
+    /// for each gear. Default: that of the wear law.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub coefficient_m2_per_N: Option<f64>,
     /// The same in mm³/(N·m), > 0.
     #[schemars(extend("exclusiveMinimum" = 0))]
+    pub coefficient_mm3_per_Nm: Option<f64>,
+    /// Wear of the pinion in this phase. Default: as for both.
+    pub pinion: Option<GearPhaseFile>,
+    /// Wear of the wheel in this phase. Default: as for both.
+    pub wheel: Option<GearPhaseFile>,
+}
+
+/// What a phase says of one gear.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GearPhaseFile {
+    /// Wear coefficient of this gear in m²/N, 0 or more; not 0 for both gears. Default: that of the phase, or of the wear law.
+    #[schemars(range(min = 0))]
+    pub coefficient_m2_per_N: Option<f64>,
+    /// The same in mm³/(N·m), 0 or more.
+    #[schemars(range(min = 0))]
     pub coefficient_mm3_per_Nm: Option<f64>,
 }
 
@@ -527,10 +544,16 @@ impl SceneFile {
         let text = toml::to_string(self).expect("a scene file is always expressible in TOML");
         // TOML's writer knows no exponents, and nobody reads a wear coefficient of sixteen zeros.
         let key = "coefficient_m2_per_N = ";
-        let short = self.wear.coefficient_m2_per_N.and_then(|k| {
-            let (before, after) = text.rsplit_once(&format!("{key}{k}\n"))?;
-            Some(format!("{before}{key}{k:?}\n{after}"))
-        });
-        short.unwrap_or(text)
+        let of_gear = |gear: &Option<GearWearFile>| gear.as_ref().and_then(|gear| gear.coefficient_m2_per_N);
+        let coefficients = [self.wear.coefficient_m2_per_N, of_gear(&self.wear.pinion), of_gear(&self.wear.wheel)];
+        // The tables of the wear law are the last that have any, the pinion's before the wheel's.
+        let (mut before, mut after) = (text, String::new());
+        for k in coefficients.into_iter().rev().flatten() {
+            if let Some((earlier, later)) = before.rsplit_once(&format!("{key}{k}\n")) {
+                after = format!("{key}{k:?}\n{later}{after}");
+                before = earlier.to_owned();
+            }
+        }
+        before + &after
     }
 }

@@ -63,8 +63,8 @@ pub struct Scene {
     pub coupling_by_default: bool,
     /// Contact temperatures; none where nothing asks for them.
     pub heat: Option<HeatSettings>,
-    /// Wear law.
-    pub wear: WearSettings,
+    /// Wear law of each gear.
+    pub wear: PerGear<WearSettings>,
     /// Resolution.
     pub numerics: Numerics,
     /// Whether the run is checked by finite elements.
@@ -80,10 +80,13 @@ impl Scene {
         resolve::resolve(text)
     }
 
-    /// The wear law under the conditions of `phase`.
-    pub(crate) fn wear_in(&self, phase: &Phase) -> WearSettings {
-        let own = phase.coefficient_mm2_per_n.unwrap_or(self.wear.coefficient_mm2_per_n);
-        WearSettings { coefficient_mm2_per_n: own, ..self.wear }
+    /// The wear laws under the conditions of `phase`.
+    pub(crate) fn wear_in(&self, phase: &Phase) -> PerGear<WearSettings> {
+        PerGear::from_fn(|gear| {
+            let own = &self.wear[gear];
+            let coefficient_mm2_per_n = phase.coefficient_mm2_per_n[gear].unwrap_or(own.coefficient_mm2_per_n);
+            WearSettings { coefficient_mm2_per_n, ..*own }
+        })
     }
 
     /// What a command that looks at one load leaves out of a scene with phases under others; none where there are no others.

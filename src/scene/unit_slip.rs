@@ -232,16 +232,26 @@ impl Search<'_> {
         }
         let conversions = [(1e-3, "N/mm² given for N/(mm·µm)"), (1e-9, "N/m² given for N/(mm·µm)")];
         self.judge("stiffness.pair_N_per_mm_um", [0.0, 500.0], [0.1, 100.0], &conversions);
-        let law = self.scene.get("wear").and_then(|wear| wear.get("law")).and_then(Value::as_str);
+        self.wear("wear", &[]);
+        for gear in ["pinion", "wheel"] {
+            self.wear(&format!("wear.{gear}"), &[gear]);
+        }
+    }
+
+    /// The keys of a wear law in `table`, the one of `path` below `[wear]`.
+    fn wear(&mut self, table: &str, path: &[&str]) {
+        let both = self.scene.get("wear");
+        let own = path.iter().fold(both, |at, name| at.and_then(|at| at.get(name)));
+        let law = |at: Option<&Value>| at.and_then(|at| at.get("law")).and_then(Value::as_str).map(str::to_owned);
         // The coefficients k_r of the other laws have other sizes.
-        if law == Some("archard") {
+        if law(own).or_else(|| law(both)).as_deref() == Some("archard") {
             let conversions = [(1e-6, "mm²/N given for m²/N"), (1e-9, "mm³/(N·m) given for m²/N")];
-            self.judge("wear.coefficient_m2_per_N", [0.0, 1e-12], [1e-22, 3e-16], &conversions);
+            self.judge(&format!("{table}.coefficient_m2_per_N"), [0.0, 1e-12], [1e-22, 3e-16], &conversions);
             let conversions = [(1e9, "m²/N given for mm³/(N·m)"), (1e3, "mm²/N given for mm³/(N·m)")];
-            self.judge("wear.coefficient_mm3_per_Nm", [1e-13, f64::MAX], [1e-13, 1e-4], &conversions);
+            self.judge(&format!("{table}.coefficient_mm3_per_Nm"), [1e-13, f64::MAX], [1e-13, 1e-4], &conversions);
         }
         let conversions = [(1e3, "GPa given for MPa"), (1e-6, "Pa given for MPa")];
-        self.judge("wear.severe.above_MPa", [5.0, 1e5], [100.0, 1e4], &conversions);
+        self.judge(&format!("{table}.severe.above_MPa"), [5.0, 1e5], [100.0, 1e4], &conversions);
     }
 }
 

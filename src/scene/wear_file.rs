@@ -26,14 +26,15 @@ pub struct TemperatureFile {
     pub bulk_temperature_C: Option<f64>,
 }
 
-/// The wear law: one of the two coefficients must be given.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// The wear law: one of the two coefficients must be given. What stands here holds for both gears, unless `[wear.pinion]` or
+/// `[wear.wheel]` says otherwise for one of them.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WearFile {
-    /// The law.
-    pub law: WearLaw,
+    /// The law. Required, here or for each gear.
+    pub law: Option<WearLaw>,
     /// Wear coefficient k in m²/N, > 0: depth per pressure and sliding distance. Mild wear of steel: 1e-19 to 1e-16.
-    /// Required, or coefficient_mm3_per_Nm.
+    /// Required, here or for each gear, or coefficient_mm3_per_Nm.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub coefficient_m2_per_N: Option<f64>,
     /// The same in mm³/(N·m), > 0: volume per force and sliding distance. 1e-8 mm³/(N·m) is 1e-17 m²/N. Required, or
@@ -47,6 +48,30 @@ pub struct WearFile {
     pub adsorption: Option<AdsorptionFile>,
     /// Constants of law = "oxidation". Default: typical orders of magnitude, not those of any steel; the run says which
     /// constants are typical ones.
+    pub oxidation: Option<OxidationFile>,
+    /// What holds for the pinion alone. Default: as for both.
+    pub pinion: Option<GearWearFile>,
+    /// What holds for the wheel alone. Default: as for both.
+    pub wheel: Option<GearWearFile>,
+}
+
+/// The wear law of one gear: each key in place of that of `[wear]`.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GearWearFile {
+    /// The law. Default: wear.law.
+    pub law: Option<WearLaw>,
+    /// Wear coefficient in m²/N, 0 or more; with 0 the gear does not wear. Not 0 for both gears. Default: that of `[wear]`.
+    #[schemars(range(min = 0))]
+    pub coefficient_m2_per_N: Option<f64>,
+    /// The same in mm³/(N·m), 0 or more.
+    #[schemars(range(min = 0))]
+    pub coefficient_mm3_per_Nm: Option<f64>,
+    /// Transition from mild to severe wear, as a whole in place of wear.severe; a factor of 1 is none. Default: wear.severe.
+    pub severe: Option<SevereFile>,
+    /// Constants of law = "adsorption", each in place of that of wear.adsorption.
+    pub adsorption: Option<AdsorptionFile>,
+    /// Constants of law = "oxidation", each in place of that of wear.oxidation.
     pub oxidation: Option<OxidationFile>,
 }
 

@@ -48,12 +48,21 @@ pub(crate) struct HeatObservation {
 /// A wear law over a mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct LawInHeat {
+    /// Over both flanks.
+    pub both: LawOverMesh,
+    /// Over each of them.
+    pub of: PerGear<LawOverMesh>,
+    /// The greatest k · 2 a |ζ| of mild wear at any contact: what a point loses in a mesh per pressure, mm³/N.
+    pub greatest_rate_mm3_per_n: PerGear<f64>,
+}
+
+/// What a wear law comes to over a mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct LawOverMesh {
     /// k̄ of mild wear, mm²/N.
     pub mean_coefficient_mm2_per_n: f64,
     /// Part of the sliding work that is done at temperatures for which the law does not hold; none where it names none.
     pub work_outside_validity: Option<f64>,
-    /// The greatest k · 2 a |ζ| of mild wear at any contact: what a point loses in a mesh per pressure, mm³/N.
-    pub greatest_rate_mm3_per_n: PerGear<f64>,
 }
 
 /// What is observed, and how.
@@ -63,10 +72,10 @@ pub(crate) struct HeatObserver<'a> {
     pub pair: &'a GearPair,
     /// The heat.
     pub heat: &'a ContactHeat,
-    /// The wear law.
-    pub law: &'a dyn FlankWear,
+    /// The wear law of each gear.
+    pub laws: PerGear<&'a dyn FlankWear>,
     /// Temperatures between which it holds, K.
-    pub valid_k: Option<[f64; 2]>,
+    pub valid_k: PerGear<Option<[f64; 2]>>,
     /// How the heat is spread over a contact.
     pub spread: Spread,
     /// Whole load, N per mm of face width.
@@ -88,10 +97,37 @@ struct Seen {
 /// Sums over the contacts of a mesh.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
+    both: WorkSums,
+    of: PerGear<WorkSums>,
+    greatest_rate: PerGear<f64>,
+}
+
+/// Sums of the work of flanks.
+#[derive(Debug, Clone, Copy, Default)]
+struct WorkSums {
     work: f64,
     outside: f64,
     worn: f64,
-    greatest_rate: PerGear<f64>,
+}
+
+impl WorkSums {
+    /// A `part` of the work, which wears by the coefficient `k`.
+    fn add(&mut self, part: f64, k: f64, is_outside: bool) {
+        self.work += part;
+        self.worn += k * part;
+        if is_outside {
+            self.outside += part;
+        }
+    }
+
+    /// What the law comes to, which may name bounds of its temperature.
+    fn law(&self, is_bounded: bool) -> LawOverMesh {
+        let part = |of: f64| if self.work > 0.0 { of / self.work } else { 0.0 };
+        LawOverMesh {
+            mean_coefficient_mm2_per_n: part(self.worn),
+            work_outside_validity: is_bounded.then(|| part(self.outside)),
+        }
+    }
 }
 
 impl HeatObserver<'_> {
@@ -102,10 +138,10 @@ impl HeatObserver<'_> {
             Some(mesh) => self.sliced(mesh, cycle, &mut sums),
             None => self.whole(cycle, &mut sums),
         };
-        let part = |of: f64| if sums.work > 0.0 { of / sums.work } else { 0.0 };
+        let is_bounded = self.valid_k.map(|valid| valid.is_some());
         let law = LawInHeat {
-            mean_coefficient_mm2_per_n: part(sums.worn),
-            work_outside_validity: self.valid_k.map(|_| part(sums.outside)),
+            both: sums.both.law(is_bounded.pinion || is_bounded.wheel),
+            of: PerGear::from_fn(|gear| sums.of[gear].law(is_bounded[gear])),
             greatest_rate_mm3_per_n: sums.greatest_rate,
         };
         HeatObservation { positions, law }
@@ -210,13 +246,11 @@ impl HeatObserver<'_> {
                     sliding_speed_mm_per_s: self.heat.sliding_speed_mm_per_s(&ratios),
                     temperature_k,
                 };
-                let k = self.law.mild_coefficient_mm2_per_n(Some(own));
+                let k = self.laws[gear].mild_coefficient_mm2_per_n(Some(own));
                 let part = work * pressure / total;
-                sums.work += part;
-                sums.worn += k * part;
-                if self.valid_k.is_some_and(|[low, high]| !(low..=high).contains(&temperature_k)) {
-                    sums.outside += part;
-                }
+                let is_outside = self.valid_k[gear].is_some_and(|[low, high]| !(low..=high).contains(&temperature_k));
+                sums.both.add(part, k, is_outside);
+                sums.of[gear].add(part, k, is_outside);
                 sums.greatest_rate[gear] = sums.greatest_rate[gear].max(k * slid_mm);
             }
         }

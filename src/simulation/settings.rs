@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::gear::PerGear;
+
 /// Wear steps of a run where nothing else is asked for.
 const STEPS: f64 = 150.0;
 
@@ -13,8 +15,8 @@ pub struct Phase {
     pub pinion_torque_n_mm: f64,
     /// Speed of the pinion, 1/min, where given.
     pub pinion_speed_rpm: Option<f64>,
-    /// Its wear coefficient, mm²/N; `None`: that of the wear law.
-    pub coefficient_mm2_per_n: Option<f64>,
+    /// Each gear's own wear coefficient, mm²/N; `None`: that of its wear law.
+    pub coefficient_mm2_per_n: PerGear<Option<f64>>,
     /// When it ends, in revolutions of the pinion from the beginning of the run.
     pub end_revolutions: f64,
 }
@@ -47,7 +49,7 @@ impl Operation {
         let phase = Phase {
             pinion_torque_n_mm,
             pinion_speed_rpm,
-            coefficient_mm2_per_n: None,
+            coefficient_mm2_per_n: PerGear::default(),
             end_revolutions: pinion_revolutions,
         };
         Self { pinion_torque_n_mm, pinion_speed_rpm, pinion_revolutions, snapshots_revolutions, phases: vec![phase] }

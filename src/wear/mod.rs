@@ -17,6 +17,7 @@ pub(crate) mod settings;
 mod severe;
 pub(crate) mod stepping;
 
+use crate::gear::{Gear, PerGear};
 use crate::thermal::ContactHeat;
 use settings::{LawSettings, SevereTransition, WearSettings};
 
@@ -111,23 +112,41 @@ pub(crate) fn of(settings: &WearSettings) -> Box<dyn FlankWear> {
     }
 }
 
-/// How flanks in mesh wear: by which law, and where their heat comes from where the law reads it.
+/// The laws of both gears.
+pub(crate) type Laws = PerGear<Box<dyn FlankWear>>;
+
+/// The wear that a scene asks for of each gear.
+pub(crate) fn of_both(settings: &PerGear<WearSettings>) -> Laws {
+    PerGear::from_fn(|gear| of(&settings[gear]))
+}
+
+/// How flanks in mesh wear: each gear by which law, and where their heat comes from where a law reads it.
 #[derive(Clone, Copy)]
 pub(crate) struct WearModel<'a> {
-    /// The law.
-    pub law: &'a dyn FlankWear,
+    /// The law of each gear.
+    pub laws: PerGear<&'a dyn FlankWear>,
     /// Friction heat of the contact, where the law or the scene asks for it.
     pub heat: Option<&'a ContactHeat>,
 }
 
 impl<'a> WearModel<'a> {
-    /// A law that reads no conditions.
-    pub(crate) fn cold(law: &'a dyn FlankWear) -> Self {
-        Self { law, heat: None }
+    /// Both gears by these laws.
+    pub(crate) fn new(laws: &'a Laws, heat: Option<&'a ContactHeat>) -> Self {
+        Self { laws: laws.as_ref().map(|law| &**law), heat }
     }
 
-    /// The heat, where the law reads what it does to the contact.
-    pub(crate) fn heat_of_law(&self) -> Option<&'a ContactHeat> {
-        self.heat.filter(|_| self.law.reads_conditions())
+    /// Both gears by one law, which reads no conditions.
+    pub(crate) fn cold(law: &'a dyn FlankWear) -> Self {
+        Self { laws: PerGear { pinion: law, wheel: law }, heat: None }
+    }
+
+    /// The heat, where either law reads what it does to the contact.
+    pub(crate) fn heat_of_laws(&self) -> Option<&'a ContactHeat> {
+        Gear::BOTH.into_iter().find_map(|gear| self.heat_of_law(gear))
+    }
+
+    /// The heat, where the law of `gear` reads what it does to the contact.
+    pub(crate) fn heat_of_law(&self, gear: Gear) -> Option<&'a ContactHeat> {
+        self.heat.filter(|_| self.laws[gear].reads_conditions())
     }
 }

@@ -4,6 +4,7 @@ use super::{
     adsorption::AdsorptionConstants,
     oxidation::{OxidationConstants, VALID_TEMPERATURE_C},
 };
+use crate::gear::{Gear, PerGear};
 
 /// The transition from mild to severe wear (thesis eq 26).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -95,6 +96,37 @@ pub struct WearSettings {
     pub coefficient_mm2_per_n: f64,
     /// Mild-to-severe transition, where asked for.
     pub severe: Option<SevereTransition>,
+}
+
+impl PerGear<WearSettings> {
+    /// Whether both gears wear by the same law with the same constants and coefficient.
+    pub fn are_alike(&self) -> bool {
+        self.pinion == self.wheel
+    }
+
+    /// Whether wear of either gear may be severe.
+    pub fn may_be_severe(&self) -> bool {
+        Gear::BOTH.into_iter().any(|gear| self[gear].severe.is_some())
+    }
+
+    /// The greatest factor that the transition of either gear puts on its coefficient at this pressure, MPa; 1 at least.
+    pub fn greatest_factor_at(&self, pressure_mpa: f64) -> f64 {
+        let of = |gear: Gear| self[gear].severe.map_or(1.0, |severe| severe.factor_at(pressure_mpa));
+        of(Gear::Pinion).max(of(Gear::Wheel)).max(1.0)
+    }
+
+    /// The greatest factor of severe wear of the gears that wear severely somewhere under this greatest pressure, MPa; none where
+    /// neither does.
+    pub fn severe_factor_under(&self, peak_pressure_mpa: f64) -> Option<f64> {
+        let wearing = Gear::BOTH.into_iter().map(|gear| &self[gear]).filter(|own| own.coefficient_mm2_per_n > 0.0);
+        let severe = wearing.filter_map(|own| own.severe).filter(|severe| severe.factor_at(peak_pressure_mpa) > 1.0);
+        severe.map(|severe| severe.factor).reduce(f64::max)
+    }
+
+    /// The same laws with another transition in place of each gear's own.
+    pub fn with_severe(self, of: impl Fn(SevereTransition) -> Option<SevereTransition>) -> Self {
+        self.map(|own| WearSettings { severe: own.severe.and_then(&of), ..own })
+    }
 }
 
 impl WearSettings {

@@ -513,6 +513,52 @@ fn constants_of_wear_laws_out_of_range() {
     }
 }
 
+/// What is wrong with the law of one gear is said with its key, and what both say together with what is allowed.
+#[test]
+fn wear_laws_of_each_gear() {
+    let case = |lines: &str| Case::fzg_c().with("numerics", "error_estimate", lines);
+    for (lines, says) in [
+        ("[wear.pinion]\ncoefficient_m2_per_N = -1e-17", ["wear.pinion.coefficient_m2_per_N", "at least 0"]),
+        ("[wear.wheel]\ncoefficient_mm3_per_Nm = -1.0", ["wear.wheel.coefficient_mm3_per_Nm", "at least 0"]),
+        (
+            "[wear.wheel]\ncoefficient_m2_per_N = 1e-17\ncoefficient_mm3_per_Nm = 1e-8",
+            ["wear.wheel.coefficient_m2_per_N and wear.wheel.coefficient_mm3_per_Nm", "say the same"],
+        ),
+        (
+            "[wear.pinion]\ncoefficient_m2_per_N = 0.0\n[wear.wheel]\ncoefficient_m2_per_N = 0",
+            ["0 for both gears", "greater than 0 for one gear at least"],
+        ),
+        ("[wear.pinion]\nlaw = \"magic\"", ["wear.pinion.law", "archard"]),
+        ("[wear.pinion]\ncoefficent_m2_per_N = 1e-17", ["wear.pinion.coefficent_m2_per_N", "coefficient_m2_per_N"]),
+        ("[wear.wheel]\nsevere = { above_MPa = 0.0, factor = 9.0 }", ["wear.wheel.severe.above_MPa", "greater than 0"]),
+        ("[wear.pinion.adsorption]\nmolecule_diameter_nm = 0.0", ["wear.pinion.adsorption.molecule_diameter_nm", "0"]),
+        ("[wear.pinion.oxidation]\ndensity_kg_per_m3 = -1.0", ["wear.pinion.oxidation.density_kg_per_m3", "0"]),
+    ] {
+        case(lines).refused().says(&says);
+    }
+    let slip = case("[wear.wheel]\ncoefficient_m2_per_N = 1e-11").warnings();
+    assert!(slip.contains("wear.wheel.coefficient_m2_per_N = 1e-11: did you mean 1e-17?"), "{slip}");
+    let unused = case("[wear.wheel.oxidation]\ndensity_kg_per_m3 = 7800.0").warnings();
+    assert!(unused.contains("[wear.wheel.oxidation] is not used"), "{unused}");
+
+    let least = |phase: &str, wear: &str| {
+        Case::of(&format!(
+            "[pair]\npreset = \"fzg-c\"\n[operation]\npinion_torque_Nm = 302.0\n\
+             [[operation.phases]]\npinion_revolutions = 1e5\n{phase}\n[wear]\n{wear}\n"
+        ))
+    };
+    let k = "coefficient_m2_per_N = 1e-17";
+    least("", k).refused().says(&["wear.law", "archard"]);
+    least("", &format!("pinion.law = \"archard\"\n{k}")).refused().says(&["wear.wheel.law", "or give wear.law"]);
+    least("", "law = \"archard\"").refused().says(&["wear.coefficient_m2_per_N", "a number greater than 0"]);
+    least("", &format!("law = \"archard\"\nwheel.{k}")).refused().says(&["wear.pinion.coefficient_m2_per_N"]);
+    let differ = format!("law = \"archard\"\n{k}\nwheel.coefficient_m2_per_N = 0.0");
+    least(k, &differ).refused().says(&["operation.phases[0].coefficient_m2_per_N", "one for each gear"]);
+    least("pinion.coefficient_m2_per_N = 0.0", &differ).refused().says(&["operation.phases[0]", "0 for both gears"]);
+    let negative = "wheel.coefficient_mm3_per_Nm = -1.0";
+    least(negative, &differ).refused().says(&["operation.phases[0].wheel.coefficient_mm3_per_Nm", "at least 0"]);
+}
+
 #[test]
 fn helical_pairs_out_of_range() {
     for (table, key, line, at, says) in [

@@ -66,8 +66,8 @@ fn thesis_spur_is_the_model_of_the_thesis() {
     assert_eq!(scene.contact.surface, SurfaceKind::Winkler);
     assert_eq!(scene.contact.foundation, Foundation::Matched(MatchCriterion::HalfWidth));
     assert_eq!(scene.stiffness, StiffnessSettings::Constant { pair_n_per_mm2: 20e3 });
-    assert!((scene.wear.coefficient_mm2_per_n / 1e-11 - 1.0).abs() < 1e-15);
-    assert_eq!(scene.wear.severe, None);
+    assert!((scene.wear.pinion.coefficient_mm2_per_n / 1e-11 - 1.0).abs() < 1e-15);
+    assert_eq!(scene.wear.pinion.severe, None);
     assert_eq!((scene.numerics.flank_points, scene.numerics.positions), (750, 400));
     let revolutions = scene.operation.pinion_revolutions / 150.0;
     assert_eq!(scene.numerics.stepping, Stepping::Fixed { revolutions });
@@ -110,7 +110,7 @@ fn a_key_beside_a_preset_overrides_it() {
 #[test]
 fn coefficient_in_either_unit_is_the_same() {
     let other = LEAST.replace("coefficient_m2_per_N = 1e-17", "coefficient_mm3_per_Nm = 1e-8");
-    let [one, other] = [LEAST, &other].map(|text| resolve(text).scene.wear.coefficient_mm2_per_n);
+    let [one, other] = [LEAST, &other].map(|text| resolve(text).scene.wear.pinion.coefficient_mm2_per_n);
     assert!((one / other - 1.0).abs() < 1e-15, "{one} {other}");
 }
 

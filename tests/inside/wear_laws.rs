@@ -3,7 +3,7 @@
 use gearwear::gear::Gear;
 use gearwear::observer::Unwatched;
 use gearwear::pipeline;
-use gearwear::results::run::RunRecord;
+use gearwear::results::run::{RunRecord, Summary};
 use gearwear::scene::{Scene, presets};
 use gearwear::wear::regime::Regime;
 
@@ -69,11 +69,11 @@ fn val_s7_adsorption_beside_the_linear_law() {
         pitch_part(&adsorption[0]),
         pitch_part(&linear)
     );
-    let law = &adsorption[0].summary.wear;
+    let law = adsorption[0].summary.wear.as_ref().unwrap();
     let k = law.effective_coefficient_new_mm3_per_Nm;
     println!("effective k {k:.2e} mm³/(N·m), regime {}", law.irg_regime.name());
     assert!((1e-9..1e-7).contains(&k), "{k}");
-    assert_eq!(linear.summary.wear.irg_regime, Regime::Two);
+    assert_eq!(linear.summary.wear_of_gear.pinion.irg_regime, Regime::Two);
     assert!(
         adsorption[0]
             .summary
@@ -95,19 +95,20 @@ fn val_s8_oxidation_outside_its_temperatures() {
         ("snapshots_h", "# snapshots_h"),
         NO_ESTIMATE,
     ];
+    let law = |of: &Summary| of.wear.clone().unwrap();
     let cool = run_preset("thesis-spur", &edits, "").summary;
-    assert_eq!((cool.wear.work_outside_validity_new, cool.wear.work_outside_validity_worn), (Some(1.0), Some(1.0)));
+    assert_eq!((law(&cool).work_outside_validity_new, law(&cool).work_outside_validity_worn), (Some(1.0), Some(1.0)));
     let warning = cool.warnings.iter().find(|warning| warning.contains("200 to 400 °C")).unwrap();
     assert!(warning.contains("100.0 % of the sliding work"), "{warning}");
 
     let hot = run_preset("thesis-spur", &edits, "[temperature]\nbulk_temperature_C = 250.0\n").summary;
-    assert_eq!(hot.wear.work_outside_validity_new, Some(0.0));
+    assert_eq!(law(&hot).work_outside_validity_new, Some(0.0));
     assert!(hot.warnings.iter().all(|warning| !warning.contains("200 to 400 °C")));
     assert!(hot.pinion.peak_wear_um > 1e3 * cool.pinion.peak_wear_um);
 
     // Around the lower bound it is the part that flash temperatures leave below it.
     let some = run_preset("thesis-spur", &edits, "[temperature]\nbulk_temperature_C = 185.0\n").summary;
-    let part = some.wear.work_outside_validity_new.unwrap();
+    let part = law(&some).work_outside_validity_new.unwrap();
     println!("at 185 °C {:.1} % of the work is below 200 °C", 100.0 * part);
     assert!((0.05..0.95).contains(&part), "{part}");
 }
@@ -193,8 +194,8 @@ fn ver_finite_elements_wear_by_the_mean_coefficient() {
 }
 
 fn check_mean_coefficient(what: &str, linear: &RunRecord, adsorption: &RunRecord, allowed: f64) {
-    let mean = adsorption.summary.wear.effective_coefficient_new_mm3_per_Nm;
-    let k = linear.summary.wear.effective_coefficient_new_mm3_per_Nm;
+    let mean = adsorption.summary.wear.as_ref().unwrap().effective_coefficient_new_mm3_per_Nm;
+    let k = linear.summary.wear.as_ref().unwrap().effective_coefficient_new_mm3_per_Nm;
     let volume = |record: &RunRecord| record.summary.pinion.worn_volume_mm3 + record.summary.wheel.worn_volume_mm3;
     let found = k * volume(adsorption) / volume(linear);
     println!("{what}: {found:.4e} by the flanks, {mean:.4e} by the contacts");

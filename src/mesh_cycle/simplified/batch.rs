@@ -252,7 +252,7 @@ impl Batch {
             let sliding_mm = sliding[..range.len()].as_flattened();
             let (row, contacts) =
                 (&mut self.conditions, self.packs[range.clone()].iter().zip(&self.per_root[range.clone()]));
-            let conditions = wear.heat_of_law().map(|heat| {
+            let conditions = wear.heat_of_law(gear).map(|heat| {
                 let lanes = contacts.flat_map(|(pack, per_root)| {
                     let (load, half_width) = (pack.loads(), pack.loads().sqrt() * per_root.half_width);
                     load.0.into_iter().zip(half_width.0)
@@ -264,7 +264,7 @@ impl Batch {
                 }));
                 &**row
             });
-            wear.law.add_depth(&SlidingRow { pressure_mpa: pressure, sliding_mm, conditions }, depth);
+            wear.laws[gear].add_depth(&SlidingRow { pressure_mpa: pressure, sliding_mm, conditions }, depth);
         }
     }
 

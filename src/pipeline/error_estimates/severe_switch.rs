@@ -18,7 +18,7 @@ use crate::observer::{Observer, PartOf};
 use crate::pipeline::Model;
 use crate::simulation::settings::{Numerics, Phase, Stepping};
 use crate::simulation::wear_run::{Outcome, RunPhase, WearRun};
-use crate::wear::{self, FlankWear, WearModel, settings::SevereTransition, settings::WearSettings};
+use crate::wear::{self, Laws, WearModel, settings::SevereTransition};
 
 /// Band that a hard switch is compared with, over its limit.
 const BAND: f64 = 0.05;
@@ -32,17 +32,16 @@ const LEAST_STEPS: f64 = 40.0;
 
 /// Whether any wear of the run is severe.
 pub(super) fn is_severe_anywhere(model: &Model<'_>, outcome: &Outcome) -> bool {
-    let Some(severe) = model.scene.wear.severe else { return false };
     let mut states = outcome.snapshots.iter().chain([&outcome.new]);
-    states.any(|state| severe.factor_at(state.cycle.peak_pressure_mpa()) > 1.0)
+    states.any(|state| model.scene.wear.severe_factor_under(state.cycle.peak_pressure_mpa()).is_some())
 }
 
 /// The estimate and its cost over that of the run, within `budget`.
 pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observer: &dyn Observer) -> (Estimate, f64) {
     let scene = model.scene;
-    let Some(own) = scene.wear.severe else {
+    if !scene.wear.may_be_severe() {
         return (Estimate::none("the scene has no transition to severe wear"), 0.0);
-    };
+    }
     if !is_severe_anywhere(model, outcome) {
         return (Estimate::none("no pressure reaches the transition to severe wear"), 0.0);
     }
@@ -56,11 +55,13 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
         let numerics = Numerics { flank_points, positions, stepping: Stepping::Fixed { revolutions }, ..fine };
         WearRun { numerics, snapshots_revolutions: &[], ..model.wear_run() }
     };
-    let mild = wear::of(&WearSettings { severe: None, ..scene.wear });
+    let mild = wear::of_both(&scene.wear.with_severe(|_| None));
     let reference = model.reference();
-    let phase = RunPhase { wear: WearModel { law: mild.as_ref(), ..reference.wear }, ..*reference };
+    let phase = RunPhase { wear: WearModel::new(&mild, reference.wear.heat), ..*reference };
+    let transitions = || Gear::BOTH.into_iter().filter_map(|gear| scene.wear[gear].severe);
+    let factor = transitions().map(|severe| severe.factor).fold(1.0, f64::max);
     let bound = match coarse(fewest, duration).step_bound(&phase, false, &|| observer.gives_up()) {
-        Ok(bound) => bound.revolutions / own.factor.max(1.0),
+        Ok(bound) => bound.revolutions / factor,
         Err(error) => return (Estimate::none(&error.to_string()), 0.0),
     };
     let steps = (duration / bound).ceil().max(LEAST_STEPS);
@@ -76,17 +77,18 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
         );
     };
     let revolutions = duration / steps;
-    let band_mpa = if own.band_mpa > 0.0 { own.band_mpa } else { BAND * own.above_mpa };
+    let hard = |_: SevereTransition| 0.0;
+    let over_band = |own: SevereTransition| if own.band_mpa > 0.0 { own.band_mpa } else { BAND * own.above_mpa };
     let mut equilibria = 0;
-    let mut peaks_mm = |band_mpa: f64| -> Result<PerGear<f64>, String> {
-        let severe = Some(SevereTransition { band_mpa, ..own });
-        let law = |phase: &Phase| wear::of(&WearSettings { severe, ..scene.wear_in(phase) });
-        let laws: Vec<Box<dyn FlankWear>> = scene.operation.phases.iter().map(law).collect();
+    let mut peaks_mm = |band_mpa: &dyn Fn(SevereTransition) -> f64| -> Result<PerGear<f64>, String> {
+        let with_band = |own: SevereTransition| Some(SevereTransition { band_mpa: band_mpa(own), ..own });
+        let laws_in = |phase: &Phase| wear::of_both(&scene.wear_in(phase).with_severe(with_band));
+        let laws: Vec<Laws> = scene.operation.phases.iter().map(laws_in).collect();
         let phases: Vec<RunPhase<'_>> = model
             .phases
             .iter()
             .zip(&laws)
-            .map(|(phase, law)| RunPhase { wear: WearModel { law: law.as_ref(), ..phase.wear }, ..*phase })
+            .map(|(phase, laws)| RunPhase { wear: WearModel::new(laws, phase.wear.heat), ..*phase })
             .collect();
         let run = WearRun { phases: &phases, ..coarse(positions, revolutions) };
         let outcome =
@@ -97,14 +99,15 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
             None => Ok(peak_wear_of_both_mm(model, &outcome)),
         }
     };
-    let peaks = peaks_mm(0.0).and_then(|hard| Ok((hard, peaks_mm(band_mpa)?)));
+    let peaks = peaks_mm(&hard).and_then(|hard| Ok((hard, peaks_mm(&over_band)?)));
     let estimate = match peaks {
         Ok((hard, band)) => {
-            let reference = if own.band_mpa > 0.0 { band } else { hard };
-            let of = |gear: Gear| match reference[gear] > 0.0 {
-                true => (hard[gear] - band[gear]).abs() / reference[gear],
-                false => 0.0,
+            let of = |gear: Gear| {
+                let has_band = scene.wear[gear].severe.is_some_and(|severe| severe.band_mpa > 0.0);
+                let reference = if has_band { band[gear] } else { hard[gear] };
+                if reference > 0.0 { (hard[gear] - band[gear]).abs() / reference } else { 0.0 }
             };
+            let band_mpa = transitions().map(over_band).fold(0.0, f64::max);
             Estimate {
                 relative: Some(of(Gear::Pinion).max(of(Gear::Wheel))),
                 how: format!(

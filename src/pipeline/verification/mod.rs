@@ -361,7 +361,8 @@ fn compared(
 fn wears_severely(model: &Model<'_>, life: &Outcome) -> bool {
     let states = [&life.new].into_iter().chain(&life.snapshots);
     let greatest_mpa = states.map(|state| state.cycle.peak_pressure_mpa()).fold(0.0, f64::max);
-    model.scene.wear.severe.is_some_and(|severe| greatest_mpa > severe.above_mpa - 0.5 * severe.band_mpa)
+    let mut transitions = Gear::BOTH.into_iter().filter_map(|gear| model.scene.wear[gear].severe);
+    transitions.any(|severe| greatest_mpa > severe.above_mpa - 0.5 * severe.band_mpa)
 }
 
 /// |own − truth|/truth; none where there is nothing to be wrong about.

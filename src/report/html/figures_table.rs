@@ -43,7 +43,7 @@ fn new_and_worn(s: &Summary) -> Markup {
         row(
             "Volumes that both flanks lose in one mesh, difference",
             "",
-            cells![percent(s.wear_balance.new), percent(s.wear_balance.worn), ""],
+            cells![s.wear_balance.new.map(percent), s.wear_balance.worn.map(percent), ""],
         ),
     ]);
     table("Mesh cycle", &["new", "worn", "change"], rows)
@@ -194,7 +194,10 @@ pub(crate) fn phases(s: &Summary) -> Markup {
             phase.pinion_torque_Nm,
             phase.pinion_speed_rpm,
             phase.hertz_peak_pressure_MPa,
-            format!("{:e}", phase.coefficient_m2_per_N),
+            match phase.coefficient_m2_per_N {
+                Some(both) => format!("{both:e}"),
+                None => format!("{:e} and {:e}", phase.pinion.coefficient_m2_per_N, phase.wheel.coefficient_m2_per_N),
+            },
             phase.greatest_rise_K,
             significant(phase.pinion.greatest_depth_um, 3),
             significant(phase.wheel.greatest_depth_um, 3),

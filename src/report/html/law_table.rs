@@ -9,20 +9,30 @@ use crate::results::chemistry::{GreatestRise, TemperatureSummary, WearLawSummary
 use crate::results::run::Summary;
 
 pub(crate) fn tables(s: &Summary) -> Markup {
-    html! { (law(&s.wear)) @if let Some(t) = &s.temperature { (temperature(t)) } }
+    html! { (law(s)) @if let Some(t) = &s.temperature { (temperature(t)) } }
 }
 
-fn law(w: &WearLawSummary) -> Markup {
+/// One column for both gears, or one for each where each has its own law.
+fn law(s: &Summary) -> Markup {
+    let (columns, laws): (&[&str], Vec<&WearLawSummary>) = match &s.wear {
+        Some(both) => (&["value"], vec![both]),
+        None => (&["pinion", "wheel"], vec![&s.wear_of_gear.pinion, &s.wear_of_gear.wheel]),
+    };
+    let all = |label, unit, of: &dyn Fn(&WearLawSummary) -> String| row(label, unit, laws.iter().map(|law| of(law)));
     let k = |value: f64| format!("{value:.3e}");
     let mut rows = vec![
-        row("Wear law", "", [&*w.law]),
-        row("Coefficient as given", "mm³/(N·m)", [k(w.coefficient_mm3_per_Nm)]),
-        row("Effective where mild, new", "mm³/(N·m)", [k(w.effective_coefficient_new_mm3_per_Nm)]),
-        row("Effective where mild, worn", "mm³/(N·m)", [k(w.effective_coefficient_worn_mm3_per_Nm)]),
-        row("Regime of the IRG diagram", "", [w.irg_regime.name()]),
+        all("Wear law", "", &|w| w.law.clone()),
+        all("Coefficient as given", "mm³/(N·m)", &|w| k(w.coefficient_mm3_per_Nm)),
+        all("Effective where mild, new", "mm³/(N·m)", &|w| k(w.effective_coefficient_new_mm3_per_Nm)),
+        all("Effective where mild, worn", "mm³/(N·m)", &|w| k(w.effective_coefficient_worn_mm3_per_Nm)),
+        all("Regime of the IRG diagram", "", &|w| w.irg_regime.name().to_owned()),
     ];
-    rows.extend(w.irg_regime_severe.map(|regime| row("Regime where wear is severe", "", [regime.name()])));
-    table("Wear law", &["value"], rows)
+    if laws.iter().any(|law| law.irg_regime_severe.is_some()) {
+        rows.push(all("Regime where wear is severe", "", &|w| {
+            w.irg_regime_severe.map_or("–", |regime| regime.name()).to_owned()
+        }));
+    }
+    table("Wear law", columns, rows)
 }
 
 fn temperature(t: &TemperatureSummary) -> Markup {
@@ -38,21 +48,48 @@ fn temperature(t: &TemperatureSummary) -> Markup {
 
 /// What the tables mean, in words.
 pub(crate) fn note(s: &Summary) -> Markup {
-    let w = &s.wear;
-    let mut text = format!(
-        "Where wear is mild the {} law wears by {:.2e} mm³/(N·m) on average over the sliding work of a mesh of the new pair: regime {} of the IRG \
-         transition diagram (I below 1e-9, II from 1e-8 to 1e-6, III above 1e-5).",
-        w.law,
-        w.effective_coefficient_new_mm3_per_Nm,
-        w.irg_regime.name()
-    );
+    let mut text = match &s.wear {
+        Some(both) => effect(both, ""),
+        None => format!(
+            "{} {}",
+            effect(&s.wear_of_gear.pinion, " of the pinion"),
+            effect(&s.wear_of_gear.wheel, " of the wheel")
+        ),
+    };
     text.push_str(
         " The coefficient k is the volume that each flank loses per newton of load and metre of sliding; depth is k times pressure times \
          sliding distance (1e-17 m²/N is 1e-8 mm³/(N·m)). Repeated tests under equal conditions scatter by about half of it, and the depth \
          of wear with it, whatever the error of the computation.",
     );
+    match &s.wear {
+        Some(both) => text.push_str(&bounds(both, "it")),
+        None => {
+            text.push_str(&bounds(&s.wear_of_gear.pinion, "that of the pinion"));
+            text.push_str(&bounds(&s.wear_of_gear.wheel, "that of the wheel"));
+        }
+    }
+    page::note(&text)
+}
+
+/// What the law `of` some gear comes to on average.
+fn effect(w: &WearLawSummary, of: &str) -> String {
+    if w.coefficient_mm3_per_Nm <= 0.0 {
+        return format!("The coefficient{of} is 0: that gear does not wear.");
+    }
+    format!(
+        "Where wear is mild the {} law{of} wears by {:.2e} mm³/(N·m) on average over the sliding work of a mesh of the new pair: regime {} of the IRG \
+         transition diagram (I below 1e-9, II from 1e-8 to 1e-6, III above 1e-5).",
+        w.law,
+        w.effective_coefficient_new_mm3_per_Nm,
+        w.irg_regime.name()
+    )
+}
+
+/// Where wear by the law is severe, and where the law holds.
+fn bounds(w: &WearLawSummary, it: &str) -> String {
+    let mut text = String::new();
     if let (Some(k), Some(regime)) = (w.severe_coefficient_mm3_per_Nm, w.irg_regime_severe) {
-        text.push_str(&format!(" Where wear is severe it is {k:.2e} mm³/(N·m), regime {}.", regime.name()));
+        text.push_str(&format!(" Where wear is severe {it} is {k:.2e} mm³/(N·m), regime {}.", regime.name()));
     }
     if let (Some([low, high]), Some(new), Some(worn)) =
         (w.valid_temperature_C, w.work_outside_validity_new, w.work_outside_validity_worn)
@@ -65,5 +102,5 @@ pub(crate) fn note(s: &Summary) -> Markup {
             percent(worn)
         ));
     }
-    page::note(&text)
+    text
 }

@@ -125,11 +125,14 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let stiffness_by_default = file.stiffness.as_ref().is_none_or(|stiffness| stiffness.model.is_none());
     let stiffness_curve_file = file.stiffness.as_ref().and_then(|stiffness| stiffness.curve.clone());
     let wear = wear::choose(&mut file.wear, findings);
+    if let (Some(operation), Some(wear)) = (&operation, &wear) {
+        wear::check_phases(&file.operation, operation, wear, findings);
+    }
     let material = materials.map(|materials| materials.map(|(elastic, _)| elastic));
     let heat = temperature::choose(
         &mut file.temperature,
         materials.map(|materials| materials.map(|(_, thermal)| thermal)),
-        wear.map(|wear| wear.law),
+        wear.map(|wear| wear.map(|own| own.law)),
         &file.operation,
         findings,
     );
@@ -140,7 +143,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     }
     let (pair, operation) = (pair?, operation?);
     let finely_resolved = matches!(surface, Some(SurfaceKind::Fem | SurfaceKind::HalfSpace));
-    let is_severe = wear.is_some_and(|wear| wear.severe.is_some());
+    let is_severe = wear.is_some_and(|wear| wear.may_be_severe());
     let adaptive = finely_resolved || is_severe;
     let numerics = settings::numerics(&mut file.numerics, operation.pinion_revolutions, adaptive, findings);
     let verify = *file.numerics.get_or_insert_default().verify.get_or_insert(true);

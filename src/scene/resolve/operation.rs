@@ -1,7 +1,8 @@
 //! Load, speed, duration and snapshots, in revolutions of the pinion.
 
 use super::wear::coefficient_mm2_per_n;
-use crate::scene::file::{OperationFile, PhaseFile};
+use crate::gear::PerGear;
+use crate::scene::file::{GearPhaseFile, OperationFile, PhaseFile};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 use crate::simulation::settings::{Operation, Phase};
@@ -26,7 +27,7 @@ pub(super) fn choose(file: &mut OperationFile, findings: &mut Findings) -> Optio
         // What else is wrong is found with any load.
         pinion_torque_n_mm: 1e3 * file.pinion_torque_Nm.unwrap_or(1.0),
         pinion_speed_rpm: file.pinion_speed_rpm,
-        coefficient_mm2_per_n: None,
+        coefficient_mm2_per_n: PerGear::default(),
         end_revolutions: 0.0,
     };
     let phases = match &file.phases {
@@ -111,13 +112,16 @@ fn phases(given: &[PhaseFile], of_whole: Phase, findings: &mut Findings) -> Opti
         let [hours, revolutions] = durations.each_ref().map(String::as_str);
         end_revolutions +=
             duration([hours, revolutions], phase.hours, phase.pinion_revolutions, pinion_speed_rpm, findings)?;
-        let coefficients = [key("coefficient_m2_per_N"), key("coefficient_mm3_per_Nm")];
-        let coefficient_mm2_per_n = coefficient_mm2_per_n(
-            coefficients.each_ref().map(String::as_str),
-            phase.coefficient_m2_per_N,
-            phase.coefficient_mm3_per_Nm,
-            findings,
-        )?;
+        let mut coefficient = |table: &str, in_m2: Option<f64>, in_mm3: Option<f64>| {
+            let keys = ["coefficient_m2_per_N", "coefficient_mm3_per_Nm"].map(|name| key(&format!("{table}{name}")));
+            coefficient_mm2_per_n(keys.each_ref().map(String::as_str), in_m2, in_mm3, findings)
+        };
+        let of_both = coefficient("", phase.coefficient_m2_per_N, phase.coefficient_mm3_per_Nm)?;
+        let [pinion, wheel] = [("pinion.", &phase.pinion), ("wheel.", &phase.wheel)].map(|(table, own)| {
+            let GearPhaseFile { coefficient_m2_per_N, coefficient_mm3_per_Nm } = own.clone().unwrap_or_default();
+            coefficient(table, coefficient_m2_per_N, coefficient_mm3_per_Nm)
+        });
+        let coefficient_mm2_per_n = PerGear { pinion: pinion?.or(of_both), wheel: wheel?.or(of_both) };
         phases.push(Phase {
             pinion_torque_n_mm: phase.pinion_torque_Nm.map_or(of_whole.pinion_torque_n_mm, |torque| 1e3 * torque),
             pinion_speed_rpm,

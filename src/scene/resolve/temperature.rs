@@ -1,6 +1,6 @@
 //! Contact temperatures: only where the wear law reads them or the scene asks for them.
 
-use crate::gear::PerGear;
+use crate::gear::{Gear, PerGear};
 use crate::scene::file::OperationFile;
 use crate::scene::findings::Findings;
 use crate::scene::wear_file::TemperatureFile;
@@ -14,17 +14,19 @@ const BULK_TEMPERATURE_C: f64 = 90.0;
 pub(super) fn choose(
     file: &mut Option<TemperatureFile>,
     material: Option<PerGear<ThermalMaterial>>,
-    law: Option<LawSettings>,
+    laws: Option<PerGear<LawSettings>>,
     operation: &OperationFile,
     findings: &mut Findings,
 ) -> Option<Option<HeatSettings>> {
-    let (material, law) = (material?, law?);
-    if file.is_none() && !law.reads_temperature() {
+    let (material, laws) = (material?, laws?);
+    let reads = Gear::BOTH.into_iter().find(|&gear| laws[gear].reads_temperature());
+    if file.is_none() && reads.is_none() {
         return Some(None);
     }
-    let asked_for_by = match law {
-        law if law.reads_temperature() => format!("wear.law = {:?}", law.name()),
-        _ => "[temperature]".to_owned(),
+    let asked_for_by = match reads {
+        Some(_) if laws.pinion.name() == laws.wheel.name() => format!("wear.law = {:?}", laws.pinion.name()),
+        Some(gear) => format!("wear.{}.law = {:?}", gear.name(), laws[gear].name()),
+        None => "[temperature]".to_owned(),
     };
     let phases = operation.phases.iter().flatten();
     let of_phases = operation.phases.is_some() && phases.clone().all(|phase| phase.pinion_speed_rpm.is_some());

@@ -1,7 +1,11 @@
-//! The wear law and its constants.
+//! The wear law of each gear and its constants: what `[wear]` says holds for both, unless a gear's own table says otherwise.
 
+use crate::gear::{Gear, PerGear};
+use crate::scene::file::OperationFile;
 use crate::scene::findings::Findings;
-use crate::scene::wear_file::{AdsorptionFile, OxidationFile, WearFile, WearLaw};
+use crate::scene::problem::number;
+use crate::scene::wear_file::{AdsorptionFile, GearWearFile, OxidationFile, WearFile, WearLaw};
+use crate::simulation::settings::Operation;
 use crate::wear::{
     adsorption::AdsorptionConstants,
     oxidation::OxidationConstants,
@@ -16,24 +20,101 @@ const ARRHENIUS_CONSTANT_KG_PER_M2S: f64 = 1e3;
 const ACTIVATION_ENERGY_KJ_PER_MOL: f64 = 100.0;
 const IRON_KG_PER_M3: f64 = 7870.0;
 
-/// Chooses the wear law.
-pub(super) fn choose(file: &mut WearFile, findings: &mut Findings) -> Option<WearSettings> {
-    let keys = ["wear.coefficient_m2_per_N", "wear.coefficient_mm3_per_Nm"];
-    let given = coefficient_mm2_per_n(keys, file.coefficient_m2_per_N, file.coefficient_mm3_per_Nm, findings)?;
-    let Some(coefficient_mm2_per_n) = given else {
-        findings.missing(&keys, "a number greater than 0");
-        return None;
-    };
-    for (key, used, given) in [
-        ("wear.adsorption", file.law == WearLaw::Adsorption, file.adsorption.is_some()),
-        ("wear.oxidation", file.law == WearLaw::Oxidation, file.oxidation.is_some()),
-    ] {
-        if given && !used {
-            let law = key.trim_start_matches("wear.");
-            findings.warnings.push(format!("[{key}] is not used: only wear.law = \"{law}\" reads it"));
-        }
+/// The two ways to say a coefficient.
+const COEFFICIENTS: [&str; 2] = ["coefficient_m2_per_N", "coefficient_mm3_per_Nm"];
+/// The names of the laws.
+const LAWS: &str = "\"archard\", \"adsorption\" or \"oxidation\"";
+
+/// Chooses the wear law of each gear.
+pub(super) fn choose(file: &mut WearFile, findings: &mut Findings) -> Option<PerGear<WearSettings>> {
+    let keys = COEFFICIENTS.map(|name| format!("wear.{name}"));
+    let keys = keys.each_ref().map(String::as_str);
+    let of_both = coefficient_mm2_per_n(keys, file.coefficient_m2_per_N, file.coefficient_mm3_per_Nm, findings)?;
+    let mut wholes = PerGear::from_fn(|gear| whole(file, gear));
+    warn_of_unused(file, &wholes, findings);
+    if wholes.pinion.law.is_none() && wholes.wheel.law.is_none() {
+        findings.missing(&["wear.law"], LAWS);
     }
-    let law = match file.law {
+    if of_both.is_none() && Gear::BOTH.iter().all(|&gear| !gives_coefficient(&wholes[gear])) {
+        findings.missing(&keys, "a number greater than 0");
+    }
+    let [pinion, wheel] = Gear::BOTH.map(|gear| of_gear(&mut wholes[gear], gear, findings));
+    let settings = PerGear { pinion: pinion?, wheel: wheel? };
+    if Gear::BOTH.iter().all(|&gear| settings[gear].coefficient_mm2_per_n <= 0.0) {
+        let in_mm3 = wholes.wheel.coefficient_mm3_per_Nm.is_some();
+        let key = format!("wear.wheel.{}", COEFFICIENTS[usize::from(in_mm3)]);
+        findings.not_allowed(&key, "0 for both gears", "a number greater than 0 for one gear at least");
+        return None;
+    }
+    if file.pinion.is_some() || file.wheel.is_some() {
+        *file = WearFile { pinion: Some(wholes.pinion), wheel: Some(wholes.wheel), ..WearFile::default() };
+    } else {
+        let GearWearFile { severe, adsorption, oxidation, .. } = wholes.pinion;
+        file.severe = severe;
+        (file.adsorption, file.oxidation) =
+            (adsorption.or(file.adsorption.take()), oxidation.or(file.oxidation.take()));
+    }
+    Some(settings)
+}
+
+/// What `[wear]` and the table of `gear` say of it together; constants of its own law only.
+fn whole(file: &WearFile, gear: Gear) -> GearWearFile {
+    let own = match gear {
+        Gear::Pinion => &file.pinion,
+        Gear::Wheel => &file.wheel,
+    };
+    let own = own.clone().unwrap_or_default();
+    let law = own.law.or(file.law);
+    let coefficients = match gives_coefficient(&own) {
+        true => [own.coefficient_m2_per_N, own.coefficient_mm3_per_Nm],
+        false => [file.coefficient_m2_per_N, file.coefficient_mm3_per_Nm],
+    };
+    let adsorption = || {
+        let (own, both) = (own.adsorption.unwrap_or_default(), file.adsorption.clone().unwrap_or_default());
+        AdsorptionFile {
+            molecule_diameter_nm: own.molecule_diameter_nm.or(both.molecule_diameter_nm),
+            vibration_time_ps: own.vibration_time_ps.or(both.vibration_time_ps),
+            heat_of_adsorption_kJ_per_mol: own.heat_of_adsorption_kJ_per_mol.or(both.heat_of_adsorption_kJ_per_mol),
+        }
+    };
+    let oxidation = || {
+        let (own, both) = (own.oxidation.unwrap_or_default(), file.oxidation.clone().unwrap_or_default());
+        OxidationFile {
+            arrhenius_constant_kg_per_m2s: own.arrhenius_constant_kg_per_m2s.or(both.arrhenius_constant_kg_per_m2s),
+            activation_energy_kJ_per_mol: own.activation_energy_kJ_per_mol.or(both.activation_energy_kJ_per_mol),
+            density_kg_per_m3: own.density_kg_per_m3.or(both.density_kg_per_m3),
+            mass_ratio: own.mass_ratio.or(both.mass_ratio),
+        }
+    };
+    GearWearFile {
+        law,
+        coefficient_m2_per_N: coefficients[0],
+        coefficient_mm3_per_Nm: coefficients[1],
+        severe: own.severe.or(file.severe.clone()),
+        adsorption: (law == Some(WearLaw::Adsorption)).then(adsorption),
+        oxidation: (law == Some(WearLaw::Oxidation)).then(oxidation),
+    }
+}
+
+fn gives_coefficient(of: &GearWearFile) -> bool {
+    of.coefficient_m2_per_N.is_some() || of.coefficient_mm3_per_Nm.is_some()
+}
+
+/// The law of one gear, whose defaults are written into its table.
+fn of_gear(file: &mut GearWearFile, gear: Gear, findings: &mut Findings) -> Option<WearSettings> {
+    let table = format!("wear.{}", gear.name());
+    let keys = COEFFICIENTS.map(|name| format!("{table}.{name}"));
+    let keys = keys.each_ref().map(String::as_str);
+    let given = coefficient_mm2_per_n(keys, file.coefficient_m2_per_N, file.coefficient_mm3_per_Nm, findings)?;
+    if file.law.is_none() {
+        findings.missing(&[&format!("{table}.law"), "wear.law"], LAWS);
+    }
+    if given.is_none() {
+        let [m2, mm3] = COEFFICIENTS.map(|name| format!("wear.{name}"));
+        findings.missing(&[keys[0], keys[1], &m2, &mm3], "a number, 0 or more");
+    }
+    let (law, coefficient_mm2_per_n) = (file.law?, given?);
+    let law = match law {
         WearLaw::Archard => LawSettings::Archard,
         WearLaw::Adsorption => LawSettings::Adsorption(adsorption(file.adsorption.get_or_insert_default())),
         WearLaw::Oxidation => LawSettings::Oxidation(oxidation(file.oxidation.get_or_insert_default())),
@@ -44,6 +125,55 @@ pub(super) fn choose(file: &mut WearFile, findings: &mut Findings) -> Option<Wea
         band_mpa: *severe.band_MPa.get_or_insert(0.0),
     });
     Some(WearSettings { law, coefficient_mm2_per_n, severe })
+}
+
+/// Warns of constants of laws by which no gear that they are given for wears.
+fn warn_of_unused(file: &WearFile, wholes: &PerGear<GearWearFile>, findings: &mut Findings) {
+    let mut check = |table: &str, used: &[Gear], adsorption: bool, oxidation: bool| {
+        for (law, name, given) in
+            [(WearLaw::Adsorption, "adsorption", adsorption), (WearLaw::Oxidation, "oxidation", oxidation)]
+        {
+            if given && used.iter().all(|&gear| wholes[gear].law != Some(law)) {
+                findings.warnings.push(format!("[{table}.{name}] is not used: only {table}.law = \"{name}\" reads it"));
+            }
+        }
+    };
+    check("wear", &Gear::BOTH, file.adsorption.is_some(), file.oxidation.is_some());
+    for (gear, own) in [(Gear::Pinion, &file.pinion), (Gear::Wheel, &file.wheel)] {
+        if let Some(own) = own {
+            let table = format!("wear.{}", gear.name());
+            check(&table, &[gear], own.adsorption.is_some(), own.oxidation.is_some());
+        }
+    }
+}
+
+/// Checks what phases say of the coefficients against the law of each gear.
+pub(super) fn check_phases(
+    file: &OperationFile,
+    operation: &Operation,
+    wear: &PerGear<WearSettings>,
+    findings: &mut Findings,
+) {
+    let differ = wear.pinion.coefficient_mm2_per_n != wear.wheel.coefficient_mm2_per_n;
+    for (index, (given, phase)) in file.phases.iter().flatten().zip(&operation.phases).enumerate() {
+        let key = |in_mm3: bool| format!("operation.phases[{index}].{}", COEFFICIENTS[usize::from(in_mm3)]);
+        let own = [&given.pinion, &given.wheel].map(|gear| {
+            gear.as_ref().is_some_and(|own| own.coefficient_m2_per_N.or(own.coefficient_mm3_per_Nm).is_some())
+        });
+        if let Some(found) = given.coefficient_m2_per_N.or(given.coefficient_mm3_per_Nm)
+            && differ
+            && own != [true; 2]
+        {
+            let allowed =
+                "one for each gear, in its pinion and wheel, since those of [wear.pinion] and [wear.wheel] differ";
+            findings.not_allowed(&key(given.coefficient_m2_per_N.is_none()), number(found), allowed);
+        }
+        let nothing = |gear: Gear| phase.coefficient_mm2_per_n[gear].unwrap_or(wear[gear].coefficient_mm2_per_n) <= 0.0;
+        if nothing(Gear::Pinion) && nothing(Gear::Wheel) {
+            let allowed = "a number greater than 0 for one gear at least";
+            findings.not_allowed(&key(false), "0 for both gears", allowed);
+        }
+    }
 }
 
 /// A coefficient said in one of two units; `Some(None)` where in neither.

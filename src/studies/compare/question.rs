@@ -74,6 +74,10 @@ pub(crate) enum QuestionError {
     LineWithoutForm,
     #[error("--fit: found {found}, but the scene of the run has no wear.severe; allowed: none or k")]
     NoSevereWear { found: &'static str },
+    #[error(
+        "--fit: the wear coefficient of the {gear} is 0 in the scene of the run, so that it does not wear; allowed: none"
+    )]
+    DoesNotWear { gear: &'static str },
 }
 
 /// A comparison that can be made.
@@ -114,9 +118,12 @@ impl Question {
             }
             (file, command) => file.or(command).ok_or(QuestionError::NoGear)?,
         };
-        if asked.fit.severe() && scene.wear.severe.is_none() {
+        if asked.fit.severe() && scene.wear[gear].severe.is_none() {
             let found = if asked.fit == FitKind::Both { "both" } else { "severe" };
             return Err(QuestionError::NoSevereWear { found });
+        }
+        if asked.fit.coefficient() && scene.wear[gear].coefficient_mm2_per_n <= 0.0 {
+            return Err(QuestionError::DoesNotWear { gear: gear.name() });
         }
         let of_kind = if file.kind == ValueKind::Wear { Form::None } else { Form::Cubic };
         let form = asked.form.unwrap_or(of_kind);

@@ -5,6 +5,9 @@
 //! coefficient up to c k, at its snapshots; its wear steps are as long as the scene's up to c = 4, and longer beyond. Where loads or
 //! speeds follow one another in phases that is not so, and each coefficient is a run of its own.
 //!
+//! Where the gears wear by different laws, what is fitted is that of the measured gear, and the mate's stays as it is: each coefficient
+//! is then a run of its own too, unless the mate does not wear at all.
+//!
 //! Whatever lies between such profiles is interpolated; what is fitted in the end is checked by a run with just that coefficient.
 
 use std::f64::consts::LN_2;
@@ -86,14 +89,14 @@ impl<'a> Simulations<'a> {
         Self { given, gear, width_mm, until_measured: scene, observer, courses: Vec::new(), runs: 0, mesh_cycles: 0 }
     }
 
-    /// The factor of severe wear of the scene; 1 where there is none.
+    /// The factor of severe wear of the gear in the scene; 1 where there is none.
     pub(super) fn severe_factor(&self) -> f64 {
-        self.until_measured.wear.severe.map_or(1.0, |severe| severe.factor)
+        self.until_measured.wear[self.gear].severe.map_or(1.0, |severe| severe.factor)
     }
 
     /// Wear of one row of flank points, by a run with just this change, µm.
     pub(super) fn exactly(&mut self, change: Change) -> Result<Vec<f64>, CompareError> {
-        let scene = changed(&self.until_measured, change);
+        let scene = changed(&self.until_measured, self.gear, change);
         let wear = self.run(scene)?.pop();
         Ok(wear.map(|(_, wear)| wear).unwrap_or_default())
     }
@@ -148,14 +151,14 @@ impl<'a> Simulations<'a> {
     fn compute(&mut self, n: i32, reach: f64) -> Result<WearByCoefficient, CompareError> {
         let severe_factor = (n != 0).then(|| self.severe_factor() * (f64::from(n) * SEVERE_STEP).exp());
         let squares = |count: u32| (1..=count).map(move |i| reach * (f64::from(i) / f64::from(count)).powi(2));
-        if self.until_measured.operation.phases.len() > 1 {
+        if self.until_measured.operation.phases.len() > 1 || !scales_with_time(&self.until_measured, self.gear) {
             let mut profiles = Vec::new();
             for coefficient_factor in squares(SEPARATE_RUNS) {
                 profiles.push((coefficient_factor, self.exactly(Change { coefficient_factor, severe_factor })?));
             }
             return Ok(WearByCoefficient::new(profiles));
         }
-        let mut scene = changed(&self.until_measured, Change { coefficient_factor: 1.0, severe_factor });
+        let mut scene = changed(&self.until_measured, self.gear, Change { coefficient_factor: 1.0, severe_factor });
         let duration = scene.operation.pinion_revolutions;
         let operation = &mut scene.operation;
         operation.pinion_revolutions = reach * duration;
@@ -204,15 +207,31 @@ pub(super) fn over_width(wear_um: &[f64], slices_mm: &[f64], points: usize, widt
     rows[after - 1].iter().zip(rows[after]).map(|(a, b)| a + t * (b - a)).collect()
 }
 
-/// `scene` with other coefficients.
-fn changed(scene: &Scene, change: Change) -> Scene {
+/// Whether both gears wear by one law in all phases: its coefficient is then fitted, and otherwise that of the measured gear alone.
+pub(super) fn is_of_both(scene: &Scene) -> bool {
+    scene.operation.phases.iter().all(|phase| scene.wear_in(phase).are_alike())
+}
+
+/// Whether a longer run holds the wear of greater coefficients: where both change in the same way, or the mate does not wear.
+fn scales_with_time(scene: &Scene, gear: Gear) -> bool {
+    is_of_both(scene)
+        || scene.operation.phases.iter().all(|phase| scene.wear_in(phase)[gear.mate()].coefficient_mm2_per_n <= 0.0)
+}
+
+/// `scene` with other coefficients, of both gears where they wear by one law, otherwise of `gear` alone.
+fn changed(scene: &Scene, gear: Gear, change: Change) -> Scene {
+    let both = is_of_both(scene);
     let mut scene = scene.clone();
-    scene.wear.coefficient_mm2_per_n *= change.coefficient_factor;
-    for phase in &mut scene.operation.phases {
-        phase.coefficient_mm2_per_n = phase.coefficient_mm2_per_n.map(|own| own * change.coefficient_factor);
-    }
-    if let (Some(severe), Some(factor)) = (&mut scene.wear.severe, change.severe_factor) {
-        severe.factor = factor;
+    for gear in Gear::BOTH.into_iter().filter(|&other| both || other == gear) {
+        let wear = &mut scene.wear[gear];
+        wear.coefficient_mm2_per_n *= change.coefficient_factor;
+        if let (Some(severe), Some(factor)) = (&mut wear.severe, change.severe_factor) {
+            severe.factor = factor;
+        }
+        for phase in &mut scene.operation.phases {
+            let own = &mut phase.coefficient_mm2_per_n[gear];
+            *own = own.map(|own| own * change.coefficient_factor);
+        }
     }
     scene
 }

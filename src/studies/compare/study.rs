@@ -4,7 +4,7 @@ use super::question::Question;
 use super::run_folder::RunFolder;
 use super::search::{Comparison, FittedCoefficients, Unknown};
 pub(crate) use super::simulations::CompareError;
-use super::simulations::{Change, Simulations, over_width};
+use super::simulations::{Change, Simulations, is_of_both, over_width};
 use crate::gear::{GearPair, flank::FlankGrid, slices::Slices};
 use crate::measurement::fit::FitStop;
 use crate::measurement::interval::CONFIDENCE;
@@ -112,7 +112,7 @@ fn fit(
         let at = |by: f64| unit * (value + by).exp();
         Some(Estimate { value: at(0.0), low: half.map(|h| at(-h)), high: half.map(at), of_run })
     };
-    let coefficient = M2_PER_MM2 * resolved.scene.wear.coefficient_mm2_per_n;
+    let coefficient = M2_PER_MM2 * resolved.scene.wear[question.profile.gear].coefficient_mm2_per_n;
     let points = question.profile.arc_mm.len();
     let how = match &found.uncertainty {
         Some(u) => format!(
@@ -127,6 +127,15 @@ fn fit(
             "no interval: by the autocorrelation of the residuals too few points count, or a value is not determined or at its bound"
                 .to_owned()
         }
+    };
+    let gear = question.profile.gear;
+    let how = match question.fit.coefficient() && !is_of_both(&resolved.scene) {
+        true => format!(
+            "{how}; the gears wear by different laws: what is fitted is that of the {} alone, and that of the {} is as in the run",
+            gear.name(),
+            gear.mate().name()
+        ),
+        false => how,
     };
     FitRecord {
         stopped: found.stop,

@@ -284,19 +284,8 @@ fn summary() -> Summary {
             teeth_at_pitch_N_per_mm_um: 20.0,
             split_remainder_at_half_load: Some(0.012),
         }),
-        wear: WearLawSummary {
-            law: "archard".into(),
-            coefficient_mm3_per_Nm: 1e-8,
-            effective_coefficient_new_mm3_per_Nm: 1e-8,
-            effective_coefficient_worn_mm3_per_Nm: 1e-8,
-            irg_regime: Regime::Two,
-            severe_coefficient_mm3_per_Nm: None,
-            irg_regime_severe: None,
-            typical_constants: Vec::new(),
-            valid_temperature_C: None,
-            work_outside_validity_new: None,
-            work_outside_validity_worn: None,
-        },
+        wear: Some(law()),
+        wear_of_gear: PerGear::from_fn(|_| law()),
         temperature: None,
         new: cycle(1880.0, 24.0, 38.4),
         worn: cycle(1702.0, 26.5, 38.9),
@@ -375,4 +364,20 @@ fn gear_outline(teeth: u32, axis: [f64; 2], [root, pitch, tip]: [f64; 3], first_
             [axis[0] + radius * cos, axis[1] + radius * sin]
         })
         .collect()
+}
+
+fn law() -> WearLawSummary {
+    WearLawSummary {
+        law: "archard".into(),
+        coefficient_mm3_per_Nm: 1e-8,
+        effective_coefficient_new_mm3_per_Nm: 1e-8,
+        effective_coefficient_worn_mm3_per_Nm: 1e-8,
+        irg_regime: Regime::Two,
+        severe_coefficient_mm3_per_Nm: None,
+        irg_regime_severe: None,
+        typical_constants: Vec::new(),
+        valid_temperature_C: None,
+        work_outside_validity_new: None,
+        work_outside_validity_worn: None,
+    }
 }
