@@ -17,6 +17,11 @@ pub trait Observer: Sync {
     /// Something the user should know before the work is done; the results say it too.
     fn warning(&self, _text: &str) {}
 
+    /// What begins now takes much time or memory; unlike other warnings said of the parts of a study too, the same once.
+    fn announcement(&self, text: &str) {
+        self.warning(text);
+    }
+
     /// Whether the user wants it to stop: it does where what is finished can be kept.
     fn interrupted(&self) -> bool {
         false
@@ -59,6 +64,10 @@ impl<'a> PartOf<'a> {
 impl Observer for PartOf<'_> {
     fn progress(&self, done: f64, total: f64) {
         self.observer.progress(self.before + self.share * done / total, self.of);
+    }
+
+    fn announcement(&self, text: &str) {
+        self.observer.announcement(text);
     }
 
     fn interrupted(&self) -> bool {

@@ -1,7 +1,7 @@
 //! Tells the user how far a number of runs is: a bar on a terminal, a line now and then elsewhere, each with the remaining time.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use crate::observer::Observer;
@@ -31,12 +31,15 @@ struct Counted {
 pub(super) struct CountedProgress {
     display: Display<Log>,
     interrupted: Arc<AtomicBool>,
+    /// Announcements made so far.
+    announced: Mutex<Vec<String>>,
 }
 
 impl CountedProgress {
     /// A bar on a terminal, a log elsewhere, nothing where `quiet`; `interrupted` is set when the user wants to stop.
     pub(super) fn new(quiet: bool, interrupted: Arc<AtomicBool>) -> Self {
-        Self { display: Display::new(quiet, Log { counted: None, last: Instant::now() }), interrupted }
+        let log = Log { counted: None, last: Instant::now() };
+        Self { display: Display::new(quiet, log), interrupted, announced: Mutex::default() }
     }
 
     pub(super) fn finish(&self) {
@@ -73,6 +76,18 @@ impl Observer for CountedProgress {
                 }
                 bar.set_position(done as u64);
                 bar.set_message(format!("{done} of {total} {things}{beside}"));
+            }
+        }
+    }
+
+    fn announcement(&self, text: &str) {
+        let Ok(mut announced) = self.announced.lock() else { return };
+        if announced.iter().all(|other| other != text) {
+            announced.push(text.to_owned());
+            let say = || say(&format!("warning: {text}"));
+            match &self.display {
+                Display::Bar(bar) => bar.suspend(say),
+                Display::Log(_) | Display::Quiet => say(),
             }
         }
     }

@@ -339,3 +339,50 @@ pub(super) fn no_mesh(error: &PairMeshError, text: &SceneText) -> Failure {
     };
     text.refused(vec![problem]).into()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fem::factor::FactorError;
+    use crate::gear::Gear;
+    use crate::mesh::quality::QualityError;
+    use crate::stiffness::StiffnessError;
+
+    const SCENE: &str = "[pair]\npreset = \"fzg-c\"\n[operation]\npinion_torque_Nm = 302.0\n[fem]\nclamp_radius_mm = { pinion = 19.9, wheel = 37.9 }\n";
+
+    fn text() -> SceneText {
+        SceneText { name: "scene.toml".to_owned(), text: SCENE.to_owned() }
+    }
+
+    /// The one problem of a failure: its key, and the text at its place.
+    fn place(failure: Failure) -> (String, &'static str) {
+        assert_eq!(failure.exit_status(), 2);
+        let Failure::Scene(SceneError { problems, .. }) = failure else { panic!("{failure}") };
+        assert_eq!(problems.len(), 1);
+        (problems[0].key.clone(), &SCENE[problems[0].span.clone().unwrap()])
+    }
+
+    /// Errors that no valid scene is known to cause have a place all the same.
+    #[test]
+    fn every_refusal_of_a_model_has_its_key_and_place() {
+        let quality = |gear| PairMeshError::Quality { gear, source: QualityError::NoPlaneCells };
+        assert_eq!(
+            place(no_mesh(&quality(Some(Gear::Wheel)), &text())),
+            ("fem.clamp_radius_mm.wheel".to_owned(), "37.9")
+        );
+        let (key, at) = place(no_mesh(&quality(None), &text()));
+        assert!(key == "fem.clamp_radius_mm" && at.contains("pinion = 19.9"), "{key} {at}");
+        let condense =
+            ModelError::Condense { gear: Gear::Pinion, source: SolveError::Factor(FactorError::OutOfMemory) };
+        assert_eq!(place(of_model(&condense, &text())), ("fem.clamp_radius_mm.pinion".to_owned(), "19.9"));
+        for strip in [
+            CalibrationError::NoClearPosition { line_load_n_per_mm: 1e6 },
+            CalibrationError::OffTheFlank { gear: Gear::Pinion, position_mm: 12.0 },
+        ] {
+            let failure = of_calibration(&strip, &text()).unwrap();
+            assert_eq!(place(failure), ("operation.pinion_torque_Nm".to_owned(), "302.0"));
+        }
+        let soft = StiffnessError::SurfaceTooSoft { position_mm: 12.0, surface_um: 2.0, pair_um: 1.0 };
+        assert_eq!(Problem::of_stiffness(SCENE, &soft).key, "contact.match");
+    }
+}

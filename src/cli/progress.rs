@@ -51,6 +51,7 @@ struct Begun {
 pub(super) struct Progress {
     display: Display<Option<Begun>>,
     interrupted: Arc<AtomicBool>,
+    start: Instant,
     /// When the interrupt was first noticed.
     first_heard: OnceLock<Instant>,
     /// Warnings given so far.
@@ -60,7 +61,13 @@ pub(super) struct Progress {
 impl Progress {
     /// A bar on a terminal, a log elsewhere, nothing where `quiet`; `interrupted` is set when the user wants to stop.
     pub(super) fn new(quiet: bool, interrupted: Arc<AtomicBool>) -> Self {
-        Self { display: Display::new(quiet, None), interrupted, first_heard: OnceLock::new(), told: Mutex::default() }
+        Self {
+            display: Display::new(quiet, None),
+            interrupted,
+            start: Instant::now(),
+            first_heard: OnceLock::new(),
+            told: Mutex::default(),
+        }
     }
 
     /// Those of `warnings` that have not been given during the run.
@@ -107,13 +114,16 @@ impl Observer for Progress {
         }
         match &self.display {
             Display::Quiet => {}
-            Display::Log(stage) => log_long(stage, done / total),
+            Display::Log(stage) => log_long(stage, done / total, self.start),
             Display::Bar(bar) => bar.set_position((done / total * PARTS as f64) as u64),
         }
     }
 
     fn warning(&self, text: &str) {
         if let Ok(mut told) = self.told.lock() {
+            if told.iter().any(|other| other == text) {
+                return;
+            }
             told.push(text.to_owned());
         }
         let say = || super::say(&format!("warning: {text}"));
@@ -149,8 +159,8 @@ fn log_end(stage: &Mutex<Option<Begun>>, next: Option<Begun>) {
     }
 }
 
-/// Says once of a stage, of which the part `done` is finished, that it takes long.
-fn log_long(stage: &Mutex<Option<Begun>>, done: f64) {
+/// Says once of a stage, of which the part `done` is finished, what it takes more where the command, begun at `command`, takes long with it.
+fn log_long(stage: &Mutex<Option<Begun>>, done: f64, command: Instant) {
     let Ok(mut stage) = stage.lock() else { return };
     let Some(begun) = stage.as_mut().filter(|begun| !begun.is_said) else { return };
     let (before, start) = *begun.first.get_or_insert_with(|| (done, Instant::now()));
@@ -158,7 +168,9 @@ fn log_long(stage: &Mutex<Option<Begun>>, done: f64) {
     if elapsed_s < JUDGED_AFTER_S {
         return;
     }
-    if let Some(left_s) = left_s(elapsed_s, done - before, 1.0 - done).filter(|left_s| elapsed_s + left_s > LONG_S) {
+    if let Some(left_s) =
+        left_s(elapsed_s, done - before, 1.0 - done).filter(|left_s| command.elapsed().as_secs_f64() + left_s > LONG_S)
+    {
         begun.is_said = true;
         super::say(&format!("{}: takes some {left_s:.0} s more", begun.name));
     }

@@ -304,7 +304,7 @@ fn carry_out<R>(
     if plan.has(StageKind::TeethInSpace)
         && let Some(much) = much_in_space(scene)
     {
-        observer.warning(&much);
+        observer.announcement(&much);
     }
     let in_space = match plan.has(StageKind::TeethInSpace) {
         true => Some(stages.run(StageKind::TeethInSpace.name(), || {

@@ -22,6 +22,10 @@ struct Within<'a> {
 }
 
 impl Observer for Within<'_> {
+    fn announcement(&self, text: &str) {
+        self.observer.announcement(text);
+    }
+
     fn interrupted(&self) -> bool {
         self.stopped.load(Ordering::Relaxed) || self.observer.interrupted()
     }

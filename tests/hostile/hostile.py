@@ -39,7 +39,7 @@ CURVE = "# flattening = excluded\nposition_mm,stiffness_N_per_mm_um\n4.4723,14.2
 # How much it takes, said before it is taken.
 ANNOUNCED = re.compile(r"some [\d.]+ (GB|s|min)\b|, \d+ s left")
 PLACES = [
-    re.compile(r"[^\s:]+\.\w+(: line |:)\d+"),  # file and line
+    re.compile(r"[^\s:]+\.\w+(: line |:)\d+|, line \d+"),  # file and line
     re.compile(r"standard input:\d+"),
     re.compile(r"--[a-z]"),  # an option
     re.compile(r"(^|\s)[a-z_]+(\[\d+\])?(\.[A-Za-z_\d]+(\[\d+\])?)+: "),  # a key

@@ -104,7 +104,7 @@ pub(crate) fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Res
     let w = setup.line_load_n_per_mm;
     let meshed = stages.run(Stage::Meshing, || setup.meshed())?;
     if let Some(warning) = much_memory(&meshed, BODIES_AT_ONCE).map_err(CalibrationError::from)? {
-        observer.warning(&warning);
+        observer.announcement(&warning);
     }
     let condensed = stages.run(Stage::Condensation, || setup.condensed(&meshed))?;
     let loaded = LoadedPair::new(&condensed, &scene.material);

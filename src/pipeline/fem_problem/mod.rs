@@ -62,7 +62,8 @@ pub(crate) fn run(problem: &FemProblem, folder: &Path, observer: &dyn Observer) 
             let announce = |gb: f64| {
                 if gb > MUCH_MEMORY_GB {
                     let much = "the factor of the stiffness takes some";
-                    observer.warning(&format!("{much} {gb:.1} GB, and a minute or more; fewer elements take less"));
+                    observer
+                        .announcement(&format!("{much} {gb:.1} GB, and a minute or more; fewer elements take less"));
                 }
             };
             let solution = stages.run("solution", || fem::space::problem::solve(&posed.problem, &announce))?;

@@ -118,7 +118,7 @@ pub(crate) fn run(
         PerGear::try_in_parallel(mesh)
     })?;
     if let Some(warning) = much_memory(&meshed, 1.0)? {
-        observer.warning(&warning);
+        observer.announcement(&warning);
     }
     let gears = stages.run(FemPairStage::Condensation.name(), || {
         PerGear::try_in_parallel(|gear| meshed[gear].condense(&pair, material[gear]))

@@ -163,6 +163,10 @@ impl Observer for Bounded<'_> {
         self.observer.progress(done, total);
     }
 
+    fn announcement(&self, text: &str) {
+        self.observer.announcement(text);
+    }
+
     fn interrupted(&self) -> bool {
         self.steps.load(Ordering::Relaxed) > MOST_STEPS || self.observer.interrupted()
     }
@@ -208,7 +212,7 @@ pub(super) fn condensed<'a>(
     observer: &dyn Observer,
 ) -> Result<CondensedPair<'a>, ModelError> {
     let bodies = BodySettings { elements_per_half_width, ..scene.fem };
-    let announce = |much: &str| observer.warning(much);
+    let announce = |much: &str| observer.announcement(much);
     CondensedPair::build(pair, &scene.material.map(Material::elastic), line_load_n_per_mm, &bodies, &announce)
 }
 
