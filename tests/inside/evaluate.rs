@@ -27,8 +27,9 @@ fn rows_are_runs() {
         "contact.surface",
         "pair.wheel.teeth",
     ];
-    let relieved = scene.with("pair.pinion.tip_relief.length_mm", 2.0).unwrap();
-    let relieved = relieved.with("pair.wheel.tip_relief.length_mm", 2.0).unwrap();
+    let relief = || -> toml::Table { "amount_um = 1.0\nlength_mm = 2.0".parse().unwrap() };
+    let relieved = scene.with("pair.pinion.tip_relief", relief()).unwrap();
+    let relieved = relieved.with("pair.wheel.tip_relief", relief()).unwrap();
     let rows: Vec<Vec<Value>> =
         [(200.0, 5.0, "hertz-mean", 24.0), (300.0, 10.0, "hertz", 24.0), (250.0, 0.0, "hertz-mean", 24.0)]
             .map(|(torque, relief, surface, teeth)| vec![torque.into(), relief.into(), surface.into(), teeth.into()])

@@ -11,7 +11,7 @@ use crate::program::{exchanged, gearwear, json};
 const K: &str = "wear.coefficient_m2_per_N=lognormal:1.3";
 const TORQUE: &str = "operation.pinion_torque_Nm=±10%";
 
-/// The thesis-spur scene with a surface and a resolution at which a run takes about a millisecond, and so little wear that it is linear.
+/// The thesis-spur scene with a surface and a resolution at which a run takes about a millisecond, without the verification of the scene as given.
 fn coarse_scene() -> String {
     exchanged(
         "thesis-spur",
@@ -20,7 +20,7 @@ fn coarse_scene() -> String {
             ("match = \"half-width\"", "# match"),
             ("flank_points = 750 ", "flank_points = 60 "),
             ("positions = 400 ", "positions = 40 "),
-            ("step = { revolutions = 7665.0 }", "step = { revolutions = 200000.0 }"),
+            ("step = { revolutions = 7665.0 }", "verify = false\nstep = { revolutions = 200000.0 }"),
         ],
     )
 }
