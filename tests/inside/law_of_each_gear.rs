@@ -145,11 +145,17 @@ fn ver_a_gear_without_wear_through_a_life() {
     let still = format!("{BOTH}wheel.coefficient_m2_per_N = 0.0\n");
     for step in ["step = \"adaptive\"\ntolerance_um = 0.5", "step = { revolutions = 1e5 }"] {
         let text = scene("pinion_revolutions = 1e6\n", "winkler", &still, step)
-            .replace("error_estimate = false", "error_estimate = true");
+            .replace("error_estimate = false", "error_estimate = true")
+            .replace("positions = 60", "positions = 100");
         let record = run(&text);
         assert_eq!(record.summary.wheel.peak_wear_um, 0.0);
         assert!(record.summary.pinion.peak_wear_um > 1.0, "{}", record.summary.pinion.peak_wear_um);
-        let error = &record.summary.error;
-        assert!(error.discretisation.is_some_and(f64::is_finite) && error.wear_step.is_some_and(f64::is_finite));
+        let both = run(&text.replace("wheel.coefficient_m2_per_N = 0.0\n", ""));
+        for of in [|record: &RunRecord| record.summary.error.discretisation, |record| record.summary.error.wear_step] {
+            let (own, of_both) = (of(&record), of(&both));
+            println!("{step}: error {own:?}, {of_both:?} where both wear");
+            assert_eq!(own.is_some(), of_both.is_some(), "{:?}", record.summary.error.how);
+            assert!(own.is_none_or(f64::is_finite));
+        }
     }
 }

@@ -68,6 +68,28 @@ fn ver_the_coefficient_comes_back_without_noise() {
     }
 }
 
+/// The coefficient of the measured pinion beside a wheel whose own stays as it is, and beside one that does not wear, where one longer
+/// run holds all coefficients.
+#[test]
+fn ver_the_own_coefficient_of_the_measured_gear_comes_back() {
+    for (wheel, most_runs) in [("5e-18", 16), ("0.0", 5)] {
+        let of_pinion = |k: f64| {
+            let both = format!("coefficient_m2_per_N = {k:e}\n");
+            scene(k, 1.0)
+                .replace("hours = 127.75", "hours = 15.96875")
+                .replace("positions = 100", "positions = 60")
+                .replace(&both, &format!("{both}wheel.coefficient_m2_per_N = {wheel}\n"))
+        };
+        let of = &Laboratory::new(&of_pinion(1e-17), &of_pinion(TRUE_K));
+        let record = of.compare(&of.file(&heights(of, &[0.0; POINTS])), &asked(FitKind::K));
+        let k = record.fit.coefficient_m2_per_N.unwrap();
+        println!("wheel {wheel}: {:e} by {} runs", k.value, record.fit.runs);
+        assert!((k.value / TRUE_K - 1.0).abs() < 2e-4, "wheel {wheel}: {k:?}");
+        assert!(record.fit.how.contains("that of the pinion alone"), "{}", record.fit.how);
+        assert!(record.fit.runs <= most_runs, "{:?}", record.fit);
+    }
+}
+
 /// White noise of 5 % of the greatest depth: the 95 % interval holds the true coefficient for 90 to 100 of 100 seeds.
 #[test]
 fn ver_the_interval_covers_as_often_as_it_says_white_noise() {
