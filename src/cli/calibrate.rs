@@ -14,7 +14,7 @@ use crate::scene::loaded::SceneText;
 use super::failure::{Failure, InputError};
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
-use super::{failure, figures, print, say, warn};
+use super::{figures, print, say, warn};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -79,10 +79,8 @@ fn check_out(out: &Path) -> Result<(), Failure> {
 
 /// A failure, told apart by who is to blame: the input, with its place where it has one, or the solver.
 fn refused(error: CalibrateError, text: &SceneText) -> Failure {
-    if let CalibrateError::Calibration(CalibrationError::Model(model)) = &error
-        && let Some(failure) = failure::of_model(model, text)
-    {
-        return failure;
+    if let Some(scene) = error.in_the_scene(text) {
+        return scene.into();
     }
     match error {
         CalibrateError::Interrupted => Failure::Interrupted,

@@ -19,7 +19,7 @@ use super::failure::{Failure, InputError};
 use super::fem::Args;
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
-use super::{failure, figures, print, say, warn};
+use super::{figures, print, say, warn};
 
 pub(super) fn run(args: &Args, text: SceneText) -> Result<(), Failure> {
     let resolved = &text.resolve()?;
@@ -62,11 +62,7 @@ pub(super) fn run(args: &Args, text: SceneText) -> Result<(), Failure> {
 
 /// A failure, told apart by who is to blame: the input, with its place where it has one, or the solver.
 fn refused(error: FemPairError, text: &SceneText) -> Failure {
-    let of_model = match &error {
-        FemPairError::Model(model) => failure::of_model(model, text),
-        _ => None,
-    };
-    of_model.unwrap_or_else(|| match error {
+    error.in_the_scene(text).map(Failure::Scene).unwrap_or_else(|| match error {
         FemPairError::Position { .. } | FemPairError::Pair(_) | FemPairError::Quality { .. } => {
             InputError::FemPair(error).into()
         }

@@ -1,13 +1,13 @@
 //! What `summary.json` says of the wear law and of the temperatures of the contact.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 pub use crate::thermal::settings::{HeatPartition, HeatVelocity, TemperatureMethod};
 pub use crate::wear::regime::Regime;
 
 /// The wear law and where it stands.
 #[allow(non_snake_case, reason = "names that end in their unit")]
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WearLawSummary {
     /// Name of the law.
     pub law: String,
@@ -35,7 +35,7 @@ pub struct WearLawSummary {
 
 /// The temperatures of the contact.
 #[allow(non_snake_case, reason = "names that end in their unit")]
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct TemperatureSummary {
     /// How they are found.
     pub method: TemperatureMethod,
@@ -60,7 +60,7 @@ pub struct TemperatureSummary {
 }
 
 /// Greatest rise over a mesh by every method.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RisesByMethod {
     /// The transient heat equation.
     pub heat_equation: GreatestRise,
@@ -72,7 +72,7 @@ pub struct RisesByMethod {
 
 /// Greatest rise over a mesh.
 #[allow(non_snake_case, reason = "names that end in their unit")]
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct GreatestRise {
     /// New.
     pub greatest_rise_new_K: f64,

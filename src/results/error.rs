@@ -37,7 +37,7 @@ impl TotalError {
 }
 
 /// Relative error estimates of the peak wear; `None`: not estimated.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct ErrorSummary {
     /// Against the same wear simulation with finite elements.
     pub total: TotalError,
@@ -69,7 +69,7 @@ impl ErrorSummary {
 }
 
 /// How the error estimates were obtained.
-#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "named as in ErrorSummary")]
 pub struct ErrorSources {
     pub discretisation: String,
