@@ -10,6 +10,7 @@ from typing import Any
 
 from gearwear import _native
 from gearwear.table import Table
+from gearwear.version import refuse_other
 from gearwear.workers import ProgressArgument, Watched
 
 
@@ -28,14 +29,32 @@ class FemPair:
     @cached_property
     def mesh_cycle(self) -> Table:
         """A row for each position and tooth pair in contact."""
-        return Table("mesh_cycle", self._native.mesh_cycle())
+        return self._table("mesh_cycle")
+
+    @cached_property
+    def pressure(self) -> Table:
+        """A row for each node under pressure along the flank: at the position asked for, or at A to E."""
+        return self._table("pressure")
+
+    def _table(self, name: str) -> Table:
+        columns = self._native.table(name)
+        assert columns is not None
+        return Table(name, columns)
 
     def write(self, folder: str | os.PathLike[str]) -> None:
         """Writes what ``gearwear fem`` writes."""
         self._native.write(os.fspath(folder))
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (_native.VERSION, self._native.to_bytes())
+
     def __repr__(self) -> str:
         return f"<gearwear.FemPair {self.summary['title']!r}: {self.summary['positions']} positions>"
+
+
+def _restored(version: str, data: bytes) -> FemPair:
+    refuse_other(version)
+    return FemPair(_native.FemPair.from_bytes(data))
 
 
 class FemProblem:
@@ -53,6 +72,9 @@ class FemProblem:
     def write(self, folder: str | os.PathLike[str]) -> None:
         """Writes what ``gearwear fem`` writes: ``solution.vtu``, ``contact.csv`` and the others."""
         self._native.write(os.fspath(folder))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError("the answer to a problem of finite elements cannot be pickled; write(folder) keeps it")
 
     def __repr__(self) -> str:
         return f"<gearwear.FemProblem {self.summary['title']!r}: {self.summary['elements']} elements>"

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from gearwear import _native
 from gearwear.table import Table
+from gearwear.version import refuse_other
 
 if TYPE_CHECKING:
     import numpy as np
@@ -287,6 +288,5 @@ class Run:
 
 
 def _restored(version: str, data: bytes) -> Run:
-    if version != _native.VERSION:
-        raise ValueError(f"found a run of gearwear {version}; allowed: runs of this version, {_native.VERSION}")
+    refuse_other(version)
     return Run(_native.Run.from_bytes(data))

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from gearwear import _native
+from gearwear._native import Scene as Native
 from gearwear.calibration import Calibration
 from gearwear.errors import NotConverged, RunError, WornThrough
 from gearwear.fem import FemPair
@@ -20,7 +20,7 @@ _FAILURES: dict[str, type[RunError]] = {"not-converged": NotConverged, "worn-thr
 
 
 def _restored(name: str, text: str, folder: str, files: list[tuple[str, bytes]]) -> Scene:
-    return Scene(_native.Scene.from_parts(name, text, folder, files))
+    return Scene(Native.from_parts(name, text, folder, files))
 
 
 class Scene:
@@ -31,10 +31,10 @@ class Scene:
     """
 
     __slots__ = ("_native",)
-    _native: _native.Scene
+    _native: Native
 
-    def __init__(self, native: _native.Scene) -> None:
-        if not isinstance(native, _native.Scene):
+    def __init__(self, native: Native) -> None:
+        if not isinstance(native, Native):
             raise TypeError("a scene is made by Scene.preset, Scene.from_file, Scene.from_toml or Scene.from_dict")
         object.__setattr__(self, "_native", native)
 
@@ -47,22 +47,22 @@ class Scene:
     @classmethod
     def preset(cls, name: str) -> Scene:
         """A built-in scene, such as ``"fzg-c"`` (:func:`gearwear.presets`)."""
-        return cls(_native.Scene.preset(name))
+        return cls(Native.preset(name))
 
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Scene:
         """The scene in a file; files that it names lie beside it."""
-        return cls(_native.Scene.open(os.fspath(path)))
+        return cls(Native.open(os.fspath(path)))
 
     @classmethod
     def from_toml(cls, text: str, folder: str | os.PathLike[str] = "") -> Scene:
         """The scene in a text; files that it names lie in ``folder``, by default the current one."""
-        return cls(_native.Scene.from_parts("scene", text, os.fspath(folder), []))
+        return cls(Native.from_parts("scene", text, os.fspath(folder), []))
 
     @classmethod
     def from_dict(cls, tables: Mapping[str, Any], folder: str | os.PathLike[str] = "") -> Scene:
         """The scene that a dict of its tables is, such as ``{"pair": {"preset": "fzg-c"}, …}``; what is None is left out."""
-        return cls.from_toml(_native.Scene.text_of(tables), folder)
+        return cls.from_toml(Native.text_of(tables), folder)
 
     def with_(self, changes: Mapping[str, Any] | None = None, /, **more: Any) -> Scene:
         """The same scene with other values, all changed together: ``with_(**{"operation.pinion_torque_Nm": 250})``.

@@ -6,8 +6,10 @@ use gearwear::results::fem_pair::FemPairRecord;
 use gearwear::results::fem_problem::FemRecord;
 use gearwear::{FemProblemError, SceneError, SceneText, columns};
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 
 use crate::errors;
+use crate::record_bytes;
 use crate::scene::json;
 use crate::table::{self, Columns};
 use crate::watched::watched;
@@ -32,9 +34,20 @@ impl FemPair {
         json(&self.record.summary)
     }
 
-    /// The columns of `mesh_cycle.csv`.
-    fn mesh_cycle(&self, py: Python<'_>) -> PyResult<Columns> {
-        table::columns(py, columns::of_fem_pair(&self.record))
+    /// The columns of a table, as its CSV file has them; None where there is no such table.
+    fn table(&self, py: Python<'_>, name: &str) -> PyResult<Option<Columns>> {
+        columns::of_fem_pair(&self.record, name).map(|table| table::columns(py, table)).transpose()
+    }
+
+    /// Everything, for [`Self::from_bytes`] of the same version.
+    fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        record_bytes::of(py, &self.record)
+    }
+
+    /// The same from [`Self::to_bytes`].
+    #[staticmethod]
+    fn from_bytes(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
+        record_bytes::read(py, bytes).map(Self::of)
     }
 
     /// Writes what `gearwear fem` writes.

@@ -7,6 +7,7 @@ mod array;
 mod calibration;
 mod errors;
 mod fem;
+mod record_bytes;
 mod run;
 mod scene;
 mod table;

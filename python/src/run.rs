@@ -4,12 +4,13 @@ use std::path::PathBuf;
 
 use gearwear::results::run::{FlankRecord, RunRecord, SliceRecord};
 use gearwear::{Gear, columns};
-use pyo3::exceptions::{PyKeyError, PyValueError};
+use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::array::borrowed;
 use crate::errors;
+use crate::record_bytes;
 use crate::scene::json;
 use crate::table::{self, Columns};
 
@@ -190,14 +191,12 @@ impl Run {
 
     /// Everything, for [`Self::from_bytes`] of the same version.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let bytes = py.detach(|| postcard::to_stdvec(&self.record));
-        bytes.map(|bytes| PyBytes::new(py, &bytes)).map_err(|error| PyValueError::new_err(error.to_string()))
+        record_bytes::of(py, &self.record)
     }
 
     /// A run from [`Self::to_bytes`].
     #[staticmethod]
     fn from_bytes(py: Python<'_>, bytes: &[u8]) -> PyResult<Self> {
-        let record = py.detach(|| postcard::from_bytes(bytes));
-        record.map(Self::of).map_err(|error| PyValueError::new_err(format!("no run of this version: {error}")))
+        record_bytes::read(py, bytes).map(Self::of)
     }
 }

@@ -93,7 +93,7 @@ def test_errors_are_python_errors_of_their_kind() -> None:
 
 def test_a_run_that_comes_to_no_end_keeps_what_was_finished() -> None:
     """A wear coefficient so great that a tooth is worn through within the hour."""
-    from conftest import spur_scene
+    from short_scenes import spur_scene
 
     scene = spur_scene().with_({"wear.coefficient_m2_per_N": 1e-11})
     with pytest.raises(gearwear.RunError) as caught:
@@ -101,10 +101,9 @@ def test_a_run_that_comes_to_no_end_keeps_what_was_finished() -> None:
     error = caught.value
     again = pickle.loads(pickle.dumps(error))
     assert type(again) is type(error) and str(again) == str(error)
-    assert (error.run is None) == (again.run is None)
-    if error.run is not None:
-        assert again.run.summary == error.run.summary
-        assert error.run.summary["stopped"] in ("worn-through", "not-converged")
+    assert error.run is not None and again.run is not None
+    assert again.run.summary == error.run.summary
+    assert error.run.summary["stopped"] in ("worn-through", "not-converged")
 
 
 @pytest.mark.parametrize("threads", [0, -1, 1.5, True, "2"])

@@ -20,6 +20,9 @@ def test_finite_elements_at_one_position(tmp_path: Path) -> None:
     assert pair.summary["positions"] == 1 and pair.mesh_cycle["position_mm"][0] == 14.0
     # Shares of the whole load add up to 1.
     assert np.isclose(pair.mesh_cycle["load_share"].sum(), 1.0, atol=1e-6)
+    again: gearwear.FemPair = pickle.loads(pickle.dumps(pair))
+    assert again.summary == pair.summary
+    assert again.pressure["pressure_MPa"].tobytes() == pair.pressure["pressure_MPa"].tobytes()
     pair.write(tmp_path)
     assert json.loads((tmp_path / "summary.json").read_text()) == pair.summary
     text = (ROOT / "meshes" / "cylinder-on-block.toml").read_text().replace("poisson_ratio = 0.3", "poisson_ratio = 3")
@@ -46,7 +49,7 @@ def test_what_is_no_calibration() -> None:
 
 @pytest.mark.slow
 def test_a_calibration_is_used(tmp_path: Path) -> None:
-    from conftest import spur_scene
+    from short_scenes import spur_scene
 
     scene = spur_scene().with_({"contact.surface": "winkler", "fem.elements_per_half_width": 3})
     calibration = scene.calibrate()

@@ -7,13 +7,14 @@ import json
 import multiprocessing
 import pickle
 import sys
+from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from conftest import helical_scene, spur_scene
+from short_scenes import helical_scene, spur_scene
 
 import gearwear
 
@@ -120,7 +121,7 @@ def test_arrays_outlive_their_run() -> None:
 
 def test_names_that_are_none(spur: gearwear.Run) -> None:
     with pytest.raises(AttributeError, match="a flank has no wear_mm; allowed: .*wear_um"):
-        spur.pinion.wear_mm  # type: ignore[attr-defined]
+        spur.pinion.wear_mm
     with pytest.raises(AttributeError, match="no column load_share; allowed: .*load_share_new"):
         spur.mesh_cycle.load_share
     with pytest.raises(KeyError, match="no column load_share; allowed: .*load_share_new"):
@@ -167,9 +168,9 @@ def test_a_run_is_pickled_bit_for_bit(spur: gearwear.Run, helical: gearwear.Run)
 def test_a_run_of_another_version() -> None:
     from gearwear.run import _restored
 
-    with pytest.raises(ValueError, match=r"found a run of gearwear 0\.0\.1; allowed"):
+    with pytest.raises(ValueError, match=r"found a result of gearwear 0\.0\.1; allowed"):
         _restored("0.0.1", b"")
-    with pytest.raises(ValueError, match="no run of this version"):
+    with pytest.raises(ValueError, match="no result of this version"):
         _restored(gearwear.__version__, b"\x01\x02")
 
 
@@ -185,7 +186,7 @@ def test_a_hundred_pickles_through_a_spawned_process(spur: gearwear.Run) -> None
     for number in range(100):
         torque = float(random.uniform(1, 400))
         changed = scene.with_({"operation.pinion_torque_Nm": torque})
-        kinds = [
+        kinds: list[Callable[[], Any]] = [
             lambda: changed,
             lambda: spur,
             lambda: _caught(scene, {"operation.pinion_torque_Nm": -torque, "pair.pinion.teeth": number % 5}),

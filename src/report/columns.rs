@@ -8,6 +8,7 @@ mod gather;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use super::fem_pair::pressure_table;
 use super::{csv_table, slice_table, tables, unit};
 use crate::gear::Gear;
 use crate::results::fem_pair::FemPairRecord;
@@ -64,9 +65,13 @@ pub fn of_run(record: &RunRecord, name: &str) -> Option<Table> {
     })
 }
 
-/// The table `mesh_cycle` of a pair in contact by finite elements.
-pub fn of_fem_pair(record: &FemPairRecord) -> Table {
-    table("mesh_cycle", &record.mesh_cycle)
+/// The table called `name` of a pair in contact by finite elements: `mesh_cycle` or `pressure`; none for another name.
+pub fn of_fem_pair(record: &FemPairRecord, name: &str) -> Option<Table> {
+    Some(match name {
+        "mesh_cycle" => table("mesh_cycle", &record.mesh_cycle),
+        "pressure" => table("pressure", pressure_table::rows(&record.pressure)),
+        _ => return None,
+    })
 }
 
 fn table<R: Serialize + JsonSchema>(name: &'static str, rows: impl IntoIterator<Item = R>) -> Table {

@@ -26,17 +26,17 @@ enum Field {
 }
 
 impl Values {
-    /// Adds a row; its field decides of what kind the column is.
+    /// Adds a row; the first field that is there decides of what kind the column is.
     fn push(&mut self, field: Field) {
         if let Values::Numbers(none) = self
-            && none.is_empty()
+            && none.iter().all(|value| value.is_nan())
         {
-            *self = match field {
-                Field::Number(_) | Field::Empty => Values::Numbers(Vec::new()),
-                Field::Count(_) => Values::Counts(Vec::new()),
-                Field::Flag(_) => Values::Flags(Vec::new()),
-                Field::Word(_) => Values::Words(Vec::new()),
-            };
+            match field {
+                Field::Count(_) if none.is_empty() => *self = Values::Counts(Vec::new()),
+                Field::Flag(_) if none.is_empty() => *self = Values::Flags(Vec::new()),
+                Field::Word(_) => *self = Values::Words(vec![String::new(); none.len()]),
+                _ => {}
+            }
         }
         match (self, field) {
             (Values::Numbers(values), Field::Number(value)) => values.push(value),
@@ -45,7 +45,7 @@ impl Values {
             (Values::Flags(values), Field::Flag(value)) => values.push(value),
             (Values::Words(values), Field::Word(value)) => values.push(value),
             (Values::Words(values), Field::Empty) => values.push(String::new()),
-            _ => unreachable!("the fields of a column are of one type, and numbers alone may be left out"),
+            _ => unreachable!("the fields of a column are of one type, and numbers and names alone may be left out"),
         }
     }
 }
@@ -271,4 +271,35 @@ impl<'a> Serializer for Row<'a> {
     }
 
     refuse!();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gear::Gear;
+
+    #[derive(Serialize)]
+    struct Row {
+        number: Option<f64>,
+        count: usize,
+        flag: bool,
+        gear: Gear,
+        name: Option<&'static str>,
+    }
+
+    #[test]
+    fn fields_are_gathered_by_their_kind() {
+        let row = |number, name| Row { number, count: 3, flag: true, gear: Gear::Wheel, name };
+        let found = columns([row(None, None), row(Some(-0.0), Some("A")), row(Some(2.0), None)], 5);
+        let Values::Numbers(numbers) = &found[0] else { panic!("{found:?}") };
+        assert!(numbers[0].is_nan() && numbers[1].to_bits() == (-0.0_f64).to_bits() && numbers[2] == 2.0);
+        let words = |words: [&str; 3]| Values::Words(words.map(str::to_owned).into());
+        let expected = [Values::Counts(vec![3; 3]), Values::Flags(vec![true; 3]), words(["wheel"; 3]), words(["", "A", ""])];
+        assert_eq!(found[1..], expected);
+    }
+
+    #[test]
+    fn columns_of_no_rows_are_empty() {
+        assert_eq!(columns(Vec::<Row>::new(), 2), vec![Values::Numbers(Vec::new()); 2]);
+    }
 }

@@ -223,7 +223,7 @@ impl Task<'_> {
             _ => not_converged(error),
         })?;
         let record = done.record;
-        let pressure = table(|out| report::fem_pair::pressure_table::pressure(out, &record.pressure))?;
+        let pressure = table(|out| csv_table::table(out, report::fem_pair::pressure_table::rows(&record.pressure)))?;
         let value = Value::group([
             ("summary", tree(&record.summary)?),
             ("mesh_cycle", table(|out| csv_table::table(out, &record.mesh_cycle))?),
