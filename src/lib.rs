@@ -129,7 +129,7 @@ mod inside;
 
 pub use calibration::Calibration;
 #[cfg(feature = "program")]
-pub use cli::main as program;
+pub use cli::{main as program, with_arguments as program_with};
 pub use contact::settings::MatchCriterion;
 pub use gear::{Gear, PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
 pub use observer::{Observer, Unwatched};
@@ -138,7 +138,11 @@ pub use pipeline::fem_problem::FemProblemError;
 pub use pipeline::fem_scene::FemPairError;
 pub use pipeline::{Done, RunError, run};
 pub use plan::Plan;
+pub use report::columns;
+#[cfg(feature = "program")]
+pub use report::figure::Figure;
 pub use report::files::ReportError;
+pub use report::unit::of as unit_of;
 pub use results::run::RunRecord;
 pub use scene::fem_problem::schema as fem_problem_schema;
 pub use scene::loaded::{LoadError, LoadedScene, SceneError, SceneText};
@@ -202,6 +206,40 @@ pub fn fem_pair(
 pub fn fem_problem(problem_toml: &str, folder: &Path, observer: &dyn Observer) -> Result<FemRecord, FemProblemError> {
     let problem = FemProblem::from_toml(problem_toml).map_err(FemProblemError::Input)?;
     pipeline::fem_problem::run(&problem, folder, observer)
+}
+
+/// The plots of the page of a run as drawings, SVG; surfaces in space are left out.
+#[cfg(feature = "program")]
+pub fn figures(run: &RunRecord) -> Vec<Figure> {
+    report::figures(run)
+}
+
+/// Writes what `gearwear fem` of a gear pair writes into `folder`, which is made if need be.
+///
+/// # Errors
+/// [`ReportError`] where a file cannot be written.
+pub fn write_fem_pair(record: &FemPairRecord, folder: &Path) -> Result<(), ReportError> {
+    report::remove_summary(folder)?;
+    report::fem_pair::write_data_and_page(record, folder)?;
+    report::write_summary(&record.summary, folder).map(drop)
+}
+
+/// Writes what `gearwear fem` of a problem of one's own writes into `folder`, which is made if need be.
+///
+/// # Errors
+/// [`ReportError`] where a file cannot be written.
+pub fn write_fem_problem(record: &FemRecord, folder: &Path) -> Result<(), ReportError> {
+    report::remove_summary(folder)?;
+    report::fem::write_data_and_page(record, folder)?;
+    report::write_summary(&record.summary, folder).map(drop)
+}
+
+/// Writes what `gearwear calibrate` writes: the calibration as the JSON `file` that scenes name, and a page beside it, headed by `title`.
+///
+/// # Errors
+/// [`ReportError`] where a file cannot be written.
+pub fn write_calibration(calibrated: &Calibrated, title: &str, file: &Path) -> Result<(), ReportError> {
+    report::calibration::write(&calibrated.calibration, &calibrated.stages, title, file)
 }
 
 /// Writes what `gearwear run` writes into `folder`, which is made if need be: scene and input files, tables, page, summary.

@@ -14,7 +14,7 @@ use crate::scene::loaded::SceneText;
 use super::failure::{Failure, InputError};
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
-use super::{failure, figures, print, say, warn};
+use super::{figures, print, say, warn};
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -79,16 +79,13 @@ fn check_out(out: &Path) -> Result<(), Failure> {
 
 /// A failure, told apart by who is to blame: the input, at its place, or the solver.
 fn refused(error: CalibrateError, text: &SceneText) -> Failure {
-    let problem = match &error {
-        CalibrateError::Interrupted => return Failure::Interrupted,
-        CalibrateError::Calibration(calibration) => {
-            return failure::of_calibration(calibration, text).unwrap_or(Failure::Calibrate(error));
-        }
-        CalibrateError::Cycle { .. } => return Failure::Calibrate(error),
-        CalibrateError::Pair(pair) => Problem::of_pair(&text.text, pair),
-        CalibrateError::Stiffness(stiffness) => Problem::of_stiffness(&text.text, stiffness),
-    };
-    text.refused(vec![problem]).into()
+    if let Some(scene) = error.in_the_scene(text) {
+        return scene.into();
+    }
+    match error {
+        CalibrateError::Interrupted => Failure::Interrupted,
+        other => Failure::Calibrate(other),
+    }
 }
 
 /// The main figures, for the terminal.

@@ -7,7 +7,6 @@ use super::say;
 use crate::calibration::CalibrationError;
 use super::uncertainty::UncertaintyError;
 use crate::fem::SolveError;
-use crate::fem::gear::model::ModelError;
 use crate::mesh::MeshFileError;
 use crate::pipeline::RunError;
 use crate::pipeline::calibrate::CalibrateError;
@@ -196,25 +195,6 @@ impl From<ReportError> for Failure {
     }
 }
 
-/// The failure that a finite-element model which cannot be made is: at its key.
-pub(super) fn of_model(error: &ModelError, text: &SceneText) -> Failure {
-    let problem = match error {
-        ModelError::TooFewTeeth { teeth, least, .. } => Problem::of_sector_teeth(&text.text, *teeth, *least),
-        ModelError::Mesh { gear, source } => Problem::of_tooth_mesh(&text.text, Some(*gear), source),
-        ModelError::TooFine { .. } => Problem::of_elements(&text.text, error.to_string()),
-        ModelError::Condense { gear, source } => Problem::of_condensation(&text.text, *gear, source),
-    };
-    text.refused(vec![problem]).into()
-}
-
-/// The failure that a calibration which cannot be made is, if the scene is to blame.
-pub(super) fn of_calibration(error: &CalibrationError, text: &SceneText) -> Option<Failure> {
-    match error {
-        CalibrationError::Model(model) => Some(of_model(model, text)),
-        other => Problem::of_contact_strip(&text.text, other).map(|problem| text.refused(vec![problem]).into()),
-    }
-}
-
 /// What to do about a file that cannot be opened as a scene.
 fn load_help(error: &LoadError) -> &'static str {
     match error {
@@ -288,7 +268,7 @@ impl Failure {
     /// The exit status of the program, as the contract fixes it.
     pub(super) fn exit_status(&self) -> u8 {
         match self {
-            Failure::Scene(_) | Failure::Input(_) => 2,
+            Failure::Scene(_) | Failure::Input(_) => super::WRONG_INPUT,
             Failure::Missed { .. } => 1,
             Failure::Interrupted => 130,
             Failure::Closed => 0,

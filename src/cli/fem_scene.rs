@@ -20,7 +20,7 @@ use super::failure::{Failure, InputError};
 use super::fem::Args;
 use super::progress::Progress;
 use super::run::{pool, watch_for_interrupt};
-use super::{failure, figures, print, say, warn};
+use super::{figures, print, say, warn};
 
 pub(super) fn run(args: &Args, text: SceneText) -> Result<(), Failure> {
     let resolved = &text.resolve()?;
@@ -63,16 +63,15 @@ pub(super) fn run(args: &Args, text: SceneText) -> Result<(), Failure> {
 
 /// A failure, told apart by who is to blame: the input, at its place, or the solver.
 fn refused(error: FemPairError, text: &SceneText) -> Failure {
-    let problem = match &error {
-        FemPairError::Model(model) => return failure::of_model(model, text),
+    if let Some(scene) = error.in_the_scene(text) {
+        return scene.into();
+    }
+    match error {
         FemPairError::Position { given_mm: found_mm, from_mm, to_mm } => {
-            return InputError::Position { found_mm: *found_mm, from_mm: *from_mm, to_mm: *to_mm }.into();
+            InputError::Position { found_mm, from_mm, to_mm }.into()
         }
-        FemPairError::Pair(pair) => Problem::of_pair(&text.text, pair),
-        FemPairError::Quality { gear, source } => Problem::of_mesh_quality(&text.text, Some(*gear), source),
-        _ => return Failure::FemPair(error),
-    };
-    text.refused(vec![problem]).into()
+        other => Failure::FemPair(other),
+    }
 }
 
 /// The last stage: the output folder. Its own time is in the summary, which is therefore written last.

@@ -21,11 +21,14 @@ mod uncertainty;
 mod validate;
 mod variants;
 
+use std::ffi::OsString;
 use std::io::{ErrorKind, IsTerminal, Write};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+/// Exit status where the input is wrong.
+const WRONG_INPUT: u8 = 2;
 /// Width of messages where no terminal sets one: never broken, so that scripts find what they look for.
 const UNBROKEN: usize = 10_000;
 
@@ -71,7 +74,19 @@ enum Command {
 
 /// Runs the command the user typed.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    ExitCode::from(with_arguments(std::env::args_os()))
+}
+
+/// Runs the command in `arguments`, of which the first is the name of the program; gives its exit status.
+pub fn with_arguments(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help and version are told this way too. Where nobody can hear it, that is no reason to fail otherwise.
+            let _ = error.print();
+            return u8::try_from(error.exit_code()).unwrap_or(WRONG_INPUT);
+        }
+    };
     let width = (!std::io::stderr().is_terminal()).then_some(UNBROKEN);
     let hook = miette::set_hook(Box::new(move |_| {
         let options = miette::MietteHandlerOpts::new();
@@ -94,11 +109,11 @@ pub fn main() -> ExitCode {
         Command::Completions(args) => completions::run(args),
     };
     match done {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => 0,
         Err(failure) => {
             let status = failure.exit_status();
             failure.print();
-            ExitCode::from(status)
+            status
         }
     }
 }

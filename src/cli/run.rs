@@ -13,14 +13,13 @@ use crate::report;
 use crate::report::ReportError;
 use crate::results::run::{RunRecord, StageTime, StopReason};
 use crate::resume::folder;
-use crate::scene::Problem;
 use crate::scene::loaded::LoadedScene;
 use crate::simulation::settings::Operation;
 
 use super::begun_run::{self, BegunRun, FolderKeeper};
 use super::failure::{Failure, InputError};
 use super::progress::Progress;
-use super::{failure, figures, print, say, warn};
+use super::{figures, print, say, warn};
 
 /// The exit status after an interrupt: 128 and the number of the signal.
 const INTERRUPTED: i32 = 130;
@@ -124,19 +123,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 
 /// Puts a failure that the scene is to blame for at its key.
 pub(super) fn in_the_scene(error: RunError, scene: &LoadedScene) -> Failure {
-    if let Some(stiffness) = error.stiffness() {
-        return scene.given.refused(vec![Problem::of_stiffness(&scene.given.text, stiffness)]).into();
-    }
-    if let RunError::TeethInSpace(error) = &error {
-        return scene.given.refused(vec![Problem::of_teeth_in_space(&scene.given.text, error)]).into();
-    }
-    let of_scene = match &error {
-        RunError::FiniteElements(model) => Some(failure::of_model(model, &scene.given)),
-        RunError::Calibration(calibration) => failure::of_calibration(calibration, &scene.given),
-        RunError::Pair(pair) => Some(scene.given.refused(vec![Problem::of_pair(&scene.given.text, pair)]).into()),
-        _ => None,
-    };
-    of_scene.unwrap_or(Failure::Run(error))
+    error.in_the_scene(&scene.given).map_or(Failure::Run(error), Failure::Scene)
 }
 
 /// The last stage: the output folder. Its own time is in the summary, which is therefore written last.

@@ -5,11 +5,12 @@
 use std::collections::BTreeMap;
 
 use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
 
 use crate::mesh::{CellBlock, CellKind, DataArray, Mesh, Values};
 
 /// A plane element; nodes are corners first, anticlockwise, then the middles of the sides in the same order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum ElementKind {
     /// Linear triangle.
     Triangle3,
@@ -24,7 +25,7 @@ pub enum ElementKind {
 }
 
 /// One element.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Element {
     /// What it is.
     pub kind: ElementKind,

@@ -24,12 +24,12 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Gear, GearPair};
 
 /// The working flank of one gear's tooth.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FlankSurface {
     /// Which gear's.
     pub gear: Gear,

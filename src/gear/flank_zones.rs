@@ -10,7 +10,7 @@
 //! reaches the tip edge is cut off there, and what it presses and wears is a matter of the edge: of its rounding, of how it is resolved.
 //! Three half-widths from it the active profile feels nothing of that, and has figures of its own.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Gear, GearPair, PerGear, removed_material::tip_rounding_length_mm};
 
@@ -35,7 +35,7 @@ pub enum FlankZone {
 }
 
 /// Where the zones of one flank begin, by radius.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FlankZones {
     /// Start of active profile (SAP).
     pub active_start_radius_mm: f64,

@@ -16,12 +16,12 @@
 //! the rules used by the elements: three points in six-node triangles, 3 × 3 Gauss points in quadratic quadrilaterals.
 
 use nalgebra::Vector2;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{CellKind, Mesh};
 
 /// Quality of one cell.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct CellQuality {
     /// Least over greatest Jacobian determinant; not positive where the cell is inverted.
     pub jacobian_ratio: f64,
@@ -36,7 +36,7 @@ pub struct CellQuality {
 }
 
 /// The worst value of a measure, and where.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Worst {
     /// The value.
     pub value: f64,
@@ -47,7 +47,7 @@ pub struct Worst {
 }
 
 /// Quality of all plane cells of a mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MeshQuality {
     /// Plane cells.
     pub cells: usize,

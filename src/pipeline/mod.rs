@@ -2,6 +2,7 @@
 //!
 //! This is the one way in which the program runs anything; the only clock it reads times the stages.
 
+mod blame;
 pub(crate) mod calibrate;
 pub(crate) mod deformed_teeth;
 mod drawing;

@@ -17,12 +17,13 @@
 
 pub(crate) mod calibration;
 pub(crate) mod chart;
+pub mod columns;
 pub(crate) mod control;
 pub(crate) mod csv_table;
 pub(crate) mod fem;
 pub(crate) mod fem_pair;
 #[cfg(feature = "program")]
-mod figure;
+pub(crate) mod figure;
 pub(crate) mod files;
 pub(crate) mod flank_mesh;
 pub(crate) mod html;
@@ -30,6 +31,7 @@ mod plot_script;
 mod pressure_plot;
 pub(crate) mod slice_table;
 pub(crate) mod tables;
+pub(crate) mod unit;
 mod vtu_file;
 #[cfg(feature = "program")]
 mod workbook;
@@ -51,20 +53,20 @@ pub(crate) fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>,
     create_folder(dir)?;
     let provenance = Provenance::of_scene(&record.summary.program_version, &record.summary.scene_hash);
     let mut csv = CsvFiles::new(dir, provenance);
-    let flank = |gear: Gear| move |out: &mut dyn Write| tables::flank(out, &record.flanks[gear]);
+    let flank = |gear: Gear| move |out: &mut dyn Write| table(out, tables::flank(&record.flanks[gear]));
     let [pinion, wheel, history, profiles, mesh_cycle] = TABLES;
     let mut paths = vec![
         place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?,
         csv.place(pinion, flank(Gear::Pinion))?,
         csv.place(wheel, flank(Gear::Wheel))?,
         csv.place(history, |out| table(out, &record.history))?,
-        csv.place(profiles, |out| tables::profiles(out, record))?,
+        csv.place(profiles, |out| table(out, tables::profiles(record)))?,
         csv.place(mesh_cycle, |out| table(out, &record.mesh_cycle))?,
     ];
     match &record.slices {
         Some(slices) => {
             let path = &record.summary.geometry.curvature_radius_mm;
-            paths.push(csv.place(SLICES, |out| slice_table::slices(out, slices, path))?);
+            paths.push(csv.place(SLICES, |out| table(out, slice_table::rows(slices, path)))?);
         }
         // What an earlier run left there would pass for this one's.
         None => remove(dir, SLICES)?,
@@ -83,6 +85,12 @@ pub(crate) fn write_page(record: &RunRecord, dir: &Path) -> Result<PathBuf, Repo
 #[cfg(feature = "program")]
 pub(crate) fn write_figures(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     figure::write_all(&html::run_page::charts(record), dir)
+}
+
+/// The plots of the page of `record`, drawn.
+#[cfg(feature = "program")]
+pub(crate) fn figures(record: &RunRecord) -> Vec<figure::Figure> {
+    figure::drawn(&html::run_page::charts(record)).collect()
 }
 
 /// Writes the tables of `record`, which stand in `dir`, as a workbook beside them.

@@ -1,11 +1,8 @@
 //! `slices.csv`: what each slice of a tooth carries while the tooth goes through the mesh.
 
-use std::io::{self, Write};
-
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::csv_table::{Column, table};
 use crate::results::run::{PathPoints, SliceRecord};
 
 /// Positions are compared with A and E to this part of A–E.
@@ -39,11 +36,11 @@ struct Row {
     at_sharp_edge_worn: bool,
 }
 
-/// Writes it; `path` are the positions of A–E.
-pub(crate) fn slices(out: &mut dyn Write, record: &SliceRecord, path: &PathPoints) -> io::Result<Vec<Column>> {
+/// Its rows; `path` are the positions of A–E.
+pub(crate) fn rows(record: &SliceRecord, path: &PathPoints) -> impl Iterator<Item = impl Serialize + JsonSchema> {
     let count = record.width_mm.len();
     let slack = SAME_PLACE * (path.E - path.A);
-    let rows = record.position_mm.iter().enumerate().flat_map(|(position, &position_mm)| {
+    let rows = record.position_mm.iter().enumerate().flat_map(move |(position, &position_mm)| {
         (0..count).map(move |slice| {
             let place = position * count + slice;
             Row {
@@ -60,10 +57,9 @@ pub(crate) fn slices(out: &mut dyn Write, record: &SliceRecord, path: &PathPoint
             }
         })
     });
-    let in_contact = |row: &Row| {
-        (path.A - slack..=path.E + slack).contains(&row.slice_position_mm)
-            || row.line_load_new_N_per_mm > 0.0
-            || row.line_load_worn_N_per_mm > 0.0
+    let reach = path.A - slack..=path.E + slack;
+    let in_contact = move |row: &Row| {
+        reach.contains(&row.slice_position_mm) || row.line_load_new_N_per_mm > 0.0 || row.line_load_worn_N_per_mm > 0.0
     };
-    table(out, rows.filter(in_contact))
+    rows.filter(in_contact)
 }

@@ -1,11 +1,8 @@
 //! `pinion.csv`, `wheel.csv` and `profiles.csv`: wear and pressure over both flanks, point by point.
 
-use std::io::{self, Write};
-
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::csv_table::{Column, table};
 use crate::gear::Gear;
 use crate::results::run::{FlankRecord, RunRecord};
 
@@ -56,9 +53,10 @@ struct ProfileRow {
     phase: usize,
 }
 
-pub(crate) fn flank(out: &mut dyn Write, flank: &FlankRecord) -> io::Result<Vec<Column>> {
+/// The rows of a flank.
+pub(crate) fn flank(flank: &FlankRecord) -> impl Iterator<Item = impl Serialize + JsonSchema> {
     let points = flank.radius_mm.len();
-    let rows = flank.width_mm.iter().enumerate().flat_map(|(slice, &width_mm)| {
+    flank.width_mm.iter().enumerate().flat_map(move |(slice, &width_mm)| {
         (0..points).map(move |point| {
             let place = slice * points + point;
             FlankRow {
@@ -74,12 +72,12 @@ pub(crate) fn flank(out: &mut dyn Write, flank: &FlankRecord) -> io::Result<Vec<
                 slice,
             }
         })
-    });
-    table(out, rows)
+    })
 }
 
-pub(crate) fn profiles(out: &mut dyn Write, record: &RunRecord) -> io::Result<Vec<Column>> {
-    let rows = record.history.iter().enumerate().flat_map(|(snapshot, at)| {
+/// The rows of both flanks at every snapshot.
+pub(crate) fn profiles(record: &RunRecord) -> impl Iterator<Item = impl Serialize + JsonSchema> {
+    record.history.iter().enumerate().flat_map(move |(snapshot, at)| {
         Gear::BOTH.into_iter().flat_map(move |gear| {
             let flank = &record.flanks[gear];
             let slices = flank.snapshot_wear_um[snapshot].chunks_exact(flank.radius_mm.len().max(1));
@@ -96,6 +94,5 @@ pub(crate) fn profiles(out: &mut dyn Write, record: &RunRecord) -> io::Result<Ve
                 })
             })
         })
-    });
-    table(out, rows)
+    })
 }

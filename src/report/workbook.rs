@@ -10,6 +10,7 @@ use serde_json::Value;
 
 use super::csv_table::COLUMNS;
 use super::files::{ReportError, place};
+use super::unit;
 use crate::results::run::{ReportedBy, Summary};
 
 pub(crate) const WORKBOOK: &str = "results.xlsx";
@@ -18,35 +19,6 @@ pub(crate) const WORKBOOK: &str = "results.xlsx";
 const MOST_ROWS: usize = 1_048_576;
 /// Parts of the summary that are no figures of the pair.
 const NOT_SHOWN: [&str; 4] = ["stages", "left_out", "wall_s", "work"];
-
-/// What the ends of names say of units, the longer before those that they end with.
-const UNITS: [(&str, &str); 19] = [
-    ("_um_per_Mrev", "µm per million revolutions"),
-    ("_mm3_per_Nm", "mm³/(N·m)"),
-    ("_m2_per_N", "m²/N"),
-    ("_N_per_mm_um", "N/(mm·µm)"),
-    ("_MPa_per_mm", "MPa/mm"),
-    ("_N_per_mm", "N/mm"),
-    ("_mm_per_mesh", "mm"),
-    ("_mm3", "mm³"),
-    ("_mm", "mm"),
-    ("_um", "µm"),
-    ("_mg", "mg"),
-    ("_MPa", "MPa"),
-    ("_Nm", "N·m"),
-    ("_deg", "°"),
-    ("_rpm", "1/min"),
-    ("_K", "K"),
-    ("_C", "°C"),
-    ("_s", "s"),
-    ("hours", "h"),
-];
-
-/// The unit that a name ends with, also before `_new` and `_worn`.
-fn unit_of(name: &str) -> Option<&'static str> {
-    let name = name.strip_suffix("_new").or(name.strip_suffix("_worn")).unwrap_or(name);
-    UNITS.into_iter().find(|(end, _)| name.ends_with(end)).map(|(_, unit)| unit)
-}
 
 /// Writes the workbook of the `tables`, names of CSV files that stand in `dir`, and of `summary`.
 pub(super) fn write(summary: &Summary, tables: &[&str], dir: &Path) -> Result<PathBuf, ReportError> {
@@ -76,7 +48,7 @@ fn bytes(summary: &Summary, tables: &[&str], dir: &Path) -> io::Result<Vec<u8>> 
         let names = reader.headers()?.clone();
         columns.extend(names.iter().map(|name| {
             let meaning = meanings["files"][file][name].as_str().unwrap_or_default();
-            [sheet_name(file), name, unit_of(name).unwrap_or_default(), meaning].map(str::to_owned)
+            [sheet_name(file), name, unit::of(name).unwrap_or_default(), meaning].map(str::to_owned)
         }));
         table(workbook.add_worksheet(), file, &names, reader.records())?;
     }
@@ -137,7 +109,7 @@ fn main_figures(sheet: &mut Worksheet, summary: &Value) -> Result<(), XlsxError>
     let mut found = Vec::new();
     for (key, value) in summary.as_object().into_iter().flatten().filter(|(key, _)| !NOT_SHOWN.contains(&key.as_str()))
     {
-        flatten(key, unit_of(key), value, &mut found);
+        flatten(key, unit::of(key), value, &mut found);
     }
     for (row, (path, unit, value)) in (1..).zip(found) {
         sheet.write_string(row, 0, path)?;
@@ -162,7 +134,7 @@ fn flatten<'a>(
     match value {
         Value::Object(parts) => {
             for (key, part) in parts {
-                flatten(&format!("{path}.{key}"), unit_of(key).or(unit), part, found);
+                flatten(&format!("{path}.{key}"), unit::of(key).or(unit), part, found);
             }
         }
         Value::Array(parts) => {
@@ -185,28 +157,4 @@ fn meanings_sheet(sheet: &mut Worksheet, columns: &[[String; 4]]) -> Result<(), 
         }
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn units_are_read_from_names() {
-        for (name, unit) in [
-            ("peak_pressure_new_MPa", Some("MPa")),
-            ("transmission_error_new_um", Some("µm")),
-            ("hertz_half_width_mm", Some("mm")),
-            ("coefficient_mm3_per_Nm", Some("mm³/(N·m)")),
-            ("pair_at_pitch_N_per_mm_um", Some("N/(mm·µm)")),
-            ("sliding_mm_per_mesh", Some("mm")),
-            ("mesh_orders_new_um", Some("µm")),
-            ("half_width_worn_mm", Some("mm")),
-            ("hours", Some("h")),
-            ("load_share_new", None),
-            ("C", None),
-        ] {
-            assert_eq!(unit_of(name), unit, "{name}");
-        }
-    }
 }

@@ -1,14 +1,14 @@
 //! What `summary.json` says of the wear law and of the temperatures of the contact.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 pub use crate::thermal::settings::{HeatPartition, HeatVelocity, TemperatureMethod};
 pub use crate::wear::regime::Regime;
 
 /// The wear law and where it stands.
 #[allow(non_snake_case, reason = "names that end in their unit")]
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WearLawSummary {
     /// Name of the law.
     pub law: String,
@@ -36,7 +36,7 @@ pub struct WearLawSummary {
 
 /// The temperatures of the contact.
 #[allow(non_snake_case, reason = "names that end in their unit")]
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TemperatureSummary {
     /// How they are found.
     pub method: TemperatureMethod,
@@ -61,7 +61,7 @@ pub struct TemperatureSummary {
 }
 
 /// Greatest rise over a mesh by every method.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RisesByMethod {
     /// The transient heat equation.
     pub heat_equation: GreatestRise,
@@ -73,7 +73,7 @@ pub struct RisesByMethod {
 
 /// Greatest rise over a mesh.
 #[allow(non_snake_case, reason = "names that end in their unit")]
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GreatestRise {
     /// New.
     pub greatest_rise_new_K: f64,

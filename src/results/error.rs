@@ -38,7 +38,7 @@ impl TotalError {
 }
 
 /// Relative error estimates of the peak wear; `None`: not estimated.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct ErrorSummary {
     /// Against the same wear simulation with finite elements.
     pub total: TotalError,
@@ -74,7 +74,7 @@ impl ErrorSummary {
 }
 
 /// How the error estimates were obtained.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[allow(missing_docs, reason = "named as in ErrorSummary")]
 pub struct ErrorSources {
     pub discretisation: String,

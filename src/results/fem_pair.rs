@@ -6,7 +6,7 @@
 #![allow(non_snake_case, reason = "the contract's key and column names end in their unit as engineers write it")]
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::fem_problem::NodalStress;
 use super::run::{ContactSummary, GeometrySummary, PathPoints, RangeSummary, StageTime, StopReason};
@@ -15,7 +15,7 @@ use crate::gear::PerGear;
 use crate::mesh::quality::MeshQuality;
 
 /// A finished (or interrupted) computation.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FemPairRecord {
     /// What `summary.json` holds.
     pub summary: FemPairSummary,
@@ -30,7 +30,7 @@ pub struct FemPairRecord {
 }
 
 /// `summary.json`.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FemPairSummary {
     /// The scene's title.
     pub title: String,
@@ -77,7 +77,7 @@ pub struct FemPairSummary {
 }
 
 /// The finite-element model.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ModelSummary {
     /// `ring` or `sector`.
     pub body: String,
@@ -92,7 +92,7 @@ pub struct ModelSummary {
 }
 
 /// The finite-element model of one gear.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GearModelSummary {
     /// Where it is held (wheel) or turned (pinion) rigidly.
     pub clamp_radius_mm: f64,
@@ -111,7 +111,7 @@ pub struct GearModelSummary {
 }
 
 /// The mesh cycle in figures: the same keys as a wear run's, and more.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FemCycleSummary {
     /// Greatest pressure where no sharp tip edge carries load; `None` where one does everywhere.
     pub peak_pressure_MPa: Option<f64>,
@@ -134,7 +134,7 @@ pub struct FemCycleSummary {
 }
 
 /// What the reference pair does at A–E.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PathPointsSummary {
     /// Share of the whole load; 0 where it carries none.
     pub load_share: PathPoints,
@@ -147,7 +147,7 @@ pub struct PathPointsSummary {
 }
 
 /// Stress along the fillets of one tooth over the positions.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RootSummary {
     /// Greatest principal stress at the fillet below the working flank.
     pub tension_MPa: f64,
@@ -160,7 +160,7 @@ pub struct RootSummary {
 }
 
 /// How well equilibrium was met, worst over the positions.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ChecksSummary {
     /// z2/z1.
     pub tooth_ratio: f64,
@@ -185,7 +185,7 @@ pub struct ChecksSummary {
 }
 
 /// The whole model without condensation at one position, and how far it is from the condensed one.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FullModelSummary {
     /// The position.
     pub position_mm: f64,
@@ -208,7 +208,7 @@ pub struct FullModelSummary {
 }
 
 /// A row of `mesh_cycle.csv`: one tooth pair in contact at one position.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FemCycleRow {
     /// radius of curvature of the pinion's flank at the theoretical contact point of the reference pair, from A to E
     pub position_mm: f64,
@@ -249,10 +249,10 @@ pub struct FemCycleRow {
 }
 
 /// Pressure of one tooth pair along the flank that carries the multipliers.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PressureCurve {
     /// `A` to `E`; `None` where the position was asked for.
-    pub point: Option<&'static str>,
+    pub point: Option<String>,
     /// What `mesh_cycle.csv` says of it.
     pub row: FemCycleRow,
     /// Distance from the resultant along the flank towards the pinion's tip, mm.
@@ -262,7 +262,7 @@ pub struct PressureCurve {
 }
 
 /// The teeth in contact with displacement and stress; the pinion's axis is the origin and the wheel's lies on +y.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PairSolution {
     /// The position, mm.
     pub position_mm: f64,
@@ -281,7 +281,7 @@ pub struct PairSolution {
 }
 
 /// Where a tooth pair touches.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ContactPlace {
     /// Number of the pair.
     pub pair: i32,

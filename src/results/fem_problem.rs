@@ -6,7 +6,7 @@
 #![allow(non_snake_case, reason = "the contract's key names end in their unit as engineers write it")]
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::run::StageTime;
 use crate::fem::problem::{Problem, Stop, ThirdDirection, Work};
@@ -228,7 +228,7 @@ pub struct ContactCurve {
 }
 
 /// Stress at a node.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct NodalStress {
     /// σ_x, σ_y, σ_z (across the plane) and τ_xy, MPa.
     pub components_MPa: [f64; 4],

@@ -10,14 +10,13 @@ use super::error::ErrorSummary;
 use crate::gear::{PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
 
 /// A finished (or interrupted) run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunRecord {
     /// What `summary.json` holds.
     pub summary: Summary,
     /// The resolved scene as TOML; input files have the names of `inputs`.
     pub scene_toml: String,
     /// Copies of the files that the scene names.
-    #[serde(skip)]
     pub inputs: Vec<InputFile>,
     /// Both flanks, point by point.
     pub flanks: PerGear<FlankRecord>,
@@ -34,7 +33,7 @@ pub struct RunRecord {
 }
 
 /// A file that a scene names.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct InputFile {
     /// Its name in the folder of the run.
     pub name: String,
@@ -43,7 +42,7 @@ pub struct InputFile {
 }
 
 /// `summary.json`.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Summary {
     /// The scene's title.
     pub title: String,
@@ -103,7 +102,7 @@ pub struct Summary {
 
 /// A phase of the operation.
 #[allow(non_snake_case, reason = "the contract's key names")]
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PhaseSummary {
     /// Its number, from 1.
     pub number: usize,
@@ -135,7 +134,7 @@ pub struct PhaseSummary {
 
 /// What a gear wore off in a phase.
 #[allow(non_snake_case, reason = "the contract's key names")]
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PhaseWear {
     /// Its wear coefficient.
     pub coefficient_m2_per_N: f64,
@@ -146,7 +145,7 @@ pub struct PhaseWear {
 }
 
 /// Who reports, and when, each as the scene says it.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct ReportedBy {
     /// Who made the calculation.
     pub author: Option<String>,
@@ -171,7 +170,7 @@ pub enum StopReason {
 }
 
 /// A stage and how long it took.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StageTime {
     /// Name of the stage.
     pub name: String,
@@ -180,7 +179,7 @@ pub struct StageTime {
 }
 
 /// A stage that the scene does not need.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StageLeftOut {
     /// Name of the stage.
     pub name: String,
@@ -189,7 +188,7 @@ pub struct StageLeftOut {
 }
 
 /// Geometry of the pair.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GeometrySummary {
     /// ε_α.
     pub transverse_contact_ratio: f64,
@@ -212,7 +211,7 @@ pub struct GeometrySummary {
 }
 
 /// A value at each of the points A–E of the path of contact.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[allow(non_snake_case, reason = "the points' names")]
 pub struct PathPoints {
     /// Start of contact.
@@ -235,7 +234,7 @@ impl PathPoints {
 }
 
 /// Diameters and other data of one gear, mm.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[allow(missing_docs, reason = "the names of ISO 21771 say it")]
 pub struct GearSummary {
     pub teeth: u32,
@@ -258,7 +257,7 @@ pub struct GearSummary {
 
 /// The pair slice by slice.
 #[allow(non_snake_case, reason = "names that end in their unit, and symbols of the standards")]
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct HelicalSummary {
     /// Slices over the face width.
     pub slices: usize,
@@ -294,7 +293,7 @@ pub struct HelicalSummary {
 }
 
 /// All lines of contact together over a mesh.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LineOfContactSummary {
     /// Least length.
     pub min: f64,
@@ -305,7 +304,7 @@ pub struct LineOfContactSummary {
 }
 
 /// How wear varies over the face width of a flank.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OverWidthSummary {
     /// Greatest depth in the root zone of each slice.
     pub root_wear_um: Vec<f64>,
@@ -329,7 +328,7 @@ pub struct OverWidthSummary {
 
 /// Contact at the pitch point with the whole load.
 #[allow(non_snake_case, reason = "the contract's key names")]
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ContactSummary {
     /// Name of the surface model.
     pub surface: String,
@@ -345,7 +344,7 @@ pub struct ContactSummary {
 
 /// Stiffness of a tooth pair per mm of face width.
 #[allow(non_snake_case, reason = "the contract's key names")]
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct StiffnessSummary {
     /// Name of the stiffness model.
     pub model: String,
@@ -362,7 +361,7 @@ pub struct StiffnessSummary {
 
 /// One mesh cycle in figures.
 #[allow(non_snake_case, reason = "the contract's key names")]
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CycleSummary {
     /// Greatest pressure of contact whose pressure is defined: not of that which a sharp tip edge cuts off.
     pub peak_pressure_MPa: f64,
@@ -378,7 +377,7 @@ pub struct CycleSummary {
 
 /// Difference of what both flanks lose in one mesh, relative to the greater: what one flank of a contact loses the other does too,
 /// where both wear by the same coefficient.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct WearBalance {
     /// The unworn pair; `None` where the wear laws of the gears do not say how the volumes compare.
     pub new: Option<f64>,
@@ -389,7 +388,7 @@ pub struct WearBalance {
 }
 
 /// Extremes and their difference.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RangeSummary {
     /// Least value.
     pub min: f64,
@@ -400,7 +399,7 @@ pub struct RangeSummary {
 }
 
 /// Wear of a gear.
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WearSummary {
     /// Greatest wear depth on the active profile, the zone of the tip edge apart.
     pub peak_wear_um: f64,
@@ -425,7 +424,7 @@ pub struct WearSummary {
 }
 
 /// Work done by the wear simulation alone.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, JsonSchema)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct WorkSummary {
     /// Wear steps taken.
     pub wear_steps: u64,
@@ -451,7 +450,7 @@ pub struct WorkSummary {
 ///
 /// Radius and roll angle have one value a point; the other fields of the flank one a point and slice, slice after slice.
 #[allow(non_snake_case, reason = "the contract's column names")]
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FlankRecord {
     /// Distance from the gear's axis, from base circle to tip circle.
     pub radius_mm: Vec<f64>,
@@ -466,7 +465,6 @@ pub struct FlankRecord {
     /// Wear depth at the end of the run.
     pub wear_um: Vec<f64>,
     /// The same by the finite elements that vouch for it; none where none do. Not a column of its own.
-    #[serde(skip)]
     pub verified_wear_um: Option<Vec<f64>>,
     /// Greatest pressure during one mesh, new.
     pub pressure_new_MPa: Vec<f64>,
@@ -475,7 +473,6 @@ pub struct FlankRecord {
     /// Wear depth at each snapshot of the history.
     pub snapshot_wear_um: Vec<Vec<f64>>,
     /// Greatest pressure during one mesh at each snapshot of the history. No column.
-    #[serde(skip)]
     pub snapshot_pressure_MPa: Vec<Vec<f64>>,
     /// Radii worth marking: start of active profile (A on the pinion, E on the wheel) to tip.
     pub path_point_radius_mm: PathPoints,
@@ -485,7 +482,7 @@ pub struct FlankRecord {
 
 /// A row of `history.csv`.
 #[allow(non_snake_case, reason = "the contract's column names")]
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct HistoryRow {
     /// running time; empty where the scene gives no speed
     pub hours: Option<f64>,
@@ -522,7 +519,7 @@ pub struct HistoryRow {
 
 /// A row of `mesh_cycle.csv`: the reference pair at one loading position.
 #[allow(non_snake_case, reason = "the contract's column names")]
-#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct MeshCycleRow {
     /// radius of curvature of the pinion's flank at the theoretical contact point
     pub position_mm: f64,
@@ -562,7 +559,7 @@ pub struct MeshCycleRow {
 
 /// The mesh of one tooth slice by slice, from its first touch to its last.
 #[allow(non_snake_case, reason = "names that end in their unit")]
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SliceRecord {
     /// Place of each slice over the face width.
     pub width_mm: Vec<f64>,
@@ -585,7 +582,7 @@ pub struct SliceRecord {
 }
 
 /// The pair in mesh in the transverse section, mm; the pinion's axis is the origin and the wheel's lies on +y.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PairDrawing {
     /// Closed outline of each whole gear in its place.
     pub outline: PerGear<Vec<[f64; 2]>>,
@@ -602,7 +599,7 @@ pub struct PairDrawing {
 }
 
 /// Radii of the circles drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "the names say it")]
 pub struct GearCircles {
     pub base: f64,

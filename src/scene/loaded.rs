@@ -17,6 +17,7 @@ use crate::calibration::{Calibration, identity::Identity};
 use crate::contact::settings::{Foundation, MatchCriterion, SurfaceKind};
 use crate::gear::GearPair;
 use crate::mesh_cycle::{pair_in_space::KeptInSpace, settings::Coupling};
+use crate::results::run::InputFile;
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::curve_file::{self, CurveFileError};
 use crate::stiffness::settings::StiffnessSettings;
@@ -59,14 +60,17 @@ impl fmt::Debug for SceneError {
 }
 
 impl SceneError {
+    /// The line of the text, from 1, where `problem` begins.
+    pub fn line_of(&self, problem: &Problem) -> usize {
+        let text = self.given.text.as_bytes();
+        let begin = problem.span.as_ref().map_or(0, |span| span.start).min(text.len());
+        text[..begin].iter().filter(|&&byte| byte == b'\n').count() + 1
+    }
+
     fn in_words(&self) -> String {
-        let SceneText { name, text } = &self.given;
-        let line = |problem: &Problem| {
-            let begin = problem.span.as_ref().map_or(0, |span| span.start).min(text.len());
-            text.as_bytes()[..begin].iter().filter(|&&byte| byte == b'\n').count() + 1
-        };
+        let name = &self.given.name;
         let help = |problem: &Problem| problem.help.as_ref().map_or_else(String::new, |help| format!(" ({help})"));
-        let of = |problem: &Problem| format!("{name}, line {}: {problem}{}", line(problem), help(problem));
+        let of = |problem: &Problem| format!("{name}, line {}: {problem}{}", self.line_of(problem), help(problem));
         self.problems.iter().map(of).collect::<Vec<_>>().join("\n")
     }
 }
@@ -159,6 +163,23 @@ impl LoadedScene {
         Self::from_text(given, Path::new(""))
     }
 
+    /// The scene in the text `given`: of the files it names, those among `files` need not be read, and the others lie in `folder`. With
+    /// [`Self::given`], [`Self::input_files`] and [`Self::folder`] of a scene it is that scene again.
+    ///
+    /// # Errors
+    /// As [`Self::open`].
+    pub fn from_parts(given: SceneText, folder: &Path, files: Vec<InputFile>) -> Result<Self, LoadError> {
+        let resolved = given.resolve()?;
+        let known = [CALIBRATION, CURVE].into_iter().flat_map(|key| {
+            files.iter().map(move |InputFile { name, bytes }| NamedFile {
+                key,
+                name: name.clone(),
+                bytes: bytes.clone(),
+            })
+        });
+        Self::reading(resolved, given, folder.into(), &known.collect::<Vec<_>>())
+    }
+
     /// A built-in scene, such as `fzg-c` ([`PRESETS`](crate::PRESETS)).
     ///
     /// # Errors
@@ -191,16 +212,34 @@ impl LoadedScene {
         self.changed(|draft| draft.set(key, value), &self.files.as_read)
     }
 
+    /// The same scene with all these keys changed together, so that those that need one another need no order: with a value as
+    /// [`Self::with`] gives it, without one as [`Self::without`] takes it away.
+    ///
+    /// # Errors
+    /// As theirs.
+    pub fn with_all(
+        &self,
+        changes: impl IntoIterator<Item = (String, Option<toml::Value>)>,
+    ) -> Result<Self, LoadError> {
+        let change = |draft: &mut Draft| {
+            for (key, value) in changes {
+                match value {
+                    Some(value) => draft.set(&key, value),
+                    None if is_key(&key) => draft.remove(&key),
+                    // As a key that is given, it is refused with what was probably meant.
+                    None => draft.set(&key, true),
+                }
+            }
+        };
+        self.changed(change, &self.files.as_read)
+    }
+
     /// The same scene without `key`, as if the file left it out.
     ///
     /// # Errors
     /// A key that no scene has; what is wrong with the scene then.
     pub fn without(&self, key: &str) -> Result<Self, LoadError> {
-        if !is_key(key) {
-            // As a key that is given, it is refused with what was probably meant.
-            return self.with(key, true);
-        }
-        self.changed(|draft| draft.remove(key), &self.files.as_read)
+        self.with_all([(key.to_owned(), None)])
     }
 
     /// Resolves the scene in `given` and reads the files it names from `folder`.
@@ -306,6 +345,22 @@ impl LoadedScene {
     pub(crate) fn calibrated(&self, calibration: Calibration) -> Self {
         let files = NamedFiles { calibration: Some(calibration), ..(*self.files).clone() };
         Self { files: Arc::new(files), ..self.clone() }
+    }
+
+    /// The text it was made from.
+    pub fn given(&self) -> &SceneText {
+        &self.given
+    }
+
+    /// The folder that files lie in which it may be made to name.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// The files it names, as they were read.
+    pub fn input_files(&self) -> Vec<InputFile> {
+        let of = |file: &NamedFile| InputFile { name: file.name.clone(), bytes: file.bytes.clone() };
+        self.files.as_read.iter().map(of).collect()
     }
 
     /// What it asks for.

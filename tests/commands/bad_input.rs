@@ -1,6 +1,7 @@
 //! Wrong input, one test each: exit status 2, and a message with file, line, key, what was found and what is allowed.
 
 use std::fs;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 use assert_cmd::Command;
@@ -75,7 +76,17 @@ impl Case {
         assert!(output.stdout.is_empty());
         assert!(!out.exists(), "something was left behind");
         assert!(message.contains("scene.toml"), "{message}");
+        self.hand_to_python();
         Refusal { message }
+    }
+
+    /// Leaves the scene where the tests of the Python package look for scenes that must be refused there in the same words.
+    fn hand_to_python(&self) {
+        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("bad_input");
+        fs::create_dir_all(&folder).unwrap();
+        let mut hasher = DefaultHasher::new();
+        self.text.hash(&mut hasher);
+        fs::write(folder.join(format!("{:016x}.toml", hasher.finish())), &self.text).unwrap();
     }
 
     /// Plans the scene, which must be accepted, and gives the warnings.

@@ -33,7 +33,7 @@ pub(crate) fn write_data_and_page(record: &FemPairRecord, dir: &Path) -> Result<
     place(dir, "scene.toml", |out| out.write_all(record.scene_toml.as_bytes()))?;
     let mut csv = CsvFiles::new(dir, provenance);
     csv.place("mesh_cycle.csv", |out| table(out, &record.mesh_cycle))?;
-    csv.place("pressure.csv", |out| pressure_table::pressure(out, &record.pressure))?;
+    csv.place("pressure.csv", |out| table(out, pressure_table::rows(&record.pressure)))?;
     csv.finish()?;
     if let Some(solution) = &record.solution {
         place(dir, "solution.vtu", |out| vtu_file::write(out, &mesh(solution)))?;

@@ -20,7 +20,7 @@ fn pressure(of: &PressureCurve) -> Chart {
     let nodes = of.along_mm.iter().copied().zip(of.pressure_MPa.iter().copied());
     let shown: Vec<(f64, f64)> = nodes.filter(|(s, _)| s.abs() <= reach_mm).collect();
     let top = of.row.peak_pressure_MPa.max(hertz.peak_pressure_mpa);
-    let (id, title) = match (of.point, of.row.pair) {
+    let (id, title) = match (of.point.as_deref(), of.row.pair) {
         (Some(point), _) => (format!("pressure-{}", point.to_lowercase()), format!("Contact pressure at {point}")),
         (None, 0) => ("pressure-reference".to_owned(), "Contact pressure of the reference pair".to_owned()),
         (None, pair) if pair > 0 => (format!("pressure-ahead-{pair}"), "Contact pressure of the pair ahead".to_owned()),

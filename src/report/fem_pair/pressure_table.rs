@@ -2,18 +2,16 @@
 
 #![allow(non_snake_case, reason = "the contract's column names")]
 
-use std::io::{self, Write};
 
 use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::reference::hertz_line::LineContact;
-use crate::report::csv_table::{Column, table};
 use crate::results::fem_pair::PressureCurve;
 
 /// A node of the flank with the multipliers around a contact; rows run towards the pinion's tip.
 #[derive(Serialize, JsonSchema)]
-struct PressureRow {
+struct PressureRow<'a> {
     /// of the reference pair
     position_mm: f64,
     /// tooth pair: 0 the reference pair, 1 the one a base pitch ahead, -1 the one behind
@@ -25,11 +23,12 @@ struct PressureRow {
     /// Hertz's pressure of the pair's line load at this distance from its middle
     hertz_pressure_MPa: f64,
     /// A to E, where the position is one of them
-    point: Option<&'static str>,
+    point: Option<&'a str>,
 }
 
-pub(crate) fn pressure(out: &mut dyn Write, curves: &[PressureCurve]) -> io::Result<Vec<Column>> {
-    let rows = curves.iter().flat_map(|curve| {
+/// Its rows.
+pub(crate) fn rows(curves: &[PressureCurve]) -> impl Iterator<Item = impl Serialize + JsonSchema> {
+    curves.iter().flat_map(|curve| {
         let hertz = hertz(curve);
         curve.along_mm.iter().zip(&curve.pressure_MPa).map(move |(&along_mm, &pressure_mpa)| PressureRow {
             position_mm: curve.row.position_mm,
@@ -37,10 +36,9 @@ pub(crate) fn pressure(out: &mut dyn Write, curves: &[PressureCurve]) -> io::Res
             along_mm,
             pressure_MPa: pressure_mpa,
             hertz_pressure_MPa: hertz.pressure_mpa(along_mm),
-            point: curve.point,
+            point: curve.point.as_deref(),
         })
-    });
-    table(out, rows)
+    })
 }
 
 /// Hertz's contact under the load of a curve.

@@ -22,6 +22,21 @@ const FONT: &[u8] = include_bytes!("../assets/DejaVuSans-subset.ttf");
 /// Pixels of a PNG for one of the SVG.
 const PIXELS: f32 = 2.0;
 
+/// A plot of a page as a drawing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Figure {
+    /// Its name, which is that of its files.
+    pub name: String,
+    /// SVG.
+    pub svg: String,
+}
+
+/// Each of `charts` that is no surface in space, drawn.
+pub(crate) fn drawn(charts: &[Chart]) -> impl Iterator<Item = Figure> {
+    let flat = charts.iter().filter(|chart| chart.traces().all(|trace| trace.kind != TraceKind::Surface));
+    flat.map(|chart| Figure { name: chart.id.to_string(), svg: drawing::svg(chart) })
+}
+
 /// Writes each of `charts` as `ID.svg` and `ID.png` into `dir`, which is made if need be; returns their paths.
 pub(crate) fn write_all(charts: &[Chart], dir: &Path) -> Result<Vec<PathBuf>, ReportError> {
     create_folder(dir)?;
@@ -29,10 +44,9 @@ pub(crate) fn write_all(charts: &[Chart], dir: &Path) -> Result<Vec<PathBuf>, Re
     fonts.load_font_data(FONT.to_vec());
     let options = Options { fontdb: Arc::new(fonts), ..Options::default() };
     let mut paths = Vec::new();
-    for chart in charts.iter().filter(|chart| chart.traces().all(|trace| trace.kind != TraceKind::Surface)) {
-        let svg = drawing::svg(chart);
-        paths.push(place(dir, &format!("{}.svg", chart.id), |out| out.write_all(svg.as_bytes()))?);
-        paths.push(place(dir, &format!("{}.png", chart.id), |out| out.write_all(&png(&svg, &options)?))?);
+    for Figure { name, svg } in drawn(charts) {
+        paths.push(place(dir, &format!("{name}.svg"), |out| out.write_all(svg.as_bytes()))?);
+        paths.push(place(dir, &format!("{name}.png"), |out| out.write_all(&png(&svg, &options)?))?);
     }
     Ok(paths)
 }

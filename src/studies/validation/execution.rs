@@ -178,7 +178,7 @@ impl Task<'_> {
         ]);
         for gear in Gear::BOTH {
             let flank = &record.flanks[gear];
-            let mut columns = table(|out| tables::flank(out, flank))?;
+            let mut columns = table(|out| csv_table::table(out, tables::flank(flank)))?;
             columns.add("path_point_radius_mm", tree(&flank.path_point_radius_mm)?);
             // The wear at each row of the history, a column a row: `profiles.csv` of one gear.
             let snapshots = flank.snapshot_wear_um.iter().map(|profile| Value::column(profile.iter().copied()));
@@ -187,7 +187,7 @@ impl Task<'_> {
         }
         if let Some(slices) = &record.slices {
             let path = &record.summary.geometry.curvature_radius_mm;
-            value.add("slices", table(|out| slice_table::slices(out, slices, path))?);
+            value.add("slices", table(|out| csv_table::table(out, slice_table::rows(slices, path)))?);
         }
         let work = counts(&tree(&record.summary.work)?);
         let failure = failure(done.failure, record.summary.stopped);
@@ -223,7 +223,7 @@ impl Task<'_> {
             _ => not_converged(error),
         })?;
         let record = done.record;
-        let pressure = table(|out| report::fem_pair::pressure_table::pressure(out, &record.pressure))?;
+        let pressure = table(|out| csv_table::table(out, report::fem_pair::pressure_table::rows(&record.pressure)))?;
         let value = Value::group([
             ("summary", tree(&record.summary)?),
             ("mesh_cycle", table(|out| csv_table::table(out, &record.mesh_cycle))?),

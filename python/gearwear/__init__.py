@@ -1,0 +1,41 @@
+"""How the flanks of a gear pair wear, and what the wear does to pressure, load sharing and transmission error.
+
+>>> import gearwear
+>>> scene = gearwear.Scene.preset("fzg-c").with_(**{"operation.pinion_torque_Nm": 250, "numerics.verify": False})
+>>> run = scene.run()
+>>> float(run.pinion.wear_um.max()) > 0
+True
+
+Names of keys, columns and figures are those of the scene, the CSV files and ``summary.json``; each ends in its unit.
+"""
+
+from gearwear._native import VERSION as __version__
+from gearwear._native import presets, unit_of
+from gearwear.calibration import Calibration
+from gearwear.errors import Finding, GearwearError, NotConverged, RunError, SceneError, WornThrough
+from gearwear.fem import FemPair, FemProblem, fem_problem
+from gearwear.run import Flank, Run
+from gearwear.scene import Scene
+from gearwear.schema import scene_schema
+from gearwear.table import Table
+
+__all__ = [
+    "Calibration",
+    "FemPair",
+    "FemProblem",
+    "Finding",
+    "Flank",
+    "GearwearError",
+    "NotConverged",
+    "Run",
+    "RunError",
+    "Scene",
+    "SceneError",
+    "Table",
+    "WornThrough",
+    "__version__",
+    "fem_problem",
+    "presets",
+    "scene_schema",
+    "unit_of",
+]

@@ -1,0 +1,97 @@
+//! What goes wrong, as the exceptions of `gearwear.errors`.
+
+use std::io;
+
+use gearwear::{LoadError, Problem, ProblemKind, ReportError, SceneError};
+use pyo3::IntoPyObjectExt;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+
+/// The exception called `name`, made of `arguments`.
+fn exception<'py>(py: Python<'py>, name: &str, arguments: impl pyo3::call::PyCallArgs<'py>) -> PyErr {
+    let made = || -> PyResult<PyErr> {
+        let class = py.import("gearwear.errors")?.getattr(name)?;
+        Ok(PyErr::from_value(class.call1(arguments)?))
+    };
+    made().unwrap_or_else(|error| error)
+}
+
+/// A finding, in the order of the fields of `gearwear.Finding`.
+type Finding = (&'static str, String, String, String, Option<String>, usize, String);
+
+/// What is wrong with a scene.
+pub(crate) fn of_scene(py: Python<'_>, error: &SceneError) -> PyErr {
+    let finding = |problem: &Problem| -> Finding {
+        let Problem { kind, key, found, allowed, help, .. } = problem;
+        let (key, found, allowed, help) = (key.clone(), found.clone(), allowed.clone(), help.clone());
+        (name_of(kind), key, found, allowed, help, error.line_of(problem), problem.to_string())
+    };
+    refused(py, &error.given.name, error.problems.iter().map(finding).collect())
+}
+
+/// The text called `name`, refused for these reasons.
+fn refused(py: Python<'_>, name: &str, findings: Vec<Finding>) -> PyErr {
+    match findings.into_py_any(py) {
+        Ok(findings) => exception(py, "SceneError", (name, findings)),
+        Err(error) => error,
+    }
+}
+
+fn name_of(kind: &ProblemKind) -> &'static str {
+    match kind {
+        ProblemKind::Syntax => "syntax",
+        ProblemKind::UnknownKey => "unknown-key",
+        ProblemKind::WrongType => "wrong-type",
+        ProblemKind::NotAllowed => "not-allowed",
+        ProblemKind::Missing => "missing",
+        ProblemKind::SaidTwice => "said-twice",
+        ProblemKind::NotAvailable => "not-available",
+        ProblemKind::Geometry(_) => "geometry",
+        ProblemKind::Stiffness(_) => "stiffness",
+    }
+}
+
+/// What keeps a scene from being opened.
+pub(crate) fn of_loading(py: Python<'_>, error: &LoadError) -> PyErr {
+    match error {
+        LoadError::Scene(error) => of_scene(py, error),
+        LoadError::Unreadable { reason, .. } => of_system(reason, error),
+        LoadError::NotUtf8 { name, line, .. } => {
+            let (found, allowed) = ("bytes that are no UTF-8 text".to_owned(), "UTF-8 text".to_owned());
+            let help = Some("save the file as UTF-8".to_owned());
+            refused(py, name, vec![("not-utf8", String::new(), found, allowed, help, *line, error.to_string())])
+        }
+        LoadError::Curve { name, error } => {
+            let (found, allowed) = (error.to_string(), "a data file (CSV) of the stiffness".to_owned());
+            let message = format!("{name}: {error}");
+            refused(py, name, vec![("not-allowed", "stiffness.curve".to_owned(), found, allowed, None, 1, message)])
+        }
+    }
+}
+
+/// What is wrong with a file or folder: the exception that Python's own functions raise for the system's `reason`, such as `FileNotFoundError`.
+fn of_system(reason: &io::Error, said: impl ToString) -> PyErr {
+    io::Error::new(reason.kind(), said.to_string()).into()
+}
+
+/// What keeps results from being written.
+pub(crate) fn of_report(error: &ReportError) -> PyErr {
+    match error {
+        ReportError::CreateFolder { source, .. } | ReportError::WriteFile { source, .. } => {
+            of_system(source, format!("{error}: {source}"))
+        }
+        ReportError::NotAFolder { .. } => io::Error::new(io::ErrorKind::NotADirectory, error.to_string()).into(),
+    }
+}
+
+/// The computation failed.
+pub(crate) fn of_run(py: Python<'_>, message: String) -> PyErr {
+    exception(py, "RunError", (message,))
+}
+
+/// A thread ended without an answer: a fault of the program.
+pub(crate) fn of_thread() -> PyErr {
+    PyRuntimeError::new_err(
+        "gearwear ended without a result: that is a fault of the program, which it names on standard error",
+    )
+}

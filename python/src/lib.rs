@@ -1,0 +1,60 @@
+//! `gearwear._native`: the library `gearwear` for Python, as thin as it can be. What users see is in `gearwear/*.py`.
+//!
+//! Nothing here computes. Scenes and results are the library's own, behind classes that never change them; arrays borrow the memory of the
+//! results ([`array`]), and work runs on threads of its own while the calling thread listens for signals ([`watched`]).
+
+mod array;
+mod calibration;
+mod errors;
+mod fem;
+mod record_bytes;
+mod run;
+mod scene;
+mod table;
+mod value;
+mod watched;
+
+use std::ffi::OsString;
+
+use pyo3::prelude::*;
+
+/// The program `gearwear` with these arguments, of which the first is its name; its exit status.
+#[pyfunction]
+fn program(arguments: Vec<OsString>) -> u8 {
+    gearwear::program_with(arguments)
+}
+
+/// The names of the built-in scenes.
+#[pyfunction]
+fn presets() -> Vec<&'static str> {
+    gearwear::PRESETS.iter().map(|preset| preset.name).collect()
+}
+
+/// The JSON schema of the scene, as `gearwear schema` prints it.
+#[pyfunction]
+fn scene_schema() -> String {
+    gearwear::scene_schema().to_string()
+}
+
+/// The unit that a name ends in; None where it has none.
+#[pyfunction]
+fn unit_of(name: &str) -> Option<&'static str> {
+    gearwear::unit_of(name)
+}
+
+#[pymodule(gil_used = false)]
+mod _native {
+    #[pymodule_export]
+    use super::calibration::Calibration;
+    #[pymodule_export]
+    use super::fem::{FemPair, FemProblem, solve_fem_problem};
+    #[pymodule_export]
+    use super::run::Run;
+    #[pymodule_export]
+    use super::scene::Scene;
+    #[pymodule_export]
+    use super::{presets, program, scene_schema, unit_of};
+
+    #[pymodule_export]
+    const VERSION: &str = env!("CARGO_PKG_VERSION");
+}

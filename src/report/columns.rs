@@ -1,0 +1,87 @@
+//! The tables of a run as columns of numbers: what its CSV files hold, for those who want arrays.
+//!
+//! Rows, names and meanings are those that [`csv_table`](super::csv_table) writes. Numbers keep their bits; one that was not computed, an
+//! empty field of the file, is NaN.
+
+mod gather;
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::fem_pair::pressure_table;
+use super::{csv_table, slice_table, tables, unit};
+use crate::gear::Gear;
+use crate::results::fem_pair::FemPairRecord;
+use crate::results::run::RunRecord;
+
+/// A table as columns of the same length.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// Name of its file, without the ending.
+    pub name: &'static str,
+    /// In the order of the file.
+    pub columns: Vec<Column>,
+}
+
+/// A column of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Column {
+    /// Its name, which ends in its unit.
+    pub name: String,
+    /// What it holds, as `columns.json` says it.
+    pub meaning: String,
+    /// Its unit in an engineer's words; none where it has none.
+    pub unit: Option<&'static str>,
+    /// One value a row.
+    pub values: Values,
+}
+
+/// The values of a column.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Values {
+    /// Numbers; NaN where one was not computed.
+    Numbers(Vec<f64>),
+    /// Whole numbers: numbers of slices, points, phases.
+    Counts(Vec<i64>),
+    /// What is so or not.
+    Flags(Vec<bool>),
+    /// Names.
+    Words(Vec<String>),
+}
+
+/// The table called `name` of a run: `pinion`, `wheel`, `history`, `profiles`, `mesh_cycle` or `slices`; none for another name, or where
+/// the run has no such table.
+pub fn of_run(record: &RunRecord, name: &str) -> Option<Table> {
+    Some(match name {
+        "pinion" => table("pinion", tables::flank(&record.flanks[Gear::Pinion])),
+        "wheel" => table("wheel", tables::flank(&record.flanks[Gear::Wheel])),
+        "history" => table("history", &record.history),
+        "profiles" => table("profiles", tables::profiles(record)),
+        "mesh_cycle" => table("mesh_cycle", &record.mesh_cycle),
+        "slices" => {
+            table("slices", slice_table::rows(record.slices.as_ref()?, &record.summary.geometry.curvature_radius_mm))
+        }
+        _ => return None,
+    })
+}
+
+/// The table called `name` of a pair in contact by finite elements: `mesh_cycle` or `pressure`; none for another name.
+pub fn of_fem_pair(record: &FemPairRecord, name: &str) -> Option<Table> {
+    Some(match name {
+        "mesh_cycle" => table("mesh_cycle", &record.mesh_cycle),
+        "pressure" => table("pressure", pressure_table::rows(&record.pressure)),
+        _ => return None,
+    })
+}
+
+fn table<R: Serialize + JsonSchema>(name: &'static str, rows: impl IntoIterator<Item = R>) -> Table {
+    let columns = csv_table::columns::<R>();
+    let values = gather::columns(rows, columns.len());
+    let column = |((name, meaning), values): (csv_table::Column, Values)| Column {
+        unit: unit::of(&name),
+        name,
+        meaning,
+        values,
+    };
+    Table { name, columns: columns.into_iter().zip(values).map(column).collect() }
+}
