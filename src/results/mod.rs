@@ -6,4 +6,5 @@ pub mod chemistry;
 pub mod error;
 pub mod fem_pair;
 pub mod fem_problem;
+pub mod lubrication;
 pub mod run;

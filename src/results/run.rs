@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::chemistry::{TemperatureSummary, WearLawSummary};
 use super::error::ErrorSummary;
+use super::lubrication::{FilmRow, LubricationSummary};
 use crate::gear::{PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
 
 /// A finished (or interrupted) run.
@@ -25,6 +26,8 @@ pub struct RunRecord {
     pub history: Vec<HistoryRow>,
     /// One row per loading position.
     pub mesh_cycle: Vec<MeshCycleRow>,
+    /// Films and friction along the path of contact; empty where nobody asks for them.
+    pub film: Vec<FilmRow>,
     /// Each gear's working flank in space.
     pub surface: PerGear<FlankSurface>,
     /// The mesh of one tooth slice by slice; `None` where all sections are alike.
@@ -81,6 +84,8 @@ pub struct Summary {
     pub wear: WearLawSummary,
     /// Of the contact's temperatures; `None` where nobody asks for them.
     pub temperature: Option<TemperatureSummary>,
+    /// Of films, friction and losses; `None` where nobody asks for them.
+    pub lubrication: Option<LubricationSummary>,
     /// The mesh cycle of the unworn pair, under the load of the reference phase.
     pub new: CycleSummary,
     /// The mesh cycle of the worn pair, under the same load.

@@ -52,6 +52,7 @@ pub(super) fn find(scene: &Table) -> Vec<UnitSlip> {
     search.operation();
     search.materials();
     search.contact_and_wear();
+    search.lubrication();
     search.slips
 }
 
@@ -214,6 +215,22 @@ impl Search<'_> {
             let conversions = [(1e3, "g/cm³ given for kg/m³"), (1e12, "t/mm³ given for kg/m³")];
             self.judge(&format!("{table}.density_kg_per_m3"), [50.0, 1e5], [500.0, 25e3], &conversions);
         }
+    }
+
+    fn lubrication(&mut self) {
+        for gear in ["pinion", "wheel"] {
+            for key in ["roughness_Ra_um", "roughness_run_in_Ra_um", "roughness_Rq_um"] {
+                let conversions = [MILLIMETRES, METRES_FOR_MICROMETRES, (0.0254, "µin given for µm")];
+                self.judge(&format!("pair.{gear}.{key}"), [0.005, 20.0], [0.01, 10.0], &conversions);
+            }
+        }
+        let conversions = [(1e6, "m²/s given for mm²/s"), (1e2, "St given for mm²/s, which is cSt")];
+        self.judge("lubricant.viscosity_40C_mm2_per_s", [2.0, 1e5], [5.0, 5e3], &conversions);
+        self.judge("lubricant.viscosity_100C_mm2_per_s", [1.0, 1e4], [2.0, 500.0], &conversions);
+        let conversions = [(1e9, "1/Pa given for 1/GPa"), (1e3, "1/MPa (mm²/N) given for 1/GPa")];
+        self.judge("lubricant.pressure_viscosity_per_GPa", [2.0, 100.0], [3.0, 80.0], &conversions);
+        let conversions = [(1e3, "g/cm³ given for kg/m³")];
+        self.judge("lubricant.density_15C_kg_per_m3", [500.0, 2000.0], [500.0, 2000.0], &conversions);
     }
 
     fn contact_and_wear(&mut self) {

@@ -7,6 +7,7 @@ mod centre_distance;
 mod contact_size;
 mod fem;
 mod geometry;
+mod lubrication;
 mod modifications;
 mod operation;
 mod pair;
@@ -126,13 +127,10 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let stiffness_curve_file = file.stiffness.as_ref().and_then(|stiffness| stiffness.curve.clone());
     let wear = wear::choose(&mut file.wear, findings);
     let material = materials.map(|materials| materials.map(|(elastic, _)| elastic));
-    let heat = temperature::choose(
-        &mut file.temperature,
-        materials.map(|materials| materials.map(|(_, thermal)| thermal)),
-        wear.map(|wear| wear.law),
-        &file.operation,
-        findings,
-    );
+    let thermal = materials.map(|materials| materials.map(|(_, thermal)| thermal));
+    let heat =
+        temperature::choose(&mut file.temperature, thermal, wear.map(|wear| wear.law), &file.operation, findings);
+    let lubrication = lubrication::choose(&mut file, thermal, findings);
     let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
     let in_space = slices.is_some_and(|slices| slices.coupling == Coupling::Fem);
     if in_space && fem.is_some_and(|fem| fem.body != Body::Ring) {
@@ -174,6 +172,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         slices,
         coupling_by_default,
         heat: heat?,
+        lubrication: lubrication?,
         wear: wear?,
         numerics: numerics?,
         verify,
