@@ -22,6 +22,7 @@ mod helical;
 mod helical_convergence;
 mod helical_targets;
 mod hexahedra;
+mod lubrication;
 mod mesh_files;
 mod mesh_files_fuzz;
 mod peak_figures;
