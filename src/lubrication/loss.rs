@@ -18,9 +18,9 @@
 use std::f64::consts::PI;
 
 /// H_V.
-pub(crate) fn ohlendorf(teeth: [u32; 2], base_helix_angle_rad: f64, before_and_after_pitch_point: [f64; 2]) -> f64 {
+pub(crate) fn ohlendorf(teeth: [u32; 2], base_helix_angle_rad: f64, after_and_before_pitch_point: [f64; 2]) -> f64 {
     let [z1, z2] = teeth.map(f64::from);
-    let [before, after] = before_and_after_pitch_point;
+    let [after, before] = after_and_before_pitch_point;
     // (u + 1)/(z₁ u) is 1/z₁ + 1/z₂.
     PI * (1.0 / z1 + 1.0 / z2) / base_helix_angle_rad.cos() * (1.0 - before - after + before.powi(2) + after.powi(2))
 }

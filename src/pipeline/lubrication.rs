@@ -23,7 +23,7 @@ use crate::lubrication::loss;
 use crate::lubrication::oil::Oil;
 use crate::lubrication::rolling_contact::{Bodies, RollingContact};
 use crate::lubrication::scuffing::helical_load_factor;
-use crate::lubrication::settings::{FrictionModel, LubricantSettings, LubricationSettings};
+use crate::lubrication::settings::{FrictionModel, FrictionSettings, LubricantSettings, LubricationSettings};
 use crate::reference::hertz_line::contact_modulus_mpa;
 use crate::results::lubrication::{
     AlongPath, FilmRow, FilmSummary, FrictionSummary, LossSummary, LubricationSummary, MethodBPoint, MethodBSummary,
@@ -171,7 +171,8 @@ impl<'a> Running<'a> {
 
     /// μ of a contact.
     fn friction(&self, oil: Option<&OilInMesh>, contact: &RollingContact) -> f64 {
-        let FrictionModelIn { model, coefficient } = self.friction_model();
+        let FrictionSettings { model, coefficient } = self.settings.friction;
+        let coefficient = coefficient.unwrap_or_default();
         let Some(oil) = oil else { return coefficient };
         let roughness = oil.settings.roughness;
         let viscosity = oil.mean.viscosity_milli_pa_s;
@@ -184,11 +185,6 @@ impl<'a> Running<'a> {
             }
             (None, _) => coefficient,
         }
-    }
-
-    fn friction_model(&self) -> FrictionModelIn {
-        let friction = self.settings.friction;
-        FrictionModelIn { model: friction.model, coefficient: friction.coefficient.unwrap_or_default() }
     }
 
     /// A contact of the run, new (0) or worn (1); none without load.
@@ -260,11 +256,6 @@ impl<'a> Running<'a> {
             least.map_or((String::new(), 0.0), |point| (point.name.clone(), point.lambda));
         MethodBSummary { points, mean_friction, least_lambda_at, least_lambda }
     }
-}
-
-struct FrictionModelIn {
-    model: FrictionModel,
-    coefficient: f64,
 }
 
 /// All contacts of the run's mesh, new and worn, within the line of action.
@@ -346,11 +337,11 @@ pub(super) fn sum_up(model: &Model<'_>, outcome: &Outcome, seen: &Seen<'_>) -> O
     let mut work = Work::default();
     for (place, states) in places.iter().zip(states) {
         let sliding_m_per_s = running.contact(place.position_mm, 0.0, 0.0).sliding_speed_m_per_s();
-        for which in 0..2 {
+        for (which, state) in states.iter().enumerate() {
             let power_w = place.load_n_per_mm[which] * width_mm * sliding_m_per_s * place.length_mm
                 / model.pair.path.base_pitch_mm;
             work.sliding_w[which] += power_w;
-            work.friction_w[which] += power_w * states[which].map_or(0.0, |state| state.friction);
+            work.friction_w[which] += power_w * state.map_or(0.0, |state| state.friction);
         }
     }
     let rows: Vec<FilmRow> = places.iter().zip(states).map(|(place, states)| row(running, place, states)).collect();

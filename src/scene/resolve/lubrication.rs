@@ -189,14 +189,17 @@ fn viscosities(file: &mut LubricantFile, findings: &mut Findings) -> Option<[f64
         return None;
     }
     if let Some(class) = file.viscosity_class.take() {
-        let usual = CLASSES.iter().find(|(number, _)| *number == class).map(|(_, viscosity)| *viscosity);
+        let Some((_, usual)) = CLASSES.iter().find(|(number, _)| *number == class) else {
+            let classes: Vec<String> = CLASSES.iter().map(|(number, _)| number.to_string()).collect();
+            findings.not_allowed("lubricant.viscosity_class", class.to_string(), classes.join(", "));
+            return None;
+        };
         file.viscosity_40C_mm2_per_s = Some(f64::from(class));
         if file.viscosity_100C_mm2_per_s.is_none() {
-            file.viscosity_100C_mm2_per_s = usual;
+            file.viscosity_100C_mm2_per_s = Some(*usual);
             findings.warnings.push(format!(
-                "lubricant.viscosity_class = {class}: {} mm²/s at 100 °C as of a mineral oil of viscosity index 95; give \
-                 lubricant.viscosity_100C_mm2_per_s of the oil itself",
-                usual.unwrap_or(f64::NAN)
+                "lubricant.viscosity_class = {class}: {usual} mm²/s at 100 °C as of a mineral oil of viscosity index 95; give \
+                 lubricant.viscosity_100C_mm2_per_s of the oil itself"
             ));
         }
     }
