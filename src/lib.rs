@@ -103,6 +103,7 @@ mod data_table;
 mod fem;
 mod gear;
 mod gear_mesh;
+mod lubrication;
 #[cfg(feature = "program")]
 mod measurement;
 pub mod mesh;

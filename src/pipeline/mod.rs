@@ -11,9 +11,11 @@ pub(crate) mod fem_problem;
 pub(crate) mod fem_scene;
 pub(crate) mod guarded;
 mod left_out_contact;
+mod lubrication;
 pub(crate) mod pair_mesh;
 mod phases;
 mod recording;
+mod scuffing;
 mod slices;
 mod stability;
 mod stage_clock;
@@ -379,7 +381,8 @@ fn carry_out<R>(
         true => stages.run(StageKind::ContactTemperature.name(), || temperature::observe(&model, &outcome)),
         false => None,
     };
-    let found = RunFindings { outcome: &outcome, heat: heat.as_ref(), verified: None };
+    let films = films_and_losses(plan, &model, &outcome, &mut stages);
+    let found = RunFindings { outcome: &outcome, heat: heat.as_ref(), lubrication: films.as_ref(), verified: None };
     let mut error = if plan.has(StageKind::ErrorEstimates) && outcome.stop == StopReason::Completed {
         let estimate = || error_estimates::estimate(&model, &outcome, judged.step_over_safe, observer);
         stages.run(StageKind::ErrorEstimates.name(), estimate)
@@ -482,6 +485,26 @@ fn own_slices(
         "helical.coupling: \"slicing\", as three-dimensional finite elements, the default, cannot be had for this pair: {reason}"
     );
     Ok((Some(SliceSettings { coupling: Coupling::Slicing, ..settings }), Some(warning)))
+}
+
+/// Films and losses, which are one look at the contacts of the mesh; none where the plan has neither.
+fn films_and_losses(
+    plan: &Plan,
+    model: &Model<'_>,
+    outcome: &Outcome,
+    stages: &mut StageClock<'_>,
+) -> Option<lubrication::Observed> {
+    let seen = match plan.has(StageKind::Film) {
+        true => stages.run(StageKind::Film.name(), || lubrication::look(model, outcome)),
+        false => None,
+    };
+    match plan.has(StageKind::Losses) {
+        true => stages.run(StageKind::Losses.name(), || {
+            let seen = seen.or_else(|| lubrication::look(model, outcome))?;
+            Some(lubrication::sum_up(model, outcome, &seen))
+        }),
+        false => None,
+    }
 }
 
 fn not_estimated_because(outcome: &Outcome) -> &'static str {

@@ -1,5 +1,6 @@
 //! From what a run found, in the program's units, to the record, in those of the output files.
 
+use super::lubrication::Observed;
 use super::temperature::{self, ObservedHeat};
 use super::{
     Model, RunError, UM_PER_MM, drawing, error_estimates, left_out_contact, phases, slices, stability::Judged,
@@ -34,6 +35,7 @@ const IMBALANCE: f64 = 0.02;
 pub(super) struct RunFindings<'a> {
     pub outcome: &'a Outcome,
     pub heat: Option<&'a ObservedHeat>,
+    pub lubrication: Option<&'a Observed>,
     pub verified: Option<&'a Verified>,
 }
 
@@ -49,6 +51,7 @@ pub(super) fn record(scene: &LoadedScene, model: &Model<'_>, found: RunFindings<
         flanks: PerGear::from_fn(|gear| flank(model, found, gear)),
         history: outcome.snapshots.iter().map(|snapshot| history_row(model, outcome, snapshot)).collect(),
         mesh_cycle: mesh_cycle(model, found),
+        film: found.lubrication.map_or_else(Vec::new, |observed| observed.rows.clone()),
         surface: PerGear::from_fn(|gear| FlankSurface::new(model.pair, gear)),
         slices: slices::record(outcome),
         drawing: drawing::draw(model.pair),
@@ -131,6 +134,7 @@ pub(super) fn summary(
         wear,
         wear_of_gear,
         temperature: found.heat.and_then(|heat| temperature::summary(model, heat)),
+        lubrication: found.lubrication.map(|observed| observed.summary.clone()),
         new: cycle(pair, &outcome.new.cycle),
         worn: cycle(pair, &outcome.worn.cycle),
         pinion: worn.pinion,

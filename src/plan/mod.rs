@@ -41,6 +41,10 @@ pub enum StageKind {
     Simulation,
     /// Temperatures of the contact, new and worn.
     ContactTemperature,
+    /// Films of oil along the path of contact, new and worn.
+    Film,
+    /// Friction and losses of the mesh, new and worn.
+    Losses,
     /// Coarser companion runs.
     ErrorEstimates,
     /// The same life on finite elements.
@@ -51,7 +55,7 @@ pub enum StageKind {
 
 impl StageKind {
     /// All stages, in the order of the work.
-    pub const ALL: [StageKind; 13] = [
+    pub const ALL: [StageKind; 15] = [
         StageKind::Geometry,
         StageKind::FiniteElementModel,
         StageKind::FiniteElementCalibration,
@@ -62,6 +66,8 @@ impl StageKind {
         StageKind::StepBound,
         StageKind::Simulation,
         StageKind::ContactTemperature,
+        StageKind::Film,
+        StageKind::Losses,
         StageKind::ErrorEstimates,
         StageKind::Verification,
         StageKind::Report,
@@ -79,6 +85,8 @@ impl StageKind {
             StageKind::HelicalSlices => "helical-slices",
             StageKind::StepBound => "step-bound",
             StageKind::ContactTemperature => "contact-temperature",
+            StageKind::Film => "film",
+            StageKind::Losses => "losses",
             StageKind::Simulation => "simulation",
             StageKind::ErrorEstimates => "error-estimates",
             StageKind::Verification => "verification",
@@ -155,6 +163,8 @@ fn decide(kind: StageKind, scene: &Scene) -> Result<String, String> {
         StageKind::HelicalSlices => helical_slices(scene),
         StageKind::StepBound => step_bound(scene),
         StageKind::ContactTemperature => contact_temperature(scene),
+        StageKind::Film => film(scene),
+        StageKind::Losses => losses(scene),
         StageKind::Simulation => Ok(simulation(scene)),
         StageKind::ErrorEstimates if scene.numerics.error_estimate => {
             Ok("numerics.error_estimate: Richardson extrapolation from coarser runs; at most half of the run's work"
@@ -244,6 +254,28 @@ fn contact_temperature(scene: &Scene) -> Result<String, String> {
         (Some(_), false) => Ok("[temperature] asks for it; by all methods, new and worn".to_owned()),
         (Some(_), true) => Ok(format!(
             "the wear law {law} reads it at every point during the simulation; by all methods, new and worn"
+        )),
+    }
+}
+
+fn film(scene: &Scene) -> Result<String, String> {
+    match scene.lubrication.map(|lubrication| lubrication.lubricant) {
+        None => Err("there is no [lubricant]".to_owned()),
+        Some(None) => Err("there is no [lubricant], only a constant friction".to_owned()),
+        Some(Some(_)) => {
+            Ok("[lubricant]: thickness, λ and flash temperature along the path of contact, new and worn, and by ISO/TS 6336-22 \
+                Method B; scuffing temperatures"
+                .to_owned())
+        }
+    }
+}
+
+fn losses(scene: &Scene) -> Result<String, String> {
+    match scene.lubrication {
+        None => Err("there is neither [friction] nor [lubricant]".to_owned()),
+        Some(lubrication) => Ok(format!(
+            "friction {} along the path of contact, loss factors, mesh power loss, new and worn",
+            lubrication.friction.model.name()
         )),
     }
 }

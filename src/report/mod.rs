@@ -7,6 +7,7 @@
 //! | `history.csv`, `mesh_cycle.csv` | [`HistoryRow`](crate::results::run::HistoryRow), [`MeshCycleRow`](crate::results::run::MeshCycleRow) |
 //! | `columns.json` | what the columns of the CSV files hold ([`csv_table`]) |
 //! | `slices.csv` | [`slice_table`]; only where the sections of the pair differ |
+//! | `film.csv` | [`FilmRow`](crate::results::lubrication::FilmRow); only where the scene asks for films or losses |
 //! | `flank.vtu`; where asked for `flank.pvd`, `flank_000.vtu` … | [`flank_mesh`] |
 //! | `scene.toml` | the resolved scene, byte for byte, so that its SHA-256 begins with the scene hash |
 //! | `report.html` | [`html`] |
@@ -71,6 +72,10 @@ pub(crate) fn write_data(record: &RunRecord, dir: &Path) -> Result<Vec<PathBuf>,
         // What an earlier run left there would pass for this one's.
         None => remove(dir, SLICES)?,
     }
+    match record.film.is_empty() {
+        false => paths.push(csv.place(FILM, |out| table(out, &record.film))?),
+        true => remove(dir, FILM)?,
+    }
     paths.push(place(dir, FLANK, |out| flank_mesh::write(out, record))?);
     paths.push(csv.finish()?);
     Ok(paths)
@@ -97,7 +102,8 @@ pub(crate) fn figures(record: &RunRecord) -> Vec<figure::Figure> {
 #[cfg(feature = "program")]
 pub(crate) fn write_workbook(record: &RunRecord, dir: &Path) -> Result<PathBuf, ReportError> {
     let sliced = record.slices.is_some().then_some(SLICES);
-    let tables: Vec<&str> = TABLES.into_iter().chain(sliced).collect();
+    let films = (!record.film.is_empty()).then_some(FILM);
+    let tables: Vec<&str> = TABLES.into_iter().chain(sliced).chain(films).collect();
     workbook::write(&record.summary, &tables, dir)
 }
 
@@ -142,6 +148,7 @@ pub(crate) fn remove_page(dir: &Path) -> Result<(), ReportError> {
 const TABLES: [&str; 5] = ["pinion.csv", "wheel.csv", "history.csv", "profiles.csv", "mesh_cycle.csv"];
 const PAGE: &str = "report.html";
 const SLICES: &str = "slices.csv";
+const FILM: &str = "film.csv";
 const FLANK: &str = "flank.vtu";
 const SERIES: &str = "flank.pvd";
 

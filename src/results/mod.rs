@@ -3,8 +3,10 @@
 //! The records of the studies (accuracy, sweep, compare, validation) are with them in `studies`.
 
 pub mod chemistry;
+pub mod drawing;
 pub mod error;
 pub mod fem_pair;
 pub mod fem_problem;
+pub mod lubrication;
 pub mod run;
 pub(crate) mod worn_pair;

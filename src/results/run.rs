@@ -5,8 +5,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+pub use super::drawing::{GearCircles, PairDrawing};
+
 use super::chemistry::{TemperatureSummary, WearLawSummary};
 use super::error::ErrorSummary;
+use super::lubrication::{FilmRow, LubricationSummary};
 use crate::gear::{PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
 
 /// A finished (or interrupted) run.
@@ -24,6 +27,8 @@ pub struct RunRecord {
     pub history: Vec<HistoryRow>,
     /// One row per loading position.
     pub mesh_cycle: Vec<MeshCycleRow>,
+    /// Films and friction along the path of contact; empty where nobody asks for them.
+    pub film: Vec<FilmRow>,
     /// Each gear's working flank in space.
     pub surface: PerGear<FlankSurface>,
     /// The mesh of one tooth slice by slice; `None` where all sections are alike.
@@ -82,6 +87,8 @@ pub struct Summary {
     pub wear_of_gear: PerGear<WearLawSummary>,
     /// Of the contact's temperatures; `None` where nobody asks for them.
     pub temperature: Option<TemperatureSummary>,
+    /// Of films, friction and losses; `None` where nobody asks for them.
+    pub lubrication: Option<LubricationSummary>,
     /// The mesh cycle of the unworn pair, under the load of the reference phase.
     pub new: CycleSummary,
     /// The mesh cycle of the worn pair, under the same load.
@@ -579,30 +586,4 @@ pub struct SliceRecord {
     pub at_sharp_edge_new: Vec<bool>,
     /// The same, worn.
     pub at_sharp_edge_worn: Vec<bool>,
-}
-
-/// The pair in mesh in the transverse section, mm; the pinion's axis is the origin and the wheel's lies on +y.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PairDrawing {
-    /// Closed outline of each whole gear in its place.
-    pub outline: PerGear<Vec<[f64; 2]>>,
-    /// Axis of each gear.
-    pub axis: PerGear<[f64; 2]>,
-    /// Bore radius of each gear, where given.
-    pub bore_radius_mm: PerGear<Option<f64>>,
-    /// Base, working pitch and tip radius of each gear.
-    pub circles_mm: PerGear<GearCircles>,
-    /// Where the line of action touches the base circles: T1, T2.
-    pub line_of_action: [[f64; 2]; 2],
-    /// Points A–E with their names, in the order of contact.
-    pub path_of_contact: Vec<(String, [f64; 2])>,
-}
-
-/// Radii of the circles drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[allow(missing_docs, reason = "the names say it")]
-pub struct GearCircles {
-    pub base: f64,
-    pub working_pitch: f64,
-    pub tip: f64,
 }

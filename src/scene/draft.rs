@@ -11,13 +11,15 @@ use super::problem::Problem;
 use super::{Resolved, resolve, short_hash, text};
 
 /// Keys that say the same thing in different ways: giving one takes the others away.
-const SAME_THING: [&[&str]; 6] = [
+const SAME_THING: [&[&str]; 8] = [
     &["pair.normal_module_mm", "pair.transverse_module_mm"],
     &["pair.pressure_angle_deg", "pair.transverse_pressure_angle_deg"],
     &["pair.centre_distance_mm", "pair.backlash_um", "pair.normal_backlash_um"],
     &["operation.hours", "operation.pinion_revolutions"],
     &["wear.coefficient_m2_per_N", "wear.coefficient_mm3_per_Nm"],
     &["contact.foundation_MPa_per_mm", "contact.match"],
+    &["lubricant.viscosity_class", "lubricant.viscosity_40C_mm2_per_s"],
+    &["lubricant.pressure_viscosity", "lubricant.pressure_viscosity_per_GPa"],
 ];
 
 /// The same of `pair.pinion` and `pair.wheel`.

@@ -9,6 +9,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::lubrication_file::{FrictionFile, LoadFactorsFile, LubricantFile};
 use super::presets;
 use super::wear_file::{GearWearFile, TemperatureFile, WearFile};
 use crate::contact::settings::{MatchCriterion, SurfaceKind};
@@ -42,6 +43,13 @@ pub struct SceneFile {
     pub fem: Option<FemFile>,
     /// Contact temperatures, which need the speed. Default: found only where the wear law reads them.
     pub temperature: Option<TemperatureFile>,
+    /// The oil, which asks for films, and for losses. Needs the speed and the roughness of both gears. Default: no films.
+    pub lubricant: Option<LubricantFile>,
+    /// Friction of the mesh, which asks for losses and needs the speed. Default: with [lubricant] the mean value of ISO/TS 6336-22, otherwise
+    /// no losses.
+    pub friction: Option<FrictionFile>,
+    /// Load factors of ISO 6336-1, read by films and by the figures of standards. Default: 1 each.
+    pub load_factors: Option<LoadFactorsFile>,
     /// The wear law.
     pub wear: WearFile,
     /// Slices over the face width, read only where sections differ: with a helix angle, a modification over the face
@@ -199,6 +207,15 @@ pub struct GearFile {
     /// Radius of the rounding of the tip edge in mm, 0 or more. Default 0.
     #[schemars(range(min = 0))]
     pub tip_rounding_mm: Option<f64>,
+    /// Roughness of the flanks as arithmetic mean Ra in µm, > 0 to 50; read by films and friction, which need it. Default: not given.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 50))]
+    pub roughness_Ra_um: Option<f64>,
+    /// The same of the worn flanks, > 0 to 50. Default: that of the new ones.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 50))]
+    pub roughness_run_in_Ra_um: Option<f64>,
+    /// Root mean square Rq in µm, > 0 to 60; read by friction.model = "xu". Default: 1.2533 Ra, of heights spread normally.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 60))]
+    pub roughness_Rq_um: Option<f64>,
     /// Relief towards the tip. Default: none.
     pub tip_relief: Option<ReliefFile>,
     /// Relief towards the root. Default: none.

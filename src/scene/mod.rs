@@ -8,6 +8,7 @@ mod findings;
 pub(crate) mod key;
 pub(crate) mod loaded;
 mod locate;
+pub(crate) mod lubrication_file;
 pub(crate) mod nearest;
 pub(crate) mod presets;
 pub(crate) mod problem;
@@ -23,6 +24,7 @@ use sha2::{Digest, Sha256};
 use crate::contact::settings::{ContactSettings, Material};
 use crate::gear::{PerGear, spec::PairSpec};
 use crate::gear_mesh::settings::BodySettings;
+use crate::lubrication::settings::LubricationSettings;
 use crate::mesh_cycle::settings::SliceSettings;
 use crate::simulation::settings::{Numerics, Operation, Phase};
 use crate::stiffness::settings::StiffnessSettings;
@@ -63,6 +65,8 @@ pub struct Scene {
     pub coupling_by_default: bool,
     /// Contact temperatures; none where nothing asks for them.
     pub heat: Option<HeatSettings>,
+    /// Films, friction and losses; none where nothing asks for them.
+    pub lubrication: Option<LubricationSettings>,
     /// Wear law of each gear.
     pub wear: PerGear<WearSettings>,
     /// Resolution.

@@ -52,6 +52,7 @@ pub(super) fn find(scene: &Table) -> Vec<UnitSlip> {
     search.operation();
     search.materials();
     search.contact_and_wear();
+    search.lubrication();
     search.slips
 }
 
@@ -216,6 +217,22 @@ impl Search<'_> {
         }
     }
 
+    fn lubrication(&mut self) {
+        for gear in ["pinion", "wheel"] {
+            for key in ["roughness_Ra_um", "roughness_run_in_Ra_um", "roughness_Rq_um"] {
+                let conversions = [MILLIMETRES, METRES_FOR_MICROMETRES];
+                self.judge(&format!("pair.{gear}.{key}"), [0.005, 20.0], [0.01, 10.0], &conversions);
+            }
+        }
+        let conversions = [(1e6, "m²/s given for mm²/s, which is cSt")];
+        self.judge("lubricant.viscosity_40C_mm2_per_s", [2.0, 1e5], [5.0, 5e3], &conversions);
+        self.judge("lubricant.viscosity_100C_mm2_per_s", [1.0, 1e4], [2.0, 500.0], &conversions);
+        let conversions = [(1e9, "1/Pa given for 1/GPa"), (1e3, "1/MPa (mm²/N) given for 1/GPa")];
+        self.judge("lubricant.pressure_viscosity_per_GPa", [2.0, 100.0], [3.0, 80.0], &conversions);
+        let conversions = [(1e3, "g/cm³ given for kg/m³")];
+        self.judge("lubricant.density_15C_kg_per_m3", [500.0, 2000.0], [500.0, 2000.0], &conversions);
+    }
+
     fn contact_and_wear(&mut self) {
         let modulus_mpa = 1e3
             * ["material.young_modulus_GPa", "material.pinion.young_modulus_GPa"]
@@ -294,6 +311,9 @@ mod tests {
             ("wear.coefficient_m2_per_N", 1e-8, 1e-17),
             ("wear.coefficient_mm3_per_Nm", 1e-17, 1e-8),
             ("wear.severe.above_MPa", 2e9, 2000.0),
+            ("pair.pinion.roughness_Ra_um", 5e-4, 0.5),
+            ("lubricant.viscosity_40C_mm2_per_s", 2.2e-4, 220.0),
+            ("lubricant.pressure_viscosity_per_GPa", 2e-8, 20.0),
         ] {
             let found = slips(key, value);
             assert!(found.iter().any(|s| s.key == key && s.meant == meant), "{key} = {value:e}: {found:?}");

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::number::{change, figure, fixed, percent, significant};
 use super::table::{Cell, cells, line, list, row, table, whole};
-use super::{law_table, page, sliced};
+use super::{film_table, law_table, page, sliced};
 use crate::results::error::ErrorSummary;
 use crate::results::run::{GearSummary, PhaseSummary, RunRecord, Summary, WearSummary};
 
@@ -20,7 +20,16 @@ pub(crate) fn tables(record: &RunRecord) -> Markup {
 fn figures(record: &RunRecord) -> Markup {
     let s = &record.summary;
     let sliced = s.helical.as_ref().map_or_else(Markup::default, sliced::tables::tables);
-    page::tables([new_and_worn(s), wear(s), law_table::tables(s), sliced, pair(s), gears(s), contact(s)])
+    page::tables([
+        new_and_worn(s),
+        wear(s),
+        law_table::tables(s),
+        film_table::tables(s),
+        sliced,
+        pair(s),
+        gears(s),
+        contact(s),
+    ])
 }
 
 fn new_and_worn(s: &Summary) -> Markup {

@@ -8,6 +8,8 @@ mod cycle_plots;
 mod drawing_plot;
 pub(crate) mod field_plot;
 pub(crate) mod figures_table;
+mod film_plot;
+mod film_table;
 mod flank_plots;
 mod history_plot;
 pub(crate) mod law_table;

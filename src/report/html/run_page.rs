@@ -7,7 +7,8 @@ use super::sliced::raster::{MOST_ACROSS, MOST_ALONG};
 use super::sliced::{self, sliced_run::SlicedRun};
 use super::table::{cells, line, list};
 use super::{
-    cycle_plots, drawing_plot, figures_table, flank_plots, history_plot, law_table, reading, temperature_plot,
+    cycle_plots, drawing_plot, figures_table, film_plot, flank_plots, history_plot, law_table, reading,
+    temperature_plot,
 };
 use crate::report::chart::Chart;
 use crate::results::run::{ReportedBy, RunRecord, Summary};
@@ -24,6 +25,7 @@ const DATA_FILES: [(&str, &str); 9] = [
     ("columns.json", "what the columns of these tables hold"),
     ("scene.toml", "the resolved scene"),
 ];
+const FILM_FILE: (&str, &str) = ("film.csv", "films and friction along the path of contact");
 const SLICES_FILE: (&str, &str) = ("slices.csv", "the load of every slice over the mesh");
 
 /// What the plots of a pair have in common.
@@ -93,6 +95,7 @@ fn figures_of_equal_sections(record: &RunRecord) -> Vec<Chart> {
     charts.extend(flank_plots::pressure(record));
     charts.extend(cycle_plots::all(record));
     charts.extend(temperature_plot::all(record));
+    charts.extend(film_plot::all(record));
     charts.push(history_plot::wear_against_time(record));
     charts.extend(flank_plots::modifications(record));
     charts
@@ -128,6 +131,9 @@ fn sources(record: &RunRecord) -> Markup {
     let mut files = DATA_FILES.to_vec();
     if record.slices.is_some() {
         files.push(SLICES_FILE);
+    }
+    if !record.film.is_empty() {
+        files.push(FILM_FILE);
     }
     sources_list(&files, "The resolved scene, every default filled in", &record.scene_toml)
 }

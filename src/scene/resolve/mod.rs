@@ -7,6 +7,7 @@ mod centre_distance;
 mod contact_size;
 mod fem;
 mod geometry;
+mod lubrication;
 mod modifications;
 mod operation;
 mod pair;
@@ -129,13 +130,10 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         wear::check_phases(&file.operation, operation, wear, findings);
     }
     let material = materials.map(|materials| materials.map(|(elastic, _)| elastic));
-    let heat = temperature::choose(
-        &mut file.temperature,
-        materials.map(|materials| materials.map(|(_, thermal)| thermal)),
-        wear.map(|wear| wear.map(|own| own.law)),
-        &file.operation,
-        findings,
-    );
+    let thermal = materials.map(|materials| materials.map(|(_, thermal)| thermal));
+    let laws = wear.map(|wear| wear.map(|own| own.law));
+    let heat = temperature::choose(&mut file.temperature, thermal, laws, &file.operation, findings);
+    let lubrication = lubrication::choose(&mut file, thermal, findings);
     let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
     let in_space = slices.is_some_and(|slices| slices.coupling == Coupling::Fem);
     if in_space && fem.is_some_and(|fem| fem.body != Body::Ring) {
@@ -177,6 +175,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         slices,
         coupling_by_default,
         heat: heat?,
+        lubrication: lubrication?,
         wear: wear?,
         numerics: numerics?,
         verify,

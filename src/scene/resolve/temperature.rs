@@ -1,7 +1,7 @@
 //! Contact temperatures: only where the wear law reads them or the scene asks for them.
 
 use crate::gear::{Gear, PerGear};
-use crate::scene::file::OperationFile;
+use crate::scene::file::{OperationFile, PhaseFile};
 use crate::scene::findings::Findings;
 use crate::scene::wear_file::TemperatureFile;
 use crate::thermal::settings::{ABSOLUTE_ZERO_C, HeatSettings, ThermalMaterial};
@@ -28,9 +28,7 @@ pub(super) fn choose(
         Some(gear) => format!("wear.{}.law = {:?}", gear.name(), laws[gear].name()),
         None => "[temperature]".to_owned(),
     };
-    let phases = operation.phases.iter().flatten();
-    let of_phases = operation.phases.is_some() && phases.clone().all(|phase| phase.pinion_speed_rpm.is_some());
-    if operation.pinion_speed_rpm.is_none() && !of_phases {
+    if !speed_is_given(operation) {
         findings.missing(&["operation.pinion_speed_rpm"], "a number greater than 0");
         findings.help(format!("{asked_for_by} needs the speed"));
         return None;
@@ -44,4 +42,10 @@ pub(super) fn choose(
         bulk_temperature_k: *file.bulk_temperature_C.get_or_insert(BULK_TEMPERATURE_C) - ABSOLUTE_ZERO_C,
         material,
     }))
+}
+
+/// Whether every phase has a speed.
+pub(super) fn speed_is_given(operation: &OperationFile) -> bool {
+    let of_phases = |phases: &Vec<PhaseFile>| phases.iter().all(|phase| phase.pinion_speed_rpm.is_some());
+    operation.pinion_speed_rpm.is_some() || operation.phases.as_ref().is_some_and(of_phases)
 }

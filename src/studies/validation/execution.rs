@@ -185,6 +185,9 @@ impl Task<'_> {
             columns.add("snapshot_wear_um", Value::List(snapshots.collect()));
             value.add(gear.name(), columns);
         }
+        if !record.film.is_empty() {
+            value.add("film", table(|out| csv_table::table(out, &record.film))?);
+        }
         if let Some(slices) = &record.slices {
             let path = &record.summary.geometry.curvature_radius_mm;
             value.add("slices", table(|out| csv_table::table(out, slice_table::rows(slices, path)))?);

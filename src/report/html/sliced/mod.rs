@@ -12,7 +12,7 @@ pub(super) mod tables;
 mod tooth_cycle;
 
 use self::sliced_run::SlicedRun;
-use super::{cycle_plots, drawing_plot, history_plot, temperature_plot};
+use super::{cycle_plots, drawing_plot, film_plot, history_plot, temperature_plot};
 use crate::gear::Gear;
 use crate::report::chart::Chart;
 
@@ -30,6 +30,7 @@ pub(super) fn figures(run: SlicedRun<'_>) -> Vec<Chart> {
     figures.extend([tooth_cycle::load_share(run), tooth_cycle::pressure(run)]);
     figures.extend([cycle_plots::transmission_error(run.record), mesh_orders::new_and_worn(run)]);
     figures.extend(temperature_plot::all(run.record));
+    figures.extend(film_plot::all(run.record));
     figures.push(history_plot::wear_against_time(run.record));
     figures
 }

@@ -1,0 +1,81 @@
+//! Plots of the film of oil, of λ and of the friction along the path of contact, new and worn.
+
+use super::number::{figure, significant};
+use super::reading::among;
+use crate::report::chart::Chart;
+use crate::results::lubrication::{FilmRow, LubricationSummary};
+use crate::results::run::RunRecord;
+
+type Column = fn(&FilmRow) -> Option<f64>;
+
+/// All of them; none where nobody asks for films or losses.
+pub(super) fn all(record: &RunRecord) -> Vec<Chart> {
+    let Some(summary) = &record.summary.lubrication else { return Vec::new() };
+    let rows = in_the_middle(record);
+    if rows.is_empty() {
+        return Vec::new();
+    }
+    let films = summary.film.is_some().then(|| [film(record, &rows), lambda(record, summary, &rows)]);
+    films.into_iter().flatten().chain([friction(record, summary, &rows)]).collect()
+}
+
+/// Rows of the slice in the middle of the face width, or of the whole width where all sections are alike.
+fn in_the_middle(record: &RunRecord) -> Vec<&FilmRow> {
+    let last = record.film.iter().map(|row| row.slice).max().unwrap_or(0);
+    record.film.iter().filter(|row| row.slice == last / 2).collect()
+}
+
+/// Where over the face width the curves are.
+fn where_over_width(record: &RunRecord, rows: &[&FilmRow]) -> String {
+    match record.slices {
+        Some(_) => format!(" Curves are of the slice at width {} mm.", significant(rows[0].width_mm, 3)),
+        None => String::new(),
+    }
+}
+
+fn over_path(record: &RunRecord, chart: Chart, rows: &[&FilmRow], columns: [Column; 2], hover: &str) -> Chart {
+    let x: Vec<f64> = rows.iter().map(|row| row.position_mm).collect();
+    let top = rows.iter().flat_map(|row| columns.map(|of| of(row).unwrap_or(0.0))).fold(0.0, f64::max);
+    let [new, worn] = columns.map(|of| rows.iter().map(|row| of(row).unwrap_or(f64::NAN)).collect());
+    chart.over_path(&record.summary.geometry.curvature_radius_mm).y_up_to(top).new_and_worn(&x, new, worn, hover)
+}
+
+fn film(record: &RunRecord, rows: &[&FilmRow]) -> Chart {
+    let chart = Chart::new("film", "Local film thickness").y("film thickness, µm").reading(format!(
+        "The local film of ISO/TS 6336-22 under the load and pressure of the run’s own contact.{}",
+        where_over_width(record, rows)
+    ));
+    over_path(record, chart, rows, [|row| row.local_film_new_um, |row| row.local_film_worn_um], "%{y:.4f} µm")
+}
+
+fn lambda(record: &RunRecord, summary: &LubricationSummary, rows: &[&FilmRow]) -> Chart {
+    let points = record.summary.geometry.curvature_radius_mm.named();
+    let reading = summary.film.as_ref().map_or_else(String::new, |film| {
+        format!(
+            "λ, film over mean roughness, is least {} new with {} and {} worn with {}. Below about 1 roughness carries part of the load; above about \
+             2 the film carries it.{}",
+            among(&points, film.least_lambda_new_position_mm),
+            figure(film.lambda_new.min),
+            among(&points, film.least_lambda_worn_position_mm),
+            figure(film.lambda_worn.min),
+            where_over_width(record, rows)
+        )
+    });
+    let chart = Chart::new("lambda", "Film over roughness λ").y("λ").reading(reading);
+    over_path(record, chart, rows, [|row| row.lambda_new, |row| row.lambda_worn], "%{y:.3f}")
+}
+
+fn friction(record: &RunRecord, summary: &LubricationSummary, rows: &[&FilmRow]) -> Chart {
+    let (friction, losses) = (&summary.friction, &summary.losses);
+    let chart = Chart::new("friction", "Coefficient of friction").y("coefficient of friction").reading(format!(
+        "Model {}: {} on average over the work of sliding new, {} worn. The mesh loses {} W of {} W new and {} W worn.{}",
+        friction.model,
+        significant(friction.mean_new, 3),
+        significant(friction.mean_worn, 3),
+        figure(losses.mesh_power_loss_new_W),
+        figure(losses.power_W),
+        figure(losses.mesh_power_loss_worn_W),
+        where_over_width(record, rows)
+    ));
+    over_path(record, chart, rows, [|row| row.friction_new, |row| row.friction_worn], "%{y:.4f}")
+}

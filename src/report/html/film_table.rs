@@ -1,0 +1,99 @@
+//! Oil, films, friction, losses and the figures of standards as tables.
+
+use maud::{Markup, html};
+
+use super::number::{fixed, percent};
+use super::table::{cells, line, list, row, table};
+use crate::results::lubrication::{FilmSummary, LubricationSummary, MethodBSummary, OilSummary, ScuffingSummary};
+use crate::results::run::Summary;
+
+pub(crate) fn tables(s: &Summary) -> Markup {
+    let Some(of) = &s.lubrication else { return Markup::default() };
+    html! {
+        @if let Some(oil) = &of.oil { (self::oil(oil)) }
+        @if let Some(film) = &of.film { (self::film(film)) }
+        (losses(of))
+        @if let Some(method_b) = &of.method_b { (self::method_b(method_b)) }
+        @if let Some(scuffing) = &of.scuffing { (self::scuffing(scuffing)) }
+    }
+}
+
+fn oil(oil: &OilSummary) -> Markup {
+    table(
+        "Oil",
+        &["value"],
+        [
+            row("Temperature into the mesh", "°C", [oil.temperature_C]),
+            row("Kinematic viscosity there", "mm²/s", [oil.kinematic_viscosity_mm2_per_s]),
+            row("Dynamic viscosity there", "mPa·s", [oil.dynamic_viscosity_mPas]),
+            row("Pressure–viscosity coefficient there", "1/GPa", [oil.pressure_viscosity_per_GPa]),
+            row("Temperature of the teeth", "°C", [oil.bulk_temperature_C]),
+            row("Dynamic viscosity at the teeth", "mPa·s", [oil.dynamic_viscosity_at_bulk_mPas]),
+        ],
+    )
+}
+
+fn film(f: &FilmSummary) -> Markup {
+    table(
+        "Film along the path of contact",
+        &["new", "worn"],
+        [
+            row("λ (local film over Ra), least", "", [f.lambda_new.min, f.lambda_worn.min]),
+            row("λ, mean", "", [f.lambda_new.mean, f.lambda_worn.mean]),
+            row("Central film, least", "µm", [f.central_film_new_um.min, f.central_film_worn_um.min]),
+            row("Central film, mean", "µm", [f.central_film_new_um.mean, f.central_film_worn_um.mean]),
+            row("Minimum film, least", "µm", [f.minimum_film_new_um.min, f.minimum_film_worn_um.min]),
+            row("Flash temperature, greatest", "K", [f.greatest_flash_new_K, f.greatest_flash_worn_K]),
+        ],
+    )
+}
+
+fn losses(of: &LubricationSummary) -> Markup {
+    let (friction, losses) = (&of.friction, &of.losses);
+    let efficiency = [losses.efficiency_new, losses.efficiency_worn].map(percent);
+    table(
+        "Friction and losses of the mesh",
+        &["new", "worn"],
+        [
+            row("Mean coefficient of friction", "", [friction.mean_new, friction.mean_worn].map(|mu| fixed(mu, 4))),
+            row(
+                "Loss factor H_VL of the run’s own loads",
+                "",
+                [losses.loss_factor_local_new, losses.loss_factor_local_worn].map(|factor| fixed(factor, 4)),
+            ),
+            row("Loss factor H_V, Ohlendorf", "", cells![fixed(losses.loss_factor_ohlendorf, 4), ""]),
+            row("Mesh power loss", "W", [losses.mesh_power_loss_new_W, losses.mesh_power_loss_worn_W]),
+            row("Efficiency of the mesh", "", efficiency),
+        ],
+    )
+}
+
+fn method_b(b: &MethodBSummary) -> Markup {
+    let of_points = b.points.iter().map(|p| {
+        line(cells![
+            p.name.as_str(),
+            fixed(p.load_sharing_factor, 3),
+            p.pressure_MPa,
+            p.contact_temperature_C,
+            fixed(p.film_um, 3),
+            fixed(p.lambda, 3)
+        ])
+    });
+    list(
+        "ISO/TS 6336-22 Method B, without the run’s contact",
+        ["", "X_Y", "p_dyn, MPa", "θ_B, °C", "h, µm", "λ_GF"],
+        of_points,
+    )
+}
+
+fn scuffing(s: &ScuffingSummary) -> Markup {
+    table(
+        "Scuffing temperatures",
+        &["value"],
+        [
+            row("Contact temperature, ISO/TS 6336-20", "°C", [s.contact_temperature_C]),
+            row("Greatest flash temperature", "K", [s.greatest_flash_K]),
+            row("Integral temperature, ISO/TS 6336-21", "°C", [s.integral_temperature_C]),
+        ],
+    )
+}

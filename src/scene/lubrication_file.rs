@@ -1,0 +1,81 @@
+//! What a user may write of oil, friction and the load factors of standards: `[lubricant]`, `[friction]` and `[load_factors]` of the scene
+//! file.
+
+#![allow(non_snake_case, reason = "key names end in their unit as engineers write it")]
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::lubrication::film::CentralFilm;
+use crate::lubrication::settings::{BaseOil, FrictionModel, OilSupply, PressureViscosityFit, ViscosityFit};
+
+/// The oil, by its class or its viscosities.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LubricantFile {
+    /// Viscosity class ISO VG, one of 10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680 and 1000: the viscosity at 40 °C in mm²/s, with that
+    /// at 100 °C of a mineral oil of viscosity index 95 unless it is given. Required, or viscosity_40C_mm2_per_s.
+    #[schemars(extend("enum" = [10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000]))]
+    pub viscosity_class: Option<u32>,
+    /// Kinematic viscosity at 40 °C in mm²/s (cSt), 2 to 100000. Required, or viscosity_class.
+    #[schemars(range(min = 2, max = 100000))]
+    pub viscosity_40C_mm2_per_s: Option<f64>,
+    /// Kinematic viscosity at 100 °C in mm²/s (cSt), 1 to 10000, below that at 40 °C. Required, or viscosity_class.
+    #[schemars(range(min = 1, max = 10000))]
+    pub viscosity_100C_mm2_per_s: Option<f64>,
+    /// How viscosity follows temperature. Default: astm-d341.
+    pub viscosity_fit: Option<ViscosityFit>,
+    /// What the oil is made of: decides about the pressure–viscosity coefficient, the usual density and the factor X_L of friction.
+    /// Default: mineral.
+    pub base: Option<BaseOil>,
+    /// Density at 15 °C in kg/m³, 500 to 2000. Default: 890 of mineral oil, 850 of polyalphaolefin, 1050 of polyglycol.
+    #[schemars(range(min = 500, max = 2000))]
+    pub density_15C_kg_per_m3: Option<f64>,
+    /// Fit of the pressure–viscosity coefficient. Default: iso-6336-22.
+    pub pressure_viscosity: Option<PressureViscosityFit>,
+    /// Pressure–viscosity coefficient α in 1/GPa, > 0 to 200, at every temperature, instead of a fit.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 200))]
+    pub pressure_viscosity_per_GPa: Option<f64>,
+    /// Temperature of the oil where it comes into the mesh in °C, −60 to 250. Required.
+    #[schemars(range(min = -60, max = 250))]
+    pub temperature_C: Option<f64>,
+    /// Temperature of the teeth in °C, −60 to 400. Default: that of ISO/TS 6336-22 from oil and loss.
+    #[schemars(range(min = -60, max = 400))]
+    pub bulk_temperature_C: Option<f64>,
+    /// How the oil comes into the mesh, factor X_S of the temperature of the teeth. Default: dip.
+    pub supply: Option<OilSupply>,
+    /// Factor X_L of friction by additives, > 0 to 2. Default: 1 of mineral oil, 0.8 of polyalphaolefin, 0.7 of polyglycol.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 2))]
+    pub lubricant_factor: Option<f64>,
+    /// How the film in the middle of the contact is found. Default: hamrock.
+    pub central_film: Option<CentralFilm>,
+}
+
+/// Friction of the mesh: losses, and the heat of the films.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FrictionFile {
+    /// The model; all but constant need [lubricant]. Default: iso-6336-22.
+    pub model: Option<FrictionModel>,
+    /// Coefficient of friction μ, > 0 to 2; for model = "constant" only, which needs it.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 2))]
+    pub coefficient: Option<f64>,
+}
+
+/// Load factors of ISO 6336-1, read by the figures of standards, and the first two by the films of the run's own contact.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LoadFactorsFile {
+    /// Application factor K_A (times K_γ of uneven planets), 0.1 to 20. Default 1.
+    #[schemars(range(min = 0.1, max = 20))]
+    pub application: Option<f64>,
+    /// Dynamic factor K_V, 1 to 20. Default 1.
+    #[schemars(range(min = 1, max = 20))]
+    pub dynamic: Option<f64>,
+    /// Transverse load factor K_Hα, 1 to 20. Default 1.
+    #[schemars(range(min = 1, max = 20))]
+    pub transverse: Option<f64>,
+    /// Face load factor K_Hβ, 1 to 20. Default 1.
+    #[schemars(range(min = 1, max = 20))]
+    pub face: Option<f64>,
+}

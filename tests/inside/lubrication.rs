@@ -1,0 +1,180 @@
+//! Films, friction and losses: formulas against their sources' own units and limits, what scenes may say, and what a run writes.
+
+use gearwear::gear::PerGear;
+use gearwear::lubrication::film::{CentralFilm, FilmParameters};
+use gearwear::lubrication::friction;
+use gearwear::lubrication::load_sharing_factor::SharingGeometry;
+use gearwear::lubrication::rolling_contact::RollingContact;
+use gearwear::lubrication::scuffing;
+use gearwear::observer::Unwatched;
+use gearwear::pipeline;
+use gearwear::results::run::RunRecord;
+use gearwear::scene::{Problem, Resolved, Scene, presets};
+
+use super::common::{assert_close, loaded};
+
+const OIL: &str = "[lubricant]\nviscosity_class = 220\ntemperature_C = 80.0\n";
+
+/// The thesis-spur scene on `hertz` over one wear step, with both gears rough, and `more` behind it.
+fn scene(more: &str) -> Result<Resolved, Vec<Problem>> {
+    let mut text = presets::find("thesis-spur").unwrap().text.to_owned();
+    for (old, new) in [
+        ("surface = \"winkler\"", "surface = \"hertz\""),
+        ("[pair.pinion]", "[pair.pinion]\nroughness_Ra_um = 0.5"),
+        ("[pair.wheel]", "[pair.wheel]\nroughness_Ra_um = 0.3\nroughness_run_in_Ra_um = 0.2"),
+        ("hours = 127.75 ", "hours = 1.0 "),
+        ("snapshots_h", "# snapshots_h"),
+        ("step = { revolutions = 7665.0 }", "step = { revolutions = 9000.0 }"),
+        ("error_estimate = true", "error_estimate = false\nverify = false"),
+    ] {
+        assert!(text.contains(old), "{old}");
+        text = text.replacen(old, new, 1);
+    }
+    Scene::from_toml(&format!("{text}\n{more}"))
+}
+
+fn run(more: &str) -> RunRecord {
+    let resolved = scene(more).unwrap();
+    pipeline::run(&loaded(&resolved), &Unwatched).unwrap().complete().unwrap()
+}
+
+fn contact() -> RollingContact {
+    RollingContact {
+        line_load_n_per_mm: 300.0,
+        relative_radius_mm: 8.0,
+        peak_pressure_mpa: 1200.0,
+        surface_speeds_m_per_s: PerGear { pinion: 3.0, wheel: 2.0 },
+    }
+}
+
+/// Benedict and Kelley (1961) in the units of the paper: 0.0127 · 50/(50 − S) lg(3.17e8 W/(η V_s V_r²)), W in lbf/in, speeds in in/s, η in
+/// cP, S in µin.
+#[test]
+fn val_benedict_and_kelley_in_their_own_units() {
+    let contact = contact();
+    let (viscosity, ra_um) = (20.0_f64, 0.4_f64);
+    let inches = 1000.0_f64 / 25.4;
+    let load = 300.0 * 25.4 / 4.448_221_6;
+    let argument = 3.17e8 * load / (viscosity * inches * (5.0 * inches).powi(2));
+    let rough = 50.0 / (50.0 - ra_um / 0.0254);
+    let expected = 0.0127 * rough * argument.log10();
+    assert_close("μ", friction::benedict_kelley(&contact, viscosity, ra_um), expected, 2e-3);
+}
+
+#[test]
+fn ver_friction_without_sliding() {
+    let still = RollingContact { surface_speeds_m_per_s: PerGear { pinion: 2.0, wheel: 2.0 }, ..contact() };
+    assert_eq!(friction::xu(&still, 10.0, 0.1), 0.0);
+    let most = friction::benedict_kelley(&still, 10.0, 0.4);
+    assert!(most.is_finite() && most > friction::benedict_kelley(&contact(), 10.0, 0.4));
+}
+
+/// A film in dimensionless form: h/ρ depends on U, G and W alone.
+#[test]
+fn ver_films_of_similar_contacts_are_similar() {
+    let contact = contact();
+    let of = |scale: f64| {
+        let larger = RollingContact {
+            line_load_n_per_mm: scale * contact.line_load_n_per_mm,
+            relative_radius_mm: scale * contact.relative_radius_mm,
+            surface_speeds_m_per_s: contact.surface_speeds_m_per_s.map(|speed| scale * speed),
+            ..contact
+        };
+        FilmParameters::new(&larger, 226_374.0, 20.0, 18.0)
+    };
+    let (one, ten) = (of(1.0), of(10.0));
+    for by in [CentralFilm::Hamrock, CentralFilm::Grubin] {
+        assert_close("central film", ten.central_um(by), 10.0 * one.central_um(by), 1e-12);
+        // The least film is at the outlet, behind the middle.
+        assert!(one.central_um(by) > one.least_um());
+    }
+    assert_close("least film", ten.least_um(), 10.0 * one.least_um(), 1e-12);
+}
+
+/// ISO/TS 6336-22, clause 8: a third, two thirds, the whole; 1.3/ε_α at the ends of helical teeth.
+#[test]
+fn val_load_sharing_factors() {
+    let spur =
+        SharingGeometry { points_mm: [4.0, 10.0, 14.0, 18.0, 24.0], overlap_ratio: 0.0, base_helix_angle_rad: 0.0 };
+    for (position, factor) in
+        [(4.0, 1.0 / 3.0), (9.999_999, 2.0 / 3.0), (10.0, 1.0), (18.0, 1.0), (21.0, 0.5), (24.0, 1.0 / 3.0)]
+    {
+        assert!((spur.factor(position) - factor).abs() < 1e-6, "{position}");
+    }
+    let helical = SharingGeometry { overlap_ratio: 1.4, base_helix_angle_rad: 0.164, ..spur };
+    assert_close("end", helical.factor(4.0), 1.3 / helical.contact_ratio(), 1e-12);
+    assert_close("middle", helical.factor(14.0), 1.0 / helical.contact_ratio(), 1e-12);
+}
+
+/// Report of stage 3 (KISSsoft 03/2017, public repository gfsReboucas/Drivetrain): ε₁ 0.852, ε₂ 0.611, C_a 2 µm of C_eff 44.74 µm, ε_γ 2.884.
+#[test]
+fn val_factors_of_the_integral_temperature() {
+    assert!((scuffing::contact_ratio_factor(0.852, 0.611) - 0.263).abs() < 5e-4);
+    assert!((scuffing::tip_relief_factor(2.0 / 44.74, 0.852) - 1.095).abs() < 5e-4);
+    assert!((scuffing::helical_load_factor(2.884) - 1.274).abs() < 5e-4);
+    assert_eq!(scuffing::approach_factor(0.611, 0.852), 1.0);
+}
+
+#[test]
+fn a_run_without_oil_or_friction_writes_nothing_of_them() {
+    let record = run("");
+    assert!(record.summary.lubrication.is_none() && record.film.is_empty());
+    let left_out: Vec<&str> = record.summary.left_out.iter().map(|stage| stage.name.as_str()).collect();
+    assert!(left_out.contains(&"film") && left_out.contains(&"losses"), "{left_out:?}");
+}
+
+#[test]
+fn constant_friction_needs_no_oil_and_loses_by_the_loss_factor() {
+    let record = run("[friction]\nmodel = \"constant\"\ncoefficient = 0.05\n");
+    let of = record.summary.lubrication.unwrap();
+    assert!(of.oil.is_none() && of.film.is_none() && of.method_b.is_none());
+    assert_close("μ", of.friction.mean_new, 0.05, 1e-12);
+    let expected = 0.05 * of.losses.loss_factor_local_new * of.losses.power_W;
+    assert_close("loss", of.losses.mesh_power_loss_new_W, expected, 1e-12);
+    // Half the load each where two pairs share it is near what elastic teeth do.
+    assert_close("H_VL", of.losses.loss_factor_local_new, of.losses.loss_factor_ohlendorf, 0.05);
+    assert!(record.film.iter().all(|row| row.lambda_new.is_none()));
+}
+
+#[test]
+fn worn_flanks_have_a_film_of_their_own_over_their_own_roughness() {
+    let record = run(&format!("{OIL}[friction]\nmodel = \"xu\"\n"));
+    assert_eq!(record.film.len(), record.mesh_cycle.len());
+    let of = record.summary.lubrication.unwrap();
+    let film = of.film.unwrap();
+    assert!(film.lambda_new.min > 0.0 && film.lambda_worn.min > 0.0);
+    for row in record.film.iter().filter(|row| row.lambda_new.is_some()) {
+        assert_close("λ new", row.lambda_new.unwrap(), row.local_film_new_um.unwrap() / 0.4, 1e-12);
+        assert_close("λ worn", row.lambda_worn.unwrap(), row.local_film_worn_um.unwrap() / 0.35, 1e-12);
+    }
+    let frictions: Vec<f64> = record.film.iter().filter_map(|row| row.friction_new).collect();
+    assert!(frictions.iter().all(|mu| (0.0..0.2).contains(mu)));
+}
+
+/// The scene that a run leaves behind says the same.
+#[test]
+fn a_resolved_scene_resolves_to_itself() {
+    let resolved = scene(&format!("{OIL}[friction]\nmodel = \"schlenk\"\n")).unwrap();
+    let again = Scene::from_toml(&resolved.to_toml()).unwrap();
+    assert_eq!(again.scene, resolved.scene);
+    assert!(resolved.warnings.iter().any(|warning| warning.contains("viscosity index 95")), "{:?}", resolved.warnings);
+}
+
+#[test]
+fn bad_input_is_told_with_key_and_what_is_allowed() {
+    let two = "viscosity_40C_mm2_per_s = 50.0\nviscosity_100C_mm2_per_s = 80.0\ntemperature_C = 80.0\n";
+    for (more, key, found) in [
+        ("[lubricant]\ntemperature_C = 80.0\n".to_owned(), "lubricant.viscosity_class", "nothing"),
+        ("[lubricant]\nviscosity_class = 220\n".to_owned(), "lubricant.temperature_C", "nothing"),
+        ("[lubricant]\nviscosity_class = 221\ntemperature_C = 80.0\n".to_owned(), "lubricant.viscosity_class", "221"),
+        (format!("[lubricant]\n{two}"), "lubricant.viscosity_100C_mm2_per_s", "80, with 50 at 40 °C"),
+        (format!("{OIL}viscosity_40C_mm2_per_s = 220.0\n"), "lubricant.viscosity_40C_mm2_per_s", "and"),
+        ("[friction]\nmodel = \"xu\"\n".to_owned(), "lubricant.temperature_C", "nothing"),
+        ("[friction]\nmodel = \"constant\"\n".to_owned(), "friction.coefficient", "nothing"),
+        ("[friction]\nmodel = \"coulomb\"\n".to_owned(), "friction.model", "coulomb"),
+        (format!("{OIL}[load_factors]\napplication = 0.0\n"), "load_factors.application", "0"),
+    ] {
+        let problems = scene(&more).unwrap_err();
+        assert!(problems.iter().any(|p| p.key == key && p.found.contains(found)), "{more}: {problems:?}");
+    }
+}
