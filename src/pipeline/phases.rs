@@ -55,6 +55,8 @@ fn wear(model: &Model<'_>, outcome: &Outcome, gear: Gear, [before, after]: [&Sna
     let spec = &model.scene.pair;
     PhaseWear {
         greatest_depth_um: lost.peak_mm * UM_PER_MM,
+        tip_edge_depth_um: lost.tip_edge.depth_mm * UM_PER_MM,
+        below_sap_depth_um: lost.below_active.depth_mm * UM_PER_MM,
         worn_volume_mm3: lost.area_mm2 * spec.face_width_mm * f64::from(spec.gears[gear].teeth),
     }
 }

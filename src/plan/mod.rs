@@ -41,7 +41,7 @@ pub enum StageKind {
     ContactTemperature,
     /// Coarser companion runs.
     ErrorEstimates,
-    /// The same life on finite elements.
+    /// The same wear simulation on finite elements.
     Verification,
     /// The output folder.
     Report,

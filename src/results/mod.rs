@@ -6,4 +6,6 @@ pub mod chemistry;
 pub mod error;
 pub mod fem_pair;
 pub mod fem_problem;
+pub mod path_points;
+pub mod reported_by;
 pub mod run;
