@@ -8,7 +8,7 @@ use crate::observer::Observer;
 use crate::pipeline::calibrate::{self, CalibrateError, Calibrated, Extent};
 use crate::plan::calibration::CalibrationStage;
 use crate::report;
-use crate::scene::Problem;
+use crate::results::reported_by::ReportedBy;
 use crate::scene::loaded::SceneText;
 
 use super::failure::{Failure, InputError};
@@ -44,7 +44,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let done = pool.install(|| -> Result<Calibrated, Failure> {
         let done = calibrate::run(&resolved.scene, Extent::Whole, &progress).map_err(|error| refused(error, &text))?;
         progress.stage(CalibrationStage::Report.name());
-        report::calibration::write(&done.calibration, &done.stages, &resolved.scene.title, &args.out)?;
+        let byline = ReportedBy::line_of_scene(&resolved.to_toml());
+        report::calibration::write(&done.calibration, &done.stages, [&resolved.scene.title, &byline], &args.out)?;
         Ok(done)
     });
     progress.finish();

@@ -110,7 +110,7 @@ fn summary(summary: &FemSummary) -> String {
         let hertz = contact.hertz;
         let [x, y] = contact.force_N_per_mm;
         for (name, value, other) in [
-            ("peak pressure, MPa", contact.peak_pressure_MPa, hertz.map(|h| h.peak_pressure_MPa)),
+            ("maximum pressure, MPa", contact.peak_pressure_MPa, hertz.map(|h| h.peak_pressure_MPa)),
             ("half-width, mm", contact.half_width_mm, hertz.map(|h| h.half_width_mm)),
             ("force along x, N/mm", x, None),
             ("force along y, N/mm", y, None),

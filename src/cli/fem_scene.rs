@@ -93,7 +93,7 @@ fn table(summary: &FemPairSummary) -> String {
     let or_none = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), figures::digits);
     let mut text = format!("{}\n\n", summary.title);
     let mut one = |name: &str, value: &str| text.push_str(&figures::row(name, [value, ""]));
-    one("peak pressure, MPa", &or_none(new.peak_pressure_MPa));
+    one("maximum pressure, MPa", &or_none(new.peak_pressure_MPa));
     if summary.position_mm.is_some() {
         one("transmission error, µm", &figures::digits(te.max));
     } else {

@@ -9,7 +9,7 @@ pub(super) fn table(summary: &Summary) -> String {
     let te = [&new.transmission_error_um, &worn.transmission_error_um].map(|te| te.peak_to_peak);
     let mut text = [
         format!("{}\n\n{}", summary.title, row("", ["pinion", "wheel"])),
-        figures("peak wear, µm", [pinion.peak_wear_um, wheel.peak_wear_um]),
+        figures("maximum wear, µm", [pinion.peak_wear_um, wheel.peak_wear_um]),
         figures("  at radius, mm", [pinion.peak_wear_radius_mm, wheel.peak_wear_radius_mm]),
         figures("wear of the tip edge, µm", [pinion.tip_edge_wear_um, wheel.tip_edge_wear_um]),
         figures("wear below the active profile, µm", [pinion.below_sap_wear_um, wheel.below_sap_wear_um]),
@@ -17,7 +17,7 @@ pub(super) fn table(summary: &Summary) -> String {
         figures("wear at the pitch circle, µm", [pinion.pitch_wear_um, wheel.pitch_wear_um]),
         figures("worn mass, mg", [pinion.worn_mass_mg, wheel.worn_mass_mg]),
         row("", ["new", "worn"]),
-        figures("peak pressure, MPa", [new.peak_pressure_MPa, worn.peak_pressure_MPa]),
+        figures("maximum pressure, MPa", [new.peak_pressure_MPa, worn.peak_pressure_MPa]),
         figures("pressure at the pitch point, MPa", [new.pitch_pressure_MPa, worn.pitch_pressure_MPa]),
         figures("transmission error, peak to peak, µm", te),
     ]
@@ -69,7 +69,7 @@ fn verified(total: &TotalError) -> String {
     }
     [
         row("difference from finite elements", ["pinion", "wheel"]),
-        both("peak wear, %", &total.peak_wear),
+        both("maximum wear, %", &total.peak_wear),
         both("wear of the tip edge, %", &total.tip_edge_wear),
         both("wear over the flank (rms), %", &total.profile),
         one("transmission error, peak to peak, %", total.transmission_error_peak_to_peak),
@@ -78,7 +78,7 @@ fn verified(total: &TotalError) -> String {
     .concat()
 }
 
-/// The error estimates of the pinion's peak wear; nothing where none was made.
+/// The error estimates of the pinion's maximum wear; nothing where none was made.
 fn estimated_errors(error: &ErrorSummary) -> String {
     let parts: Vec<String> = [
         ("points and positions", error.discretisation),
@@ -92,7 +92,7 @@ fn estimated_errors(error: &ErrorSummary) -> String {
     if parts.is_empty() {
         return String::new();
     }
-    format!("\n  estimated error of the pinion's peak wear: {}\n", parts.join(", "))
+    format!("\n  estimated error of the pinion's maximum wear: {}\n", parts.join(", "))
 }
 
 /// An estimate with two significant digits: more it does not have.

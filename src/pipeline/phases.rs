@@ -62,6 +62,8 @@ fn wear(
     PhaseWear {
         coefficient_m2_per_N: coefficient_m2_per_n,
         greatest_depth_um: lost.peak_mm * UM_PER_MM,
+        tip_edge_depth_um: lost.tip_edge.depth_mm * UM_PER_MM,
+        below_sap_depth_um: lost.below_active.depth_mm * UM_PER_MM,
         worn_volume_mm3: lost.area_mm2 * spec.face_width_mm * f64::from(spec.gears[gear].teeth),
     }
 }

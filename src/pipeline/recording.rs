@@ -10,7 +10,9 @@ use crate::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
 use crate::mesh_cycle::CycleObservation;
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::plan::Plan;
+use crate::reference::steel_yield;
 use crate::results::error::ErrorSummary;
+use crate::results::path_points::among;
 use crate::results::run::{
     ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, InputFile, MeshCycleRow,
     PathPoints, RangeSummary, ReportedBy, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary,
@@ -98,6 +100,7 @@ pub(super) fn summary(
     warnings.extend(sharp_edge_warning(pair, outcome));
     warnings.extend(left_out_contact::warning(model, outcome));
     warnings.extend(deep_wear_warning(pair, outcome));
+    warnings.extend(pressure_warning(pair, outcome));
     let wear_balance = balance(model, outcome);
     let worn = PerGear::from_fn(|gear| wear_figures(model, outcome, gear));
     (error.volume_balance, error.how.volume_balance) = volume_balance(model, &worn);
@@ -365,6 +368,8 @@ fn history_row(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> His
         sharp_edge_pressure_MPa: snapshot.cycle.greatest_pressure.sharp_edge_mpa,
         pinion_tip_edge_wear_um: pinion.tip_edge.depth_mm * UM_PER_MM,
         wheel_tip_edge_wear_um: wheel.tip_edge.depth_mm * UM_PER_MM,
+        pinion_below_sap_wear_um: pinion.below_active.depth_mm * UM_PER_MM,
+        wheel_below_sap_wear_um: wheel.below_active.depth_mm * UM_PER_MM,
     }
 }
 
@@ -412,6 +417,27 @@ fn sharp_edge_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
     })
 }
 
+/// Warns where steel would flow under the pressure of the new or worn pair.
+fn pressure_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
+    let states = [("new", &outcome.new), ("worn", &outcome.worn)];
+    let greatest =
+        states.map(|(when, state)| (when, state.cycle.greatest_pressure.defined_mpa, &state.cycle.positions));
+    let (when, pressure_mpa, positions) = greatest.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let position_mm = positions
+        .iter()
+        .filter(|position| !position.footprint.at_sharp_edge)
+        .max_by(|a, b| a.footprint.peak_pressure_mpa.total_cmp(&b.footprint.peak_pressure_mpa))
+        .map(|position| position.position_mm);
+    let places = path_points(pair.path.points_mm()).named();
+    match position_mm {
+        // Slices are at positions of their own.
+        Some(at) if outcome.slices.width_mm.len() == 1 => {
+            steel_yield::warning(pressure_mpa, &format!("{when}, {}", among(&places, at)))
+        }
+        _ => steel_yield::warning(pressure_mpa, when),
+    }
+}
+
 /// Warns where so much is worn that the nominal tooth no longer stands for the worn one.
 fn deep_wear_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
     let deepest = Gear::BOTH
@@ -420,7 +446,7 @@ fn deep_wear_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
         .fold(0.0, f64::max);
     (deepest > SMALL_WEAR_MODULES * pair.spec.normal_module_mm).then(|| {
         format!(
-            "the greatest wear, {:.1} µm, is more than {SMALL_WEAR_MODULES} modules: tooth stiffness and path of contact \
+            "the maximum wear, {:.1} µm, is more than {SMALL_WEAR_MODULES} modules: tooth stiffness and path of contact \
              are still those of the unworn tooth, and the result is no longer reliable",
             deepest * UM_PER_MM
         )

@@ -47,7 +47,7 @@ pub enum StageKind {
     Losses,
     /// Coarser companion runs.
     ErrorEstimates,
-    /// The same life on finite elements.
+    /// The same wear simulation on finite elements.
     Verification,
     /// The output folder.
     Report,

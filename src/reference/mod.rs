@@ -10,4 +10,5 @@ pub mod monotone_cubic;
 pub mod moving_heat_band;
 pub mod persson;
 pub mod separate_peaks;
+pub(crate) mod steel_yield;
 pub mod worn_cylinder;

@@ -8,5 +8,7 @@ pub mod error;
 pub mod fem_pair;
 pub mod fem_problem;
 pub mod lubrication;
+pub mod path_points;
+pub mod reported_by;
 pub mod run;
 pub(crate) mod worn_pair;

@@ -10,6 +10,8 @@ pub use super::drawing::{GearCircles, PairDrawing};
 use super::chemistry::{TemperatureSummary, WearLawSummary};
 use super::error::ErrorSummary;
 use super::lubrication::{FilmRow, LubricationSummary};
+pub use super::path_points::PathPoints;
+pub use super::reported_by::ReportedBy;
 use crate::gear::{PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
 
 /// A finished (or interrupted) run.
@@ -147,19 +149,12 @@ pub struct PhaseWear {
     pub coefficient_m2_per_N: f64,
     /// Greatest depth that any place of the active profile lost, the zone of the tip edge apart.
     pub greatest_depth_um: f64,
+    /// Greatest depth that any place of the tip edge lost.
+    pub tip_edge_depth_um: f64,
+    /// Greatest depth that any place below the start of active profile lost.
+    pub below_sap_depth_um: f64,
     /// Worn off the whole gear: all teeth, whole width.
     pub worn_volume_mm3: f64,
-}
-
-/// Who reports, and when, each as the scene says it.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
-pub struct ReportedBy {
-    /// Who made the calculation.
-    pub author: Option<String>,
-    /// For whom, or where.
-    pub company: Option<String>,
-    /// The day.
-    pub date: Option<String>,
 }
 
 /// Why a wear run ended.
@@ -215,29 +210,6 @@ pub struct GeometrySummary {
     pub backlash_mm: f64,
     /// Diameters and other data of each gear.
     pub gears: PerGear<GearSummary>,
-}
-
-/// A value at each of the points A–E of the path of contact.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[allow(non_snake_case, reason = "the points' names")]
-pub struct PathPoints {
-    /// Start of contact.
-    pub A: f64,
-    /// Lower point of single-pair contact on the pinion.
-    pub B: f64,
-    /// Pitch point.
-    pub C: f64,
-    /// Upper point of single-pair contact on the pinion.
-    pub D: f64,
-    /// End of contact.
-    pub E: f64,
-}
-
-impl PathPoints {
-    /// Names and values, in the order of contact.
-    pub fn named(&self) -> [(&'static str, f64); 5] {
-        [("A", self.A), ("B", self.B), ("C", self.C), ("D", self.D), ("E", self.E)]
-    }
 }
 
 /// Diameters and other data of one gear, mm.
@@ -522,6 +494,10 @@ pub struct HistoryRow {
     pub pinion_tip_edge_wear_um: f64,
     /// the same of the wheel
     pub wheel_tip_edge_wear_um: f64,
+    /// greatest wear depth below the pinion's start of active profile
+    pub pinion_below_sap_wear_um: f64,
+    /// the same of the wheel
+    pub wheel_below_sap_wear_um: f64,
 }
 
 /// A row of `mesh_cycle.csv`: the reference pair at one loading position.

@@ -374,7 +374,7 @@ impl WearRun<'_> {
         let ahead = self.end_revolutions() * deepest_mm[0].max(deepest_mm[1]) / self.pair.spec.normal_module_mm;
         (ahead > SMALL_WEAR_MODULES).then(|| {
             format!(
-                "at the rate of the unworn flanks the greatest wear comes to {ahead:.3} modules: beyond {SMALL_WEAR_MODULES} modules steps \
+                "at the rate of the unworn flanks the maximum wear comes to {ahead:.3} modules: beyond {SMALL_WEAR_MODULES} modules steps \
                  stay short, which may take minutes, and the result is no longer reliable; a run ends where the wear is as deep as the tooth is thick"
             )
         })

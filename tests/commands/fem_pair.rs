@@ -144,7 +144,6 @@ fn threads_change_no_bit() {
     }
 }
 
-/// Every refusal names what was found and what is allowed, leaves status 2 and no files.
 /// What takes much memory says so before it begins, and what no computer holds is refused.
 #[test]
 fn much_memory_is_announced() {
@@ -169,6 +168,7 @@ fn text_that_is_no_toml_is_refused_with_its_place() {
     assert!(output.status.code() == Some(2) && said.contains("scene.toml:3"), "{said}");
 }
 
+/// Every refusal names what was found and what is allowed, leaves status 2 and no files.
 #[test]
 fn refusals() {
     let dir = tempfile::tempdir().unwrap();

@@ -63,6 +63,9 @@ fn a_run_without_report_leaves_the_data_alone() {
     let dir = tempfile::tempdir().unwrap();
     run(dir.path(), &quick(), "out", &[]);
     let page = dir.path().join("out/report.html");
+    // The bound that the page of a spur run was made for: small enough to be sent by mail.
+    let size = fs::metadata(&page).unwrap().len();
+    assert!(size < 1_500_000, "report.html has {size} bytes");
     assert!(page.exists());
     // The same folder again: the page of the run before would pass for one of this.
     run(dir.path(), &quick(), "out", &["--no-report"]);

@@ -9,7 +9,9 @@ opened at 1280 and 390 px, light and dark, and printed. Pictures (PNG, PDF) go t
 - writes an error to the console,
 - is wider than the window,
 - has labels of one axis, or of one plot, that overlap,
-- has a curve that is drawn outside its plot area (not clipped to it).
+- has a curve that is drawn outside its plot area (not clipped to it),
+- has a plot whose data go beyond the range of its axis, where the plot script would cut them off without a word,
+- has a slider that does not change what is said beside it.
 
 Only some: --only run-spur --only sweep-2d.
 """
@@ -25,9 +27,14 @@ REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
 # Every page: its name, and the commands that make its folder. {s}: folder of the scenes, {o}: folder of the page.
 PAGES = {
     "run-spur": ["run {s}/spur.toml --out {o}"],
+    "run-phases": ["run {s}/phases.toml --out {o}"],
+    "run-temperature": ["run {s}/temperature.toml --out {o}"],
+    "run-severe": ["run {s}/severe.toml --out {o}"],
+    "run-helical-preset": ["run {s}/helical-preset.toml --out {o}"],
     "run-helical": ["run {s}/helical.toml --out {o}"],
     "calibrate": ["calibrate {s}/spur.toml --out {o}/pair.calibration.json"],
     "fem-pair": ["fem {s}/spur.toml --out {o}"],
+    "fem-position": ["fem {s}/spur.toml --position 12 --out {o}"],
     "fem-plane": ["fem {s}/roller.toml --out {o}"],
     "fem-space": ["fem {s}/plate.toml --out {o}"],
     "sweep-1d": ["sweep {s}/spur.toml --vary operation.pinion_torque_Nm=100:300:4 --out {o}"],
@@ -38,8 +45,14 @@ PAGES = {
         "uncertainty {s}/spur.toml --uncertain wear.coefficient_m2_per_N=lognormal:1.5 --uncertain operation.pinion_torque_Nm=±10% "
         "--limit pinion.peak_wear_um=1 --samples 64 --out {o}"
     ],
+    "sweep-words": ["sweep {s}/spur.toml --vary contact.surface=half-space,winkler --vary operation.pinion_torque_Nm=100,300 --out {o}"],
+    "sweep-best": [
+        "sweep {s}/spur.toml --vary wear.coefficient_m2_per_N=1e-19:1e-17:4:log --best pinion_peak_wear_um "
+        "--subject-to wheel_peak_wear_um<=8 --out {o}"
+    ],
     "compare-measured": ["run {s}/spur.toml --out {o}", "compare {o} {s}/trace.csv --shift-within 0 --out {o}/compared"],
     "compare-runs": ["compare {s}/spur.toml {s}/heavy.toml --out {o}"],
+    "compare-helical": ["compare {s}/helical.toml {s}/helical-heavy.toml --out {o}"],
     "accuracy": ["accuracy {s}/spur.toml --out {o}"],
     "validate": ["validate fzg-c-geometry exact-wear nafems-cylinder --out {o}"],
 }
@@ -86,7 +99,41 @@ LOOK = r"""() => {
             if (areas.length && !inside) wrong.push(`a curve leaves its plot area in “${name(plot)}”`);
         }
     }
+    for (const plot of document.querySelectorAll(".js-plotly-plot")) {
+        const full = plot._fullLayout;
+        if (!full || !full.xaxis || !full.yaxis) continue;
+        for (const trace of plot._fullData || []) {
+            const [x, y] = [full["xaxis" + (trace.xaxis || "x").slice(1)], full["yaxis" + (trace.yaxis || "y").slice(1)]];
+            // A drawing to scale shows a part on purpose.
+            if (trace.type !== "scatter" || trace.visible !== true || !x || !y || x.scaleanchor || y.scaleanchor) continue;
+            const place = (axis, value) => axis.type === "log" ? Math.log10(value) : axis.d2l ? axis.d2l(value) : value;
+            const reach = axis => { const [a, b] = axis.range.map(Number); return [Math.min(a, b), Math.max(a, b), Math.abs(b - a)]; };
+            const [[left, right], [low, high, height]] = [reach(x), reach(y)];
+            for (let i = 0; i < (trace.y || []).length; i++) {
+                const [px, py] = [place(x, trace.x[i]), place(y, trace.y[i])];
+                if (!(px >= left && px <= right) || !Number.isFinite(py)) continue;
+                if (py < low - 0.002 * height || py > high + 0.002 * height) {
+                    wrong.push(`“${trace.name}” is cut off in “${name(plot)}”: ${trace.y[i]} outside ${y.range}`);
+                    break;
+                }
+            }
+        }
+    }
     return [...new Set(wrong)];
+}"""
+
+# In the page: moves every slider to its other end, and names those where nothing happens.
+SLIDE = r"""() => {
+    const still = [];
+    for (const slider of document.querySelectorAll(".slider:not([hidden])")) {
+        const [input, output] = [slider.querySelector("input"), slider.querySelector("output")];
+        const before = output.textContent;
+        const middle = (Number(input.min) + Number(input.max)) / 2;
+        input.value = Number(input.value) > middle ? input.min : input.max;
+        input.dispatchEvent(new Event("input", { bubbles: true }));
+        if (output.textContent === before && input.min !== input.max) still.push(`a slider changes nothing: “${before}”`);
+    }
+    return still;
 }"""
 
 
@@ -108,7 +155,17 @@ def scenes(program: str, folder: pathlib.Path) -> None:
     spur = exchanged(preset("fzg-c"), *small)
     (folder / "spur.toml").write_text(spur)
     (folder / "heavy.toml").write_text(exchanged(spur, ("pinion_torque_Nm = 302.0", "pinion_torque_Nm = 350.0")))
-    (folder / "helical.toml").write_text(preset("thesis-helical"))
+    (folder / "severe.toml").write_text(exchanged(spur, ("# severe =", "severe =")))
+    (folder / "temperature.toml").write_text(spur + "\n[temperature]\nmethod = \"williams\"\n")
+    phases = "".join(f"[[operation.phases]]\nhours = 20.0\npinion_torque_Nm = {torque}\n" for torque in (200.0, 302.0))
+    hours = next(line for line in spur.splitlines() if line.startswith("hours"))
+    shown = next(line for line in spur.splitlines() if line.startswith("snapshots_h"))
+    (folder / "phases.toml").write_text(exchanged(spur, (hours, ""), (shown, "")) + "\n" + phases)
+    helical = preset("thesis-helical")
+    (folder / "helical.toml").write_text(helical)
+    torque = next(line for line in helical.splitlines() if line.startswith("pinion_torque_Nm"))
+    (folder / "helical-heavy.toml").write_text(exchanged(helical, (torque, "pinion_torque_Nm = 400.0")))
+    (folder / "helical-preset.toml").write_text(preset("helical"))
     for mesh, problem in [("roller.msh", ROLLER), ("plate-hex8.msh", PLATE)]:
         shutil.copy(REPOSITORY / "meshes" / mesh, folder)
         (folder / f"{mesh.split('-')[0].split('.')[0]}.toml").write_text(problem)
@@ -146,7 +203,7 @@ def compute(program: str, name: str, scene_folder: pathlib.Path, folder: pathlib
     pages = sorted(folder.rglob("*.html"))
     if name == "compare-measured":
         pages = [page for page in pages if page.parent != folder]
-    if name == "compare-runs":
+    if name in ("compare-runs", "compare-helical"):
         pages = [page for page in pages if page.parent == folder]
     if not pages:
         raise RuntimeError("no page was written")
@@ -172,11 +229,17 @@ def look(browser, page_file: pathlib.Path, name: str, out: pathlib.Path) -> list
         tab.evaluate("window.scrollTo(0, 0)")
         tab.wait_for_timeout(150)
         if media == "print":
+            tab.emulate_media(media="print")
+            tab.wait_for_timeout(150)
+            wrong += [f"{way}: {found}" for found in tab.evaluate(LOOK) if "px wide" not in found]
             tab.pdf(path=out / f"{name}-print.pdf", prefer_css_page_size=True)
             context.close()
             continue
         wrong += [f"{way}: {found}" for found in tab.evaluate(LOOK)]
         tab.screenshot(path=out / f"{name}-{way}.png", full_page=True)
+        wrong += [f"{way}: {found}" for found in tab.evaluate(SLIDE)]
+        tab.wait_for_timeout(150)
+        wrong += [f"{way}, sliders moved: {found}" for found in tab.evaluate(LOOK)]
         context.close()
     return wrong
 

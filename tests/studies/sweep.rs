@@ -612,7 +612,7 @@ fn the_best_rows_and_the_corners_are_verified() {
     assert_eq!(column(&out, "error.total.how")[2], run["error"]["total"]["how"]);
     assert_eq!((&verification["chosen"], &verification["verified"]), (&4.into(), &4.into()));
     let page = fs::read_to_string(out.join("report.html")).unwrap();
-    assert!(page.contains("Finite elements verified 4 of them: the greatest wear of each is within"));
+    assert!(page.contains("Finite elements verified 4 of them: the maximum wear of each is within"));
 
     // Two threads, and a start that was stopped between two verifications: the same bits.
     let journal = fs::read_to_string(out.join("rows.jsonl")).unwrap();

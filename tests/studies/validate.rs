@@ -211,7 +211,7 @@ fn an_earlier_record_shows_what_got_worse() {
     };
     again(&loose).stdout(contains("0 worse, 0 better"));
     again(&loose.replace("1e-6", "2e-7")).stdout(contains("0 worse, 1 better"));
-    again(&loose.replace("1e-6", "2e-6")).stdout(contains("1 worse, 0 better").and(contains("held against")));
+    again(&loose.replace("1e-6", "2e-6")).stdout(contains("1 worse, 0 better").and(contains("compared with")));
     let finer = loose.replace("\"numerics.positions\" = 40", "\"numerics.positions\" = 80");
     again(&finer).stdout(contains("equilibria").and(contains("0 worse").not()));
 }

@@ -113,7 +113,7 @@ fn the_tutorial_says_what_comes_out() {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let said = String::from_utf8(output.stdout).unwrap();
     for gear in ["pinion", "wheel"] {
-        let sentence = page.lines().find(|line| line.starts_with(&format!("The greatest wear of the {gear}"))).unwrap();
+        let sentence = page.lines().find(|line| line.starts_with(&format!("The maximum wear of the {gear}"))).unwrap();
         assert!(said.contains(sentence), "{sentence}\n{said}");
     }
 }

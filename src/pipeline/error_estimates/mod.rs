@@ -84,17 +84,17 @@ fn peak_wear_of_both_mm(model: &Model<'_>, outcome: &Outcome) -> PerGear<f64> {
     PerGear::from_fn(|gear| WearFigures::at(model.pair, gear, outcome, &outcome.worn).peak_mm)
 }
 
-/// Warns where an estimate says that the peak wear is far from converged, or the surface far from true.
+/// Warns where an estimate says that the maximum wear is far from converged, or the surface far from true.
 pub(super) fn warnings(error: &ErrorSummary) -> Vec<String> {
     let causes =
         [("numerics.flank_points and numerics.positions", error.discretisation), ("numerics.step", error.wear_step)];
     let unresolved = causes.into_iter().filter_map(|(keys, estimate)| {
         let off = 100.0 * estimate.filter(|e| *e > ALARMING)?;
-        Some(format!("{keys}: the peak wear is estimated to be off by {off:.0} %; refine"))
+        Some(format!("{keys}: the maximum wear is estimated to be off by {off:.0} %; refine"))
     });
     let model = error.surface_model.filter(|e| *e > ALARMING_MODEL).map(|estimate| {
         format!(
-            "contact.surface: against finite elements the peak wear is off by {:.0} %; gearwear accuracy compares all surfaces",
+            "contact.surface: against finite elements the maximum wear is off by {:.0} %; gearwear accuracy compares all surfaces",
             100.0 * estimate
         )
     });

@@ -14,10 +14,12 @@ use crate::mesh::{CellBlock, CellKind, Mesh};
 use crate::pipeline::UM_PER_MM;
 use crate::pipeline::recording::{geometry, path_points};
 use crate::reference::hertz_line::LineContact;
+use crate::reference::steel_yield;
 use crate::results::fem_pair::{
     ChecksSummary, FemCycleRow, FemCycleSummary, FemPairRecord, FemPairSummary, GearModelSummary, ModelSummary,
     PairSolution, PathPointsSummary, PressureCurve, RootSummary,
 };
+use crate::results::path_points::among;
 use crate::results::run::{ContactSummary, PathPoints, RangeSummary};
 use crate::scene::Resolved;
 
@@ -292,6 +294,12 @@ impl Parts<'_> {
                  transmission error and root stress depend on it; fem.clamp_radius_mm says where rim or bore are",
                 radii.pinion, radii.wheel
             ));
+        }
+        if let Some(pressure_mpa) = new.peak_pressure_MPa {
+            let at = new.peak_pressure_pair_position_mm.or(self.position_mm);
+            let place =
+                at.map(|at| among(&path_points(self.model.pair.path.points_mm()).named(), at)).unwrap_or_default();
+            warnings.extend(steel_yield::warning(pressure_mpa, &place));
         }
         warnings
     }

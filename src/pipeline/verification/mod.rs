@@ -138,7 +138,7 @@ impl Verified {
         error.total = self.total.clone();
         error.surface_model = self.surface_model;
         error.how.surface_model = match self.surface_model {
-            Some(_) => "difference of the greatest wear from the same wear simulation with finite elements, of both gears the larger"
+            Some(_) => "difference of the maximum wear from the same wear simulation with finite elements, of both gears the larger"
                 .to_owned(),
             None => self.total.how.clone(),
         };
@@ -293,7 +293,7 @@ fn life(
         (_, Some(failure)) => Err(failure.to_string()),
         _ if observer.interrupted() => Err("interrupted".to_owned()),
         _ => Err(format!(
-            "after {MOST_STEPS} wear steps the finite elements had reached {:.0} % of the life",
+            "after {MOST_STEPS} wear steps the finite elements had reached {:.0} % of the duration",
             100.0 * life.worn.revolutions / scene.operation.pinion_revolutions
         )),
     }
@@ -349,7 +349,7 @@ fn compared(
         pressure_between_tips: pressure(model, &run.worn.cycle, &life.worn.cycle).map(|off| off + of_life.pressure),
         how: format!(
             "the same wear simulation with {on} ({} positions in a base pitch, {} wear steps, {} mesh cycles); their own uncertainty is added: \
-             {} % of the profile, {} % of the greatest wear and {} % of that of the tip edges",
+             {} % of the profile, {} % of the maximum wear and {} % of that of the tip edges",
             life.work.equilibria / life.work.mesh_cycles.max(1),
             life.steps.accepted,
             life.work.mesh_cycles,

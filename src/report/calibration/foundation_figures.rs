@@ -17,7 +17,7 @@ pub(super) fn all(calibration: &Calibration) -> Vec<Chart> {
 fn words(criterion: MatchCriterion) -> &'static str {
     match criterion {
         MatchCriterion::HalfWidth => "half-width",
-        MatchCriterion::PeakPressure => "peak pressure",
+        MatchCriterion::PeakPressure => "maximum pressure",
         MatchCriterion::Approach => "approach",
     }
 }

@@ -21,16 +21,16 @@ pub(crate) fn page_beside(file: &Path) -> PathBuf {
     file.with_extension("html")
 }
 
-/// Writes the page and then the calibration itself, so that its presence says the rest is complete.
+/// Writes the page, under the title and byline of the scene, and then the calibration itself, so that its presence says the rest is complete.
 pub(crate) fn write(
     calibration: &Calibration,
     stages: &[StageTime],
-    title: &str,
+    [title, byline]: [&str; 2],
     file: &Path,
 ) -> Result<(), ReportError> {
     create_folder(folder(file))?;
     let name = file.file_name().unwrap_or_default().to_string_lossy();
-    place(&page_beside(file), &page::page(calibration, stages, title, &name))?;
+    place(&page_beside(file), &page::page(calibration, stages, [title, byline], &name))?;
     place(file, &calibration.to_json())
 }
 

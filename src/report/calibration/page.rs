@@ -11,7 +11,7 @@ use crate::report::html::run_page::NOTE;
 use crate::results::run::StageTime;
 
 /// The whole page; `file` is the name of the calibration file.
-pub(super) fn page(calibration: &Calibration, stages: &[StageTime], title: &str, file: &str) -> String {
+pub(super) fn page(calibration: &Calibration, stages: &[StageTime], [title, byline]: [&str; 2], file: &str) -> String {
     let mut charts = stiffness_figures::all(calibration);
     charts.extend(foundation_figures::all(calibration));
     charts.extend(wear_figure::all(calibration));
@@ -24,7 +24,7 @@ pub(super) fn page(calibration: &Calibration, stages: &[StageTime], title: &str,
     Page {
         kind: "Calibration of a gear pair by finite elements",
         title,
-        byline: "",
+        byline,
         answer: &answer(calibration),
         interruption: None,
         warnings: &[],
@@ -51,7 +51,7 @@ fn answer(calibration: &Calibration) -> String {
     if let Some(fit) = calibration.foundation_fit.get(&MatchCriterion::HalfWidth) {
         text.push_str(&format!(
             "A Winkler foundation calibrated on the half-width meets that of finite elements within {} at positions and loads that \
-             were held out, and its peak pressure is {} too high.",
+             were held out, and its maximum pressure is {} too high.",
             percent(fit.held_out.worst_matched),
             percent(fit.held_out.mean_peak_pressure)
         ));

@@ -99,7 +99,7 @@ pub(super) fn von_mises(summary: &FemSummary, plane: &PlaneSolution) -> Vec<Char
         let below = greatest_near(bodies, &values, middle, AROUND * summary.half_width_mm);
         let reading = format!(
             "{} half-widths on either side of the middle of the contact, deformed as computed. The stress is greatest with {} MPa, {} of \
-             the greatest pressure{}.",
+             the maximum pressure{}.",
             significant(AROUND * 1.75, 2),
             figure(below),
             significant(below / summary.peak_pressure_MPa, 3),

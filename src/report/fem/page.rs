@@ -79,7 +79,7 @@ fn contact_table(contact: &ContactSummary) -> Markup {
     };
     let only = |label, unit, value: f64| row(label, unit, cells![value, "", ""]);
     let mut rows = vec![
-        compare("Greatest pressure", "MPa", contact.peak_pressure_MPa, hertz.map(|h| h.peak_pressure_MPa)),
+        compare("Maximum pressure", "MPa", contact.peak_pressure_MPa, hertz.map(|h| h.peak_pressure_MPa)),
         compare("Half-width a", "mm", contact.half_width_mm, hertz.map(|h| h.half_width_mm)),
         only("Width in contact, modelled part", "mm", contact.contact_width_mm),
         only("Force along x, modelled part", "N/mm", x),

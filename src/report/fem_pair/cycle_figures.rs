@@ -91,14 +91,13 @@ fn pressure(record: &FemPairRecord) -> Chart {
     let hertz = rows.iter().map(|row| row.hertz_pressure_MPa);
     let sharp: Vec<&&FemCycleRow> = rows.iter().filter(|row| row.at_sharp_edge).collect();
     let [first, last] = extent(x());
-    let mut chart =
-        Chart::new("cycle-pressure", "Greatest pressure of a tooth pair from its first to its last contact")
-            .over_path(&record.summary.geometry.curvature_radius_mm)
-            .x_range(padded(first, last))
-            .y("greatest pressure, MPa")
-            .y_up_to(rows.iter().map(|row| row.peak_pressure_MPa).chain(hertz.clone()).fold(0.0, f64::max))
-            .line("finite elements", x(), finite, (PATH, 2.4, Dash::Solid), HOVER)
-            .line("Hertz, same load", x(), hertz, (MUTED, 2.0, Dash::Dashed), HOVER);
+    let mut chart = Chart::new("cycle-pressure", "Maximum pressure of a tooth pair from its first to its last contact")
+        .over_path(&record.summary.geometry.curvature_radius_mm)
+        .x_range(padded(first, last))
+        .y("maximum pressure, MPa")
+        .y_up_to(rows.iter().map(|row| row.peak_pressure_MPa).chain(hertz.clone()).fold(0.0, f64::max))
+        .line("finite elements", x(), finite, (PATH, 2.4, Dash::Solid), HOVER)
+        .line("Hertz, same load", x(), hertz, (MUTED, 2.0, Dash::Dashed), HOVER);
     if !sharp.is_empty() {
         let shown = sharp.iter().map(|row| row.peak_pressure_MPa);
         let x = sharp.iter().map(|row| row.pair_position_mm);

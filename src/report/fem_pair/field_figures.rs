@@ -88,7 +88,7 @@ fn contact_reading(contact: &ContactPlace, greatest_mpa: f64) -> String {
         );
     }
     format!(
-        "Pinion below, wheel above. The stress is greatest with {} MPa, {} of the greatest pressure of {} MPa; under a line \
+        "Pinion below, wheel above. The stress is greatest with {} MPa, {} of the maximum pressure of {} MPa; under a line \
          contact of Hertz in plane strain with ν = 0.3 it is 0.558 of it, 0.70 half-widths deep, to which the bending of the \
          teeth adds.",
         figure(greatest_mpa),

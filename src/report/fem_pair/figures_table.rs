@@ -18,7 +18,7 @@ fn cycle(s: &FemPairSummary) -> Markup {
     let (new, te) = (&s.new, &s.new.transmission_error_um);
     let one = |label, unit, value: f64| row(label, unit, [value]);
     let mut rows: Vec<Markup> = Vec::new();
-    rows.extend(new.peak_pressure_MPa.map(|p| one("Greatest pressure away from sharp edges", "MPa", p)));
+    rows.extend(new.peak_pressure_MPa.map(|p| one("Maximum pressure away from sharp edges", "MPa", p)));
     rows.extend(
         new.peak_pressure_pair_position_mm
             .filter(|_| s.position_mm.is_none())
@@ -69,7 +69,7 @@ fn points(points: &PathPointsSummary) -> Markup {
         &["A", "B", "C", "D", "E"],
         [
             five("Share of the load", "", &points.load_share),
-            five("Greatest pressure", "MPa", &points.peak_pressure_MPa),
+            five("Maximum pressure", "MPa", &points.peak_pressure_MPa),
             five("Hertz, same load", "MPa", &points.hertz_pressure_MPa),
             five("Transmission error", "µm", &points.transmission_error_um),
         ],
@@ -145,7 +145,7 @@ fn full(at: &FullModelSummary) -> Markup {
         row("Transmission error", "µm", [at.transmission_error_um]),
         row("Transmission error, difference, relative", "", [significant(at.transmission_error_difference, 2)]),
         row("Line load of a pair, difference, relative", "", [significant(at.line_load_difference, 2)]),
-        row("Peak pressure of a pair, difference, relative", "", [significant(at.peak_pressure_difference, 2)]),
+        row("Maximum pressure of a pair, difference, relative", "", [significant(at.peak_pressure_difference, 2)]),
         row("Time", "s", [fixed(at.wall_s, 2)]),
     ];
     let caption = format!("Whole model without condensation, at {} mm", significant(at.position_mm, 5));

@@ -5,9 +5,9 @@ use maud::html;
 use super::{cycle_figures, field_figures, figures_table, pressure_figure};
 use crate::report::html::number::{figure, significant};
 use crate::report::html::page::{self, Page, Plots, section, sources_list, stages_table};
-use crate::report::html::reading::among;
 use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
-use crate::results::run::{PathPoints, StopReason};
+use crate::results::path_points::among;
+use crate::results::run::{PathPoints, ReportedBy, StopReason};
 
 const DATA_FILES: [(&str, &str); 5] = [
     ("summary.json", "the main figures"),
@@ -37,7 +37,7 @@ pub(super) fn page(record: &FemPairRecord) -> String {
     Page {
         kind: "Finite-element contact of a gear pair",
         title: &s.title,
-        byline: "",
+        byline: &ReportedBy::line_of_scene(&record.scene_toml),
         answer: &answer(s),
         interruption: interruption(s).as_deref(),
         warnings: &s.warnings,

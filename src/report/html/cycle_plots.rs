@@ -1,8 +1,9 @@
 //! Plots over the mesh cycle of the reference pair, from A to E: load sharing, transmission error, pressure.
 
 use super::number::{change, figure, percent, significant};
-use super::reading::{Extreme, among, defined_pressures, greatest, tip_edge_note};
+use super::reading::{Extreme, defined_pressures, greatest, tip_edge_note};
 use crate::report::chart::Chart;
+use crate::results::path_points::among;
 use crate::results::run::{MeshCycleRow, RunRecord};
 
 /// A pair that carries at least this share of the load counts as carrying it alone.
@@ -73,8 +74,7 @@ fn pressure(record: &RunRecord) -> Chart {
         _ => NOT_COMPUTED.into(),
     };
     let top = rows.iter().flat_map(|r| [r.peak_pressure_new_MPa, r.peak_pressure_worn_MPa]).fold(0.0, f64::max);
-    let chart =
-        Chart::new("cycle-pressure", "Greatest pressure over the cycle").y("greatest pressure, MPa").y_up_to(top);
+    let chart = Chart::new("cycle-pressure", "Maximum pressure over the cycle").y("maximum pressure, MPa").y_up_to(top);
     over_cycle(
         record,
         chart.reading(reading),

@@ -6,7 +6,7 @@ use super::number::{change, figure, fixed, percent, significant};
 use super::table::{Cell, cells, line, list, row, table, whole};
 use super::{film_table, law_table, page, sliced};
 use crate::results::error::ErrorSummary;
-use crate::results::run::{GearSummary, PhaseSummary, RunRecord, Summary, WearSummary};
+use crate::results::run::{GearSummary, PhaseSummary, PhaseWear, RunRecord, Summary, WearSummary};
 
 /// Phases that are shown one by one.
 const MOST_PHASES: usize = 60;
@@ -36,7 +36,7 @@ fn new_and_worn(s: &Summary) -> Markup {
     let compare = |label, unit, new: f64, worn: f64| row(label, unit, cells![new, worn, change(new, worn)]);
     let (new, worn) = (&s.new, &s.worn);
     let (te_new, te_worn) = (&new.transmission_error_um, &worn.transmission_error_um);
-    let mut rows = vec![compare("Greatest pressure", "MPa", new.peak_pressure_MPa, worn.peak_pressure_MPa)];
+    let mut rows = vec![compare("Maximum pressure", "MPa", new.peak_pressure_MPa, worn.peak_pressure_MPa)];
     let sharp = [new.sharp_edge_pressure_MPa, worn.sharp_edge_pressure_MPa];
     if sharp.iter().any(Option::is_some) {
         rows.push(row("At sharp tip edges (not defined)", "MPa", cells![sharp[0], sharp[1], ""]));
@@ -65,7 +65,7 @@ fn wear(s: &Summary) -> Markup {
         &["pinion", "wheel"],
         [
             both("Maximum wear, active profile", "µm", |w| w.peak_wear_um),
-            both("Radius of the greatest depth", "mm", |w| w.peak_wear_radius_mm),
+            both("Radius of the maximum wear", "mm", |w| w.peak_wear_radius_mm),
             both("Maximum wear, tip edge", "µm", |w| w.tip_edge_wear_um),
             both("Maximum wear, below the active profile", "µm", |w| w.below_sap_wear_um),
             both("Maximum wear, root zone", "µm", |w| w.root_wear_um),
@@ -191,8 +191,9 @@ pub(crate) fn phases(s: &Summary) -> Markup {
         "Hertz pressure at C, MPa",
         "wear coefficient, m²/N",
         "temperature rise, K",
-        "pinion, greatest added, µm",
-        "wheel, greatest added, µm",
+        "added to the maximum wear of the active profile, µm, pinion / wheel",
+        "of the tip edge, µm",
+        "below the active profile, µm",
         "pinion, volume added, mm³",
     ];
     let phase = |phase: &PhaseSummary| {
@@ -208,8 +209,9 @@ pub(crate) fn phases(s: &Summary) -> Markup {
                 None => format!("{:e} and {:e}", phase.pinion.coefficient_m2_per_N, phase.wheel.coefficient_m2_per_N),
             },
             phase.greatest_rise_K,
-            significant(phase.pinion.greatest_depth_um, 3),
-            significant(phase.wheel.greatest_depth_um, 3),
+            both_gears(phase, |wear| wear.greatest_depth_um),
+            both_gears(phase, |wear| wear.tip_edge_depth_um),
+            both_gears(phase, |wear| wear.below_sap_depth_um),
             significant(phase.pinion.worn_volume_mm3, 3),
         ])
     };
@@ -225,12 +227,17 @@ pub(crate) fn phases(s: &Summary) -> Markup {
     }
 }
 
+/// A depth of both gears.
+fn both_gears(phase: &PhaseSummary, depth_um: fn(&PhaseWear) -> f64) -> String {
+    format!("{} / {}", significant(depth_um(&phase.pinion), 3), significant(depth_um(&phase.wheel), 3))
+}
+
 /// The error estimates, each with how it was obtained.
 pub(crate) fn errors(error: &ErrorSummary) -> Markup {
     let (total, how, above) = (&error.total, &error.how, "as above");
     let rows = [
-        ("Finite elements: pinion’s greatest wear", total.peak_wear.pinion, &*total.how),
-        ("Finite elements: wheel’s greatest wear", total.peak_wear.wheel, above),
+        ("Finite elements: pinion’s maximum wear", total.peak_wear.pinion, &*total.how),
+        ("Finite elements: wheel’s maximum wear", total.peak_wear.wheel, above),
         ("Finite elements: wear of the pinion’s tip edge", total.tip_edge_wear.pinion, above),
         ("Finite elements: wear of the wheel’s tip edge", total.tip_edge_wear.wheel, above),
         ("Finite elements: pinion’s wear over the flank", total.profile.pinion, above),
@@ -246,7 +253,7 @@ pub(crate) fn errors(error: &ErrorSummary) -> Markup {
         let estimate = estimate.map_or_else(|| "not estimated".into(), |e| significant(e * 100.0, 2) + "\u{202f}%");
         line([label.into(), estimate.into(), Cell::sentence(how)])
     });
-    let caption = "Error of the result: against finite elements, and estimates for the greatest wear";
+    let caption = "Error of the result: against finite elements, and estimates for the maximum wear";
     html! {
         (whole(Some("errors"), Some(html! { (caption) }), ["".into(), "relative".into(), Cell::sentence("how obtained")], rows))
         @if let Some(cost) = error.companions_cost {

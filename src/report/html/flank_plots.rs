@@ -88,7 +88,7 @@ fn wear_reading(record: &RunRecord, gear: Gear, drawn: usize) -> String {
     let of_tip_edge =
         tip_edge.map_or_else(String::new, |off| format!(" ± {}", significant(off * wear.tip_edge_wear_um, 1)));
     let mut reading = format!(
-        "The active profile of the {} wears most {}: {} µm, against {} µm at the pitch circle; over the root it reaches {} µm, at the tip \
+        "The active profile of the {} wears most {}: {} µm, against {} µm at the pitch circle; the maximum in its root zone is {} µm, at the tip \
          edge {}{of_tip_edge} µm, below the active profile {} µm.",
         gear.name(),
         place_on_flank(flank, wear.peak_wear_radius_mm),
@@ -126,7 +126,7 @@ fn pressure_on(record: &RunRecord, gear: Gear, top_mpa: f64) -> Chart {
     let place = |at: Extreme| place_on_flank(flank, flank.radius_mm[at.index]);
     let reading = match (greatest(&flank.pressure_new_MPa), greatest(&flank.pressure_worn_MPa)) {
         (Some(new), Some(worn)) => format!(
-            "The greatest pressure on the {}’s flank during one mesh is {} MPa new, {}, and {} MPa worn, {}.{}{}",
+            "The maximum pressure on the {}’s flank during one mesh is {} MPa new, {}, and {} MPa worn, {}.{}{}",
             gear.name(),
             figure(new.value),
             place(new),
@@ -139,8 +139,8 @@ fn pressure_on(record: &RunRecord, gear: Gear, top_mpa: f64) -> Chart {
     };
     let [radius, new, worn] =
         [&flank.radius_mm, &flank.pressure_new_MPa, &flank.pressure_worn_MPa].map(|values| active.cut(values));
-    let title = format!("Greatest pressure on the {}’s flank", gear.name());
-    let chart = Chart::new(format!("pressure-{}", gear.name()), title).y("greatest pressure, MPa").y_up_to(top_mpa);
+    let title = format!("Maximum pressure on the {}’s flank", gear.name());
+    let chart = Chart::new(format!("pressure-{}", gear.name()), title).y("maximum pressure, MPa").y_up_to(top_mpa);
     active.across(chart.new_and_worn(&radius, new, worn, "%{y:.1f} MPa").reading(reading), gear)
 }
 

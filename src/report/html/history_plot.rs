@@ -13,7 +13,7 @@ type Value = fn(&HistoryRow) -> f64;
 
 /// Name, gear, whether it is a line through dots (otherwise rings, which show also around dots in the same place) and value.
 const SERIES: [(&str, Gear, bool, Value); 3] = [
-    ("pinion, over the root", Gear::Pinion, true, |row| row.pinion_root_wear_um),
+    ("pinion, root zone", Gear::Pinion, true, |row| row.pinion_root_wear_um),
     ("pinion, active profile", Gear::Pinion, false, |row| row.pinion_peak_wear_um),
     ("wheel, active profile", Gear::Wheel, true, |row| row.wheel_peak_wear_um),
 ];
@@ -43,7 +43,7 @@ pub(super) fn wear_against_time(record: &RunRecord) -> Chart {
     Chart::new("history", "Greatest root wear against time")
         .x(title)
         .x_range(from_zero(time.last().copied().unwrap_or(0.0)))
-        .y("greatest wear depth, µm")
+        .y("maximum wear depth, µm")
         .y_up_to(deepest)
         .add_all(traces)
         .mark(marked, "")

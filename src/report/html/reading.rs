@@ -2,6 +2,8 @@
 
 use super::number::{change, figure, given, percent, revolutions, significant};
 use crate::gear::Gear;
+use crate::reference::steel_yield;
+use crate::results::path_points::among;
 use crate::results::run::{FlankRecord, MeshCycleRow, RunRecord, StopReason, Summary, WearSummary};
 
 /// The greatest of some values and where it is.
@@ -24,21 +26,6 @@ pub(crate) fn place_on_flank(flank: &FlankRecord, radius_mm: f64) -> String {
     format!("at {} mm radius, {}", significant(radius_mm, 4), among(&flank.path_point_radius_mm.named(), radius_mm))
 }
 
-/// Where `at` lies among the named places: close to one of them, between two, or outside all.
-pub(crate) fn among(places: &[(&str, f64)], at: f64) -> String {
-    let mut sorted = places.to_vec();
-    sorted.sort_by(|a, b| a.1.total_cmp(&b.1));
-    let (Some(first), Some(last)) = (sorted.first(), sorted.last()) else { return String::new() };
-    let nearest = sorted.iter().min_by(|a, b| (a.1 - at).abs().total_cmp(&(b.1 - at).abs())).unwrap_or(first);
-    if (nearest.1 - at).abs() <= 0.03 * (last.1 - first.1) {
-        return format!("close to {}", nearest.0);
-    }
-    match sorted.windows(2).find(|pair| (pair[0].1..pair[1].1).contains(&at)) {
-        Some(pair) => format!("between {} and {}", pair[0].0, pair[1].0),
-        None => "outside the active flank".into(),
-    }
-}
-
 /// What to say of a pressure that is greatest at A or E, where one flank ends in its tip edge; empty elsewhere.
 pub(crate) fn tip_edge_note(places: &[(&str, f64)], at: f64) -> &'static str {
     match among(places, at).as_str() {
@@ -50,17 +37,12 @@ pub(crate) fn tip_edge_note(places: &[(&str, f64)], at: f64) -> &'static str {
     }
 }
 
-/// Where steel of 300 HV flows, MPa. A line contact begins to yield at 1.67 Y and flows at H, about 2.8 Y (K. L. Johnson, *Contact
-/// Mechanics*, 1985, sections 6.1 to 6.3): case-hardened steel of 700 HV begins at some 4100 MPa.
-const FLOW_PRESSURE_MPA: f64 = 3000.0;
-
 /// What to say of a pressure that steel hardly bears elastically; empty below.
-pub(crate) fn yield_note(pressure_mpa: f64) -> &'static str {
-    if pressure_mpa > FLOW_PRESSURE_MPA {
-        " Steel of 300 HV flows at some 3000 MPa, and case-hardened steel of 700 HV begins to yield at some 4100 MPa: above, the \
-         pressure is that of a material which stays elastic."
+pub(crate) fn yield_note(pressure_mpa: f64) -> String {
+    if steel_yield::is_exceeded(pressure_mpa) {
+        format!(" {}.", capitalised(steel_yield::REASON))
     } else {
-        ""
+        String::new()
     }
 }
 
@@ -95,7 +77,7 @@ pub(crate) fn answer(record: &RunRecord) -> String {
         return text;
     }
     text.push_str(&format!(
-        " The greatest pressure went from {} to {} MPa ({}), worn {}; the transmission error peak to peak from {} to {} µm.",
+        " The maximum pressure went from {} to {} MPa ({}), worn {}; the transmission error peak to peak from {} to {} µm.",
         figure(s.new.peak_pressure_MPa),
         figure(s.worn.peak_pressure_MPa),
         change(s.new.peak_pressure_MPa, s.worn.peak_pressure_MPa),
@@ -103,7 +85,7 @@ pub(crate) fn answer(record: &RunRecord) -> String {
         figure(s.new.transmission_error_um.peak_to_peak),
         figure(s.worn.transmission_error_um.peak_to_peak),
     ));
-    text.push_str(yield_note(s.new.peak_pressure_MPa.max(s.worn.peak_pressure_MPa)));
+    text.push_str(&yield_note(s.new.peak_pressure_MPa.max(s.worn.peak_pressure_MPa)));
     if let Some(helical) = &s.helical {
         let wear = &helical.wear.pinion;
         text.push_str(&format!(
@@ -206,16 +188,5 @@ mod tests {
     #[test]
     fn numbers_hold_on_to_their_units() {
         assert_eq!(bound("up to 1.65 µm at 34 mm, or more mm"), "up to 1.65\u{a0}µm at 34\u{a0}mm, or more mm");
-    }
-
-    /// On an FZG type A pair C lies before B: order is by place, not by name.
-    #[test]
-    fn places_are_named_in_their_own_order() {
-        let places = [("A", 0.0), ("B", 4.8), ("C", 3.3), ("D", 13.0), ("E", 18.0)];
-        assert_eq!(among(&places, 0.2), "close to A");
-        assert_eq!(among(&places, 4.1), "between C and B");
-        assert_eq!(among(&places, 9.0), "between B and D");
-        assert_eq!(among(&places, 25.0), "outside the active flank");
-        assert_eq!(among(&[], 1.0), "");
     }
 }

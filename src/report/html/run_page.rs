@@ -59,7 +59,7 @@ pub(crate) fn page(record: &RunRecord) -> String {
     Page {
         kind: "Wear of a gear pair",
         title: &s.title,
-        byline: &byline(s),
+        byline: &s.report.as_ref().map(ReportedBy::line).unwrap_or_default(),
         answer: &reading::answer(record),
         interruption: reading::interruption(s).as_deref(),
         warnings: &s.warnings,
@@ -73,12 +73,6 @@ pub(crate) fn page(record: &RunRecord) -> String {
         footer: &format!("gearwear {} · scene {}", s.program_version, s.scene_hash),
     }
     .html()
-}
-
-/// Who reports, and when, as far as the scene says it.
-fn byline(s: &Summary) -> String {
-    let Some(ReportedBy { author, company, date }) = &s.report else { return String::new() };
-    [author, company, date].into_iter().flatten().map(String::as_str).collect::<Vec<_>>().join(" · ")
 }
 
 /// The plots of a run, in the order of its page.

@@ -1,10 +1,10 @@
 //! Plots of the contact's temperature and of its Peclet numbers over the mesh cycle, new.
 
 use super::number::{figure, significant};
-use super::reading::among;
 use crate::gear::Gear;
 use crate::report::chart::{Chart, Dash, MUTED, PATH, WORN, gear_colour};
 use crate::results::chemistry::{HeatVelocity, TemperatureMethod};
+use crate::results::path_points::among;
 use crate::results::run::{MeshCycleRow, RunRecord};
 
 type Column = fn(&MeshCycleRow) -> Option<f64>;

@@ -56,6 +56,9 @@ pub(crate) fn errors(observed: &Observed, reference: &Observed, windows: &Window
     let profile = PerGear::from_fn(|gear| profile_error(&observed.flanks[gear], &reference.flanks[gear]));
     let peak =
         |gear: Gear| relative_difference(observed.flanks[gear].peak_wear_um(), reference.flanks[gear].peak_wear_um());
+    let tip_edge = |gear: Gear| {
+        relative_difference(observed.flanks[gear].tip_edge_wear_um(), reference.flanks[gear].tip_edge_wear_um())
+    };
     let over_path = |curve: fn(&ObservedCycle) -> &[f64]| {
         relative_l2(&reference.cycle.position_mm, curve(&observed.cycle), curve(&reference.cycle))
     };
@@ -77,6 +80,8 @@ pub(crate) fn errors(observed: &Observed, reference: &Observed, windows: &Window
         (Quantity::WheelWearProfile, profile.wheel),
         (Quantity::PinionPeakWear, peak(Gear::Pinion)),
         (Quantity::WheelPeakWear, peak(Gear::Wheel)),
+        (Quantity::PinionTipEdgeWear, tip_edge(Gear::Pinion)),
+        (Quantity::WheelTipEdgeWear, tip_edge(Gear::Wheel)),
         (Quantity::PeakPressure, greatest_in(windows.pressure_mm)),
         (Quantity::FlankPressure, greatest_in(windows.flank_mm)),
         (Quantity::TransmissionError, over_path(|c| &c.transmission_error_um)),

@@ -141,9 +141,18 @@ impl ObservedFlank {
 
     /// Greatest depth on the active profile, as in the summary of a run.
     pub(crate) fn peak_wear_um(&self) -> f64 {
+        self.greatest_wear_um(FlankZone::Active)
+    }
+
+    /// Greatest depth at the tip edge, as in the summary of a run.
+    pub(crate) fn tip_edge_wear_um(&self) -> f64 {
+        self.greatest_wear_um(FlankZone::TipEdge)
+    }
+
+    fn greatest_wear_um(&self, zone: FlankZone) -> f64 {
         let points = self.slices().flat_map(|slice| slice.iter().zip(&self.radius_mm));
-        let active = points.filter(|(_, radius)| self.zones.at(**radius) == FlankZone::Active);
-        active.map(|(depth, _)| *depth).fold(0.0, f64::max)
+        let of_zone = points.filter(|(_, radius)| self.zones.at(**radius) == zone);
+        of_zone.map(|(depth, _)| *depth).fold(0.0, f64::max)
     }
 
     /// The slices one after the other.

@@ -18,6 +18,10 @@ pub(crate) enum Quantity {
     PinionPeakWear,
     /// relative difference of the wheel's greatest depth
     WheelPeakWear,
+    /// relative difference of the greatest depth at the pinion's tip edge
+    PinionTipEdgeWear,
+    /// relative difference of the greatest depth at the wheel's tip edge
+    WheelTipEdgeWear,
     /// relative difference of the greatest pressure, new, away from sharp tip edges
     PeakPressure,
     /// relative difference of the greatest pressure, new, away from all tip edges
@@ -51,12 +55,14 @@ impl fmt::Display for Quantity {
 
 impl Quantity {
     /// All of them, in the order of the tables; the last three are of pairs with slices, half-width is of the others.
-    pub(crate) const ALL: [Self; 15] = [
+    pub(crate) const ALL: [Self; 17] = [
         Self::WearProfile,
         Self::PinionWearProfile,
         Self::WheelWearProfile,
         Self::PinionPeakWear,
         Self::WheelPeakWear,
+        Self::PinionTipEdgeWear,
+        Self::WheelTipEdgeWear,
         Self::PeakPressure,
         Self::FlankPressure,
         Self::HalfWidth,
@@ -75,10 +81,12 @@ impl Quantity {
             Self::WearProfile => "Wear profile, both gears",
             Self::PinionWearProfile => "Wear profile, pinion",
             Self::WheelWearProfile => "Wear profile, wheel",
-            Self::PinionPeakWear => "Greatest wear, pinion",
-            Self::WheelPeakWear => "Greatest wear, wheel",
-            Self::PeakPressure => "Greatest pressure, new",
-            Self::FlankPressure => "Greatest pressure away from tip edges, new",
+            Self::PinionPeakWear => "Maximum wear, pinion",
+            Self::WheelPeakWear => "Maximum wear, wheel",
+            Self::PinionTipEdgeWear => "Maximum wear, pinion’s tip edge",
+            Self::WheelTipEdgeWear => "Maximum wear, wheel’s tip edge",
+            Self::PeakPressure => "Maximum pressure, new",
+            Self::FlankPressure => "Maximum pressure away from tip edges, new",
             Self::HalfWidth => "Half-width in single contact, new",
             Self::TransmissionError => "Transmission error, new",
             Self::TransmissionErrorPeakToPeak => "Transmission error peak to peak, new",
@@ -97,7 +105,12 @@ impl Quantity {
             Self::PinionWearProfile | Self::WheelWearProfile => {
                 "relative L2 error of the depth over the whole flank, √(∫(h − h_ref)² dA / ∫h_ref² dA)"
             }
-            Self::PinionPeakWear | Self::WheelPeakWear => "relative difference of the greatest depth on the flank",
+            Self::PinionPeakWear | Self::WheelPeakWear => {
+                "relative difference of the maximum depth on the active profile"
+            }
+            Self::PinionTipEdgeWear | Self::WheelTipEdgeWear => {
+                "relative difference of the maximum depth at the tip edge"
+            }
             Self::PeakPressure => {
                 "relative difference of the greatest pressure over the path of contact, without the positions at a sharp \
                  tip edge"

@@ -31,7 +31,7 @@ const fn wants_less(name: &'static str, title: &'static str, unit: &'static str)
 }
 
 /// The greatest wear of the pair: which gear it is of may change from one combination to the next.
-pub(crate) const PEAK_WEAR: SweepFigure = wants_less("peak_wear_um", "peak wear of either gear", "µm")
+pub(crate) const PEAK_WEAR: SweepFigure = wants_less("peak_wear_um", "maximum wear of either gear", "µm")
     .of(|s| Some(s.pinion.peak_wear_um.max(s.wheel.peak_wear_um)))
     .meaning("greatest wear depth on the active profiles of both gears, their tip edges apart");
 
@@ -44,7 +44,7 @@ pub(crate) const FIGURES: &[SweepFigure] = &[
     describes("line_load_N_per_mm", "line load", "N/mm")
         .of(|s| Some(s.contact.line_load_N_per_mm))
         .meaning("whole torque over the pinion's base radius and the face width"),
-    wants_less("pinion_peak_wear_um", "peak wear of the pinion", "µm")
+    wants_less("pinion_peak_wear_um", "maximum wear of the pinion", "µm")
         .of(|s| Some(s.pinion.peak_wear_um))
         .meaning("greatest wear depth on the pinion's active profile, its tip edge apart"),
     wants_less("pinion_root_wear_um", "wear near the pinion’s root", "µm")
@@ -56,7 +56,7 @@ pub(crate) const FIGURES: &[SweepFigure] = &[
     wants_less("pinion_worn_volume_mm3", "volume worn off the pinion", "mm³")
         .of(|s| Some(s.pinion.worn_volume_mm3))
         .meaning("worn off the whole pinion: all teeth, whole width"),
-    wants_less("wheel_peak_wear_um", "peak wear of the wheel", "µm")
+    wants_less("wheel_peak_wear_um", "maximum wear of the wheel", "µm")
         .of(|s| Some(s.wheel.peak_wear_um))
         .meaning("greatest wear depth on the wheel's active profile, its tip edge apart"),
     wants_less("wheel_root_wear_um", "wear near the wheel’s root", "µm")
@@ -68,10 +68,10 @@ pub(crate) const FIGURES: &[SweepFigure] = &[
     wants_less("wheel_worn_volume_mm3", "volume worn off the wheel", "mm³")
         .of(|s| Some(s.wheel.worn_volume_mm3))
         .meaning("worn off the whole wheel: all teeth, whole width"),
-    wants_less("peak_pressure_new_MPa", "peak pressure, new", "MPa")
+    wants_less("peak_pressure_new_MPa", "maximum pressure, new", "MPa")
         .of(|s| Some(s.new.peak_pressure_MPa))
         .meaning("greatest pressure of contact whose pressure is defined, sharp tip edges under load apart, new"),
-    wants_less("peak_pressure_worn_MPa", "peak pressure, worn", "MPa")
+    wants_less("peak_pressure_worn_MPa", "maximum pressure, worn", "MPa")
         .of(|s| Some(s.worn.peak_pressure_MPa))
         .meaning("greatest pressure of contact whose pressure is defined, sharp tip edges under load apart, worn"),
     wants_less("transmission_error_peak_to_peak_new_um", "transmission error peak to peak, new", "µm")

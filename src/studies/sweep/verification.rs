@@ -86,8 +86,8 @@ const fn claim(name: &'static str, title: &'static str, of: fn(&TotalError) -> O
 
 /// All claims, in the order of the columns.
 pub(crate) const CLAIMS: [Claim; 8] = [
-    claim("error.total.peak_wear.pinion", "peak wear of the pinion", |total| total.peak_wear.pinion),
-    claim("error.total.peak_wear.wheel", "peak wear of the wheel", |total| total.peak_wear.wheel),
+    claim("error.total.peak_wear.pinion", "maximum wear of the pinion", |total| total.peak_wear.pinion),
+    claim("error.total.peak_wear.wheel", "maximum wear of the wheel", |total| total.peak_wear.wheel),
     claim("error.total.tip_edge_wear.pinion", "wear of the pinion’s tip edge", |total| total.tip_edge_wear.pinion),
     claim("error.total.tip_edge_wear.wheel", "wear of the wheel’s tip edge", |total| total.tip_edge_wear.wheel),
     claim("error.total.profile.pinion", "wear over the pinion’s flank (rms)", |total| total.profile.pinion),

@@ -10,7 +10,7 @@ use crate::studies::validation::record::{
 
 /// A share of a tolerance has changed from this difference on.
 const SHARE: f64 = 0.05;
-/// A number held against a bound, or a count of work, has changed from this relative difference on.
+/// A number compared with a bound, or a count of work, has changed from this relative difference on.
 const RELATIVE: f64 = 0.01;
 /// Below this share of its bound a number is as good as zero, and its relative change says nothing.
 const NOTHING: f64 = 1e-6;
@@ -90,7 +90,7 @@ impl Changes {
             add(is_worse, &now.name, State::Stands(before.standing), State::Stands(now.standing));
         } else if let Some(is_worse) = limit_moved(before.criterion, now.criterion) {
             // A share of another tolerance says nothing: what is compared is the error, in the tolerance as it was.
-            let what = format!("{}: what it is held against", now.name);
+            let what = format!("{}: what it is compared with", now.name);
             add(is_worse, &what, State::Against(before.criterion), State::Against(now.criterion));
             if let (Some(earlier), Some(error), Criterion::Near { tolerance, .. }) =
                 (before.error, now.error, before.criterion)
@@ -119,7 +119,7 @@ fn rank(standing: Standing) -> u8 {
     }
 }
 
-/// Where a quantity is held against something else than before: whether that is worse, looser or another reference.
+/// Where a quantity is compared with something else than before: whether that is worse, looser or another reference.
 fn limit_moved(before: Criterion, now: Criterion) -> Option<bool> {
     let differs = |before: f64, now: f64, scale: f64| (now - before).abs() > RELATIVE * scale.abs();
     let (moved, looser) = match (before, now) {
@@ -227,7 +227,7 @@ mod tests {
             quantity.error = Some(error);
             case("a", vec![quantity])
         };
-        let limit = "q: what it is held against".to_owned();
+        let limit = "q: what it is compared with".to_owned();
         assert_eq!(between(held(1.0, 0.5), held(10.0, 0.9)), [vec![limit.clone(), "q".to_owned()], vec![]]);
         assert_eq!(between(held(1.0, 0.5), held(10.0, 0.5)), [vec![limit.clone()], vec![]]);
         assert_eq!(between(held(1.0, 0.1), held(0.2, 0.1)), [vec![], vec![limit]]);

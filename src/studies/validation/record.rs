@@ -194,7 +194,7 @@ impl RunOutcome {
     }
 }
 
-/// A number with what it is held against.
+/// A number with what it is compared with.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct QuantityRecord {
     pub name: String,
@@ -230,7 +230,7 @@ pub(crate) struct QuantityRecord {
 }
 
 impl QuantityRecord {
-    /// A quantity that is expected to hold, without a value and held against nothing yet.
+    /// A quantity that is expected to hold, without a value and compared with nothing yet.
     pub(crate) fn named(name: &str) -> Self {
         Self { name: name.to_owned(), expected: Standing::Holds, ..Self::default() }
     }
@@ -241,7 +241,7 @@ impl QuantityRecord {
     }
 }
 
-/// What a quantity is held against.
+/// What a quantity is compared with.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "is")]
 pub(crate) enum Criterion {

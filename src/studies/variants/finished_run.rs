@@ -7,6 +7,7 @@ use serde::Deserialize;
 
 use crate::gear::{Gear, PerGear};
 use crate::results::error::TotalError;
+use crate::results::run::ReportedBy;
 use crate::studies::compare::run_folder::{self, RunFolder, RunFolderError};
 
 /// `summary.json`, in part.
@@ -15,13 +16,23 @@ use crate::studies::compare::run_folder::{self, RunFolder, RunFolderError};
 pub(crate) struct RunSummary {
     pub title: String,
     pub scene_hash: String,
+    /// Who reports, and when; none where the scene does not say it.
+    pub report: Option<ReportedBy>,
     pub revolutions: f64,
+    pub contact: ContactSummary,
     pub new: MeshSummary,
     pub worn: MeshSummary,
     pub pinion: FlankSummary,
     pub wheel: FlankSummary,
     pub helical: Option<FaceSummary>,
     pub error: ErrorSummary,
+}
+
+/// Of the load under which new and worn pair are stated.
+#[allow(non_snake_case, reason = "the contract's key names")]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub(crate) struct ContactSummary {
+    pub line_load_N_per_mm: f64,
 }
 
 /// Of the mesh cycle.
@@ -42,6 +53,7 @@ pub(crate) struct RangeSummary {
 pub(crate) struct FlankSummary {
     pub peak_wear_um: Option<f64>,
     pub tip_edge_wear_um: Option<f64>,
+    pub below_sap_wear_um: Option<f64>,
     pub worn_volume_mm3: Option<f64>,
 }
 
@@ -96,6 +108,8 @@ impl FinishedRun {
         let mut scene = BTreeMap::new();
         flatten("", &toml::Value::Table(table), &mut scene);
         scene.remove("title");
+        // Who reports is no difference of the pair.
+        scene.retain(|key, _| !key.starts_with("report."));
         Ok(Self {
             name,
             summary,

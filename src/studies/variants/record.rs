@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::finished_run::{FinishedRun, RunSummary};
+use crate::reference::steel_yield;
 use crate::results::error::TotalError;
 
 /// A comparison of runs, each with the first.
@@ -88,34 +89,48 @@ impl Figure {
     }
 }
 
-static FIGURES: [Figure; 13] = [
+static FIGURES: [Figure; 15] = [
     Figure::of(
         "pinion.peak_wear_um",
-        "Greatest wear of the pinion, active profile",
+        "Maximum wear of the pinion, active profile",
         "µm",
         |s| s.pinion.peak_wear_um,
         |e| e.peak_wear.pinion,
     ),
     Figure::of(
         "wheel.peak_wear_um",
-        "Greatest wear of the wheel, active profile",
+        "Maximum wear of the wheel, active profile",
         "µm",
         |s| s.wheel.peak_wear_um,
         |e| e.peak_wear.wheel,
     ),
     Figure::of(
         "pinion.tip_edge_wear_um",
-        "Greatest wear of the pinion’s tip edge",
+        "Maximum wear of the pinion, tip edge",
         "µm",
         |s| s.pinion.tip_edge_wear_um,
         |e| e.tip_edge_wear.pinion,
     ),
     Figure::of(
         "wheel.tip_edge_wear_um",
-        "Greatest wear of the wheel’s tip edge",
+        "Maximum wear of the wheel, tip edge",
         "µm",
         |s| s.wheel.tip_edge_wear_um,
         |e| e.tip_edge_wear.wheel,
+    ),
+    Figure::of(
+        "pinion.below_sap_wear_um",
+        "Maximum wear of the pinion, below the active profile",
+        "µm",
+        |s| s.pinion.below_sap_wear_um,
+        |_| None,
+    ),
+    Figure::of(
+        "wheel.below_sap_wear_um",
+        "Maximum wear of the wheel, below the active profile",
+        "µm",
+        |s| s.wheel.below_sap_wear_um,
+        |_| None,
     ),
     Figure::of(
         "worn.transmission_error_um.peak_to_peak",
@@ -131,8 +146,8 @@ static FIGURES: [Figure; 13] = [
         |s| s.new.transmission_error_um.peak_to_peak,
         |_| None,
     ),
-    Figure::of("worn.peak_pressure_MPa", "Greatest pressure, worn", "MPa", |s| s.worn.peak_pressure_MPa, |_| None),
-    Figure::of("new.peak_pressure_MPa", "Greatest pressure, new", "MPa", |s| s.new.peak_pressure_MPa, |_| None),
+    Figure::of("worn.peak_pressure_MPa", "Maximum pressure, worn", "MPa", |s| s.worn.peak_pressure_MPa, |_| None),
+    Figure::of("new.peak_pressure_MPa", "Maximum pressure, new", "MPa", |s| s.new.peak_pressure_MPa, |_| None),
     Figure::of("pinion.worn_volume_mm3", "Worn volume of the pinion", "mm³", |s| s.pinion.worn_volume_mm3, |_| None),
     Figure::of("wheel.worn_volume_mm3", "Worn volume of the wheel", "mm³", |s| s.wheel.worn_volume_mm3, |_| None),
     Figure::of(
@@ -158,8 +173,8 @@ static FIGURES: [Figure; 13] = [
     ),
 ];
 
-/// Durations this close, relatively, are the same.
-const SAME_DURATION: f64 = 1e-9;
+/// Durations and loads this close, relatively, are the same.
+const SAME: f64 = 1e-9;
 
 impl VariantsRecord {
     /// Of `runs` (two at least), each compared with the first.
@@ -209,7 +224,7 @@ fn row(figure: &Figure, first: &FinishedRun, run: &FinishedRun) -> VariantRow {
     }
 }
 
-/// What the greatest wear of both gears says of each variant.
+/// What the maximum wear of both gears says of each variant.
 fn answer(rows: &[VariantRow], first: &str) -> String {
     let mut sentences = Vec::new();
     for row in rows.iter().filter(|row| row.figure.ends_with(".peak_wear_um")) {
@@ -226,7 +241,7 @@ fn answer(rows: &[VariantRow], first: &str) -> String {
             None => "whose error is not known, as not both runs were verified".to_owned(),
         };
         sentences.push(format!(
-            "The greatest wear of the {gear} is {per_cent} {more} with {} than with {first}, {judged}.",
+            "The maximum wear of the {gear} is {per_cent} {more} with {} than with {first}, {judged}.",
             row.run
         ));
     }
@@ -249,12 +264,29 @@ fn varied_keys(runs: &[FinishedRun]) -> Vec<VariedKey> {
 
 fn warnings(runs: &[FinishedRun]) -> Vec<String> {
     let first = &runs[0];
-    let other = |run: &&FinishedRun| (run.summary.revolutions / first.summary.revolutions - 1.0).abs() > SAME_DURATION;
-    let duration = |run: &FinishedRun| {
+    let differs = |run: &FinishedRun, of: fn(&FinishedRun) -> f64| (of(run) / of(first) - 1.0).abs() > SAME;
+    let (duration, load) =
+        (|run: &FinishedRun| run.summary.revolutions, |run: &FinishedRun| run.summary.contact.line_load_N_per_mm);
+    let durations = runs.iter().filter(|run| differs(run, duration)).map(|run| {
         format!(
             "{} runs {:.4e} pinion revolutions, {} {:.4e}: wear of different durations is compared",
             run.name, run.summary.revolutions, first.name, first.summary.revolutions
         )
-    };
-    runs.iter().filter(other).map(duration).collect()
+    });
+    let loads = runs.iter().filter(|run| differs(run, load)).map(|run| {
+        format!(
+            "pressure, load share and transmission error of {} are under {:.1} N/mm, those of {} under {:.1} N/mm: they differ by the \
+             load too",
+            run.name,
+            load(run),
+            first.name,
+            load(first)
+        )
+    });
+    let pressures = runs.iter().filter_map(|run| {
+        let (new, worn) = (run.summary.new.peak_pressure_MPa, run.summary.worn.peak_pressure_MPa);
+        let (pressure_mpa, when) = if worn > new { (worn?, "worn") } else { (new?, "new") };
+        steel_yield::warning(pressure_mpa, &format!("{}, {when}", run.name))
+    });
+    durations.chain(loads).chain(pressures).collect()
 }

@@ -168,6 +168,8 @@ fn history_row(hours: f64) -> HistoryRow {
         sharp_edge_pressure_MPa: None,
         pinion_tip_edge_wear_um: 0.0,
         wheel_tip_edge_wear_um: 0.0,
+        pinion_below_sap_wear_um: 0.0,
+        wheel_below_sap_wear_um: 0.0,
     }
 }
 

@@ -46,8 +46,8 @@ pub(super) fn all(run: SlicedRun<'_>, gear: Gear) -> Vec<Chart> {
     let mut charts = vec![
         worn_off.movable(over_time(run, gear)),
         draw("sliding", ["Sliding of", " during one mesh, new"], "mm", sliding, top(sliding), sliding_reading(flank)),
-        draw("pressure-new", ["Greatest pressure on", ", new"], "MPa", new, pressure_top, pressure(new, "New")),
-        draw("pressure-worn", ["Greatest pressure on", ", worn"], "MPa", worn, pressure_top, pressure(worn, "Worn")),
+        draw("pressure-new", ["Maximum pressure on", ", new"], "MPa", new, pressure_top, pressure(new, "New")),
+        draw("pressure-worn", ["Maximum pressure on", ", worn"], "MPa", worn, pressure_top, pressure(worn, "Worn")),
     ];
     if flank.removed_um.iter().any(|&removed| removed != 0.0) {
         let shown = on_active_flank(flank, &flank.removed_um);
@@ -197,8 +197,8 @@ fn sliding_reading(flank: &FlankRecord) -> String {
 fn pressure_reading(run: SlicedRun<'_>, gear: Gear, field: &[f64], when: &str) -> String {
     let flank = &run.record.flanks[gear];
     let mut reading =
-        format!("{when}, the greatest pressure on the {} is {}.", gear.name(), peak_of(flank, field, "MPa"));
-    reading.push_str(yield_note(greatest(field).map_or(0.0, |at| at.value)));
+        format!("{when}, the maximum pressure on the {} is {}.", gear.name(), peak_of(flank, field, "MPa"));
+    reading.push_str(&yield_note(greatest(field).map_or(0.0, |at| at.value)));
     // The slice that is farthest ahead enters first.
     if let Some(entering) = greatest(&run.slices.ahead_mm) {
         let points = flank.radius_mm.len();

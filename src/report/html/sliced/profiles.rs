@@ -76,10 +76,10 @@ pub(super) fn pressure(run: SlicedRun<'_>) -> Vec<Chart> {
         };
         let name = gear.name();
         let chart =
-            Chart::new(format!("pressure-{name}"), format!("Greatest pressure on the {name}’s flank in three slices"))
-                .y("greatest pressure, MPa")
+            Chart::new(format!("pressure-{name}"), format!("Maximum pressure on the {name}’s flank in three slices"))
+                .y("maximum pressure, MPa")
                 .y_up_to(top[0].max(top[1]))
-                .reading(format!("The greatest pressure on the {name} goes {}.", of_each(flank, from_new_to_worn)));
+                .reading(format!("The maximum pressure on the {name} goes {}.", of_each(flank, from_new_to_worn)));
         draw(chart, flank, gear, &[("new", NEW, fields[0]), ("worn", WORN, fields[1])], "%{y:.1f} MPa")
     };
     Gear::BOTH.map(of).into()

@@ -71,7 +71,7 @@ pub(super) fn pressure(run: SlicedRun<'_>) -> Chart {
         _ => NOT_COMPUTED.into(),
     };
     let top = new.iter().chain(&worn).copied().fold(0.0, f64::max);
-    let chart = Chart::new("cycle-pressure", "Greatest pressure on one tooth over its mesh");
-    let chart = chart.y("greatest pressure, MPa").y_up_to(top).reading(reading);
+    let chart = Chart::new("cycle-pressure", "Maximum pressure on one tooth over its mesh");
+    let chart = chart.y("maximum pressure, MPa").y_up_to(top).reading(reading);
     over_mesh(run, chart, [new, worn], "%{y:.1f} MPa")
 }

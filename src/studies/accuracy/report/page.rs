@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::{front_figures, profile_figures, run_tables};
 use crate::report::html::number::{percent, significant};
 use crate::report::html::page::{Page, Plots, section, sources_list};
-use crate::results::run::StopReason;
+use crate::results::run::{ReportedBy, StopReason};
 use crate::studies::accuracy::record::{AccuracyRecord, CALIBRATION_FILE, OVER_WIDTH_FILE, Quantity};
 
 /// The data files named in the page, which lie beside it.
@@ -34,7 +34,7 @@ pub(super) fn page(record: &AccuracyRecord) -> String {
     Page {
         kind: "Error against run time",
         title: &record.title,
-        byline: "",
+        byline: &ReportedBy::line_of_scene(&record.scene_toml),
         answer: &answer(record),
         interruption: (record.stopped != StopReason::Completed)
             .then(|| format!("The comparison was interrupted after {} runs; those are shown.", record.variants.len()))

@@ -6,7 +6,8 @@
 use crate::gear::Gear;
 use crate::report::chart::{Chart, Dash, INK, Trace, extent, padded};
 use crate::report::html::number::{figure, percent, significant};
-use crate::report::html::reading::{among, greatest};
+use crate::report::html::reading::greatest;
+use crate::results::path_points::among;
 use crate::results::run::PathPoints;
 use crate::studies::accuracy::record::{AccuracyRecord, Quantity, ReferenceFlank, VariantRecord};
 

@@ -7,10 +7,11 @@ use crate::report::html::table::{Cell, cells, line, list};
 use crate::studies::accuracy::record::{AccuracyRecord, Comparison, DeepRun, Quantity, VariantRecord};
 
 /// The quantities with a column of their own in the table of all runs, where they are measured.
-const SHOWN: [(Quantity, &str); 9] = [
+const SHOWN: [(Quantity, &str); 10] = [
     (Quantity::WearProfile, "wear profile"),
-    (Quantity::PinionPeakWear, "pinion’s peak wear"),
-    (Quantity::PeakPressure, "peak pressure"),
+    (Quantity::PinionPeakWear, "maximum wear, pinion"),
+    (Quantity::PinionTipEdgeWear, "its tip edge"),
+    (Quantity::PeakPressure, "maximum pressure"),
     (Quantity::FlankPressure, "off the tips"),
     (Quantity::HalfWidth, "half-width"),
     (Quantity::TransmissionError, "transmission error"),
@@ -79,7 +80,7 @@ pub(super) fn runs(record: &AccuracyRecord) -> Markup {
 
 /// Runs that differ in one respect only.
 pub(super) fn comparison(of: &Comparison) -> Markup {
-    let columns = ["profile, pinion", "profile, wheel", "peak wear, pinion", "peak wear, wheel", "time, s"];
+    let columns = ["profile, pinion", "profile, wheel", "maximum wear, pinion", "maximum wear, wheel", "time, s"];
     let rows = of.rows.iter().map(|row| {
         line(cells![
             &*row.name,
@@ -99,14 +100,14 @@ pub(super) fn deep_runs(record: &AccuracyRecord) -> Markup {
     let Some(deep) = &record.deep_runs else { return Markup::default() };
     let columns = [
         "model",
-        "greatest wear, µm, pinion / wheel",
+        "maximum wear, µm, pinion / wheel",
         "profile",
         "roughness",
         "steps",
         "time, s",
         "fewer steps",
         "time, s",
-        "change of greatest wear",
+        "change of maximum wear",
         "roughness",
         "stable",
     ];
@@ -133,7 +134,7 @@ pub(super) fn deep_runs(record: &AccuracyRecord) -> Markup {
         ])
     });
     let caption = format!(
-        "To a greater depth: {}. Profile: difference from {}. Stable: with the fewer, longer wear steps the greatest wear of \
+        "To a greater depth: {}. Profile: difference from {}. Stable: with the fewer, longer wear steps the maximum wear of \
          neither gear changes by more than {}. Roughness: what of the depth jumps from point to point",
         deep.common,
         deep.baseline,

@@ -2,7 +2,8 @@
 
 use crate::report::chart::{Chart, Dash, MUTED, NEW, Trace, WORN, extent, padded};
 use crate::report::html::number::{figure, significant};
-use crate::report::html::reading::{among, greatest};
+use crate::report::html::reading::greatest;
+use crate::results::path_points::among;
 use crate::studies::compare::record::{CompareRecord, CompareRow};
 
 const MEASURED: &str = "var(--wheel)";

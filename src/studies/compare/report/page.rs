@@ -8,6 +8,7 @@ use crate::report::html::number::{figure, given, revolutions, significant};
 use crate::report::html::page::{Page, Plots, section, sources_list};
 use crate::report::html::reading::capitalised;
 use crate::report::html::table::{NONE, row, table};
+use crate::results::run::ReportedBy;
 use crate::studies::compare::record::{CompareRecord, Estimate};
 
 const DATA_FILES: [(&str, &str); 2] = [
@@ -21,7 +22,7 @@ pub(super) fn page(record: &CompareRecord) -> String {
     Page {
         kind: "Measured profile against a run",
         title: &format!("{} – {}", record.title, record.measured),
-        byline: "",
+        byline: &ReportedBy::line_of_scene(&record.scene_toml),
         answer: &answer(record),
         interruption: None,
         warnings: &record.warnings,

@@ -41,7 +41,11 @@ pub(super) fn contour(
         .set("connectgaps", false)
         .set("hoverongaps", false)
         .unlisted()
-        .hover(format!("{} %{{x}}<br>{} %{{y}}<br>%{{z:.5~g}} {unit}<extra></extra>", x.axis.key, y.axis.key));
+        .hover(format!(
+            "{}: %{{x}}<br>{}: %{{y}}<br>%{{z:.5~g}} {unit}<extra></extra>",
+            x.axis.title(),
+            y.axis.title()
+        ));
     let mut chart = Chart::new(id("contour", figure), capitalised(figure.title))
         .height(460)
         .read_nearest()

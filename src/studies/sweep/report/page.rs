@@ -8,6 +8,7 @@ use super::{best_tables, contour_figures, line_figures};
 use crate::report::chart::Chart;
 use crate::report::html::number::{count, figure as shown_number, given, significant};
 use crate::report::html::page::{Page, Plots, section, sources_list};
+use crate::results::run::ReportedBy;
 use crate::studies::sweep::figures::{FIGURES, SweepFigure};
 use crate::studies::sweep::record::SweepRecord;
 use crate::studies::sweep::verification::SweepVerification;
@@ -32,7 +33,7 @@ pub(super) fn page(record: &SweepRecord) -> String {
     Page {
         kind: "Sweep",
         title: &identity.title,
-        byline: "",
+        byline: &ReportedBy::line_of_scene(&record.scene_toml),
         answer: &answer(record),
         interruption: None,
         warnings: &[],
@@ -69,9 +70,11 @@ fn answer(record: &SweepRecord) -> String {
         .axes
         .iter()
         .map(|axis| match axis.count {
-            1 => format!("{} = {}", axis.key, shown_value(axis, axis.from)),
-            _ if axis.words().is_some() => format!("{} = {}", axis.key, axis.words().unwrap_or_default().join(" or ")),
-            n => format!("{} from {} to {} ({n} values)", axis.key, given(axis.from), given(axis.to)),
+            1 => format!("{} = {}", axis.title(), shown_value(axis, axis.from)),
+            _ if axis.words().is_some() => {
+                format!("{} = {}", axis.title(), axis.words().unwrap_or_default().join(" or "))
+            }
+            n => format!("{} from {} to {} ({n} values)", axis.title(), given(axis.from), given(axis.to)),
         })
         .collect();
     let failed = record.failed();
@@ -89,7 +92,7 @@ fn answer(record: &SweepRecord) -> String {
             .axes
             .iter()
             .zip(&row.values)
-            .map(|(axis, &value)| format!("{} = {}", axis.key, shown_value(axis, value)))
+            .map(|(axis, &value)| format!("{} = {}", axis.title(), shown_value(axis, value)))
             .collect();
         text.push_str(&format!(
             " The {} is least, {}{}{}, at {}.",
@@ -117,7 +120,7 @@ fn vouched(record: &SweepRecord) -> String {
     match (verification.verified, verification.worst_of_peak_wear()) {
         (0, _) | (_, None) => " Finite elements verify none of them.".to_owned(),
         (n, Some(worst)) => format!(
-            " Finite elements verified {} of them: the greatest wear of each is within {}.",
+            " Finite elements verified {} of them: the maximum wear of each is within {}.",
             count(n as u64),
             best_tables::within(worst)
         ),

@@ -47,7 +47,7 @@ fn facts(case: &CaseRecord) -> Markup {
 }
 
 fn quantities(case: &CaseRecord) -> Markup {
-    let columns = ["quantity", "verdict", "value", "held against", "error", "of tolerance used"];
+    let columns = ["quantity", "verdict", "value", "compared with", "error", "of tolerance used"];
     let rows = case.quantities.iter().map(|quantity| {
         line(cells![
             &*quantity.name,

@@ -78,7 +78,7 @@ fn junit_counts_what_failed_and_says_why() {
     assert_eq!(elements.iter().filter(|element| element.name == "skipped").count(), 2);
     let failures: Vec<&str> =
         elements.iter().filter(|e| e.name == "failure").map(|failure| failure.get("message")).collect();
-    assert!(failures[0].contains("1400 MPa, held against 1305 ± 13 MPa"), "{failures:?}");
+    assert!(failures[0].contains("1400 MPa, compared with 1305 ± 13 MPa"), "{failures:?}");
     let error = elements.iter().find(|element| element.name == "error").unwrap();
     assert!(error.get("message").contains("no preset is called `fzg-d`"));
 }
@@ -157,7 +157,7 @@ fn the_terminal_shows_a_line_for_each_case_then_what_is_wrong_then_the_totals() 
         assert_eq!(lines.filter(|line| line.contains(&case.name)).count(), 1, "{}\n{text}", case.name);
     }
     assert!(text.contains("✗ pitch-point: What pitch-point must show, in one sentence."), "{text}");
-    assert!(text.contains("greatest pressure: missed: 1400 MPa, held against 1305 ± 13 MPa"), "{text}");
+    assert!(text.contains("greatest pressure: missed: 1400 MPa, compared with 1305 ± 13 MPa"), "{text}");
     assert!(text.contains("could not run: validation/calculix/case.toml, line 12"), "{text}");
     assert!(text.contains("worse  hertz-cylinders: equilibria: 1000 → 1200"), "{text}");
     assert!(text.trim_end().ends_with("on 2 threads."), "{text}");

@@ -23,7 +23,7 @@ pub(super) struct Totals {
     /// Statements that are known not to hold.
     pub(super) known_not: usize,
     pub(super) cannot_be_compared: usize,
-    /// Numbers that nothing is held against.
+    /// Numbers that nothing is compared with.
     pub(super) reported: usize,
 }
 

@@ -20,7 +20,7 @@ pub(super) enum Verdict {
     CannotBeCompared,
     /// It holds, as it should.
     Holds,
-    /// A number that nothing is held against.
+    /// A number that nothing is compared with.
     Reported,
 }
 

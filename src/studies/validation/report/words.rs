@@ -52,7 +52,7 @@ fn with_unit(text: &str, unit: &str) -> String {
     if unit.is_empty() { text.to_owned() } else { format!("{text} {unit}") }
 }
 
-/// What it is held against, with the unit.
+/// What it is compared with, with the unit.
 pub(super) fn criterion(quantity: &QuantityRecord) -> String {
     match quantity.criterion {
         Criterion::True | Criterion::Reported => limit(quantity.criterion),
@@ -115,7 +115,7 @@ pub(super) fn deviation(quantity: &QuantityRecord) -> String {
     let mut text = match (quantity.value, quantity.criterion) {
         (None, _) => "could not be computed".to_owned(),
         (Some(_), Criterion::Reported) => value(quantity),
-        (Some(_), _) => format!("{}, held against {}", value(quantity), criterion(quantity)),
+        (Some(_), _) => format!("{}, compared with {}", value(quantity), criterion(quantity)),
     };
     if quantity.share.is_some_and(|share| share > 1.0) && matches!(quantity.criterion, Criterion::Near { .. }) {
         text.push_str(&format!(" ({} of the tolerance)", share(quantity.share)));

@@ -11,7 +11,9 @@ const DASHES: [Dash; 4] = [Dash::Solid, Dash::Dashed, Dash::Dot, Dash::Mixed];
 pub(super) fn all(runs: &[FinishedRun]) -> Vec<Chart> {
     let mut charts: Vec<Chart> = Gear::BOTH.into_iter().map(|gear| wear(runs, gear)).collect();
     charts.extend([
-        over_mesh(runs, "pressure-worn", "Greatest pressure, worn", "pressure, MPa", "peak_pressure_worn_MPa"),
+        over_mesh(runs, "pressure-new", "Maximum pressure, new", "pressure, MPa", "peak_pressure_new_MPa"),
+        over_mesh(runs, "pressure-worn", "Maximum pressure, worn", "pressure, MPa", "peak_pressure_worn_MPa"),
+        over_mesh(runs, "load-share-new", "Load share, new", "load share", "load_share_new"),
         over_mesh(runs, "load-share-worn", "Load share, worn", "load share", "load_share_worn"),
         over_mesh(runs, "te-new", "Transmission error, new", "transmission error, µm", "transmission_error_new_um"),
         over_mesh(runs, "te-worn", "Transmission error, worn", "transmission error, µm", "transmission_error_worn_um"),
@@ -41,7 +43,7 @@ fn wear(runs: &[FinishedRun], gear: Gear) -> Chart {
         .wide()
         .height(460)
         .reading(format!(
-            "Greatest over the face width at each radius. Deepest, tip edges included: {}.",
+            "Maximum over the face width at each radius. Maximum, tip edges included: {}.",
             words.join(", ")
         ))
         .x(&format!("radius on the {}, mm", gear.name()))
@@ -64,7 +66,7 @@ fn over_mesh(runs: &[FinishedRun], id: &str, title: &str, axis: &str, column: &s
     });
     let words: Vec<String> = words.collect();
     let mut chart = Chart::new(id, title)
-        .reading(format!("Greatest: {}.", words.join(", ")))
+        .reading(format!("Maximum: {}.", words.join(", ")))
         .x("contact position, mm")
         .x_range(padded(low, high))
         .x_format(".3f")

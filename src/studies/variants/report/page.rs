@@ -6,6 +6,7 @@ use super::figures;
 use crate::report::html::number::{change, figure, percent};
 use crate::report::html::page::{Page, Plots, files_list, note, section};
 use crate::report::html::table::{Cell, NONE, line, list};
+use crate::results::run::ReportedBy;
 use crate::studies::variants::finished_run::FinishedRun;
 use crate::studies::variants::record::{VariantRow, VariantsRecord};
 
@@ -21,7 +22,7 @@ pub(super) fn page(record: &VariantsRecord, runs: &[FinishedRun]) -> String {
     Page {
         kind: "Variants side by side",
         title: &names.join(" – "),
-        byline: "",
+        byline: &runs[0].summary.report.as_ref().map(ReportedBy::line).unwrap_or_default(),
         answer: &record.answer,
         interruption: None,
         warnings: &record.warnings,
