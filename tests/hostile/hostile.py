@@ -239,10 +239,11 @@ class Case:
         for group in dict.fromkeys([body, other]):
             problem += f'[[body]]\ngroup = "{group}"\nyoung_modulus_GPa = 206.0\npoisson_ratio = 0.3\n'
         problem += f'[[fixed]]\ngroup = "{base}"\n[[load]]\ngroup = "{top}"\nforce_N_per_mm = [0.0, -100.0]\n'
-        fitting = [(path, text) for path, text in sources.problems if f'{mesh.name}"' in text]
+        # The meshes of one family differ in their elements, not in their groups.
+        family = mesh.stem.rpartition("-")[0] or mesh.stem
+        fitting = [text for _, text in sources.problems if f"{family}-" in text or f"{mesh.name}\"" in text]
         if fitting:
-            problem = rng.choice(fitting)[1].replace(mesh.name, name)
-            problem = re.sub(r'file = "[^"]+"', f'file = "{name}"', problem)
+            problem = re.sub(r'file = "[^"]+"', f'file = "{name}"', rng.choice(fitting))
         write(self.folder / "problem.toml", problem)
         write(self.folder / name, spoiled(rng, read(mesh)))
         self.command = ["fem", "problem.toml", "--out", "out"]
