@@ -40,7 +40,7 @@ def of_run(run: Run) -> xr.Dataset:
     flanks = flanks.assign_coords(gear=["pinion", "wheel"])
     cycle = run.mesh_cycle.to_xarray("position", ("position_mm",))
     history = run.history.to_xarray("snapshot", ("hours", "revolutions", "phase"))
-    whole = xr.merge([flanks, cycle, history], combine_attrs="drop", compat="equals", join="exact")
+    whole = xr.merge([flanks, cycle, history], combine_attrs="override", compat="equals", join="exact")
     summary = run.summary
     whole.attrs = {key: summary[key] for key in ("title", "program_version", "scene_hash", "stopped")}
     return whole

@@ -6,8 +6,9 @@ import gearwear
 
 #: Seconds of computation rather than minutes: a life of an hour, nothing verified, few positions.
 SHORT = {
-    "operation.snapshots_h": [0.5, 1.0],
-    "operation.hours": 1.0,
+    "operation.snapshots_h": None,
+    "operation.snapshots_revolutions": [4500, 9000],
+    "operation.pinion_revolutions": 9000,
     "numerics.verify": False,
     "numerics.error_estimate": False,
     "numerics.positions": 60,

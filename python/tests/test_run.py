@@ -76,9 +76,9 @@ def test_arrays_are_the_values_of_the_files(name: str, request: pytest.FixtureRe
 
 
 def test_shapes(spur: gearwear.Run, helical: gearwear.Run) -> None:
-    assert spur.pinion.wear_um.shape == spur.pinion.radius_mm.shape == (100,)
+    assert spur.pinion.wear_um.shape == spur.pinion.radius_mm.shape == (101,)
     assert spur.slices is None and len(spur.pinion.snapshot_wear_um) == len(spur.history["revolutions"])
-    assert helical.pinion.wear_um.shape == (8, 100) and helical.pinion.radius_mm.shape == (100,)
+    assert helical.pinion.wear_um.shape == (8, 101) and helical.pinion.radius_mm.shape == (101,)
     slices = helical.slices
     assert slices is not None
     assert slices.line_load_new_N_per_mm.shape == (slices.position_mm.size, 8)

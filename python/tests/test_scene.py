@@ -51,7 +51,7 @@ def test_values_of_numpy_and_paths() -> None:
         }
     )
     operation = changed.to_dict()["operation"]
-    assert operation["pinion_torque_Nm"] == 250 and operation["snapshots_h"] == [1.0, 2.0]
+    assert operation["pinion_torque_Nm"] == 250 and operation["snapshots_h"][:2] == [1.0, 2.0]
     assert changed.title == "x"
     assert scene == Scene.preset("fzg-c"), "the scene itself never changes"
 
@@ -110,7 +110,7 @@ def test_bytes_that_are_no_text(tmp_path: Path) -> None:
 
 def test_a_person_can_read_it() -> None:
     text = repr(Scene.preset("fzg-c"))
-    for part in ["FZG type C", "16/24 teeth", "normal module 4.5 mm", "spur", "302 N·m", "winkler", "archard"]:
+    for part in ["FZG type C", "16/24 teeth", "normal module 4.5 mm", "spur", "302 N·m", "half-space", "archard"]:
         assert part in text, text
     assert "helix angle" in repr(Scene.preset("helical"))
 
