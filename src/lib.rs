@@ -235,12 +235,13 @@ pub fn write_fem_problem(record: &FemRecord, folder: &Path) -> Result<(), Report
     report::write_summary(&record.summary, folder).map(drop)
 }
 
-/// Writes what `gearwear calibrate` writes: the calibration as the JSON `file` that scenes name, and a page beside it, headed by `title`.
+/// Writes what `gearwear calibrate` writes: the calibration as the JSON `file` that scenes name, and a page beside it, headed by `title`;
+/// who reports (`[report]` of a scene) stands on the page of the program alone.
 ///
 /// # Errors
 /// [`ReportError`] where a file cannot be written.
 pub fn write_calibration(calibrated: &Calibrated, title: &str, file: &Path) -> Result<(), ReportError> {
-    report::calibration::write(&calibrated.calibration, &calibrated.stages, title, file)
+    report::calibration::write(&calibrated.calibration, &calibrated.stages, [title, ""], file)
 }
 
 /// Writes what `gearwear run` writes into `folder`, which is made if need be: scene and input files, tables, page, summary.

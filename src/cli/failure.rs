@@ -4,7 +4,6 @@ use std::io;
 use std::sync::Arc;
 
 use super::say;
-use crate::calibration::CalibrationError;
 use super::uncertainty::UncertaintyError;
 use crate::fem::SolveError;
 use crate::mesh::MeshFileError;
@@ -323,7 +322,9 @@ pub(super) fn no_mesh(error: &PairMeshError, text: &SceneText) -> Failure {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::calibration::CalibrationError;
     use crate::fem::factor::FactorError;
+    use crate::fem::gear::model::ModelError;
     use crate::gear::Gear;
     use crate::mesh::quality::QualityError;
     use crate::stiffness::StiffnessError;
@@ -354,13 +355,14 @@ mod tests {
         assert!(key == "fem.clamp_radius_mm" && at.contains("pinion = 19.9"), "{key} {at}");
         let condense =
             ModelError::Condense { gear: Gear::Pinion, source: SolveError::Factor(FactorError::OutOfMemory) };
-        assert_eq!(place(of_model(&condense, &text())), ("fem.clamp_radius_mm.pinion".to_owned(), "19.9"));
+        let condense = RunError::FiniteElements(condense).in_the_scene(&text()).unwrap();
+        assert_eq!(place(condense.into()), ("fem.clamp_radius_mm.pinion".to_owned(), "19.9"));
         for strip in [
             CalibrationError::NoClearPosition { line_load_n_per_mm: 1e6 },
             CalibrationError::OffTheFlank { gear: Gear::Pinion, position_mm: 12.0 },
         ] {
-            let failure = of_calibration(&strip, &text()).unwrap();
-            assert_eq!(place(failure), ("operation.pinion_torque_Nm".to_owned(), "302.0"));
+            let strip = RunError::Calibration(strip).in_the_scene(&text()).unwrap();
+            assert_eq!(place(strip.into()), ("operation.pinion_torque_Nm".to_owned(), "302.0"));
         }
         let soft = StiffnessError::SurfaceTooSoft { position_mm: 12.0, surface_um: 2.0, pair_um: 1.0 };
         assert_eq!(Problem::of_stiffness(SCENE, &soft).key, "contact.match");

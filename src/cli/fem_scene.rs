@@ -13,7 +13,6 @@ use crate::report;
 use crate::report::ReportError;
 use crate::results::fem_pair::{FemPairRecord, FemPairSummary};
 use crate::results::run::{StageTime, StopReason};
-use crate::scene::Problem;
 use crate::scene::loaded::SceneText;
 
 use super::failure::{Failure, InputError};

@@ -17,7 +17,9 @@ pub(crate) const MM3_PER_NM: f64 = 1e3;
 const ROUND_OFF: f64 = 1e-9;
 
 /// Where a wear coefficient lies in the diagram.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize, schemars::JsonSchema,
+)]
 pub enum Regime {
     /// Below 1e-9 mm³/(N·m).
     #[serde(rename = "I")]

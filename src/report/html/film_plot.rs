@@ -1,9 +1,9 @@
 //! Plots of the film of oil, of λ and of the friction along the path of contact, new and worn.
 
 use super::number::{figure, significant};
-use super::reading::among;
 use crate::report::chart::Chart;
 use crate::results::lubrication::{FilmRow, LubricationSummary};
+use crate::results::path_points::among;
 use crate::results::run::RunRecord;
 
 type Column = fn(&FilmRow) -> Option<f64>;
