@@ -58,11 +58,17 @@ pub(crate) enum CorrelationError {
     NotPositiveDefinite,
 }
 
-/// The correlation matrix of `keys` that `given` makes, and its lower factor L; none where nothing is correlated.
-pub(crate) fn correlation(
-    keys: &[&str],
-    given: &[String],
-) -> Result<Option<(DMatrix<f64>, DMatrix<f64>)>, CorrelationError> {
+/// How the normal scores of uncertain keys are correlated.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Correlation {
+    /// R.
+    pub matrix: DMatrix<f64>,
+    /// L of R = L Lᵀ.
+    pub lower: DMatrix<f64>,
+}
+
+/// The correlation of `keys` that `given` makes; none where nothing is correlated.
+pub(crate) fn correlation(keys: &[&str], given: &[String]) -> Result<Option<Correlation>, CorrelationError> {
     if given.is_empty() {
         return Ok(None);
     }
@@ -87,7 +93,7 @@ pub(crate) fn correlation(
         matrix[(j, i)] = value;
     }
     let lower = matrix.clone().cholesky().ok_or(CorrelationError::NotPositiveDefinite)?.l();
-    Ok(Some((matrix, lower)))
+    Ok(Some(Correlation { matrix, lower }))
 }
 
 impl Design {
@@ -137,7 +143,7 @@ mod tests {
     #[test]
     fn ver_correlated_factors_have_their_correlation() {
         let given = ["a:b=0.8".to_owned()];
-        let (_, lower) = correlation(&["a", "b"], &given).unwrap().unwrap();
+        let Correlation { lower, .. } = correlation(&["a", "b"], &given).unwrap().unwrap();
         let design = Design { factors: 3, seed: 1, correlation: Some(lower) };
         let samples: Vec<Vec<f64>> = (0..4096).map(|n| design.sample(n, Matrix::A)).collect();
         let score = |n: usize, factor: usize| normal_quantile(samples[n][factor]);

@@ -12,9 +12,7 @@
 
 use std::time::Instant;
 
-use nalgebra::DMatrix;
-
-use super::design::{Design, Matrix};
+use super::design::{Correlation, Design, Matrix};
 use super::distribution::Uncertain;
 use super::indices::indices;
 use super::life::{Growth, Limit};
@@ -42,8 +40,8 @@ pub(crate) const FEWEST_SAMPLES: usize = 8;
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Question {
     pub uncertain: Vec<Uncertain>,
-    /// Matrix of the correlations and its lower factor.
-    pub correlation: Option<(DMatrix<f64>, DMatrix<f64>)>,
+    /// How the keys are correlated, if they are.
+    pub correlation: Option<Correlation>,
     pub outputs: Vec<Output>,
     pub limits: Vec<Limit>,
     /// Points of the sequence.
@@ -207,7 +205,7 @@ pub(crate) fn run(
         paths.chain(question.limits.iter().map(|limit| limit.output)).map(error_of).collect();
     let factors = question.uncertain.len() + usize::from(errors.iter().any(Option::is_some));
     let places = PerGear::from_fn(|gear| places(&nominal.flanks[gear]));
-    let correlation = question.correlation.as_ref().map(|(_, lower)| lower.clone());
+    let correlation = question.correlation.as_ref().map(|correlation| correlation.lower.clone());
     let design = Design { factors, seed: question.seed, correlation };
     let samples = Samples { question, varied: &varied, nominal: &nominal, places: &places, design, errors };
 
@@ -291,7 +289,7 @@ fn record(
         correlation: question
             .correlation
             .as_ref()
-            .map(|(matrix, _)| matrix.row_iter().map(|row| row.iter().copied().collect()).collect()),
+            .map(|correlation| correlation.matrix.row_iter().map(|row| row.iter().copied().collect()).collect()),
         seed: question.seed,
         samples_asked: question.samples,
         samples: rows.len(),
