@@ -177,12 +177,7 @@ impl Scene {
     }
 
     /// Calibrates the fast model of its pair.
-    fn calibrate(
-        &self,
-        py: Python<'_>,
-        threads: usize,
-        progress: Option<Bound<'_, PyAny>>,
-    ) -> PyResult<Calibration> {
+    fn calibrate(&self, py: Python<'_>, threads: usize, progress: Option<Bound<'_, PyAny>>) -> PyResult<Calibration> {
         let scene = self.loaded.clone();
         let done = watched(py, threads, progress, move |observer| gearwear::calibrate(&scene, observer))?;
         let given = self.loaded.given();
