@@ -155,7 +155,12 @@ impl Parts<'_> {
             .iter()
             .map(|contact| {
                 let (along_mm, pressure_mpa) = contact.pressure.iter().copied().unzip();
-                PressureCurve { point: point.map(str::to_owned), row: self.row(at, contact), along_mm, pressure_MPa: pressure_mpa }
+                PressureCurve {
+                    point: point.map(str::to_owned),
+                    row: self.row(at, contact),
+                    along_mm,
+                    pressure_MPa: pressure_mpa,
+                }
             })
             .collect()
     }

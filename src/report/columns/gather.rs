@@ -294,7 +294,8 @@ mod tests {
         let Values::Numbers(numbers) = &found[0] else { panic!("{found:?}") };
         assert!(numbers[0].is_nan() && numbers[1].to_bits() == (-0.0_f64).to_bits() && numbers[2] == 2.0);
         let words = |words: [&str; 3]| Values::Words(words.map(str::to_owned).into());
-        let expected = [Values::Counts(vec![3; 3]), Values::Flags(vec![true; 3]), words(["wheel"; 3]), words(["", "A", ""])];
+        let expected =
+            [Values::Counts(vec![3; 3]), Values::Flags(vec![true; 3]), words(["wheel"; 3]), words(["", "A", ""])];
         assert_eq!(found[1..], expected);
     }
 

@@ -2,7 +2,6 @@
 
 #![allow(non_snake_case, reason = "the contract's column names")]
 
-
 use schemars::JsonSchema;
 use serde::Serialize;
 
