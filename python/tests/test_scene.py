@@ -95,7 +95,7 @@ def test_what_is_no_scene() -> None:
         Scene.from_file("nowhere.toml")
     scene = Scene.preset("fzg-c")
     with pytest.raises(AttributeError, match="never changes"):
-        scene.title = "x"
+        setattr(scene, "title", "x")
     with pytest.raises(AttributeError, match="never changes"):
         del scene._native
 
