@@ -12,6 +12,7 @@ Names of keys, columns and figures are those of the scene, the CSV files and ``s
 from gearwear._native import VERSION as __version__
 from gearwear._native import presets, unit_of
 from gearwear.calibration import Calibration
+from gearwear.evaluate import Evaluation, evaluate
 from gearwear.errors import Finding, GearwearError, NotConverged, RunError, SceneError, WornThrough
 from gearwear.fem import FemPair, FemProblem, fem_problem
 from gearwear.run import Flank, Run
@@ -21,6 +22,7 @@ from gearwear.table import Table
 
 __all__ = [
     "Calibration",
+    "Evaluation",
     "FemPair",
     "FemProblem",
     "Finding",
@@ -34,6 +36,7 @@ __all__ = [
     "Table",
     "WornThrough",
     "__version__",
+    "evaluate",
     "fem_problem",
     "presets",
     "scene_schema",

@@ -7,7 +7,8 @@ use std::sync::OnceLock;
 
 use gearwear::results::run::InputFile;
 use gearwear::toml::{Table, Value};
-use gearwear::{Done, LoadError, LoadedScene, SceneText};
+use gearwear::{Done, EvaluateError, Evaluation, LoadError, LoadedScene, SceneText};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::calibration::Calibration;
@@ -15,7 +16,7 @@ use crate::errors;
 use crate::fem::FemPair;
 use crate::run::Run;
 use crate::value;
-use crate::watched::watched;
+use crate::watched::{cores, watched};
 
 /// A scene with every file it names.
 #[pyclass(frozen, module = "gearwear._native")]
@@ -174,6 +175,33 @@ impl Scene {
             None => errors::of_run(py, error.to_string()),
         })?;
         Ok((Run::of(record), failure.map(|failure| failure.to_string())))
+    }
+
+    /// Runs it for each of `rows`, which hold a value for each of `keys`, one row a thread: the outputs of each row, and why one has none.
+    fn evaluate(
+        &self,
+        py: Python<'_>,
+        keys: Vec<String>,
+        rows: Vec<Vec<Bound<'_, PyAny>>>,
+        outputs: Vec<String>,
+        threads: usize,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<(Vec<Vec<f64>>, Vec<Option<String>>)> {
+        let name = |column: usize| keys.get(column).map_or("X", String::as_str);
+        let row = |row: Vec<Bound<'_, PyAny>>| -> PyResult<Vec<Value>> {
+            row.iter().enumerate().map(|(column, value)| value::of(name(column), value)).collect()
+        };
+        let rows = rows.into_iter().map(row).collect::<PyResult<Vec<_>>>()?;
+        let scene = self.loaded.clone();
+        let count = cores(threads);
+        let done = watched(py, threads, progress, move |observer| {
+            gearwear::evaluate(&scene, &keys, &rows, &outputs, count, observer)
+        })?;
+        let Evaluation { values, reasons } = done.map_err(|error| match error {
+            EvaluateError::Scene(error) => errors::of_scene(py, &error),
+            other => PyValueError::new_err(other.to_string()),
+        })?;
+        Ok((values, reasons))
     }
 
     /// Calibrates the fast model of its pair.

@@ -58,6 +58,12 @@ impl Observer for Watch {
     }
 }
 
+/// So many threads, at most as many as there are cores; 0: all of them.
+pub(crate) fn cores(threads: usize) -> usize {
+    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
+    if threads == 0 { cores } else { threads.min(cores) }
+}
+
 /// Does `work` on `threads` threads, at most as many as there are cores; 0: all of them. `progress` is called with the name of the stage and
 /// the part of it that is done.
 pub(crate) fn watched<T: Send + 'static>(
@@ -66,8 +72,7 @@ pub(crate) fn watched<T: Send + 'static>(
     progress: Option<Bound<'_, PyAny>>,
     work: impl FnOnce(&dyn Observer) -> T + Send + 'static,
 ) -> PyResult<T> {
-    let cores = std::thread::available_parallelism().map_or(1, NonZeroUsize::get);
-    let threads = if threads == 0 { cores } else { threads.min(cores) };
+    let threads = cores(threads);
     let watch = Arc::new(Watch::default());
     let (send, mut receive) = mpsc::channel();
     let worker = {

@@ -1,0 +1,72 @@
+"""Rows of values to outputs of the summary."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import gearwear
+
+TORQUE = "operation.pinion_torque_Nm"
+PEAK = "pinion.peak_wear_um"
+
+
+@pytest.fixture(scope="module")
+def scene() -> gearwear.Scene:
+    """A spur run of milliseconds whose only snapshot is its end."""
+    return (
+        gearwear.Scene.preset("thesis-spur")
+        .without("operation.snapshots_h")
+        .with_(
+            {
+                "operation.hours": 1.0,
+                "contact.surface": "hertz-mean",
+                "numerics.flank_points": 120,
+                "numerics.positions": 60,
+                "numerics.step": {"revolutions": 1000.0},
+                "numerics.error_estimate": False,
+                "numerics.verify": False,
+            }
+        )
+    )
+
+
+def test_rows_are_runs_and_threads_change_nothing(scene: gearwear.Scene) -> None:
+    torques = np.array([[150.0], [302.0]])
+    outputs = [PEAK, "worn.transmission_error_um.peak_to_peak"]
+    found = gearwear.evaluate(scene, [TORQUE], torques, outputs)
+    assert found.shape == (2, 2)
+    assert found.status == [None, None]
+    for row, torque in zip(found, torques[:, 0], strict=True):
+        summary = scene.with_({TORQUE: float(torque), "operation.snapshots_h": [1.0]}).run(threads=1).summary
+        assert row[0] == summary["pinion"]["peak_wear_um"]
+        assert row[1] == summary["worn"]["transmission_error_um"]["peak_to_peak"]
+    again = gearwear.evaluate(scene, [TORQUE], torques, outputs, threads=2)
+    assert np.array_equal(found, again)
+
+
+def test_a_failed_row_is_nan_and_says_why(scene: gearwear.Scene) -> None:
+    rows: list[list[object]] = [["hertz", 300.0], ["hertz", -1.0], ["no-such-surface", 300.0]]
+    found = gearwear.evaluate(scene, ["contact.surface", TORQUE], rows, [PEAK])
+    assert np.isfinite(found[0, 0])
+    assert np.isnan(found[1:, 0]).all()
+    assert found.status[0] is None
+    assert TORQUE in str(found.status[1])
+    assert "contact.surface" in str(found.status[2])
+
+
+def test_what_is_wrong_is_named(scene: gearwear.Scene) -> None:
+    with pytest.raises(ValueError, match=r"operation.pinion_torqe_Nm.*operation.pinion_torque_Nm"):
+        gearwear.evaluate(scene, ["operation.pinion_torqe_Nm"], [[1.0]], [PEAK])
+    with pytest.raises(ValueError, match=r"pinion.peek_wear_um.*pinion.peak_wear_um"):
+        gearwear.evaluate(scene, [TORQUE], [[1.0]], ["pinion.peek_wear_um"])
+    with pytest.raises(ValueError, match="row 1: found 2 values; allowed: 1"):
+        gearwear.evaluate(scene, [TORQUE], [[1.0], [1.0, 2.0]], [PEAK])
+    with pytest.raises(ValueError, match="NaN; allowed: a finite number"):
+        gearwear.evaluate(scene, [TORQUE], np.array([[np.nan]]), [PEAK])
+    with pytest.raises(ValueError, match="1 dimensions; allowed: two"):
+        gearwear.evaluate(scene, [TORQUE], np.array([1.0]), [PEAK])
+    with pytest.raises(TypeError, match="keys"):
+        gearwear.evaluate(scene, TORQUE, [[1.0]], [PEAK])
+    with pytest.raises(TypeError, match=f"{TORQUE}: found a value of type"):
+        gearwear.evaluate(scene, [TORQUE], [[object()]], [PEAK])
