@@ -14,7 +14,8 @@ fn coarse_scene() -> LoadedScene {
         ("numerics.step.revolutions", 200_000.0.into()),
     ];
     let scene = values.into_iter().fold(scene, |scene, (key, value)| scene.with(key, value).unwrap());
-    scene.without("operation.snapshots_h").unwrap()
+    // As a row has it: the end alone.
+    scene.with("operation.snapshots_h", vec![127.75]).unwrap()
 }
 
 /// A row has the bits of the run of the scene with its values, whatever the number of threads.

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! An output is named by its path in `summary.json` ([`output`]). What the outputs do not need is left out of the runs: snapshots always,
-//! the error estimates and the verification by finite elements unless an output lies below `error`. A row that cannot be run gives no
+//! the error estimates and the verification by finite elements unless an output lies below `error`. Wear steps are shortened to hit
+//! snapshots, so that a run with snapshots differs by a fraction of its wear-step error. A row that cannot be run gives no
 //! numbers and says why; it is no error of the others. Rows are run one a thread, and no number of threads changes a bit of them.
 
 pub(crate) mod output;
@@ -103,6 +104,9 @@ impl From<OutputError> for EvaluateError {
 /// lists are numbered from 1 (`operation.phases.2.hours`). Outputs are paths of numbers in `summary.json`: `pinion.peak_wear_um`,
 /// `new.transmission_error_um.peak_to_peak`, `error.total.peak_wear.pinion`, `helical.width_mm.1`. Where the observer interrupts it, the rows
 /// that are not finished say so.
+///
+/// Snapshots are left out, and error estimates and verification unless an output lies below `error`. Wear steps are shortened to hit snapshots: a
+/// run with others than its end differs by a fraction of its wear-step error.
 ///
 /// # Errors
 /// Keys or outputs that do not exist, rows that do not fit the keys.
