@@ -151,7 +151,9 @@ fn ver_a_gear_without_wear_through_a_life() {
         assert_eq!(record.summary.wheel.peak_wear_um, 0.0);
         assert!(record.summary.pinion.peak_wear_um > 1.0, "{}", record.summary.pinion.peak_wear_um);
         let both = run(&text.replace("wheel.coefficient_m2_per_N = 0.0\n", ""));
-        for of in [|record: &RunRecord| record.summary.error.discretisation, |record| record.summary.error.wear_step] {
+        let estimates: [fn(&RunRecord) -> Option<f64>; 2] =
+            [|record| record.summary.error.discretisation, |record| record.summary.error.wear_step];
+        for of in estimates {
             let (own, of_both) = (of(&record), of(&both));
             println!("{step}: error {own:?}, {of_both:?} where both wear");
             assert_eq!(own.is_some(), of_both.is_some(), "{:?}", record.summary.error.how);
