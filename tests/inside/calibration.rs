@@ -367,8 +367,8 @@ fn differences_are_told_by_the_keys_of_the_scene() {
     wide.centre_distance_mm *= 1.0 + 1e-12;
     assert_eq!(own.differences(&identity(&wide, 20.0), true), Vec::<String>::new());
     // Neither is another helix angle of the same transverse section.
-    assert_eq!(own.differences(&identity(&preset("helical"), 20.0), true), Vec::<String>::new());
-    let mut flatter = preset("helical");
+    assert_eq!(own.differences(&identity(&preset("thesis-helical"), 20.0), true), Vec::<String>::new());
+    let mut flatter = preset("thesis-helical");
     flatter.helix_angle_rad *= 0.99;
     let told = own.differences(&identity(&flatter, 20.0), true);
     assert!(
