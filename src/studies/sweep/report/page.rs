@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use super::best_tables::shown_value;
 use super::section_plane::{differs, varied};
 use super::{best_tables, contour_figures, line_figures};
+use crate::reference::steel_yield;
 use crate::report::chart::Chart;
 use crate::report::html::number::{count, figure as shown_number, given, significant};
 use crate::report::html::page::{Page, Plots, section, sources_list};
@@ -36,7 +37,7 @@ pub(super) fn page(record: &SweepRecord) -> String {
         byline: &ReportedBy::line_of_scene(&record.scene_toml),
         answer: &answer(record),
         interruption: None,
-        warnings: &[],
+        warnings: &pressure_warning(record).into_iter().collect::<Vec<_>>(),
         main: html! {
             (section("figures", "Main figures", html! { (best_tables::best(record)) (best_tables::failed(record)) }))
             @if let Some(optimum) = record.optimum() { (section("optimum", "Optimum", best_tables::optimum(&optimum))) }
@@ -62,6 +63,17 @@ fn figures(record: &SweepRecord) -> Vec<Chart> {
         [x] => shown(record).filter_map(|figure| line_figures::along(record, figure, x)).collect(),
         [x, y, ..] => shown(record).filter_map(|figure| contour_figures::contour(record, figure, x, y)).collect(),
     }
+}
+
+/// Warns where the pressure of any combination is above the hardness of steel, of the one where it is greatest.
+fn pressure_warning(record: &SweepRecord) -> Option<String> {
+    let pressures =
+        [("peak_pressure_new_MPa", "new"), ("peak_pressure_worn_MPa", "worn")].into_iter().flat_map(|(name, when)| {
+            let figure = SweepFigure::find(name);
+            record.rows.iter().filter_map(move |row| Some((row.figure(figure?)?, when, row.index)))
+        });
+    let (pressure_mpa, when, index) = pressures.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    steel_yield::warning(pressure_mpa, &format!("{when}, combination {index}"))
 }
 
 fn answer(record: &SweepRecord) -> String {
