@@ -205,8 +205,9 @@ fn presets_do_not_warn_against_themselves() {
         let sliced = if preset.starts_with('h') { &few_slices[..] } else { &[] };
         let record = run(preset, &[&coarse[..], sliced].concat());
         assert_eq!(record.summary.new.sharp_edge_pressure_MPa, None, "{preset}");
-        let told: Vec<&String> =
-            record.summary.warnings.iter().filter(|said| !said.contains("numerics.verify")).collect();
+        // What is said of every scene: that it is not verified here, and what an elastic tip edge bears.
+        let of_every_scene = |said: &&String| said.contains("numerics.verify") || said.contains("hardness of steel");
+        let told: Vec<&String> = record.summary.warnings.iter().filter(|said| !of_every_scene(said)).collect();
         assert!(told.is_empty(), "{preset}: {told:?}");
     }
 }

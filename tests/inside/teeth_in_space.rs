@@ -348,9 +348,11 @@ fn changed(mut scene: LoadedScene, changes: &[(&str, toml::Value)]) -> LoadedSce
     scene
 }
 
-/// A coarse scene of the preset `helical`, changed by `changes`.
+/// A coarse scene of the preset `helical`, changed by `changes`. Its points do not resolve a rounded tip edge: it is sharp.
 fn coarse(changes: &[(&str, toml::Value)]) -> LoadedScene {
     let coarse = [
+        ("pair.pinion.tip_rounding_mm", toml::Value::from(0.0)),
+        ("pair.wheel.tip_rounding_mm", 0.0.into()),
         ("operation.snapshots_revolutions", toml::Value::Array(vec![10.0.into()])),
         ("numerics.flank_points", 120.into()),
         ("numerics.positions", 45.into()),

@@ -48,10 +48,12 @@ pub(super) fn resolve_table(table: Table, mut findings: Findings) -> Result<Reso
 
     let resolved = text::typed::<SceneFile>(sound, &mut findings).and_then(|file| choose(file, &mut findings));
     let resolved = resolved.filter(|_| findings.problems.is_empty());
+    let mut of_contact = false;
     if let Some((scene, _)) = &resolved
         && let Some(pair) = geometry::check(&scene.pair, scene.slices, &mut findings)
     {
         contact_size::check(scene, &pair, &mut findings);
+        of_contact = !findings.problems.is_empty();
     }
     let slips = slips.into_iter().filter(|slip| findings.is_in_file(&slip.key));
     match resolved {
@@ -68,7 +70,7 @@ pub(super) fn resolve_table(table: Table, mut findings: Findings) -> Result<Reso
                 for slip in &slips {
                     if slip.key == problem.key && !geometry {
                         problem.add_help(&slip.question());
-                    } else if geometry && slip.key.starts_with("pair.") {
+                    } else if of_contact || geometry && slip.key.starts_with("pair.") {
                         problem.add_help(&slip.warning());
                     }
                 }
