@@ -18,6 +18,9 @@ use crate::run::Run;
 use crate::value;
 use crate::watched::{cores, watched};
 
+/// The outputs of each row, and why one has none.
+type Evaluated = (Vec<Vec<f64>>, Vec<Option<String>>);
+
 /// A scene with every file it names.
 #[pyclass(frozen, module = "gearwear._native")]
 pub(crate) struct Scene {
@@ -186,7 +189,7 @@ impl Scene {
         outputs: Vec<String>,
         threads: usize,
         progress: Option<Bound<'_, PyAny>>,
-    ) -> PyResult<(Vec<Vec<f64>>, Vec<Option<String>>)> {
+    ) -> PyResult<Evaluated> {
         let name = |column: usize| keys.get(column).map_or("X", String::as_str);
         let row = |row: Vec<Bound<'_, PyAny>>| -> PyResult<Vec<Value>> {
             row.iter().enumerate().map(|(column, value)| value::of(name(column), value)).collect()

@@ -1,6 +1,6 @@
 //! The tables of a run as columns of numbers: what its CSV files hold, for those who want arrays.
 //!
-//! Rows, names and meanings are those that [`csv_table`](super::csv_table) writes. Numbers keep their bits; one that was not computed, an
+//! Rows, names and meanings are those that `csv_table` writes. Numbers keep their bits; one that was not computed, an
 //! empty field of the file, is NaN.
 
 mod gather;
