@@ -12,8 +12,8 @@ Names of keys, columns and figures are those of the scene, the CSV files and ``s
 from gearwear._native import VERSION as __version__
 from gearwear._native import presets, unit_of
 from gearwear.calibration import Calibration
-from gearwear.evaluate import Evaluation, evaluate
 from gearwear.errors import Finding, GearwearError, NotConverged, RunError, SceneError, WornThrough
+from gearwear.evaluate import evaluate
 from gearwear.fem import FemPair, FemProblem, fem_problem
 from gearwear.run import Flank, Run
 from gearwear.scene import Scene
@@ -22,7 +22,6 @@ from gearwear.table import Table
 
 __all__ = [
     "Calibration",
-    "Evaluation",
     "FemPair",
     "FemProblem",
     "Finding",

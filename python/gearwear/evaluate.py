@@ -3,22 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from gearwear.scene import Scene
 from gearwear.workers import ProgressArgument, Watched, thread_count
 
-
-class Evaluation(np.ndarray[Any, np.dtype[np.float64]]):
-    """The outputs of each row, an array of shape (rows, outputs); NaN where there is none, and :attr:`status` says why."""
-
-    #: why a row has a NaN, on one line; None where it has none
-    status: list[str | None]
-
-    def __array_finalize__(self, other: object) -> None:
-        self.status = getattr(other, "status", [])
+if TYPE_CHECKING:
+    from gearwear.evaluation import Evaluation
 
 
 def evaluate(
@@ -38,6 +29,11 @@ def evaluate(
     rows that do not fit them, raise :class:`ValueError`. ``threads`` (None: all cores, one in a worker process) run a row each and never
     change a bit of the results.
     """
+    # With NumPy, which the package does not load before it is needed.
+    import numpy as np
+
+    from gearwear.evaluation import Evaluation
+
     if not isinstance(scene, Scene):
         raise TypeError(f"scene: found {type(scene).__name__}; allowed: a gearwear.Scene")
     for name, texts in (("keys", keys), ("outputs", outputs)):
