@@ -68,7 +68,7 @@ fn lambda(record: &RunRecord, summary: &LubricationSummary, rows: &[&FilmRow]) -
 fn friction(record: &RunRecord, summary: &LubricationSummary, rows: &[&FilmRow]) -> Chart {
     let (friction, losses) = (&summary.friction, &summary.losses);
     let chart = Chart::new("friction", "Coefficient of friction").y("coefficient of friction").reading(format!(
-        "Model {}: {} on average over the work of sliding new, {} worn. The mesh loses {} W of {} W new and {} W worn.{}",
+        "By friction.model = \"{}\", {} on average over the work of sliding new, {} worn. The mesh loses {} W of {} W new and {} W worn.{}",
         friction.model,
         significant(friction.mean_new, 3),
         significant(friction.mean_worn, 3),

@@ -18,7 +18,7 @@ const SERIES: [(&str, Gear, bool, Value); 3] = [
     ("wheel, active profile", Gear::Wheel, true, |row| row.wheel_peak_wear_um),
 ];
 
-/// Greatest root wear, and peak wear of both gears, against time.
+/// Maximum wear of the root zone, and of the active profile of both gears, against time.
 pub(super) fn wear_against_time(record: &RunRecord) -> Chart {
     let rows = &record.history;
     let hours: Option<Vec<f64>> = rows.iter().map(|row| row.hours).collect();
@@ -40,7 +40,7 @@ pub(super) fn wear_against_time(record: &RunRecord) -> Chart {
     let deepest = rows.iter().flat_map(|row| SERIES.map(|(.., value)| value(row))).fold(0.0, f64::max);
     let phases = &record.summary.phases;
     let marked = if (2..=MOST_MARKED).contains(&phases.len()) { ends_of_phases(phases, in_hours) } else { Vec::new() };
-    Chart::new("history", "Greatest root wear against time")
+    Chart::new("history", "Maximum wear of the root zone against time")
         .x(title)
         .x_range(from_zero(time.last().copied().unwrap_or(0.0)))
         .y("maximum wear depth, µm")

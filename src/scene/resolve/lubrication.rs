@@ -230,7 +230,7 @@ fn roughness(pair: &mut PairFile, gear: Gear, findings: &mut Findings) -> Option
     };
     let Some(ra_um) = own.roughness_Ra_um else {
         findings.missing(&[&format!("pair.{name}.roughness_Ra_um")], "a number greater than 0, at most 50");
-        findings.help("[lubricant] asks for films, which are held against the roughness of the flanks");
+        findings.help("[lubricant] asks for films, which are compared with the roughness of the flanks");
         return None;
     };
     Some(Roughness {
