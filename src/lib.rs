@@ -100,6 +100,8 @@ mod calibration;
 mod cli;
 mod contact;
 mod data_table;
+#[cfg(feature = "program")]
+mod exchange;
 mod fem;
 mod gear;
 mod gear_mesh;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::say;
 use super::uncertainty::UncertaintyError;
+use crate::exchange::rexs::RexsError;
 use crate::fem::SolveError;
 use crate::mesh::MeshFileError;
 use crate::pipeline::RunError;
@@ -132,6 +133,10 @@ pub(super) enum InputError {
     #[diagnostic(help("{}", presets::nearest(name).map_or_else(
         || "gearwear init prints the first of them".to_owned(), |near| format!("did you mean {near}?"))))]
     UnknownPreset { name: String },
+    /// `init --from` with a file that gives no scene.
+    #[error("{name}: {error}")]
+    #[diagnostic(help("gearwear init --from FILE.rexs --stage N reads a pair of external cylindrical gears"))]
+    Rexs { name: String, error: RexsError },
     #[error("--out: {}", causes(.0))]
     #[diagnostic(help("choose a folder you may write to, or a name that is still free"))]
     Out(ReportError),

@@ -11,6 +11,26 @@ fn init_prints_the_presets() {
     Command::cargo_bin("gearwear").unwrap().arg("init").assert().success().stdout(PRESETS[0].text);
 }
 
+/// A stage of a gear unit becomes a scene that can be planned; what gives none is refused by file, line and attribute.
+#[test]
+fn init_makes_scenes_of_rexs() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("unit.rexs");
+    let unit = include_str!("../../src/exchange/rexs/two_stages.rexs");
+    let init = |text: &str, stage: &str| {
+        std::fs::write(&file, text).unwrap();
+        let mut command = Command::cargo_bin("gearwear").unwrap();
+        command.arg("init").arg("--from").arg(&file).args(["--stage", stage]).assert()
+    };
+    let scene = init(unit, "1").success().get_output().stdout.clone();
+    Command::cargo_bin("gearwear").unwrap().args(["plan", "-"]).write_stdin(scene).assert().success();
+    let refused = init(&unit.replace(">91.5<", ">wide<"), "1").code(2).get_output().stderr.clone();
+    let refused = String::from_utf8(refused).unwrap();
+    assert!(refused.contains("unit.rexs: line 46: FZG & type C (id 10): center_distance: found \"wide\""), "{refused}");
+    let refused = init(unit, "9").code(2).get_output().stderr.clone();
+    assert!(String::from_utf8(refused).unwrap().contains("--stage: found 9; allowed: 1 ("));
+}
+
 #[test]
 fn schema_and_completions_are_printed() {
     let output = Command::cargo_bin("gearwear").unwrap().arg("schema").output().unwrap();

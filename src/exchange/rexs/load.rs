@@ -1,0 +1,101 @@
+//! The load spectrum, as far as the file says it for the driving gear.
+
+use super::RexsError;
+use super::document::{Component, Document, HOURS, NM, PERCENT, RPM};
+use super::stage::GearData;
+
+/// Load of the stage over its life.
+#[derive(Debug)]
+pub(super) struct Load {
+    /// At least one.
+    pub cases: Vec<Case>,
+    /// Hours of the whole.
+    pub hours: Option<f64>,
+}
+
+/// One load case; what the file does not say is None.
+#[derive(Debug)]
+pub(super) struct Case {
+    pub torque_Nm: Option<f64>,
+    pub speed_rpm: Option<f64>,
+    /// Part of the whole time, all together 1.
+    pub fraction: f64,
+}
+
+/// The load of the driving gear. Its torque is that of the gear itself, or the sum of the external loads on its shaft where that carries no
+/// other gear; a shaft between two stages would need the equilibrium of the gear unit.
+pub(super) fn of(document: &Document, pinion: &GearData, warnings: &mut Vec<String>) -> Result<Load, RexsError> {
+    let gear_id = pinion.component.id.as_str();
+    let shaft = document.related("assembly", "part", gear_id, "assembly").find(|component| component.kind == "shaft");
+    let parts = |shaft: &Component, kind: &str| -> Vec<String> {
+        document
+            .relations
+            .iter()
+            .filter(|relation| relation.kind == "assembly" && relation.member("assembly") == Some(&shaft.id))
+            .filter_map(|relation| document.component(relation.member("part")?))
+            .filter(|part| part.kind == kind)
+            .map(|part| part.id.clone())
+            .collect()
+    };
+    let loads =
+        shaft.filter(|shaft| parts(shaft, "cylindrical_gear").len() == 1).map(|shaft| parts(shaft, "external_load"));
+    let unit = document.components.iter().find(|component| component.kind == "gear_unit");
+
+    let case = |said: &[Component]| -> Result<(Option<f64>, Option<f64>, Option<f64>), RexsError> {
+        // What the case says stands before what the component itself says.
+        let number = |id: &str, attribute: &str, units| -> Result<Option<f64>, RexsError> {
+            let said = said.iter().find(|component| component.id == id).into_iter().chain(document.component(id));
+            said.map(|component| component.number(attribute, units)).find_map(Result::transpose).transpose()
+        };
+        let mut torque_Nm = match pinion.in_stage {
+            Some(data) => number(&data.id, "torque", NM)?,
+            None => None,
+        };
+        if torque_Nm.is_none() {
+            torque_Nm = number(gear_id, "torque_acting_on_shaft_u", NM)?;
+        }
+        if torque_Nm.is_none() {
+            for load in loads.iter().flatten() {
+                if let Some(part_Nm) = number(load, "torque_around_u_axis", NM)? {
+                    torque_Nm = Some(torque_Nm.unwrap_or(0.0) + part_Nm);
+                }
+            }
+        }
+        let mut speed_rpm = number(gear_id, "rotational_speed", RPM)?;
+        if let (None, Some(shaft)) = (speed_rpm, shaft) {
+            speed_rpm = number(&shaft.id, "rotational_speed", RPM)?;
+        }
+        let mut fraction = None;
+        if let Some(unit) = unit {
+            fraction = number(&unit.id, "operating_time_fraction", PERCENT)?;
+            if fraction.is_none() {
+                // As Bearinx writes it.
+                fraction = number(&unit.id, "load_duration_fraction", PERCENT)?;
+            }
+        }
+        Ok((torque_Nm.map(f64::abs), speed_rpm.map(f64::abs), fraction))
+    };
+
+    let without = [Vec::new()];
+    let said = if document.load_cases.is_empty() { &without[..] } else { &document.load_cases[..] };
+    let mut cases = Vec::new();
+    for (index, said) in said.iter().enumerate() {
+        let (torque_Nm, speed_rpm, fraction) = case(said)?;
+        let idle = torque_Nm == Some(0.0) || speed_rpm == Some(0.0) || fraction == Some(0.0);
+        if idle {
+            warnings.push(format!("load case {} has no torque, speed or time and is left out", index + 1));
+        } else {
+            cases.push(Case { torque_Nm, speed_rpm, fraction: fraction.unwrap_or(1.0) });
+        }
+    }
+    if cases.is_empty() {
+        cases.push(Case { torque_Nm: None, speed_rpm: None, fraction: 1.0 });
+    }
+    let sum: f64 = cases.iter().map(|case| case.fraction).sum();
+    cases.iter_mut().for_each(|case| case.fraction /= sum);
+    let hours = match unit {
+        Some(unit) => unit.number("operating_time", HOURS)?.filter(|&hours| hours > 0.0),
+        None => None,
+    };
+    Ok(Load { cases, hours })
+}

@@ -1,0 +1,66 @@
+//! REXS, the exchange format of gear units of the FVA (Forschungsvereinigung Antriebstechnik): components with attributes, which relations
+//! join. What is read is a cylindrical stage: the gears of its relation `stage`, their flanks, the modifications, tools and materials that
+//! further relations name, and the load spectrum. Names and units of attributes are those of the format's database, versions 1.4 to 2.0
+//! (rexs.info); an attribute in a unit that is not listed here is refused, not guessed.
+//!
+//! The scene is text, so that whoever reads it sees what came from the file (without remark) and what did not (ASSUMED, or a line that begins
+//! with #).
+
+#![allow(non_snake_case, reason = "names end in their unit as engineers write it")]
+
+mod document;
+mod load;
+mod modifications;
+mod scene_text;
+mod stage;
+
+#[cfg(test)]
+mod tests;
+
+use document::Document;
+use stage::Stage;
+
+/// What a file gives.
+#[derive(Debug)]
+pub(crate) struct FromRexs {
+    /// The scene file.
+    pub text: String,
+    /// What of the stage a scene cannot say, or what was left out and why.
+    pub warnings: Vec<String>,
+}
+
+/// The scene of the `number`-th cylindrical stage, from 1, of a REXS file of this text; of the only one without a number.
+///
+/// # Errors
+///
+/// No REXS, a version that is not known, no such stage, or attributes that make no pair of external cylindrical gears.
+pub(crate) fn scene(text: &str, number: Option<usize>) -> Result<FromRexs, RexsError> {
+    let document = Document::parse(text)?;
+    let mut warnings = Vec::new();
+    let stage = Stage::find(&document, number)?;
+    let gears = stage.gears(&document, &mut warnings)?;
+    let load = load::of(&document, &gears.pinion, &mut warnings)?;
+    let text = scene_text::of(&document, &stage, &gears, &load, &mut warnings)?;
+    Ok(FromRexs { text, warnings })
+}
+
+/// Versions whose attributes are known.
+const VERSIONS: [&str; 7] = ["1.4", "1.5", "1.6", "1.7", "2.0", "2.0.0", "2.0.1"];
+
+/// Why a file gives no scene. `line` counts from 1.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub(crate) enum RexsError {
+    /// Not the XML form of the format: `found` says what it is instead.
+    #[error("line {line}: found {found}; allowed: a REXS model in XML (.rexs)")]
+    NoXml { line: usize, found: String },
+    #[error("line {line}: version: found {found:?}; allowed: 1.4 to 1.7 and 2.0")]
+    Version { line: usize, found: String },
+    /// `stages` describes those there are.
+    #[error("--stage: found {}; allowed: {}", asked.map_or("none".to_owned(), |n| n.to_string()),
+        if stages.is_empty() { "nothing, for the file has no stage of two cylindrical gears".to_owned() } else { stages.join("; ") })]
+    Stage { asked: Option<usize>, stages: Vec<String> },
+    #[error("line {line}: {component}: {attribute} is missing, which the scene needs")]
+    Missing { line: usize, component: String, attribute: &'static str },
+    #[error("line {line}: {component}: {attribute}: found {found}; allowed: {allowed}")]
+    Value { line: usize, component: String, attribute: String, found: String, allowed: String },
+}

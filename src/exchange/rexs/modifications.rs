@@ -1,0 +1,160 @@
+//! Modifications of a flank, as far as a scene has them.
+
+use super::RexsError;
+use super::document::{Component, Document, MM, MM_AS_UM};
+
+/// What lies on one flank.
+#[derive(Debug, Default)]
+pub(super) struct Modifications {
+    pub tip_relief: Option<Relief>,
+    pub root_relief: Option<Relief>,
+    pub end_relief: Option<EndRelief>,
+    pub profile_crowning_um: Option<f64>,
+    pub lead_crowning_um: Option<f64>,
+}
+
+#[derive(Debug)]
+pub(super) struct Relief {
+    pub amount_um: f64,
+    pub start: ReliefStart,
+    pub parabolic: bool,
+}
+
+#[derive(Debug)]
+pub(super) enum ReliefStart {
+    Diameter(f64),
+    RollLength(f64),
+}
+
+#[derive(Debug, PartialEq)]
+pub(super) struct EndRelief {
+    pub amount_um: f64,
+    pub length_mm: f64,
+    pub parabolic: bool,
+}
+
+/// Those of the components that any relation joins with the flank.
+pub(super) fn of(
+    document: &Document,
+    flank: &Component,
+    gear: &str,
+    warnings: &mut Vec<String>,
+) -> Result<Modifications, RexsError> {
+    let mut found = Modifications::default();
+    let mut ends = [None, None];
+    let joined = document.relations.iter().filter(|relation| relation.members.iter().any(|(_, id)| *id == flank.id));
+    let parts = joined.flat_map(|relation| &relation.members).filter(|(_, id)| *id != flank.id);
+    for part in parts.filter_map(|(_, id)| document.component(id)) {
+        match part.kind.as_str() {
+            "tip_relief" => {
+                found.tip_relief = relief(
+                    part,
+                    ["tip_relief_depth", "tip_relief_datum_diameter", "tip_relief_datum_length"],
+                    warnings,
+                )?
+            }
+            "root_relief" => {
+                found.root_relief = relief(
+                    part,
+                    ["root_relief_depth", "root_relief_datum_diameter", "root_relief_datum_length"],
+                    warnings,
+                )?;
+            }
+            "end_relief_datum_face" => ends[0] = end_relief(part, "datum_face", warnings)?,
+            "end_relief_non_datum_face" => ends[1] = end_relief(part, "non_datum_face", warnings)?,
+            "profile_crowning" => {
+                found.profile_crowning_um =
+                    crowning(part, ["profile_crowning_at_root", "profile_crowning_at_tip"], warnings)?;
+            }
+            "helix_crowning" => {
+                let ends = ["helix_crowning_amount_datum_face", "helix_crowning_amount_non_datum_face"];
+                found.lead_crowning_um = crowning(part, ends, warnings)?;
+            }
+            "helix_slope"
+            | "profile_slope"
+            | "triangular_tip_relief"
+            | "triangular_root_relief"
+            | "topographical_modification" => {
+                let instead = if part.kind == "helix_slope" {
+                    "; give helix_slope_deviation_um with the sign of the scene"
+                } else {
+                    ""
+                };
+                warnings.push(format!("{gear}: {} is left out{instead}", part.label()));
+            }
+            _ => {}
+        }
+    }
+    found.end_relief = match ends {
+        [Some(one), Some(other)] if one == other => Some(one),
+        [None, None] => None,
+        _ => {
+            warnings.push(format!(
+                "{gear}: end relief is left out: it differs between the ends, and a scene has one for both"
+            ));
+            None
+        }
+    };
+    Ok(found)
+}
+
+/// A relief by the names of its depth, of the diameter and of the length where it begins; None where nothing is removed.
+fn relief(
+    part: &Component,
+    [depth, diameter, length]: [&'static str; 3],
+    warnings: &mut Vec<String>,
+) -> Result<Option<Relief>, RexsError> {
+    let amount_um = part.needed(depth, MM_AS_UM)?;
+    if amount_um == 0.0 {
+        return Ok(None);
+    }
+    let start = match part.number(diameter, MM)? {
+        Some(diameter_mm) => ReliefStart::Diameter(diameter_mm),
+        None => ReliefStart::RollLength(part.needed(length, MM)?),
+    };
+    Ok(Some(Relief { amount_um, start, parabolic: parabolic(part, warnings) }))
+}
+
+fn end_relief(part: &Component, face: &str, warnings: &mut Vec<String>) -> Result<Option<EndRelief>, RexsError> {
+    let [depth, length] = match face {
+        "datum_face" => ["end_relief_depth_datum_face", "end_relief_length_datum_face"],
+        _ => ["end_relief_depth_non_datum_face", "end_relief_length_non_datum_face"],
+    };
+    let amount_um = part.needed(depth, MM_AS_UM)?;
+    if amount_um == 0.0 {
+        return Ok(None);
+    }
+    Ok(Some(EndRelief { amount_um, length_mm: part.needed(length, MM)?, parabolic: parabolic(part, warnings) }))
+}
+
+/// The height of a crowning that is given at both ends.
+fn crowning(part: &Component, ends: [&'static str; 2], warnings: &mut Vec<String>) -> Result<Option<f64>, RexsError> {
+    let [one_um, other_um] = [part.number(ends[0], MM_AS_UM)?, part.number(ends[1], MM_AS_UM)?];
+    let height_um = match (one_um, other_um) {
+        (Some(one_um), Some(other_um)) => {
+            if (one_um - other_um).abs() > 0.01 * one_um.abs().max(other_um.abs()) {
+                warnings.push(format!(
+                    "{}: {one_um:.2} and {other_um:.2} µm at its ends; the mean is taken, highest in the middle",
+                    part.label()
+                ));
+            }
+            0.5 * (one_um + other_um)
+        }
+        (one_um, other_um) => one_um.or(other_um).ok_or_else(|| part.missing(ends[0]))?,
+    };
+    Ok(Some(height_um).filter(|&height_um| height_um != 0.0))
+}
+
+fn parabolic(part: &Component, warnings: &mut Vec<String>) -> bool {
+    match part.text("shape_of_relief") {
+        Some("parabolic") => true,
+        Some("linear") | None => false,
+        Some(other) => {
+            warnings.push(format!(
+                "{}: shape {other:?} is taken as linear; a scene has linear and parabolic",
+                part.label()
+            ));
+            false
+        }
+    }
+}
