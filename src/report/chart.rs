@@ -150,8 +150,8 @@ impl Trace {
 
     /// Colours for values, with their scale beside the chart.
     pub(crate) fn colour_bar(self, unit: &str) -> Self {
-        // With an empty line below, so that the unit stands clear of the topmost number.
-        let title = json!({ "text": format!("{unit}<br>\u{a0}"), "font": { "size": 12 } });
+        // With empty lines below, so that the unit stands clear of a number at the very top.
+        let title = json!({ "text": format!("{unit}<br>\u{a0}<br>\u{a0}"), "font": { "size": 12 } });
         let bar = json!({
             "title": title,
             "thickness": 12,

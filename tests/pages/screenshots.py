@@ -88,9 +88,13 @@ LOOK = r"""() => {
             return box.width > 0 && t.textContent.trim() && style.visibility !== "hidden" && +style.opacity > 0.05 &&
                 !t.closest(".hoverlayer,.modebar,[transform*='rotate'],defs") && !/rotate\((?!0)/.test(t.getAttribute("transform") || "");
         });
+        // A text of several lines takes the room of those that say something.
+        const lines = texts.map(text => [...text.querySelectorAll("tspan.line")].filter(line => line.textContent.trim()));
+        const boxes = texts.map((text, i) => (lines[i].length ? lines[i] : [text]).map(line => line.getBoundingClientRect()));
         for (let i = 0; i < texts.length; i++) for (let j = i + 1; j < texts.length; j++) {
-            const [a, b] = [texts[i].getBoundingClientRect(), texts[j].getBoundingClientRect()];
-            if (over(a, b)) wrong.push(`labels overlap in “${name(svg)}”: “${texts[i].textContent}” and “${texts[j].textContent}”`);
+            if (boxes[i].some(a => boxes[j].some(b => over(a, b)))) {
+                wrong.push(`labels overlap in “${name(svg)}”: “${texts[i].textContent}” and “${texts[j].textContent}”`);
+            }
         }
     }
     for (const plot of document.querySelectorAll(".js-plotly-plot .cartesianlayer .plot")) {

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::raster::SlicedRaster;
 use super::sliced_run::{SlicedRun, slice_name};
 use crate::gear::Gear;
-use crate::report::chart::{Chart, Dash, Trace, from_zero, label};
+use crate::report::chart::{Chart, Dash, Trace, label};
 use crate::report::control::{Control, Step};
 use crate::report::html::active_flank::ActiveFlank;
 use crate::report::html::flank_plots::{drawn_snapshots, moment};
@@ -27,7 +27,7 @@ struct Quantity<'a> {
     title: [&'static str; 2],
     unit: &'static str,
     values: &'a [f64],
-    /// The greatest value shown; the scale of colours begins at 0.
+    /// The greatest value of the scale of colours, which begins at 0.
     top: f64,
     reading: String,
 }
@@ -84,7 +84,7 @@ fn map(run: SlicedRun<'_>, gear: Gear, quantity: Quantity<'_>) -> Chart {
     let unit = quantity.unit;
     let colours = Trace::heat_map(unit, &raster.across.edges, &raster.along.edges, values)
         .set("zmin", 0.0)
-        .set("zmax", from_zero(quantity.top)[1])
+        .set("zmax", if quantity.top > 0.0 { quantity.top } else { 1.0 })
         .hover(format!("width %{{x:.2f}} mm, radius %{{y:.2f}} mm<br>%{{z:.4~g}} {unit}<extra></extra>"))
         .colour_bar_at(1.05);
     let ends = |edges: &[f64]| match edges {

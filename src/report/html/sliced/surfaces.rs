@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use super::raster::SlicedRaster;
 use super::sliced_run::SlicedRun;
 use crate::gear::Gear;
-use crate::report::chart::{Chart, Trace, TraceKind, from_zero};
+use crate::report::chart::{Chart, Trace, TraceKind};
 use crate::report::html::number::{figure, plotted};
 use crate::report::html::reading::greatest;
 
@@ -110,7 +110,7 @@ fn surface(run: SlicedRun<'_>, gear: Gear, shown: &Shown<'_>, visible: bool) -> 
         .set("surfacecolor", values)
         .set("visible", visible)
         .set("cmin", 0.0)
-        .set("cmax", from_zero(shown.top)[1])
+        .set("cmax", shown.top)
         .colour_bar(unit)
         .hover(format!("width %{{x:.2f}} mm, radius %{{y:.2f}} mm<br>%{{z:.4~g}} {unit}<extra></extra>"))
 }
