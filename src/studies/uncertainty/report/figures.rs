@@ -19,8 +19,10 @@ pub(super) fn all(record: &UncertaintyRecord) -> Vec<Chart> {
     indices.chain(distributions).chain(bands).collect()
 }
 
+/// At its axis: of a life, whose limit stands in the title of the plot, only that it is one.
 fn with_unit(output: &OutputRecord) -> String {
-    if output.unit.is_empty() { output.meaning.clone() } else { format!("{}, {}", output.meaning, output.unit) }
+    let name = if output.censored.is_some() { "life" } else { &output.meaning };
+    if output.unit.is_empty() { name.to_owned() } else { format!("{name}, {}", output.unit) }
 }
 
 /// Where the samples lie, as parts of all between equal steps.
