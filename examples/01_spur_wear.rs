@@ -32,7 +32,7 @@ fn show(run: &RunRecord) {
     {
         let pressure = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         println!(
-            "  {gear}: {:.2} µm at radius {:.2} mm, greatest pressure {:.0} MPa new, {:.0} MPa worn",
+            "  {gear}: {:.2} µm at radius {:.2} mm, maximum pressure {:.0} MPa new, {:.0} MPa worn",
             wear.peak_wear_um,
             wear.peak_wear_radius_mm,
             pressure(&flank.pressure_new_MPa),

@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let run = gearwear::run(&scene, &Unwatched)?.complete()?;
         let error = run.summary.error.total.peak_wear.pinion;
         println!(
-            "{name}: greatest wear of the pinion {:.2} µm, off by {} against finite elements",
+            "{name}: maximum wear of the pinion {:.2} µm, off by {} against finite elements",
             run.summary.pinion.peak_wear_um,
             error.map_or("?".to_owned(), |error| format!("{:.1} %", 100.0 * error))
         );

@@ -32,7 +32,7 @@ class Plots:
         self._run = run
 
     def wear(self, gear: Gear | None = None, axes: Axes | None = None) -> Axes:
-        """Wear depth over the flank of one gear, or of both; where the pair has slices, the greatest over the face width."""
+        """Wear depth over the flank of one gear, or of both; where the pair has slices, the maximum over the face width."""
         axes = _axes(axes)
         for name in self._gears(gear):
             flank: Flank = getattr(self._run, name)
@@ -40,7 +40,7 @@ class Plots:
         return self._finished(axes, "roll_angle_deg", "roll angle", "wear_um", "wear depth")
 
     def pressure(self, gear: Gear = "pinion", axes: Axes | None = None) -> Axes:
-        """Greatest pressure during one mesh over the flank of a gear, new and worn."""
+        """Maximum pressure during one mesh over the flank of a gear, new and worn."""
         axes = _axes(axes)
         flank: Flank = getattr(self._run, self._gears(gear)[0])
         axes.plot(flank.roll_angle_deg, _greatest(flank.pressure_new_MPa), label="new")
@@ -56,12 +56,12 @@ class Plots:
         return self._cycle(axes, "transmission_error", "_um", "transmission error")
 
     def history(self, axes: Axes | None = None) -> Axes:
-        """Greatest wear of both gears over the life."""
+        """Maximum wear of both gears over the life."""
         axes = _axes(axes)
         history = self._run.history
         for gear in ("pinion", "wheel"):
             axes.plot(history["revolutions"], history[f"{gear}_peak_wear_um"], marker=".", label=gear)
-        return self._finished(axes, "revolutions", "pinion revolutions", "wear_um", "greatest wear depth")
+        return self._finished(axes, "revolutions", "pinion revolutions", "wear_um", "maximum wear depth")
 
     def _cycle(self, axes: Axes | None, name: str, unit: str, meaning: str) -> Axes:
         axes = _axes(axes)
@@ -85,5 +85,5 @@ class Plots:
 
 
 def _greatest(field: Any) -> Any:
-    """A field over the flank, its greatest value over the face width at each point."""
+    """A field over the flank, its maximum over the face width at each point."""
     return field if field.ndim == 1 else field.max(axis=0)

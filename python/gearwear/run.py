@@ -26,7 +26,7 @@ Gear = Literal["pinion", "wheel"]
 
 #: The figures of the summary that a notebook shows, with their names.
 _SHOWN = (
-    ("peak_wear_um", "greatest wear, µm"),
+    ("peak_wear_um", "maximum wear, µm"),
     ("root_wear_um", "at the root, µm"),
     ("pitch_wear_um", "at the pitch circle, µm"),
     ("worn_volume_mm3", "worn off, mm³"),
@@ -53,7 +53,7 @@ class Flank:
     sliding_mm_per_mesh: Numbers
     #: wear depth at the end of the run, normal to the flank
     wear_um: Numbers
-    #: greatest pressure during one mesh, new
+    #: maximum pressure during one mesh, new
     pressure_new_MPa: Numbers
     #: the same, worn
     pressure_worn_MPa: Numbers
@@ -82,7 +82,7 @@ class Flank:
 
     @cached_property
     def snapshot_pressure_MPa(self) -> tuple[Numbers, ...]:
-        """Greatest pressure during one mesh at each snapshot of the history."""
+        """Maximum pressure during one mesh at each snapshot of the history."""
         return tuple(self._native.snapshot_arrays(self._gear, True))
 
     @cached_property
@@ -122,7 +122,7 @@ class Slices:
     line_load_new_N_per_mm: Numbers
     #: the same, worn
     line_load_worn_N_per_mm: Numbers
-    #: greatest pressure of each slice, new
+    #: maximum pressure of each slice, new
     peak_pressure_new_MPa: Numbers
     #: the same, worn
     peak_pressure_worn_MPa: Numbers
@@ -261,7 +261,7 @@ class Run:
     def __repr__(self) -> str:
         summary = self.summary
         wear = ", ".join(f"{gear} {summary[gear]['peak_wear_um']:.3g} µm" for gear in ("pinion", "wheel"))
-        return f"<gearwear.Run {summary['title']!r}: {summary['stopped']}, greatest wear {wear}; {self._trust()}>"
+        return f"<gearwear.Run {summary['title']!r}: {summary['stopped']}, maximum wear {wear}; {self._trust()}>"
 
     def _trust(self) -> str:
         """How far it can be trusted, in a few words."""

@@ -263,7 +263,7 @@ def test_data_sets(spur: gearwear.Run, helical: gearwear.Run) -> None:
 def test_what_a_notebook_shows(spur: gearwear.Run, helical: gearwear.Run) -> None:
     for run in (spur, helical):
         page = run._repr_html_()
-        assert "<svg" in page and "greatest wear" in page and "not verified" in page
+        assert "<svg" in page and "maximum wear" in page and "not verified" in page
     assert "not verified" in repr(spur) and "completed" in repr(spur)
 
 

@@ -99,7 +99,7 @@ fn table(title: &str, done: &Calibrated, out: &Path) -> String {
             text.push_str(&figures::row(&format!("  at {name}"), [&values[0], &values[1]]));
         }
     }
-    text.push_str(&figures::row("greatest error of K/H, %", ["fitted", "held out"]));
+    text.push_str(&figures::row("maximum error of K/H, %", ["fitted", "held out"]));
     for criterion in MatchCriterion::ALL {
         if let Some(fit) = calibration.foundation_fit.get(&criterion) {
             let values = [&fit.fitted, &fit.held_out].map(|errors| figures::digits(100.0 * errors.worst_matched));

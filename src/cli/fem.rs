@@ -121,8 +121,8 @@ fn summary(summary: &FemSummary) -> String {
     }
     if let Some(greatest) = summary.in_space {
         for (name, value, at_mm) in [
-            ("greatest displacement, mm", greatest.greatest_displacement_mm, greatest.greatest_displacement_at_mm),
-            ("greatest von Mises stress, MPa", summary.peak_von_mises_MPa, greatest.peak_von_mises_at_mm),
+            ("maximum displacement, mm", greatest.greatest_displacement_mm, greatest.greatest_displacement_at_mm),
+            ("maximum von Mises stress, MPa", summary.peak_von_mises_MPa, greatest.peak_von_mises_at_mm),
         ] {
             let [x, y, z] = at_mm.map(figures::digits);
             let row = figures::row(name, [&figures::digits(value), ""]);

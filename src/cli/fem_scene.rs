@@ -97,8 +97,8 @@ fn table(summary: &FemPairSummary) -> String {
         one("transmission error, µm", &figures::digits(te.max));
     } else {
         one("  its tooth pair at, mm", &or_none(new.peak_pressure_pair_position_mm));
-        one("transmission error, least, µm", &figures::digits(te.min));
-        one("transmission error, greatest, µm", &figures::digits(te.max));
+        one("transmission error, minimum, µm", &figures::digits(te.min));
+        one("transmission error, maximum, µm", &figures::digits(te.max));
     }
     text.push_str(&figures::row("", ["pinion", "wheel"]));
     if let (Some(pinion), Some(wheel)) = (&summary.root.pinion, &summary.root.wheel) {

@@ -102,7 +102,7 @@ fn text_in_space(scene: &Scene, built: &SpaceMesh, out: &Path) -> String {
     for gear in Gear::BOTH {
         line(&format!("{} clamp", gear.name()), format!("radius {:.4} mm", scene.fem.clamp_radius_mm[gear]));
         let worst = &built.quality[gear].scaled_jacobian;
-        line(&format!("{} section", gear.name()), format!("least scaled Jacobian {:.3}", worst.value));
+        line(&format!("{} section", gear.name()), format!("minimum scaled Jacobian {:.3}", worst.value));
     }
     line("mesh", out.display().to_string());
     text
@@ -149,8 +149,8 @@ fn described(scene: &Scene, built: &PairMesh, out: &Path) -> String {
     let quality = &built.quality;
     let at = |worst: &Worst| format!("at ({:.3}, {:.3}) mm", worst.at_mm[0], worst.at_mm[1]);
     for (name, worst, unit) in [
-        ("least angle", &quality.least_angle_deg, "°"),
-        ("greatest angle", &quality.greatest_angle_deg, "°"),
+        ("minimum angle", &quality.least_angle_deg, "°"),
+        ("maximum angle", &quality.greatest_angle_deg, "°"),
         ("scaled Jacobian", &quality.scaled_jacobian, ""),
         ("Jacobian ratio", &quality.jacobian_ratio, ""),
         ("aspect ratio", &quality.aspect_ratio, ""),

@@ -302,7 +302,7 @@ fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> Strin
     let SweepVerification { intention, chosen, verified, unanswered, open, .. } = verification;
     let mut text = format!("\nverified by finite elements: {verified} of {chosen} chosen\n  {intention}\n");
     if !verification.worst.is_empty() {
-        text.push_str("greatest difference of all, %\n");
+        text.push_str("maximum difference of all, %\n");
     }
     for worst in &verification.worst {
         let place = record.identity.in_words(worst.index);

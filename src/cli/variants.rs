@@ -112,7 +112,7 @@ fn table(record: &VariantsRecord) -> String {
     let mut text = String::new();
     let line = |name: &str, cells: Vec<String>| {
         let cells: String = cells.iter().map(|cell| format!("{cell:>22}")).collect();
-        format!("  {name:48}{cells}\n")
+        format!("  {name:57}{cells}\n")
     };
     text.push_str(&line("", record.runs.iter().map(|run| run.name.clone()).collect()));
     for of_runs in record.figures() {

@@ -46,7 +46,7 @@ pub enum MatchCriterion {
     /// The half-width of the contact strip.
     #[default]
     HalfWidth,
-    /// The greatest pressure.
+    /// The maximum pressure.
     PeakPressure,
     /// The approach of the two bodies.
     Approach,

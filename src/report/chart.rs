@@ -150,9 +150,15 @@ impl Trace {
 
     /// Colours for values, with their scale beside the chart.
     pub(crate) fn colour_bar(self, unit: &str) -> Self {
-        // With an empty line below, so that the unit stands clear of the topmost number.
-        let title = json!({ "text": format!("{unit}<br>\u{a0}"), "font": { "size": 12 } });
-        self.set("colorscale", "Viridis").set("colorbar", json!({ "title": title, "thickness": 12 }))
+        // With empty lines below, so that the unit stands clear of a number at the very top.
+        let title = json!({ "text": format!("{unit}<br>\u{a0}<br>\u{a0}"), "font": { "size": 12 } });
+        let bar = json!({
+            "title": title,
+            "thickness": 12,
+            "exponentformat": "power",
+            "minexponent": LARGEST_PLAIN_EXPONENT,
+        });
+        self.set("colorscale", "Viridis").set("colorbar", bar)
     }
 
     /// The scale of colours farther out, as part of the chart's width.
@@ -232,6 +238,7 @@ impl Chart {
             "plot_bgcolor": PAPER,
             "font": { "family": "system-ui, -apple-system, 'Segoe UI', Roboto, sans-serif", "size": 13, "color": INK },
             "margin": { "l": 56, "r": 12, "t": 28, "b": 48 },
+            "separators": ".\u{202f}",
             "hovermode": "x unified",
             "hoverlabel": { "bgcolor": PAPER, "bordercolor": RULE },
             "modebar": { "bgcolor": NOTHING, "color": MUTED, "activecolor": INK },
@@ -334,11 +341,11 @@ impl Chart {
 
     /// Powers of ten written as such, across.
     pub(crate) fn x_logarithmic(self) -> Self {
-        self.x_set("type", "log").x_set("exponentformat", "power")
+        self.x_set("type", "log")
     }
 
     pub(crate) fn y_logarithmic(self) -> Self {
-        self.y_set("type", "log").y_set("exponentformat", "power")
+        self.y_set("type", "log")
     }
 
     pub(crate) fn without_grid(self) -> Self {
@@ -451,6 +458,9 @@ pub(crate) fn label(name: impl Into<String>, place: Value) -> Value {
     label
 }
 
+/// Numbers at an axis are written out up to this power of ten: 10000, not 10k.
+const LARGEST_PLAIN_EXPONENT: i32 = 5;
+
 fn axis(title: &str) -> Value {
     json!({
         "title": { "text": title, "font": { "size": 13 } },
@@ -462,6 +472,8 @@ fn axis(title: &str) -> Value {
         "ticks": "outside",
         "tickcolor": RULE,
         "ticklen": 4,
+        "exponentformat": "power",
+        "minexponent": LARGEST_PLAIN_EXPONENT,
     })
 }
 

@@ -63,6 +63,8 @@ fn sheet_name(file: &str) -> &str {
 fn heading(sheet: &mut Worksheet, name: &str, titles: &[&str]) -> Result<(), XlsxError> {
     sheet.set_name(name)?;
     sheet.set_freeze_panes(1, 0)?;
+    // On paper all columns beside one another.
+    sheet.set_landscape().set_print_fit_to_pages(1, 0);
     let bold = Format::new().set_bold();
     for (column, title) in (0..).zip(titles) {
         sheet.write_with_format(0, column, *title, &bold)?;

@@ -48,7 +48,7 @@ pub struct TemperatureSummary {
     pub friction_coefficient: f64,
     /// Of the gears away from the contact.
     pub bulk_temperature_C: f64,
-    /// Greatest rise above it over a mesh, new.
+    /// Maximum rise above it over a mesh, new.
     pub greatest_rise_new_K: f64,
     /// The same, worn.
     pub greatest_rise_worn_K: f64,
@@ -56,11 +56,11 @@ pub struct TemperatureSummary {
     pub peclet_min: f64,
     /// Greatest.
     pub peclet_max: f64,
-    /// Greatest rise by every method.
+    /// Maximum rise by every method.
     pub by_method: RisesByMethod,
 }
 
-/// Greatest rise over a mesh by every method.
+/// Maximum rise over a mesh by every method.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct RisesByMethod {
     /// The transient heat equation.
@@ -71,7 +71,7 @@ pub struct RisesByMethod {
     pub tian_kennedy: GreatestRise,
 }
 
-/// Greatest rise over a mesh.
+/// Maximum rise over a mesh.
 #[allow(non_snake_case, reason = "names that end in their unit")]
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GreatestRise {

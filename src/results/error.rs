@@ -9,13 +9,13 @@ use serde::{Deserialize, Serialize};
 pub struct TotalError {
     /// Of the wear over each flank, root mean square over that of the flank.
     pub profile: ErrorPerGear,
-    /// Of each gear's greatest wear.
+    /// Of each gear's maximum wear.
     pub peak_wear: ErrorPerGear,
-    /// Of each gear's greatest wear of the tip edge.
+    /// Of each gear's maximum wear of the tip edge.
     pub tip_edge_wear: ErrorPerGear,
     /// Of the worn pair.
     pub transmission_error_peak_to_peak: Option<f64>,
-    /// Of the greatest pressure of the worn pair at positions between the tip edges, root mean square.
+    /// Of the maximum pressure of the worn pair at positions between the tip edges, root mean square.
     pub pressure_between_tips: Option<f64>,
     /// How it was obtained, or why it was not.
     pub how: String,

@@ -113,7 +113,7 @@ pub struct GearModelSummary {
 /// The mesh cycle in figures: the same keys as a wear run's, and more.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FemCycleSummary {
-    /// Greatest pressure where no sharp tip edge carries load; `None` where one does everywhere.
+    /// Maximum pressure where no sharp tip edge carries load; `None` where one does everywhere.
     pub peak_pressure_MPa: Option<f64>,
     /// Position of the reference pair there.
     pub peak_pressure_position_mm: Option<f64>,
@@ -123,9 +123,9 @@ pub struct FemCycleSummary {
     pub peak_pressure_pair_position_mm: Option<f64>,
     /// Radius on the pinion there.
     pub peak_pressure_pinion_radius_mm: Option<f64>,
-    /// Greatest pressure found at a sharp tip edge: it grows with every refinement.
+    /// Maximum pressure found at a sharp tip edge: it grows with every refinement.
     pub sharp_edge_pressure_MPa: Option<f64>,
-    /// Greatest pressure of the reference pair at C.
+    /// Maximum pressure of the reference pair at C.
     pub pitch_pressure_MPa: Option<f64>,
     /// Hertz's pressure at C under the load the pair carries there.
     pub pitch_hertz_pressure_MPa: Option<f64>,
@@ -138,7 +138,7 @@ pub struct FemCycleSummary {
 pub struct PathPointsSummary {
     /// Share of the whole load; 0 where it carries none.
     pub load_share: PathPoints,
-    /// Greatest pressure; 0 where it carries none.
+    /// Maximum pressure; 0 where it carries none.
     pub peak_pressure_MPa: PathPoints,
     /// Hertz's pressure under the load it carries.
     pub hertz_pressure_MPa: PathPoints,
@@ -149,11 +149,11 @@ pub struct PathPointsSummary {
 /// Stress along the fillets of one tooth over the positions.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RootSummary {
-    /// Greatest principal stress at the fillet below the working flank.
+    /// Maximum principal stress at the fillet below the working flank.
     pub tension_MPa: f64,
     /// Position of the reference pair there.
     pub tension_position_mm: f64,
-    /// Least principal stress at the fillet on the other side.
+    /// Minimum principal stress at the fillet on the other side.
     pub compression_MPa: f64,
     /// Position of the reference pair there.
     pub compression_position_mm: f64,
@@ -195,9 +195,9 @@ pub struct FullModelSummary {
     pub transmission_error_um: f64,
     /// Its difference to the condensed model, relative.
     pub transmission_error_difference: f64,
-    /// Greatest difference of a pair's line load, over that of the whole torque.
+    /// Maximum difference of a pair's line load, over that of the whole torque.
     pub line_load_difference: f64,
-    /// Greatest difference of a pair's peak pressure, relative.
+    /// Maximum difference of a pair's peak pressure, relative.
     pub peak_pressure_difference: f64,
     /// Largest unbalanced nodal force over the largest nodal force.
     pub residual: f64,
@@ -224,7 +224,7 @@ pub struct FemCycleRow {
     pub transmission_error_um: f64,
     /// line load over that of the whole torque
     pub load_share: f64,
-    /// Hertz's greatest pressure of the pair's line load on the unmodified involutes there
+    /// Hertz's maximum pressure of the pair's line load on the unmodified involutes there
     pub hertz_pressure_MPa: f64,
     /// Hertz's half-width of the same
     pub hertz_half_width_mm: f64,
@@ -232,13 +232,13 @@ pub struct FemCycleRow {
     pub pinion_radius_mm: f64,
     /// whether a sharp tip edge carries pressure: the peak then is singular and grows with refinement
     pub at_sharp_edge: bool,
-    /// greatest principal stress at the pinion's fillet below the working flank, reference pair, at this position
+    /// maximum principal stress at the pinion's fillet below the working flank, reference pair, at this position
     pub pinion_root_tension_MPa: f64,
-    /// least principal stress at the pinion's other fillet
+    /// minimum principal stress at the pinion's other fillet
     pub pinion_root_compression_MPa: f64,
-    /// greatest principal stress at the wheel's fillet below the working flank
+    /// maximum principal stress at the wheel's fillet below the working flank
     pub wheel_root_tension_MPa: f64,
-    /// least principal stress at the wheel's other fillet
+    /// minimum principal stress at the wheel's other fillet
     pub wheel_root_compression_MPa: f64,
     /// |T2/T1| at this position
     pub torque_ratio: f64,
@@ -289,7 +289,7 @@ pub struct ContactPlace {
     pub at_mm: [f64; 2],
     /// Half-width, mm.
     pub half_width_mm: f64,
-    /// Greatest pressure.
+    /// Maximum pressure.
     pub peak_pressure_MPa: f64,
     /// Whether a sharp tip edge carries pressure.
     pub at_sharp_edge: bool,

@@ -121,7 +121,7 @@ pub struct FemSummary {
     pub wall_s: f64,
     /// The contacts, in the order of the problem.
     pub contact: Vec<ContactSummary>,
-    /// Greatest von Mises stress at a node, MPa.
+    /// Maximum von Mises stress at a node, MPa.
     pub peak_von_mises_MPa: f64,
     /// What three-dimensional problems have beside.
     #[serde(flatten)]
@@ -135,7 +135,7 @@ pub struct FemSummary {
 pub struct InSpaceSummary {
     /// Where the von Mises stress is greatest, [x, y, z] in mm.
     pub peak_von_mises_at_mm: [f64; 3],
-    /// Greatest displacement of a node, mm.
+    /// Maximum displacement of a node, mm.
     pub greatest_displacement_mm: f64,
     /// Where it is, before deformation, [x, y, z] in mm.
     pub greatest_displacement_at_mm: [f64; 3],
@@ -161,7 +161,7 @@ pub struct ContactSummary {
     pub slave: String,
     /// Group of the surface opposite.
     pub master: String,
-    /// Greatest pressure, MPa.
+    /// Maximum pressure, MPa.
     pub peak_pressure_MPa: f64,
     /// Half-width a of the widest zone, mm.
     pub half_width_mm: f64,

@@ -71,7 +71,7 @@ pub struct FilmSummary {
     pub least_lambda_new_position_mm: f64,
     /// The same, worn.
     pub least_lambda_worn_position_mm: f64,
-    /// Greatest flash temperature, new.
+    /// Maximum flash temperature, new.
     pub greatest_flash_new_K: f64,
     /// The same, worn.
     pub greatest_flash_worn_K: f64,
@@ -122,7 +122,7 @@ pub struct ScuffingSummary {
     pub mean_flash_K: f64,
     /// Greatest θ_fl.
     pub greatest_flash_K: f64,
-    /// θ_B: bulk and greatest flash temperature, ISO/TS 6336-20.
+    /// θ_B: bulk and maximum flash temperature, ISO/TS 6336-20.
     pub contact_temperature_C: f64,
     /// μ_m of the integral temperature.
     pub integral_friction: f64,

@@ -127,11 +127,11 @@ pub struct PhaseSummary {
     pub line_load_N_per_mm: f64,
     /// K/H, where the surface has one.
     pub foundation_MPa_per_mm: Option<f64>,
-    /// Hertz's greatest pressure at the pitch point under the whole load.
+    /// Hertz's maximum pressure at the pitch point under the whole load.
     pub hertz_peak_pressure_MPa: f64,
     /// Its wear coefficient; `None` where each gear has its own.
     pub coefficient_m2_per_N: Option<f64>,
-    /// Greatest rise of the contact temperature at its end, by the chosen method; `None` where nobody asks for temperatures.
+    /// Maximum rise of the contact temperature at its end, by the chosen method; `None` where nobody asks for temperatures.
     pub greatest_rise_K: Option<f64>,
     /// Part of the sliding work at its end that is outside the temperatures for which the wear law holds, where it names some.
     pub work_outside_validity: Option<f64>,
@@ -147,11 +147,11 @@ pub struct PhaseSummary {
 pub struct PhaseWear {
     /// Its wear coefficient.
     pub coefficient_m2_per_N: f64,
-    /// Greatest depth that any place of the active profile lost, the zone of the tip edge apart.
+    /// Maximum depth that any place of the active profile lost, the zone of the tip edge apart.
     pub greatest_depth_um: f64,
-    /// Greatest depth that any place of the tip edge lost.
+    /// Maximum depth that any place of the tip edge lost.
     pub tip_edge_depth_um: f64,
-    /// Greatest depth that any place below the start of active profile lost.
+    /// Maximum depth that any place below the start of active profile lost.
     pub below_sap_depth_um: f64,
     /// Worn off the whole gear: all teeth, whole width.
     pub worn_volume_mm3: f64,
@@ -285,15 +285,15 @@ pub struct LineOfContactSummary {
 /// How wear varies over the face width of a flank.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OverWidthSummary {
-    /// Greatest depth in the root zone of each slice.
+    /// Maximum depth in the root zone of each slice.
     pub root_wear_um: Vec<f64>,
-    /// Greatest depth in the tip zone (the last 2 mm of radius) of each slice.
+    /// Maximum depth in the tip zone (the last 2 mm of radius) of each slice.
     pub tip_wear_um: Vec<f64>,
     /// Depth lost at the root by each slice in the first mesh of the unworn pair.
     pub root_wear_first_mesh_um: Vec<f64>,
     /// The same at the tip.
     pub tip_wear_first_mesh_um: Vec<f64>,
-    /// Greatest less least root wear, over its mean.
+    /// Maximum less minimum root wear, over its mean.
     pub root_variation: f64,
     /// The same at the tip.
     pub tip_variation: f64,
@@ -317,7 +317,7 @@ pub struct ContactSummary {
     pub foundation_MPa_per_mm: Option<f64>,
     /// Hertz's half-width a.
     pub hertz_half_width_mm: f64,
-    /// Hertz's greatest pressure.
+    /// Hertz's maximum pressure.
     pub hertz_peak_pressure_MPa: f64,
 }
 
@@ -342,11 +342,11 @@ pub struct StiffnessSummary {
 #[allow(non_snake_case, reason = "the contract's key names")]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CycleSummary {
-    /// Greatest pressure of contact whose pressure is defined: not of that which a sharp tip edge cuts off.
+    /// Maximum pressure of contact whose pressure is defined: not of that which a sharp tip edge cuts off.
     pub peak_pressure_MPa: f64,
-    /// Greatest pressure found at a mathematically sharp tip edge under load, which grows with every refinement; `None` where there is none.
+    /// Maximum pressure found at a mathematically sharp tip edge under load, which grows with every refinement; `None` where there is none.
     pub sharp_edge_pressure_MPa: Option<f64>,
-    /// Greatest pressure with the theoretical contact point at C.
+    /// Maximum pressure with the theoretical contact point at C.
     pub pitch_pressure_MPa: f64,
     /// Loaded transmission error over the cycle.
     pub transmission_error_um: RangeSummary,
@@ -380,19 +380,19 @@ pub struct RangeSummary {
 /// Wear of a gear.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WearSummary {
-    /// Greatest wear depth on the active profile, the zone of the tip edge apart.
+    /// Maximum wear depth on the active profile, the zone of the tip edge apart.
     pub peak_wear_um: f64,
     /// Radius where it is.
     pub peak_wear_radius_mm: f64,
-    /// Greatest wear depth at the tip edge: within three Hertz half-widths at C, at most 0.15 modules, of the edge or of its rounding.
+    /// Maximum wear depth at the tip edge: within three Hertz half-widths at C, at most 0.15 modules, of the edge or of its rounding.
     pub tip_edge_wear_um: f64,
     /// Radius where it is.
     pub tip_edge_wear_radius_mm: f64,
-    /// Greatest wear depth below the start of active profile.
+    /// Maximum wear depth below the start of active profile.
     pub below_sap_wear_um: f64,
     /// Radius where it is.
     pub below_sap_wear_radius_mm: f64,
-    /// Greatest wear depth in the first 2 mm of radius above the start of active profile.
+    /// Maximum wear depth in the first 2 mm of radius above the start of active profile.
     pub root_wear_um: f64,
     /// Wear depth at the working pitch circle.
     pub pitch_wear_um: f64,
@@ -445,13 +445,13 @@ pub struct FlankRecord {
     pub wear_um: Vec<f64>,
     /// The same by the finite elements that vouch for it; none where none do. Not a column of its own.
     pub verified_wear_um: Option<Vec<f64>>,
-    /// Greatest pressure during one mesh, new.
+    /// Maximum pressure during one mesh, new.
     pub pressure_new_MPa: Vec<f64>,
-    /// Greatest pressure during one mesh, worn.
+    /// Maximum pressure during one mesh, worn.
     pub pressure_worn_MPa: Vec<f64>,
     /// Wear depth at each snapshot of the history.
     pub snapshot_wear_um: Vec<Vec<f64>>,
-    /// Greatest pressure during one mesh at each snapshot of the history. No column.
+    /// Maximum pressure during one mesh at each snapshot of the history. No column.
     pub snapshot_pressure_MPa: Vec<Vec<f64>>,
     /// Radii worth marking: start of active profile (A on the pinion, E on the wheel) to tip.
     pub path_point_radius_mm: PathPoints,
@@ -467,19 +467,19 @@ pub struct HistoryRow {
     pub hours: Option<f64>,
     /// of the pinion
     pub revolutions: f64,
-    /// greatest wear depth on the pinion's active profile, its tip edge apart
+    /// maximum wear depth on the pinion's active profile, its tip edge apart
     pub pinion_peak_wear_um: f64,
-    /// greatest wear depth in the first 2 mm of radius above the start of active profile
+    /// maximum wear depth in the first 2 mm of radius above the start of active profile
     pub pinion_root_wear_um: f64,
     /// wear depth at the working pitch circle
     pub pinion_pitch_wear_um: f64,
     /// the same of the wheel
     pub wheel_peak_wear_um: f64,
-    /// greatest pressure during one mesh, sharp tip edges under load apart
+    /// maximum pressure during one mesh, sharp tip edges under load apart
     pub peak_pressure_MPa: f64,
     /// of the loaded pair, along the line of action
     pub transmission_error_peak_to_peak_um: f64,
-    /// radius of the greatest wear depth on the active profile
+    /// radius of the maximum wear depth on the active profile
     pub pinion_peak_wear_radius_mm: f64,
     /// wear depth at the start of active profile
     pub pinion_sap_wear_um: f64,
@@ -487,14 +487,14 @@ pub struct HistoryRow {
     pub pinion_sap_wear_rate_um_per_Mrev: f64,
     /// number of the phase of the operation, from 1; at the end of one, that one
     pub phase: usize,
-    /// greatest pressure found at a sharp tip edge under load, which grows with every refinement; empty where there is
+    /// maximum pressure found at a sharp tip edge under load, which grows with every refinement; empty where there is
     /// none
     pub sharp_edge_pressure_MPa: Option<f64>,
-    /// greatest wear depth at the pinion's tip edge
+    /// maximum wear depth at the pinion's tip edge
     pub pinion_tip_edge_wear_um: f64,
     /// the same of the wheel
     pub wheel_tip_edge_wear_um: f64,
-    /// greatest wear depth below the pinion's start of active profile
+    /// maximum wear depth below the pinion's start of active profile
     pub pinion_below_sap_wear_um: f64,
     /// the same of the wheel
     pub wheel_below_sap_wear_um: f64,
@@ -510,7 +510,7 @@ pub struct MeshCycleRow {
     pub load_share_new: f64,
     /// the same, worn
     pub load_share_worn: f64,
-    /// greatest pressure of the pair, new
+    /// maximum pressure of the pair, new
     pub peak_pressure_new_MPa: f64,
     /// the same, worn
     pub peak_pressure_worn_MPa: f64,
@@ -520,7 +520,7 @@ pub struct MeshCycleRow {
     pub transmission_error_new_um: f64,
     /// the same, worn
     pub transmission_error_worn_um: f64,
-    /// greatest rise of the contact above the bulk by the chosen method, new; empty where not computed
+    /// maximum rise of the contact above the bulk by the chosen method, new; empty where not computed
     pub temperature_rise_K: Option<f64>,
     /// half the extent of the contact strip, worn
     pub half_width_worn_mm: f64,
@@ -554,7 +554,7 @@ pub struct SliceRecord {
     pub line_load_new_N_per_mm: Vec<f64>,
     /// The same, worn.
     pub line_load_worn_N_per_mm: Vec<f64>,
-    /// Greatest pressure of each slice at each position, new.
+    /// Maximum pressure of each slice at each position, new.
     pub peak_pressure_new_MPa: Vec<f64>,
     /// The same, worn.
     pub peak_pressure_worn_MPa: Vec<f64>,

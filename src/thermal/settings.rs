@@ -16,7 +16,7 @@ pub enum TemperatureMethod {
     HeatEquation,
     /// Williams's limit of a fast band of heat (thesis eq 27).
     Williams,
-    /// Tian and Kennedy's greatest temperature under a band of heat of any speed (thesis eq 29).
+    /// Tian and Kennedy's maximum temperature under a band of heat of any speed (thesis eq 29).
     #[default]
     TianKennedy,
 }

@@ -115,7 +115,7 @@ impl PerGear<WearSettings> {
         of(Gear::Pinion).max(of(Gear::Wheel)).max(1.0)
     }
 
-    /// The greatest factor of severe wear of the gears that wear severely somewhere under this greatest pressure, MPa; none where
+    /// The greatest factor of severe wear of the gears that wear severely somewhere under this maximum pressure, MPa; none where
     /// neither does.
     pub fn severe_factor_under(&self, peak_pressure_mpa: f64) -> Option<f64> {
         let wearing = Gear::BOTH.into_iter().map(|gear| &self[gear]).filter(|own| own.coefficient_mm2_per_n > 0.0);

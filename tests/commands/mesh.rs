@@ -114,7 +114,7 @@ fn the_mesh_is_written_and_described() {
     let assert = gearwear(folder.path(), &text, "pair.json", &["--position", "13.0"]).success().stderr("");
     assert
         .stdout(predicate::str::contains("sectors of 3 teeth, sides free").and(predicate::str::contains("13.0000 mm")))
-        .stdout(predicate::str::contains("least angle").and(predicate::str::contains("degrees of freedom")));
+        .stdout(predicate::str::contains("minimum angle").and(predicate::str::contains("degrees of freedom")));
     let mesh = mesh::read(folder.path().join("pair.json")).unwrap();
     for set in [
         "pinion",

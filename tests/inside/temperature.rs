@@ -64,7 +64,7 @@ fn val_s6_three_methods_through_the_mesh() {
     };
     let greatest: [f64; 3] = std::array::from_fn(|k| rows.iter().map(|row| rises(row)[k]).fold(0.0, f64::max));
     println!(
-        "greatest rise, heat equation {:.1}, Williams {:.1}, Tian and Kennedy {:.1} K",
+        "maximum rise, heat equation {:.1}, Williams {:.1}, Tian and Kennedy {:.1} K",
         greatest[0], greatest[1], greatest[2]
     );
     let pitch =

@@ -10,6 +10,7 @@ opened at 1280 and 390 px, light and dark, and printed. Pictures (PNG, PDF) go t
 - is wider than the window,
 - has labels of one axis, or of one plot, that overlap,
 - has a curve that is drawn outside its plot area (not clipped to it),
+- has an axis whose title does not fit beside it,
 - has a plot whose data go beyond the range of its axis, where the plot script would cut them off without a word,
 - has a slider that does not change what is said beside it.
 
@@ -29,9 +30,14 @@ PAGES = {
     "run-spur": ["run {s}/spur.toml --out {o}"],
     "run-phases": ["run {s}/phases.toml --out {o}"],
     "run-temperature": ["run {s}/temperature.toml --out {o}"],
+    "run-films": ["run {s}/films.toml --out {o}"],
+    "run-each-gear": ["run {s}/each-gear.toml --out {o}"],
+    "run-adsorption": ["run {s}/adsorption.toml --out {o}"],
+    "run-fem": ["run {s}/fem.toml --out {o}"],
     "run-severe": ["run {s}/severe.toml --out {o}"],
     "run-helical-preset": ["run {s}/helical-preset.toml --out {o}"],
     "run-helical": ["run {s}/helical.toml --out {o}"],
+    "run-helical-films": ["run {s}/helical-films.toml --out {o}"],
     "calibrate": ["calibrate {s}/spur.toml --out {o}/pair.calibration.json"],
     "fem-pair": ["fem {s}/spur.toml --out {o}"],
     "fem-position": ["fem {s}/spur.toml --position 12 --out {o}"],
@@ -43,7 +49,7 @@ PAGES = {
     ],
     "uncertainty": [
         "uncertainty {s}/spur.toml --uncertain wear.coefficient_m2_per_N=lognormal:1.5 --uncertain operation.pinion_torque_Nm=±10% "
-        "--limit pinion.peak_wear_um=1 --samples 64 --out {o}"
+        "--limit pinion.peak_wear_um=1 --samples 16 --out {o}"
     ],
     "sweep-words": ["sweep {s}/spur.toml --vary contact.surface=half-space,winkler --vary operation.pinion_torque_Nm=100,300 --out {o}"],
     "sweep-best": [
@@ -54,6 +60,7 @@ PAGES = {
     "compare-runs": ["compare {s}/spur.toml {s}/heavy.toml --out {o}"],
     "compare-helical": ["compare {s}/helical.toml {s}/helical-heavy.toml --out {o}"],
     "accuracy": ["accuracy {s}/spur.toml --out {o}"],
+    "accuracy-helical": ["accuracy {s}/helical-small.toml --out {o}"],
     "validate": ["validate fzg-c-geometry exact-wear nafems-cylinder --out {o}"],
 }
 
@@ -81,9 +88,13 @@ LOOK = r"""() => {
             return box.width > 0 && t.textContent.trim() && style.visibility !== "hidden" && +style.opacity > 0.05 &&
                 !t.closest(".hoverlayer,.modebar,[transform*='rotate'],defs") && !/rotate\((?!0)/.test(t.getAttribute("transform") || "");
         });
+        // A text of several lines takes the room of those that say something.
+        const lines = texts.map(text => [...text.querySelectorAll("tspan.line")].filter(line => line.textContent.trim()));
+        const boxes = texts.map((text, i) => (lines[i].length ? lines[i] : [text]).map(line => line.getBoundingClientRect()));
         for (let i = 0; i < texts.length; i++) for (let j = i + 1; j < texts.length; j++) {
-            const [a, b] = [texts[i].getBoundingClientRect(), texts[j].getBoundingClientRect()];
-            if (over(a, b)) wrong.push(`labels overlap in “${name(svg)}”: “${texts[i].textContent}” and “${texts[j].textContent}”`);
+            if (boxes[i].some(a => boxes[j].some(b => over(a, b)))) {
+                wrong.push(`labels overlap in “${name(svg)}”: “${texts[i].textContent}” and “${texts[j].textContent}”`);
+            }
         }
     }
     for (const plot of document.querySelectorAll(".js-plotly-plot .cartesianlayer .plot")) {
@@ -117,6 +128,14 @@ LOOK = r"""() => {
                     break;
                 }
             }
+        }
+    }
+    for (const plot of document.querySelectorAll(".js-plotly-plot")) {
+        const room = plot.getBoundingClientRect();
+        for (const title of plot.querySelectorAll(".xtitle, .ytitle")) {
+            const box = title.getBoundingClientRect();
+            const out = box.left < room.left - 1 || box.right > room.right + 1 || box.top < room.top - 1 || box.bottom > room.bottom + 1;
+            if (box.width > 0 && out) wrong.push(`the title of an axis is cut off in “${name(plot)}”: ${title.textContent}`);
         }
     }
     return [...new Set(wrong)];
@@ -157,14 +176,27 @@ def scenes(program: str, folder: pathlib.Path) -> None:
     (folder / "heavy.toml").write_text(exchanged(spur, ("pinion_torque_Nm = 302.0", "pinion_torque_Nm = 350.0")))
     (folder / "severe.toml").write_text(exchanged(spur, ("# severe =", "severe =")))
     (folder / "temperature.toml").write_text(spur + "\n[temperature]\nmethod = \"williams\"\n")
+    rough = [("# profile_crowning_um = 5.0", "roughness_Ra_um = 0.5"), ("teeth = 24", "teeth = 24\nroughness_Ra_um = 0.5")]
+    (folder / "films.toml").write_text(exchanged(spur, *rough) + LUBRICATED)
+    (folder / "each-gear.toml").write_text(
+        spur + "\n[wear.pinion]\ncoefficient_m2_per_N = 2e-18\n\n[wear.wheel.severe]\nabove_MPa = 1200.0\nfactor = 10.0\n"
+    )
+    (folder / "adsorption.toml").write_text(
+        exchanged(spur, ('law = "archard"', 'law = "adsorption"'), ("= 1e-17 ", "= 1e-13 "))
+    )
+    (folder / "fem.toml").write_text(exchanged(spur, ('surface = "half-space"', 'surface = "fem"')))
     phases = "".join(f"[[operation.phases]]\nhours = 20.0\npinion_torque_Nm = {torque}\n" for torque in (200.0, 302.0))
     hours = next(line for line in spur.splitlines() if line.startswith("hours"))
     shown = next(line for line in spur.splitlines() if line.startswith("snapshots_h"))
     (folder / "phases.toml").write_text(exchanged(spur, (hours, ""), (shown, "")) + "\n" + phases)
     helical = preset("thesis-helical")
     (folder / "helical.toml").write_text(helical)
+    small += [("slices = 20 ", "slices = 6 ")]
+    (folder / "helical-small.toml").write_text(exchanged(helical, *small))
     torque = next(line for line in helical.splitlines() if line.startswith("pinion_torque_Nm"))
     (folder / "helical-heavy.toml").write_text(exchanged(helical, (torque, "pinion_torque_Nm = 400.0")))
+    rough = [(f"teeth = {z}", f"teeth = {z}\nroughness_Ra_um = 0.5") for z in (16, 24)]
+    (folder / "helical-films.toml").write_text(exchanged(preset("helical"), *rough) + LUBRICATED)
     (folder / "helical-preset.toml").write_text(preset("helical"))
     for mesh, problem in [("roller.msh", ROLLER), ("plate-hex8.msh", PLATE)]:
         shutil.copy(REPOSITORY / "meshes" / mesh, folder)
@@ -173,6 +205,15 @@ def scenes(program: str, folder: pathlib.Path) -> None:
     lines = ["# invented", "# gear = pinion", "# uncertainty_um = 0.15", "radius_mm,height_um"]
     (folder / "trace.csv").write_text("\n".join(lines + [f"{r:.3f},{h:.3f}" for r, h in rows]) + "\n")
 
+
+LUBRICATED = """
+[lubricant]
+viscosity_class = 220
+temperature_C = 90.0
+
+[friction]
+model = "xu"
+"""
 
 ROLLER = """title = "Roller on a block"
 mesh = { file = "roller.msh" }

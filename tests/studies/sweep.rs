@@ -553,7 +553,7 @@ fn a_third_key_stays_at_its_best() {
     done(&bench.sweep("out", &[WIDTHS, TORQUES, "operation.hours=10:100:2"], &["--quiet"]));
     let page = fs::read_to_string(bench.out("out").join("report.html")).unwrap();
     assert!(page.contains("id=\"contour-pinion-peak-wear-um\""));
-    assert!(page.contains("Shown with operation.hours = 10, where the least of all is."));
+    assert!(page.contains("Shown with operation.hours = 10, where the minimum of all is."));
     let peaks = numbers(&bench.out("out"), "pinion_peak_wear_um");
     // Ten times the duration wears more in every combination.
     assert!(peaks.chunks(2).all(|pair| pair[0] < pair[1]), "{peaks:?}");

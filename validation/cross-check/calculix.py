@@ -16,7 +16,7 @@ from dataclasses import dataclass
 
 # CalculiX reads at most 20 characters of a number.
 NUMBER = "{:.12e}".format
-# Residual force and last correction, as parts of the mean force and of the greatest displacement; by default CalculiX is
+# Residual force and last correction, as parts of the mean force and of the maximum displacement; by default CalculiX is
 # content with 0.005 and 0.01. The two blanks stand for means it is to compute itself; after nine iterations it uses the
 # fifth number in place of the first.
 TOLERANCES = "1e-6,1e-3,,,1e-6"

@@ -165,7 +165,7 @@ fn course(calibration: &Calibration) -> Chart {
     let place = of(VariationOf::PairWhole).map_or_else(String::new, |course| {
         format!(" The pair is stiffest at {} of the way from A to E.", percent(course.greatest_at))
     });
-    chart.y_up_to(top).reading(format!("Greatest over least: {}.{place}", ratios.join("; ")))
+    chart.y_up_to(top).reading(format!("Maximum over minimum: {}.{place}", ratios.join("; ")))
 }
 
 fn family(calibration: &Calibration) -> Chart {
@@ -195,7 +195,7 @@ fn family(calibration: &Calibration) -> Chart {
         .collect();
     let shifted = match shifted.is_empty() {
         true => String::new(),
-        false => format!(" Shifted out by the least that avoids undercut: {}.", shifted.join(", ")),
+        false => format!(" With the smallest profile shift that avoids undercut: {}.", shifted.join(", ")),
     };
     chart.wide().height(420).x("number of teeth").y("deflection of tooth and body, E·δ/w").y_up_to(top).reading(format!(
         "Full lines by finite elements, dotted by Weber and Banaschek, flattening apart; single gears of the scene’s rack \

@@ -62,8 +62,8 @@ fn fits(calibration: &Calibration) -> Markup {
         rows.push(row(format!("{}, fitted", criterion.name()), "%", cells(&fit.fitted)));
         rows.push(row(format!("{}, held out", criterion.name()), "%", cells(&fit.held_out)));
     }
-    let columns = ["greatest", "half-width", "pressure", "approach"];
-    table("Winkler foundation against finite elements: greatest error of what is matched, mean errors", &columns, rows)
+    let columns = ["maximum", "half-width", "pressure", "approach"];
+    table("Winkler foundation against finite elements: maximum error of what is matched, mean errors", &columns, rows)
 }
 
 /// What the slices have from the teeth in space; nothing where sections are alike over the face width.
@@ -112,6 +112,6 @@ fn courses(calibration: &Calibration) -> Markup {
         let cells = cells![course.mean_n_per_mm_um, course.max_over_min, percent(course.greatest_at)];
         row(course.of.words(), "", cells)
     });
-    let columns = ["mean, N/(mm·µm)", "greatest/least", "greatest at"];
+    let columns = ["mean, N/(mm·µm)", "maximum/minimum", "maximum at"];
     table("Stiffness over the path, from A (0 %) to E (100 %)", &columns, rows)
 }

@@ -106,7 +106,7 @@ pub(super) fn model_table(s: &FemSummary) -> Markup {
         row("Elements", "", [s.elements]),
         row("Degrees of freedom, supports included", "", [s.dofs]),
         row("Analysis", "", [analysis]),
-        row("Greatest von Mises stress at a node", "MPa", [s.peak_von_mises_MPa]),
+        row("Maximum von Mises stress at a node", "MPa", [s.peak_von_mises_MPa]),
     ];
     table("Model", &["value"], rows)
 }

@@ -51,7 +51,7 @@ fn greatest_table(s: &FemSummary, greatest: &InSpaceSummary) -> Markup {
         line_of("Displacement", greatest.greatest_displacement_mm, "mm", greatest.greatest_displacement_at_mm),
         line_of("Von Mises stress at a node", s.peak_von_mises_MPa, "MPa", greatest.peak_von_mises_at_mm),
     ];
-    list("Greatest values, and where before deformation", ["", "greatest", "", "x, mm", "y, mm", "z, mm"], rows)
+    list("Maxima, and where they are before deformation", ["", "maximum", "", "x, mm", "y, mm", "z, mm"], rows)
 }
 
 fn bodies_table(record: &FemRecord, found: &SpaceSolution) -> Markup {

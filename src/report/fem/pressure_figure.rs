@@ -26,7 +26,7 @@ pub(super) fn pressure(index: usize, count: usize, summary: &ContactSummary, con
     let chart = Chart::new(format!("pressure-{index}"), format!("Contact pressure{of_several}"))
         .wide_if(count == 1)
         .height(420)
-        .x("along the surface from the middle of the contact, mm")
+        .x("distance from the middle of the contact, mm")
         .reading(reading(summary));
     Some(beside_hertz(chart, &shown, "Hertz, same force", hertz, range).y_up_to(top))
 }

@@ -135,8 +135,8 @@ fn transmission_error(record: &FemPairRecord) -> Chart {
         .y("transmission error, µm")
         .line("transmission error", x, y, (PATH, 2.4, Dash::Solid), "%{y:.3f} µm")
         .reading(format!(
-            "Over the cycle the wheel lags {} to {} µm along the line of action, {} µm peak to peak: least where two pairs \
-             share the load, greatest where one carries it alone.",
+            "Over the cycle the wheel lags {} to {} µm along the line of action, {} µm peak to peak: lowest where two pairs \
+             share the load, highest where one carries it alone.",
             figure(te.min),
             figure(te.max),
             figure(te.peak_to_peak)
@@ -164,7 +164,7 @@ fn root_stress(record: &FemPairRecord) -> Chart {
     };
     let reading = match (&root.pinion, &root.wheel) {
         (Some(pinion), Some(wheel)) => format!(
-            "Along the fillets of the reference pair’s teeth the greatest stress is {} on the pinion and {} on the wheel. The \
+            "Along the fillets of the reference pair’s teeth the maximum stress is {} on the pinion and {} on the wheel. The \
              pinion’s tooth is bent most where it still carries the whole load far out on its flank, towards D, the wheel’s \
              likewise towards B; the other fillet is compressed harder than the loaded one is stretched, for the radial part \
              of the force presses on both.",

@@ -28,15 +28,15 @@ fn cycle(s: &FemPairSummary) -> Markup {
     rows.extend(new.sharp_edge_pressure_MPa.map(|p| one("At a sharp tip edge, singular", "MPa", p)));
     if let (Some(found), Some(hertz)) = (new.pitch_pressure_MPa, new.pitch_hertz_pressure_MPa) {
         rows.push(one("Pressure at the pitch point C", "MPa", found));
-        rows.push(one("Hertz there", "MPa", hertz));
+        rows.push(one("Hertz pressure at C, same load", "MPa", hertz));
         rows.push(row("Finite elements against Hertz", "", [change(hertz, found)]));
     }
     if s.position_mm.is_some() {
         rows.push(one("Transmission error", "µm", te.max));
     } else {
         rows.extend([
-            one("Transmission error, least", "µm", te.min),
-            one("Transmission error, greatest", "µm", te.max),
+            one("Transmission error, minimum", "µm", te.min),
+            one("Transmission error, maximum", "µm", te.max),
             one("Transmission error, peak to peak", "µm", te.peak_to_peak),
         ]);
     }
@@ -51,9 +51,9 @@ fn roots(s: &FemPairSummary) -> Markup {
         "Stress at the fillets of the reference pair",
         &["pinion", "wheel"],
         [
-            both("Greatest, below the working flank", "MPa", |r| r.tension_MPa),
+            both("Maximum, below the working flank", "MPa", |r| r.tension_MPa),
             both("at position", "mm", |r| r.tension_position_mm),
-            both("Least, on the other side", "MPa", |r| r.compression_MPa),
+            both("Minimum, on the other side", "MPa", |r| r.compression_MPa),
             both("at position", "mm", |r| r.compression_position_mm),
         ],
     )
@@ -110,8 +110,8 @@ fn gears(s: &FemPairSummary) -> Markup {
             both("Teeth with a resolved flank", "", &|g| g.resolved_teeth.to_string()),
             both("Nodes of a flank that may carry load", "", &|g| count(g.candidates as u64)),
             both("Smallest angle of an element", "°", &|g| fixed(g.quality.least_angle_deg.value, 1)),
-            both("Least Jacobian ratio", "", &|g| fixed(g.quality.jacobian_ratio.value, 3)),
-            both("Greatest aspect ratio", "", &|g| fixed(g.quality.aspect_ratio.value, 2)),
+            both("Minimum Jacobian ratio", "", &|g| fixed(g.quality.jacobian_ratio.value, 3)),
+            both("Maximum aspect ratio", "", &|g| fixed(g.quality.aspect_ratio.value, 2)),
         ],
     )
 }
@@ -131,7 +131,7 @@ pub(super) fn checks(s: &FemPairSummary) -> Markup {
         row("Load not balanced, relative", "", [significant(c.load_imbalance, 2)]),
         row("Largest penetration", "µm", [significant(c.max_penetration_um, 2)]),
         row("Active-set iterations per position, mean", "", [significant(c.iterations_per_position, 3)]),
-        row("Active-set iterations per position, greatest", "", [c.most_iterations]),
+        row("Active-set iterations per position, maximum", "", [c.most_iterations]),
         row("Active-set cycles broken", "", [c.cycles_broken]),
     ]);
     rows.extend(s.wall_per_position_s.map(|wall_s| row("Time per position", "ms", [significant(1e3 * wall_s, 3)])));

@@ -63,12 +63,13 @@ fn pressure(record: &RunRecord) -> Chart {
         column(|r| (r.peak_pressure_worn_MPa, r.at_sharp_edge_worn)),
     ) {
         (Some(new), Some(worn)) => format!(
-            "New, the pressure peaks {} with {} MPa; worn, {} with {} MPa ({}).{}",
-            place(new),
+            "New, the maximum is {} MPa {}; worn, {} MPa {} ({}).{}{}",
             figure(new.value),
-            place(worn),
+            place(new),
             figure(worn.value),
+            place(worn),
             change(new.value, worn.value),
+            outside(record, new.value),
             tip_edge_note(&record.summary.geometry.curvature_radius_mm.named(), rows[worn.index].position_mm),
         ),
         _ => NOT_COMPUTED.into(),
@@ -81,6 +82,15 @@ fn pressure(record: &RunRecord) -> Chart {
         [|r| r.peak_pressure_new_MPa, |r| r.peak_pressure_worn_MPa],
         "%{y:.1f} MPa",
     )
+}
+
+/// What to say where the new pair has its maximum pressure before A or after E, which this plot does not show.
+fn outside(record: &RunRecord, on_path_mpa: f64) -> String {
+    let anywhere = record.summary.new.peak_pressure_MPa;
+    if anywhere <= 1.01 * on_path_mpa {
+        return String::new();
+    }
+    format!(" Outside A–E, where a tip edge is in contact, it is up to {} MPa new.", figure(anywhere))
 }
 
 /// What to say of a run without a mesh cycle.

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::number::{change, figure, fixed, percent, significant};
+use super::number::{change, fixed, percent, significant};
 use super::table::{Cell, cells, line, list, row, table, whole};
 use super::{film_table, law_table, page, sliced};
 use crate::results::error::ErrorSummary;
@@ -46,11 +46,11 @@ fn new_and_worn(s: &Summary) -> Markup {
         compare("Pressure at the pitch point C", "MPa", new.pitch_pressure_MPa, worn.pitch_pressure_MPa),
         row("Over Hertz’s with the whole load", "", cells![fixed(over_new, 3), fixed(over_worn, 3), ""]),
         compare("Transmission error, peak to peak", "µm", te_new.peak_to_peak, te_worn.peak_to_peak),
-        compare("Transmission error, least", "µm", te_new.min, te_worn.min),
-        compare("Transmission error, greatest", "µm", te_new.max, te_worn.max),
+        compare("Transmission error, minimum", "µm", te_new.min, te_worn.min),
+        compare("Transmission error, maximum", "µm", te_new.max, te_worn.max),
         // What one flank of a contact loses the other does too: what differs is error.
         row(
-            "Volumes that both flanks lose in one mesh, difference",
+            "Volumes worn off both flanks in one mesh, difference",
             "",
             cells![s.wear_balance.new.map(percent), s.wear_balance.worn.map(percent), ""],
         ),
@@ -85,7 +85,7 @@ fn over_hertz(s: &Summary) -> [f64; 2] {
 fn pitch_pressure_note(s: &Summary) -> String {
     let [new, worn] = over_hertz(s);
     let of_surface = match &*s.contact.surface {
-        "hertz-mean" => Some("the surface takes the mean pressure of the contact, π/4 = 0.785 of the greatest"),
+        "hertz-mean" => Some("the surface takes the mean pressure of the contact, π/4 = 0.785 of the maximum"),
         "winkler" => Some(
             "a Winkler foundation has a parabolic pressure, 3π/8 = 1.178 times Hertz’s at the same half-width and the same pressure at another",
         ),
@@ -157,16 +157,18 @@ fn contact(s: &Summary) -> Markup {
     let mut rows = vec![
         row("Contact surface", "", [&*c.surface]),
         row("Line load, whole torque", "N/mm", [c.line_load_N_per_mm]),
-        row("Foundation K/H", "MPa/mm", [c.foundation_MPa_per_mm.map_or_else(|| "none".to_owned(), figure)]),
         row("Hertz half-width at C", "mm", [c.hertz_half_width_mm]),
         row("Hertz pressure at C", "MPa", [c.hertz_peak_pressure_MPa]),
     ];
+    if let Some(foundation) = c.foundation_MPa_per_mm {
+        rows.push(row("Foundation K/H", "MPa/mm", [foundation]));
+    }
     if let Some(k) = &s.stiffness {
         rows.extend([
             row("Tooth stiffness", "", [&*k.model]),
             row("Pair with flattening, at C", "N/(mm·µm)", [k.pair_at_pitch_N_per_mm_um]),
             row("Teeth alone, at C", "N/(mm·µm)", [k.teeth_at_pitch_N_per_mm_um]),
-            row("at a line load of", "N/mm", [k.reference_line_load_N_per_mm]),
+            row("Line load of both stiffnesses", "N/mm", [k.reference_line_load_N_per_mm]),
         ]);
         let remainder = k.split_remainder_at_half_load.map(percent);
         rows.extend(
@@ -220,7 +222,7 @@ pub(crate) fn phases(s: &Summary) -> Markup {
         div.phases { (list("Phases of the operation", columns, s.phases.iter().take(MOST_PHASES).map(phase))) }
         @if more > 0 { (page::note(&format!("{more} more phases are in summary.json."))) }
         (page::note(&format!(
-            "New and worn pair, line load, K/H, Hertz pressure and the temperatures of both are under the greatest load of any phase, \
+            "New and worn pair, line load, K/H, Hertz pressure and the temperatures of both are under the highest load of any phase, \
              that of phase {}; so that what wear changes can be read from them.",
             s.reference_phase
         )))
@@ -256,7 +258,7 @@ pub(crate) fn errors(error: &ErrorSummary) -> Markup {
     let caption = "Error of the result: against finite elements, and estimates for the maximum wear";
     html! {
         (whole(Some("errors"), Some(html! { (caption) }), ["".into(), "relative".into(), Cell::sentence("how obtained")], rows))
-        @if let Some(cost) = error.companions_cost {
+        @if let Some(cost) = error.companions_cost.filter(|&cost| cost > 0.0) {
             (page::note(&format!("The estimates took {} of the work of the run itself.", percent(cost))))
         }
     }

@@ -52,12 +52,12 @@ fn lambda(record: &RunRecord, summary: &LubricationSummary, rows: &[&FilmRow]) -
     let points = record.summary.geometry.curvature_radius_mm.named();
     let reading = summary.film.as_ref().map_or_else(String::new, |film| {
         format!(
-            "λ, film over mean roughness, is least {} new with {} and {} worn with {}. Below about 1 roughness carries part of the load; above about \
-             2 the film carries it.{}",
-            among(&points, film.least_lambda_new_position_mm),
+            "The minimum of λ, film over mean roughness, is {} new, {}, and {} worn, {}. Below about 1 the asperities carry part of the load; above \
+             about 2 the film carries it.{}",
             figure(film.lambda_new.min),
-            among(&points, film.least_lambda_worn_position_mm),
+            among(&points, film.least_lambda_new_position_mm),
             figure(film.lambda_worn.min),
+            among(&points, film.least_lambda_worn_position_mm),
             where_over_width(record, rows)
         )
     });
@@ -65,16 +65,32 @@ fn lambda(record: &RunRecord, summary: &LubricationSummary, rows: &[&FilmRow]) -
     over_path(record, chart, rows, [|row| row.lambda_new, |row| row.lambda_worn], "%{y:.3f}")
 }
 
+/// Pressure up to which Xu's regression holds, MPa.
+const XU_HOLDS_TO_MPA: f64 = 2500.0;
+
+/// What to say where the friction of Xu's regression is that of a pressure above those it was fitted to.
+fn limit_of_xu(record: &RunRecord, summary: &LubricationSummary) -> String {
+    let pressure = record.summary.new.peak_pressure_MPa.max(record.summary.worn.peak_pressure_MPa);
+    if summary.friction.model != "xu" || pressure <= XU_HOLDS_TO_MPA {
+        return String::new();
+    }
+    format!(
+        " Xu’s regression holds up to {} MPa: at the tip edges the pressure is higher, and the low friction there is outside its range.",
+        figure(XU_HOLDS_TO_MPA)
+    )
+}
+
 fn friction(record: &RunRecord, summary: &LubricationSummary, rows: &[&FilmRow]) -> Chart {
     let (friction, losses) = (&summary.friction, &summary.losses);
     let chart = Chart::new("friction", "Coefficient of friction").y("coefficient of friction").reading(format!(
-        "By friction.model = \"{}\", {} on average over the work of sliding new, {} worn. The mesh loses {} W of {} W new and {} W worn.{}",
+        "By friction.model = \"{}\", {} on average over the work of sliding new, {} worn. The mesh loses {} W of {} W new and {} W worn.{}{}",
         friction.model,
         significant(friction.mean_new, 3),
         significant(friction.mean_worn, 3),
         figure(losses.mesh_power_loss_new_W),
         figure(losses.power_W),
         figure(losses.mesh_power_loss_worn_W),
+        limit_of_xu(record, summary),
         where_over_width(record, rows)
     ));
     over_path(record, chart, rows, [|row| row.friction_new, |row| row.friction_worn], "%{y:.4f}")

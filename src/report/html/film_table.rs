@@ -38,12 +38,12 @@ fn film(f: &FilmSummary) -> Markup {
         "Film along the path of contact",
         &["new", "worn"],
         [
-            row("λ (local film over Ra), least", "", [f.lambda_new.min, f.lambda_worn.min]),
+            row("λ (local film over Ra), minimum", "", [f.lambda_new.min, f.lambda_worn.min]),
             row("λ, mean", "", [f.lambda_new.mean, f.lambda_worn.mean]),
-            row("Central film, least", "µm", [f.central_film_new_um.min, f.central_film_worn_um.min]),
-            row("Central film, mean", "µm", [f.central_film_new_um.mean, f.central_film_worn_um.mean]),
-            row("Minimum film, least", "µm", [f.minimum_film_new_um.min, f.minimum_film_worn_um.min]),
-            row("Flash temperature, greatest", "K", [f.greatest_flash_new_K, f.greatest_flash_worn_K]),
+            row("Central film thickness, minimum", "µm", [f.central_film_new_um.min, f.central_film_worn_um.min]),
+            row("Central film thickness, mean", "µm", [f.central_film_new_um.mean, f.central_film_worn_um.mean]),
+            row("Minimum film thickness, lowest", "µm", [f.minimum_film_new_um.min, f.minimum_film_worn_um.min]),
+            row("Flash temperature, maximum", "K", [f.greatest_flash_new_K, f.greatest_flash_worn_K]),
         ],
     )
 }
@@ -92,7 +92,7 @@ fn scuffing(s: &ScuffingSummary) -> Markup {
         &["value"],
         [
             row("Contact temperature, ISO/TS 6336-20", "°C", [s.contact_temperature_C]),
-            row("Greatest flash temperature", "K", [s.greatest_flash_K]),
+            row("Maximum flash temperature", "K", [s.greatest_flash_K]),
             row("Integral temperature, ISO/TS 6336-21", "°C", [s.integral_temperature_C]),
         ],
     )

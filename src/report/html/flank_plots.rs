@@ -1,7 +1,7 @@
 //! Plots over a flank whose sections are alike, from root to tip: wear at every snapshot, greatest pressure, modifications.
 
 use super::active_flank::ActiveFlank;
-use super::number::{figure, given, percent, plotted, revolutions, significant};
+use super::number::{figure, hours, percent, plotted, revolutions, significant};
 use super::reading::{Extreme, greatest, place_on_flank, tip_edge_note, yield_note};
 use crate::gear::Gear;
 use crate::report::chart::{Chart, Dash, INK, Trace, extent, gear_colour, gear_colour_at};
@@ -13,7 +13,11 @@ const CURVES: usize = 12;
 
 /// Wear depth over both flanks, one curve per snapshot.
 pub(super) fn wear(record: &RunRecord) -> Vec<Chart> {
-    let deepest = Gear::BOTH.map(|gear| greatest(&record.flanks[gear].wear_um).map_or(0.0, |e| e.value));
+    let deepest = Gear::BOTH.map(|gear| {
+        let flank = &record.flanks[gear];
+        let deepest_of = |wear: &[f64]| greatest(wear).map_or(0.0, |e| e.value);
+        deepest_of(&flank.wear_um).max(flank.verified_wear_um.as_deref().map_or(0.0, deepest_of))
+    });
     Gear::BOTH
         .into_iter()
         .zip(deepest)
@@ -195,7 +199,7 @@ pub(super) fn drawn_snapshots(count: usize) -> Vec<usize> {
 /// "31.75 h", or revolutions where the scene gives no speed.
 pub(super) fn moment(row: &HistoryRow) -> String {
     match row.hours {
-        Some(hours) => format!("{} h", given(hours)),
+        Some(time) => format!("{} h", hours(time)),
         None => format!("{} rev", revolutions(row.revolutions)),
     }
 }

@@ -40,7 +40,7 @@ pub(super) fn wear_against_time(record: &RunRecord) -> Chart {
     let deepest = rows.iter().flat_map(|row| SERIES.map(|(.., value)| value(row))).fold(0.0, f64::max);
     let phases = &record.summary.phases;
     let marked = if (2..=MOST_MARKED).contains(&phases.len()) { ends_of_phases(phases, in_hours) } else { Vec::new() };
-    Chart::new("history", "Maximum wear of the root zone against time")
+    Chart::new("history", "Maximum wear against time")
         .x(title)
         .x_range(from_zero(time.last().copied().unwrap_or(0.0)))
         .y("maximum wear depth, µm")
@@ -73,7 +73,7 @@ fn reading(record: &RunRecord) -> String {
         _ => " Vertical lines mark where the numbered phases end.",
     };
     format!(
-        "The pinion’s root has worn {} µm after {}: {} µm per million revolutions on the whole, {} since the snapshot before.{phases}",
+        "The pinion’s root zone has worn {} µm after {}: {} µm per million revolutions on average, {} since the snapshot before.{phases}",
         figure(last.pinion_root_wear_um),
         duration(&record.summary),
         significant(mean, 3),

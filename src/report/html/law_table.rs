@@ -43,7 +43,7 @@ fn temperature(t: &TemperatureSummary) -> Markup {
         both("Williams", &by.williams),
         both("Tian and Kennedy", &by.tian_kennedy),
     ];
-    table("Greatest rise of the contact’s temperature", &["new", "worn"], rows)
+    table("Maximum temperature rise of the contact", &["new", "worn"], rows)
 }
 
 /// What the tables mean, in words.
@@ -77,8 +77,8 @@ fn effect(w: &WearLawSummary, of: &str) -> String {
         return format!("The coefficient{of} is 0: that gear does not wear.");
     }
     format!(
-        "Where wear is mild the {} law{of} wears by {:.2e} mm³/(N·m) on average over the sliding work of a mesh of the new pair: regime {} of the IRG \
-         transition diagram (I below 1e-9, II from 1e-8 to 1e-6, III above 1e-5).",
+        "Where wear is mild the law {}{of} has an effective coefficient of {:.2e} mm³/(N·m), its mean over the sliding work of a mesh of the new \
+         pair: regime {} of the IRG transition diagram (I below 1e-9, II from 1e-8 to 1e-6, III above 1e-5).",
         w.law,
         w.effective_coefficient_new_mm3_per_Nm,
         w.irg_regime.name()

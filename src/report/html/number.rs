@@ -34,11 +34,21 @@ pub(crate) fn fixed(value: f64, decimals: usize) -> String {
     format!("{}{}", if negative { "−" } else { "" }, grouped(&text))
 }
 
-/// As many of seven significant digits as it takes: what the user gave, such as hours.
+/// As many of seven significant digits as it takes: what the user gave.
 pub(crate) fn given(value: f64) -> String {
-    let text = significant(value, 7);
-    if text.contains('.') && !text.contains('×') {
-        text.trim_end_matches('0').trim_end_matches('.').into()
+    up_to_digits(value, 7)
+}
+
+/// A time in hours, which may be one of revolutions: as many of five significant digits as it takes.
+pub(crate) fn hours(value: f64) -> String {
+    up_to_digits(value, 5)
+}
+
+fn up_to_digits(value: f64, digits: usize) -> String {
+    let text = significant(value, digits);
+    let (mantissa, power) = text.split_at(text.find('\u{2009}').unwrap_or(text.len()));
+    if mantissa.contains('.') {
+        format!("{}{power}", mantissa.trim_end_matches('0').trim_end_matches('.'))
     } else {
         text
     }
@@ -146,6 +156,8 @@ mod tests {
         assert_eq!(given(127.75), "127.75");
         assert_eq!(given(0.25), "0.25");
         assert_eq!(given(100.0), "100");
+        assert_eq!(given(1e-19), "1\u{2009}×\u{2009}10⁻¹⁹");
+        assert_eq!(hours(6e5 / 9000.0), "66.667");
         assert_eq!(revolutions(1.149_75e6), "1.15 million");
         assert_eq!(revolutions(82_000.0), "82\u{202f}000");
         assert_eq!(revolutions(0.0), "0");

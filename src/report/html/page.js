@@ -4,7 +4,8 @@
   "use strict";
   const PRINT_WIDTH = 670; // px: an A4 page less its margins
   const NARROW = 480; // px: below this a plot is that of a phone
-  const FARTHER = 1.8; // how much farther away a phone looks at a scene in space, which is wider than its screen
+  const FARTHER = [[480, 2.2], [900, 1.25]]; // how much farther away a scene in space is looked at below a width in px
+  const PRINTED = 0.84; // height of a plot of half the width, so that two of them stand on a page
   const BUTTONS = 26; // px: height of a plot's buttons, which show all the time where there is no mouse to hover
   const root = document.documentElement;
   const touch = matchMedia("(pointer: coarse)").matches;
@@ -50,10 +51,13 @@
     Object.assign(layout.legend, { yref: "container", y: 0, yanchor: "bottom" }); // below the axis title, always
     layout.uirevision = "kept"; // the reader's zoom outlasts a change of theme
     if (touch) layout.dragmode = false; // a finger scrolls the page
+    if (printing() && !plot.node.closest(".wide")) layout.height *= PRINTED;
+    const farther = FARTHER.find(([below]) => layout.width < below);
+    if (layout.scene && farther) for (const axis of "xyz") layout.scene.camera.eye[axis] *= farther[1];
     if (layout.width < NARROW) {
       layout.legend.font.size = 11;
+      if (layout.scene) for (const axis of "xyz") layout.scene[axis + "axis"].nticks = 4;
       layout.height = Math.min(layout.height, layout.width + (plot.node.closest(".wide") ? 140 : 40));
-      if (layout.scene) for (const axis of "xyz") layout.scene.camera.eye[axis] *= FARTHER;
     }
     if (buttonsShown && !printing()) {
       layout.margin.t += BUTTONS;

@@ -1,6 +1,6 @@
 //! Words for places and moments: the sentences that say what the numbers mean.
 
-use super::number::{change, figure, given, percent, revolutions, significant};
+use super::number::{change, figure, hours, percent, revolutions, significant};
 use crate::gear::Gear;
 use crate::reference::steel_yield;
 use crate::results::path_points::among;
@@ -50,7 +50,7 @@ pub(crate) fn yield_note(pressure_mpa: f64) -> String {
 pub(crate) fn duration(summary: &Summary) -> String {
     let turns = format!("{} pinion revolutions", revolutions(summary.revolutions));
     match summary.hours {
-        Some(hours) => format!("{} h ({turns})", given(hours)),
+        Some(time) => format!("{} h ({turns})", hours(time)),
         None => turns,
     }
 }
@@ -66,11 +66,15 @@ pub(crate) fn answer(record: &RunRecord) -> String {
             format!("the pinion has lost {}, and the wheel {}", depth(record, Gear::Pinion), depth(record, Gear::Wheel))
         }
     };
-    let vouched = match s.error.total.peak_wear.pinion.or(s.error.total.peak_wear.wheel) {
-        Some(_) => {
+    let vouched = match (s.error.total.peak_wear.pinion.or(s.error.total.peak_wear.wheel), &s.helical) {
+        (Some(_), None) => {
             " ± is the difference from the same wear simulation with finite elements, with their own uncertainty."
         }
-        None => "",
+        (Some(_), Some(_)) => {
+            " ± is the difference from the same wear simulation with other slices, coupled by three-dimensional finite elements, with \
+             their own uncertainty."
+        }
+        (None, _) => "",
     };
     let mut text = format!("After {} {lost}.{vouched}", duration(s));
     if record.history.is_empty() {
@@ -154,19 +158,20 @@ pub(crate) fn interruption(summary: &Summary) -> Option<String> {
     ))
 }
 
-/// The text with every number bound to the unit after it, so that no line ends between them.
+/// The text with every number bound to the unit and to the ± after it, so that no line ends between them.
 pub(crate) fn bound(text: &str) -> String {
-    const UNITS: [&str; 4] = ["µm", "mm", "MPa", "h"];
+    const UNITS: [&str; 9] = ["µm", "mm", "mm³", "MPa", "h", "%", "K", "°C", "N/mm"];
     let mut bound = String::with_capacity(text.len());
     for word in text.split_inclusive(' ') {
         let unit = word.trim_end_matches([' ', ',', '.', ';', ':']);
-        if UNITS.contains(&unit) && bound.ends_with(' ') && bound.trim_end().ends_with(|c: char| c.is_ascii_digit()) {
+        let after_number = bound.ends_with(' ') && bound.trim_end().ends_with(|c: char| c.is_ascii_digit());
+        if after_number && (UNITS.contains(&unit) || unit == "±") || bound.ends_with("± ") {
             bound.pop();
             bound.push('\u{a0}');
         }
         bound.push_str(word);
     }
-    bound
+    bound.replace("\u{2009}×\u{2009}", "\u{202f}×\u{202f}")
 }
 
 pub(crate) fn capitalised(text: &str) -> String {
@@ -187,6 +192,9 @@ mod tests {
 
     #[test]
     fn numbers_hold_on_to_their_units() {
-        assert_eq!(bound("up to 1.65 µm at 34 mm, or more mm"), "up to 1.65\u{a0}µm at 34\u{a0}mm, or more mm");
+        assert_eq!(
+            bound("up to 1.65 ± 0.2 µm at 34 mm, or more mm. ± is"),
+            "up to 1.65\u{a0}±\u{a0}0.2\u{a0}µm at 34\u{a0}mm, or more mm. ±\u{a0}is"
+        );
     }
 }

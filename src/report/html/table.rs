@@ -102,7 +102,7 @@ pub(crate) fn whole(
     html! {
         div.scroll {
             table class=[class] {
-                @if let Some(caption) = caption { caption { (caption) } }
+                @if let Some(caption) = caption { caption { span { (caption) } } }
                 thead { tr { @for column in columns { (head(column.into())) } } }
                 tbody { @for row in rows { (row) } }
             }

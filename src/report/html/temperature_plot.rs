@@ -27,7 +27,7 @@ pub(super) fn all(record: &RunRecord) -> Vec<Chart> {
 fn rises(record: &RunRecord) -> Chart {
     let path = &record.summary.geometry.curvature_radius_mm;
     let mut chart =
-        Chart::new("temperature", "Contact temperature, new").y("greatest temperature rise, K").over_path(path);
+        Chart::new("temperature", "Contact temperature, new").y("maximum temperature rise, K").over_path(path);
     let (mut top, mut words) = (0.0_f64, Vec::new());
     for (method, rise, colour, dash) in METHODS {
         let (x, y) = values(&record.mesh_cycle, rise);
@@ -38,7 +38,7 @@ fn rises(record: &RunRecord) -> Chart {
     }
     let bulk = record.summary.temperature.as_ref().map_or(0.0, |temperature| temperature.bulk_temperature_C);
     chart.y_up_to(top).reading(format!(
-        "The contact rises above the {} °C of the gears by up to {}. It does not where the flanks stop sliding, at C.",
+        "The temperature of the contact rises above the {} °C of the gears by up to {}. At C, where the flanks do not slide, it does not rise.",
         significant(bulk, 4),
         words.join("; ")
     ))
@@ -60,8 +60,8 @@ fn peclet(record: &RunRecord) -> Chart {
         _ => "the sliding velocity",
     };
     chart.y_up_to(top).reading(format!(
-        "With {with} the Peclet number reaches {}. Williams and the one-dimensional heat equation are for numbers above about 5; \
-         below, heat also flows sideways and they are too hot.",
+        "With {with} the Peclet number reaches {}. Williams and the one-dimensional heat equation hold above about 5; \
+         below, heat also flows sideways and they overestimate the temperature.",
         significant(top, 3)
     ))
 }

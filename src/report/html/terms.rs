@@ -36,7 +36,7 @@ mod tests {
         assert!(rows.len() > 45, "{}", rows.len());
         assert!(
             rows.iter()
-                .any(|(symbol, term)| *symbol == "K_Hβ" && term.starts_with("face load factor: greatest over mean"))
+                .any(|(symbol, term)| *symbol == "K_Hβ" && term.starts_with("face load factor: maximum over mean"))
         );
         assert!(
             rows.iter().all(|(symbol, term)| !symbol.contains('`') && !term.contains(['*', '`', '|', ']'])),

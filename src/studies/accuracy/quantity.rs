@@ -112,11 +112,11 @@ impl Quantity {
                 "relative difference of the maximum depth at the tip edge"
             }
             Self::PeakPressure => {
-                "relative difference of the greatest pressure over the path of contact, without the positions at a sharp \
+                "relative difference of the maximum pressure over the path of contact, without the positions at a sharp \
                  tip edge"
             }
             Self::FlankPressure => {
-                "relative difference of the greatest pressure over the path of contact, without the positions at a tip edge, \
+                "relative difference of the maximum pressure over the path of contact, without the positions at a tip edge, \
                  sharp or rounded"
             }
             Self::HalfWidth => "relative L2 error of the half-width over the path from B to D",
@@ -127,11 +127,11 @@ impl Quantity {
                 "relative difference of the peak-to-peak value over the path from A to E"
             }
             Self::RootWear => {
-                "the larger of both gears' relative L2 errors, over the face width, of the greatest depth within 2 mm of radius \
+                "the larger of both gears' relative L2 errors, over the face width, of the maximum depth within 2 mm of radius \
                  above the start of active profile"
             }
             Self::FaceLoadFactor | Self::WornFaceLoadFactor => {
-                "relative difference of the greatest over the mean load of the slices, each averaged over the mesh"
+                "relative difference of the maximum over the mean load of the slices, each averaged over the mesh"
             }
         }
     }

@@ -33,7 +33,7 @@ const fn wants_less(name: &'static str, title: &'static str, unit: &'static str)
 /// The greatest wear of the pair: which gear it is of may change from one combination to the next.
 pub(crate) const PEAK_WEAR: SweepFigure = wants_less("peak_wear_um", "maximum wear of either gear", "µm")
     .of(|s| Some(s.pinion.peak_wear_um.max(s.wheel.peak_wear_um)))
-    .meaning("greatest wear depth on the active profiles of both gears, their tip edges apart");
+    .meaning("maximum wear depth on the active profiles of both gears, their tip edges apart");
 
 /// All figures, in the order of the columns. Add at the end.
 pub(crate) const FIGURES: &[SweepFigure] = &[
@@ -46,10 +46,10 @@ pub(crate) const FIGURES: &[SweepFigure] = &[
         .meaning("whole torque over the pinion's base radius and the face width"),
     wants_less("pinion_peak_wear_um", "maximum wear of the pinion", "µm")
         .of(|s| Some(s.pinion.peak_wear_um))
-        .meaning("greatest wear depth on the pinion's active profile, its tip edge apart"),
+        .meaning("maximum wear depth on the pinion's active profile, its tip edge apart"),
     wants_less("pinion_root_wear_um", "wear near the pinion’s root", "µm")
         .of(|s| Some(s.pinion.root_wear_um))
-        .meaning("greatest wear depth in the first 2 mm of radius above the start of active profile"),
+        .meaning("maximum wear depth in the first 2 mm of radius above the start of active profile"),
     wants_less("pinion_pitch_wear_um", "wear at the pinion’s pitch circle", "µm")
         .of(|s| Some(s.pinion.pitch_wear_um))
         .meaning("wear depth at the working pitch circle"),
@@ -58,10 +58,10 @@ pub(crate) const FIGURES: &[SweepFigure] = &[
         .meaning("worn off the whole pinion: all teeth, whole width"),
     wants_less("wheel_peak_wear_um", "maximum wear of the wheel", "µm")
         .of(|s| Some(s.wheel.peak_wear_um))
-        .meaning("greatest wear depth on the wheel's active profile, its tip edge apart"),
+        .meaning("maximum wear depth on the wheel's active profile, its tip edge apart"),
     wants_less("wheel_root_wear_um", "wear near the wheel’s root", "µm")
         .of(|s| Some(s.wheel.root_wear_um))
-        .meaning("greatest wear depth in the first 2 mm of radius above the start of active profile"),
+        .meaning("maximum wear depth in the first 2 mm of radius above the start of active profile"),
     wants_less("wheel_pitch_wear_um", "wear at the wheel’s pitch circle", "µm")
         .of(|s| Some(s.wheel.pitch_wear_um))
         .meaning("wear depth at the working pitch circle"),
@@ -70,10 +70,10 @@ pub(crate) const FIGURES: &[SweepFigure] = &[
         .meaning("worn off the whole wheel: all teeth, whole width"),
     wants_less("peak_pressure_new_MPa", "maximum pressure, new", "MPa")
         .of(|s| Some(s.new.peak_pressure_MPa))
-        .meaning("greatest pressure of contact whose pressure is defined, sharp tip edges under load apart, new"),
+        .meaning("maximum pressure of contact whose pressure is defined, sharp tip edges under load apart, new"),
     wants_less("peak_pressure_worn_MPa", "maximum pressure, worn", "MPa")
         .of(|s| Some(s.worn.peak_pressure_MPa))
-        .meaning("greatest pressure of contact whose pressure is defined, sharp tip edges under load apart, worn"),
+        .meaning("maximum pressure of contact whose pressure is defined, sharp tip edges under load apart, worn"),
     wants_less("transmission_error_peak_to_peak_new_um", "transmission error peak to peak, new", "µm")
         .of(|s| Some(s.new.transmission_error_um.peak_to_peak))
         .meaning("of the loaded pair over the cycle, along the line of action, new"),
@@ -85,35 +85,35 @@ pub(crate) const FIGURES: &[SweepFigure] = &[
         .meaning("ε_γ = ε_α + ε_β; empty for a spur pair"),
     wants_less("pinion_root_wear_variation", "variation of the pinion’s root wear over the width", "")
         .of(|s| Some(s.helical.as_ref()?.wear.pinion.root_variation))
-        .meaning("greatest less least root wear of the slices, over its mean; empty where there are no slices"),
+        .meaning("maximum less minimum root wear of the slices, over its mean; empty where there are no slices"),
     wants_less("pinion_tip_wear_variation", "variation of the pinion’s tip wear over the width", "")
         .of(|s| Some(s.helical.as_ref()?.wear.pinion.tip_variation))
-        .meaning("greatest less least tip wear of the slices, over its mean; empty where there are no slices"),
+        .meaning("maximum less minimum tip wear of the slices, over its mean; empty where there are no slices"),
     wants_less("pinion_root_tip_wear_variation", "variation of the pinion’s wear at root and tip", "")
         .of(|s| Some(s.helical.as_ref()?.wear.pinion.root_tip_variation))
         .meaning(
-            "greatest less least wear of root and tip of all slices, over its mean; empty where there are no slices",
+            "maximum less minimum wear of root and tip of all slices, over its mean; empty where there are no slices",
         ),
     wants_less("wheel_root_wear_variation", "variation of the wheel’s root wear over the width", "")
         .of(|s| Some(s.helical.as_ref()?.wear.wheel.root_variation))
-        .meaning("greatest less least root wear of the slices, over its mean; empty where there are no slices"),
+        .meaning("maximum less minimum root wear of the slices, over its mean; empty where there are no slices"),
     wants_less("wheel_tip_wear_variation", "variation of the wheel’s tip wear over the width", "")
         .of(|s| Some(s.helical.as_ref()?.wear.wheel.tip_variation))
-        .meaning("greatest less least tip wear of the slices, over its mean; empty where there are no slices"),
+        .meaning("maximum less minimum tip wear of the slices, over its mean; empty where there are no slices"),
     wants_less("wheel_root_tip_wear_variation", "variation of the wheel’s wear at root and tip", "")
         .of(|s| Some(s.helical.as_ref()?.wear.wheel.root_tip_variation))
         .meaning(
-            "greatest less least wear of root and tip of all slices, over its mean; empty where there are no slices",
+            "maximum less minimum wear of root and tip of all slices, over its mean; empty where there are no slices",
         ),
     describes("pinion_root_wear_asymmetry", "asymmetry of the pinion’s root wear", "")
         .of(|s| Some(s.helical.as_ref()?.wear.pinion.root_asymmetry))
         .meaning("first less last slice over their sum; empty where there are no slices"),
     wants_less("K_Hbeta_new", "face load factor K_Hβ, new", "")
         .of(|s| Some(s.helical.as_ref()?.K_Hbeta_new))
-        .meaning("greatest over mean of the slices' loads, new; empty where there are no slices"),
+        .meaning("maximum over mean of the slices' loads, new; empty where there are no slices"),
     wants_less("K_Hbeta_worn", "face load factor K_Hβ, worn", "")
         .of(|s| Some(s.helical.as_ref()?.K_Hbeta_worn))
-        .meaning("greatest over mean of the slices' loads, worn; empty where there are no slices"),
+        .meaning("maximum over mean of the slices' loads, worn; empty where there are no slices"),
     wants_less("mesh_order_1_new_um", "first mesh order of the transmission error, new", "µm")
         .of(|s| s.helical.as_ref()?.mesh_orders_new_um.first().copied())
         .meaning("amplitude at the mesh frequency, new; empty where there are no slices"),
@@ -122,16 +122,16 @@ pub(crate) const FIGURES: &[SweepFigure] = &[
         .meaning("amplitude at the mesh frequency, worn; empty where there are no slices"),
     wants_less("pinion_tip_edge_wear_um", "wear of the pinion’s tip edge", "µm")
         .of(|s| Some(s.pinion.tip_edge_wear_um))
-        .meaning("greatest wear depth at the pinion's tip edge"),
+        .meaning("maximum wear depth at the pinion's tip edge"),
     wants_less("wheel_tip_edge_wear_um", "wear of the wheel’s tip edge", "µm")
         .of(|s| Some(s.wheel.tip_edge_wear_um))
-        .meaning("greatest wear depth at the wheel's tip edge"),
+        .meaning("maximum wear depth at the wheel's tip edge"),
     wants_less("pinion_below_sap_wear_um", "wear below the pinion’s active profile", "µm")
         .of(|s| Some(s.pinion.below_sap_wear_um))
-        .meaning("greatest wear depth below the start of active profile"),
+        .meaning("maximum wear depth below the start of active profile"),
     wants_less("wheel_below_sap_wear_um", "wear below the wheel’s active profile", "µm")
         .of(|s| Some(s.wheel.below_sap_wear_um))
-        .meaning("greatest wear depth below the start of active profile"),
+        .meaning("maximum wear depth below the start of active profile"),
     PEAK_WEAR,
     describes("volume_balance", "difference of the worn volumes of pinion and wheel", "")
         .of(|s| s.error.volume_balance)

@@ -110,19 +110,34 @@ impl SweepAxis {
 
     /// For an axis of a plot, with the unit that ends the name of the key: `tip relief, amount, pinion and wheel, µm`.
     pub(crate) fn title(&self) -> String {
+        let (name, unit) = self.name_and_unit();
+        unit.map_or_else(|| name.clone(), |unit| format!("{name}, {unit}"))
+    }
+
+    /// The same in two parts.
+    pub(crate) fn name_and_unit(&self) -> (String, Option<&'static str>) {
         let mut parts: Vec<String> = self.key.split('.').skip(1).map(|part| part.replace('_', " ")).collect();
-        let Some(last) = parts.pop() else { return self.key.clone() };
+        let Some(last) = parts.pop() else { return (self.key.clone(), None) };
         let ending = UNITS.iter().find_map(|(suffix, unit)| Some((last.strip_suffix(suffix)?, *unit)));
         let (name, unit) = ending.map_or((last.as_str(), None), |(name, unit)| (name, Some(unit)));
-        parts.push(name.to_owned());
+        let section = self.key.split('.').next().unwrap_or_default();
+        parts.push(if SAY_NOTHING_ALONE.contains(&name) { format!("{section} {name}") } else { name.to_owned() });
         if let Some(gears) = parts.iter().position(|part| ["pinion", "wheel", "{pinion,wheel}"].contains(&&**part)) {
             let gears = parts.remove(gears);
             parts.push(gears.trim_matches(['{', '}']).replace(',', " and "));
         }
-        parts.extend(unit.map(str::to_owned));
-        parts.join(", ")
+        (parts.join(", "), unit)
+    }
+
+    /// "pinion torque = 302 N·m".
+    pub(crate) fn name_and_value(&self, value: &str) -> String {
+        let (name, unit) = self.name_and_unit();
+        format!("{name} = {value}{}", unit.map_or_else(String::new, |unit| format!(" {unit}")))
     }
 }
+
+/// Names of keys that need that of their section before them.
+const SAY_NOTHING_ALONE: [&str; 4] = ["coefficient", "surface", "model", "law"];
 
 /// How names of keys end, and the unit that it stands for.
 const UNITS: [(&str, &str); 20] = [
@@ -396,7 +411,8 @@ mod tests {
         for (key, title) in [
             ("pair.{pinion,wheel}.tip_relief.amount_um", "tip relief, amount, pinion and wheel, µm"),
             ("operation.pinion_torque_Nm", "pinion torque, N·m"),
-            ("wear.coefficient_m2_per_N", "coefficient, m²/N"),
+            ("wear.coefficient_m2_per_N", "wear coefficient, m²/N"),
+            ("contact.surface", "contact surface"),
             ("pair.pinion.teeth", "teeth, pinion"),
             ("numerics.positions", "positions"),
             ("operation.phases.2.pinion_speed_rpm", "phases, 2, pinion speed, rpm"),

@@ -346,7 +346,7 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
         ),
         Some(limit) => (
             format!("life.{name}={}", limit.depth_um),
-            format!("Life until {name} is {} µm", limit.depth_um),
+            format!("Life until {} µm: {}", limit.depth_um, known.map_or(name, |known| known.meaning)),
             if is_in_hours { "h" } else { "revolutions" },
         ),
     };

@@ -68,7 +68,7 @@ fn results_are_complete() {
         assert!(page.contains(part), "no {part:?} on the page");
     }
     let (_, out, _) = case.run();
-    assert!(out.contains("greatest displacement, mm") && out.contains("at 2.000, 1.000, 1.000 mm"), "{out}");
+    assert!(out.contains("maximum displacement, mm") && out.contains("at 2.000, 1.000, 1.000 mm"), "{out}");
 }
 
 #[test]

@@ -209,7 +209,8 @@ fn pressure_reading(run: SlicedRun<'_>, gear: Gear, field: &[f64], when: &str) -
             Gear::Pinion => after.min(points.saturating_sub(1)),
             Gear::Wheel => after.saturating_sub(1),
         };
-        if let Some(pressure) = field.get(entering.index * points + nearest) {
+        // A rounded tip edge is not touched at its very end.
+        if let Some(pressure) = field.get(entering.index * points + nearest).filter(|&&pressure| pressure > 0.0) {
             reading.push_str(&format!(
                 " Where the tooth first touches, at A in {}, it is {} MPa.",
                 slice_name(flank, entering.index),

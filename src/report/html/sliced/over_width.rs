@@ -30,7 +30,7 @@ pub(super) fn root_and_tip(run: SlicedRun<'_>, gear: Gear) -> Chart {
     let reading = match (wear.root_wear_um.first(), wear.root_wear_um.last()) {
         (Some(first), Some(last)) if *first > 0.0 || *last > 0.0 => format!(
             "Root of the {}: {} µm in the first slice against {} µm in the last; (first − last)/(first + last) goes from {} in the first \
-             mesh to {}. Greatest less least over the mean is {} at the root, {} at the tip, and {} of both together.",
+             mesh to {}. (Maximum − minimum)/mean is {} at the root, {} at the tip, and {} of both together.",
             gear.name(),
             figure(*first),
             figure(*last),

@@ -57,6 +57,7 @@ pub(super) fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Chart {
     let exaggeration = height_drawn / (shown[0].top * MM_PER_UM) * run.record.surface[gear].face_width_mm / width_drawn;
     let mut height = scene_axis(shown[0].axis);
     height["range"] = json!(shown[0].range());
+    height["nticks"] = json!(4);
     let scene = json!({
         "xaxis": scene_axis("face width, mm"),
         "yaxis": scene_axis("radius, mm"),
@@ -76,8 +77,8 @@ pub(super) fn wear_and_pressure(run: SlicedRun<'_>, gear: Gear) -> Chart {
         .add_all(shown.iter().enumerate().map(|(i, shown)| surface(run, gear, shown, i == 0)))
         .reading(format!(
             "Wear ({} µm at most) is taken off the unworn flank at 0, which is drawn flat: grooves point down, {} times as deep as the face \
-             width is drawn to scale. Pressure stands up: the greatest during one mesh ({} MPa at most new, {} MPa worn). Colour is the same \
-             quantity; drag to turn. Each cell shows the greatest of the flank points it stands for.",
+             width is drawn to scale. Pressure stands up: the maximum during one mesh ({} MPa at most new, {} MPa worn). Colour is the same \
+             quantity; drag to turn. Each cell shows the maximum of the flank points it stands for.",
             figure(top(&flank.wear_um)),
             figure(exaggeration),
             figure(top(&flank.pressure_new_MPa)),

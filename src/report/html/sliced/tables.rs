@@ -18,9 +18,9 @@ fn slices(h: &HelicalSummary) -> Markup {
         row("Helix angle at the reference cylinder", "°", [fixed(h.helix_angle_deg, 3)]),
         row("Helix angle at the base cylinder", "°", [fixed(h.base_helix_angle_deg, 3)]),
         row("Total contact ratio", "", [fixed(h.total_contact_ratio, 3)]),
-        row("Lines of contact together, least", "mm", [fixed(length.min, 3)]),
-        row("Lines of contact together, mean", "mm", [fixed(length.mean, 3)]),
-        row("Lines of contact together, greatest", "mm", [fixed(length.max, 3)]),
+        row("Total length of the lines of contact, minimum", "mm", [fixed(length.min, 3)]),
+        row("Total length of the lines of contact, mean", "mm", [fixed(length.mean, 3)]),
+        row("Total length of the lines of contact, maximum", "mm", [fixed(length.max, 3)]),
         row("Slices", "", [h.slices]),
         row("Coupling", "", [&*h.coupling]),
     ];

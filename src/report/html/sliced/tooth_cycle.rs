@@ -29,9 +29,7 @@ pub(super) fn load_share(run: SlicedRun<'_>) -> Chart {
     let shares = [&run.slices.line_load_new_N_per_mm, &run.slices.line_load_worn_N_per_mm]
         .map(|loads| at_each_position(run, loads, mean).into_iter().map(|load| load / whole).collect::<Vec<f64>>());
     let reading = match [most_of_the_load(run, &shares[0]), most_of_the_load(run, &shares[1])] {
-        [Some(new), Some(worn)] => format!(
-            "New, a tooth carries {new}; worn, {worn}. Each step of the curves is a slice that enters or leaves the mesh, on this tooth or a neighbour."
-        ),
+        [Some(new), Some(worn)] => format!("New, a tooth carries {new}; worn, {worn}."),
         _ => NOT_COMPUTED.into(),
     };
     let chart = Chart::new("load-sharing", "Load of one tooth over its mesh").y("share of the load").y_up_to(1.0);

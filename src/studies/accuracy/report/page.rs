@@ -59,7 +59,7 @@ fn reference(record: &AccuracyRecord) -> Markup {
             @if let Some(open) = &record.reference.does_not_tell { " " (open) }
             " Run times are wall times of the wear run alone on " (record.threads) " thread"
             @if record.threads != 1 { "s" }
-            ", each run by itself; a short run is repeated and its least time counts."
+            ", each run by itself; a short run is repeated and its shortest time counts."
         }
     }
 }

@@ -182,7 +182,7 @@ fn root_over_width(record: &AccuracyRecord, shown: &[&VariantRecord], gear: Gear
         .add(of_reference(&reference.width_mm, &reference.root_wear_um))
         .add_all(runs)
         .reading(format!(
-            "Greatest depth within 2 mm of radius above the start of active profile. The reference’s is {} µm{}. Full lines are \
+            "Maximum depth within 2 mm of radius above the start of active profile. The reference’s is {} µm{}. Full lines are \
              coupled slices, dashed ones uncoupled.",
             figure(deepest),
             at.map_or_else(String::new, |at| format!(" at {} mm", significant(at, 3)))

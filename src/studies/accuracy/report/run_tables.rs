@@ -28,13 +28,13 @@ pub(super) fn recommendations(record: &AccuracyRecord) -> Markup {
         let uncertainty = record.reference.uncertainty.get(&r.quantity).copied().unwrap_or(0.0);
         Some(line(cells![
             r.quantity.title(),
-            if r.is_within { variant.name.clone() } else { format!("none; closest {}", variant.name) },
+            Cell::sentence(if r.is_within { variant.name.clone() } else { format!("none; closest {}", variant.name) }),
             percent(error),
             variant.simulation_s.map(seconds),
             percent(uncertainty),
         ]))
     });
-    let columns = ["quantity", "run", "error", "time, s", "reference’s uncertainty"];
+    let columns = cells!["quantity", Cell::sentence("run"), "error", "time, s", "reference’s uncertainty"];
     html! {
         (list(format!("Fastest run within {}", percent(record.within)), columns, rows))
         (not_ranked(record))
@@ -46,13 +46,19 @@ fn not_ranked(record: &AccuracyRecord) -> Markup {
     if record.not_ranked.is_empty() {
         return Markup::default();
     }
-    let rows =
-        record.not_ranked.iter().map(|one| line(cells![one.quantity.title(), percent(one.uncertainty), &*one.remedy]));
+    let rows = record
+        .not_ranked
+        .iter()
+        .map(|one| line(cells![one.quantity.title(), percent(one.uncertainty), Cell::sentence(&one.remedy)]));
     let caption = format!(
         "Not ranked: the uncertainty of the reference is above the {} wanted, so that no run is known to be better than another",
         percent(record.within)
     );
-    list(caption, ["quantity", "reference’s uncertainty", "needed for the reference to converge"], rows)
+    list(
+        caption,
+        cells!["quantity", "reference’s uncertainty", Cell::sentence("needed for the reference to converge")],
+        rows,
+    )
 }
 
 /// Every run, the most accurate wear profile first, those without a result last.

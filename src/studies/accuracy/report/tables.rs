@@ -67,14 +67,14 @@ const RUN_COLUMNS: [RunColumn; 23] = [
     ("flank_points", "intervals of a flank", |v| text(Some(v.settings.flank_points))),
     ("positions", "loading positions from A to E", |v| text(Some(v.settings.positions))),
     ("step_revolutions", "pinion revolutions a wear step", |v| text(Some(v.settings.step_revolutions))),
-    ("simulation_s", "wall time of the wear run alone, the least of the repeats", |v| text(v.simulation_s)),
+    ("simulation_s", "wall time of the wear run alone, the shortest of the repeats", |v| text(v.simulation_s)),
     ("setup_s", "wall time of everything before it", |v| text(v.setup_s)),
     ("repeats", "how often it was run for its time", |v| text(Some(v.repeats))),
     ("wear_steps", "wear steps taken", |v| text(v.work.map(|work| work.wear_steps))),
     ("equilibria", "equilibria solved", |v| text(v.work.map(|work| work.equilibria))),
     ("newton_iterations", "iterations in all of them", |v| text(v.work.map(|work| work.newton_iterations))),
     ("pair_evaluations", "evaluations of a tooth pair's contact", |v| text(v.work.map(|work| work.pair_evaluations))),
-    ("pinion_peak_wear_um", "greatest wear depth on the pinion's active profile, its tip edge apart", |v| {
+    ("pinion_peak_wear_um", "maximum wear depth on the pinion's active profile, its tip edge apart", |v| {
         text(v.peak_wear_um.map(|wear| wear.pinion))
     }),
     ("wheel_peak_wear_um", "the same of the wheel", |v| text(v.peak_wear_um.map(|wear| wear.wheel))),

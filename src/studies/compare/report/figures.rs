@@ -86,7 +86,7 @@ fn depths(record: &CompareRecord) -> Chart {
     let reading = at.map_or_else(String::new, |at| {
         let radius = record.rows[at.index].radius_mm;
         format!(
-            "The greatest simulated wear within the measured range is {} µm at {} mm, {}.{stands}",
+            "The maximum simulated wear within the measured range is {} µm at {} mm, {}.{stands}",
             figure(at.value),
             significant(radius, 4),
             among(&places, radius)
@@ -114,7 +114,7 @@ fn differences(record: &CompareRecord) -> Chart {
         .height(460)
         .y("measured less simulated height, µm")
         .reading(format!(
-            "The difference is greatest with {} µm at {} mm, {}.{count}",
+            "The maximum difference is {} µm at {} mm, {}.{count}",
             figure(f.greatest_difference_um),
             significant(f.greatest_difference_radius_mm, 4),
             among(&places, f.greatest_difference_radius_mm)

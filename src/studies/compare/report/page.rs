@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::figures;
 use crate::measurement::fit::FitStop;
-use crate::report::html::number::{figure, given, revolutions, significant};
+use crate::report::html::number::{figure, given, hours, revolutions, significant};
 use crate::report::html::page::{Page, Plots, section, sources_list};
 use crate::report::html::reading::capitalised;
 use crate::report::html::table::{NONE, row, table};
@@ -39,7 +39,7 @@ pub(super) fn page(record: &CompareRecord) -> String {
 
 fn answer(record: &CompareRecord) -> String {
     let when = match record.hours {
-        Some(hours) => format!("{} h", given(hours)),
+        Some(time) => format!("{} h", hours(time)),
         None => format!("{} pinion revolutions", revolutions(record.revolutions)),
     };
     let whose = format!("The {}’s profile after {when}", record.gear.name());
@@ -67,10 +67,7 @@ fn answer(record: &CompareRecord) -> String {
     if found.is_empty() {
         return format!("{whose} differs from the simulated one by {difference} µm (root mean square).");
     }
-    format!(
-        "{whose} is explained best by {}; {difference} µm (root mean square) are left unexplained.",
-        found.join(" and ")
-    )
+    format!("{whose} is fitted best by {}; the residual is {difference} µm (root mean square).", found.join(" and "))
 }
 
 /// ", 95 % interval … to …".

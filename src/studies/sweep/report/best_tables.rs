@@ -33,7 +33,7 @@ pub(super) fn shown_value(axis: &SweepAxis, value: f64) -> String {
 
 /// For each figure the range over all combinations, and where it is least.
 pub(super) fn best(record: &SweepRecord) -> Markup {
-    let columns = cells!["figure", "least", "greatest", "unit"].into_iter().chain(keys(record));
+    let columns = cells!["figure", "minimum", "maximum", "unit"].into_iter().chain(keys(record));
     let rows = FIGURES.iter().filter_map(|figure| {
         let (least, greatest) = range(record, figure)?;
         let cells = cells![capitalised(figure.title), least, greatest, figure.unit].into_iter();
@@ -43,7 +43,7 @@ pub(super) fn best(record: &SweepRecord) -> Markup {
             None => line(cells.chain(record.identity.axes.iter().map(|_| NONE.into()))),
         })
     });
-    list("Each figure over all combinations, and where it is least", columns, rows)
+    list("Each figure over all combinations, and where its minimum is", columns, rows)
 }
 
 /// The combination asked for, and those that are as good within the error.
@@ -52,11 +52,11 @@ pub(super) fn optimum(optimum: &Optimum) -> Markup {
     let said = |value: f64| format!("{} {}", significant(value, 4), figure.unit);
     html! {
         p {
-            "Objective: the least " (optimum.goal.in_words()) ". It is " b { (said(optimum.value)) } " in combination " (optimum.index) "; "
+            "Objective: the lowest " (optimum.goal.in_words()) ". It is " b { (said(optimum.value)) } " in combination " (optimum.index) "; "
             (count(optimum.within_limits as u64)) " combinations satisfy the constraints. "
             @match (&optimum.error, &optimum.plateau, &optimum.plateau_keys) {
                 (Some(error), Some(plateau), Some(keys)) => {
-                    "The error of this figure is " (within(*error)) ", the greatest that a verified combination states: "
+                    "The error of this figure is " (within(*error)) ", the largest that a verified combination states: "
                     @if plateau.len() == 1 {
                         "every other combination is worse by more than that."
                     } @else {

@@ -74,7 +74,7 @@ pub(super) fn contour(
         let errors = failed.iter().map(|row| row.error.clone().unwrap_or_default()).collect();
         chart = chart.add(Trace::points("no result", along(x), along(y), (MUTED, "x", 6)).hover_texts(errors));
     }
-    let least_at = Trace::points("least", [best.values[x.at]], [best.values[y.at]], ("#ff5a36", "star", 15));
+    let least_at = Trace::points("minimum", [best.values[x.at]], [best.values[y.at]], ("#ff5a36", "star", 15));
     Some(chart.add(least_at.hover(format!("minimum: {} {unit}<extra></extra>", shown_number(least)))))
 }
 
@@ -104,14 +104,14 @@ pub(super) fn reading(record: &SweepRecord, figure: &SweepFigure, best: &SweepRo
         .collect();
     let unit = if figure.unit.is_empty() { String::new() } else { format!(" {}", figure.unit) };
     let mut text = format!(
-        "Least {}{unit} at {}, greatest {}{unit} of all combinations: {}.",
+        "Minimum {}{unit} at {}, maximum {}{unit} of all combinations: {}.",
         shown_number(least),
         places.join(" and "),
         shown_number(greatest),
         figure.meaning
     );
     if !others.is_empty() {
-        text.push_str(&format!(" Shown with {}, where the least of all is.", others.join(" and ")));
+        text.push_str(&format!(" Shown with {}, where the minimum of all is.", others.join(" and ")));
     }
     if shown.iter().any(|axis| axis.shown.len() < axis.axis.count) {
         text.push_str(" Not every value is drawn; all are in sweep.csv.");

@@ -22,13 +22,13 @@ pub(super) fn along(record: &SweepRecord, figure: &SweepFigure, x: &ShownAxis<'_
     let (along, values) = (points.iter().map(|p| p.0), points.iter().map(|p| p.1));
     let line = Trace::line(figure.title, along, values, ("var(--pinion)", 2.0, Dash::Solid)).unlisted();
     let line = if points.len() > 40 { line } else { line.with_points("circle", 6) };
-    let least_at = Trace::points("least", [best.values[x.at]], [least], ("var(--alert)", "star", 14));
+    let least_at = Trace::points("minimum", [best.values[x.at]], [least], ("var(--alert)", "star", 14));
     let chart = Chart::new(id("line", figure), capitalised(figure.title))
         .read_nearest()
         .x(&x.axis.title())
         .y(&figure.with_unit())
         .add(line.hover(format!("%{{x}}: %{{y:.5~g}} {}<extra></extra>", figure.unit)))
-        .add(least_at.hover(format!("least: {} {}<extra></extra>", shown_number(least), figure.unit)))
+        .add(least_at.hover(format!("minimum: {} {}<extra></extra>", shown_number(least), figure.unit)))
         .reading(reading(record, figure, best, &[x]));
     let chart = match x.axis.words() {
         Some(words) => {

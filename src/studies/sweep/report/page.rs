@@ -82,11 +82,13 @@ fn answer(record: &SweepRecord) -> String {
         .axes
         .iter()
         .map(|axis| match axis.count {
-            1 => format!("{} = {}", axis.title(), shown_value(axis, axis.from)),
-            _ if axis.words().is_some() => {
-                format!("{} = {}", axis.title(), axis.words().unwrap_or_default().join(" or "))
+            1 => axis.name_and_value(&shown_value(axis, axis.from)),
+            _ if axis.words().is_some() => axis.name_and_value(&axis.words().unwrap_or_default().join(" or ")),
+            n => {
+                let (name, unit) = axis.name_and_unit();
+                let unit = unit.map_or_else(String::new, |unit| format!(" {unit}"));
+                format!("{name} from {} to {}{unit} ({n} values)", given(axis.from), given(axis.to))
             }
-            n => format!("{} from {} to {} ({n} values)", axis.title(), given(axis.from), given(axis.to)),
         })
         .collect();
     let failed = record.failed();
@@ -104,10 +106,10 @@ fn answer(record: &SweepRecord) -> String {
             .axes
             .iter()
             .zip(&row.values)
-            .map(|(axis, &value)| format!("{} = {}", axis.title(), shown_value(axis, value)))
+            .map(|(axis, &value)| axis.name_and_value(&shown_value(axis, value)))
             .collect();
         text.push_str(&format!(
-            " The {} is least, {}{}{}, at {}.",
+            " The {} is lowest, {}{}{}, at {}.",
             figure.title,
             shown_number(least),
             if figure.unit.is_empty() { "" } else { " " },

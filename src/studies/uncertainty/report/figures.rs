@@ -3,7 +3,7 @@
 use serde_json::json;
 
 use crate::gear::Gear;
-use crate::report::chart::{Chart, Dash, INK, Trace, TraceKind, extent, gear_colour, gear_fill, padded};
+use crate::report::chart::{Chart, Dash, INK, Trace, TraceKind, extent, gear_colour, padded};
 use crate::report::html::number::{figure, percent};
 use crate::studies::uncertainty::indices::Index;
 use crate::studies::uncertainty::record::{FactorIndices, OutputRecord, UncertaintyRecord};
@@ -19,8 +19,10 @@ pub(super) fn all(record: &UncertaintyRecord) -> Vec<Chart> {
     indices.chain(distributions).chain(bands).collect()
 }
 
+/// At its axis: of a life, whose limit stands in the title of the plot, only that it is one.
 fn with_unit(output: &OutputRecord) -> String {
-    if output.unit.is_empty() { output.meaning.clone() } else { format!("{}, {}", output.meaning, output.unit) }
+    let name = if output.censored.is_some() { "life" } else { &output.meaning };
+    if output.unit.is_empty() { name.to_owned() } else { format!("{name}, {}", output.unit) }
 }
 
 /// Where the samples lie, as parts of all between equal steps.
@@ -122,7 +124,7 @@ fn band(record: &UncertaintyRecord, gear: Gear) -> Option<Chart> {
     let area = |name: &str, below: &[f64], above: &[f64], opacity: f64| {
         let x = radius.iter().chain(radius.iter().rev()).copied();
         let y = below.iter().chain(above.iter().rev()).copied();
-        Trace::line(name, x, y, ("rgba(0,0,0,0)", 0.0, Dash::Solid)).filled(gear_fill(gear)).opacity(opacity)
+        Trace::line(name, x, y, ("rgba(0,0,0,0)", 0.0, Dash::Solid)).filled(gear_colour(gear)).opacity(opacity)
     };
     let line = |values: &[f64]| values.to_vec();
     Some(
@@ -134,12 +136,12 @@ fn band(record: &UncertaintyRecord, gear: Gear) -> Option<Chart> {
             .x_format(".3f")
             .y("wear depth, µm")
             .y_down_to(deepest)
-            .add(area("5 to 95 %", p05, p95, 0.6))
-            .add(area("25 to 75 %", p25, p75, 1.0))
+            .add(area("5 to 95 %", p05, p95, 0.16))
+            .add(area("25 to 75 %", p25, p75, 0.28))
             .line("median", radius.iter().copied(), line(p50), (gear_colour(gear), 2.2, Dash::Solid), "%{y:.3f} µm")
             .line("scene as given", radius.iter().copied(), line(&band.nominal_um), (INK, 1.4, Dash::Dashed), "%{y:.3f} µm")
             .reading(format!(
-                "Quantiles of the samples at each radius, greatest over the face width; at the deepest place 95 % of them have worn less than {} µm. The error \
+                "Quantiles of the samples at each radius, maximum over the face width; at the deepest place 95 % of them have worn less than {} µm. The error \
                  of the fast model is not in them.",
                 figure(deepest)
             )),

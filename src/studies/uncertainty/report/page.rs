@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::figures;
-use crate::report::html::number::{count, figure, percent, significant};
+use crate::report::html::number::{count, figure, fixed, percent, significant};
 use crate::report::html::page::{Page, Plots, note, section, sources_list};
 use crate::report::html::table::{Cell, NONE, cells, line, list};
 use crate::studies::uncertainty::indices::Index;
@@ -66,7 +66,7 @@ fn answer(record: &UncertaintyRecord) -> String {
     });
     let quantiles = match ranges.as_slice() {
         [] => "No figure has quantiles.".to_owned(),
-        _ => format!("In nine of ten samples {}.", ranges.join("; ")),
+        _ => format!("{} (nine of ten samples).", ranges.join("; ")),
     };
     format!("{quantiles}{}", most.unwrap_or_default())
 }
@@ -113,14 +113,17 @@ fn quantiles(record: &UncertaintyRecord) -> Markup {
         (list("Quantiles", columns, record.outputs.iter().map(row)))
         (note(
             "A quantile of 95 % is the value that 95 % of the samples stay below. Longer: part of the samples whose life is longer than their \
-             duration; a quantile among these is not known. Model error: the relative difference to finite elements on the scene as given, which \
-             the samples vary evenly within."
+             duration; a quantile among these is not known. Model error: the relative difference to finite elements on the scene as given, within \
+             which the samples vary it uniformly."
         ))
     }
 }
 
 fn indices(record: &UncertaintyRecord) -> Markup {
-    let cell = |index: &Index| format!("{:.3} ({:.3} to {:.3})", index.value, index.low, index.high);
+    let cell = |index: &Index| {
+        let [value, low, high] = [index.value, index.low, index.high].map(|share| fixed(share, 3));
+        format!("{value} ({low} to {high})")
+    };
     let rows = record.outputs.iter().flat_map(|output| match (&output.indices, &output.no_indices_because) {
         (Some(indices), _) => indices
             .iter()
@@ -147,8 +150,8 @@ fn work(record: &UncertaintyRecord) -> Markup {
             (count(record.samples as u64)) " points of a scrambled Sobol sequence (seed " (record.seed) ") took " (count(record.runs as u64))
             " runs of the scene in " (significant(record.wall_s, 3)) " s on "
             (if record.threads == 1 { "one thread".to_owned() } else { format!("{} threads", record.threads) })
-            ". Verification, error estimates and snapshots were left out of the samples; the scene as given was run and verified once, where it \
-             does not refuse that. Quantiles stand on two independent samples a point."
+            ". Verification, error estimates and snapshots were left out of the samples; the scene as given was run and verified once, unless it \
+             turns verification off. Quantiles are those of two independent samples a point."
         }
     }
 }

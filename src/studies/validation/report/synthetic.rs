@@ -89,7 +89,7 @@ fn case(name: &str, group: &str, targets: &[&str], rest: &str) -> CaseRecord {
 
 fn near(value: f64) -> String {
     format!(
-        "[[quantity]]\nname = 'greatest pressure'\nunit = 'MPa'\nvalue = {value}\nnear = 1305\nwithin = {{ absolute = 13 }}\n\
+        "[[quantity]]\nname = 'maximum pressure'\nunit = 'MPa'\nvalue = {value}\nnear = 1305\nwithin = {{ absolute = 13 }}\n\
          uncertainty = {{ absolute = 1.3 }}\ndiscretisation = {{ absolute = 6.5 }}\nbecause = 'twice the spacing of the cells'\n"
     )
 }
@@ -175,7 +175,7 @@ pub(super) fn changes() -> Changes {
     Changes {
         against_version: "0.0.9".to_owned(),
         worse: vec![change("equilibria", State::Counted(1000), State::Counted(1200))],
-        better: vec![change("greatest pressure", State::Uses(0.8), State::Uses(0.38))],
+        better: vec![change("maximum pressure", State::Uses(0.8), State::Uses(0.38))],
         added: vec!["thin-teeth".to_owned()],
         gone: vec!["thick-teeth".to_owned()],
     }

@@ -130,7 +130,7 @@ fn markdown_says_what_failed_what_is_known_and_what_changed() {
         "## ✗ Validation suite",
         "2 missed, 1 could not run.",
         "### Not as expected",
-        "| ✗ missed | pitch-point | greatest pressure |",
+        "| ✗ missed | pitch-point | maximum pressure |",
         "<summary>1 statement is known not to hold</summary>",
         "<summary>2 quantities cannot be compared</summary>",
         "<summary>1 case rests on an estimate</summary>",
@@ -157,7 +157,7 @@ fn the_terminal_shows_a_line_for_each_case_then_what_is_wrong_then_the_totals() 
         assert_eq!(lines.filter(|line| line.contains(&case.name)).count(), 1, "{}\n{text}", case.name);
     }
     assert!(text.contains("✗ pitch-point: What pitch-point must show, in one sentence."), "{text}");
-    assert!(text.contains("greatest pressure: missed: 1400 MPa, compared with 1305 ± 13 MPa"), "{text}");
+    assert!(text.contains("maximum pressure: missed: 1400 MPa, compared with 1305 ± 13 MPa"), "{text}");
     assert!(text.contains("could not run: validation/calculix/case.toml, line 12"), "{text}");
     assert!(text.contains("worse  hertz-cylinders: equilibria: 1000 → 1200"), "{text}");
     assert!(text.trim_end().ends_with("on 2 threads."), "{text}");

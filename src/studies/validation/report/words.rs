@@ -39,7 +39,7 @@ pub(super) fn as_written(value: f64) -> String {
     match text.split_once('\u{2009}') {
         Some((mantissa, power)) if power.starts_with('×') => {
             let power = power.trim_start_matches(['×', '\u{2009}']);
-            match mantissa.trim_start_matches('−').trim_end_matches('0').trim_end_matches('.') {
+            match mantissa.trim_start_matches('−') {
                 "1" => format!("{}{power}", if value < 0.0 { "−" } else { "" }),
                 short => format!("{}{short}\u{2009}×\u{2009}{power}", if value < 0.0 { "−" } else { "" }),
             }

@@ -66,7 +66,11 @@ fn over_mesh(runs: &[FinishedRun], id: &str, title: &str, axis: &str, column: &s
     });
     let words: Vec<String> = words.collect();
     let mut chart = Chart::new(id, title)
-        .reading(format!("Maximum: {}.", words.join(", ")))
+        .reading(format!(
+            "Maximum{}: {}.",
+            axis.rsplit_once(", ").map_or_else(String::new, |(_, unit)| format!(", {unit}")),
+            words.join(", ")
+        ))
         .x("contact position, mm")
         .x_range(padded(low, high))
         .x_format(".3f")
