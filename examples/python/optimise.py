@@ -45,6 +45,8 @@ WORN_ERROR = "worn.transmission_error_um.peak_to_peak"
 DEPTHS = [f"{gear}.{zone}_wear_um" for gear in ("pinion", "wheel") for zone in ("peak", "tip_edge", "below_sap")]
 #: What keys of both gears begin with.
 GEARS = "pair.{pinion,wheel}."
+#: Of the unmodified pair and of the designs that are looked at.
+COLOURS = ("black", "C0", "C2", "C1", "C3")
 #: In place of the figures of a design that cannot be run: worse than any other, yet a number that optimisers can sort.
 UNUSABLE = 1e3
 
@@ -71,6 +73,17 @@ def with_reliefs(scene: gearwear.Scene, *ends: str, **changes: Any) -> gearwear.
     """The scene with reliefs of both gears, whose amounts and lengths can then be varied."""
     reliefs = {f"pair.{gear}.{end}": {"amount_um": 0.0, "length_mm": 2.0} for gear in ("pinion", "wheel") for end in ends}
     return scene.with_({**reliefs, **changes})
+
+
+def clocks() -> tuple[float, float]:
+    """Seconds on the wall and of all processors together."""
+    return time.perf_counter(), time.process_time()
+
+
+def elapsed(start: tuple[float, float]) -> str:
+    """Both since ``start``."""
+    wall_s, processor_s = (now - then for now, then in zip(clocks(), start))
+    return f"{wall_s:.0f} s, {processor_s:.0f} s of processor time"
 
 
 # Few runs: case s12-optimal-relief
@@ -118,7 +131,7 @@ def by_optuna(study: Study, runs: int, seed: int) -> tuple[Numbers, Numbers]:
 def few_runs(out: Path, short: bool) -> None:
     """How many runs each search needs until it has a relief as good as the best of the grid."""
     study = s12()
-    start = time.perf_counter()
+    start = clocks()
     grid, errors = of_grid(study)
     best = int(np.nanargmin(errors))
     print(f"grid: {errors.size} runs, {errors[best]:.3f} µm at {grid[best, 0]:g} µm over {grid[best, 1]:g} mm")
@@ -134,10 +147,16 @@ def few_runs(out: Path, short: bool) -> None:
             design = designs[np.argmin(found)]
             print(f"{name}, seed {seed}: {after}; after {runs}: {least[-1]:.3f} µm at {design[0]:.1f} µm over {design[1]:.2f} mm")
             pyplot.step(np.arange(1, runs + 1), least, where="post", color=colour, linewidth=1, alpha=0.6, label=name if seed == 0 else None)
-    pyplot.gca().set(xlabel="runs", ylabel="least transmission error so far, peak to peak, µm", xscale="log", yscale="log")
+    axes = pyplot.gca()
+    axes.set(xlabel="runs", ylabel="least transmission error so far, peak to peak, µm", xscale="log", yscale="log", xlim=(1, 143))
+    axes.set_xticks([1, 2, 5, 10, 20, 50, 100], minor=False)
+    axes.set_yticks([0.5, 1, 2, 5, 10, 20], minor=False)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter("")
     pyplot.legend()
     pyplot.savefig(out / "few-runs.svg")
-    print(f"few-runs: {time.perf_counter() - start:.0f} s")
+    print(f"few-runs: {elapsed(start)}")
 
 
 # Fronts: at the end of life
@@ -198,14 +217,18 @@ def figures_of(study: Study, designs: Numbers) -> Numbers:
 
 def front(name: str, coarse: Study, fine: Study, runs: int, out: Path) -> None:
     """The front of one pair by NSGA-II on coarse settings, and three designs of it again on the scene's own."""
-    start = time.perf_counter()
+    start = clocks()
     problem = Life(coarse)
     size = 24 if runs > 100 else 8
     minimize(problem, NSGA2(pop_size=size), ("n_gen", runs // size), seed=1)
     designs, figures = np.concatenate(problem.designs), np.concatenate(problem.figures)
     usable = np.isfinite(figures).all(axis=1)
     designs, figures = designs[usable], figures[usable]
-    print(f"{name}: {usable.size} runs, {usable.size - len(designs)} of them without result, {time.perf_counter() - start:.0f} s")
+    print(f"{name}: {usable.size} runs, {usable.size - len(designs)} of them without result, {elapsed(start)}")
+
+    names = [key.removeprefix(GEARS) for key in coarse.limits]
+    head = ",".join([*names, "greatest_wear_um", "worn_transmission_error_um", "new_transmission_error_um"])
+    np.savetxt(out / f"{name}.csv", np.hstack([designs, figures]), delimiter=",", header=head, comments="")
 
     best = undominated(figures[:, :2])
     chosen = {
@@ -219,7 +242,7 @@ def front(name: str, coarse: Study, fine: Study, runs: int, out: Path) -> None:
     labels = ["no modification", *chosen]
     (plain,) = figures_of(coarse, rows[:1])
     finished = [whole_run(fine, row) for row in rows]
-    print("  " + ", ".join(key.removeprefix(GEARS) for key in coarse.limits))
+    print("  " + ", ".join(names))
     for label, row, searched, run in zip(labels, rows, [plain, *figures[list(chosen.values())]], finished):
         print(f"  {label}: " + ", ".join(f"{value:.1f}" for value in row))
         print("    " + described(run.summary))
@@ -227,12 +250,12 @@ def front(name: str, coarse: Study, fine: Study, runs: int, out: Path) -> None:
 
     _, (left, right) = pyplot.subplots(1, 2, figsize=(11, 4.4), layout="constrained")
     draw_front(left, figures, best, chosen, plain)
-    for label, run in zip(labels[:4], finished):
-        right.plot(run.mesh_cycle.position_mm, run.mesh_cycle.transmission_error_worn_um, label=label)
+    for label, colour, run in zip(labels, COLOURS, finished):
+        right.plot(run.mesh_cycle.position_mm, run.mesh_cycle.transmission_error_worn_um, color=colour, label=label)
     right.set(xlabel="contact position, mm", ylabel="transmission error at the end of life, µm")
     right.legend(fontsize=8)
     pyplot.savefig(out / f"{name}-front.svg")
-    print(f"{name}: {time.perf_counter() - start:.0f} s")
+    print(f"{name}: {elapsed(start)}")
 
 
 def whole_run(study: Study, design: Numbers) -> gearwear.Run:
@@ -273,12 +296,12 @@ def between(figures: Numbers, front: list[int]) -> int:
 def draw_front(axes: Axes, figures: Numbers, best: list[int], chosen: Mapping[str, int], plain: Numbers) -> None:
     """All that was run, and the front among it."""
     axes.scatter(figures[:, 0], figures[:, 1], s=8, color="0.75", label="all runs")
-    axes.plot(figures[best, 0], figures[best, 1], color="C0", marker="o", markersize=4, linewidth=1, label="front")
-    axes.scatter(*plain[:2], marker="x", color="black", label="no modification")
-    for label, index in chosen.items():
-        axes.annotate(label, figures[index, :2], xytext=(6, 6), textcoords="offset points", fontsize=8)
+    axes.plot(figures[best, 0], figures[best, 1], color="black", marker=".", linewidth=1, label="front")
+    axes.scatter(*plain[:2], marker="x", color=COLOURS[0], label="no modification")
+    for colour, (label, index) in zip(COLOURS[1:], chosen.items()):
+        axes.scatter(*figures[index, :2], s=50, color=colour, zorder=3, label=label)
     axes.set(xlabel="greatest wear of either flank, µm", ylabel="transmission error worn, peak to peak, µm")
-    axes.legend()
+    axes.legend(fontsize=8)
 
 
 def main() -> None:
