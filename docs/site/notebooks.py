@@ -13,8 +13,8 @@ from nbconvert import MarkdownExporter
 FOLDER = Path(__file__).resolve().parents[1] / "notebooks"
 EXECUTED = Path(__file__).resolve().parents[2] / "target" / "notebooks"
 LINK = re.compile(r"(\]\([\w./-]+)\.ipynb\)")
-#: Colours and frames of text that a terminal would show.
-STYLE = re.compile(r"<style.*?</style>", re.DOTALL)
+#: What pandas says of the looks of a table: here it looks like every other.
+LOOKS = re.compile(r'<style.*?</style>| border="1" class="dataframe"| style="text-align: right;"', re.DOTALL)
 
 log = logging.getLogger("mkdocs.hooks.notebooks")
 
@@ -30,7 +30,7 @@ def on_files(files: Files, config: Any, **_: object) -> Files:
         for picture, content in resources.get("outputs", {}).items():
             files.append(File.generated(config, f"notebooks/{name}-{picture}", content=content))
             body = body.replace(f"]({picture})", f"]({name}-{picture})")
-        body = LINK.sub(r"\1.md)", STYLE.sub("", body))
+        body = LINK.sub(r"\1.md)", LOOKS.sub("", body))
         note = f"[This page as a notebook]({notebook.name})" + ("" if executed.exists() else "; not executed here")
         title, _, rest = body.lstrip().partition("\n")
         files.append(File.generated(config, f"notebooks/{name}.md", content=f"{title}\n\n{note}\n{rest}"))

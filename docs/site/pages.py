@@ -1,8 +1,7 @@
 """Pages of the site that do not lie in ``docs``: README.md as the first page, what documents link to elsewhere in the repository, and the
 reference of the Python package from its docstrings.
 
-Links of the documents lead to files of the repository. A linked Markdown file becomes a page under its own path, another file is copied;
-of a linked folder the words are kept. Headings have the anchors that GitHub gives them.
+Links of the documents lead to files of the repository. A linked Markdown file becomes a page under its own path, another file is copied. Headings have the anchors that GitHub gives them.
 """
 
 from __future__ import annotations
@@ -68,7 +67,9 @@ def on_page_content(content: str, page: Any, **_: object) -> str:
 
 def of_site(path: str) -> str:
     """Where a file of the repository lies on the site."""
-    return "index.md" if path == "README.md" else path.removeprefix("docs/")
+    if path == "README.md":
+        return "index.md"
+    return path.removeprefix("docs/").replace(".ipynb", ".md")
 
 
 def linked_files(path: str, text: str) -> Iterator[tuple[str, str]]:
@@ -100,9 +101,15 @@ def lines_outside_code(text: str) -> Iterator[str]:
 
 
 def reference() -> str:
-    """A page of what the package offers: every name of its ``__all__``."""
-    module = ast.parse((REPOSITORY / "python/gearwear/__init__.py").read_text(encoding="utf-8"))
-    (names,) = (node.value for node in module.body if isinstance(node, ast.Assign) and node.targets[0].id == "__all__")
-    shown = sorted((name for name in ast.literal_eval(names) if not name.startswith("_")), key=str.lower)
-    entries = "\n\n".join(f"::: gearwear.{name}" for name in shown)
+    """A page of what the package offers: every name of its ``__all__``, from the module that has it."""
+    package = ast.parse((REPOSITORY / "python/gearwear/__init__.py").read_text(encoding="utf-8"))
+    homes: dict[str, str] = {}
+    offered: list[str] = []
+    for statement in package.body:
+        if isinstance(statement, ast.ImportFrom):
+            homes.update({name.asname or name.name: f"{statement.module}.{name.name}" for name in statement.names})
+        elif isinstance(statement, ast.Assign):
+            offered = ast.literal_eval(statement.value)
+    shown = sorted((name for name in offered if not name.startswith("_")), key=str.lower)
+    entries = "\n\n".join(f"::: {homes[name]}" for name in shown)
     return f"# Reference of the Python package\n\n[From Python](python.md) shows how these are used.\n\n{entries}\n"
