@@ -61,4 +61,5 @@ def _drawn(latex: str, display: str, page: Any) -> str:
         drawn: str = convert(latex.strip(), display=display).replace("<mtable>", '<mtable displaystyle="true">')
     except Exception as error:
         raise ValueError(f"{page.file.src_uri}: an equation cannot be read: {error!r}: {latex}") from error
-    return FUNCTION.sub(r'<mo lspace="0.167em" rspace="0.167em">\1</mo>', drawn)
+    drawn = FUNCTION.sub(r'<mo lspace="0.167em" rspace="0.167em">\1</mo>', drawn)
+    return drawn.replace('<mo stretchy="false">&#x0007C;</mo>', '<mo stretchy="false" lspace="0" rspace="0">|</mo>')

@@ -192,7 +192,7 @@ def helical(**changes: Any) -> Study:
     return Study(scene, study.limits | {GEARS + "lead_crowning_um": (0.0, 10.0)})
 
 
-class Life(Problem):
+class Life(Problem):  # type: ignore[misc]
     """Greatest wear and transmission error at the end of life, both to be small; keeps all that was run."""
 
     def __init__(self, study: Study) -> None:
@@ -297,9 +297,9 @@ def draw_front(axes: Axes, figures: Numbers, best: list[int], chosen: Mapping[st
     """All that was run, and the front among it."""
     axes.scatter(figures[:, 0], figures[:, 1], s=8, color="0.75", label="all runs")
     axes.plot(figures[best, 0], figures[best, 1], color="black", marker=".", linewidth=1, label="front")
-    axes.scatter(*plain[:2], marker="x", color=COLOURS[0], label="no modification")
+    axes.scatter(plain[0], plain[1], marker="x", color=COLOURS[0], label="no modification")
     for colour, (label, index) in zip(COLOURS[1:], chosen.items()):
-        axes.scatter(*figures[index, :2], s=50, color=colour, zorder=3, label=label)
+        axes.scatter(figures[index, 0], figures[index, 1], s=50, color=colour, zorder=3, label=label)
     axes.set(xlabel="greatest wear of either flank, µm", ylabel="transmission error worn, peak to peak, µm")
     axes.legend(fontsize=8)
 
