@@ -5,7 +5,7 @@ use std::sync::Mutex;
 
 use gearwear::observer::Unwatched;
 use gearwear::pipeline::{self, Resumption, RunError};
-use gearwear::results::run::RunRecord;
+use gearwear::results::run::{RunRecord, StopReason};
 use gearwear::scene::Scene;
 use gearwear::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
 use gearwear::simulation::wear_run::SimulationError;
@@ -139,6 +139,19 @@ fn over_several_phases() {
     goes_on_to_the_same_bits(&text, 2);
     let adaptive = text.replace("step = { revolutions = 8000.0 }", "step = \"adaptive\"\ntolerance_um = 0.01");
     goes_on_to_the_same_bits(&adaptive, 2);
+}
+
+/// A life that ends at a limit, in the middle of a step.
+#[test]
+fn to_a_limit() {
+    for step in ["step = { revolutions = 1300.0 }", "step = \"adaptive\"\ntolerance_um = 1e-3"] {
+        let numerics = format!("flank_points = 150\npositions = 1000\n{step}");
+        let text = scene(SPUR, "surface = \"winkler\"\ntip_contact = false", &numerics, "")
+            .replace("[contact]", "stop = { wear_um = 8.0 }\n[contact]");
+        goes_on_to_the_same_bits(&text, 1);
+        let summary = run(&text, None, &NothingKept).unwrap().summary;
+        assert_eq!(summary.stopped, StopReason::LimitReached);
+    }
 }
 
 /// What no file of this program holds, but a file could: rows of other flanks, phases that are none.
