@@ -10,6 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::lubrication_file::{FrictionFile, LoadFactorsFile, LubricantFile};
+use super::material_presets::MaterialPreset;
 use super::presets;
 use super::wear_file::{GearWearFile, TemperatureFile, WearFile};
 use crate::contact::settings::{MatchCriterion, SurfaceKind};
@@ -265,6 +266,9 @@ pub struct EndReliefFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MaterialFile {
+    /// Both gears' material by name: its constants at room temperature (docs/materials.md); keys beside it override them. It says nothing
+    /// of wear. Default: steel.
+    pub preset: Option<MaterialPreset>,
     /// Young's modulus E of both gears in GPa, > 0. Default 206.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub young_modulus_GPa: Option<f64>,
@@ -290,6 +294,8 @@ pub struct MaterialFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GearMaterialFile {
+    /// Its name; keys beside it override its constants. Default: steel.
+    pub preset: Option<MaterialPreset>,
     /// Young's modulus E in GPa, > 0. Default 206.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub young_modulus_GPa: Option<f64>,
