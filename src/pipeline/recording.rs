@@ -23,6 +23,7 @@ use crate::results::worn_pair::{WearProfile, WornPair};
 use crate::scene::Resolved;
 use crate::scene::file::ReportFile;
 use crate::scene::loaded::LoadedScene;
+use crate::scene::problem::number;
 use crate::simulation::figures::WearFigures;
 use crate::simulation::wear_run::{Outcome, SMALL_WEAR_MODULES};
 use crate::thermal::settings::TemperatureMethod;
@@ -338,7 +339,7 @@ fn life(model: &Model<'_>, outcome: &Outcome, worn: &PerGear<WearSummary>) -> Op
     let revolutions = outcome.worn.revolutions;
     let not_reached = found.is_none().then(|| {
         let after = match operation.hours(revolutions) {
-            Some(hours) => format!("{hours:.6} h"),
+            Some(hours) => format!("{} h", number((1e4 * hours).round() / 1e4)),
             None => format!("{revolutions:.6e} pinion revolutions"),
         };
         format!(

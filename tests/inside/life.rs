@@ -157,7 +157,7 @@ fn a_limit_that_is_not_reached_leaves_no_life() {
     assert_eq!(summary.stopped, StopReason::Completed);
     assert_eq!((life.reached, life.gear, life.hours, life.revolutions), (None, None, None, None));
     let reason = life.not_reached.unwrap();
-    assert!(reason.starts_with("after 11.111111 h the maximum wear is "), "{reason}");
+    assert!(reason.starts_with("after 11.1111 h the maximum wear is "), "{reason}");
 }
 
 #[test]
