@@ -6,7 +6,8 @@
 //! ln K/H = ln K(ξ) − m(ξ) ln(w/w_ref)
 //! ```
 //!
-//! by least squares over the fitted loads. Hertz has m = ½ for half-width and peak pressure, whatever the position. One
+//! by least squares over the fitted loads, with m held from 0 to below 1: springs soften with the load, and not so much that it has no
+//! answer. Where the edge of a small tooth cuts into the strip the points themselves may ask for more. Hertz has m = ½ for half-width and peak pressure, whatever the position. One
 //! K/H meets one criterion: a foundation that has the half-width of an elliptic pressure peaks 3π/8 = 1.178 times as high, one
 //! that has its peak is 1.178 times as wide, and the approach of either is about a third of the true one. Every row
 //! therefore reports all three.
@@ -17,6 +18,9 @@ use serde::{Deserialize, Serialize};
 
 use super::single_contact::{Purpose, SingleContact, Touch};
 use crate::contact::{foundation::FoundationCurve, settings::MatchCriterion};
+
+/// Greatest m.
+const STEEPEST: f64 = 0.95;
 
 /// The fitted foundation against finite elements at one position and load; errors relative to finite elements.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -137,14 +141,14 @@ fn continue_to(curve: &mut FoundationCurve, (start_mm, end_mm): (f64, f64)) {
     }
 }
 
-/// Intercept and slope of the line that fits best.
+/// Intercept and slope of the line that fits best, of those that fall by 0 to [`STEEPEST`].
 fn line(points: &[(f64, f64)]) -> (f64, f64) {
     let n = points.len() as f64;
     let (x, y) = points.iter().fold((0.0, 0.0), |(x, y), point| (x + point.0 / n, y + point.1 / n));
     let (xx, xy) = points
         .iter()
         .fold((0.0, 0.0), |(xx, xy), point| (xx + (point.0 - x).powi(2), xy + (point.0 - x) * (point.1 - y)));
-    let slope = xy / xx;
+    let slope = (xy / xx).clamp(-STEEPEST, 0.0);
     (y - slope * x, slope)
 }
 
@@ -195,6 +199,24 @@ impl FitErrors {
             mean_half_width: mean(&|row| row.half_width_error),
             mean_peak_pressure: mean(&|row| row.peak_pressure_error),
             mean_approach: mean(&|row| row.approach_error),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points on a line give it back; rising ones and such that fall too steeply the nearest line that is allowed.
+    #[test]
+    fn ver_lines_are_held_within_their_bounds() {
+        let of_slope = |slope: f64| line(&[(-1.0, 3.0 - slope), (0.0, 3.0), (1.0, 3.0 + slope)]);
+        for (slope, expected) in [(-0.5, -0.5), (0.2, 0.0), (-1.5, -STEEPEST)] {
+            let (intercept, found) = of_slope(slope);
+            assert!(
+                (found - expected).abs() < 1e-15 && (intercept - 3.0).abs() < 1e-15,
+                "{slope}: {found} {intercept}"
+            );
         }
     }
 }

@@ -6,7 +6,6 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use crate::report;
-use crate::results::run::StopReason;
 use crate::resume::file::{self, CheckpointFile};
 use crate::resume::folder::{self, Contents};
 use crate::resume::identity::Identity;
@@ -54,7 +53,7 @@ pub(super) fn resume(scene: Option<&Path>, out: &Path) -> Result<Option<BegunRun
             scene.resolved.warnings = warnings;
             Ok(Some(BegunRun { scene, out: out.to_owned(), identity, from: Some(checkpoint) }))
         }
-        Contents::Ended(StopReason::Completed) => Ok(None),
+        Contents::Ended(stopped) if stopped.is_complete() => Ok(None),
         Contents::Ended(_) => Err(InputError::NothingLeft { folder: out.display().to_string() }.into()),
     }
 }

@@ -34,11 +34,11 @@ pub(super) fn table(summary: &Summary) -> String {
         text.push_str(&format!("\n  worn volumes of pinion and wheel differ by {} %\n", two_digits(100.0 * balance)));
     }
     let hours = summary.hours.map_or_else(String::new, |hours| format!(" ({} h)", digits(hours)));
-    text.push_str(&format!(
-        "\n{} pinion revolutions{hours}, computed in {:.2} s\n",
-        digits(summary.revolutions),
-        summary.wall_s
-    ));
+    let run = format!("{} pinion revolutions{hours}", digits(summary.revolutions));
+    if let Some(life) = &summary.life {
+        text.push_str(&format!("\n{}\n", life.in_words(&run)));
+    }
+    text.push_str(&format!("\n{run}, computed in {:.2} s\n", summary.wall_s));
     text
 }
 

@@ -111,7 +111,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         };
         print(&format!("{}{name}: {}\n", figures::table(&record.summary), path.display()))?;
     }
-    if record.summary.stopped != StopReason::Completed {
+    if !record.summary.stopped.is_complete() {
         say_what_is_kept(&record, &resolved.scene.operation, &out);
     }
     match failure {
@@ -183,7 +183,7 @@ fn say_what_is_kept(record: &RunRecord, operation: &Operation, out: &Path) {
     let reached = record.history.iter().filter(|row| planned.contains(&row.revolutions)).count();
     let stopped = match record.summary.stopped {
         StopReason::NotConverged | StopReason::WornThrough => "the last state kept is that",
-        StopReason::Interrupted | StopReason::Completed => "interrupted",
+        StopReason::Interrupted | StopReason::Completed | StopReason::LimitReached => "interrupted",
     };
     say(&format!(
         "{stopped} at {:.0} pinion revolutions: {reached} of {} snapshots were reached; what was finished is kept in {}",

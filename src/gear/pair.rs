@@ -118,6 +118,16 @@ impl GearPair {
         (self.spec.helix_angle_rad.tan() * self.spec.transverse_pressure_angle_rad().cos()).atan()
     }
 
+    /// s_an, the normal tooth thickness at the tip cylinder, where `lost_mm` was taken off one flank there along its transverse normal:
+    /// (s_a − h/cos α_a) cos β_a, with tan β_a = tan β r_a/r. Reliefs and roundings are not taken off. Source: ISO 21771, sections 4 and 5.
+    pub fn normal_tip_thickness_mm(&self, gear: Gear, lost_mm: f64) -> f64 {
+        let tooth = &self.teeth[gear];
+        let tip_radius = tooth.tip_radius_mm;
+        let cos_alpha = tooth.involute.base_radius_mm / tip_radius;
+        let helix_angle = (self.spec.helix_angle_rad.tan() * tip_radius / tooth.reference_radius_mm).atan();
+        (tooth.thickness_mm(tip_radius) - lost_mm / cos_alpha) * helix_angle.cos()
+    }
+
     /// z_driving / z_driven: turns of the wheel per turn of the pinion.
     pub fn wheel_turns_per_pinion_turn(&self) -> f64 {
         f64::from(self.spec.gears.pinion.teeth) / f64::from(self.spec.gears.wheel.teeth)

@@ -146,10 +146,11 @@ impl<'a> CondensedCycle<'a> {
     }
 
     /// What `at_nodes` of `gear`'s flank is at the nominal radii `radius_mm`: in straight lines between the nodes, as the wear itself is,
-    /// and beyond them what it is at the last.
+    /// at the tip what it is at the last, and nothing below the first, where the involute ends and their flank with it.
     pub(crate) fn at_radii(&self, gear: Gear, at_nodes: &[f64], radius_mm: impl Iterator<Item = f64>) -> Vec<f64> {
         let nodes = &self.radius_mm[gear];
-        radius_mm.map(|radius| value_at(nodes, at_nodes, radius)).collect()
+        let at = |radius: f64| if radius < nodes[0] { 0.0 } else { value_at(nodes, at_nodes, radius) };
+        radius_mm.map(at).collect()
     }
 
     fn loaded_positions(&self) -> impl Iterator<Item = &LoadedPosition> {

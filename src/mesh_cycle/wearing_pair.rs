@@ -49,6 +49,9 @@ pub(crate) trait WearingPair {
     /// points of most models, but the contact points of some.
     fn wear_mm(&self) -> PerGear<Vec<f64>>;
 
+    /// What each flank point has lost, slice after slice, mm.
+    fn wear_at_points_mm(&self) -> PerGear<Vec<f64>>;
+
     /// Takes the flanks to have lost this.
     fn set_wear_mm(&mut self, wear_mm: &PerGear<Vec<f64>>);
 
@@ -106,6 +109,10 @@ impl WearingPair for OnFlankPoints<'_> {
     }
 
     fn wear_mm(&self) -> PerGear<Vec<f64>> {
+        self.wear_mm.clone()
+    }
+
+    fn wear_at_points_mm(&self) -> PerGear<Vec<f64>> {
         self.wear_mm.clone()
     }
 
@@ -182,6 +189,10 @@ impl WearingPair for OnFlankNodes<'_> {
 
     fn wear_mm(&self) -> PerGear<Vec<f64>> {
         self.wear_mm.clone()
+    }
+
+    fn wear_at_points_mm(&self) -> PerGear<Vec<f64>> {
+        self.at_points(&self.wear_mm)
     }
 
     fn set_wear_mm(&mut self, wear_mm: &PerGear<Vec<f64>>) {

@@ -52,7 +52,7 @@ use crate::scene::Scene;
 use crate::scene::loaded::{LoadedScene, NamedFiles};
 use crate::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
 use crate::simulation::mesh_contact::MeshContact;
-use crate::simulation::settings::Phase;
+use crate::simulation::settings::{LifeLimits, Phase};
 use crate::simulation::wear_run::{Outcome, RunPhase, SimulationError, WearRun, reference_phase};
 use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
@@ -145,6 +145,8 @@ struct Model<'a> {
     stiffness: StiffnessSettings,
     pair: &'a GearPair,
     phases: Vec<RunPhase<'a>>,
+    /// What ends a run before its time.
+    limits: LifeLimits,
     /// The slices over the face width; none where all sections are alike.
     sliced: Option<&'a SlicedTeeth>,
     /// Springs of the teeth; none with finite elements.
@@ -163,6 +165,7 @@ impl Model<'_> {
             zones: self.zones(),
             phases: &self.phases,
             snapshots_revolutions: &self.scene.operation.snapshots_revolutions,
+            limits: self.limits,
             numerics: self.scene.numerics,
         }
     }
@@ -171,6 +174,21 @@ impl Model<'_> {
     fn zones(&self) -> PerGear<FlankZones> {
         let greatest = self.phases.iter().map(|phase| phase.line_load_n_per_mm).fold(0.0, f64::max);
         FlankZones::of_pair(self.pair, self.at_pitch.contact.loaded(greatest).half_width_mm)
+    }
+
+    /// How long a run is, pinion revolutions.
+    fn duration(&self) -> f64 {
+        self.phases.last().map_or(0.0, |phase| phase.end_revolutions)
+    }
+
+    /// That of the runs which `outcome` is held against: as long as it was, whatever they wear.
+    fn ending_with(mut self, outcome: &Outcome) -> Self {
+        self.limits = LifeLimits::default();
+        if outcome.limit_reached.is_some() {
+            let end = outcome.worn.revolutions;
+            self.phases.iter_mut().for_each(|phase| phase.end_revolutions = phase.end_revolutions.min(end));
+        }
+        self
     }
 
     /// The phase of the greatest load.
@@ -365,6 +383,7 @@ fn carry_out<R>(
         stiffness,
         pair: &pair,
         phases,
+        limits: scene.operation.stop,
         sliced: sliced.as_ref(),
         teeth: teeth[case_of_phase[reference]].as_ref(),
         at_pitch,
@@ -377,28 +396,29 @@ fn carry_out<R>(
     };
     let Resumption { from, keeper } = resumption;
     let outcome = stages.run(StageKind::Simulation.name(), || model.wear_run().run_from(from, keeper, observer))?;
+    let model = model.ending_with(&outcome);
     let heat = match plan.has(StageKind::ContactTemperature) {
         true => stages.run(StageKind::ContactTemperature.name(), || temperature::observe(&model, &outcome)),
         false => None,
     };
     let films = films_and_losses(plan, &model, &outcome, &mut stages);
     let found = RunFindings { outcome: &outcome, heat: heat.as_ref(), lubrication: films.as_ref(), verified: None };
-    let mut error = if plan.has(StageKind::ErrorEstimates) && outcome.stop == StopReason::Completed {
+    let mut error = if plan.has(StageKind::ErrorEstimates) && outcome.stop.is_complete() {
         let estimate = || error_estimates::estimate(&model, &outcome, judged.step_over_safe, observer);
         stages.run(StageKind::ErrorEstimates.name(), estimate)
     } else {
         ErrorSummary::not_estimated(not_estimated_because(&outcome))
     };
 
-    let verified = match (outcome.stop, plan.left_out_because(StageKind::Verification)) {
-        (StopReason::Completed, None) => {
+    let verified = match (outcome.stop.is_complete(), plan.left_out_because(StageKind::Verification)) {
+        (true, None) => {
             let curve =
                 files.calibration.as_ref().map(|calibration| &calibration.pair_compliance).or(computed.as_ref());
             let means = Means { elements, curve, in_space };
             stages.run(StageKind::Verification.name(), || verification::verify(&model, &outcome, means, observer))
         }
-        (StopReason::Completed, Some(reason)) => Verified::none(reason),
-        _ => Verified::none(not_estimated_because(&outcome)),
+        (true, Some(reason)) => Verified::none(reason),
+        (false, _) => Verified::none(not_estimated_because(&outcome)),
     };
     verified.tell(&mut error);
 
@@ -509,7 +529,7 @@ fn films_and_losses(
 
 fn not_estimated_because(outcome: &Outcome) -> &'static str {
     match outcome.stop {
-        StopReason::Completed => "numerics.error_estimate is false",
+        StopReason::Completed | StopReason::LimitReached => "numerics.error_estimate is false",
         StopReason::Interrupted => "the run was interrupted",
         StopReason::NotConverged => "the run did not converge",
         StopReason::WornThrough => "a tooth is worn through",

@@ -12,6 +12,7 @@ use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::plan::Plan;
 use crate::reference::steel_yield;
 use crate::results::error::ErrorSummary;
+use crate::results::life::LifeSummary;
 use crate::results::path_points::among;
 use crate::results::run::{
     ContactSummary, CycleSummary, FlankRecord, GearSummary, GeometrySummary, HistoryRow, InputFile, MeshCycleRow,
@@ -22,6 +23,7 @@ use crate::results::worn_pair::{WearProfile, WornPair};
 use crate::scene::Resolved;
 use crate::scene::file::ReportFile;
 use crate::scene::loaded::LoadedScene;
+use crate::scene::problem::number;
 use crate::simulation::figures::WearFigures;
 use crate::simulation::wear_run::{Outcome, SMALL_WEAR_MODULES};
 use crate::thermal::settings::TemperatureMethod;
@@ -121,6 +123,7 @@ pub(super) fn summary(
         stopped: outcome.stop,
         hours: scene.operation.hours(reached),
         revolutions: reached,
+        life: life(model, outcome, &worn),
         stages: Vec::new(),
         left_out: plan
             .left_out
@@ -321,7 +324,39 @@ fn wear_figures(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> WearSummary
         worn_volume_mm3: volume_mm3,
         // kg/m³ are 1e-3 mg/mm³.
         worn_mass_mg: volume_mm3 * scene.material[gear].density_kg_per_m3 * 1e-3,
+        normal_tip_thickness_mm: pair.normal_tip_thickness_mm(gear, figures.tip_edge.depth_mm),
     }
+}
+
+/// The life to the limits of the scene, where it has any.
+fn life(model: &Model<'_>, outcome: &Outcome, worn: &PerGear<WearSummary>) -> Option<LifeSummary> {
+    let operation = &model.scene.operation;
+    let stop = operation.stop;
+    if !stop.are_set() {
+        return None;
+    }
+    let found = outcome.limit_reached;
+    let revolutions = outcome.worn.revolutions;
+    let not_reached = found.is_none().then(|| {
+        let after = match operation.hours(revolutions) {
+            Some(hours) => format!("{} h", number((1e4 * hours).round() / 1e4)),
+            None => format!("{revolutions:.6e} pinion revolutions"),
+        };
+        format!(
+            "after {after} the maximum wear is {:.3} µm, and {:.4} mm are left of the thinner tip",
+            worn.pinion.peak_wear_um.max(worn.wheel.peak_wear_um),
+            worn.pinion.normal_tip_thickness_mm.min(worn.wheel.normal_tip_thickness_mm)
+        )
+    });
+    Some(LifeSummary {
+        reached: found.map(|found| found.limit),
+        gear: found.map(|found| found.gear),
+        hours: found.and_then(|_| operation.hours(revolutions)),
+        revolutions: found.map(|_| revolutions),
+        not_reached,
+        wear_limit_um: stop.wear_mm.map(|limit| limit * UM_PER_MM),
+        tip_thickness_limit_mm: stop.tip_thickness_mm,
+    })
 }
 
 fn flank(model: &Model<'_>, RunFindings { outcome, verified, .. }: RunFindings<'_>, gear: Gear) -> FlankRecord {

@@ -380,9 +380,16 @@ fn simulation(scene: &Scene) -> String {
             format!("adaptive wear steps ({method}) within {} µm", 1e3 * tolerance_mm)
         }
     };
+    let stop = operation.stop;
+    let limits = [
+        stop.wear_mm.map(|limit| format!("{} µm of wear", 1e3 * limit)),
+        stop.tip_thickness_mm.map(|limit| format!("{limit} mm left of a tip")),
+    ];
+    let limits: Vec<String> = limits.into_iter().flatten().collect();
+    let ends = if limits.is_empty() { String::new() } else { format!(", ends at {}", limits.join(" or at ")) };
     let tip_edges = if scene.contact.tip_contact { ", contact at tip edges before A and after E" } else { "" };
     format!(
-        "{steps}, {} positions, {} points a flank, {} snapshots{tip_edges}{}",
+        "{steps}{ends}, {} positions, {} points a flank, {} snapshots{tip_edges}{}",
         numerics.positions,
         numerics.flank_points,
         operation.snapshots_revolutions.len(),

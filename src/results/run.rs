@@ -9,6 +9,7 @@ pub use super::drawing::{GearCircles, PairDrawing};
 
 use super::chemistry::{TemperatureSummary, WearLawSummary};
 use super::error::ErrorSummary;
+use super::life::LifeSummary;
 use super::lubrication::{FilmRow, LubricationSummary};
 pub use super::path_points::PathPoints;
 pub use super::reported_by::ReportedBy;
@@ -65,6 +66,8 @@ pub struct Summary {
     pub hours: Option<f64>,
     /// Pinion revolutions reached.
     pub revolutions: f64,
+    /// The life to the limits of `operation.stop`; `None` where the scene has none.
+    pub life: Option<LifeSummary>,
     /// The stages carried out, in order, with their wall time.
     pub stages: Vec<StageTime>,
     /// The stages left out, with the reason.
@@ -163,12 +166,21 @@ pub struct PhaseWear {
 pub enum StopReason {
     /// The whole duration was run.
     Completed,
+    /// A limit of `operation.stop` was reached: `life` says which, and when.
+    LimitReached,
     /// The user interrupted it; what was finished is kept.
     Interrupted,
     /// The tooth pairs found no equilibrium; what was finished is kept.
     NotConverged,
     /// The wear came to the thickness of a tooth, which no result can stand for; what was kept before is that.
     WornThrough,
+}
+
+impl StopReason {
+    /// Whether the run came to its end: its duration, or a limit that was to end it.
+    pub fn is_complete(self) -> bool {
+        matches!(self, StopReason::Completed | StopReason::LimitReached)
+    }
 }
 
 /// A stage and how long it took.
@@ -400,6 +412,8 @@ pub struct WearSummary {
     pub worn_volume_mm3: f64,
     /// Worn off the whole gear: all teeth, whole width.
     pub worn_mass_mg: f64,
+    /// What is left of the normal tooth thickness at the tip cylinder, reliefs and roundings not taken off: `tip_edge_wear_um` is.
+    pub normal_tip_thickness_mm: f64,
 }
 
 /// Work done by the wear simulation alone.

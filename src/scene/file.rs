@@ -10,6 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::lubrication_file::{FrictionFile, LoadFactorsFile, LubricantFile};
+use super::material_presets::MaterialPreset;
 use super::presets;
 use super::wear_file::{GearWearFile, TemperatureFile, WearFile};
 use crate::contact::settings::{MatchCriterion, SurfaceKind};
@@ -265,6 +266,9 @@ pub struct EndReliefFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MaterialFile {
+    /// Both gears' material by name: its constants at room temperature (docs/materials.md); keys beside it override them. It says nothing
+    /// of wear. Default: steel.
+    pub preset: Option<MaterialPreset>,
     /// Young's modulus E of both gears in GPa, > 0. Default 206.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub young_modulus_GPa: Option<f64>,
@@ -290,6 +294,8 @@ pub struct MaterialFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GearMaterialFile {
+    /// Its name; keys beside it override its constants. Default: steel.
+    pub preset: Option<MaterialPreset>,
     /// Young's modulus E in GPa, > 0. Default 206.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub young_modulus_GPa: Option<f64>,
@@ -331,9 +337,24 @@ pub struct OperationFile {
     /// When the state is kept in revolutions of the pinion, instead of hours.
     #[schemars(extend("items" = { "type": "number", "exclusiveMinimum": 0 }))]
     pub snapshots_revolutions: Option<Vec<f64>>,
+    /// Limits that end the life: the run ends at the first that is reached, and the life until then is a result. Default: none.
+    pub stop: Option<StopFile>,
     /// A load spectrum or running-in: phases that follow each other, each with its own duration; hours or
     /// pinion_revolutions of the whole may be left out then, and must be their sum where given. Default: one phase.
     pub phases: Option<Vec<PhaseFile>>,
+}
+
+/// Limits that end the life of the pair: one at least.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StopFile {
+    /// Greatest wear depth in µm, > 0: on the active profile of either gear, as peak_wear_um of the summary.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub wear_um: Option<f64>,
+    /// Least normal tooth thickness at the tip of either gear in mm, > 0 and less than the thinner of both has new:
+    /// normal_tip_thickness_mm of the summary.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub tip_thickness_mm: Option<f64>,
 }
 
 /// A phase of the run under constant load and speed.
@@ -509,7 +530,7 @@ pub struct NumericsFile {
     pub verify: Option<bool>,
     /// Length of a wear step as a table for Euler's method (a warning says when it is too long to be stable), or
     /// "adaptive": as long as the error allows, stable in any case. Default: "adaptive" on the surfaces half-space and
-    /// fem and where wear may turn severe, otherwise 1/150 of the duration.
+    /// fem, where wear may turn severe and with operation.stop, otherwise 1/150 of the duration.
     pub step: Option<StepFile>,
     /// Error of the wear depth allowed in µm, > 0, at least 0.0001; where more than 50 µm are worn it grows in proportion to the
     /// wear. Read with step = "adaptive". Default 0.05.

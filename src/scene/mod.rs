@@ -9,6 +9,7 @@ pub(crate) mod key;
 pub(crate) mod loaded;
 mod locate;
 pub(crate) mod lubrication_file;
+pub(crate) mod material_presets;
 pub(crate) mod nearest;
 pub(crate) mod presets;
 pub(crate) mod problem;

@@ -198,6 +198,14 @@ impl Search<'_> {
                 self.slips.extend(torque.and_then(|torque| judge(&key, torque, credible, usual, &conversions)));
             }
         }
+        if let Some(module) = self.module_mm() {
+            // A life ends after some hundredths or tenths of the module.
+            let (credible, usual) = ([0.25 * module, 1e3 * module], [2.0 * module, 500.0 * module]);
+            let conversions = [MILLIMETRES, METRES_FOR_MICROMETRES];
+            self.judge("operation.stop.wear_um", credible, usual, &conversions);
+            let (credible, usual) = ([0.01 * module, 5.0 * module], [0.05 * module, module]);
+            self.judge("operation.stop.tip_thickness_mm", credible, usual, &[METRES, MICROMETRES]);
+        }
         let hours = [0.0, 2e5];
         self.judge(
             "operation.hours",
@@ -301,6 +309,8 @@ mod tests {
             ("pair.pressure_angle_deg", 0.349, 20.0),
             ("operation.pinion_torque_Nm", 302_000.0, 302.0),
             ("operation.hours", 459_900.0, 127.75),
+            ("operation.stop.wear_um", 0.1, 100.0),
+            ("operation.stop.tip_thickness_mm", 400.0, 0.4),
             ("fem.clamp_radius_mm.pinion", 0.01994, 19.94),
             ("material.young_modulus_GPa", 206_000.0, 206.0),
             ("material.young_modulus_GPa", 2.06e11, 206.0),
@@ -329,6 +339,7 @@ mod tests {
             ("operation.pinion_torque_Nm", 1e-6),
             ("operation.pinion_torque_Nm", 2000.0),
             ("operation.hours", 1e5),
+            ("operation.stop.wear_um", 5.0),
             ("material.young_modulus_GPa", 0.001),
             ("material.young_modulus_GPa", 1000.0),
             ("wear.coefficient_m2_per_N", 1e-13),

@@ -161,12 +161,19 @@ impl Stepper {
         if stretch.clean_start {
             pair.reset();
         }
-        let evaluated = pair.evaluate(wear, stopped).and_then(|mut work| {
-            work += pair.linearise_anew(wear, stopped)?.unwrap_or_default();
-            Ok(work)
-        });
-        Advanced { revolutions, evaluated }
+        Advanced { revolutions, evaluated: evaluate(pair, wear, stopped) }
     }
+}
+
+/// Evaluates `pair` where a step of Euler's method or the run ends.
+pub(super) fn evaluate(
+    pair: &mut dyn WearingPair,
+    wear: &WearModel<'_>,
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Result<Work, EquilibriumError> {
+    let mut work = pair.evaluate(wear, stopped)?;
+    work += pair.linearise_anew(wear, stopped)?.unwrap_or_default();
+    Ok(work)
 }
 
 impl AdaptiveSteps {

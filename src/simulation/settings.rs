@@ -21,6 +21,22 @@ pub struct Phase {
     pub end_revolutions: f64,
 }
 
+/// Limits that end the life of the pair; a run ends at the first it reaches.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct LifeLimits {
+    /// Greatest wear depth on the active profile of either gear, mm.
+    pub wear_mm: Option<f64>,
+    /// Least normal tooth thickness at the tip of either gear, mm.
+    pub tip_thickness_mm: Option<f64>,
+}
+
+impl LifeLimits {
+    /// Whether there is any.
+    pub fn are_set(&self) -> bool {
+        self.wear_mm.is_some() || self.tip_thickness_mm.is_some()
+    }
+}
+
 /// Load, speed and duration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Operation {
@@ -36,6 +52,8 @@ pub struct Operation {
     pub snapshots_revolutions: Vec<f64>,
     /// The phases of the run, one at least; the last ends with the run.
     pub phases: Vec<Phase>,
+    /// What ends the run before its time.
+    pub stop: LifeLimits,
 }
 
 impl Operation {
@@ -52,7 +70,14 @@ impl Operation {
             coefficient_mm2_per_n: PerGear::default(),
             end_revolutions: pinion_revolutions,
         };
-        Self { pinion_torque_n_mm, pinion_speed_rpm, pinion_revolutions, snapshots_revolutions, phases: vec![phase] }
+        Self {
+            pinion_torque_n_mm,
+            pinion_speed_rpm,
+            pinion_revolutions,
+            snapshots_revolutions,
+            phases: vec![phase],
+            stop: LifeLimits::default(),
+        }
     }
 
     /// Running time after `revolutions` of the pinion, in hours; `None` without a speed.

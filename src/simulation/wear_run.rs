@@ -2,14 +2,15 @@
 //!
 //! One evaluation of the mesh cycle on the flanks as they are gives the depth each point loses per mesh; [`super::advance`] takes
 //! the flanks from there to where they are evaluated next. Snapshots and ends of phases are hit exactly. A phase begins with the
-//! flanks that the one before has worn.
+//! flanks that the one before has worn. Where a limit ends the life of the pair ([`super::life`]), the run ends there.
 //!
 //! Source: the thesis, equation 12 (single-point observation, section 3.3).
 
-use super::advance::{Stepper, Stretch};
+use super::advance::{self, Stepper, Stretch};
 use super::checkpoint::{Checkpoint, Keeper, NothingKept};
+use super::life::{LimitReached, LimitsOfPair, StepBeginning};
 use super::mesh_contact::{LoadedMesh, MeshContact};
-use super::settings::Numerics;
+use super::settings::{LifeLimits, Numerics, Stepping};
 use crate::contact::Flanks;
 use crate::gear::{
     Gear, GearPair, PerGear, flank::FlankGrid, flank_zones::FlankZones, removed_material::modifications_mm,
@@ -84,6 +85,8 @@ pub(crate) struct WearRun<'a> {
     pub phases: &'a [RunPhase<'a>],
     /// When the state is kept, in pinion revolutions; the end of the run is always kept.
     pub snapshots_revolutions: &'a [f64],
+    /// What ends it before its time.
+    pub limits: LifeLimits,
     /// How finely.
     pub numerics: Numerics,
 }
@@ -93,6 +96,8 @@ pub(crate) struct WearRun<'a> {
 pub(crate) struct Outcome {
     /// Why it ended.
     pub stop: StopReason,
+    /// The limit that ended it.
+    pub limit_reached: Option<LimitReached>,
     /// What went wrong where it did not converge.
     pub failure: Option<SimulationError>,
     /// The points of each flank, the same in every slice.
@@ -143,6 +148,8 @@ struct RunState {
     wear_of_last_state_mm: Option<PerGear<Vec<f64>>>,
     /// How many of the snapshots asked for were due so far.
     passed: usize,
+    /// The limit that it has come to.
+    limit_reached: Option<LimitReached>,
     /// Whether it goes on from a checkpoint: its state is evaluated once more, but its work and its snapshot are already there.
     is_repeated: bool,
 }
@@ -190,12 +197,7 @@ impl WearRun<'_> {
         while run_state.phase < self.phases.len() {
             let phase = &self.phases[run_state.phase];
             let mut pair = self.wearing_pair(phase, &flanks)?;
-            match self.through_phase(
-                &mut run_state,
-                &mut *pair,
-                &flanks.thickness_mm,
-                Attendants { keeper, progress },
-            )? {
+            match self.through_phase(&mut run_state, &mut *pair, &flanks, Attendants { keeper, progress })? {
                 PhaseEnd::Reached => run_state.wear_mm = Some(pair.wear_mm()),
                 PhaseEnd::Stopped => break,
                 PhaseEnd::Failed(error) => {
@@ -208,6 +210,7 @@ impl WearRun<'_> {
         let stop = match &failure {
             Some(SimulationError::WornThrough { .. }) => StopReason::WornThrough,
             Some(_) => StopReason::NotConverged,
+            None if run_state.limit_reached.is_some() => StopReason::LimitReached,
             None if self.due(run_state.passed).is_none() => StopReason::Completed,
             None => StopReason::Interrupted,
         };
@@ -217,6 +220,7 @@ impl WearRun<'_> {
         let UnwornFlanks { grid, slices, modification_mm, .. } = flanks;
         Ok(Outcome {
             stop,
+            limit_reached: run_state.limit_reached.filter(|_| stop == StopReason::LimitReached),
             failure,
             grid,
             zones: self.zones,
@@ -303,6 +307,7 @@ impl WearRun<'_> {
             wear_mm: None,
             wear_of_last_state_mm: None,
             passed: 0,
+            limit_reached: None,
             is_repeated: false,
         }
     }
@@ -371,7 +376,9 @@ impl WearRun<'_> {
         pair.depth_mm(&mut depth_mm);
         let turns = PerGear { pinion: 1.0, wheel: self.pair.wheel_turns_per_pinion_turn() };
         let deepest_mm = Gear::BOTH.map(|gear| turns[gear] * depth_mm[gear].iter().copied().fold(0.0, f64::max));
-        let ahead = self.end_revolutions() * deepest_mm[0].max(deepest_mm[1]) / self.pair.spec.normal_module_mm;
+        let unlimited_mm = self.end_revolutions() * deepest_mm[0].max(deepest_mm[1]);
+        let ahead = self.limits.wear_mm.map_or(unlimited_mm, |limit_mm| unlimited_mm.min(limit_mm))
+            / self.pair.spec.normal_module_mm;
         (ahead > SMALL_WEAR_MODULES).then(|| {
             format!(
                 "at the rate of the unworn flanks the maximum wear comes to {ahead:.3} modules: beyond {SMALL_WEAR_MODULES} modules steps \
@@ -388,7 +395,7 @@ impl WearRun<'_> {
         &self,
         run_state: &mut RunState,
         pair: &mut dyn WearingPair,
-        thickness_mm: &PerGear<Vec<f64>>,
+        flanks: &UnwornFlanks,
         Attendants { keeper, progress }: Attendants<'_>,
     ) -> Result<PhaseEnd, SimulationError> {
         let phase = &self.phases[run_state.phase];
@@ -412,8 +419,10 @@ impl WearRun<'_> {
             let revolutions = run_state.revolutions;
             let is_due = self.due(run_state.passed).is_some_and(|next| revolutions >= next);
             let interrupted = progress.interrupted();
-            let worn_through = evaluated.is_ok().then(|| Self::worn_through(pair, thickness_mm, revolutions)).flatten();
-            let keep = run_state.states.is_empty() || (worn_through.is_none() && (is_due || interrupted));
+            let ends = run_state.limit_reached.is_some();
+            let worn_through =
+                evaluated.is_ok().then(|| Self::worn_through(pair, &flanks.thickness_mm, revolutions)).flatten();
+            let keep = run_state.states.is_empty() || (worn_through.is_none() && (is_due || interrupted || ends));
             let state = evaluated.and_then(|done| {
                 run_state.work += done;
                 keep.then(|| pair.snapshot(revolutions)).transpose()
@@ -441,7 +450,9 @@ impl WearRun<'_> {
             }
             self.pass_due(run_state);
             progress.progress(revolutions, self.end_revolutions());
-            let Some(next) = self.due(run_state.passed).filter(|_| !interrupted) else { return Ok(PhaseEnd::Stopped) };
+            let Some(next) = self.due(run_state.passed).filter(|_| !interrupted && !ends) else {
+                return Ok(PhaseEnd::Stopped);
+            };
             if revolutions >= phase.end_revolutions {
                 return Ok(PhaseEnd::Reached);
             }
@@ -454,8 +465,22 @@ impl WearRun<'_> {
             is_clean = run_state.work.mesh_cycles - cleaned_at >= clean_after;
             let limit = next.min(phase.end_revolutions);
             let stretch = Stretch { from: revolutions, limit, clean_start: is_clean };
+            let beginning = self.limits.are_set().then(|| StepBeginning::of(pair, revolutions));
             let advanced = run_state.stepper.advance(pair, &phase.wear, stretch, stopped);
             (run_state.revolutions, evaluated) = (advanced.revolutions, advanced.evaluated);
+            // A step that was taken may have passed a limit, even if there is no equilibrium at its end.
+            let is_taken = run_state.revolutions > revolutions && evaluated != Err(EquilibriumError::Interrupted);
+            if let Some(beginning) = beginning.filter(|_| is_taken) {
+                let smooth = matches!(self.numerics.stepping, Stepping::Adaptive { .. });
+                let limits =
+                    LimitsOfPair { limits: self.limits, pair: self.pair, grid: &flanks.grid, zones: &self.zones };
+                if let Some(within) = beginning.limit_within(&limits, pair, run_state.revolutions, smooth) {
+                    run_state.work += evaluated.unwrap_or_default();
+                    run_state.revolutions = within.revolutions;
+                    evaluated = advance::evaluate(pair, &phase.wear, stopped);
+                    run_state.limit_reached = evaluated.is_ok().then_some(within.reached);
+                }
+            }
         }
     }
 }

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 
 use gearwear::observer::Unwatched;
 use gearwear::pipeline::{self, Resumption, RunError};
-use gearwear::results::run::RunRecord;
+use gearwear::results::run::{RunRecord, StopReason};
 use gearwear::scene::Scene;
 use gearwear::simulation::checkpoint::{Checkpoint, Keeper, NothingKept};
 use gearwear::simulation::wear_run::SimulationError;
@@ -139,6 +139,16 @@ fn over_several_phases() {
     goes_on_to_the_same_bits(&text, 2);
     let adaptive = text.replace("step = { revolutions = 8000.0 }", "step = \"adaptive\"\ntolerance_um = 0.01");
     goes_on_to_the_same_bits(&adaptive, 2);
+}
+
+/// A life that ends at a limit, in the middle of a step.
+#[test]
+fn to_a_limit() {
+    let numerics = "flank_points = 150\npositions = 400\nstep = { revolutions = 1300.0 }";
+    let text = scene(SPUR, "surface = \"winkler\"\ntip_contact = false", numerics, "")
+        .replace("[contact]", "stop = { wear_um = 8.0 }\n[contact]");
+    goes_on_to_the_same_bits(&text, 1);
+    assert_eq!(run(&text, None, &NothingKept).unwrap().summary.stopped, StopReason::LimitReached);
 }
 
 /// What no file of this program holds, but a file could: rows of other flanks, phases that are none.

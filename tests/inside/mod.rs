@@ -24,6 +24,7 @@ mod helical_convergence;
 mod helical_targets;
 mod hexahedra;
 mod law_of_each_gear;
+mod life;
 mod lubrication;
 mod mesh_files;
 mod mesh_files_fuzz;

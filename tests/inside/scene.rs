@@ -108,6 +108,27 @@ fn a_key_beside_a_preset_overrides_it() {
 }
 
 #[test]
+fn materials_by_name_are_overridden_by_keys() {
+    let of = |lines: &str| resolve(&format!("{LEAST}\n{lines}\n")).scene.material;
+    let steel = of("");
+    assert_eq!(of("[material]\npreset = \"steel\""), steel);
+    // The constants of docs/materials.md.
+    let mixed = of("[material.wheel]\npreset = \"POM\"\nyoung_modulus_GPa = 2.7");
+    assert_eq!(mixed.pinion, steel.pinion);
+    let wheel = mixed.wheel;
+    assert_eq!([wheel.young_modulus_mpa, wheel.poisson_ratio, wheel.density_kg_per_m3], [2700.0, 0.35, 1415.0]);
+    let both = of("[material]\npreset = \"PA66\"\n[material.pinion]\npoisson_ratio = 0.4");
+    assert_eq!(
+        (both.pinion.young_modulus_mpa, both.pinion.poisson_ratio, both.wheel.poisson_ratio),
+        (1850.0, 0.4, 0.3)
+    );
+    let text = format!("{LEAST}\n[material]\npreset = \"POM\"\n[material.wheel]\npreset = \"steel\"\n");
+    assert_eq!(Scene::from_toml(&text).unwrap_err()[0].key, "material.wheel.preset");
+    let text = format!("{LEAST}\n[material]\npreset = \"pom\"\n");
+    assert!(Scene::from_toml(&text).unwrap_err()[0].to_string().contains("POM"));
+}
+
+#[test]
 fn coefficient_in_either_unit_is_the_same() {
     let other = LEAST.replace("coefficient_m2_per_N = 1e-17", "coefficient_mm3_per_Nm = 1e-8");
     let [one, other] = [LEAST, &other].map(|text| resolve(text).scene.wear.pinion.coefficient_mm2_per_n);

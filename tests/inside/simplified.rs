@@ -19,6 +19,7 @@ use gearwear::mesh_cycle::{
 use gearwear::observer::Unwatched;
 use gearwear::simulation::figures::WearFigures;
 use gearwear::simulation::mesh_contact::MeshContact;
+use gearwear::simulation::settings::LifeLimits;
 use gearwear::simulation::wear_run::{Outcome, RunPhase, WearRun};
 use gearwear::stiffness::{TeethSpring, settings::StiffnessSettings};
 use gearwear::wear::{
@@ -63,6 +64,7 @@ fn run(scene: &Scene) -> Outcome {
         zones: zones(&pair, line_load),
         phases: &[phase],
         snapshots_revolutions: &scene.snapshots,
+        limits: LifeLimits::default(),
         numerics: scene.numerics(),
     };
     run.run(&Unwatched).expect("the run of the test converges")

@@ -6,7 +6,7 @@ use gearwear::gear::{Gear, PerGear};
 use gearwear::gear_mesh::settings::{Body, BodySettings, default_clamp};
 use gearwear::observer::Unwatched;
 use gearwear::simulation::mesh_contact::MeshContact;
-use gearwear::simulation::settings::{AdaptiveMethod, Numerics, Stepping};
+use gearwear::simulation::settings::{AdaptiveMethod, LifeLimits, Numerics, Stepping};
 use gearwear::simulation::wear_run::{Outcome, RunPhase, WearRun};
 use gearwear::wear::{WearModel, settings::SevereTransition, settings::WearSettings};
 
@@ -99,7 +99,8 @@ fn ver_eulers_steps_break_where_the_bound_says_on_finite_elements() {
         let stepping = Stepping::Fixed { revolutions: step };
         let numerics = Numerics { flank_points: 300, positions: 40, stepping, error_estimate: false };
         let zones = zones(&pair, scene.line_load());
-        let run = WearRun { pair: &pair, zones, phases: &[phase], snapshots_revolutions: snapshots, numerics };
+        let limits = LifeLimits::default();
+        let run = WearRun { pair: &pair, zones, phases: &[phase], snapshots_revolutions: snapshots, limits, numerics };
         match bound {
             true => Err(run.step_bound(&phase, false, &|| false).expect("the unworn pair has an equilibrium")),
             false => Ok(run.run(&Unwatched).expect("the run converges")),

@@ -197,6 +197,22 @@ impl WearingPair for SimplifiedPair<'_> {
         })
     }
 
+    fn wear_at_points_mm(&self) -> PerGear<Vec<f64>> {
+        PerGear::from_fn(|gear| {
+            let points = self.grid[gear].len();
+            let mut wear_mm = vec![0.0; self.knots.len() * points];
+            for (knots, own_mm) in self.knots.iter().zip(wear_mm.chunks_exact_mut(points)) {
+                let worn = |knot: &Knot| {
+                    let [wear, depth] = self.batches[knot.at.0].of_lane(gear, knot.at.1);
+                    [wear + self.meshes[gear] * depth]
+                };
+                let values: Vec<[f64; 1]> = knots.iter().map(worn).collect();
+                self.flank_points.bring(gear, knots, &values, |point, part, [wear]| own_mm[point] = part * wear);
+            }
+            wear_mm
+        })
+    }
+
     fn set_wear_mm(&mut self, wear_mm: &PerGear<Vec<f64>>) {
         self.meshes = PerGear { pinion: 0.0, wheel: 0.0 };
         let mut rest = wear_mm.as_ref().map(Vec::as_slice);

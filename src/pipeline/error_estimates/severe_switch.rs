@@ -50,7 +50,7 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
     if flank_points.min(fewest) < LEAST_POINTS {
         return (Estimate::none("too few flank points or positions to leave some out"), 0.0);
     }
-    let duration = scene.operation.pinion_revolutions;
+    let duration = model.duration();
     let coarse = |positions: usize, revolutions: f64| {
         let numerics = Numerics { flank_points, positions, stepping: Stepping::Fixed { revolutions }, ..fine };
         WearRun { numerics, snapshots_revolutions: &[], ..model.wear_run() }

@@ -220,7 +220,7 @@ fn from_fixed_steps(companions: &mut Companions<'_>, reference: PerGear<f64>) ->
         let how = format!("Richardson, {order} order, from coarser runs with {}", companions.spacings());
         Ok((companions.relative(stepped, half) / divisor, how))
     });
-    let duration = companions.model.scene.operation.pinion_revolutions;
+    let duration = companions.model.duration();
     let ratio = step.min(duration / companions.model.scene.numerics.stepping.euler_revolutions(duration));
     let wear_step = stepped.and_then(|stepped| {
         if ratio < LEAST_STEP_RATIO {

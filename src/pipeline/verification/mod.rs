@@ -294,7 +294,7 @@ fn life(
         _ if observer.interrupted() => Err("interrupted".to_owned()),
         _ => Err(format!(
             "after {MOST_STEPS} wear steps the finite elements had reached {:.0} % of the duration",
-            100.0 * life.worn.revolutions / scene.operation.pinion_revolutions
+            100.0 * life.worn.revolutions / model.duration()
         )),
     }
 }

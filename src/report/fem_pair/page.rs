@@ -95,7 +95,7 @@ fn where_on_path(points: &PathPoints, at_mm: f64) -> String {
 
 fn interruption(s: &FemPairSummary) -> Option<String> {
     let how = match s.stopped {
-        StopReason::Completed => return None,
+        StopReason::Completed | StopReason::LimitReached => return None,
         StopReason::Interrupted => "The run was interrupted",
         StopReason::NotConverged | StopReason::WornThrough => "The contact at the next position did not converge",
     };

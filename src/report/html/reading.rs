@@ -76,7 +76,8 @@ pub(crate) fn answer(record: &RunRecord) -> String {
         }
         (None, _) => "",
     };
-    let mut text = format!("After {} {lost}.{vouched}", duration(s));
+    let life = s.life.as_ref().map_or_else(String::new, |life| format!("{} ", life.in_words(&duration(s))));
+    let mut text = format!("{life}After {} {lost}.{vouched}", duration(s));
     if record.history.is_empty() {
         return text;
     }
@@ -147,7 +148,7 @@ fn depth(record: &RunRecord, gear: Gear) -> String {
 /// What to say above everything else where the run did not reach its end.
 pub(crate) fn interruption(summary: &Summary) -> Option<String> {
     let how = match summary.stopped {
-        StopReason::Completed => return None,
+        StopReason::Completed | StopReason::LimitReached => return None,
         StopReason::Interrupted => "was interrupted",
         StopReason::NotConverged => "did not converge; its last state kept is that",
         StopReason::WornThrough => "ended with a tooth worn through; its last state kept is that",

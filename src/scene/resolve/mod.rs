@@ -54,6 +54,7 @@ pub(super) fn resolve_table(table: Table, mut findings: Findings) -> Result<Reso
     {
         contact_size::check(scene, &pair, &mut findings);
         of_contact = !findings.problems.is_empty();
+        operation::check_stop(&scene.operation.stop, &pair, &mut findings);
     }
     let slips = slips.into_iter().filter(|slip| findings.is_in_file(&slip.key));
     match resolved {
@@ -144,7 +145,8 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let (pair, operation) = (pair?, operation?);
     let finely_resolved = matches!(surface, Some(SurfaceKind::Fem | SurfaceKind::HalfSpace));
     let is_severe = wear.is_some_and(|wear| wear.may_be_severe());
-    let adaptive = finely_resolved || is_severe;
+    // A life may end within a small part of the duration.
+    let adaptive = finely_resolved || is_severe || operation.stop.are_set();
     let numerics = settings::numerics(&mut file.numerics, operation.pinion_revolutions, adaptive, findings);
     let verify = *file.numerics.get_or_insert_default().verify.get_or_insert(true);
     if !verify {

@@ -1,11 +1,11 @@
 //! Load, speed, duration and snapshots, in revolutions of the pinion.
 
 use super::wear::coefficient_mm2_per_n;
-use crate::gear::PerGear;
-use crate::scene::file::{GearPhaseFile, OperationFile, PhaseFile};
+use crate::gear::{Gear, GearPair, PerGear};
+use crate::scene::file::{GearPhaseFile, OperationFile, PhaseFile, StopFile};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
-use crate::simulation::settings::{Operation, Phase};
+use crate::simulation::settings::{LifeLimits, Operation, Phase};
 
 /// Snapshots this close to the end of the run, relatively, are the end: hours and revolutions round differently.
 const SAME_TIME: f64 = 1e-9;
@@ -43,12 +43,19 @@ pub(super) fn choose(file: &mut OperationFile, findings: &mut Findings) -> Optio
         }
     };
     let pinion_revolutions = phases.last()?.end_revolutions;
+    let StopFile { wear_um, tip_thickness_mm } = file.stop.clone().unwrap_or_default();
+    let stop = LifeLimits { wear_mm: wear_um.map(|limit| 1e-3 * limit), tip_thickness_mm };
+    if file.stop.is_some() && !stop.are_set() {
+        findings.missing(&["operation.stop.wear_um", "operation.stop.tip_thickness_mm"], "a number greater than 0");
+        return None;
+    }
     let mut operation = Operation {
         pinion_torque_n_mm: of_whole.pinion_torque_n_mm,
         pinion_speed_rpm: of_whole.pinion_speed_rpm,
         pinion_revolutions,
         snapshots_revolutions: Vec::new(),
         phases,
+        stop,
     };
     operation.snapshots_revolutions = snapshots(file, &operation, findings)?;
     for phase in &operation.phases {
@@ -62,6 +69,17 @@ pub(super) fn choose(file: &mut OperationFile, findings: &mut Findings) -> Optio
     }
     operation.snapshots_revolutions.sort_by(f64::total_cmp);
     is_loaded.then_some(operation)
+}
+
+/// Refuses a limit that `pair` has passed already.
+pub(super) fn check_stop(stop: &LifeLimits, pair: &GearPair, findings: &mut Findings) {
+    let new = Gear::BOTH.map(|gear| (gear, pair.normal_tip_thickness_mm(gear, 0.0)));
+    let [(gear, thickness_mm), other] = new;
+    let (gear, thickness_mm) = if other.1 < thickness_mm { other } else { (gear, thickness_mm) };
+    if let Some(limit_mm) = stop.tip_thickness_mm.filter(|&limit_mm| limit_mm >= thickness_mm) {
+        let allowed = format!("less than {thickness_mm:.4}, the normal tip thickness of the new {} in mm", gear.name());
+        findings.not_allowed("operation.stop.tip_thickness_mm", number(limit_mm), allowed);
+    }
 }
 
 /// A duration said in one of two ways, in revolutions of the pinion.

@@ -7,6 +7,7 @@ use crate::scene::file::{
     ContactFile, GearMaterialFile, MaterialFile, NamedStep, NumericsFile, StepFile, StiffnessFile, StiffnessModel,
 };
 use crate::scene::findings::Findings;
+use crate::scene::material_presets::MaterialPreset;
 use crate::scene::problem::number;
 use crate::simulation::settings::{AdaptiveMethod, Numerics, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
@@ -23,15 +24,6 @@ const MOST_POINTS_TIMES_POSITIONS: usize = 100_000_000;
 /// More wear steps than this never end.
 const MOST_STEPS: f64 = 1e7;
 
-/// Case-hardened steel.
-const STEEL: GearMaterialFile = GearMaterialFile {
-    young_modulus_GPa: Some(206.0),
-    poisson_ratio: Some(0.3),
-    density_kg_per_m3: Some(7830.0),
-    thermal_conductivity_W_per_mK: Some(46.0),
-    thermal_diffusivity_m2_per_s: Some(1.2e-5),
-};
-
 /// Chooses the material of each gear: how it deforms, and how it conducts heat.
 pub(super) fn material(
     file: &mut Option<MaterialFile>,
@@ -39,6 +31,7 @@ pub(super) fn material(
 ) -> Option<PerGear<(Material, ThermalMaterial)>> {
     let given = file.take().unwrap_or_default();
     let both = GearMaterialFile {
+        preset: given.preset,
         young_modulus_GPa: given.young_modulus_GPa,
         poisson_ratio: given.poisson_ratio,
         density_kg_per_m3: given.density_kg_per_m3,
@@ -48,6 +41,8 @@ pub(super) fn material(
     let mut sound = true;
     for (gear, of_gear) in [("pinion", &given.pinion), ("wheel", &given.wheel)] {
         let Some(own) = of_gear else { continue };
+        let keys = ["material.preset".to_owned(), format!("material.{gear}.preset")];
+        sound &= !findings.said_twice(&[(&keys[0], both.preset.is_some()), (&keys[1], own.preset.is_some())]);
         for (name, common, own) in [
             ("young_modulus_GPa", both.young_modulus_GPa, own.young_modulus_GPa),
             ("poisson_ratio", both.poisson_ratio, own.poisson_ratio),
@@ -59,8 +54,12 @@ pub(super) fn material(
             sound &= !findings.said_twice(&[(&keys[0], common.is_some()), (&keys[1], own.is_some())]);
         }
     }
-    let pinion = over(over(given.pinion.unwrap_or_default(), &both), &STEEL);
-    let wheel = over(over(given.wheel.unwrap_or_default(), &both), &STEEL);
+    let whole = |own: Option<GearMaterialFile>| {
+        let given = over(own.unwrap_or_default(), &both);
+        let below = given.preset.unwrap_or(MaterialPreset::Steel).properties();
+        over(given, &below)
+    };
+    let (pinion, wheel) = (whole(given.pinion), whole(given.wheel));
     let chosen = PerGear { pinion: properties(&pinion)?, wheel: properties(&wheel)? };
     *file = Some(MaterialFile { pinion: Some(pinion), wheel: Some(wheel), ..MaterialFile::default() });
     sound.then_some(chosen)
@@ -68,6 +67,7 @@ pub(super) fn material(
 
 fn over(above: GearMaterialFile, below: &GearMaterialFile) -> GearMaterialFile {
     GearMaterialFile {
+        preset: above.preset.or(below.preset),
         young_modulus_GPa: above.young_modulus_GPa.or(below.young_modulus_GPa),
         poisson_ratio: above.poisson_ratio.or(below.poisson_ratio),
         density_kg_per_m3: above.density_kg_per_m3.or(below.density_kg_per_m3),

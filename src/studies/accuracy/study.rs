@@ -20,6 +20,7 @@ use crate::pipeline::calibrate::{self, CalibrateError, Extent};
 use crate::results::run::StopReason;
 use crate::scene::Resolved;
 use crate::scene::loaded::LoadedScene;
+use crate::simulation::settings::LifeLimits;
 use crate::studies::accuracy::record::{
     AccuracyRecord, CALIBRATION_FILE, MeasuredError, NotRanked, Quantity, Recommendation, ReferenceFlank,
     ReferenceRecord, VariantRecord,
@@ -51,7 +52,14 @@ pub(crate) enum AccuracyError {
 pub(crate) fn run(given: &LoadedScene, asked: Asked, observer: &dyn Observer) -> Result<AccuracyRecord, AccuracyError> {
     let start = Instant::now();
     let calibration = calibration(given, observer)?;
-    let given = &calibration.made.map_or_else(|| given.clone(), |made| given.calibrated(made));
+    let mut given = calibration.made.map_or_else(|| given.clone(), |made| given.calibrated(made));
+    if given.resolved.file.operation.stop.take().is_some() {
+        given.resolved.scene.operation.stop = LifeLimits::default();
+        let warning =
+            "operation.stop is left out: all models run the whole duration, so that their wear can be compared";
+        given.resolved.warnings.push(warning.to_owned());
+    }
+    let given = &given;
     let (resolved, made) = (&given.resolved, given.files.calibration.as_ref());
     let calibrated: Vec<MatchCriterion> = made.map_or_else(Vec::new, |made| made.foundation.keys().copied().collect());
     let selection = Selection::new(resolved, asked, &calibrated, &calibration.why_none);

@@ -130,7 +130,7 @@ impl Question {
         if form == Form::None && file.kind == ValueKind::Height && file.height_from == HeightFrom::Line {
             return Err(QuestionError::LineWithoutForm);
         }
-        let revolutions = revolutions(file, resolved)?;
+        let revolutions = revolutions(file, folder.summary.revolutions, resolved)?;
         let face_width_mm = scene.pair.face_width_mm;
         if let Some(found) = file.width_mm.filter(|width| !(0.0..=face_width_mm).contains(width)) {
             return Err(QuestionError::Width { line: file.width_line, found, face_width_mm });
@@ -161,10 +161,9 @@ impl Question {
     }
 }
 
-/// When the profile was measured, in pinion revolutions.
-fn revolutions(file: &MeasuredFile, resolved: &Resolved) -> Result<f64, QuestionError> {
+/// When the profile was measured, in pinion revolutions, of a run that ended after `end` of them.
+fn revolutions(file: &MeasuredFile, end: f64, resolved: &Resolved) -> Result<f64, QuestionError> {
     let operation = &resolved.scene.operation;
-    let end = operation.pinion_revolutions;
     let line = file.moment_line;
     let (revolutions, key, found, shown_end) = match file.moment {
         Moment::End => return Ok(end),

@@ -23,7 +23,7 @@ const SAME_TIME: f64 = 1e-9;
 pub(crate) enum RunFolderError {
     #[error("{} cannot be read: {reason}; allowed: the folder of a finished gearwear run", path.display())]
     Unreadable { path: PathBuf, reason: io::Error },
-    #[error("{}: stopped: found {found}; allowed: completed", path.display())]
+    #[error("{}: stopped: found {found}; allowed: completed or limit-reached", path.display())]
     Unfinished { path: PathBuf, found: String },
     #[error("{}: found a scene with hash {found}; allowed: {allowed}, that of {SUMMARY}", path.display())]
     OtherScene { path: PathBuf, found: String, allowed: String },
@@ -41,6 +41,8 @@ pub(crate) enum RunFolderError {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub(crate) struct Summary {
     pub title: String,
+    /// How long the run was, in pinion revolutions.
+    pub revolutions: f64,
     program_version: String,
     scene_hash: String,
 }
@@ -122,7 +124,7 @@ pub(crate) fn summary<S: DeserializeOwned>(folder: &Path) -> Result<S, RunFolder
         found: error.to_string(),
         allowed: "what gearwear run writes".to_owned(),
     })?;
-    if ended.stopped == "completed" {
+    if matches!(ended.stopped.as_str(), "completed" | "limit-reached") {
         Ok(ended.rest)
     } else {
         Err(RunFolderError::Unfinished { path, found: ended.stopped })

@@ -19,6 +19,7 @@ use crate::pipeline::{self, RunError};
 use crate::results::run::StopReason;
 use crate::scene::loaded::LoadedScene;
 use crate::scene::{Resolved, Scene};
+use crate::simulation::settings::LifeLimits;
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub(crate) enum CompareError {
@@ -83,6 +84,7 @@ impl<'a> Simulations<'a> {
             last.end_revolutions = revolutions;
         }
         operation.pinion_revolutions = revolutions;
+        operation.stop = LifeLimits::default();
         // Those of the scene stay: steps end at them.
         operation.snapshots_revolutions.retain(|&at| at < revolutions);
         operation.snapshots_revolutions.push(revolutions);

@@ -51,6 +51,12 @@ impl Output {
         self.path.starts_with("error.")
     }
 
+    /// Where it is the life to a limit: what a run that comes to none says of it, how long it was.
+    pub(crate) fn at_least(&self, summary: &Value) -> Option<f64> {
+        let time = self.path.strip_prefix("life.").filter(|time| matches!(*time, "hours" | "revolutions"))?;
+        summary["life"].is_object().then(|| summary[time].as_f64())?
+    }
+
     /// Its value in the summary; none where the run does not compute it.
     pub(crate) fn of(&self, summary: &Value) -> Option<f64> {
         summary.pointer(&self.pointer)?.as_f64()

@@ -136,6 +136,12 @@ pub(crate) const FIGURES: &[SweepFigure] = &[
     describes("volume_balance", "difference of the worn volumes of pinion and wheel", "")
         .of(|s| s.error.volume_balance)
         .meaning("relative to the greater, over the whole run: an error, as both flanks of a contact lose the same; empty where nothing wears"),
+    describes("life_h", "life", "h")
+        .of(|s| s.life.as_ref()?.hours)
+        .meaning("until the first limit of operation.stop is reached; empty where none is within the duration"),
+    describes("life_revolutions", "life", "pinion revolutions")
+        .of(|s| s.life.as_ref()?.revolutions)
+        .meaning("the same in pinion revolutions"),
 ];
 
 impl SweepFigure {

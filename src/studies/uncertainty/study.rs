@@ -61,7 +61,8 @@ pub(crate) enum StudyError {
 
 /// What is kept of a run.
 struct Ran {
-    outputs: Vec<f64>,
+    /// Each with the time until which it is known, where it is a life.
+    outputs: Vec<(f64, f64)>,
     growths: Vec<Growth>,
     /// At the places of the bands; of samples of A and B alone.
     wear_um: Option<PerGear<Vec<f32>>>,
@@ -134,7 +135,7 @@ impl Samples<'_> {
     fn figures(&self, ran: &Ran, point: usize, matrix: Matrix) -> Vec<(f64, f64)> {
         let (_, times) = self.times(point, matrix);
         let (of_outputs, of_limits) = times.split_at(self.question.outputs.len());
-        let outputs = ran.outputs.iter().zip(of_outputs).map(|(value, times)| (value * times, value * times));
+        let outputs = ran.outputs.iter().zip(of_outputs).map(|((value, until), times)| (value * times, until * times));
         let limits = self.question.limits.iter().zip(&ran.growths).zip(of_limits);
         outputs.chain(limits.map(|((limit, growth), times)| limit.life(growth, *times))).collect()
     }
@@ -157,9 +158,14 @@ fn worn<'a>(
     varied.carry_out(resolved, observer, pipeline::worn_pair)
 }
 
-fn outputs_of(question: &Question, found: &WornPair) -> Result<Vec<f64>, String> {
+/// Each output with the time until which it is known: a life to a limit that is not reached is infinite.
+fn outputs_of(question: &Question, found: &WornPair) -> Result<Vec<(f64, f64)>, String> {
     let summary = serde_json::to_value(&found.summary).map_err(|error| error.to_string())?;
-    Ok(question.outputs.iter().map(|output| output.of(&summary).unwrap_or(f64::NAN)).collect())
+    let of = |output: &Output| match (output.of(&summary), output.at_least(&summary)) {
+        (None, Some(at_least)) => (f64::INFINITY, at_least),
+        (value, _) => (value.unwrap_or(f64::NAN), value.unwrap_or(f64::NAN)),
+    };
+    Ok(question.outputs.iter().map(of).collect())
 }
 
 /// Wear at these radii, even between the points; 0 outside them.
@@ -351,7 +357,7 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
         ),
     };
     let nominal = match limit {
-        None => outputs_of(question, samples.nominal).ok().map(|values| values[figure]),
+        None => outputs_of(question, samples.nominal).ok().map(|values| values[figure].0),
         Some(limit) => Some(limit.life(&limit.growth(&samples.nominal.history), 1.0).0),
     };
     let found = match (&question.correlation, censored) {
@@ -366,7 +372,7 @@ fn output_record(samples: &Samples<'_>, rows: &[&[Row]], figure: usize) -> Outpu
         nominal: nominal.filter(|value| value.is_finite()),
         model_error: samples.errors[figure],
         samples: sorted.len(),
-        censored: limit.map(|_| censored as f64 / sorted.len().max(1) as f64),
+        censored: (limit.is_some() || name.starts_with("life.")).then(|| censored as f64 / sorted.len().max(1) as f64),
         mean: complete.then(|| mean(sorted.iter().copied())),
         standard_deviation: complete.then(|| standard_deviation(&sorted)).flatten(),
         quantiles: Quantiles { p05, p25, p50, p75, p95 },

@@ -277,7 +277,7 @@ fn table(write: impl FnOnce(&mut dyn Write) -> io::Result<Vec<Column>>) -> Resul
 /// Why a run has not converged, or was left before its end.
 fn failure(failure: Option<impl ToString>, stop: StopReason) -> Option<Failed> {
     let (outcome, said) = match stop {
-        StopReason::Completed => return failure.map(not_converged),
+        StopReason::Completed | StopReason::LimitReached => return failure.map(not_converged),
         StopReason::Interrupted => (RunOutcome::NotConverged, "interrupted"),
         StopReason::NotConverged => (RunOutcome::NotConverged, "the run did not converge"),
         StopReason::WornThrough => (RunOutcome::WornThrough, "a tooth is worn through"),

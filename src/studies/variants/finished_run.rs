@@ -7,6 +7,7 @@ use serde::Deserialize;
 
 use crate::gear::{Gear, PerGear};
 use crate::results::error::TotalError;
+use crate::results::life::LifeSummary;
 use crate::results::run::ReportedBy;
 use crate::studies::compare::run_folder::{self, RunFolder, RunFolderError};
 
@@ -25,6 +26,7 @@ pub(crate) struct RunSummary {
     pub pinion: FlankSummary,
     pub wheel: FlankSummary,
     pub helical: Option<FaceSummary>,
+    pub life: Option<LifeSummary>,
     pub error: ErrorSummary,
 }
 

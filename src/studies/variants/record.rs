@@ -89,7 +89,7 @@ impl Figure {
     }
 }
 
-static FIGURES: [Figure; 15] = [
+static FIGURES: [Figure; 17] = [
     Figure::of(
         "pinion.peak_wear_um",
         "Maximum wear of the pinion, active profile",
@@ -169,6 +169,14 @@ static FIGURES: [Figure; 15] = [
         "Difference of the worn volumes of pinion and wheel",
         "",
         |s| s.error.volume_balance,
+        |_| None,
+    ),
+    Figure::of("life.hours", "Life", "h", |s| s.life.as_ref().and_then(|life| life.hours), |_| None),
+    Figure::of(
+        "life.revolutions",
+        "Life",
+        "pinion revolutions",
+        |s| s.life.as_ref().and_then(|life| life.revolutions),
         |_| None,
     ),
 ];

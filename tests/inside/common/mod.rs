@@ -107,7 +107,7 @@ use gearwear::contact::{
 use gearwear::mesh_cycle::{settings::SliceSettings, slice_coupling::SliceCompliance, sliced_teeth::SlicedTeeth};
 use gearwear::observer::Unwatched;
 use gearwear::simulation::mesh_contact::MeshContact;
-use gearwear::simulation::settings::{Numerics, Stepping};
+use gearwear::simulation::settings::{LifeLimits, Numerics, Stepping};
 use gearwear::simulation::stability::StepBound;
 use gearwear::simulation::wear_run::{Outcome, RunPhase, WearRun};
 use gearwear::stiffness::{TeethSpring, curve::PairCompliance, settings::StiffnessSettings};
@@ -234,7 +234,8 @@ impl Scene {
         };
         let (snapshots, numerics) = (&self.snapshots, self.numerics());
         let zones = zones(&pair, line_load);
-        let run = WearRun { pair: &pair, zones, phases: &[phase], snapshots_revolutions: snapshots, numerics };
+        let limits = LifeLimits::default();
+        let run = WearRun { pair: &pair, zones, phases: &[phase], snapshots_revolutions: snapshots, limits, numerics };
         then(&run, &phase)
     }
 }

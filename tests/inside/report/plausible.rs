@@ -56,6 +56,7 @@ pub fn interrupted() -> RunRecord {
             pitch_wear_um: 0.0,
             worn_volume_mm3: 0.0,
             worn_mass_mg: 0.0,
+            normal_tip_thickness_mm: wear.normal_tip_thickness_mm,
         };
     }
     record
@@ -235,6 +236,7 @@ fn summary() -> Summary {
         pitch_wear_um: 0.002,
         worn_volume_mm3: 4.87,
         worn_mass_mg: 38.1,
+        normal_tip_thickness_mm: [2.1, 2.3][gear as usize],
     };
     let stage = |name: &str, wall_s| StageTime { name: name.into(), wall_s };
     Summary {
@@ -245,6 +247,7 @@ fn summary() -> Summary {
         stopped: StopReason::Completed,
         hours: Some(127.75),
         revolutions: 127.75 * REVOLUTIONS_PER_HOUR,
+        life: None,
         stages: vec![
             stage("geometry", 0.0004),
             stage("stiffness", 0.0021),
