@@ -49,15 +49,19 @@ def carry_out(sweep: bytes, task: str) -> str:
 
 
 class Engine:
-    """An executor that does tasks of a sweep."""
+    """An executor, or a function that makes one, that does tasks of a sweep."""
 
-    def __init__(self, executor: Executor, sweep: bytes, lost: Callable[[str, str], str]) -> None:
-        self._executor = executor
+    def __init__(
+        self, executor: Executor | Callable[[], Executor], sweep: bytes, lost: Callable[[str, str], str]
+    ) -> None:
+        #: makes one in place of a broken one
+        self._make = None if isinstance(executor, Executor) else executor
+        self._executor = executor if isinstance(executor, Executor) else executor()
         self._sweep = sweep
         self._lost = lost
         self._most = max(64, min(AT_A_TIME[0], MOST_BYTES // len(sweep)))
-        #: whether the executor is one of ours, in place of a broken one
-        self._own = False
+        #: whether the executor is one of ours
+        self._own = self._make is not None
         self._out: dict[Future[str], tuple[str, int]] = {}
         self._back: SimpleQueue[Future[str]] = SimpleQueue()
         #: tasks lost for good before any has come back
@@ -104,20 +108,20 @@ class Engine:
         try:
             return self._executor.submit(carry_out, self._sweep, task)
         except BrokenExecutor:
-            # A process pool is broken for good when one of its workers died: another one like it takes its place.
-            if type(self._executor) is not ProcessPoolExecutor:
+            # A pool is broken for good when one of its processes died: another one like it takes its place.
+            broken = self._executor
+            if self._make is not None:
+                self._executor = self._make()
+            elif type(broken) is ProcessPoolExecutor:
+                pool = vars(broken)
+                of_pool = (pool[f"_{name}"] for name in ("max_workers", "mp_context", "initializer", "initargs"))
+                self._executor = ProcessPoolExecutor(*of_pool)
+            else:
                 raise
-            self._renew(self._executor)
+            if self._own:
+                broken.shutdown(wait=False)
+            self._own = True
             return self._executor.submit(carry_out, self._sweep, task)
-
-    def _renew(self, broken: ProcessPoolExecutor) -> None:
-        pool = vars(broken)
-        self._executor = ProcessPoolExecutor(
-            pool["_max_workers"], pool["_mp_context"], pool["_initializer"], pool["_initargs"]
-        )
-        if self._own:
-            broken.shutdown(wait=False)
-        self._own = True
 
     def _doubt(self, task: str, error: BaseException) -> None:
         self._doubtful.append((task, error))
@@ -134,7 +138,7 @@ class Engine:
         for future in self._out:
             future.cancel()
         if self._own:
-            self._executor.shutdown(wait=False, cancel_futures=True)
+            self._executor.shutdown(wait=False)
 
 
 def _said(error: BaseException) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from gearwear.scene import Scene
@@ -46,7 +46,7 @@ def sweep(
     scene: Scene,
     vary: Mapping[str, object],
     *,
-    executor: Executor | None = None,
+    executor: Executor | Callable[[], Executor] | None = None,
     out: str | os.PathLike[str] | None = None,
     threads: int | None = 1,
     best: str | None = None,
@@ -61,7 +61,8 @@ def sweep(
 
     Combinations are run by ``threads`` threads of this process, one each, or by the workers of ``executor``, anything with the ``submit`` of
     :class:`concurrent.futures.Executor`: a process pool, ``dask.distributed.Client.get_executor()``, ``mpi4py.futures``. No engine changes a bit of
-    the rows but their times. A combination whose worker dies is run again; one that is lost three times is a failed row.
+    the rows but their times. A combination whose worker dies is run again; one that is lost three times is a failed row. A pool that is broken
+    when a process of it died is made anew: one of ``concurrent.futures`` as it is, others where ``executor`` is a function that makes one.
 
     ``out`` is a folder with the journal and the files of ``gearwear sweep``: each row is kept there as it arrives, so that after Ctrl-C or a
     killed process the same call, and the same command, goes on with what is missing. ``best``, ``subject_to`` and ``error_estimate`` are those of
@@ -79,6 +80,9 @@ def sweep(
     if executor is not None and threads != 1:
         raise ValueError(f"threads: found {threads!r} beside an executor, which has workers of its own; allowed: 1")
     question = ([f"{key}={_values(key, values)}" for key, values in vary.items()], best, list(subject_to), error_estimate)
+
+    if not (executor is None or hasattr(executor, "submit") or callable(executor)):
+        raise TypeError(f"executor: found {type(executor).__name__}; allowed: a concurrent.futures.Executor, or a function that makes one")
 
     # With `concurrent.futures`, which the package does not load before it is needed.
     from gearwear.executors import Engine, Held, packed
