@@ -10,7 +10,7 @@ import signal
 import subprocess
 import sys
 import time
-from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +27,9 @@ RELIEF = "pair.{pinion,wheel}.tip_rounding_mm"
 VARY = {TORQUE: [-1.0, 150, 250.0, 302], RELIEF: "0.05:0.15:2"}
 #: Columns that say how long it took.
 TIMES = ("simulation_s", "wall_s")
+
+#: The negative torque is said before the sweep begins.
+pytestmark = pytest.mark.filterwarnings("ignore:operation.pinion_torque_Nm")
 
 LINUX = pytest.mark.skipif(sys.platform == "win32", reason="processes of POSIX")
 
@@ -174,6 +177,40 @@ def test_an_executor_that_does_nothing_is_no_failed_row(tmp_path: Path) -> None:
     with pytest.raises(gearwear.RunError, match="has done none of its tasks.*ConnectionError"):
         gearwear.sweep(scene(), VARY, executor=DiesOnce(*[9] * 8), out=tmp_path)
     assert len((tmp_path / "rows.jsonl").read_text(encoding="utf-8").splitlines()) == 1
+
+
+class Breaks(Executor):
+    """Does three tasks, is broken with the fourth, and is no pool of `concurrent.futures`."""
+
+    def __init__(self) -> None:
+        self.count = 0
+        self.closed = False
+
+    def submit(self, fn: Any, /, *args: Any, **kwargs: Any) -> Future[Any]:
+        self.count += 1
+        if self.count > 3:
+            raise BrokenExecutor("a process died")
+        future: Future[Any] = Future()
+        future.set_result(fn(*args, **kwargs))
+        return future
+
+    def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
+        self.closed = True
+
+
+def test_another_pool_that_breaks_is_made_anew_by_a_function(whole: gearwear.Sweep, tmp_path: Path) -> None:
+    with pytest.raises(BrokenExecutor, match="a process died"):
+        gearwear.sweep(scene(), VARY, executor=Breaks(), out=tmp_path)
+    made: list[Breaks] = []
+
+    def make() -> Breaks:
+        made.append(Breaks())
+        return made[-1]
+
+    assert timeless(gearwear.sweep(scene(), VARY, executor=make)) == timeless(whole)
+    assert [one.closed for one in made] == [True] * 3
+    with pytest.raises(TypeError, match="executor: found str"):
+        gearwear.sweep(scene(), VARY, executor="processes")  # type: ignore[arg-type]
 
 
 def die_once(sweep: bytes, task: str) -> str:

@@ -180,3 +180,37 @@ impl SweepRecord {
         serde_json::to_string(&self.summary())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::observer::Unwatched;
+    use crate::report::columns::Values;
+    use crate::scene::loaded::LoadedScene;
+    use crate::studies::sweep::asked::SweepQuestion;
+
+    /// Whoever runs a task, its row is kept; one that was lost is a failed row, and what is not of the sweep is refused.
+    #[test]
+    fn tasks_and_rows_are_texts() {
+        let scene = LoadedScene::preset("thesis-spur").unwrap();
+        let vary = vec!["operation.pinion_torque_Nm=-1,302".to_owned()];
+        let sweep = Sweep::of(&scene, &SweepQuestion { vary, ..SweepQuestion::default() }).unwrap();
+        assert_eq!(sweep.warnings().len(), 1);
+        let mut unfinished = UnfinishedSweep::begin(&sweep, None).unwrap();
+        let tasks = unfinished.tasks().unwrap();
+        assert_eq!(tasks, [r#"{"run":0}"#, r#"{"run":1}"#]);
+        unfinished.keep(&sweep.carry_out(&tasks[0], &Unwatched).unwrap().unwrap()).unwrap();
+        let lost = sweep.lost(&tasks[1], "its worker\ndied").unwrap();
+        assert!(unfinished.keep(&lost.replace("\"index\":1", "\"index\":2")).is_err());
+        unfinished.keep(&lost).unwrap();
+        assert_eq!((unfinished.finished(), unfinished.combinations(), unfinished.tasks().unwrap().len()), (2, 2, 0));
+        for foreign in [r#"{"run":2}"#, "nothing"] {
+            let said = sweep.carry_out(foreign, &Unwatched).unwrap_err().to_string();
+            assert!(said.contains("allowed: tasks and rows of this sweep"), "{said}");
+        }
+        let table = unfinished.finish().unwrap().table();
+        let errors = table.columns.iter().find(|column| column.name == "error").unwrap();
+        let Values::Words(errors) = &errors.values else { panic!("{errors:?}") };
+        assert!(errors[0].contains("greater than 0") && errors[1] == "its worker died", "{errors:?}");
+    }
+}
