@@ -43,8 +43,8 @@ def _unpacked(sweep: bytes) -> _native.Sweep:
     return _native.Scene.from_parts(*scene).sweep(*question)
 
 
-def carry_out(sweep: bytes, task: str) -> str:
-    """Does a task on one thread, wherever this is."""
+def carry_out(sweep: bytes, task: str, losses: int) -> str:
+    """Does a task on one thread, wherever this is. ``losses`` tells it from the same task before: Dask knows calls by their arguments."""
     return _unpacked(sweep).carry_out(task)
 
 
@@ -98,15 +98,15 @@ class Engine:
         for losses, queue in enumerate(waiting):
             most = min(self._most, AT_A_TIME[losses])
             while queue and len(self._out) < most:
-                future = self._submit(queue[0])
+                future = self._submit(queue[0], losses)
                 self._out[future] = (queue.popleft(), losses)
                 future.add_done_callback(self._back.put)
             if queue:
                 break
 
-    def _submit(self, task: str) -> Future[str]:
+    def _submit(self, task: str, losses: int) -> Future[str]:
         try:
-            return self._executor.submit(carry_out, self._sweep, task)
+            return self._executor.submit(carry_out, self._sweep, task, losses)
         except BrokenExecutor:
             # A pool is broken for good when one of its processes died: another one like it takes its place.
             broken = self._executor
@@ -121,7 +121,7 @@ class Engine:
             if self._own:
                 broken.shutdown(wait=False)
             self._own = True
-            return self._executor.submit(carry_out, self._sweep, task)
+            return self._executor.submit(carry_out, self._sweep, task, losses)
 
     def _doubt(self, task: str, error: BaseException) -> None:
         self._doubtful.append((task, error))

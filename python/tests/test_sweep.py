@@ -6,6 +6,7 @@ import csv
 import json
 import multiprocessing
 import os
+import pickle
 import signal
 import subprocess
 import sys
@@ -83,6 +84,7 @@ def test_columns_are_those_of_the_command(whole: gearwear.Sweep, tmp_path: Path)
     assert list(whole.failed) == [0, 1] and TORQUE in whole.failed[0]
     assert whole.rows[3][TORQUE] == 150.0 and whole.rows[3][RELIEF] == 0.15
     assert whole.summary["failed"] == 2 and repr(whole).endswith("2 failed>")
+    assert timeless(pickle.loads(pickle.dumps(whole))) == timeless(whole)
     assert whole.to_pandas()["pinion_peak_wear_um"].idxmin() == whole.summary["best"][0]["index"]
 
 
@@ -112,14 +114,16 @@ def test_executors_change_nothing(engine: str, whole: gearwear.Sweep, tmp_path: 
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")
-def test_dask_changes_nothing(whole: gearwear.Sweep) -> None:
+def test_dask_changes_nothing(whole: gearwear.Sweep, monkeypatch: pytest.MonkeyPatch) -> None:
     distributed = pytest.importorskip("distributed", reason="dask.distributed is not here: a sweep on it is NOT tested")
     cluster = distributed.LocalCluster(n_workers=2, threads_per_worker=2, dashboard_address=None)
     with cluster, distributed.Client(cluster) as client:
         found = gearwear.sweep(scene(), VARY, executor=client.get_executor())
+        monkeypatch.setattr(executors, "carry_out", fail_at_first)
+        again = gearwear.sweep(scene(), VARY, executor=client.get_executor())
         # A function of a user that runs a scene on a worker has one thread there.
         threads = client.submit(thread_count, None).result()
-    assert timeless(found) == timeless(whole)
+    assert timeless(found) == timeless(again) == timeless(whole)
     assert threads == 1
 
 
@@ -213,13 +217,19 @@ def test_another_pool_that_breaks_is_made_anew_by_a_function(whole: gearwear.Swe
         gearwear.sweep(scene(), VARY, executor="processes")  # type: ignore[arg-type]
 
 
-def die_once(sweep: bytes, task: str) -> str:
+def die_once(sweep: bytes, task: str, losses: int) -> str:
     """Does a task, but kills its process the first time that it is asked for the third."""
     mark = Path(os.environ["GEARWEAR_TEST_MARK"])
     if json.loads(task) == {"run": 3} and not mark.exists():
         mark.touch()
         os.kill(os.getpid(), signal.SIGKILL)
-    return carry_out(sweep, task)
+    return carry_out(sweep, task, losses)
+
+
+def fail_at_first(sweep: bytes, task: str, losses: int) -> str:
+    if json.loads(task) == {"run": 3} and losses < 2:
+        raise ConnectionError("the worker is gone")
+    return carry_out(sweep, task, losses)
 
 
 carry_out = executors.carry_out
