@@ -1,6 +1,6 @@
 """The tasks of a sweep on somebody else's executor: handed out, taken back, and done again where a worker died with them.
 
-Of an executor no more is asked than :meth:`concurrent.futures.Executor.submit`. What goes out is a task as a text beside the sweep as bytes, what
+Of an executor no more is used than :meth:`concurrent.futures.Executor.submit`. What goes out is a task as a text beside the sweep as bytes, what
 comes back the line of the journal, so that rows are the same whoever runs them.
 """
 
@@ -23,11 +23,16 @@ from gearwear.version import refuse_other
 AT_A_TIME = (4096, 64, 1)
 #: Bytes of the sweep that are out at a time, at most, as each task has them beside it.
 MOST_BYTES = 1 << 27
-#: Tasks that may be lost for good before any has come back: more, and the executor is at fault.
+#: Tasks that may be lost for good before any has come back; more, and the executor is at fault.
 MOST_DOUBTFUL = 2
 
-#: Name of the text, text, folder and files of the scene; what is varied, the figure that is to be least, limits, whether errors are estimated.
+#: What is varied, the figure that is to be least, its limits, and whether errors are estimated.
 Question = tuple[list[str], "str | None", list[str], bool]
+
+
+def is_one_or_makes_one(executor: object) -> bool:
+    """Whether it is an executor, or can be asked for one."""
+    return isinstance(executor, Executor) or callable(executor)
 
 
 def packed(scene: _native.Scene, question: Question) -> bytes:
@@ -92,6 +97,8 @@ class Engine:
                 self._trusted = True
                 self._settle(keep)
                 keep(line)
+        if self._doubtful and not isinstance(self._doubtful[-1][1], BrokenExecutor):
+            raise self._at_fault(self._doubtful[-1][1])
         self._settle(keep)
 
     def _hand_out(self, waiting: list[deque[str]]) -> None:
@@ -126,7 +133,12 @@ class Engine:
     def _doubt(self, task: str, error: BaseException) -> None:
         self._doubtful.append((task, error))
         if len(self._doubtful) > MOST_DOUBTFUL:
-            raise RunError(f"the executor has done none of its tasks, each lost {len(AT_A_TIME)} times: {_said(error)}") from error
+            raise self._at_fault(error)
+
+    def _at_fault(self, error: BaseException) -> RunError:
+        fault = RunError(f"the executor has done none of its tasks, each lost {len(AT_A_TIME)} times: {_said(error)}")
+        fault.__cause__ = error
+        return fault
 
     def _settle(self, keep: Callable[[str], None]) -> None:
         for task, error in self._doubtful:

@@ -59,7 +59,7 @@ def sweep(
     The values of a key are a list of rising numbers or of words, or a text as after ``--vary KEY=``, such as ``"10:30:21"`` or ``"1e-19:1e-17:5:log"``;
     ``"pair.{pinion,wheel}.tip_rounding_mm"`` links keys. The first key changes slowest.
 
-    Combinations are run by ``threads`` threads of this process, one each, or by the workers of ``executor``, anything with the ``submit`` of
+    Combinations are run by ``threads`` threads of this process, one each, or by the workers of ``executor``, any
     :class:`concurrent.futures.Executor`: a process pool, ``dask.distributed.Client.get_executor()``, ``mpi4py.futures``. No engine changes a bit of
     the rows but their times. A combination whose worker dies is run again; one that is lost three times is a failed row. A pool that is broken
     when a process of it died is made anew: one of ``concurrent.futures`` as it is, others where ``executor`` is a function that makes one.
@@ -81,11 +81,13 @@ def sweep(
         raise ValueError(f"threads: found {threads!r} beside an executor, which has workers of its own; allowed: 1")
     question = ([f"{key}={_values(key, values)}" for key, values in vary.items()], best, list(subject_to), error_estimate)
 
-    if not (executor is None or hasattr(executor, "submit") or callable(executor)):
-        raise TypeError(f"executor: found {type(executor).__name__}; allowed: a concurrent.futures.Executor, or a function that makes one")
-
     # With `concurrent.futures`, which the package does not load before it is needed.
-    from gearwear.executors import Engine, Held, packed
+    from gearwear.executors import Engine, Held, is_one_or_makes_one, packed
+
+    if executor is not None and not is_one_or_makes_one(executor):
+        raise TypeError(
+            f"executor: found {type(executor).__name__}; allowed: a concurrent.futures.Executor, or a function that makes one"
+        )
 
     native = scene._native.sweep(*question)
     for warning in native.warnings:

@@ -109,4 +109,4 @@ def test_accuracy(tmp_path: Path) -> None:
     study = coarse.accuracy(quick=True)
     assert study.summary["recommendations"] and study.summary["stopped"] == "completed"
     study.write(tmp_path)
-    assert (tmp_path / "recommended.toml").exists()
+    assert json.loads((tmp_path / "accuracy.json").read_text(encoding="utf-8")) == study.summary

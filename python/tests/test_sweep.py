@@ -180,6 +180,8 @@ def test_a_lost_row_is_run_again_and_given_up_in_the_end(whole: gearwear.Sweep) 
 def test_an_executor_that_does_nothing_is_no_failed_row(tmp_path: Path) -> None:
     with pytest.raises(gearwear.RunError, match="has done none of its tasks.*ConnectionError"):
         gearwear.sweep(scene(), VARY, executor=DiesOnce(*[9] * 8), out=tmp_path)
+    with pytest.raises(gearwear.RunError, match="has done none of its tasks"):
+        gearwear.sweep(scene(), {TORQUE: [200]}, executor=DiesOnce(9))
     assert len((tmp_path / "rows.jsonl").read_text(encoding="utf-8").splitlines()) == 1
 
 
