@@ -51,7 +51,7 @@ pub(crate) enum Task {
     /// A combination is to be run.
     Run(usize),
     /// A finished row is to be verified.
-    Verify { row: SweepRow, chosen: Chosen },
+    Verify { row: Box<SweepRow>, chosen: Chosen },
 }
 
 /// What can be done now: the missing combinations of `shard`; where none is missing, of a whole sweep that asks for it, the chosen rows
@@ -64,7 +64,7 @@ pub(crate) fn tasks(sweep: &Sweep, shard: Option<Shard>, rows: &BTreeMap<usize, 
     }
     let open = |(index, chosen): (usize, Chosen)| {
         let row = rows.get(&index).filter(|row| row.verification.is_none())?;
-        Some(Task::Verify { row: row.clone(), chosen })
+        Some(Task::Verify { row: Box::new(row.clone()), chosen })
     };
     chosen(&sweep.identity, rows.values()).into_iter().filter_map(open).collect()
 }

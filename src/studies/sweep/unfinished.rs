@@ -13,7 +13,7 @@ use serde::Serialize;
 use super::asked::{SweepError, SweepFault};
 use super::combination::Sweep;
 use super::journal::{Journal, JournalError};
-use super::record::{Shard, SweepRecord, SweepRow};
+use super::record::{Shard, SweepRecord};
 use super::report;
 use super::study::{self, Task};
 use crate::observer::Observer;
@@ -150,8 +150,11 @@ impl Sweep {
 
     fn read(&self, text: &str) -> Result<Task, SweepFault> {
         let task: Task = serde_json::from_str(text).map_err(foreign)?;
-        let (Task::Run(index) | Task::Verify { row: SweepRow { index, .. }, .. }) = &task;
-        if *index < self.identity.combinations() {
+        let index = match &task {
+            Task::Run(index) => *index,
+            Task::Verify { row, .. } => row.index,
+        };
+        if index < self.identity.combinations() {
             return Ok(task);
         }
         Err(foreign(format!("combination {index} of {}", self.identity.combinations())))
