@@ -26,7 +26,7 @@ MOST_BYTES = 1 << 27
 #: Tasks that may be lost for good before any has come back; more, and the executor is at fault.
 MOST_DOUBTFUL = 2
 
-#: What is varied, the figure that is to be least, its limits, and whether errors are estimated.
+#: What is varied, the figure that is to be lowest, its limits, and whether errors are estimated.
 Question = tuple[list[str], "str | None", list[str], bool]
 
 

@@ -37,7 +37,7 @@ class Indices:
 
 @dataclass(frozen=True)
 class Band:
-    """Wear over a flank, greatest over the face width: quantiles place by place."""
+    """Wear over a flank, its maximum over the face width: quantiles place by place."""
 
     radius_mm: Array
     #: of the scene as given
@@ -132,7 +132,7 @@ def uncertainty(
 
     ``distributions`` has for each key a distribution as after ``--uncertain KEY=``: ``"lognormal:1.5"``, ``"normal:5%"``, ``"±2%"``, ``"uniform:10:14"``.
     ``n`` points of a Sobol sequence, best a power of two, take n (keys + 2) runs, or 2 n where keys are correlated; ``seed`` scrambles them.
-    ``correlation`` has for pairs of keys the correlation of their normal scores. ``outputs`` are paths in the summary, by default the greatest wear
+    ``correlation`` has for pairs of keys the correlation of their normal scores. ``outputs`` are paths in the summary, by default the maximum wear
     and tip-edge wear of both gears and the transmission error, worn; ``limits`` has depths of wear in µm whose life is asked for:
     ``{"pinion.peak_wear_um": 10}``. ``threads`` (None: all cores, one in a worker process) run a sample each and never change a bit of the results.
 
