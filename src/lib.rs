@@ -68,6 +68,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! [`sweep`](mod@sweep) runs all combinations of some keys, on the threads of this process or wherever their tasks are carried out, and [`uncertainty`] samples
+//! of uncertain ones.
+//!
 //! # Finite elements
 //!
 //! [`calibrate`] teaches the fast model from finite elements, [`fem_pair`] solves the contact of the pair itself over the mesh
@@ -153,8 +156,44 @@ pub use scene::presets::{PRESETS, Preset};
 pub use scene::schema::schema as scene_schema;
 pub use scene::{Problem, ProblemKind};
 pub use studies::evaluate::{EvaluateError, Evaluation, evaluate};
+#[cfg(feature = "program")]
+pub use studies::found::{CompareQuestion, Study, StudyError, accuracy, compare, compare_runs, validate};
+#[cfg(feature = "program")]
+pub use studies::uncertainty::{
+    asked::{UncertaintyError, UncertaintyQuestion},
+    record::UncertaintyRecord,
+};
 // The values that `LoadedScene::with` takes.
 pub use toml;
+
+/// Sweeps: a scene's run for all combinations of some varied keys.
+///
+/// ```
+/// use gearwear::sweep::{Sweep, SweepQuestion, UnfinishedSweep};
+/// use gearwear::{LoadedScene, Unwatched};
+///
+/// let scene = LoadedScene::preset("thesis-spur")?.with("contact.surface", "hertz-mean")?.with("numerics.positions", 40)?;
+/// let vary = vec!["operation.pinion_torque_Nm=200,300".to_owned()];
+/// let sweep = Sweep::of(&scene, &SweepQuestion { vary, ..SweepQuestion::default() })?;
+/// // Kept in memory; with a folder, in the journal that `gearwear sweep` goes on with.
+/// let mut unfinished = UnfinishedSweep::begin(&sweep, None)?;
+/// for task in unfinished.tasks()? {
+///     // On any machine.
+///     let row = sweep.carry_out(&task, &Unwatched)?.expect("nobody interrupts it");
+///     unfinished.keep(&row)?;
+/// }
+/// assert_eq!((unfinished.finished(), unfinished.tasks()?.len()), (2, 0));
+/// let table = unfinished.finish()?.table();
+/// assert_eq!(table.columns[0].name, "index");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[cfg(feature = "program")]
+pub mod sweep {
+    pub use crate::studies::sweep::asked::{SweepError, SweepQuestion};
+    pub use crate::studies::sweep::combination::Sweep;
+    pub use crate::studies::sweep::record::SweepRecord;
+    pub use crate::studies::sweep::unfinished::UnfinishedSweep;
+}
 
 /// What the errors of the calls are made of.
 pub mod error {
@@ -209,6 +248,32 @@ pub fn fem_pair(
 pub fn fem_problem(problem_toml: &str, folder: &Path, observer: &dyn Observer) -> Result<FemRecord, FemProblemError> {
     let problem = FemProblem::from_toml(problem_toml).map_err(FemProblemError::Input)?;
     pipeline::fem_problem::run(&problem, folder, observer)
+}
+
+/// Runs `scene` for samples of its uncertain keys, on `threads` threads: quantiles and Sobol indices. Where the observer interrupts it, of the
+/// points that are finished, if they are a few.
+///
+/// # Errors
+/// What is wrong with the question; runs that all failed.
+#[cfg(feature = "program")]
+pub fn uncertainty(
+    scene: &LoadedScene,
+    question: &UncertaintyQuestion,
+    threads: usize,
+    observer: &dyn Observer,
+) -> Result<UncertaintyRecord, UncertaintyError> {
+    let question = studies::uncertainty::study::Question::of(scene, question)?;
+    let record = studies::uncertainty::study::run(scene, &question, threads, observer);
+    Ok(record.map_err(studies::uncertainty::asked::UncertaintyFault::Study)?)
+}
+
+/// Writes what `gearwear uncertainty` writes into `folder`, which is made if need be.
+///
+/// # Errors
+/// [`ReportError`] where a file cannot be written.
+#[cfg(feature = "program")]
+pub fn write_uncertainty(record: &UncertaintyRecord, folder: &Path) -> Result<(), ReportError> {
+    studies::uncertainty::report::write(record, folder)
 }
 
 /// The plots of the page of a run as drawings, SVG; surfaces in space are left out.

@@ -18,7 +18,10 @@ from gearwear.fem import FemPair, FemProblem, fem_problem
 from gearwear.run import Flank, Run
 from gearwear.scene import Scene
 from gearwear.schema import scene_schema
+from gearwear.studies import Study, compare, compare_runs, validate
+from gearwear.sweep import Sweep, sweep
 from gearwear.table import Table
+from gearwear.uncertainty import Uncertainty, uncertainty
 
 __all__ = [
     "Calibration",
@@ -32,12 +35,20 @@ __all__ = [
     "RunError",
     "Scene",
     "SceneError",
+    "Study",
+    "Sweep",
     "Table",
+    "Uncertainty",
     "WornThrough",
     "__version__",
+    "compare",
+    "compare_runs",
     "evaluate",
     "fem_problem",
     "presets",
     "scene_schema",
+    "sweep",
+    "uncertainty",
     "unit_of",
+    "validate",
 ]

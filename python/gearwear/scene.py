@@ -13,6 +13,7 @@ from gearwear.calibration import Calibration
 from gearwear.errors import NotConverged, RunError, WornThrough
 from gearwear.fem import FemPair
 from gearwear.run import Run
+from gearwear.studies import Study
 from gearwear.workers import ProgressArgument, Watched, thread_count
 
 #: How unfinished runs end.
@@ -130,6 +131,23 @@ class Scene:
         count = thread_count(threads)
         with Watched(progress) as told:
             return Calibration(self._native.calibrate(count, told))
+
+    def accuracy(
+        self,
+        *,
+        within: float = 0.05,
+        quick: bool = False,
+        threads: int | None = None,
+        progress: ProgressArgument = False,
+    ) -> Study:
+        """The error of every model that fits it against its run time: ``gearwear accuracy``, which takes minutes.
+
+        ``summary["recommendations"]`` has the cheapest setting whose relative error stays ``within`` the one given; ``quick`` leaves the scene's own
+        resolution out.
+        """
+        count = thread_count(threads)
+        with Watched(progress) as told:
+            return Study(self._native.accuracy(float(within), quick, count, told))
 
     def fem(
         self, position_mm: float | None = None, *, threads: int | None = None, progress: ProgressArgument = False

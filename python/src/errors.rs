@@ -2,9 +2,10 @@
 
 use std::io;
 
-use gearwear::{LoadError, Problem, ProblemKind, ReportError, SceneError};
+use gearwear::sweep::SweepError;
+use gearwear::{LoadError, Problem, ProblemKind, ReportError, SceneError, StudyError, UncertaintyError};
 use pyo3::IntoPyObjectExt;
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
 /// The exception called `name`, made of `arguments`.
@@ -55,7 +56,7 @@ fn name_of(kind: &ProblemKind) -> &'static str {
 pub(crate) fn of_loading(py: Python<'_>, error: &LoadError) -> PyErr {
     match error {
         LoadError::Scene(error) => of_scene(py, error),
-        LoadError::Unreadable { reason, .. } => of_system(reason, error),
+        LoadError::Unreadable { reason, .. } => of_system(reason.kind(), error),
         LoadError::NotUtf8 { name, line, .. } => {
             let (found, allowed) = ("bytes that are no UTF-8 text".to_owned(), "UTF-8 text".to_owned());
             let help = Some("save the file as UTF-8".to_owned());
@@ -69,18 +70,45 @@ pub(crate) fn of_loading(py: Python<'_>, error: &LoadError) -> PyErr {
     }
 }
 
-/// What is wrong with a file or folder: the exception that Python's own functions raise for the system's `reason`, such as `FileNotFoundError`.
-fn of_system(reason: &io::Error, said: impl ToString) -> PyErr {
-    io::Error::new(reason.kind(), said.to_string()).into()
+/// What is wrong with a file or folder: the exception that Python's own functions raise for this `kind`, such as `FileNotFoundError`.
+fn of_system(kind: io::ErrorKind, said: impl ToString) -> PyErr {
+    io::Error::new(kind, said.to_string()).into()
 }
 
 /// What keeps results from being written.
 pub(crate) fn of_report(error: &ReportError) -> PyErr {
     match error {
         ReportError::CreateFolder { source, .. } | ReportError::WriteFile { source, .. } => {
-            of_system(source, format!("{error}: {source}"))
+            of_system(source.kind(), format!("{error}: {source}"))
         }
-        ReportError::NotAFolder { .. } => io::Error::new(io::ErrorKind::NotADirectory, error.to_string()).into(),
+        ReportError::NotAFolder { .. } => of_system(io::ErrorKind::NotADirectory, error),
+    }
+}
+
+/// What keeps a sweep from being run or kept.
+pub(crate) fn of_sweep(py: Python<'_>, error: &SweepError) -> PyErr {
+    match (error.in_the_scene(), error.of_system()) {
+        (Some(error), _) => of_scene(py, error),
+        (None, Some(kind)) => of_system(kind, error),
+        (None, None) => PyValueError::new_err(error.to_string()),
+    }
+}
+
+/// Why a study came to nothing.
+pub(crate) fn of_study(py: Python<'_>, error: &StudyError) -> PyErr {
+    match error.in_loading() {
+        Some(error) => of_loading(py, error),
+        None if error.is_of_the_runs() => of_run(py, error.to_string()),
+        None => PyValueError::new_err(error.to_string()),
+    }
+}
+
+/// Why a study of uncertainty came to nothing.
+pub(crate) fn of_uncertainty(py: Python<'_>, error: &UncertaintyError) -> PyErr {
+    match error.in_the_scene() {
+        Some(error) => of_scene(py, error),
+        None if error.is_of_the_runs() => of_run(py, error.to_string()),
+        None => PyValueError::new_err(error.to_string()),
     }
 }
 

@@ -10,7 +10,10 @@ mod fem;
 mod record_bytes;
 mod run;
 mod scene;
+mod study;
+mod sweep;
 mod table;
+mod uncertainty;
 mod value;
 mod watched;
 
@@ -52,6 +55,12 @@ mod _native {
     use super::run::Run;
     #[pymodule_export]
     use super::scene::Scene;
+    #[pymodule_export]
+    use super::study::{Study, compare, compare_runs, validate};
+    #[pymodule_export]
+    use super::sweep::{Sweep, UnfinishedSweep};
+    #[pymodule_export]
+    use super::uncertainty::Uncertainty;
     #[pymodule_export]
     use super::{presets, program, scene_schema, unit_of};
 

@@ -3,11 +3,12 @@
 use std::collections::hash_map::DefaultHasher;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use gearwear::results::run::InputFile;
+use gearwear::sweep::{self, SweepQuestion};
 use gearwear::toml::{Table, Value};
-use gearwear::{Done, EvaluateError, Evaluation, LoadError, LoadedScene, SceneText};
+use gearwear::{Done, EvaluateError, Evaluation, LoadError, LoadedScene, SceneText, UncertaintyQuestion};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
@@ -15,6 +16,9 @@ use crate::calibration::Calibration;
 use crate::errors;
 use crate::fem::FemPair;
 use crate::run::Run;
+use crate::study::Study;
+use crate::sweep::Sweep;
+use crate::uncertainty::Uncertainty;
 use crate::value;
 use crate::watched::{cores, watched};
 
@@ -205,6 +209,55 @@ impl Scene {
             other => PyValueError::new_err(other.to_string()),
         })?;
         Ok((values, reasons))
+    }
+
+    /// The error of every model that fits it against its run time.
+    fn accuracy(
+        &self,
+        py: Python<'_>,
+        within: f64,
+        quick: bool,
+        threads: usize,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<Study> {
+        let scene = self.loaded.clone();
+        let work = move |observer: &dyn gearwear::Observer| gearwear::accuracy(&scene, within, quick, observer);
+        Study::of(py, watched(py, threads, progress, work)?)
+    }
+
+    /// Its sweep over these keys.
+    fn sweep(
+        &self,
+        py: Python<'_>,
+        vary: Vec<String>,
+        best: Option<String>,
+        subject_to: Vec<String>,
+        error_estimate: bool,
+    ) -> PyResult<Sweep> {
+        let question = SweepQuestion { vary, best, subject_to, error_estimate };
+        let sweep = py.detach(|| sweep::Sweep::of(&self.loaded, &question));
+        Ok(Sweep { sweep: Arc::new(sweep.map_err(|error| errors::of_sweep(py, &error))?) })
+    }
+
+    /// Quantiles and Sobol indices of its figures where keys are uncertain.
+    #[allow(clippy::too_many_arguments, reason = "the arguments of the Python function")]
+    fn uncertainty(
+        &self,
+        py: Python<'_>,
+        uncertain: Vec<String>,
+        correlation: Vec<String>,
+        outputs: Vec<String>,
+        limits: Vec<String>,
+        samples: usize,
+        seed: u32,
+        threads: usize,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<Uncertainty> {
+        let question = UncertaintyQuestion { uncertain, correlation, outputs, limits, samples, seed };
+        let (scene, count) = (self.loaded.clone(), cores(threads));
+        let work = move |observer: &dyn gearwear::Observer| gearwear::uncertainty(&scene, &question, count, observer);
+        let record = watched(py, threads, progress, work)?.map_err(|error| errors::of_uncertainty(py, &error))?;
+        Ok(Uncertainty { record })
     }
 
     /// Calibrates the fast model of its pair.

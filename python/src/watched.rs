@@ -49,7 +49,8 @@ impl Observer for Watch {
         self.change(|(_, part)| *part = if total > 0.0 { done / total } else { 0.0 });
     }
 
-    fn counted(&self, done: usize, total: usize, _: &'static str, _: &str) {
+    fn counted(&self, done: usize, total: usize, things: &'static str, _: &str) {
+        self.stage(things);
         self.progress(done as f64, total as f64);
     }
 

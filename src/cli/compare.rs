@@ -4,17 +4,16 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::gear::{Gear, GearPair};
-use crate::measurement::file;
+use crate::gear::Gear;
 use crate::measurement::fit::FitStop;
 use crate::measurement::form::Form;
 use crate::pipeline::RunError;
 use crate::report;
-use crate::scene::loaded::{LoadedScene, SceneText};
-use crate::studies::compare::question::{Asked, FitKind, Question, QuestionError};
+use crate::scene::loaded::SceneText;
+use crate::studies::compare::asked::{CompareFault, Prepared};
+use crate::studies::compare::question::{Asked, FitKind};
 use crate::studies::compare::record::{CompareRecord, Estimate};
-use crate::studies::compare::run_folder::RunFolder;
-use crate::studies::compare::study::{self, CompareError};
+use crate::studies::compare::study::CompareError;
 
 use super::failure::{Failure, InputError};
 use super::figures::digits;
@@ -110,25 +109,15 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
             _ => variants::run(&variants),
         };
     }
-    let folder = RunFolder::read(&args.run).map_err(InputError::RunFolder)?;
-    let scene = LoadedScene::open(RunFolder::scene_path(&args.run))?;
-    let resolved = &scene.resolved;
-    folder.check_scene(resolved).map_err(InputError::RunFolder)?;
     let text = SceneText::read(args.measured())?;
-    let refused = |error: QuestionError| InputError::Measured { name: text.name.clone(), error };
-    let file = file::parse(&text.text).map_err(|error| refused(error.into()))?;
-    // The pair was checked when the scene was resolved.
-    let pair = GearPair::new(&resolved.scene.pair).map_err(RunError::from)?;
     let asked = Asked { gear: args.gear, form: args.form, fit: args.fit, shift_within_mm: args.shift_within };
-    let question = Question::new(&asked, &file, &folder, resolved, &pair).map_err(refused)?;
+    let prepared = Prepared::open(&args.run, &text, &asked)?;
     let out = args.out();
     report::writable(&out)?;
 
     let pool = pool(args.threads)?;
     let progress = Progress::new(args.quiet, Arc::clone(&watch_for_interrupt()));
-    let name =
-        Path::new(&text.name).file_name().map_or_else(|| text.name.clone(), |n| n.to_string_lossy().into_owned());
-    let done = pool.install(|| study::run(&question, &folder, &scene, &name, &progress));
+    let done = pool.install(|| prepared.carry_out(&progress));
     progress.finish();
     let record = done.map_err(|error| match error {
         CompareError::Interrupted => {
@@ -148,6 +137,17 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     }
     let why = format!("{}; what was compared is kept in {}", record.warnings.join("; "), out.display());
     Err(Failure::NotFitted { why })
+}
+
+impl From<CompareFault> for Failure {
+    fn from(fault: CompareFault) -> Self {
+        match fault {
+            CompareFault::Load(error) => error.into(),
+            CompareFault::RunFolder(error) => InputError::RunFolder(error).into(),
+            CompareFault::Measured { name, error } => InputError::Measured { name, error }.into(),
+            CompareFault::Pair(error) => Failure::Run(RunError::from(error)),
+        }
+    }
 }
 
 /// What was found, for the terminal.

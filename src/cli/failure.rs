@@ -4,7 +4,6 @@ use std::io;
 use std::sync::Arc;
 
 use super::say;
-use super::uncertainty::UncertaintyError;
 use crate::exchange::rexs::RexsError;
 use crate::fem::SolveError;
 use crate::mesh::MeshFileError;
@@ -20,10 +19,12 @@ use crate::scene::{Problem, ProblemKind, presets};
 use crate::studies::accuracy::study::AccuracyError;
 use crate::studies::compare::question::QuestionError;
 use crate::studies::compare::run_folder::RunFolderError;
+use crate::studies::sweep::asked::{SweepError, SweepFault};
 use crate::studies::sweep::axis::AxisError;
 use crate::studies::sweep::goal::GoalError;
 use crate::studies::sweep::journal::JournalError;
 use crate::studies::sweep::merge::MergeError;
+use crate::studies::uncertainty::asked::UncertaintyFault;
 use crate::studies::validation::library::LibraryError;
 use miette::{Diagnostic, LabeledSpan, MietteDiagnostic, NamedSource, Report};
 
@@ -75,9 +76,6 @@ pub(super) enum Failure {
 pub(super) enum InputError {
     #[error(transparent)]
     ValidationCase(LibraryError),
-    /// None of the cases asked for belongs to the tier asked for.
-    #[error("found no case of the tier {tier} among those named; allowed: cases of that tier, or no --tier")]
-    NoCaseOfTier { tier: &'static str },
     /// A file that is no record of the validation suite.
     #[error("{name}: line {line}: found {reason}; allowed: a validation.json that gearwear validate wrote")]
     NoValidationRecord {
@@ -163,9 +161,9 @@ pub(super) enum InputError {
     #[diagnostic(help("for example --best pinion_peak_wear_um --subject-to \"wheel_peak_wear_um<=8\""))]
     Goal(GoalError),
     /// `uncertainty` with a question that cannot be asked.
-    #[error("{0}")]
+    #[error("{option}{0}", option = .0.option())]
     #[diagnostic(help("{}", .0.help()))]
-    Uncertainty(UncertaintyError),
+    Uncertainty(UncertaintyFault),
     #[error("--out: {0}")]
     #[diagnostic(help("{}", journal_help(.0)))]
     Journal(JournalError),
@@ -199,6 +197,25 @@ impl From<ReportError> for Failure {
     }
 }
 
+impl From<SweepFault> for Failure {
+    fn from(fault: SweepFault) -> Self {
+        Failure::Input(match fault {
+            SweepFault::Scene(error) => return Failure::Scene(error),
+            SweepFault::Axis(error) => InputError::Vary(error),
+            SweepFault::Goal(error) => InputError::Goal(error),
+            SweepFault::NothingToVary(problems) => InputError::NothingToVary(problems),
+            SweepFault::Journal(error) => InputError::Journal(error),
+            SweepFault::Report(error) => InputError::Out(error),
+        })
+    }
+}
+
+impl From<SweepError> for Failure {
+    fn from(SweepError(fault): SweepError) -> Self {
+        fault.into()
+    }
+}
+
 /// What to do about a file that cannot be opened as a scene.
 fn load_help(error: &LoadError) -> &'static str {
     match error {
@@ -228,7 +245,7 @@ fn resume_help(error: &FolderError) -> &'static str {
 /// What to do about rows that cannot be kept.
 fn journal_help(error: &JournalError) -> &'static str {
     match error {
-        JournalError::OtherSweep { .. } | JournalError::Damaged { .. } => {
+        JournalError::OtherSweep { .. } | JournalError::Damaged { .. } | JournalError::Foreign { .. } => {
             "choose another folder, or remove this one to begin anew"
         }
         JournalError::InUse { .. } => "wait for it to end, or choose another folder; each shard needs its own",

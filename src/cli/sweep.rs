@@ -9,14 +9,14 @@ use std::time::Instant;
 use crate::report;
 use crate::scene::draft::Draft;
 use crate::scene::loaded::LoadedScene;
-use crate::studies::spread::Ended;
+use crate::studies::sweep::asked::SweepQuestion;
 use crate::studies::sweep::axis::{self, AxisError};
 use crate::studies::sweep::combination::Sweep;
-use crate::studies::sweep::goal::{Goal, Optimum};
-use crate::studies::sweep::journal::{self, Contents, Journal, JournalError};
+use crate::studies::sweep::goal::Optimum;
+use crate::studies::sweep::journal::{self, Contents, JournalError};
 use crate::studies::sweep::merge::merge;
 use crate::studies::sweep::record::{Shard, SweepRecord};
-use crate::studies::sweep::study;
+use crate::studies::sweep::unfinished::UnfinishedSweep;
 use crate::studies::sweep::verification::{SweepVerification, intention};
 
 use super::counted_progress::CountedProgress;
@@ -110,35 +110,27 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
     let scene = LoadedScene::open(&args.scene)?;
     warn(scene.warnings());
-    let axes = axis::parse_all(args.vary.iter().map(String::as_str)).map_err(InputError::Vary)?;
-    let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
-    axis::check_phases(&axes, &draft).map_err(InputError::Vary)?;
-    warn(&axes.iter().filter_map(axis::partly_not_allowed).collect::<Vec<_>>());
-    let limits =
-        args.subject_to.iter().map(|limit| limit.parse()).collect::<Result<_, _>>().map_err(InputError::Goal)?;
-    let goal = args.best.as_ref().map(|figure| Goal::new(figure, limits)).transpose().map_err(InputError::Goal)?;
-    let sweep =
-        Sweep::new(&scene, axes, goal, args.error_estimate).map_err(|problems| scene.given.refused(problems))?;
-    if let Some(problems) = sweep.unbuildable() {
-        return Err(InputError::NothingToVary(problems).into());
-    }
-    report::writable(&args.out)?;
+    let question = SweepQuestion {
+        vary: args.vary.clone(),
+        best: args.best.clone(),
+        subject_to: args.subject_to.clone(),
+        error_estimate: args.error_estimate,
+    };
+    let sweep = Sweep::of(&scene, &question)?;
+    warn(&sweep.warnings());
+    let mut unfinished = UnfinishedSweep::begin_part(&sweep, Some(&args.out), args.shard)?;
     let threads = thread_count(args.threads);
-
-    let start = Instant::now();
     let interrupted = watch_for_interrupt();
-    let mut journal = Journal::open(&args.out, &sweep.identity, args.shard).map_err(InputError::Journal)?;
-    crate::studies::sweep::report::begin(&scene.given.text, &args.out)?;
-    let total = study::part(sweep.identity.combinations(), args.shard).count();
+    let total = unfinished.combinations();
     if !args.quiet {
-        say(&begun(&sweep, args, total, journal.contents.rows.len()));
+        say(&begun(&sweep, args, total, unfinished.finished()));
     }
     let progress = CountedProgress::new(args.quiet, Arc::clone(&interrupted));
-    let ended = study::run(&sweep, args.shard, &mut journal, threads, &progress);
+    let completed = unfinished.run(threads, &progress);
     progress.finish();
-    if ended.map_err(InputError::Journal)? == Ended::Interrupted {
-        let (finished, out) = (journal.contents.rows.len(), args.out.display());
-        let verified = match journal.contents.rows.values().filter(|row| row.verification.is_some()).count() {
+    if !completed? {
+        let (finished, out) = (unfinished.finished(), args.out.display());
+        let verified = match unfinished.verified() {
             0 => String::new(),
             verified => format!(", {verified} of them verified,"),
         };
@@ -147,15 +139,7 @@ fn run_sweep(args: &RunArgs) -> Result<(), Failure> {
         ));
         return Err(Failure::Interrupted);
     }
-    let record = SweepRecord {
-        identity: sweep.identity,
-        shard: args.shard,
-        scene_toml: scene.given.text.clone(),
-        rows: std::mem::take(&mut journal.contents.rows).into_values().collect(),
-        threads,
-        wall_s: start.elapsed().as_secs_f64(),
-    };
-    finish(&record, &args.out, args.quiet)
+    finish(&unfinished.finish()?, &args.out, args.quiet)
 }
 
 /// What is about to be run.
@@ -202,6 +186,7 @@ fn merge_shards(args: &MergeArgs) -> Result<(), Failure> {
         threads: 0,
         wall_s: start.elapsed().as_secs_f64(),
     };
+    crate::studies::sweep::report::write(&record, &args.out)?;
     finish(&record, &args.out, args.quiet)
 }
 
@@ -225,9 +210,8 @@ fn scene_of(whole: &Contents, folders: &[PathBuf]) -> Result<String, InputError>
     folders.iter().filter_map(read).find(of_sweep).ok_or(InputError::MergeWithoutScene)
 }
 
-/// Writes the outputs and says what came out.
+/// Says what came out.
 fn finish(record: &SweepRecord, out: &Path, quiet: bool) -> Result<(), Failure> {
-    crate::studies::sweep::report::write(record, out)?;
     if !quiet {
         print(&table(record, out))?;
     }

@@ -5,29 +5,18 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::report;
-use crate::scene::draft::Draft;
 use crate::scene::loaded::LoadedScene;
-use crate::studies::evaluate::output::{Output, OutputError};
-use crate::studies::uncertainty::design::{self, CorrelationError, MOST_FACTORS, MOST_SAMPLES};
-use crate::studies::uncertainty::distribution::{self, FORMS, UncertainError};
-use crate::studies::uncertainty::life::LimitError;
+use crate::studies::uncertainty::asked::{UncertaintyFault, UncertaintyQuestion};
+use crate::studies::uncertainty::design::CorrelationError;
+use crate::studies::uncertainty::distribution::FORMS;
 use crate::studies::uncertainty::record::UncertaintyRecord;
 use crate::studies::uncertainty::study::{self, Question, StudyError};
-use crate::studies::varied_scene::{linked_keys, missing_phase};
 
 use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError};
 use super::figures::digits;
 use super::run::{thread_count, watch_for_interrupt};
 use super::{print, say, warn};
-
-const DEFAULT_OUTPUTS: [&str; 5] = [
-    "pinion.peak_wear_um",
-    "wheel.peak_wear_um",
-    "pinion.tip_edge_wear_um",
-    "wheel.tip_edge_wear_um",
-    "worn.transmission_error_um.peak_to_peak",
-];
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -45,7 +34,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Points of the Sobol sequence, best a power of two; each takes two runs and one more for every uncertain key
-    #[arg(long, value_name = "N", default_value_t = 512, value_parser = samples)]
+    #[arg(long, value_name = "N", default_value_t = 512)]
     samples: usize,
     /// Another seed scrambles the sequence in another way
     #[arg(long, value_name = "S", default_value_t = 1)]
@@ -65,57 +54,45 @@ pub(super) struct Args {
     quiet: bool,
 }
 
-/// What is wrong with the question.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum UncertaintyError {
-    #[error("--uncertain: {0}")]
-    Uncertain(#[from] UncertainError),
-    #[error("--correlation: {0}")]
-    Correlation(#[from] CorrelationError),
-    #[error("--limit: {0}")]
-    Limit(#[from] LimitError),
-    #[error(
-        "--outputs: unknown output {output}; allowed: the path of a number in summary.json, such as pinion.peak_wear_um"
-    )]
-    Output { output: String, nearest: Option<String> },
-    #[error("--uncertain: found {found} keys; allowed: at most {}", MOST_FACTORS - 1)]
-    TooMany { found: usize },
-    #[error("{0}")]
-    Study(StudyError),
-}
+impl UncertaintyFault {
+    /// The option that it is about.
+    pub(super) fn option(&self) -> &'static str {
+        match self {
+            Self::Uncertain(_) | Self::Count { .. } => "--uncertain: ",
+            Self::Correlation(_) => "--correlation: ",
+            Self::Limit(_) => "--limit: ",
+            Self::Output(_) => "--outputs: ",
+            Self::Samples { .. } => "--samples: ",
+            Self::Scene(_) | Self::Study(_) => "",
+        }
+    }
 
-impl UncertaintyError {
     /// What to do about it.
     pub(super) fn help(&self) -> String {
         match self {
-            Self::Output { nearest: Some(nearest), .. } => format!("did you mean {nearest}?"),
-            Self::Output { .. } => "summary.json of a run has all of them".to_owned(),
+            Self::Output(_) => "summary.json of a run has all of them".to_owned(),
             Self::Correlation(CorrelationError::NotPositiveDefinite) => {
                 "keys that are both close to a third are close to one another".to_owned()
             }
-            Self::Study(_) => "gearwear run SCENE says more".to_owned(),
+            Self::Samples { .. } => "powers of two are the most even".to_owned(),
+            Self::Study(_) | Self::Scene(_) => "gearwear run SCENE says more".to_owned(),
             _ => format!("KEY=DISTRIBUTION with one of {FORMS}"),
         }
-    }
-}
-
-impl From<OutputError> for UncertaintyError {
-    fn from(OutputError { output, nearest }: OutputError) -> Self {
-        Self::Output { output, nearest }
-    }
-}
-
-fn samples(text: &str) -> Result<usize, String> {
-    match text.parse() {
-        Ok(count) if (2..=MOST_SAMPLES).contains(&count) => Ok(count),
-        _ => Err(format!("allowed: a whole number from 2 to {MOST_SAMPLES}")),
     }
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let scene = LoadedScene::open(&args.scene)?;
     warn(scene.warnings());
-    let question = question(args, &scene)?;
+    let asked = UncertaintyQuestion {
+        uncertain: args.uncertain.clone(),
+        correlation: args.correlation.clone(),
+        outputs: args.outputs.clone(),
+        limits: args.limit.clone(),
+        samples: args.samples,
+        seed: args.seed,
+    };
+    let question = Question::of(&scene, &asked)?;
     report::writable(&args.out)?;
     let threads = thread_count(args.threads);
     let interrupted = watch_for_interrupt();
@@ -126,14 +103,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let progress = CountedProgress::new(args.quiet, Arc::clone(&interrupted));
     let record = study::run(&scene, &question, threads, &progress);
     progress.finish();
-    let record = record.map_err(|error| match error {
-        StudyError::Interrupted => {
-            say(&format!("{error}: nothing to write"));
-            Failure::Interrupted
-        }
-        StudyError::AllFailed { runs, first } => Failure::NoSample { count: runs, error: first },
-        error => InputError::Uncertainty(UncertaintyError::Study(error)).into(),
-    })?;
+    let record = record.map_err(UncertaintyFault::Study)?;
     crate::studies::uncertainty::report::write(&record, &args.out)?;
     if !args.quiet {
         print(&table(&record, &args.out))?;
@@ -145,43 +115,20 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     Ok(())
 }
 
-fn question(args: &Args, scene: &LoadedScene) -> Result<Question, Failure> {
-    let refused = |error: UncertaintyError| Failure::from(InputError::Uncertainty(error));
-    let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
-    let resolved: toml::Table = scene.to_toml().parse().unwrap_or_default();
-    let own = |key: &str| number_at(&resolved, key);
-    let uncertain = distribution::parse_all(args.uncertain.iter().map(String::as_str), own);
-    let uncertain = uncertain.map_err(|error| refused(error.into()))?;
-    let all_keys = uncertain.iter().flat_map(|one| linked_keys(&one.key));
-    if let Some(key) = missing_phase(all_keys, &draft) {
-        return Err(refused(UncertainError::NoPhase { key }.into()));
+impl From<UncertaintyFault> for Failure {
+    fn from(fault: UncertaintyFault) -> Self {
+        match fault {
+            UncertaintyFault::Scene(error) => Failure::Scene(error),
+            UncertaintyFault::Study(error @ StudyError::Interrupted) => {
+                say(&format!("{error}: nothing to write"));
+                Failure::Interrupted
+            }
+            UncertaintyFault::Study(StudyError::AllFailed { runs, first }) => {
+                Failure::NoSample { count: runs, error: first }
+            }
+            wrong => InputError::Uncertainty(wrong).into(),
+        }
     }
-    // The error of the model takes one more.
-    if uncertain.len() >= MOST_FACTORS {
-        return Err(refused(UncertaintyError::TooMany { found: uncertain.len() }));
-    }
-    let keys: Vec<&str> = uncertain.iter().map(|one| one.key.as_str()).collect();
-    let correlation = design::correlation(&keys, &args.correlation).map_err(|error| refused(error.into()))?;
-    let limits = args.limit.iter().map(|text| text.parse()).collect::<Result<_, LimitError>>();
-    let limits = limits.map_err(|error| refused(error.into()))?;
-    let asked: Vec<&str> = match args.outputs.as_slice() {
-        [] => DEFAULT_OUTPUTS.to_vec(),
-        given => given.iter().map(|path| path.trim()).collect(),
-    };
-    let outputs = asked.into_iter().map(Output::find).collect::<Result<_, _>>();
-    let outputs = outputs.map_err(|error| refused(error.into()))?;
-    Ok(Question { uncertain, correlation, outputs, limits, samples: args.samples, seed: args.seed })
-}
-
-/// The number at the path `key` of a table; items of lists are numbered from 1.
-fn number_at(table: &toml::Table, key: &str) -> Option<f64> {
-    let mut parts = key.split('.');
-    let first = table.get(parts.next()?)?;
-    let value = parts.try_fold(first, |value, part| match value.as_array() {
-        Some(list) => list.get(part.parse::<usize>().ok()?.checked_sub(1)?),
-        None => value.get(part),
-    })?;
-    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
 /// Quantiles and indices, for the terminal.

@@ -57,13 +57,7 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
         return Ok(());
     }
     let library = Library::open(&args.cases).map_err(InputError::ValidationCase)?;
-    // The whole suite is asked for by its tier; cases that are named are run whatever theirs is.
-    let tier = args.tier.or(args.cases.is_empty().then_some(Tier::Full));
-    if let Some(asked) = tier
-        && library.cases.iter().all(|case| case.file.tier > asked)
-    {
-        return Err(InputError::NoCaseOfTier { tier: asked.name() }.into());
-    }
+    let tier = library.tier(args.tier, args.cases.is_empty()).map_err(InputError::ValidationCase)?;
     if args.list {
         return list(&library, args.tier);
     }

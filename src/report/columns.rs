@@ -5,6 +5,8 @@
 
 mod gather;
 
+use std::borrow::Cow;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -72,6 +74,57 @@ pub fn of_fem_pair(record: &FemPairRecord, name: &str) -> Option<Table> {
         "pressure" => table("pressure", pressure_table::rows(&record.pressure)),
         _ => return None,
     })
+}
+
+/// A cell of a table whose columns are named by what is asked; empty where there is nothing to say.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(untagged)]
+pub(crate) enum Cell<'a> {
+    Whole(Option<i64>),
+    Number(Option<f64>),
+    Text(Option<Cow<'a, str>>),
+}
+
+impl Cell<'_> {
+    pub(crate) fn count(value: usize) -> Self {
+        Self::Whole(i64::try_from(value).ok())
+    }
+}
+
+/// The table called `name` with these columns and rows of cells; whole numbers of which some are missing become numbers.
+pub(crate) fn of_cells<'a>(
+    name: &'static str,
+    columns: Vec<csv_table::Column>,
+    rows: impl IntoIterator<Item = Vec<Cell<'a>>>,
+) -> Table {
+    let mut cells: Vec<Vec<Cell<'a>>> = columns.iter().map(|_| Vec::new()).collect();
+    for row in rows {
+        cells.iter_mut().zip(row).for_each(|(column, cell)| column.push(cell));
+    }
+    let column = |((name, meaning), cells): (csv_table::Column, Vec<Cell<'a>>)| Column {
+        unit: unit::of(&name),
+        name,
+        meaning,
+        values: values(cells),
+    };
+    Table { name, columns: columns.into_iter().zip(cells).map(column).collect() }
+}
+
+fn values(cells: Vec<Cell<'_>>) -> Values {
+    let whole = |cell: &Cell<'_>| if let Cell::Whole(value) = cell { *value } else { None };
+    if let Some(counts) = cells.iter().map(whole).collect() {
+        return Values::Counts(counts);
+    }
+    if let Some(Cell::Text(_)) = cells.first() {
+        let word = |cell| if let Cell::Text(Some(text)) = cell { text.into_owned() } else { String::new() };
+        return Values::Words(cells.into_iter().map(word).collect());
+    }
+    let number = |cell| match cell {
+        Cell::Whole(value) => value.map_or(f64::NAN, |value| value as f64),
+        Cell::Number(value) => value.unwrap_or(f64::NAN),
+        Cell::Text(_) => f64::NAN,
+    };
+    Values::Numbers(cells.into_iter().map(number).collect())
 }
 
 fn table<R: Serialize + JsonSchema>(name: &'static str, rows: impl IntoIterator<Item = R>) -> Table {

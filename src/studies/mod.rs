@@ -5,6 +5,8 @@ pub(crate) mod accuracy;
 #[cfg(feature = "program")]
 pub(crate) mod compare;
 pub(crate) mod evaluate;
+#[cfg(feature = "program")]
+pub(crate) mod found;
 pub(crate) mod spread;
 #[cfg(feature = "program")]
 pub(crate) mod sweep;

@@ -45,6 +45,11 @@ impl VariedScene {
         Ok(Self { draft, given: given.clone() })
     }
 
+    /// The text of the scene, as given.
+    pub(crate) fn given_text(&self) -> &str {
+        &self.given.given.text
+    }
+
     /// The scene with these values for these keys, which is not verified; keys with alternatives stand for all of them.
     pub(crate) fn resolved<'a>(
         &self,

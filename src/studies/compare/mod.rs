@@ -7,12 +7,14 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`run_folder`] | what a finished run left behind |
+//! | [`asked`] | a comparison as it is asked for: run and measured file read |
 //! | [`question`] | what is asked, checked against the run and the measured file |
 //! | `simulations` | runs of the scene with other coefficients |
 //! | `wear_by_coefficient` | wear profiles in between |
 //! | `search` | the parameters that fit best |
 //! | [`study`] | all of it, in order |
 
+pub(crate) mod asked;
 pub(crate) mod question;
 pub(crate) mod record;
 pub(crate) mod report;

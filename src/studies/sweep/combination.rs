@@ -13,13 +13,14 @@ use crate::scene::{Problem, Resolved, short_hash};
 use crate::studies::sweep::figures::FIGURES;
 use crate::studies::sweep::goal::Goal;
 use crate::studies::sweep::record::{SweepAxis, SweepIdentity, SweepRow};
-use crate::studies::sweep::verification::{Chosen, RowVerification};
+use crate::studies::sweep::study::Task;
+use crate::studies::sweep::verification::Chosen;
 use crate::studies::varied_scene::{VariedScene, in_words, one_line};
 
 /// A sweep that can be run.
 #[derive(Debug, Clone)]
-pub(crate) struct Sweep {
-    pub identity: SweepIdentity,
+pub struct Sweep {
+    pub(crate) identity: SweepIdentity,
     varied: VariedScene,
 }
 
@@ -51,6 +52,11 @@ impl Sweep {
         Ok(Self { identity, varied: VariedScene::new(given, error_estimate)? })
     }
 
+    /// The scene, as the user gave it.
+    pub(crate) fn scene_toml(&self) -> &str {
+        self.varied.given_text()
+    }
+
     /// The scene of combination `index`, which is not verified.
     pub(crate) fn scene(&self, index: usize) -> Result<Resolved, Vec<Problem>> {
         let values = self.identity.values(index);
@@ -77,24 +83,40 @@ impl Sweep {
     /// Runs combination `index`; `None` where it was interrupted.
     ///
     /// Whatever goes wrong with it is its row's error, a defect of the program included.
-    pub(crate) fn row(&self, index: usize, observer: &dyn Observer) -> Option<SweepRow> {
+    fn row(&self, index: usize, observer: &dyn Observer) -> Option<SweepRow> {
         let start = Instant::now();
         let run = guarded(|| self.run(index, observer));
         let run = run.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
-        let (values, figures) = (self.identity.values(index), vec![None; FIGURES.len()]);
-        let row = SweepRow { index, values, figures, ..SweepRow::default() };
         let row = match run {
             Ok(summary) if summary.stopped == StopReason::Interrupted => return None,
             Ok(summary) => SweepRow {
                 figures: FIGURES.iter().map(|f| (f.of)(&summary).filter(|value| value.is_finite())).collect(),
                 warnings: Some(summary.warnings.len()),
                 simulation_s: simulation_s(&summary),
-                ..row
+                ..self.empty(index)
             },
             Err(_) if observer.interrupted() => return None,
-            Err(error) => SweepRow { error: Some(one_line(&error)), ..row },
+            Err(error) => self.failed(index, &error),
         };
         Some(SweepRow { wall_s: start.elapsed().as_secs_f64(), ..row })
+    }
+
+    fn empty(&self, index: usize) -> SweepRow {
+        let (values, figures) = (self.identity.values(index), vec![None; FIGURES.len()]);
+        SweepRow { index, values, figures, ..SweepRow::default() }
+    }
+
+    /// Does `task`; `None` where it was interrupted.
+    pub(crate) fn row_of(&self, task: &Task, observer: &dyn Observer) -> Option<SweepRow> {
+        match task {
+            Task::Run(index) => self.row(*index, observer),
+            Task::Verify { row, chosen } => self.verified(row, *chosen, observer),
+        }
+    }
+
+    /// The row of combination `index`, which has no figures for this reason.
+    pub(crate) fn failed(&self, index: usize, reason: &str) -> SweepRow {
+        SweepRow { error: Some(one_line(reason)), ..self.empty(index) }
     }
 
     fn run(&self, index: usize, observer: &dyn Observer) -> Result<Summary, String> {
@@ -107,7 +129,7 @@ impl Sweep {
     ///
     /// Its run is done again and comes to the same bits: which rows are the best is known when all are there, and what a verification
     /// starts from would be much to keep of each until then.
-    pub(crate) fn verified(&self, row: &SweepRow, chosen: Chosen, observer: &dyn Observer) -> Option<SweepRow> {
+    fn verified(&self, row: &SweepRow, chosen: Chosen, observer: &dyn Observer) -> Option<SweepRow> {
         let start = Instant::now();
         let total = guarded(|| self.total_error(row.index, observer));
         let total = total.unwrap_or_else(|said| Err(format!("a defect of the program: {said}")));
@@ -115,8 +137,7 @@ impl Sweep {
             return None;
         }
         let total = total.unwrap_or_else(|reason| TotalError::none(&one_line(&reason)));
-        let verification = RowVerification { chosen, total, wall_s: start.elapsed().as_secs_f64() };
-        Some(SweepRow { verification: Some(verification), ..row.clone() })
+        Some(row.clone().verified(chosen, total, start.elapsed().as_secs_f64()))
     }
 
     fn total_error(&self, index: usize, observer: &dyn Observer) -> Result<TotalError, String> {

@@ -30,10 +30,21 @@ pub(crate) struct Contents {
     pub rows: BTreeMap<usize, SweepRow>,
 }
 
+impl Contents {
+    /// The row in a line; an error says why it is none of this sweep.
+    pub(crate) fn row(&self, line: &str) -> Result<SweepRow, String> {
+        let row: SweepRow = serde_json::from_str(line).map_err(|error| error.to_string())?;
+        if row.index >= self.identity.combinations() || row.figures.len() != self.identity.figures.len() {
+            return Err(format!("a row of another sweep, combination {}", row.index));
+        }
+        Ok(row)
+    }
+}
+
 #[derive(Debug)]
 pub(crate) struct Journal {
-    path: PathBuf,
-    file: File,
+    /// Where it is kept; `None`: in memory alone.
+    kept: Option<(PathBuf, File)>,
     pub contents: Contents,
 }
 
@@ -51,6 +62,9 @@ pub(crate) enum JournalError {
         line: usize,
         found: String,
     },
+    /// A task or a row that is handed over.
+    #[error("found {found}; allowed: tasks and rows of this sweep and this version of the program")]
+    Foreign { found: String },
     #[error("{} holds the rows of another sweep: {}", path.display(), differences.join("; "))]
     OtherSweep { path: PathBuf, differences: Vec<String> },
     #[error("{} is being written by another gearwear sweep", path.display())]
@@ -101,18 +115,19 @@ fn parse(path: &Path, text: &str) -> Result<Option<Contents>, JournalError> {
     let damaged = |line: usize, found: String| JournalError::Damaged { path: path.to_owned(), line: line + 1, found };
     let Some((_, first)) = lines.next() else { return Ok(None) };
     let mut contents: Contents = serde_json::from_str(first).map_err(|error| damaged(0, error.to_string()))?;
-    let combinations = contents.identity.combinations();
     for (line, text) in lines {
-        let row: SweepRow = serde_json::from_str(text).map_err(|error| damaged(line, error.to_string()))?;
-        if row.index >= combinations || row.figures.len() != contents.identity.figures.len() {
-            return Err(damaged(line, format!("a row of another sweep, combination {}", row.index)));
-        }
+        let row = contents.row(text).map_err(|found| damaged(line, found))?;
         contents.rows.insert(row.index, row);
     }
     Ok(Some(contents))
 }
 
 impl Journal {
+    /// A journal that is not kept.
+    pub(crate) fn in_memory(identity: &SweepIdentity, shard: Option<Shard>) -> Self {
+        Self { kept: None, contents: Contents { identity: identity.clone(), shard, rows: BTreeMap::new() } }
+    }
+
     /// Opens the journal of a sweep in `folder`, which is made if need be, and reads the rows it holds already.
     ///
     /// # Errors
@@ -130,7 +145,7 @@ impl Journal {
         let mut text = String::new();
         file.read_to_string(&mut text).map_err(at)?;
         let text = whole_lines(&text);
-        let new = Contents { identity: identity.clone(), shard, rows: BTreeMap::new() };
+        let Self { contents: new, .. } = Self::in_memory(identity, shard);
         let found = parse(&path, text)?;
         let differences = found.as_ref().map_or_else(Vec::new, |found| differences(found, &new));
         if !differences.is_empty() {
@@ -141,7 +156,7 @@ impl Journal {
         if found.is_none() {
             file.write_all(&line_of(&new).map_err(at)?).map_err(at)?;
         }
-        Ok(Self { path, file, contents: found.unwrap_or(new) })
+        Ok(Self { kept: Some((path, file)), contents: found.unwrap_or(new) })
     }
 
     /// Appends a finished row, or one that was verified since.
@@ -150,32 +165,36 @@ impl Journal {
     /// A full disk, or a folder that was taken away meanwhile: its rows are then written anew.
     pub(crate) fn append(&mut self, row: SweepRow) -> Result<(), JournalError> {
         let rows = &mut self.contents.rows;
+        let Some((path, file)) = &mut self.kept else {
+            rows.insert(row.index, row);
+            return Ok(());
+        };
         let kept = rows.len();
         let failed = |path: &Path, source| JournalError::Write { path: path.to_owned(), kept, source };
-        let line = line_of(&row).map_err(|source| failed(&self.path, source))?;
+        let line = line_of(&row).map_err(|source| failed(path, source))?;
         let index = row.index;
         let before = rows.insert(index, row);
         // A file that was unlinked could still be written to, for nobody.
-        if !self.path.exists() {
-            return Err(self.write_anew());
+        if !path.exists() {
+            return Err(write_anew(path, &self.contents));
         }
-        if let Err(source) = self.file.write_all(&line) {
+        if let Err(source) = file.write_all(&line) {
             match before {
                 Some(row) => rows.insert(index, row),
                 None => rows.remove(&index),
             };
-            return Err(failed(&self.path, source));
+            return Err(failed(path, source));
         }
         Ok(())
     }
+}
 
-    /// Writes all rows into a new file of the old name.
-    fn write_anew(&self) -> JournalError {
-        let folder = self.path.parent().unwrap_or(Path::new("."));
-        match write(folder, &self.contents) {
-            Ok(()) => JournalError::Removed { path: self.path.clone(), kept: self.contents.rows.len() },
-            Err(source) => JournalError::Lost { path: self.path.clone(), source },
-        }
+/// Writes all rows into a new file of the old name.
+fn write_anew(path: &Path, contents: &Contents) -> JournalError {
+    let path = path.to_owned();
+    match write(path.parent().unwrap_or(Path::new(".")), contents) {
+        Ok(()) => JournalError::Removed { kept: contents.rows.len(), path },
+        Err(source) => JournalError::Lost { path, source },
     }
 }
 

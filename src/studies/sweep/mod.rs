@@ -7,13 +7,16 @@
 //!
 //! | module | what it does |
 //! |---|---|
+//! | [`asked`] | a sweep as it is asked for, checked |
 //! | [`axis`] | a varied key as the user writes it, checked |
 //! | [`goal`] | what is to be least, and what is as good within the error |
 //! | [`combination`] | the scene of a combination, and its row |
 //! | [`journal`] | the rows finished so far, kept on disk |
-//! | [`study`] | runs what is missing on all threads |
+//! | [`study`] | what is left to do, and runs it on all threads |
+//! | [`unfinished`] | a sweep under way, whoever runs its rows |
 //! | [`mod@merge`] | one sweep from its parts |
 
+pub(crate) mod asked;
 pub(crate) mod axis;
 pub(crate) mod combination;
 pub(crate) mod figures;
@@ -23,4 +26,5 @@ pub(crate) mod merge;
 pub(crate) mod record;
 pub(crate) mod report;
 pub(crate) mod study;
+pub(crate) mod unfinished;
 pub(crate) mod verification;

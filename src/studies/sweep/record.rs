@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::figures::{FIGURES, SweepFigure};
 use super::goal::{Goal, Optimum};
-use super::verification::{RowVerification, SweepVerification};
+use super::verification::{Chosen, RowVerification, SweepVerification};
+use crate::results::error::TotalError;
 
 /// Digits of a value between the ends of a range.
 const DIGITS: i32 = 12;
@@ -283,6 +284,11 @@ impl SweepRow {
         self.figures.get(at).copied().flatten()
     }
 
+    /// The same row with what finite elements say of it.
+    pub(crate) fn verified(self, chosen: Chosen, total: TotalError, wall_s: f64) -> Self {
+        Self { verification: Some(RowVerification { chosen, total, wall_s }), ..self }
+    }
+
     /// Whether everything but the wall times is the same, the verification where both have one.
     pub(crate) fn same_result(&self, other: &Self) -> bool {
         let timeless = |row: &Self| Self { simulation_s: None, wall_s: 0.0, verification: None, ..row.clone() };
@@ -293,18 +299,18 @@ impl SweepRow {
 
 /// A finished sweep, or a finished part of one.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct SweepRecord {
-    pub identity: SweepIdentity,
+pub struct SweepRecord {
+    pub(crate) identity: SweepIdentity,
     /// Which part of it; `None`: all of it.
-    pub shard: Option<Shard>,
+    pub(crate) shard: Option<Shard>,
     /// The scene, as the user gave it.
-    pub scene_toml: String,
+    pub(crate) scene_toml: String,
     /// One row per combination, in the order of the combinations.
-    pub rows: Vec<SweepRow>,
-    /// Threads it was run on; 0 where it was merged from parts.
-    pub threads: usize,
+    pub(crate) rows: Vec<SweepRow>,
+    /// Threads it was run on; 0 where others ran it: other processes or machines, or parts that were merged.
+    pub(crate) threads: usize,
     /// Wall time since the command was started, s: rows of an earlier start are not in it.
-    pub wall_s: f64,
+    pub(crate) wall_s: f64,
 }
 
 /// `sweep.json`.

@@ -1,16 +1,19 @@
-//! Runs what is missing of a sweep on all threads, one combination a thread.
+//! What is left to do of a sweep, and the way to do it on all threads, one combination a thread.
 //!
 //! A combination is run by one thread from beginning to end: with many combinations that loses nothing to waiting, and a row
 //! depends neither on the number of threads nor on the order in which they finish. Where the sweep is verified, the same is done once
 //! more with the rows that are chosen for it, which are known when all rows are.
 
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
 use super::combination::Sweep;
 use super::journal::{Journal, JournalError};
 use crate::observer::Observer;
+use crate::studies::spread::{Ended, spread};
 use crate::studies::sweep::record::{Shard, SweepRow};
 use crate::studies::sweep::verification::{Chosen, chosen};
-
-use crate::studies::spread::{Ended, spread};
 
 /// The combinations of a part of a sweep, in order: every `of`-th, beginning with `number`; `None`: all.
 pub(crate) fn part(combinations: usize, shard: Option<Shard>) -> impl Iterator<Item = usize> {
@@ -41,8 +44,32 @@ impl<F: FnMut(&SweepRow)> Kept<'_, F> {
     }
 }
 
-/// Runs the combinations of `shard` that `journal` does not hold yet, on `threads` threads; of a whole sweep that asks for it,
-/// verifies the rows that are chosen.
+/// Something to do of a sweep: what one thread, wherever it is, does from beginning to end.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Task {
+    /// A combination is to be run.
+    Run(usize),
+    /// A finished row is to be verified.
+    Verify { row: Box<SweepRow>, chosen: Chosen },
+}
+
+/// What can be done now: the missing combinations of `shard`; where none is missing, of a whole sweep that asks for it, the chosen rows
+/// that are not verified yet.
+pub(crate) fn tasks(sweep: &Sweep, shard: Option<Shard>, rows: &BTreeMap<usize, SweepRow>) -> Vec<Task> {
+    let all = part(sweep.identity.combinations(), shard);
+    let missing: Vec<Task> = all.filter(|index| !rows.contains_key(index)).map(Task::Run).collect();
+    if !missing.is_empty() || !sweep.identity.verify || shard.is_some() {
+        return missing;
+    }
+    let open = |(index, chosen): (usize, Chosen)| {
+        let row = rows.get(&index).filter(|row| row.verification.is_none())?;
+        Some(Task::Verify { row: Box::new(row.clone()), chosen })
+    };
+    chosen(&sweep.identity, rows.values()).into_iter().filter_map(open).collect()
+}
+
+/// Does what is left of `shard`, whose finished rows `journal` holds, on `threads` threads.
 ///
 /// # Errors
 /// A row that cannot be kept; the rows before it are.
@@ -53,59 +80,37 @@ pub(crate) fn run(
     threads: usize,
     observer: &dyn Observer,
 ) -> Result<Ended, JournalError> {
-    let all: Vec<usize> = part(sweep.identity.combinations(), shard).collect();
-    let missing: Vec<usize> = all.iter().copied().filter(|index| !journal.contents.rows.contains_key(index)).collect();
-    let mut done = journal.contents.rows.len();
-    let mut failed = journal.contents.rows.values().filter(|row| row.error.is_some()).count();
-    observer.counted(done, all.len(), "combinations", &with_failed(failed));
-    let tell = |row: &SweepRow| {
-        done += 1;
-        failed += usize::from(row.error.is_some());
-        observer.counted(done, all.len(), "combinations", &with_failed(failed));
-    };
-    let ended = keep_all(&missing, journal, threads, observer, |&index, within| sweep.row(index, within), tell)?;
-    match ended {
-        Ended::Completed if sweep.identity.verify && shard.is_none() => verify(sweep, journal, threads, observer),
-        _ => Ok(ended),
+    loop {
+        let rows = &journal.contents.rows;
+        let tasks = tasks(sweep, shard, rows);
+        let (things, total, mut failed) = match tasks.first() {
+            None => return Ok(Ended::Completed),
+            Some(Task::Run(_)) => {
+                let failed = rows.values().filter(|row| row.error.is_some()).count();
+                ("combinations", part(sweep.identity.combinations(), shard).count(), failed)
+            }
+            Some(Task::Verify { .. }) => ("verified", chosen(&sweep.identity, rows.values()).len(), 0),
+        };
+        let mut done = total - tasks.len();
+        observer.counted(done, total, things, &with_failed(failed));
+        let tell = |row: &SweepRow| {
+            done += 1;
+            failed += usize::from(row.error.is_some());
+            observer.counted(done, total, things, &with_failed(failed));
+        };
+        let mut kept = Kept { journal, tell, error: None };
+        let ended = spread(&tasks, threads, observer, |task, within| sweep.row_of(task, within), |row| kept.keep(row));
+        if let Some(error) = kept.error {
+            return Err(error);
+        }
+        if ended == Ended::Interrupted {
+            return Ok(ended);
+        }
     }
 }
 
 fn with_failed(failed: usize) -> String {
     if failed == 0 { String::new() } else { format!(", {failed} failed") }
-}
-
-/// Verifies those of the chosen rows that are not yet.
-fn verify(
-    sweep: &Sweep,
-    journal: &mut Journal,
-    threads: usize,
-    observer: &dyn Observer,
-) -> Result<Ended, JournalError> {
-    let chosen = chosen(&sweep.identity, journal.contents.rows.values());
-    let of_row = |(index, chosen): (&usize, &Chosen)| Some((journal.contents.rows.get(index)?.clone(), *chosen));
-    let due: Vec<(SweepRow, Chosen)> =
-        chosen.iter().filter_map(of_row).filter(|(row, _)| row.verification.is_none()).collect();
-    let mut done = chosen.len() - due.len();
-    observer.counted(done, chosen.len(), "verified", "");
-    let tell = |_: &SweepRow| {
-        done += 1;
-        observer.counted(done, chosen.len(), "verified", "");
-    };
-    keep_all(&due, journal, threads, observer, |(row, chosen), within| sweep.verified(row, *chosen, within), tell)
-}
-
-/// Does `work` for each of `tasks` on all threads, keeps the rows it comes to in `journal`, and tells of each.
-fn keep_all<T: Sync>(
-    tasks: &[T],
-    journal: &mut Journal,
-    threads: usize,
-    observer: &dyn Observer,
-    work: impl Fn(&T, &dyn Observer) -> Option<SweepRow> + Sync,
-    tell: impl FnMut(&SweepRow) + Send,
-) -> Result<Ended, JournalError> {
-    let mut kept = Kept { journal, tell, error: None };
-    let ended = spread(tasks, threads, observer, work, |row| kept.keep(row));
-    kept.error.map_or(Ok(ended), Err)
 }
 
 #[cfg(test)]

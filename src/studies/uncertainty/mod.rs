@@ -5,12 +5,14 @@
 //!
 //! | module | what it does |
 //! |---|---|
+//! | [`asked`] | a study as it is asked for, checked |
 //! | [`distribution`] | an uncertain key as the user writes it |
 //! | [`design`] | samples from a Sobol sequence, correlations |
 //! | [`study`] | runs them on all threads |
 //! | [`life`] | when wear comes to a limit |
 //! | [`statistics`], [`indices`] | quantiles and Sobol indices of any values |
 
+pub(crate) mod asked;
 pub(crate) mod design;
 pub(crate) mod distribution;
 pub(crate) mod indices;

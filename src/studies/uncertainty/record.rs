@@ -6,43 +6,60 @@ use super::distribution::Uncertain;
 use super::indices::Index;
 use super::life::Limit;
 use crate::gear::PerGear;
+use crate::report::columns::Table;
 
 /// How the factor that stands for the error of the fast model is called.
 pub(crate) const MODEL_ERROR: &str = "error of the fast model";
 
+/// A finished study, or one that was interrupted, of the points that were finished.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct UncertaintyRecord {
-    pub title: String,
-    pub program_version: String,
+pub struct UncertaintyRecord {
+    pub(crate) title: String,
+    pub(crate) program_version: String,
     /// First 16 hexadecimal digits of the SHA-256 of the scene as given, resolved.
-    pub scene_hash: String,
-    pub uncertain: Vec<Uncertain>,
-    pub limits: Vec<Limit>,
+    pub(crate) scene_hash: String,
+    pub(crate) uncertain: Vec<Uncertain>,
+    pub(crate) limits: Vec<Limit>,
     /// Of the normal scores of the uncertain keys, in their order; null where they are independent.
-    pub correlation: Option<Vec<Vec<f64>>>,
-    pub seed: u32,
+    pub(crate) correlation: Option<Vec<Vec<f64>>>,
+    pub(crate) seed: u32,
     /// Points of the Sobol sequence that were asked for.
-    pub samples_asked: usize,
+    pub(crate) samples_asked: usize,
     /// Points that were finished: each gives two independent samples, on which the quantiles stand.
-    pub samples: usize,
+    pub(crate) samples: usize,
     /// Runs of these points, and how many of them failed.
-    pub runs: usize,
-    pub failed: usize,
+    pub(crate) runs: usize,
+    pub(crate) failed: usize,
     /// Why the first of them failed.
-    pub first_failure: Option<String>,
+    pub(crate) first_failure: Option<String>,
     /// How the error of the fast model was found, or why it was not.
-    pub model_error_how: String,
-    pub outputs: Vec<OutputRecord>,
+    pub(crate) model_error_how: String,
+    pub(crate) outputs: Vec<OutputRecord>,
     /// Wear over the active flanks.
-    pub bands: PerGear<Band>,
-    pub threads: usize,
-    pub wall_s: f64,
+    pub(crate) bands: PerGear<Band>,
+    pub(crate) threads: usize,
+    pub(crate) wall_s: f64,
     /// The scene, as the user gave it.
     #[serde(skip)]
-    pub scene_toml: String,
+    pub(crate) scene_toml: String,
     /// In `samples.csv`.
     #[serde(skip)]
-    pub rows: Vec<SampleRow>,
+    pub(crate) rows: Vec<SampleRow>,
+}
+
+impl UncertaintyRecord {
+    /// `samples.csv` as columns.
+    pub fn table(&self) -> Table {
+        super::report::table(self)
+    }
+
+    /// `uncertainty.json`.
+    ///
+    /// # Errors
+    /// None that is known.
+    pub fn summary_json(&self) -> serde_json::Result<String> {
+        serde_json::to_string(self)
+    }
 }
 
 /// A figure of the runs.

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use include_dir::{Dir, include_dir};
 
 use super::case_file::CaseFile;
+use super::record::Tier;
 use crate::whole_file::TemporaryFolder;
 
 /// The cases of this version, with everything that they read.
@@ -29,6 +30,9 @@ pub(crate) enum LibraryError {
     Unreadable { path: PathBuf, reason: io::Error },
     #[error("{}: line {line}: {reason}", path.display())]
     NotACase { path: PathBuf, line: usize, reason: String },
+    /// None of the cases asked for belongs to the tier asked for.
+    #[error("found no case of the tier {tier} among those named; allowed: cases of that tier, or none named")]
+    NoCaseOfTier { tier: &'static str },
     /// Two cases of one name: reports and later comparisons could not tell them apart.
     #[error("found two cases called {name:?}; allowed: each name once")]
     Twice { name: String },
@@ -77,6 +81,17 @@ pub(crate) fn export(folder: &Path) -> Result<(), LibraryError> {
 }
 
 impl Library {
+    /// The tier that is run: the one `asked` for. The whole suite, `all` of it, is run to the full one; cases that are named, whatever theirs is.
+    pub(crate) fn tier(&self, asked: Option<Tier>, all: bool) -> Result<Option<Tier>, LibraryError> {
+        let tier = asked.or(all.then_some(Tier::Full));
+        match tier {
+            Some(tier) if self.cases.iter().all(|case| case.file.tier > tier) => {
+                Err(LibraryError::NoCaseOfTier { tier: tier.name() })
+            }
+            _ => Ok(tier),
+        }
+    }
+
     /// The cases asked for, each by its name or by the folder it lies in; none asked for: all built-in ones.
     pub(crate) fn open(asked: &[String]) -> Result<Self, LibraryError> {
         let names = names();

@@ -159,7 +159,7 @@ fn verified(record: &SweepRecord, verification: &SweepVerification<'_>) -> Marku
 fn work(record: &SweepRecord) -> Markup {
     let summary = record.summary();
     let threads = match record.threads {
-        0 => "It was merged from parts that were run elsewhere.".to_owned(),
+        0 => "It was run elsewhere, by several processes or in parts.".to_owned(),
         1 => format!("The last start took {} s on one thread.", significant(record.wall_s, 3)),
         n => format!("The last start took {} s on {n} threads.", significant(record.wall_s, 3)),
     };

@@ -14,7 +14,8 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::Type;
 
-use super::tables::{Cell, SweepColumn, columns};
+use super::tables::{SweepColumn, columns};
+use crate::report::columns::Cell;
 use crate::studies::sweep::record::SweepRecord;
 
 /// The whole file.

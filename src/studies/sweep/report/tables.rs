@@ -1,23 +1,13 @@
-//! `sweep.csv`: one row per combination. `sweep.parquet` has the same columns.
+//! `sweep.csv`: one row per combination. `sweep.parquet` has the same columns, and so has the table in memory.
 
 use std::borrow::Cow;
 use std::io::{self, Write};
 
-use serde::Serialize;
-
+use crate::report::columns::{Cell, Table, of_cells};
 use crate::report::csv_table::{Column, table_of};
 use crate::studies::sweep::figures::FIGURES;
 use crate::studies::sweep::record::{SweepRecord, SweepRow};
 use crate::studies::sweep::verification::CLAIMS;
-
-/// A cell of the table; empty where there is nothing to say.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(untagged)]
-pub(crate) enum Cell<'a> {
-    Whole(Option<i64>),
-    Number(Option<f64>),
-    Text(Option<Cow<'a, str>>),
-}
 
 pub(crate) struct SweepColumn {
     pub name: String,
@@ -41,8 +31,8 @@ impl SweepColumn {
 
 /// The columns of a sweep: combination, varied keys, status, figures, times, error, verification.
 pub(crate) fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
-    let whole = |count: usize| Cell::Whole(i64::try_from(count).ok());
-    let mut columns = vec![SweepColumn::new("index", "number of the combination, from 0", move |row| whole(row.index))];
+    let mut columns =
+        vec![SweepColumn::new("index", "number of the combination, from 0", |row| Cell::count(row.index))];
     for (at, axis) in record.identity.axes.iter().enumerate() {
         let meaning = format!("varied: {}", axis.as_given());
         if let Some(words) = axis.words().map(<[String]>::to_vec) {
@@ -68,8 +58,8 @@ pub(crate) fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
     let all_of_it = "wall time of the whole combination, its verification apart";
     let why = "why finite elements verified this row: best, corner, or best and corner; empty: nothing verified it";
     columns.extend([
-        SweepColumn::new("warnings", "number of warnings of the run", move |row| {
-            row.warnings.map_or(Cell::Whole(None), whole)
+        SweepColumn::new("warnings", "number of warnings of the run", |row| {
+            row.warnings.map_or(Cell::Whole(None), Cell::count)
         }),
         SweepColumn::new("simulation_s", "wall time of the wear run alone", |row| Cell::Number(row.simulation_s)),
         SweepColumn::new("wall_s", all_of_it, |row| Cell::Number(Some(row.wall_s))),
@@ -98,9 +88,21 @@ pub(crate) fn columns(record: &SweepRecord) -> Vec<SweepColumn> {
     columns
 }
 
+fn names(columns: &[SweepColumn]) -> Vec<Column> {
+    columns.iter().map(|column| (column.name.clone(), column.meaning.clone())).collect()
+}
+
+fn cells<'a>(record: &'a SweepRecord, columns: &[SweepColumn]) -> impl Iterator<Item = Vec<Cell<'a>>> {
+    record.rows.iter().map(|row| columns.iter().map(|column| column.cell(row)).collect())
+}
+
 pub(crate) fn rows(out: &mut dyn Write, record: &SweepRecord) -> io::Result<Vec<Column>> {
     let columns = columns(record);
-    let names: Vec<Column> = columns.iter().map(|column| (column.name.clone(), column.meaning.clone())).collect();
-    let rows = record.rows.iter().map(|row| columns.iter().map(|column| column.cell(row)).collect::<Vec<_>>());
-    table_of(out, names, rows)
+    table_of(out, names(&columns), cells(record, &columns))
+}
+
+/// The same as columns of values.
+pub(crate) fn table(record: &SweepRecord) -> Table {
+    let columns = columns(record);
+    of_cells("sweep", names(&columns), cells(record, &columns))
 }

@@ -11,12 +11,12 @@
 mod figures;
 mod page;
 
+use std::borrow::Cow;
 use std::io::{self, Write};
 use std::path::Path;
 
-use serde::Serialize;
-
 use super::record::{MODEL_ERROR, UncertaintyRecord};
+use crate::report::columns::{Cell, Table, of_cells};
 use crate::report::csv_table::{Column, CsvFiles, Provenance, table_of};
 use crate::report::files::{ReportError, create_folder, place, remove, write_json};
 
@@ -41,16 +41,16 @@ pub(crate) fn write(record: &UncertaintyRecord, dir: &Path) -> Result<(), Report
     place(dir, LAST, |out| write_json(out, record)).map(drop)
 }
 
-/// A cell; empty where there is nothing to say.
-#[derive(Serialize)]
-#[serde(untagged)]
-enum Cell<'a> {
-    Whole(usize),
-    Number(Option<f64>),
-    Text(Option<&'a str>),
+fn samples(out: &mut dyn Write, record: &UncertaintyRecord) -> io::Result<Vec<Column>> {
+    table_of(out, columns(record), rows(record))
 }
 
-fn samples(out: &mut dyn Write, record: &UncertaintyRecord) -> io::Result<Vec<Column>> {
+/// The table of the samples.
+pub(crate) fn table(record: &UncertaintyRecord) -> Table {
+    of_cells("samples", columns(record), rows(record))
+}
+
+fn columns(record: &UncertaintyRecord) -> Vec<Column> {
     let column = |name: &str, meaning: String| (name.to_owned(), meaning);
     let mut columns = vec![
         column("point", "number of the point of the Sobol sequence, from 0".to_owned()),
@@ -66,11 +66,14 @@ fn samples(out: &mut dyn Write, record: &UncertaintyRecord) -> io::Result<Vec<Co
         columns.push(column(&output.output, meaning));
     }
     columns.push(column("error", "why there are no figures".to_owned()));
-    let rows = record.rows.iter().map(|row| {
+    columns
+}
+
+fn rows(record: &UncertaintyRecord) -> impl Iterator<Item = Vec<Cell<'_>>> {
+    record.rows.iter().map(|row| {
         let numbers = row.values.iter().map(|&value| Some(value)).chain([row.model_error]);
         let numbers = numbers.chain(row.outputs.iter().copied()).map(Cell::Number);
-        let head = [Cell::Whole(row.point), Cell::Text(Some(&row.matrix))];
-        head.into_iter().chain(numbers).chain([Cell::Text(row.error.as_deref())]).collect::<Vec<_>>()
-    });
-    table_of(out, columns, rows)
+        let head = [Cell::count(row.point), Cell::Text(Some(Cow::Borrowed(&row.matrix)))];
+        head.into_iter().chain(numbers).chain([Cell::Text(row.error.as_deref().map(Cow::Borrowed))]).collect()
+    })
 }

@@ -1,0 +1,96 @@
+"""Studies that are read as the record of their command: accuracy, comparison with measured profiles and of runs, validation."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Mapping
+from contextlib import ExitStack
+from functools import cached_property
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+from gearwear import _native
+from gearwear.run import Run
+from gearwear.workers import ProgressArgument, Watched, thread_count
+
+if TYPE_CHECKING:
+    #: A run, or the folder that one was written into.
+    Finished = Run | str | os.PathLike[str]
+
+
+class Study:
+    """What a study found: its record, and the files of the command."""
+
+    def __init__(self, native: _native.Study) -> None:
+        self._native = native
+
+    @cached_property
+    def summary(self) -> dict[str, Any]:
+        """The record, as the command writes it: ``accuracy.json``, ``compare.json``, ``variants.json`` or ``validation.json``."""
+        summary: dict[str, Any] = json.loads(self._native.json)
+        return summary
+
+    def write(self, folder: str | os.PathLike[str]) -> None:
+        """Writes what the command writes: tables, page, record."""
+        self._native.write(os.fspath(folder))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError("a study cannot be pickled; its summary can, and write(folder) keeps it")
+
+
+def compare(
+    run: Finished,
+    measured: str | os.PathLike[str],
+    *,
+    gear: str | None = None,
+    form: str | None = None,
+    fit: str = "k",
+    shift_within_mm: float = 0.1,
+    threads: int | None = None,
+    progress: ProgressArgument = False,
+) -> Study:
+    """The measured profile in a CSV file against a run: ``gearwear compare RUN MEASURED``, whose options these are.
+
+    ``summary["fit"]`` is what was fitted, ``summary["figures"]`` how far apart both are. A profile that does not fit the run raises :class:`ValueError`.
+    """
+    count = thread_count(threads)
+    with ExitStack() as kept, Watched(progress) as told:
+        folder = _folder(run, kept)
+        return Study(
+            _native.compare(folder, os.fspath(measured), gear, form, fit, float(shift_within_mm), count, told)
+        )
+
+
+def compare_runs(runs: Mapping[str, Finished]) -> Study:
+    """Runs side by side under the names they are given, each compared with the first: ``gearwear compare RUN RUN …``."""
+    with ExitStack() as kept:
+        return Study(_native.compare_runs([(_folder(run, kept), name) for name, run in runs.items()]))
+
+
+def validate(
+    cases: Iterable[str | os.PathLike[str]] = (),
+    tier: str | None = None,
+    *,
+    threads: int | None = None,
+    progress: ProgressArgument = False,
+) -> Study:
+    """The validation suite: ``gearwear validate``, all of it or the cases named, of the tier ``"smoke"``, ``"full"`` or ``"long"``.
+
+    A case that misses its bound raises nothing: ``summary["cases"]`` says it.
+    """
+    if isinstance(cases, str):
+        raise TypeError(f"cases: found {cases!r}; allowed: a list of names or folders")
+    count = thread_count(threads)
+    with Watched(progress) as told:
+        return Study(_native.validate([os.fspath(case) for case in cases], tier, count, told))
+
+
+def _folder(run: Finished, kept: ExitStack) -> str:
+    """The folder of a run, which is written if need be."""
+    if not isinstance(run, Run):
+        return os.fspath(run)
+    folder = Path(kept.enter_context(TemporaryDirectory()))
+    run.write(folder)
+    return str(folder)

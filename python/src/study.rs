@@ -1,0 +1,74 @@
+//! Studies whose record is read as JSON and whose files are written on demand.
+
+use std::path::PathBuf;
+
+use gearwear::{CompareQuestion, Observer};
+use pyo3::prelude::*;
+
+use crate::errors;
+use crate::watched::{cores, watched};
+
+/// What a study found.
+#[pyclass(frozen, module = "gearwear._native")]
+pub(crate) struct Study {
+    study: gearwear::Study,
+}
+
+impl Study {
+    pub(crate) fn of(py: Python<'_>, found: Result<gearwear::Study, gearwear::StudyError>) -> PyResult<Self> {
+        found.map(|study| Self { study }).map_err(|error| errors::of_study(py, &error))
+    }
+}
+
+#[pymethods]
+impl Study {
+    /// The record, as the command writes it.
+    #[getter]
+    fn json(&self) -> &str {
+        self.study.json()
+    }
+
+    /// Writes what the command writes.
+    fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
+        py.detach(|| self.study.write(&folder)).map_err(|error| errors::of_report(&error))
+    }
+}
+
+/// A measured profile against the finished run in a folder.
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "the arguments of the Python function")]
+pub(crate) fn compare(
+    py: Python<'_>,
+    run: PathBuf,
+    measured: PathBuf,
+    gear: Option<String>,
+    form: Option<String>,
+    fit: String,
+    shift_within_mm: f64,
+    threads: usize,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<Study> {
+    let question = CompareQuestion { gear, form, fit, shift_within_mm };
+    let work = move |observer: &dyn Observer| gearwear::compare(&run, &measured, &question, observer);
+    Study::of(py, watched(py, threads, progress, work)?)
+}
+
+/// Finished runs side by side: their folders and what they are called.
+#[pyfunction]
+pub(crate) fn compare_runs(py: Python<'_>, runs: Vec<(PathBuf, String)>) -> PyResult<Study> {
+    Study::of(py, py.detach(|| gearwear::compare_runs(&runs)))
+}
+
+/// The validation suite.
+#[pyfunction]
+pub(crate) fn validate(
+    py: Python<'_>,
+    cases: Vec<String>,
+    tier: Option<String>,
+    threads: usize,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<Study> {
+    let count = cores(threads);
+    let work = move |observer: &dyn Observer| gearwear::validate(&cases, tier.as_deref(), count, observer);
+    Study::of(py, watched(py, threads, progress, work)?)
+}

@@ -1,0 +1,112 @@
+"""Studies that are read as the record of their command."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from test_sweep import scene
+
+import gearwear
+
+#: A case of one short run.
+CASE = """
+title = "a case"
+group = "mine"
+kind = "code-verification"
+tier = "smoke"
+requirement = "The pair has the base pitch of its module."
+
+[[run]]
+name = "short"
+scene = "thesis-spur"
+unset = ["operation.hours", "operation.snapshots_h"]
+set = { "operation.pinion_revolutions" = 1.0, "numerics.step" = { revolutions = 1.0 }, "numerics.error_estimate" = false, "numerics.positions" = 40, "numerics.flank_points" = 100 }
+
+[[quantity]]
+name = "base pitch"
+unit = "mm"
+value = "short.summary.geometry.base_pitch_mm"
+near = "PI() * 4.5 * cos(PI() / 9)"
+within = { relative = 1e-12 }
+source = "ISO 21771"
+discretisation = { relative = 1e-12 }
+"""
+
+
+@pytest.fixture(scope="module")
+def run() -> gearwear.Run:
+    return scene().with_({"numerics.verify": False, "numerics.error_estimate": False}).run(threads=1)
+
+
+def test_a_measured_profile(run: gearwear.Run, tmp_path: Path) -> None:
+    """The run's own wear, 1.3 times as deep, is that of 1.3 k: this model's wear does not change what makes it."""
+    radius, wear = run.pinion.radius_mm, run.pinion.wear_um
+    worn = wear > 0.0
+    measured = tmp_path / "measured.csv"
+    rows = "".join(f"{r!r},{1.3 * w!r}\n" for r, w in zip(radius[worn].tolist(), wear[worn].tolist(), strict=True))
+    measured.write_text(f"# gear = pinion\nradius_mm,wear_um\n{rows}")
+    study = gearwear.compare(run, measured, shift_within_mm=0.0, threads=1)
+    fitted = study.summary["fit"]["coefficient_m2_per_N"]
+    assert fitted["value"] == pytest.approx(1.3 * fitted["of_run"], rel=0.01)
+    study.write(tmp_path / "out")
+    assert json.loads((tmp_path / "out" / "compare.json").read_text(encoding="utf-8")) == study.summary
+    with pytest.raises(ValueError, match="fit: found 'speed'|fit: found \"speed\"; allowed: none, k, severe, both"):
+        gearwear.compare(run, measured, fit="speed")
+    with pytest.raises(ValueError, match="gear: found .*wheel"):
+        gearwear.compare(run, measured, gear="wheel")
+    with pytest.raises(FileNotFoundError):
+        gearwear.compare(run, tmp_path / "nothing.csv")
+
+
+def test_runs_side_by_side(run: gearwear.Run, tmp_path: Path) -> None:
+    run.write(tmp_path / "run")
+    study = gearwear.compare_runs({"one": run, "other": tmp_path / "run"})
+    assert [one["name"] for one in study.summary["runs"]] == ["one", "other"]
+    study.write(tmp_path / "out")
+    assert (tmp_path / "out" / "variants.csv").exists()
+    with pytest.raises(ValueError, match="found 1 runs; allowed: two or more"):
+        gearwear.compare_runs({"one": run})
+    with pytest.raises(ValueError, match="cannot be read"):
+        gearwear.compare_runs({"one": run, "none": tmp_path / "none"})
+
+
+def test_validation(tmp_path: Path) -> None:
+    case = tmp_path / "mine"
+    case.mkdir()
+    (case / "case.toml").write_text(CASE)
+    study = gearwear.validate([case], threads=1)
+    assert [(one["name"], one["failure"]) for one in study.summary["cases"]] == [("mine", None)]
+    [quantity] = [one for one in study.summary["cases"][0]["quantities"] if one["name"] == "base pitch"]
+    assert quantity["value"] == pytest.approx(np.pi * 4.5 * np.cos(np.pi / 9), rel=1e-12)
+    study.write(tmp_path / "out")
+    assert (tmp_path / "out" / "junit.xml").exists()
+    with pytest.raises(ValueError, match="no-such-case"):
+        gearwear.validate(["no-such-case"])
+    with pytest.raises(ValueError, match='tier: found "quick"; allowed: smoke, full, long'):
+        gearwear.validate([], "quick")
+
+
+def test_accuracy_refuses_what_is_no_share() -> None:
+    with pytest.raises(ValueError, match="within: found 5; allowed: a share above 0 and at most 1"):
+        scene().accuracy(within=5)
+
+
+@pytest.mark.slow
+def test_accuracy(tmp_path: Path) -> None:
+    coarse = gearwear.Scene.preset("thesis-spur").with_(
+        {
+            "numerics.flank_points": 160,
+            "numerics.positions": 80,
+            "numerics.step": {"revolutions": 100000.0},
+            "pair.pinion.tip_rounding_mm": 0.2,
+            "pair.wheel.tip_rounding_mm": 0.2,
+            "fem.elements_per_half_width": 3,
+        }
+    )
+    study = coarse.accuracy(quick=True)
+    assert study.summary["recommendations"] and study.summary["stopped"] == "completed"
+    study.write(tmp_path)
+    assert json.loads((tmp_path / "accuracy.json").read_text(encoding="utf-8")) == study.summary

@@ -1,0 +1,97 @@
+//! A sweep as it is asked for, in the same words on the command line and in Python, and what can be wrong with it.
+
+use std::io;
+
+use super::axis::{self, AxisError};
+use super::combination::Sweep;
+use super::goal::{Goal, GoalError};
+use super::journal::JournalError;
+use crate::report::ReportError;
+use crate::scene::draft::Draft;
+use crate::scene::loaded::{LoadedScene, SceneError};
+
+/// What is asked of a scene.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SweepQuestion {
+    /// Keys and their values: `KEY=FROM:TO:COUNT`, the same with `:log` for equal ratios, or `KEY=VALUE,VALUE,…` of rising numbers or of
+    /// words. The first changes slowest.
+    pub vary: Vec<String>,
+    /// The figure that is to be least, a column of `sweep.csv`.
+    pub best: Option<String>,
+    /// Limits that the best keeps to: `FIGURE<=VALUE` or `FIGURE>=VALUE`.
+    pub subject_to: Vec<String>,
+    /// Whether the errors of each combination are estimated.
+    pub error_estimate: bool,
+}
+
+/// Why a sweep cannot be run or its rows not be kept.
+#[derive(Debug, thiserror::Error)]
+#[error(transparent)]
+pub struct SweepError(#[from] pub(crate) SweepFault);
+
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum SweepFault {
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error(transparent)]
+    Axis(#[from] AxisError),
+    #[error(transparent)]
+    Goal(#[from] GoalError),
+    #[error("none of the combinations makes a scene; the first: {0}")]
+    NothingToVary(String),
+    #[error(transparent)]
+    Journal(#[from] JournalError),
+    #[error(transparent)]
+    Report(#[from] ReportError),
+}
+
+impl SweepError {
+    /// What is wrong with the scene itself, if that is it.
+    pub fn in_the_scene(&self) -> Option<&SceneError> {
+        if let SweepFault::Scene(error) = &self.0 { Some(error) } else { None }
+    }
+
+    /// What the system says, where a file cannot be read or written.
+    pub fn of_system(&self) -> Option<io::ErrorKind> {
+        let kept = |error: &JournalError| match error {
+            JournalError::Open { source, .. }
+            | JournalError::Write { source, .. }
+            | JournalError::Lost { source, .. } => Some(source.kind()),
+            JournalError::InUse { .. } => Some(io::ErrorKind::WouldBlock),
+            _ => None,
+        };
+        match &self.0 {
+            SweepFault::Journal(error) => kept(error),
+            SweepFault::Report(ReportError::NotAFolder { .. }) => Some(io::ErrorKind::NotADirectory),
+            SweepFault::Report(ReportError::CreateFolder { source, .. } | ReportError::WriteFile { source, .. }) => {
+                Some(source.kind())
+            }
+            _ => None,
+        }
+    }
+}
+
+impl Sweep {
+    /// The sweep of `scene` that `question` asks for.
+    ///
+    /// # Errors
+    /// Keys, values or figures that do not exist or do not go together.
+    pub fn of(scene: &LoadedScene, question: &SweepQuestion) -> Result<Self, SweepError> {
+        Self::asked(scene, question).map_err(SweepError)
+    }
+
+    fn asked(scene: &LoadedScene, question: &SweepQuestion) -> Result<Self, SweepFault> {
+        let axes = axis::parse_all(question.vary.iter().map(String::as_str))?;
+        let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
+        axis::check_phases(&axes, &draft)?;
+        let limits = question.subject_to.iter().map(|limit| limit.parse()).collect::<Result<_, GoalError>>()?;
+        let goal = question.best.as_ref().map(|figure| Goal::new(figure, limits)).transpose()?;
+        let sweep = Self::new(scene, axes, goal, question.error_estimate);
+        Ok(sweep.map_err(|problems| scene.given.refused(problems))?)
+    }
+
+    /// What the user should know about it: values that their key does not take.
+    pub fn warnings(&self) -> Vec<String> {
+        self.identity.axes.iter().filter_map(axis::partly_not_allowed).collect()
+    }
+}

@@ -1,0 +1,119 @@
+//! A study as it is asked for, in the same words on the command line and in Python, and what can be wrong with it.
+
+use super::design::{self, CorrelationError, MOST_FACTORS, MOST_SAMPLES};
+use super::distribution::{self, UncertainError};
+use super::life::LimitError;
+use super::study::{Question, StudyError};
+use crate::scene::draft::Draft;
+use crate::scene::loaded::{LoadedScene, SceneError};
+use crate::studies::evaluate::output::{Output, OutputError};
+use crate::studies::varied_scene::{linked_keys, missing_phase};
+
+/// Figures that are kept where none are asked for.
+const DEFAULT_OUTPUTS: [&str; 5] = [
+    "pinion.peak_wear_um",
+    "wheel.peak_wear_um",
+    "pinion.tip_edge_wear_um",
+    "wheel.tip_edge_wear_um",
+    "worn.transmission_error_um.peak_to_peak",
+];
+
+/// What is asked of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UncertaintyQuestion {
+    /// Uncertain keys: `KEY=DISTRIBUTION` (docs/uncertainty.md).
+    pub uncertain: Vec<String>,
+    /// Correlations of their normal scores: `KEY:KEY=R`.
+    pub correlation: Vec<String>,
+    /// Figures to keep, as paths in `summary.json`; empty: the greatest wear and tip-edge wear of both gears and the transmission error, worn.
+    pub outputs: Vec<String>,
+    /// Depths of wear that end a life: `FIGURE=VALUE`.
+    pub limits: Vec<String>,
+    /// Points of the Sobol sequence, best a power of two; each takes two runs and one more for every uncertain key.
+    pub samples: usize,
+    /// Another seed scrambles the sequence in another way.
+    pub seed: u32,
+}
+
+/// Why a study of uncertainty came to nothing.
+#[derive(Debug, thiserror::Error)]
+#[error(transparent)]
+pub struct UncertaintyError(#[from] pub(crate) UncertaintyFault);
+
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum UncertaintyFault {
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error(transparent)]
+    Uncertain(#[from] UncertainError),
+    #[error(transparent)]
+    Correlation(#[from] CorrelationError),
+    #[error(transparent)]
+    Limit(#[from] LimitError),
+    #[error("unknown output {}; allowed: the path of a number in summary.json, such as pinion.peak_wear_um{}", .0.output, .0.nearest.as_ref().map_or_else(String::new, |nearest| format!("; did you mean {nearest}?")))]
+    Output(OutputError),
+    #[error("found {found} keys; allowed: 1 to {}", MOST_FACTORS - 1)]
+    Count { found: usize },
+    #[error("found {found} samples; allowed: a whole number from 2 to {MOST_SAMPLES}")]
+    Samples { found: usize },
+    #[error(transparent)]
+    Study(#[from] StudyError),
+}
+
+impl From<OutputError> for UncertaintyFault {
+    fn from(error: OutputError) -> Self {
+        Self::Output(error)
+    }
+}
+
+impl UncertaintyError {
+    /// What is wrong with the scene itself, if that is it.
+    pub fn in_the_scene(&self) -> Option<&SceneError> {
+        if let UncertaintyFault::Scene(error) = &self.0 { Some(error) } else { None }
+    }
+
+    /// Whether the question was sound and the runs failed.
+    pub fn is_of_the_runs(&self) -> bool {
+        matches!(self.0, UncertaintyFault::Study(_))
+    }
+}
+
+impl Question {
+    /// What `asked` means for `scene`.
+    pub(crate) fn of(scene: &LoadedScene, asked: &UncertaintyQuestion) -> Result<Self, UncertaintyFault> {
+        let draft = Draft::parse(&scene.given.text).map_err(|problems| scene.given.refused(problems))?;
+        let resolved: toml::Table = scene.to_toml().parse().unwrap_or_default();
+        let own = |key: &str| number_at(&resolved, key);
+        let uncertain = distribution::parse_all(asked.uncertain.iter().map(String::as_str), own)?;
+        if let Some(key) = missing_phase(uncertain.iter().flat_map(|one| linked_keys(&one.key)), &draft) {
+            return Err(UncertainError::NoPhase { key }.into());
+        }
+        // The error of the model takes one more.
+        if !(1..MOST_FACTORS).contains(&uncertain.len()) {
+            return Err(UncertaintyFault::Count { found: uncertain.len() });
+        }
+        if !(2..=MOST_SAMPLES).contains(&asked.samples) {
+            return Err(UncertaintyFault::Samples { found: asked.samples });
+        }
+        let keys: Vec<&str> = uncertain.iter().map(|one| one.key.as_str()).collect();
+        let correlation = design::correlation(&keys, &asked.correlation)?;
+        let limits = asked.limits.iter().map(|text| text.parse()).collect::<Result<_, LimitError>>()?;
+        let outputs: Vec<&str> = match asked.outputs.as_slice() {
+            [] => DEFAULT_OUTPUTS.to_vec(),
+            given => given.iter().map(|path| path.trim()).collect(),
+        };
+        let outputs = outputs.into_iter().map(Output::find).collect::<Result<_, _>>()?;
+        Ok(Self { uncertain, correlation, outputs, limits, samples: asked.samples, seed: asked.seed })
+    }
+}
+
+/// The number at the path `key` of a table; items of lists are numbered from 1.
+fn number_at(table: &toml::Table, key: &str) -> Option<f64> {
+    let mut parts = key.split('.');
+    let first = table.get(parts.next()?)?;
+    let value = parts.try_fold(first, |value, part| match value.as_array() {
+        Some(list) => list.get(part.parse::<usize>().ok()?.checked_sub(1)?),
+        None => value.get(part),
+    })?;
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+}
