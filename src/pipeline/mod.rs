@@ -182,7 +182,7 @@ impl Model<'_> {
     }
 
     /// That of the runs which `outcome` is held against: as long as it was, whatever they wear.
-    fn as_long_as(mut self, outcome: &Outcome) -> Self {
+    fn ending_with(mut self, outcome: &Outcome) -> Self {
         self.limits = LifeLimits::default();
         if outcome.limit_reached.is_some() {
             let end = outcome.worn.revolutions;
@@ -396,7 +396,7 @@ fn carry_out<R>(
     };
     let Resumption { from, keeper } = resumption;
     let outcome = stages.run(StageKind::Simulation.name(), || model.wear_run().run_from(from, keeper, observer))?;
-    let model = model.as_long_as(&outcome);
+    let model = model.ending_with(&outcome);
     let heat = match plan.has(StageKind::ContactTemperature) {
         true => stages.run(StageKind::ContactTemperature.name(), || temperature::observe(&model, &outcome)),
         false => None,
