@@ -1,15 +1,22 @@
 //! How the slices of a pair yield together, fitted to its teeth in space.
 //!
 //! Slices that are thin teeth, or hold each other as plates ([`crate::mesh_cycle::slice_coupling`]), take from the transverse section what it
-//! tells. The rest is fitted: how much softer oblique teeth and their end faces are, how far a deflection reaches along a tooth, and what all
-//! teeth in mesh share. At some phases of the mesh, lines of contact that are loaded evenly, over one half or on one tooth alone deflect the
-//! teeth in space by u = U w; the parameters are those whose plates come closest,
+//! tells. The rest is fitted: how much softer oblique teeth and their end faces are, how far a deflection reaches along a tooth, how much
+//! less teeth resist twisting where they end, and what all teeth in mesh share. What counts are the loads. At some phases of the mesh,
+//! contacts with the compliance c of their flattening share the load of aligned and of tilted axes,
 //!
 //! ```text
-//! Σ over phases and loads  ‖u_plates − u‖²/‖u‖²  →  min
+//! (U + C) w = δ (1 + g t)          g = 0, ±½          t = −1 … 1 over the face width
 //! ```
 //!
-//! by Levenberg and Marquardt's method from the closed forms.
+//! Teeth that yield by u = U_plates w instead of U w share the same load otherwise, to first order by
+//!
+//! ```text
+//! Δw = −[A − A 1 1ᵀA/(1ᵀA 1)] (U_plates − U) w          Δδ = 1ᵀA (U_plates − U) w/(1ᵀA 1)          A = (U + C)⁻¹
+//! ```
+//!
+//! and the parameters are those with the least sum of squares of Δw over the mean load, of Δδ/δ, and of U_plates − U on single lines of
+//! contact that are loaded evenly, by Levenberg and Marquardt's method from the closed forms. What none of them tells stays there.
 //!
 //! Source: D. W. Marquardt, *J. SIAM* 11 (1963) 431–441.
 
@@ -18,10 +25,10 @@ use serde::{Deserialize, Serialize};
 
 use super::STIFFNESS_POSITIONS;
 use super::identity::same;
-use crate::contact::{half_space::HalfSpace, settings::Material};
+use crate::contact::{half_space::HalfSpace, hertz, settings::Material};
 use crate::gear::{GearPair, PerGear, slices::Slices};
 use crate::mesh_cycle::pair_in_space::PairInSpace;
-use crate::mesh_cycle::slice_coupling::{Factors, Reach, SliceCompliance, SliceCoupling};
+use crate::mesh_cycle::slice_coupling::{Factors, Reach, SliceCompliance};
 use crate::mesh_cycle::sliced::SpringAlongPath;
 use crate::mesh_cycle::sliced_positions::{SliceContact, SliceEnds, sliced_positions};
 use crate::stiffness::settings::StiffnessSettings;
@@ -31,10 +38,18 @@ use crate::stiffness::{StiffnessError, TeethSpring, curve::PairCompliance};
 const SLICES: usize = 20;
 /// Positions from A to E.
 const POSITIONS: usize = 16;
-/// Unknowns of the fit: teeth, both ends, both reaches, bodies, length of the ends.
-const UNKNOWNS: usize = 7;
-/// Weight of lines that are loaded evenly, which is what they nearly are on new flanks.
-const EVEN_WEIGHT: f64 = 3.0;
+/// Unknowns of the fit: teeth, both ends, both reaches, bodies, length of the ends, resistance to twisting at both.
+const UNKNOWNS: usize = 9;
+/// How the approach varies over the face width, and the weight of the loads: they are aligned first of all.
+const APPROACHES: [(f64, f64); 3] = [(0.0, 1.0), (0.5, 0.1), (-0.5, 0.1)];
+/// Weight of the approach itself over that of a load, which are dozens.
+const APPROACH_WEIGHT: f64 = 60.0;
+/// Weight of the deflection of single lines of contact.
+const SINGLE_LINE_WEIGHT: f64 = 0.1;
+/// Weight of the closed forms.
+const CLOSED_FORM_WEIGHT: f64 = 0.002;
+/// What end faces take from the resistance to twisting where the fit begins.
+const END_TWIST: f64 = 3.0;
 /// Steps at the most; ten are usual.
 const MOST_STEPS: usize = 60;
 /// Step of the difference quotients.
@@ -52,7 +67,7 @@ pub struct SliceFit {
     pub face_width_mm: f64,
     /// The parameters.
     pub compliance: SliceCompliance,
-    /// Root mean square of what is left, over that of the deflections.
+    /// Root mean square of the differences in load on aligned axes, over the mean load; in files of before, of differences in deflection.
     pub residual: f64,
 }
 
@@ -74,9 +89,11 @@ struct LineOfContact {
 
 /// A load of a phase, and what it deflects.
 struct LoadCase {
-    n_per_mm: Vec<f64>,
-    deflection_mm: Vec<f64>,
-    weight: f64,
+    n_per_mm: DVector<f64>,
+    deflection_mm: DVector<f64>,
+    /// What counts of a difference in deflection; on aligned axes, first the loads.
+    reads: DMatrix<f64>,
+    is_aligned: bool,
 }
 
 struct Phase {
@@ -133,12 +150,17 @@ pub(crate) fn fit(
                 }
             })
             .collect();
-        let count = contacts.len();
-        let cases = loads(&lines, count).map(|(n_per_mm, weight)| {
-            let row = |i: usize| (0..count).map(|j| influence[i * count + j] * n_per_mm[j]).sum::<f64>();
-            LoadCase { deflection_mm: (0..count).map(row).collect(), n_per_mm, weight }
-        });
-        phases.push(Phase { cases: cases.collect(), lines });
+        let load_n_per_mm = line_load_n_per_mm * SLICES as f64 / contacts.len() as f64;
+        let flattening = contacts
+            .iter()
+            .map(|contact| hertz::flattening(pair, material, at(contact)).approach_and_compliance(load_n_per_mm).1);
+        let tilt: Vec<f64> = contacts
+            .iter()
+            .map(|contact| 2.0 * slices.width_mm[contact.slice] / pair.spec.face_width_mm - 1.0)
+            .collect();
+        let influence = DMatrix::from_row_slice(contacts.len(), contacts.len(), &influence);
+        let cases = loads(&lines, &influence, &flattening.collect::<Vec<_>>(), &tilt);
+        phases.push(Phase { cases, lines });
     }
     let start = SliceCompliance::of_plates(pair, material, true);
     let fit = Fit { pair, slices, phases, shared_mm2_per_n: teeth.shared_mm2_per_n(), start };
@@ -152,18 +174,32 @@ pub(crate) fn fit(
     })
 }
 
-/// All lines evenly; then each by itself, evenly and on either half.
-fn loads(lines: &[LineOfContact], count: usize) -> impl Iterator<Item = (Vec<f64>, f64)> {
-    let on =
-        move |first: usize, last: usize| (0..count).map(|k| f64::from(u8::from((first..last).contains(&k)))).collect();
-    let each = lines.iter().flat_map(move |line| {
-        let (first, count) = (line.first, line.slices.len());
-        let middle = first + count / 2;
-        [(first, first + count), (first, middle), (middle, first + count)]
-    });
-    let each: Vec<(usize, usize)> = each.filter(|(first, last)| first < last).collect();
-    std::iter::once((vec![1.0; count], EVEN_WEIGHT))
-        .chain(each.into_iter().map(move |(first, last)| (on(first, last), 1.0)))
+/// The loads of the approaches, aligned ones first, with a mean of 1 N/mm; then each line by itself.
+fn loads(lines: &[LineOfContact], influence: &DMatrix<f64>, flattening: &[f64], tilt: &[f64]) -> Vec<LoadCase> {
+    let count = flattening.len();
+    let mut cases = Vec::new();
+    let whole = influence + DMatrix::from_diagonal(&DVector::from_column_slice(flattening));
+    // Loads that the surfaces cannot decide on tell nothing.
+    if let Some(inverse) = whole.try_inverse() {
+        let even = inverse.column_sum();
+        let approach_mm = count as f64 / even.sum();
+        let of_loads = &even * even.transpose() / even.sum() - &inverse;
+        for (slope, weight) in APPROACHES {
+            let mm = DVector::from_fn(count, |k, _| approach_mm * (1.0 + slope * tilt[k]));
+            let n_per_mm = &inverse * mm;
+            let mut reads = (weight * &of_loads).insert_row(count, 0.0);
+            reads.set_row(count, &(even.transpose() * (weight * APPROACH_WEIGHT / count as f64)));
+            cases.push(LoadCase { deflection_mm: influence * &n_per_mm, n_per_mm, reads, is_aligned: slope == 0.0 });
+        }
+    }
+    cases.extend(lines.iter().map(|line| {
+        let loaded = line.first..line.first + line.slices.len();
+        let n_per_mm = DVector::from_fn(count, |k, _| f64::from(u8::from(loaded.contains(&k))));
+        let deflection_mm = influence * &n_per_mm;
+        let reads = DMatrix::from_diagonal_element(count, count, SINGLE_LINE_WEIGHT / deflection_mm.norm());
+        LoadCase { n_per_mm, deflection_mm, reads, is_aligned: false }
+    }));
+    cases
 }
 
 impl Fit<'_> {
@@ -178,23 +214,22 @@ impl Fit<'_> {
             },
             bodies: x[5].exp(),
             end_length_mm: start.end_length_mm * x[6].exp(),
+            end_twist: Some([x[7], x[8]].map(|part| END_TWIST * part.exp())),
         }
     }
 
-    /// u_plates − u over the size of u, all phases and loads.
+    /// What is left of all phases and loads, and of the closed forms.
     fn residuals(&self, x: &SVector<f64, UNKNOWNS>) -> DVector<f64> {
         let compliance = self.compliance(x);
         let softness = compliance.of_slices(self.pair, &self.slices);
         let count = self.slices.count();
-        let plate = SliceCoupling::new(compliance.reach, count, self.slices.slice_width_mm);
         let mut factors = Factors::default();
-        plate.factorise(&vec![0.0; count], &mut factors);
+        compliance.coupling(&self.slices).factorise(&vec![0.0; count], &mut factors);
         let bodies = compliance.bodies * self.shared_mm2_per_n / count as f64;
-        let mut residuals = Vec::new();
+        let mut residuals: Vec<f64> = x.iter().map(|part| CLOSED_FORM_WEIGHT * part).collect();
         for Phase { lines, cases } in &self.phases {
-            for LoadCase { n_per_mm, deflection_mm, weight } in cases {
-                let shared = bodies * n_per_mm.iter().sum::<f64>();
-                let size = deflection_mm.iter().map(|u| u * u).sum::<f64>().sqrt();
+            for LoadCase { n_per_mm, deflection_mm, reads, .. } in cases {
+                let mut differs_mm = deflection_mm.map(|mm| bodies * n_per_mm.sum() - mm);
                 for line in lines {
                     let root = |k: usize| (line.mm2_per_n[k] * softness[line.slices[k]]).sqrt();
                     let mut v = vec![0.0; count];
@@ -202,13 +237,27 @@ impl Fit<'_> {
                         v[*slice] = root(k) * n_per_mm[line.first + k];
                     }
                     factors.solve(&mut v);
-                    residuals.extend(line.slices.iter().enumerate().map(|(k, slice)| {
-                        weight * (root(k) * v[*slice] + shared - deflection_mm[line.first + k]) / size
-                    }));
+                    for (k, slice) in line.slices.iter().enumerate() {
+                        differs_mm[line.first + k] += root(k) * v[*slice];
+                    }
                 }
+                residuals.extend((reads * differs_mm).iter());
             }
         }
         DVector::from_vec(residuals)
+    }
+
+    /// Root mean square of what the loads on aligned axes differ by, of all `residuals`.
+    fn of_aligned_loads(&self, residuals: &DVector<f64>) -> f64 {
+        let (mut first, mut square, mut count) = (UNKNOWNS, 0.0, 0);
+        for LoadCase { n_per_mm, reads, is_aligned, .. } in self.phases.iter().flat_map(|phase| &phase.cases) {
+            if *is_aligned {
+                square += residuals.rows(first, n_per_mm.len()).norm_squared();
+                count += n_per_mm.len();
+            }
+            first += reads.nrows();
+        }
+        (square / count.max(1) as f64).sqrt()
     }
 
     fn solve(&self) -> (SliceCompliance, f64) {
@@ -228,8 +277,6 @@ impl Fit<'_> {
             let gradient = SVector::<f64, UNKNOWNS>::from_fn(|i, _| gradient[i]);
             for k in 0..UNKNOWNS {
                 normal[(k, k)] *= 1.0 + damping;
-                // What the loads do not tell stays as it is: a spur pair without shared bodies.
-                normal[(k, k)] += f64::MIN_POSITIVE + 1e-9;
             }
             let Some(step) = normal.cholesky().map(|factor| factor.solve(&gradient)) else { break };
             let candidate = x - step.map(|part| part.clamp(-1.0, 1.0));
@@ -247,7 +294,6 @@ impl Fit<'_> {
                 }
             }
         }
-        let loads: f64 = self.phases.iter().flat_map(|phase| &phase.cases).map(|case| case.weight.powi(2)).sum();
-        (self.compliance(&x), (residuals.norm_squared() / loads).sqrt())
+        (self.compliance(&x), self.of_aligned_loads(&residuals))
     }
 }

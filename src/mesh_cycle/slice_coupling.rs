@@ -23,6 +23,9 @@
 //! which is symmetric, as Maxwell's theorem wants it, and for a load and a stiffness alike over the whole width gives u = q w, as if
 //! there were no coupling. Over the slices the derivatives are differences, v + ℓ₁²/Δz² D₁ᵀD₁ v + ℓ₂⁴/Δz⁴ D₂ᵀD₂ v, with free ends.
 //!
+//! A tooth of finite thickness resists twisting less where it ends: what is loaded next to an end face is left more to itself than in a
+//! plate. Where that is known of a pair ([`crate::calibration::slice_fit`]), ℓ₁² is there divided by 1 + t₀ e^(−z/ℓ) + t_b e^(−(b−z)/ℓ).
+//!
 //! Limits: a thin plate, so that a point load on a tooth as thick as high is spread a little too little; body and hub are taken
 //! to spread a load as the tooth does. Against the exact plate of even thickness (ν = 0.3), a point load at the free edge deflects it by
 //! 0.162 P l²/D instead of 0.1665.
@@ -50,7 +53,11 @@ pub struct SliceCompliance {
     pub teeth: f64,
     /// What either end face, z = 0 first, adds to it there, in parts of it.
     pub ends: [f64; 2],
-    /// Over which length that decays, mm.
+    /// How much less the teeth resist twisting at either end face: ℓ₁² is divided there by 1 and this. Calibrations of before have none, and
+    /// keep their hash.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub end_twist: Option<[f64; 2]>,
+    /// Over which length both decay, mm.
     pub end_length_mm: f64,
     /// How far a deflection reaches.
     pub reach: Reach,
@@ -65,16 +72,34 @@ impl SliceCompliance {
     pub(crate) fn of_plates(pair: &GearPair, material: &PerGear<Material>, is_oblique: bool) -> Self {
         let teeth = if is_oblique { pair.spec.helix_angle_rad.cos().powi(-4) } else { 1.0 };
         let end_length_mm = pair.spec.transverse_module_mm();
-        Self { teeth, ends: [0.0; 2], end_length_mm, reach: Reach::of_pair(pair, material), bodies: 1.0 }
+        let reach = Reach::of_pair(pair, material);
+        Self { teeth, ends: [0.0; 2], end_twist: None, end_length_mm, reach, bodies: 1.0 }
     }
 
     /// Compliance of the teeth of each slice over that of the section.
     pub(crate) fn of_slices(&self, pair: &GearPair, slices: &Slices) -> Vec<f64> {
         let face_width_mm = pair.spec.face_width_mm;
-        let [first, last] = self.ends;
-        let fades = |distance_mm: f64| (-distance_mm / self.end_length_mm).exp();
-        let of_slice = |z: &f64| self.teeth * (1.0 + first * fades(*z) + last * fades(face_width_mm - z));
+        let of_slice = |z: &f64| self.teeth * self.with_ends(self.ends, *z, face_width_mm);
         slices.width_mm.iter().map(of_slice).collect()
+    }
+
+    /// What couples the slices of a tooth.
+    pub(crate) fn coupling(&self, slices: &Slices) -> SliceCoupling {
+        let (count, slice_width_mm) = (slices.count(), slices.slice_width_mm);
+        let mut coupling = SliceCoupling::new(self.reach, count, slice_width_mm);
+        if let Some(ends) = self.end_twist {
+            let face_width_mm = count as f64 * slice_width_mm;
+            for (i, twist) in coupling.twist.iter_mut().enumerate() {
+                *twist /= self.with_ends(ends, (i + 1) as f64 * slice_width_mm, face_width_mm);
+            }
+        }
+        coupling
+    }
+
+    /// 1 and what either end face, z = 0 first, adds at z.
+    fn with_ends(&self, [first, last]: [f64; 2], z_mm: f64, face_width_mm: f64) -> f64 {
+        let fades = |distance_mm: f64| (-distance_mm / self.end_length_mm).exp();
+        1.0 + first * fades(z_mm) + last * fades(face_width_mm - z_mm)
     }
 }
 
@@ -155,8 +180,8 @@ pub(crate) struct SliceCoupling {
     /// How far a deflection reaches.
     pub reach: Reach,
     count: usize,
-    /// ℓ₁²/Δz².
-    twist: f64,
+    /// ℓ₁²/Δz² between each slice and the next.
+    twist: Vec<f64>,
     /// ℓ₂⁴/Δz⁴.
     bending: f64,
 }
@@ -165,7 +190,8 @@ impl SliceCoupling {
     /// Of slices `slice_width_mm` wide, `count` in number.
     pub(crate) fn new(reach: Reach, count: usize, slice_width_mm: f64) -> Self {
         let square = slice_width_mm * slice_width_mm;
-        Self { reach, count, twist: reach.twist_mm2 / square, bending: reach.bending_mm4 / (square * square) }
+        let twist = vec![reach.twist_mm2 / square; count.saturating_sub(1)];
+        Self { reach, count, twist, bending: reach.bending_mm4 / (square * square) }
     }
 
     /// The operator on `v`, into `result`; by differences of differences, so that little is lost to rounding where slices are
@@ -173,7 +199,7 @@ impl SliceCoupling {
     pub(crate) fn apply(&self, v: &[f64], result: &mut [f64]) {
         result.copy_from_slice(v);
         for i in 1..self.count {
-            let difference = self.twist * (v[i] - v[i - 1]);
+            let difference = self.twist[i - 1] * (v[i] - v[i - 1]);
             result[i] += difference;
             result[i - 1] -= difference;
         }
@@ -226,15 +252,16 @@ impl SliceCoupling {
 
     /// Row i of the operator: on the diagonal, one and two places before it.
     fn row(&self, i: usize) -> [f64; 3] {
-        let (n, twist, bending) = (self.count, self.twist, self.bending);
-        let neighbours = f64::from(u8::from(i > 0) + u8::from(i + 1 < n));
+        let (n, bending) = (self.count, self.bending);
+        let twist_before = if i > 0 { self.twist[i - 1] } else { 0.0 };
+        let twist_after = if i + 1 < n { self.twist[i] } else { 0.0 };
         // Second differences with their middle here, and with an end here.
         let middle = f64::from(u8::from(i > 0 && i + 1 < n));
         let ends = f64::from(u8::from(i >= 2) + u8::from(i + 2 < n));
         let before = f64::from(u8::from(i > 0 && i + 1 < n) + u8::from(i >= 2));
         [
-            1.0 + neighbours * twist + (4.0 * middle + ends) * bending,
-            if i > 0 { -twist - 2.0 * before * bending } else { 0.0 },
+            1.0 + twist_before + twist_after + (4.0 * middle + ends) * bending,
+            if i > 0 { -twist_before - 2.0 * before * bending } else { 0.0 },
             if i >= 2 { bending } else { 0.0 },
         ]
     }

@@ -59,9 +59,7 @@ impl SlicedTeeth {
         let slices = Slices::new(pair, settings.count);
         let model = match settings.coupling {
             Coupling::None => Model::Thin,
-            Coupling::Slicing => {
-                Model::Plate(SliceCoupling::new(compliance.reach, slices.count(), slices.slice_width_mm))
-            }
+            Coupling::Slicing => Model::Plate(compliance.coupling(&slices)),
             Coupling::Fem => {
                 let teeth = in_space.expect("the coupling by teeth in space comes with them");
                 Model::InSpace { seen: teeth.seen(settings.count).into(), teeth }

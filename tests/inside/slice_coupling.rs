@@ -1,11 +1,12 @@
 //! How slices of a tooth hold each other: limit cases, and the plate that a tooth is taken for.
 
 use gearwear::contact::{Footprint, PairContact, PointContact, PositionCell, Response, Sweep};
+use gearwear::gear::slices::Slices;
 use gearwear::gear::{Gear, PerGear};
 use gearwear::mesh_cycle::bent_tooth::BentTooth;
 use gearwear::mesh_cycle::coupled_teeth::CoupledTeeth;
 use gearwear::mesh_cycle::load_sharing::MeshedPair;
-use gearwear::mesh_cycle::slice_coupling::{Factors, Reach, SliceCoupling};
+use gearwear::mesh_cycle::slice_coupling::{Factors, Reach, SliceCompliance, SliceCoupling};
 use gearwear::mesh_cycle::sliced_positions::{ContactPart, SliceContact};
 use gearwear::mesh_cycle::sliced_sharing::balance_on_teeth;
 
@@ -91,13 +92,16 @@ fn val_one_loaded_slice_decays_as_the_plate_does() {
 }
 
 /// A load alike over the whole width deflects as if there were no coupling, up to the free ends; the operator is symmetric and its
-/// factors solve it, with a diagonal and without, also for very thin slices.
+/// factors solve it, with a diagonal and without, also for very thin slices, and where teeth resist twisting less at their ends.
 #[test]
 fn ver_uniform_load_and_factors() {
     let pair = pair(&fzg_c());
-    let reach = Reach::of_pair(&pair, &steel());
-    for count in [1, 2, 3, 20, 2000] {
-        let coupling = SliceCoupling::new(reach, count, 14.0 / count as f64);
+    let plates = SliceCompliance::of_plates(&pair, &steel(), true);
+    let softer = SliceCompliance { end_twist: Some([4.0, 2.0]), end_length_mm: 3.0, ..plates };
+    let reach = plates.reach;
+    for (compliance, count) in [plates, softer].into_iter().flat_map(|of| [1, 2, 3, 20, 2000].map(|count| (of, count)))
+    {
+        let coupling = compliance.coupling(&Slices::new(&pair, count));
         let mut uniform = vec![0.0; count];
         coupling.apply(&vec![1.7; count], &mut uniform);
         assert!(uniform.iter().all(|w| (w / 1.7 - 1.0).abs() < 1e-9), "{count}");
@@ -116,13 +120,29 @@ fn ver_uniform_load_and_factors() {
         let greatest = 16.0 * reach.bending_mm4 * (count as f64 / 14.0).powi(4);
         assert!(error < 1e-11_f64.max(2.0 * f64::EPSILON * greatest), "{count}: {error:.1e}");
     }
-    let coupling = SliceCoupling::new(reach, 12, 1.2);
-    let influence: Vec<Vec<f64>> = (0..12).map(|k| under_point_load(&coupling, 12, k)).collect();
-    for (i, of_slice) in influence.iter().enumerate() {
-        for (k, there) in of_slice.iter().enumerate() {
-            assert!((there - influence[k][i]).abs() < 1e-13, "Maxwell: {i} {k}");
+    let influence = |of: &SliceCompliance| -> Vec<Vec<f64>> {
+        let coupling = of.coupling(&Slices::new(&pair, 12));
+        (0..12).map(|k| under_point_load(&coupling, 12, k)).collect()
+    };
+    for influence in [influence(&plates), influence(&softer)] {
+        for (i, of_slice) in influence.iter().enumerate() {
+            for (k, there) in of_slice.iter().enumerate() {
+                assert!((there - influence[k][i]).abs() < 1e-13, "Maxwell: {i} {k}");
+            }
         }
     }
+    let ends = |of: &SliceCompliance| [influence(of)[0][0], influence(of)[11][11]];
+    let ([first, last], [even_first, even_last]) = (ends(&softer), ends(&plates));
+    assert!(first > last && last > even_last && (even_first - even_last).abs() < 1e-13, "{first} {last} {even_last}");
+}
+
+/// Files made before ends resisted twisting less are read, and written with the same bytes, which their hash is of.
+#[test]
+fn calibrated_slices_of_before_are_the_same_text() {
+    let before = r#"{"teeth":1.2,"ends":[0.5,0.4],"end_length_mm":0.4,"reach":{"twist_mm2":24.0,"bending_mm4":190.0},"bodies":1.1}"#;
+    let read: SliceCompliance = serde_json::from_str(before).unwrap();
+    assert_eq!(read.end_twist, None);
+    assert_eq!(serde_json::to_string(&read).unwrap(), before);
 }
 
 /// The teeth of FZG type C are about 10 mm high and nearly as thick at the root: a deflection reaches as far along them as a fraction

@@ -70,7 +70,7 @@ fn fits(calibration: &Calibration) -> Markup {
 fn slices(calibration: &Calibration) -> Markup {
     let Some(fit) = calibration.slices else { return Markup::default() };
     let of = fit.compliance;
-    let rows = [
+    let mut rows = vec![
         row("Compliance of the teeth over that of the section", "", [significant(of.teeth, 4)]),
         row("Added compliance at the end face z = 0", "%", [fixed(100.0 * of.ends[0], 1)]),
         row("Added compliance at the end face z = b", "%", [fixed(100.0 * of.ends[1], 1)]),
@@ -78,8 +78,14 @@ fn slices(calibration: &Calibration) -> Markup {
         row("Decay length along the tooth, twist", "mm", [significant(of.reach.twist_mm2.sqrt(), 3)]),
         row("Decay length along the tooth, bending", "mm", [significant(of.reach.bending_mm4.sqrt().sqrt(), 3)]),
         row("Compliance of the bodies over that of the section", "", [significant(of.bodies, 4)]),
-        row("Residual, root mean square", "%", [fixed(100.0 * fit.residual, 1)]),
     ];
+    if let Some(ends) = of.end_twist {
+        for (face, part) in ["0", "b"].iter().zip(ends) {
+            let name = format!("Resistance to twisting within, over that at the end face z = {face}");
+            rows.push(row(name, "", [significant(1.0 + part, 3)]));
+        }
+    }
+    rows.push(row("Residual, root mean square", "%", [fixed(100.0 * fit.residual, 1)]));
     table("Slices, fitted to three-dimensional finite elements", &["value"], rows)
 }
 
