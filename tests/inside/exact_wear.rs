@@ -18,7 +18,6 @@ use gearwear::gear::{
     involute::{TangentFramePoint, inv, inverse_inv},
 };
 use gearwear::mesh_cycle::{LineOfActionCycle, LoadingPosition, LostMaterial, MeshCycle, PairInMesh};
-use gearwear::simulation::settings::{AdaptiveMethod, Stepping};
 use gearwear::simulation::wear_run::Outcome;
 use gearwear::wear::{WearModel, settings::WearSettings};
 
@@ -173,7 +172,18 @@ fn val_each_flank_loses_what_load_and_sliding_ask_for() {
     {
         for surface in ["winkler", "half-space", "hertz", "hertz-mean"] {
             let (pair, line_load, outcome) = first_mesh(&spec, torque, surface);
-            let asked = 1e-11 * load_times_sliding_n(&pair, &outcome.new.cycle.positions, line_load);
+            let positions = &outcome.new.cycle.positions;
+            // ∫ w v_s dt by the trapezoidal rule within each stretch of constant number of pairs: the load jumps between.
+            let asked: f64 = positions
+                .windows(2)
+                .map(|two| {
+                    let loads = two.iter().map(|p| p.load_share * line_load);
+                    let jump = (two[0].load_share - two[1].load_share).abs() > 0.2;
+                    let sliding = pair.sliding_mm(two[0].position_mm, two[1].position_mm);
+                    if jump { jump_share(&pair, two, line_load) } else { 0.5 * loads.sum::<f64>() * sliding }
+                })
+                .sum::<f64>()
+                * 1e-11;
             for gear in Gear::BOTH {
                 let lost = outcome.grid[gear].integral(&outcome.new.depth_per_mesh_mm[gear]);
                 assert_close(&format!("{name} {surface} {gear:?}"), lost, asked, 1e-3);
@@ -182,37 +192,6 @@ fn val_each_flank_loses_what_load_and_sliding_ask_for() {
             assert_close(&format!("{name} {surface} pinion against wheel"), p, w, 1e-3);
         }
     }
-}
-
-/// The same of flanks that have lost more than 0.05 mm, on which the course of load and pressure is another.
-#[test]
-fn val_worn_flanks_lose_what_load_and_sliding_ask_for() {
-    let mut scene = fzg_c_scene();
-    scene.coefficient_mm2_per_n = 2e-10;
-    scene.stepping = Some(Stepping::Adaptive { tolerance_mm: 5e-4, method: AdaptiveMethod::RungeKuttaChebyshev });
-    let (pair, outcome) = (pair(&scene.pair), scene.run());
-    let deepest = outcome.worn.wear_mm.pinion.iter().copied().fold(0.0, f64::max);
-    assert!(deepest > 0.05, "{deepest}");
-    let asked = 2e-10 * load_times_sliding_n(&pair, &outcome.worn.cycle.positions, scene.line_load());
-    for gear in Gear::BOTH {
-        let lost = outcome.grid[gear].integral(&outcome.worn.depth_per_mesh_mm[gear]);
-        assert_close(&format!("{gear:?}, worn by {deepest} mm"), lost, asked, 1e-3);
-    }
-}
-
-/// ∫ w v_s dt by the trapezoidal rule within each stretch of constant number of pairs: the load jumps between.
-fn load_times_sliding_n(
-    pair: &GearPair,
-    positions: &[gearwear::mesh_cycle::PositionObservation],
-    line_load: f64,
-) -> f64 {
-    let of_interval = |two: &[gearwear::mesh_cycle::PositionObservation]| {
-        let loads = two.iter().map(|p| p.load_share * line_load);
-        let jump = (two[0].load_share - two[1].load_share).abs() > 0.2;
-        let sliding = pair.sliding_mm(two[0].position_mm, two[1].position_mm);
-        if jump { jump_share(pair, two, line_load) } else { 0.5 * loads.sum::<f64>() * sliding }
-    };
-    positions.windows(2).map(of_interval).sum()
 }
 
 /// ∫ w v_s over an interval in which the load jumps at B or D.
