@@ -134,7 +134,7 @@ pub(super) enum InputError {
     /// `init --from` with a file that gives no scene.
     #[error("{name}: {error}")]
     #[diagnostic(help("gearwear init --from FILE.rexs --stage N reads a pair of external cylindrical gears"))]
-    Rexs { name: String, error: RexsError },
+    Rexs { name: String, error: Box<RexsError> },
     #[error("--out: {}", causes(.0))]
     #[diagnostic(help("choose a folder you may write to, or a name that is still free"))]
     Out(ReportError),

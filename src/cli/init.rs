@@ -34,8 +34,8 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
 fn from_rexs(file: &Path, stage: Option<usize>) -> Result<(), Failure> {
     let name = file.display().to_string();
     let bytes = fs::read(file).map_err(|reason| InputError::Unreadable { name: name.clone(), reason })?;
-    let scene =
-        rexs::scene(&String::from_utf8_lossy(&bytes), stage).map_err(|error| InputError::Rexs { name, error })?;
+    let scene = rexs::scene(&String::from_utf8_lossy(&bytes), stage)
+        .map_err(|error| InputError::Rexs { name, error: Box::new(error) })?;
     warn(&scene.warnings);
     print(&scene.text)
 }

@@ -41,7 +41,7 @@ pub(super) fn of(document: &Document, pinion: &GearData, warnings: &mut Vec<Stri
         shaft.filter(|shaft| parts(shaft, "cylindrical_gear").len() == 1).map(|shaft| parts(shaft, "external_load"));
     let unit = document.components.iter().find(|component| component.kind == "gear_unit");
 
-    let case = |said: &[Component]| -> Result<(Option<f64>, Option<f64>, Option<f64>), RexsError> {
+    let case = |said: &[Component]| -> Result<[Option<f64>; 3], RexsError> {
         // What the case says stands before what the component itself says.
         let number = |id: &str, attribute: &str, units| -> Result<Option<f64>, RexsError> {
             let said = said.iter().find(|component| component.id == id).into_iter().chain(document.component(id));
@@ -73,14 +73,14 @@ pub(super) fn of(document: &Document, pinion: &GearData, warnings: &mut Vec<Stri
                 fraction = number(&unit.id, "load_duration_fraction", PERCENT)?;
             }
         }
-        Ok((torque_Nm.map(f64::abs), speed_rpm.map(f64::abs), fraction))
+        Ok([torque_Nm.map(f64::abs), speed_rpm.map(f64::abs), fraction])
     };
 
     let without = [Vec::new()];
     let said = if document.load_cases.is_empty() { &without[..] } else { &document.load_cases[..] };
     let mut cases = Vec::new();
     for (index, said) in said.iter().enumerate() {
-        let (torque_Nm, speed_rpm, fraction) = case(said)?;
+        let [torque_Nm, speed_rpm, fraction] = case(said)?;
         let idle = torque_Nm == Some(0.0) || speed_rpm == Some(0.0) || fraction == Some(0.0);
         if idle {
             warnings.push(format!("load case {} has no torque, speed or time and is left out", index + 1));
