@@ -14,8 +14,10 @@ import pytest
 import gearwear
 
 LONG = """
-import sys, time
+import signal, sys, time
 import gearwear
+# Started in the background by a shell, a process ignores the signal, and so do its children.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 scene = gearwear.Scene.preset("fzg-c").with_(**{"numerics.step": {"revolutions": 5}, "numerics.verify": False,
     "numerics.error_estimate": False, "stiffness.model": "weber-banaschek"})
 print("begins", flush=True)

@@ -303,7 +303,9 @@ def test_a_killed_sweep_goes_on_where_it_was(method: str, tmp_path: Path) -> Non
 @LINUX
 def test_ctrl_c_keeps_what_arrived(tmp_path: Path) -> None:
     code = (
-        "import sys, gearwear; from test_sweep import VARY_SLOW, slow_scene\n"
+        "import signal, sys, gearwear; from test_sweep import VARY_SLOW, slow_scene\n"
+        # Started in the background by a shell, a process ignores the signal, and so do its children.
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "try:\n    gearwear.sweep(slow_scene(), VARY_SLOW, out=sys.argv[1])\n"
         "except KeyboardInterrupt:\n    print('stopped')"
     )
