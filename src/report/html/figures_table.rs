@@ -72,7 +72,7 @@ fn wear(s: &Summary) -> Markup {
             both("At the pitch circle", "µm", |w| w.pitch_wear_um),
             both("Volume, whole gear", "mm³", |w| w.worn_volume_mm3),
             both("Mass, whole gear", "mg", |w| w.worn_mass_mg),
-            both("Left of the normal tooth thickness at the tip", "mm", |w| w.normal_tip_thickness_mm),
+            both("Normal tooth thickness at the tip, worn", "mm", |w| w.normal_tip_thickness_mm),
         ],
     )
 }
