@@ -250,6 +250,21 @@ fn ver_nodes_of_the_nominal_flank_stand_for_themselves() {
     }
 }
 
+/// Below the first node the involute has ended: nothing is worn there; up to the tip it is what it is at the last node.
+#[test]
+fn ver_nothing_wears_below_the_first_node() {
+    let pair = pair(&fzg_c());
+    let model = condensed(&pair, 4.0);
+    let cycle = CondensedCycle::new(&model, 20, line_load(&pair));
+    for gear in Gear::BOTH {
+        let nodes = model.nominal_radius_mm(gear);
+        let first = nodes.iter().copied().fold(f64::INFINITY, f64::min);
+        let last = nodes.iter().copied().fold(0.0, f64::max);
+        let places = [first - 0.01, first, 0.5 * (first + last), last, last + 0.01];
+        assert_eq!(cycle.at_radii(gear, &vec![1.0; nodes.len()], places.into_iter()), [0.0, 1.0, 1.0, 1.0, 1.0]);
+    }
+}
+
 /// A flank that turns by θ turns the load on it, whose lever on the pinion is r_b + θ ρ: the surface there moves along itself by ρ/r_b of
 /// what the base circle moves.
 #[test]

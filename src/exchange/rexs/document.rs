@@ -79,6 +79,11 @@ impl Component {
         self.attribute(id).map(|attribute| attribute.text.as_str()).filter(|text| !text.is_empty())
     }
 
+    /// The first of these attributes that it has.
+    pub(super) fn first_of<'b>(&self, ids: &[&'b str]) -> Option<&'b str> {
+        ids.iter().copied().find(|id| self.attribute(id).is_some())
+    }
+
     /// A number, in the unit that `units` convert to; None where it is not there.
     pub(super) fn number(&self, id: &str, units: Units) -> Result<Option<f64>, RexsError> {
         let Some(attribute) = self.attribute(id) else { return Ok(None) };
@@ -124,18 +129,39 @@ impl Document {
         self.components.iter().find(|component| component.id == id)
     }
 
+    /// The first relation of `kind` in which each `(role, id)` of `members` stands.
+    pub(super) fn relation(&self, kind: &str, members: &[(&str, &str)]) -> Option<&Relation> {
+        let has = |relation: &Relation| members.iter().all(|(role, id)| relation.member(role) == Some(id));
+        self.relations.iter().find(|relation| relation.kind == kind && has(relation))
+    }
+
     /// The members in role `wanted` of the relations of `kind` in which `id` has `role`.
     pub(super) fn related<'a>(
         &'a self,
         kind: &'a str,
-        role: &'a str,
-        id: &'a str,
+        (role, id): (&'a str, &'a str),
         wanted: &'a str,
     ) -> impl Iterator<Item = &'a Component> {
         self.relations
             .iter()
             .filter(move |relation| relation.kind == kind && relation.member(role) == Some(id))
             .filter_map(move |relation| self.component(relation.member(wanted)?))
+    }
+
+    /// The shaft that carries a gear.
+    pub(super) fn shaft_of<'a>(&'a self, gear: &'a Component) -> Option<&'a Component> {
+        self.related("assembly", ("part", &gear.id), "assembly").find(|component| component.kind == "shaft")
+    }
+
+    /// The material that a component refers to.
+    pub(super) fn material_of<'a>(&'a self, component: &'a Component) -> Option<&'a Component> {
+        self.related("reference", ("origin", &component.id), "referenced").find(|found| found.kind == "material")
+    }
+
+    /// What the first load case that speaks of it, or the component itself, says in words.
+    pub(super) fn word<'a>(&'a self, component: &'a Component, id: &str) -> Option<&'a str> {
+        let cases = self.load_cases.iter().flatten().filter(|said| said.id == component.id);
+        cases.chain([component]).find_map(|said| said.text(id))
     }
 
     pub(super) fn parse(text: &str) -> Result<Self, RexsError> {

@@ -26,16 +26,10 @@ pub(super) struct Case {
 /// other gear; a shaft between two stages would need the equilibrium of the gear unit.
 pub(super) fn of(document: &Document, pinion: &GearData, warnings: &mut Vec<String>) -> Result<Load, RexsError> {
     let gear_id = pinion.component.id.as_str();
-    let shaft = document.related("assembly", "part", gear_id, "assembly").find(|component| component.kind == "shaft");
+    let shaft = document.shaft_of(pinion.component);
     let parts = |shaft: &Component, kind: &str| -> Vec<String> {
-        document
-            .relations
-            .iter()
-            .filter(|relation| relation.kind == "assembly" && relation.member("assembly") == Some(&shaft.id))
-            .filter_map(|relation| document.component(relation.member("part")?))
-            .filter(|part| part.kind == kind)
-            .map(|part| part.id.clone())
-            .collect()
+        let parts = document.related("assembly", ("assembly", &shaft.id), "part");
+        parts.filter(|part| part.kind == kind).map(|part| part.id.clone()).collect()
     };
     let loads =
         shaft.filter(|shaft| parts(shaft, "cylindrical_gear").len() == 1).map(|shaft| parts(shaft, "external_load"));
@@ -81,7 +75,7 @@ pub(super) fn of(document: &Document, pinion: &GearData, warnings: &mut Vec<Stri
     let mut cases = Vec::new();
     for (index, said) in said.iter().enumerate() {
         let [torque_Nm, speed_rpm, fraction] = case(said)?;
-        let idle = torque_Nm == Some(0.0) || speed_rpm == Some(0.0) || fraction == Some(0.0);
+        let idle = torque_Nm == Some(0.0) || speed_rpm == Some(0.0) || fraction.is_some_and(|part| part <= 0.0);
         if idle {
             warnings.push(format!("load case {} has no torque, speed or time and is left out", index + 1));
         } else {

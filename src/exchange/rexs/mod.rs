@@ -45,7 +45,7 @@ pub(crate) fn scene(text: &str, number: Option<usize>) -> Result<FromRexs, RexsE
 }
 
 /// Versions whose attributes are known.
-const VERSIONS: [&str; 7] = ["1.4", "1.5", "1.6", "1.7", "2.0", "2.0.0", "2.0.1"];
+const VERSIONS: [&str; 6] = ["1.4", "1.5", "1.6", "1.7", "2.0", "2.0.0"];
 
 /// Why a file gives no scene. `line` counts from 1.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

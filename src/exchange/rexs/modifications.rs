@@ -33,6 +33,24 @@ pub(super) struct EndRelief {
     pub parabolic: bool,
 }
 
+/// Where an amount is given, or a crowning is highest: of a scene both are fixed.
+const PLACES: [&str; 14] = [
+    "tip_relief_evaluation_reference",
+    "tip_relief_evaluation_reference_length",
+    "root_relief_evaluation_reference",
+    "root_relief_evaluation_reference_length",
+    "end_relief_evaluation_reference_datum_face",
+    "end_relief_evaluation_reference_non_datum_face",
+    "diameter_where_profile_crowning_root_is_specified",
+    "diameter_where_profile_crowning_tip_is_specified",
+    "length_where_profile_crowning_root_is_specified",
+    "length_where_profile_crowning_tip_is_specified",
+    "coordinate_where_helix_crowning_is_specified_datum_face",
+    "coordinate_where_helix_crowning_is_specified_non_datum_face",
+    "profile_highest_point",
+    "helix_highest_point",
+];
+
 /// Those of the components that any relation joins with the flank.
 pub(super) fn of(
     document: &Document,
@@ -45,6 +63,12 @@ pub(super) fn of(
     let joined = document.relations.iter().filter(|relation| relation.members.iter().any(|(_, id)| *id == flank.id));
     let parts = joined.flat_map(|relation| &relation.members).filter(|(_, id)| *id != flank.id);
     for part in parts.filter_map(|(_, id)| document.component(id)) {
+        if let Some(id) = part.first_of(&PLACES) {
+            warnings.push(format!(
+                "{gear}: {}: {id} is not read: amounts are those at the ends, and a crowning is highest in the middle",
+                part.label()
+            ));
+        }
         match part.kind.as_str() {
             "tip_relief" => {
                 found.tip_relief = relief(
@@ -60,8 +84,14 @@ pub(super) fn of(
                     warnings,
                 )?;
             }
-            "end_relief_datum_face" => ends[0] = end_relief(part, "datum_face", warnings)?,
-            "end_relief_non_datum_face" => ends[1] = end_relief(part, "non_datum_face", warnings)?,
+            "end_relief_datum_face" => {
+                let names = ["end_relief_depth_datum_face", "end_relief_length_datum_face"];
+                ends[0] = end_relief(part, names, warnings)?;
+            }
+            "end_relief_non_datum_face" => {
+                let names = ["end_relief_depth_non_datum_face", "end_relief_length_non_datum_face"];
+                ends[1] = end_relief(part, names, warnings)?;
+            }
             "profile_crowning" => {
                 found.profile_crowning_um =
                     crowning(part, ["profile_crowning_at_root", "profile_crowning_at_tip"], warnings)?;
@@ -115,11 +145,12 @@ fn relief(
     Ok(Some(Relief { amount_um, start, parabolic: parabolic(part, warnings) }))
 }
 
-fn end_relief(part: &Component, face: &str, warnings: &mut Vec<String>) -> Result<Option<EndRelief>, RexsError> {
-    let [depth, length] = match face {
-        "datum_face" => ["end_relief_depth_datum_face", "end_relief_length_datum_face"],
-        _ => ["end_relief_depth_non_datum_face", "end_relief_length_non_datum_face"],
-    };
+/// An end relief by the names of its depth and length; None where nothing is removed.
+fn end_relief(
+    part: &Component,
+    [depth, length]: [&'static str; 2],
+    warnings: &mut Vec<String>,
+) -> Result<Option<EndRelief>, RexsError> {
     let amount_um = part.needed(depth, MM_AS_UM)?;
     if amount_um == 0.0 {
         return Ok(None);

@@ -103,17 +103,8 @@ fn gear(text: &mut Text, table: &str, data: &GearData) {
 
 /// The material that a reference names of the gear, or of the shaft that carries it.
 fn material(text: &mut Text, document: &Document, table: &str, data: &GearData) -> Result<(), RexsError> {
-    let of = |id: &str| {
-        document.relations.iter().find_map(|relation| {
-            let refers = relation.kind == "reference" && relation.member("origin") == Some(id);
-            document
-                .component(relation.member("referenced")?)
-                .filter(|component| refers && component.kind == "material")
-        })
-    };
-    let gear = data.component.id.as_str();
-    let shaft = document.related("assembly", "part", gear, "assembly").find(|component| component.kind == "shaft");
-    let Some(material) = of(gear).or_else(|| of(&shaft?.id)) else { return Ok(()) };
+    let of_shaft = || document.material_of(document.shaft_of(data.component)?);
+    let Some(material) = document.material_of(data.component).or_else(of_shaft) else { return Ok(()) };
     let modulus_GPa = material.number("elastic_modulus", GPA)?;
     let ratio = material.number("poisson_ratio", NONE)?;
     let density = material.number("density", KG_PER_M3)?;
@@ -179,8 +170,8 @@ fn lubricant(text: &mut Text, document: &Document, stage: &Stage, gears: &Gears,
     let (Some(at_40C), Some(at_100C)) = viscosities else { return Ok(()) };
     let said = document.load_cases.iter().flatten().chain(&document.components);
     let in_place = |component: &&Component| component.id == stage.component.id || component.kind == "gear_casing";
-    let temperature = said.filter(in_place).map(|component| component.number("temperature_lubricant", CELSIUS));
-    let temperature_C = temperature.into_iter().find_map(Result::transpose).transpose()?;
+    let mut temperature = said.filter(in_place).map(|component| component.number("temperature_lubricant", CELSIUS));
+    let temperature_C = temperature.find_map(Result::transpose).transpose()?;
     let speeds = load.cases.iter().all(|case| case.speed_rpm.is_some());
     let rough = gears.pinion.roughness_Ra_um.is_some() && gears.wheel.roughness_Ra_um.is_some();
     let mark = if speeds && rough && temperature_C.is_some() { "" } else { "# " };

@@ -48,10 +48,7 @@ impl<'a> Stage<'a> {
             .iter()
             .filter(|component| component.kind == "cylindrical_stage")
             .filter_map(|component| {
-                let relation = document
-                    .relations
-                    .iter()
-                    .find(|relation| relation.kind == "stage" && relation.member("stage") == Some(&component.id))?;
+                let relation = document.relation("stage", &[("stage", &component.id)])?;
                 let gear = |role| of_kind(relation.member(role), "cylindrical_gear");
                 Some(Stage { component, gears: [gear("gear_1")?, gear("gear_2")?] })
             })
@@ -77,18 +74,11 @@ impl<'a> Stage<'a> {
     /// Both gears; the driving one is the pinion, gear_1 where the file does not say.
     pub(super) fn gears(&self, document: &'a Document, warnings: &mut Vec<String>) -> Result<Gears<'a>, RexsError> {
         let in_stage = |gear: &Component| {
-            let relation = document.relations.iter().find(|relation| {
-                relation.kind == "stage_gear_data"
-                    && relation.member("stage") == Some(&self.component.id)
-                    && relation.member("gear") == Some(&gear.id)
-            })?;
+            let relation =
+                document.relation("stage_gear_data", &[("stage", &self.component.id), ("gear", &gear.id)])?;
             document.component(relation.member("stage_gear_data")?)
         };
-        let drives = |gear: &Component| {
-            let data = in_stage(gear)?;
-            let said = document.load_cases.iter().flatten().filter(|component| component.id == data.id).chain([data]);
-            said.filter_map(|component| component.text("is_driving_gear")).next().map(|word| word == "true")
-        };
+        let drives = |gear: &Component| Some(document.word(in_stage(gear)?, "is_driving_gear")? == "true");
         let [first, second] = self.gears;
         let (pinion, wheel) = match (drives(first), drives(second)) {
             (Some(false), _) | (None, Some(true)) => (second, first),
@@ -98,8 +88,8 @@ impl<'a> Stage<'a> {
                 (first, second)
             }
         };
-        let flanks = [pinion, wheel].map(|gear| working_flank(document, gear, in_stage(gear), warnings));
-        let [pinion_flank, wheel_flank] = [flanks[0].clone()?, flanks[1].clone()?];
+        let pinion_flank = working_flank(document, pinion, in_stage(pinion), warnings)?;
+        let wheel_flank = working_flank(document, wheel, in_stage(wheel), warnings)?;
 
         let normal_module_mm = same(pinion, wheel, "normal_module", |gear| gear.needed("normal_module", MM))?;
         let pressure_angle_deg = same(pinion_flank, wheel_flank, "normal_pressure_angle", |flank| {
@@ -249,15 +239,9 @@ fn working_flank<'a>(
     in_stage: Option<&Component>,
     warnings: &mut Vec<String>,
 ) -> Result<&'a Component, RexsError> {
-    let relation = document
-        .relations
-        .iter()
-        .find(|relation| relation.kind == "flank" && relation.member("gear") == Some(&gear.id));
+    let relation = document.relation("flank", &[("gear", &gear.id)]);
     let flank = |role| document.component(relation?.member(role)?);
-    let said = in_stage.and_then(|data| {
-        let cases = document.load_cases.iter().flatten().filter(|component| component.id == data.id);
-        cases.chain([data]).filter_map(|component| component.text("loaded_tooth_flank")).next()
-    });
+    let said = in_stage.and_then(|data| document.word(data, "loaded_tooth_flank"));
     if said.is_none() && flank("left").is_some() && flank("right").is_some() {
         warnings.push(format!("{}: the file does not say which flank is loaded: the left one is taken", gear.label()));
     }

@@ -55,9 +55,12 @@ fn ver_modifications_come_in_their_units() {
     ] {
         assert!(found.text.contains(line), "{line}\n{}", found.text);
     }
-    for warning in
-        ["tip_diameter 1 mm lies within the base circle", "Slope (id 44) is left out", "does not give the torque"]
-    {
+    for warning in [
+        "tip_diameter 1 mm lies within the base circle",
+        "Slope (id 44) is left out",
+        "helix_highest_point is not read",
+        "does not give the torque",
+    ] {
         assert!(found.warnings.iter().any(|said| said.contains(warning)), "{warning}: {:?}", found.warnings);
     }
     // What is missing is the torque alone.
