@@ -124,7 +124,7 @@ impl GapAtPoints {
     /// Of `points` at `position_mm`.
     pub(crate) fn new(flanks: Flanks<'_>, gear: Gear, points: &ObservedPoints, position_mm: f64) -> Self {
         let count = points.sliding_mm.len();
-        let mut mate = Interpolation::default();
+        let mut mate = Interpolation::new(flanks, gear.mate());
         let mut geometric_gap_mm: Vec<f64> = Vec::with_capacity(count + 2);
         for (sample, own) in points.at.iter().enumerate() {
             let (facing, drop) = flanks.geometry.at_along(gear.mate(), -own.along_mm, position_mm);

@@ -13,21 +13,42 @@ use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
 use crate::reference::linear_means::add_means;
 
 /// Removed material of one flank at samples between its points.
-#[derive(Debug, Clone, Default)]
+///
+/// Where the flank ends between two points, only the one within it wears: on the last stretch up to the end, what is removed goes on as
+/// between the outermost two points within. A straight line to the point beyond would leave a ridge there that carries load and never wears.
+#[derive(Debug, Clone)]
 pub(super) struct Interpolation {
+    /// Index of the first and the last but one of the points within the flank.
+    within: [usize; 2],
     index: Vec<u32>,
     weight: Vec<f64>,
 }
 
 impl Interpolation {
+    pub(super) fn new(flanks: Flanks<'_>, gear: Gear) -> Self {
+        let coordinate_mm = &flanks.grid[gear].coordinate_mm;
+        let limits = flanks.geometry.flank_limits_mm(gear);
+        let round_off = ROUND_OFF * limits.1;
+        let first = coordinate_mm.partition_point(|&at| at < limits.0 - round_off);
+        let end = coordinate_mm.partition_point(|&at| at <= limits.1 + round_off);
+        // Points too far apart for two of them to lie within are taken as they are.
+        let within = if end >= first + 2 { [first, end - 2] } else { [0, coordinate_mm.len() - 2] };
+        Self { within, index: Vec::new(), weight: Vec::new() }
+    }
+
     pub(super) fn push(&mut self, grid: &FlankGrid, coordinate_mm: f64) {
         // Samples follow each other along the flank.
         let place = match self.index.last() {
             Some(&before) => grid.place_near(before as usize, coordinate_mm),
             None => grid.place(coordinate_mm),
         };
-        self.index.push(place.index as u32);
-        self.weight.push(place.weight);
+        let index = place.index.clamp(self.within[0], self.within[1]);
+        let beside = || {
+            let [low, high] = [0, 1].map(|k| grid.coordinate_mm[index + k]);
+            (coordinate_mm - low) / (high - low)
+        };
+        self.weight.push(if index == place.index { place.weight } else { beside() });
+        self.index.push(index as u32);
     }
 
     /// The values at samples from `first` on.
@@ -181,7 +202,7 @@ impl Strip {
         let along = |gear: Gear, k: usize| on_tangent(gear, window.lower_mm + k as f64 * spacing_mm);
         let mut geometric_gap_mm = vec![0.0; intervals + 1];
         let here = PerGear::from_fn(|gear| {
-            let mut here = Interpolation::default();
+            let mut here = Interpolation::new(flanks, gear);
             for (k, gap) in geometric_gap_mm.iter_mut().enumerate() {
                 let (coordinate, drop) = flanks.geometry.at_along(gear, along(gear, k), position_mm);
                 *gap += drop;

@@ -58,6 +58,8 @@ pub(crate) struct Equilibrium {
     pub gap_mm: Vec<f64>,
     /// α.
     pub rigid: Vec<f64>,
+    /// S, row by row: how the loads along the rigid motions grow with them while the active set stays as it is.
+    pub resistance: Vec<f64>,
     /// The active set, to start the next problem from.
     pub active: Vec<bool>,
     /// Work and how it went.
@@ -151,6 +153,7 @@ struct Trial {
     force: Vec<f64>,
     gap_mm: Vec<f64>,
     rigid: Vec<f64>,
+    resistance: Vec<f64>,
     /// A motion that the active set does not hold.
     loose: Option<Vec<f64>>,
 }
@@ -215,7 +218,8 @@ impl Condensed {
         if let Some(amplitudes) = trial.loose {
             return Err(ActiveSetError::Floating { amplitudes });
         }
-        Ok(Equilibrium { force: trial.force, gap_mm: trial.gap_mm, rigid: trial.rigid, active, log })
+        let Trial { force, gap_mm, rigid, resistance, .. } = trial;
+        Ok(Equilibrium { force, gap_mm, rigid, resistance, active, log })
     }
 
     /// What compliance and rigid motions alone say of every solution.
@@ -315,7 +319,9 @@ impl Condensed {
         for &member in members {
             gap_mm[member] = 0.0;
         }
-        Ok(Trial { force, gap_mm, rigid: alpha.iter().copied().collect(), loose })
+        // S is symmetric.
+        let resistance = s.as_slice().to_vec();
+        Ok(Trial { force, gap_mm, rigid: alpha.iter().copied().collect(), resistance, loose })
     }
 
     /// The compliance of the `active` multipliers, factorised.

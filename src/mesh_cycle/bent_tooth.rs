@@ -107,14 +107,22 @@ impl BentTooth {
     }
 }
 
+/// Where a Newton step leads.
+pub(crate) struct Bend {
+    /// δ, from where the approaches are, mm.
+    pub delta_mm: f64,
+    /// dF/dδ at its beginning, N/mm².
+    pub n_per_mm2: f64,
+}
+
 /// Bends the teeth by a Newton step towards a sum of line loads `line_load`, with the `tangent` of every contact by its number in the
-/// phase, and gives δ, from where the approaches are; `None`, and nothing bent, where no contact carries.
+/// phase; `None`, and nothing bent, where no contact carries.
 pub(crate) fn bend(
     teeth: &mut [BentTooth],
     coupling: &SliceCoupling,
     line_load: f64,
     tangent: impl Fn(usize) -> ContactTangent,
-) -> Option<f64> {
+) -> Option<Bend> {
     // Σ w + Σ c (δ − h − √q Δv) = F, collected by δ.
     let (mut carried, mut stiffness) = (0.0, 0.0);
     for tooth in &mut *teeth {
@@ -130,5 +138,5 @@ pub(crate) fn bend(
             *v += fixed + delta_mm * with_approach;
         }
     }
-    Some(delta_mm)
+    Some(Bend { delta_mm, n_per_mm2: stiffness })
 }

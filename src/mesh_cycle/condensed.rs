@@ -232,8 +232,10 @@ impl MeshCycle for CondensedCycle<'_> {
             greatest_pressure: self.greatest_pressure(),
             pressure_mpa: zeros(),
             sliding_mm: zeros(),
+            sliding_work_n: None,
             slices: None,
         };
+        let mut sliding_work_n = 0.0;
         for loaded in self.loaded_positions() {
             let Some(found) = &loaded.found else { continue };
             for contact in &loaded.transfers {
@@ -242,6 +244,7 @@ impl MeshCycle for CondensedCycle<'_> {
                     if force <= 0.0 {
                         continue;
                     }
+                    sliding_work_n += force * contact.sliding_mm[i];
                     let pressure = force / contact.weight_mm[i];
                     for gear in Gear::BOTH {
                         let Weights { first, weights } = contact.means[gear].row(i);
@@ -255,6 +258,7 @@ impl MeshCycle for CondensedCycle<'_> {
                 }
             }
         }
+        observation.sliding_work_n = Some(sliding_work_n);
         Ok(observation)
     }
 }
@@ -319,6 +323,7 @@ impl CondensedCycle<'_> {
                 PositionObservation {
                     position_mm: at + f64::from(ahead) * path.base_pitch_mm,
                     transmission_error_mm: equilibrium.rigid[0],
+                    stiffness_n_per_mm2: equilibrium.resistance.first().copied(),
                     load_share: pair.map_or(0.0, |pair| pair.line_load_n_per_mm / load),
                     load_imbalance: total / load - 1.0,
                     footprint: pair.map_or_else(Footprint::default, |pair| Footprint {
@@ -337,6 +342,7 @@ impl CondensedCycle<'_> {
             self.observation_mm.iter().map(|&at| curve.at(at)).collect()
         };
         let transmission_error = course(&|at| at.transmission_error_mm);
+        let stiffness = course(&|at| at.stiffness_n_per_mm2.unwrap_or_default());
         let (share, imbalance) = (course(&|at| at.load_share), course(&|at| at.load_imbalance));
         let (peak, half_width) =
             (course(&|at| at.footprint.peak_pressure_mpa), course(&|at| at.footprint.half_width_mm));
@@ -349,6 +355,7 @@ impl CondensedCycle<'_> {
             .map(|k| PositionObservation {
                 position_mm: self.observation_mm[k],
                 transmission_error_mm: transmission_error[k],
+                stiffness_n_per_mm2: Some(stiffness[k]),
                 load_share: share[k],
                 load_imbalance: imbalance[k],
                 footprint: Footprint {

@@ -11,7 +11,7 @@
 use faer::linalg::solvers::{Llt, PartialPivLu, Solve};
 use faer::{Mat, Side};
 
-use super::bent_tooth::{BentTooth, ContactTangent, bend};
+use super::bent_tooth::{Bend, BentTooth, ContactTangent, bend};
 use super::influence::Influence;
 use super::slice_coupling::SliceCoupling;
 
@@ -40,7 +40,7 @@ impl TeethTogether {
         Self { deflection_mm: vec![0.0; influence.of_teeth.len()], influence }
     }
 
-    fn bend(&mut self, line_load: f64, tangent: impl Fn(usize) -> ContactTangent) -> Option<f64> {
+    fn bend(&mut self, line_load: f64, tangent: impl Fn(usize) -> ContactTangent) -> Option<Bend> {
         let (count, u) = (self.deflection_mm.len(), &self.influence.mm2_per_n);
         // Contacts that carry nothing have no part in the step.
         let carrying: Vec<(usize, ContactTangent)> =
@@ -72,7 +72,7 @@ impl TeethTogether {
         for (row, deflection) in u.chunks_exact(count).zip(&mut self.deflection_mm) {
             *deflection = carrying.iter().zip(&load).map(|((k, _), load)| row[*k] * load).sum();
         }
-        Some(delta_mm)
+        Some(Bend { delta_mm, n_per_mm2: stiffness })
     }
 }
 
@@ -86,8 +86,8 @@ impl CoupledTeeth {
     }
 
     /// Bends the teeth by a Newton step towards a sum of line loads `line_load`, with the `tangent` of every contact by its number in
-    /// the phase, and gives δ, from where the approaches are; `None`, and nothing bent, where no contact carries.
-    pub(crate) fn bend(&mut self, line_load: f64, tangent: impl Fn(usize) -> ContactTangent) -> Option<f64> {
+    /// the phase; `None`, and nothing bent, where no contact carries.
+    pub(crate) fn bend(&mut self, line_load: f64, tangent: impl Fn(usize) -> ContactTangent) -> Option<Bend> {
         match self {
             Self::Plates { teeth, coupling } => bend(teeth, coupling, line_load, tangent),
             Self::Together(teeth) => teeth.bend(line_load, tangent),

@@ -78,6 +78,8 @@ pub(crate) struct MeshedPair<'a> {
     /// What its bodies approach beside that indentation, and the derivative by the load.
     further: (f64, f64),
     teeth_n_per_mm2: f64,
+    /// Lever of the load on the pinion over the base radius.
+    lever_ratio: f64,
     /// Approach at which the flanks first touch, mm.
     pub(super) touch_mm: f64,
     /// Approach of the flanks beyond their first touch, mm.
@@ -91,6 +93,8 @@ pub(crate) struct MeshedPair<'a> {
 pub(crate) struct Equilibrium {
     /// δ.
     pub transmission_error_mm: f64,
+    /// dF/dδ of all pairs together, N/mm².
+    pub n_per_mm2: f64,
     /// Newton steps taken.
     pub iterations: u64,
     /// Evaluations of a pair's contact.
@@ -105,6 +109,7 @@ impl<'a> MeshedPair<'a> {
             response: Response::default(),
             further: (0.0, 0.0),
             teeth_n_per_mm2,
+            lever_ratio: 1.0,
             touch_mm: 0.0,
             indentation_mm: 0.0,
             history_mm: [None; 3],
@@ -117,7 +122,13 @@ impl<'a> MeshedPair<'a> {
             return Self::new(contact, teeth_n_per_mm2);
         }
         // The spring of the teeth is pressed along the same normal.
-        Self::new(Box::new(OnLever { contact, ratio }), ratio * ratio * teeth_n_per_mm2)
+        let pressed = Self::new(Box::new(OnLever { contact, ratio }), ratio * ratio * teeth_n_per_mm2);
+        Self { lever_ratio: ratio, ..pressed }
+    }
+
+    /// What presses the flanks on each other, N per mm of face width; its response is the torque of that over the base radius.
+    pub(super) fn normal_load_n_per_mm(&self) -> f64 {
+        self.response.line_load_n_per_mm / self.lever_ratio
     }
 
     /// Takes the material removed from both flanks.
@@ -296,7 +307,12 @@ pub(crate) fn balance(
         });
         if settled && (load - line_load).abs() <= TOLERANCE * line_load {
             let transmission_error_mm = pairs[0].whole_approach_mm() + beyond_first;
-            return Ok(Equilibrium { transmission_error_mm, iterations, pair_evaluations: evaluations });
+            return Ok(Equilibrium {
+                transmission_error_mm,
+                n_per_mm2: stiffness,
+                iterations,
+                pair_evaluations: evaluations,
+            });
         }
         let (first, others) = pairs.split_at_mut(1);
         for pair in others {
@@ -371,7 +387,12 @@ fn bisect(
     // imbalance that a result may have.
     if residual <= GREATEST_IMBALANCE {
         let transmission_error_mm = low.midpoint(high);
-        return Ok(Equilibrium { transmission_error_mm, iterations: NEWTON_LIMIT, pair_evaluations: evaluations });
+        return Ok(Equilibrium {
+            transmission_error_mm,
+            n_per_mm2: pairs.iter().map(MeshedPair::tangent_n_per_mm2).sum(),
+            iterations: NEWTON_LIMIT,
+            pair_evaluations: evaluations,
+        });
     }
     Err(EquilibriumError::NotConverged { position_mm, residual, evaluations })
 }

@@ -89,6 +89,8 @@ struct LoadedPosition<'a> {
     cell: PositionCell,
     on_line_of_action: bool,
     heated_place: HeatedPlace,
+    /// How far the flanks slide on each other there, mm.
+    sliding_mm: f64,
     /// The reference pair first.
     pairs: Vec<MeshedPair<'a>>,
     equilibrium: Equilibrium,
@@ -116,6 +118,9 @@ pub(crate) struct PositionObservation {
     pub position_mm: f64,
     /// Approach of the gears along the line of action.
     pub transmission_error_mm: f64,
+    /// Change of the whole load with the transmission error, N/mm²: the mesh stiffness of all pairs together, about this load. `None` where a
+    /// model does not give it.
+    pub stiffness_n_per_mm2: Option<f64>,
     /// Part of the whole load that the reference pair carries.
     pub load_share: f64,
     /// Sum of the loads of all pairs over the load to be carried, less one.
@@ -163,6 +168,10 @@ pub(crate) struct CycleObservation {
     pub pressure_mpa: PerGear<Vec<f64>>,
     /// How far each flank point slid while in contact, mm.
     pub sliding_mm: PerGear<Vec<f64>>,
+    /// ∫ F ds of a tooth pair over its mesh, also before A and after E: load times sliding distance, which is the volume that a flank loses
+    /// over its wear coefficient. N, that is N·mm per mm of face width; where there are slices, the sum over them. `None` where a model
+    /// follows single points.
+    pub sliding_work_n: Option<f64>,
     /// The mesh of one tooth slice by slice, where there are slices.
     pub slices: Option<SlicedMesh>,
 }
@@ -250,8 +259,10 @@ impl MeshCycle for LineOfActionCycle<'_> {
             greatest_pressure: GreatestPressure::default(),
             pressure_mpa: zeros(),
             sliding_mm: zeros(),
+            sliding_work_n: None,
             slices: None,
         };
+        let mut sliding_work_n = 0.0;
         let mut sweep = Sweep::default();
         for loaded in self.groups.iter().flat_map(|group| &group.loaded_positions) {
             if loaded.on_line_of_action {
@@ -263,7 +274,9 @@ impl MeshCycle for LineOfActionCycle<'_> {
                 let greatest_mpa = note_contact_of_points(contact, gear, removed_mm, &mut sweep, pressure, sliding);
                 observation.greatest_pressure.note(greatest_mpa, contact.footprint().at_sharp_edge);
             }
+            sliding_work_n += loaded.pairs[0].normal_load_n_per_mm() * loaded.sliding_mm;
         }
+        observation.sliding_work_n = Some(sliding_work_n);
         observation.greatest_pressure.note_all(&observation.positions);
         Ok(observation)
     }
@@ -329,7 +342,8 @@ impl<'a> LoadedPosition<'a> {
             .collect();
         let (cell, on_line_of_action) = (position.cell, position.on_line_of_action);
         let heated_place = HeatedPlace::new(flanks, cell);
-        Self { cell, on_line_of_action, heated_place, pairs, equilibrium: Equilibrium::default() }
+        let sliding_mm = flanks.geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
+        Self { cell, on_line_of_action, heated_place, sliding_mm, pairs, equilibrium: Equilibrium::default() }
     }
 
     /// Equilibrium on the flanks as they are now.
@@ -346,11 +360,17 @@ impl<'a> LoadedPosition<'a> {
         PositionObservation {
             position_mm: self.cell.position_mm,
             transmission_error_mm: self.equilibrium.transmission_error_mm + bodies_mm,
+            stiffness_n_per_mm2: Some(in_series(self.equilibrium.n_per_mm2, bodies_mm / line_load)),
             load_share: reference.response.line_load_n_per_mm / line_load,
             load_imbalance: total / line_load - 1.0,
             footprint: reference.contact.footprint(),
         }
     }
+}
+
+/// Stiffness of springs of `n_per_mm2` on bodies of the compliance `mm2_per_n`, N/mm².
+fn in_series(n_per_mm2: f64, mm2_per_n: f64) -> f64 {
+    n_per_mm2 / (1.0 + n_per_mm2 * mm2_per_n)
 }
 
 impl CycleObservation {

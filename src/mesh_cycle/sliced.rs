@@ -22,7 +22,9 @@ use super::sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh};
 use super::sliced_positions::{SliceContact, SlicedPosition};
 use super::sliced_sharing::balance_on_teeth;
 use super::sliced_teeth::SlicedTeeth;
-use super::{CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, note_contact_of_points};
+use super::{
+    CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, in_series, note_contact_of_points,
+};
 use crate::contact::{ContactSurface, Flanks, Sweep};
 use crate::gear::{Gear, GearPair, PerGear, path_of_contact::PathOfContact};
 use crate::wear::WearModel;
@@ -79,6 +81,8 @@ struct LoadedPosition<'a> {
     pairs: Vec<MeshedPair<'a>>,
     /// Of each contact.
     heated_places: Vec<HeatedPlace>,
+    /// Of each contact: how far its load, counted over the whole slice, slides, mm.
+    sliding_mm: Vec<f64>,
     /// The teeth that the contacts belong to, where slices are coupled.
     teeth: Option<CoupledTeeth>,
     equilibrium: Equilibrium,
@@ -174,14 +178,15 @@ impl MeshCycle for SlicedCycle<'_> {
 
     fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
         let removed_mm = lost.removed_mm;
-        let load = self.sum_of_line_loads();
+        let slices = self.sliced.slices.count();
         let zeros = || removed_mm.map(|flank| vec![0.0; flank.len()]);
         let (mut pressure_mpa, mut sliding_mm) = (zeros(), zeros());
         let mut sweep = Sweep::default();
         let mut phases = Vec::new();
         let mut greatest_pressure = GreatestPressure::default();
+        let mut sliding_work_n = 0.0;
         for loaded in self.groups.iter().flat_map(|group| &group.loaded_positions) {
-            for (contact, pair) in loaded.contacts.iter().zip(&loaded.pairs) {
+            for ((contact, pair), sliding) in loaded.contacts.iter().zip(&loaded.pairs).zip(&loaded.sliding_mm) {
                 let own = of_slice(removed_mm, self.points, contact.slice);
                 for gear in Gear::BOTH {
                     let range = contact.slice * self.points[gear]..(contact.slice + 1) * self.points[gear];
@@ -189,13 +194,21 @@ impl MeshCycle for SlicedCycle<'_> {
                     let greatest_mpa = note_contact_of_points(&*pair.contact, gear, own, &mut sweep, pressure, sliding);
                     greatest_pressure.note(greatest_mpa, pair.contact.footprint().at_sharp_edge);
                 }
+                sliding_work_n += pair.normal_load_n_per_mm() * sliding;
             }
-            phases.push(loaded.observe(load, self.bodies_mm));
+            phases.push(loaded.observe(slices, self.line_load_n_per_mm, self.bodies_mm));
         }
-        let mesh = SlicedMesh::new(&phases, self.sliced.slices.count(), self.path.base_pitch_mm);
+        let mesh = SlicedMesh::new(&phases, slices, self.path.base_pitch_mm);
         let positions = mesh.along_path(self.path, self.positions, self.line_load_n_per_mm);
         greatest_pressure.note_all(&positions);
-        Ok(CycleObservation { positions, greatest_pressure, pressure_mpa, sliding_mm, slices: Some(mesh) })
+        Ok(CycleObservation {
+            positions,
+            greatest_pressure,
+            pressure_mpa,
+            sliding_mm,
+            sliding_work_n: Some(sliding_work_n),
+            slices: Some(mesh),
+        })
     }
 }
 
@@ -256,6 +269,14 @@ impl<'a> LoadedPosition<'a> {
                 .iter()
                 .map(|contact| HeatedPlace::new(flanks, contact.cell).of_part(contact.part.of_width))
                 .collect(),
+            sliding_mm: phase
+                .contacts
+                .iter()
+                .map(|SliceContact { cell, part, .. }| {
+                    let slid_mm = flanks.geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
+                    part.of_passage / part.of_width * slid_mm
+                })
+                .collect(),
             teeth,
             equilibrium: Equilibrium::default(),
         }
@@ -278,8 +299,10 @@ impl<'a> LoadedPosition<'a> {
         Ok(work)
     }
 
-    fn observe(&self, load: f64, bodies_mm: f64) -> ObservedSlicedPosition {
+    /// What is seen under a mean load of `line_load_n_per_mm` over the `slices`.
+    fn observe(&self, slices: usize, line_load_n_per_mm: f64, bodies_mm: f64) -> ObservedSlicedPosition {
         let total: f64 = self.pairs.iter().map(|pair| pair.response.line_load_n_per_mm).sum();
+        let of_teeth_n_per_mm2 = self.equilibrium.n_per_mm2 / slices as f64;
         let contacts = self.contacts.iter().zip(&self.pairs).map(|(contact, pair)| ObservedContact {
             tooth: contact.tooth,
             slice: contact.slice,
@@ -290,7 +313,8 @@ impl<'a> LoadedPosition<'a> {
         ObservedSlicedPosition {
             position_mm: self.position_mm,
             transmission_error_mm: self.equilibrium.transmission_error_mm + bodies_mm,
-            load_imbalance: total / load - 1.0,
+            stiffness_n_per_mm2: Some(in_series(of_teeth_n_per_mm2, bodies_mm / line_load_n_per_mm)),
+            load_imbalance: total / (line_load_n_per_mm * slices as f64) - 1.0,
             contacts: contacts.collect(),
         }
     }

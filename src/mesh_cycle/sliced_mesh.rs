@@ -31,6 +31,8 @@ pub(crate) struct ObservedSlicedPosition {
     pub position_mm: f64,
     /// Approach of the gears along the line of action.
     pub transmission_error_mm: f64,
+    /// Change of the mean line load with it, N/mm²; `None` where a model does not give it.
+    pub stiffness_n_per_mm2: Option<f64>,
     /// Sum of all line loads over what it should be, less one.
     pub load_imbalance: f64,
     /// All slices in contact.
@@ -56,6 +58,8 @@ pub(crate) struct SlicedMesh {
     pub at_sharp_edge: Vec<bool>,
     /// Transmission error over one base pitch, at evenly spaced phases: the first is that of `first_phase_mm`.
     pub transmission_error_mm: Vec<f64>,
+    /// Mesh stiffness there, N/mm²; empty where a model does not give it.
+    pub stiffness_n_per_mm2: Vec<f64>,
     /// Position of the tooth at the first phase.
     pub first_phase_mm: f64,
     /// The base pitch.
@@ -95,6 +99,7 @@ impl SlicedMesh {
             half_width_mm: field(),
             at_sharp_edge: vec![false; rows * slices],
             transmission_error_mm: phases.iter().map(|phase| phase.transmission_error_mm).collect(),
+            stiffness_n_per_mm2: phases.iter().filter_map(|phase| phase.stiffness_n_per_mm2).collect(),
             first_phase_mm: phases[0].position_mm,
             base_pitch_mm,
             contacts_at_phases: phases
@@ -192,7 +197,10 @@ impl SlicedMesh {
         let m = self.transmission_error_mm.len();
         let spacing = self.base_pitch_mm / m as f64;
         let phase = (position_mm - self.first_phase_mm) / spacing;
-        let error = |j: f64| self.transmission_error_mm[j.rem_euclid(m as f64) as usize % m];
+        let over_phases = |values: &[f64]| {
+            let of = |j: f64| values[j.rem_euclid(m as f64) as usize % m];
+            of(phase.floor()) + (phase - phase.floor()) * (of(phase.floor() + 1.0) - of(phase.floor()))
+        };
         let row = (position_mm - self.position_mm[0]) / spacing;
         let between = |f: &dyn Fn(usize) -> f64, row: f64| {
             let of = |row: f64| if row >= 0.0 && row < self.position_mm.len() as f64 { f(row as usize) } else { 0.0 };
@@ -209,8 +217,8 @@ impl SlicedMesh {
         let load = |row: usize| self.line_load_n_per_mm[slices(row)].iter().sum::<f64>() / self.slices as f64;
         PositionObservation {
             position_mm,
-            transmission_error_mm: error(phase.floor())
-                + (phase - phase.floor()) * (error(phase.floor() + 1.0) - error(phase.floor())),
+            transmission_error_mm: over_phases(&self.transmission_error_mm),
+            stiffness_n_per_mm2: (self.stiffness_n_per_mm2.len() == m).then(|| over_phases(&self.stiffness_n_per_mm2)),
             load_share: between(&load, row) / line_load_n_per_mm,
             load_imbalance: self.load_imbalance,
             footprint: Footprint {

@@ -19,7 +19,7 @@
 //!
 //! Where it rises at the end of a step by more than half as steeply as it fell at the beginning, the step ends before.
 
-use super::bent_tooth::ContactTangent;
+use super::bent_tooth::{Bend, ContactTangent};
 use super::coupled_teeth::CoupledTeeth;
 use super::load_sharing::{Equilibrium, EquilibriumError, GREATEST_IMBALANCE, MeshedPair, TOLERANCE};
 
@@ -70,7 +70,7 @@ pub(crate) fn balance_on_teeth(
             n_per_mm2: pairs[k].tangent_n_per_mm2(),
             approach_mm: approach_mm(&pairs[k], base_mm),
         };
-        let Some(delta_mm) = teeth.bend(line_load, tangent) else {
+        let Some(Bend { delta_mm, n_per_mm2 }) = teeth.bend(line_load, tangent) else {
             // No slice touches: begin again from where each would carry its part.
             for pair in pairs.iter_mut() {
                 let ample = pair.contact.ample_indentation_mm(expected);
@@ -95,7 +95,7 @@ pub(crate) fn balance_on_teeth(
         });
         if settled {
             let transmission_error_mm = base_mm + delta_mm;
-            return Ok(Equilibrium { transmission_error_mm, iterations, pair_evaluations: evaluations });
+            return Ok(Equilibrium { transmission_error_mm, n_per_mm2, iterations, pair_evaluations: evaluations });
         }
         residual = greatest / line_load;
         if iterations >= WHOLE_STEPS {

@@ -6,6 +6,7 @@
 use super::CycleObservation;
 use crate::gear::{Gear, PerGear};
 use crate::mesh_cycle::{LostMaterial, MeshCycle, Work, condensed::CondensedCycle, load_sharing::EquilibriumError};
+use crate::reference::linear_means::weighted_sum;
 use crate::wear::WearModel;
 use serde::{Deserialize, Serialize};
 
@@ -18,8 +19,19 @@ pub(crate) struct Snapshot {
     pub wear_mm: PerGear<Vec<f64>>,
     /// What each flank point loses in the next mesh.
     pub depth_per_mesh_mm: PerGear<Vec<f64>>,
+    /// Where flanks wear at nodes of finite elements: what these have lost. Flank points lie on the involute, and tell it not where tips are rounded.
+    pub lost_at_nodes: Option<PerGear<LostArea>>,
     /// The mesh cycle of the flanks as they are.
     pub cycle: CycleObservation,
+}
+
+/// ∫ h ds over a flank.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(crate) struct LostArea {
+    /// So far, mm².
+    pub wear_mm2: f64,
+    /// In the next mesh, mm².
+    pub per_mesh_mm2: f64,
 }
 
 /// A pair that wears.
@@ -132,7 +144,13 @@ impl WearingPair for OnFlankPoints<'_> {
 
     fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {
         let cycle = self.cycle.observe(lost(&self.removed_mm, &self.wear_mm))?;
-        Ok(Snapshot { revolutions, wear_mm: self.wear_mm.clone(), depth_per_mesh_mm: self.depth_mm.clone(), cycle })
+        Ok(Snapshot {
+            revolutions,
+            wear_mm: self.wear_mm.clone(),
+            depth_per_mesh_mm: self.depth_mm.clone(),
+            lost_at_nodes: None,
+            cycle,
+        })
     }
 }
 
@@ -208,6 +226,11 @@ impl WearingPair for OnFlankNodes<'_> {
         cycle.pressure_mpa = self.at_points(&cycle.pressure_mpa);
         cycle.sliding_mm = self.at_points(&cycle.sliding_mm);
         let (wear_mm, depth_per_mesh_mm) = (self.at_points(&self.wear_mm), self.at_points(&self.depth_mm));
-        Ok(Snapshot { revolutions, wear_mm, depth_per_mesh_mm, cycle })
+        let nodes = self.cycle.nodes();
+        let lost_at_nodes = PerGear::from_fn(|gear| LostArea {
+            wear_mm2: weighted_sum(&nodes[gear].share_mm, &self.wear_mm[gear]),
+            per_mesh_mm2: weighted_sum(&nodes[gear].share_mm, &self.depth_mm[gear]),
+        });
+        Ok(Snapshot { revolutions, wear_mm, depth_per_mesh_mm, lost_at_nodes: Some(lost_at_nodes), cycle })
     }
 }

@@ -58,13 +58,17 @@ fn wear(
     let states = after.wear_mm[gear].iter().zip(&before.wear_mm[gear]);
     let lost_mm: Vec<f64> = states.map(|(after, before)| after - before).collect();
     let lost = WearFigures::new(model.pair, gear, &outcome.grid[gear], &outcome.zones[gear], &lost_mm);
+    let area_mm2 = match (&after.lost_at_nodes, &before.lost_at_nodes) {
+        (Some(after), Some(before)) => after[gear].wear_mm2 - before[gear].wear_mm2,
+        _ => lost.area_mm2,
+    };
     let spec = &model.scene.pair;
     PhaseWear {
         coefficient_m2_per_N: coefficient_m2_per_n,
         greatest_depth_um: lost.peak_mm * UM_PER_MM,
         tip_edge_depth_um: lost.tip_edge.depth_mm * UM_PER_MM,
         below_sap_depth_um: lost.below_active.depth_mm * UM_PER_MM,
-        worn_volume_mm3: lost.area_mm2 * spec.face_width_mm * f64::from(spec.gears[gear].teeth),
+        worn_volume_mm3: area_mm2 * spec.face_width_mm * f64::from(spec.gears[gear].teeth),
     }
 }
 

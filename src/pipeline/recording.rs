@@ -181,21 +181,45 @@ fn unit_of_volume(model: &Model<'_>, phase: usize) -> Result<PerGear<f64>, Strin
 
 /// How far the volumes that both flanks lose are from what the wear laws say, where these tell it from the coefficients alone.
 fn balance(model: &Model<'_>, outcome: &Outcome) -> WearBalance {
+    let [work_new, work_worn] = [&outcome.new, &outcome.worn].map(|snapshot| beside_work(model, outcome, snapshot));
+    let against_work = WearBalance { work_new, work_worn, ..WearBalance::default() };
     match unit_of_volume(model, outcome.reference_phase) {
-        Err(reason) => WearBalance { not_compared: Some(reason), ..WearBalance::default() },
+        Err(reason) => WearBalance { not_compared: Some(reason), ..against_work },
         Ok(unit) => {
             let [new, worn] = [&outcome.new, &outcome.worn].map(|snapshot| Some(imbalance(outcome, snapshot, unit)));
-            WearBalance { new, worn, not_compared: None }
+            WearBalance { new, worn, ..against_work }
         }
     }
 }
 
+/// What a flank loses in one mesh per mm of face width, mm², slices added up.
+fn lost_in_a_mesh_mm2(outcome: &Outcome, snapshot: &Snapshot) -> PerGear<f64> {
+    PerGear::from_fn(|gear| {
+        if let Some(lost) = &snapshot.lost_at_nodes {
+            return lost[gear].per_mesh_mm2;
+        }
+        let (grid, depth) = (&outcome.grid[gear], &snapshot.depth_per_mesh_mm[gear]);
+        depth.chunks_exact(grid.len()).map(|slice| grid.integral(slice)).sum()
+    })
+}
+
+/// |V / (k ∫ F ds) − 1| of the gear for which it is greater; none where a law has more than its coefficient k, or neither gear wears.
+fn beside_work(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> Option<f64> {
+    let own = model.scene.wear_in(&model.scene.operation.phases[outcome.reference_phase]);
+    let work_n = snapshot.cycle.sliding_work_n.filter(|work| *work > 0.0)?;
+    let lost = lost_in_a_mesh_mm2(outcome, snapshot);
+    let beside = |gear: Gear| {
+        let expected = own[gear].constant_coefficient_mm2_per_n()? * work_n;
+        Some(if expected > 0.0 { (lost[gear] / expected - 1.0).abs() } else { 0.0 })
+    };
+    let PerGear { pinion, wheel } = PerGear { pinion: beside(Gear::Pinion)?, wheel: beside(Gear::Wheel)? };
+    Gear::BOTH.iter().any(|&gear| own[gear].coefficient_mm2_per_n > 0.0).then(|| pinion.max(wheel))
+}
+
 /// |V₁/k₁ − V₂/k₂| over the greater, V: what a flank loses in one mesh per mm of face width, k: the unit it is measured in.
 fn imbalance(outcome: &Outcome, snapshot: &Snapshot, unit: PerGear<f64>) -> f64 {
-    let lost = PerGear::from_fn(|gear| {
-        let (grid, depth) = (&outcome.grid[gear], &snapshot.depth_per_mesh_mm[gear]);
-        depth.chunks_exact(grid.len()).map(|slice| grid.integral(slice)).sum::<f64>() / unit[gear]
-    });
+    let lost = lost_in_a_mesh_mm2(outcome, snapshot);
+    let lost = PerGear::from_fn(|gear| lost[gear] / unit[gear]);
     let greater = lost.pinion.max(lost.wheel);
     if greater > 0.0 { (lost.pinion - lost.wheel).abs() / greater } else { 0.0 }
 }
@@ -411,6 +435,7 @@ fn history_row(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> His
 fn mesh_cycle(model: &Model<'_>, RunFindings { outcome, heat, .. }: RunFindings<'_>) -> Vec<MeshCycleRow> {
     let positions = outcome.new.cycle.positions.iter().zip(&outcome.worn.cycle.positions);
     let rise = |k: usize, method: TemperatureMethod| heat.map(|heat| heat.new.positions[k].rise_k[method.index()]);
+    let (path, base_radius_mm) = (&model.pair.path, model.pair.teeth.pinion.involute.base_radius_mm);
     let peclet = |k: usize, gear: Gear| heat.map(|heat| heat.new.positions[k].peclet[gear]);
     positions
         .enumerate()
@@ -432,6 +457,9 @@ fn mesh_cycle(model: &Model<'_>, RunFindings { outcome, heat, .. }: RunFindings<
             peclet_wheel: peclet(k, Gear::Wheel),
             at_sharp_edge_new: new.footprint.at_sharp_edge,
             at_sharp_edge_worn: worn.footprint.at_sharp_edge,
+            pinion_rotation_deg: ((new.position_mm - path.pitch_point_mm) / base_radius_mm).to_degrees(),
+            mesh_stiffness_new_N_per_mm_um: new.stiffness_n_per_mm2.map(|n_per_mm2| n_per_mm2 / UM_PER_MM),
+            mesh_stiffness_worn_N_per_mm_um: worn.stiffness_n_per_mm2.map(|n_per_mm2| n_per_mm2 / UM_PER_MM),
         })
         .collect()
 }

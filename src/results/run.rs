@@ -376,6 +376,11 @@ pub struct WearBalance {
     pub worn: Option<f64>,
     /// Why they are not compared, where they are not.
     pub not_compared: Option<String>,
+    /// How far what a flank of the unworn pair loses in one mesh is from its coefficient times load and sliding distance, k ∫ F ds, relative
+    /// to that: the gear for which it is farther. `None` where a law does not say so by its coefficient alone, or where no gear wears.
+    pub work_new: Option<f64>,
+    /// The same of the worn pair.
+    pub work_worn: Option<f64>,
 }
 
 /// Extremes and their difference.
@@ -552,6 +557,13 @@ pub struct MeshCycleRow {
     pub at_sharp_edge_new: bool,
     /// the same, worn
     pub at_sharp_edge_worn: bool,
+    /// rotation of the pinion from where its pair touches in the pitch point
+    pub pinion_rotation_deg: f64,
+    /// mesh stiffness of all pairs in contact about this load, per mm of face width: change of the load with the transmission error, new; empty where
+    /// the model does not give it
+    pub mesh_stiffness_new_N_per_mm_um: Option<f64>,
+    /// the same, worn
+    pub mesh_stiffness_worn_N_per_mm_um: Option<f64>,
 }
 
 /// The mesh of one tooth slice by slice, from its first touch to its last.

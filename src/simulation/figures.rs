@@ -124,7 +124,11 @@ impl WearFigures {
 
     /// Of a gear's flank at a snapshot of a run.
     pub(crate) fn at(pair: &GearPair, gear: Gear, outcome: &Outcome, snapshot: &Snapshot) -> Self {
-        Self::new(pair, gear, &outcome.grid[gear], &outcome.zones[gear], &snapshot.wear_mm[gear])
+        let of_points = Self::new(pair, gear, &outcome.grid[gear], &outcome.zones[gear], &snapshot.wear_mm[gear]);
+        match &snapshot.lost_at_nodes {
+            Some(lost) => Self { area_mm2: lost[gear].wear_mm2, ..of_points },
+            None => of_points,
+        }
     }
 }
 

@@ -134,4 +134,9 @@ impl WearSettings {
     pub fn archard(coefficient_mm2_per_n: f64) -> Self {
         Self { law: LawSettings::Archard, coefficient_mm2_per_n, severe: None }
     }
+
+    /// The coefficient, mm²/N, where it is the same at every pressure and temperature.
+    pub fn constant_coefficient_mm2_per_n(&self) -> Option<f64> {
+        (self.law == LawSettings::Archard && self.severe.is_none()).then_some(self.coefficient_mm2_per_n)
+    }
 }

@@ -103,7 +103,8 @@ fn val_the_surface_model_tells_the_difference_of_whole_runs() {
 #[test]
 fn companions_cost_at_most_half_of_the_run() {
     for surface in ["winkler", "hertz", "hertz-mean", "half-space"] {
-        for (by, step) in [(2, 7_665.0), (4, 100_000.0)] {
+        let longer = (surface == "winkler").then_some((2, 7_665.0));
+        for (by, step) in [(4, 100_000.0)].into_iter().chain(longer) {
             let error = run(&with(surface, by, step)).error;
             let cost = error.companions_cost.expect("estimates were made");
             // Nothing is run where longer steps would swing: on half-planes with the longer of both.

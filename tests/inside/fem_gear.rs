@@ -155,13 +155,13 @@ fn rounded() -> PairSpec {
 fn ver_pressure_at_a_rounded_tip_converges() {
     let pair = GearPair::new(&rounded()).unwrap();
     let at = [pair.path.start_mm, pair.path.start_mm + 0.3, pair.path.end_mm];
-    let peaks = [6.0, 9.0, 13.0].map(|n| {
+    let [middle, fine] = [6.0, 9.0].map(|n| {
         let solved = cycle(&model(&pair, settings(Body::Ring, n)), &at, line_load(&pair)).unwrap();
         assert!(solved.iter().flat_map(|at| &at.pairs).all(|contact| !contact.at_sharp_edge));
         solved.iter().map(|at| at.pairs.iter().map(|p| p.peak_pressure_mpa).fold(0.0, f64::max)).collect::<Vec<_>>()
     });
-    println!("{peaks:?}");
-    for ((_, middle), fine) in peaks[0].iter().zip(&peaks[1]).zip(&peaks[2]) {
+    println!("{middle:?} {fine:?}");
+    for (middle, fine) in middle.iter().zip(&fine) {
         assert_close("peak at the rounded tip", *middle, *fine, 0.03);
     }
 }

@@ -28,6 +28,7 @@ mod life;
 mod lubrication;
 mod mesh_files;
 mod mesh_files_fuzz;
+mod mesh_stiffness;
 mod peak_figures;
 mod phases;
 mod plan;

@@ -25,7 +25,7 @@
 //! solved with true logarithms, contacts coming and going ([`LoadedPosition::settle`]).
 
 use super::lanes::{LANES, Lanes};
-use crate::mesh_cycle::bent_tooth::ContactTangent;
+use crate::mesh_cycle::bent_tooth::{Bend, ContactTangent};
 use crate::mesh_cycle::coupled_teeth::CoupledTeeth;
 
 /// Correction over load at which an equilibrium that is followed is accepted.
@@ -292,7 +292,7 @@ fn bend(teeth: &mut CoupledTeeth, packs: &[Pack], tangents: &mut [Tangent], line
             approach_mm: tangents[pack].approach_mm.0[lane],
         }
     };
-    let Some(approach_mm) = teeth.bend(line_load, tangent) else { return f64::NAN };
+    let Some(Bend { delta_mm: approach_mm, .. }) = teeth.bend(line_load, tangent) else { return f64::NAN };
     teeth.each_deflection_mm(|at, _, deflection_mm| {
         tangents[at / LANES].approach_mm.0[at % LANES] += deflection_mm;
     });

@@ -147,6 +147,7 @@ impl<'a> SimplifiedPair<'a> {
                 phases.push(ObservedSlicedPosition {
                     position_mm: loaded.position_mm,
                     transmission_error_mm: loaded.transmission_error_mm + self.bodies_mm,
+                    stiffness_n_per_mm2: None,
                     load_imbalance: total / load - 1.0,
                     contacts,
                 });
@@ -268,7 +269,14 @@ impl WearingPair for SimplifiedPair<'_> {
         // Closed forms know no tip edges.
         let felt = Gear::BOTH.into_iter().flat_map(|gear| &pressure_mpa[gear]);
         felt.for_each(|&pressure| greatest_pressure.note(pressure, false));
-        let cycle = CycleObservation { positions, greatest_pressure, pressure_mpa, sliding_mm, slices: Some(mesh) };
-        Ok(Snapshot { revolutions, wear_mm, depth_per_mesh_mm: depth_mm, cycle })
+        let cycle = CycleObservation {
+            positions,
+            greatest_pressure,
+            pressure_mpa,
+            sliding_mm,
+            sliding_work_n: None,
+            slices: Some(mesh),
+        };
+        Ok(Snapshot { revolutions, wear_mm, depth_per_mesh_mm: depth_mm, lost_at_nodes: None, cycle })
     }
 }

@@ -10,7 +10,10 @@ use crate::results::run::{MeshCycleRow, RunRecord};
 pub(super) const ALONE: f64 = 0.9995;
 
 pub(super) fn all(record: &RunRecord) -> Vec<Chart> {
-    vec![load_sharing(record), transmission_error(record), pressure(record)]
+    let mut charts = vec![load_sharing(record), transmission_error(record)];
+    charts.extend(mesh_stiffness(record));
+    charts.push(pressure(record));
+    charts
 }
 
 fn load_sharing(record: &RunRecord) -> Chart {
@@ -48,6 +51,32 @@ pub(super) fn transmission_error(record: &RunRecord) -> Chart {
     let chart =
         Chart::new("transmission-error", "Loaded transmission error").y("transmission error, µm").reading(reading);
     over_cycle(record, chart, [|r| r.transmission_error_new_um, |r| r.transmission_error_worn_um], "%{y:.3f} µm")
+}
+
+/// None where the model does not give it.
+pub(super) fn mesh_stiffness(record: &RunRecord) -> Option<Chart> {
+    let column = |value: fn(&MeshCycleRow) -> Option<f64>| record.mesh_cycle.iter().map(value).collect();
+    let new: Option<Vec<f64>> = column(|r| r.mesh_stiffness_new_N_per_mm_um);
+    let worn: Option<Vec<f64>> = column(|r| r.mesh_stiffness_worn_N_per_mm_um);
+    let (new, worn) = (new?, worn?);
+    let extent = |values: &[f64]| {
+        let (low, high) =
+            values.iter().fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), &k| (low.min(k), high.max(k)));
+        format!("{} to {}", figure(low), figure(high))
+    };
+    let reading = match record.mesh_cycle.is_empty() {
+        true => NOT_COMPUTED.into(),
+        false => format!(
+            "About the load of the run, all pairs in contact together resist with {} N/(mm·µm) new and {} N/(mm·µm) worn.",
+            extent(&new),
+            extent(&worn)
+        ),
+    };
+    let top = new.iter().chain(&worn).copied().fold(0.0, f64::max);
+    let chart = Chart::new("mesh-stiffness", "Mesh stiffness").y("mesh stiffness, N/(mm·µm)").y_up_to(top);
+    let positions: Vec<f64> = record.mesh_cycle.iter().map(|row| row.position_mm).collect();
+    let chart = chart.reading(reading).new_and_worn(&positions, new, worn, "%{y:.2f} N/(mm·µm)");
+    Some(chart.over_path(&record.summary.geometry.curvature_radius_mm))
 }
 
 fn pressure(record: &RunRecord) -> Chart {

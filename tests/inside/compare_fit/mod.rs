@@ -22,7 +22,7 @@ fn scene(coefficient: f64, severe_factor: f64) -> String {
 }
 
 const TRUE_K: f64 = 1.7e-17;
-const SEEDS: u64 = 100;
+const SEEDS: u64 = 50;
 
 static LABORATORY: LazyLock<Laboratory> = LazyLock::new(|| Laboratory::new(&scene(1e-17, 1.0), &scene(TRUE_K, 1.0)));
 
@@ -90,7 +90,7 @@ fn ver_the_own_coefficient_of_the_measured_gear_comes_back() {
     }
 }
 
-/// White noise of 5 % of the greatest depth: the 95 % interval holds the true coefficient for 90 to 100 of 100 seeds.
+/// White noise of 5 % of the greatest depth: the 95 % interval holds the true coefficient for 44 to 50 of 50 seeds.
 #[test]
 fn ver_the_interval_covers_as_often_as_it_says_white_noise() {
     let of = &*SHORT;
@@ -98,7 +98,7 @@ fn ver_the_interval_covers_as_often_as_it_says_white_noise() {
         let ask = Asked { form: Some(form), ..asked(FitKind::K) };
         let count = covered(of, &ask, &[0.0; POINTS], |noise| noise.white(POINTS));
         println!("{form:?}: {count} of {SEEDS}");
-        assert!((90..=100).contains(&count), "{form:?}: {count}");
+        assert!((44..=50).contains(&count), "{form:?}: {count}");
     }
 }
 
@@ -110,7 +110,7 @@ fn ver_form_and_shift_are_taken_out() {
     let ask = Asked { shift_within_mm: 0.1, ..asked(FitKind::K) };
     let count = covered(of, &ask, &form, |noise| noise.white(POINTS));
     println!("{count} of {SEEDS}");
-    assert!((90..=100).contains(&count), "{count}");
+    assert!((44..=50).contains(&count), "{count}");
 
     // Noiseless, the cubic takes nothing of the coefficient; and the same trace 0.04 mm towards the root of where it was taken.
     let z: Vec<f64> = heights(of, &[0.0; POINTS]).iter().zip(&form).map(|(z, form)| z + form).collect();
@@ -123,14 +123,14 @@ fn ver_form_and_shift_are_taken_out() {
 }
 
 /// Noise whose neighbours depend on each other, as of a stylus wider than their distance: the interval is still honest, within
-/// what 100 seeds tell, where the textbook's would hold far less often.
+/// what 50 seeds tell, where the textbook's would hold far less often.
 #[test]
 fn ver_the_interval_covers_as_often_as_it_says_correlated_noise() {
     let of = &*SHORT;
     for rho in [0.5, 0.8] {
         let count = covered(of, &asked(FitKind::K), &[0.0; POINTS], |noise| noise.correlated(POINTS, rho));
         println!("correlation {rho}: {count} of {SEEDS}");
-        assert!((88..=100).contains(&count), "{rho}: {count}");
+        assert!((43..=50).contains(&count), "{rho}: {count}");
     }
 }
 

@@ -198,6 +198,9 @@ fn mesh_cycle() -> Vec<MeshCycleRow> {
                 peclet_wheel: None,
                 at_sharp_edge_new: false,
                 at_sharp_edge_worn: false,
+                pinion_rotation_deg: position_mm - CURVATURE.C,
+                mesh_stiffness_new_N_per_mm_um: Some(if alone { 15.0 } else { 21.0 }),
+                mesh_stiffness_worn_N_per_mm_um: Some(if alone { 14.8 } else { 20.5 }),
             }
         })
         .collect()

@@ -29,6 +29,7 @@ pub(super) fn figures(run: SlicedRun<'_>) -> Vec<Chart> {
     figures.extend(load_maps::new_and_worn(run));
     figures.extend([tooth_cycle::load_share(run), tooth_cycle::pressure(run)]);
     figures.extend([cycle_plots::transmission_error(run.record), mesh_orders::new_and_worn(run)]);
+    figures.extend(cycle_plots::mesh_stiffness(run.record));
     figures.extend(temperature_plot::all(run.record));
     figures.extend(film_plot::all(run.record));
     figures.push(history_plot::wear_against_time(run.record));
