@@ -81,8 +81,8 @@ pub(crate) fn section(pair: &GearPair, gear: Gear, at: LoadedAt) -> Option<RootS
     let (m_n, alpha) = (spec.normal_module_mm, spec.normal_pressure_angle_rad);
     let (rack, shift) = (spec.rack, spec.generating_shift_mm(gear) / m_n);
     let (rho, contact_ratio) = (rack.fillet_radius_factor, virtual_contact_ratio(pair));
-    let teeth = f64::from(spec.gears[gear].teeth)
-        / (pair.base_helix_angle_rad().cos().powi(2) * spec.helix_angle_rad.cos());
+    let teeth =
+        f64::from(spec.gears[gear].teeth) / (pair.base_helix_angle_rad().cos().powi(2) * spec.helix_angle_rad.cos());
 
     let g = rho - rack.dedendum_factor + shift;
     let e = FRAC_PI_4 - rack.dedendum_factor * alpha.tan() - (1.0 - alpha.sin()) * rho / alpha.cos();
@@ -122,6 +122,7 @@ pub(crate) fn section(pair: &GearPair, gear: Gear, at: LoadedAt) -> Option<RootS
         load_angle_rad: load_angle,
         form_factor,
         stress_correction_factor,
-        stress_per_load_per_mm: form_factor * stress_correction_factor * helix_factor(pair) * contact_ratio_factor / m_n,
+        stress_per_load_per_mm: form_factor * stress_correction_factor * helix_factor(pair) * contact_ratio_factor
+            / m_n,
     })
 }

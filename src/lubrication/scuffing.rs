@@ -13,7 +13,8 @@
 //!            θ_int = θ_oil + 0.7 X_S θ_flaE X_ε + 1.5 θ_flaE X_ε
 //! ```
 //!
-//! The flash temperature has no K_Bγ, in friction neither, and the approach factor X_J is 1. μ is the mean value of each standard, X_ε a sum over ε₁ and ε₂ ([`contact_ratio_factor`]), X_Q = 1 up to ε before C of 1.5 times that after it, falling to 0.6 at 3 times, and
+//! The flash temperature has no K_Bγ, nor has its friction; its approach factor X_J is left at 1. μ is the mean value of each standard, X_ε a sum
+//! over ε₁ and ε₂ ([`contact_ratio_factor`]), X_Q = 1 up to ε before C of 1.5 times that after it, falling to 0.6 at 3 times, and
 //! with C_a of the relief and C_eff = K_A F_t/(b c_γα)
 //!
 //! ```text

@@ -3,8 +3,8 @@
 use super::lubrication::Observed;
 use super::temperature::{self, ObservedHeat};
 use super::{
-    Model, RunError, UM_PER_MM, drawing, error_estimates, left_out_contact, phases, root_stress, slices, stability::Judged,
-    verification::Verified,
+    Model, RunError, UM_PER_MM, drawing, error_estimates, left_out_contact, phases, root_stress, slices,
+    stability::Judged, verification::Verified,
 };
 use crate::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
 use crate::mesh_cycle::CycleObservation;
