@@ -1,6 +1,6 @@
 //! Nominal root stress of the standards against the fillet that the rack cuts. Printed figures are in the case `micropitting-method-b`.
 
-use gearwear::gear::{Gear, GearPair};
+use gearwear::gear::{Gear, GearPair, spec::BasicRack};
 use gearwear::root_stress::{LoadedAt, section};
 use nalgebra::{Rotation2, Vector2};
 
@@ -48,7 +48,7 @@ fn prop_single_pair_contact_is_below_the_tip_and_may_not_exist() {
         assert_eq!(alone.thickness_mm, tip.thickness_mm);
     }
     let mut tall = spur(2.0, 120.0, 20.0, gear(60, 0.0, Some(125.2)), gear(60, 0.0, Some(125.2)));
-    (tall.rack.addendum_factor, tall.rack.dedendum_factor) = (1.3, 1.55);
+    tall.rack = BasicRack { addendum_factor: 1.3, dedendum_factor: 1.55, fillet_radius_factor: 0.25 };
     let tall = GearPair::new(&tall).unwrap();
     assert!(tall.path.contact_ratio() > 2.0);
     assert!(section(&tall, Gear::Pinion, LoadedAt::SinglePairContact).is_none());
