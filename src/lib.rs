@@ -120,6 +120,7 @@ pub mod reference;
 mod report;
 pub mod results;
 mod resume;
+mod root_stress;
 mod scene;
 mod simulation;
 mod stiffness;

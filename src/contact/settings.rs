@@ -103,7 +103,15 @@ pub struct Material {
     pub density_kg_per_m3: f64,
 }
 
+/// Metals are stiffer, plastics softer, those filled with glass too, MPa.
+const STIFFEST_PLASTIC_MPA: f64 = 25e3;
+
 impl Material {
+    /// Whether it is so soft that it must be a plastic.
+    pub(crate) fn is_plastic(self) -> bool {
+        self.young_modulus_mpa < STIFFEST_PLASTIC_MPA
+    }
+
     /// The elastic constants alone.
     pub fn elastic(self) -> Elastic {
         Elastic { young_modulus_mpa: self.young_modulus_mpa, poisson_ratio: self.poisson_ratio }

@@ -17,8 +17,22 @@
 
 use std::f64::consts::PI;
 
+use crate::gear::{Gear, GearPair};
+
+/// H_V of a pair.
+pub(crate) fn of_pair(pair: &GearPair) -> f64 {
+    let teeth = Gear::BOTH.map(|gear| pair.spec.gears[gear].teeth);
+    ohlendorf(teeth, pair.base_helix_angle_rad(), contact_ratios(pair))
+}
+
+/// ε₁ after C and ε₂ before it.
+pub(crate) fn contact_ratios(pair: &GearPair) -> [f64; 2] {
+    let path = &pair.path;
+    [path.end_mm - path.pitch_point_mm, path.pitch_point_mm - path.start_mm].map(|length| length / path.base_pitch_mm)
+}
+
 /// H_V.
-pub(crate) fn ohlendorf(teeth: [u32; 2], base_helix_angle_rad: f64, after_and_before_pitch_point: [f64; 2]) -> f64 {
+fn ohlendorf(teeth: [u32; 2], base_helix_angle_rad: f64, after_and_before_pitch_point: [f64; 2]) -> f64 {
     let [z1, z2] = teeth.map(f64::from);
     let [after, before] = after_and_before_pitch_point;
     // (u + 1)/(z₁ u) is 1/z₁ + 1/z₂.

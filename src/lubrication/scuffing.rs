@@ -4,7 +4,7 @@
 //! X_αβ = 1.22 sin^¼ α_wt cos^¼ α_wn / √(cos α_wt cos α_t),
 //!
 //! ```text
-//! flash      θ_fl = μ X_M X_G X_αβ (X_Γ K_Bγ w_Bt)^¾ √v / a^¼
+//! flash      θ_fl = μ X_M X_G X_αβ (X_Γ w_Bt)^¾ √v / a^¼
 //!            X_G  = 0.51 √(u+1) |√(1+Γ) − √(1−Γ/u)| / [(1+Γ)^¼ (u−Γ)^¼]
 //!            θ_M  = θ_oil + 0.47 X_S mean θ_fl          θ_B = θ_M + greatest θ_fl
 //!
@@ -13,7 +13,8 @@
 //!            θ_int = θ_oil + 0.7 X_S θ_flaE X_ε + 1.5 θ_flaE X_ε
 //! ```
 //!
-//! μ is the mean value of each standard, X_ε a sum over ε₁ and ε₂ ([`contact_ratio_factor`]), X_Q = 1 up to ε before C of 1.5 times that after it, falling to 0.6 at 3 times, and
+//! The flash temperature has no K_Bγ, nor has its friction; its approach factor X_J is left at 1. μ is the mean value of each standard, X_ε a sum
+//! over ε₁ and ε₂ ([`contact_ratio_factor`]), X_Q = 1 up to ε before C of 1.5 times that after it, falling to 0.6 at 3 times, and
 //! with C_a of the relief and C_eff = K_A F_t/(b c_γα)
 //!
 //! ```text
@@ -38,8 +39,10 @@ pub(crate) struct ScuffingConditions {
     pub working_normal_angle_rad: f64,
     /// α_t, rad.
     pub transverse_angle_rad: f64,
-    /// K_Bγ w_Bt, N/mm.
+    /// w_Bt, N/mm.
     pub tangential_load_n_per_mm: f64,
+    /// K_Bγ.
+    pub helical_load_factor: f64,
     /// v, circumferential speed at the reference circle, m/s.
     pub circumferential_speed_m_per_s: f64,
     /// a, mm.
@@ -49,7 +52,7 @@ pub(crate) struct ScuffingConditions {
 }
 
 impl ScuffingConditions {
-    /// X_M X_αβ (K_Bγ w_Bt)^¾ √v / a^¼, K.
+    /// X_M X_αβ w_Bt^¾ √v / a^¼, K.
     fn common_k(&self) -> f64 {
         let (wt, wn, t) = (self.working_transverse_angle_rad, self.working_normal_angle_rad, self.transverse_angle_rad);
         let x_m = self.reduced_modulus_mpa.powf(0.25) * 1e3f64.sqrt() / (1e-3 * self.thermal_contact_w_s05_per_m2_k);
@@ -75,7 +78,8 @@ impl ScuffingConditions {
     ) -> f64 {
         let (u, [rho_1, rho_2]) = (self.gear_ratio, radii_mm);
         let x_be = 0.51 * (u + 1.0).sqrt() * (rho_1.sqrt() - (rho_2 / u).sqrt()).abs() / (rho_1 * rho_2).powf(0.25);
-        friction_coefficient * self.common_k() * x_be / relief_and_approach
+        let helical = self.helical_load_factor.powf(0.75);
+        friction_coefficient * self.common_k() * helical * x_be / relief_and_approach
     }
 }
 

@@ -117,18 +117,6 @@ impl<'a> Running<'a> {
         W_PER_N_MM_PER_S * force * base_radius * self.angular_speed_per_s.pinion
     }
 
-    /// ε₁ after C and ε₂ before it.
-    pub(super) fn contact_ratios(&self) -> [f64; 2] {
-        let path = &self.pair.path;
-        [path.end_mm - path.pitch_point_mm, path.pitch_point_mm - path.start_mm]
-            .map(|length| length / path.base_pitch_mm)
-    }
-
-    fn loss_factor(&self) -> f64 {
-        let teeth = Gear::BOTH.map(|gear| self.pair.spec.gears[gear].teeth);
-        loss::ohlendorf(teeth, self.pair.base_helix_angle_rad(), self.contact_ratios())
-    }
-
     /// Surfaces at a place, with the load and pressure there.
     pub(super) fn contact(&self, position_mm: f64, line_load_n_per_mm: f64, peak_pressure_mpa: f64) -> RollingContact {
         RollingContact {
@@ -159,7 +147,7 @@ impl<'a> Running<'a> {
             ra_um: 0.5 * settings.roughness.map(|roughness| roughness.ra_um).sum(),
             lubricant_factor: settings.lubricant_factor.unwrap_or_else(usual),
         };
-        let loss_kw = 1e-3 * self.power_w() * mean.iso_6336_22() * self.loss_factor();
+        let loss_kw = 1e-3 * self.power_w() * mean.iso_6336_22() * loss::of_pair(self.pair);
         let spec = &self.pair.spec;
         let of_standard = || {
             let supply = settings.supply.factor();
@@ -443,7 +431,7 @@ fn friction_summary(running: &Running<'_>, work: &Work) -> FrictionSummary {
 fn losses(running: &Running<'_>, work: &Work) -> LossSummary {
     let power = running.power_w();
     LossSummary {
-        loss_factor_ohlendorf: running.loss_factor(),
+        loss_factor_ohlendorf: loss::of_pair(running.pair),
         loss_factor_local_new: work.sliding_w[0] / power,
         loss_factor_local_worn: work.sliding_w[1] / power,
         power_W: power,

@@ -15,6 +15,7 @@ mod lubrication;
 pub(crate) mod pair_mesh;
 mod phases;
 mod recording;
+mod root_stress;
 mod scuffing;
 mod slices;
 mod stability;
@@ -272,7 +273,6 @@ fn carry_out<R>(
     let pair = stages.run(StageKind::Geometry.name(), || GearPair::new(&scene.pair))?;
     let at_pitch = hertz::flattening(&pair, &scene.material, pair.path.pitch_point_mm);
     let line_load = |phase: &Phase| pair.line_load_n_per_mm(phase.pinion_torque_n_mm);
-    let base_radius = pair.path.involute.pinion.base_radius_mm;
     // One model of finite elements serves the stiffness of the teeth and the verification.
     let elements = match plan.has(StageKind::FiniteElementModel) && scene.contact.surface != SurfaceKind::Fem {
         true => Some(stages.run(StageKind::FiniteElementModel.name(), || {
@@ -355,13 +355,7 @@ fn carry_out<R>(
         .operation
         .phases
         .iter()
-        .map(|phase| {
-            let heat = scene
-                .heat
-                .zip(phase.pinion_speed_rpm)
-                .map(|(settings, rpm)| ContactHeat::new(settings, base_radius * std::f64::consts::TAU * rpm / 60.0));
-            (wear::of_both(&scene.wear_in(phase)), heat)
-        })
+        .map(|phase| (wear::of_both(&scene.wear_in(phase)), temperature::in_phase(scene, &pair, phase)))
         .collect();
     let foundations_mpa_per_mm = case_of_phase.iter().map(|&case| cases[case].foundation_mpa_per_mm).collect();
     let phases: Vec<RunPhase<'_>> = scene

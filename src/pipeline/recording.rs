@@ -3,8 +3,8 @@
 use super::lubrication::Observed;
 use super::temperature::{self, ObservedHeat};
 use super::{
-    Model, RunError, UM_PER_MM, drawing, error_estimates, left_out_contact, phases, slices, stability::Judged,
-    verification::Verified,
+    Model, RunError, UM_PER_MM, drawing, error_estimates, left_out_contact, phases, root_stress, slices,
+    stability::Judged, verification::Verified,
 };
 use crate::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
 use crate::mesh_cycle::CycleObservation;
@@ -98,6 +98,8 @@ pub(super) fn summary(
     let wear_of_gear = temperature::law_of_gear(model, found.heat);
     let mut warnings = resolved.warnings.clone();
     warnings.extend(temperature::all_warnings(wear.as_ref(), &wear_of_gear));
+    let temperature = found.heat.and_then(|heat| temperature::summary(model, heat));
+    warnings.extend(temperature::tooth_warning(scene, temperature.as_ref()));
     warnings.extend(judged.warnings);
     warnings.extend(sharp_edge_warning(pair, outcome));
     warnings.extend(left_out_contact::warning(model, outcome));
@@ -137,9 +139,10 @@ pub(super) fn summary(
         reference_phase: outcome.reference_phase + 1,
         phases: phases::summaries(model, outcome),
         stiffness: stiffness(model)?,
+        root_stress: root_stress::summary(pair, model.reference().line_load_n_per_mm),
         wear,
         wear_of_gear,
-        temperature: found.heat.and_then(|heat| temperature::summary(model, heat)),
+        temperature,
         lubrication: found.lubrication.map(|observed| observed.summary.clone()),
         new: cycle(pair, &outcome.new.cycle),
         worn: cycle(pair, &outcome.worn.cycle),

@@ -3,6 +3,7 @@
 use super::lubrication::{OilInMesh, Running};
 use crate::contact::settings::Material;
 use crate::gear::{Gear, PerGear};
+use crate::lubrication::loss;
 use crate::lubrication::scuffing::{ScuffingConditions, approach_factor, contact_ratio_factor, tip_relief_factor};
 use crate::results::lubrication::ScuffingSummary;
 use crate::stiffness::iso6336::single_stiffness_n_per_mm2;
@@ -31,7 +32,8 @@ pub(super) fn summary(running: &Running<'_>, oil: &OilInMesh, material: &PerGear
         working_transverse_angle_rad: pair.working_pressure_angle_rad,
         working_normal_angle_rad: working_normal.asin(),
         transverse_angle_rad,
-        tangential_load_n_per_mm: factors.product() * oil.mean.helical_factor * tangential,
+        tangential_load_n_per_mm: factors.product() * tangential,
+        helical_load_factor: oil.mean.helical_factor,
         circumferential_speed_m_per_s: 1e-3
             * running.angular_speed_per_s.pinion
             * spec.reference_radius_mm(Gear::Pinion),
@@ -49,7 +51,7 @@ pub(super) fn summary(running: &Running<'_>, oil: &OilInMesh, material: &PerGear
     let mean_flash_k = (rises.iter().sum::<f64>() - ends) / PLACES as f64;
     let (oil_c, supply) = (oil.settings.temperature_c, oil.settings.supply.factor());
 
-    let [after, before] = running.contact_ratios();
+    let [after, before] = loss::contact_ratios(pair);
     let integral_friction = oil.mean.iso_6336_21();
     let relief_um = Gear::BOTH
         .map(|gear| spec.gears[gear].modification.tip_relief.map_or(0.0, |relief| 1e3 * relief.amount_mm))

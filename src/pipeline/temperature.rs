@@ -1,15 +1,77 @@
-//! The temperatures of the new and the worn pair, and what is said of them and of the wear law.
+//! The temperatures of the new and the worn pair and of their teeth, and what is said of them and of the wear law.
+
+use std::f64::consts::TAU;
 
 use super::Model;
 use crate::contact::settings::SurfaceKind;
-use crate::gear::{Gear, PerGear};
+use crate::gear::{Gear, GearPair, PerGear};
+use crate::lubrication::loss;
 use crate::mesh_cycle::wearing_pair::Snapshot;
-use crate::results::chemistry::{GreatestRise, RisesByMethod, TemperatureSummary, WearLawSummary};
+use crate::results::chemistry::{
+    GreatestRise, RisesByMethod, TemperatureSummary, ToothTemperatureSummary, WearLawSummary,
+};
+use crate::scene::Scene;
 use crate::simulation::heat_observation::{HeatObservation, HeatObserver, LawInHeat, LawOverMesh};
-use crate::simulation::wear_run::Outcome;
+use crate::simulation::settings::Phase;
+use crate::simulation::wear_run::{Outcome, reference_phase};
+use crate::thermal::ContactHeat;
 use crate::thermal::band::Spread;
 use crate::thermal::settings::{ABSOLUTE_ZERO_C, TemperatureMethod};
+use crate::thermal::tooth::{ToothTemperatures, WarmGear};
 use crate::wear::regime::{MM3_PER_NM, Regime};
+
+/// W per N·mm/s.
+const W_PER_N_MM_PER_S: f64 = 1e-3;
+
+/// Friction heat of a phase; none where nobody asks for temperatures.
+pub(super) fn in_phase(scene: &Scene, pair: &GearPair, phase: &Phase) -> Option<ContactHeat> {
+    let mut settings = scene.heat?;
+    let pinion_per_s = TAU * phase.pinion_speed_rpm? / 60.0;
+    if let Some(teeth) = teeth(scene, pair, phase)
+        && settings.tooth.is_some_and(|tooth| tooth.is_bulk)
+    {
+        settings.bulk_temperature_k = 0.5 * (teeth.pinion.flank_c + teeth.wheel.flank_c) - ABSOLUTE_ZERO_C;
+    }
+    Some(ContactHeat::new(settings, pair.path.involute.pinion.base_radius_mm * pinion_per_s))
+}
+
+/// The teeth of each gear in a phase; none where nobody asks.
+fn teeth(scene: &Scene, pair: &GearPair, phase: &Phase) -> Option<PerGear<ToothTemperatures>> {
+    let heat = scene.heat?;
+    let tooth = heat.tooth?;
+    let pinion_per_s = TAU * phase.pinion_speed_rpm? / 60.0;
+    let power_w = W_PER_N_MM_PER_S * phase.pinion_torque_n_mm * pinion_per_s;
+    let loss_w = power_w * heat.friction_coefficient * loss::of_pair(pair);
+    Some(PerGear::from_fn(|gear| {
+        let warm = WarmGear {
+            teeth: pair.spec.gears[gear].teeth,
+            face_width_mm: pair.spec.face_width_mm,
+            pitch_velocity_m_per_s: 1e-3 * pair.working_pitch_radius_mm(Gear::Pinion) * pinion_per_s,
+            normal_module_mm: pair.spec.normal_module_mm,
+        };
+        tooth.temperatures(&warm, loss_w)
+    }))
+}
+
+/// What the user should know of the material of plastic teeth: it is as stiff as the scene says, however warm.
+pub(super) fn tooth_warning(scene: &Scene, summary: Option<&TemperatureSummary>) -> Option<String> {
+    let teeth = summary?.tooth?;
+    let warm: Vec<String> = Gear::BOTH
+        .into_iter()
+        .filter(|&gear| scene.material[gear].is_plastic())
+        .map(|gear| {
+            let (name, at, modulus) = (gear.name(), teeth[gear], 1e-3 * scene.material[gear].young_modulus_mpa);
+            format!("{name} {:.0} °C at the flank and {:.0} °C at the root, with {modulus} GPa", at.flank_C, at.root_C)
+        })
+        .collect();
+    (!warm.is_empty()).then(|| {
+        format!(
+            "[temperature.tooth] {}: Young's modulus and wear coefficient are taken as given at every temperature; those of plastics change as \
+             they warm, so that they are to be given at these",
+            warm.join("; ")
+        )
+    })
+}
 
 /// Heat of the new and of the worn pair.
 pub(super) struct ObservedHeat {
@@ -51,7 +113,9 @@ pub(super) fn observe_at(
 
 /// What the summary says of the temperatures.
 pub(super) fn summary(model: &Model<'_>, observed: &ObservedHeat) -> Option<TemperatureSummary> {
-    let settings = model.scene.heat?;
+    let phase = reference_phase(&model.phases);
+    let settings = model.phases[phase].wear.heat?.settings;
+    let teeth = teeth(model.scene, model.pair, &model.scene.operation.phases[phase]);
     let (new, worn) = (observed.new.greatest_rise_k(), observed.worn.greatest_rise_k());
     let by = |k: usize| GreatestRise { greatest_rise_new_K: new[k], greatest_rise_worn_K: worn[k] };
     let own = by(settings.method.index());
@@ -62,6 +126,7 @@ pub(super) fn summary(model: &Model<'_>, observed: &ObservedHeat) -> Option<Temp
         partition: settings.partition,
         friction_coefficient: settings.friction_coefficient,
         bulk_temperature_C: settings.bulk_temperature_k + ABSOLUTE_ZERO_C,
+        tooth: teeth.map(|both| both.map(|at| ToothTemperatureSummary { flank_C: at.flank_c, root_C: at.root_c })),
         greatest_rise_new_K: own.greatest_rise_new_K,
         greatest_rise_worn_K: own.greatest_rise_worn_K,
         peclet_min,

@@ -251,10 +251,14 @@ fn contact_temperature(scene: &Scene) -> Result<String, String> {
     let reads_temperature = [scene.wear.pinion, scene.wear.wheel].iter().any(|own| own.law.reads_temperature());
     match (scene.heat, reads_temperature) {
         (None, _) => Err(format!("the wear law {law} asks for no temperature, and neither does the scene")),
-        (Some(_), false) => Ok("[temperature] asks for it; by all methods, new and worn".to_owned()),
-        (Some(_), true) => Ok(format!(
-            "the wear law {law} reads it at every point during the simulation; by all methods, new and worn"
-        )),
+        (Some(heat), reads) => {
+            let why = match reads {
+                false => "[temperature] asks for it".to_owned(),
+                true => format!("the wear law {law} reads it at every point during the simulation"),
+            };
+            let tooth = if heat.tooth.is_some() { "; of the teeth by VDI 2736-2" } else { "" };
+            Ok(format!("{why}; by all methods, new and worn{tooth}"))
+        }
     }
 }
 

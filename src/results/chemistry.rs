@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::gear::PerGear;
+
 pub use crate::thermal::settings::{HeatPartition, HeatVelocity, TemperatureMethod};
 pub use crate::wear::regime::Regime;
 
@@ -48,6 +50,8 @@ pub struct TemperatureSummary {
     pub friction_coefficient: f64,
     /// Of the gears away from the contact.
     pub bulk_temperature_C: f64,
+    /// Of the teeth of each gear by VDI 2736-2; `None` where nobody asks for them.
+    pub tooth: Option<PerGear<ToothTemperatureSummary>>,
     /// Maximum rise above it over a mesh, new.
     pub greatest_rise_new_K: f64,
     /// The same, worn.
@@ -58,6 +62,16 @@ pub struct TemperatureSummary {
     pub peclet_max: f64,
     /// Maximum rise by every method.
     pub by_method: RisesByMethod,
+}
+
+/// Temperature of the teeth of a plastic gear.
+#[allow(non_snake_case, reason = "names that end in their unit")]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ToothTemperatureSummary {
+    /// At the flank.
+    pub flank_C: f64,
+    /// At the root.
+    pub root_C: f64,
 }
 
 /// Maximum rise over a mesh by every method.

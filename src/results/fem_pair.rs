@@ -9,6 +9,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fem_problem::NodalStress;
+use super::root_stress::RootStressSummary;
 use super::run::{ContactSummary, GeometrySummary, PathPoints, RangeSummary, StageTime, StopReason};
 use crate::fem::solid::Element;
 use crate::gear::PerGear;
@@ -68,6 +69,8 @@ pub struct FemPairSummary {
     pub points: Option<PathPointsSummary>,
     /// Stress at the roots of the reference pair's teeth; `None` where no position was solved.
     pub root: PerGear<Option<RootSummary>>,
+    /// Nominal stress there by the standards.
+    pub root_stress: PerGear<RootStressSummary>,
     /// How well equilibrium was met.
     pub checks: ChecksSummary,
     /// The whole model without condensation against the condensed one, position by position; `None` where not asked for.

@@ -11,5 +11,6 @@ pub mod life;
 pub mod lubrication;
 pub mod path_points;
 pub mod reported_by;
+pub mod root_stress;
 pub mod run;
 pub(crate) mod worn_pair;

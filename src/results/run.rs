@@ -13,6 +13,7 @@ use super::life::LifeSummary;
 use super::lubrication::{FilmRow, LubricationSummary};
 pub use super::path_points::PathPoints;
 pub use super::reported_by::ReportedBy;
+use super::root_stress::RootStressSummary;
 use crate::gear::{PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
 
 /// A finished (or interrupted) run.
@@ -86,6 +87,8 @@ pub struct Summary {
     pub phases: Vec<PhaseSummary>,
     /// Of the tooth pair as a spring; `None` with finite elements, whose teeth are no springs.
     pub stiffness: Option<StiffnessSummary>,
+    /// Nominal stress at the roots of each gear by the standards.
+    pub root_stress: PerGear<RootStressSummary>,
     /// Of the wear law; `None` where each gear has its own.
     pub wear: Option<WearLawSummary>,
     /// Of the wear law of each gear.

@@ -53,6 +53,7 @@ pub(super) fn find(scene: &Table) -> Vec<UnitSlip> {
     search.materials();
     search.contact_and_wear();
     search.lubrication();
+    search.teeth_of_plastic();
     search.slips
 }
 
@@ -239,6 +240,13 @@ impl Search<'_> {
         self.judge("lubricant.pressure_viscosity_per_GPa", [2.0, 100.0], [3.0, 80.0], &conversions);
         let conversions = [(1e3, "g/cm³ given for kg/m³")];
         self.judge("lubricant.density_15C_kg_per_m3", [500.0, 2000.0], [500.0, 2000.0], &conversions);
+    }
+
+    fn teeth_of_plastic(&mut self) {
+        let conversions = [(1e-6, "mm² given for m²"), (1e-4, "cm² given for m²")];
+        self.judge("temperature.tooth.housing_area_m2", [1e-5, 20.0], [1e-3, 5.0], &conversions);
+        let conversions = [(0.01, "% given for a part of 1")];
+        self.judge("temperature.tooth.duty_cycle", [0.0, 1.0], [0.01, 1.0], &conversions);
     }
 
     fn contact_and_wear(&mut self) {

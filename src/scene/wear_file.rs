@@ -1,4 +1,4 @@
-//! What a user may write of wear laws and of the heat that some of them read: `[wear]` and `[temperature]` of the scene file.
+//! What a user may write of wear laws and of heat, which some of them read: `[wear]` and `[temperature]` of the scene file.
 
 #![allow(non_snake_case, reason = "key names end in their unit as engineers write it")]
 
@@ -18,12 +18,53 @@ pub struct TemperatureFile {
     pub velocity: Option<HeatVelocity>,
     /// Which part of the heat each body takes. Default: archard-rowntree.
     pub partition: Option<HeatPartition>,
-    /// Coefficient of friction μ, > 0 to 2. Default 0.1.
+    /// Coefficient of friction μ, > 0 to 2. Default: friction.coefficient, otherwise 0.1.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 2))]
     pub friction_coefficient: Option<f64>,
-    /// Bulk temperature of the gears in °C, above absolute zero (−273.15) to 1500. Default 90: usual for the oil of gear tests.
+    /// Bulk temperature of the gears in °C, above absolute zero (−273.15) to 1500. Default: with [temperature.tooth] the mean of
+    /// both flanks by it, otherwise 90, usual for the oil of gear tests.
     #[schemars(extend("exclusiveMinimum" = -273.15, "maximum" = 1500))]
     pub bulk_temperature_C: Option<f64>,
+    /// Temperature of the teeth of plastic gears. Default: not computed.
+    pub tooth: Option<ToothTemperatureFile>,
+}
+
+/// Temperature of the teeth of plastic gears by VDI 2736-2, from power, friction and loss factor. Needs a coefficient of friction:
+/// temperature.friction_coefficient, or the constant one of [friction].
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ToothTemperatureFile {
+    /// Temperature of the surroundings θ_0 in °C, −60 to 250; of gears in oil, that of the oil. Required.
+    #[schemars(range(min = -60, max = 250))]
+    pub ambient_temperature_C: Option<f64>,
+    /// How the teeth are lubricated, from which the coefficients k_θ follow. Required, or flank_heat_coefficient and root_heat_coefficient.
+    pub lubrication: Option<ToothLubrication>,
+    /// k_θ of the flank in K·(m/s)^0.75·mm^1.75/W, 0 to 50000, for grease and what else lubrication does not name.
+    #[schemars(range(min = 0, max = 50000))]
+    pub flank_heat_coefficient: Option<f64>,
+    /// k_θ of the root in the same unit, 0 to 50000.
+    #[schemars(range(min = 0, max = 50000))]
+    pub root_heat_coefficient: Option<f64>,
+    /// Resistance of the housing to heat R_λG in K·m²/W, 0 to 1: 0.015 to 0.045 where it is open in part, 0.06 where it is closed.
+    /// Default 0: gears in the open.
+    #[schemars(range(min = 0, max = 1))]
+    pub housing_resistance_K_m2_per_W: Option<f64>,
+    /// Surface of the housing A_G in m², > 0 to 100. Required with a resistance of the housing.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 100))]
+    pub housing_area_m2: Option<f64>,
+    /// Part of the time under load ED, > 0 to 1. Default 1.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 1))]
+    pub duty_cycle: Option<f64>,
+}
+
+/// How the teeth of plastic gears are lubricated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ToothLubrication {
+    /// Not at all: k_θ 6300 (flank) and 895 (root) of plastic on metal, 9000 and 2148 of plastic on plastic.
+    Dry,
+    /// In oil: k_θ 0.
+    Oil,
 }
 
 /// The wear law: one of the two coefficients must be given. What stands here holds for both gears, unless `[wear.pinion]` or

@@ -186,6 +186,7 @@ mod tests {
             partition: HeatPartition::ArchardRowntree,
             friction_coefficient: 0.1,
             bulk_temperature_k: 363.15,
+            tooth: None,
             material: PerGear { pinion: steel, wheel: steel },
         };
         ContactHeat::new(settings, 531.4)

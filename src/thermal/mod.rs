@@ -27,6 +27,7 @@ pub(crate) mod partition;
 pub(crate) mod peclet;
 pub(crate) mod settings;
 pub(crate) mod tian_kennedy;
+pub(crate) mod tooth;
 pub(crate) mod williams;
 
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};

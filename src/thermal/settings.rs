@@ -3,6 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::tooth::ToothHeatSettings;
 use crate::gear::PerGear;
 
 /// 0 K in °C.
@@ -86,8 +87,11 @@ pub struct HeatSettings {
     pub partition: HeatPartition,
     /// μ.
     pub friction_coefficient: f64,
-    /// Temperature of the bodies away from the contact, K.
+    /// Temperature of the bodies away from the contact, K; where `tooth` is the bulk, that of the surroundings, above which it is found for
+    /// each load and speed.
     pub bulk_temperature_k: f64,
+    /// Temperature of the teeth of plastic gears, where asked for.
+    pub tooth: Option<ToothHeatSettings>,
     /// Of each gear.
     pub material: PerGear<ThermalMaterial>,
 }

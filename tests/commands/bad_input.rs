@@ -504,6 +504,34 @@ fn temperatures_out_of_range_or_without_a_speed() {
 }
 
 #[test]
+fn temperatures_of_plastic_teeth() {
+    let with = |friction: &str, table: &str| {
+        let tables = format!("[temperature]\n{friction}\n[temperature.tooth]\n{table}");
+        Case::fzg_c().with("numerics", "verify", &tables)
+    };
+    let some = "ambient_temperature_C = 20.0\nlubrication = \"oil\"";
+    for (table, key, says) in [
+        ("lubrication = \"oil\"", "ambient_temperature_C", "missing"),
+        ("ambient_temperature_C = 353.15\nlubrication = \"oil\"", "ambient_temperature_C", "353.15"),
+        ("ambient_temperature_C = 20.0", "lubrication", "or give temperature.tooth.flank_heat_coefficient"),
+        ("ambient_temperature_C = 20.0\nlubrication = \"grease\"", "lubrication", "\"dry\""),
+        ("ambient_temperature_C = 20.0\nlubrication = \"dry\"", "lubrication", "two gears of metal"),
+        ("ambient_temperature_C = 20.0\nflank_heat_coefficient = 4e3", "root_heat_coefficient", "missing"),
+        ("ambient_temperature_C = 20.0\nroot_heat_coefficient = 4e3", "flank_heat_coefficient", "missing"),
+        (&format!("{some}\nflank_heat_coefficient = -1.0"), "flank_heat_coefficient", "-1"),
+        (&format!("{some}\nroot_heat_coefficient = 900.0"), "root_heat_coefficient", "say the same thing"),
+        (&format!("{some}\nhousing_resistance_K_m2_per_W = 0.06"), "housing_area_m2", "missing"),
+        (&format!("{some}\nhousing_resistance_K_m2_per_W = 60.0"), "housing_resistance_K_m2_per_W", "at most 1"),
+        (&format!("{some}\nhousing_area_m2 = 0.0"), "housing_area_m2", "greater than 0"),
+        (&format!("{some}\nhousing_area_m2 = 10000.0"), "housing_area_m2", "did you mean 0.01? (mm² given for m²)"),
+        (&format!("{some}\nduty_cycle = 40.0"), "duty_cycle", "did you mean 0.4? (% given for a part of 1)"),
+    ] {
+        with("friction_coefficient = 0.1", table).refused().says(&[&format!("temperature.tooth.{key}"), says]);
+    }
+    with("", some).refused().says(&["temperature.friction_coefficient is missing", "[temperature.tooth] needs it"]);
+}
+
+#[test]
 fn constants_of_wear_laws_out_of_range() {
     for (law, line) in [
         ("adsorption", "molecule_diameter_nm = 0.0"),

@@ -9,7 +9,8 @@ use std::fmt::Write;
 use serde_json::Value;
 
 /// Ends of key names, the unit each stands for, and how descriptions word it. The longer of two that fit comes first.
-const UNITS: [(&str, &str, &str); 25] = [
+const UNITS: [(&str, &str, &str); 27] = [
+    ("_K_m2_per_W", "K·m²/W", "K·m²/W"),
     ("_kg_per_m2s", "kg/(m²·s)", "kg/(m²·s)"),
     ("_kg_per_m3", "kg/m³", "kg/m³"),
     ("_W_per_mK", "W/(m·K)", "W/(m·K)"),
@@ -27,6 +28,7 @@ const UNITS: [(&str, &str, &str); 25] = [
     ("_rpm", "1/min", "revolutions per minute"),
     ("_deg", "°", "degrees"),
     ("_mm", "mm", "mm"),
+    ("_m2", "m²", "m²"),
     ("_um", "µm", "µm"),
     ("_nm", "nm", "nm"),
     ("_ps", "ps", "ps"),

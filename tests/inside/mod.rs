@@ -34,6 +34,7 @@ mod phases;
 mod plan;
 mod random_scenes;
 mod report;
+mod root_stress;
 mod scene;
 mod shaft;
 mod simplified;

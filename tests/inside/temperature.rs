@@ -26,6 +26,7 @@ fn settings(method: TemperatureMethod, velocity: HeatVelocity, partition: HeatPa
         partition,
         friction_coefficient: 0.1,
         bulk_temperature_k: 363.15,
+        tooth: None,
         material: PerGear { pinion: STEEL, wheel: STEEL },
     }
 }
@@ -154,4 +155,27 @@ fn val_every_method_against_the_moving_band() {
             assert!((found - stated).abs() < 0.1, "Pe {peclet}: {found} {stated}");
         }
     }
+}
+
+/// Where `[temperature.tooth]` is asked for, contact temperatures are counted from the flanks' mean, unless the scene says from what; friction
+/// is that of the mesh, and a plastic gear is told what its constants must hold for.
+#[test]
+fn teeth_are_the_bulk_of_the_contact() {
+    let tooth = "[temperature.tooth]\nambient_temperature_C = 40.0\nlubrication = \"dry\"\n";
+    let friction = "[friction]\nmodel = \"constant\"\ncoefficient = 0.15\n";
+    let run = |more: &str| run(&[("young_modulus_GPa = 206.0", "young_modulus_GPa = 3.0")], more);
+    let record = run(&format!("{friction}{tooth}"));
+    let found = record.summary.temperature.as_ref().unwrap();
+    let teeth = found.tooth.unwrap();
+    assert_eq!(found.friction_coefficient, 0.15);
+    assert_eq!(found.bulk_temperature_C, 0.5 * (teeth.pinion.flank_C + teeth.wheel.flank_C));
+    // Fewer teeth get warmer, and roots less than flanks.
+    assert!(teeth.pinion.flank_C > teeth.wheel.flank_C && teeth.wheel.flank_C > teeth.wheel.root_C);
+    assert!(record.summary.warnings.iter().any(|warning| warning.starts_with("[temperature.tooth] pinion")));
+    let again = Scene::from_toml(&record.scene_toml).unwrap();
+    assert_eq!(again.to_toml(), record.scene_toml);
+
+    let given = run(&format!("[temperature]\nbulk_temperature_C = 70.0\n{friction}{tooth}"));
+    let found = given.summary.temperature.unwrap();
+    assert_eq!((found.bulk_temperature_C, found.tooth), (70.0, Some(teeth)));
 }

@@ -13,6 +13,7 @@ use crate::mesh::quality::{self, MeshQuality};
 use crate::mesh::{CellBlock, CellKind, Mesh};
 use crate::pipeline::UM_PER_MM;
 use crate::pipeline::recording::{geometry, path_points};
+use crate::pipeline::root_stress;
 use crate::reference::hertz_line::LineContact;
 use crate::reference::steel_yield;
 use crate::results::fem_pair::{
@@ -101,6 +102,7 @@ pub(super) fn record(
         new,
         points: solved.points.as_ref().map(|points| parts.points(points)),
         root: PerGear::from_fn(|gear| Parts::root(gear, &solved.positions)),
+        root_stress: root_stress::summary(pair, parts.line_load_n_per_mm),
         checks: parts.checks(&solved.positions),
         full: solved.full.clone(),
         warnings,

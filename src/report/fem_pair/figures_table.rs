@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use crate::gear::PerGear;
 use crate::report::html::number::{change, count, fixed, percent, significant};
 use crate::report::html::page;
+use crate::report::html::root_stress_table;
 use crate::report::html::table::{row, table};
 use crate::results::fem_pair::{FemPairSummary, FullModelSummary, GearModelSummary, PathPointsSummary, RootSummary};
 use crate::results::run::PathPoints;
@@ -47,16 +48,14 @@ fn cycle(s: &FemPairSummary) -> Markup {
 fn roots(s: &FemPairSummary) -> Markup {
     let PerGear { pinion: Some(pinion), wheel: Some(wheel) } = &s.root else { return Markup::default() };
     let both = |label, unit, value: fn(&RootSummary) -> f64| row(label, unit, [pinion, wheel].map(value));
-    table(
-        "Stress at the fillets of the reference pair",
-        &["pinion", "wheel"],
-        [
-            both("Maximum, below the working flank", "MPa", |r| r.tension_MPa),
-            both("at position", "mm", |r| r.tension_position_mm),
-            both("Minimum, on the other side", "MPa", |r| r.compression_MPa),
-            both("at position", "mm", |r| r.compression_position_mm),
-        ],
-    )
+    let found = [
+        both("Maximum, below the working flank", "MPa", |r| r.tension_MPa),
+        both("at position", "mm", |r| r.tension_position_mm),
+        both("Minimum, on the other side", "MPa", |r| r.compression_MPa),
+        both("at position", "mm", |r| r.compression_position_mm),
+    ];
+    let by_standards = root_stress_table::stresses(&s.root_stress);
+    table("Stress at the fillets of the reference pair", &["pinion", "wheel"], found.into_iter().chain(by_standards))
 }
 
 fn points(points: &PathPointsSummary) -> Markup {

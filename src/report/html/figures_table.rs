@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::number::{change, fixed, percent, significant};
 use super::table::{Cell, cells, line, list, row, table, whole};
-use super::{film_table, law_table, page, sliced};
+use super::{film_table, law_table, page, root_stress_table, sliced};
 use crate::results::error::ErrorSummary;
 use crate::results::run::{GearSummary, PhaseSummary, PhaseWear, RunRecord, Summary, WearSummary};
 
@@ -29,6 +29,7 @@ fn figures(record: &RunRecord) -> Markup {
         pair(s),
         gears(s),
         contact(s),
+        root_stress_table::tables(&s.root_stress),
     ])
 }
 

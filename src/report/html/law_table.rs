@@ -5,11 +5,18 @@ use maud::{Markup, html};
 use super::number::{percent, significant};
 use super::page;
 use super::table::{cells, row, table};
-use crate::results::chemistry::{GreatestRise, TemperatureSummary, WearLawSummary};
+use crate::gear::PerGear;
+use crate::results::chemistry::{GreatestRise, TemperatureSummary, ToothTemperatureSummary, WearLawSummary};
 use crate::results::run::Summary;
 
 pub(crate) fn tables(s: &Summary) -> Markup {
-    html! { (law(s)) @if let Some(t) = &s.temperature { (temperature(t)) } }
+    html! {
+        (law(s))
+        @if let Some(t) = &s.temperature {
+            @if let Some(tooth) = &t.tooth { (teeth(tooth)) }
+            (temperature(t))
+        }
+    }
 }
 
 /// One column for both gears, or one for each where each has its own law.
@@ -33,6 +40,15 @@ fn law(s: &Summary) -> Markup {
         }));
     }
     table("Wear law", columns, rows)
+}
+
+fn teeth(of: &PerGear<ToothTemperatureSummary>) -> Markup {
+    let both = |label, value: fn(&ToothTemperatureSummary) -> f64| row(label, "°C", [&of.pinion, &of.wheel].map(value));
+    table(
+        "Temperature of the teeth, VDI 2736-2",
+        &["pinion", "wheel"],
+        [both("Flank", |at| at.flank_C), both("Root", |at| at.root_C)],
+    )
 }
 
 fn temperature(t: &TemperatureSummary) -> Markup {

@@ -16,6 +16,7 @@ pub(crate) mod law_table;
 pub(crate) mod number;
 pub(crate) mod page;
 pub(crate) mod reading;
+pub(crate) mod root_stress_table;
 pub(crate) mod run_page;
 mod sliced;
 pub(crate) mod table;

@@ -135,7 +135,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let material = materials.map(|materials| materials.map(|(elastic, _)| elastic));
     let thermal = materials.map(|materials| materials.map(|(_, thermal)| thermal));
     let laws = wear.map(|wear| wear.map(|own| own.law));
-    let heat = temperature::choose(&mut file.temperature, thermal, laws, &file.operation, findings);
+    let heat = temperature::choose(&mut file, materials, laws, findings);
     let lubrication = lubrication::choose(&mut file, thermal, findings);
     let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
     let in_space = slices.is_some_and(|slices| slices.coupling == Coupling::Fem);

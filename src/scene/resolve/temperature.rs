@@ -1,10 +1,13 @@
 //! Contact temperatures: only where the wear law reads them or the scene asks for them.
 
+use crate::contact::settings::Material;
 use crate::gear::{Gear, PerGear};
-use crate::scene::file::{OperationFile, PhaseFile};
+use crate::lubrication::settings::FrictionModel;
+use crate::scene::file::{OperationFile, PhaseFile, SceneFile};
 use crate::scene::findings::Findings;
-use crate::scene::wear_file::TemperatureFile;
+use crate::scene::wear_file::{ToothLubrication, ToothTemperatureFile};
 use crate::thermal::settings::{ABSOLUTE_ZERO_C, HeatSettings, ThermalMaterial};
+use crate::thermal::tooth::{DRY_ON_METAL, DRY_ON_PLASTIC, IN_OIL, ToothCoefficients, ToothHeatSettings};
 use crate::wear::settings::LawSettings;
 
 const FRICTION_COEFFICIENT: f64 = 0.1;
@@ -12,15 +15,14 @@ const BULK_TEMPERATURE_C: f64 = 90.0;
 
 /// Chooses what `[temperature]` leaves open; `Some(None)` where nobody asks for temperatures.
 pub(super) fn choose(
-    file: &mut Option<TemperatureFile>,
-    material: Option<PerGear<ThermalMaterial>>,
+    file: &mut SceneFile,
+    material: Option<PerGear<(Material, ThermalMaterial)>>,
     laws: Option<PerGear<LawSettings>>,
-    operation: &OperationFile,
     findings: &mut Findings,
 ) -> Option<Option<HeatSettings>> {
     let (material, laws) = (material?, laws?);
     let reads = Gear::BOTH.into_iter().find(|&gear| laws[gear].reads_temperature());
-    if file.is_none() && reads.is_none() {
+    if file.temperature.is_none() && reads.is_none() {
         return Some(None);
     }
     let asked_for_by = match reads {
@@ -28,20 +30,104 @@ pub(super) fn choose(
         Some(gear) => format!("wear.{}.law = {:?}", gear.name(), laws[gear].name()),
         None => "[temperature]".to_owned(),
     };
-    if !speed_is_given(operation) {
+    if !speed_is_given(&file.operation) {
         findings.missing(&["operation.pinion_speed_rpm"], "a number greater than 0");
         findings.help(format!("{asked_for_by} needs the speed"));
         return None;
     }
-    let file = file.get_or_insert_default();
+    let constant = file.friction.as_ref().filter(|friction| friction.model == Some(FrictionModel::Constant));
+    let of_mesh = constant.and_then(|friction| friction.coefficient);
+    let file = file.temperature.get_or_insert_default();
+    let given = file.friction_coefficient.or(of_mesh);
+    let tooth = match &mut file.tooth {
+        None => None,
+        Some(tooth) => {
+            if given.is_none() {
+                findings.missing(&["temperature.friction_coefficient"], "a number greater than 0, at most 2");
+                findings.help("[temperature.tooth] needs it; dry plastic on steel has about 0.2, in oil 0.04");
+            }
+            let chosen = tooth_heat(tooth, &material.map(|(elastic, _)| elastic), findings)?;
+            Some(ToothHeatSettings { is_bulk: file.bulk_temperature_C.is_none(), ..chosen })
+        }
+    };
+    let bulk_c = match tooth {
+        Some(tooth) if tooth.is_bulk => tooth.ambient_c,
+        _ => *file.bulk_temperature_C.get_or_insert(BULK_TEMPERATURE_C),
+    };
     Some(Some(HeatSettings {
         method: *file.method.get_or_insert_default(),
         velocity: *file.velocity.get_or_insert_default(),
         partition: *file.partition.get_or_insert_default(),
-        friction_coefficient: *file.friction_coefficient.get_or_insert(FRICTION_COEFFICIENT),
-        bulk_temperature_k: *file.bulk_temperature_C.get_or_insert(BULK_TEMPERATURE_C) - ABSOLUTE_ZERO_C,
-        material,
+        friction_coefficient: *file.friction_coefficient.insert(given.unwrap_or(FRICTION_COEFFICIENT)),
+        bulk_temperature_k: bulk_c - ABSOLUTE_ZERO_C,
+        tooth,
+        material: material.map(|(_, thermal)| thermal),
     }))
+}
+
+fn tooth_heat(
+    file: &mut ToothTemperatureFile,
+    material: &PerGear<Material>,
+    findings: &mut Findings,
+) -> Option<ToothHeatSettings> {
+    if file.ambient_temperature_C.is_none() {
+        findings.missing(&["temperature.tooth.ambient_temperature_C"], "a number from -60 to 250");
+    }
+    let coefficients = tooth_coefficients(file, material, findings);
+    let resistance = *file.housing_resistance_K_m2_per_W.get_or_insert(0.0);
+    let housing_k_per_w = match file.housing_area_m2 {
+        Some(area) => Some(resistance / area),
+        None if resistance == 0.0 => Some(0.0),
+        None => {
+            findings.missing(&["temperature.tooth.housing_area_m2"], "a number greater than 0, at most 100");
+            findings.help("temperature.tooth.housing_resistance_K_m2_per_W needs it");
+            None
+        }
+    };
+    Some(ToothHeatSettings {
+        ambient_c: file.ambient_temperature_C?,
+        coefficients: coefficients?,
+        housing_k_per_w: housing_k_per_w?,
+        duty_cycle: *file.duty_cycle.get_or_insert(1.0),
+        is_bulk: false,
+    })
+}
+
+/// k_θ as given, or by the lubrication of the pair.
+fn tooth_coefficients(
+    file: &ToothTemperatureFile,
+    material: &PerGear<Material>,
+    findings: &mut Findings,
+) -> Option<ToothCoefficients> {
+    let keys = ["lubrication", "flank_heat_coefficient", "root_heat_coefficient"];
+    let [lubrication, flank, root] = keys.map(|key| format!("temperature.tooth.{key}"));
+    let (of_flank, of_root) = (file.flank_heat_coefficient, file.root_heat_coefficient);
+    let one = if of_flank.is_some() { &flank } else { &root };
+    if findings.said_twice(&[(&lubrication, file.lubrication.is_some()), (one, of_flank.or(of_root).is_some())]) {
+        return None;
+    }
+    let plastic = material.map(|body| body.is_plastic());
+    match (file.lubrication, of_flank, of_root) {
+        (None, Some(flank), Some(root)) => Some(ToothCoefficients { flank, root }),
+        (None, None, None) => {
+            findings.missing(&[&lubrication, &flank], "\"dry\" or \"oil\"");
+            None
+        }
+        (None, given, _) => {
+            let lacking = if given.is_some() { &root } else { &flank };
+            findings.missing(&[lacking], "a number from 0 to 50000");
+            findings.help("flank and root have coefficients of their own");
+            None
+        }
+        (Some(ToothLubrication::Oil), ..) => Some(IN_OIL),
+        (Some(ToothLubrication::Dry), ..) if plastic.pinion && plastic.wheel => Some(DRY_ON_PLASTIC),
+        (Some(ToothLubrication::Dry), ..) if plastic.pinion || plastic.wheel => Some(DRY_ON_METAL),
+        (Some(ToothLubrication::Dry), ..) => {
+            findings.not_allowed(&lubrication, "\"dry\" with two gears of metal", "\"oil\"");
+            findings.help("the coefficients are those of plastic gears; others may be given as flank_heat_coefficient and root_heat_coefficient");
+            None
+        }
+    }
 }
 
 /// Whether every phase has a speed.

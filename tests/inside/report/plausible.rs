@@ -3,6 +3,7 @@
 use gearwear::gear::{Gear, PerGear, flank_surface::FlankSurface, flank_zones::FlankZones};
 use gearwear::results::chemistry::WearLawSummary;
 use gearwear::results::error::*;
+use gearwear::results::root_stress::{RootSectionSummary, RootStressSummary};
 use gearwear::results::run::*;
 use gearwear::wear::regime::Regime;
 
@@ -293,6 +294,7 @@ fn summary() -> Summary {
             teeth_at_pitch_N_per_mm_um: 20.0,
             split_remainder_at_half_load: Some(0.012),
         }),
+        root_stress: PerGear::from_fn(|_| root_stress()),
         wear: Some(law()),
         wear_of_gear: PerGear::from_fn(|_| law()),
         temperature: None,
@@ -376,6 +378,21 @@ fn gear_outline(teeth: u32, axis: [f64; 2], [root, pitch, tip]: [f64; 3], first_
             [axis[0] + radius * cos, axis[1] + radius * sin]
         })
         .collect()
+}
+
+/// As of the pinion of FZG-C.
+#[allow(non_snake_case, reason = "names that end in their unit")]
+fn root_stress() -> RootStressSummary {
+    let section = |nominal_stress_MPa: f64| RootSectionSummary {
+        nominal_stress_MPa,
+        form_factor: 1.6,
+        stress_correction_factor: 2.0,
+        moment_arm_mm: 4.6,
+        thickness_mm: 9.2,
+        fillet_radius_mm: 2.1,
+        load_angle_deg: 27.0,
+    };
+    RootStressSummary { iso_6336_3: Some(section(430.0)), vdi_2736: None }
 }
 
 fn law() -> WearLawSummary {
