@@ -225,7 +225,7 @@ use scene::fem_problem::FemProblem;
 /// # Errors
 /// [`CalibrateError`]
 pub fn calibrate(scene: &LoadedScene, observer: &dyn Observer) -> Result<Calibrated, CalibrateError> {
-    pipeline::calibrate::run(scene.scene(), pipeline::calibrate::Extent::Whole, observer)
+    pipeline::calibrate::run(scene.scene(), pipeline::calibrate::Extent::Whole, &scene.teeth_in_space, observer)
 }
 
 /// Solves the contact of the scene's pair with plane finite elements: at the position `position_mm` of the path of contact (radius of

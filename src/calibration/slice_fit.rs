@@ -35,7 +35,7 @@ use crate::stiffness::settings::StiffnessSettings;
 use crate::stiffness::{StiffnessError, TeethSpring, curve::PairCompliance};
 
 /// Slices of the fit.
-const SLICES: usize = 20;
+pub(crate) const SLICES: usize = 20;
 /// Positions from A to E.
 const POSITIONS: usize = 16;
 /// Unknowns of the fit: teeth, both ends, both reaches, bodies, length of the ends, resistance to twisting at both.

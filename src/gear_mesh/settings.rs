@@ -108,6 +108,8 @@ pub(crate) struct SpaceResolution {
     pub layer_modules: f64,
     /// Least and greatest number of them.
     pub layers: [usize; 2],
+    /// Slices over the face width that elements end with; none: elements are as long as each other.
+    pub slices: Option<usize>,
 }
 
 impl SpaceResolution {
@@ -116,18 +118,76 @@ impl SpaceResolution {
         section: SectionDivisions { across: 6, fillet: 2, flank: 8, land: 1, radial: 3 },
         layer_modules: 0.32,
         layers: [6, 24],
+        slices: None,
     };
+
+    /// The same for a pair in so many slices.
+    pub(crate) fn of_slices(count: usize) -> Self {
+        Self { slices: Some(count), ..Self::USUAL }
+    }
 
     /// Memory that condensing the sectors of both gears of `pair` takes, GB: measured on the preset `helical` at 8 to 90 mm, where it grows with
     /// the square of the nodes on flank and cuts.
     pub(crate) fn memory_gb(&self, pair: &PairSpec) -> f64 {
-        let layers = self.layers_over(pair) as f64;
+        let layers = (self.layer_ends_mm(pair).len() - 1) as f64;
         0.2 + 0.0018 * layers * layers
     }
 
-    /// Elements over the face width of `pair`.
-    pub(super) fn layers_over(&self, pair: &PairSpec) -> usize {
+    /// Where elements over the face width of `pair` end, from z = 0 on: those at both end faces are divided, for there a load is left to itself over
+    /// a distance that is short against a module.
+    pub(crate) fn layer_ends_mm(&self, pair: &PairSpec) -> Vec<f64> {
+        let even = self.even_layers(pair);
+        let at = |place: f64| pair.face_width_mm * place / even as f64;
+        let mut ends: Vec<f64> = (0..=even).map(|k| at(k as f64)).collect();
+        if let Some(slices) = self.slices {
+            // Slices in a layer: whole ones are left at the end face where there are some.
+            let in_layer = slices / even;
+            let first = if in_layer > 1 { (in_layer / 2) as f64 / in_layer as f64 } else { 0.5 };
+            ends.insert(1, at(first));
+            ends.insert(even + 1, at(even as f64 - first));
+        }
+        ends
+    }
+
+    /// Elements as long as each other over the face width of `pair`, before those at its end faces are divided.
+    ///
+    /// As many slices lie in each of them, or as many of them in each slice: what elements see of the load of a slice depends on where in an
+    /// element it lies, and where that differs from slice to slice, so do their loads. Two slices in an element are resolved, and an element may
+    /// be a quarter longer.
+    pub(crate) fn even_layers(&self, pair: &PairSpec) -> usize {
+        let [least, most] = self.layers;
         let wanted = (pair.face_width_mm / (self.layer_modules * pair.normal_module_mm)).ceil() as usize;
-        wanted.clamp(self.layers[0], self.layers[1])
+        let wanted = wanted.clamp(least, most);
+        let Some(slices) = self.slices else { return wanted };
+        let ideal = (0.8 * wanted as f64).max(0.5 * slices as f64).min(most as f64);
+        let over = |layers: &usize| (*layers as f64 / ideal).ln().abs();
+        let aligned = (least..=most).filter(|layers| slices % layers == 0 || layers % slices == 0);
+        let nearest = aligned.min_by(|a, b| over(a).total_cmp(&over(b))).filter(|layers| over(layers) < MOST_OFF.ln());
+        nearest.unwrap_or(wanted)
+    }
+}
+
+/// Elements over the face width that end with slices are at most so many times as many, or as few, as are wanted.
+const MOST_OFF: f64 = 1.8;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::loaded::LoadedScene;
+
+    #[test]
+    fn elements_over_the_face_width_end_with_slices() {
+        let helical = LoadedScene::preset("helical").unwrap();
+        let pair = &helical.scene().pair;
+        let even = |slices| SpaceResolution { slices, ..SpaceResolution::USUAL }.even_layers(pair);
+        // 20 mm are 14.4 times 0.32 modules of 4.5 mm · cos 15°.
+        assert_eq!([None, Some(5), Some(10), Some(20), Some(40), Some(80)].map(even), [15, 10, 10, 10, 20, 20]);
+        assert_eq!([Some(24), Some(30), Some(60), Some(29), Some(23)].map(even), [12, 15, 20, 15, 15]);
+        let ends = SpaceResolution::of_slices(60).layer_ends_mm(pair);
+        assert_eq!(ends.len(), 23);
+        for (found, expected) in [(ends[1], 1.0 / 3.0), (ends[2], 1.0), (ends[20], 19.0), (ends[21], 20.0 - 1.0 / 3.0)]
+        {
+            assert!((found - expected).abs() < 1e-12, "{ends:?}");
+        }
     }
 }

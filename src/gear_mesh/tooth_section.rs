@@ -258,7 +258,7 @@ impl ToothSection {
 impl ExtrudedTooth {
     /// One pitch of a gear of `pair` over its face width, clamped at `clamp_radius_mm`.
     pub(crate) fn of_gear(pair: &GearPair, gear: Gear, clamp_radius_mm: f64, resolution: &SpaceResolution) -> Self {
-        let (tooth, face_width_mm) = (&pair.teeth[gear], pair.spec.face_width_mm);
+        let tooth = &pair.teeth[gear];
         // Forward on the path of contact, where slices at small z are, is anticlockwise for the pinion.
         let forward = match gear {
             Gear::Pinion => 1.0,
@@ -266,8 +266,7 @@ impl ExtrudedTooth {
         };
         let twist_rad_per_mm = -forward * pair.base_helix_angle_rad().tan() / tooth.involute.base_radius_mm;
         let section = ToothSection::new(tooth, clamp_radius_mm, resolution.section);
-        let layers = resolution.layers_over(&pair.spec);
-        Self::new(section, face_width_mm, layers, twist_rad_per_mm)
+        Self::new(section, &resolution.layer_ends_mm(&pair.spec), twist_rad_per_mm)
     }
 
     /// Elements over the face width.
@@ -275,9 +274,24 @@ impl ExtrudedTooth {
         self.z_mm.len() / 2
     }
 
-    /// `section` over the face width in so many `layers`.
-    fn new(section: ToothSection, face_width_mm: f64, layers: usize, twist_rad_per_mm: f64) -> Self {
-        let z_mm: Vec<f64> = (0..=2 * layers).map(|k| face_width_mm * k as f64 / (2 * layers) as f64).collect();
+    /// Where elements over the face width end, from z = 0 on.
+    pub(crate) fn layer_ends_mm(&self) -> Vec<f64> {
+        self.z_mm.iter().copied().step_by(2).collect()
+    }
+
+    /// Where a place over the face width lies in its element: which, and ζ in it from −1 to 1.
+    pub(crate) fn across_width(&self, z_mm: f64) -> (usize, f64) {
+        let ends_before = self.z_mm.iter().step_by(2).filter(|end| **end <= z_mm).count();
+        let layer = ends_before.clamp(1, self.layers()) - 1;
+        let [from, to] = [self.z_mm[2 * layer], self.z_mm[2 * layer + 2]];
+        (layer, 2.0 * (z_mm - from) / (to - from) - 1.0)
+    }
+
+    /// `section` over the face width in layers that end at these places, from z = 0 on.
+    fn new(section: ToothSection, layer_ends_mm: &[f64], twist_rad_per_mm: f64) -> Self {
+        let (layers, face_width_mm) = (layer_ends_mm.len() - 1, layer_ends_mm[layer_ends_mm.len() - 1]);
+        let end = |k: usize| layer_ends_mm[k / 2];
+        let z_mm: Vec<f64> = (0..=2 * layers).map(|k| end(k).midpoint(end(k + 1))).collect();
         let mut is_corner = vec![false; section.points_mm.len()];
         section.quads.iter().for_each(|quad| quad[..4].iter().for_each(|node| is_corner[*node as usize] = true));
         let mut points_mm = Vec::new();

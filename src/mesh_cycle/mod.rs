@@ -30,7 +30,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCell, Sweep};
-use crate::gear::{Gear, PerGear};
+use crate::gear::{Gear, PerGear, slices::greatest_over_width};
 use crate::wear::WearModel;
 use collected::Collected;
 use heated::{HeatedPlace, WornPoints};
@@ -149,6 +149,13 @@ impl GreatestPressure {
         } else {
             self.defined_mpa = self.defined_mpa.max(pressure_mpa);
         }
+    }
+
+    /// Takes into account what each of the slices over the face width has, in their order.
+    pub(crate) fn note_slices(&mut self, of_slices: &[Self]) {
+        let defined_mpa: Vec<f64> = of_slices.iter().map(|slice| slice.defined_mpa).collect();
+        self.note(greatest_over_width(&defined_mpa), false);
+        of_slices.iter().filter_map(|slice| slice.sharp_edge_mpa).for_each(|sharp_mpa| self.note(sharp_mpa, true));
     }
 
     /// Takes the pressures of all `positions` into account.

@@ -60,6 +60,8 @@ struct GearInSpace {
 /// Both gears.
 pub(crate) struct PairInSpace {
     gears: PerGear<GearInSpace>,
+    /// Elements over the face width, before those at its end faces are divided.
+    even_layers: usize,
 }
 
 /// The pair that was condensed last, shared by the scenes that were made of one another: most of them have the same teeth.
@@ -68,7 +70,7 @@ pub(crate) struct KeptInSpace(Arc<Mutex<Option<Kept>>>);
 
 /// Both gears, and what they are made of.
 struct Kept {
-    of: (PairSpec, PerGear<Elastic>, PerGear<f64>),
+    of: (PairSpec, PerGear<Elastic>, PerGear<f64>, usize),
     teeth: Arc<PairInSpace>,
 }
 
@@ -86,20 +88,23 @@ impl fmt::Debug for KeptInSpace {
 }
 
 impl KeptInSpace {
-    /// The teeth of `pair`, condensed unless they are kept.
+    /// The teeth of `pair`, meshed for so many slices, condensed unless they are kept.
     pub(crate) fn condensed(
         &self,
         pair: &GearPair,
         material: PerGear<Elastic>,
         clamp_radius_mm: PerGear<f64>,
+        slices: usize,
     ) -> Result<Arc<PairInSpace>, PairInSpaceError> {
         // Another thread may have failed at its pair: that says nothing of this one.
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let of = (pair.spec.on_rigid_parallel_shafts(), material, clamp_radius_mm);
+        let resolution = SpaceResolution::of_slices(slices);
+        let layers = resolution.even_layers(&pair.spec);
+        let of = (pair.spec.on_rigid_parallel_shafts(), material, clamp_radius_mm, layers);
         if let Some(Kept { teeth, .. }) = kept.as_ref().filter(|kept| kept.of == of) {
             return Ok(Arc::clone(teeth));
         }
-        let teeth = Arc::new(PairInSpace::new(pair, &material, &clamp_radius_mm, &SpaceResolution::USUAL)?);
+        let teeth = Arc::new(PairInSpace::new(pair, &material, &clamp_radius_mm, &resolution)?);
         *kept = Some(Kept { of, teeth: Arc::clone(&teeth) });
         Ok(teeth)
     }
@@ -129,19 +134,22 @@ impl PairInSpace {
             };
             build().map_err(|source| PairInSpaceError::Gear { gear, source: Box::new(source) })
         })?;
-        Ok(Self { gears })
+        Ok(Self { gears, even_layers: resolution.even_layers(&pair.spec) })
+    }
+
+    /// The fewest slices, no fewer than `least`, that the elements over the face width end with.
+    pub(crate) fn slices_from(&self, least: usize) -> usize {
+        least.next_multiple_of(self.even_layers)
     }
 
     /// Points of integration of a contact on each flank: radius, place over the face width, and weight.
     fn points(&self, pair: &GearPair, slices: &Slices, contact: &SliceContact) -> PerGear<Vec<(f64, f64, f64)>> {
-        let layers = self.gears.pinion.teeth.layers();
-        let layer_mm = pair.spec.face_width_mm / layers as f64;
+        let layer_ends_mm = self.gears.pinion.teeth.layer_ends_mm();
         let base_helix = pair.base_helix_angle_rad();
         let [furthest_before, furthest_after] = pair.farthest_touch_mm();
         let (first_mm, last_mm) = (pair.path.start_mm - furthest_before, pair.path.end_mm + furthest_after);
         let mut points = PerGear::from_fn(|_| Vec::new());
-        for (z_mm, weight) in points_of_slice(contact.slice, slices.count(), layers) {
-            let (z_mm, weight) = (z_mm * layer_mm, weight * layer_mm / slices.slice_width_mm);
+        for (_, z_mm, weight) in points_of_slice(contact.slice, slices.count(), &layer_ends_mm) {
             let from_middle_mm = z_mm - slices.width_mm[contact.slice];
             let at_mm = contact.cell.position_mm - from_middle_mm * base_helix.tan();
             let touch = pair.touch(at_mm.clamp(first_mm, last_mm));
@@ -182,7 +190,7 @@ impl PairInSpace {
 
     /// P: what the elements see of the loads of `count` slices, row by row.
     pub(crate) fn seen(&self, count: usize) -> Vec<f64> {
-        projection(count, self.gears.pinion.teeth.layers())
+        projection(count, &self.gears.pinion.teeth.layer_ends_mm())
     }
 
     /// The coupling of `contacts`, where the transverse section has the compliance `section_mm2_per_n` beside its surface; `seen` is that of
@@ -236,48 +244,52 @@ impl PairInSpace {
     }
 }
 
-/// Points of integration of a slice with their weights, lengths counted in layers: three on each piece that lies in one layer.
-fn points_of_slice(slice: usize, count: usize, layers: usize) -> impl Iterator<Item = (f64, f64)> {
-    let width = layers as f64 / count as f64;
-    let (first, last) = (slice as f64 * width, (slice + 1) as f64 * width);
-    (first as usize..(last.ceil() as usize).min(layers)).flat_map(move |layer| {
-        let (from, to) = (first.max(layer as f64), last.min(layer as f64 + 1.0));
-        GAUSS_3
-            .into_iter()
-            .map(move |(s, weight)| (0.5 * (from + to) + 0.5 * (to - from) * s, 0.5 * weight * (to - from)))
+/// Points of integration of one of `count` slices, three on each piece that lies in one layer: its layer, its place over the face width, mm, and its
+/// weight, 1 in all.
+fn points_of_slice(slice: usize, count: usize, layer_ends_mm: &[f64]) -> impl Iterator<Item = (usize, f64, f64)> + '_ {
+    let width_mm = layer_ends_mm[layer_ends_mm.len() - 1] / count as f64;
+    let (first, last) = (slice as f64 * width_mm, (slice + 1) as f64 * width_mm);
+    let pieces = layer_ends_mm.windows(2).enumerate().map(move |(k, ends)| (k, first.max(ends[0]), last.min(ends[1])));
+    // What is left of rounding makes no piece.
+    pieces.filter(move |(_, from, to)| to - from > 1e-9 * width_mm).flat_map(move |(layer, from, to)| {
+        GAUSS_3.into_iter().map(move |(s, weight)| {
+            (layer, 0.5 * ((from + to) + (to - from) * s), 0.5 * weight * (to - from) / width_mm)
+        })
     })
 }
 
-/// The projection of `count` loads, each even over its slice, on the quadratic shape functions of so many `layers`, averaged over the slices;
+/// The projection of `count` loads, each even over its slice, on the quadratic shape functions of layers that end there, averaged over the slices;
 /// row by row.
-fn projection(count: usize, layers: usize) -> Vec<f64> {
+fn projection(count: usize, layer_ends_mm: &[f64]) -> Vec<f64> {
+    let layers = layer_ends_mm.len() - 1;
     let nodes = 2 * layers + 1;
     let mut mass = DMatrix::<f64>::zeros(nodes, nodes);
+    let length_mm = |layer: usize| layer_ends_mm[layer + 1] - layer_ends_mm[layer];
     for layer in 0..layers {
         for (s, weight) in GAUSS_3 {
             let ([start, end, middle], _) = along_edge(true, s);
             let values = [start, middle, end];
             for (i, f) in values.iter().enumerate() {
                 for (j, g) in values.iter().enumerate() {
-                    mass[(2 * layer + i, 2 * layer + j)] += 0.5 * weight * f * g;
+                    mass[(2 * layer + i, 2 * layer + j)] += 0.5 * length_mm(layer) * weight * f * g;
                 }
             }
         }
     }
-    let width = layers as f64 / count as f64;
+    let width_mm = layer_ends_mm[layers] / count as f64;
     let mut means = DMatrix::<f64>::zeros(nodes, count);
     for slice in 0..count {
-        for (at, weight) in points_of_slice(slice, count, layers) {
-            let layer = (at as usize).min(layers - 1);
-            let ([start, end, middle], _) = along_edge(true, 2.0 * (at - layer as f64) - 1.0);
+        for (layer, at_mm, weight) in points_of_slice(slice, count, layer_ends_mm) {
+            let place = (at_mm - layer_ends_mm[layer]) / length_mm(layer);
+            let ([start, end, middle], _) = along_edge(true, 2.0 * place - 1.0);
             for (i, value) in [start, middle, end].into_iter().enumerate() {
-                means[(2 * layer + i, slice)] += weight / width * value;
+                means[(2 * layer + i, slice)] += weight * value;
             }
         }
     }
     // The mass of independent functions is positive definite.
     let solved = mass.cholesky().expect("the functions are independent").solve(&means);
-    let product = means.transpose() * solved * width;
+    let product = means.transpose() * solved * width_mm;
     (0..count * count).map(|k| product[(k / count, k % count)]).collect()
 }
 

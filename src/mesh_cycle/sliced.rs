@@ -19,7 +19,7 @@ use super::heated::{HeatedPlace, WornPoints};
 use super::load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use super::part_of_slice::PartOfSlice;
 use super::sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh};
-use super::sliced_positions::{SliceContact, SlicedPosition};
+use super::sliced_positions::{ContactPart, SliceContact, SlicedPosition};
 use super::sliced_sharing::balance_on_teeth;
 use super::sliced_teeth::SlicedTeeth;
 use super::{
@@ -185,14 +185,22 @@ impl MeshCycle for SlicedCycle<'_> {
         let mut phases = Vec::new();
         let mut greatest_pressure = GreatestPressure::default();
         let mut sliding_work_n = 0.0;
+        let mut of_slices = vec![GreatestPressure::default(); slices];
         for loaded in self.groups.iter().flat_map(|group| &group.loaded_positions) {
             for ((contact, pair), sliding) in loaded.contacts.iter().zip(&loaded.pairs).zip(&loaded.sliding_mm) {
                 let own = of_slice(removed_mm, self.points, contact.slice);
+                let footprint = pair.contact.footprint();
+                // A part of a slice has its pressure where the line of contact ends, and not in the middle of the slice.
+                let is_whole = contact.part == ContactPart::WHOLE;
+                let greatest = if is_whole { &mut of_slices[contact.slice] } else { &mut greatest_pressure };
+                if (self.path.start_mm..=self.path.end_mm).contains(&contact.cell.position_mm) {
+                    greatest.note(footprint.peak_pressure_mpa, footprint.at_sharp_edge);
+                }
                 for gear in Gear::BOTH {
                     let range = contact.slice * self.points[gear]..(contact.slice + 1) * self.points[gear];
                     let (pressure, sliding) = (&mut pressure_mpa[gear][range.clone()], &mut sliding_mm[gear][range]);
                     let greatest_mpa = note_contact_of_points(&*pair.contact, gear, own, &mut sweep, pressure, sliding);
-                    greatest_pressure.note(greatest_mpa, pair.contact.footprint().at_sharp_edge);
+                    greatest.note(greatest_mpa, footprint.at_sharp_edge);
                 }
                 sliding_work_n += pair.normal_load_n_per_mm() * sliding;
             }
@@ -200,7 +208,7 @@ impl MeshCycle for SlicedCycle<'_> {
         }
         let mesh = SlicedMesh::new(&phases, slices, self.path.base_pitch_mm);
         let positions = mesh.along_path(self.path, self.positions, self.line_load_n_per_mm);
-        greatest_pressure.note_all(&positions);
+        greatest_pressure.note_slices(&of_slices);
         Ok(CycleObservation {
             positions,
             greatest_pressure,

@@ -330,7 +330,8 @@ fn carry_out<R>(
     let in_space = match plan.has(StageKind::TeethInSpace) {
         true => Some(stages.run(StageKind::TeethInSpace.name(), || {
             let material = scene.material.map(Material::elastic);
-            loaded.teeth_in_space.condensed(&pair, material, scene.fem.clamp_radius_mm)
+            let slices = scene.slices.map_or(1, |slices| slices.count);
+            loaded.teeth_in_space.condensed(&pair, material, scene.fem.clamp_radius_mm, slices)
         })),
         false => None,
     };

@@ -6,7 +6,7 @@ use super::{
     Model, RunError, UM_PER_MM, drawing, error_estimates, left_out_contact, phases, root_stress, slices,
     stability::Judged, verification::Verified,
 };
-use crate::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
+use crate::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface, slices::greatest_over_width};
 use crate::mesh_cycle::CycleObservation;
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::plan::Plan;
@@ -69,7 +69,8 @@ pub(super) fn worn_pair(model: &Model<'_>, found: RunFindings<'_>, summary: Summ
         let involute = model.pair.teeth[gear].involute;
         let rho = &outcome.grid[gear].coordinate_mm;
         let wear_mm = &outcome.worn.wear_mm[gear];
-        let greatest = |point: usize| wear_mm.iter().skip(point).step_by(rho.len()).copied().fold(0.0, f64::max);
+        let over_width = |point: usize| wear_mm.iter().skip(point).step_by(rho.len()).copied().collect::<Vec<f64>>();
+        let greatest = |point: usize| greatest_over_width(&over_width(point));
         WearProfile {
             radius_mm: rho.iter().map(|&rho| involute.radius_mm(rho)).collect(),
             wear_um: (0..rho.len()).map(|point| greatest(point) * UM_PER_MM).collect(),

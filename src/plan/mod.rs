@@ -311,9 +311,9 @@ pub(crate) fn memory_in_space_gb(scene: &Scene) -> f64 {
         phases[..*at].iter().all(|earlier| earlier.pinion_torque_n_mm != phase.pinion_torque_n_mm)
     };
     let loads = phases.iter().enumerate().filter(is_first).count() as f64;
-    let slices = scene.slices.map_or(0, |slices| slices.count) as f64;
-    let (slices, positions) = (slices / 100.0, scene.numerics.positions as f64 / 400.0);
-    SpaceResolution::USUAL.memory_gb(&scene.pair) + loads * COUPLED_GB * slices * slices * positions
+    let count = scene.slices.map_or(1, |slices| slices.count);
+    let (slices, positions) = (count as f64 / 100.0, scene.numerics.positions as f64 / 400.0);
+    SpaceResolution::of_slices(count).memory_gb(&scene.pair) + loads * COUPLED_GB * slices * slices * positions
 }
 
 fn teeth_in_space(scene: &Scene) -> Result<String, String> {

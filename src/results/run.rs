@@ -353,7 +353,7 @@ pub struct StiffnessSummary {
     pub split_remainder_at_half_load: Option<f64>,
 }
 
-/// One mesh cycle in figures.
+/// One mesh cycle in figures. Maximum pressures of whole slices leave 1/40 of the face width out at either end face.
 #[allow(non_snake_case, reason = "the contract's key names")]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CycleSummary {
@@ -397,7 +397,7 @@ pub struct RangeSummary {
     pub peak_to_peak: f64,
 }
 
-/// Wear of a gear.
+/// Wear of a gear. Maxima over the face width leave 1/40 of it out at either end face, whatever the number of slices.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WearSummary {
     /// Maximum wear depth on the active profile, the zone of the tip edge apart.

@@ -5,6 +5,7 @@ use crate::gear::{
     Gear, GearPair,
     flank::FlankGrid,
     flank_zones::{FlankZone, FlankZones},
+    slices::{greatest_over_width, readings_over_width},
 };
 use crate::mesh_cycle::wearing_pair::Snapshot;
 
@@ -24,7 +25,7 @@ impl Deepest {
     }
 }
 
-/// Wear of one flank in figures.
+/// Wear of one flank in figures; what is greatest is so over the face width ([`greatest_over_width`]).
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct WearFigures {
     /// Greatest depth on the active profile.
@@ -107,14 +108,20 @@ impl WearFigures {
         let of_slice = |slice| SliceFigures::new(pair, gear, grid, zones, &radius_mm, slice);
         let slices: Vec<_> = wear_mm.chunks_exact(grid.len()).map(of_slice).collect();
         let mean = |of: fn(&SliceFigures) -> f64| slices.iter().map(of).sum::<f64>() / slices.len() as f64;
-        let deepest = |of: fn(&SliceFigures) -> Deepest| slices[1..].iter().map(of).fold(of(&slices[0]), Deepest::or);
+        let values = |of: &dyn Fn(&SliceFigures) -> f64| slices.iter().map(of).collect::<Vec<f64>>();
+        let deepest = |of: fn(&SliceFigures) -> Deepest| {
+            let none = Deepest { depth_mm: 0.0, ..of(&slices[0]) };
+            readings_over_width(&values(&|slice| of(slice).depth_mm)).fold(none, |best, (slice, depth_mm)| {
+                best.or(Deepest { depth_mm, radius_mm: of(&slices[slice]).radius_mm })
+            })
+        };
         let active = deepest(|slice| slice.active);
         Self {
             peak_mm: active.depth_mm,
             peak_radius_mm: active.radius_mm,
             tip_edge: deepest(|slice| slice.tip_edge),
             below_active: deepest(|slice| slice.below_active),
-            root_mm: slices.iter().map(|slice| slice.root_mm).fold(0.0, f64::max),
+            root_mm: greatest_over_width(&values(&|slice| slice.root_mm)),
             pitch_mm: mean(|slice| slice.pitch_mm),
             active_start_mm: mean(|slice| slice.active_start_mm),
             area_mm2: mean(|slice| slice.area_mm2),

@@ -21,6 +21,7 @@ use gearwear::gear::modification::{Relief, ReliefShape};
 use gearwear::gear::spec::PairSpec;
 use gearwear::gear::{Gear, GearPair, PerGear, flank::FlankGrid};
 use gearwear::gear_mesh::settings::{Body, BodySettings, SectorSides};
+use gearwear::mesh_cycle::pair_in_space::KeptInSpace;
 use gearwear::observer::Unwatched;
 use gearwear::pipeline::calibrate::{self, Extent};
 use gearwear::scene::Scene;
@@ -51,7 +52,9 @@ fn fzg_c_scene(elements_per_half_width: f64) -> Scene {
 /// The whole calibration of the preset, made once for all tests.
 fn calibration() -> &'static Calibration {
     static CALIBRATION: OnceLock<Calibration> = OnceLock::new();
-    CALIBRATION.get_or_init(|| calibrate::run(&fzg_c_scene(6.0), Extent::Whole, &Unwatched).unwrap().calibration)
+    CALIBRATION.get_or_init(|| {
+        calibrate::run(&fzg_c_scene(6.0), Extent::Whole, &KeptInSpace::default(), &Unwatched).unwrap().calibration
+    })
 }
 
 /// Independent quadratic finite elements (another program, converged to 0.02 %): whole ring 16.99, three teeth with free
@@ -430,7 +433,8 @@ fn relieved_flanks_have_the_foundation_of_plain_ones() {
         let relief = Relief { amount_mm: 0.020, length_mm: 2.0, shape: ReliefShape::Linear };
         scene.pair.gears[gear].modification.tip_relief = Some(relief);
     }
-    let calibration = calibrate::run(&scene, Extent::FastModel, &Unwatched).unwrap().calibration;
+    let calibration =
+        calibrate::run(&scene, Extent::FastModel, &KeptInSpace::default(), &Unwatched).unwrap().calibration;
     assert!(Calibration::from_json(&calibration.to_json()).is_ok());
     for criterion in [MatchCriterion::HalfWidth, MatchCriterion::PeakPressure] {
         let held_out = &calibration.foundation_fit[&criterion].held_out;

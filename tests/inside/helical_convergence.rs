@@ -1,5 +1,6 @@
 //! Pairs with slices: how the answer changes on doubling slices, positions and wear steps, from the default resolution (20 slices,
-//! 400 positions, 60 wear steps). Wear is compared at fixed places of the face width: the outermost slices themselves move outwards.
+//! 400 positions, 60 wear steps). Wear is compared at fixed places of the face width, as maximum wear is read: the outermost slices themselves
+//! move outwards.
 
 use gearwear::gear::Gear;
 use gearwear::mesh_cycle::settings::{Coupling, SliceSettings};
@@ -25,8 +26,8 @@ fn scene(coupling: Coupling, slices: usize, positions: usize, steps: f64) -> Sce
 }
 
 /// Worn volume of both gears, root wear at a tenth, a quarter, the middle and nine tenths of the face width, transmission error peak to
-/// peak of the worn pair.
-fn answers(scene: &Scene) -> [f64; 7] {
+/// peak of the worn pair, maximum wear of both gears.
+fn answers(scene: &Scene) -> [f64; 9] {
     let (pair, outcome) = (pair(&scene.pair), scene.run());
     let figures = Gear::BOTH.map(|gear| WearFigures::at(&pair, gear, &outcome, &outcome.worn));
     let slices = &figures[0].slices;
@@ -38,28 +39,31 @@ fn answers(scene: &Scene) -> [f64; 7] {
     let errors = &outcome.worn.cycle.slices.as_ref().unwrap().transmission_error_mm;
     let greatest = errors.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
-    [figures[0].area_mm2, figures[1].area_mm2, root(0.1), root(0.25), root(0.5), root(0.9), greatest - least]
+    let [area, peak] = [figures.each_ref().map(|of| of.area_mm2), figures.each_ref().map(|of| of.peak_mm)];
+    [area[0], area[1], root(0.1), root(0.25), root(0.5), root(0.9), greatest - least, peak[0], peak[1]]
 }
 
 /// Greatest relative change of the answers.
-fn change(from: &[f64; 7], to: &[f64; 7]) -> f64 {
+fn change(from: &[f64], to: &[f64]) -> f64 {
     from.iter().zip(to).map(|(a, b)| (b / a - 1.0).abs()).fold(0.0, f64::max)
 }
 
 /// Root mean square of the relative changes of wear: less at the mercy of a single sign than the greatest.
-fn mean_change(from: &[f64; 7], to: &[f64; 7]) -> f64 {
+fn mean_change(from: &[f64; 9], to: &[f64; 9]) -> f64 {
     (from.iter().zip(to).take(6).map(|(a, b)| (b / a - 1.0).powi(2)).sum::<f64>() / 6.0).sqrt()
 }
 
 /// Measured at 20 to 40 slices: at most 0.46 %, in the transmission error; wear is of second order in the width of a slice with
-/// coupling (2.4), and changes by less than 0.1 % without.
+/// coupling (2.4), and changes by less than 0.1 % without. Maximum wear changes by 0.9 %.
 #[test]
 fn ver_slices() {
     let few = |coupling, slices| answers(&scene(coupling, slices, 400, 3.0));
     for coupling in BOTH {
         let [ten, twenty, forty] = [10, 20, 40].map(|slices| few(coupling, slices));
-        let changes = [change(&ten, &twenty), change(&twenty, &forty)];
+        let changes = [change(&ten[..7], &twenty[..7]), change(&twenty[..7], &forty[..7])];
         assert!(changes[1] < 5e-3, "{coupling:?}: {changes:?}");
+        let of_peaks = change(&twenty[7..], &forty[7..]);
+        assert!(of_peaks < 0.012, "{coupling:?}: {of_peaks}");
         if coupling == Coupling::Slicing {
             let order = (mean_change(&ten, &twenty) / mean_change(&twenty, &forty)).log2();
             assert!(order > 1.5, "order {order}");

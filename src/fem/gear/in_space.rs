@@ -187,9 +187,9 @@ impl TeethInSpace {
         Ok(Self { by_distance: joined.blocks(matrices, 0, 0..=teeth - 1).collect(), mesh, places })
     }
 
-    /// Elements over the face width.
-    pub(crate) fn layers(&self) -> usize {
-        self.mesh.layers()
+    /// Where elements over the face width end, from z = 0 on.
+    pub(crate) fn layer_ends_mm(&self) -> Vec<f64> {
+        self.mesh.layer_ends_mm()
     }
 
     /// Loads at points of the working flank, each its radius, its place over the face width and its part of the whole.
@@ -203,10 +203,7 @@ impl TeethInSpace {
 
     fn add_load(&self, radius_mm: f64, z_mm: f64, part: f64, forces: &mut FlankForces) {
         let (first, s) = self.mesh.section.on_flank(radius_mm);
-        let layers = self.layers();
-        let place = z_mm / self.mesh.z_mm[2 * layers] * layers as f64;
-        let layer = (place.max(0.0) as usize).min(layers - 1);
-        let t = 2.0 * (place - layer as f64) - 1.0;
+        let (layer, t) = self.mesh.across_width(z_mm);
         let shape = Shape::at(ElementKind::Quad8, [s, t]);
         let nodes = [(0, 0), (2, 0), (2, 2), (0, 2), (1, 0), (2, 1), (1, 2), (0, 1)];
         for ((along, across), value) in nodes.into_iter().zip(shape.values) {

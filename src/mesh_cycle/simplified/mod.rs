@@ -264,11 +264,18 @@ impl WearingPair for SimplifiedPair<'_> {
         let mesh = self.mesh();
         let line_load = self.springs.line_load_n_per_mm / self.knots.len() as f64;
         let positions = mesh.along_path(&self.springs.pair.path, self.positions, line_load);
-        let mut greatest_pressure = GreatestPressure::default();
-        greatest_pressure.note_all(&positions);
+        let mut of_slices = vec![GreatestPressure::default(); mesh.slices];
         // Closed forms know no tip edges.
-        let felt = Gear::BOTH.into_iter().flat_map(|gear| &pressure_mpa[gear]);
-        felt.for_each(|&pressure| greatest_pressure.note(pressure, false));
+        for (place, &pressure) in mesh.peak_pressure_mpa.iter().enumerate() {
+            of_slices[place % mesh.slices].note(pressure, false);
+        }
+        for gear in Gear::BOTH {
+            for (slice, felt) in of_slices.iter_mut().zip(pressure_mpa[gear].chunks_exact(points[gear])) {
+                felt.iter().for_each(|&pressure| slice.note(pressure, false));
+            }
+        }
+        let mut greatest_pressure = GreatestPressure::default();
+        greatest_pressure.note_slices(&of_slices);
         let cycle = CycleObservation {
             positions,
             greatest_pressure,

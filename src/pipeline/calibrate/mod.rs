@@ -18,9 +18,9 @@ use crate::contact::settings::Material;
 use crate::fem::gear::{condensed_pair::CondensedPair, model::much_memory};
 use crate::gear::modification::Modification;
 use crate::gear::{Gear, GearPair, PairError};
-use crate::gear_mesh::settings::{Body, SpaceResolution};
+use crate::gear_mesh::settings::Body;
 use crate::mesh_cycle::load_sharing::EquilibriumError;
-use crate::mesh_cycle::pair_in_space::PairInSpace;
+use crate::mesh_cycle::pair_in_space::KeptInSpace;
 use crate::observer::Observer;
 use crate::pipeline::stage_clock::StageClock;
 use crate::plan::calibration::CalibrationStage;
@@ -94,8 +94,13 @@ pub(crate) enum Extent {
     FastModel,
 }
 
-/// Calibrates the pair of `scene`. The files are left to the caller.
-pub(crate) fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Result<Calibrated, CalibrateError> {
+/// Calibrates the pair of `scene`, with teeth in space that are `kept` where they are its own. The files are left to the caller.
+pub(crate) fn run(
+    scene: &Scene,
+    extent: Extent,
+    kept: &KeptInSpace,
+    observer: &dyn Observer,
+) -> Result<Calibrated, CalibrateError> {
     use CalibrationStage as Stage;
     let start = Instant::now();
     let mut stages = Stages(StageClock::new(observer));
@@ -123,7 +128,7 @@ pub(crate) fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Res
     let pair_compliance = loaded.curve(&deflection, w);
     let in_slices = scene.slices.is_some() && scene.fem.body == Body::Ring;
     let slices = match in_slices {
-        true => stages.run(Stage::Slices, || slices(scene, &pair, (&pair_compliance, w), observer))?,
+        true => stages.run(Stage::Slices, || slices(scene, &pair, kept, (&pair_compliance, w), observer))?,
         false => None,
     };
     let stopped = || observer.interrupted();
@@ -158,11 +163,12 @@ pub(crate) fn run(scene: &Scene, extent: Extent, observer: &dyn Observer) -> Res
 fn slices(
     scene: &Scene,
     pair: &GearPair,
+    kept: &KeptInSpace,
     (curve, line_load_n_per_mm): (&PairCompliance, f64),
     observer: &dyn Observer,
 ) -> Result<Option<SliceFit>, StiffnessError> {
     let elastic = scene.material.map(Material::elastic);
-    match PairInSpace::new(pair, &elastic, &scene.fem.clamp_radius_mm, &SpaceResolution::USUAL) {
+    match kept.condensed(pair, elastic, scene.fem.clamp_radius_mm, slice_fit::SLICES) {
         Ok(in_space) => slice_fit::fit(pair, &scene.material, &in_space, curve, line_load_n_per_mm).map(Some),
         Err(error) => {
             observer.warning(&format!(

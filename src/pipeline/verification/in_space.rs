@@ -26,7 +26,7 @@ use crate::stiffness::{StiffnessError, TeethSpring, curve::PairCompliance};
 /// Positions from A to E.
 const POSITIONS: usize = 200;
 /// Fewest slices: with fewer the loads at the ends of the lines of contact are lost.
-const LEAST_SLICES: usize = 24;
+const LEAST_SLICES: usize = 20;
 /// Of half-planes in place of finite elements, whose teeth end, and of elements and slices (docs/accuracy.md): no less than what severe wear asks for.
 const OF_HALF_PLANES: Uncertainty =
     Uncertainty { profile: 0.03, peak: 0.02, tip_edge: 0.06, transmission_error: 0.01, pressure: 0.03 };
@@ -57,14 +57,15 @@ pub(super) fn life(
     };
     let own = outcome.slices.count();
     let (count, beyond) = if is_finest_in_space(scene) {
-        let count = (own + own.div_ceil(3)).clamp(LEAST_SLICES, MOST_SLICES_IN_SPACE);
+        let count = in_space.slices_from((own + own.div_ceil(3)).max(LEAST_SLICES)).min(MOST_SLICES_IN_SPACE);
         // As many are no other slices: then fewer of them tell.
         let count = if count > own { count } else { own - own / 4 };
         let (m, n) = (count as f64, own as f64);
         let beyond = Beyond { wear: m / (m - n).abs(), transmission_error: m.powi(2) / (m.powi(2) - n.powi(2)).abs() };
         (count, beyond)
     } else {
-        (own.clamp(LEAST_SLICES, MOST_SLICES_IN_SPACE), Beyond::NONE)
+        let count = if own < LEAST_SLICES { in_space.slices_from(LEAST_SLICES) } else { own };
+        (count.min(MOST_SLICES_IN_SPACE), Beyond::NONE)
     };
     let settings = SliceSettings { count, coupling: Coupling::Fem };
     let unread = SliceCompliance::of_plates(pair, &scene.material, true);

@@ -2,6 +2,7 @@
 
 use super::over_width::{OverWidth, depths_at_widths, interpolated, pressure_along_path_mpa};
 use crate::gear::flank_zones::{FlankZone, FlankZones};
+use crate::gear::slices::greatest_over_width;
 use crate::gear::{Gear, PerGear};
 use crate::results::run::{FlankRecord, RunRecord};
 
@@ -150,9 +151,11 @@ impl ObservedFlank {
     }
 
     fn greatest_wear_um(&self, zone: FlankZone) -> f64 {
-        let points = self.slices().flat_map(|slice| slice.iter().zip(&self.radius_mm));
-        let of_zone = points.filter(|(_, radius)| self.zones.at(**radius) == zone);
-        of_zone.map(|(depth, _)| *depth).fold(0.0, f64::max)
+        let of_slice = |slice: &[f64]| {
+            let points = slice.iter().zip(&self.radius_mm).filter(|(_, radius)| self.zones.at(**radius) == zone);
+            points.map(|(depth, _)| *depth).fold(0.0, f64::max)
+        };
+        greatest_over_width(&self.slices().map(of_slice).collect::<Vec<f64>>())
     }
 
     /// The slices one after the other.

@@ -154,7 +154,8 @@ fn calibration(given: &LoadedScene, observer: &dyn Observer) -> Result<Calibrate
         return Ok(Calibrated { made: Some(own.clone()), wall_s: None, why_none: String::new() });
     }
     observer.stage("calibration");
-    match calibrate::run(given.scene(), Extent::FastModel, &PartOf::new(observer, 0, usize::MAX)) {
+    match calibrate::run(given.scene(), Extent::FastModel, &given.teeth_in_space, &PartOf::new(observer, 0, usize::MAX))
+    {
         Ok(done) => Ok(Calibrated { made: Some(done.calibration), wall_s: Some(done.wall_s), why_none: String::new() }),
         Err(CalibrateError::Interrupted) => Err(AccuracyError::Interrupted),
         Err(error) => Ok(Calibrated { made: None, wall_s: None, why_none: format!("no calibration: {error}") }),

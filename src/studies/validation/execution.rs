@@ -240,10 +240,11 @@ impl Task<'_> {
     fn calibrated(&self) -> Result<Executed, Failed> {
         let resolved = self.resolved(self.draft()?)?;
         let extent = if self.run.full { Extent::Whole } else { Extent::FastModel };
-        let done = calibrate::run(&resolved.scene, extent, self.watch).map_err(|error| match &error {
-            CalibrateError::Pair(_) => refused(error),
-            _ => not_converged(error),
-        })?;
+        let done =
+            calibrate::run(&resolved.scene, extent, &Default::default(), self.watch).map_err(|error| match &error {
+                CalibrateError::Pair(_) => refused(error),
+                _ => not_converged(error),
+            })?;
         let calibration = done.calibration;
         let positions = (calibration.deflection.len() + calibration.single_contact.len()) as u64;
         let value = Value::group([("calibration", tree(&calibration)?)]);
