@@ -85,8 +85,10 @@ fn flank_tables_have_a_row_for_each_point_and_slice() {
         let middles: Vec<f64> = slices.iter().map(|slice| 4.0 * slice + 2.0).collect();
         assert_eq!(flank["width_mm"], middles);
         let zones = ["peak", "tip_edge", "below_sap"].map(|zone| number(&summary, &format!("/{gear}/{zone}_wear_um")));
-        assert_eq!(greatest(&flank["wear_um"]), greatest(&zones));
-        assert_eq!(greatest(&flank["pressure_new_MPa"]), number(&summary, "/new/peak_pressure_MPa"));
+        // Of five slices the outermost lie farther from the end faces than where the summary reads what is greatest.
+        let read_beyond = |most: f64, read: f64| assert!((most..=1.1 * most).contains(&read), "{gear}: {most}, {read}");
+        read_beyond(greatest(&flank["wear_um"]), greatest(&zones));
+        read_beyond(greatest(&flank["pressure_new_MPa"]), number(&summary, "/new/peak_pressure_MPa"));
         let root = summary.pointer(&format!("/helical/wear/{gear}/root_wear_um")).unwrap().as_array().unwrap();
         assert_eq!(root.len(), SLICES);
     }

@@ -59,7 +59,10 @@ fn ver_stiffness_and_work_of_a_spur_pair() {
 #[test]
 fn ver_stiffness_and_work_of_slices() {
     let keys = |coupling: &str| {
-        format!("[contact]\nsurface = \"winkler\"\n[helical]\nslices = 6\ncoupling = \"{coupling}\"\n")
+        format!(
+            "[contact]\nsurface = \"half-space\"\n[stiffness]\nmodel = \"weber-banaschek\"\n[helical]\nslices = 6\n\
+             coupling = \"{coupling}\"\n"
+        )
     };
     check("thin slices", "helical", &keys("none"), 5e-3);
     check("plates", "helical", &keys("slicing"), 5e-3);
