@@ -7,6 +7,8 @@
 //! of the flanks themselves ([`super::observed_points`]). Real ends of a strip, where a flank ends in
 //! its tip edge (or its involute ends at the form circle), are kept exactly: no pressure acts beyond them.
 
+use std::cmp::Ordering;
+
 use super::flank_motion::{ROUND_OFF, on_tangent, passes_to_ends_mm};
 use super::{Flanks, PositionCell};
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
@@ -14,8 +16,8 @@ use crate::reference::linear_means::add_means;
 
 /// Removed material of one flank at samples between its points.
 ///
-/// Where the flank ends between two points, only the one within it wears: on the last stretch up to the end, what is removed goes on as
-/// between the outermost two points within. A straight line to the point beyond would leave a ridge there that carries load and never wears.
+/// Where the flank ends between two points, only the one within it wears: on the last stretch up to the end, what is removed is what that point has
+/// lost. A straight line to the point beyond would leave a ridge there that carries load and never wears.
 #[derive(Debug, Clone)]
 pub(super) struct Interpolation {
     /// Index of the first and the last but one of the points within the flank.
@@ -43,11 +45,11 @@ impl Interpolation {
             None => grid.place(coordinate_mm),
         };
         let index = place.index.clamp(self.within[0], self.within[1]);
-        let beside = || {
-            let [low, high] = [0, 1].map(|k| grid.coordinate_mm[index + k]);
-            (coordinate_mm - low) / (high - low)
-        };
-        self.weight.push(if index == place.index { place.weight } else { beside() });
+        self.weight.push(match place.index.cmp(&index) {
+            Ordering::Less => 0.0,
+            Ordering::Equal => place.weight,
+            Ordering::Greater => 1.0,
+        });
         self.index.push(index as u32);
     }
 
