@@ -319,9 +319,8 @@ impl Condensed {
         for &member in members {
             gap_mm[member] = 0.0;
         }
-        // S is symmetric.
-        let resistance = s.as_slice().to_vec();
-        Ok(Trial { force, gap_mm, rigid: alpha.iter().copied().collect(), resistance, loose })
+        // S is symmetric: by columns as by rows.
+        Ok(Trial { force, gap_mm, rigid: alpha.iter().copied().collect(), resistance: s.data.into(), loose })
     }
 
     /// The compliance of the `active` multipliers, factorised.

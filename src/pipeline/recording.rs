@@ -216,7 +216,7 @@ fn beside_work(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> Opt
         let expected = own[gear].constant_coefficient_mm2_per_n()? * work_n;
         Some(if expected > 0.0 { (lost[gear] / expected - 1.0).abs() } else { 0.0 })
     };
-    let PerGear { pinion, wheel } = PerGear { pinion: beside(Gear::Pinion)?, wheel: beside(Gear::Wheel)? };
+    let (pinion, wheel) = (beside(Gear::Pinion)?, beside(Gear::Wheel)?);
     Gear::BOTH.iter().any(|&gear| own[gear].coefficient_mm2_per_n > 0.0).then(|| pinion.max(wheel))
 }
 

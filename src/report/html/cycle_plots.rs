@@ -2,7 +2,7 @@
 
 use super::number::{change, figure, percent, significant};
 use super::reading::{Extreme, defined_pressures, greatest, tip_edge_note};
-use crate::report::chart::Chart;
+use crate::report::chart::{Chart, extent};
 use crate::results::path_points::among;
 use crate::results::run::{MeshCycleRow, RunRecord};
 
@@ -55,28 +55,26 @@ pub(super) fn transmission_error(record: &RunRecord) -> Chart {
 
 /// None where the model does not give it.
 pub(super) fn mesh_stiffness(record: &RunRecord) -> Option<Chart> {
-    let column = |value: fn(&MeshCycleRow) -> Option<f64>| record.mesh_cycle.iter().map(value).collect();
-    let new: Option<Vec<f64>> = column(|r| r.mesh_stiffness_new_N_per_mm_um);
-    let worn: Option<Vec<f64>> = column(|r| r.mesh_stiffness_worn_N_per_mm_um);
-    let (new, worn) = (new?, worn?);
-    let extent = |values: &[f64]| {
-        let (low, high) =
-            values.iter().fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), &k| (low.min(k), high.max(k)));
-        format!("{} to {}", figure(low), figure(high))
-    };
-    let reading = match record.mesh_cycle.is_empty() {
+    let rows = &record.mesh_cycle;
+    let column = |value: fn(&MeshCycleRow) -> Option<f64>| rows.iter().map(value).collect::<Option<Vec<f64>>>();
+    let new = extent(column(|r| r.mesh_stiffness_new_N_per_mm_um)?);
+    let worn = extent(column(|r| r.mesh_stiffness_worn_N_per_mm_um)?);
+    let range = |[low, high]: [f64; 2]| format!("{} to {}", figure(low), figure(high));
+    let reading = match rows.is_empty() {
         true => NOT_COMPUTED.into(),
         false => format!(
             "About the load of the run, all pairs in contact together resist with {} N/(mm·µm) new and {} N/(mm·µm) worn.",
-            extent(&new),
-            extent(&worn)
+            range(new),
+            range(worn)
         ),
     };
-    let top = new.iter().chain(&worn).copied().fold(0.0, f64::max);
-    let chart = Chart::new("mesh-stiffness", "Mesh stiffness").y("mesh stiffness, N/(mm·µm)").y_up_to(top);
-    let positions: Vec<f64> = record.mesh_cycle.iter().map(|row| row.position_mm).collect();
-    let chart = chart.reading(reading).new_and_worn(&positions, new, worn, "%{y:.2f} N/(mm·µm)");
-    Some(chart.over_path(&record.summary.geometry.curvature_radius_mm))
+    let chart = Chart::new("mesh-stiffness", "Mesh stiffness").y("mesh stiffness, N/(mm·µm)");
+    let chart = chart.y_up_to(new[1].max(worn[1]).max(0.0)).reading(reading);
+    let stiffness: [fn(&MeshCycleRow) -> f64; 2] = [
+        |r| r.mesh_stiffness_new_N_per_mm_um.unwrap_or_default(),
+        |r| r.mesh_stiffness_worn_N_per_mm_um.unwrap_or_default(),
+    ];
+    Some(over_cycle(record, chart, stiffness, "%{y:.2f} N/(mm·µm)"))
 }
 
 fn pressure(record: &RunRecord) -> Chart {
