@@ -98,36 +98,25 @@
 // The program, the tests and the examples name the library alike.
 extern crate self as gearwear;
 
-mod calibration;
 #[cfg(feature = "program")]
 mod cli;
-mod contact;
-mod data_table;
 #[cfg(feature = "program")]
 mod exchange;
-mod fem;
-mod gear;
-mod gear_mesh;
-mod lubrication;
 #[cfg(feature = "program")]
 mod measurement;
-pub mod mesh;
-mod mesh_cycle;
-mod observer;
 mod pipeline;
 mod plan;
-pub mod reference;
 mod report;
-pub mod results;
 mod resume;
-mod root_stress;
 mod scene;
-mod simulation;
-mod stiffness;
 mod studies;
-mod thermal;
-mod wear;
-mod whole_file;
+
+// What it calculates with, under the names of the rooms there.
+use gearwear_physics::{
+    calibration, contact, data_table, fem, gear, gear_mesh, lubrication, mesh_cycle, observer, root_stress, simulation,
+    stiffness, thermal, wear, whole_file,
+};
+pub use gearwear_physics::{mesh, reference, results};
 
 #[cfg(all(test, feature = "program"))]
 #[allow(unreachable_pub, reason = "test modules are of one crate")]

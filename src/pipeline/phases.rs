@@ -55,8 +55,7 @@ fn wear(
     (gear, coefficient_m2_per_n): (Gear, f64),
     [before, after]: [&Snapshot; 2],
 ) -> PhaseWear {
-    let states = after.wear_mm[gear].iter().zip(&before.wear_mm[gear]);
-    let lost_mm: Vec<f64> = states.map(|(after, before)| after - before).collect();
+    let lost_mm = after.lost_since_mm(before, gear);
     let lost = WearFigures::new(model.pair, gear, &outcome.grid[gear], &outcome.zones[gear], &lost_mm);
     let area_mm2 = match (&after.lost_at_nodes, &before.lost_at_nodes) {
         (Some(after), Some(before)) => after[gear].wear_mm2 - before[gear].wear_mm2,

@@ -6,7 +6,7 @@ use super::{
     Model, RunError, UM_PER_MM, drawing, error_estimates, left_out_contact, phases, root_stress, slices,
     stability::Judged, verification::Verified,
 };
-use crate::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface, slices::greatest_over_width};
+use crate::gear::{Gear, GearPair, PerGear, flank_surface::FlankSurface};
 use crate::mesh_cycle::CycleObservation;
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::plan::Plan;
@@ -19,12 +19,12 @@ use crate::results::run::{
     PathPoints, RangeSummary, ReportedBy, RunRecord, StageLeftOut, StiffnessSummary, Summary, WearBalance, WearSummary,
     WorkSummary,
 };
-use crate::results::worn_pair::{WearProfile, WornPair};
+use crate::results::worn_pair::WornPair;
 use crate::scene::Resolved;
 use crate::scene::file::ReportFile;
 use crate::scene::loaded::LoadedScene;
 use crate::scene::problem::number;
-use crate::simulation::figures::WearFigures;
+use crate::simulation::figures::{WearFigures, wear_profile};
 use crate::simulation::wear_run::{Outcome, SMALL_WEAR_MODULES};
 use crate::thermal::settings::TemperatureMethod;
 use crate::wear::settings::WearSettings;
@@ -65,22 +65,10 @@ pub(super) fn record(scene: &LoadedScene, model: &Model<'_>, found: RunFindings<
 /// The main figures, the history and the wear over both flanks.
 pub(super) fn worn_pair(model: &Model<'_>, found: RunFindings<'_>, summary: Summary) -> WornPair {
     let outcome = found.outcome;
-    let profile = |gear: Gear| {
-        let involute = model.pair.teeth[gear].involute;
-        let rho = &outcome.grid[gear].coordinate_mm;
-        let wear_mm = &outcome.worn.wear_mm[gear];
-        let over_width = |point: usize| wear_mm.iter().skip(point).step_by(rho.len()).copied().collect::<Vec<f64>>();
-        let greatest = |point: usize| greatest_over_width(&over_width(point));
-        WearProfile {
-            radius_mm: rho.iter().map(|&rho| involute.radius_mm(rho)).collect(),
-            wear_um: (0..rho.len()).map(|point| greatest(point) * UM_PER_MM).collect(),
-            active_mm: [model.pair.active_start_radius_mm(gear), model.pair.teeth[gear].tip_radius_mm],
-        }
-    };
     WornPair {
         summary,
         history: outcome.snapshots.iter().map(|snapshot| history_row(model, outcome, snapshot)).collect(),
-        flanks: PerGear::from_fn(profile),
+        flanks: PerGear::from_fn(|gear| wear_profile(model.pair, outcome, gear)),
     }
 }
 
@@ -507,10 +495,7 @@ fn pressure_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
 
 /// Warns where so much is worn that the nominal tooth no longer stands for the worn one.
 fn deep_wear_warning(pair: &GearPair, outcome: &Outcome) -> Option<String> {
-    let deepest = Gear::BOTH
-        .map(|gear| outcome.worn.wear_mm[gear].iter().copied().fold(0.0, f64::max))
-        .into_iter()
-        .fold(0.0, f64::max);
+    let deepest = Gear::BOTH.map(|gear| outcome.worn.deepest_mm(gear)).into_iter().fold(0.0, f64::max);
     (deepest > SMALL_WEAR_MODULES * pair.spec.normal_module_mm).then(|| {
         format!(
             "the maximum wear, {:.1} µm, is more than {SMALL_WEAR_MODULES} modules: tooth stiffness and path of contact \

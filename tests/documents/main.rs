@@ -50,7 +50,7 @@ fn problem_document_has_every_key() {
 
 #[test]
 fn imports_keep_to_the_table_of_rooms() {
-    let faults = rooms::faults(&read("ARCHITECTURE.md"), &in_repository("src"));
+    let faults = rooms::faults(&read("ARCHITECTURE.md"), &in_repository(""));
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 

@@ -1,11 +1,14 @@
 //! The table of rooms in ARCHITECTURE.md against the imports of the source.
 //!
-//! A room is a folder of `src`, or a file there beside `lib.rs` and `main.rs`. Reading is line by line: comments and what follows
+//! A room is a folder of `physics/src` or `src`, or a file there beside `lib.rs` and `main.rs`. Reading is line by line: comments and what follows
 //! `#[cfg(test)]` with `mod tests` are left out.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+
+/// Where the rooms are, those of the first crate above those of the second.
+const SOURCES: [&str; 2] = ["physics/src", "src"];
 
 /// A row of the table.
 struct Room {
@@ -18,7 +21,7 @@ struct Room {
 
 /// An import of another room.
 struct Import {
-    /// Below `src`.
+    /// Below the root of the repository.
     file: String,
     line: usize,
     room: String,
@@ -27,10 +30,10 @@ struct Import {
 }
 
 /// Imports that the table does not allow, rooms that it lacks or that are gone, and known imports that are gone.
-pub fn faults(architecture: &str, src: &Path) -> Vec<String> {
+pub fn faults(architecture: &str, root: &Path) -> Vec<String> {
     let table = table(architecture);
     let mut faults = Vec::new();
-    let files = source_files(src);
+    let files: Vec<String> = SOURCES.iter().flat_map(|src| source_files(root, src)).collect();
     let names: BTreeSet<&str> = files.iter().filter_map(|file| room_of(file)).collect();
     for name in &names {
         if !table.iter().any(|room| room.name == *name) {
@@ -38,14 +41,14 @@ pub fn faults(architecture: &str, src: &Path) -> Vec<String> {
         }
     }
     for room in table.iter().filter(|room| !names.contains(room.name.as_str())) {
-        faults.push(format!("ARCHITECTURE.md: the room {} is not in src", room.name));
+        faults.push(format!("ARCHITECTURE.md: the room {} is in none of {SOURCES:?}", room.name));
     }
     for file in &files {
-        let text = fs::read_to_string(src.join(file)).expect("a source file can be read");
+        let text = fs::read_to_string(root.join(file)).expect("a source file can be read");
         for import in imports(file, &text, &names) {
             if !allowed(&table, &import) {
                 let Import { file, line, room, path } = import;
-                faults.push(format!("src/{file}:{line}: {room} may not use {path}"));
+                faults.push(format!("{file}:{line}: {room} may not use {path}"));
             }
         }
     }
@@ -92,17 +95,17 @@ fn table(architecture: &str) -> Vec<Room> {
         .collect()
 }
 
-/// All files below `src`, in order, with `/` between folders.
-fn source_files(src: &Path) -> Vec<String> {
+/// All files below the folder `src` of `root`, in order, with `/` between folders.
+fn source_files(root: &Path, src: &str) -> Vec<String> {
     let mut files = Vec::new();
-    let mut folders: Vec<PathBuf> = vec![src.to_owned()];
+    let mut folders: Vec<PathBuf> = vec![root.join(src)];
     while let Some(folder) = folders.pop() {
         for entry in fs::read_dir(&folder).expect("a folder of src can be read") {
             let path = entry.expect("a folder of src can be read").path();
             if path.is_dir() {
                 folders.push(path);
             } else if path.extension().is_some_and(|extension| extension == "rs") {
-                let below = path.strip_prefix(src).expect("it is below src");
+                let below = path.strip_prefix(root).expect("it is below the root");
                 let parts: Vec<String> = below.iter().map(|part| part.to_string_lossy().into_owned()).collect();
                 files.push(parts.join("/"));
             }
@@ -112,12 +115,17 @@ fn source_files(src: &Path) -> Vec<String> {
     files
 }
 
-/// The room of a file below `src`; the roots of library and program and files of tests have none.
+/// A file's path below the source folder it is in.
+fn below_src(file: &str) -> &str {
+    SOURCES.iter().find_map(|src| file.strip_prefix(src)?.strip_prefix('/')).unwrap_or(file)
+}
+
+/// The room of a file; the roots of libraries and program and files of tests have none.
 fn room_of(file: &str) -> Option<&str> {
     if file.ends_with("tests.rs") || file.contains("/tests/") {
         return None;
     }
-    let first = file.split('/').next()?.trim_end_matches(".rs");
+    let first = below_src(file).split('/').next()?.trim_end_matches(".rs");
     (!matches!(first, "lib" | "main")).then_some(first)
 }
 
@@ -125,7 +133,7 @@ fn room_of(file: &str) -> Option<&str> {
 fn imports(file: &str, text: &str, rooms: &BTreeSet<&str>) -> Vec<Import> {
     let Some(room) = room_of(file) else { return Vec::new() };
     // Modules between this file and the root of the crate.
-    let depth = file.trim_end_matches("/mod.rs").split('/').count();
+    let depth = below_src(file).trim_end_matches("/mod.rs").split('/').count();
     let to_root = "super::".repeat(depth);
     let lines: Vec<&str> = text.lines().collect();
     let mut found = Vec::new();

@@ -1,5 +1,6 @@
 //! The tests of the library that look inside it; `src/lib.rs` compiles them into its unit tests.
 
+mod backlash;
 mod calibration;
 mod checkpoints;
 mod common;
@@ -39,6 +40,7 @@ mod scene;
 mod shaft;
 mod simplified;
 mod slice_coupling;
+mod sobol_indices;
 mod stepping_stability;
 mod stiffness;
 mod stiffness_curve;

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use gearwear::fem::elastic::Elastic;
-use gearwear::fem::gear::in_space::{FlankForces, PlaneSection, TeethInSpace};
+use gearwear::fem::gear::in_space::{self, FlankForces, PlaneSection, TeethInSpace};
 use gearwear::fem::quadrature::GAUSS_3;
 use gearwear::gear::shaft::{EndFace, Shaft};
 use gearwear::gear::spec::{AxisParallelism, PairSpec};
@@ -513,4 +513,35 @@ fn plates_stand_in_for_teeth_in_space() {
     assert!(run.summary.error.total.how.contains("teeth may touch together"), "{}", run.summary.error.total.how);
     let asked = coarse(&wide).with("helical.coupling", "fem").unwrap();
     assert!(matches!(gearwear::run(&asked, &Unwatched), Err(RunError::TeethInSpace(_))));
+}
+
+/// What the deformed tooth of a ring shows is what its compliance says, also under the load of a neighbour.
+#[test]
+fn ver_deformed_teeth_are_those_of_the_compliance() {
+    let scene = LoadedScene::preset("thesis-helical").unwrap();
+    let pair = GearPair::new(&scene.scene().pair).unwrap();
+    let tooth = &pair.teeth.pinion;
+    let clamp_mm = scene.scene().fem.clamp_radius_mm.pinion;
+    let coarse = SpaceResolution { layers: [4, 4], ..SpaceResolution::USUAL };
+    let mesh = ExtrudedTooth::of_gear(&pair, Gear::Pinion, clamp_mm, &coarse);
+    let normals = in_space::flank_forces(tooth, &mesh);
+    let teeth = TeethInSpace::new(tooth, mesh, STEEL, 2).unwrap();
+    let own = teeth.load([(35.1, 4.0, 0.7), (35.3, 9.0, 0.3)]);
+    let beside = teeth.load([(39.0, 16.0, 1.0)]);
+    for pitches in [-1, 1] {
+        let loads = [(0, 300.0, own.clone()), (pitches, 500.0, beside.clone())];
+        let deformed = teeth.deformed(tooth, STEEL, &loads).unwrap();
+        let along = |forces: &FlankForces| -> f64 {
+            let of_node = |(node, part): &(u32, f64)| {
+                let dot =
+                    |(dof, force): &(u32, f64)| force * deformed.displacement_mm[*dof as usize / 3][*dof as usize % 3];
+                part * normals[*node as usize].iter().map(dot).sum::<f64>()
+            };
+            forces.iter().map(of_node).sum()
+        };
+        let expected = 300.0 * teeth.mm_per_n(&own, &own, 0) + 500.0 * teeth.mm_per_n(&own, &beside, pitches);
+        let found = along(&own);
+        assert!((found / expected - 1.0).abs() < 1e-9, "{pitches}: {found} instead of {expected}");
+        assert!(deformed.stress_mpa.iter().all(|stress| stress.amax() < 500.0));
+    }
 }

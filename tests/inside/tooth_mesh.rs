@@ -3,13 +3,14 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
+use gearwear::LoadedScene;
 use gearwear::contact::hertz;
 use gearwear::gear::modification::{Modification, Relief, ReliefShape};
 use gearwear::gear::removed_material::removed_mm;
 use gearwear::gear::spec::PairSpec;
 use gearwear::gear::{Gear, GearPair, PerGear};
 use gearwear::gear_mesh::pair_mesh::PairSectors;
-use gearwear::gear_mesh::settings::{Body, BodySettings, SectorSides, default_clamp};
+use gearwear::gear_mesh::settings::{Body, BodySettings, SectorSides, SpaceResolution, default_clamp};
 use gearwear::gear_mesh::{self, FlankResolution, SectorSettings, ToothMeshError, ToothSector, ToothShape};
 use gearwear::mesh::quality::{self, MeshQuality};
 use gearwear::mesh::{CellBlock, CellKind, Mesh};
@@ -564,5 +565,20 @@ proptest! {
             Err(ToothMeshError::TipRounding { .. } | ToothMeshError::PointedTip { .. }) => {}
             Err(error) => prop_assert!(false, "{error}"),
         }
+    }
+}
+
+#[test]
+fn elements_over_the_face_width_end_with_slices() {
+    let helical = LoadedScene::preset("helical").unwrap();
+    let pair = &helical.scene().pair;
+    let even = |slices| SpaceResolution { slices, ..SpaceResolution::USUAL }.even_layers(pair);
+    // 20 mm are 14.4 times 0.32 modules of 4.5 mm · cos 15°.
+    assert_eq!([None, Some(5), Some(10), Some(20), Some(40), Some(80)].map(even), [15, 10, 10, 10, 20, 20]);
+    assert_eq!([Some(24), Some(30), Some(60), Some(29), Some(23)].map(even), [12, 15, 20, 15, 15]);
+    let ends = SpaceResolution::of_slices(60).layer_ends_mm(pair);
+    assert_eq!(ends.len(), 23);
+    for (found, expected) in [(ends[1], 1.0 / 3.0), (ends[2], 1.0), (ends[20], 19.0), (ends[21], 20.0 - 1.0 / 3.0)] {
+        assert!((found - expected).abs() < 1e-12, "{ends:?}");
     }
 }

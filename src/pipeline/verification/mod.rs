@@ -279,7 +279,7 @@ fn life(
     let scene = model.scene;
     let phases: Vec<RunPhase<'_>> =
         model.phases.iter().zip(contacts).map(|(phase, contact)| RunPhase { contact, ..*phase }).collect();
-    let deepest = |gear: Gear| outcome.worn.wear_mm[gear].iter().copied().fold(0.0, f64::max);
+    let deepest = |gear: Gear| outcome.worn.deepest_mm(gear);
     let deepest_mm = deepest(Gear::Pinion).max(deepest(Gear::Wheel));
     // Beyond it grows with the wear by itself.
     let tolerance_mm = (TOLERANCE * deepest_mm.min(SHALLOW_MM)).max(LEAST_TOLERANCE_MM);

@@ -10,14 +10,13 @@
 //! | [`design`] | samples from a Sobol sequence, correlations |
 //! | [`study`] | runs them on all threads |
 //! | [`life`] | when wear comes to a limit |
-//! | [`statistics`], [`indices`] | quantiles and Sobol indices of any values |
+//!
+//! Quantiles and Sobol indices of any values are in [`crate::reference`].
 
 pub(crate) mod asked;
 pub(crate) mod design;
 pub(crate) mod distribution;
-pub(crate) mod indices;
 pub(crate) mod life;
 pub(crate) mod record;
 pub(crate) mod report;
-pub(crate) mod statistics;
 pub(crate) mod study;

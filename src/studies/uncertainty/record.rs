@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::distribution::Uncertain;
-use super::indices::Index;
 use super::life::Limit;
 use crate::gear::PerGear;
+use crate::reference::sobol_indices::Index;
 use crate::report::columns::Table;
 
 /// How the factor that stands for the error of the fast model is called.

@@ -14,13 +14,13 @@ use std::time::Instant;
 
 use super::design::{Correlation, Design, Matrix};
 use super::distribution::Uncertain;
-use super::indices::indices;
 use super::life::{Growth, Limit};
 use super::record::{Band, FactorIndices, MODEL_ERROR, OutputRecord, Quantiles, SampleRow, UncertaintyRecord};
-use super::statistics::{SHARES, mean, quantile, standard_deviation};
 use crate::gear::PerGear;
 use crate::observer::Observer;
 use crate::pipeline::{self, guarded::guarded};
+use crate::reference::sobol_indices::indices;
+use crate::reference::statistics::{SHARES, mean, quantile, standard_deviation};
 use crate::results::run::StopReason;
 use crate::results::worn_pair::{WearProfile, WornPair};
 use crate::scene::loaded::LoadedScene;

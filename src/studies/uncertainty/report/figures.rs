@@ -3,9 +3,9 @@
 use serde_json::json;
 
 use crate::gear::Gear;
+use crate::reference::sobol_indices::Index;
 use crate::report::chart::{Chart, Dash, INK, Trace, TraceKind, extent, gear_colour, padded};
 use crate::report::html::number::{figure, percent};
-use crate::studies::uncertainty::indices::Index;
 use crate::studies::uncertainty::record::{FactorIndices, OutputRecord, UncertaintyRecord};
 
 /// Bars of a distribution.

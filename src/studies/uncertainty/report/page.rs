@@ -3,10 +3,10 @@
 use maud::{Markup, html};
 
 use super::figures;
+use crate::reference::sobol_indices::Index;
 use crate::report::html::number::{count, figure, fixed, percent, significant};
 use crate::report::html::page::{Page, Plots, note, section, sources_list};
 use crate::report::html::table::{Cell, NONE, cells, line, list};
-use crate::studies::uncertainty::indices::Index;
 use crate::studies::uncertainty::record::{OutputRecord, UncertaintyRecord};
 
 const DATA_FILES: &[(&str, &str)] = &[

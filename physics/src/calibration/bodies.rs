@@ -1,0 +1,184 @@
+//! From the settings of a pair to its condensed gears, and the pair's stiffness at C as they change: resolution, depth of
+//! the body, neighbouring teeth.
+//!
+//! A known load needs compliances of the loaded nodes alone, so that each row of these tables costs little more than the
+//! factorisation of one tooth of each gear.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::CalibrationError;
+use super::loaded_tooth::{LoadedTooth, nodes_under};
+use crate::contact::{hertz, settings::Material};
+use crate::fem::elastic::Elastic;
+use crate::fem::gear::condensed_pair::CondensedPair;
+use crate::fem::gear::model::MeshedGear;
+use crate::fem::gear::ring::ToothForce;
+use crate::gear::{Gear, GearPair, PerGear};
+use crate::gear_mesh::settings::{Body, BodySettings, SectorSides, greatest_clamp_mm};
+
+/// Elements per half-width that the tables of rim and neighbours are made with; the convergence table shows that it is
+/// enough.
+pub(crate) const TABLE_ELEMENTS_PER_HALF_WIDTH: f64 = 4.0;
+const RESOLUTIONS: [f64; 5] = [4.0, 6.0, 8.0, 10.0, 14.0];
+const RIM_MODULES: [f64; 7] = [0.5, 1.0, 1.5, 2.0, 2.5, 4.0, 5.5];
+const SECTORS: [u32; 3] = [1, 3, 5];
+/// A body must leave something to hold it at.
+const LEAST_CLAMP_OVER_ROOT: f64 = 0.1;
+
+/// A gear pair with what finite elements need to know of it.
+#[derive(Clone, Copy)]
+pub struct Setup<'a> {
+    /// Geometry.
+    pub pair: &'a GearPair,
+    /// Materials.
+    pub material: PerGear<Material>,
+    /// Bodies and resolution.
+    pub bodies: BodySettings,
+    /// Line load that the mesh is made for, N/mm.
+    pub line_load_n_per_mm: f64,
+}
+
+/// Stiffness of the pair at C, flattening included, on one mesh.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ResolutionRow {
+    /// Elements per half-width.
+    pub elements_per_half_width: f64,
+    /// Degrees of freedom of both gears.
+    pub dofs: usize,
+    /// N/(mm·µm).
+    pub pair_n_per_mm_um: f64,
+}
+
+/// The same with the bodies held elsewhere.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RimRow {
+    /// Depth of the body below the root circle in normal modules.
+    pub depth_modules: f64,
+    /// Where each body is held, mm.
+    pub clamp_radius_mm: PerGear<f64>,
+    /// N/(mm·µm).
+    pub pair_n_per_mm_um: f64,
+}
+
+/// The same with more or fewer neighbouring teeth.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NeighbourRow {
+    /// `ring`, or the number of teeth of a sector and how its sides are held.
+    pub body: String,
+    /// N/(mm·µm).
+    pub pair_n_per_mm_um: f64,
+}
+
+impl<'a> Setup<'a> {
+    /// The elastic constants.
+    pub fn elastic(&self) -> PerGear<Elastic> {
+        self.material.map(Material::elastic)
+    }
+
+    /// One gear, meshed.
+    pub fn mesh(&self, gear: Gear) -> Result<MeshedGear, CalibrationError> {
+        Ok(MeshedGear::new(self.pair, gear, &self.elastic(), self.line_load_n_per_mm, &self.bodies)?)
+    }
+
+    /// Both gears, meshed.
+    pub fn meshed(&self) -> Result<PerGear<MeshedGear>, CalibrationError> {
+        PerGear::try_in_parallel(|gear| self.mesh(gear))
+    }
+
+    /// Both gears, condensed onto their whole flanks.
+    pub fn condensed(&self, meshed: &PerGear<MeshedGear>) -> Result<CondensedPair<'a>, CalibrationError> {
+        let elastic = self.elastic();
+        let gears = PerGear::try_in_parallel(|gear| meshed[gear].condense(self.pair, elastic[gear]))?;
+        Ok(CondensedPair::new(self.pair, &elastic, gears))
+    }
+
+    /// Compliance of one gear's tooth at the pitch point, flattening included, mm²/N, and the gear's degrees of freedom.
+    fn pitch_compliance(&self, gear: Gear, bodies: BodySettings) -> Result<(f64, usize), CalibrationError> {
+        let w = self.line_load_n_per_mm;
+        let meshed = MeshedGear::with_one_fine_tooth(self.pair, gear, &self.elastic(), w, &bodies)?;
+        let tooth = &self.pair.teeth[gear];
+        let position_mm = self.pair.path.pitch_point_mm;
+        let rho_mm = self.pair.path.rho_mm(gear, position_mm);
+        let half_width_mm = hertz::flattening(self.pair, &self.material, position_mm).contact.loaded(w).half_width_mm;
+        let flank = meshed.flank();
+        let nodes = nodes_under(tooth, &flank, rho_mm, half_width_mm);
+        let body = meshed.condense_onto(self.pair, self.elastic()[gear], nodes)?;
+        let loaded = LoadedTooth::new(tooth, &body, &flank);
+        let middle = loaded.middle();
+        let moved = loaded
+            .ellipse(rho_mm, half_width_mm, w)
+            .and_then(|force: ToothForce| loaded.surface_mm(middle, rho_mm, middle, &force));
+        let moved = moved.ok_or(CalibrationError::OffTheFlank { gear, position_mm })?;
+        Ok((moved / w, meshed.dofs()))
+    }
+
+    /// Stiffness of the pair at the pitch point with `bodies`, N/(mm·µm), and the degrees of freedom of both gears.
+    fn pitch_stiffness(&self, bodies: BodySettings) -> Result<(f64, usize), CalibrationError> {
+        let (pinion, wheel) =
+            (self.pitch_compliance(Gear::Pinion, bodies)?, self.pitch_compliance(Gear::Wheel, bodies)?);
+        Ok((1e-3 / (pinion.0 + wheel.0), pinion.1 + wheel.1))
+    }
+
+    fn coarse(&self) -> BodySettings {
+        BodySettings { elements_per_half_width: TABLE_ELEMENTS_PER_HALF_WIDTH, ..self.bodies }
+    }
+
+    /// The stiffness on finer and finer meshes.
+    pub fn convergence(&self) -> Result<Vec<ResolutionRow>, CalibrationError> {
+        RESOLUTIONS
+            .par_iter()
+            .map(|&elements_per_half_width| {
+                let bodies = BodySettings { elements_per_half_width, ..self.bodies };
+                let (pair_n_per_mm_um, dofs) = self.pitch_stiffness(bodies)?;
+                Ok(ResolutionRow { elements_per_half_width, dofs, pair_n_per_mm_um })
+            })
+            .collect()
+    }
+
+    /// The stiffness of thinner and thicker rims, as far as both gears have the body for it.
+    pub fn rim_depths(&self) -> Result<Vec<RimRow>, CalibrationError> {
+        let module_mm = self.pair.spec.normal_module_mm;
+        let held = |depth_modules: f64| {
+            let clamp_radius_mm = PerGear::from_fn(|gear| {
+                let root_mm = self.pair.teeth[gear].root_radius_mm;
+                let radius_mm = root_mm - depth_modules * module_mm;
+                let bore_mm = self.pair.spec.gears[gear].bore_diameter_mm.map_or(0.0, |diameter| 0.5 * diameter);
+                let least_mm = bore_mm.max(LEAST_CLAMP_OVER_ROOT * root_mm);
+                (least_mm..=greatest_clamp_mm(root_mm, module_mm)).contains(&radius_mm).then_some(radius_mm)
+            });
+            let PerGear { pinion: Some(pinion), wheel: Some(wheel) } = clamp_radius_mm else { return None };
+            Some((depth_modules, PerGear { pinion, wheel }))
+        };
+        let rims: Vec<(f64, PerGear<f64>)> = RIM_MODULES.into_iter().filter_map(held).collect();
+        rims.par_iter()
+            .map(|&(depth_modules, clamp_radius_mm)| {
+                let (pair_n_per_mm_um, _) = self.pitch_stiffness(BodySettings { clamp_radius_mm, ..self.coarse() })?;
+                Ok(RimRow { depth_modules, clamp_radius_mm, pair_n_per_mm_um })
+            })
+            .collect()
+    }
+
+    /// The stiffness of whole rings and of sectors.
+    pub fn neighbours(&self) -> Result<Vec<NeighbourRow>, CalibrationError> {
+        let least = self.pair.teeth.as_ref().map(|tooth| tooth.teeth);
+        let least = least.pinion.min(least.wheel);
+        let mut kinds = vec![(Body::Ring, "whole ring".to_owned())];
+        for teeth in SECTORS.into_iter().filter(|&teeth| teeth <= least) {
+            for (sides, how) in [(SectorSides::Free, "free"), (SectorSides::Clamped, "clamped")] {
+                let plural = if teeth == 1 { "tooth" } else { "teeth" };
+                kinds.push((Body::Sector { teeth, sides }, format!("{teeth} {plural}, sides {how}")));
+            }
+        }
+        kinds
+            .into_par_iter()
+            .map(|(body, name)| {
+                let (pair_n_per_mm_um, _) = self.pitch_stiffness(BodySettings { body, ..self.coarse() })?;
+                Ok(NeighbourRow { body: name, pair_n_per_mm_um })
+            })
+            .collect()
+    }
+}

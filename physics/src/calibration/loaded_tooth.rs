@@ -1,0 +1,222 @@
+//! A line load on one tooth of a condensed gear, and how far it moves the teeth.
+//!
+//! The load is Hertz's ellipse in the direction of the line of action, the inward normal of the involute at the loaded
+//! point. With x = a sin θ along the flank
+//!
+//! ```text
+//! p dx = (2w/π) cos²θ dθ        f_i = Σ_k N_i(s + a sin θ_k) (2w/π) cos²θ_k Δθ
+//! ```
+//!
+//! and the midpoint rule in θ, which is exact for the load itself; N are the shape functions of the flank's edges, so
+//! that the forces do the work of the pressure. The same shape functions give the displacement of any flank point, and
+//! those of the elements that of a point inside the tooth.
+//!
+//! Of the displacement at the loaded point, what is left at the point inside, where the load's line crosses the tooth's
+//! centre line, is **bending**: tooth and body; the difference is **flattening**, which a contact surface brings along
+//! itself. The split is the one of Weber and Banaschek's closed form ([`crate::reference::flattening`]), so that nothing
+//! is counted twice.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use nalgebra::Vector2;
+
+use crate::fem::gear::flank_surface::FlankSurface;
+use crate::fem::gear::ring::{GearCompliance, ToothForce};
+use crate::fem::gear::sector::{Answer, Functional};
+use crate::fem::locate::locate;
+use crate::gear::tooth::{LoadLine, Tooth};
+
+/// Forces that stand for the ellipse.
+const SAMPLES: usize = 240;
+
+/// A stretch of flank: one edge between two arc lengths.
+struct Stretch {
+    /// Arc length of the involute from the base circle at the end nearer the root, the middle and the end nearer the tip.
+    arc_mm: [f64; 3],
+    /// Local nodes there.
+    nodes: [usize; 3],
+}
+
+/// The working flank of a condensed gear, ready to be loaded.
+pub struct LoadedTooth<'a> {
+    tooth: &'a Tooth,
+    body: &'a GearCompliance,
+    flank: &'a FlankSurface,
+    /// From root to tip, the involute part of the resolved flank.
+    stretches: Vec<Stretch>,
+    /// Place of each local flank node among the gear's candidates.
+    candidate: Vec<Option<usize>>,
+}
+
+impl<'a> LoadedTooth<'a> {
+    /// The flank of a gear with teeth as `tooth`.
+    pub fn new(tooth: &'a Tooth, body: &'a GearCompliance, flank: &'a FlankSurface) -> Self {
+        let candidates = &body.sector.sector.candidates;
+        let candidate =
+            flank.surface.mesh_nodes.iter().map(|node| candidates.iter().position(|own| own == node)).collect();
+        Self { tooth, body, flank, stretches: stretches(tooth, flank), candidate }
+    }
+
+    /// Least and greatest ρ at which an ellipse of half-width `half_width_mm` lies wholly on the resolved involute.
+    pub(crate) fn limits_mm(&self, half_width_mm: f64) -> Option<(f64, f64)> {
+        limits_mm(self.tooth, self.flank, half_width_mm)
+    }
+
+    /// Forces of `line_load_n_per_mm` on the tooth as an ellipse of half-width `half_width_mm` around ρ.
+    pub fn ellipse(&self, rho_mm: f64, half_width_mm: f64, line_load_n_per_mm: f64) -> Option<ToothForce> {
+        let (centre_mm, direction) = (self.tooth.involute.arc_mm(rho_mm), direction(&self.tooth.load_line(rho_mm)));
+        let mut forces = vec![0.0; 2 * self.body.sector.sector.candidates.len()];
+        let step = PI / SAMPLES as f64;
+        for k in 0..SAMPLES {
+            let (sin, cos) = ((k as f64 + 0.5) * step - FRAC_PI_2).sin_cos();
+            let force = 2.0 * line_load_n_per_mm / PI * cos * cos * step;
+            for (column, weight) in self.along(centre_mm + half_width_mm * sin, direction)? {
+                forces[column] += force * weight;
+            }
+        }
+        Some(forces.into_iter().enumerate().filter(|(_, force)| *force != 0.0).collect())
+    }
+
+    /// Displacement at ρ of tooth `p` in the direction of a load there, under `force` on tooth `q`, mm.
+    pub(crate) fn surface_mm(&self, p: usize, rho_mm: f64, q: usize, force: &ToothForce) -> Option<f64> {
+        let point = self.along(self.tooth.involute.arc_mm(rho_mm), direction(&self.tooth.load_line(rho_mm)))?;
+        let (rows, weights): (Vec<usize>, Vec<f64>) = point.into_iter().unzip();
+        let (columns, forces): (Vec<usize>, Vec<f64>) = force.iter().copied().unzip();
+        let entries = self.body.between(p, q).gathered(&rows, &columns);
+        let moved = entries
+            .chunks_exact(rows.len())
+            .zip(forces)
+            .map(|(column, f)| f * column.iter().zip(&weights).map(|(c, weight)| c * weight).sum::<f64>());
+        Some(moved.sum())
+    }
+
+    /// The point inside where a load at ρ crosses the tooth's centre line, with its displacement in the direction of that
+    /// load.
+    pub fn inside(&self, rho_mm: f64) -> Option<Inside> {
+        self.inside_along(&self.tooth.load_line(rho_mm))
+    }
+
+    /// The same for a load along `line`.
+    fn inside_along(&self, line: &LoadLine) -> Option<Inside> {
+        let direction = direction(line);
+        let sector = &self.body.sector;
+        let place = locate(&sector.sector.solid, Vector2::new(0.0, line.centre_line_mm))?;
+        let functional: Functional = place
+            .weights
+            .iter()
+            .flat_map(|&(node, weight)| [(2 * node, weight * direction.x), (2 * node + 1, weight * direction.y)])
+            .collect();
+        Some(Inside { depth_mm: line.depth_mm, answer: sector.answer(&functional) })
+    }
+
+    /// Displacement of the point inside tooth `p`, in the direction of its load, under forces on the fine teeth, mm.
+    pub fn inside_mm(&self, inside: &Inside, p: usize, forces: &[ToothForce]) -> f64 {
+        let own: f64 = forces[p].iter().map(|&(column, f)| inside.answer.by_force[column] * f).sum();
+        let cuts = self.body.cut_displacement_mm(p, forces);
+        own + cuts.iter().zip(&inside.answer.by_cut).map(|(u, by)| u * by).sum::<f64>()
+    }
+
+    /// Displacement over load of the point inside where `line` crosses the centre line, under a concentrated load along it at ρ,
+    /// mm²/N. How a load is spread over the flank does not matter there, so that it may act on an edge; ρ counts up to where a
+    /// rounding begins.
+    pub fn bending_mm2_per_n(&self, rho_mm: f64, line: &LoadLine) -> Option<f64> {
+        let (first, last) = (self.stretches.first()?, self.stretches.last()?);
+        let arc_mm = self.tooth.involute.arc_mm(rho_mm).clamp(first.arc_mm[0], last.arc_mm[2]);
+        let mut force = self.along(arc_mm, direction(line))?;
+        force.sort_by_key(|&(column, _)| column);
+        let mut forces = vec![ToothForce::new(); self.teeth()];
+        forces[self.middle()] = force;
+        Some(self.inside_mm(&self.inside_along(line)?, self.middle(), &forces))
+    }
+
+    /// Number of the tooth of the reference pair.
+    pub fn middle(&self) -> usize {
+        self.body.teeth() / 2
+    }
+
+    /// Number of fine teeth.
+    pub fn teeth(&self) -> usize {
+        self.body.teeth()
+    }
+
+    /// Candidate columns and weights of the displacement along `direction` at an arc length.
+    fn along(&self, arc_mm: f64, direction: Vector2<f64>) -> Option<Vec<(usize, f64)>> {
+        let after = self.stretches.partition_point(|stretch| stretch.arc_mm[2] < arc_mm);
+        let stretch = self.stretches.get(after).filter(|stretch| stretch.arc_mm[0] <= arc_mm)?;
+        let mut columns = Vec::with_capacity(6);
+        for (node, weight) in stretch.nodes.into_iter().zip(stretch.weights(arc_mm)) {
+            let place = self.candidate[node]?;
+            columns.push((2 * place, weight * direction.x));
+            columns.push((2 * place + 1, weight * direction.y));
+        }
+        Some(columns)
+    }
+}
+
+/// Unit vector of a load along `line` in the tooth's frame: into the tooth, whose working flank lies at x < 0.
+fn direction(line: &LoadLine) -> Vector2<f64> {
+    let (sin, cos) = line.load_angle_rad.sin_cos();
+    Vector2::new(cos, -sin)
+}
+
+/// A point inside a tooth.
+pub struct Inside {
+    /// Its depth below the flank, mm.
+    pub depth_mm: f64,
+    answer: Answer,
+}
+
+/// Least and greatest ρ at which an ellipse of half-width `half_width_mm` lies wholly on the resolved involute of `flank`.
+pub(crate) fn limits_mm(tooth: &Tooth, flank: &FlankSurface, half_width_mm: f64) -> Option<(f64, f64)> {
+    let stretches = stretches(tooth, flank);
+    let (low, high) = (stretches.first()?.arc_mm[0] + half_width_mm, stretches.last()?.arc_mm[2] - half_width_mm);
+    let rho = |arc_mm: f64| (2.0 * tooth.involute.base_radius_mm * arc_mm).sqrt();
+    (low < high).then(|| (rho(low), rho(high)))
+}
+
+/// The nodes of the mesh under an ellipse around ρ: what such a load needs as candidates.
+pub(crate) fn nodes_under(tooth: &Tooth, flank: &FlankSurface, rho_mm: f64, half_width_mm: f64) -> Vec<u32> {
+    let centre_mm = tooth.involute.arc_mm(rho_mm);
+    let mut nodes: Vec<u32> = stretches(tooth, flank)
+        .iter()
+        .filter(|s| s.arc_mm[2] >= centre_mm - half_width_mm && s.arc_mm[0] <= centre_mm + half_width_mm)
+        .flat_map(|s| s.nodes.map(|node| flank.surface.mesh_nodes[node]))
+        .collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    nodes
+}
+
+/// The involute part of a flank, from root to tip.
+fn stretches(tooth: &Tooth, flank: &FlankSurface) -> Vec<Stretch> {
+    let arc_mm = |node: usize| tooth.involute.arc_mm(flank.rho_mm[node]);
+    flank
+        .surface
+        .edges
+        .iter()
+        .rev()
+        .filter_map(|edge| {
+            let &[tip, root, middle] = edge.nodes() else { return None };
+            let nodes = [root, middle, tip];
+            // ρ is no number on a tip rounding.
+            nodes
+                .iter()
+                .all(|&node| flank.rho_mm[node].is_finite())
+                .then(|| Stretch { arc_mm: nodes.map(arc_mm), nodes })
+        })
+        .collect()
+}
+
+impl Stretch {
+    /// Shape functions of its nodes at an arc length within it.
+    fn weights(&self, arc_mm: f64) -> [f64; 3] {
+        let [low, middle, high] = self.arc_mm;
+        let (slope, curve) = (0.5 * (high - low), 0.5 * (low + high) - middle);
+        // middle + slope t + curve t² = arc, with |curve| ≪ slope.
+        let mut t = (arc_mm - middle) / slope;
+        for _ in 0..4 {
+            t -= (middle + slope * t + curve * t * t - arc_mm) / (slope + 2.0 * curve * t);
+        }
+        [0.5 * t * (t - 1.0), 1.0 - t * t, 0.5 * t * (t + 1.0)]
+    }
+}

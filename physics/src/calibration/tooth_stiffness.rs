@@ -1,0 +1,285 @@
+//! How far the teeth of a pair yield, with the load anywhere on the path of contact.
+//!
+//! At each position a tooth of each gear carries the reference line load as Hertz's ellipse ([`super::loaded_tooth`]).
+//! Read is the displacement of the loaded point in the direction of the load, δ, and that of the point inside the tooth
+//! where the load's line meets the centre line, δ_i:
+//!
+//! ```text
+//! whole        q = (δ₁ + δ₂) / w           stiffness of the pair = 1/q
+//! bending      q_b = (δ_i1 + δ_i2) / w     flattening  q_f = q − q_b
+//! coupling     q_j = (δ'₁ + δ'₂) / w       δ': at the expected contact of the pair one base pitch ahead or behind
+//! ```
+//!
+//! Next to them stand Weber and Banaschek's terms and the closed-form flattening at the same depth and load.
+//!
+//! Positions run evenly over the stretch on which the ellipse lies wholly on both flanks: it begins and ends about a
+//! half-width of flank inside A and E. The curve handed to the fast model ([`LoadedPair::curve`]) goes on from there with what
+//! bending alone changes, under a concentrated load along the normal where the flanks touch ([`crate::gear::tip_touch`]): at A and E,
+//! and beyond them, where the load turns towards the axis of the tooth whose tip edge touches.
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use super::CalibrationError;
+use super::loaded_tooth::LoadedTooth;
+use crate::contact::{hertz, settings::Material};
+use crate::fem::gear::condensed_pair::CondensedPair;
+use crate::fem::gear::ring::ToothForce;
+use crate::gear::{Gear, GearPair, PerGear};
+use crate::reference::flattening::Flattening;
+use crate::stiffness::curve::{PairCompliance, StandsFor};
+use crate::stiffness::weber_banaschek::ToothCompliance;
+
+/// Turns after which the end of the stretch that is clear of an edge is found to round-off.
+const TURNS: usize = 12;
+/// Half-widths from an edge at which an ellipse no longer feels it.
+const CLEAR_OF_CORNERS: f64 = 2.0;
+/// Places of the curve from there to where the edge touches.
+const PLACES_TO_EDGE: usize = 5;
+/// Places of the curve from there on.
+const PLACES_BEYOND_EDGE: usize = 16;
+/// A little more than the half-width is kept clear, so that round-off puts nothing over an edge.
+const CLEAR: f64 = 1.0 + 1e-6;
+
+/// One tooth under the load, displacements over line load in mm²/N.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ToothDeflection {
+    /// At the loaded point, flattening included.
+    pub whole_mm2_per_n: f64,
+    /// At the point inside: tooth and body.
+    pub bending_mm2_per_n: f64,
+    /// Depth of that point below the flank, mm.
+    pub depth_mm: f64,
+    /// Flattening of this body in closed form, to the same depth.
+    pub closed_form_flattening_mm2_per_n: f64,
+    /// Weber and Banaschek's tooth and body terms.
+    pub weber_banaschek_bending_mm2_per_n: f64,
+}
+
+/// Both teeth at one position.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PairDeflection {
+    /// ξ, mm.
+    pub position_mm: f64,
+    /// Half-width of the ellipse, mm.
+    pub half_width_mm: f64,
+    /// The pinion's tooth.
+    pub pinion: ToothDeflection,
+    /// The wheel's tooth.
+    pub wheel: ToothDeflection,
+    /// Displacement at the contact of the pair one base pitch ahead, where it is in mesh, mm²/N.
+    pub ahead_mm2_per_n: Option<f64>,
+    /// The same of the pair behind.
+    pub behind_mm2_per_n: Option<f64>,
+}
+
+impl ToothDeflection {
+    /// Flattening by finite elements: what the loaded point moves more than the point inside.
+    pub fn flattening_mm2_per_n(&self) -> f64 {
+        self.whole_mm2_per_n - self.bending_mm2_per_n
+    }
+}
+
+impl PairDeflection {
+    /// One of the teeth.
+    pub fn tooth(&self, gear: Gear) -> &ToothDeflection {
+        match gear {
+            Gear::Pinion => &self.pinion,
+            Gear::Wheel => &self.wheel,
+        }
+    }
+
+    /// A quantity of both teeth together.
+    pub fn sum(&self, of: impl Fn(&ToothDeflection) -> f64) -> f64 {
+        of(&self.pinion) + of(&self.wheel)
+    }
+
+    /// Stiffness of the pair by finite elements, flattening included, N/(mm·µm).
+    pub fn pair_n_per_mm_um(&self) -> f64 {
+        1e-3 / self.sum(|tooth| tooth.whole_mm2_per_n)
+    }
+
+    /// The same by Weber and Banaschek.
+    pub fn weber_banaschek_n_per_mm_um(&self) -> f64 {
+        1e-3 / self.sum(|t| t.weber_banaschek_bending_mm2_per_n + t.closed_form_flattening_mm2_per_n)
+    }
+}
+
+/// A pair of condensed gears, ready to be loaded.
+pub struct LoadedPair<'a> {
+    /// Geometry.
+    pub pair: &'a GearPair,
+    /// Its materials.
+    pub material: PerGear<Material>,
+    /// The teeth.
+    pub teeth: PerGear<LoadedTooth<'a>>,
+    /// Weber and Banaschek's tooth of each gear.
+    weber_banaschek: PerGear<ToothCompliance>,
+}
+
+impl<'a> LoadedPair<'a> {
+    /// The teeth of `condensed`.
+    pub fn new(condensed: &'a CondensedPair<'a>, material: &PerGear<Material>) -> Self {
+        let pair = condensed.pair;
+        Self {
+            pair,
+            material: *material,
+            teeth: PerGear::from_fn(|gear| {
+                LoadedTooth::new(&pair.teeth[gear], &condensed.gears[gear], &condensed.flanks[gear])
+            }),
+            weber_banaschek: PerGear::from_fn(|gear| ToothCompliance::new(&pair.teeth[gear], &material[gear])),
+        }
+    }
+
+    /// The closed form at a position.
+    pub fn hertz(&self, position_mm: f64) -> Flattening {
+        hertz::flattening(self.pair, &self.material, position_mm)
+    }
+
+    /// First and last position at which the ellipse under `line_load_n_per_mm` lies wholly on both flanks, drawn in by
+    /// `half_widths` times its half-width.
+    pub fn clear_of_the_edges_mm(&self, line_load_n_per_mm: f64, half_widths: f64) -> Option<(f64, f64)> {
+        let path = &self.pair.path;
+        let half_width_mm =
+            |position_mm| half_widths * self.hertz(position_mm).contact.loaded(line_load_n_per_mm).half_width_mm;
+        // The half-width changes along the path, so that each end is found by turns with it; a few are enough.
+        let (mut low, mut high) = (path.start_mm, path.end_mm);
+        for _ in 0..TURNS {
+            let (at_low, at_high) = (half_width_mm(low), half_width_mm(high));
+            let wheel = |half_width_mm: f64| self.teeth.wheel.limits_mm(half_width_mm);
+            low = self
+                .teeth
+                .pinion
+                .limits_mm(at_low)?
+                .0
+                .max(path.line_of_action_mm - wheel(at_low)?.1)
+                .max(path.start_mm);
+            high = self
+                .teeth
+                .pinion
+                .limits_mm(at_high)?
+                .1
+                .min(path.line_of_action_mm - wheel(at_high)?.0)
+                .min(path.end_mm);
+        }
+        (low < high).then_some((low, high))
+    }
+
+    /// Both teeth under `line_load_n_per_mm` at a position; `None` where the ellipse hangs over an edge.
+    pub fn deflection(&self, position_mm: f64, line_load_n_per_mm: f64) -> Option<PairDeflection> {
+        let (w, path) = (line_load_n_per_mm, &self.pair.path);
+        let hertz = self.hertz(position_mm);
+        let half_width_mm = hertz.contact.loaded(w).half_width_mm;
+        let mut neighbours = [0.0; 2];
+        let mut own = Vec::with_capacity(2);
+        for gear in Gear::BOTH {
+            let tooth = &self.teeth[gear];
+            let rho_mm = path.rho_mm(gear, position_mm);
+            let force = tooth.ellipse(rho_mm, half_width_mm, w)?;
+            let middle = tooth.middle();
+            let inside = tooth.inside(rho_mm)?;
+            let mut forces = vec![ToothForce::new(); tooth.teeth()];
+            forces[middle] = force;
+            let force = &forces[middle];
+            // Flattening of two bodies of this one's kind is twice that of one.
+            let one = hertz.bodies[gear as usize];
+            let both = Flattening { contact: hertz.contact, bodies: [one; 2] };
+            own.push(ToothDeflection {
+                whole_mm2_per_n: tooth.surface_mm(middle, rho_mm, middle, force)? / w,
+                bending_mm2_per_n: tooth.inside_mm(&inside, middle, &forces) / w,
+                depth_mm: inside.depth_mm,
+                closed_form_flattening_mm2_per_n: 0.5 * both.approach_mm(w) / w,
+                weber_banaschek_bending_mm2_per_n: self.weber_banaschek[gear].mm2_per_n(rho_mm),
+            });
+            for (sum, beside) in neighbours.iter_mut().zip([1, -1]) {
+                let there_mm = position_mm + f64::from(beside) * path.base_pitch_mm;
+                // The pair ahead is the next tooth of the pinion and the one before of the wheel.
+                let place = match gear {
+                    Gear::Pinion => middle as i32 + beside,
+                    Gear::Wheel => middle as i32 - beside,
+                };
+                let place = usize::try_from(place).ok().filter(|&place| place < tooth.teeth());
+                let moved = place
+                    .filter(|_| (path.start_mm..=path.end_mm).contains(&there_mm))
+                    .and_then(|place| tooth.surface_mm(place, path.rho_mm(gear, there_mm), middle, force));
+                *sum += moved.map_or(f64::NAN, |moved| moved / w);
+            }
+        }
+        let [ahead, behind] = neighbours.map(|q| q.is_finite().then_some(q));
+        Some(PairDeflection {
+            position_mm,
+            half_width_mm,
+            pinion: own[0],
+            wheel: own[1],
+            ahead_mm2_per_n: ahead,
+            behind_mm2_per_n: behind,
+        })
+    }
+
+    /// The deflection at `count` positions (at least two) evenly over the stretch that is clear of the edges.
+    pub fn along_the_path(
+        &self,
+        count: usize,
+        line_load_n_per_mm: f64,
+    ) -> Result<Vec<PairDeflection>, CalibrationError> {
+        let none = CalibrationError::NoClearPosition { line_load_n_per_mm };
+        let Some((low, high)) = self.clear_of_the_edges_mm(line_load_n_per_mm, CLEAR) else { return Err(none) };
+        let positions: Vec<f64> = evenly(low, high, count.max(2));
+        let read = |&position_mm: &f64| self.deflection(position_mm, line_load_n_per_mm).ok_or_else(|| none.clone());
+        positions.par_iter().map(read).collect()
+    }
+
+    /// The curve for [`crate::stiffness::TeethSpring`], which adds the closed-form flattening again: the whole compliance of
+    /// the finite elements less that flattening, both under `line_load_n_per_mm`, so that the whole pair comes out right.
+    /// Next to the edges, and beyond, it changes as bending does: there an ellipse feels the corner, which half-planes do not.
+    pub fn curve(&self, deflections: &[PairDeflection], line_load_n_per_mm: f64) -> PairCompliance {
+        let clear = self.clear_of_the_edges_mm(line_load_n_per_mm, CLEAR_OF_CORNERS);
+        let counts = |at: &&PairDeflection| clear.is_none_or(|(low, high)| (low..=high).contains(&at.position_mm));
+        let teeth = |at: &PairDeflection| {
+            (at.position_mm, at.sum(|tooth| tooth.whole_mm2_per_n - tooth.closed_form_flattening_mm2_per_n))
+        };
+        let mut inner: Vec<(f64, f64)> = deflections.iter().filter(counts).map(teeth).collect();
+        if inner.is_empty() {
+            inner = deflections.iter().map(teeth).collect();
+        }
+        let path = &self.pair.path;
+        let [before, after] = self.pair.farthest_touch_mm();
+        let edge_mm = |gear| path.rho_mm(gear, self.pair.rounding_start_rho_mm(gear));
+        let mut points = self.continued(inner[0], edge_mm(Gear::Wheel), path.start_mm - before);
+        points.reverse();
+        points.extend_from_slice(&inner);
+        points.extend(self.continued(inner[inner.len() - 1], edge_mm(Gear::Pinion), path.end_mm + after));
+        let (position_mm, mm2_per_n) = points.into_iter().unzip();
+        // The coupling hardly depends on the position: the whole bodies yield.
+        let couplings: Vec<f64> =
+            deflections.iter().flat_map(|at| [at.ahead_mm2_per_n, at.behind_mm2_per_n]).flatten().collect();
+        let shared_mm2_per_n =
+            if couplings.is_empty() { 0.0 } else { couplings.iter().sum::<f64>() / couplings.len() as f64 };
+        PairCompliance { position_mm, mm2_per_n, stands_for: StandsFor::Teeth, shared_mm2_per_n }
+    }
+
+    /// The curve from `from` (position and compliance) on by what bending changes, to `to_mm` by way of `edge_mm`, where an edge takes
+    /// the contact over.
+    fn continued(&self, from: (f64, f64), edge_mm: f64, to_mm: f64) -> Vec<(f64, f64)> {
+        let Some(at_from) = self.bending_mm2_per_n(from.0) else { return Vec::new() };
+        let mut places = evenly(from.0, edge_mm, PLACES_TO_EDGE);
+        places.pop();
+        places.extend(evenly(edge_mm, to_mm, PLACES_BEYOND_EDGE));
+        let places = places.into_iter().filter(|place| (place - from.0) * (to_mm - from.0) > 0.0);
+        places.map_while(|place| Some((place, from.1 + self.bending_mm2_per_n(place)? - at_from))).collect()
+    }
+
+    /// Bending of both teeth under a concentrated load where the flanks touch, over that load, mm²/N.
+    fn bending_mm2_per_n(&self, position_mm: f64) -> Option<f64> {
+        let touch = self.pair.touch(position_mm);
+        let of = |gear: Gear| self.teeth[gear].bending_mm2_per_n(touch.rho_mm[gear], &touch.load_line[gear]);
+        Some(of(Gear::Pinion)? + of(Gear::Wheel)?)
+    }
+}
+
+/// `count` (at least 2) places from `low` to `high`, both included.
+pub fn evenly(low: f64, high: f64, count: usize) -> Vec<f64> {
+    (0..count).map(|k| low + (high - low) * k as f64 / (count - 1) as f64).collect()
+}

@@ -1,0 +1,40 @@
+//! What one mesh of unworn flanks wears by finite elements, per wear coefficient: what any fast model can be held against
+//! without a wear run.
+//!
+//! ```text
+//! h / k = ∫ p |v_s| dt        N/mm
+//! ```
+//!
+//! over one mesh, contact outside the line of action at the tip edges included. Plain data: the pipeline fills it from the
+//! finite-element mesh cycle.
+
+use serde::{Deserialize, Serialize};
+
+use crate::gear::PerGear;
+
+/// Loads, in units of the scene's.
+pub const LOADS: [f64; 3] = [0.5, 1.0, 1.25];
+/// Intervals of the flank points.
+pub const FLANK_POINTS: usize = 150;
+/// Positions from A to E.
+pub const POSITIONS: usize = 200;
+
+/// One load.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WearReference {
+    /// w, N/mm.
+    pub line_load_n_per_mm: f64,
+    /// Each gear's flank.
+    pub flanks: PerGear<FlankWear>,
+}
+
+/// One flank.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FlankWear {
+    /// Of the points, from base to tip circle, mm.
+    pub radius_mm: Vec<f64>,
+    /// h / k in one mesh at each of them, N/mm.
+    pub depth_per_coefficient_n_per_mm: Vec<f64>,
+}

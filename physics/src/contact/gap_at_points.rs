@@ -1,0 +1,184 @@
+//! The gap that observed points face, which changes while the contact passes them.
+
+use std::ops::Range;
+
+use super::Flanks;
+use super::observed_points::ObservedPoints;
+use super::strip::Interpolation;
+use crate::gear::{Gear, PerGear};
+
+/// By this part of its course the theoretical contact point may miss a point and still passes it: where it passes between two
+/// cells, neither must lose it to rounding.
+const SLACK: f64 = 0.02;
+
+/// The gap that observed points face, and how it changes under them.
+#[derive(Debug, Clone)]
+pub struct GapAtPoints {
+    geometric_gap_mm: Vec<f64>,
+    mate: Interpolation,
+    /// How the gap of each point changes within the cell.
+    course: Vec<GapWhilePassing>,
+    growth: Vec<Growth>,
+}
+
+/// How the gap of a point changes while the contact passes: its own wear stays with it, so the geometry alone does.
+///
+/// At `x` along the tangent from where the point is at the cell's position, its gap has grown by slope · x + x²/(2R).
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct GapWhilePassing {
+    /// Where the point begins to face the mate within the cell, or the cell begins; the lower of both ends, mm.
+    from_mm: f64,
+    /// Where that ends; the upper of both ends, mm.
+    to_mm: f64,
+    slope: f64,
+    /// 1/R, 1/mm.
+    curvature: f64,
+}
+
+/// What the usual cases, a point in contact over its whole [`GapWhilePassing`] or nowhere on it, need of it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Growth {
+    /// Of the gap at both ends, mm.
+    at_ends_mm: [f64; 2],
+    /// Of the gap on average, mm.
+    mean_mm: f64,
+    /// The least growth anywhere, mm.
+    least_mm: f64,
+}
+
+/// A point's gap at the cell's position, and its course.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FacedGap<'a> {
+    /// Gap at the cell's position, mm.
+    pub gap_mm: f64,
+    growth: &'a Growth,
+    course: &'a GapWhilePassing,
+}
+
+impl FacedGap<'_> {
+    /// The greatest penetration on the course, for flanks that have approached each other by `approach_mm`; not positive
+    /// where the point never touches.
+    pub(crate) fn greatest_penetration_mm(&self, approach_mm: f64) -> f64 {
+        if self.course.from_mm < self.course.to_mm { approach_mm - self.gap_mm - self.growth.least_mm } else { 0.0 }
+    }
+
+    /// Mean over the course of the positive part of the penetration, for flanks that have approached each other by
+    /// `approach_mm`, and the fraction of the course on which it is positive.
+    #[inline]
+    pub(crate) fn mean_penetration(&self, approach_mm: f64) -> (f64, f64) {
+        let penetration = approach_mm - self.gap_mm;
+        let [at_from, at_to] = self.growth.at_ends_mm;
+        if penetration > at_from && penetration > at_to {
+            return (penetration - self.growth.mean_mm, 1.0);
+        }
+        if penetration <= self.growth.least_mm {
+            return (0.0, 0.0);
+        }
+        self.course.mean_positive(penetration)
+    }
+}
+
+impl GapWhilePassing {
+    fn growth(&self) -> Growth {
+        Growth {
+            at_ends_mm: [self.growth_at(self.from_mm), self.growth_at(self.to_mm)],
+            mean_mm: self.mean_growth(self.from_mm, self.to_mm),
+            least_mm: self.growth_at((-self.slope / self.curvature).max(self.from_mm).min(self.to_mm)),
+        }
+    }
+
+    /// Mean over the course of the positive part of the penetration that is `u_mm` at the cell's position, and the
+    /// fraction of the course on which it is positive:
+    ///
+    /// ```text
+    /// u(x) = u − slope x − x²/(2R)       positive between x± = R (−slope ± √(slope² + 2 u/R))
+    /// ```
+    fn mean_positive(&self, u_mm: f64) -> (f64, f64) {
+        let square = self.slope * self.slope + 2.0 * u_mm * self.curvature;
+        if square <= 0.0 {
+            return (0.0, 0.0);
+        }
+        let (deepest_mm, reach_mm) = (-self.slope / self.curvature, square.sqrt() / self.curvature);
+        let from = self.from_mm.max(deepest_mm - reach_mm);
+        let to = self.to_mm.min(deepest_mm + reach_mm);
+        if from >= to {
+            return (0.0, 0.0);
+        }
+        let fraction = (to - from) / (self.to_mm - self.from_mm);
+        (fraction * (u_mm - self.mean_growth(from, to)), fraction)
+    }
+
+    /// Growth of the gap at `x_mm`.
+    fn growth_at(&self, x_mm: f64) -> f64 {
+        x_mm * (self.slope + 0.5 * self.curvature * x_mm)
+    }
+
+    /// Mean growth of the gap between two places: that at the middle and a twelfth of the square of the width over 2R.
+    fn mean_growth(&self, from_mm: f64, to_mm: f64) -> f64 {
+        let width = to_mm - from_mm;
+        self.growth_at(0.5 * (from_mm + to_mm)) + self.curvature * width * width / 24.0
+    }
+}
+
+impl GapAtPoints {
+    /// Of `points` at `position_mm`.
+    pub fn new(flanks: Flanks<'_>, gear: Gear, points: &ObservedPoints, position_mm: f64) -> Self {
+        let count = points.sliding_mm.len();
+        let mut mate = Interpolation::new(flanks, gear.mate());
+        let mut geometric_gap_mm: Vec<f64> = Vec::with_capacity(count + 2);
+        for (sample, own) in points.at.iter().enumerate() {
+            let (facing, drop) = flanks.geometry.at_along(gear.mate(), -own.along_mm, position_mm);
+            geometric_gap_mm.push(own.drop_mm + drop);
+            if (1..=count).contains(&sample) {
+                mate.push(flanks.grid[gear.mate()], facing);
+            }
+        }
+        let curvature = 1.0 / flanks.geometry.relative_radius_mm(position_mm);
+        let shifts = points.shifts_to_ends_mm();
+        let slope = |k: usize| 0.5 * (geometric_gap_mm[k + 2] - geometric_gap_mm[k]) / points.spacing_mm;
+        // Conjugate flanks touch once the contact has come to the point: there, the parabola's bottom is a gap of nought, which
+        // what differences and a constant curvature miss would drown in the narrow contact of a light load. Nowhere do they dip
+        // into each other.
+        let bottoms_out = |k: usize| (2.0 * geometric_gap_mm[k + 1].max(0.0) * curvature).sqrt();
+        let (course, growth): (Vec<GapWhilePassing>, Vec<Growth>) = shifts
+            .iter()
+            .enumerate()
+            .map(|(k, [begin, end])| {
+                let (from_mm, to_mm) = (begin.min(*end), begin.max(*end));
+                let along = points.at[k + 1].along_mm;
+                let slack = SLACK * (to_mm - from_mm);
+                let passed = (from_mm - slack..=to_mm + slack).contains(&-along);
+                let by_differences = GapWhilePassing { from_mm, to_mm, slope: slope(k), curvature };
+                let growth = by_differences.growth();
+                let dips = geometric_gap_mm[k + 1] + growth.least_mm < 0.0;
+                if !(passed || dips) {
+                    return (by_differences, growth);
+                }
+                let course = GapWhilePassing { slope: bottoms_out(k).copysign(along), ..by_differences };
+                (course, course.growth())
+            })
+            .unzip();
+        geometric_gap_mm.truncate(count + 1);
+        geometric_gap_mm.remove(0);
+        Self { geometric_gap_mm, mate, course, growth }
+    }
+
+    /// The gap at the points of `range` (counted from the first) with `removed_mm` of material gone.
+    pub(crate) fn faced<'a>(
+        &'a self,
+        points: &ObservedPoints,
+        gear: Gear,
+        removed_mm: PerGear<&'a [f64]>,
+        range: Range<usize>,
+    ) -> impl Iterator<Item = FacedGap<'a>> + 'a {
+        let own = &removed_mm[gear][points.first_point + range.start..];
+        let mate = self.mate.of(removed_mm[gear.mate()], range.start);
+        let gaps = self.geometric_gap_mm[range.clone()].iter().zip(own).zip(mate);
+        let courses = self.growth[range.clone()].iter().zip(&self.course[range]);
+        gaps.zip(courses).map(|(((geometric, own), mate), (growth, course))| FacedGap {
+            gap_mm: geometric + own + mate,
+            growth,
+            course,
+        })
+    }
+}

@@ -1,0 +1,196 @@
+//! Contact surfaces: how a tooth pair answers when its flanks are pressed together.
+//!
+//! One interface for all models. A [`ContactSurface`] prepares a [`PairContact`] for each tooth pair at each loading
+//! position; the mesh cycle then presses it and reads load and stiffness, and the wear collects pressure
+//! and sliding of each flank point ([`Sweep`]). A contact reads the flank only as *removed material*: modifications and wear alike.
+//!
+//! | surface | pressure | load against approach |
+//! |---|---|---|
+//! | [`winkler`] | independent springs K/H against the real gap | from the pressure |
+//! | [`half_space`] | elastic half-planes against the real gap | from the pressure |
+//! | [`hertz`] | Hertz's ellipse on the nominal curvature | closed-form flattening |
+//! | [`hertz_mean`] | Hertz's mean pressure, closed-form sliding | closed-form flattening |
+
+pub mod edge_foundation;
+pub mod elastic_cells;
+mod flank_motion;
+pub mod foundation;
+pub mod gap_at_points;
+mod growing_window;
+pub mod half_space;
+pub mod hertz;
+pub mod hertz_mean;
+pub mod observed_points;
+pub mod pressure_field;
+pub mod settings;
+pub mod strip;
+pub mod swept_field;
+pub mod winkler;
+
+use serde::{Deserialize, Serialize};
+
+use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
+
+/// Two flanks and the points on them.
+#[derive(Clone, Copy)]
+pub struct Flanks<'a> {
+    /// Their geometry.
+    pub geometry: &'a dyn ConjugateFlanks,
+    /// Their points.
+    pub grid: PerGear<&'a FlankGrid>,
+    /// What of the removed material is no wear but the modification of the profile, but for a constant; none where that is not told
+    /// apart.
+    pub modification_mm: Option<PerGear<&'a [f64]>>,
+    /// Whose tip edge may carry load and is mathematically sharp: contact that it cuts off has no pressure of its own.
+    pub sharp_edges: PerGear<bool>,
+}
+
+impl<'a> Flanks<'a> {
+    /// Flanks that end where their contact does: no tip edge carries load.
+    pub fn new(geometry: &'a dyn ConjugateFlanks, grid: PerGear<&'a FlankGrid>) -> Self {
+        Self { geometry, grid, modification_mm: None, sharp_edges: PerGear::default() }
+    }
+}
+
+/// A loading position and the stretch of the path of contact it stands for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PositionCell {
+    /// Theoretical contact point.
+    pub position_mm: f64,
+    /// Where the stretch begins.
+    pub lower_mm: f64,
+    /// Where it ends.
+    pub upper_mm: f64,
+}
+
+/// A tooth pair's answer to being pressed together.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Response {
+    /// Load it carries, N per mm of face width.
+    pub line_load_n_per_mm: f64,
+    /// Derivative of the load with respect to the indentation, N/mm².
+    pub stiffness_n_per_mm2: f64,
+}
+
+/// What consecutive points of one flank wear by while the contact moves through a [`PositionCell`]; the vectors have the
+/// same length. Filled anew for each pair, so that one buffer serves many.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Sweep {
+    /// Index of the first of the points.
+    pub first_point: usize,
+    /// Pressure on each, averaged over the cell, MPa.
+    pub pressure_mpa: Vec<f64>,
+    /// How far each slides against the other flank while it faces it, mm.
+    pub sliding_mm: Vec<f64>,
+}
+
+impl Sweep {
+    /// Makes room for the points that slide by `sliding_mm`, the first of them `first_point`.
+    fn begin(&mut self, first_point: usize, sliding_mm: &[f64]) {
+        self.first_point = first_point;
+        self.sliding_mm.clear();
+        self.sliding_mm.extend_from_slice(sliding_mm);
+        self.pressure_mpa.resize(sliding_mm.len(), 0.0);
+    }
+}
+
+/// What an observer sees of one point of a [`Sweep`].
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct PointContact {
+    /// Greatest pressure while the contact moves through the cell and the point faces the other flank, MPa.
+    pub pressure_mpa: f64,
+    /// Part of the cell's sliding during which the point is in contact, 0 to 1.
+    pub contact_fraction: f64,
+}
+
+/// Where the contact is and how hard it presses.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct Footprint {
+    /// Greatest pressure, MPa.
+    pub peak_pressure_mpa: f64,
+    /// Half the extent of the contact strip, mm.
+    pub half_width_mm: f64,
+    /// Whether a sharp tip edge cuts the contact off: the pressure then is not defined, and what is found grows with every refinement.
+    pub at_sharp_edge: bool,
+}
+
+/// One tooth pair at one loading position.
+///
+/// Order of use: [`set_removed`](Self::set_removed) the flanks, [`load_at`](Self::load_at) until the mesh cycle is in equilibrium,
+/// [`window_suffices`](Self::window_suffices), then [`sweep`](Self::sweep) and [`footprint`](Self::footprint) of the last approach pressed.
+pub trait PairContact: Send {
+    /// Takes the material removed at each flank point, mm.
+    fn set_removed(&mut self, removed_mm: PerGear<&[f64]>);
+
+    /// Approach at which the flanks first touch: zero where they are unworn and unmodified.
+    fn touch_mm(&self) -> f64;
+
+    /// Load and stiffness when the flanks are pressed together by `indentation_mm` beyond their first touch.
+    fn load_at(&mut self, indentation_mm: f64) -> Response;
+
+    /// Approach of the bodies under a line load beside the indentation, and its derivative by the load: what a model
+    /// whose surface yields too little leaves out.
+    fn further_approach_mm(&self, _line_load_n_per_mm: f64) -> (f64, f64) {
+        (0.0, 0.0)
+    }
+
+    /// An indentation that should carry at least `line_load_n_per_mm`, to begin an iteration with.
+    fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64;
+
+    /// Whether, at the last indentation, the stretch of flank this contact looks
+    /// at holds all that touches then. If not, [`widen`](Self::widen) it, read and press again.
+    fn window_suffices(&mut self) -> bool {
+        true
+    }
+
+    /// Looks at a longer stretch of flank.
+    fn widen(&mut self) {}
+
+    /// Is again as it was when it was made: what it does then depends only on what it reads and how it is pressed from now on, to the
+    /// bit. For contacts that keep something from one wear step to the next.
+    fn reset(&mut self) {}
+
+    /// Fills in pressure and sliding of the points of a flank; nothing for a pair prepared without a [`PositionCell`].
+    fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep);
+
+    /// Whether the points of a [`Sweep`] run across the contact from one end of its strip to the other, each under its own pressure;
+    /// otherwise they are those that pass the theoretical contact point, and each passes through all of the contact.
+    fn sweeps_across(&self) -> bool {
+        true
+    }
+
+    /// The contact of each point of that [`Sweep`], for an observer.
+    fn contact_of_points(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<PointContact>;
+
+    /// Extent and greatest pressure.
+    fn footprint(&self) -> Footprint;
+}
+
+/// How long equilibria take, about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Effort {
+    /// Of a tooth pair, over that on springs.
+    pub of_equilibrium: f64,
+    /// What one without anything to start from takes more, over one with.
+    pub of_clean_start: f64,
+}
+
+/// A model of the surfaces in contact.
+pub trait ContactSurface: Sync {
+    /// Prepares a tooth pair with its theoretical contact point at `position_mm`; with a `cell`, its wear is collected.
+    fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a>;
+
+    /// Approach of plain involutes under a line load at `position_mm`, away from the tip edges.
+    fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64;
+
+    /// Whether a pair touches in the theoretical contact point alone, so that the wear of a contact is that of one place of the flanks; else it
+    /// touches over a strip.
+    fn touches_in_points(&self) -> bool {
+        false
+    }
+
+    /// How long equilibria take.
+    fn effort(&self) -> Effort {
+        Effort { of_equilibrium: 1.0, of_clean_start: 4.0 }
+    }
+}

@@ -1,0 +1,197 @@
+//! The points of one flank that may touch the other: where they are, how far they move and slide, and while they face the mate.
+
+use std::ops::Range;
+
+use super::flank_motion::{edge_under_load, passes_to_ends_mm, shift_to_ends_mm};
+use super::strip::Window;
+use super::{Flanks, PositionCell};
+use crate::gear::{Gear, conjugate::ConjugateFlanks, involute::TangentFramePoint};
+
+/// Consecutive points of one flank that may touch the other, with one more at either end.
+#[derive(Debug, Clone)]
+pub struct ObservedPoints {
+    /// Index of the first point that may touch; the samples begin one before it.
+    pub first_point: usize,
+    /// Where the samples lie in the tangent frame.
+    pub at: Vec<TangentFramePoint>,
+    /// Distance of the samples, mm.
+    pub spacing_mm: f64,
+    /// Sliding of each point (without the ends) while the contact moves through the cell, counted only while the mate
+    /// faces it, mm.
+    pub sliding_mm: Vec<f64>,
+    /// How far the points move along the tangent from the cell's position to its lower and to its upper end, mm.
+    shift_to_ends_mm: [f64; 2],
+    /// Where the flank ends that stands under the pressure, along the tangent, mm.
+    standing_to_mm: Option<f64>,
+    /// The points that an end of the mate's flank passes within the cell, or that face nothing.
+    partly_exposed: Vec<PartlyExposed>,
+}
+
+/// A point that faces the mate during part of the cell only.
+#[derive(Debug, Clone, Copy)]
+struct PartlyExposed {
+    /// Which one, counted from the first point.
+    sample: usize,
+    /// When it begins to face the mate, 0 to 1.
+    from: f64,
+    /// When it ends.
+    to: f64,
+}
+
+impl ObservedPoints {
+    /// The points of `gear` facing `window` anywhere in `cell`.
+    pub fn new(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
+        let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
+        let (lower, upper) = match gear {
+            Gear::Pinion => (window.lower_mm, window.upper_mm),
+            Gear::Wheel => (-window.upper_mm, -window.lower_mm),
+        };
+        // The contact moves over the flank within the cell: take in what it passes.
+        let passed = geometry.rolling_ratio(gear, cell.position_mm) * (cell.upper_mm - cell.lower_mm);
+        let place = |along| grid.place(geometry.at_along(gear, along, cell.position_mm).0).index;
+        let tip = grid.len() - 1;
+        let first_point = place(lower - passed).max(1);
+        let last = (place(upper + passed) + 1).min(tip).max(first_point);
+
+        let samples = first_point - 1..=(last + 1).min(tip);
+        let mut at: Vec<TangentFramePoint> =
+            samples.map(|i| geometry.in_tangent_frame(gear, grid.coordinate_mm[i], cell.position_mm)).collect();
+        let spacing_mm = (at[at.len() - 1].along_mm - at[0].along_mm) / (at.len() - 1) as f64;
+        if last == tip {
+            let along = at[at.len() - 1].along_mm + spacing_mm;
+            at.push(TangentFramePoint { along_mm: along, drop_mm: geometry.at_along(gear, along, cell.position_mm).1 });
+        }
+        let sliding = geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
+        let exposure = Exposure::new(flanks, gear, cell);
+        let (mut sliding_mm, mut partly_exposed) = (Vec::with_capacity(at.len()), Vec::new());
+        for (sample, (i, point)) in (first_point..=last).zip(&at[1..]).enumerate() {
+            let (from, to) = exposure.of(geometry, grid.coordinate_mm[i], point.along_mm);
+            sliding_mm.push(sliding * (to - from));
+            if from > 0.0 || to < 1.0 {
+                partly_exposed.push(PartlyExposed { sample, from, to });
+            }
+        }
+        let middle = grid.coordinate_mm[first_point.midpoint(last)];
+        Self {
+            first_point,
+            spacing_mm,
+            sliding_mm,
+            partly_exposed,
+            standing_to_mm: None,
+            at,
+            shift_to_ends_mm: shift_to_ends_mm(geometry, gear, middle, cell),
+        }
+    }
+}
+
+impl ObservedPoints {
+    /// The same under a pressure that stands still during the cell, or goes with a tip edge: where an edge stands, its
+    /// mate passes it all the time.
+    pub(crate) fn under_standing_pressure(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
+        let mut points = Self::new(flanks, gear, window, cell);
+        if let Some(edge) = edge_under_load(flanks.geometry, cell.position_mm) {
+            let sliding = flanks.geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
+            points.partly_exposed.retain(|point| point.from == point.to);
+            points.sliding_mm.fill(sliding);
+            points.partly_exposed.iter().for_each(|point| points.sliding_mm[point.sample] = 0.0);
+            let middle = flanks.grid[gear].coordinate_mm[points.first_point + points.sliding_mm.len() / 2];
+            if edge == gear {
+                let tip = flanks.geometry.flank_limits_mm(gear).1;
+                points.standing_to_mm = Some(flanks.geometry.in_tangent_frame(gear, tip, cell.position_mm).along_mm);
+            }
+            points.shift_to_ends_mm = passes_to_ends_mm(flanks.geometry, gear, middle, cell, points.spacing_mm);
+        }
+        points
+    }
+
+    /// How far each point moves along the tangent from the cell's position to both ends of the part of the cell in which it faces the
+    /// mate; nothing of points that do not.
+    pub(crate) fn courses_mm(&self) -> Vec<Option<[f64; 2]>> {
+        let mut courses: Vec<_> = self.shifts_to_ends_mm().into_iter().map(Some).collect();
+        if let Some(tip_mm) = self.standing_to_mm {
+            // The part of the last point ends with the edge.
+            for (point, course) in self.at[1..].iter().zip(&mut courses) {
+                *course = course.map(|ends| ends.map(|by| by.min((tip_mm - point.along_mm).max(0.0))));
+            }
+        }
+        let unexposed = self.partly_exposed.iter().filter(|point| point.from == point.to);
+        unexposed.for_each(|point| courses[point.sample] = None);
+        courses
+    }
+
+    /// How far each point moves along the tangent from the cell's position to the beginning and to the end of the part of
+    /// the cell in which it faces the mate.
+    pub(crate) fn shifts_to_ends_mm(&self) -> Vec<[f64; 2]> {
+        let [lower, upper] = self.shift_to_ends_mm;
+        let mut shifts = vec![self.shift_to_ends_mm; self.sliding_mm.len()];
+        for point in &self.partly_exposed {
+            shifts[point.sample] = [point.from, point.to].map(|t| lower + t * (upper - lower));
+        }
+        shifts
+    }
+
+    /// The points, counted from the first, that touch anywhere between `lower_mm` and `upper_mm` (gear's own direction)
+    /// while the contact moves through the cell; a few more at either end do not.
+    pub fn between(&self, lower_mm: f64, upper_mm: f64) -> Range<usize> {
+        let [a, b] = self.shift_to_ends_mm;
+        let sample = |along: f64| (along - self.at[1].along_mm) / self.spacing_mm;
+        // Points are almost evenly spaced; two more make up for the difference.
+        let first = (sample(lower_mm - a.max(b)) - 2.0).max(0.0) as usize;
+        let end = (sample(upper_mm - a.min(b)) + 3.0).max(0.0) as usize;
+        let end = end.min(self.sliding_mm.len());
+        first.min(end)..end
+    }
+}
+
+/// How long within a cell a flank point faces a place that exists on the mate.
+struct Exposure {
+    gear: Gear,
+    cell: PositionCell,
+    own_limits_mm: (f64, f64),
+    /// First and last place of the mate's flank, along the gear's own tangent direction, at both ends of the cell.
+    mate_limits_mm: [[f64; 2]; 2],
+}
+
+impl Exposure {
+    fn new(flanks: Flanks<'_>, gear: Gear, cell: PositionCell) -> Self {
+        let mate = flanks.geometry.flank_limits_mm(gear.mate());
+        let along = |limit, end| -flanks.geometry.in_tangent_frame(gear.mate(), limit, end).along_mm;
+        Self {
+            gear,
+            cell,
+            own_limits_mm: flanks.geometry.flank_limits_mm(gear),
+            mate_limits_mm: [cell.lower_mm, cell.upper_mm].map(|end| [along(mate.1, end), along(mate.0, end)]),
+        }
+    }
+
+    /// The part of the cell, from and to in 0..1, during which the point at `coordinate_mm`, at `along_mm` from the cell's
+    /// position, faces the mate: it moves past the mate's ends in a straight line.
+    fn of(&self, geometry: &dyn ConjugateFlanks, coordinate_mm: f64, along_mm: f64) -> (f64, f64) {
+        let tolerance = 1e-9 * self.own_limits_mm.1;
+        if !(self.own_limits_mm.0 - tolerance..=self.own_limits_mm.1 + tolerance).contains(&coordinate_mm) {
+            return (0.0, 0.0);
+        }
+        let shifts = shift_to_ends_mm(geometry, self.gear, coordinate_mm, self.cell);
+        let [before, after] = [0, 1].map(|end| {
+            let here = along_mm + shifts[end];
+            let [first, last] = self.mate_limits_mm[end];
+            [here - first, last - here]
+        });
+        let (from, to) = before
+            .iter()
+            .zip(after)
+            .map(|(&before, after)| positive_stretch(before, after))
+            .fold((0.0, 1.0), |(from, to): (f64, f64), other| (from.max(other.0), to.min(other.1)));
+        (from, to.max(from))
+    }
+}
+
+/// The part of the way from `before` to `after` on which the straight course between them is not negative.
+fn positive_stretch(before: f64, after: f64) -> (f64, f64) {
+    match (before >= 0.0, after >= 0.0) {
+        (true, true) => (0.0, 1.0),
+        (false, true) => (before / (before - after), 1.0),
+        (true, false) => (0.0, before / (before - after)),
+        (false, false) => (0.0, 0.0),
+    }
+}

@@ -1,0 +1,119 @@
+//! What is asked of the contact surface.
+
+use crate::fem::elastic::Elastic;
+use serde::{Deserialize, Serialize};
+
+/// The model of the surfaces in contact, from cheap to true.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SurfaceKind {
+    /// Winkler foundation of stiffness K/H against the worn gap.
+    #[default]
+    Winkler,
+    /// Hertz's elliptic pressure on the nominal curvature, swept over the flank points.
+    Hertz,
+    /// Hertz's mean pressure with closed-form sliding distances; its wear has cusps where the number of tooth pairs in
+    /// mesh changes.
+    HertzMean,
+    /// Two elastic half-planes against the worn gap.
+    HalfSpace,
+    /// Both gears as finite elements, condensed onto their flanks, against the worn gap; contact is found from the true
+    /// profiles, also outside the line of action.
+    Fem,
+}
+
+impl SurfaceKind {
+    /// All surfaces, from cheap to true.
+    pub const ALL: [Self; 5] = [Self::HertzMean, Self::Hertz, Self::Winkler, Self::HalfSpace, Self::Fem];
+
+    /// Its name in scenes and results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Winkler => "winkler",
+            Self::Hertz => "hertz",
+            Self::HertzMean => "hertz-mean",
+            Self::HalfSpace => "half-space",
+            Self::Fem => "fem",
+        }
+    }
+}
+
+/// What a Winkler foundation shares with Hertz at the pitch point under the whole load, or, calibrated, with the finite-element
+/// contact everywhere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default, Serialize, Deserialize, schemars::JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum MatchCriterion {
+    /// The half-width of the contact strip.
+    #[default]
+    HalfWidth,
+    /// The maximum pressure.
+    PeakPressure,
+    /// The approach of the two bodies.
+    Approach,
+}
+
+impl MatchCriterion {
+    /// All criteria.
+    pub const ALL: [Self; 3] = [Self::HalfWidth, Self::PeakPressure, Self::Approach];
+
+    /// Its name in scenes and results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::HalfWidth => "half-width",
+            Self::PeakPressure => "peak-pressure",
+            Self::Approach => "approach",
+        }
+    }
+}
+
+/// Where the stiffness K/H of the elastic foundation comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Foundation {
+    /// Given by hand, MPa/mm.
+    Given {
+        /// K/H in MPa/mm.
+        foundation_mpa_per_mm: f64,
+    },
+    /// Matched to Hertz at the pitch point.
+    Matched(MatchCriterion),
+    /// Matched to the finite-element contact at every position and load, from a calibration.
+    Calibrated(MatchCriterion),
+}
+
+/// The contact settings of a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactSettings {
+    /// The surface model.
+    pub surface: SurfaceKind,
+    /// K/H; read by `winkler` alone.
+    pub foundation: Foundation,
+    /// Whether a tip edge is followed into contact before A and after E by the surfaces that know the real gap
+    /// (`winkler`, `half-space`); `fem` always does.
+    pub tip_contact: bool,
+}
+
+/// Linear elastic, isotropic material of one gear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Material {
+    /// Young's modulus E, MPa.
+    pub young_modulus_mpa: f64,
+    /// Poisson's ratio ν.
+    pub poisson_ratio: f64,
+    /// Density, kg/m³; used for the worn mass.
+    pub density_kg_per_m3: f64,
+}
+
+/// Metals are stiffer, plastics softer, those filled with glass too, MPa.
+const STIFFEST_PLASTIC_MPA: f64 = 25e3;
+
+impl Material {
+    /// Whether it is so soft that it must be a plastic.
+    pub fn is_plastic(self) -> bool {
+        self.young_modulus_mpa < STIFFEST_PLASTIC_MPA
+    }
+
+    /// The elastic constants alone.
+    pub fn elastic(self) -> Elastic {
+        Elastic { young_modulus_mpa: self.young_modulus_mpa, poisson_ratio: self.poisson_ratio }
+    }
+}

@@ -1,0 +1,280 @@
+//! The stretch of both flanks around the theoretical contact point where they may touch.
+//!
+//! A strip carries samples of the geometric gap in the tangent frame and, for each, where it lies between the points of
+//! both flanks, so that the real gap (geometry plus removed material) is one pass over plain arrays.
+//!
+//! These samples are evenly spaced across the contact, and the load follows from them; pressure and sliding are observed on the points
+//! of the flanks themselves ([`super::observed_points`]). Real ends of a strip, where a flank ends in
+//! its tip edge (or its involute ends at the form circle), are kept exactly: no pressure acts beyond them.
+
+use std::cmp::Ordering;
+
+use super::flank_motion::{ROUND_OFF, on_tangent, passes_to_ends_mm};
+use super::{Flanks, PositionCell};
+use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
+use crate::reference::linear_means::add_means;
+
+/// Removed material of one flank at samples between its points.
+///
+/// Where the flank ends between two points, only the one within it wears: on the last stretch up to the end, what is removed is what that point has
+/// lost. A straight line to the point beyond would leave a ridge there that carries load and never wears.
+#[derive(Debug, Clone)]
+pub(super) struct Interpolation {
+    /// Index of the first and the last but one of the points within the flank.
+    within: [usize; 2],
+    index: Vec<u32>,
+    weight: Vec<f64>,
+}
+
+impl Interpolation {
+    pub(super) fn new(flanks: Flanks<'_>, gear: Gear) -> Self {
+        let coordinate_mm = &flanks.grid[gear].coordinate_mm;
+        let limits = flanks.geometry.flank_limits_mm(gear);
+        let round_off = ROUND_OFF * limits.1;
+        let first = coordinate_mm.partition_point(|&at| at < limits.0 - round_off);
+        let end = coordinate_mm.partition_point(|&at| at <= limits.1 + round_off);
+        // Points too far apart for two of them to lie within are taken as they are.
+        let within = if end >= first + 2 { [first, end - 2] } else { [0, coordinate_mm.len() - 2] };
+        Self { within, index: Vec::new(), weight: Vec::new() }
+    }
+
+    pub(super) fn push(&mut self, grid: &FlankGrid, coordinate_mm: f64) {
+        // Samples follow each other along the flank.
+        let place = match self.index.last() {
+            Some(&before) => grid.place_near(before as usize, coordinate_mm),
+            None => grid.place(coordinate_mm),
+        };
+        let index = place.index.clamp(self.within[0], self.within[1]);
+        self.weight.push(match place.index.cmp(&index) {
+            Ordering::Less => 0.0,
+            Ordering::Equal => place.weight,
+            Ordering::Greater => 1.0,
+        });
+        self.index.push(index as u32);
+    }
+
+    /// The values at samples from `first` on.
+    pub(super) fn of<'a>(&'a self, values: &'a [f64], first: usize) -> impl Iterator<Item = f64> + 'a {
+        self.index[first..].iter().zip(&self.weight[first..]).map(|(&i, &weight)| {
+            let ends = &values[i as usize..i as usize + 2];
+            ends[0] + weight * (ends[1] - ends[0])
+        })
+    }
+}
+
+/// Removed material of one flank at samples: its mean over the stretch that passes each while the contact stands for its position.
+#[derive(Debug, Clone, Default)]
+struct PassingMean {
+    first: Vec<u32>,
+    ends: Vec<u32>,
+    weights: Vec<f64>,
+}
+
+impl PassingMean {
+    /// At the samples `along_mm` in the gear's own direction of the tangent.
+    fn new(flanks: Flanks<'_>, gear: Gear, cell: PositionCell, along_mm: impl Iterator<Item = f64>) -> Self {
+        let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
+        let coordinate_mm = |along: f64| geometry.at_along(gear, along, cell.position_mm).0;
+        let spacing_mm = grid.arc_mm[grid.len() - 1] - grid.arc_mm[grid.len() - 2];
+        let mut passing = Self::default();
+        // Empty again after every sample.
+        let mut sums = vec![0.0; grid.len()];
+        for along in along_mm {
+            let passes = passes_to_ends_mm(geometry, gear, coordinate_mm(along), cell, spacing_mm);
+            let ends = passes.map(|by| coordinate_mm(along - by));
+            let reached = add_means(&grid.coordinate_mm, [ends[0].min(ends[1]), ends[0].max(ends[1])], 1.0, &mut sums);
+            passing.first.push(reached.start as u32);
+            passing.weights.extend_from_slice(&sums[reached.clone()]);
+            passing.ends.push(passing.weights.len() as u32);
+            sums[reached].fill(0.0);
+        }
+        passing
+    }
+
+    fn of<'a>(&'a self, values: &'a [f64]) -> impl Iterator<Item = f64> + 'a {
+        let mut begin = 0;
+        self.first.iter().zip(&self.ends).map(move |(&first, &end)| {
+            let weights = &self.weights[begin as usize..end as usize];
+            begin = end;
+            weights.iter().zip(&values[first as usize..]).map(|(weight, value)| weight * value).sum()
+        })
+    }
+}
+
+/// Extent of the tangent at one position over which both flanks exist, and of the part looked at; mm, positive towards
+/// the pinion's tip.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Window {
+    /// Lower end of what is looked at.
+    pub lower_mm: f64,
+    /// Upper end.
+    pub upper_mm: f64,
+    /// Whether each end is where a flank really ends.
+    pub ends_are_real: [bool; 2],
+    /// Whether it ends there in a sharp tip edge that may carry load: the wheel's below, the pinion's above.
+    pub ends_are_sharp: [bool; 2],
+}
+
+impl Window {
+    /// `half_length_mm` to either side of the theoretical contact point, or of the tip edge next to it where the one flank
+    /// ends before it, cut where a flank ends.
+    pub fn new(flanks: Flanks<'_>, position_mm: f64, half_length_mm: f64) -> Self {
+        let ((lower, upper), at_tips) = common_extent_mm(flanks.geometry, position_mm);
+        let centre = 0.0_f64.min(upper).max(lower);
+        let (from, to) = (centre - half_length_mm, centre + half_length_mm);
+        let ends_are_real = [lower >= from, upper <= to];
+        let sharp = [flanks.sharp_edges.wheel, flanks.sharp_edges.pinion];
+        Self {
+            lower_mm: lower.max(from),
+            upper_mm: upper.min(to),
+            ends_are_real,
+            ends_are_sharp: [0, 1].map(|end| ends_are_real[end] && at_tips[end] && sharp[end]),
+        }
+    }
+
+    /// Its length.
+    pub fn length_mm(&self) -> f64 {
+        self.upper_mm - self.lower_mm
+    }
+
+    /// Whether a sharp tip edge cuts off a contact that presses on these of the ends.
+    pub(crate) fn is_sharp_where(&self, pressed: [bool; 2]) -> bool {
+        self.ends_are_sharp.iter().zip(pressed).any(|(sharp, pressed)| *sharp && pressed)
+    }
+}
+
+/// Where along the tangent both flanks exist, before A and after E beside the theoretical contact point; and whether it is a tip edge that
+/// ends it there, the wheel's below and the pinion's above.
+pub(super) fn common_extent_mm(geometry: &dyn ConjugateFlanks, position_mm: f64) -> ((f64, f64), [bool; 2]) {
+    let along = |gear: Gear, coordinate| geometry.in_tangent_frame(gear, coordinate, position_mm).along_mm;
+    let (p, w) = (geometry.flank_limits_mm(Gear::Pinion), geometry.flank_limits_mm(Gear::Wheel));
+    // The wheel's tangent coordinate runs the other way. At A and E, where one limit is the contact point itself,
+    // round-off must not put it outside.
+    let round_off = ROUND_OFF * p.1.max(w.1);
+    let [lowers, uppers] =
+        [[along(Gear::Pinion, p.0), -along(Gear::Wheel, w.1)], [along(Gear::Pinion, p.1), -along(Gear::Wheel, w.0)]];
+    let (lower, upper) = (lowers[0].max(lowers[1]), uppers[0].min(uppers[1]));
+    let extent = (
+        if lower < round_off { lower.min(0.0) } else { lower },
+        if upper > -round_off { upper.max(0.0) } else { upper },
+    );
+    (extent, [lowers[1] >= lowers[0], uppers[0] <= uppers[1]])
+}
+
+/// Distance of the points of a gear's flank at the theoretical contact point.
+pub(crate) fn point_distance_mm(flanks: Flanks<'_>, gear: Gear, position_mm: f64) -> f64 {
+    let grid = flanks.grid[gear];
+    let here = grid.place(flanks.geometry.contact_coordinate_mm(gear, position_mm)).index;
+    grid.arc_mm[here + 1] - grid.arc_mm[here]
+}
+
+/// Evenly spaced samples across the candidate contact.
+#[derive(Debug, Clone)]
+pub struct Strip {
+    /// What the samples cover.
+    pub window: Window,
+    /// Distance of the samples, mm.
+    pub spacing_mm: f64,
+    /// Geometric gap at each sample, mm.
+    pub geometric_gap_mm: Vec<f64>,
+    removed: Removed,
+}
+
+/// How the removed material is read at the samples.
+#[derive(Debug, Clone)]
+enum Removed {
+    /// At the place of each.
+    Here(PerGear<Interpolation>),
+    /// As it passes each.
+    Passing(PerGear<PassingMean>),
+}
+
+impl Strip {
+    /// Samples at both ends of `window` and between `intervals` even parts of it. Where the pressure stands still while the flanks pass
+    /// under it during a cell, `passed_during`, each sample sees the mean wear of what passes it, as all that passes it feels its pressure:
+    /// seen at one place alone, a wave of wear as long as the positions are apart would meet each of them alike, and grow.
+    pub fn new(
+        flanks: Flanks<'_>,
+        position_mm: f64,
+        window: Window,
+        intervals: usize,
+        passed_during: Option<PositionCell>,
+    ) -> Self {
+        let spacing_mm = window.length_mm() / intervals as f64;
+        let along = |gear: Gear, k: usize| on_tangent(gear, window.lower_mm + k as f64 * spacing_mm);
+        let mut geometric_gap_mm = vec![0.0; intervals + 1];
+        let here = PerGear::from_fn(|gear| {
+            let mut here = Interpolation::new(flanks, gear);
+            for (k, gap) in geometric_gap_mm.iter_mut().enumerate() {
+                let (coordinate, drop) = flanks.geometry.at_along(gear, along(gear, k), position_mm);
+                *gap += drop;
+                here.push(flanks.grid[gear], coordinate);
+            }
+            here
+        });
+        let (Some(modification_mm), Some(cell)) = (flanks.modification_mm, passed_during) else {
+            return Self { window, spacing_mm, geometric_gap_mm, removed: Removed::Here(here) };
+        };
+        let passing = PerGear::from_fn(|gear| {
+            let passing = PassingMean::new(flanks, gear, cell, (0..=intervals).map(|k| along(gear, k)));
+            // A modification stays what it is at the sample.
+            let beside = here[gear].of(modification_mm[gear], 0).zip(passing.of(modification_mm[gear]));
+            geometric_gap_mm.iter_mut().zip(beside).for_each(|(gap, (here, mean))| *gap += here - mean);
+            passing
+        });
+        Self { window, spacing_mm, geometric_gap_mm, removed: Removed::Passing(passing) }
+    }
+
+    /// The gap with `removed_mm` of material gone, into `gap_mm`, and its least value.
+    pub fn gap_mm(&self, removed_mm: PerGear<&[f64]>, gap_mm: &mut Vec<f64>) -> f64 {
+        match &self.removed {
+            Removed::Here(here) => self.opened_mm(Gear::BOTH.map(|gear| here[gear].of(removed_mm[gear], 0)), gap_mm),
+            Removed::Passing(passing) => {
+                self.opened_mm(Gear::BOTH.map(|gear| passing[gear].of(removed_mm[gear])), gap_mm)
+            }
+        }
+    }
+
+    fn opened_mm(&self, [pinion, wheel]: [impl Iterator<Item = f64>; 2], gap_mm: &mut Vec<f64>) -> f64 {
+        gap_mm.resize(self.geometric_gap_mm.len(), 0.0);
+        let mut least = f64::INFINITY;
+        for (((gap, geometric), pinion), wheel) in gap_mm.iter_mut().zip(&self.geometric_gap_mm).zip(pinion).zip(wheel)
+        {
+            *gap = geometric + pinion + wheel;
+            if *gap < least {
+                least = *gap;
+            }
+        }
+        least
+    }
+
+    /// Whether flanks pressed together by `approach_mm`, and that have lost at least `removed_mm` wherever they may touch, can touch
+    /// beyond an end of the window that is not real: what else is removed only widens the gap, so the geometric gap decides.
+    pub(crate) fn may_touch_beyond(&self, approach_mm: f64, removed_mm: f64) -> bool {
+        let ends = [self.geometric_gap_mm[0], self.geometric_gap_mm[self.geometric_gap_mm.len() - 1]];
+        ends.iter().zip(self.window.ends_are_real).any(|(&gap, real)| !real && approach_mm - removed_mm > gap)
+    }
+}
+
+/// Flanks are searched this much farther than parabolas of their relative curvature would touch.
+const AMPLE_REACH: f64 = 1.25;
+
+/// The least that both flanks together have lost wherever they can touch when pressed together by `approach_mm`: where a parabola
+/// of their relative curvature, and some way on, is nearer than that.
+pub(crate) fn least_removed_mm(
+    flanks: Flanks<'_>,
+    position_mm: f64,
+    approach_mm: f64,
+    removed_mm: PerGear<&[f64]>,
+) -> f64 {
+    let reach = AMPLE_REACH * (2.0 * flanks.geometry.relative_radius_mm(position_mm) * approach_mm).sqrt();
+    let least = |gear: Gear| {
+        let grid = flanks.grid[gear];
+        let here = grid.arc_mm[grid.place(flanks.geometry.contact_coordinate_mm(gear, position_mm)).index];
+        // The next point on either side counts too: what is removed is linear in between.
+        let first = grid.arc_mm.partition_point(|&arc| arc < here - reach).saturating_sub(1);
+        let end = (grid.arc_mm.partition_point(|&arc| arc <= here + reach) + 2).min(grid.len());
+        removed_mm[gear][first..end].iter().copied().fold(f64::INFINITY, f64::min)
+    };
+    least(Gear::Pinion) + least(Gear::Wheel)
+}

@@ -1,0 +1,368 @@
+//! An elastic foundation of independent springs against the real, modified and worn gap.
+//!
+//! With the approach δ of the surfaces and the gap g(x), each spring carries
+//!
+//! ```text
+//! p(x) = (K/H) max(0, δ − g(x))          w = ∫ p dx          dw/dδ = (K/H) · length in contact
+//! ```
+//!
+//! The load is summed over cells of evenly spaced samples. In a cell the penetration u = δ − g is a straight line
+//! between its samples, raised by Δ²/(12 R), the mean of what the curvature of the gap adds to it; its positive part
+//! integrates exactly. So the ends of the contact are found between samples, and the load is a smooth, ever steeper
+//! function of δ.
+//!
+//! A flank point's pressure is averaged over the stretch the contact moves on while it stands for one loading position,
+//! exactly for the parabola that the point's penetration follows: so few positions suffice however narrow the contact,
+//! and load and wear agree.
+//!
+//! K/H is one constant, or a curve by position and load ([`WinklerFoundation`]): it then is the same for all springs of a contact, and
+//! follows the load of the contact by a power law, which the load of the contact still solves in closed form. A foundation with the
+//! half-width or the peak pressure of elastic bodies yields by a third or half as much as they do; a calibration knows the foundation with
+//! their approach too, and what the one lacks of the other under a contact's load is added to the approach of the gears: flattening
+//! is softer under light load, where a tip edge begins to touch, and no spring of the teeth can stand for that. Where a tip edge does
+//! touch the gap has another curvature, and both follow from half-planes on that gap ([`edge_foundation`](super::edge_foundation)).
+//!
+//! Source: K. L. Johnson, *Contact Mechanics* (1985), section 4.3; the thesis, section 3.2.
+
+use std::ops::Range;
+
+use super::{
+    ContactSurface, Flanks, Footprint, PairContact, PointContact, PositionCell, Response, Sweep,
+    edge_foundation::{EdgeFoundations, EdgeStiffness},
+    foundation::{FoundationCurve, FoundationStiffness, mean_positive},
+    gap_at_points::GapAtPoints,
+    growing_window::{GrowingWindow, Sampled},
+    observed_points::ObservedPoints,
+    strip::{Strip, Window, least_removed_mm, point_distance_mm},
+    swept_field::SweptField,
+};
+use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+
+/// The springs of a foundation: one K/H everywhere, or a curve of it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum WinklerFoundation {
+    /// The same K/H at every position and load.
+    Uniform {
+        /// K/H, MPa/mm.
+        mpa_per_mm: f64,
+    },
+    /// K/H by position and load.
+    Curve {
+        /// What the pressure spreads by.
+        pressure: FoundationCurve,
+        /// The foundation with the approach of the elastic bodies.
+        approach: FoundationCurve,
+        /// Where tip edges touch, if they are followed into contact.
+        edges: Option<EdgeFoundations>,
+    },
+}
+
+impl WinklerFoundation {
+    /// The springs at one position that have the approach of the elastic bodies, where the foundation knows them.
+    pub(crate) fn approach_at(&self, position_mm: f64) -> Option<FoundationStiffness> {
+        match self {
+            Self::Uniform { .. } => None,
+            Self::Curve { approach, .. } => Some(approach.springs_at(position_mm)),
+        }
+    }
+
+    /// The springs at one position where a tip edge touches, if the foundation knows them.
+    pub fn at_edge(&self, position_mm: f64) -> Option<EdgeStiffness> {
+        match self {
+            Self::Curve { edges: Some(edges), .. } => edges.at(position_mm),
+            _ => None,
+        }
+    }
+
+    /// The springs at one position.
+    pub fn at(&self, position_mm: f64) -> FoundationStiffness {
+        match self {
+            Self::Uniform { mpa_per_mm } => FoundationStiffness::new(*mpa_per_mm, 0.0, 1.0),
+            Self::Curve { pressure, .. } => pressure.springs_at(position_mm),
+        }
+    }
+}
+
+/// The surface: K/H and the load that contacts are expected to carry.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Winkler {
+    /// K/H.
+    pub foundation: WinklerFoundation,
+    /// Load that the first window is cut for; a greater one only costs a widening, N/mm.
+    pub expected_line_load_n_per_mm: f64,
+}
+
+/// Half-length of the first window over the half-width of the unworn contact.
+const FIRST_WINDOW: f64 = 1.25;
+/// Distance of the samples in points of the pinion's flank. The load needs less resolution than the wear: its geometric
+/// part is exact to the gap's curvature, and the worn part is smooth over several points.
+const POINTS_PER_SAMPLE: f64 = 2.0;
+/// Fewest intervals between samples.
+const LEAST_INTERVALS: usize = 8;
+/// The same where a tip edge touches over a part of the window.
+const LEAST_INTERVALS_AT_EDGE: usize = 200;
+
+impl ContactSurface for Winkler {
+    fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
+        let radius_mm = flanks.geometry.relative_radius_mm(position_mm);
+        let stiffness = self.foundation.at(position_mm);
+        let half_width = stiffness.half_width_mm(radius_mm, self.expected_line_load_n_per_mm);
+        let edge = self.foundation.at_edge(position_mm);
+        let stretch = ObservedStretch { flanks, position_mm, cell, at_edge: edge.is_some() };
+        let first_foundation = stiffness.mpa_per_mm(self.expected_line_load_n_per_mm);
+        Box::new(WinklerPair {
+            stiffness,
+            bodies: self.foundation.approach_at(position_mm),
+            edge,
+            foundation: first_foundation,
+            first_foundation,
+            radius_mm,
+            window: GrowingWindow::new(stretch, FIRST_WINDOW * half_width),
+            gap: Vec::new(),
+            touch: 0.0,
+            removed_everywhere: 0.0,
+            indentation_mm: 0.0,
+            extent_mm: (0.0, 0.0),
+        })
+    }
+
+    fn plain_approach_mm(&self, geometry: &dyn ConjugateFlanks, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
+        let radius = geometry.relative_radius_mm(position_mm);
+        let stiffness = self.foundation.approach_at(position_mm).unwrap_or_else(|| self.foundation.at(position_mm));
+        stiffness.approach_and_compliance(radius, line_load_n_per_mm).0
+    }
+}
+
+/// The points of each flank that may touch.
+enum Observed {
+    /// With the gap they face.
+    Facing(PerGear<(ObservedPoints, GapAtPoints)>),
+    /// Moving through a pressure that stands still: an edge under load stands on one place of its tooth and moves off the other,
+    /// so that no gap is a parabola of the position.
+    Swept(SweptField),
+}
+
+/// The flanks of a pair at its position.
+struct ObservedStretch<'a> {
+    flanks: Flanks<'a>,
+    position_mm: f64,
+    cell: Option<PositionCell>,
+    /// Whether a tip edge touches.
+    at_edge: bool,
+}
+
+impl Sampled for ObservedStretch<'_> {
+    type Samples = (Strip, Option<Observed>);
+
+    fn sample(&self, half_length_mm: f64) -> Self::Samples {
+        let window = Window::new(self.flanks, self.position_mm, half_length_mm);
+        let distance_mm = POINTS_PER_SAMPLE * point_distance_mm(self.flanks, Gear::Pinion, self.position_mm);
+        let least = if self.at_edge { LEAST_INTERVALS_AT_EDGE } else { LEAST_INTERVALS };
+        let intervals = ((window.length_mm() / distance_mm).ceil() as usize).max(least);
+        // Elsewhere points carry their own wear through the contact.
+        let passed_during = self.cell.filter(|_| self.at_edge);
+        let strip = Strip::new(self.flanks, self.position_mm, window, intervals, passed_during);
+        if self.at_edge {
+            let swept = SweptField::new(self.flanks, window, strip.spacing_mm, self.cell);
+            return (strip, Some(Observed::Swept(swept)));
+        }
+        let observed = self.cell.map(|cell| {
+            Observed::Facing(PerGear::from_fn(|gear| {
+                let points = ObservedPoints::new(self.flanks, gear, window, cell);
+                let gap = GapAtPoints::new(self.flanks, gear, &points, self.position_mm);
+                (points, gap)
+            }))
+        });
+        (strip, observed)
+    }
+}
+
+/// One tooth pair on the foundation.
+struct WinklerPair<'a> {
+    stiffness: FoundationStiffness,
+    /// The springs with the approach of the elastic bodies, where they are known.
+    bodies: Option<FoundationStiffness>,
+    /// The springs in place of both where a tip edge touches.
+    edge: Option<EdgeStiffness>,
+    /// K/H under the last load, MPa/mm.
+    foundation: f64,
+    /// The same before any load.
+    first_foundation: f64,
+    radius_mm: f64,
+    window: GrowingWindow<ObservedStretch<'a>>,
+    /// Real gap at the strip's samples less the least of them, mm.
+    gap: Vec<f64>,
+    /// The least gap, mm.
+    touch: f64,
+    /// The least that both flanks together have lost where they may touch, mm; 0 where that is little.
+    removed_everywhere: f64,
+    /// The last indentation, mm.
+    indentation_mm: f64,
+    /// Outermost places in contact at equilibrium, along the tangent.
+    extent_mm: (f64, f64),
+}
+
+impl PairContact for WinklerPair<'_> {
+    fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
+        let touch = self.window.samples.0.gap_mm(removed_mm, &mut self.gap);
+        // From the first touch on, nothing is lost where a light load meets a deep relief.
+        self.gap.iter_mut().for_each(|gap| *gap -= touch);
+        self.touch = touch;
+        // Where much is removed everywhere, as by a helix-slope deviation, the window need not reach as far as that is deep.
+        let ObservedStretch { flanks, position_mm, .. } = self.window.flanks;
+        let at_end = self.window.half_length_mm * self.window.half_length_mm / (2.0 * self.radius_mm);
+        self.removed_everywhere =
+            if touch > 0.25 * at_end { least_removed_mm(flanks, position_mm, touch + at_end, removed_mm) } else { 0.0 };
+    }
+
+    fn touch_mm(&self) -> f64 {
+        self.touch
+    }
+
+    fn load_at(&mut self, indentation_mm: f64) -> Response {
+        self.indentation_mm = indentation_mm;
+        // The curvature of the gap between two samples, which the straight line misses, as its mean Δ²/12R.
+        let spacing = self.strip().spacing_mm;
+        let bulge = spacing * spacing / (12.0 * self.radius_mm);
+        // Sums over cells of mean penetration and of the fraction in contact, which is how fast the former grows.
+        let (mut penetration, mut contact) = (0.0, 0.0);
+        let mut before = indentation_mm + bulge - self.gap[0];
+        for gap in &self.gap[1..] {
+            let here = indentation_mm + bulge - gap;
+            let (mean, fraction) = mean_positive([before, here]);
+            penetration += mean;
+            contact += fraction;
+            before = here;
+        }
+        let (penetration, contact) = (spacing * penetration, spacing * contact);
+        let (load, stiffness) = match &self.edge {
+            Some(edge) => edge.load_and_stiffness(penetration, contact),
+            None => self.stiffness.load_and_stiffness(penetration, contact),
+        };
+        if load > 0.0 {
+            self.foundation = match &self.edge {
+                Some(edge) => edge.mpa_per_mm(load),
+                None => self.stiffness.mpa_per_mm(load),
+            };
+        }
+        Response { line_load_n_per_mm: load, stiffness_n_per_mm2: stiffness }
+    }
+
+    fn further_approach_mm(&self, line_load_n_per_mm: f64) -> (f64, f64) {
+        if let Some(edge) = &self.edge {
+            return edge.further_approach_mm(line_load_n_per_mm);
+        }
+        let Some(bodies) = self.bodies else { return (0.0, 0.0) };
+        let [whole, own] = [bodies, self.stiffness]
+            .map(|stiffness| stiffness.approach_and_compliance(self.radius_mm, line_load_n_per_mm));
+        (whole.0 - own.0, whole.1 - own.1)
+    }
+
+    fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64 {
+        // At a tip edge half of the strip carries the load, as if it were twice as large.
+        let a = self.stiffness.half_width_mm(self.radius_mm, 2.0 * line_load_n_per_mm);
+        a * a / (2.0 * self.radius_mm)
+    }
+
+    fn window_suffices(&mut self) -> bool {
+        self.extent_mm = self.extent_mm();
+        if let Some(Observed::Swept(swept)) = &mut self.window.samples.1 {
+            let (gap, indentation_mm, foundation) = (&self.gap, self.indentation_mm, self.foundation);
+            let mean =
+                |ends: &[f64]| foundation * mean_positive([indentation_mm - ends[0], indentation_mm - ends[1]]).0;
+            swept.field.fill(|pressure| {
+                pressure.clear();
+                pressure.extend(gap.windows(2).map(mean));
+            });
+        }
+        !self.strip().may_touch_beyond(self.touch + self.indentation_mm, self.removed_everywhere)
+    }
+
+    fn widen(&mut self) {
+        self.window.widen();
+    }
+
+    fn reset(&mut self) {
+        self.window.reset();
+        self.foundation = self.first_foundation;
+    }
+
+    fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
+        let (points, faced) = match &self.window.samples.1 {
+            None => return sweep.begin(0, &[]),
+            Some(Observed::Swept(swept)) => return swept.sweep(gear, sweep),
+            Some(Observed::Facing(facing)) => &facing[gear],
+        };
+        let near = self.touching(gear, points);
+        sweep.begin(points.first_point + near.start, &points.sliding_mm[near.clone()]);
+        let approach_mm = self.touch + self.indentation_mm;
+        for (pressure, faced) in sweep.pressure_mpa.iter_mut().zip(faced.faced(points, gear, removed_mm, near)) {
+            *pressure = self.foundation * faced.mean_penetration(approach_mm).0;
+        }
+    }
+
+    fn contact_of_points(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<PointContact> {
+        let (points, faced) = match &self.window.samples.1 {
+            None => return Vec::new(),
+            Some(Observed::Swept(swept)) => return swept.contact_of_points(gear),
+            Some(Observed::Facing(facing)) => &facing[gear],
+        };
+        let approach_mm = self.touch + self.indentation_mm;
+        faced
+            .faced(points, gear, removed_mm, self.touching(gear, points))
+            .map(|faced| PointContact {
+                pressure_mpa: self.foundation * faced.greatest_penetration_mm(approach_mm).max(0.0),
+                contact_fraction: faced.mean_penetration(approach_mm).1,
+            })
+            .collect()
+    }
+
+    fn footprint(&self) -> Footprint {
+        let penetration = (self.indentation_mm - least(&self.gap)).max(0.0);
+        let half_width_mm = 0.5 * (self.extent_mm.1 - self.extent_mm.0);
+        let at_ends = [self.gap.first(), self.gap.last()].map(|gap| gap.is_some_and(|gap| *gap < self.indentation_mm));
+        let at_sharp_edge = self.strip().window.is_sharp_where(at_ends);
+        Footprint { peak_pressure_mpa: self.foundation * penetration, half_width_mm, at_sharp_edge }
+    }
+}
+
+/// The least of evenly spaced samples: the bottom of the parabola through the lowest and its neighbours, or the lowest
+/// itself at an end.
+fn least(samples: &[f64]) -> f64 {
+    let Some(k) = (0..samples.len()).min_by(|&a, &b| samples[a].total_cmp(&samples[b])) else { return f64::INFINITY };
+    match samples.get(k.wrapping_sub(1)..k + 2) {
+        Some(&[before, lowest, after]) if before + after > 2.0 * lowest => {
+            lowest - (before - after).powi(2) / (8.0 * (before + after - 2.0 * lowest))
+        }
+        _ => samples[k],
+    }
+}
+
+impl WinklerPair<'_> {
+    fn strip(&self) -> &Strip {
+        &self.window.samples.0
+    }
+
+    /// The points of a flank that may touch at the last approach pressed.
+    fn touching(&self, gear: Gear, points: &ObservedPoints) -> Range<usize> {
+        match gear {
+            Gear::Pinion => points.between(self.extent_mm.0, self.extent_mm.1),
+            Gear::Wheel => points.between(-self.extent_mm.1, -self.extent_mm.0),
+        }
+    }
+
+    /// Outermost places in contact, found between samples; empty at 0 without contact.
+    fn extent_mm(&self) -> (f64, f64) {
+        let u = |k: usize| self.indentation_mm - self.gap[k];
+        let touches = |gap: &f64| *gap < self.indentation_mm;
+        let (Some(first), Some(last)) = (self.gap.iter().position(touches), self.gap.iter().rposition(touches)) else {
+            return (0.0, 0.0);
+        };
+        // The gap passes through the approach between the outermost sample in contact and the next one.
+        let before = if first > 0 { u(first) / (u(first) - u(first - 1)) } else { 0.0 };
+        let after = if last + 1 < self.gap.len() { u(last) / (u(last) - u(last + 1)) } else { 0.0 };
+        let Strip { window, spacing_mm, .. } = self.strip();
+        let place = |sample: f64| window.lower_mm + sample * spacing_mm;
+        (place(first as f64 - before), place(last as f64 + after))
+    }
+}

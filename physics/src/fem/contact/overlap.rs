@@ -1,0 +1,56 @@
+//! How far two surfaces that touch run into each other, point by point.
+//!
+//! A multiplier closes the gap on the average that it weights. Between the nodes the deformed surfaces still cross by a
+//! little, because neither can follow the other exactly: at the integration points ξ_q the linearised gap
+//!
+//! ```text
+//! g(ξ_q) = g⁰(ξ_q) + n · (u_m(η_q) − u_s(ξ_q))
+//! ```
+//!
+//! is not zero but swings around it. Its most negative value is an honest measure of the discretisation, and falls with the
+//! size of the elements; round-off alone would be the measure of the solver.
+
+use nalgebra::Vector2;
+
+use super::dual_basis::gauss_points;
+use super::edge::{interpolate, shape};
+use super::master_search::MasterSearch;
+use super::surface::Surface;
+
+/// A surface with the displacements of its local nodes, mm.
+#[derive(Debug, Clone, Copy)]
+pub struct Moved<'a> {
+    /// Before deformation.
+    pub surface: &'a Surface,
+    /// One for each local node.
+    pub displacement_mm: &'a [Vector2<f64>],
+}
+
+impl Moved<'_> {
+    fn at(&self, nodes: &[usize], xi: f64) -> Vector2<f64> {
+        let mut values = [Vector2::zeros(); super::edge::MOST_NODES];
+        for (value, &node) in values.iter_mut().zip(nodes) {
+            *value = self.displacement_mm[node];
+        }
+        interpolate(&shape(nodes.len(), xi), &values[..nodes.len()])
+    }
+}
+
+/// The largest overlap of `slave` and `master` at the integration points, mm; zero where they nowhere overlap. Surfaces
+/// farther apart than `reach_mm` do not face each other.
+pub(crate) fn largest_overlap_mm(slave: Moved<'_>, master: Moved<'_>, reach_mm: f64) -> f64 {
+    let facing = MasterSearch::new(master.surface);
+    let mut largest_mm = 0.0_f64;
+    for (number, edge) in slave.surface.edges.iter().enumerate() {
+        for segment in facing.segments(slave.surface, number, reach_mm) {
+            let mate = master.surface.edges[segment.master];
+            for (xi, _) in gauss_points(segment.from, segment.to) {
+                let Some(meeting) = facing.meet(slave.surface, edge, xi, segment.master) else { continue };
+                let Some(normal) = slave.surface.normal_and_derivative(edge, xi).0.try_normalize(0.0) else { continue };
+                let relative = master.at(mate.nodes(), meeting.eta) - slave.at(edge.nodes(), xi);
+                largest_mm = largest_mm.max(-(meeting.gap_mm + normal.dot(&relative)));
+            }
+        }
+    }
+    largest_mm
+}

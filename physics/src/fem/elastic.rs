@@ -1,0 +1,97 @@
+//! Isotropic linear elasticity in the plane.
+//!
+//! ```text
+//! plane strain   D = E/((1+ν)(1−2ν)) · [1−ν ν 0; ν 1−ν 0; 0 0 (1−2ν)/2]     σ_z = ν (σ_x + σ_y)
+//! plane stress   D = E/(1−ν²)        · [1 ν 0; ν 1 0; 0 0 (1−ν)/2]          σ_z = 0
+//! ```
+//!
+//! Source: S. P. Timoshenko and J. N. Goodier, *Theory of Elasticity* (1970), sections 8 to 11.
+
+use nalgebra::Matrix3;
+
+use crate::gear::{Gear, PerGear};
+use crate::reference::hertz_line;
+
+/// What the direction across the plane does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Analysis {
+    /// No strain across the plane: a long body, a wide gear.
+    #[default]
+    PlaneStrain,
+    /// No stress across the plane: a thin sheet.
+    PlaneStress,
+}
+
+/// An isotropic material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Elastic {
+    /// E > 0, MPa.
+    pub young_modulus_mpa: f64,
+    /// ν, −1 < ν < 0.5.
+    pub poisson_ratio: f64,
+}
+
+/// Contact modulus E* of two gears, MPa: 1/E* = Σ (1 − ν²)/E.
+pub fn contact_modulus_mpa(material: &PerGear<Elastic>) -> f64 {
+    hertz_line::contact_modulus_mpa(
+        Gear::BOTH.map(|gear| (material[gear].young_modulus_mpa, material[gear].poisson_ratio)),
+    )
+}
+
+impl Elastic {
+    /// D with σ = D ε for σ = (σ_x, σ_y, τ_xy) and ε = (ε_x, ε_y, γ_xy), MPa.
+    pub fn stiffness_mpa(&self, analysis: Analysis) -> Matrix3<f64> {
+        let (e, nu) = (self.young_modulus_mpa, self.poisson_ratio);
+        match analysis {
+            Analysis::PlaneStrain => {
+                let scale = e / ((1.0 + nu) * (1.0 - 2.0 * nu));
+                Matrix3::new(1.0 - nu, nu, 0.0, nu, 1.0 - nu, 0.0, 0.0, 0.0, 0.5 - nu) * scale
+            }
+            Analysis::PlaneStress => {
+                Matrix3::new(1.0, nu, 0.0, nu, 1.0, 0.0, 0.0, 0.0, 0.5 * (1.0 - nu)) * (e / (1.0 - nu * nu))
+            }
+        }
+    }
+
+    /// κ = E/(3 (1 − 2ν)), MPa.
+    pub fn bulk_modulus_mpa(&self) -> f64 {
+        self.young_modulus_mpa / (3.0 * (1.0 - 2.0 * self.poisson_ratio))
+    }
+
+    /// μ = E/(2 (1 + ν)), MPa.
+    pub fn shear_modulus_mpa(&self) -> f64 {
+        0.5 * self.young_modulus_mpa / (1.0 + self.poisson_ratio)
+    }
+
+    /// The plane-strain D less its volumetric part κ m mᵀ, m = (1, 1, 0), MPa.
+    pub fn deviatoric_mpa(&self) -> Matrix3<f64> {
+        let mu = self.shear_modulus_mpa();
+        Matrix3::new(4.0, -2.0, 0.0, -2.0, 4.0, 0.0, 0.0, 0.0, 3.0) * (mu / 3.0)
+    }
+
+    /// σ_z from the stresses in the plane, MPa.
+    pub fn across_mpa(&self, analysis: Analysis, sigma_x_mpa: f64, sigma_y_mpa: f64) -> f64 {
+        match analysis {
+            Analysis::PlaneStrain => self.poisson_ratio * (sigma_x_mpa + sigma_y_mpa),
+            Analysis::PlaneStress => 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// D = D_dev + κ m mᵀ in plane strain, and D_dev gives no mean stress: σ_x + σ_y + σ_z = 0 with σ_z = −2μ/3 (ε_x + ε_y).
+    #[test]
+    fn ver_deviatoric_and_volumetric_parts_make_the_whole() {
+        let material = Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 };
+        let volume = Matrix3::new(1.0, 1.0, 0.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0);
+        let deviatoric = material.deviatoric_mpa();
+        let whole = deviatoric + volume * material.bulk_modulus_mpa();
+        let difference = whole - material.stiffness_mpa(Analysis::PlaneStrain);
+        assert!(difference.amax() < 1e-15 * whole.amax() * 4.0, "{difference}");
+        let across = -2.0 / 3.0 * material.shear_modulus_mpa();
+        assert!((deviatoric.m11 + deviatoric.m21 + across).abs() < 1e-10, "{deviatoric}");
+    }
+}

@@ -1,0 +1,31 @@
+//! A gear pair whose gears are condensed onto the flanks that may touch.
+
+use super::flank_surface::FlankSurface;
+use super::ring::GearCompliance;
+use crate::gear::{GearPair, PerGear};
+use crate::reference::hertz_line::HertzLine;
+
+/// The pair with both gears condensed.
+pub struct CondensedPair<'a> {
+    /// Geometry.
+    pub pair: &'a GearPair,
+    /// Both gears.
+    pub gears: PerGear<GearCompliance>,
+    /// Their working flanks.
+    pub flanks: PerGear<FlankSurface>,
+    /// E*, MPa.
+    pub contact_modulus_mpa: f64,
+}
+
+/// Hertz half-width under the whole load at `position_mm`, taken at A or E where it lies outside.
+pub fn hertz_half_width_mm(
+    pair: &GearPair,
+    contact_modulus_mpa: f64,
+    line_load_n_per_mm: f64,
+    position_mm: f64,
+) -> f64 {
+    let position_mm = position_mm.clamp(pair.path.start_mm, pair.path.end_mm);
+    let rho = PerGear::from_fn(|gear| pair.path.rho_mm(gear, position_mm));
+    let relative_radius_mm = rho.pinion * rho.wheel / rho.sum();
+    HertzLine::of_relative_radius(relative_radius_mm, contact_modulus_mpa).loaded(line_load_n_per_mm).half_width_mm
+}

@@ -1,0 +1,96 @@
+//! The nodes of a working flank as places that wear: where they are along the profile, and how much of it each stands for.
+//!
+//! Wear is a depth h at every node, in straight lines between them: h(s) = Σ_k h_k N_k(s) with hat functions N_k over the length
+//! s of the profile, beyond whose ends it goes on as at them. A volume V per face width on a stretch [a, b] wears the nodes by
+//!
+//! ```text
+//! h_k ← h_k + m_k V / W_k          m_k = 1/(b − a) ∫ N_k ds over [a, b]          W_k = ∫ N_k ds over the flank
+//! ```
+//!
+//! so that Σ W_k h_k grows by V, whatever the stretch; and the mean depth on the stretch is Σ m_k h_k.
+
+use super::flank_surface::FlankSurface;
+use crate::reference::linear_means::{add_means, value_at};
+
+/// The part of an edge from a corner node that the corner's multiplier carries: ∫ψ of a quadratic edge is 1/6, 4/6 and 1/6 of it.
+const CORNER_SHARE: f64 = 1.0 / 6.0;
+
+/// Nodes to either side over which a slope is taken: those of an edge.
+const NODES_TO_A_SIDE: usize = 2;
+
+/// Nodes of one flank, from root to tip.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlankNodes {
+    /// Distance of each from the root end along the profile, mm.
+    pub along_mm: Vec<f64>,
+    /// W_k, mm.
+    pub share_mm: Vec<f64>,
+    /// Place of each local node of the surface in this order.
+    pub place: Vec<usize>,
+    /// The stretch that the multiplier of each node loads, mm.
+    pub loaded_mm: Vec<[f64; 2]>,
+}
+
+/// Consecutive nodes and the weight of each.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Weights<'a> {
+    /// The first node.
+    pub first: usize,
+    /// m_k of it and those after it.
+    pub weights: &'a [f64],
+}
+
+impl FlankNodes {
+    /// Of `flank`.
+    pub fn new(flank: &FlankSurface) -> Self {
+        let count = flank.from_tip_mm.len();
+        let mut order: Vec<usize> = (0..count).collect();
+        order.sort_by(|&a, &b| flank.from_tip_mm[b].total_cmp(&flank.from_tip_mm[a]));
+        let length_mm = order.first().map_or(0.0, |&root| flank.from_tip_mm[root]);
+        let along_mm: Vec<f64> = order.iter().map(|&node| length_mm - flank.from_tip_mm[node]).collect();
+        let mut place = vec![0; count];
+        order.iter().enumerate().for_each(|(at, &node)| place[node] = at);
+        let before = |k: usize| if k > 0 { along_mm[k] - along_mm[k - 1] } else { 0.0 };
+        let after = |k: usize| if k + 1 < count { along_mm[k + 1] - along_mm[k] } else { 0.0 };
+        let share_mm = (0..count).map(|k| 0.5 * (before(k) + after(k))).collect();
+        let mut loaded_mm = along_mm.iter().map(|&at| [at, at]).collect::<Vec<_>>();
+        for edge in &flank.surface.edges {
+            // From the tip's side to the root's.
+            let ends = [place[edge.nodes()[1]], place[edge.nodes()[0]]];
+            let length = along_mm[ends[1]] - along_mm[ends[0]];
+            let corner = if edge.nodes().len() == 3 { CORNER_SHARE } else { 0.5 } * length;
+            loaded_mm[ends[0]][1] += corner;
+            loaded_mm[ends[1]][0] -= corner;
+            if let Some(&middle) = edge.nodes().get(2) {
+                loaded_mm[place[middle]] = [along_mm[ends[0]] + corner, along_mm[ends[1]] - corner];
+            }
+        }
+        Self { along_mm, share_mm, place, loaded_mm }
+    }
+
+    /// Number of nodes.
+    pub fn len(&self) -> usize {
+        self.along_mm.len()
+    }
+
+    /// Adds to `sums`, a row for all nodes, `weight` times the m_k of the stretch from `from_mm` to `to_mm`; answers the nodes that
+    /// it reaches.
+    pub(crate) fn add_means(&self, stretch_mm: [f64; 2], weight: f64, sums: &mut [f64]) -> std::ops::Range<usize> {
+        add_means(&self.along_mm, stretch_mm, weight, sums)
+    }
+
+    /// How far depths at the nodes tilt the profile there, rad: dh/ds from root to tip, over an element to either side, so that waves
+    /// between neighbouring nodes are no tilt.
+    pub(crate) fn tilt_rad(&self, depth_mm: &[f64]) -> Vec<f64> {
+        let slope = |place: usize| {
+            let (from, to) = (place.saturating_sub(NODES_TO_A_SIDE), (place + NODES_TO_A_SIDE).min(self.len() - 1));
+            (depth_mm[to] - depth_mm[from]) / (self.along_mm[to] - self.along_mm[from])
+        };
+        (0..self.len()).map(slope).collect()
+    }
+
+    /// Depth at a place of the flank, mm.
+    pub(crate) fn depth_at_mm(&self, along_mm: f64, depth_mm: &[f64]) -> f64 {
+        value_at(&self.along_mm, depth_mm, along_mm)
+    }
+}

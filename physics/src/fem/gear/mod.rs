@@ -1,0 +1,17 @@
+//! Finite-element contact of a gear pair: each gear condensed once, every position a small contact problem.
+
+pub mod condensed_pair;
+pub mod cycle;
+mod facing_teeth;
+pub mod flank_nodes;
+pub mod flank_surface;
+pub mod full;
+pub mod in_space;
+pub mod load_transfer;
+pub mod model;
+pub mod placement;
+pub mod position;
+pub mod prepared;
+pub mod ring;
+pub mod sector;
+pub mod tilted;

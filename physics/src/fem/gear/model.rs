@@ -1,0 +1,346 @@
+//! From a gear pair to its condensed finite-element model, in two steps: mesh, condense.
+
+use super::condensed_pair::{CondensedPair, hertz_half_width_mm};
+use super::flank_surface::FlankSurface;
+use super::ring::{GearCompliance, Surroundings};
+use super::sector::{CondensedSector, Functional, Sector};
+use crate::fem::active_set::ActiveSetError;
+use crate::fem::elastic::{self, Analysis, Elastic};
+use crate::fem::equilibrium::SolveError;
+use crate::fem::solid::{Element, ElementKind, Solid};
+use crate::fem::stress::{StressComponent, StressRecovery};
+use crate::gear::{Gear, GearPair, PerGear};
+use crate::gear_mesh::settings::{Body, BodySettings, SectorSides};
+use crate::gear_mesh::{Cell, ToothMeshError, ToothSector, gear_sector, touching_pairs};
+use crate::mesh::CellKind;
+
+/// Nodes of one flank whose compliance among three teeth takes [`GB_OF_MOST_NODES`].
+const MOST_FLANK_NODES: usize = 2800;
+/// Measured on FZG type C with 10 and 14 elements in a half-width and tip roundings of 0.001 to 0.3 mm, both gears together 0.44 to 1.38 GB:
+/// within 10 % in proportion to the squares of their nodes.
+const GB_OF_MOST_NODES: f64 = 2.0;
+/// What takes more than this is said before it begins, GB; with a wear run or a mesh cycle on them, 20 s are reached about there.
+const MUCH_MEMORY_GB: f64 = 0.8;
+/// More than this is not begun, GB: both gears at the most of nodes.
+const MOST_MEMORY_GB: f64 = 2.0 * GB_OF_MOST_NODES;
+
+/// Why there is no model.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// A tooth cannot be meshed.
+    #[error("{}: {source}", gear.name())]
+    Mesh {
+        /// Whose.
+        gear: Gear,
+        /// Why.
+        source: Box<ToothMeshError>,
+    },
+    /// A gear cannot be condensed.
+    #[error("{}: {source}", gear.name())]
+    Condense {
+        /// Whose.
+        gear: Gear,
+        /// Why.
+        source: SolveError,
+    },
+    /// The compliance of its flanks would fill the memory.
+    #[error("{}: the resolved flank has {nodes} nodes, more than the {most} whose compliance a computer holds", gear.name())]
+    TooFine {
+        /// Whose.
+        gear: Gear,
+        /// Nodes of one flank.
+        nodes: usize,
+        /// So many are possible.
+        most: usize,
+    },
+    /// The sector is too small.
+    #[error("{}: {teeth} teeth are fewer than the {least} that touch over the mesh cycle", gear.name())]
+    TooFewTeeth {
+        /// Whose.
+        gear: Gear,
+        /// Given.
+        teeth: u32,
+        /// Needed.
+        least: u32,
+    },
+}
+
+/// What is to be said before both gears are condensed, where that takes much; `bodies`: how often as much as one pair it takes at its peak.
+///
+/// # Errors
+/// [`ModelError::TooFine`] where it takes more than a computer is to be expected to have.
+pub fn much_memory(meshed: &PerGear<MeshedGear>, bodies: f64) -> Result<Option<String>, ModelError> {
+    let nodes = meshed.as_ref().map(|meshed| meshed.flank().surface.mesh_nodes.len());
+    let share = |nodes: usize| (nodes as f64 / MOST_FLANK_NODES as f64).powi(2);
+    let gb = bodies * GB_OF_MOST_NODES * (share(nodes.pinion) + share(nodes.wheel));
+    if gb > MOST_MEMORY_GB {
+        let gear = if nodes.pinion > nodes.wheel { Gear::Pinion } else { Gear::Wheel };
+        let most = (MOST_FLANK_NODES as f64 * bodies.recip().sqrt()) as usize;
+        return Err(ModelError::TooFine { gear, nodes: nodes[gear], most });
+    }
+    Ok((gb > MUCH_MEMORY_GB).then(|| {
+        format!(
+            "the working flanks have {} nodes (pinion) and {} (wheel): their condensation takes some {gb:.1} GB, and a minute or more; fewer \
+             fem.elements_per_half_width or a larger tip_rounding_mm takes less",
+            nodes.pinion, nodes.wheel
+        )
+    }))
+}
+
+/// One gear, meshed.
+#[derive(Debug, Clone)]
+pub struct MeshedGear {
+    /// Which.
+    pub gear: Gear,
+    /// A tooth that may touch.
+    pub fine: ToothSector,
+    /// Any other tooth; none where all are fine.
+    pub coarse: Option<ToothSector>,
+    /// How many teeth may touch.
+    pub fine_teeth: u32,
+    /// What surrounds them.
+    pub surroundings: Surroundings,
+    /// Whether the tip edge is sharp.
+    pub sharp: bool,
+    /// What it was meshed with.
+    pub settings: BodySettings,
+}
+
+impl MeshedGear {
+    /// Meshes a gear of `pair` for contact under `line_load_n_per_mm`.
+    pub fn new(
+        pair: &GearPair,
+        gear: Gear,
+        material: &PerGear<Elastic>,
+        line_load_n_per_mm: f64,
+        settings: &BodySettings,
+    ) -> Result<Self, ModelError> {
+        let teeth = pair.teeth[gear].teeth;
+        let fine_teeth = (touching_pairs(pair).len() as u32).min(teeth - 1 + teeth % 2);
+        Self::with_fine_teeth(fine_teeth, pair, gear, material, line_load_n_per_mm, settings)
+    }
+
+    /// Meshes a gear of which the tooth in the middle alone is loaded.
+    pub(crate) fn with_one_fine_tooth(
+        pair: &GearPair,
+        gear: Gear,
+        material: &PerGear<Elastic>,
+        line_load_n_per_mm: f64,
+        settings: &BodySettings,
+    ) -> Result<Self, ModelError> {
+        Self::with_fine_teeth(1, pair, gear, material, line_load_n_per_mm, settings)
+    }
+
+    fn with_fine_teeth(
+        fine_teeth: u32,
+        pair: &GearPair,
+        gear: Gear,
+        material: &PerGear<Elastic>,
+        line_load_n_per_mm: f64,
+        settings: &BodySettings,
+    ) -> Result<Self, ModelError> {
+        let teeth = pair.teeth[gear].teeth;
+        let surroundings = match settings.body {
+            Body::Ring => Surroundings::Ring { coarse: (teeth - fine_teeth) as usize },
+            // A sector of all teeth has no cut left.
+            Body::Sector { teeth: all, .. } if all == teeth => {
+                Surroundings::Ring { coarse: (teeth - fine_teeth) as usize }
+            }
+            Body::Sector { teeth, .. } if teeth < fine_teeth => {
+                return Err(ModelError::TooFewTeeth { gear, teeth, least: fine_teeth });
+            }
+            Body::Sector { teeth, sides } => {
+                let coarse = ((teeth - fine_teeth) / 2) as usize;
+                match sides {
+                    SectorSides::Free => Surroundings::FreeSector { coarse },
+                    SectorSides::Clamped => Surroundings::ClampedSector { coarse },
+                }
+            }
+        };
+        let contact_modulus_mpa = elastic::contact_modulus_mpa(material);
+        let half_width_mm =
+            |position_mm: f64| hertz_half_width_mm(pair, contact_modulus_mpa, line_load_n_per_mm, position_mm);
+        let mesh = |fine: bool| {
+            gear_sector(pair, gear, fine, settings, &half_width_mm)
+                .map_err(|source| ModelError::Mesh { gear, source: Box::new(source) })
+        };
+        Ok(Self {
+            gear,
+            fine: mesh(true)?,
+            coarse: if surroundings.coarse() > 0 { Some(mesh(false)?) } else { None },
+            fine_teeth,
+            surroundings,
+            sharp: pair.spec.gears[gear].modification.tip_rounding_mm == 0.0,
+            settings: *settings,
+        })
+    }
+
+    /// Degrees of freedom of the whole gear as modelled.
+    pub fn dofs(&self) -> usize {
+        let rows = if matches!(self.surroundings, Surroundings::Ring { .. }) { 1 } else { 2 };
+        let coarse = rows * self.surroundings.coarse();
+        let own = |sector: &ToothSector| sector.dofs() - 2 * sector.left_cut.len();
+        self.fine_teeth as usize * own(&self.fine) + coarse * self.coarse.as_ref().map_or(0, own)
+    }
+
+    /// Nodes of both fillets, the working side's first.
+    fn fillets(&self) -> [&[u32]; 2] {
+        [&self.fine.working_fillet, &self.fine.back_fillet]
+    }
+
+    /// The stress along the surface at each node of both fillets, σ_t = t · σ t.
+    fn fillet_probes(&self, solid: &Solid, material: Elastic) -> Result<Vec<Functional>, SolveError> {
+        let materials = [material];
+        let recovery = StressRecovery::new(solid, &materials, Analysis::PlaneStrain)?;
+        let mut probes = Vec::new();
+        for fillet in self.fillets() {
+            for (k, &node) in fillet.iter().enumerate() {
+                let at = |k: usize| solid.points_mm[fillet[k] as usize];
+                let t = (at((k + 1).min(fillet.len() - 1)) - at(k.saturating_sub(1))).normalize();
+                let mut probe = Functional::new();
+                for (component, factor) in [
+                    (StressComponent::X, t.x * t.x),
+                    (StressComponent::Y, t.y * t.y),
+                    (StressComponent::Xy, 2.0 * t.x * t.y),
+                ] {
+                    let row = recovery.nodal_stress_row(node, 0, component)?;
+                    probe.extend(row.into_iter().map(|(dof, value)| (dof, factor * value)));
+                }
+                probes.push(probe);
+            }
+        }
+        Ok(probes)
+    }
+
+    /// Condenses the gear onto the nodes of its working flanks, with the stresses at its fillets.
+    pub fn condense(&self, pair: &GearPair, material: Elastic) -> Result<(GearCompliance, FlankSurface), ModelError> {
+        self.condense_with(pair, material, true)
+    }
+
+    fn condense_with(
+        &self,
+        pair: &GearPair,
+        material: Elastic,
+        stresses: bool,
+    ) -> Result<(GearCompliance, FlankSurface), ModelError> {
+        let flank = self.flank();
+        let nodes = flank.surface.mesh_nodes.len();
+        if nodes > MOST_FLANK_NODES {
+            return Err(ModelError::TooFine { gear: self.gear, nodes, most: MOST_FLANK_NODES });
+        }
+        let mut fine = sector(&self.fine, half_angle_rad(pair, self.gear), flank.surface.mesh_nodes.clone());
+        if stresses {
+            fine.probes = self.fillet_probes(&fine.solid, material).map_err(|source| self.failed(source))?;
+            fine.working_side_probes = self.fine.working_fillet.len();
+        }
+        Ok((self.joined(pair, fine, material)?, flank))
+    }
+
+    /// Condenses the gear onto `nodes` of its working flank alone, without stresses: for loads that are known.
+    pub(crate) fn condense_onto(
+        &self,
+        pair: &GearPair,
+        material: Elastic,
+        nodes: Vec<u32>,
+    ) -> Result<GearCompliance, ModelError> {
+        self.joined(pair, sector(&self.fine, half_angle_rad(pair, self.gear), nodes), material)
+    }
+
+    /// The working flank as a contact surface.
+    pub fn flank(&self) -> FlankSurface {
+        let (chain, rho_mm) = self.fine.working_flank.resolved_nodes();
+        FlankSurface::new(chain, rho_mm, &self.fine.points_mm, self.sharp)
+    }
+
+    fn joined(&self, pair: &GearPair, fine: Sector, material: Elastic) -> Result<GearCompliance, ModelError> {
+        let failed = |source: SolveError| self.failed(source);
+        let fine = condense(fine, material).map_err(failed)?;
+        let coarse = match &self.coarse {
+            Some(coarse) => {
+                let coarse = sector(coarse, half_angle_rad(pair, self.gear), Vec::new());
+                Some(condense(coarse, material).map_err(failed)?)
+            }
+            None => None,
+        };
+        let joined = GearCompliance::new(fine, coarse.as_ref(), self.fine_teeth as usize, self.surroundings);
+        joined.map_err(|error: ActiveSetError| failed(error.into()))
+    }
+
+    fn failed(&self, source: SolveError) -> ModelError {
+        ModelError::Condense { gear: self.gear, source }
+    }
+}
+
+/// Half a pitch of a gear.
+fn half_angle_rad(pair: &GearPair, gear: Gear) -> f64 {
+    std::f64::consts::PI / f64::from(pair.teeth[gear].teeth)
+}
+
+fn condense(sector: Sector, material: Elastic) -> Result<CondensedSector, SolveError> {
+    sector.condense(material, Analysis::PlaneStrain)
+}
+
+/// The finite-element form of a meshed sector; forces may act on the nodes `candidates`.
+pub fn sector(mesh: &ToothSector, half_angle_rad: f64, candidates: Vec<u32>) -> Sector {
+    let clamped: std::collections::BTreeSet<u32> = mesh.clamp.iter().copied().collect();
+    let free = |cut: &[u32]| cut.iter().copied().filter(|node| !clamped.contains(node)).collect::<Vec<u32>>();
+    Sector {
+        solid: solid(mesh),
+        clamp: mesh.clamp.clone(),
+        cuts: [free(&mesh.right_cut), free(&mesh.left_cut)],
+        half_angle_rad,
+        candidates,
+        probes: Vec::new(),
+        working_side_probes: 0,
+    }
+}
+
+/// A sector's elements for the solver.
+pub fn solid(mesh: &ToothSector) -> Solid {
+    Solid {
+        points_mm: mesh.points_mm.clone(),
+        elements: mesh.cells.iter().map(|cell| element(cell, cell.nodes(), 0)).collect(),
+    }
+}
+
+/// The element of a mesh's cell on `nodes`.
+pub fn element(cell: &Cell, nodes: &[u32], material: u16) -> Element {
+    let kind = if cell.kind == CellKind::Quad8 { ElementKind::Quad8 } else { ElementKind::Triangle6 };
+    Element::new(kind, nodes, material)
+}
+
+impl<'a> CondensedPair<'a> {
+    /// Meshes and condenses both gears of `pair` for contact under `line_load_n_per_mm`, at the same time where there are
+    /// threads for it; without stresses. `announce` is told before that begins where it takes much.
+    pub fn build(
+        pair: &'a GearPair,
+        material: &PerGear<Elastic>,
+        line_load_n_per_mm: f64,
+        settings: &BodySettings,
+        announce: &dyn Fn(&str),
+    ) -> Result<Self, ModelError> {
+        let meshed =
+            PerGear::try_in_parallel(|gear| MeshedGear::new(pair, gear, material, line_load_n_per_mm, settings))?;
+        if let Some(much) = much_memory(&meshed, 1.0)? {
+            announce(&much);
+        }
+        let condensed = |gear: Gear| meshed[gear].condense_with(pair, material[gear], false);
+        Ok(Self::new(pair, material, PerGear::try_in_parallel(condensed)?))
+    }
+
+    /// Joins both condensed gears.
+    pub fn new(
+        pair: &'a GearPair,
+        material: &PerGear<Elastic>,
+        gears: PerGear<(GearCompliance, FlankSurface)>,
+    ) -> Self {
+        let (pinion, pinion_flank) = gears.pinion;
+        let (wheel, wheel_flank) = gears.wheel;
+        Self {
+            pair,
+            contact_modulus_mpa: elastic::contact_modulus_mpa(material),
+            gears: PerGear { pinion, wheel },
+            flanks: PerGear { pinion: pinion_flank, wheel: wheel_flank },
+        }
+    }
+}

@@ -1,0 +1,108 @@
+//! Flanks that wear has tilted.
+//!
+//! Wear h turns a flank by θ = dh/ds, s from root to tip, and with it the direction in which the flanks press on each other: the lever of
+//! the load on the gears, and where the teeth give way to. With B⊥ the coupling along the flank where B is that across it,
+//!
+//! ```text
+//! B(θ) = B + Θ B⊥      B(θ) C B(θ)ᵀ = B C Bᵀ + Θ B⊥ C Bᵀ + (Θ B⊥ C Bᵀ)ᵀ      B(θ) r = B r + Θ B⊥ r
+//! ```
+//!
+//! but for θ². Θ is the same for all multipliers of a tooth pair, the mean of the tilt under its load: the flanks in contact have one
+//! direction, whatever waves of wear there are in it. B⊥ C Bᵀ is found once for a position, and only where the tilt matters.
+
+use std::f64::consts::FRAC_PI_2;
+
+use faer::Mat;
+use nalgebra::Rotation2;
+
+use super::condensed_pair::CondensedPair;
+use super::facing_teeth::{FacingTeeth, turned};
+use super::prepared::{Prepared, Sideways, add_sandwich};
+use crate::gear::{Gear, PerGear};
+
+/// What flanks have lost and how that tilts them.
+#[derive(Debug, Clone, Copy)]
+pub struct Worn<'a> {
+    /// Depth at the nodes, from root to tip, mm.
+    pub depth_mm: PerGear<&'a [f64]>,
+    /// dh/ds there, rad.
+    pub tilt_rad: &'a PerGear<Vec<f64>>,
+}
+
+impl CondensedPair<'_> {
+    /// Takes the flanks of each tooth pair in contact to be tilted by `tilt_rad`; contact goes on from where it is.
+    pub fn tilt(&self, prepared: &mut Prepared, tilt_rad: Vec<f64>) {
+        if prepared.sideways.is_none() {
+            prepared.sideways = Some(self.sideways(prepared));
+        }
+        let Some(Sideways { compliance, level_compliance, level_rigid }) = &prepared.sideways else { return };
+        let of_rows = prepared.facings.iter().zip(&tilt_rad);
+        let of_rows: Vec<f64> = of_rows.flat_map(|(facing, tilt)| vec![*tilt; facing.coupling.len()]).collect();
+        let condensed = &mut prepared.condensed;
+        for j in 0..of_rows.len() {
+            for i in 0..of_rows.len() {
+                let turned = of_rows[i] * compliance[(i, j)] + of_rows[j] * compliance[(j, i)];
+                condensed.compliance[(i, j)] = level_compliance[(i, j)] + turned;
+            }
+            condensed.rigid[(j, 0)] = level_rigid[(j, 0)] + of_rows[j] * prepared.along_rotation[j];
+        }
+        (prepared.tilt_rad, prepared.kept) = (tilt_rad, None);
+    }
+
+    fn sideways(&self, prepared: &Prepared) -> Sideways {
+        let rows = prepared.along_rotation.len();
+        let mut compliance = Mat::zeros(rows, rows);
+        for gear in Gear::BOTH {
+            for facing in &prepared.facings {
+                let along = turned(&facing.operator[gear], Rotation2::new(-FRAC_PI_2));
+                for other in &prepared.facings {
+                    let between = self.gears[gear].between(other.tooth[gear], facing.tooth[gear]);
+                    let places = (facing.first_row, other.first_row);
+                    add_sandwich(&mut compliance, places, &along, between, &other.operator[gear], false);
+                }
+            }
+        }
+        Sideways {
+            compliance,
+            level_compliance: prepared.condensed.compliance.clone(),
+            level_rigid: prepared.condensed.rigid.clone(),
+        }
+    }
+}
+
+impl Prepared {
+    /// How far each tooth pair's flank is tilted in the mean over the load of `force`, where it is tilted by `tilt_rad` at the local nodes
+    /// of a gear; none without load.
+    pub fn mean_tilts(&self, force: &[f64], tilt_rad: impl Fn(Gear, usize) -> f64) -> Vec<f64> {
+        let mean = |facing: &FacingTeeth| {
+            let (mut whole, mut sum) = (0.0, 0.0);
+            for (&node, force) in facing.coupling.nodes.iter().zip(&force[facing.first_row..]) {
+                if *force > 0.0 {
+                    whole += force;
+                    sum += force * tilt_rad(facing.slave, node);
+                }
+            }
+            if whole > 0.0 { sum / whole } else { 0.0 }
+        };
+        self.facings.iter().map(mean).collect()
+    }
+
+    /// How much the levers of the tooth pairs' loads change on the pinion under `force` where the flanks tilt to `tilt_rad`, each
+    /// over itself and times the part of the load that the others carry: where one pair carries all, nothing changes but its lever.
+    pub fn lever_change(&self, force: &[f64], tilt_rad: &[f64]) -> f64 {
+        let of_pair = |(pair, facing): (usize, &FacingTeeth)| {
+            let turn = tilt_rad[pair] - self.tilt_rad.get(pair).unwrap_or(&0.0);
+            let (mut own, mut change) = (0.0, 0.0);
+            let rows = facing.first_row..facing.first_row + facing.coupling.len();
+            for ((row, force), along) in rows.clone().zip(&force[rows.clone()]).zip(&self.along_rotation[rows]) {
+                own -= force * self.condensed.rigid[(row, 0)];
+                change -= force * turn * along;
+            }
+            (own, change)
+        };
+        let pairs: Vec<(f64, f64)> = self.facings.iter().enumerate().map(of_pair).collect();
+        let whole: f64 = pairs.iter().map(|(own, _)| own).sum();
+        let loaded = pairs.iter().filter(|(own, _)| *own > 0.0);
+        loaded.map(|(own, change)| (change / own).abs() * (1.0 - own / whole)).fold(0.0, f64::max)
+    }
+}

@@ -1,0 +1,139 @@
+//! Finite elements in space: hexahedra of eight and of twenty nodes, the stiffness of a solid of them, and its stresses; `problem`: bodies with supports
+//! and loads, and their equilibrium.
+
+mod enhanced;
+pub mod hexahedron;
+pub mod loads;
+pub mod problem;
+mod quadratic;
+
+use nalgebra::{SMatrix, SVector, Vector3, Vector6};
+
+use super::elastic::Elastic;
+use super::node_matrix::NodeMatrix;
+use super::quadrature::GAUSS_2;
+use enhanced::EnhancedHexahedron;
+use hexahedron::{HexahedronKind, MOST_NODES, Shape};
+
+/// Degrees of freedom of a node.
+pub(crate) const PER_NODE: usize = 3;
+/// Most degrees of freedom of an element.
+const MOST_DOFS: usize = PER_NODE * MOST_NODES;
+/// 1/√3.
+const GAUSS: f64 = GAUSS_2[1].0;
+
+/// An element that has no volume somewhere.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("hexahedron {element} is folded: Jacobian determinant {determinant_mm3:.3e} mm³")]
+pub struct FoldedHexahedron {
+    /// Its number, from 0.
+    pub element: usize,
+    /// Determinant of ∂x/∂ξ, mm³.
+    pub determinant_mm3: f64,
+}
+
+/// The determinant of the Jacobian where it is not positive, mm³.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Folded(f64);
+
+impl Folded {
+    fn of(self, element: usize) -> FoldedHexahedron {
+        FoldedHexahedron { element, determinant_mm3: self.0 }
+    }
+}
+
+/// An element: eight or twenty nodes in the order of VTK, and what it is made of.
+#[derive(Debug, Clone, Copy)]
+pub struct Hexahedron<'a> {
+    /// Its nodes.
+    pub nodes: &'a [u32],
+    /// Its material.
+    pub material: &'a Elastic,
+}
+
+impl Hexahedron<'_> {
+    fn kind(&self) -> HexahedronKind {
+        HexahedronKind::with_nodes(self.nodes.len())
+    }
+
+    fn nodes_mm<'b>(&self, points_mm: &[Vector3<f64>], room: &'b mut [Vector3<f64>; MOST_NODES]) -> &'b [Vector3<f64>] {
+        for (x, node) in room.iter_mut().zip(self.nodes) {
+            *x = points_mm[*node as usize];
+        }
+        &room[..self.nodes.len()]
+    }
+}
+
+/// The stiffness of `elements`, N/mm.
+pub fn stiffness<'a, E: Iterator<Item = Hexahedron<'a>>>(
+    points_mm: &[Vector3<f64>],
+    elements: impl Fn() -> E,
+) -> Result<NodeMatrix, FoldedHexahedron> {
+    let mut matrix = NodeMatrix::new(PER_NODE, points_mm.len(), || elements().map(|element| element.nodes));
+    let mut entries = Box::new(SMatrix::<f64, MOST_DOFS, MOST_DOFS>::zeros());
+    let mut room = [Vector3::zeros(); MOST_NODES];
+    for (number, element) in elements().enumerate() {
+        let nodes_mm = element.nodes_mm(points_mm, &mut room);
+        match element.kind() {
+            HexahedronKind::Eight => EnhancedHexahedron::new(nodes_mm, element.material)
+                .map(|own| entries.fixed_view_mut::<24, 24>(0, 0).copy_from(&own.stiffness)),
+            HexahedronKind::Twenty => quadratic::stiffness_n_per_mm(nodes_mm, element.material, &mut entries),
+        }
+        .map_err(|folded| folded.of(number))?;
+        for (a, i) in element.nodes.iter().enumerate() {
+            for (b, j) in element.nodes.iter().enumerate() {
+                if i >= j {
+                    // Symmetric but for rounding: of two halves the same one is taken.
+                    let entry = |r: usize, c: usize| entries[((3 * a + r).max(3 * b + c), (3 * a + r).min(3 * b + c))];
+                    matrix.add(*i, *j, [0, 1, 2].map(|r| [0, 1, 2].map(|c| entry(r, c))));
+                }
+            }
+        }
+    }
+    Ok(matrix)
+}
+
+/// Stresses (x, y, z, xy, yz, zx) at all nodes under `displacement_mm`, MPa: from 2 × 2 × 2 points of each element, where they are best,
+/// carried to its nodes by the trilinear function through them, and averaged over the elements around a node (`fem::stress` has the
+/// sources).
+///
+/// # Errors
+/// An element that is none; the stiffness has found it before.
+pub fn nodal_stresses_mpa<'a>(
+    points_mm: &[Vector3<f64>],
+    elements: impl Iterator<Item = Hexahedron<'a>>,
+    displacement_mm: &[f64],
+) -> Result<Vec<Vector6<f64>>, FoldedHexahedron> {
+    let mut sums = vec![(Vector6::zeros(), 0u32); points_mm.len()];
+    let mut room = [Vector3::zeros(); MOST_NODES];
+    let samples: Vec<[f64; 3]> =
+        HexahedronKind::Eight.reference_nodes().iter().map(|corner| corner.map(|x| GAUSS * x)).collect();
+    for (number, element) in elements.enumerate() {
+        let nodes_mm = element.nodes_mm(points_mm, &mut room);
+        let mut u = SVector::<f64, MOST_DOFS>::zeros();
+        for (a, node) in element.nodes.iter().enumerate() {
+            (0..3).for_each(|k| u[3 * a + k] = displacement_mm[3 * *node as usize + k]);
+        }
+        let sampled = match element.kind() {
+            HexahedronKind::Eight => EnhancedHexahedron::new(nodes_mm, element.material).map(|own| {
+                let u = u.fixed_rows::<24>(0).into_owned();
+                samples.iter().map(|at| own.stress_mpa(*at, element.material, &u)).collect()
+            }),
+            HexahedronKind::Twenty => quadratic::stresses_mpa(nodes_mm, &samples, element.material, &u),
+        }
+        .map_err(|folded| folded.of(number))?;
+        for (node, at) in element.nodes.iter().zip(element.kind().reference_nodes()) {
+            let weights = Shape::at(HexahedronKind::Eight, at.map(|x| x / GAUSS)).values;
+            let (sum, count) = &mut sums[*node as usize];
+            *sum += sampled.iter().zip(weights).map(|(stress, weight)| stress * weight).sum::<Vector6<f64>>();
+            *count += 1;
+        }
+    }
+    Ok(sums.into_iter().map(|(sum, count)| sum / f64::from(count.max(1))).collect())
+}
+
+/// ε = Bₐ uₐ for (x, y, z, xy, yz, zx) with engineering shear strains.
+fn strain_block(gradient: &Vector3<f64>) -> SMatrix<f64, 6, 3> {
+    let (x, y, z) = (gradient.x, gradient.y, gradient.z);
+    SMatrix::<f64, 6, 3>::from_row_slice(&[x, 0.0, 0.0, 0.0, y, 0.0, 0.0, 0.0, z, y, x, 0.0, 0.0, z, y, z, 0.0, x])
+}

@@ -1,0 +1,87 @@
+//! The centre distance that leaves a given backlash.
+//!
+//! What the teeth leave of the pitch on the working circles is the circumferential backlash, transverse; perpendicular to the flanks it is
+//! the normal backlash:
+//!
+//! ```text
+//! j_wt = (2a/Z) (Z inv α_wt − Σ z ψ_b + π)      cos α_wt = (r_b1 + r_b2)/a,  Z = z1 + z2
+//! j_bn = j_wt cos α_wt cos β_b
+//! ```
+//!
+//! with ψ_b half the angle of a tooth at its base circle, thickness allowance included. Without backlash and without allowances that is
+//!
+//! ```text
+//! inv α_wt = inv α_t + 2 tan α_n (x1 + x2)/(z1 + z2)
+//! ```
+//!
+//! The normal backlash gives inv α_wt at once, because a cos α_wt is known; the circumferential one is found by bisection in α_wt, with
+//! which it grows.
+//!
+//! Source: ISO 21771, sections 5.2 (working pressure angle) and 5.5 (backlash).
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use super::involute::{inv, inverse_inv};
+use super::{Gear, PerGear, spec::PairSpec};
+
+/// Backlash as a drawing gives it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Backlash {
+    /// j_wt: along the working circles, in the transverse section, mm.
+    Circumferential(f64),
+    /// j_bn: the shortest distance between the rear flanks, mm.
+    Normal(f64),
+}
+
+/// Teeth so thin that they have more backlash at any centre distance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TeethTooThin {
+    /// The least backlash, of the kind asked for, mm.
+    pub least_mm: f64,
+}
+
+impl PairSpec {
+    /// The centre distance that leaves this backlash, mm; the one that is given does not matter.
+    pub fn centre_distance_with_mm(&self, backlash: Backlash) -> Result<f64, TeethTooThin> {
+        let teeth = self.gears.as_ref().map(|gear| f64::from(gear.teeth));
+        let alpha_t = self.transverse_pressure_angle_rad();
+        let base_radii_mm = PerGear::from_fn(|gear| self.reference_radius_mm(gear) * alpha_t.cos()).sum();
+        // Both teeth fill the pitch where Z inv α = Σ z ψ_b − π.
+        let filled =
+            (PerGear::from_fn(|gear: Gear| teeth[gear] * self.base_half_angle_rad(gear)).sum() - PI) / teeth.sum();
+        let cos_base_helix = (self.helix_angle_rad.tan() * alpha_t.cos()).atan().cos();
+        let angle = match backlash {
+            Backlash::Normal(normal_mm) => {
+                let scale = 2.0 * base_radii_mm * cos_base_helix;
+                let involute = filled + normal_mm / scale;
+                if involute <= 0.0 {
+                    return Err(TeethTooThin { least_mm: -scale * filled });
+                }
+                inverse_inv(involute)
+            }
+            Backlash::Circumferential(transverse_mm) => {
+                let left_mm = |alpha: f64| 2.0 * base_radii_mm / alpha.cos() * (inv(alpha) - filled);
+                if left_mm(0.0) >= transverse_mm {
+                    return Err(TeethTooThin { least_mm: left_mm(0.0) });
+                }
+                bisect(|alpha| left_mm(alpha) - transverse_mm, [0.0, FRAC_PI_2])
+            }
+        };
+        Ok(base_radii_mm / angle.cos())
+    }
+}
+
+/// Where `rising` changes its sign, to the last bit.
+fn bisect(rising: impl Fn(f64) -> f64, [mut below, mut above]: [f64; 2]) -> f64 {
+    loop {
+        let middle = 0.5 * (below + above);
+        if middle <= below || middle >= above {
+            return below;
+        }
+        if rising(middle) < 0.0 {
+            below = middle;
+        } else {
+            above = middle;
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The flank as a row of points: single-point observation.
+//!
+//! Points are spaced evenly in radius from the base circle (0) to the tip circle (`flank_points`), as the thesis
+//! numbers them. Whatever varies over the flank (removed material, pressure, sliding) is a slice with one value a point,
+//! linear in between.
+
+use super::{Gear, GearPair};
+
+/// The points of one flank.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlankGrid {
+    /// Coordinate of each point, increasing: the radius of curvature ρ on a gear.
+    pub coordinate_mm: Vec<f64>,
+    /// Arc length of each point along the flank.
+    pub arc_mm: Vec<f64>,
+}
+
+/// A place between two points.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GridPosition {
+    /// The point before it.
+    pub index: usize,
+    /// Weight of the point after it, 0 to 1.
+    pub weight: f64,
+}
+
+impl FlankGrid {
+    /// `flank_points` intervals on a gear's flank: `flank_points + 1` points.
+    pub fn new(pair: &GearPair, gear: Gear, flank_points: usize) -> Self {
+        let (involute, tip) = (pair.teeth[gear].involute, pair.teeth[gear].tip_radius_mm);
+        let base = involute.base_radius_mm;
+        let radius = |i: usize| base + (tip - base) * i as f64 / flank_points as f64;
+        let coordinate_mm: Vec<f64> = (0..=flank_points).map(|i| involute.curvature_radius_mm(radius(i))).collect();
+        let arc_mm = coordinate_mm.iter().map(|&rho| involute.arc_mm(rho)).collect();
+        Self { coordinate_mm, arc_mm }
+    }
+
+    /// Number of points.
+    pub fn len(&self) -> usize {
+        self.coordinate_mm.len()
+    }
+
+    /// Where `coordinate_mm` falls; beyond the ends, the end itself.
+    pub fn place(&self, coordinate_mm: f64) -> GridPosition {
+        let after = self.coordinate_mm.partition_point(|&c| c <= coordinate_mm).clamp(1, self.len() - 1);
+        self.place_between(after - 1, coordinate_mm)
+    }
+
+    /// As [`Self::place`], for a coordinate not far from the point `index`.
+    pub(crate) fn place_near(&self, mut index: usize, coordinate_mm: f64) -> GridPosition {
+        while index + 2 < self.len() && self.coordinate_mm[index + 1] <= coordinate_mm {
+            index += 1;
+        }
+        while index > 0 && self.coordinate_mm[index] > coordinate_mm {
+            index -= 1;
+        }
+        self.place_between(index, coordinate_mm)
+    }
+
+    fn place_between(&self, index: usize, coordinate_mm: f64) -> GridPosition {
+        let (low, high) = (self.coordinate_mm[index], self.coordinate_mm[index + 1]);
+        GridPosition { index, weight: ((coordinate_mm - low) / (high - low)).clamp(0.0, 1.0) }
+    }
+
+    /// Value at `coordinate_mm` of something given at the points.
+    pub fn value_at(&self, values: &[f64], coordinate_mm: f64) -> f64 {
+        let GridPosition { index, weight } = self.place(coordinate_mm);
+        values[index] + weight * (values[index + 1] - values[index])
+    }
+
+    /// Length of flank that point `i` stands for: from halfway to the point before to halfway to the point after.
+    pub fn share_mm(&self, i: usize) -> f64 {
+        let last = self.len() - 1;
+        0.5 * (self.arc_mm[(i + 1).min(last)] - self.arc_mm[i.saturating_sub(1)])
+    }
+
+    /// ∫ values ds over the flank.
+    pub fn integral(&self, values: &[f64]) -> f64 {
+        values.iter().enumerate().map(|(i, value)| value * self.share_mm(i)).sum()
+    }
+}

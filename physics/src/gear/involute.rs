@@ -1,0 +1,166 @@
+//! The involute of a base circle.
+//!
+//! A taut string unwound from the base circle (radius r_b) draws the involute; its free length ρ is the radius of
+//! curvature of the flank, and serves as the coordinate along it:
+//!
+//! ```text
+//! r² = r_b² + ρ²          radius of the flank point
+//! φ  = ρ / r_b            roll angle
+//! α  = atan(ρ / r_b)      transverse pressure angle at the point
+//! s  = ρ² / (2 r_b)       arc length from the base circle
+//! ```
+//!
+//! Source: ISO 21771, section 4.
+
+/// inv α = tan α − α, the polar angle of the involute.
+pub fn inv(alpha_rad: f64) -> f64 {
+    alpha_rad.tan() - alpha_rad
+}
+
+/// The angle whose involute is `value` (≥ 0), by Newton's method from a series start; exact to round-off.
+pub fn inverse_inv(value: f64) -> f64 {
+    if value <= 0.0 {
+        return 0.0;
+    }
+    // inv α ≈ α³/3 for small α; for large ones α → π/2 and tan α = value + α.
+    let mut alpha = if value < 0.5 { (3.0 * value).cbrt() / (1.0 + 0.5 * value) } else { (value + 1.2).atan() };
+    for _ in 0..60 {
+        // d(inv α)/dα = tan² α
+        let step = (inv(alpha) - value) / alpha.tan().powi(2);
+        alpha = (alpha - step).clamp(0.5 * alpha, 0.5 * (alpha + std::f64::consts::FRAC_PI_2));
+        if step.abs() <= 1e-16 + 4.0 * f64::EPSILON * alpha {
+            break;
+        }
+    }
+    alpha
+}
+
+/// The involute of one base circle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Involute {
+    /// r_b in mm.
+    pub base_radius_mm: f64,
+}
+
+impl Involute {
+    /// Radius of the point with radius of curvature `rho_mm`.
+    pub fn radius_mm(&self, rho_mm: f64) -> f64 {
+        self.base_radius_mm.hypot(rho_mm)
+    }
+
+    /// Radius of curvature at `radius_mm`; 0 on the base circle and below it.
+    pub fn curvature_radius_mm(&self, radius_mm: f64) -> f64 {
+        ((radius_mm - self.base_radius_mm).max(0.0) * (radius_mm + self.base_radius_mm)).sqrt()
+    }
+
+    /// Transverse pressure angle at the point with radius of curvature `rho_mm`.
+    pub fn pressure_angle_rad(&self, rho_mm: f64) -> f64 {
+        (rho_mm / self.base_radius_mm).atan()
+    }
+
+    /// Roll angle of the point with radius of curvature `rho_mm`.
+    pub fn roll_angle_rad(&self, rho_mm: f64) -> f64 {
+        rho_mm / self.base_radius_mm
+    }
+
+    /// Arc length from the base circle.
+    pub fn arc_mm(&self, rho_mm: f64) -> f64 {
+        rho_mm * rho_mm / (2.0 * self.base_radius_mm)
+    }
+
+    /// The flank point with radius of curvature `rho_mm`, seen from where the flank's normal is the line of action:
+    /// theoretical contact at radius of curvature `contact_rho_mm`.
+    ///
+    /// Turning by Δφ = (ρ − ξ)/r_b brings the string of the point ρ from the line of action to its own place; in the
+    /// frame with the contact point as origin, the common tangent (towards the tip) as first and the inward normal as
+    /// second axis
+    ///
+    /// ```text
+    /// along = r_b (cos Δφ − 1) + ρ sin Δφ
+    /// drop  = ξ + r_b sin Δφ − ρ cos Δφ          ≈ along² / (2 ξ)
+    /// ```
+    pub fn in_tangent_frame(&self, rho_mm: f64, contact_rho_mm: f64) -> TangentFramePoint {
+        let r_b = self.base_radius_mm;
+        let (sin, cos) = ((rho_mm - contact_rho_mm) / r_b).sin_cos();
+        TangentFramePoint {
+            along_mm: r_b * (cos - 1.0) + rho_mm * sin,
+            drop_mm: contact_rho_mm + r_b * sin - rho_mm * cos,
+        }
+    }
+
+    /// The flank point at `along_mm` from the contact point, the inverse of [`Self::in_tangent_frame`] in `along`, by
+    /// Newton's method; the base circle's own point where that lies at or beyond it.
+    pub fn at_along(&self, along_mm: f64, contact_rho_mm: f64) -> FlankPoint {
+        let r_b = self.base_radius_mm;
+        let square = contact_rho_mm * contact_rho_mm + 2.0 * r_b * along_mm;
+        let mut rho = square.max(0.0).sqrt();
+        if rho == 0.0 {
+            return FlankPoint { rho_mm: 0.0, drop_mm: self.in_tangent_frame(0.0, contact_rho_mm).drop_mm };
+        }
+        let mut drop_mm = 0.0;
+        for _ in 0..8 {
+            let (sin, cos) = ((rho - contact_rho_mm) / r_b).sin_cos();
+            // d along / dρ = (ρ / r_b) cos Δφ and d drop / dρ = (ρ / r_b) sin Δφ
+            let step = (along_mm - r_b * (cos - 1.0) - rho * sin) * r_b / (rho * cos);
+            drop_mm = contact_rho_mm + r_b * sin - rho * cos + step * rho / r_b * sin;
+            rho = (rho + step).max(0.5 * rho);
+            // What is left of the error goes with the square of the step.
+            if step.abs() <= 1e-7 * rho {
+                break;
+            }
+        }
+        FlankPoint { rho_mm: rho, drop_mm }
+    }
+}
+
+/// A flank point found at a place of the common tangent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlankPoint {
+    /// Its radius of curvature, mm.
+    pub rho_mm: f64,
+    /// Behind the tangent, into the gear, mm.
+    pub drop_mm: f64,
+}
+
+/// A flank point relative to the theoretical contact point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TangentFramePoint {
+    /// Along the common tangent, positive towards the gear's tip, mm.
+    pub along_mm: f64,
+    /// Behind the tangent, into the gear, mm.
+    pub drop_mm: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ver_inverse_inv_is_the_inverse_of_inv() {
+        for k in 1..300 {
+            let alpha = 0.005 * k as f64;
+            let back = inverse_inv(inv(alpha));
+            assert!((back - alpha).abs() < 1e-11, "{alpha} {back}");
+        }
+    }
+
+    /// ISO 21771 and any table of involutes: inv 20° = 0.014904384.
+    #[test]
+    fn val_inv_of_20_degrees() {
+        assert!((inv(20f64.to_radians()) - 0.014904383867).abs() < 1e-12);
+    }
+
+    #[test]
+    fn ver_tangent_frame_and_back() {
+        let flank = Involute { base_radius_mm: 33.8289 };
+        for along in [-0.2, -0.05, 0.0, 0.1, 0.4] {
+            let found = flank.at_along(along, 4.4723);
+            let point = flank.in_tangent_frame(found.rho_mm, 4.4723);
+            assert!((point.along_mm - along).abs() < 1e-13, "{along}: {point:?}");
+            assert!((point.drop_mm - found.drop_mm).abs() < 1e-14, "{along}: {point:?}");
+        }
+        // Curvature at the contact point is 1/ξ: drop → along²/(2 ξ).
+        let point = flank.in_tangent_frame(flank.at_along(1e-3, 13.97).rho_mm, 13.97);
+        assert!((point.drop_mm / (1e-6 / (2.0 * 13.97)) - 1.0).abs() < 1e-3);
+    }
+}

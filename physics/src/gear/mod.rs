@@ -1,0 +1,28 @@
+//! Geometry of cylindrical involute gears, after ISO 21771: from the data of a pair to its teeth, their outline, the path
+//! of contact and the flank's field of removed material.
+
+pub mod backlash;
+pub mod conjugate;
+pub mod error;
+pub mod flank;
+pub mod flank_surface;
+pub mod flank_zones;
+pub mod half_profile;
+pub mod involute;
+pub mod modification;
+pub mod outline;
+pub mod pair;
+pub mod path_of_contact;
+pub mod per_gear;
+pub mod removed_material;
+pub mod root_trochoid;
+pub mod shaft;
+pub mod slices;
+pub mod spec;
+pub mod tip_touch;
+pub mod tolerance;
+pub mod tooth;
+
+pub use error::PairError;
+pub use pair::GearPair;
+pub use per_gear::{Gear, PerGear};

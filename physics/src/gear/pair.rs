@@ -1,0 +1,238 @@
+//! Everything that follows from the data of a pair.
+//!
+//! The working transverse pressure angle comes from the centre distance, cos α_wt = (r_b1 + r_b2) / a; what is left of
+//! the pitch on the working circles beside both tooth thicknesses is the backlash.
+//!
+//! Source: ISO 21771, section 5.
+
+use std::f64::consts::PI;
+
+use super::{
+    Gear, PairError, PerGear, backlash::Backlash, path_of_contact::PathOfContact,
+    removed_material::tip_rounding_length_mm, spec::PairSpec, tooth::Tooth,
+};
+
+/// Rounded profile shifts and centre distances give a few tenths of a micrometre of negative backlash on paper; real
+/// teeth interfere when it exceeds this part of the normal module (4.5 µm for module 4.5).
+const BACKLASH_ROUNDING_MODULES: f64 = 1e-3;
+
+/// Modifications take micrometres off a flank; one that takes more than this part of the module leaves none.
+const GREATEST_REMOVAL_MODULES: f64 = 0.25;
+
+/// A gear pair with all that is derived from its data.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GearPair {
+    /// The data it was built from.
+    pub spec: PairSpec,
+    /// Circles and teeth.
+    pub teeth: PerGear<Tooth>,
+    /// α_wt, rad.
+    pub working_pressure_angle_rad: f64,
+    /// Where the flanks touch.
+    pub path: PathOfContact,
+    /// Circumferential backlash on the working circles, transverse, mm; rounding of the data to just below zero counts
+    /// as zero.
+    pub backlash_mm: f64,
+    /// Distance of each gear's tip circle from its mate's root circle, mm.
+    pub tip_clearance_mm: PerGear<f64>,
+}
+
+impl GearPair {
+    /// Normal load in the transverse plane per mm of face width under this torque on the pinion, N/mm: w = T₁/(r_b1 b).
+    pub fn line_load_n_per_mm(&self, pinion_torque_n_mm: f64) -> f64 {
+        pinion_torque_n_mm / self.path.involute.pinion.base_radius_mm / self.spec.face_width_mm
+    }
+
+    /// Derives the pair.
+    ///
+    /// # Errors
+    /// Whatever makes it impossible, see [`PairError`].
+    pub fn new(spec: &PairSpec) -> Result<Self, PairError> {
+        let centre_distance_mm = spec.centre_distance_mm;
+        let base_radii = PerGear::from_fn(|g| spec.reference_radius_mm(g) * spec.transverse_pressure_angle_rad().cos());
+        let least_mm = base_radii.pinion + base_radii.wheel;
+        if centre_distance_mm <= least_mm {
+            return Err(PairError::NoMesh { centre_distance_mm, least_mm });
+        }
+        let teeth = PerGear {
+            pinion: Tooth::new(spec, Gear::Pinion, spec.tip_radius_mm(Gear::Pinion))?,
+            wheel: Tooth::new(spec, Gear::Wheel, spec.tip_radius_mm(Gear::Wheel))?,
+        };
+        let working_pressure_angle_rad = (least_mm / centre_distance_mm).acos();
+        let line_of_action_mm = ((centre_distance_mm - least_mm) * (centre_distance_mm + least_mm)).sqrt();
+        let path = PathOfContact {
+            line_of_action_mm,
+            base_pitch_mm: 2.0 * PI * base_radii.pinion / f64::from(spec.gears.pinion.teeth),
+            start_mm: line_of_action_mm - teeth.wheel.tip_rho_mm(),
+            pitch_point_mm: base_radii.pinion * working_pressure_angle_rad.tan(),
+            end_mm: teeth.pinion.tip_rho_mm(),
+            involute: teeth.as_ref().map(|tooth| tooth.involute),
+        };
+        let tip_clearance_mm =
+            PerGear::from_fn(|g| centre_distance_mm - teeth[g].tip_radius_mm - teeth[g.mate()].root_radius_mm);
+        let mut pair =
+            Self { spec: spec.clone(), teeth, working_pressure_angle_rad, path, backlash_mm: 0.0, tip_clearance_mm };
+        pair.backlash_mm = pair.checked_backlash_mm()?;
+        pair.check_contact()?;
+        pair.check_modifications()?;
+        Ok(pair)
+    }
+
+    /// Radius of the working pitch circle.
+    pub fn working_pitch_radius_mm(&self, gear: Gear) -> f64 {
+        self.path.involute[gear].base_radius_mm / self.working_pressure_angle_rad.cos()
+    }
+
+    /// Helix slope of the working flanks that axes which are not parallel make over the face width, mm.
+    pub fn slope_of_axes_mm(&self) -> f64 {
+        let axes = self.spec.axis_parallelism;
+        let (sin, cos) = self.working_pressure_angle_rad.sin_cos();
+        axes.in_plane_mm * sin + axes.out_of_plane_mm * cos
+    }
+
+    /// Radius at which a gear's flank touches its mate at `position_mm` on the path of contact.
+    pub fn radius_at_mm(&self, gear: Gear, position_mm: f64) -> f64 {
+        self.path.involute[gear].radius_mm(self.path.rho_mm(gear, position_mm))
+    }
+
+    /// Radius of curvature of a gear's flank at the start of its active profile (SAP).
+    pub fn active_start_rho_mm(&self, gear: Gear) -> f64 {
+        match gear {
+            Gear::Pinion => self.path.start_mm,
+            Gear::Wheel => self.path.line_of_action_mm - self.path.end_mm,
+        }
+    }
+
+    /// Radius of the start of active profile (SAP), r_Nf.
+    pub fn active_start_radius_mm(&self, gear: Gear) -> f64 {
+        self.path.involute[gear].radius_mm(self.active_start_rho_mm(gear))
+    }
+
+    /// ε_β = b |sin β| / (π m_n).
+    pub fn overlap_ratio(&self) -> f64 {
+        self.spec.face_width_mm * self.spec.helix_angle_rad.sin().abs() / (PI * self.spec.normal_module_mm)
+    }
+
+    /// β_b, helix angle at the base cylinders: tan β_b = tan β cos α_t.
+    pub fn base_helix_angle_rad(&self) -> f64 {
+        (self.spec.helix_angle_rad.tan() * self.spec.transverse_pressure_angle_rad().cos()).atan()
+    }
+
+    /// s_an, the normal tooth thickness at the tip cylinder, where `lost_mm` was taken off one flank there along its transverse normal:
+    /// (s_a − h/cos α_a) cos β_a, with tan β_a = tan β r_a/r. Reliefs and roundings are not taken off. Source: ISO 21771, sections 4 and 5.
+    pub fn normal_tip_thickness_mm(&self, gear: Gear, lost_mm: f64) -> f64 {
+        let tooth = &self.teeth[gear];
+        let tip_radius = tooth.tip_radius_mm;
+        let cos_alpha = tooth.involute.base_radius_mm / tip_radius;
+        let helix_angle = (self.spec.helix_angle_rad.tan() * tip_radius / tooth.reference_radius_mm).atan();
+        (tooth.thickness_mm(tip_radius) - lost_mm / cos_alpha) * helix_angle.cos()
+    }
+
+    /// z_driving / z_driven: turns of the wheel per turn of the pinion.
+    pub fn wheel_turns_per_pinion_turn(&self) -> f64 {
+        f64::from(self.spec.gears.pinion.teeth) / f64::from(self.spec.gears.wheel.teeth)
+    }
+
+    fn checked_backlash_mm(&self) -> Result<f64, PairError> {
+        let on_pitch_circle = |g: Gear| self.teeth[g].thickness_mm(self.working_pitch_radius_mm(g));
+        let pitch_mm = self.path.base_pitch_mm / self.working_pressure_angle_rad.cos();
+        let backlash_mm = pitch_mm - on_pitch_circle(Gear::Pinion) - on_pitch_circle(Gear::Wheel);
+        if backlash_mm < -BACKLASH_ROUNDING_MODULES * self.spec.normal_module_mm {
+            let centre_distance_mm = self.spec.centre_distance_mm;
+            let tight = self.spec.centre_distance_with_mm(Backlash::Normal(0.0));
+            let least_mm = tight.unwrap_or(centre_distance_mm);
+            return Err(PairError::NegativeBacklash { backlash_mm, centre_distance_mm, least_mm });
+        }
+        Ok(backlash_mm.max(0.0))
+    }
+
+    fn check_contact(&self) -> Result<(), PairError> {
+        let (contact_ratio, overlap_ratio) = (self.path.contact_ratio(), self.overlap_ratio());
+        if contact_ratio <= 0.0 || contact_ratio + overlap_ratio < 1.0 {
+            return Err(PairError::ContactRatioBelowOne { contact_ratio: contact_ratio.max(0.0), overlap_ratio });
+        }
+        for gear in Gear::BOTH {
+            let clearance_mm = self.tip_clearance_mm[gear];
+            if clearance_mm < 0.0 {
+                return Err(PairError::NoTipClearance { gear, clearance_mm });
+            }
+            let rho = self.active_start_rho_mm(gear);
+            let form_radius = self.teeth[gear].root_form_radius_mm;
+            let contact_radius = (rho > 0.0).then(|| self.active_start_radius_mm(gear));
+            if contact_radius.is_none_or(|radius| radius < form_radius * (1.0 - 1e-9)) {
+                return Err(PairError::Interference {
+                    gear,
+                    contact_diameter_mm: contact_radius.map(|radius| 2.0 * radius),
+                    form_diameter_mm: 2.0 * form_radius,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_modifications(&self) -> Result<(), PairError> {
+        let available_mm = self.path.end_mm - self.path.start_mm;
+        let greatest_mm = GREATEST_REMOVAL_MODULES * self.spec.normal_module_mm;
+        let slope_mm = self.slope_of_axes_mm();
+        if slope_mm.abs() > greatest_mm {
+            return Err(PairError::AxesTooFarFromParallel { slope_mm, greatest_mm });
+        }
+        for gear in Gear::BOTH {
+            let modification = &self.spec.gears[gear].modification;
+            let reliefs = [("tip relief", modification.tip_relief), ("root relief", modification.root_relief)];
+            let amounts = reliefs.map(|(name, relief)| (name, relief.map_or(0.0, |relief| relief.amount_mm)));
+            for (name, relief) in reliefs {
+                match relief {
+                    Some(relief) if relief.length_mm > available_mm => {
+                        let length_mm = relief.length_mm;
+                        return Err(PairError::ModificationTooLong {
+                            gear,
+                            modification: name,
+                            length_mm,
+                            available_mm,
+                        });
+                    }
+                    _ => {}
+                }
+            }
+            let over_width = [
+                ("lead crowning", modification.lead_crowning_mm),
+                ("end relief", modification.end_relief.map_or(0.0, |relief| relief.amount_mm)),
+                ("helix slope deviation", modification.helix_slope_mm.abs()),
+            ];
+            let crowning = [("profile crowning", modification.profile_crowning_mm)];
+            for (name, amount_mm) in amounts.into_iter().chain(crowning).chain(over_width) {
+                if amount_mm > greatest_mm {
+                    return Err(PairError::ModificationTooDeep { gear, modification: name, amount_mm, greatest_mm });
+                }
+            }
+            let half_width_mm = 0.5 * self.spec.face_width_mm;
+            if let Some(end) = modification.end_relief
+                && end.length_mm > half_width_mm
+            {
+                return Err(PairError::ModificationTooLong {
+                    gear,
+                    modification: "end relief",
+                    length_mm: end.length_mm,
+                    available_mm: half_width_mm,
+                });
+            }
+            self.check_tip_rounding(gear, modification.tip_rounding_mm)?;
+        }
+        Ok(())
+    }
+
+    /// A rounding must leave some active flank, and the two of one tooth room for each other on the tip land.
+    fn check_tip_rounding(&self, gear: Gear, radius_mm: f64) -> Result<(), PairError> {
+        let tooth = &self.teeth[gear];
+        let arc = |rho| tooth.involute.arc_mm(rho);
+        let flank_mm = arc(tooth.tip_rho_mm()) - arc(self.active_start_rho_mm(gear));
+        let room_mm = flank_mm.min(0.5 * tooth.thickness_mm(tooth.tip_radius_mm));
+        let greatest_mm = room_mm / tip_rounding_length_mm(1.0, tooth);
+        if radius_mm <= greatest_mm {
+            Ok(())
+        } else {
+            Err(PairError::TipRoundingTooLarge { gear, radius_mm, greatest_mm })
+        }
+    }
+}

@@ -1,0 +1,105 @@
+//! The flank as nominal involute plus material removed along its normal.
+//!
+//! All modifications are entries of one field over the flank, to which wear adds; every contact model reads only that
+//! field. By radius of curvature ρ, in roll length along the path of contact:
+//!
+//! ```text
+//! relief        C (u/L)ⁿ       u: roll length from where it begins, L: its whole length, n = 1 linear, 2 parabolic
+//! crowning      C_α (2v)²      v: roll length from the middle of the active profile over its whole length
+//! tip rounding  ρ_k − √(ρ_k² − d²)   d: distance along the flank from where the rounding of radius ρ_k begins
+//! ```
+//!
+//! and by the place z over the face width b:
+//!
+//! ```text
+//! lead crowning  C_β (2z/b − 1)²
+//! end relief     C (u/L)ⁿ         u: distance beyond where it begins, towards either end face
+//! helix slope    f z/b            f > 0; |f| (1 − z/b) where f < 0: a flank only ever lacks material
+//! ```
+//!
+//! Axes that are not parallel are a helix slope of the pinion, f_Σδ sin α_wt + f_Σβ cos α_wt.
+//!
+//! Source: ISO 21771-1, profile and helix modifications; ISO/TR 10064-3 for the axes; the rounding is the circle tangent to flank and tip circle.
+
+use super::{
+    Gear, GearPair,
+    flank::FlankGrid,
+    modification::{Modification, Relief, ReliefShape},
+    slices::Slices,
+    tooth::Tooth,
+};
+
+/// The modifications of a gear's flank as removed material at its points, slice after slice, mm.
+pub fn modifications_mm(pair: &GearPair, gear: Gear, grid: &FlankGrid, slices: &Slices) -> Vec<f64> {
+    let (modification, tooth) = (&with_axes(pair, gear), &pair.teeth[gear]);
+    let start = pair.active_start_rho_mm(gear);
+    let profile: Vec<f64> = grid.coordinate_mm.iter().map(|&rho| removed_mm(modification, tooth, start, rho)).collect();
+    let over_width = slices.width_mm.iter().map(|&z| lead_removed_mm(modification, pair.spec.face_width_mm, z));
+    over_width.flat_map(|lead| profile.iter().map(move |removed| removed + lead)).collect()
+}
+
+/// The modification of a gear's flank, with what axes that are not parallel make of it.
+fn with_axes(pair: &GearPair, gear: Gear) -> Modification {
+    let own = pair.spec.gears[gear].modification;
+    let of_axes_mm = if gear == Gear::Pinion { pair.slope_of_axes_mm() } else { 0.0 };
+    Modification { helix_slope_mm: own.helix_slope_mm + of_axes_mm, ..own }
+}
+
+/// What all modifications of a gear's flank but the rounding of its tip edge remove at radius of curvature `rho_mm` and `width_mm`.
+pub fn without_rounding_mm(pair: &GearPair, gear: Gear, width_mm: f64, rho_mm: f64) -> f64 {
+    let modification = Modification { tip_rounding_mm: 0.0, ..with_axes(pair, gear) };
+    removed_mm(&modification, &pair.teeth[gear], pair.active_start_rho_mm(gear), rho_mm)
+        + lead_removed_mm(&modification, pair.spec.face_width_mm, width_mm)
+}
+
+/// Material removed at `width_mm` of a face of width `face_width_mm` by what varies over it alone.
+pub fn lead_removed_mm(modification: &Modification, face_width_mm: f64, width_mm: f64) -> f64 {
+    let along = width_mm / face_width_mm;
+    let crowning = modification.lead_crowning_mm * (2.0 * along - 1.0).powi(2);
+    let end = modification.end_relief.map_or(0.0, |end| {
+        let from_end_mm = width_mm.min(face_width_mm - width_mm);
+        let relief = Relief { amount_mm: end.amount_mm, length_mm: end.length_mm, shape: end.shape };
+        relief_mm(relief, end.length_mm - from_end_mm)
+    });
+    let slope = modification.helix_slope_mm;
+    crowning + end + if slope >= 0.0 { slope * along } else { -slope * (1.0 - along) }
+}
+
+/// Material removed at radius of curvature `rho_mm` of `tooth`, whose active profile begins at `active_start_rho_mm`, by
+/// what is alike in every transverse section.
+pub fn removed_mm(modification: &Modification, tooth: &Tooth, active_start_rho_mm: f64, rho_mm: f64) -> f64 {
+    let tip_rho = tooth.tip_rho_mm();
+    let tip = modification.tip_relief.map_or(0.0, |r| relief_mm(r, rho_mm - (tip_rho - r.length_mm)));
+    let root = modification.root_relief.map_or(0.0, |r| relief_mm(r, active_start_rho_mm + r.length_mm - rho_mm));
+    let across = (2.0 * (rho_mm - active_start_rho_mm) / (tip_rho - active_start_rho_mm) - 1.0).clamp(-1.0, 1.0);
+    let crowning = modification.profile_crowning_mm * across * across;
+    tip + root + crowning + tip_rounding_mm(modification.tip_rounding_mm, tooth, rho_mm)
+}
+
+/// Length along the flank that a tip rounding takes: the tangent length ρ_k tan(γ/2) of the turn γ = π/2 − α_a from flank
+/// to tip circle.
+pub fn tip_rounding_length_mm(rounding_mm: f64, tooth: &Tooth) -> f64 {
+    let turn = std::f64::consts::FRAC_PI_2 - tooth.involute.pressure_angle_rad(tooth.tip_rho_mm());
+    rounding_mm * (0.5 * turn).tan()
+}
+
+/// Removed by a relief at `from_start_mm` of roll length beyond where it begins; 0 before, the amount after its end.
+fn relief_mm(relief: Relief, from_start_mm: f64) -> f64 {
+    let fraction = (from_start_mm / relief.length_mm).clamp(0.0, 1.0);
+    relief.amount_mm
+        * match relief.shape {
+            ReliefShape::Linear => fraction,
+            ReliefShape::Parabolic => fraction * fraction,
+        }
+}
+
+/// Removed at radius of curvature `rho_mm` of `tooth` by a rounding of its tip edge.
+pub fn tip_rounding_mm(radius: f64, tooth: &Tooth, rho_mm: f64) -> f64 {
+    let begins = tooth.involute.arc_mm(tooth.tip_rho_mm()) - tip_rounding_length_mm(radius, tooth);
+    let into = tooth.involute.arc_mm(rho_mm) - begins;
+    if radius <= 0.0 || into <= 0.0 {
+        return 0.0;
+    }
+    // ρ − √(ρ² − d²) without cancellation.
+    into * into / (radius + ((radius - into) * (radius + into)).max(0.0).sqrt())
+}

@@ -1,0 +1,153 @@
+//! What is given of a gear pair: the data of a drawing, before anything is derived.
+//!
+//! Profile shifts and rack factors are coefficients of the *normal* module (ISO 21771).
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::{
+    involute::inv,
+    modification::Modification,
+    per_gear::{Gear, PerGear},
+    shaft::Shaft,
+};
+
+/// The basic rack that generates the teeth (ISO 53), as factors of the normal module.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BasicRack {
+    /// Addendum factor h_aP*.
+    pub addendum_factor: f64,
+    /// Dedendum factor h_fP*.
+    pub dedendum_factor: f64,
+    /// Root fillet radius factor ρ_fP*.
+    pub fillet_radius_factor: f64,
+}
+
+impl Default for BasicRack {
+    /// Profile A of ISO 53: 1.0, 1.25, 0.38.
+    fn default() -> Self {
+        Self { addendum_factor: 1.0, dedendum_factor: 1.25, fillet_radius_factor: 0.38 }
+    }
+}
+
+/// One gear as given.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GearSpec {
+    /// Number of teeth z.
+    pub teeth: u32,
+    /// Profile shift coefficient x, of the normal module.
+    pub profile_shift: f64,
+    /// Tip diameter d_a in mm; `None`: from the rack with addendum shortening (full tip clearance kept).
+    pub tip_diameter_mm: Option<f64>,
+    /// Tooth thickness allowance E_sn in mm in the normal section; negative thins the tooth.
+    pub tooth_thickness_allowance_mm: f64,
+    /// Bore diameter in mm, where the gear has a bore that matters.
+    pub bore_diameter_mm: Option<f64>,
+    /// Deliberate deviations from the involute.
+    pub modification: Modification,
+    /// What twists under the torque over the face width; `None`: rigid but for the body of the finite elements.
+    pub shaft: Option<Shaft>,
+}
+
+/// Deviation from parallel of the axes over the face width (ISO/TR 10064-3): positive, the working flanks come apart towards the full
+/// width.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct AxisParallelism {
+    /// f_Σδ, in the common plane of the axes, mm.
+    pub in_plane_mm: f64,
+    /// f_Σβ, across it, mm.
+    pub out_of_plane_mm: f64,
+}
+
+/// The pair as given.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairSpec {
+    /// Normal module m_n in mm.
+    pub normal_module_mm: f64,
+    /// Normal pressure angle α_n in rad.
+    pub normal_pressure_angle_rad: f64,
+    /// Helix angle β at the reference cylinder in rad.
+    pub helix_angle_rad: f64,
+    /// Working centre distance a_w in mm.
+    pub centre_distance_mm: f64,
+    /// Common face width b in mm.
+    pub face_width_mm: f64,
+    /// The generating rack, the same for both gears.
+    pub rack: BasicRack,
+    /// How far the axes are from parallel.
+    pub axis_parallelism: AxisParallelism,
+    /// The gears.
+    pub gears: PerGear<GearSpec>,
+}
+
+impl PairSpec {
+    /// Transverse module m_t = m_n / cos β.
+    pub fn transverse_module_mm(&self) -> f64 {
+        self.normal_module_mm / self.helix_angle_rad.cos()
+    }
+
+    /// Transverse pressure angle: tan α_t = tan α_n / cos β.
+    pub fn transverse_pressure_angle_rad(&self) -> f64 {
+        (self.normal_pressure_angle_rad.tan() / self.helix_angle_rad.cos()).atan()
+    }
+
+    /// Whether every transverse section of the pair is alike: no helix, parallel axes, and neither a modification over the face width
+    /// nor a shaft that twists.
+    pub fn is_alike_over_width(&self) -> bool {
+        self.helix_angle_rad == 0.0
+            && self.axis_parallelism == AxisParallelism::default()
+            && !self.has_shafts()
+            && Gear::BOTH.iter().all(|&gear| !self.gears[gear].modification.varies_over_width())
+    }
+
+    /// The same gears on parallel axes and rigid shafts: what the teeth themselves are made of.
+    pub fn on_rigid_parallel_shafts(&self) -> Self {
+        let gears = self.gears.clone().map(|gear| GearSpec { shaft: None, ..gear });
+        Self { axis_parallelism: AxisParallelism::default(), gears, ..self.clone() }
+    }
+
+    /// Whether what carries the teeth of either gear twists.
+    pub fn has_shafts(&self) -> bool {
+        Gear::BOTH.iter().any(|&gear| self.gears[gear].shaft.is_some())
+    }
+
+    /// Radius of the reference circle, r = m_t z / 2.
+    pub fn reference_radius_mm(&self, gear: Gear) -> f64 {
+        0.5 * self.transverse_module_mm() * f64::from(self.gears[gear].teeth)
+    }
+
+    /// x_E m_n: the profile shift that generates the tooth of `gear`, its thickness allowance included, mm.
+    pub(crate) fn generating_shift_mm(&self, gear: Gear) -> f64 {
+        let own = &self.gears[gear];
+        own.profile_shift * self.normal_module_mm
+            + own.tooth_thickness_allowance_mm / (2.0 * self.normal_pressure_angle_rad.tan())
+    }
+
+    /// ψ_b: half the angle of the tooth of `gear` at its base circle, ψ_b = (π/2 + 2 x_E tan α_n)/z + inv α_t.
+    pub fn base_half_angle_rad(&self, gear: Gear) -> f64 {
+        let (m_n, alpha_n) = (self.normal_module_mm, self.normal_pressure_angle_rad);
+        let shift_mm = self.generating_shift_mm(gear);
+        (FRAC_PI_2 + 2.0 * shift_mm / m_n * alpha_n.tan()) / f64::from(self.gears[gear].teeth)
+            + inv(self.transverse_pressure_angle_rad())
+    }
+
+    /// Radius of the root circle that the rack cuts, r_f = r + x_E m_n − h_fP* m_n with the generating profile shift x_E.
+    pub fn root_radius_mm(&self, gear: Gear) -> f64 {
+        let own = &self.gears[gear];
+        let thinned_mm = own.tooth_thickness_allowance_mm / (2.0 * self.normal_pressure_angle_rad.tan());
+        let shift_mm = own.profile_shift * self.normal_module_mm + thinned_mm;
+        self.reference_radius_mm(gear) + shift_mm - self.rack.dedendum_factor * self.normal_module_mm
+    }
+
+    /// Tip radius as given, or from the rack with addendum shortening: the tip keeps the clearance c* = h_fP* − h_aP*
+    /// from the mate's root circle.
+    pub fn tip_radius_mm(&self, gear: Gear) -> f64 {
+        match self.gears[gear].tip_diameter_mm {
+            Some(diameter) => 0.5 * diameter,
+            None => {
+                let mate = gear.mate();
+                let mate_addendum_line = self.gears[mate].profile_shift - self.rack.addendum_factor;
+                self.centre_distance_mm - self.reference_radius_mm(mate) - mate_addendum_line * self.normal_module_mm
+            }
+        }
+    }
+}

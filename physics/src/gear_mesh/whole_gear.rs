@@ -1,0 +1,144 @@
+//! A whole gear, or a sector of several teeth, put together from the sectors of single teeth.
+//!
+//! Sectors are turned by multiples of the pitch; where two of them meet they share the nodes of the cut. Tooth 0 stays on
+//! +y; teeth are numbered in the sense in which the gear turns, which differs between pinion and wheel.
+
+use std::f64::consts::PI;
+
+use nalgebra::{Rotation2, Vector2};
+
+use super::{Cell, FlankChain, ToothMeshError, ToothSector};
+use crate::gear::Gear;
+use crate::gear_mesh::settings::Body;
+
+/// The mesh of a gear in its own frame.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct GearMesh {
+    /// Nodes, mm.
+    pub points_mm: Vec<Vector2<f64>>,
+    /// Elements, tooth by tooth.
+    pub cells: Vec<Cell>,
+    /// The teeth, anticlockwise.
+    pub teeth: Vec<ToothNodes>,
+    /// Cut sides of a sector by increasing radius, the clockwise one first; empty for a ring.
+    pub sides: Vec<Vec<u32>>,
+}
+
+/// One tooth of a gear: chains of nodes in the orders of [`ToothSector`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToothNodes {
+    /// 0: the tooth of the reference pair, +1 the one ahead, −1 the one behind …
+    pub index: i32,
+    /// Whether its working flank is resolved.
+    pub fine: bool,
+    /// The flank that touches the mate.
+    pub working_flank: FlankChain,
+    /// The other flank.
+    pub back_flank: FlankChain,
+    /// Fillet below the working flank, then below the other.
+    pub fillets: [Vec<u32>; 2],
+    /// Root arc beside the working fillet, then beside the other.
+    pub root_arcs: [Vec<u32>; 2],
+    /// Tip land.
+    pub tip_land: Vec<u32>,
+    /// Its part of the clamp circle, clockwise.
+    pub clamp: Vec<u32>,
+}
+
+/// Which way teeth are counted: the pinion turns anticlockwise, the wheel clockwise, each in its own frame.
+fn sense(gear: Gear) -> i32 {
+    match gear {
+        Gear::Pinion => 1,
+        Gear::Wheel => -1,
+    }
+}
+
+/// Builds `gear` with `teeth` teeth from its sectors: those numbered in `fine` from the fine one.
+///
+/// # Errors
+/// [`ToothMeshError::SectorTeeth`] where a sector's number of teeth is even or more than the gear has.
+pub fn gear_mesh(
+    gear: Gear,
+    teeth: u32,
+    body: Body,
+    fine: &[i32],
+    sectors: [&ToothSector; 2],
+) -> Result<GearMesh, ToothMeshError> {
+    let (count, closed) = match body {
+        Body::Ring => (teeth, true),
+        Body::Sector { teeth: sector_teeth, .. } if sector_teeth % 2 == 1 && sector_teeth <= teeth => {
+            // A sector of all teeth has no cut left.
+            (sector_teeth, sector_teeth == teeth)
+        }
+        Body::Sector { teeth: sector_teeth, .. } => return Err(ToothMeshError::SectorTeeth { sector_teeth, teeth }),
+    };
+    let [fine_sector, coarse_sector] = sectors;
+    let mut mesh = GearMesh::default();
+    let (mut first_cut, mut last_cut): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
+    for place in 0..count {
+        // Anticlockwise steps of a pitch from the tooth on +y.
+        let steps = place as i32 - (count as i32 - 1) / 2;
+        let index = sense(gear) * steps;
+        let is_fine = fine.contains(&index);
+        let sector = if is_fine { fine_sector } else { coarse_sector };
+        let mut shared: Vec<Option<u32>> = vec![None; sector.points_mm.len()];
+        if place > 0 {
+            share(&mut shared, &sector.right_cut, &last_cut);
+        }
+        if closed && place + 1 == count && place > 0 {
+            share(&mut shared, &sector.left_cut, &first_cut);
+        }
+        let turn = Rotation2::new(2.0 * PI * f64::from(steps) / f64::from(teeth));
+        let ids = mesh.add(sector, &shared, turn);
+        if place == 0 {
+            first_cut = renumbered(&sector.right_cut, &ids);
+        }
+        last_cut = renumbered(&sector.left_cut, &ids);
+        mesh.teeth.push(ToothNodes::new(index, is_fine, sector, &ids));
+    }
+    if !closed {
+        mesh.sides = vec![first_cut, last_cut];
+    }
+    Ok(mesh)
+}
+
+fn share(shared: &mut [Option<u32>], own: &[u32], of_neighbour: &[u32]) {
+    for (&own, &other) in own.iter().zip(of_neighbour) {
+        shared[own as usize] = Some(other);
+    }
+}
+
+fn renumbered(nodes: &[u32], ids: &[u32]) -> Vec<u32> {
+    nodes.iter().map(|&node| ids[node as usize]).collect()
+}
+
+impl GearMesh {
+    /// Adds a sector turned by `turn`, except for the nodes it shares; returns the numbers of its nodes.
+    fn add(&mut self, sector: &ToothSector, shared: &[Option<u32>], turn: Rotation2<f64>) -> Vec<u32> {
+        let ids: Vec<u32> = sector
+            .points_mm
+            .iter()
+            .zip(shared)
+            .map(|(&point, shared)| shared.unwrap_or_else(|| super::layer::add(&mut self.points_mm, turn * point)))
+            .collect();
+        self.cells.extend(sector.cells.iter().map(|cell| cell.renumbered(&ids)));
+        ids
+    }
+}
+
+impl ToothNodes {
+    fn new(index: i32, fine: bool, sector: &ToothSector, ids: &[u32]) -> Self {
+        let of = |nodes: &[u32]| renumbered(nodes, ids);
+        let flank = |chain: &FlankChain| FlankChain { nodes: of(&chain.nodes), ..chain.clone() };
+        Self {
+            index,
+            fine,
+            working_flank: flank(&sector.working_flank),
+            back_flank: flank(&sector.back_flank),
+            fillets: [of(&sector.working_fillet), of(&sector.back_fillet)],
+            root_arcs: [of(&sector.working_root_arc), of(&sector.back_root_arc)],
+            tip_land: of(&sector.tip_land),
+            clamp: of(&sector.clamp),
+        }
+    }
+}

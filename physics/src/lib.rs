@@ -1,0 +1,22 @@
+//! What the library [gearwear](https://docs.rs/gearwear) calculates with: gear geometry, meshes and finite elements, contact, heat,
+//! wear laws and the wear run over them. It knows no scene, no report and no command; users of the library take `gearwear`, which opens
+//! scenes, runs them and hands over what is found.
+
+pub mod calibration;
+pub mod contact;
+pub mod data_table;
+pub mod fem;
+pub mod gear;
+pub mod gear_mesh;
+pub mod lubrication;
+pub mod mesh;
+pub mod mesh_cycle;
+pub mod observer;
+pub mod reference;
+pub mod results;
+pub mod root_stress;
+pub mod simulation;
+pub mod stiffness;
+pub mod thermal;
+pub mod wear;
+pub mod whole_file;

@@ -1,0 +1,207 @@
+//! What is asked of films, friction and losses.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::film::CentralFilm;
+use crate::gear::PerGear;
+
+/// How viscosity falls with temperature between and beyond the two that are given.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ViscosityFit {
+    /// ASTM D341, Walther's equation with 0.7 mm²/s.
+    #[default]
+    AstmD341,
+    /// DIN 51563, Ubbelohde and Walther's with 0.8 mm²/s.
+    Din51563,
+}
+
+/// What an oil is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BaseOil {
+    /// Mineral oil.
+    #[default]
+    Mineral,
+    /// Polyalphaolefin (PAO).
+    Polyalphaolefin,
+    /// Polyglycol (PAG) that water does not dissolve.
+    Polyglycol,
+}
+
+/// How viscosity grows with pressure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum PressureViscosityFit {
+    /// The fit of ISO/TS 6336-22, from the viscosity at 38 °C.
+    #[default]
+    #[serde(rename = "iso-6336-22")]
+    Iso633622,
+    /// Gold's fit, from the viscosity at the temperature itself.
+    Gold,
+}
+
+/// The pressure–viscosity coefficient.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PressureViscosity {
+    /// By a fit.
+    Fit(PressureViscosityFit),
+    /// Given, 1/GPa, at every temperature.
+    Given {
+        /// α, 1/GPa.
+        per_gpa: f64,
+    },
+}
+
+/// How the oil comes into the mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum OilSupply {
+    /// Gears that dip into it: lubrication factor X_S = 1.0.
+    #[default]
+    Dip,
+    /// Injected: X_S = 1.2.
+    Injection,
+    /// Gears under it: X_S = 0.2.
+    Submerged,
+}
+
+impl OilSupply {
+    /// X_S of ISO/TS 6336-22.
+    pub fn factor(self) -> f64 {
+        match self {
+            Self::Dip => 1.0,
+            Self::Injection => 1.2,
+            Self::Submerged => 0.2,
+        }
+    }
+}
+
+/// An oil.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OilSettings {
+    /// ν₄₀, mm²/s.
+    pub viscosity_40c_mm2_per_s: f64,
+    /// ν₁₀₀, mm²/s.
+    pub viscosity_100c_mm2_per_s: f64,
+    /// Between them.
+    pub fit: ViscosityFit,
+    /// What it is made of.
+    pub base: BaseOil,
+    /// ρ₁₅, kg/m³.
+    pub density_15c_kg_per_m3: f64,
+    /// α.
+    pub pressure_viscosity: PressureViscosity,
+}
+
+/// Oil and what it wets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LubricantSettings {
+    /// The oil.
+    pub oil: OilSettings,
+    /// Its temperature where it comes into the mesh, °C.
+    pub temperature_c: f64,
+    /// Temperature of the teeth where it is given, °C; otherwise that of ISO/TS 6336-22.
+    pub bulk_temperature_c: Option<f64>,
+    /// X_S.
+    pub supply: OilSupply,
+    /// How the central film is found.
+    pub central_film: CentralFilm,
+    /// X_L where it is given; otherwise that of the base oil by each method.
+    pub lubricant_factor: Option<f64>,
+    /// Roughness of both flanks.
+    pub roughness: PerGear<Roughness>,
+    /// Thermal contact coefficient B_M = √(λ ρ c) of each gear, W·√s/(m²·K).
+    pub thermal_contact_w_s05_per_m2_k: PerGear<f64>,
+}
+
+/// Roughness of a flank.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Roughness {
+    /// Arithmetic mean Ra, µm.
+    pub ra_um: f64,
+    /// The same of the worn flank, µm.
+    pub run_in_ra_um: f64,
+    /// Root mean square Rq, µm.
+    pub rq_um: f64,
+}
+
+/// Coefficient of friction of the mesh.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FrictionModel {
+    /// The value of friction.coefficient.
+    Constant,
+    /// Niemann's mean value after Schlenk.
+    Schlenk,
+    /// The mean value of ISO/TS 6336-22.
+    #[default]
+    #[serde(rename = "iso-6336-22")]
+    Iso633622,
+    /// The mean value of the integral temperature, ISO/TS 6336-21.
+    #[serde(rename = "iso-6336-21")]
+    Iso633621,
+    /// The mean value of the flash temperature, ISO/TS 6336-20.
+    #[serde(rename = "iso-6336-20")]
+    Iso633620,
+    /// Benedict and Kelley's, at every point.
+    BenedictKelley,
+    /// Xu's, at every point.
+    Xu,
+}
+
+impl FrictionModel {
+    /// Its name in scenes and results.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Constant => "constant",
+            Self::Schlenk => "schlenk",
+            Self::Iso633622 => "iso-6336-22",
+            Self::Iso633621 => "iso-6336-21",
+            Self::Iso633620 => "iso-6336-20",
+            Self::BenedictKelley => "benedict-kelley",
+            Self::Xu => "xu",
+        }
+    }
+}
+
+/// Friction of the mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FrictionSettings {
+    /// The model.
+    pub model: FrictionModel,
+    /// μ of [`FrictionModel::Constant`].
+    pub coefficient: Option<f64>,
+}
+
+/// Factors of ISO 6336-1 by which standards take more load than the nominal one; 1 leaves it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadFactors {
+    /// K_A, that of uneven planets included.
+    pub application: f64,
+    /// K_V.
+    pub dynamic: f64,
+    /// K_Hα.
+    pub transverse: f64,
+    /// K_Hβ.
+    pub face: f64,
+}
+
+impl LoadFactors {
+    /// K_A K_V K_Hα K_Hβ.
+    pub fn product(&self) -> f64 {
+        self.application * self.dynamic * self.transverse * self.face
+    }
+}
+
+/// Everything that films, friction and losses need beyond the mesh itself.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LubricationSettings {
+    /// None where only a constant friction is asked for.
+    pub lubricant: Option<LubricantSettings>,
+    /// Friction.
+    pub friction: FrictionSettings,
+    /// Of the standards.
+    pub load_factors: LoadFactors,
+}

@@ -1,0 +1,412 @@
+//! The mesh cycle: which tooth pairs carry how much, while one pair passes from A to E.
+//!
+//! The cycle is cut into loading positions. At each, all pairs in mesh share the load in equilibrium
+//! ([`load_sharing`]); then the pressure of the reference pair sweeps over its flank points and wears them. Positions
+//! are independent of each other, so they are shared out to threads; each fixed group of positions collects its wear by
+//! itself and the groups are added in order: the result does not depend on the number of threads.
+
+pub mod bent_tooth;
+mod collected;
+pub mod condensed;
+pub mod coupled_teeth;
+mod heated;
+pub mod influence;
+pub mod load_sharing;
+pub mod pair_in_space;
+pub mod part_of_slice;
+pub mod positions;
+pub mod settings;
+pub mod simplified;
+pub mod slice_coupling;
+pub mod sliced;
+pub mod sliced_mesh;
+pub mod sliced_positions;
+pub mod sliced_sharing;
+pub mod sliced_teeth;
+pub mod tip_contact;
+pub mod wearing_pair;
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCell, Sweep};
+use crate::gear::{Gear, PerGear, slices::greatest_over_width};
+use crate::wear::WearModel;
+use collected::Collected;
+use heated::{HeatedPlace, WornPoints};
+use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
+use sliced_mesh::SlicedMesh;
+
+/// Groups of positions that collect wear on their own; fixed, so that sums always run in the same order.
+const GROUPS: usize = 8;
+
+/// A tooth pair in mesh at some position: where it is and how stiff its teeth are.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PairInMesh {
+    /// Its theoretical contact point.
+    pub position_mm: f64,
+    /// Spring of its teeth, N/mm².
+    pub teeth_n_per_mm2: f64,
+    /// Approach in its tangent frame over the transmission error, as torque over load and base radius: 1 on the line of action.
+    pub lever_ratio: f64,
+}
+
+/// One loading position: the reference pair's stretch of the path, and all pairs in mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LoadingPosition {
+    /// What the position stands for.
+    pub cell: PositionCell,
+    /// All pairs in mesh, the reference pair first.
+    pub pairs: Vec<PairInMesh>,
+    /// Whether it lies between A and E: only then it is a row of what is observed.
+    pub on_line_of_action: bool,
+}
+
+/// Counters of work done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Work {
+    /// Mesh cycles evaluated.
+    pub mesh_cycles: u64,
+    /// Equilibria solved.
+    pub equilibria: u64,
+    /// Newton iterations in them.
+    pub newton_iterations: u64,
+    /// Evaluations of a pair's contact.
+    pub pair_evaluations: u64,
+}
+
+impl std::ops::AddAssign for Work {
+    fn add_assign(&mut self, other: Self) {
+        self.mesh_cycles += other.mesh_cycles;
+        self.equilibria += other.equilibria;
+        self.newton_iterations += other.newton_iterations;
+        self.pair_evaluations += other.pair_evaluations;
+    }
+}
+
+/// The state of one position.
+struct LoadedPosition<'a> {
+    cell: PositionCell,
+    on_line_of_action: bool,
+    heated_place: HeatedPlace,
+    /// How far the flanks slide on each other there, mm.
+    sliding_mm: f64,
+    /// The reference pair first.
+    pairs: Vec<MeshedPair<'a>>,
+    equilibrium: Equilibrium,
+}
+
+/// Positions that collect wear together.
+struct Group<'a> {
+    loaded_positions: Vec<LoadedPosition<'a>>,
+    collected: Collected,
+    points: WornPoints,
+}
+
+/// All loading positions of a pair, ready to be evaluated on ever newly worn flanks.
+pub struct LineOfActionCycle<'a> {
+    groups: Vec<Group<'a>>,
+    line_load_n_per_mm: f64,
+    /// How far the bodies that all pairs share yield under the whole load, mm.
+    bodies_mm: f64,
+}
+
+/// What was observed at one position.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PositionObservation {
+    /// Theoretical contact point of the reference pair.
+    pub position_mm: f64,
+    /// Approach of the gears along the line of action.
+    pub transmission_error_mm: f64,
+    /// Change of the whole load with the transmission error, N/mm²: the mesh stiffness of all pairs together, about this load. `None` where a
+    /// model does not give it.
+    pub stiffness_n_per_mm2: Option<f64>,
+    /// Part of the whole load that the reference pair carries.
+    pub load_share: f64,
+    /// Sum of the loads of all pairs over the load to be carried, less one.
+    pub load_imbalance: f64,
+    /// The reference pair's contact.
+    pub footprint: Footprint,
+}
+
+/// The greatest pressure of a mesh cycle, before A and after E included.
+///
+/// Towards a mathematically sharp tip edge under load the pressure of elastic bodies grows without bound, and what a model finds there is
+/// a matter of its resolution: a contact that such an edge cuts off is kept apart from those whose pressure is defined.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+pub struct GreatestPressure {
+    /// Of contact whose pressure is defined, MPa.
+    pub defined_mpa: f64,
+    /// Of contact that a sharp tip edge cuts off, MPa; `None` where there is none.
+    pub sharp_edge_mpa: Option<f64>,
+}
+
+impl GreatestPressure {
+    /// Takes a contact's pressure into account.
+    pub fn note(&mut self, pressure_mpa: f64, at_sharp_edge: bool) {
+        if at_sharp_edge {
+            self.sharp_edge_mpa = Some(self.sharp_edge_mpa.map_or(pressure_mpa, |most| most.max(pressure_mpa)));
+        } else {
+            self.defined_mpa = self.defined_mpa.max(pressure_mpa);
+        }
+    }
+
+    /// Takes into account what each of the slices over the face width has, in their order.
+    pub(crate) fn note_slices(&mut self, of_slices: &[Self]) {
+        let defined_mpa: Vec<f64> = of_slices.iter().map(|slice| slice.defined_mpa).collect();
+        self.note(greatest_over_width(&defined_mpa), false);
+        of_slices.iter().filter_map(|slice| slice.sharp_edge_mpa).for_each(|sharp_mpa| self.note(sharp_mpa, true));
+    }
+
+    /// Takes the pressures of all `positions` into account.
+    pub(crate) fn note_all(&mut self, positions: &[PositionObservation]) {
+        positions.iter().for_each(|at| self.note(at.footprint.peak_pressure_mpa, at.footprint.at_sharp_edge));
+    }
+}
+
+/// What was observed over a mesh cycle.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CycleObservation {
+    /// At each position, in order.
+    pub positions: Vec<PositionObservation>,
+    /// Greatest pressure at any position and of any flank point.
+    pub greatest_pressure: GreatestPressure,
+    /// Greatest pressure on each flank point, also at sharp tip edges, MPa.
+    pub pressure_mpa: PerGear<Vec<f64>>,
+    /// How far each flank point slid while in contact, mm.
+    pub sliding_mm: PerGear<Vec<f64>>,
+    /// ∫ F ds of a tooth pair over its mesh, also before A and after E: load times sliding distance, which is the volume that a flank loses
+    /// over its wear coefficient. N, that is N·mm per mm of face width; where there are slices, the sum over them. `None` where a model
+    /// follows single points.
+    pub sliding_work_n: Option<f64>,
+    /// The mesh of one tooth slice by slice, where there are slices.
+    pub slices: Option<SlicedMesh>,
+}
+
+/// What flanks have lost so far, at their points.
+#[derive(Debug, Clone, Copy)]
+pub struct LostMaterial<'a> {
+    /// By modifications and wear together, mm.
+    pub removed_mm: PerGear<&'a [f64]>,
+    /// By wear alone, mm.
+    pub wear_mm: PerGear<&'a [f64]>,
+}
+
+/// A pair in mesh, evaluated over a whole mesh cycle on ever newly worn flanks.
+pub trait MeshCycle {
+    /// Solves every position on flanks that have lost `lost`, and puts into `depth_mm` what each point wears in one mesh.
+    ///
+    /// `stopped` is asked at every position whether to give up.
+    fn evaluate(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError>;
+
+    /// Is again as if never evaluated: the next evaluation depends only on what the flanks have lost, to the bit, and not on
+    /// where the last one ended.
+    fn reset(&mut self);
+
+    /// What the last evaluation found, on the same `lost`.
+    fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError>;
+}
+
+impl<'a> LineOfActionCycle<'a> {
+    /// Prepares every pair at every position. The wear of the reference pair, the first of each position, is collected.
+    pub fn new(
+        flanks: Flanks<'a>,
+        surface: &dyn ContactSurface,
+        positions: &[LoadingPosition],
+        line_load_n_per_mm: f64,
+    ) -> Self {
+        let size = positions.len().div_ceil(GROUPS).max(1);
+        let groups = positions
+            .par_chunks(size)
+            .map(|positions| Group {
+                loaded_positions: positions.iter().map(|p| LoadedPosition::new(flanks, surface, p)).collect(),
+                collected: Collected::new(flanks.grid.map(|grid| grid.len())),
+                points: WornPoints::default(),
+            })
+            .collect();
+        Self { groups, line_load_n_per_mm, bodies_mm: 0.0 }
+    }
+
+    /// The same with all pairs on gear bodies that yield by `bodies_mm` under the whole load.
+    pub(crate) fn on_bodies_that_yield_by(self, bodies_mm: f64) -> Self {
+        Self { bodies_mm, ..self }
+    }
+}
+
+impl MeshCycle for LineOfActionCycle<'_> {
+    fn evaluate(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        let load = self.line_load_n_per_mm;
+        self.groups.par_iter_mut().for_each(|group| group.evaluate(lost.removed_mm, load, wear, stopped));
+        Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
+    }
+
+    fn reset(&mut self) {
+        self.groups.par_iter_mut().flat_map(|group| &mut group.loaded_positions).for_each(|loaded| {
+            loaded.pairs.iter_mut().for_each(MeshedPair::reset);
+        });
+    }
+
+    fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
+        let removed_mm = lost.removed_mm;
+        let zeros = || removed_mm.map(|flank| vec![0.0; flank.len()]);
+        let mut observation = CycleObservation {
+            positions: Vec::new(),
+            greatest_pressure: GreatestPressure::default(),
+            pressure_mpa: zeros(),
+            sliding_mm: zeros(),
+            sliding_work_n: None,
+            slices: None,
+        };
+        let mut sliding_work_n = 0.0;
+        let mut sweep = Sweep::default();
+        for loaded in self.groups.iter().flat_map(|group| &group.loaded_positions) {
+            if loaded.on_line_of_action {
+                observation.positions.push(loaded.observe(self.line_load_n_per_mm, self.bodies_mm));
+            }
+            for gear in Gear::BOTH {
+                let (pressure, sliding) = (&mut observation.pressure_mpa[gear], &mut observation.sliding_mm[gear]);
+                let contact = &*loaded.pairs[0].contact;
+                let greatest_mpa = note_contact_of_points(contact, gear, removed_mm, &mut sweep, pressure, sliding);
+                observation.greatest_pressure.note(greatest_mpa, contact.footprint().at_sharp_edge);
+            }
+            sliding_work_n += loaded.pairs[0].normal_load_n_per_mm() * loaded.sliding_mm;
+        }
+        observation.sliding_work_n = Some(sliding_work_n);
+        observation.greatest_pressure.note_all(&observation.positions);
+        Ok(observation)
+    }
+}
+
+/// Raises `pressure_mpa` at the points of a flank to that of `contact`, and adds to `sliding_mm` how far they slid in it; answers
+/// the greatest pressure on any of them.
+fn note_contact_of_points(
+    contact: &dyn PairContact,
+    gear: Gear,
+    removed_mm: PerGear<&[f64]>,
+    sweep: &mut Sweep,
+    pressure_mpa: &mut [f64],
+    sliding_mm: &mut [f64],
+) -> f64 {
+    contact.sweep(gear, removed_mm, sweep);
+    let range = sweep.first_point..sweep.first_point + sweep.sliding_mm.len();
+    let contacts = contact.contact_of_points(gear, removed_mm);
+    let points = pressure_mpa[range.clone()].iter_mut().zip(&mut sliding_mm[range]);
+    let mut most_mpa = 0.0_f64;
+    for ((greatest, slid), (at, &sliding)) in points.zip(contacts.iter().zip(&sweep.sliding_mm)) {
+        if sliding > 0.0 {
+            *greatest = greatest.max(at.pressure_mpa);
+            *slid += sliding * at.contact_fraction;
+            most_mpa = most_mpa.max(at.pressure_mpa);
+        }
+    }
+    most_mpa
+}
+
+impl Group<'_> {
+    fn evaluate(
+        &mut self,
+        removed_mm: PerGear<&[f64]>,
+        line_load: f64,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) {
+        self.collected.clear();
+        for loaded in &mut self.loaded_positions {
+            let solved =
+                if stopped() { Err(EquilibriumError::Interrupted) } else { loaded.solve(removed_mm, line_load) };
+            if !self.collected.take(solved) {
+                return;
+            }
+            let contact = (&loaded.pairs[0], &loaded.heated_place);
+            self.points.wear(wear, contact, removed_mm, PerGear::default(), &mut self.collected.depth_mm);
+        }
+    }
+}
+
+impl<'a> LoadedPosition<'a> {
+    fn new(flanks: Flanks<'a>, surface: &dyn ContactSurface, position: &LoadingPosition) -> Self {
+        let pairs = position
+            .pairs
+            .iter()
+            .enumerate()
+            .map(|(k, pair)| {
+                let cell = (k == 0).then_some(position.cell);
+                let contact = surface.pair(flanks, pair.position_mm, cell);
+                MeshedPair::on_lever(contact, pair.teeth_n_per_mm2, pair.lever_ratio)
+            })
+            .collect();
+        let (cell, on_line_of_action) = (position.cell, position.on_line_of_action);
+        let heated_place = HeatedPlace::new(flanks, cell);
+        let sliding_mm = flanks.geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
+        Self { cell, on_line_of_action, heated_place, sliding_mm, pairs, equilibrium: Equilibrium::default() }
+    }
+
+    /// Equilibrium on the flanks as they are now.
+    fn solve(&mut self, removed_mm: PerGear<&[f64]>, line_load: f64) -> Result<Work, EquilibriumError> {
+        let at = self.cell.position_mm;
+        let (equilibrium, work) = settled(&mut self.pairs, |_| removed_mm, |pairs| balance(pairs, line_load, at))?;
+        self.equilibrium = equilibrium;
+        Ok(work)
+    }
+
+    fn observe(&self, line_load: f64, bodies_mm: f64) -> PositionObservation {
+        let reference = &self.pairs[0];
+        let total: f64 = self.pairs.iter().map(|pair| pair.response.line_load_n_per_mm).sum();
+        PositionObservation {
+            position_mm: self.cell.position_mm,
+            transmission_error_mm: self.equilibrium.transmission_error_mm + bodies_mm,
+            stiffness_n_per_mm2: Some(in_series(self.equilibrium.n_per_mm2, bodies_mm / line_load)),
+            load_share: reference.response.line_load_n_per_mm / line_load,
+            load_imbalance: total / line_load - 1.0,
+            footprint: reference.contact.footprint(),
+        }
+    }
+}
+
+/// Stiffness of springs of `n_per_mm2` on bodies of the compliance `mm2_per_n`, N/mm².
+fn in_series(n_per_mm2: f64, mm2_per_n: f64) -> f64 {
+    n_per_mm2 / (1.0 + n_per_mm2 * mm2_per_n)
+}
+
+impl CycleObservation {
+    /// Greatest pressure anywhere on either flank, at any position, also before A and after E and at sharp tip edges, MPa: what a wear law
+    /// meets.
+    pub fn peak_pressure_mpa(&self) -> f64 {
+        let GreatestPressure { defined_mpa, sharp_edge_mpa } = self.greatest_pressure;
+        sharp_edge_mpa.map_or(defined_mpa, |sharp| sharp.max(defined_mpa))
+    }
+
+    /// Least and greatest transmission error, mm.
+    pub fn transmission_error_mm(&self) -> (f64, f64) {
+        self.positions.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
+            (low.min(p.transmission_error_mm), high.max(p.transmission_error_mm))
+        })
+    }
+
+    /// Greatest pressure with the reference pair at `position_mm`, between the observations on either side, MPa.
+    pub fn peak_pressure_at_mpa(&self, position_mm: f64) -> f64 {
+        let after = self.positions.partition_point(|p| p.position_mm <= position_mm).clamp(1, self.positions.len() - 1);
+        let (low, high) = (&self.positions[after - 1], &self.positions[after]);
+        let weight = (position_mm - low.position_mm) / (high.position_mm - low.position_mm);
+        let (low, high) = (low.footprint.peak_pressure_mpa, high.footprint.peak_pressure_mpa);
+        low + weight.clamp(0.0, 1.0) * (high - low)
+    }
+
+    /// The observation nearest to `position_mm`.
+    pub fn nearest(&self, position_mm: f64) -> Option<&PositionObservation> {
+        let distance = |p: &&PositionObservation| (p.position_mm - position_mm).abs();
+        self.positions.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
+    }
+}

@@ -1,0 +1,337 @@
+//! Phases that are worked on one after the other: their contacts in rows, from equilibrium to wear.
+//!
+//! A contact of the simplified model stays where it is on both flanks, so that nothing is looked up or interpolated in a wear
+//! step. With the mean pressure and the sliding distance of [`crate::contact::hertz_mean`],
+//!
+//! ```text
+//! p = w/(2a) = √w / (2 √α)          s = 2 a |ζ| = √w · 2 √α |ζ|          a = √(α w)
+//! ```
+//!
+//! rows of both go to the wear law, and what it answers is added to the gap of the flanks before the next equilibrium.
+
+use super::closed_form::ContactForms;
+use super::exact::SlicesInSeries;
+use super::lanes::{LANES, Lanes};
+use super::loaded_position::{Attempt, Common, LoadedPosition, Pack, Tangent, UNUSED_GAP_MM};
+use crate::gear::{Gear, PerGear};
+use crate::mesh_cycle::{
+    Work,
+    coupled_teeth::CoupledTeeth,
+    load_sharing::EquilibriumError,
+    sliced_positions::{SliceContact, SlicedPosition},
+};
+use crate::thermal::{SpeedRatios, band::Spread};
+use crate::wear::{ContactConditions, SlidingRow, WearModel, heated_row::HeatedContact};
+
+/// What a contact's load does to the flanks, over its square root.
+#[derive(Debug, Clone, Copy, Default)]
+struct PerRoot {
+    /// 1/(2 √α): mean pressure.
+    pressure: Lanes,
+    /// 2 √α |ζ|: sliding distance of both flanks.
+    sliding: [Lanes; 2],
+    /// √α: half-width.
+    half_width: Lanes,
+}
+
+/// A value for every lane of some packs.
+type Row = Vec<[f64; LANES]>;
+
+/// Some phases in rows.
+pub struct Batch {
+    phases: Vec<SlicedPosition>,
+    /// Their states.
+    pub loaded_positions: Vec<LoadedPosition>,
+    packs: Vec<Pack>,
+    /// Gap of the unworn flanks.
+    modification_mm: Vec<Lanes>,
+    per_root: Vec<PerRoot>,
+    /// How fast the surfaces move at the contact in each lane.
+    ratios: Vec<SpeedRatios>,
+    /// The teeth of each phase, where slices are coupled.
+    teeth: Vec<CoupledTeeth>,
+    common: Common,
+    /// Depth that both flanks have lost at each contact, mm.
+    wear_mm: PerGear<Row>,
+    /// Depth that they lose in one mesh, mm.
+    depth_mm: PerGear<Row>,
+    tangents: Vec<Tangent>,
+    pressure_mpa: Row,
+    sliding_mm: [Row; 2],
+    conditions: Vec<ContactConditions>,
+    begun: bool,
+    outcome: Result<Work, EquilibriumError>,
+}
+
+/// A contact as it is.
+#[derive(Debug, Clone, Copy)]
+pub struct ContactState {
+    /// w, N/mm.
+    pub line_load_n_per_mm: f64,
+    /// a, mm.
+    pub half_width_mm: f64,
+    /// Mean pressure, MPa.
+    pub pressure_mpa: f64,
+    /// 2 a |ζ| of both flanks, mm.
+    pub sliding_mm: PerGear<f64>,
+}
+
+impl Batch {
+    /// Prepares the contacts of `phases`, on flanks modified by `modification_mm` there.
+    pub fn new(
+        phases: Vec<SlicedPosition>,
+        forms: &ContactForms<'_>,
+        springs: &SlicesInSeries<'_>,
+        modification_mm: impl Fn(&SliceContact) -> f64,
+    ) -> Self {
+        let path = &springs.pair.path;
+        let packs_of = |phase: &SlicedPosition| phase.contacts.len().div_ceil(LANES);
+        let count: usize = phases.iter().map(packs_of).sum();
+        let unused = Pack { rigid: Lanes::splat(1.0), gap_mm: Lanes::splat(UNUSED_GAP_MM), ..Pack::default() };
+        let (mut packs, mut per_root) = (vec![unused; count], vec![PerRoot::default(); count]);
+        let mut ratios = vec![SpeedRatios::default(); LANES * count];
+        let coupled = springs.sliced.is_coupled();
+        let common = Common {
+            log_compliance_mm2_per_n: forms.log_compliance_mm2_per_n(),
+            line_load_n_per_mm: springs.line_load_n_per_mm,
+        };
+        let (mut loaded_positions, mut teeth_of_phases, mut first) = (Vec::with_capacity(phases.len()), Vec::new(), 0);
+        for phase in &phases {
+            let range = first..first + packs_of(phase);
+            let mean = springs.line_load_n_per_mm / phase.contacts.len() as f64;
+            let mut greatest_load_n_per_mm = f64::INFINITY;
+            for (at, contact) in phase.contacts.iter().enumerate() {
+                let (pack, k) = (first + at / LANES, at % LANES);
+                let position = contact.cell.position_mm;
+                let form = forms.at(position);
+                ratios[LANES * first + at] = SpeedRatios::over(springs.pair, position, position);
+                let teeth = if coupled { 0.0 } else { springs.sliced.mm2_per_n(contact, &springs.along_path) };
+                let (row, roots) = (&mut packs[pack], &mut per_root[pack]);
+                row.rigid.0[k] = form.surface_mm2_per_n + teeth;
+                for (series, own) in row.series.iter_mut().zip(form.series) {
+                    series.0[k] = own;
+                }
+                row.gap_mm.0[k] = modification_mm(contact);
+                row.load.0[k] = mean;
+                let half_width = form.square_half_width.sqrt();
+                roots.half_width.0[k] = half_width;
+                roots.pressure.0[k] = 0.5 / half_width;
+                for (sliding, gear) in roots.sliding.iter_mut().zip(Gear::BOTH) {
+                    sliding.0[k] = 2.0 * half_width * path.specific_sliding(gear, position).abs();
+                }
+                greatest_load_n_per_mm = greatest_load_n_per_mm.min(form.greatest_load_n_per_mm);
+            }
+            let compliance = |contact: &SliceContact| springs.sliced.mm2_per_n(contact, &springs.along_path);
+            teeth_of_phases.extend(springs.sliced.coupled_teeth(springs.pair, &phase.contacts, compliance));
+            loaded_positions.push(LoadedPosition {
+                position_mm: phase.position_mm,
+                transmission_error_mm: 0.0,
+                contacts: phase.contacts.len(),
+                greatest_load_n_per_mm,
+                packs: range.clone(),
+            });
+            first = range.end;
+        }
+        let longest = loaded_positions.iter().map(|loaded| loaded.packs.len()).max().unwrap_or(0);
+        let row = |packs: usize| vec![[0.0; LANES]; packs];
+        Self {
+            phases,
+            loaded_positions,
+            modification_mm: packs.iter().map(|pack| pack.gap_mm).collect(),
+            packs,
+            per_root,
+            ratios,
+            teeth: teeth_of_phases,
+            common,
+            wear_mm: PerGear::from_fn(|_| row(count)),
+            depth_mm: PerGear::from_fn(|_| row(count)),
+            tangents: vec![Tangent::default(); longest],
+            pressure_mpa: row(longest),
+            sliding_mm: [row(longest), row(longest)],
+            conditions: Vec::new(),
+            begun: false,
+            outcome: Ok(Work::default()),
+        }
+    }
+
+    /// Lets the flanks lose what the last evaluation found for so many `meshes`, finds the new equilibria, and what they lose now.
+    pub fn evaluate(
+        &mut self,
+        meshes: PerGear<f64>,
+        springs: &SlicesInSeries<'_>,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) {
+        let mut work = Work::default();
+        for index in 0..self.loaded_positions.len() {
+            if stopped() {
+                self.outcome = Err(EquilibriumError::Interrupted);
+                return;
+            }
+            self.wear(index, meshes);
+            match self.balance(index, springs) {
+                Ok(iterations) => {
+                    work.equilibria += 1;
+                    work.newton_iterations += iterations;
+                    work.pair_evaluations += iterations * self.loaded_positions[index].contacts as u64;
+                }
+                Err(failure) => {
+                    self.outcome = Err(failure);
+                    return;
+                }
+            }
+            self.lose(index, wear);
+        }
+        self.begun = true;
+        self.outcome = Ok(work);
+    }
+
+    /// Work of the last evaluation.
+    pub fn outcome(&self) -> Result<Work, EquilibriumError> {
+        self.outcome.clone()
+    }
+
+    /// h ← h + meshes · dh of both flanks, and their gap.
+    fn wear(&mut self, loaded: usize, meshes: PerGear<f64>) {
+        let range = self.loaded_positions[loaded].packs.clone();
+        for gear in Gear::BOTH {
+            let (wear, depth) = (&mut self.wear_mm[gear][range.clone()], &self.depth_mm[gear][range.clone()]);
+            for (pack, (h, dh)) in self.packs[range.clone()].iter_mut().zip(wear.iter_mut().zip(depth)) {
+                let lost = Lanes(*dh) * meshes[gear];
+                *h = (Lanes(*h) + lost).0;
+                pack.gap_mm += lost;
+            }
+        }
+    }
+
+    /// Newton steps to the equilibrium of a loaded.
+    fn balance(&mut self, index: usize, springs: &SlicesInSeries<'_>) -> Result<u64, EquilibriumError> {
+        let loaded = &mut self.loaded_positions[index];
+        let packs = &mut self.packs[loaded.packs.clone()];
+        let tangents = &mut self.tangents[..packs.len()];
+        let mut teeth = self.teeth.get_mut(index);
+        let mut iterations = 0;
+        if self.begun {
+            match loaded.follow(packs, tangents, teeth.as_deref_mut(), &self.common) {
+                Attempt::Settled(steps) => return Ok(steps),
+                Attempt::Lost(steps) => iterations += steps,
+            }
+        }
+        match loaded.settle(packs, tangents, teeth, &self.common) {
+            Attempt::Settled(steps) => return Ok(iterations + steps),
+            Attempt::Lost(steps) => iterations += steps,
+        }
+        let gaps = packs.iter().flat_map(|pack| pack.gap_mm.0);
+        let (loads, equilibrium) = springs.balance(&self.phases[index].contacts, gaps, loaded.position_mm)?;
+        for (at, load) in loads.into_iter().enumerate() {
+            let (pack, k) = (&mut packs[at / LANES], at % LANES);
+            pack.load.0[k] = load;
+            pack.log_load.0[k] = if load > 0.0 { load.ln() } else { 0.0 };
+            (pack.correction.0[k], pack.change.0[k]) = (0.0, 0.0);
+        }
+        loaded.transmission_error_mm = equilibrium.transmission_error_mm;
+        Ok(iterations + equilibrium.iterations)
+    }
+
+    /// What both flanks lose in one mesh at the contacts of a loaded.
+    fn lose(&mut self, index: usize, wear: &WearModel<'_>) {
+        let range = self.loaded_positions[index].packs.clone();
+        let [sliding_1, sliding_2] = &mut self.sliding_mm;
+        let rows = self.pressure_mpa.iter_mut().zip(sliding_1.iter_mut().zip(&mut *sliding_2));
+        let contacts = self.packs[range.clone()].iter().zip(&self.per_root[range.clone()]);
+        for ((pack, per_root), (pressure, (of_pinion, of_wheel))) in contacts.zip(rows) {
+            let root = pack.loads().sqrt();
+            *pressure = (root * per_root.pressure).0;
+            *of_pinion = (root * per_root.sliding[0]).0;
+            *of_wheel = (root * per_root.sliding[1]).0;
+        }
+        let pressure = self.pressure_mpa[..range.len()].as_flattened();
+        for (gear, sliding) in [(Gear::Pinion, &*sliding_1), (Gear::Wheel, &*sliding_2)] {
+            let depth = self.depth_mm[gear][range.clone()].as_flattened_mut();
+            depth.fill(0.0);
+            let sliding_mm = sliding[..range.len()].as_flattened();
+            let (row, contacts) =
+                (&mut self.conditions, self.packs[range.clone()].iter().zip(&self.per_root[range.clone()]));
+            let conditions = wear.heat_of_law(gear).map(|heat| {
+                let lanes = contacts.flat_map(|(pack, per_root)| {
+                    let (load, half_width) = (pack.loads(), pack.loads().sqrt() * per_root.half_width);
+                    load.0.into_iter().zip(half_width.0)
+                });
+                let ratios = &self.ratios[LANES * range.start..LANES * range.end];
+                row.clear();
+                row.extend(lanes.zip(ratios).map(|((line_load_n_per_mm, half_width_mm), &ratios)| {
+                    HeatedContact { heat, ratios, line_load_n_per_mm, half_width_mm }.at_hottest(gear, Spread::Even)
+                }));
+                &**row
+            });
+            wear.laws[gear].add_depth(&SlidingRow { pressure_mpa: pressure, sliding_mm, conditions }, depth);
+        }
+    }
+
+    /// Each contact of a loaded with its lane and its state.
+    pub fn contacts(&self, index: usize) -> impl Iterator<Item = (&SliceContact, usize, ContactState)> {
+        let first = LANES * self.loaded_positions[index].packs.start;
+        self.phases[index].contacts.iter().enumerate().map(move |(at, contact)| {
+            let lane = first + at;
+            (contact, lane, self.contact(lane))
+        })
+    }
+
+    /// Lanes in all, those without a contact included.
+    pub(crate) fn lanes(&self) -> usize {
+        LANES * self.packs.len()
+    }
+
+    /// Depth that `gear`'s flank has lost in each lane, and loses in one mesh, mm.
+    pub fn rows(&self, gear: Gear) -> impl Iterator<Item = [f64; 2]> {
+        let [wear, depth] = [&self.wear_mm, &self.depth_mm].map(|rows| rows[gear].as_flattened());
+        wear.iter().zip(depth).map(|(&wear, &depth)| [wear, depth])
+    }
+
+    /// Takes both flanks to have lost this in each lane.
+    pub(crate) fn set_wear_mm(&mut self, wear_mm: PerGear<&[f64]>) {
+        for gear in Gear::BOTH {
+            self.wear_mm[gear].as_flattened_mut().copy_from_slice(wear_mm[gear]);
+        }
+        for (index, pack) in self.packs.iter_mut().enumerate() {
+            pack.gap_mm = self.modification_mm[index];
+            for gear in Gear::BOTH {
+                pack.gap_mm += Lanes(self.wear_mm[gear][index]);
+            }
+        }
+    }
+
+    /// Is again as if never evaluated, on the flanks as they are.
+    pub fn reset(&mut self) {
+        for loaded in &mut self.loaded_positions {
+            let mean = self.common.line_load_n_per_mm / loaded.contacts as f64;
+            loaded.transmission_error_mm = 0.0;
+            for (at, pack) in self.packs[loaded.packs.clone()].iter_mut().enumerate() {
+                let used = |lane: usize| at * LANES + lane < loaded.contacts;
+                pack.load = Lanes(std::array::from_fn(|lane| if used(lane) { mean } else { 0.0 }));
+                (pack.log_load, pack.correction, pack.change) = Default::default();
+            }
+        }
+        self.teeth.iter_mut().for_each(CoupledTeeth::straighten);
+        self.begun = false;
+    }
+
+    /// Depth that `gear`'s flank has lost at the contact in a lane, and loses in one mesh, mm.
+    pub(crate) fn of_lane(&self, gear: Gear, lane: usize) -> [f64; 2] {
+        [&self.wear_mm, &self.depth_mm].map(|rows| rows[gear].as_flattened()[lane])
+    }
+
+    /// The contact in a lane.
+    pub fn contact(&self, lane: usize) -> ContactState {
+        let (pack, per_root, k) = (&self.packs[lane / LANES], &self.per_root[lane / LANES], lane % LANES);
+        let load = pack.loads().0[k];
+        let root = load.sqrt();
+        let [pinion, wheel] = per_root.sliding.map(|sliding| root * sliding.0[k]);
+        ContactState {
+            line_load_n_per_mm: load,
+            half_width_mm: root * per_root.half_width.0[k],
+            pressure_mpa: root * per_root.pressure.0[k],
+            sliding_mm: PerGear { pinion, wheel },
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! The equilibrium of a phase by the general solver: where the fast one gives up.
+//!
+//! Every contact becomes a [`PairContact`] of the closed form itself, whose gap is given; teeth and their coupling are those of the
+//! general mesh cycle ([`crate::mesh_cycle::sliced`]).
+
+use crate::contact::{Footprint, PairContact, PointContact, Response, Sweep, hertz, settings::Material};
+use crate::gear::{Gear, GearPair, PerGear};
+use crate::mesh_cycle::{
+    load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance},
+    sliced::SpringAlongPath,
+    sliced_positions::SliceContact,
+    sliced_sharing::balance_on_teeth,
+    sliced_teeth::SlicedTeeth,
+};
+use crate::reference::flattening::Flattening;
+
+/// A contact whose gap is known.
+struct GivenGap {
+    flattening: Flattening,
+    /// Approach at which the flanks touch.
+    gap_mm: f64,
+}
+
+impl PairContact for GivenGap {
+    fn set_removed(&mut self, _removed_mm: PerGear<&[f64]>) {}
+
+    fn touch_mm(&self) -> f64 {
+        self.gap_mm
+    }
+
+    fn load_at(&mut self, indentation_mm: f64) -> Response {
+        let line_load_n_per_mm = self.flattening.line_load_n_per_mm(indentation_mm);
+        let (_, compliance) = self.flattening.approach_and_compliance(line_load_n_per_mm);
+        Response { line_load_n_per_mm, stiffness_n_per_mm2: 1.0 / compliance }
+    }
+
+    fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64 {
+        self.flattening.approach_mm(line_load_n_per_mm)
+    }
+
+    fn sweep(&self, _gear: Gear, _removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
+        *sweep = Sweep::default();
+    }
+
+    fn contact_of_points(&self, _gear: Gear, _removed_mm: PerGear<&[f64]>) -> Vec<PointContact> {
+        Vec::new()
+    }
+
+    fn footprint(&self) -> Footprint {
+        Footprint::default()
+    }
+}
+
+/// What the general solver is told of a phase beside its gaps.
+pub struct SlicesInSeries<'a> {
+    /// The gears.
+    pub pair: &'a GearPair,
+    /// What they are made of.
+    pub material: &'a PerGear<Material>,
+    /// Compliance of the teeth.
+    pub along_path: SpringAlongPath,
+    /// The slices and their coupling.
+    pub sliced: &'a SlicedTeeth,
+    /// Sum of all line loads.
+    pub line_load_n_per_mm: f64,
+}
+
+impl SlicesInSeries<'_> {
+    /// Line load of every contact with its gap, and the equilibrium.
+    pub fn balance(
+        &self,
+        contacts: &[SliceContact],
+        gap_mm: impl Iterator<Item = f64>,
+        position_mm: f64,
+    ) -> Result<(Vec<f64>, Equilibrium), EquilibriumError> {
+        let compliance = |contact: &SliceContact| self.sliced.mm2_per_n(contact, &self.along_path);
+        let mut teeth = self.sliced.coupled_teeth(self.pair, contacts, compliance);
+        let coupled = teeth.is_some();
+        let mut pairs: Vec<MeshedPair<'_>> = contacts
+            .iter()
+            .zip(gap_mm)
+            .map(|(contact, gap_mm)| {
+                let flattening = hertz::flattening(self.pair, self.material, contact.cell.position_mm);
+                let teeth = if coupled { f64::INFINITY } else { 1.0 / compliance(contact) };
+                let mut pair = MeshedPair::new(Box::new(GivenGap { flattening, gap_mm }), teeth);
+                let nothing = PerGear { pinion: &[][..], wheel: &[][..] };
+                pair.set_removed(nothing);
+                pair
+            })
+            .collect();
+        let equilibrium = match &mut teeth {
+            None => balance(&mut pairs, self.line_load_n_per_mm, position_mm)?,
+            Some(teeth) => balance_on_teeth(&mut pairs, teeth, self.line_load_n_per_mm, position_mm)?,
+        };
+        Ok((pairs.iter().map(|pair| pair.response.line_load_n_per_mm).collect(), equilibrium))
+    }
+}

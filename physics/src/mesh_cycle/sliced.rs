@@ -1,0 +1,329 @@
+//! The mesh cycle of a pair whose transverse sections differ: helical, or modified over the face width.
+//!
+//! The face width is cut into slices, each a thin spur pair in its own transverse section. At every phase of one base pitch
+//! ([`super::sliced_positions`]) all slices of all teeth in contact find their equilibrium together, under one approach of the rigid hubs:
+//!
+//! ```text
+//! Σ w_ki Δz = F                δ = touch_ki + s_ki(w_ki) + u_ki
+//! ```
+//!
+//! with the deflection u of the teeth slice by slice (u = q w: thin independent teeth) or coupled along each tooth
+//! ([`super::slice_coupling`]), or of all teeth together ([`super::pair_in_space`]). Of a slice that the line of contact has entered in part,
+//! w is the load of that part over the width of the slice ([`super::part_of_slice`]). The pressure of every contact sweeps over the points of its own slice and wears them.
+
+use rayon::prelude::*;
+
+use super::collected::Collected;
+use super::coupled_teeth::CoupledTeeth;
+use super::heated::{HeatedPlace, WornPoints};
+use super::load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
+use super::part_of_slice::PartOfSlice;
+use super::sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh};
+use super::sliced_positions::{ContactPart, SliceContact, SlicedPosition};
+use super::sliced_sharing::balance_on_teeth;
+use super::sliced_teeth::SlicedTeeth;
+use super::{
+    CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, in_series, note_contact_of_points,
+};
+use crate::contact::{ContactSurface, Flanks, Sweep};
+use crate::gear::{Gear, GearPair, PerGear, path_of_contact::PathOfContact};
+use crate::wear::WearModel;
+
+/// The spring of the teeth along the path of contact, evaluated once for all slices.
+pub struct SpringAlongPath {
+    start_mm: f64,
+    spacing_mm: f64,
+    /// Compliance at evenly spaced places, mm²/N.
+    mm2_per_n: Vec<f64>,
+}
+
+impl SpringAlongPath {
+    /// At places as far apart as `count` (≥ 2) from A to E, from the last of them that lies no less than `beyond_mm` before A to the
+    /// first as far after E.
+    pub fn new<E>(
+        path: &PathOfContact,
+        count: usize,
+        beyond_mm: [f64; 2],
+        mut n_per_mm2: impl FnMut(f64) -> Result<f64, E>,
+    ) -> Result<Self, E> {
+        let spacing_mm = (path.end_mm - path.start_mm) / (count - 1) as f64;
+        let [before, after] = beyond_mm.map(|beyond| (beyond / spacing_mm).ceil() as usize);
+        let start_mm = path.start_mm - before as f64 * spacing_mm;
+        let at = |j: usize| path.start_mm + spacing_mm * (j as f64 - before as f64);
+        let mm2_per_n = (0..before + count + after).map(|j| n_per_mm2(at(j)).map(|k| 1.0 / k));
+        Ok(Self { start_mm, spacing_mm, mm2_per_n: mm2_per_n.collect::<Result<_, E>>()? })
+    }
+
+    /// Compliance of the teeth with the theoretical contact point at `position_mm`, mm²/N; beyond its places, that there.
+    pub fn mm2_per_n(&self, position_mm: f64) -> f64 {
+        let last = self.mm2_per_n.len() - 1;
+        let place = ((position_mm - self.start_mm) / self.spacing_mm).clamp(0.0, last as f64);
+        let before = (place as usize).min(last - 1);
+        let weight = place - before as f64;
+        self.mm2_per_n[before] + weight * (self.mm2_per_n[before + 1] - self.mm2_per_n[before])
+    }
+}
+
+/// How the teeth of a slice yield, and where its load acts.
+pub struct SliceSprings<'a> {
+    /// The gears.
+    pub pair: &'a GearPair,
+    /// Compliance of the teeth.
+    pub along_path: &'a SpringAlongPath,
+    /// Approach in its tangent frame over the transmission error, as torque over load and base radius: 1 on the line of action.
+    pub lever_ratio: &'a (dyn Fn(f64) -> f64 + Sync),
+}
+
+/// The state of one phase.
+struct LoadedPosition<'a> {
+    position_mm: f64,
+    contacts: Vec<SliceContact>,
+    pairs: Vec<MeshedPair<'a>>,
+    /// Of each contact.
+    heated_places: Vec<HeatedPlace>,
+    /// Of each contact: how far its load, counted over the whole slice, slides, mm.
+    sliding_mm: Vec<f64>,
+    /// The teeth that the contacts belong to, where slices are coupled.
+    teeth: Option<CoupledTeeth>,
+    equilibrium: Equilibrium,
+}
+
+/// Phases that collect wear together.
+struct Group<'a> {
+    loaded_positions: Vec<LoadedPosition<'a>>,
+    collected: Collected,
+    points: WornPoints,
+}
+
+/// All phases of a sliced pair, ready to be evaluated on ever newly worn flanks.
+pub struct SlicedCycle<'a> {
+    groups: Vec<Group<'a>>,
+    sliced: &'a SlicedTeeth,
+    path: &'a PathOfContact,
+    /// Points of each flank's slice.
+    points: PerGear<usize>,
+    /// Rows from A to E that are observed.
+    positions: usize,
+    line_load_n_per_mm: f64,
+    /// How far the bodies that all pairs share yield under the whole load, mm.
+    bodies_mm: f64,
+}
+
+/// What a slice's flanks have lost.
+fn of_slice(field: PerGear<&[f64]>, points: PerGear<usize>, slice: usize) -> PerGear<&[f64]> {
+    PerGear::from_fn(|gear| &field[gear][slice * points[gear]..(slice + 1) * points[gear]])
+}
+
+impl<'a> SlicedCycle<'a> {
+    /// Prepares every contact at every phase; `positions` rows from A to E are observed.
+    #[allow(clippy::too_many_arguments, reason = "each of them is a part of the physics")]
+    pub fn new(
+        flanks: Flanks<'a>,
+        surface: &dyn ContactSurface,
+        sliced: &'a SlicedTeeth,
+        phases: &[SlicedPosition],
+        springs: &SliceSprings<'_>,
+        path: &'a PathOfContact,
+        positions: usize,
+        line_load_n_per_mm: f64,
+    ) -> Self {
+        let points = flanks.grid.map(|grid| grid.len());
+        let slices = sliced.slices.count();
+        let groups = phases
+            .par_chunks(phases.len().div_ceil(GROUPS).max(1))
+            .map(|phases| Group {
+                loaded_positions: phases
+                    .iter()
+                    .map(|phase| LoadedPosition::new(flanks, surface, sliced, phase, springs))
+                    .collect(),
+                collected: Collected::new(points.map(|points| slices * points)),
+                points: WornPoints::default(),
+            })
+            .collect();
+        Self { groups, sliced, path, points, positions, line_load_n_per_mm, bodies_mm: 0.0 }
+    }
+
+    /// The same on gear bodies that yield by `bodies_mm` under the whole load.
+    pub(crate) fn on_bodies_that_yield_by(self, bodies_mm: f64) -> Self {
+        Self { bodies_mm, ..self }
+    }
+
+    /// What all line loads together must be: the mean line load in every slice.
+    fn sum_of_line_loads(&self) -> f64 {
+        self.line_load_n_per_mm * self.sliced.slices.count() as f64
+    }
+}
+
+impl MeshCycle for SlicedCycle<'_> {
+    fn evaluate(
+        &mut self,
+        lost: LostMaterial<'_>,
+        wear: &WearModel<'_>,
+        depth_mm: &mut PerGear<Vec<f64>>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        let (load, points) = (self.sum_of_line_loads(), self.points);
+        self.groups.par_iter_mut().for_each(|group| {
+            group.evaluate(lost.removed_mm, points, load, wear, stopped);
+        });
+        Collected::sum(self.groups.iter().map(|group| &group.collected), depth_mm)
+    }
+
+    fn reset(&mut self) {
+        self.groups.par_iter_mut().flat_map(|group| &mut group.loaded_positions).for_each(|loaded| {
+            loaded.pairs.iter_mut().for_each(MeshedPair::reset);
+            loaded.teeth.iter_mut().for_each(CoupledTeeth::straighten);
+        });
+    }
+
+    fn observe(&mut self, lost: LostMaterial<'_>) -> Result<CycleObservation, EquilibriumError> {
+        let removed_mm = lost.removed_mm;
+        let slices = self.sliced.slices.count();
+        let zeros = || removed_mm.map(|flank| vec![0.0; flank.len()]);
+        let (mut pressure_mpa, mut sliding_mm) = (zeros(), zeros());
+        let mut sweep = Sweep::default();
+        let mut phases = Vec::new();
+        let mut greatest_pressure = GreatestPressure::default();
+        let mut sliding_work_n = 0.0;
+        let mut of_slices = vec![GreatestPressure::default(); slices];
+        for loaded in self.groups.iter().flat_map(|group| &group.loaded_positions) {
+            for ((contact, pair), sliding) in loaded.contacts.iter().zip(&loaded.pairs).zip(&loaded.sliding_mm) {
+                let own = of_slice(removed_mm, self.points, contact.slice);
+                let footprint = pair.contact.footprint();
+                // A part of a slice has its pressure where the line of contact ends, and not in the middle of the slice.
+                let is_whole = contact.part == ContactPart::WHOLE;
+                let greatest = if is_whole { &mut of_slices[contact.slice] } else { &mut greatest_pressure };
+                if (self.path.start_mm..=self.path.end_mm).contains(&contact.cell.position_mm) {
+                    greatest.note(footprint.peak_pressure_mpa, footprint.at_sharp_edge);
+                }
+                for gear in Gear::BOTH {
+                    let range = contact.slice * self.points[gear]..(contact.slice + 1) * self.points[gear];
+                    let (pressure, sliding) = (&mut pressure_mpa[gear][range.clone()], &mut sliding_mm[gear][range]);
+                    let greatest_mpa = note_contact_of_points(&*pair.contact, gear, own, &mut sweep, pressure, sliding);
+                    greatest.note(greatest_mpa, footprint.at_sharp_edge);
+                }
+                sliding_work_n += pair.normal_load_n_per_mm() * sliding;
+            }
+            phases.push(loaded.observe(slices, self.line_load_n_per_mm, self.bodies_mm));
+        }
+        let mesh = SlicedMesh::new(&phases, slices, self.path.base_pitch_mm);
+        let positions = mesh.along_path(self.path, self.positions, self.line_load_n_per_mm);
+        greatest_pressure.note_slices(&of_slices);
+        Ok(CycleObservation {
+            positions,
+            greatest_pressure,
+            pressure_mpa,
+            sliding_mm,
+            sliding_work_n: Some(sliding_work_n),
+            slices: Some(mesh),
+        })
+    }
+}
+
+impl Group<'_> {
+    fn evaluate(
+        &mut self,
+        removed_mm: PerGear<&[f64]>,
+        points: PerGear<usize>,
+        load: f64,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) {
+        self.collected.clear();
+        for loaded in &mut self.loaded_positions {
+            let solved =
+                if stopped() { Err(EquilibriumError::Interrupted) } else { loaded.solve(removed_mm, points, load) };
+            if !self.collected.take(solved) {
+                return;
+            }
+            let contacts = loaded.contacts.iter().zip(&loaded.heated_places);
+            for ((contact, place), pair) in contacts.zip(&loaded.pairs) {
+                let own = of_slice(removed_mm, points, contact.slice);
+                let first = points.map(|points| contact.slice * points);
+                self.points.wear(wear, (pair, place), own, first, &mut self.collected.depth_mm);
+            }
+        }
+    }
+}
+
+impl<'a> LoadedPosition<'a> {
+    fn new(
+        flanks: Flanks<'a>,
+        surface: &dyn ContactSurface,
+        sliced: &SlicedTeeth,
+        phase: &SlicedPosition,
+        springs: &SliceSprings<'_>,
+    ) -> Self {
+        let compliance = |contact: &SliceContact| sliced.mm2_per_n(contact, springs.along_path);
+        let teeth = sliced.coupled_teeth(springs.pair, &phase.contacts, compliance);
+        let pairs = phase
+            .contacts
+            .iter()
+            .map(|contact| {
+                let position_mm = contact.cell.position_mm;
+                let touching = surface.pair(flanks, position_mm, Some(contact.cell));
+                let touching = PartOfSlice::of(touching, contact.part);
+                // Where slices are coupled the teeth bend beside the pairs, not in them.
+                let teeth = if teeth.is_some() { f64::INFINITY } else { contact.part.of_width / compliance(contact) };
+                MeshedPair::on_lever(touching, teeth, (springs.lever_ratio)(position_mm))
+            })
+            .collect();
+        Self {
+            position_mm: phase.position_mm,
+            contacts: phase.contacts.clone(),
+            pairs,
+            heated_places: phase
+                .contacts
+                .iter()
+                .map(|contact| HeatedPlace::new(flanks, contact.cell).of_part(contact.part.of_width))
+                .collect(),
+            sliding_mm: phase
+                .contacts
+                .iter()
+                .map(|SliceContact { cell, part, .. }| {
+                    let slid_mm = flanks.geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
+                    part.of_passage / part.of_width * slid_mm
+                })
+                .collect(),
+            teeth,
+            equilibrium: Equilibrium::default(),
+        }
+    }
+
+    /// Equilibrium on the flanks as they are now.
+    fn solve(
+        &mut self,
+        removed_mm: PerGear<&[f64]>,
+        points: PerGear<usize>,
+        load: f64,
+    ) -> Result<Work, EquilibriumError> {
+        let Self { position_mm, contacts, pairs, teeth, .. } = self;
+        let removed_mm = |k: usize| of_slice(removed_mm, points, contacts[k].slice);
+        let (equilibrium, work) = settled(pairs, removed_mm, |pairs| match teeth {
+            None => balance(pairs, load, *position_mm),
+            Some(teeth) => balance_on_teeth(pairs, teeth, load, *position_mm),
+        })?;
+        self.equilibrium = equilibrium;
+        Ok(work)
+    }
+
+    /// What is seen under a mean load of `line_load_n_per_mm` over the `slices`.
+    fn observe(&self, slices: usize, line_load_n_per_mm: f64, bodies_mm: f64) -> ObservedSlicedPosition {
+        let total: f64 = self.pairs.iter().map(|pair| pair.response.line_load_n_per_mm).sum();
+        let of_teeth_n_per_mm2 = self.equilibrium.n_per_mm2 / slices as f64;
+        let contacts = self.contacts.iter().zip(&self.pairs).map(|(contact, pair)| ObservedContact {
+            tooth: contact.tooth,
+            slice: contact.slice,
+            part_of_width: contact.part.of_width,
+            line_load_n_per_mm: pair.response.line_load_n_per_mm,
+            footprint: pair.contact.footprint(),
+        });
+        ObservedSlicedPosition {
+            position_mm: self.position_mm,
+            transmission_error_mm: self.equilibrium.transmission_error_mm + bodies_mm,
+            stiffness_n_per_mm2: Some(in_series(of_teeth_n_per_mm2, bodies_mm / line_load_n_per_mm)),
+            load_imbalance: total / (line_load_n_per_mm * slices as f64) - 1.0,
+            contacts: contacts.collect(),
+        }
+    }
+}

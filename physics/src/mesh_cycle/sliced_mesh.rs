@@ -1,0 +1,226 @@
+//! What is observed of the mesh of a sliced pair: one tooth, slice by slice, from its first touch to its last.
+//!
+//! The phases of one base pitch hold all of it: tooth k at a phase is the reference tooth k base pitches later, and the
+//! transmission error is the same in every base pitch.
+
+use serde::{Deserialize, Serialize};
+
+use super::PositionObservation;
+use crate::contact::Footprint;
+use crate::gear::path_of_contact::PathOfContact;
+
+/// A slice in contact, as observed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ObservedContact {
+    /// Base pitches ahead of the reference tooth.
+    pub tooth: i32,
+    /// Which slice.
+    pub slice: usize,
+    /// Part of its width that is in contact.
+    pub part_of_width: f64,
+    /// Load, N per mm of its whole width.
+    pub line_load_n_per_mm: f64,
+    /// Its contact.
+    pub footprint: Footprint,
+}
+
+/// A phase, as observed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ObservedSlicedPosition {
+    /// Position of the reference tooth in the middle of the face width.
+    pub position_mm: f64,
+    /// Approach of the gears along the line of action.
+    pub transmission_error_mm: f64,
+    /// Change of the mean line load with it, N/mm²; `None` where a model does not give it.
+    pub stiffness_n_per_mm2: Option<f64>,
+    /// Sum of all line loads over what it should be, less one.
+    pub load_imbalance: f64,
+    /// All slices in contact.
+    pub contacts: Vec<ObservedContact>,
+}
+
+/// The mesh of one tooth, and the base pitch that tells it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SlicedMesh {
+    /// Slices over the face width.
+    pub slices: usize,
+    /// Positions of the tooth in the middle of the face width, evenly spaced, from its first touch to its last.
+    pub position_mm: Vec<f64>,
+    /// Part of the width of each slice that is in contact at each position, position after position; 0 without contact.
+    pub part_of_width: Vec<f64>,
+    /// Its load, N per mm of its whole width.
+    pub line_load_n_per_mm: Vec<f64>,
+    /// Its greatest pressure, MPa.
+    pub peak_pressure_mpa: Vec<f64>,
+    /// Half the extent of its contact strip, mm.
+    pub half_width_mm: Vec<f64>,
+    /// Whether a sharp tip edge cuts its contact off.
+    pub at_sharp_edge: Vec<bool>,
+    /// Transmission error over one base pitch, at evenly spaced phases: the first is that of `first_phase_mm`.
+    pub transmission_error_mm: Vec<f64>,
+    /// Mesh stiffness there, N/mm²; empty where a model does not give it.
+    pub stiffness_n_per_mm2: Vec<f64>,
+    /// Position of the tooth at the first phase.
+    pub first_phase_mm: f64,
+    /// The base pitch.
+    pub base_pitch_mm: f64,
+    /// Slices within A–E at each phase, all teeth together and parts as such, whether they carry load or not.
+    pub contacts_at_phases: Vec<f64>,
+    /// Greatest imbalance of loads at any phase.
+    pub load_imbalance: f64,
+}
+
+/// The first and the last row with a slice in contact, where the first tooth of the rows is `first_tooth`.
+fn first_and_last(phases: &[ObservedSlicedPosition], first_tooth: i32) -> [usize; 2] {
+    let rows = phases.iter().enumerate().flat_map(|(j, phase)| {
+        phase.contacts.iter().map(move |contact| (contact.tooth - first_tooth) as usize * phases.len() + j)
+    });
+    rows.fold([usize::MAX, 0], |[first, last], row| [first.min(row), last.max(row)])
+}
+
+impl SlicedMesh {
+    /// From the phases of one base pitch, in order (at least one).
+    pub fn new(phases: &[ObservedSlicedPosition], slices: usize, base_pitch_mm: f64) -> Self {
+        let count = phases.len();
+        let teeth = || phases.iter().flat_map(|phase| phase.contacts.iter().map(|contact| contact.tooth));
+        let (first, last) = (teeth().min().unwrap_or(0), teeth().max().unwrap_or(0));
+        let rows = (last - first + 1) as usize * count;
+        let spacing = base_pitch_mm / count as f64;
+        let position_mm: Vec<f64> = (0..rows)
+            .map(|row| phases[0].position_mm + f64::from(first) * base_pitch_mm + row as f64 * spacing)
+            .collect();
+        let field = || vec![0.0; rows * slices];
+        let mut mesh = Self {
+            slices,
+            position_mm,
+            part_of_width: field(),
+            line_load_n_per_mm: field(),
+            peak_pressure_mpa: field(),
+            half_width_mm: field(),
+            at_sharp_edge: vec![false; rows * slices],
+            transmission_error_mm: phases.iter().map(|phase| phase.transmission_error_mm).collect(),
+            stiffness_n_per_mm2: phases.iter().filter_map(|phase| phase.stiffness_n_per_mm2).collect(),
+            first_phase_mm: phases[0].position_mm,
+            base_pitch_mm,
+            contacts_at_phases: phases
+                .iter()
+                .map(|phase| phase.contacts.iter().map(|contact| contact.part_of_width).sum())
+                .collect(),
+            load_imbalance: phases.iter().map(|phase| phase.load_imbalance.abs()).fold(0.0, f64::max),
+        };
+        for (j, phase) in phases.iter().enumerate() {
+            for contact in &phase.contacts {
+                let row = (contact.tooth - first) as usize * count + j;
+                let place = row * slices + contact.slice;
+                mesh.part_of_width[place] = contact.part_of_width;
+                mesh.line_load_n_per_mm[place] = contact.line_load_n_per_mm;
+                mesh.peak_pressure_mpa[place] = contact.footprint.peak_pressure_mpa;
+                mesh.half_width_mm[place] = contact.footprint.half_width_mm;
+                mesh.at_sharp_edge[place] = contact.footprint.at_sharp_edge;
+            }
+        }
+        mesh.between(first_and_last(phases, first))
+    }
+
+    /// The rows `first` to `last` alone.
+    fn between(mut self, [first, last]: [usize; 2]) -> Self {
+        let n = self.slices;
+        self.position_mm = self.position_mm[first..=last].to_vec();
+        let Self { part_of_width, line_load_n_per_mm, peak_pressure_mpa, half_width_mm, .. } = &mut self;
+        for field in [part_of_width, line_load_n_per_mm, peak_pressure_mpa, half_width_mm] {
+            *field = field[first * n..(last + 1) * n].to_vec();
+        }
+        self.at_sharp_edge = self.at_sharp_edge[first * n..(last + 1) * n].to_vec();
+        self
+    }
+
+    /// Load of each slice on average over the mesh, all teeth together, N per mm of face width.
+    pub(crate) fn mean_line_loads_n_per_mm(&self) -> Vec<f64> {
+        let phases = self.transmission_error_mm.len() as f64;
+        let rows = self.line_load_n_per_mm.chunks_exact(self.slices);
+        let mut sums = vec![0.0; self.slices];
+        for row in rows {
+            sums.iter_mut().zip(row).for_each(|(sum, load)| *sum += load / phases);
+        }
+        sums
+    }
+
+    /// Face load factor K_Hβ: the greatest load of any slice over the mean of all, both averaged over the mesh (ISO 6336-1, 7).
+    pub fn face_load_factor(&self) -> f64 {
+        let loads = self.mean_line_loads_n_per_mm();
+        let mean = loads.iter().sum::<f64>() / loads.len() as f64;
+        loads.iter().copied().fold(0.0, f64::max) / mean
+    }
+
+    /// Half of the peak-to-peak value that each of the first `count` harmonics of the tooth mesh contributes to the transmission
+    /// error, mm:
+    ///
+    /// ```text
+    /// A_k = 2/m |Σ δ_j exp(2πi k j/m)|
+    /// ```
+    pub fn mesh_orders_mm(&self, count: usize) -> Vec<f64> {
+        let m = self.transmission_error_mm.len();
+        (1..=count)
+            .map(|k| {
+                let turn = |j: usize| std::f64::consts::TAU * ((k * j) % m) as f64 / m as f64;
+                let (cosine, sine) =
+                    self.transmission_error_mm.iter().enumerate().fold((0.0, 0.0), |(c, s), (j, te)| {
+                        let (sin, cos) = turn(j).sin_cos();
+                        (c + te * cos, s + te * sin)
+                    });
+                // The last order that the phases tell is its own mirror image.
+                let share = if 2 * k == m { 1.0 } else { 2.0 };
+                if 2 * k > m { 0.0 } else { share * f64::hypot(cosine, sine) / m as f64 }
+            })
+            .collect()
+    }
+
+    /// Greatest change of the transmission error from one phase to the next, mm.
+    pub fn greatest_step_mm(&self) -> f64 {
+        let errors = &self.transmission_error_mm;
+        let next = errors.iter().cycle().skip(1);
+        errors.iter().zip(next).map(|(here, there)| (there - here).abs()).fold(0.0, f64::max)
+    }
+
+    /// The tooth as a whole at `count` positions of its middle from A to E, between those observed: all slices together under the
+    /// whole line load `line_load_n_per_mm`.
+    pub fn along_path(&self, path: &PathOfContact, count: usize, line_load_n_per_mm: f64) -> Vec<PositionObservation> {
+        path.evenly_mm(count).into_iter().map(|at| self.at(at, line_load_n_per_mm)).collect()
+    }
+
+    fn at(&self, position_mm: f64, line_load_n_per_mm: f64) -> PositionObservation {
+        let m = self.transmission_error_mm.len();
+        let spacing = self.base_pitch_mm / m as f64;
+        let phase = (position_mm - self.first_phase_mm) / spacing;
+        let over_phases = |values: &[f64]| {
+            let of = |j: f64| values[j.rem_euclid(m as f64) as usize % m];
+            of(phase.floor()) + (phase - phase.floor()) * (of(phase.floor() + 1.0) - of(phase.floor()))
+        };
+        let row = (position_mm - self.position_mm[0]) / spacing;
+        let between = |f: &dyn Fn(usize) -> f64, row: f64| {
+            let of = |row: f64| if row >= 0.0 && row < self.position_mm.len() as f64 { f(row as usize) } else { 0.0 };
+            of(row.floor()) + (row - row.floor()) * (of(row.floor() + 1.0) - of(row.floor()))
+        };
+        let slices = |row: usize| row * self.slices..(row + 1) * self.slices;
+        let greatest = |field: &[f64], row: usize| field[slices(row)].iter().copied().fold(0.0, f64::max);
+        // The greatest pressure of a row is not defined where it is that of a slice at a sharp edge.
+        let is_sharp = |row: usize| {
+            let most = slices(row).max_by(|&a, &b| self.peak_pressure_mpa[a].total_cmp(&self.peak_pressure_mpa[b]));
+            most.is_some_and(|place| self.at_sharp_edge[place])
+        };
+        let sharp = |row: usize| if is_sharp(row) { 1.0 } else { 0.0 };
+        let load = |row: usize| self.line_load_n_per_mm[slices(row)].iter().sum::<f64>() / self.slices as f64;
+        PositionObservation {
+            position_mm,
+            transmission_error_mm: over_phases(&self.transmission_error_mm),
+            stiffness_n_per_mm2: (self.stiffness_n_per_mm2.len() == m).then(|| over_phases(&self.stiffness_n_per_mm2)),
+            load_share: between(&load, row) / line_load_n_per_mm,
+            load_imbalance: self.load_imbalance,
+            footprint: Footprint {
+                peak_pressure_mpa: between(&|row| greatest(&self.peak_pressure_mpa, row), row),
+                half_width_mm: between(&|row| greatest(&self.half_width_mm, row), row),
+                at_sharp_edge: between(&sharp, row) > 0.0,
+            },
+        }
+    }
+}

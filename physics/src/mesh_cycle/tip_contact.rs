@@ -1,0 +1,122 @@
+//! How far before A and after E a tooth pair may touch.
+//!
+//! Under load the pairs in mesh yield, the gears approach each other by the transmission error δ, and the next pair touches
+//! before its theoretical contact point has reached A: at its mate's tip edge, beside the line of action. After E the same
+//! happens at the pinion's tip edge. With the theoretical contact point a distance s before A, the tangent frame of that
+//! place still holds both involutes; only the wheel's flank begins at its tip edge, at
+//!
+//! ```text
+//! along  ≈ s ρ₂/r_b2          gap there ≈ along²/(2R)          contact where the gap < δ
+//! ```
+//!
+//! so that contact at a tip edge needs no model of its own: it is contact at the end of the strip, with the true gap, tip
+//! rounding, relief and wear included.
+//!
+//! The contact's normal is that of the mate's flank where the edge touches it, turned from the line of action by ε
+//! ([`crate::gear::tip_touch`]). Before A it is a tangent of the pinion's base circle like any other, and the load's lever on the
+//! pinion is r_b1. After E it is a tangent of the wheel's base circle, and with its lever l on the pinion
+//!
+//! ```text
+//! δ = (approach along the normal) r_b1/l          torque = F l
+//! ```
+//!
+//! some hundredths less than r_b1 ([`OnLever`]). Gaps of the tangent frame are measured along the line of action, and are by 1/cos ε
+//! wider than along the normal ([`approach_ratio`]). For sliding, the component along the tangent is (ω₁ + ω₂)(C − ξ) at every place of
+//! the frame, and that along the turned flank differs from it by along²/(ρ (C − ξ)) − ½ (along/ρ)², less than one hundredth.
+//!
+//! Source: R. G. Munro, L. Morrish and D. Palmer, "Gear transmission error outside the normal path of contact due to corner
+//! and top contact", *Proc. Inst. Mech. Eng. C* 213 (1999) 389–400, for the phenomenon.
+
+use crate::contact::{Footprint, PairContact, PointContact, Response, Sweep};
+use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks};
+
+/// Steps in which the path is walked, per base pitch.
+const STEPS_IN_PITCH: f64 = 1000.0;
+
+/// How far before A and after E the tip edges of unworn, unmodified flanks are nearer to the mate than `approach_mm`, mm of
+/// path.
+pub fn reach_mm(pair: &GearPair, approach_mm: f64) -> [f64; 2] {
+    let path = &pair.path;
+    let [before, after] = pair.farthest_touch_mm();
+    let ends = [(Gear::Wheel, path.start_mm, -1.0, before), (Gear::Pinion, path.end_mm, 1.0, after)];
+    ends.map(|(tip_of, end_mm, outwards, most)| {
+        let step = path.base_pitch_mm / STEPS_IN_PITCH;
+        let steps = (most / step) as usize;
+        let touches = |k: &usize| tip_gap_mm(pair, tip_of, end_mm + outwards * *k as f64 * step) <= approach_mm;
+        (1..=steps).take_while(touches).last().unwrap_or(0) as f64 * step
+    })
+}
+
+/// Gap between the tip edge of a gear and its mate's flank, along the line of action, with the theoretical contact point at
+/// `position_mm`.
+fn tip_gap_mm(pair: &GearPair, tip_of: Gear, position_mm: f64) -> f64 {
+    let (_, tip_rho) = pair.flank_limits_mm(tip_of);
+    let edge = pair.in_tangent_frame(tip_of, tip_rho, position_mm);
+    edge.drop_mm + pair.at_along(tip_of.mate(), -edge.along_mm, position_mm).1
+}
+
+/// l/(r_b1 cos ε): approach in the tangent frame over transmission error with the theoretical contact point at `position_mm`.
+pub(crate) fn approach_ratio(pair: &GearPair, position_mm: f64) -> f64 {
+    let touch = pair.touch(position_mm);
+    pair.pinion_lever_ratio(&touch) / touch.turned_rad.cos()
+}
+
+/// A contact whose load has another lever on the pinion than r_b1: approach and load are reckoned as the transmission error and
+/// the load along the line of action that go with them.
+pub struct OnLever<'a> {
+    /// The contact along its own normal.
+    pub contact: Box<dyn PairContact + 'a>,
+    /// [`approach_ratio`].
+    pub ratio: f64,
+}
+
+impl PairContact for OnLever<'_> {
+    fn set_removed(&mut self, removed_mm: PerGear<&[f64]>) {
+        self.contact.set_removed(removed_mm);
+    }
+
+    fn touch_mm(&self) -> f64 {
+        self.contact.touch_mm() / self.ratio
+    }
+
+    fn load_at(&mut self, indentation_mm: f64) -> Response {
+        let along_normal = self.contact.load_at(self.ratio * indentation_mm);
+        Response {
+            line_load_n_per_mm: self.ratio * along_normal.line_load_n_per_mm,
+            stiffness_n_per_mm2: self.ratio * self.ratio * along_normal.stiffness_n_per_mm2,
+        }
+    }
+
+    fn further_approach_mm(&self, line_load_n_per_mm: f64) -> (f64, f64) {
+        let (approach, compliance) = self.contact.further_approach_mm(line_load_n_per_mm / self.ratio);
+        (approach / self.ratio, compliance / (self.ratio * self.ratio))
+    }
+
+    fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64 {
+        self.contact.ample_indentation_mm(line_load_n_per_mm / self.ratio) / self.ratio
+    }
+
+    fn window_suffices(&mut self) -> bool {
+        self.contact.window_suffices()
+    }
+
+    fn widen(&mut self) {
+        self.contact.widen();
+    }
+
+    fn reset(&mut self) {
+        self.contact.reset();
+    }
+
+    fn sweep(&self, gear: Gear, removed_mm: PerGear<&[f64]>, sweep: &mut Sweep) {
+        self.contact.sweep(gear, removed_mm, sweep);
+    }
+
+    fn contact_of_points(&self, gear: Gear, removed_mm: PerGear<&[f64]>) -> Vec<PointContact> {
+        self.contact.contact_of_points(gear, removed_mm)
+    }
+
+    fn footprint(&self) -> Footprint {
+        self.contact.footprint()
+    }
+}

@@ -1,0 +1,248 @@
+//! A pair with the wear it has so far: what the steps of a wear run work on.
+//!
+//! Most models keep what each flank point has lost ([`OnFlankPoints`]); finite elements keep it at the nodes of their flanks
+//! ([`OnFlankNodes`]), the simplified model of helical gears at the contact points themselves ([`super::simplified`]).
+
+use super::CycleObservation;
+use crate::gear::{Gear, PerGear};
+use crate::mesh_cycle::{LostMaterial, MeshCycle, Work, condensed::CondensedCycle, load_sharing::EquilibriumError};
+use crate::reference::linear_means::weighted_sum;
+use crate::wear::WearModel;
+use serde::{Deserialize, Serialize};
+
+/// State kept at a snapshot.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Snapshot {
+    /// Pinion revolutions so far.
+    pub revolutions: f64,
+    /// Wear depth of each flank point, slice after slice.
+    pub wear_mm: PerGear<Vec<f64>>,
+    /// What each flank point loses in the next mesh.
+    pub depth_per_mesh_mm: PerGear<Vec<f64>>,
+    /// Where flanks wear at nodes of finite elements: what these have lost. Flank points lie on the involute, and tell it not where tips are rounded.
+    pub lost_at_nodes: Option<PerGear<LostArea>>,
+    /// The mesh cycle of the flanks as they are.
+    pub cycle: CycleObservation,
+}
+
+impl Snapshot {
+    /// The greatest wear depth of any flank point of a gear.
+    pub fn deepest_mm(&self, gear: Gear) -> f64 {
+        self.wear_mm[gear].iter().copied().fold(0.0, f64::max)
+    }
+
+    /// What each flank point of a gear has lost since the snapshot `before`, slice after slice.
+    pub fn lost_since_mm(&self, before: &Self, gear: Gear) -> Vec<f64> {
+        self.wear_mm[gear].iter().zip(&before.wear_mm[gear]).map(|(now, before)| now - before).collect()
+    }
+}
+
+/// ∫ h ds over a flank.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LostArea {
+    /// So far, mm².
+    pub wear_mm2: f64,
+    /// In the next mesh, mm².
+    pub per_mesh_mm2: f64,
+}
+
+/// A pair that wears.
+pub trait WearingPair {
+    /// Solves one mesh cycle on the flanks as they are, and keeps what they lose in one mesh by `wear`. `stopped` is asked now
+    /// and then whether to give up.
+    fn evaluate(&mut self, wear: &WearModel<'_>, stopped: &(dyn Fn() -> bool + Sync))
+    -> Result<Work, EquilibriumError>;
+
+    /// What [`CondensedCycle::linearise_anew`] says, after an evaluation on the same flanks.
+    fn linearise_anew(
+        &mut self,
+        _wear: &WearModel<'_>,
+        _stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Work>, EquilibriumError> {
+        Ok(None)
+    }
+
+    /// Lets the flanks lose that in so many meshes of each gear's teeth.
+    fn wear_for(&mut self, meshes: PerGear<f64>);
+
+    /// Is again as if never evaluated: the next evaluation finds, to the bit, what that of a pair made anew finds whose flanks have
+    /// lost the same. Otherwise it depends in its last bits on where the last one ended.
+    fn reset(&mut self);
+
+    /// What each place of the flanks has lost, mm: as many places as [`Self::set_wear_mm`] takes and [`Self::depth_mm`] gives. Flank
+    /// points of most models, but the contact points of some.
+    fn wear_mm(&self) -> PerGear<Vec<f64>>;
+
+    /// What each flank point has lost, slice after slice, mm.
+    fn wear_at_points_mm(&self) -> PerGear<Vec<f64>>;
+
+    /// Takes the flanks to have lost this.
+    fn set_wear_mm(&mut self, wear_mm: &PerGear<Vec<f64>>);
+
+    /// What each place loses in one mesh, as the last evaluation found, mm.
+    fn depth_mm(&self, depth_mm: &mut PerGear<Vec<f64>>);
+
+    /// The state that the last evaluation found.
+    fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError>;
+}
+
+/// Flanks as rows of points, slice after slice, that a mesh cycle wears.
+pub struct OnFlankPoints<'a> {
+    cycle: Box<dyn MeshCycle + 'a>,
+    modification_mm: &'a PerGear<Vec<f64>>,
+    removed_mm: PerGear<Vec<f64>>,
+    wear_mm: PerGear<Vec<f64>>,
+    depth_mm: PerGear<Vec<f64>>,
+}
+
+impl<'a> OnFlankPoints<'a> {
+    /// Unworn flanks with their modifications.
+    pub fn new(cycle: Box<dyn MeshCycle + 'a>, modification_mm: &'a PerGear<Vec<f64>>) -> Self {
+        let zeros = || modification_mm.as_ref().map(|flank| vec![0.0; flank.len()]);
+        Self { cycle, modification_mm, removed_mm: modification_mm.clone(), wear_mm: zeros(), depth_mm: zeros() }
+    }
+}
+
+/// Both fields of what flanks have lost, borrowed.
+fn lost<'a>(removed_mm: &'a PerGear<Vec<f64>>, wear_mm: &'a PerGear<Vec<f64>>) -> LostMaterial<'a> {
+    LostMaterial { removed_mm: removed_mm.as_ref().map(Vec::as_slice), wear_mm: wear_mm.as_ref().map(Vec::as_slice) }
+}
+
+impl WearingPair for OnFlankPoints<'_> {
+    fn evaluate(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.cycle.evaluate(lost(&self.removed_mm, &self.wear_mm), wear, &mut self.depth_mm, stopped)
+    }
+
+    fn wear_for(&mut self, meshes: PerGear<f64>) {
+        for gear in Gear::BOTH {
+            let points = self.wear_mm[gear].iter_mut().zip(&mut self.removed_mm[gear]);
+            let rates = self.depth_mm[gear].iter().zip(&self.modification_mm[gear]);
+            for ((wear, removed), (depth, modification)) in points.zip(rates) {
+                *wear += meshes[gear] * depth;
+                *removed = modification + *wear;
+            }
+        }
+    }
+
+    fn reset(&mut self) {
+        self.cycle.reset();
+    }
+
+    fn wear_mm(&self) -> PerGear<Vec<f64>> {
+        self.wear_mm.clone()
+    }
+
+    fn wear_at_points_mm(&self) -> PerGear<Vec<f64>> {
+        self.wear_mm.clone()
+    }
+
+    fn set_wear_mm(&mut self, wear_mm: &PerGear<Vec<f64>>) {
+        for gear in Gear::BOTH {
+            self.wear_mm[gear].copy_from_slice(&wear_mm[gear]);
+            let points = self.removed_mm[gear].iter_mut().zip(&self.modification_mm[gear]);
+            for ((removed, modification), wear) in points.zip(&wear_mm[gear]) {
+                *removed = modification + wear;
+            }
+        }
+    }
+
+    fn depth_mm(&self, depth_mm: &mut PerGear<Vec<f64>>) {
+        depth_mm.clone_from(&self.depth_mm);
+    }
+
+    fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {
+        let cycle = self.cycle.observe(lost(&self.removed_mm, &self.wear_mm))?;
+        Ok(Snapshot {
+            revolutions,
+            wear_mm: self.wear_mm.clone(),
+            depth_per_mesh_mm: self.depth_mm.clone(),
+            lost_at_nodes: None,
+            cycle,
+        })
+    }
+}
+
+/// Flanks of finite elements, worn at their nodes; flank points are read between them.
+pub struct OnFlankNodes<'a> {
+    cycle: CondensedCycle<'a>,
+    /// Nominal radii of the flank points.
+    radius_mm: PerGear<Vec<f64>>,
+    wear_mm: PerGear<Vec<f64>>,
+    depth_mm: PerGear<Vec<f64>>,
+}
+
+impl<'a> OnFlankNodes<'a> {
+    /// Unworn flanks with points at the nominal radii `radius_mm`.
+    pub fn new(cycle: CondensedCycle<'a>, radius_mm: PerGear<Vec<f64>>) -> Self {
+        let zeros = || cycle.nodes().map(|nodes| vec![0.0; nodes.len()]);
+        let (wear_mm, depth_mm) = (zeros(), zeros());
+        Self { cycle, radius_mm, wear_mm, depth_mm }
+    }
+
+    /// What `at_nodes` is at the flank points.
+    fn at_points(&self, at_nodes: &PerGear<Vec<f64>>) -> PerGear<Vec<f64>> {
+        PerGear::from_fn(|gear| self.cycle.at_radii(gear, &at_nodes[gear], self.radius_mm[gear].iter().copied()))
+    }
+}
+
+impl WearingPair for OnFlankNodes<'_> {
+    fn evaluate(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Work, EquilibriumError> {
+        self.cycle.evaluate(lost(&self.wear_mm, &self.wear_mm), wear, &mut self.depth_mm, stopped)
+    }
+
+    fn linearise_anew(
+        &mut self,
+        wear: &WearModel<'_>,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Option<Work>, EquilibriumError> {
+        self.cycle.linearise_anew(lost(&self.wear_mm, &self.wear_mm), wear, &mut self.depth_mm, stopped)
+    }
+
+    fn wear_for(&mut self, meshes: PerGear<f64>) {
+        for gear in Gear::BOTH {
+            let nodes = self.wear_mm[gear].iter_mut().zip(&self.depth_mm[gear]);
+            nodes.for_each(|(wear, depth)| *wear += meshes[gear] * depth);
+        }
+    }
+
+    fn reset(&mut self) {
+        self.cycle.reset();
+    }
+
+    fn wear_mm(&self) -> PerGear<Vec<f64>> {
+        self.wear_mm.clone()
+    }
+
+    fn wear_at_points_mm(&self) -> PerGear<Vec<f64>> {
+        self.at_points(&self.wear_mm)
+    }
+
+    fn set_wear_mm(&mut self, wear_mm: &PerGear<Vec<f64>>) {
+        self.wear_mm.clone_from(wear_mm);
+    }
+
+    fn depth_mm(&self, depth_mm: &mut PerGear<Vec<f64>>) {
+        depth_mm.clone_from(&self.depth_mm);
+    }
+
+    fn snapshot(&mut self, revolutions: f64) -> Result<Snapshot, EquilibriumError> {
+        let mut cycle = self.cycle.observe(lost(&self.wear_mm, &self.wear_mm))?;
+        cycle.pressure_mpa = self.at_points(&cycle.pressure_mpa);
+        cycle.sliding_mm = self.at_points(&cycle.sliding_mm);
+        let (wear_mm, depth_per_mesh_mm) = (self.at_points(&self.wear_mm), self.at_points(&self.depth_mm));
+        let nodes = self.cycle.nodes();
+        let lost_at_nodes = PerGear::from_fn(|gear| LostArea {
+            wear_mm2: weighted_sum(&nodes[gear].share_mm, &self.wear_mm[gear]),
+            per_mesh_mm2: weighted_sum(&nodes[gear].share_mm, &self.depth_mm[gear]),
+        });
+        Ok(Snapshot { revolutions, wear_mm, depth_per_mesh_mm, lost_at_nodes: Some(lost_at_nodes), cycle })
+    }
+}

@@ -1,0 +1,39 @@
+//! Mean, standard deviation and quantiles of samples.
+
+/// The shares below quantiles.
+pub const SHARES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
+
+/// Σ x / n.
+pub fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    let count = values.clone().count();
+    values.sum::<f64>() / count as f64
+}
+
+/// √(Σ (x − x̄)² / (n − 1)); none of fewer than two.
+pub fn standard_deviation(values: &[f64]) -> Option<f64> {
+    let middle = mean(values.iter().copied());
+    let squares: f64 = values.iter().map(|value| (value - middle) * (value - middle)).sum();
+    (values.len() > 1).then(|| (squares / (values.len() - 1) as f64).sqrt())
+}
+
+/// The value below which a share of `sorted` lies, between two of them as far as the share is between theirs, i/(n − 1); none of none,
+/// or where it is infinite.
+pub fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
+    let place = share * (sorted.len().checked_sub(1)? as f64);
+    let (below, above) = (sorted[place.floor() as usize], sorted[place.ceil() as usize]);
+    let value = if below == above { below } else { below + (above - below) * place.fract() };
+    value.is_finite().then_some(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ver_of_a_few_numbers() {
+        let sorted = [1.0, 2.0, 4.0, 8.0, f64::INFINITY];
+        assert_eq!(SHARES.map(|share| quantile(&sorted, share)), [Some(1.2), Some(2.0), Some(4.0), Some(8.0), None]);
+        assert_eq!(quantile(&[], 0.5), None);
+        assert_eq!((standard_deviation(&[1.0, 3.0]), standard_deviation(&[1.0])), (Some(2.0_f64.sqrt()), None));
+    }
+}

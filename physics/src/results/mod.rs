@@ -1,0 +1,16 @@
+//! What was found, as plain records in the units of the output files: what reports, tables and tests read.
+//!
+//! The records of the studies (accuracy, sweep, compare, validation) are with them in `studies`.
+
+pub mod chemistry;
+pub mod drawing;
+pub mod error;
+pub mod fem_pair;
+pub mod fem_problem;
+pub mod life;
+pub mod lubrication;
+pub mod path_points;
+pub mod reported_by;
+pub mod root_stress;
+pub mod run;
+pub mod worn_pair;

@@ -1,0 +1,26 @@
+//! What a study of many runs keeps of each: the main figures, how they grew, and the wear over both flanks.
+
+use super::run::{HistoryRow, Summary};
+use crate::gear::PerGear;
+
+/// A run as a study of many keeps it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WornPair {
+    /// Its main figures.
+    pub summary: Summary,
+    /// One row per snapshot.
+    pub history: Vec<HistoryRow>,
+    /// Wear over both flanks at the end.
+    pub flanks: PerGear<WearProfile>,
+}
+
+/// Wear over a flank.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct WearProfile {
+    /// Radii of the points of the flank.
+    pub radius_mm: Vec<f64>,
+    /// Greatest over the face width at each radius.
+    pub wear_um: Vec<f64>,
+    /// Start of active profile and tip, by radius.
+    pub active_mm: [f64; 2],
+}

@@ -1,0 +1,290 @@
+//! From one evaluated state of a wearing pair to the next.
+//!
+//! Euler's method, the thesis's, takes what one evaluation found to hold for the whole step. Each pinion tooth meshes once per
+//! pinion turn, each wheel tooth z1/z2 times:
+//!
+//! ```text
+//! h1 ← h1 + Δn · dh1          h2 ← h2 + Δn · (z1/z2) · dh2
+//! ```
+//!
+//! Steps are shortened to end where a stretch does. Adaptive steps ([`crate::wear::stepping`]) see the rows of both gears as one
+//! state, in depth per pinion revolution.
+
+use serde::{Deserialize, Serialize};
+
+use super::settings::{AdaptiveMethod, Stepping};
+use crate::gear::{Gear, PerGear};
+use crate::mesh_cycle::wearing_pair::WearingPair;
+use crate::mesh_cycle::{Work, load_sharing::EquilibriumError};
+use crate::wear::WearModel;
+use crate::wear::stepping::{
+    Rate,
+    adaptive::{Adaptive, StepCounts},
+    spectral_radius::SpectralRadius,
+};
+
+/// A remainder of a step shorter than this part of it is not worth a step of its own.
+const NEGLIGIBLE_STEP: f64 = 1e-9;
+
+/// Where a step begins, and where it ends at the latest, in pinion revolutions.
+#[derive(Debug, Clone, Copy)]
+pub struct Stretch {
+    /// The pair is evaluated here.
+    pub from: f64,
+    /// Greater than `from`.
+    pub limit: f64,
+    /// Whether the pair must forget where it was ([`WearingPair::reset`]) before its evaluation at the end of the step: a run may go
+    /// on from there another time.
+    pub clean_start: bool,
+}
+
+/// What came of a step.
+#[derive(Debug)]
+pub struct Advanced {
+    /// Where the pair is now.
+    pub revolutions: f64,
+    /// Its evaluation there, with the work of the whole step.
+    pub evaluated: Result<Work, EquilibriumError>,
+}
+
+/// What a [`Stepper`] knows beside what it is made of.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct StepperState {
+    euler_steps: u64,
+    adaptive: Option<Adaptive>,
+}
+
+/// Takes wear steps.
+pub struct Stepper {
+    stepping: Stepping,
+    duration: f64,
+    /// Turns of the wheel per turn of the pinion.
+    wheel_meshes: f64,
+    euler_steps: u64,
+    /// Of adaptive steps, from the first on.
+    adaptive: Option<Box<AdaptiveSteps>>,
+}
+
+/// The integrator with the rows it works on.
+struct AdaptiveSteps {
+    integrator: Adaptive,
+    state: Vec<f64>,
+    slope: Vec<f64>,
+    wear_mm: PerGear<Vec<f64>>,
+    depth_mm: PerGear<Vec<f64>>,
+}
+
+impl Stepper {
+    /// Steps as asked for in a run of `duration` pinion revolutions.
+    pub fn new(stepping: Stepping, duration: f64, wheel_meshes: f64) -> Self {
+        Self { stepping, duration, wheel_meshes, euler_steps: 0, adaptive: None }
+    }
+
+    /// Load, speed or law are others from here on.
+    pub(crate) fn begin_phase(&mut self) {
+        if let Some(steps) = &mut self.adaptive {
+            steps.integrator.start_anew();
+        }
+    }
+
+    /// What the steps came to so far.
+    pub fn counts(&self) -> StepCounts {
+        match &self.adaptive {
+            Some(steps) => steps.integrator.counts(),
+            None => StepCounts { accepted: self.euler_steps, stages: self.euler_steps, ..StepCounts::default() },
+        }
+    }
+
+    /// Of adaptive steps: the estimated error of each gear's wear at the place where it is greatest, mm.
+    pub fn error_mm(&self) -> Option<PerGear<f64>> {
+        let steps = self.adaptive.as_ref()?;
+        let places = steps.wear_mm.pinion.len();
+        let (wear, error) = (steps.state.split_at(places), steps.integrator.accumulated_error().split_at(places));
+        let deepest = |wear: &[f64], error: &[f64]| {
+            wear.iter().zip(error).max_by(|a, b| a.0.total_cmp(b.0)).map_or(0.0, |(_, error)| error.abs())
+        };
+        Some(PerGear { pinion: deepest(wear.0, error.0), wheel: deepest(wear.1, error.1) })
+    }
+
+    /// What it knows after the last step.
+    pub fn state(&self) -> StepperState {
+        let adaptive = self.adaptive.as_ref().map(|steps| steps.integrator.clone());
+        StepperState { euler_steps: self.euler_steps, adaptive }
+    }
+
+    /// Goes on from there with a pair that has lost `wear_mm`; refuses a state of other rows.
+    pub fn resume(&mut self, state: StepperState, wear_mm: &PerGear<Vec<f64>>) -> bool {
+        self.euler_steps = state.euler_steps;
+        let places = wear_mm.as_ref().map(Vec::len).sum();
+        let fits = state.adaptive.as_ref().is_none_or(|integrator| integrator.accumulated_error().len() == places);
+        self.adaptive = state.adaptive.filter(|_| fits).map(|integrator| {
+            let state = Gear::BOTH.iter().flat_map(|&gear| &wear_mm[gear]).copied().collect();
+            let (wear_mm, depth_mm) = (wear_mm.clone(), wear_mm.clone());
+            Box::new(AdaptiveSteps { integrator, state, slope: Vec::new(), wear_mm, depth_mm })
+        });
+        fits
+    }
+
+    /// Takes `pair`, which is evaluated where `stretch` begins, one step on, and evaluates it there.
+    pub fn advance(
+        &mut self,
+        pair: &mut dyn WearingPair,
+        wear: &WearModel<'_>,
+        stretch: Stretch,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Advanced {
+        match self.stepping {
+            Stepping::Fixed { revolutions } => self.euler(revolutions, pair, wear, stretch, stopped),
+            Stepping::Adaptive { tolerance_mm, method } => {
+                let (duration, wheel_meshes) = (self.duration, self.wheel_meshes);
+                let steps = self
+                    .adaptive
+                    .get_or_insert_with(|| Box::new(AdaptiveSteps::new(pair, tolerance_mm, method, duration)));
+                steps.advance(PairRate { pair, wear, stopped, wheel_meshes, work: Work::default() }, stretch)
+            }
+        }
+    }
+
+    fn euler(
+        &mut self,
+        step: f64,
+        pair: &mut dyn WearingPair,
+        wear: &WearModel<'_>,
+        stretch: Stretch,
+        stopped: &(dyn Fn() -> bool + Sync),
+    ) -> Advanced {
+        let arrives = stretch.from + step * (1.0 + NEGLIGIBLE_STEP) >= stretch.limit;
+        let step = if arrives { stretch.limit - stretch.from } else { step };
+        pair.wear_for(PerGear { pinion: step, wheel: step * self.wheel_meshes });
+        self.euler_steps += 1;
+        let revolutions = if arrives { stretch.limit } else { stretch.from + step };
+        if stretch.clean_start {
+            pair.reset();
+        }
+        Advanced { revolutions, evaluated: evaluate(pair, wear, stopped) }
+    }
+}
+
+/// Evaluates `pair` where a step of Euler's method or the run ends.
+pub(super) fn evaluate(
+    pair: &mut dyn WearingPair,
+    wear: &WearModel<'_>,
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Result<Work, EquilibriumError> {
+    let mut work = pair.evaluate(wear, stopped)?;
+    work += pair.linearise_anew(wear, stopped)?.unwrap_or_default();
+    Ok(work)
+}
+
+impl AdaptiveSteps {
+    fn new(pair: &dyn WearingPair, tolerance_mm: f64, method: AdaptiveMethod, duration: f64) -> Self {
+        let wear_mm = pair.wear_mm();
+        let blocks = Gear::BOTH.map(|gear| wear_mm[gear].len());
+        let integrator = match method {
+            AdaptiveMethod::RungeKuttaChebyshev => Adaptive::chebyshev(tolerance_mm, duration, &blocks),
+            AdaptiveMethod::LinearlyImplicit => Adaptive::linearly_implicit(tolerance_mm, duration, &blocks),
+        };
+        let depth_mm = wear_mm.clone();
+        Self { integrator, state: Vec::new(), slope: Vec::new(), wear_mm, depth_mm }
+    }
+
+    fn advance(&mut self, rate: PairRate<'_>, stretch: Stretch) -> Advanced {
+        self.wear_mm = rate.pair.wear_mm();
+        self.state.clear();
+        self.state.extend(Gear::BOTH.iter().flat_map(|&gear| &self.wear_mm[gear]));
+        self.slope.resize(self.state.len(), 0.0);
+        rate.read_slope(&mut self.depth_mm, &mut self.slope);
+        let clean_start = stretch.clean_start;
+        let mut pair = OnRows { rate, wear_mm: &mut self.wear_mm, depth_mm: &mut self.depth_mm, clean_start };
+        let room = stretch.limit - stretch.from;
+        match self.integrator.step(&mut pair, &mut self.state, &mut self.slope, room) {
+            Ok(length) => {
+                let arrives = length >= room;
+                let revolutions = if arrives { stretch.limit } else { stretch.from + length };
+                Advanced { revolutions, evaluated: Ok(pair.rate.work) }
+            }
+            Err(failure) => Advanced { revolutions: stretch.from, evaluated: Err(failure) },
+        }
+    }
+}
+
+/// Depth of the waves that are probed on otherwise linear flanks, mm: well above the rounding of equilibria, well below any approach.
+const PROBE_MM: f64 = 1e-5;
+
+/// The fastest rate at which waves of wear of `pair`, which is evaluated, decay, per pinion revolution, and how many evaluations
+/// it took to find. `stopped` is asked now and then whether to give up.
+pub(super) fn fastest_decay(
+    pair: &mut dyn WearingPair,
+    wear: &WearModel<'_>,
+    wheel_meshes: f64,
+    stopped: &(dyn Fn() -> bool + Sync),
+) -> Result<(f64, u64), EquilibriumError> {
+    let mut wear_mm = pair.wear_mm();
+    let mut depth_mm = wear_mm.clone();
+    let state: Vec<f64> = Gear::BOTH.iter().flat_map(|&gear| &wear_mm[gear]).copied().collect();
+    let mut slope = vec![0.0; state.len()];
+    let rate = PairRate { pair, wear, stopped, wheel_meshes, work: Work::default() };
+    rate.read_slope(&mut depth_mm, &mut slope);
+    let mut rows = OnRows { rate, wear_mm: &mut wear_mm, depth_mm: &mut depth_mm, clean_start: false };
+    let mut radius = SpectralRadius::default();
+    let evaluations = radius.estimate(&mut rows, (&state, &slope), PROBE_MM)?;
+    Ok((radius.found(), evaluations))
+}
+
+/// A wearing pair whose mesh cycles are counted.
+struct PairRate<'a> {
+    pair: &'a mut dyn WearingPair,
+    wear: &'a WearModel<'a>,
+    stopped: &'a (dyn Fn() -> bool + Sync),
+    wheel_meshes: f64,
+    work: Work,
+}
+
+impl PairRate<'_> {
+    /// What the pair lost in its last evaluation, per pinion revolution.
+    fn read_slope(&self, depth_mm: &mut PerGear<Vec<f64>>, slope: &mut [f64]) {
+        self.pair.depth_mm(depth_mm);
+        let (pinion, wheel) = slope.split_at_mut(depth_mm.pinion.len());
+        pinion.copy_from_slice(&depth_mm.pinion);
+        wheel.iter_mut().zip(&depth_mm.wheel).for_each(|(slope, depth)| *slope = self.wheel_meshes * depth);
+    }
+}
+
+/// The same as rows of numbers.
+struct OnRows<'a, 'b> {
+    rate: PairRate<'a>,
+    wear_mm: &'b mut PerGear<Vec<f64>>,
+    depth_mm: &'b mut PerGear<Vec<f64>>,
+    /// Whether the next step begins from a clean start.
+    clean_start: bool,
+}
+
+impl Rate for OnRows<'_, '_> {
+    type Error = EquilibriumError;
+
+    fn evaluate(&mut self, state: &[f64], slope: &mut [f64]) -> Result<(), EquilibriumError> {
+        let (pinion, wheel) = state.split_at(self.wear_mm.pinion.len());
+        self.wear_mm.pinion.copy_from_slice(pinion);
+        self.wear_mm.wheel.copy_from_slice(wheel);
+        self.rate.pair.set_wear_mm(self.wear_mm);
+        self.rate.work += self.rate.pair.evaluate(self.rate.wear, self.rate.stopped)?;
+        self.rate.read_slope(self.depth_mm, slope);
+        Ok(())
+    }
+
+    fn begin_step(&mut self, state: &[f64], slope: &mut [f64]) -> Result<u64, EquilibriumError> {
+        if self.clean_start {
+            self.rate.pair.reset();
+            return self.evaluate(state, slope).map(|()| 1);
+        }
+        if let Some(work) = self.rate.pair.linearise_anew(self.rate.wear, self.rate.stopped)? {
+            self.rate.work += work;
+            self.rate.read_slope(self.depth_mm, slope);
+        }
+        Ok(0)
+    }
+
+    fn may_succeed_nearer(&self, failure: &EquilibriumError) -> bool {
+        !matches!(failure, EquilibriumError::Interrupted)
+    }
+}

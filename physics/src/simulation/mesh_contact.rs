@@ -1,0 +1,209 @@
+//! The elastic model of a pair in mesh, and the pair that wears by it.
+
+use super::settings::Numerics;
+use crate::contact::{ContactSurface, Effort, Flanks, settings::Material};
+use crate::fem::gear::condensed_pair::CondensedPair;
+use crate::gear::{GearPair, PerGear, slices::Slices};
+use crate::mesh_cycle::simplified::{SimplifiedPair, exact::SlicesInSeries};
+use crate::mesh_cycle::wearing_pair::{OnFlankNodes, OnFlankPoints, WearingPair};
+use crate::mesh_cycle::{
+    LineOfActionCycle, MeshCycle,
+    condensed::CondensedCycle,
+    positions::{loading_positions, positions_with_tip_contact},
+    sliced::{SliceSprings, SlicedCycle, SpringAlongPath},
+    sliced_positions::{SliceEnds, sliced_positions},
+    sliced_teeth::SlicedTeeth,
+    tip_contact,
+};
+use crate::stiffness::{StiffnessError, TeethSpring};
+
+/// The elastic model of the pair in mesh.
+#[derive(Clone, Copy)]
+pub enum MeshContact<'a> {
+    /// Each tooth pair a spring of its teeth in series with its contact surface, on the theoretical line of action.
+    LineOfAction {
+        /// How the flanks touch.
+        surface: &'a dyn ContactSurface,
+        /// How the teeth yield.
+        teeth: &'a TeethSpring<'a>,
+        /// Whether tip edges are followed into contact before A and after E.
+        tip_contact: bool,
+        /// The slices over the face width; none where all sections are alike.
+        sliced: Option<&'a SlicedTeeth>,
+    },
+    /// Slices with Hertz's mean pressure, whose wear is kept at their contact points.
+    Simplified {
+        /// Of each gear.
+        material: &'a PerGear<Material>,
+        /// How the teeth yield.
+        teeth: &'a TeethSpring<'a>,
+        /// The slices over the face width.
+        sliced: &'a SlicedTeeth,
+    },
+    /// Both gears as finite elements, condensed onto their flanks.
+    FiniteElements(&'a CondensedPair<'a>),
+}
+
+/// Tip edges are looked at within this many times the approach at the pitch point under the whole load: off it the teeth
+/// are softer, and wear adds to it.
+const AMPLE_APPROACH: f64 = 2.0;
+
+/// Least effort between clean starts, in equilibria of a tooth pair on springs: about a quarter of a second of one thread.
+const EFFORT_BETWEEN_CLEAN_STARTS: f64 = 100_000.0;
+/// Part of the time that clean starts may take at the most.
+const SHARE_OF_CLEAN_STARTS: f64 = 0.05;
+/// Measured on the presets `helical` and `fzg-c`, rounded.
+const SIMPLIFIED: Effort = Effort { of_equilibrium: 0.005, of_clean_start: 5.0 };
+const FINITE_ELEMENTS: Effort = Effort { of_equilibrium: 4.0, of_clean_start: 15.0 };
+
+/// Compliance of the bodies that all pairs in mesh share.
+pub fn bodies_mm2_per_n(teeth: &TeethSpring<'_>, sliced: Option<&SlicedTeeth>) -> f64 {
+    let of_section = teeth.shared_mm2_per_n();
+    sliced.map_or(of_section, |sliced| sliced.bodies_mm2_per_n(of_section))
+}
+
+/// The spring of a slice beside its surface, N/mm²: of teeth in space, that of the whole section.
+fn slice_spring(
+    pair: &GearPair,
+    teeth: &TeethSpring<'_>,
+    sliced: &SlicedTeeth,
+    position_mm: f64,
+) -> Result<f64, StiffnessError> {
+    match sliced.in_space() {
+        Some(_) => teeth.oblique_n_per_mm2(position_mm, pair.base_helix_angle_rad()),
+        None => teeth.slice_n_per_mm2(position_mm, pair.base_helix_angle_rad()),
+    }
+}
+
+/// A pair under a load, at some resolution.
+pub(super) struct LoadedMesh<'a> {
+    pub pair: &'a GearPair,
+    pub contact: MeshContact<'a>,
+    pub line_load_n_per_mm: f64,
+    pub numerics: Numerics,
+}
+
+impl MeshContact<'_> {
+    /// Evaluations after which a wear run forgets what it starts from ([`super::checkpoint`]). Part of the model: it changes results in
+    /// their last bits, and so depends on nothing but the scene.
+    pub(crate) fn evaluations_between_clean_starts(&self, positions: usize) -> u64 {
+        let (effort, slices) = match self {
+            MeshContact::LineOfAction { surface, sliced, .. } => {
+                (surface.effort(), sliced.map_or(1, |sliced| sliced.slices.count()))
+            }
+            MeshContact::Simplified { sliced, .. } => (SIMPLIFIED, sliced.slices.count()),
+            MeshContact::FiniteElements(_) => (FINITE_ELEMENTS, 1),
+        };
+        let of_evaluation = effort.of_equilibrium * (positions * slices) as f64;
+        (EFFORT_BETWEEN_CLEAN_STARTS / of_evaluation).max(effort.of_clean_start / SHARE_OF_CLEAN_STARTS) as u64
+    }
+
+    /// The slices of `pair` over the face width: one where all sections are alike.
+    pub(super) fn slices(&self, pair: &GearPair) -> Slices {
+        match self {
+            MeshContact::LineOfAction { sliced: Some(teeth), .. } | MeshContact::Simplified { sliced: teeth, .. } => {
+                teeth.slices.clone()
+            }
+            _ => Slices::new(pair, 1),
+        }
+    }
+}
+
+impl<'a> LoadedMesh<'a> {
+    /// The pair, ready to wear.
+    pub(super) fn wearing_pair(
+        &self,
+        flanks: Flanks<'a>,
+        modification_mm: &'a PerGear<Vec<f64>>,
+    ) -> Result<Box<dyn WearingPair + 'a>, StiffnessError> {
+        let (count, line_load) = (self.numerics.positions, self.line_load_n_per_mm);
+        let cycle: Box<dyn MeshCycle + 'a> = match self.contact {
+            MeshContact::LineOfAction { surface, teeth, tip_contact, sliced } => {
+                // In every slice the profile is modified alike, but for a constant.
+                let of_profile = PerGear::from_fn(|gear| &modification_mm[gear][..flanks.grid[gear].len()]);
+                let flanks = Flanks { modification_mm: Some(of_profile), ..flanks };
+                self.on_line_of_action(flanks, surface, teeth, tip_contact, sliced)?
+            }
+            MeshContact::Simplified { material, teeth, sliced } => {
+                return Ok(Box::new(self.simplified(flanks, modification_mm, material, teeth, sliced)?));
+            }
+            MeshContact::FiniteElements(model) => {
+                let cycle = CondensedCycle::new(model, count, line_load);
+                let radius_mm = PerGear::from_fn(|gear| {
+                    let involute = self.pair.teeth[gear].involute;
+                    flanks.grid[gear].coordinate_mm.iter().map(|&rho| involute.radius_mm(rho)).collect()
+                });
+                return Ok(Box::new(OnFlankNodes::new(cycle, radius_mm)));
+            }
+        };
+        Ok(Box::new(OnFlankPoints::new(cycle, modification_mm)))
+    }
+
+    /// The simplified model of a pair with slices.
+    fn simplified(
+        &self,
+        flanks: Flanks<'a>,
+        modification_mm: &PerGear<Vec<f64>>,
+        material: &'a PerGear<Material>,
+        teeth: &TeethSpring<'_>,
+        sliced: &'a SlicedTeeth,
+    ) -> Result<SimplifiedPair<'a>, StiffnessError> {
+        let (path, count, line_load) = (&self.pair.path, self.numerics.positions, self.line_load_n_per_mm);
+        let springs = SlicesInSeries {
+            pair: self.pair,
+            material,
+            along_path: SpringAlongPath::new(path, count, [0.0; 2], |at| slice_spring(self.pair, teeth, sliced, at))?,
+            sliced,
+            line_load_n_per_mm: line_load * sliced.slices.count() as f64,
+        };
+        let phases = sliced_positions(path, &sliced.slices, count, SliceEnds::AtOnce);
+        let bodies_mm = bodies_mm2_per_n(teeth, Some(sliced)) * line_load;
+        Ok(SimplifiedPair::new(springs, phases, flanks.grid, modification_mm, count, bodies_mm))
+    }
+
+    /// SlicesInSeries on the line of action, at every loading position.
+    fn on_line_of_action(
+        &self,
+        flanks: Flanks<'a>,
+        surface: &'a dyn ContactSurface,
+        teeth: &TeethSpring<'_>,
+        tip_contact: bool,
+        sliced: Option<&'a SlicedTeeth>,
+    ) -> Result<Box<dyn MeshCycle + 'a>, StiffnessError> {
+        let line_load = self.line_load_n_per_mm;
+        let (path, count) = (&self.pair.path, self.numerics.positions);
+        let spring = |at| teeth.own_n_per_mm2(at);
+        let bodies = bodies_mm2_per_n(teeth, sliced) * line_load;
+        let sharp_edges =
+            self.pair.spec.gears.as_ref().map(|gear| tip_contact && gear.modification.tip_rounding_mm == 0.0);
+        let flanks = Flanks { sharp_edges, ..flanks };
+        let lever_ratio = |at| tip_contact::approach_ratio(self.pair, at);
+        let beyond = if tip_contact {
+            let pitch_point = path.pitch_point_mm;
+            let surfaces = surface.plain_approach_mm(self.pair, pitch_point, line_load);
+            let approach = bodies + surfaces + line_load / spring(pitch_point)?;
+            Some(tip_contact::reach_mm(self.pair, AMPLE_APPROACH * approach))
+        } else {
+            None
+        };
+        if let Some(sliced) = sliced {
+            let spring = |at| slice_spring(self.pair, teeth, sliced, at);
+            let along = SpringAlongPath::new(path, count, beyond.unwrap_or_default(), spring)?;
+            let ends = match beyond {
+                Some(beyond_mm) => SliceEnds::Beyond(beyond_mm),
+                None if surface.touches_in_points() => SliceEnds::AtOnce,
+                None => SliceEnds::Gradual,
+            };
+            let phases = sliced_positions(path, &sliced.slices, count, ends);
+            let springs = SliceSprings { pair: self.pair, along_path: &along, lever_ratio: &lever_ratio };
+            let cycle = SlicedCycle::new(flanks, surface, sliced, &phases, &springs, path, count, line_load);
+            return Ok(Box::new(cycle.on_bodies_that_yield_by(bodies)));
+        }
+        let positions = match beyond {
+            Some(beyond) => positions_with_tip_contact(path, count, beyond, lever_ratio, spring)?,
+            None => loading_positions(path, count, spring)?,
+        };
+        let cycle = LineOfActionCycle::new(flanks, surface, &positions, line_load);
+        Ok(Box::new(cycle.on_bodies_that_yield_by(bodies)))
+    }
+}

@@ -1,0 +1,153 @@
+//! Stiffness of a tooth pair along the path of contact, as the user's data.
+//!
+//! Simon's deflection coefficients and Wang and Cheng's table are not in any text at hand; whoever has them, or measurements,
+//! or another program's results, gives them as a CSV file:
+//!
+//! ```text
+//! # flattening = included
+//! # line_load_N_per_mm = 637.66
+//! position_mm,stiffness_N_per_mm_um
+//! 4.4723,10.51
+//! 13.9701,15.81
+//! 23.5694,10.92
+//! ```
+//!
+//! `position_mm` is the radius of curvature of the pinion at the theoretical contact point, increasing from row to row. The
+//! other column is the stiffness of the pair, force per mm of face width and µm of approach along the line of action, or
+//! `deflection_um`, that approach itself under the line load. Lines that begin with # come first: whether the values hold the
+//! flattening of the flanks in contact (`included`, `excluded`), and the line load at which they were taken, which deflections
+//! and values with flattening need. Other lines with # are remarks.
+
+use super::curve::{PairCompliance, StandsFor};
+use crate::data_table::{DataTable, DataTableError, missing, not_allowed, positive};
+use crate::gear::path_of_contact::PathOfContact;
+
+const POSITION: &str = "position_mm";
+const STIFFNESS: &str = "stiffness_N_per_mm_um";
+const DEFLECTION: &str = "deflection_um";
+const FLATTENING: &str = "flattening";
+const LINE_LOAD: &str = "line_load_N_per_mm";
+const UM_PER_MM: f64 = 1e3;
+/// Part of the path of contact by which a curve may fall short at either end; it keeps its outermost value there.
+const MISSING_AT_ENDS: f64 = 0.02;
+
+/// What is wrong with the file.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CurveFileError {
+    /// It is not a table of the right kind.
+    #[error(transparent)]
+    Table(#[from] DataTableError),
+    /// The rows end before the path of contact does.
+    #[error("{POSITION}: found {first_mm:.4} to {last_mm:.4}; allowed: at least {start_mm:.4} (A) to {end_mm:.4} (E)")]
+    TooShort {
+        /// First position.
+        first_mm: f64,
+        /// Last position.
+        last_mm: f64,
+        /// A.
+        start_mm: f64,
+        /// E.
+        end_mm: f64,
+    },
+}
+
+/// What the lines with # say.
+#[derive(Default)]
+struct Header {
+    flattening_included: Option<bool>,
+    line_load_n_per_mm: Option<f64>,
+}
+
+/// The curve in a file's text, which must reach from A to E.
+pub fn parse(text: &str, path: &PathOfContact) -> Result<PairCompliance, CurveFileError> {
+    let table = DataTable::read(text, || format!("{POSITION},{STIFFNESS} or {POSITION},{DEFLECTION}"))?;
+    let mut header = Header::default();
+    for &(line, key, value) in &table.keys {
+        header.take(line, key, value)?;
+    }
+    let columns = Columns::find(table.names.0, &table.names.1)?;
+    let stands_for = header.stands_for(columns.are_deflections)?;
+    let mut curve =
+        PairCompliance { position_mm: Vec::new(), mm2_per_n: Vec::new(), stands_for, shared_mm2_per_n: 0.0 };
+    for (line, values) in table.rows {
+        let field = |index: usize| values.get(index).copied().unwrap_or_default();
+        let position = positive(line, POSITION, field(columns.position))?;
+        if let Some(&before) = curve.position_mm.last().filter(|&&before| position <= before) {
+            return Err(not_allowed(line, POSITION, position, format!("more than {before}, the row before")).into());
+        }
+        let value = positive(line, columns.value_name(), field(columns.value))?;
+        curve.position_mm.push(position);
+        curve.mm2_per_n.push(match header.line_load_n_per_mm {
+            Some(load) if columns.are_deflections => value / UM_PER_MM / load,
+            _ => 1.0 / (value * UM_PER_MM),
+        });
+    }
+    match curve.position_mm[..] {
+        [first_mm, .., last_mm] => {
+            let missing = MISSING_AT_ENDS * (path.end_mm - path.start_mm);
+            if first_mm <= path.start_mm + missing && last_mm >= path.end_mm - missing {
+                return Ok(curve);
+            }
+            Err(CurveFileError::TooShort { first_mm, last_mm, start_mm: path.start_mm, end_mm: path.end_mm })
+        }
+        _ => Err(missing("rows", "at least two rows of numbers".to_owned()).into()),
+    }
+}
+
+/// Where the columns are.
+struct Columns {
+    position: usize,
+    value: usize,
+    are_deflections: bool,
+}
+
+impl Columns {
+    fn find(line: usize, names: &[&str]) -> Result<Self, DataTableError> {
+        let place = |name: &str| names.iter().position(|&n| n == name);
+        let allowed = || format!("{POSITION} and either {STIFFNESS} or {DEFLECTION}, separated by commas");
+        let (value, are_deflections) = match (place(STIFFNESS), place(DEFLECTION)) {
+            (Some(value), None) => (value, false),
+            (None, Some(value)) => (value, true),
+            _ => return Err(not_allowed(line, "column names", names.join(","), allowed())),
+        };
+        let Some(position) = place(POSITION) else {
+            return Err(not_allowed(line, "column names", names.join(","), allowed()));
+        };
+        Ok(Self { position, value, are_deflections })
+    }
+
+    fn value_name(&self) -> &'static str {
+        if self.are_deflections { DEFLECTION } else { STIFFNESS }
+    }
+}
+
+impl Header {
+    fn take(&mut self, line: usize, key: &str, value: &str) -> Result<(), DataTableError> {
+        match (key, value) {
+            (FLATTENING, "included") => self.flattening_included = Some(true),
+            (FLATTENING, "excluded") => self.flattening_included = Some(false),
+            (FLATTENING, other) => return Err(not_allowed(line, FLATTENING, other, "included or excluded".to_owned())),
+            (LINE_LOAD, value) => self.line_load_n_per_mm = Some(positive(line, LINE_LOAD, value)?),
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn stands_for(&self, deflections: bool) -> Result<StandsFor, DataTableError> {
+        let Some(included) = self.flattening_included else {
+            return Err(missing(
+                "whether the values hold the flattening of the flanks",
+                format!("a line \"# {FLATTENING} = included\" or \"# {FLATTENING} = excluded\""),
+            ));
+        };
+        let load = self.line_load_n_per_mm.ok_or_else(|| {
+            let what = if deflections { "the line load of the deflections" } else { "the line load of the flattening" };
+            missing(what, format!("a line \"# {LINE_LOAD} = …\", a number greater than 0"))
+        });
+        match included {
+            true => Ok(StandsFor::WholePair { line_load_n_per_mm: load? }),
+            false if deflections => load.map(|_| StandsFor::Teeth),
+            false => Ok(StandsFor::Teeth),
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! The strip of a contact as a band of heat: the rise of both surfaces, at its hottest place or point by point.
+
+use super::heat_equation::{CELLS, Passage};
+use super::peclet::peclet;
+use super::settings::{HeatVelocity, TemperatureMethod, ThermalMaterial};
+use super::{ContactHeat, SpeedRatios, enters_at_tip_side, partition, tian_kennedy, williams};
+use crate::gear::{Gear, PerGear};
+
+/// How the heat is spread over the strip.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spread {
+    /// Evenly.
+    Even,
+    /// As Hertz's ellipse.
+    Ellipse,
+}
+
+/// What one body gets of the heat.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct HeatedBody {
+    /// δ q̄, N/(mm·s).
+    flux: f64,
+    /// U, mm/s.
+    velocity_mm_per_s: f64,
+    material: ThermalMaterial,
+}
+
+/// The heated strip of a contact. The rise depends on what heats it; everything else is prepared.
+#[derive(Debug, Clone, Copy)]
+pub struct HeatedBand<'a> {
+    method: TemperatureMethod,
+    /// a, mm.
+    half_width_mm: f64,
+    bodies: PerGear<HeatedBody>,
+    passage: &'a Passage,
+}
+
+impl<'a> HeatedBand<'a> {
+    /// Of a contact under a line load; without load, width or sliding there is no heat.
+    pub(super) fn new(
+        heat: &'a ContactHeat,
+        method: TemperatureMethod,
+        ratios: &SpeedRatios,
+        line_load_n_per_mm: f64,
+        half_width_mm: f64,
+    ) -> Self {
+        let (settings, speed) = (&heat.settings, heat.speed_mm_per_s);
+        let sliding = heat.sliding_speed_mm_per_s(ratios);
+        let warm = line_load_n_per_mm > 0.0 && half_width_mm > 0.0 && sliding > 0.0;
+        let mean_pressure_mpa = if warm { line_load_n_per_mm / (2.0 * half_width_mm) } else { 0.0 };
+        let flux = settings.friction_coefficient * mean_pressure_mpa * sliding;
+        let with_all = PerGear::from_fn(|gear| HeatedBody {
+            flux,
+            velocity_mm_per_s: match settings.velocity {
+                HeatVelocity::Sliding => sliding,
+                HeatVelocity::Surface => speed * ratios.rolling[gear],
+            },
+            material: settings.material[gear],
+        });
+        let mut band = Self { method, half_width_mm, bodies: with_all, passage: &heat.passage };
+        let even = PerGear::from_fn(|gear| band.greatest_rise_k(gear, Spread::Even));
+        let shares = partition::shares(settings.partition, even);
+        for gear in Gear::BOTH {
+            band.bodies[gear].flux *= shares[gear];
+        }
+        band
+    }
+
+    /// Pe of a gear's surface.
+    pub fn peclet(&self, gear: Gear) -> f64 {
+        let body = &self.bodies[gear];
+        peclet(self.half_width_mm, body.velocity_mm_per_s, body.material.diffusivity_mm2_per_s)
+    }
+
+    /// The greatest rise of a gear's surface, K.
+    pub fn greatest_rise_k(&self, gear: Gear, spread: Spread) -> f64 {
+        let HeatedBody { flux, velocity_mm_per_s, material } = &self.bodies[gear];
+        if *flux <= 0.0 {
+            return 0.0;
+        }
+        match (self.method, spread) {
+            (TemperatureMethod::TianKennedy, _) => {
+                tian_kennedy::greatest_rise_k(*flux, self.half_width_mm, *velocity_mm_per_s, material)
+            }
+            (TemperatureMethod::HeatEquation, Spread::Ellipse) => {
+                self.rise_per_passage_k(gear) * self.passage.greatest_of_ellipse()
+            }
+            // Under an even flux the heat equation is Williams's closed form.
+            (TemperatureMethod::Williams, _) | (TemperatureMethod::HeatEquation, Spread::Even) => {
+                williams::rise_k(*flux, 2.0 * self.half_width_mm, *velocity_mm_per_s, material)
+            }
+        }
+    }
+
+    /// δ q̄ √(κ t₀)/K with t₀ = 2a/U, K.
+    fn rise_per_passage_k(&self, gear: Gear) -> f64 {
+        let HeatedBody { flux, velocity_mm_per_s, material } = &self.bodies[gear];
+        let passage_s = 2.0 * self.half_width_mm / velocity_mm_per_s;
+        flux / material.conductivity_n_per_s_k * (material.diffusivity_mm2_per_s * passage_s).sqrt()
+    }
+
+    /// The rise of `gear`'s surface at consecutive points of its flank, from root to tip and `spacing_mm` apart, which are under
+    /// `pressure_mpa`; K. The strip is as wide as the band and lies around the centre of the pressure; `rise_k` is as long as the
+    /// row.
+    pub(crate) fn rises_k(&self, gear: Gear, spacing_mm: f64, pressure_mpa: &[f64], rise_k: &mut [f64]) {
+        rise_k.fill(0.0);
+        let HeatedBody { flux, velocity_mm_per_s, material } = &self.bodies[gear];
+        let sum: f64 = pressure_mpa.iter().sum();
+        if *flux <= 0.0 || sum <= 0.0 {
+            return;
+        }
+        let moment: f64 = pressure_mpa.iter().enumerate().map(|(k, pressure)| k as f64 * pressure).sum();
+        let width = 2.0 * self.half_width_mm;
+        let strip = Strip { centre: moment / sum, per_point: spacing_mm / width, backwards: enters_at_tip_side(gear) };
+        let heated = rise_k.iter_mut().enumerate().zip(pressure_mpa).filter(|(_, pressure)| **pressure > 0.0);
+        match self.method {
+            TemperatureMethod::TianKennedy => {
+                let greatest = tian_kennedy::greatest_rise_k(*flux, self.half_width_mm, *velocity_mm_per_s, material);
+                heated.for_each(|((_, rise), _)| *rise = greatest);
+            }
+            TemperatureMethod::Williams => {
+                for ((k, rise), _) in heated {
+                    *rise = williams::rise_k(*flux, strip.passed(k) * width, *velocity_mm_per_s, material);
+                }
+            }
+            TemperatureMethod::HeatEquation => {
+                let at_ends = self.passage.rises(&strip.cells(pressure_mpa));
+                let scale = self.rise_per_passage_k(gear);
+                for ((k, rise), _) in heated {
+                    let place = strip.passed(k) * CELLS as f64;
+                    let cell = (place as usize).min(CELLS - 1);
+                    let before = if cell > 0 { at_ends[cell - 1] } else { 0.0 };
+                    *rise = scale * (before + (place - cell as f64) * (at_ends[cell] - before));
+                }
+            }
+        }
+    }
+}
+
+/// Where a row of points lies in the strip of the contact.
+#[derive(Debug, Clone, Copy)]
+struct Strip {
+    /// Number of the point, with a fraction, in the middle of the strip.
+    centre: f64,
+    /// Distance of the points over the width of the strip.
+    per_point: f64,
+    /// Whether material enters at the row's end.
+    backwards: bool,
+}
+
+impl Strip {
+    /// Part of the strip that point k has come through: 0 before it, 1 behind it.
+    fn passed(&self, k: usize) -> f64 {
+        let from_centre = (k as f64 - self.centre) * self.per_point;
+        (0.5 + if self.backwards { -from_centre } else { from_centre }).clamp(0.0, 1.0)
+    }
+
+    /// The pressure in the middle of every cell of the passage over their mean: straight lines between the points within the strip,
+    /// and beyond the ends of the row the pressure at its ends.
+    fn cells(&self, pressure_mpa: &[f64]) -> [f64; CELLS] {
+        let last = pressure_mpa.len() - 1;
+        let at = |cell: usize| {
+            let from_inlet = (cell as f64 + 0.5) / CELLS as f64;
+            let from_start = if self.backwards { 1.0 - from_inlet } else { from_inlet };
+            let place = (self.centre + (from_start - 0.5) / self.per_point).clamp(0.0, last as f64);
+            let before = (place as usize).min(last.saturating_sub(1));
+            let next = (before + 1).min(last);
+            pressure_mpa[before] + (place - before as f64) * (pressure_mpa[next] - pressure_mpa[before])
+        };
+        let cells: [f64; CELLS] = std::array::from_fn(at);
+        let mean = cells.iter().sum::<f64>() / CELLS as f64;
+        if mean > 0.0 { cells.map(|pressure| pressure / mean) } else { [1.0; CELLS] }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::thermal::settings::{HeatPartition, HeatSettings};
+
+    fn heat(method: TemperatureMethod, velocity: HeatVelocity) -> ContactHeat {
+        let steel = ThermalMaterial { conductivity_n_per_s_k: 46.0, diffusivity_mm2_per_s: 12.0 };
+        let settings = HeatSettings {
+            method,
+            velocity,
+            partition: HeatPartition::ArchardRowntree,
+            friction_coefficient: 0.1,
+            bulk_temperature_k: 363.15,
+            tooth: None,
+            material: PerGear { pinion: steel, wheel: steel },
+        };
+        ContactHeat::new(settings, 531.4)
+    }
+
+    const RATIOS: SpeedRatios = SpeedRatios { sliding: 0.468, rolling: PerGear { pinion: 0.132, wheel: 0.600 } };
+
+    /// Hertz's ellipse and an even strip point by point: greatest values as those of the whole strip.
+    #[test]
+    fn ver_rows_reach_the_greatest_rise() {
+        for method in [TemperatureMethod::HeatEquation, TemperatureMethod::Williams, TemperatureMethod::TianKennedy] {
+            let heat = heat(method, HeatVelocity::Surface);
+            let band = heat.band(&RATIOS, 212.6, 0.0966);
+            let mut row = vec![0.0; 204];
+            let mut rise = vec![-1.0; 204];
+            for spread in [Spread::Even, Spread::Ellipse] {
+                for (k, pressure) in row[2..202].iter_mut().enumerate() {
+                    let x: f64 = (k as f64 + 0.5) / 100.0 - 1.0;
+                    *pressure = if spread == Spread::Even { 1.0 } else { (1.0 - x * x).sqrt() };
+                }
+                for gear in Gear::BOTH {
+                    band.rises_k(gear, 2.0 * 0.0966 / 200.0, &row, &mut rise);
+                    let (greatest, expected) =
+                        (rise.iter().copied().fold(0.0, f64::max), band.greatest_rise_k(gear, spread));
+                    assert!((greatest / expected - 1.0).abs() < 4e-3, "{method:?} {spread:?} {greatest} {expected}");
+                    assert!(rise[..2].iter().chain(&rise[202..]).all(|&rise| rise == 0.0));
+                    // Hotter where material leaves: at the pinion's root side, at the wheel's tip side.
+                    let (root, tip) = (rise[12], rise[191]);
+                    let (hot, cool) = if gear == Gear::Pinion { (root, tip) } else { (tip, root) };
+                    assert!(hot > cool || method == TemperatureMethod::TianKennedy);
+                }
+            }
+        }
+    }
+
+    /// Both surfaces equally hot; no heat without sliding; few points heat as many.
+    #[test]
+    fn ver_both_surfaces_are_equally_hot() {
+        let heat = heat(TemperatureMethod::Williams, HeatVelocity::Surface);
+        let band = heat.band(&RATIOS, 212.6, 0.0966);
+        let [pinion, wheel] = Gear::BOTH.map(|gear| band.greatest_rise_k(gear, Spread::Even));
+        assert!((pinion / wheel - 1.0).abs() < 1e-12 && pinion > 1.0);
+        let still = heat.band(&SpeedRatios { sliding: 0.0, ..RATIOS }, 212.6, 0.0966);
+        assert_eq!(Gear::BOTH.map(|gear| still.greatest_rise_k(gear, Spread::Ellipse)), [0.0; 2]);
+        // The mean of the cells is 1 however few points there are in the strip.
+        for (row, per_point) in
+            [(vec![0.0, 1.0, 0.0], 0.9), (vec![2.0], 3.0), (vec![0.0, 1.0, 2.0, 1.5, 0.5, 0.0], 0.24)]
+        {
+            let sum: f64 = row.iter().sum();
+            let centre = row.iter().enumerate().map(|(k, p)| k as f64 * p).sum::<f64>() / sum;
+            let cells = Strip { centre, per_point, backwards: true }.cells(&row);
+            assert!((cells.iter().sum::<f64>() / CELLS as f64 - 1.0).abs() < 1e-12, "{row:?}");
+        }
+    }
+}

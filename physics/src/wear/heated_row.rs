@@ -1,0 +1,90 @@
+//! The conditions of flank points in a heated contact, in rows that are filled anew for every contact.
+
+use super::ContactConditions;
+use crate::gear::Gear;
+use crate::thermal::{ContactHeat, SpeedRatios, band::Spread};
+
+/// What a heated contact is to the points in it.
+#[derive(Debug, Clone, Copy)]
+pub struct HeatedContact<'a> {
+    /// The heat.
+    pub heat: &'a ContactHeat,
+    /// How fast the surfaces move.
+    pub ratios: SpeedRatios,
+    /// Load, N per mm of face width.
+    pub line_load_n_per_mm: f64,
+    /// Half the extent of the contact strip.
+    pub half_width_mm: f64,
+}
+
+impl HeatedContact<'_> {
+    fn at(&self, rise_k: f64) -> ContactConditions {
+        self.sliding_at(self.heat.sliding_speed_mm_per_s(&self.ratios), rise_k)
+    }
+
+    fn sliding_at(&self, sliding_speed_mm_per_s: f64, rise_k: f64) -> ContactConditions {
+        ContactConditions { sliding_speed_mm_per_s, temperature_k: self.heat.settings.bulk_temperature_k + rise_k }
+    }
+
+    /// The conditions where `gear`'s surface is hottest, with the heat spread in some way.
+    pub(crate) fn at_hottest(&self, gear: Gear, spread: Spread) -> ContactConditions {
+        let band = self.heat.band(&self.ratios, self.line_load_n_per_mm, self.half_width_mm);
+        self.at(band.greatest_rise_k(gear, spread))
+    }
+}
+
+/// Consecutive points of a gear's flank, from root to tip, that run across a contact.
+#[derive(Debug, Clone, Copy)]
+pub struct RowOfPoints<'a> {
+    /// Whose they are.
+    pub gear: Gear,
+    /// Their distance along the flank.
+    pub spacing_mm: f64,
+    /// Pressure on each.
+    pub pressure_mpa: &'a [f64],
+}
+
+/// A row of conditions.
+#[derive(Debug, Clone, Default)]
+pub struct HeatedRow {
+    rise_k: Vec<f64>,
+    conditions: Vec<ContactConditions>,
+}
+
+impl HeatedRow {
+    /// Of points across the contact.
+    pub fn across(&mut self, contact: &HeatedContact<'_>, points: RowOfPoints<'_>) -> &[ContactConditions] {
+        self.heat_up(contact, points);
+        self.conditions.clear();
+        self.conditions.extend(self.rise_k.iter().map(|&rise| contact.at(rise)));
+        &self.conditions
+    }
+
+    /// The same where each point slides `sliding_mm` of its own in the same time.
+    pub(crate) fn across_sliding(
+        &mut self,
+        contact: &HeatedContact<'_>,
+        points: RowOfPoints<'_>,
+        sliding_mm: &[f64],
+        time_s: f64,
+    ) -> &[ContactConditions] {
+        self.heat_up(contact, points);
+        self.conditions.clear();
+        let points = self.rise_k.iter().zip(sliding_mm);
+        self.conditions.extend(points.map(|(&rise, sliding)| contact.sliding_at(sliding / time_s, rise)));
+        &self.conditions
+    }
+
+    fn heat_up(&mut self, contact: &HeatedContact<'_>, points: RowOfPoints<'_>) {
+        self.rise_k.resize(points.pressure_mpa.len(), 0.0);
+        let band = contact.heat.band(&contact.ratios, contact.line_load_n_per_mm, contact.half_width_mm);
+        band.rises_k(points.gear, points.spacing_mm, points.pressure_mpa, &mut self.rise_k);
+    }
+
+    /// Of `points` of `gear`'s flank that all feel the hottest place of an even contact.
+    pub fn even(&mut self, contact: &HeatedContact<'_>, gear: Gear, points: usize) -> &[ContactConditions] {
+        self.conditions.clear();
+        self.conditions.resize(points, contact.at_hottest(gear, Spread::Even));
+        &self.conditions
+    }
+}

@@ -1,0 +1,80 @@
+//! Wear stepping: integrators of y' = f(y), where y is the wear of both flanks and the "time" is pinion revolutions.
+//!
+//! Short waves of wear are stiff. A bump of height e raises the pressure by K e and is worn down at the rate k K s e, so that
+//! Euler's method swings once Δn k K s > 2, while the wear as a whole goes on for many thousand times as long. The spectrum is
+//! real and negative: bumps decay, and nothing oscillates by itself.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`runge_kutta_chebyshev`] | stabilised explicit method of second order: s evaluations of f reach about 0.65 s² as far as one |
+//! | [`spectral_radius`] | the fastest decay, which tells how many stages that takes |
+//! | [`linearly_implicit`] | Rosenbrock method of second order, whatever the Jacobian it is given |
+//! | [`diagonal`] | the Jacobian it is given here: the local stiffness, measured by a probe |
+//! | [`step_control`] | how long the next step may be |
+//! | [`adaptive`] | one step after another, with either method |
+//!
+//! Nothing here knows of gears: a [`Rate`] is rows of numbers, in one block or several.
+//!
+//! **Error of a step.** Both methods know the rate at both ends of a step. The trapezoidal rule with these rates is of second order
+//! too, and what lies between it and the step is of the size of the error,
+//!
+//! ```text
+//! e = c [½ Δn (f(yₙ) + f(yₙ₊₁)) − (yₙ₊₁ − yₙ)]
+//! ```
+//!
+//! with c = 0.8 for Runge–Kutta–Chebyshev (Sommeijer, Shampine and Verwer, equation 2.11). It costs nothing: the rate at the end is
+//! that at the beginning of the next step.
+
+pub mod adaptive;
+pub mod diagonal;
+pub mod linearly_implicit;
+pub mod runge_kutta_chebyshev;
+pub mod spectral_radius;
+pub mod step_control;
+
+/// f of y' = f(y): how fast each place wears, in mm per revolution, when `state` (mm) is worn off.
+pub trait Rate {
+    /// Why there may be no rate.
+    type Error;
+
+    /// Fills in the rate of each place.
+    fn evaluate(&mut self, state: &[f64], rate: &mut [f64]) -> Result<(), Self::Error>;
+
+    /// A step to `state`, where `rate` was just found, is taken: the next one may begin with a rate made anew there, as long as within
+    /// a step it remains one smooth function of the state. Answers the evaluations that took.
+    fn begin_step(&mut self, _state: &[f64], _rate: &mut [f64]) -> Result<u64, Self::Error> {
+        Ok(0)
+    }
+
+    /// Whether a state nearer to the last good one may have a rate where this failed.
+    fn may_succeed_nearer(&self, failure: &Self::Error) -> bool;
+}
+
+/// Greatest magnitude of a row.
+pub fn greatest(row: &[f64]) -> f64 {
+    row.iter().fold(0.0, |greatest: f64, value| if value.is_nan() { f64::NAN } else { greatest.max(value.abs()) })
+}
+
+/// Pseudo-random numbers in −1…1, the same in every run (G. L. Steele, D. Lea and C. H. Flood's SplitMix64, 2014): a probe
+/// that has a part of every wave.
+struct Noise(u64);
+
+impl Noise {
+    fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        let bits = (z ^ (z >> 31)) >> 11;
+        2.0 * bits as f64 / (1u64 << 53) as f64 - 1.0
+    }
+
+    /// −1 or 1.
+    fn sign(&mut self) -> f64 {
+        self.next().signum()
+    }
+}
