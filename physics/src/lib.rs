@@ -2,6 +2,11 @@
 //! wear laws and the wear run over them. It knows no scene, no report and no command; users of the library take `gearwear`, which opens
 //! scenes, runs them and hands over what is found.
 
+#![allow(
+    rustdoc::private_intra_doc_links,
+    reason = "its documentation is read by those who work on it, private items with it"
+)]
+
 pub mod calibration;
 pub mod contact;
 pub mod data_table;
