@@ -113,8 +113,8 @@ mod studies;
 
 // What it calculates with, under the names of the rooms there.
 use gearwear_physics::{
-    calibration, contact, data_table, fem, gear, gear_mesh, lubrication, mesh_cycle, observer, root_stress, simulation,
-    stiffness, thermal, wear, whole_file,
+    calibration, contact, content_hash, data_table, fem, gear, gear_mesh, lubrication, mesh_cycle, observer,
+    root_stress, simulation, stiffness, thermal, wear, whole_file,
 };
 pub use gearwear_physics::{mesh, reference, results};
 

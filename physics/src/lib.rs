@@ -9,6 +9,7 @@
 
 pub mod calibration;
 pub mod contact;
+pub mod content_hash;
 pub mod data_table;
 pub mod fem;
 pub mod gear;

@@ -15,7 +15,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::identity::{Identity, sha256};
+use super::identity::Identity;
+use crate::content_hash::sha256;
 use crate::simulation::checkpoint::Checkpoint;
 use crate::whole_file;
 

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 use toml::{Table, Value};
 
+use crate::content_hash::sha256;
 use crate::scene::loaded::NamedFile;
 
 /// What a run is made from.
@@ -38,11 +38,6 @@ impl Identity {
         }
         differences
     }
-}
-
-/// SHA-256 in hexadecimal digits.
-pub(super) fn sha256(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Keys in which two resolved scenes differ, with both values.

@@ -20,9 +20,8 @@ mod text;
 mod unit_slip;
 pub(crate) mod wear_file;
 
-use sha2::{Digest, Sha256};
-
 use crate::contact::settings::{ContactSettings, Material};
+use crate::content_hash::sha256;
 use crate::gear::{PerGear, spec::PairSpec};
 use crate::gear_mesh::settings::BodySettings;
 use crate::lubrication::settings::LubricationSettings;
@@ -161,5 +160,5 @@ impl Resolved {
 
 /// First 16 hexadecimal digits of the SHA-256 of `bytes`.
 pub(crate) fn short_hash(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().take(8).map(|byte| format!("{byte:02x}")).collect()
+    sha256(bytes)[..16].to_owned()
 }

@@ -2,9 +2,8 @@
 //!
 //! The hash is the SHA-256 of the same JSON with an empty hash, so that white space does not matter and every number does.
 
-use sha2::{Digest, Sha256};
-
 use super::Calibration;
+use crate::content_hash::sha256;
 
 /// Why a text is no calibration.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -68,7 +67,7 @@ impl Calibration {
     /// SHA-256 of the content without the hash itself, in hexadecimal digits.
     pub fn content_hash(&self) -> String {
         let bare = Self { hash: String::new(), ..self.clone() };
-        Sha256::digest(bare.text().as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+        sha256(bare.text().as_bytes())
     }
 
     fn text(&self) -> String {
