@@ -8,6 +8,7 @@ pub mod element;
 mod enhanced_quad;
 pub mod equilibrium;
 pub mod factor;
+pub mod field_raster;
 pub mod gear;
 pub mod loads;
 pub mod locate;

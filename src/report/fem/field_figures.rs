@@ -1,8 +1,9 @@
 //! The model, and the von Mises stress over the bodies: whole, and around each contact.
 
+use crate::fem::field_raster::{self, Bodies, Window, greatest_near};
 use crate::fem::problem::Edge;
 use crate::report::chart::{Chart, INK, MUTED, Trace};
-use crate::report::html::field_plot::{self, Bodies, Window, greatest_near, segments, side_lines, to_scale};
+use crate::report::html::field_plot::{self, segments, side_lines, to_scale};
 use crate::report::html::number::{count, figure, significant};
 use crate::report::html::reading::greatest;
 use crate::results::fem_problem::{ContactCurve, FemRecord, FemSummary, PlaneSolution};
@@ -75,7 +76,7 @@ fn marks(name: &str, symbol: &str, nodes: &[u32], points: &[[f64; 2]]) -> Trace 
 /// The von Mises stress: over all bodies, and around each contact that carries load; deformed as computed.
 pub(super) fn von_mises(summary: &FemSummary, plane: &PlaneSolution) -> Vec<Chart> {
     let solid = &plane.problem.solid;
-    let deformed = field_plot::deformed(solid.points_mm.iter().map(|p| [p.x, p.y]), &plane.displacement_mm);
+    let deformed = field_raster::deformed(solid.points_mm.iter().map(|p| [p.x, p.y]), &plane.displacement_mm);
     let bodies = Bodies { points_mm: &deformed, elements: &solid.elements };
     let values: Vec<f64> = plane.stress.iter().map(|stress| stress.von_mises_MPa).collect();
     let picture = |chart: Chart, window: Window| field_plot::von_mises(chart, bodies, &values, window);

@@ -1,9 +1,10 @@
 //! The teeth in contact as finite elements, and the von Mises stress in them.
 
+use crate::fem::field_raster::{self, Bodies, Window, greatest_near};
 use crate::fem::solid::Element;
 use crate::gear::Gear;
 use crate::report::chart::{Chart, Trace, gear_colour};
-use crate::report::html::field_plot::{self, Bodies, Window, greatest_near, side_lines, to_scale};
+use crate::report::html::field_plot::{self, side_lines, to_scale};
 use crate::report::html::number::{count, figure, significant};
 use crate::results::fem_pair::{ContactPlace, FemPairSummary, PairSolution};
 
@@ -50,7 +51,7 @@ pub(super) fn mesh(s: &FemPairSummary, solution: &PairSolution) -> Chart {
 
 /// The von Mises stress in the teeth, and around each contact, deformed as computed.
 pub(super) fn von_mises(solution: &PairSolution) -> Vec<Chart> {
-    let deformed = field_plot::deformed(solution.points_mm.iter().copied(), &solution.displacement_mm);
+    let deformed = field_raster::deformed(solution.points_mm.iter().copied(), &solution.displacement_mm);
     let bodies = Bodies { points_mm: &deformed, elements: &solution.elements };
     let values: Vec<f64> = solution.stress.iter().map(|stress| stress.von_mises_MPa).collect();
     let picture = |chart: Chart, window: Window| field_plot::von_mises(chart, bodies, &values, window);
