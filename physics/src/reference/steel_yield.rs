@@ -13,8 +13,8 @@
 pub(crate) const FLOW_PRESSURE_MPA: f64 = 3000.0;
 
 /// What to say of a pressure that steel hardly bears elastically.
-pub const REASON: &str = "steel of 300 HV flows at some 3000 MPa, and case-hardened steel of 700 HV begins to yield at some 4100 MPa: \
-                                 above, the pressure is that of a material which stays elastic";
+const REASON: &str = "steel of 300 HV flows at some 3000 MPa, and case-hardened steel of 700 HV begins to yield at some 4100 MPa: above, \
+                      the pressure is that of a material which stays elastic";
 
 /// Whether steel hardly bears a pressure elastically.
 pub fn is_exceeded(pressure_mpa: f64) -> bool {

@@ -37,12 +37,12 @@ pub(crate) fn tip_edge_note(places: &[(&str, f64)], at: f64) -> &'static str {
     }
 }
 
-/// What to say of a pressure that steel hardly bears elastically; empty below.
-pub(crate) fn yield_note(pressure_mpa: f64) -> String {
+/// What to say of a pressure that steel hardly bears elastically; empty below. The warning says when steel flows.
+pub(crate) fn yield_note(pressure_mpa: f64) -> &'static str {
     if steel_yield::is_exceeded(pressure_mpa) {
-        format!(" {}.", capitalised(steel_yield::REASON))
+        " Steel would flow: the pressure is that of a material which stays elastic."
     } else {
-        String::new()
+        ""
     }
 }
 
@@ -90,7 +90,7 @@ pub(crate) fn answer(record: &RunRecord) -> String {
         figure(s.new.transmission_error_um.peak_to_peak),
         figure(s.worn.transmission_error_um.peak_to_peak),
     ));
-    text.push_str(&yield_note(s.new.peak_pressure_MPa.max(s.worn.peak_pressure_MPa)));
+    text.push_str(yield_note(s.new.peak_pressure_MPa.max(s.worn.peak_pressure_MPa)));
     if let Some(helical) = &s.helical {
         let wear = &helical.wear.pinion;
         text.push_str(&format!(

@@ -198,7 +198,7 @@ fn pressure_reading(run: SlicedRun<'_>, gear: Gear, field: &[f64], when: &str) -
     let flank = &run.record.flanks[gear];
     let mut reading =
         format!("{when}, the maximum pressure on the {} is {}.", gear.name(), peak_of(flank, field, "MPa"));
-    reading.push_str(&yield_note(greatest(field).map_or(0.0, |at| at.value)));
+    reading.push_str(yield_note(greatest(field).map_or(0.0, |at| at.value)));
     // The slice that is farthest ahead enters first.
     if let Some(entering) = greatest(&run.slices.ahead_mm) {
         let points = flank.radius_mm.len();
