@@ -61,6 +61,23 @@ fn ver_plane_strain_from_three_dimensions() {
     }
 }
 
+/// The plane that [`ver_plane_strain_from_three_dimensions`] holds space to: 26.606 µm at the pitch point under 446.4 N/mm by the independent calculation,
+/// whose own uncertainty is 0.5 %.
+#[test]
+fn val_transmission_error_in_plane_strain() {
+    let wide = [
+        ("pair.face_width_mm", toml::Value::from(20.0)),
+        ("pair.pinion.tip_rounding_mm", 0.0.into()),
+        ("pair.wheel.tip_rounding_mm", 0.0.into()),
+    ];
+    let scene = changed(LoadedScene::preset("fzg-c").unwrap(), &wide);
+    let pitch_point_mm = GearPair::new(&scene.scene().pair).unwrap().path.pitch_point_mm;
+    let found = gearwear::fem_pair(&scene, Some(pitch_point_mm), &Unwatched).unwrap().complete().unwrap();
+    let at_c = &found.mesh_cycle[0];
+    assert_close("line load", at_c.line_load_N_per_mm, 446.4, 1e-3);
+    assert_close("transmission error", at_c.transmission_error_um, 26.606, 0.005);
+}
+
 /// Maxwell and Betti: what a load here does there, the same load there does here, on one tooth and on two.
 #[test]
 fn ver_reciprocity() {
