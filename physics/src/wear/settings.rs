@@ -38,7 +38,8 @@ impl LawSettings {
         }
     }
 
-    /// Whether its coefficient depends on the contact temperature: the scene then needs a speed, and the plan computes temperatures.
+    /// Whether its coefficient depends on sliding speed or contact temperature, which come together: the scene then needs a speed, and the plan computes
+    /// temperatures.
     pub fn reads_temperature(&self) -> bool {
         match self {
             LawSettings::Archard => false,
