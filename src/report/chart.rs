@@ -488,11 +488,6 @@ pub(crate) fn padded(low: f64, high: f64) -> [f64; 2] {
     [low - pad, high + pad]
 }
 
-/// Least and greatest of `values`; of none infinitely far apart, the wrong way round.
-pub(crate) fn extent(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
-    values.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

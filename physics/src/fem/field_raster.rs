@@ -2,12 +2,10 @@
 //! and the sides of the elements there.
 
 use super::solid::{Element, ElementKind};
+use crate::reference::statistics::extent;
 
 /// Squares of a raster.
 const SQUARES: f64 = 60_000.0;
-/// Width over height of a picture on a wide screen.
-pub const WIDTH_OVER_HEIGHT: f64 = 1.75;
-
 /// Elements and where their nodes are shown.
 #[derive(Debug, Clone, Copy)]
 pub struct Bodies<'a> {
@@ -30,17 +28,17 @@ impl Window {
     /// Around all `points_mm`, with a little room.
     pub fn around(points_mm: &[[f64; 2]]) -> Self {
         let [x_mm, y_mm] = [0, 1].map(|axis| {
-            let [low, high] = extent(points_mm, axis);
+            let [low, high] = extent(points_mm.iter().map(|p| p[axis]));
             let room = 0.02 * (high - low).abs();
             [low - room, high + room]
         });
         Self { x_mm, y_mm }
     }
 
-    /// `half_height_mm` above and below `centre_mm`, in the shape of a picture.
-    pub fn about(centre_mm: [f64; 2], half_height_mm: f64) -> Self {
+    /// `half_height_mm` above and below `centre_mm`, and `width_over_height` times as much to either side.
+    pub fn about(centre_mm: [f64; 2], half_height_mm: f64, width_over_height: f64) -> Self {
         let [x, y] = centre_mm;
-        let half_width_mm = WIDTH_OVER_HEIGHT * half_height_mm;
+        let half_width_mm = width_over_height * half_height_mm;
         Self { x_mm: [x - half_width_mm, x + half_width_mm], y_mm: [y - half_height_mm, y + half_height_mm] }
     }
 
@@ -68,12 +66,6 @@ impl Window {
         };
         !beside(0, self.x_mm) && !beside(1, self.y_mm)
     }
-}
-
-/// Least and greatest coordinate.
-fn extent(points_mm: &[[f64; 2]], axis: usize) -> [f64; 2] {
-    let along = || points_mm.iter().map(|p| p[axis]);
-    [along().fold(f64::INFINITY, f64::min), along().fold(f64::NEG_INFINITY, f64::max)]
 }
 
 /// The greatest of the `values` at nodes within `reach_mm` of a place, along x and along y.

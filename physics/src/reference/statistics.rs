@@ -1,7 +1,12 @@
-//! Mean, standard deviation and quantiles of samples.
+//! Extent, mean, standard deviation and quantiles of samples.
 
 /// The shares below quantiles.
 pub const SHARES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
+
+/// Least and greatest of `values`; of none infinitely far apart, the wrong way round.
+pub fn extent(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+    values.into_iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+}
 
 /// Σ x / n.
 pub fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {

@@ -79,7 +79,7 @@ impl<L: WearLaw> FlankWear for WithTransition<L> {
             *depth += factor * k * pressure * sliding;
         };
         if L::READS_CONDITIONS {
-            let conditions = row.conditions.unwrap_or_default();
+            let conditions = row.conditions.expect("rows of a law that reads the conditions have them");
             for (point, own) in depth_mm.iter_mut().zip(points).zip(conditions) {
                 add(point, self.law.coefficient_mm2_per_n(Some(*own)));
             }

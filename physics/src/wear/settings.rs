@@ -1,9 +1,9 @@
 //! What is asked of the wear law.
 
-use super::{
-    adsorption::AdsorptionConstants,
-    oxidation::{OxidationConstants, VALID_TEMPERATURE_C},
-};
+use super::WearLaw;
+use super::adsorption::{Adsorption, AdsorptionConstants};
+use super::archard::Archard;
+use super::oxidation::{Oxidation, OxidationConstants, VALID_TEMPERATURE_C};
 use crate::gear::{Gear, PerGear};
 
 /// The transition from mild to severe wear (thesis eq 26).
@@ -42,8 +42,9 @@ impl LawSettings {
     /// temperatures.
     pub fn reads_temperature(&self) -> bool {
         match self {
-            LawSettings::Archard => false,
-            LawSettings::Adsorption(_) | LawSettings::Oxidation(_) => true,
+            LawSettings::Archard => Archard::READS_CONDITIONS,
+            LawSettings::Adsorption(_) => Adsorption::READS_CONDITIONS,
+            LawSettings::Oxidation(_) => Oxidation::READS_CONDITIONS,
         }
     }
 
@@ -108,12 +109,6 @@ impl PerGear<WearSettings> {
     /// Whether wear of either gear may be severe.
     pub fn may_be_severe(&self) -> bool {
         Gear::BOTH.into_iter().any(|gear| self[gear].severe.is_some())
-    }
-
-    /// The greatest factor that the transition of either gear puts on its coefficient at this pressure, MPa; 1 at least.
-    pub fn greatest_factor_at(&self, pressure_mpa: f64) -> f64 {
-        let of = |gear: Gear| self[gear].severe.map_or(1.0, |severe| severe.factor_at(pressure_mpa));
-        of(Gear::Pinion).max(of(Gear::Wheel)).max(1.0)
     }
 
     /// The greatest factor of severe wear of the gears that wear severely somewhere under this maximum pressure, MPa; none where

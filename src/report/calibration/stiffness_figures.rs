@@ -6,7 +6,8 @@ use crate::calibration::stiffness_variation::{StiffnessVariation, VariationOf};
 use crate::calibration::tooth_family::FamilyMember;
 use crate::calibration::tooth_stiffness::{PairDeflection, ToothDeflection};
 use crate::gear::Gear;
-use crate::report::chart::{Chart, Dash, MUTED, PATH, Trace, WORN, colour_between_gears, extent, gear_colour};
+use crate::reference::statistics::extent;
+use crate::report::chart::{Chart, Dash, MUTED, PATH, Trace, WORN, colour_between_gears, gear_colour};
 use crate::report::html::number::{figure, percent, significant};
 
 pub(super) fn all(calibration: &Calibration) -> Vec<Chart> {

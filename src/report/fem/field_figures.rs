@@ -3,7 +3,7 @@
 use crate::fem::field_raster::{self, Bodies, Window, greatest_near};
 use crate::fem::problem::Edge;
 use crate::report::chart::{Chart, INK, MUTED, Trace};
-use crate::report::html::field_plot::{self, segments, side_lines, to_scale};
+use crate::report::html::field_plot::{self, WIDTH_OVER_HEIGHT, segments, side_lines, to_scale};
 use crate::report::html::number::{count, figure, significant};
 use crate::report::html::reading::greatest;
 use crate::results::fem_problem::{ContactCurve, FemRecord, FemSummary, PlaneSolution};
@@ -111,7 +111,8 @@ pub(super) fn von_mises(summary: &FemSummary, plane: &PlaneSolution) -> Vec<Char
             }
         );
         let title = format!("Von Mises stress at {} on {}", summary.slave, summary.master);
-        let window = Window::about(middle, AROUND * summary.half_width_mm).within(Window::around(&deformed));
+        let window =
+            Window::about(middle, AROUND * summary.half_width_mm, WIDTH_OVER_HEIGHT).within(Window::around(&deformed));
         charts.push(picture(Chart::new(format!("stress-{index}"), title).reading(reading), window));
     }
     charts

@@ -1,7 +1,8 @@
 //! Pressure along a contact, beside Hertz's.
 
 use crate::reference::hertz_line::LineContact;
-use crate::report::chart::{Chart, extent};
+use crate::reference::statistics::extent;
+use crate::report::chart::Chart;
 use crate::report::html::number::{change, figure, significant};
 use crate::report::pressure_plot::beside_hertz;
 use crate::results::fem_problem::{ContactCurve, ContactRow, ContactSummary};

@@ -1,7 +1,8 @@
 //! Over the path of contact from A to E: load sharing, pressure, transmission error, stress at the roots.
 
 use crate::gear::Gear;
-use crate::report::chart::{Chart, Dash, MUTED, NEW, PATH, Trace, WORN, extent, gear_colour, padded};
+use crate::reference::statistics::extent;
+use crate::report::chart::{Chart, Dash, MUTED, NEW, PATH, Trace, WORN, gear_colour, padded};
 use crate::report::html::number::{figure, percent, significant};
 use crate::results::fem_pair::{FemCycleRow, FemPairRecord, RootSummary};
 

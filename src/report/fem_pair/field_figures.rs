@@ -4,7 +4,7 @@ use crate::fem::field_raster::{self, Bodies, Window, greatest_near};
 use crate::fem::solid::Element;
 use crate::gear::Gear;
 use crate::report::chart::{Chart, Trace, gear_colour};
-use crate::report::html::field_plot::{self, side_lines, to_scale};
+use crate::report::html::field_plot::{self, WIDTH_OVER_HEIGHT, side_lines, to_scale};
 use crate::report::html::number::{count, figure, significant};
 use crate::results::fem_pair::{ContactPlace, FemPairSummary, PairSolution};
 
@@ -67,7 +67,10 @@ pub(super) fn von_mises(solution: &PairSolution) -> Vec<Chart> {
         let greatest_mpa = greatest_near(bodies, &values, contact.at_mm, reach_mm);
         let id = format!("stress-contact-{}", contact.pair).replace("--", "-behind-");
         let chart = Chart::new(id, format!("Von Mises stress under {}", pair_name(contact.pair)));
-        picture(chart.reading(contact_reading(contact, greatest_mpa)), Window::about(contact.at_mm, reach_mm))
+        picture(
+            chart.reading(contact_reading(contact, greatest_mpa)),
+            Window::about(contact.at_mm, reach_mm, WIDTH_OVER_HEIGHT),
+        )
     });
     [whole].into_iter().chain(contacts).collect()
 }

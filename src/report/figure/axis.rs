@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use crate::report::chart::extent;
+use crate::reference::statistics::extent;
 use crate::report::html::number::{superscript, to_digits};
 
 /// Of a range that follows from the values, the part that is added on either side.

@@ -4,7 +4,8 @@ use serde_json::{Value, json};
 
 use super::axis::Axis;
 use super::palette::{colour, of_scale};
-use crate::report::chart::{Chart, INK, MUTED, Trace, TraceKind, extent};
+use crate::reference::statistics::extent;
+use crate::report::chart::{Chart, INK, MUTED, Trace, TraceKind};
 
 /// Widths of figures: over half of a page, over a whole one.
 const WIDTH_PX: [f64; 2] = [640.0, 1080.0];

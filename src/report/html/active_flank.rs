@@ -1,7 +1,8 @@
 //! The part of a flank that plots show.
 
 use crate::gear::Gear;
-use crate::report::chart::{Chart, extent, padded};
+use crate::reference::statistics::extent;
+use crate::report::chart::{Chart, padded};
 use crate::results::run::{FlankRecord, PathPoints};
 
 /// From a little below the start of active profile up to the tip.

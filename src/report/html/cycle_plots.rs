@@ -2,7 +2,8 @@
 
 use super::number::{change, figure, percent, significant};
 use super::reading::{Extreme, defined_pressures, greatest, tip_edge_note};
-use crate::report::chart::{Chart, extent};
+use crate::reference::statistics::extent;
+use crate::report::chart::Chart;
 use crate::results::path_points::among;
 use crate::results::run::{MeshCycleRow, RunRecord};
 

@@ -6,7 +6,8 @@ use serde_json::{Value, json};
 
 use super::number::{figure, significant};
 use crate::gear::Gear;
-use crate::report::chart::{Chart, Dash, INK, MUTED, PATH, Trace, extent, gear_colour, gear_fill, label};
+use crate::reference::statistics::extent;
+use crate::report::chart::{Chart, Dash, INK, MUTED, PATH, Trace, gear_colour, gear_fill, label};
 use crate::report::control::{Control, MeshMotion, TurningBody};
 use crate::results::run::{GearCircles, PairDrawing, RunRecord};
 

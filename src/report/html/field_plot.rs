@@ -4,13 +4,15 @@
 //! the sides of the elements.
 
 use super::number::{plotted, to_digits};
-use crate::fem::field_raster::{Bodies, Raster, WIDTH_OVER_HEIGHT, Window, sides};
+use crate::fem::field_raster::{Bodies, Raster, Window, sides};
 use crate::report::chart::{Chart, Dash, INK, Trace};
 
 /// Significant digits of a value in the picture.
 const DIGITS: usize = 4;
 /// Sides of elements that a picture shows at the most: beyond, they are too fine to be seen and too many to be drawn.
 const MOST_SIDES: usize = 20_000;
+/// Width over height of a picture on a wide screen.
+pub(crate) const WIDTH_OVER_HEIGHT: f64 = 1.75;
 const HEIGHT_PX: usize = 600;
 
 /// Draws the von Mises stress at the nodes within `window`.

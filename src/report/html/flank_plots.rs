@@ -4,7 +4,8 @@ use super::active_flank::ActiveFlank;
 use super::number::{figure, hours, percent, plotted, revolutions, significant};
 use super::reading::{Extreme, greatest, place_on_flank, tip_edge_note, yield_note};
 use crate::gear::Gear;
-use crate::report::chart::{Chart, Dash, INK, Trace, extent, gear_colour, gear_colour_at};
+use crate::reference::statistics::extent;
+use crate::report::chart::{Chart, Dash, INK, Trace, gear_colour, gear_colour_at};
 use crate::report::control::{Control, Step};
 use crate::results::run::{HistoryRow, RunRecord};
 

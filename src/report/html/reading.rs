@@ -40,7 +40,7 @@ pub(crate) fn tip_edge_note(places: &[(&str, f64)], at: f64) -> &'static str {
 /// What to say of a pressure that steel hardly bears elastically; empty below. The warning says when steel flows.
 pub(crate) fn yield_note(pressure_mpa: f64) -> &'static str {
     if steel_yield::is_exceeded(pressure_mpa) {
-        " Steel would flow: the pressure is that of a material which stays elastic."
+        " Steel of 300 HV would flow: the pressure is that of a material which stays elastic."
     } else {
         ""
     }

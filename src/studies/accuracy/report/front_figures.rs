@@ -4,7 +4,8 @@
 
 use serde_json::json;
 
-use crate::report::chart::{Chart, Dash, MUTED, Trace, extent};
+use crate::reference::statistics::extent;
+use crate::report::chart::{Chart, Dash, MUTED, Trace};
 use crate::report::html::number::{percent, significant};
 use crate::studies::accuracy::record::{AccuracyRecord, Quantity, VariantRecord, VariantSettings};
 

@@ -4,7 +4,8 @@
 //! beside them.
 
 use crate::gear::Gear;
-use crate::report::chart::{Chart, Dash, INK, Trace, extent, padded};
+use crate::reference::statistics::extent;
+use crate::report::chart::{Chart, Dash, INK, Trace, padded};
 use crate::report::html::number::{figure, percent, significant};
 use crate::report::html::reading::greatest;
 use crate::results::path_points::among;

@@ -1,6 +1,7 @@
 //! The plots of a comparison: profiles with their form removed, wear depths, and what is left between them.
 
-use crate::report::chart::{Chart, Dash, MUTED, NEW, Trace, WORN, extent, padded};
+use crate::reference::statistics::extent;
+use crate::report::chart::{Chart, Dash, MUTED, NEW, Trace, WORN, padded};
 use crate::report::html::number::{figure, significant};
 use crate::report::html::reading::greatest;
 use crate::results::path_points::among;

@@ -4,7 +4,8 @@ use serde_json::json;
 
 use crate::gear::Gear;
 use crate::reference::sobol_indices::Index;
-use crate::report::chart::{Chart, Dash, INK, Trace, TraceKind, extent, gear_colour, padded};
+use crate::reference::statistics::extent;
+use crate::report::chart::{Chart, Dash, INK, Trace, TraceKind, gear_colour, padded};
 use crate::report::html::number::{figure, percent};
 use crate::studies::uncertainty::record::{FactorIndices, OutputRecord, UncertaintyRecord};
 

@@ -3,7 +3,8 @@
 use serde_json::json;
 
 use super::markup::identifier;
-use crate::report::chart::{Chart, Dash, MUTED, Trace, extent};
+use crate::reference::statistics::extent;
+use crate::report::chart::{Chart, Dash, MUTED, Trace};
 use crate::report::html::number::plotted;
 use crate::studies::validation::record::{CasePlot, CaseRecord, CurveStyle, PlotCurve};
 

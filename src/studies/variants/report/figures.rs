@@ -1,7 +1,8 @@
 //! The plots of runs side by side: wear of both flanks, pressure, load share and transmission error over the mesh cycle.
 
 use crate::gear::Gear;
-use crate::report::chart::{Chart, Dash, colour_between_gears, extent, padded};
+use crate::reference::statistics::extent;
+use crate::report::chart::{Chart, Dash, colour_between_gears, padded};
 use crate::report::html::number::{figure, significant};
 use crate::report::html::reading::greatest;
 use crate::studies::variants::finished_run::FinishedRun;
