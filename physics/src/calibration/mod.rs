@@ -17,7 +17,7 @@ pub mod bodies;
 pub mod file;
 pub mod foundation_fit;
 pub mod identity;
-pub mod loaded_tooth;
+pub(crate) mod loaded_tooth;
 pub mod single_contact;
 pub mod slice_fit;
 pub mod stiffness_variation;

@@ -24,7 +24,7 @@ use super::Response;
 use crate::fem::active_set::{ActiveSetError, Condensed};
 
 /// A row of cells that may touch.
-pub struct ElasticCells {
+pub(crate) struct ElasticCells {
     width_mm: f64,
     /// C by distance in cells.
     compliance: Vec<f64>,
@@ -48,12 +48,12 @@ struct Touching {
 
 impl ElasticCells {
     /// Cells of `width_mm`, as many as `compliance` has entries, the effect of one on another by their distance.
-    pub fn new(width_mm: f64, compliance: Vec<f64>) -> Self {
+    pub(crate) fn new(width_mm: f64, compliance: Vec<f64>) -> Self {
         Self { width_mm, gap_mm: vec![0.0; compliance.len()], compliance, touching: None, indentation_mm: 0.0 }
     }
 
     /// No longer knows which cells touched.
-    pub fn reset(&mut self) {
+    pub(crate) fn reset(&mut self) {
         self.touching = None;
         self.indentation_mm = 0.0;
     }
@@ -67,7 +67,7 @@ impl ElasticCells {
     }
 
     /// Load and stiffness when pressed together by `indentation_mm` beyond a gap of zero; not numbers where the gaps are none.
-    pub fn load_at(&mut self, indentation_mm: f64) -> Response {
+    pub(crate) fn load_at(&mut self, indentation_mm: f64) -> Response {
         self.indentation_mm = indentation_mm;
         if indentation_mm <= 0.0 {
             return Response::default();
@@ -89,7 +89,7 @@ impl ElasticCells {
     }
 
     /// The pressures at the last indentation.
-    pub fn pressure_mpa(&self, pressure_mpa: &mut Vec<f64>) {
+    pub(crate) fn pressure_mpa(&self, pressure_mpa: &mut Vec<f64>) {
         pressure_mpa.clear();
         pressure_mpa.resize(self.gap_mm.len(), 0.0);
         let Some(touching) = self.touching.as_ref().filter(|_| self.indentation_mm > 0.0) else { return };

@@ -13,7 +13,7 @@ const SLACK: f64 = 0.02;
 
 /// The gap that observed points face, and how it changes under them.
 #[derive(Debug, Clone)]
-pub struct GapAtPoints {
+pub(crate) struct GapAtPoints {
     geometric_gap_mm: Vec<f64>,
     mate: Interpolation,
     /// How the gap of each point changes within the cell.
@@ -48,7 +48,7 @@ struct Growth {
 
 /// A point's gap at the cell's position, and its course.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct FacedGap<'a> {
+pub(crate) struct FacedGap<'a> {
     /// Gap at the cell's position, mm.
     pub gap_mm: f64,
     growth: &'a Growth,
@@ -122,7 +122,7 @@ impl GapWhilePassing {
 
 impl GapAtPoints {
     /// Of `points` at `position_mm`.
-    pub fn new(flanks: Flanks<'_>, gear: Gear, points: &ObservedPoints, position_mm: f64) -> Self {
+    pub(crate) fn new(flanks: Flanks<'_>, gear: Gear, points: &ObservedPoints, position_mm: f64) -> Self {
         let count = points.sliding_mm.len();
         let mut mate = Interpolation::new(flanks, gear.mate());
         let mut geometric_gap_mm: Vec<f64> = Vec::with_capacity(count + 2);

@@ -12,19 +12,19 @@
 //! | [`hertz_mean`] | Hertz's mean pressure, closed-form sliding | closed-form flattening |
 
 pub mod edge_foundation;
-pub mod elastic_cells;
+pub(crate) mod elastic_cells;
 mod flank_motion;
 pub mod foundation;
-pub mod gap_at_points;
+pub(crate) mod gap_at_points;
 mod growing_window;
 pub mod half_space;
 pub mod hertz;
 pub mod hertz_mean;
-pub mod observed_points;
-pub mod pressure_field;
+pub(crate) mod observed_points;
+pub(crate) mod pressure_field;
 pub mod settings;
-pub mod strip;
-pub mod swept_field;
+pub(crate) mod strip;
+pub(crate) mod swept_field;
 pub mod winkler;
 
 use serde::{Deserialize, Serialize};

@@ -9,7 +9,7 @@ use crate::gear::{Gear, conjugate::ConjugateFlanks, involute::TangentFramePoint}
 
 /// Consecutive points of one flank that may touch the other, with one more at either end.
 #[derive(Debug, Clone)]
-pub struct ObservedPoints {
+pub(crate) struct ObservedPoints {
     /// Index of the first point that may touch; the samples begin one before it.
     pub first_point: usize,
     /// Where the samples lie in the tangent frame.
@@ -40,7 +40,7 @@ struct PartlyExposed {
 
 impl ObservedPoints {
     /// The points of `gear` facing `window` anywhere in `cell`.
-    pub fn new(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
+    pub(crate) fn new(flanks: Flanks<'_>, gear: Gear, window: Window, cell: PositionCell) -> Self {
         let (geometry, grid) = (flanks.geometry, flanks.grid[gear]);
         let (lower, upper) = match gear {
             Gear::Pinion => (window.lower_mm, window.upper_mm),
@@ -132,7 +132,7 @@ impl ObservedPoints {
 
     /// The points, counted from the first, that touch anywhere between `lower_mm` and `upper_mm` (gear's own direction)
     /// while the contact moves through the cell; a few more at either end do not.
-    pub fn between(&self, lower_mm: f64, upper_mm: f64) -> Range<usize> {
+    pub(crate) fn between(&self, lower_mm: f64, upper_mm: f64) -> Range<usize> {
         let [a, b] = self.shift_to_ends_mm;
         let sample = |along: f64| (along - self.at[1].along_mm) / self.spacing_mm;
         // Points are almost evenly spaced; two more make up for the difference.

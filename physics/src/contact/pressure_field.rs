@@ -20,7 +20,7 @@ const END_CELLS: usize = 3;
 
 /// Pressure on evenly spaced cells.
 #[derive(Debug, Clone, Default)]
-pub struct PressureField {
+pub(crate) struct PressureField {
     /// Where the first cell begins, mm.
     lower_mm: f64,
     width_mm: f64,
@@ -33,12 +33,12 @@ pub struct PressureField {
 
 impl PressureField {
     /// Cells of `width_mm` from `lower_mm` on, without pressure so far; `mirrored` beyond an edge under pressure or not.
-    pub fn new(lower_mm: f64, width_mm: f64, mirrored: bool) -> Self {
+    pub(crate) fn new(lower_mm: f64, width_mm: f64, mirrored: bool) -> Self {
         Self { lower_mm, width_mm, mirrored, ..Self::default() }
     }
 
     /// Exchanges the pressures, through a vector that is filled with one of each cell, two at least.
-    pub fn fill(&mut self, pressure_mpa: impl FnOnce(&mut Vec<f64>)) {
+    pub(crate) fn fill(&mut self, pressure_mpa: impl FnOnce(&mut Vec<f64>)) {
         pressure_mpa(&mut self.pressure_mpa);
         self.load_below.clear();
         let mut load = 0.0;
@@ -75,7 +75,7 @@ impl PressureField {
     }
 
     /// Greatest pressure from one place to another.
-    pub fn greatest_mpa(&self, [from_mm, to_mm]: [f64; 2]) -> f64 {
+    pub(crate) fn greatest_mpa(&self, [from_mm, to_mm]: [f64; 2]) -> f64 {
         let cells = |x_mm: f64| ((x_mm - self.lower_mm) / self.width_mm - 0.5).max(0.0);
         let (low, high) = (cells(from_mm.min(to_mm)).ceil() as usize, cells(from_mm.max(to_mm)) as usize);
         let centres = self.pressure_mpa.iter().take(high + 1).skip(low).copied();
@@ -116,7 +116,7 @@ impl PressureField {
     }
 
     /// Outermost places under pressure; both 0 without pressure.
-    pub fn extent_mm(&self) -> (f64, f64) {
+    pub(crate) fn extent_mm(&self) -> (f64, f64) {
         let p = &self.pressure_mpa;
         let loaded = |pressure: &f64| *pressure > 0.0;
         let (Some(first), Some(last)) = (p.iter().position(loaded), p.iter().rposition(loaded)) else {
@@ -130,7 +130,7 @@ impl PressureField {
     }
 
     /// Greatest pressure, between the cells' centres, and half the extent; a field knows no edges.
-    pub fn footprint(&self) -> Footprint {
+    pub(crate) fn footprint(&self) -> Footprint {
         let (lower, upper) = self.extent_mm();
         Footprint { peak_pressure_mpa: self.peak_mpa(), half_width_mm: 0.5 * (upper - lower), at_sharp_edge: false }
     }

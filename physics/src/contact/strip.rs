@@ -104,7 +104,7 @@ impl PassingMean {
 /// Extent of the tangent at one position over which both flanks exist, and of the part looked at; mm, positive towards
 /// the pinion's tip.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Window {
+pub(crate) struct Window {
     /// Lower end of what is looked at.
     pub lower_mm: f64,
     /// Upper end.
@@ -118,7 +118,7 @@ pub struct Window {
 impl Window {
     /// `half_length_mm` to either side of the theoretical contact point, or of the tip edge next to it where the one flank
     /// ends before it, cut where a flank ends.
-    pub fn new(flanks: Flanks<'_>, position_mm: f64, half_length_mm: f64) -> Self {
+    pub(crate) fn new(flanks: Flanks<'_>, position_mm: f64, half_length_mm: f64) -> Self {
         let ((lower, upper), at_tips) = common_extent_mm(flanks.geometry, position_mm);
         let centre = 0.0_f64.min(upper).max(lower);
         let (from, to) = (centre - half_length_mm, centre + half_length_mm);
@@ -133,7 +133,7 @@ impl Window {
     }
 
     /// Its length.
-    pub fn length_mm(&self) -> f64 {
+    pub(crate) fn length_mm(&self) -> f64 {
         self.upper_mm - self.lower_mm
     }
 
@@ -170,7 +170,7 @@ pub(crate) fn point_distance_mm(flanks: Flanks<'_>, gear: Gear, position_mm: f64
 
 /// Evenly spaced samples across the candidate contact.
 #[derive(Debug, Clone)]
-pub struct Strip {
+pub(crate) struct Strip {
     /// What the samples cover.
     pub window: Window,
     /// Distance of the samples, mm.
@@ -193,7 +193,7 @@ impl Strip {
     /// Samples at both ends of `window` and between `intervals` even parts of it. Where the pressure stands still while the flanks pass
     /// under it during a cell, `passed_during`, each sample sees the mean wear of what passes it, as all that passes it feels its pressure:
     /// seen at one place alone, a wave of wear as long as the positions are apart would meet each of them alike, and grow.
-    pub fn new(
+    pub(crate) fn new(
         flanks: Flanks<'_>,
         position_mm: f64,
         window: Window,
@@ -226,7 +226,7 @@ impl Strip {
     }
 
     /// The gap with `removed_mm` of material gone, into `gap_mm`, and its least value.
-    pub fn gap_mm(&self, removed_mm: PerGear<&[f64]>, gap_mm: &mut Vec<f64>) -> f64 {
+    pub(crate) fn gap_mm(&self, removed_mm: PerGear<&[f64]>, gap_mm: &mut Vec<f64>) -> f64 {
         match &self.removed {
             Removed::Here(here) => self.opened_mm(Gear::BOTH.map(|gear| here[gear].of(removed_mm[gear], 0)), gap_mm),
             Removed::Passing(passing) => {

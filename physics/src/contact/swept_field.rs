@@ -14,7 +14,7 @@ use super::{Flanks, PointContact, PositionCell, Sweep, pressure_field::PressureF
 use crate::gear::{Gear, PerGear};
 
 /// The field, and the points of both flanks that may feel it.
-pub struct SweptField {
+pub(crate) struct SweptField {
     /// Pressure along the tangent.
     pub field: PressureField,
     width_mm: f64,
@@ -27,7 +27,7 @@ type Courses = Vec<Option<[f64; 2]>>;
 
 impl SweptField {
     /// A field of cells of `width_mm` over `window`, without pressure so far; with a `cell`, points are collected.
-    pub fn new(flanks: Flanks<'_>, window: Window, width_mm: f64, cell: Option<PositionCell>) -> Self {
+    pub(crate) fn new(flanks: Flanks<'_>, window: Window, width_mm: f64, cell: Option<PositionCell>) -> Self {
         // An edge moves to both sides of where it is, but where the cell lies to one side of its position, or the field goes with the edge.
         let both_ways = |cell: PositionCell| {
             let two_sided = cell.lower_mm < cell.position_mm && cell.position_mm < cell.upper_mm;
@@ -45,7 +45,7 @@ impl SweptField {
     }
 
     /// Fills in pressure and sliding of the points of a flank.
-    pub fn sweep(&self, gear: Gear, sweep: &mut Sweep) {
+    pub(crate) fn sweep(&self, gear: Gear, sweep: &mut Sweep) {
         let Some(observed) = &self.observed else { return sweep.begin(0, &[]) };
         let (points, courses) = &observed[gear];
         let near = self.touching(gear, points);
@@ -58,7 +58,7 @@ impl SweptField {
     }
 
     /// The contact of each point of that [`Sweep`].
-    pub fn contact_of_points(&self, gear: Gear) -> Vec<PointContact> {
+    pub(crate) fn contact_of_points(&self, gear: Gear) -> Vec<PointContact> {
         let Some(observed) = &self.observed else { return Vec::new() };
         let (points, courses) = &observed[gear];
         let near = self.touching(gear, points);

@@ -1,7 +1,7 @@
 //! Finite elements: plane elements and hexahedra, assembly, factorisation, contact of plane meshes.
 
 pub mod active_set;
-pub mod contact;
+pub(crate) mod contact;
 pub mod disjoint_sets;
 pub mod elastic;
 pub mod element;
@@ -18,8 +18,8 @@ pub mod node_matrix;
 pub mod problem;
 mod projected_volume;
 pub mod quadrature;
-pub mod rigid_body;
-pub mod shape;
+pub(crate) mod rigid_body;
+pub(crate) mod shape;
 pub mod solid;
 pub mod space;
 mod sparse_solve;

@@ -20,7 +20,7 @@ const FREE: f64 = 1e-10;
 
 /// One free rigid motion of one body.
 #[derive(Debug, Clone, PartialEq)]
-pub struct RigidMotion {
+pub(crate) struct RigidMotion {
     /// The body's nodes.
     pub nodes: Vec<u32>,
     centre_mm: Vector2<f64>,
@@ -33,14 +33,14 @@ pub struct RigidMotion {
 
 impl RigidMotion {
     /// Displacement per amplitude at a point of the body.
-    pub fn at(&self, point_mm: Vector2<f64>) -> Vector2<f64> {
+    pub(crate) fn at(&self, point_mm: Vector2<f64>) -> Vector2<f64> {
         let arm = (point_mm - self.centre_mm) / self.size_mm;
         Vector2::new(self.amplitude.x - self.amplitude.z * arm.y, self.amplitude.y + self.amplitude.z * arm.x)
     }
 }
 
 /// In words: which body moves how with these amplitudes of the `motions`; of several bodies, the one that moves most.
-pub fn describe(motions: &[RigidMotion], amplitudes: &[f64]) -> String {
+pub(crate) fn describe(motions: &[RigidMotion], amplitudes: &[f64]) -> String {
     let sum_of = |body: &[u32]| -> Vector3<f64> {
         let own = motions.iter().zip(amplitudes).filter(|(motion, _)| motion.nodes == body);
         own.map(|(motion, amplitude)| *amplitude * motion.amplitude).sum()
@@ -62,7 +62,7 @@ pub fn describe(motions: &[RigidMotion], amplitudes: &[f64]) -> String {
 }
 
 /// The nodes of each body: those connected through elements, by increasing number.
-pub fn bodies(solid: &Solid) -> Vec<Vec<u32>> {
+pub(crate) fn bodies(solid: &Solid) -> Vec<Vec<u32>> {
     let mut sets = DisjointSets::new(solid.points_mm.len());
     let mut used = vec![false; solid.points_mm.len()];
     for nodes in solid.elements.iter().map(|element| element.nodes()) {

@@ -34,7 +34,7 @@ const QUAD_NODES: [[f64; 2]; 9] =
 const TRIANGLE_NODES: [[f64; 2]; 6] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.0], [0.5, 0.5], [0.0, 0.5]];
 
 /// Where the nodes of an element lie on its reference cell.
-pub fn reference_nodes(kind: ElementKind) -> &'static [[f64; 2]] {
+pub(crate) fn reference_nodes(kind: ElementKind) -> &'static [[f64; 2]] {
     match kind {
         ElementKind::Triangle3 => &TRIANGLE_NODES[..3],
         ElementKind::Triangle6 => &TRIANGLE_NODES,

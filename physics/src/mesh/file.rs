@@ -21,7 +21,7 @@ use super::{Mesh, abaqus, json};
 use crate::whole_file;
 
 /// The endings of mesh files.
-pub const ALLOWED_ENDINGS: &str = ".msh (Gmsh 2.2 or 4.1), .vtu (VTK), .inp (Abaqus) or .json";
+pub(crate) const ALLOWED_ENDINGS: &str = ".msh (Gmsh 2.2 or 4.1), .vtu (VTK), .inp (Abaqus) or .json";
 
 /// A mesh format. The choices inside matter for writing alone: a file says itself how it is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

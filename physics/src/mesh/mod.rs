@@ -11,11 +11,11 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-pub mod abaqus;
+pub(crate) mod abaqus;
 mod cell_kind;
-pub mod check;
+pub(crate) mod check;
 pub mod error;
-pub mod file;
+pub(crate) mod file;
 pub mod gmsh;
 mod json;
 mod numbering;

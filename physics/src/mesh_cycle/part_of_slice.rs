@@ -12,14 +12,14 @@ use crate::contact::{Footprint, PairContact, PointContact, Response, Sweep};
 use crate::gear::{Gear, PerGear};
 
 /// The contact of a part of a slice, reckoned over the width of the slice.
-pub struct PartOfSlice<'a> {
+pub(crate) struct PartOfSlice<'a> {
     contact: Box<dyn PairContact + 'a>,
     part: ContactPart,
 }
 
 impl<'a> PartOfSlice<'a> {
     /// What `contact` is where only this `part` of the slice has it.
-    pub fn of(contact: Box<dyn PairContact + 'a>, part: ContactPart) -> Box<dyn PairContact + 'a> {
+    pub(crate) fn of(contact: Box<dyn PairContact + 'a>, part: ContactPart) -> Box<dyn PairContact + 'a> {
         if part == ContactPart::WHOLE { contact } else { Box::new(PartOfSlice { contact, part }) }
     }
 }

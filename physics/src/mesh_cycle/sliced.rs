@@ -65,7 +65,7 @@ impl SpringAlongPath {
 }
 
 /// How the teeth of a slice yield, and where its load acts.
-pub struct SliceSprings<'a> {
+pub(crate) struct SliceSprings<'a> {
     /// The gears.
     pub pair: &'a GearPair,
     /// Compliance of the teeth.
@@ -96,7 +96,7 @@ struct Group<'a> {
 }
 
 /// All phases of a sliced pair, ready to be evaluated on ever newly worn flanks.
-pub struct SlicedCycle<'a> {
+pub(crate) struct SlicedCycle<'a> {
     groups: Vec<Group<'a>>,
     sliced: &'a SlicedTeeth,
     path: &'a PathOfContact,
@@ -117,7 +117,7 @@ fn of_slice(field: PerGear<&[f64]>, points: PerGear<usize>, slice: usize) -> Per
 impl<'a> SlicedCycle<'a> {
     /// Prepares every contact at every phase; `positions` rows from A to E are observed.
     #[allow(clippy::too_many_arguments, reason = "each of them is a part of the physics")]
-    pub fn new(
+    pub(crate) fn new(
         flanks: Flanks<'a>,
         surface: &dyn ContactSurface,
         sliced: &'a SlicedTeeth,

@@ -26,7 +26,7 @@ use super::flattening::Body;
 
 /// How far both of two half-planes together yield, at distance `k` · `width_mm` from the centre of a cell of that width under
 /// unit pressure, mm/MPa, for k = 0 … `count` − 1.
-pub fn cell_compliance_mm_per_mpa(bodies: &[Body; 2], width_mm: f64, count: usize) -> Vec<f64> {
+pub(crate) fn cell_compliance_mm_per_mpa(bodies: &[Body; 2], width_mm: f64, count: usize) -> Vec<f64> {
     let primitive = |x: f64| bodies.iter().map(|body| line_load_primitive(body, x)).sum::<f64>();
     (0..count)
         .map(|k| {

@@ -2,11 +2,11 @@
 
 pub mod cantilever;
 pub mod flattening;
-pub mod half_plane;
+pub(crate) mod half_plane;
 pub mod hertz_line;
 pub mod lame_cylinder;
 pub mod linear_means;
-pub mod monotone_cubic;
+pub(crate) mod monotone_cubic;
 pub mod moving_heat_band;
 pub mod persson;
 pub mod separate_peaks;

@@ -11,7 +11,7 @@
 
 /// The curve through given values at increasing places.
 #[derive(Debug, Clone)]
-pub struct MonotoneCubic<'a> {
+pub(crate) struct MonotoneCubic<'a> {
     places: &'a [f64],
     values: &'a [f64],
     slopes: Vec<f64>,
@@ -19,7 +19,7 @@ pub struct MonotoneCubic<'a> {
 
 impl<'a> MonotoneCubic<'a> {
     /// Through `values` at the increasing `places`, as many of both; of equal places the first counts.
-    pub fn new(places: &'a [f64], values: &'a [f64]) -> Self {
+    pub(crate) fn new(places: &'a [f64], values: &'a [f64]) -> Self {
         let last = places.len().saturating_sub(1);
         let length = |k: usize| places[k + 1] - places[k];
         let difference = |k: usize| if length(k) > 0.0 { (values[k + 1] - values[k]) / length(k) } else { 0.0 };
@@ -44,7 +44,7 @@ impl<'a> MonotoneCubic<'a> {
     }
 
     /// The value at `x`; beyond the ends, the value there; 0 without any place.
-    pub fn at(&self, x: f64) -> f64 {
+    pub(crate) fn at(&self, x: f64) -> f64 {
         let (Some(&first), Some(last)) = (self.places.first(), self.places.len().checked_sub(1)) else { return 0.0 };
         if last == 0 || x <= first {
             return self.values[0];

@@ -3,7 +3,7 @@
 //! The records of the studies (accuracy, sweep, compare, validation) are with them in `studies`.
 
 pub mod chemistry;
-pub mod drawing;
+pub(crate) mod drawing;
 pub mod error;
 pub mod fem_pair;
 pub mod fem_problem;

@@ -5,7 +5,7 @@ pub mod checkpoint;
 pub mod figures;
 pub mod heat_observation;
 pub mod left_out_contact;
-pub mod life;
+pub(crate) mod life;
 pub mod mesh_contact;
 pub mod settings;
 pub mod stability;

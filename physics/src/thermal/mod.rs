@@ -23,8 +23,8 @@
 
 pub mod band;
 pub mod heat_equation;
-pub mod partition;
-pub mod peclet;
+pub(crate) mod partition;
+pub(crate) mod peclet;
 pub mod settings;
 pub mod tian_kennedy;
 pub mod tooth;

@@ -13,7 +13,7 @@ use super::settings::HeatPartition;
 use crate::gear::PerGear;
 
 /// δ of both bodies, from what the greatest rise of each would be with all of the heat.
-pub fn shares(partition: HeatPartition, rise_with_all: PerGear<f64>) -> PerGear<f64> {
+pub(crate) fn shares(partition: HeatPartition, rise_with_all: PerGear<f64>) -> PerGear<f64> {
     let sum = rise_with_all.sum();
     match partition {
         HeatPartition::ArchardRowntree if sum > 0.0 => {

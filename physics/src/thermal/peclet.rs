@@ -10,6 +10,6 @@
 //! Source: the thesis, section 3.6; K. L. Johnson, *Contact Mechanics* (1985), section 12.2.
 
 /// Pe.
-pub fn peclet(half_width_mm: f64, velocity_mm_per_s: f64, diffusivity_mm2_per_s: f64) -> f64 {
+pub(crate) fn peclet(half_width_mm: f64, velocity_mm_per_s: f64, diffusivity_mm2_per_s: f64) -> f64 {
     half_width_mm * velocity_mm_per_s / (2.0 * diffusivity_mm2_per_s)
 }

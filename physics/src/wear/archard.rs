@@ -10,7 +10,7 @@ use super::{ContactConditions, WearLaw};
 
 /// dh = k p ds at every point.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Archard {
+pub(crate) struct Archard {
     /// k, mm²/N.
     pub coefficient_mm2_per_n: f64,
 }

@@ -6,7 +6,7 @@ use crate::thermal::{ContactHeat, SpeedRatios, band::Spread};
 
 /// What a heated contact is to the points in it.
 #[derive(Debug, Clone, Copy)]
-pub struct HeatedContact<'a> {
+pub(crate) struct HeatedContact<'a> {
     /// The heat.
     pub heat: &'a ContactHeat,
     /// How fast the surfaces move.
@@ -35,7 +35,7 @@ impl HeatedContact<'_> {
 
 /// Consecutive points of a gear's flank, from root to tip, that run across a contact.
 #[derive(Debug, Clone, Copy)]
-pub struct RowOfPoints<'a> {
+pub(crate) struct RowOfPoints<'a> {
     /// Whose they are.
     pub gear: Gear,
     /// Their distance along the flank.
@@ -46,14 +46,14 @@ pub struct RowOfPoints<'a> {
 
 /// A row of conditions.
 #[derive(Debug, Clone, Default)]
-pub struct HeatedRow {
+pub(crate) struct HeatedRow {
     rise_k: Vec<f64>,
     conditions: Vec<ContactConditions>,
 }
 
 impl HeatedRow {
     /// Of points across the contact.
-    pub fn across(&mut self, contact: &HeatedContact<'_>, points: RowOfPoints<'_>) -> &[ContactConditions] {
+    pub(crate) fn across(&mut self, contact: &HeatedContact<'_>, points: RowOfPoints<'_>) -> &[ContactConditions] {
         self.heat_up(contact, points);
         self.conditions.clear();
         self.conditions.extend(self.rise_k.iter().map(|&rise| contact.at(rise)));
@@ -82,7 +82,7 @@ impl HeatedRow {
     }
 
     /// Of `points` of `gear`'s flank that all feel the hottest place of an even contact.
-    pub fn even(&mut self, contact: &HeatedContact<'_>, gear: Gear, points: usize) -> &[ContactConditions] {
+    pub(crate) fn even(&mut self, contact: &HeatedContact<'_>, gear: Gear, points: usize) -> &[ContactConditions] {
         self.conditions.clear();
         self.conditions.resize(points, contact.at_hottest(gear, Spread::Even));
         &self.conditions

@@ -9,8 +9,8 @@
 //! and a new one is a file that implements [`WearLaw`]. The severe transition C(p) (`severe`) goes with any of them.
 
 pub mod adsorption;
-pub mod archard;
-pub mod heated_row;
+pub(crate) mod archard;
+pub(crate) mod heated_row;
 pub mod oxidation;
 pub mod regime;
 pub mod settings;

@@ -19,7 +19,7 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 use super::edge::{MOST_NODES, shape};
 
 /// Gauss points over an interval: exact to degree 11, far above what curved edges need.
-pub const GAUSS: [(f64, f64); 6] = [
+pub(crate) const GAUSS: [(f64, f64); 6] = [
     (-0.932_469_514_203_152, 0.171_324_492_379_170_3),
     (-0.661_209_386_466_264_5, 0.360_761_573_048_138_6),
     (-0.238_619_186_083_196_9, 0.467_913_934_572_691),
@@ -39,7 +39,7 @@ pub(crate) fn gauss_points(a: f64, b: f64) -> impl Iterator<Item = (f64, f64)> {
 
 /// The dual basis of one edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum DualBasis {
+pub(crate) enum DualBasis {
     /// ψ = A N over the whole edge.
     Whole {
         /// Number of nodes, 2 or 3.
@@ -56,7 +56,7 @@ pub enum DualBasis {
 
 /// Dual of two hats over one interval between neighbouring nodes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HatPart {
+pub(crate) struct HatPart {
     /// Local numbers of the nodes at its ends.
     nodes: [usize; 2],
     /// Their places ξ.
@@ -66,7 +66,7 @@ pub struct HatPart {
 
 impl DualBasis {
     /// The basis of an edge with `nodes` nodes of which ξ in `covered` is faced; `jacobian` is dγ/dξ.
-    pub fn new(nodes: usize, covered: (f64, f64), jacobian: impl Fn(f64) -> f64) -> Self {
+    pub(crate) fn new(nodes: usize, covered: (f64, f64), jacobian: impl Fn(f64) -> f64) -> Self {
         const WHOLE: f64 = 1.0 - 1e-9;
         if covered.0 <= -WHOLE && covered.1 >= WHOLE {
             return Self::whole(nodes, jacobian);
@@ -96,7 +96,7 @@ impl DualBasis {
     }
 
     /// ψ at ξ; zero where nothing is faced.
-    pub fn at(&self, xi: f64) -> [f64; MOST_NODES] {
+    pub(crate) fn at(&self, xi: f64) -> [f64; MOST_NODES] {
         match self {
             Self::Whole { nodes, transform } => (transform * Vector3::from(shape(*nodes, xi))).into(),
             Self::Parts { parts } => {

@@ -25,7 +25,7 @@ impl Edge {
 }
 
 /// Shape functions at ξ; unused places are zero.
-pub fn shape(nodes: usize, xi: f64) -> [f64; MOST_NODES] {
+pub(crate) fn shape(nodes: usize, xi: f64) -> [f64; MOST_NODES] {
     match nodes {
         2 => [0.5 * (1.0 - xi), 0.5 * (1.0 + xi), 0.0],
         _ => [0.5 * xi * (xi - 1.0), 0.5 * xi * (xi + 1.0), 1.0 - xi * xi],

@@ -26,7 +26,7 @@ const PARALLEL: f64 = 1e-12;
 
 /// A stretch of a slave edge that faces one master edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Segment {
+pub(crate) struct Segment {
     /// Which slave edge.
     pub slave: usize,
     /// From and to ξ on it.
@@ -39,7 +39,7 @@ pub struct Segment {
 
 /// Where a slave point meets a master edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Meeting {
+pub(crate) struct Meeting {
     /// Place on the master edge.
     pub eta: f64,
     /// n · (x_m − x_s), mm: negative where the surfaces overlap.
@@ -47,7 +47,7 @@ pub struct Meeting {
 }
 
 /// The edges of a master surface, sorted in space.
-pub struct MasterSearch<'a> {
+pub(crate) struct MasterSearch<'a> {
     /// The master surface.
     pub master: &'a Surface,
     boxes: Bvh,
@@ -85,14 +85,14 @@ fn falling_root(f: impl Fn(f64) -> (f64, f64)) -> f64 {
 
 impl<'a> MasterSearch<'a> {
     /// Sorts the edges of `master`.
-    pub fn new(master: &'a Surface) -> Self {
+    pub(crate) fn new(master: &'a Surface) -> Self {
         let boxes: Vec<Aabb> = master.edges.iter().map(|edge| aabb(master.edge_box(edge))).collect();
         Self { master, boxes: Bvh::from_leaves(BvhBuildStrategy::Binned, &boxes) }
     }
 
     /// The stretches of slave edge `number` that face the master within `reach_mm` on either side, by increasing ξ and
     /// without overlap: where several master edges are met, the nearest counts.
-    pub fn segments(&self, slave: &Surface, number: usize, reach_mm: f64) -> Vec<Segment> {
+    pub(crate) fn segments(&self, slave: &Surface, number: usize, reach_mm: f64) -> Vec<Segment> {
         let edge = &slave.edges[number];
         let mut found: Vec<(f64, Segment)> = self
             .boxes
@@ -130,7 +130,7 @@ impl<'a> MasterSearch<'a> {
     }
 
     /// Where the normal at ξ of a slave edge meets a master edge; `None` where that faces away.
-    pub fn meet(&self, slave: &Surface, edge: &SurfaceEdge, xi: f64, master: usize) -> Option<Meeting> {
+    pub(crate) fn meet(&self, slave: &Surface, edge: &SurfaceEdge, xi: f64, master: usize) -> Option<Meeting> {
         let (point, _) = slave.point_and_tangent(edge, xi);
         let (normal, _) = slave.normal_and_derivative(edge, xi);
         let normal = normal.try_normalize(PARALLEL)?;

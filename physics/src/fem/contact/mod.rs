@@ -15,10 +15,10 @@
 //! Source: B. Wohlmuth, *Acta Numerica* 20 (2011) 569–734; A. Popp, M. Gitterle, M. Gee and W. Wall, *Int. J. Numer. Meth.
 //! Eng.* 83 (2010) 1428–1465.
 
-pub mod dual_basis;
-pub mod edge;
-pub mod master_search;
-pub mod mortar;
-pub mod overlap;
-pub mod surface;
-pub mod zones;
+pub(crate) mod dual_basis;
+pub(crate) mod edge;
+pub(crate) mod master_search;
+pub(crate) mod mortar;
+pub(crate) mod overlap;
+pub(crate) mod surface;
+pub(crate) mod zones;

@@ -23,7 +23,7 @@ const LEAST_WEIGHT: f64 = 0.05;
 ///
 /// Columns are `2 · local node + component` of each surface.
 #[derive(Debug, Clone)]
-pub struct Coupling {
+pub(crate) struct Coupling {
     /// Local slave node of each row.
     pub nodes: Vec<usize>,
     /// w_i, mm.
@@ -93,7 +93,7 @@ fn add(entries: &mut Vec<(usize, Vector2<f64>)>, node: usize, value: Vector2<f64
 
 impl Coupling {
     /// Couples `slave` to `master` where they lie within `reach_mm` of each other, along the slave's normals.
-    pub fn new(slave: &Surface, master: &Surface, reach_mm: f64) -> Self {
+    pub(crate) fn new(slave: &Surface, master: &Surface, reach_mm: f64) -> Self {
         let facing = MasterSearch::new(master);
         let mut rows = vec![Row::default(); slave.points_mm.len()];
         for number in 0..slave.edges.len() {
@@ -112,12 +112,12 @@ impl Coupling {
     }
 
     /// Number of multipliers.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.nodes.len()
     }
 
     /// Whether nothing faces anything.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 }

@@ -19,7 +19,7 @@ use super::surface::Surface;
 
 /// A surface with the displacements of its local nodes, mm.
 #[derive(Debug, Clone, Copy)]
-pub struct Moved<'a> {
+pub(crate) struct Moved<'a> {
     /// Before deformation.
     pub surface: &'a Surface,
     /// One for each local node.

@@ -14,7 +14,7 @@ const MOST_SAMPLES: usize = 6;
 
 /// One run of nodes under pressure.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Zone {
+pub(crate) struct Zone {
     /// First and last node under pressure.
     pub nodes: (usize, usize),
     /// From, along the surface, mm.
@@ -27,13 +27,13 @@ pub struct Zone {
 
 impl Zone {
     /// Its length, mm.
-    pub fn width_mm(&self) -> f64 {
+    pub(crate) fn width_mm(&self) -> f64 {
         self.to_mm - self.from_mm
     }
 }
 
 /// The zones of pressure `pressure` at nodes at `along_mm`, both in the order of the surface.
-pub fn zones(along_mm: &[f64], pressure: &[f64]) -> Vec<Zone> {
+pub(crate) fn zones(along_mm: &[f64], pressure: &[f64]) -> Vec<Zone> {
     let n = pressure.len();
     let mut zones = Vec::new();
     let mut i = 0;

@@ -33,7 +33,7 @@ pub struct FlankNodes {
 
 /// Consecutive nodes and the weight of each.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Weights<'a> {
+pub(crate) struct Weights<'a> {
     /// The first node.
     pub first: usize,
     /// m_k of it and those after it.

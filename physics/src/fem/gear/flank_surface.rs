@@ -66,7 +66,7 @@ impl FlankSurface {
 }
 
 /// The edges along `chain` (from root to tip), from tip to root: the tooth of a flank at x < 0 then lies on their left.
-pub fn edges(chain: &[u32]) -> Vec<Edge> {
+pub(crate) fn edges(chain: &[u32]) -> Vec<Edge> {
     (0..chain.len() / 2)
         .rev()
         .map(|k| Edge { ends: [chain[2 * k + 2], chain[2 * k]], middle: Some(chain[2 * k + 1]) })

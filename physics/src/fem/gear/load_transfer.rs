@@ -44,7 +44,7 @@ const LEAST_COSINE: f64 = 0.3;
 
 /// One tooth pair's contact at a position.
 #[derive(Debug, Clone)]
-pub struct LoadTransfer {
+pub(crate) struct LoadTransfer {
     /// Base pitches by which the pair is ahead of the reference pair.
     pub pair: i32,
     /// The gear whose flank has the multipliers.
@@ -65,7 +65,7 @@ pub struct LoadTransfer {
 
 /// M_ik of one flank: row by row, consecutive nodes.
 #[derive(Debug, Clone, Default)]
-pub struct Means {
+pub(crate) struct Means {
     first: Vec<usize>,
     ends: Vec<usize>,
     weights: Vec<f64>,
@@ -84,7 +84,7 @@ impl Means {
 
     /// M_ik of row `i`.
     #[inline]
-    pub fn row(&self, i: usize) -> Weights<'_> {
+    pub(crate) fn row(&self, i: usize) -> Weights<'_> {
         let begin = if i > 0 { self.ends[i - 1] } else { 0 };
         Weights { first: self.first[i], weights: &self.weights[begin..self.ends[i]] }
     }
@@ -98,7 +98,7 @@ impl Means {
 
 impl LoadTransfer {
     /// Number of rows.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.weight_mm.len()
     }
 

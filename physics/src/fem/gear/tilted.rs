@@ -22,7 +22,7 @@ use crate::gear::{Gear, PerGear};
 
 /// What flanks have lost and how that tilts them.
 #[derive(Debug, Clone, Copy)]
-pub struct Worn<'a> {
+pub(crate) struct Worn<'a> {
     /// Depth at the nodes, from root to tip, mm.
     pub depth_mm: PerGear<&'a [f64]>,
     /// dh/ds there, rad.

@@ -38,7 +38,7 @@ struct PerRoot {
 type Row = Vec<[f64; LANES]>;
 
 /// Some phases in rows.
-pub struct Batch {
+pub(crate) struct Batch {
     phases: Vec<SlicedPosition>,
     /// Their states.
     pub loaded_positions: Vec<LoadedPosition>,
@@ -65,7 +65,7 @@ pub struct Batch {
 
 /// A contact as it is.
 #[derive(Debug, Clone, Copy)]
-pub struct ContactState {
+pub(crate) struct ContactState {
     /// w, N/mm.
     pub line_load_n_per_mm: f64,
     /// a, mm.
@@ -78,7 +78,7 @@ pub struct ContactState {
 
 impl Batch {
     /// Prepares the contacts of `phases`, on flanks modified by `modification_mm` there.
-    pub fn new(
+    pub(crate) fn new(
         phases: Vec<SlicedPosition>,
         forms: &ContactForms<'_>,
         springs: &SlicesInSeries<'_>,
@@ -155,7 +155,7 @@ impl Batch {
     }
 
     /// Lets the flanks lose what the last evaluation found for so many `meshes`, finds the new equilibria, and what they lose now.
-    pub fn evaluate(
+    pub(crate) fn evaluate(
         &mut self,
         meshes: PerGear<f64>,
         springs: &SlicesInSeries<'_>,
@@ -187,7 +187,7 @@ impl Batch {
     }
 
     /// Work of the last evaluation.
-    pub fn outcome(&self) -> Result<Work, EquilibriumError> {
+    pub(crate) fn outcome(&self) -> Result<Work, EquilibriumError> {
         self.outcome.clone()
     }
 
@@ -269,7 +269,7 @@ impl Batch {
     }
 
     /// Each contact of a loaded with its lane and its state.
-    pub fn contacts(&self, index: usize) -> impl Iterator<Item = (&SliceContact, usize, ContactState)> {
+    pub(crate) fn contacts(&self, index: usize) -> impl Iterator<Item = (&SliceContact, usize, ContactState)> {
         let first = LANES * self.loaded_positions[index].packs.start;
         self.phases[index].contacts.iter().enumerate().map(move |(at, contact)| {
             let lane = first + at;
@@ -283,7 +283,7 @@ impl Batch {
     }
 
     /// Depth that `gear`'s flank has lost in each lane, and loses in one mesh, mm.
-    pub fn rows(&self, gear: Gear) -> impl Iterator<Item = [f64; 2]> {
+    pub(crate) fn rows(&self, gear: Gear) -> impl Iterator<Item = [f64; 2]> {
         let [wear, depth] = [&self.wear_mm, &self.depth_mm].map(|rows| rows[gear].as_flattened());
         wear.iter().zip(depth).map(|(&wear, &depth)| [wear, depth])
     }
@@ -302,7 +302,7 @@ impl Batch {
     }
 
     /// Is again as if never evaluated, on the flanks as they are.
-    pub fn reset(&mut self) {
+    pub(crate) fn reset(&mut self) {
         for loaded in &mut self.loaded_positions {
             let mean = self.common.line_load_n_per_mm / loaded.contacts as f64;
             loaded.transmission_error_mm = 0.0;
@@ -322,7 +322,7 @@ impl Batch {
     }
 
     /// The contact in a lane.
-    pub fn contact(&self, lane: usize) -> ContactState {
+    pub(crate) fn contact(&self, lane: usize) -> ContactState {
         let (pack, per_root, k) = (&self.packs[lane / LANES], &self.per_root[lane / LANES], lane % LANES);
         let load = pack.loads().0[k];
         let root = load.sqrt();

@@ -10,7 +10,7 @@ pub(crate) const LANES: usize = 2;
 
 /// Two numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Lanes(pub [f64; LANES]);
+pub(crate) struct Lanes(pub [f64; LANES]);
 
 impl Lanes {
     /// The same number twice.
@@ -27,26 +27,26 @@ impl Lanes {
 
     /// `of` each number.
     #[inline(always)]
-    pub fn map(self, of: impl Fn(f64) -> f64) -> Self {
+    pub(crate) fn map(self, of: impl Fn(f64) -> f64) -> Self {
         let [a, b] = self.0;
         Self([of(a), of(b)])
     }
 
     /// Square roots.
     #[inline(always)]
-    pub fn sqrt(self) -> Self {
+    pub(crate) fn sqrt(self) -> Self {
         self.map(f64::sqrt)
     }
 
     /// The greater one in every place.
     #[inline(always)]
-    pub fn max(self, other: Self) -> Self {
+    pub(crate) fn max(self, other: Self) -> Self {
         self.with(other, |a, b| if a > b { a } else { b })
     }
 
     /// Absolute values.
     #[inline(always)]
-    pub fn abs(self) -> Self {
+    pub(crate) fn abs(self) -> Self {
         self.map(f64::abs)
     }
 
@@ -60,14 +60,14 @@ impl Lanes {
 
     /// The sum of both.
     #[inline(always)]
-    pub fn sum(self) -> f64 {
+    pub(crate) fn sum(self) -> f64 {
         let [a, b] = self.0;
         a + b
     }
 
     /// The greater of both.
     #[inline(always)]
-    pub fn greatest(self) -> f64 {
+    pub(crate) fn greatest(self) -> f64 {
         let [a, b] = self.0;
         a.max(b)
     }

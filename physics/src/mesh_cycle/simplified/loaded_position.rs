@@ -45,7 +45,7 @@ pub(crate) const UNUSED_GAP_MM: f64 = 1e300;
 
 /// Contacts side by side: their constants and their state.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Pack {
+pub(crate) struct Pack {
     /// Q, mm²/N.
     pub rigid: Lanes,
     /// A_k.
@@ -64,7 +64,7 @@ pub struct Pack {
 
 /// A Newton step's view of them.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Tangent {
+pub(crate) struct Tangent {
     /// h less the approach that is reckoned from, mm.
     pub approach_mm: Lanes,
     /// c, N/mm²; 0 without contact.
@@ -75,7 +75,7 @@ pub struct Tangent {
 
 /// What the contacts of a pair have in common.
 #[derive(Debug, Clone, Copy)]
-pub struct Common {
+pub(crate) struct Common {
     /// Φ, mm²/N.
     pub log_compliance_mm2_per_n: f64,
     /// F: sum of all line loads, N/mm.
@@ -84,7 +84,7 @@ pub struct Common {
 
 /// How an attempt ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Attempt {
+pub(crate) enum Attempt {
     /// In equilibrium after so many Newton steps.
     Settled(u64),
     /// Not, after so many.
@@ -94,7 +94,7 @@ pub enum Attempt {
 impl Pack {
     /// w, N/mm.
     #[inline(always)]
-    pub fn loads(&self) -> Lanes {
+    pub(crate) fn loads(&self) -> Lanes {
         self.load + self.correction
     }
 
@@ -144,7 +144,7 @@ impl Sums {
 
 /// A phase.
 #[derive(Debug, Clone)]
-pub struct LoadedPosition {
+pub(crate) struct LoadedPosition {
     /// Position of the reference tooth in the middle of the face width.
     pub position_mm: f64,
     /// δ.
@@ -159,7 +159,7 @@ pub struct LoadedPosition {
 
 impl LoadedPosition {
     /// Follows the equilibrium over a wear step.
-    pub fn follow(
+    pub(crate) fn follow(
         &mut self,
         packs: &mut [Pack],
         tangents: &mut [Tangent],
@@ -214,7 +214,7 @@ impl LoadedPosition {
     }
 
     /// Seeks the equilibrium from any loads: contacts come where flanks would overlap and go where a load would pull.
-    pub fn settle(
+    pub(crate) fn settle(
         &mut self,
         packs: &mut [Pack],
         tangents: &mut [Tangent],

@@ -22,12 +22,12 @@
 //!
 //! Source: S. Andersson (1975) and the thesis, section 3.4 and paper E.
 
-pub mod batch;
+pub(crate) mod batch;
 pub mod closed_form;
-pub mod exact;
-pub mod lanes;
-pub mod loaded_position;
-pub mod on_flanks;
+pub(crate) mod exact;
+pub(crate) mod lanes;
+pub(crate) mod loaded_position;
+pub(crate) mod on_flanks;
 
 use rayon::prelude::*;
 

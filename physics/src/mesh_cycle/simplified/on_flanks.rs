@@ -17,7 +17,7 @@ use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, flank::Fl
 
 /// A contact of a slice.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Knot {
+pub(crate) struct Knot {
     /// Where its theoretical contact point is.
     pub position_mm: f64,
     /// Where its stretch of the path ends.
@@ -54,13 +54,13 @@ fn slopes<const N: usize>(knots: &[Knot], values: &[[f64; N]]) -> Vec<[f64; N]> 
 }
 
 /// The points of both flanks, in the order of the path.
-pub struct FlankPoints {
+pub(crate) struct FlankPoints {
     points: PerGear<Vec<Point>>,
 }
 
 impl FlankPoints {
     /// The points of `grid` that touch between A and E.
-    pub fn new(pair: &GearPair, grid: PerGear<&FlankGrid>) -> Self {
+    pub(crate) fn new(pair: &GearPair, grid: PerGear<&FlankGrid>) -> Self {
         let path = &pair.path;
         let points = PerGear::from_fn(|gear| {
             let rho = &grid[gear].coordinate_mm;
@@ -87,7 +87,7 @@ impl FlankPoints {
 
     /// Brings `values` at the `knots` of a slice, in their order, onto the points of `gear`'s flank: `put` is given the number of a
     /// point, its part within A–E, and the values there.
-    pub fn bring<const N: usize>(
+    pub(crate) fn bring<const N: usize>(
         &self,
         gear: Gear,
         knots: &[Knot],

@@ -24,7 +24,7 @@ const NEIGHBOURS: usize = 8;
 
 /// Fills `diagonal` with W (≤ 0) at `state`, where the rate is `slope`, from one probe of the height `probe` for each of the
 /// `blocks`, given by their lengths. Answers the number of evaluations.
-pub fn estimate<R: Rate + ?Sized>(
+pub(crate) fn estimate<R: Rate + ?Sized>(
     rate: &mut R,
     (state, slope): (&[f64], &[f64]),
     blocks: &[usize],

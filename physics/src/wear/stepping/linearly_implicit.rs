@@ -21,7 +21,7 @@ pub(crate) const GAMMA: f64 = 1.0 + std::f64::consts::FRAC_1_SQRT_2;
 
 /// The method with its rows.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct LinearlyImplicit {
+pub(crate) struct LinearlyImplicit {
     #[serde(skip)]
     first: Vec<f64>,
     #[serde(skip)]
@@ -32,7 +32,7 @@ pub struct LinearlyImplicit {
 
 impl LinearlyImplicit {
     /// Takes a step of `h` from `state`, where the rate is `slope`, to `end`, with the diagonal W. Costs one evaluation.
-    pub fn step<R: Rate + ?Sized>(
+    pub(crate) fn step<R: Rate + ?Sized>(
         &mut self,
         rate: &mut R,
         (state, slope): (&[f64], &[f64]),

@@ -26,11 +26,11 @@
 //! that at the beginning of the next step.
 
 pub mod adaptive;
-pub mod diagonal;
-pub mod linearly_implicit;
-pub mod runge_kutta_chebyshev;
-pub mod spectral_radius;
-pub mod step_control;
+pub(crate) mod diagonal;
+pub(crate) mod linearly_implicit;
+pub(crate) mod runge_kutta_chebyshev;
+pub(crate) mod spectral_radius;
+pub(crate) mod step_control;
 
 /// f of y' = f(y): how fast each place wears, in mm per revolution, when `state` (mm) is worn off.
 pub trait Rate {

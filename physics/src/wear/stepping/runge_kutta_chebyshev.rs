@@ -81,7 +81,7 @@ impl Chebyshev {
 
 /// The method with its rows.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-pub struct RungeKuttaChebyshev {
+pub(crate) struct RungeKuttaChebyshev {
     #[serde(skip)]
     stage: Vec<f64>,
     #[serde(skip)]
@@ -92,7 +92,7 @@ pub struct RungeKuttaChebyshev {
 
 impl RungeKuttaChebyshev {
     /// Takes a step of `h` from `state`, where the rate is `slope`, to `end`. Costs `stages` − 1 evaluations.
-    pub fn step<R: Rate + ?Sized>(
+    pub(crate) fn step<R: Rate + ?Sized>(
         &mut self,
         rate: &mut R,
         (state, slope): (&[f64], &[f64]),

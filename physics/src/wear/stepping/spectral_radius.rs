@@ -25,7 +25,7 @@ const SAFETY: f64 = 1.2;
 
 /// What is known of the radius.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-pub struct SpectralRadius {
+pub(crate) struct SpectralRadius {
     vector: Vec<f64>,
     value: Option<f64>,
 }
@@ -36,22 +36,22 @@ fn norm(row: &[f64]) -> f64 {
 
 impl SpectralRadius {
     /// The radius, with a factor of safety, if it has been estimated.
-    pub fn value(&self) -> Option<f64> {
+    pub(crate) fn value(&self) -> Option<f64> {
         self.value
     }
 
     /// The radius as it was found, which approaches the true one from below; 0 where there is none.
-    pub fn found(&self) -> f64 {
+    pub(crate) fn found(&self) -> f64 {
         self.value.unwrap_or_default() / SAFETY
     }
 
     /// Takes it for out of date; the vector is kept.
-    pub fn reset(&mut self) {
+    pub(crate) fn reset(&mut self) {
         self.value = None;
     }
 
     /// Estimates it at `state`, where the rate is `slope`, with probes of the height `probe`. Answers the number of evaluations.
-    pub fn estimate<R: Rate + ?Sized>(
+    pub(crate) fn estimate<R: Rate + ?Sized>(
         &mut self,
         rate: &mut R,
         (state, slope): (&[f64], &[f64]),

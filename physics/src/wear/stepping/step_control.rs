@@ -24,7 +24,7 @@ const NEGLIGIBLE: f64 = 1e-4;
 
 /// What came of a trial step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Verdict {
+pub(crate) enum Verdict {
     /// It is good.
     Accepted,
     /// It is to be repeated with a shorter one.
@@ -33,7 +33,7 @@ pub enum Verdict {
 
 /// The controller.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct StepControl {
+pub(crate) struct StepControl {
     /// Length that the next step should have; none before the first.
     next: Option<f64>,
     /// Length and error over tolerance of the last accepted step, where it was not cut short.
@@ -43,7 +43,7 @@ pub struct StepControl {
 
 impl StepControl {
     /// Length that the next step should have; none before the first.
-    pub fn next(&self) -> Option<f64> {
+    pub(crate) fn next(&self) -> Option<f64> {
         self.next
     }
 
@@ -54,7 +54,7 @@ impl StepControl {
 
     /// Judges a step of `length` by its error over the tolerance, and plans the next one. A step that was `cut` short of
     /// what was planned never makes the next one shorter.
-    pub fn judge(&mut self, length: f64, error: f64, cut: bool) -> Verdict {
+    pub(crate) fn judge(&mut self, length: f64, error: f64, cut: bool) -> Verdict {
         if error.is_nan() || error > 1.0 {
             let factor = if error.is_finite() { SAFETY * error.powf(-EXPONENT) } else { LEAST_FACTOR };
             self.next = Some(length * factor.clamp(LEAST_FACTOR, SAFETY));
