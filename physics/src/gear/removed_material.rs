@@ -46,7 +46,7 @@ fn with_axes(pair: &GearPair, gear: Gear) -> Modification {
 }
 
 /// What all modifications of a gear's flank but the rounding of its tip edge remove at radius of curvature `rho_mm` and `width_mm`.
-pub fn without_rounding_mm(pair: &GearPair, gear: Gear, width_mm: f64, rho_mm: f64) -> f64 {
+pub(crate) fn without_rounding_mm(pair: &GearPair, gear: Gear, width_mm: f64, rho_mm: f64) -> f64 {
     let modification = Modification { tip_rounding_mm: 0.0, ..with_axes(pair, gear) };
     removed_mm(&modification, &pair.teeth[gear], pair.active_start_rho_mm(gear), rho_mm)
         + lead_removed_mm(&modification, pair.spec.face_width_mm, width_mm)

@@ -63,7 +63,7 @@ pub(crate) fn approach_ratio(pair: &GearPair, position_mm: f64) -> f64 {
 
 /// A contact whose load has another lever on the pinion than r_b1: approach and load are reckoned as the transmission error and
 /// the load along the line of action that go with them.
-pub struct OnLever<'a> {
+pub(crate) struct OnLever<'a> {
     /// The contact along its own normal.
     pub contact: Box<dyn PairContact + 'a>,
     /// [`approach_ratio`].

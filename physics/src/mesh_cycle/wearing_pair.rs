@@ -47,7 +47,7 @@ pub struct LostArea {
 }
 
 /// A pair that wears.
-pub trait WearingPair {
+pub(crate) trait WearingPair {
     /// Solves one mesh cycle on the flanks as they are, and keeps what they lose in one mesh by `wear`. `stopped` is asked now
     /// and then whether to give up.
     fn evaluate(&mut self, wear: &WearModel<'_>, stopped: &(dyn Fn() -> bool + Sync))
@@ -87,7 +87,7 @@ pub trait WearingPair {
 }
 
 /// Flanks as rows of points, slice after slice, that a mesh cycle wears.
-pub struct OnFlankPoints<'a> {
+pub(crate) struct OnFlankPoints<'a> {
     cycle: Box<dyn MeshCycle + 'a>,
     modification_mm: &'a PerGear<Vec<f64>>,
     removed_mm: PerGear<Vec<f64>>,
@@ -97,7 +97,7 @@ pub struct OnFlankPoints<'a> {
 
 impl<'a> OnFlankPoints<'a> {
     /// Unworn flanks with their modifications.
-    pub fn new(cycle: Box<dyn MeshCycle + 'a>, modification_mm: &'a PerGear<Vec<f64>>) -> Self {
+    pub(crate) fn new(cycle: Box<dyn MeshCycle + 'a>, modification_mm: &'a PerGear<Vec<f64>>) -> Self {
         let zeros = || modification_mm.as_ref().map(|flank| vec![0.0; flank.len()]);
         Self { cycle, modification_mm, removed_mm: modification_mm.clone(), wear_mm: zeros(), depth_mm: zeros() }
     }
@@ -167,7 +167,7 @@ impl WearingPair for OnFlankPoints<'_> {
 }
 
 /// Flanks of finite elements, worn at their nodes; flank points are read between them.
-pub struct OnFlankNodes<'a> {
+pub(crate) struct OnFlankNodes<'a> {
     cycle: CondensedCycle<'a>,
     /// Nominal radii of the flank points.
     radius_mm: PerGear<Vec<f64>>,
@@ -177,7 +177,7 @@ pub struct OnFlankNodes<'a> {
 
 impl<'a> OnFlankNodes<'a> {
     /// Unworn flanks with points at the nominal radii `radius_mm`.
-    pub fn new(cycle: CondensedCycle<'a>, radius_mm: PerGear<Vec<f64>>) -> Self {
+    pub(crate) fn new(cycle: CondensedCycle<'a>, radius_mm: PerGear<Vec<f64>>) -> Self {
         let zeros = || cycle.nodes().map(|nodes| vec![0.0; nodes.len()]);
         let (wear_mm, depth_mm) = (zeros(), zeros());
         Self { cycle, radius_mm, wear_mm, depth_mm }

@@ -18,7 +18,7 @@ pub fn value_at(places: &[f64], values: &[f64], at: f64) -> f64 {
 }
 
 /// Σ m_k h_k over as many values as there are weights: four sums side by side, which a processor adds at once.
-pub fn weighted_sum(weights: &[f64], values: &[f64]) -> f64 {
+pub(crate) fn weighted_sum(weights: &[f64], values: &[f64]) -> f64 {
     let values = &values[..weights.len()];
     let (weights, values) = (weights.as_chunks::<4>(), values.as_chunks::<4>());
     let mut sums = [0.0; 4];
@@ -33,7 +33,7 @@ pub fn weighted_sum(weights: &[f64], values: &[f64]) -> f64 {
 
 /// Adds to `sums`, a row for all `places` (rising, at least two), `weight` times the m_k of the stretch from `from` to `to` (≥ `from`);
 /// answers the places that it reaches. A stretch without length is a point.
-pub fn add_means(places: &[f64], [from, to]: [f64; 2], weight: f64, sums: &mut [f64]) -> Range<usize> {
+pub(crate) fn add_means(places: &[f64], [from, to]: [f64; 2], weight: f64, sums: &mut [f64]) -> Range<usize> {
     let last = places.len() - 1;
     let (low, high) = (places[0], places[last]);
     let interval = |at: f64| places.partition_point(|&x| x <= at).clamp(1, last) - 1;

@@ -30,7 +30,7 @@ const NEGLIGIBLE: f64 = 45.0;
 const SECTIONS: usize = 40;
 
 /// e^z K₀(z) and e^z K₁(z), for z > 0.
-pub fn scaled_bessel_k(z: f64) -> [f64; 2] {
+pub(crate) fn scaled_bessel_k(z: f64) -> [f64; 2] {
     let step = STEP.min(STEP_TIMES_ROOT / z.sqrt());
     let mut sums = [0.5, 0.5];
     for k in 1.. {
@@ -65,7 +65,7 @@ fn ahead(z: f64) -> f64 {
 }
 
 /// T K/(q a) at X = x/a within the band, −1 (where material enters) to 1, for a Peclet number a U/(2κ) > 0.
-pub fn rise_at(peclet: f64, x: f64) -> f64 {
+pub(crate) fn rise_at(peclet: f64, x: f64) -> f64 {
     (behind(peclet * (1.0 + x)) + ahead(peclet * (1.0 - x))) / (std::f64::consts::PI * peclet)
 }
 

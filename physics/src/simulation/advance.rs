@@ -28,7 +28,7 @@ const NEGLIGIBLE_STEP: f64 = 1e-9;
 
 /// Where a step begins, and where it ends at the latest, in pinion revolutions.
 #[derive(Debug, Clone, Copy)]
-pub struct Stretch {
+pub(crate) struct Stretch {
     /// The pair is evaluated here.
     pub from: f64,
     /// Greater than `from`.
@@ -55,7 +55,7 @@ pub struct StepperState {
 }
 
 /// Takes wear steps.
-pub struct Stepper {
+pub(crate) struct Stepper {
     stepping: Stepping,
     duration: f64,
     /// Turns of the wheel per turn of the pinion.
@@ -76,7 +76,7 @@ struct AdaptiveSteps {
 
 impl Stepper {
     /// Steps as asked for in a run of `duration` pinion revolutions.
-    pub fn new(stepping: Stepping, duration: f64, wheel_meshes: f64) -> Self {
+    pub(crate) fn new(stepping: Stepping, duration: f64, wheel_meshes: f64) -> Self {
         Self { stepping, duration, wheel_meshes, euler_steps: 0, adaptive: None }
     }
 
@@ -88,7 +88,7 @@ impl Stepper {
     }
 
     /// What the steps came to so far.
-    pub fn counts(&self) -> StepCounts {
+    pub(crate) fn counts(&self) -> StepCounts {
         match &self.adaptive {
             Some(steps) => steps.integrator.counts(),
             None => StepCounts { accepted: self.euler_steps, stages: self.euler_steps, ..StepCounts::default() },
@@ -96,7 +96,7 @@ impl Stepper {
     }
 
     /// Of adaptive steps: the estimated error of each gear's wear at the place where it is greatest, mm.
-    pub fn error_mm(&self) -> Option<PerGear<f64>> {
+    pub(crate) fn error_mm(&self) -> Option<PerGear<f64>> {
         let steps = self.adaptive.as_ref()?;
         let places = steps.wear_mm.pinion.len();
         let (wear, error) = (steps.state.split_at(places), steps.integrator.accumulated_error().split_at(places));
@@ -107,13 +107,13 @@ impl Stepper {
     }
 
     /// What it knows after the last step.
-    pub fn state(&self) -> StepperState {
+    pub(crate) fn state(&self) -> StepperState {
         let adaptive = self.adaptive.as_ref().map(|steps| steps.integrator.clone());
         StepperState { euler_steps: self.euler_steps, adaptive }
     }
 
     /// Goes on from there with a pair that has lost `wear_mm`; refuses a state of other rows.
-    pub fn resume(&mut self, state: StepperState, wear_mm: &PerGear<Vec<f64>>) -> bool {
+    pub(crate) fn resume(&mut self, state: StepperState, wear_mm: &PerGear<Vec<f64>>) -> bool {
         self.euler_steps = state.euler_steps;
         let places = wear_mm.as_ref().map(Vec::len).sum();
         let fits = state.adaptive.as_ref().is_none_or(|integrator| integrator.accumulated_error().len() == places);
@@ -126,7 +126,7 @@ impl Stepper {
     }
 
     /// Takes `pair`, which is evaluated where `stretch` begins, one step on, and evaluates it there.
-    pub fn advance(
+    pub(crate) fn advance(
         &mut self,
         pair: &mut dyn WearingPair,
         wear: &WearModel<'_>,

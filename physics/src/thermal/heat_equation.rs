@@ -30,7 +30,7 @@ const DEPTH: f64 = 6.0;
 
 /// A half-space that is heated from its surface, in the units of the module's documentation.
 #[derive(Debug, Clone)]
-pub struct Conduction {
+pub(crate) struct Conduction {
     /// Rise at each depth, the surface first.
     rise: Vec<f64>,
     stage: Vec<f64>,
@@ -49,7 +49,7 @@ fn gamma() -> f64 {
 
 impl Conduction {
     /// A cold half-space to be heated over a `duration` in `steps` (at least one).
-    pub fn new(duration: f64, steps: usize) -> Self {
+    pub(crate) fn new(duration: f64, steps: usize) -> Self {
         Self::on_depths(duration, steps, FIRST_INTERVAL * (duration / steps as f64).sqrt(), GROWTH)
     }
 
@@ -83,7 +83,7 @@ impl Conduction {
     }
 
     /// Takes a step under a constant flux, and gives the rise of the surface at its end.
-    pub fn step(&mut self, flux: f64) -> f64 {
+    pub(crate) fn step(&mut self, flux: f64) -> f64 {
         self.stage.copy_from_slice(&self.rise);
         self.stage[0] += self.source * flux;
         solve(&self.lower, &self.inverse_pivot, &self.upper, &mut self.stage);

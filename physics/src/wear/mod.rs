@@ -64,7 +64,7 @@ pub trait FlankWear: Sync {
 
 /// A law with a transition to severe wear.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WithTransition<L> {
+pub(crate) struct WithTransition<L> {
     /// The law of mild wear.
     pub law: L,
     /// The transition, where there is one.

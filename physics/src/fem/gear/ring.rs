@@ -23,7 +23,7 @@ use super::sector::{CondensedSector, SectorMatrices};
 use crate::fem::active_set::ActiveSetError;
 
 /// Forces on the candidates of one tooth: column and N/mm, by increasing column.
-pub type ToothForce = Vec<(usize, f64)>;
+pub(crate) type ToothForce = Vec<(usize, f64)>;
 
 /// What bounds the fine group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,7 +55,7 @@ impl Surroundings {
 }
 
 /// Sectors side by side, from clockwise to anticlockwise, in what surrounds them.
-pub struct JoinedSectors {
+pub(crate) struct JoinedSectors {
     /// F: displacements of the group's cuts per force on them.
     cut_compliance: Mat<f64>,
     cut_dofs: usize,
@@ -63,7 +63,7 @@ pub struct JoinedSectors {
 
 impl JoinedSectors {
     /// Joins `teeth` sectors with what surrounds them; the cut stiffness of a `coarse` one is needed where that has teeth.
-    pub fn new(
+    pub(crate) fn new(
         fine: &SectorMatrices,
         coarse: Option<&Mat<f64>>,
         teeth: usize,
@@ -104,7 +104,7 @@ impl JoinedSectors {
     }
 
     /// C_pq for all q of `others`: displacements of the candidates of sector p per force on those of sector q.
-    pub fn blocks(
+    pub(crate) fn blocks(
         &self,
         fine: &SectorMatrices,
         p: usize,
@@ -122,7 +122,7 @@ impl JoinedSectors {
     }
 
     /// Displacements of both cuts of sector `p` under candidate forces on all of them.
-    pub fn cut_displacement_mm(&self, fine: &SectorMatrices, p: usize, forces: &[ToothForce]) -> Vec<f64> {
+    pub(crate) fn cut_displacement_mm(&self, fine: &SectorMatrices, p: usize, forces: &[ToothForce]) -> Vec<f64> {
         let n = self.cut_dofs;
         let mut load = vec![0.0; self.cut_compliance.nrows()];
         for (tooth, force) in forces.iter().enumerate() {

@@ -52,7 +52,7 @@ impl PairContact for GivenGap {
 }
 
 /// What the general solver is told of a phase beside its gaps.
-pub struct SlicesInSeries<'a> {
+pub(crate) struct SlicesInSeries<'a> {
     /// The gears.
     pub pair: &'a GearPair,
     /// What they are made of.
@@ -67,7 +67,7 @@ pub struct SlicesInSeries<'a> {
 
 impl SlicesInSeries<'_> {
     /// Line load of every contact with its gap, and the equilibrium.
-    pub fn balance(
+    pub(crate) fn balance(
         &self,
         contacts: &[SliceContact],
         gap_mm: impl Iterator<Item = f64>,

@@ -68,7 +68,7 @@ fn knots(batches: &[Batch], slices: usize) -> Vec<Vec<Knot>> {
 }
 
 /// A pair that wears by the simplified model.
-pub struct SimplifiedPair<'a> {
+pub(crate) struct SimplifiedPair<'a> {
     springs: SlicesInSeries<'a>,
     grid: PerGear<&'a FlankGrid>,
     batches: Vec<Batch>,
@@ -86,7 +86,7 @@ pub struct SimplifiedPair<'a> {
 impl<'a> SimplifiedPair<'a> {
     /// Unworn flanks with their modifications; `positions` rows from A to E are observed, on gear bodies that yield by `bodies_mm`
     /// under the whole load.
-    pub fn new(
+    pub(crate) fn new(
         springs: SlicesInSeries<'a>,
         mut phases: Vec<SlicedPosition>,
         grid: PerGear<&'a FlankGrid>,
