@@ -197,7 +197,7 @@ fn warnings(table: &str, law: &WearLawSummary) -> Vec<String> {
     if !law.typical_constants.is_empty() {
         warnings.push(format!(
             "[{table}.{}] {}: typical value{}, an order of magnitude, not measured for a particular lubricant or steel",
-            law.law,
+            law.law.replace('-', "_"),
             law.typical_constants.join(", "),
             if law.typical_constants.len() > 1 { "s" } else { "" },
         ));

@@ -254,7 +254,9 @@ fn contact_temperature(scene: &Scene) -> Result<String, String> {
         (Some(heat), reads) => {
             let why = match reads {
                 false => "[temperature] asks for it".to_owned(),
-                true => format!("the wear law {law} reads it at every point during the simulation"),
+                true => {
+                    format!("the wear law {law} takes it with the sliding speed at every point during the simulation")
+                }
             };
             let tooth = if heat.tooth.is_some() { "; of the teeth by VDI 2736-2" } else { "" };
             Ok(format!("{why}; by all methods, new and worn{tooth}"))

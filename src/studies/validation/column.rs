@@ -26,6 +26,7 @@ use std::sync::Arc;
 
 use super::profile;
 use super::value::Value;
+use crate::reference::statistics;
 
 /// Why a function of columns has no value.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -118,9 +119,7 @@ fn part(x: &[f64], y: &[f64], low: f64, high: f64) -> Result<Arc<[f64]>, ColumnE
 fn quantile(x: &[f64], share: f64) -> Result<f64, ColumnError> {
     let mut sorted = not_empty(x)?.to_vec();
     sorted.sort_by(f64::total_cmp);
-    let place = share.clamp(0.0, 1.0) * (sorted.len() - 1) as f64;
-    let (below, above) = (place.floor() as usize, place.ceil() as usize);
-    Ok(sorted[below] + (sorted[above] - sorted[below]) * place.fract())
+    Ok(statistics::quantile(&sorted, share.clamp(0.0, 1.0)).unwrap_or(f64::NAN))
 }
 
 fn integral(x: &[f64], y: &[f64]) -> Result<f64, ColumnError> {
