@@ -331,7 +331,7 @@ fn carry_out<R>(
         true => Some(stages.run(StageKind::TeethInSpace.name(), || {
             let material = scene.material.map(Material::elastic);
             let slices = scene.slices.map_or(1, |slices| slices.count);
-            loaded.teeth_in_space.condensed(&pair, material, scene.fem.clamp_radius_mm, slices)
+            loaded.teeth_in_space.condensed(&pair, material, scene.fem.in_space(), slices)
         })),
         false => None,
     };

@@ -82,8 +82,8 @@ pub(crate) fn in_space(scene: &Scene, position_mm: Option<f64>) -> Result<SpaceM
 /// The same of its `pair` at a position, be it on the path of contact or beyond.
 pub(super) fn in_space_at(scene: &Scene, pair: &GearPair, position_mm: f64) -> Result<SpaceMesh, PairMeshError> {
     let resolution = SpaceResolution { slices: scene.slices.map(|slices| slices.count), ..SpaceResolution::USUAL };
-    let of_gear = |gear| ExtrudedTooth::of_gear(pair, gear, scene.fem.clamp_radius_mm[gear], &resolution);
-    let teeth = PerGear::from_fn(of_gear);
+    let bodies = scene.fem.in_space();
+    let teeth = PerGear::from_fn(|gear| ExtrudedTooth::of_gear(pair, gear, &bodies, &resolution));
     let quality = |gear: Gear| {
         let section = teeth[gear].section.to_mesh();
         quality::of_mesh(&section).map_err(|source| PairMeshError::Quality { gear: Some(gear), source })

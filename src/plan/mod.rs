@@ -315,7 +315,8 @@ pub(crate) fn memory_in_space_gb(scene: &Scene) -> f64 {
     let loads = phases.iter().enumerate().filter(is_first).count() as f64;
     let count = scene.slices.map_or(1, |slices| slices.count);
     let (slices, positions) = (count as f64 / 100.0, scene.numerics.positions as f64 / 400.0);
-    SpaceResolution::of_slices(count).memory_gb(&scene.pair) + loads * COUPLED_GB * slices * slices * positions
+    SpaceResolution::of_slices(count).memory_gb(&scene.pair, &scene.fem.in_space())
+        + loads * COUPLED_GB * slices * slices * positions
 }
 
 fn teeth_in_space(scene: &Scene) -> Result<String, String> {
@@ -333,7 +334,7 @@ fn teeth_in_space(scene: &Scene) -> Result<String, String> {
 
 fn helical_slices(scene: &Scene) -> Result<String, String> {
     let Some(slices) = scene.slices else {
-        return Err("no helix angle and no modification over the face width: all sections are alike".to_owned());
+        return Err("no helix angle, no modification over the face width and no web: all sections are alike".to_owned());
     };
     let coupling = match slices.coupling {
         Coupling::None => "independent thin slices on a common hub",

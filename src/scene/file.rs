@@ -472,6 +472,9 @@ pub struct FemFile {
     /// Radii at which the bodies are held or turned rigidly, rim or bore. Default: root radius less 2.5 transverse modules,
     /// or the bore where that is larger.
     pub clamp_radius_mm: Option<ClampRadiusFile>,
+    /// Webs that carry the rims of the gears. A pair with one is taken in slices over the face width; finite elements in space see it, plane ones
+    /// do not. Default: none; bodies are discs as wide as the teeth.
+    pub web: Option<WebsFile>,
     /// Elements in the half-width of contact under the whole load, 2 to 60: the resolution. Default 10, and 3 in a wear
     /// run (5 with severe wear), which resolve its wear as well.
     #[schemars(range(min = 2, max = 60))]
@@ -499,6 +502,38 @@ pub struct ClampRadiusFile {
     /// Of the wheel in mm, > 0. Default: root radius less 2.5 transverse modules, or the bore where that is larger.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub wheel: Option<f64>,
+}
+
+/// A web for each gear that has one.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WebsFile {
+    /// Of the pinion.
+    pub pinion: Option<WebFile>,
+    /// Of the wheel.
+    pub wheel: Option<WebFile>,
+}
+
+impl WebsFile {
+    /// Whether a gear has one.
+    pub(crate) fn has_one(&self) -> bool {
+        self.pinion.is_some() || self.wheel.is_some()
+    }
+}
+
+/// What carries a rim as wide as the teeth: a disc that is held at fem.clamp_radius_mm.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WebFile {
+    /// Thickness b_s of the web along the axis in mm, > 0, at most the face width.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub thickness_mm: f64,
+    /// Thickness s_R of the rim from the root circle to where the web begins in mm, > 0. It leaves a tenth of a module of web above
+    /// fem.clamp_radius_mm.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub rim_thickness_mm: f64,
+    /// Place of its middle over the face width from that of the teeth in mm, positive towards greater z. Default 0.
+    pub offset_mm: Option<f64>,
 }
 
 /// Slices over the face width.

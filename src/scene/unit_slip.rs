@@ -143,6 +143,10 @@ impl Search<'_> {
                 }
                 let (credible, usual) = ([0.01 * z * module, 2.0 * z * module], [0.1 * z * module, 0.6 * z * module]);
                 self.judge(&format!("fem.clamp_radius_mm.{gear}"), credible, usual, &[METRES, MICROMETRES]);
+                for key in ["thickness_mm", "rim_thickness_mm"] {
+                    let (credible, usual) = ([0.02 * module, 20.0 * z * module], [0.5 * module, 20.0 * module]);
+                    self.judge(&format!("fem.web.{gear}.{key}"), credible, usual, &[METRES, MICROMETRES]);
+                }
             }
             // A relief of some millionths of the module does nothing; one of the whole module leaves no tooth.
             let (credible, usual) = ([0.02 * module, 1e3 * module], [0.1 * module, 50.0 * module]);

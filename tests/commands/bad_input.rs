@@ -789,3 +789,31 @@ fn values_that_cannot_be_meant() {
         case.refused().says(&[named, allowed, "check their units"]).at_line(case.line_of(&line));
     }
 }
+
+/// A web must find room between root circle and clamp circle, and within the face width.
+#[test]
+fn webs_without_room() {
+    let scene = |clamp: &str, web: &str, more: &str| {
+        Case::of(&format!(
+            "[pair]\npreset = \"fzg-c\"\n[operation]\npinion_torque_Nm = 302.0\npinion_revolutions = 10.0\n\
+             [wear]\nlaw = \"archard\"\ncoefficient_m2_per_N = 1e-17\n\
+             [fem]\nclamp_radius_mm = {{ wheel = {clamp} }}\nweb.wheel = {{ {web} }}\n{more}"
+        ))
+    };
+    let with = |web: &str| scene("25.0", web, "");
+    for (web, says) in [
+        ("thickness_mm = 5.0", ["fem.web.wheel", "rim_thickness_mm"]),
+        ("thickness_mm = 0.0, rim_thickness_mm = 5.0", ["fem.web.wheel.thickness_mm", "greater than 0"]),
+        ("thickness_mm = 15.0, rim_thickness_mm = 5.0", ["fem.web.wheel.thickness_mm", "at most the face width, 14"]),
+        ("thickness_mm = 5.0, rim_thickness_mm = 24.0", ["fem.web.wheel.rim_thickness_mm", "0.4500 to 23."]),
+        ("thickness_mm = 5.0, rim_thickness_mm = 0.1", ["fem.web.wheel.rim_thickness_mm", "0.4500 to 23."]),
+        ("thickness_mm = 5.0, rim_thickness_mm = 5.0, offset_mm = 4.6", ["fem.web.wheel.offset_mm", "within the face"]),
+        ("thickness = 5.0, rim_thickness_mm = 5.0", ["fem.web.wheel.thickness", "thickness_mm"]),
+    ] {
+        with(web).refused().says(&says);
+    }
+    let web = "thickness_mm = 5.0, rim_thickness_mm = 5.0";
+    scene("48.3", web, "").refused().says(&["fem.clamp_radius_mm.wheel", "no room for a rim and a web"]);
+    let unseen = scene("25.0", web, "[helical]\ncoupling = \"none\"\n").warnings();
+    assert!(unseen.contains("fem.web: the wear simulation does not see it"), "{unseen}");
+}

@@ -20,7 +20,7 @@ use gearwear::gear::conjugate::ConjugateFlanks;
 use gearwear::gear::modification::{Relief, ReliefShape};
 use gearwear::gear::spec::PairSpec;
 use gearwear::gear::{Gear, GearPair, PerGear, flank::FlankGrid};
-use gearwear::gear_mesh::settings::{Body, BodySettings, SectorSides};
+use gearwear::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides};
 use gearwear::mesh_cycle::pair_in_space::KeptInSpace;
 use gearwear::observer::Unwatched;
 use gearwear::pipeline::calibrate::{self, Extent};
@@ -36,7 +36,7 @@ const LINE_LOAD_N_PER_MM: f64 = 637.66;
 const CLAMP_RADIUS_MM: PerGear<f64> = PerGear { pinion: 19.943, wheel: 37.897 };
 
 fn setup(pair: &GearPair, body: Body, elements_per_half_width: f64) -> Setup<'_> {
-    let bodies = BodySettings { body, clamp_radius_mm: CLAMP_RADIUS_MM, elements_per_half_width };
+    let bodies = BodySettings { body, clamp_radius_mm: CLAMP_RADIUS_MM, web: NO_WEBS, elements_per_half_width };
     Setup { pair, material: steel(), bodies, line_load_n_per_mm: LINE_LOAD_N_PER_MM }
 }
 
@@ -359,7 +359,7 @@ fn a_file_comes_back_as_it_was_and_keeps_its_hash() {
 fn differences_are_told_by_the_keys_of_the_scene() {
     let identity = |spec: &PairSpec, clamp_mm: f64| {
         let clamp_radius_mm = PerGear { pinion: clamp_mm, wheel: 37.9 };
-        let bodies = BodySettings { body: Body::Ring, clamp_radius_mm, elements_per_half_width: 4.0 };
+        let bodies = BodySettings { body: Body::Ring, clamp_radius_mm, web: NO_WEBS, elements_per_half_width: 4.0 };
         Identity::of(&GearPair::new(spec).unwrap(), &steel(), &bodies)
     };
     let own = identity(&fzg_c(), 20.0);
@@ -402,7 +402,7 @@ fn rounded_tips_and_other_orders_of_the_points_are_calibrated_too() {
     // Type A has C before B.
     for (spec, clamp_radius_mm) in [(rounded, CLAMP_RADIUS_MM), (fzg_a(), PerGear { pinion: 22.9, wheel: 34.9 })] {
         let pair = GearPair::new(&spec).unwrap();
-        let bodies = BodySettings { body: Body::Ring, clamp_radius_mm, elements_per_half_width: 3.0 };
+        let bodies = BodySettings { body: Body::Ring, clamp_radius_mm, web: NO_WEBS, elements_per_half_width: 3.0 };
         let load = LINE_LOAD_N_PER_MM;
         let setup = Setup { pair: &pair, material: steel(), bodies, line_load_n_per_mm: load };
         let condensed = setup.condensed(&setup.meshed().unwrap()).unwrap();

@@ -8,7 +8,7 @@ use gearwear::fem::gear::model::MeshedGear;
 use gearwear::fem::gear::position::{PositionContact, ToothPairContact, WarmStart};
 use gearwear::gear::spec::PairSpec;
 use gearwear::gear::{GearPair, PerGear};
-use gearwear::gear_mesh::settings::{Body, BodySettings, SectorSides};
+use gearwear::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides};
 use gearwear::reference::hertz_line::HertzLine;
 
 use super::common::{assert_close, fzg_c};
@@ -24,7 +24,7 @@ fn steel() -> PerGear<Elastic> {
 }
 
 fn settings(body: Body, elements_per_half_width: f64) -> BodySettings {
-    BodySettings { body, clamp_radius_mm: CLAMP_RADIUS_MM, elements_per_half_width }
+    BodySettings { body, clamp_radius_mm: CLAMP_RADIUS_MM, web: NO_WEBS, elements_per_half_width }
 }
 
 /// 302 N·m over base radius and face width.
@@ -263,6 +263,7 @@ fn ver_same_in_mm_and_in_m() {
         let settings = BodySettings {
             body: Body::Ring,
             clamp_radius_mm: CLAMP_RADIUS_MM.map(|r| r * s),
+            web: NO_WEBS,
             elements_per_half_width: 3.0,
         };
         let load = 637.66 / s;

@@ -13,7 +13,7 @@ use gearwear::gear::{
     slices::Slices,
     spec::PairSpec,
 };
-use gearwear::gear_mesh::settings::{Body, BodySettings, default_clamp};
+use gearwear::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
 use gearwear::mesh_cycle::{CycleObservation, LostMaterial, MeshCycle, Work, condensed::CondensedCycle};
 use gearwear::wear::{WearModel, settings::WearSettings};
 
@@ -28,7 +28,12 @@ fn line_load(pair: &GearPair) -> f64 {
 
 fn condensed(pair: &GearPair, elements_per_half_width: f64) -> CondensedPair<'_> {
     let clamp = |gear| default_clamp(pair.teeth[gear].root_radius_mm, pair.spec.normal_module_mm).radius_mm;
-    let settings = BodySettings { body: Body::Ring, clamp_radius_mm: PerGear::from_fn(clamp), elements_per_half_width };
+    let settings = BodySettings {
+        body: Body::Ring,
+        clamp_radius_mm: PerGear::from_fn(clamp),
+        web: NO_WEBS,
+        elements_per_half_width,
+    };
     let material =
         steel().map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio });
     CondensedPair::build(pair, &material, line_load(pair), &settings, &|_| {})

@@ -3,7 +3,7 @@
 use gearwear::fem::elastic::Elastic;
 use gearwear::fem::gear::condensed_pair::CondensedPair;
 use gearwear::gear::{Gear, PerGear};
-use gearwear::gear_mesh::settings::{Body, BodySettings, default_clamp};
+use gearwear::gear_mesh::settings::{Body, BodySettings, NO_WEBS, default_clamp};
 use gearwear::observer::Unwatched;
 use gearwear::simulation::mesh_contact::MeshContact;
 use gearwear::simulation::settings::{AdaptiveMethod, LifeLimits, Numerics, Stepping};
@@ -81,8 +81,12 @@ fn ver_eulers_steps_break_where_the_bound_says() {
 fn ver_eulers_steps_break_where_the_bound_says_on_finite_elements() {
     let pair = pair(&fzg_c());
     let clamp = |gear| default_clamp(pair.teeth[gear].root_radius_mm, pair.spec.normal_module_mm).radius_mm;
-    let bodies =
-        BodySettings { body: Body::Ring, clamp_radius_mm: PerGear::from_fn(clamp), elements_per_half_width: 4.0 };
+    let bodies = BodySettings {
+        body: Body::Ring,
+        clamp_radius_mm: PerGear::from_fn(clamp),
+        web: NO_WEBS,
+        elements_per_half_width: 4.0,
+    };
     let material =
         steel().map(|own| Elastic { young_modulus_mpa: own.young_modulus_mpa, poisson_ratio: own.poisson_ratio });
     let scene = fzg_c_scene();

@@ -14,7 +14,7 @@ use gearwear::fem::quadrature::GAUSS_3;
 use gearwear::gear::shaft::{EndFace, Shaft};
 use gearwear::gear::spec::{AxisParallelism, PairSpec};
 use gearwear::gear::{Gear, GearPair, PerGear};
-use gearwear::gear_mesh::settings::{SectionDivisions, SpaceResolution};
+use gearwear::gear_mesh::settings::{SectionDivisions, SpaceBody, SpaceResolution, Web};
 use gearwear::gear_mesh::tooth_section::ExtrudedTooth;
 use gearwear::mesh::quality;
 use gearwear::mesh_cycle::pair_in_space::{KeptInSpace, PairInSpace, PairInSpaceError};
@@ -26,6 +26,11 @@ use super::common::{assert_close, fzg_c};
 
 const STEEL: Elastic = Elastic { young_modulus_mpa: 206e3, poisson_ratio: 0.3 };
 const CLAMP_RADIUS_MM: PerGear<f64> = PerGear { pinion: 19.943, wheel: 37.897 };
+
+/// Discs as wide as the teeth.
+fn discs(clamp_radius_mm: PerGear<f64>) -> PerGear<SpaceBody> {
+    clamp_radius_mm.map(|clamp_radius_mm| SpaceBody { clamp_radius_mm, web: None })
+}
 
 fn even_load(teeth: &TeethInSpace, radius_mm: f64, face_width_mm: f64) -> FlankForces {
     let ends_mm = teeth.layer_ends_mm();
@@ -45,7 +50,7 @@ fn ver_plane_strain_from_three_dimensions() {
     for gear in Gear::BOTH {
         let (tooth, width_mm) = (&pair.teeth[gear], pair.spec.face_width_mm);
         let radius_mm = pair.radius_at_mm(gear, pair.path.pitch_point_mm);
-        let mesh = || ExtrudedTooth::of_gear(&pair, gear, CLAMP_RADIUS_MM[gear], &SpaceResolution::USUAL);
+        let mesh = || ExtrudedTooth::of_gear(&pair, gear, &discs(CLAMP_RADIUS_MM), &SpaceResolution::USUAL);
         let held = TeethInSpace::in_plane_strain(tooth, mesh(), STEEL).unwrap();
         let brittle = Elastic { poisson_ratio: 0.0, ..STEEL };
         let free = TeethInSpace::new(tooth, mesh(), brittle, 1).unwrap();
@@ -82,7 +87,7 @@ fn val_transmission_error_in_plane_strain() {
 #[test]
 fn ver_reciprocity() {
     let pair = GearPair::new(&fzg_c()).unwrap();
-    let mesh = ExtrudedTooth::of_gear(&pair, Gear::Pinion, CLAMP_RADIUS_MM.pinion, &SpaceResolution::USUAL);
+    let mesh = ExtrudedTooth::of_gear(&pair, Gear::Pinion, &discs(CLAMP_RADIUS_MM), &SpaceResolution::USUAL);
     let teeth = TeethInSpace::new(&pair.teeth.pinion, mesh, STEEL, 2).unwrap();
     let [here, there] = [(34.9, 1.3, 1.0), (40.2, 11.8, 1.0)].map(|point| teeth.load([point]));
     for pitches in [0, 1] {
@@ -92,14 +97,75 @@ fn ver_reciprocity() {
     }
 }
 
+/// Few layers: what a web changes is far from them.
+const FEW_LAYERS: SpaceResolution = SpaceResolution { layers: [4, 4], ..SpaceResolution::USUAL };
+
+/// The pinion of `fzg-c` on a web below a rim of 5 mm.
+fn pinion_on_a_web(
+    pair: &GearPair,
+    clamp_radius_mm: f64,
+    [thickness_mm, offset_mm]: [f64; 2],
+    teeth: usize,
+) -> TeethInSpace {
+    let web = Some(Web { thickness_mm, rim_thickness_mm: 5.0, offset_mm });
+    let bodies = PerGear { pinion: SpaceBody { clamp_radius_mm, web }, ..discs(CLAMP_RADIUS_MM) };
+    let mesh = ExtrudedTooth::of_gear(pair, Gear::Pinion, &bodies, &FEW_LAYERS);
+    TeethInSpace::new(&pair.teeth.pinion, mesh, STEEL, teeth).unwrap()
+}
+
+/// All teeth loaded alike twist the web as a disc of its thickness, by T/(4π G b_s) · (1/r_i² − 1/r_o²) between two radii (S. Timoshenko and J. N. Goodier,
+/// *Theory of Elasticity*, art. 31: pure shear falls with the square of the radius).
+#[test]
+fn ver_a_web_twists_as_a_disc() {
+    let pair = GearPair::new(&fzg_c()).unwrap();
+    let (teeth, base_mm) = (pair.teeth.pinion.teeth, pair.teeth.pinion.involute.base_radius_mm);
+    let radius_mm = pair.radius_at_mm(Gear::Pinion, pair.path.pitch_point_mm);
+    let yields_mm_per_n = |clamp_radius_mm| {
+        let on_a_web = pinion_on_a_web(&pair, clamp_radius_mm, [5.0, 3.0], teeth as usize);
+        let load = even_load(&on_a_web, radius_mm, pair.spec.face_width_mm);
+        (0..teeth).map(|pitches| on_a_web.mm_per_n(&load, &load, pitches as i32)).sum::<f64>()
+    };
+    let shear_modulus_mpa = 0.5 * STEEL.young_modulus_mpa / (1.0 + STEEL.poisson_ratio);
+    let twist_rad = f64::from(teeth) * base_mm / (4.0 * std::f64::consts::PI * shear_modulus_mpa * 5.0)
+        * (12f64.powi(-2) - 18f64.powi(-2));
+    let found = yields_mm_per_n(12.0) - yields_mm_per_n(18.0);
+    println!("{:.1e}", found / (base_mm * twist_rad) - 1.0);
+    // The web has few rows of elements.
+    assert_close("twist", found, base_mm * twist_rad, 3e-3);
+}
+
+/// A web as wide as the teeth is no web; one beside the middle is the mirror image of one on the other side, and the teeth yield least above it.
+#[test]
+fn ver_webs_over_the_face_width() {
+    let pair = GearPair::new(&fzg_c()).unwrap();
+    let width_mm = pair.spec.face_width_mm;
+    let radius_mm = pair.radius_at_mm(Gear::Pinion, pair.path.pitch_point_mm);
+    let own = |teeth: &TeethInSpace, z_mm: f64| {
+        let load = teeth.load([(radius_mm, z_mm, 1.0)]);
+        teeth.mm_per_n(&load, &load, 0)
+    };
+    let bodies = discs(PerGear { pinion: 15.0, ..CLAMP_RADIUS_MM });
+    let disc = ExtrudedTooth::of_gear(&pair, Gear::Pinion, &bodies, &FEW_LAYERS);
+    let disc = TeethInSpace::new(&pair.teeth.pinion, disc, STEEL, 1).unwrap();
+    let [wide, before, after] =
+        [[width_mm, 0.0], [4.0, -4.5], [4.0, 4.5]].map(|web| pinion_on_a_web(&pair, 15.0, web, 1));
+    for z_mm in [0.7, 5.0, 7.0, 13.0] {
+        // The disc has fewer rows of elements.
+        assert_close("as wide as the teeth", own(&wide, z_mm), own(&disc, z_mm), 4e-3);
+        assert_close("mirrored", own(&before, z_mm), own(&after, width_mm - z_mm), 1e-9);
+        assert!(own(&before, z_mm) > own(&wide, z_mm), "{z_mm}");
+    }
+    assert!(own(&before, 2.5) < own(&before, 11.5));
+}
+
 #[test]
 fn sections_are_well_shaped_on_all_presets() {
     for preset in ["fzg-c", "fzg-a", "helical", "h501", "thesis-spur"] {
         let scene = LoadedScene::preset(preset).unwrap();
         let pair = GearPair::new(&scene.scene().pair).unwrap();
         for gear in Gear::BOTH {
-            let clamp_mm = scene.scene().fem.clamp_radius_mm[gear];
-            let mesh = ExtrudedTooth::of_gear(&pair, gear, clamp_mm, &SpaceResolution::USUAL).section.to_mesh();
+            let bodies = scene.scene().fem.in_space();
+            let mesh = ExtrudedTooth::of_gear(&pair, gear, &bodies, &SpaceResolution::USUAL).section.to_mesh();
             let found = quality::of_mesh(&mesh).unwrap().scaled_jacobian.value;
             assert!(found > 0.5, "{preset} {}: {found}", gear.name());
         }
@@ -111,7 +177,7 @@ fn gears_with_too_few_teeth_are_refused() {
     let wide = LoadedScene::preset("helical").unwrap().with("pair.face_width_mm", 900.0).unwrap();
     let pair = GearPair::new(&wide.scene().pair).unwrap();
     let steel = PerGear::from_fn(|_| STEEL);
-    let refused = PairInSpace::new(&pair, &steel, &CLAMP_RADIUS_MM, &SpaceResolution::USUAL).map(|_| ());
+    let refused = PairInSpace::new(&pair, &steel, &discs(CLAMP_RADIUS_MM), &SpaceResolution::USUAL).map(|_| ());
     assert!(matches!(refused, Err(PairInSpaceError::TooFewTeeth { gear: Gear::Pinion, .. })), "{refused:?}");
 }
 
@@ -217,8 +283,8 @@ fn val_compliance_against_calculix() {
         let pair = GearPair::new(&scene.scene().pair).unwrap();
         let tooth = &pair.teeth.pinion;
         // As the tables have it: 2.5 normal modules below the root circle.
-        let clamp_mm = pair.teeth.pinion.root_radius_mm - 2.5 * pair.spec.normal_module_mm;
-        let mesh = |times| ExtrudedTooth::of_gear(&pair, Gear::Pinion, clamp_mm, &finer(times));
+        let bodies = discs(PerGear::from_fn(|gear| pair.teeth[gear].root_radius_mm - 2.5 * pair.spec.normal_module_mm));
+        let mesh = |times| ExtrudedTooth::of_gear(&pair, Gear::Pinion, &bodies, &finer(times));
         let ring = TeethInSpace::new(tooth, mesh(1), STEEL, 2).unwrap();
         let row = TeethInSpace::in_a_row(tooth, mesh(1), STEEL, 1).unwrap();
         let layers = mesh(1).layers();
@@ -503,7 +569,7 @@ fn teeth_are_condensed_once() {
     let kept = KeptInSpace::default();
     let steel = PerGear::from_fn(|_| STEEL);
     let condensed =
-        |spec: &PairSpec| kept.condensed(&GearPair::new(spec).unwrap(), steel, CLAMP_RADIUS_MM, 20).unwrap();
+        |spec: &PairSpec| kept.condensed(&GearPair::new(spec).unwrap(), steel, discs(CLAMP_RADIUS_MM), 20).unwrap();
     let (first, again) = (condensed(&fzg_c()), condensed(&fzg_c()));
     assert!(Arc::ptr_eq(&first, &again));
     // What carries the teeth is no part of them.
@@ -538,9 +604,8 @@ fn ver_deformed_teeth_are_those_of_the_compliance() {
     let scene = LoadedScene::preset("thesis-helical").unwrap();
     let pair = GearPair::new(&scene.scene().pair).unwrap();
     let tooth = &pair.teeth.pinion;
-    let clamp_mm = scene.scene().fem.clamp_radius_mm.pinion;
     let coarse = SpaceResolution { layers: [4, 4], ..SpaceResolution::USUAL };
-    let mesh = ExtrudedTooth::of_gear(&pair, Gear::Pinion, clamp_mm, &coarse);
+    let mesh = ExtrudedTooth::of_gear(&pair, Gear::Pinion, &scene.scene().fem.in_space(), &coarse);
     let normals = in_space::flank_forces(tooth, &mesh);
     let teeth = TeethInSpace::new(tooth, mesh, STEEL, 2).unwrap();
     let own = teeth.load([(35.1, 4.0, 0.7), (35.3, 9.0, 0.3)]);

@@ -10,7 +10,9 @@ use gearwear::gear::removed_material::removed_mm;
 use gearwear::gear::spec::PairSpec;
 use gearwear::gear::{Gear, GearPair, PerGear};
 use gearwear::gear_mesh::pair_mesh::PairSectors;
-use gearwear::gear_mesh::settings::{Body, BodySettings, SectorSides, SpaceResolution, default_clamp};
+use gearwear::gear_mesh::settings::{
+    Body, BodySettings, NO_WEBS, SectorSides, SpaceBody, SpaceResolution, Web, default_clamp,
+};
 use gearwear::gear_mesh::{self, FlankResolution, SectorSettings, ToothMeshError, ToothSector, ToothShape};
 use gearwear::mesh::quality::{self, MeshQuality};
 use gearwear::mesh::{CellBlock, CellKind, Mesh};
@@ -25,7 +27,7 @@ const LINE_LOAD: f64 = 302e3 / 33.8289 / 14.0;
 fn settings(pair: &GearPair, elements_per_half_width: f64) -> BodySettings {
     let module = pair.spec.normal_module_mm;
     let clamp_radius_mm = PerGear::from_fn(|g| default_clamp(pair.teeth[g].root_radius_mm, module).radius_mm);
-    BodySettings { body: Body::Ring, clamp_radius_mm, elements_per_half_width }
+    BodySettings { body: Body::Ring, clamp_radius_mm, web: NO_WEBS, elements_per_half_width }
 }
 
 fn sectors(pair: &GearPair, settings: &BodySettings) -> PairSectors {
@@ -576,9 +578,15 @@ fn elements_over_the_face_width_end_with_slices() {
     // 20 mm are 14.4 times 0.32 modules of 4.5 mm · cos 15°.
     assert_eq!([None, Some(5), Some(10), Some(20), Some(40), Some(80)].map(even), [15, 10, 10, 10, 20, 20]);
     assert_eq!([Some(24), Some(30), Some(60), Some(29), Some(23)].map(even), [12, 15, 20, 15, 15]);
-    let ends = SpaceResolution::of_slices(60).layer_ends_mm(pair);
+    let ends = SpaceResolution::of_slices(60).layer_ends_mm(pair, &helical.scene().fem.in_space());
     assert_eq!(ends.len(), 23);
     for (found, expected) in [(ends[1], 1.0 / 3.0), (ends[2], 1.0), (ends[20], 19.0), (ends[21], 20.0 - 1.0 / 3.0)] {
         assert!((found - expected).abs() < 1e-12, "{ends:?}");
     }
+    // Of this web one face lies between two of them, and one at an end that is there, but for rounding.
+    let web = Web { thickness_mm: 5.1 + 1e-9, rim_thickness_mm: 6.0, offset_mm: 1.55 };
+    let bodies = PerGear { pinion: None, wheel: Some(web) }.map(|web| SpaceBody { clamp_radius_mm: 20.0, web });
+    let with_web = SpaceResolution::of_slices(60).layer_ends_mm(pair, &bodies);
+    let new: Vec<f64> = with_web.iter().copied().filter(|end| !ends.contains(end)).collect();
+    assert!(with_web.len() == 24 && with_web.is_sorted() && (new[0] - 14.1).abs() < 1e-6, "{with_web:?}");
 }

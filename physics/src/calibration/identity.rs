@@ -5,12 +5,12 @@
 //! not among them: everything is per mm of it. Neither is the helix angle by itself: pairs of one transverse section share their calibrations.
 
 use serde::{Deserialize, Serialize};
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use crate::contact::settings::Material;
 use crate::gear::modification::{Relief, ReliefShape};
 use crate::gear::{Gear, GearPair, PerGear};
-use crate::gear_mesh::settings::{Body, BodySettings, SectorSides};
+use crate::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides, Web};
 
 /// Relative difference of two numbers below which they are the same: round-off of units.
 const SAME: f64 = 1e-9;
@@ -121,6 +121,21 @@ pub struct BodyIdentity {
     pub sector_sides: Option<SectorSides>,
     /// Rim or bore.
     pub clamp_radius_mm: PerGear<f64>,
+    /// Where a gear has one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub web: Option<PerGear<Option<WebIdentity>>>,
+}
+
+/// A web.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WebIdentity {
+    /// b_s.
+    pub thickness_mm: f64,
+    /// s_R.
+    pub rim_thickness_mm: f64,
+    /// From the middle of the face width.
+    pub offset_mm: f64,
 }
 
 impl Identity {
@@ -164,6 +179,7 @@ impl Identity {
                 sector_teeth,
                 sector_sides,
                 clamp_radius_mm: bodies.clamp_radius_mm,
+                web: (bodies.web != NO_WEBS).then(|| bodies.web.map(|web| web.map(WebIdentity::of))),
             },
         }
     }
@@ -215,6 +231,12 @@ impl ReliefIdentity {
     }
 }
 
+impl WebIdentity {
+    fn of(web: Web) -> Self {
+        Self { thickness_mm: web.thickness_mm, rim_thickness_mm: web.rim_thickness_mm, offset_mm: web.offset_mm }
+    }
+}
+
 fn json(part: &impl Serialize) -> Value {
     // Plain structures with text keys: always expressible; were they not, they would differ from anything.
     serde_json::to_value(part).unwrap_or_default()
@@ -223,9 +245,11 @@ fn json(part: &impl Serialize) -> Value {
 fn compare(key: &str, calibration: &Value, scene: &Value, found: &mut Vec<String>) {
     match (calibration, scene) {
         (Value::Object(own), Value::Object(other)) => {
-            // Both are of the same structure, so that they have the same keys.
-            for (name, value) in own {
-                compare(&format!("{key}.{name}"), value, other.get(name).unwrap_or(&Value::Null), found);
+            // Both are of the same structure: what one of them has no key for, it does not have.
+            let names = own.keys().chain(other.keys().filter(|name| !own.contains_key(*name)));
+            for name in names {
+                let of = |object: &Map<String, Value>| object.get(name).cloned().unwrap_or_default();
+                compare(&format!("{key}.{name}"), &of(own), &of(other), found);
             }
         }
         (Value::Number(own), Value::Number(other)) => {

@@ -27,8 +27,47 @@ pub struct BodySettings {
     pub body: Body,
     /// Where each body is held or turned rigidly: its rim or bore.
     pub clamp_radius_mm: PerGear<f64>,
+    /// Webs that carry rims, in space only: plane elements are as wide as the teeth.
+    pub web: PerGear<Option<Web>>,
     /// Elements in the local half-width of contact under the whole load.
     pub elements_per_half_width: f64,
+}
+
+impl BodySettings {
+    /// The bodies of teeth in space.
+    pub fn in_space(&self) -> PerGear<SpaceBody> {
+        PerGear::from_fn(|gear| SpaceBody { clamp_radius_mm: self.clamp_radius_mm[gear], web: self.web[gear] })
+    }
+}
+
+/// A body of teeth in space, from its outline to where it is held.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpaceBody {
+    /// Where it is held.
+    pub clamp_radius_mm: f64,
+    /// What carries its rim; none: it is a disc as wide as the teeth.
+    pub web: Option<Web>,
+}
+
+/// A web that carries a rim as wide as the teeth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Web {
+    /// b_s, at most the face width.
+    pub thickness_mm: f64,
+    /// s_R, from the root circle to where the web begins.
+    pub rim_thickness_mm: f64,
+    /// Its middle from that of the face width, positive towards greater z.
+    pub offset_mm: f64,
+}
+
+/// Two discs as wide as the teeth.
+pub const NO_WEBS: PerGear<Option<Web>> = PerGear { pinion: None, wheel: None };
+
+impl Web {
+    /// Where it begins and ends over a face width, from z = 0 on.
+    pub fn from_to_mm(&self, face_width_mm: f64) -> [f64; 2] {
+        [-0.5, 0.5].map(|side| 0.5 * face_width_mm + self.offset_mm + side * self.thickness_mm)
+    }
 }
 
 /// How much of a gear is meshed.
@@ -62,6 +101,13 @@ const LEAST_BODY_MODULES: f64 = 0.1;
 /// Greatest clamp radius of a gear: a tenth of a module below its root circle.
 pub fn greatest_clamp_mm(root_radius_mm: f64, normal_module_mm: f64) -> f64 {
     root_radius_mm - LEAST_BODY_MODULES * normal_module_mm
+}
+
+/// Least and greatest thickness of a rim on a web between its root circle and where that is held, a tenth of a module on either side; where they
+/// cross, there is room for none.
+pub fn rim_thickness_limits_mm(root_radius_mm: f64, clamp_radius_mm: f64, normal_module_mm: f64) -> [f64; 2] {
+    let least = LEAST_BODY_MODULES * normal_module_mm;
+    [least, root_radius_mm - clamp_radius_mm - least]
 }
 
 /// A clamp radius chosen where none is given.
@@ -128,14 +174,14 @@ impl SpaceResolution {
 
     /// Memory that condensing the sectors of both gears of `pair` takes, GB: measured on the preset `helical` at 8 to 90 mm, where it grows with
     /// the square of the nodes on flank and cuts.
-    pub fn memory_gb(&self, pair: &PairSpec) -> f64 {
-        let layers = (self.layer_ends_mm(pair).len() - 1) as f64;
+    pub fn memory_gb(&self, pair: &PairSpec, bodies: &PerGear<SpaceBody>) -> f64 {
+        let layers = (self.layer_ends_mm(pair, bodies).len() - 1) as f64;
         0.2 + 0.0018 * layers * layers
     }
 
     /// Where elements over the face width of `pair` end, from z = 0 on: those at both end faces are divided, for there a load is left to itself over
-    /// a distance that is short against a module.
-    pub fn layer_ends_mm(&self, pair: &PairSpec) -> Vec<f64> {
+    /// a distance that is short against a module, and those that a face of a web cuts.
+    pub fn layer_ends_mm(&self, pair: &PairSpec, bodies: &PerGear<SpaceBody>) -> Vec<f64> {
         let even = self.even_layers(pair);
         let at = |place: f64| pair.face_width_mm * place / even as f64;
         let mut ends: Vec<f64> = (0..=even).map(|k| at(k as f64)).collect();
@@ -145,6 +191,14 @@ impl SpaceResolution {
             let first = if in_layer > 1 { (in_layer / 2) as f64 / in_layer as f64 } else { 0.5 };
             ends.insert(1, at(first));
             ends.insert(even + 1, at(even as f64 - first));
+        }
+        let webs = [bodies.pinion.web, bodies.wheel.web].into_iter().flatten();
+        for face_mm in webs.flat_map(|web| web.from_to_mm(pair.face_width_mm)) {
+            let next = ends.partition_point(|end| *end < face_mm);
+            let is_new = |end: &f64| (end - face_mm).abs() > SAME_PLACE * pair.face_width_mm;
+            if next > 0 && ends[next - 1..].iter().take(2).all(is_new) && next < ends.len() {
+                ends.insert(next, face_mm);
+            }
         }
         ends
     }
@@ -166,6 +220,9 @@ impl SpaceResolution {
         nearest.unwrap_or(wanted)
     }
 }
+
+/// Places over the face width that are no farther apart are one, in face widths.
+const SAME_PLACE: f64 = 1e-6;
 
 /// Elements over the face width that end with slices are at most so many times as many, or as few, as are wanted.
 const MOST_OFF: f64 = 1.8;

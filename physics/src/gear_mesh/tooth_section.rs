@@ -9,6 +9,8 @@
 //!     │    │  │  │  │    │  to the clamp circle
 //! ```
 //!
+//! A body with a web has a circle between, where the rim ends; below it there are elements in the web only.
+//!
 //! Frame and orientation are those of [`super::ToothSector`]: the tooth's centre line on +y, the working flank at x < 0. The profile is
 //! the generated one without modifications or rounding of the tip edge; the nodes of the surface lie on it. In space each section
 //! turns about the gear's axis by the same angle per mm.
@@ -17,9 +19,9 @@ use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use nalgebra::{Rotation2, Vector2, Vector3};
 
-use super::settings::{SectionDivisions, SpaceResolution};
+use super::settings::{SectionDivisions, SpaceBody, SpaceResolution};
 use crate::gear::half_profile::in_tooth_frame;
-use crate::gear::{Gear, GearPair, tooth::Tooth};
+use crate::gear::{Gear, GearPair, PerGear, tooth::Tooth};
 use crate::mesh::{CellBlock, CellKind, Mesh};
 
 /// Samples of the outline from which places by length of arc are taken.
@@ -28,6 +30,8 @@ const SAMPLES: usize = 400;
 const SAG: f64 = 0.27;
 /// Each element towards the clamp circle over the one before.
 const RADIAL_GROWTH: f64 = 1.5;
+/// Most rows of elements of a web.
+const MOST_WEB_ROWS: usize = 5;
 
 /// The section in the plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,6 +40,8 @@ pub struct ToothSection {
     pub points_mm: Vec<Vector2<f64>>,
     /// Serendipity quadrilaterals: corners anticlockwise, then the middles of the sides.
     pub quads: Vec<[u32; 8]>,
+    /// How many of them, the first ones, are as wide as the teeth; the others belong to the web.
+    pub full_width_quads: usize,
     /// Nodes of the working flank from the end of the fillet to the tip circle, ends and middles of elements alternately.
     pub flank: Vec<u32>,
     /// Nodes of the clockwise (x > 0) and of the anticlockwise cut by increasing radius.
@@ -60,7 +66,8 @@ pub struct ExtrudedTooth {
     /// Hexahedra in the order of VTK: corners of the lower face, of the upper one, middles of the lower edges, of the upper ones, of those
     /// between.
     pub hexahedra: Vec<[u32; 20]>,
-    /// For each end and middle of a layer the node above each node of the section; middles have corners only.
+    /// For each end and middle of a layer the node above each node of the section; middles have corners only, and outside the web there is none
+    /// of its.
     nodes: Vec<Vec<Option<u32>>>,
 }
 
@@ -131,13 +138,36 @@ impl<'a> HalfOutline<'a> {
     }
 }
 
+/// Part of the way from the outline that a row, ends and middles of elements alternately, is at, where elements grow towards the other end.
+fn depth(row: usize, elements: usize) -> f64 {
+    let step = |k: usize| RADIAL_GROWTH.powi(k as i32);
+    let before: f64 = (0..row / 2).map(step).sum();
+    let whole: f64 = (0..elements).map(step).sum();
+    (before + if row % 2 == 1 { 0.5 * step(row / 2) } else { 0.0 }) / whole
+}
+
+/// Rows of elements of a web of such a depth, about as long as the last of the rim's `radial` ones.
+fn web_rows(rim_thickness_mm: f64, depth_mm: f64, radial: usize) -> usize {
+    let last_mm = rim_thickness_mm * (1.0 - depth(2 * radial - 2, radial));
+    ((depth_mm / last_mm).round() as usize).clamp(1, MOST_WEB_ROWS)
+}
+
 impl ToothSection {
-    /// Of a tooth clamped at `clamp_radius_mm`.
-    pub fn new(tooth: &Tooth, clamp_radius_mm: f64, divisions: SectionDivisions) -> Self {
+    /// Of a tooth on its body.
+    pub fn new(tooth: &Tooth, body: SpaceBody, divisions: SectionDivisions) -> Self {
         let SectionDivisions { across, fillet, flank, land, radial } = divisions;
+        // Where the rows that are as wide as the teeth end, and how many are below.
+        let (rim_radius_mm, web_rows) = match body.web {
+            None => (body.clamp_radius_mm, 0),
+            Some(web) => {
+                let rim_radius_mm = tooth.root_radius_mm - web.rim_thickness_mm;
+                (rim_radius_mm, web_rows(web.rim_thickness_mm, rim_radius_mm - body.clamp_radius_mm, radial))
+            }
+        };
         let outline = HalfOutline::new(tooth);
         let flank_radius_mm = [tooth.root_form_radius_mm, tooth.tip_radius_mm];
-        let (columns, rows) = (2 * (2 * land + across), 2 * radial);
+        let (columns, rim_rows) = (2 * (2 * land + across), 2 * radial);
+        let rows = rim_rows + 2 * web_rows;
         let tooth_rows = 2 * (fillet + flank);
         let tip = outline.flank(tooth.tip_radius_mm);
         let tip_bulge = (tooth.tip_radius_mm - tip.y) / tip.x;
@@ -160,12 +190,7 @@ impl ToothSection {
         };
         let middle = outline.lower.at(1.0);
         let (at_cut, at_middle) = (PI / f64::from(tooth.teeth), middle.x.atan2(middle.y));
-        let steps: Vec<f64> = (0..radial).map(|k| RADIAL_GROWTH.powi(k as i32)).collect();
-        let whole: f64 = steps.iter().sum();
-        let depth = |j: usize| {
-            let before: f64 = steps[..j / 2].iter().sum();
-            (before + if j % 2 == 1 { 0.5 * steps[j / 2] } else { 0.0 }) / whole
-        };
+        let in_web = |j: usize| (j - rim_rows) as f64 / (rows - rim_rows) as f64;
         // The body's grid: i from the working side's cut, j from the outline.
         let in_body = |i: usize, j: usize| {
             let beside = 2 * land;
@@ -178,8 +203,11 @@ impl ToothSection {
                 let k = i - beside;
                 (in_tooth(k, 0), at_middle * (k as f64 / across as f64 - 1.0))
             };
-            let bottom = clamp_radius_mm * Vector2::new(angle.sin(), angle.cos());
-            top.lerp(&bottom, depth(j))
+            let outward = Vector2::new(angle.sin(), angle.cos());
+            match j <= rim_rows {
+                true => top.lerp(&(rim_radius_mm * outward), depth(j, radial)),
+                false => (rim_radius_mm + in_web(j) * (body.clamp_radius_mm - rim_radius_mm)) * outward,
+            }
         };
         let mut points_mm = Vec::new();
         let mut number = |points: Vec<Vec<Option<Vector2<f64>>>>| -> Vec<Vec<u32>> {
@@ -193,9 +221,9 @@ impl ToothSection {
         };
         // Middles of quadrilaterals are no nodes.
         let is_node = |i: usize, j: usize| i.is_multiple_of(2) || j.is_multiple_of(2);
-        let body =
+        let body_grid =
             number((0..=rows).map(|j| (0..=columns).map(|i| is_node(i, j).then(|| in_body(i, j))).collect()).collect());
-        let mut tooth_grid = vec![body[0][2 * land..=columns - 2 * land].to_vec()];
+        let mut tooth_grid = vec![body_grid[0][2 * land..=columns - 2 * land].to_vec()];
         tooth_grid.extend(number(
             (1..=tooth_rows)
                 .map(|j| (0..=2 * across).map(|i| is_node(i, j).then(|| in_tooth(i, j))).collect())
@@ -222,12 +250,13 @@ impl ToothSection {
             }
         };
         add(&tooth_grid, true);
-        add(&body, false);
-        let cut = |i: usize| body.iter().rev().map(|row| row[i]).collect();
+        add(&body_grid, false);
+        let cut = |i: usize| body_grid.iter().rev().map(|row| row[i]).collect();
         Self {
             flank: tooth_grid[2 * fillet..].iter().map(|row| row[0]).collect(),
             cuts: [cut(columns), cut(0)],
-            clamp: body[rows].clone(),
+            clamp: body_grid[rows].clone(),
+            full_width_quads: quads.len() - web_rows * columns / 2,
             quads,
             points_mm,
             flank_radius_mm,
@@ -256,8 +285,8 @@ impl ToothSection {
 }
 
 impl ExtrudedTooth {
-    /// One pitch of a gear of `pair` over its face width, clamped at `clamp_radius_mm`.
-    pub fn of_gear(pair: &GearPair, gear: Gear, clamp_radius_mm: f64, resolution: &SpaceResolution) -> Self {
+    /// One pitch of a gear of `pair` over its face width. Elements of both gears end at the same places over it.
+    pub fn of_gear(pair: &GearPair, gear: Gear, bodies: &PerGear<SpaceBody>, resolution: &SpaceResolution) -> Self {
         let tooth = &pair.teeth[gear];
         // Forward on the path of contact, where slices at small z are, is anticlockwise for the pinion.
         let forward = match gear {
@@ -265,8 +294,9 @@ impl ExtrudedTooth {
             Gear::Wheel => -1.0,
         };
         let twist_rad_per_mm = -forward * pair.base_helix_angle_rad().tan() / tooth.involute.base_radius_mm;
-        let section = ToothSection::new(tooth, clamp_radius_mm, resolution.section);
-        Self::new(section, &resolution.layer_ends_mm(&pair.spec), twist_rad_per_mm)
+        let section = ToothSection::new(tooth, bodies[gear], resolution.section);
+        let web_mm = bodies[gear].web.map(|web| web.from_to_mm(pair.spec.face_width_mm));
+        Self::new(section, &resolution.layer_ends_mm(&pair.spec, bodies), web_mm, twist_rad_per_mm)
     }
 
     /// Elements over the face width.
@@ -287,44 +317,54 @@ impl ExtrudedTooth {
         (layer, 2.0 * (z_mm - from) / (to - from) - 1.0)
     }
 
-    /// `section` over the face width in layers that end at these places, from z = 0 on.
-    fn new(section: ToothSection, layer_ends_mm: &[f64], twist_rad_per_mm: f64) -> Self {
+    /// `section` over the face width in layers that end at these places, from z = 0 on; its web is from one place to another.
+    fn new(section: ToothSection, layer_ends_mm: &[f64], web_mm: Option<[f64; 2]>, twist_rad_per_mm: f64) -> Self {
         let (layers, face_width_mm) = (layer_ends_mm.len() - 1, layer_ends_mm[layer_ends_mm.len() - 1]);
         let end = |k: usize| layer_ends_mm[k / 2];
         let z_mm: Vec<f64> = (0..=2 * layers).map(|k| end(k).midpoint(end(k + 1))).collect();
-        let mut is_corner = vec![false; section.points_mm.len()];
-        section.quads.iter().for_each(|quad| quad[..4].iter().for_each(|node| is_corner[*node as usize] = true));
+        let quads_of = |layer: usize| {
+            let in_web = web_mm.is_none_or(|[from, to]| (from..to).contains(&z_mm[2 * layer + 1]));
+            &section.quads[..if in_web { section.quads.len() } else { section.full_width_quads }]
+        };
+        let mut is_node = vec![vec![false; section.points_mm.len()]; z_mm.len()];
+        for layer in 0..layers {
+            for quad in quads_of(layer) {
+                for (k, of_quad) in [(2 * layer, &quad[..]), (2 * layer + 1, &quad[..4]), (2 * layer + 2, &quad[..])] {
+                    of_quad.iter().for_each(|node| is_node[k][*node as usize] = true);
+                }
+            }
+        }
         let mut points_mm = Vec::new();
         let mut nodes = Vec::with_capacity(z_mm.len());
-        for (k, z) in z_mm.iter().enumerate() {
+        for (z, is_node) in z_mm.iter().zip(&is_node) {
             let turn = Rotation2::new(twist_rad_per_mm * (z - 0.5 * face_width_mm));
-            let mut of_node = |(point, is_corner): (&Vector2<f64>, &bool)| {
-                (k.is_multiple_of(2) || *is_corner).then(|| {
+            let mut of_node = |(point, is_node): (&Vector2<f64>, &bool)| {
+                is_node.then(|| {
                     let point = turn * point;
                     points_mm.push(Vector3::new(point.x, point.y, *z));
                     points_mm.len() as u32 - 1
                 })
             };
-            nodes.push(section.points_mm.iter().zip(&is_corner).map(&mut of_node).collect::<Vec<_>>());
+            nodes.push(section.points_mm.iter().zip(is_node).map(&mut of_node).collect::<Vec<_>>());
         }
-        let mut tooth = Self { section, z_mm, twist_rad_per_mm, points_mm, hexahedra: Vec::new(), nodes };
+        let at = |k: usize, node: u32| nodes[k][node as usize].unwrap_or_default();
+        let mut hexahedra = Vec::new();
         for layer in 0..layers {
-            for quad in &tooth.section.quads {
+            for quad in quads_of(layer) {
                 let mut hexahedron = [0; 20];
-                let faces = [(0, 2 * layer), (4, 2 * layer + 2)];
-                for (first, k) in faces {
+                for (first, k) in [(0, 2 * layer), (4, 2 * layer + 2)] {
                     for a in 0..4 {
-                        hexahedron[first + a] = tooth.nodes[k][quad[a] as usize].unwrap_or_default();
-                        hexahedron[8 + first + a] = tooth.nodes[k][quad[4 + a] as usize].unwrap_or_default();
+                        hexahedron[first + a] = at(k, quad[a]);
+                        hexahedron[8 + first + a] = at(k, quad[4 + a]);
                     }
                 }
                 for a in 0..4 {
-                    hexahedron[16 + a] = tooth.nodes[2 * layer + 1][quad[a] as usize].unwrap_or_default();
+                    hexahedron[16 + a] = at(2 * layer + 1, quad[a]);
                 }
-                tooth.hexahedra.push(hexahedron);
+                hexahedra.push(hexahedron);
             }
         }
-        tooth
+        Self { section, z_mm, twist_rad_per_mm, points_mm, hexahedra, nodes }
     }
 
     /// Turn of the section at an end or a middle of a layer; none in the middle of the face width.

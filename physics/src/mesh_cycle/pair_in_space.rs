@@ -26,7 +26,10 @@ use crate::fem::gear::in_space::{DeformedTooth, FlankForces, PlaneSection, Space
 use crate::fem::quadrature::GAUSS_3;
 use crate::fem::shape::along_edge;
 use crate::gear::{Gear, GearPair, PerGear, slices::Slices, spec::PairSpec};
-use crate::gear_mesh::{settings::SpaceResolution, tooth_section::ExtrudedTooth};
+use crate::gear_mesh::{
+    settings::{SpaceBody, SpaceResolution},
+    tooth_section::ExtrudedTooth,
+};
 
 /// Why a pair has no teeth in space.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -70,7 +73,7 @@ pub struct KeptInSpace(Arc<Mutex<Option<Kept>>>);
 
 /// Both gears, and what they are made of.
 struct Kept {
-    of: (PairSpec, PerGear<Elastic>, PerGear<f64>, usize),
+    of: (PairSpec, PerGear<Elastic>, PerGear<SpaceBody>, usize),
     teeth: Arc<PairInSpace>,
 }
 
@@ -93,29 +96,29 @@ impl KeptInSpace {
         &self,
         pair: &GearPair,
         material: PerGear<Elastic>,
-        clamp_radius_mm: PerGear<f64>,
+        bodies: PerGear<SpaceBody>,
         slices: usize,
     ) -> Result<Arc<PairInSpace>, PairInSpaceError> {
         // Another thread may have failed at its pair: that says nothing of this one.
         let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let resolution = SpaceResolution::of_slices(slices);
         let layers = resolution.even_layers(&pair.spec);
-        let of = (pair.spec.on_rigid_parallel_shafts(), material, clamp_radius_mm, layers);
+        let of = (pair.spec.on_rigid_parallel_shafts(), material, bodies, layers);
         if let Some(Kept { teeth, .. }) = kept.as_ref().filter(|kept| kept.of == of) {
             return Ok(Arc::clone(teeth));
         }
-        let teeth = Arc::new(PairInSpace::new(pair, &material, &clamp_radius_mm, &resolution)?);
+        let teeth = Arc::new(PairInSpace::new(pair, &material, &bodies, &resolution)?);
         *kept = Some(Kept { of, teeth: Arc::clone(&teeth) });
         Ok(teeth)
     }
 }
 
 impl PairInSpace {
-    /// Condenses both gears, clamped at `clamp_radius_mm`.
+    /// Condenses both gears with their bodies.
     pub fn new(
         pair: &GearPair,
         material: &PerGear<Elastic>,
-        clamp_radius_mm: &PerGear<f64>,
+        bodies: &PerGear<SpaceBody>,
         resolution: &SpaceResolution,
     ) -> Result<Self, PairInSpaceError> {
         let needed = teeth_together(pair);
@@ -127,7 +130,7 @@ impl PairInSpace {
         }
         let gears = PerGear::try_in_parallel(|gear| {
             let tooth = &pair.teeth[gear];
-            let mesh = ExtrudedTooth::of_gear(pair, gear, clamp_radius_mm[gear], resolution);
+            let mesh = ExtrudedTooth::of_gear(pair, gear, bodies, resolution);
             let build = || {
                 let section = PlaneSection::new(tooth, &mesh.section, material[gear])?;
                 Ok(GearInSpace { section, teeth: TeethInSpace::new(tooth, mesh, material[gear], needed)? })

@@ -8,7 +8,7 @@ use crate::fem::gear::position::{PositionContact, ToothPairContact};
 use crate::fem::gear::ring::Surroundings;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::ToothSector;
-use crate::gear_mesh::settings::{Body, BodySettings, SectorSides, default_clamp};
+use crate::gear_mesh::settings::{Body, BodySettings, NO_WEBS, SectorSides, default_clamp};
 use crate::mesh::quality::{self, MeshQuality};
 use crate::mesh::{CellBlock, CellKind, Mesh};
 use crate::pipeline::UM_PER_MM;
@@ -301,6 +301,9 @@ impl Parts<'_> {
                  transmission error and root stress depend on it; fem.clamp_radius_mm says where rim or bore are",
                 radii.pinion, radii.wheel
             ));
+        }
+        if self.bodies.web != NO_WEBS {
+            warnings.push("fem.web: plane elements do not see it, their bodies are as wide as the teeth".to_owned());
         }
         if let Some(pressure_mpa) = new.peak_pressure_MPa {
             let at = new.peak_pressure_pair_position_mm.or(self.position_mm);

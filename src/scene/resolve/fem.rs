@@ -1,8 +1,10 @@
 //! The bodies that finite elements are made of.
 
 use crate::gear::{Gear, PerGear, spec::PairSpec};
-use crate::gear_mesh::settings::{Body, BodySettings, DefaultClamp, default_clamp, greatest_clamp_mm};
-use crate::scene::file::{BodyKind, ClampRadiusFile, FemFile};
+use crate::gear_mesh::settings::{
+    Body, BodySettings, DefaultClamp, NO_WEBS, Web, default_clamp, greatest_clamp_mm, rim_thickness_limits_mm,
+};
+use crate::scene::file::{BodyKind, ClampRadiusFile, FemFile, WebFile, WebsFile};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 
@@ -27,6 +29,7 @@ fn given(file: &mut FemFile, pair: &PairSpec, findings: &mut Findings) -> Option
     let body = body(file, pair, findings);
     let radii = file.clamp_radius_mm.get_or_insert_default();
     let clamp_radius_mm = clamp_radii(radii, pair, findings);
+    let web = webs(file.web.as_mut(), pair, clamp_radius_mm, findings);
     // What it is by default depends on the command: left open, it stays open.
     let elements_per_half_width = file.elements_per_half_width.unwrap_or(ELEMENTS_PER_HALF_WIDTH);
     if elements_per_half_width < FEW_ELEMENTS {
@@ -35,7 +38,64 @@ fn given(file: &mut FemFile, pair: &PairSpec, findings: &mut Findings) -> Option
             number(elements_per_half_width)
         ));
     }
-    Some(BodySettings { body: body?, clamp_radius_mm: clamp_radius_mm?, elements_per_half_width })
+    Some(BodySettings { body: body?, clamp_radius_mm: clamp_radius_mm?, web: web?, elements_per_half_width })
+}
+
+fn webs(
+    file: Option<&mut WebsFile>,
+    pair: &PairSpec,
+    clamp_radius_mm: Option<PerGear<f64>>,
+    findings: &mut Findings,
+) -> Option<PerGear<Option<Web>>> {
+    let Some(WebsFile { pinion, wheel }) = file else { return Some(NO_WEBS) };
+    let clamp_mm = |gear| clamp_radius_mm.map(|radius_mm| radius_mm[gear]);
+    let mut of_gear = |file: &mut Option<WebFile>, gear| match file {
+        Some(file) => web(file, gear, pair, clamp_mm(gear), findings).map(Some),
+        None => Some(None),
+    };
+    let (pinion, wheel) = (of_gear(pinion, Gear::Pinion), of_gear(wheel, Gear::Wheel));
+    Some(PerGear { pinion: pinion?, wheel: wheel? })
+}
+
+fn web(
+    file: &mut WebFile,
+    gear: Gear,
+    pair: &PairSpec,
+    clamp_radius_mm: Option<f64>,
+    findings: &mut Findings,
+) -> Option<Web> {
+    let key = |name: &str| format!("fem.web.{}.{name}", gear.name());
+    let offset_mm = *file.offset_mm.get_or_insert(0.0);
+    let web = Web { thickness_mm: file.thickness_mm, rim_thickness_mm: file.rim_thickness_mm, offset_mm };
+    let (root_mm, width_mm) = (pair.root_radius_mm(gear), pair.face_width_mm);
+    let [least_mm, greatest_mm] = rim_thickness_limits_mm(root_mm, clamp_radius_mm?, pair.normal_module_mm);
+    if greatest_mm < least_mm {
+        findings.not_allowed(
+            &format!("fem.clamp_radius_mm.{}", gear.name()),
+            number(clamp_radius_mm?),
+            format!("a smaller radius: there is no room for a rim and a web below the root circle ({root_mm:.4} mm)"),
+        );
+        return None;
+    }
+    if !(least_mm..=greatest_mm).contains(&web.rim_thickness_mm) {
+        let allowed = format!(
+            "a thickness of {least_mm:.4} to {greatest_mm:.4} mm, between the root circle ({root_mm:.4} mm) and fem.clamp_radius_mm"
+        );
+        findings.not_allowed(&key("rim_thickness_mm"), number(web.rim_thickness_mm), allowed);
+        return None;
+    }
+    if web.thickness_mm > width_mm {
+        let allowed = format!("at most the face width, {}", number(width_mm));
+        findings.not_allowed(&key("thickness_mm"), number(web.thickness_mm), allowed);
+        return None;
+    }
+    let most_mm = 0.5 * (width_mm - web.thickness_mm);
+    if offset_mm.abs() > most_mm {
+        let allowed = format!("−{most_mm:.4} to {most_mm:.4}: within the face width");
+        findings.not_allowed(&key("offset_mm"), number(offset_mm), allowed);
+        return None;
+    }
+    Some(web)
 }
 
 /// Elements in the half-width of contact of a wear run, with a severe transition or without.

@@ -26,7 +26,7 @@ use super::schema::{Node, schema};
 use super::shape::{self, Format};
 use super::{Resolved, Scene, draft, presets, text, unit_slip};
 use crate::contact::settings::SurfaceKind;
-use crate::gear_mesh::settings::Body;
+use crate::gear_mesh::settings::{Body, NO_WEBS};
 use crate::mesh_cycle::settings::Coupling;
 
 /// Keys that other files have, and what to do with those.
@@ -141,6 +141,12 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let in_space = slices.is_some_and(|slices| slices.coupling == Coupling::Fem);
     if in_space && fem.is_some_and(|fem| fem.body != Body::Ring) {
         findings.not_allowed("fem.body", "\"sector\" with helical.coupling = \"fem\"", "\"ring\"");
+    }
+    if fem.is_some_and(|fem| fem.web != NO_WEBS) && !in_space && calibration_file.is_none() {
+        findings.warnings.push(
+            "fem.web: the wear simulation does not see it; helical.coupling = \"fem\" and calibrations of such a pair do"
+                .to_owned(),
+        );
     }
     let (pair, operation) = (pair?, operation?);
     let finely_resolved = matches!(surface, Some(SurfaceKind::Fem | SurfaceKind::HalfSpace));

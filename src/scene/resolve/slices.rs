@@ -4,7 +4,7 @@ use crate::contact::settings::SurfaceKind;
 use crate::gear::spec::PairSpec;
 use crate::mesh_cycle::settings::MOST_SLICES_IN_SPACE;
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
-use crate::scene::file::{BodyKind, SceneFile, StiffnessModel};
+use crate::scene::file::{BodyKind, SceneFile, StiffnessModel, WebsFile};
 use crate::scene::findings::Findings;
 
 const SLICES: u32 = 20;
@@ -18,13 +18,12 @@ pub(super) fn choose(
 ) -> Option<SliceSettings> {
     let stiffness = file.stiffness.as_ref().and_then(|stiffness| stiffness.model);
     let body = file.fem.as_ref().and_then(|fem| fem.body);
+    let has_web = file.fem.as_ref().and_then(|fem| fem.web.as_ref()).is_some_and(WebsFile::has_one);
     let file = &mut file.helical;
-    if pair.is_alike_over_width() {
+    if pair.is_alike_over_width() && !has_web {
         if file.is_some() {
-            findings.warnings.push(
-                "[helical] is not used: without a helix angle or a modification over the face width all sections are alike"
-                    .to_owned(),
-            );
+            let because = "without a helix angle, a modification over the face width or a web all sections are alike";
+            findings.unused("[helical]", because);
         }
         return None;
     }
