@@ -50,6 +50,9 @@ const SINGLE_LINE_WEIGHT: f64 = 0.1;
 const CLOSED_FORM_WEIGHT: f64 = 0.002;
 /// What end faces take from the resistance to twisting where the fit begins.
 const END_TWIST: f64 = 3.0;
+/// Over which length that decays, in transverse modules: what it is within the first third of a module, none or little, the fit can tell; how sharply it
+/// rises then it cannot.
+const END_TWIST_MODULES: f64 = 0.1;
 /// Steps at the most; ten are usual.
 const MOST_STEPS: usize = 60;
 /// Step of the difference quotients.
@@ -214,6 +217,7 @@ impl Fit<'_> {
             },
             bodies: x[5].exp(),
             end_length_mm: start.end_length_mm * x[6].exp(),
+            end_twist_length_mm: Some(END_TWIST_MODULES * self.pair.spec.transverse_module_mm()),
             end_twist: Some([x[7], x[8]].map(|part| END_TWIST * part.exp())),
         }
     }

@@ -57,7 +57,10 @@ pub struct SliceCompliance {
     /// keep their hash.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub end_twist: Option<[f64; 2]>,
-    /// Over which length both decay, mm.
+    /// Over which length that decays, mm; where calibrations of before have none, `end_length_mm`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub end_twist_length_mm: Option<f64>,
+    /// Over which length what end faces add decays, mm.
     pub end_length_mm: f64,
     /// How far a deflection reaches.
     pub reach: Reach,
@@ -73,13 +76,13 @@ impl SliceCompliance {
         let teeth = if is_oblique { pair.spec.helix_angle_rad.cos().powi(-4) } else { 1.0 };
         let end_length_mm = pair.spec.transverse_module_mm();
         let reach = Reach::of_pair(pair, material);
-        Self { teeth, ends: [0.0; 2], end_twist: None, end_length_mm, reach, bodies: 1.0 }
+        Self { teeth, ends: [0.0; 2], end_twist: None, end_length_mm, end_twist_length_mm: None, reach, bodies: 1.0 }
     }
 
     /// Compliance of the teeth of each slice over that of the section.
     pub fn of_slices(&self, pair: &GearPair, slices: &Slices) -> Vec<f64> {
         let face_width_mm = pair.spec.face_width_mm;
-        let of_slice = |z: &f64| self.teeth * self.with_ends(self.ends, *z, face_width_mm);
+        let of_slice = |z: &f64| self.teeth * with_ends(self.ends, self.end_length_mm, *z, face_width_mm);
         slices.width_mm.iter().map(of_slice).collect()
     }
 
@@ -89,18 +92,19 @@ impl SliceCompliance {
         let mut coupling = SliceCoupling::new(self.reach, count, slice_width_mm);
         if let Some(ends) = self.end_twist {
             let face_width_mm = count as f64 * slice_width_mm;
+            let length_mm = self.end_twist_length_mm.unwrap_or(self.end_length_mm);
             for (i, twist) in coupling.twist.iter_mut().enumerate() {
-                *twist /= self.with_ends(ends, (i + 1) as f64 * slice_width_mm, face_width_mm);
+                *twist /= with_ends(ends, length_mm, (i + 1) as f64 * slice_width_mm, face_width_mm);
             }
         }
         coupling
     }
+}
 
-    /// 1 and what either end face, z = 0 first, adds at z.
-    fn with_ends(&self, [first, last]: [f64; 2], z_mm: f64, face_width_mm: f64) -> f64 {
-        let fades = |distance_mm: f64| (-distance_mm / self.end_length_mm).exp();
-        1.0 + first * fades(z_mm) + last * fades(face_width_mm - z_mm)
-    }
+/// 1 and what either end face, z = 0 first, adds at z, where that decays over a length.
+fn with_ends([first, last]: [f64; 2], length_mm: f64, z_mm: f64, face_width_mm: f64) -> f64 {
+    let fades = |distance_mm: f64| (-distance_mm / length_mm).exp();
+    1.0 + first * fades(z_mm) + last * fades(face_width_mm - z_mm)
 }
 
 /// How far a deflection reaches along a tooth.

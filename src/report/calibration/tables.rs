@@ -84,6 +84,8 @@ fn slices(calibration: &Calibration) -> Markup {
             let name = format!("Resistance to twisting within, over that at the end face z = {face}");
             rows.push(row(name, "", [significant(1.0 + part, 3)]));
         }
+        let length_mm = of.end_twist_length_mm.unwrap_or(of.end_length_mm);
+        rows.push(row("Decay length of that", "mm", [significant(length_mm, 3)]));
     }
     rows.push(row("Residual, root mean square", "%", [fixed(100.0 * fit.residual, 1)]));
     table("Slices, fitted to three-dimensional finite elements", &["value"], rows)
