@@ -74,6 +74,8 @@ fn verified(total: &TotalError) -> String {
         both("wear over the flank (rms), %", &total.profile),
         one("transmission error, peak to peak, %", total.transmission_error_peak_to_peak),
         one("pressure between the tip edges, %", total.pressure_between_tips),
+        one("maximum pressure, new, %", total.peak_pressure.new),
+        one("maximum pressure, worn, %", total.peak_pressure.worn),
     ]
     .concat()
 }

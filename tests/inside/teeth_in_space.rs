@@ -249,19 +249,20 @@ impl LoadedLine {
         self.to_mm - self.from_mm
     }
 
-    /// Radius, place over the face width and part of the load at three points of each of so many layers, which are as long as each other.
-    fn points(&self, pair: &GearPair, layers: usize) -> Vec<(f64, f64, f64)> {
-        let width_mm = pair.spec.face_width_mm;
-        let layer_mm = width_mm / layers as f64;
-        let [first, last] = [self.from_mm, self.to_mm].map(|z_mm| (z_mm / layer_mm).round() as usize);
-        let of_layer = |layer: usize| {
+    /// Radius, place over the face width and part of the load at three points of each of the layers that end there.
+    fn points(&self, pair: &GearPair, layer_ends_mm: &[f64]) -> Vec<(f64, f64, f64)> {
+        let middle_mm = 0.5 * pair.spec.face_width_mm;
+        let is_loaded =
+            |ends: &&[f64]| 0.5 * (ends[0] + ends[1]) > self.from_mm && 0.5 * (ends[0] + ends[1]) < self.to_mm;
+        let of_layer = |ends: &[f64]| {
+            let (from_mm, layer_mm) = (ends[0], ends[1] - ends[0]);
             GAUSS_3.map(|(place, weight)| {
-                let z_mm = layer_mm * (layer as f64 + 0.5 * (1.0 + place));
-                let rho_mm = self.position_mm + (0.5 * width_mm - z_mm) * pair.base_helix_angle_rad().tan();
-                (pair.teeth.pinion.involute.radius_mm(rho_mm), z_mm, 0.5 * weight / (last - first) as f64)
+                let z_mm = from_mm + 0.5 * layer_mm * (1.0 + place);
+                let rho_mm = self.position_mm + (middle_mm - z_mm) * pair.base_helix_angle_rad().tan();
+                (pair.teeth.pinion.involute.radius_mm(rho_mm), z_mm, 0.5 * weight * layer_mm / self.length_mm())
             })
         };
-        (first..last).flat_map(of_layer).collect()
+        layer_ends_mm.windows(2).filter(is_loaded).flat_map(of_layer).collect()
     }
 }
 
@@ -284,19 +285,22 @@ fn val_compliance_against_calculix() {
         let tooth = &pair.teeth.pinion;
         // As the tables have it: 2.5 normal modules below the root circle.
         let bodies = discs(PerGear::from_fn(|gear| pair.teeth[gear].root_radius_mm - 2.5 * pair.spec.normal_module_mm));
-        let mesh = |times| ExtrudedTooth::of_gear(&pair, Gear::Pinion, &bodies, &finer(times));
+        // Layers are those of `gearwear mesh`.
+        let slices = scene.scene().slices.map(|slices| slices.count);
+        let resolution = |times| SpaceResolution { slices, ..finer(times) };
+        let mesh = |times| ExtrudedTooth::of_gear(&pair, Gear::Pinion, &bodies, &resolution(times));
         let ring = TeethInSpace::new(tooth, mesh(1), STEEL, 2).unwrap();
         let row = TeethInSpace::in_a_row(tooth, mesh(1), STEEL, 1).unwrap();
-        let layers = mesh(1).layers();
+        let layer_ends_mm = ring.layer_ends_mm();
         let sections = [1, 2].map(|times| PlaneSection::new(tooth, &mesh(times).section, STEEL).unwrap());
         let in_plane_mm2_per_n = |times: usize, line: &LoadedLine| -> f64 {
-            let points = line.points(&pair, layers).into_iter();
+            let points = line.points(&pair, &layer_ends_mm).into_iter();
             points.map(|(radius_mm, _, part)| part * sections[times - 1].mm2_per_n(radius_mm)).sum()
         };
         for found in CrossChecked::table(file, tooth.teeth) {
             let CrossChecked { of, under, .. } = &found;
             let teeth = if found.is_ring { &ring } else { &row };
-            let load = |line: &LoadedLine| teeth.load(line.points(&pair, layers));
+            let load = |line: &LoadedLine| teeth.load(line.points(&pair, &layer_ends_mm));
             let mut own = teeth.mm_per_n(&load(of), &load(under), found.pitches);
             if found.place() == Place::OnTheLoad {
                 let shorter = if of.length_mm() < under.length_mm() { of } else { under };
@@ -324,7 +328,7 @@ fn val_compliance_against_calculix() {
             // Between held cuts the next tooth moves little, and elements of the body are coarse.
             (Place::OnTheNextTooth, 27) if is_finer => 0.012,
             (Place::OnTheNextTooth, 27) => 0.006,
-            _ => 0.004,
+            _ => 0.005,
         };
         assert!(least.abs().max(most.abs()) < allowed, "{name}: {least} {most}");
     }

@@ -182,19 +182,20 @@ class Teeth:
             self.held |= {self.numbers[0][node] for node in right} | {self.numbers[-1][node] for node in left}
         # Ends and middles of elements along the flank; middles of layers have ends only.
         self.flank = by_height_and_radius(sector, "flank")
+        self.layer_ends_mm = [sector.points[row[0]][2] for row in self.flank[::2]]
         radii_mm = [math.hypot(*sector.points[node][:2]) for node in self.flank[0]]
         self.radii_mm, self.elements = (radii_mm[0], radii_mm[-1]), len(radii_mm) // 2
 
     def of_line(self, line, tooth):
         """The forces of a load on a tooth: {node: (x, y, z)}."""
-        layers = len(self.flank) // 2
-        layer_mm = self.case.face_width_mm / layers
-        first, last = round(line.from_mm / layer_mm), round(line.to_mm / layer_mm)
-        assert math.isclose(first * layer_mm, line.from_mm, abs_tol=1e-9) and math.isclose(last * layer_mm, line.to_mm)
+        ends_mm = self.layer_ends_mm
+        first, last = (min(range(len(ends_mm)), key=lambda k: abs(ends_mm[k] - at_mm)) for at_mm in (line.from_mm, line.to_mm))
+        assert max(abs(ends_mm[first] - line.from_mm), abs(ends_mm[last] - line.to_mm)) < 1e-6, "the line ends within a layer"
         tan_base_helix = math.tan(math.radians(self.case.helix_angle_deg)) * COS_PRESSURE_ANGLE
         forces = {}
         for layer, (t, weight) in itertools.product(range(first, last), GAUSS_3):
-            z_mm = layer_mm * (layer + 0.5 + 0.5 * t)
+            layer_mm = ends_mm[layer + 1] - ends_mm[layer]
+            z_mm = ends_mm[layer] + layer_mm * (0.5 + 0.5 * t)
             rho_mm = line.position_mm + (0.5 * self.case.face_width_mm - z_mm) * tan_base_helix
             radius_mm = math.hypot(BASE_RADIUS_MM, rho_mm)
             place = (radius_mm - self.radii_mm[0]) / (self.radii_mm[1] - self.radii_mm[0]) * self.elements
@@ -205,7 +206,7 @@ class Teeth:
                 if y == -1:
                     row = self.flank[2 * layer + 1 + z]
                     node = row[2 * element + 1 + x] if z else row[element + (x + 1) // 2]
-                    part = 0.5 * weight / (last - first) * value
+                    part = 0.5 * weight * layer_mm / (line.to_mm - line.from_mm) * value
                     number = self.numbers[tooth + 1][node]
                     sums = forces.setdefault(number, [0.0] * 3)
                     for i, normal in enumerate(self.normal(number, tan_base_helix)):

@@ -17,6 +17,10 @@ pub struct TotalError {
     pub transmission_error_peak_to_peak: Option<f64>,
     /// Of the maximum pressure of the worn pair at positions between the tip edges, root mean square.
     pub pressure_between_tips: Option<f64>,
+    /// Of the maximum pressure, wherever it is. `None` also where a sharp tip edge carries load: its pressure is not defined, and what is next to it
+    /// hangs on where the edge begins.
+    #[serde(default)]
+    pub peak_pressure: ErrorNewAndWorn,
     /// How it was obtained, or why it was not.
     pub how: String,
 }
@@ -28,6 +32,15 @@ pub struct ErrorPerGear {
     pub pinion: Option<f64>,
     /// The wheel's.
     pub wheel: Option<f64>,
+}
+
+/// A relative error on new and on worn flanks.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+pub struct ErrorNewAndWorn {
+    /// At the beginning.
+    pub new: Option<f64>,
+    /// At the end.
+    pub worn: Option<f64>,
 }
 
 impl TotalError {

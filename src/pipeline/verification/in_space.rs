@@ -28,8 +28,14 @@ const POSITIONS: usize = 200;
 /// Fewest slices: with fewer the loads at the ends of the lines of contact are lost.
 const LEAST_SLICES: usize = 20;
 /// Of half-planes in place of finite elements, whose teeth end, and of elements and slices (docs/accuracy.md): no less than what severe wear asks for.
-const OF_HALF_PLANES: Uncertainty =
-    Uncertainty { profile: 0.03, peak: 0.02, tip_edge: 0.06, transmission_error: 0.01, pressure: 0.03 };
+const OF_HALF_PLANES: Uncertainty = Uncertainty {
+    profile: 0.03,
+    peak: 0.02,
+    tip_edge: 0.06,
+    transmission_error: 0.01,
+    pressure: 0.03,
+    tip_edge_pressure: [0.15, 0.5],
+};
 
 /// The life in space; where it does not come to its end, why.
 pub(super) fn life(

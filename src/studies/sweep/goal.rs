@@ -179,6 +179,8 @@ fn claim_of(figure: &str) -> Option<Claimed> {
         "wheel_peak_wear_um" => |total| total.peak_wear.wheel,
         "pinion_tip_edge_wear_um" => |total| total.tip_edge_wear.pinion,
         "wheel_tip_edge_wear_um" => |total| total.tip_edge_wear.wheel,
+        "peak_pressure_new_MPa" => |total| total.peak_pressure.new,
+        "peak_pressure_worn_MPa" => |total| total.peak_pressure.worn,
         "transmission_error_peak_to_peak_new_um" | "transmission_error_peak_to_peak_worn_um" => {
             |total| total.transmission_error_peak_to_peak
         }

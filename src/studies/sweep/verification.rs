@@ -85,7 +85,7 @@ const fn claim(name: &'static str, title: &'static str, of: fn(&TotalError) -> O
 }
 
 /// All claims, in the order of the columns.
-pub(crate) const CLAIMS: [Claim; 8] = [
+pub(crate) const CLAIMS: [Claim; 10] = [
     claim("error.total.peak_wear.pinion", "maximum wear of the pinion", |total| total.peak_wear.pinion),
     claim("error.total.peak_wear.wheel", "maximum wear of the wheel", |total| total.peak_wear.wheel),
     claim("error.total.tip_edge_wear.pinion", "wear of the pinion’s tip edge", |total| total.tip_edge_wear.pinion),
@@ -98,6 +98,8 @@ pub(crate) const CLAIMS: [Claim; 8] = [
     claim("error.total.pressure_between_tips", "pressure between the tip edges (rms)", |total| {
         total.pressure_between_tips
     }),
+    claim("error.total.peak_pressure.new", "maximum pressure, new", |total| total.peak_pressure.new),
+    claim("error.total.peak_pressure.worn", "maximum pressure, worn", |total| total.peak_pressure.worn),
 ];
 
 /// The corners of the box that is swept, at most [`MOST_CORNERS`], by index.

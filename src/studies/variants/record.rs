@@ -146,8 +146,20 @@ static FIGURES: [Figure; 17] = [
         |s| s.new.transmission_error_um.peak_to_peak,
         |_| None,
     ),
-    Figure::of("worn.peak_pressure_MPa", "Maximum pressure, worn", "MPa", |s| s.worn.peak_pressure_MPa, |_| None),
-    Figure::of("new.peak_pressure_MPa", "Maximum pressure, new", "MPa", |s| s.new.peak_pressure_MPa, |_| None),
+    Figure::of(
+        "worn.peak_pressure_MPa",
+        "Maximum pressure, worn",
+        "MPa",
+        |s| s.worn.peak_pressure_MPa,
+        |e| e.peak_pressure.worn,
+    ),
+    Figure::of(
+        "new.peak_pressure_MPa",
+        "Maximum pressure, new",
+        "MPa",
+        |s| s.new.peak_pressure_MPa,
+        |e| e.peak_pressure.new,
+    ),
     Figure::of("pinion.worn_volume_mm3", "Worn volume of the pinion", "mm³", |s| s.pinion.worn_volume_mm3, |_| None),
     Figure::of("wheel.worn_volume_mm3", "Worn volume of the wheel", "mm³", |s| s.wheel.worn_volume_mm3, |_| None),
     Figure::of(
