@@ -141,7 +141,7 @@ fn claims(out: &Path) -> Vec<String> {
     let (names, _) = table(out);
     let claims: Vec<String> =
         names.into_iter().filter(|name| name.starts_with("error.total.") && name != "error.total.how").collect();
-    assert_eq!(claims.len(), 8);
+    assert_eq!(claims.len(), 10);
     claims
 }
 
@@ -601,8 +601,13 @@ fn the_best_rows_and_the_corners_are_verified() {
     let summary = json(&out.join("sweep.json"));
     let verification = &summary["verification"];
     for claim in claims(&out) {
-        let of_run = run.pointer(&format!("/{}", claim.replace('.', "/"))).unwrap().as_f64().unwrap();
+        let of_run = run.pointer(&format!("/{}", claim.replace('.', "/"))).unwrap().as_f64();
         let cells = column(&out, &claim);
+        // The tips are sharp.
+        let Some(of_run) = of_run else {
+            assert!(claim.contains("peak_pressure") && cells.iter().all(String::is_empty), "{claim}: {cells:?}");
+            continue;
+        };
         assert_eq!(cells[2].parse::<f64>().unwrap(), of_run, "{claim}");
         assert_eq!(cells[1], "");
         let worst = cells.iter().filter_map(|cell| cell.parse().ok()).fold(0.0, f64::max);
