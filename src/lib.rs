@@ -132,6 +132,7 @@ pub use observer::{Observer, Unwatched};
 pub use pipeline::calibrate::{CalibrateError, Calibrated};
 pub use pipeline::fem_problem::FemProblemError;
 pub use pipeline::fem_scene::FemPairError;
+pub use pipeline::pair_mesh::PairMeshError;
 pub use pipeline::{Done, RunError, run};
 pub use plan::Plan;
 pub use report::columns;
@@ -238,6 +239,54 @@ pub fn fem_pair(
 pub fn fem_problem(problem_toml: &str, folder: &Path, observer: &dyn Observer) -> Result<FemRecord, FemProblemError> {
     let problem = FemProblem::from_toml(problem_toml).map_err(FemProblemError::Input)?;
     pipeline::fem_problem::run(&problem, folder, observer)
+}
+
+/// Solves the same problem on `mesh`; the file that it names is not read.
+///
+/// # Errors
+/// As [`fem_problem`].
+pub fn fem_problem_on(
+    problem_toml: &str,
+    mesh: &mesh::Mesh,
+    observer: &dyn Observer,
+) -> Result<FemRecord, FemProblemError> {
+    let problem = FemProblem::from_toml(problem_toml).map_err(FemProblemError::Input)?;
+    pipeline::fem_problem::on_mesh(&problem, mesh, observer)
+}
+
+/// The mesh of a problem with its solution at the nodes, as `solution.vtu` has it.
+pub fn solution_mesh(record: &FemRecord) -> mesh::Mesh {
+    report::fem::solution_mesh(record)
+}
+
+/// What a mesh of a gear pair shows ([`pair_mesh`]).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Meshed {
+    /// Both gears in the plane.
+    InPlane,
+    /// One pitch of each gear over the whole face width.
+    InSpace,
+    /// The same with displacement and stress of the teeth under the scene's torque, on unworn flanks.
+    Loaded,
+}
+
+/// The finite-element mesh of the scene's pair in contact at `position_mm` (radius of curvature of the pinion, from A to E; by default at the
+/// pitch point), which `gearwear mesh` writes.
+///
+/// # Errors
+/// [`PairMeshError`]
+pub fn pair_mesh(
+    scene: &LoadedScene,
+    of: Meshed,
+    position_mm: Option<f64>,
+    observer: &dyn Observer,
+) -> Result<mesh::Mesh, PairMeshError> {
+    use pipeline::{deformed_teeth, pair_mesh};
+    Ok(match of {
+        Meshed::InPlane => pair_mesh::build(scene.scene(), position_mm)?.mesh,
+        Meshed::InSpace => pair_mesh::in_space(scene.scene(), position_mm)?.mesh,
+        Meshed::Loaded => deformed_teeth::deformed_teeth(scene, position_mm, observer)?.space.mesh,
+    })
 }
 
 /// Runs `scene` for samples of its uncertain keys, on `threads` threads: quantiles and Sobol indices. Where the observer interrupts it, of the

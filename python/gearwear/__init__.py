@@ -15,6 +15,7 @@ from gearwear.calibration import Calibration
 from gearwear.errors import Finding, GearwearError, NotConverged, RunError, SceneError, WornThrough
 from gearwear.evaluate import evaluate
 from gearwear.fem import FemPair, FemProblem, fem_problem
+from gearwear.mesh import Mesh
 from gearwear.run import Flank, Run
 from gearwear.scene import Scene
 from gearwear.schema import scene_schema
@@ -30,6 +31,7 @@ __all__ = [
     "Finding",
     "Flank",
     "GearwearError",
+    "Mesh",
     "NotConverged",
     "Run",
     "RunError",

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from gearwear import _native
+from gearwear.mesh import Mesh, as_mesh
 from gearwear.table import Table
 from gearwear.version import refuse_other
 from gearwear.workers import ProgressArgument, Watched
@@ -69,6 +70,11 @@ class FemProblem:
         summary: dict[str, Any] = json.loads(self._native.summary_json)
         return summary
 
+    @cached_property
+    def mesh(self) -> Mesh:
+        """The mesh with displacement, stress and, in the plane, contact pressure at its points: that of ``solution.vtu``."""
+        return Mesh(self._native.mesh())
+
     def write(self, folder: str | os.PathLike[str]) -> None:
         """Writes what ``gearwear fem`` writes: ``solution.vtu``, ``contact.csv`` and the others."""
         self._native.write(os.fspath(folder))
@@ -80,9 +86,15 @@ class FemProblem:
         return f"<gearwear.FemProblem {self.summary['title']!r}: {self.summary['elements']} elements>"
 
 
-def fem_problem(path: str | os.PathLike[str], *, progress: ProgressArgument = False) -> FemProblem:
-    """Solves the problem in a file (``docs/fem-problems.md``), whose mesh lies beside it."""
+def fem_problem(
+    path: str | os.PathLike[str], *, mesh: Any = None, progress: ProgressArgument = False
+) -> FemProblem:
+    """Solves the problem in a file (``docs/fem-problems.md``), whose mesh lies beside it.
+
+    With ``mesh``, a :class:`Mesh` or a ``meshio.Mesh``, it is solved on that, and the file that the problem names is not read.
+    """
     file = Path(path)
     text = file.read_text(encoding="utf-8")
+    native = None if mesh is None else as_mesh(mesh)._native
     with Watched(progress) as told:
-        return FemProblem(_native.solve_fem_problem(str(file), text, str(file.parent), told))
+        return FemProblem(_native.solve_fem_problem(str(file), text, str(file.parent), native, told))

@@ -12,6 +12,7 @@ from gearwear._native import Scene as Native
 from gearwear.calibration import Calibration
 from gearwear.errors import NotConverged, RunError, WornThrough
 from gearwear.fem import FemPair
+from gearwear.mesh import Mesh
 from gearwear.run import Run
 from gearwear.studies import Study
 from gearwear.workers import ProgressArgument, Watched, thread_count
@@ -148,6 +149,26 @@ class Scene:
         count = thread_count(threads)
         with Watched(progress) as told:
             return Study(self._native.accuracy(float(within), quick, count, told))
+
+    def mesh(
+        self,
+        position_mm: float | None = None,
+        *,
+        three_dimensional: bool = False,
+        loaded: bool = False,
+        threads: int | None = None,
+        progress: ProgressArgument = False,
+    ) -> Mesh:
+        """The finite-element mesh of its pair in contact at a position, by default the pitch point: ``gearwear mesh``.
+
+        Both gears in the plane, or ``three_dimensional`` one pitch of each over the face width; that ``loaded`` with displacement and stress under
+        the scene's torque, on unworn flanks.
+        """
+        if loaded and not three_dimensional:
+            raise ValueError("loaded teeth are three-dimensional: mesh(three_dimensional=True, loaded=True)")
+        count = thread_count(threads)
+        with Watched(progress) as told:
+            return Mesh(self._native.mesh(position_mm, three_dimensional, loaded, count, told))
 
     def fem(
         self, position_mm: float | None = None, *, threads: int | None = None, progress: ProgressArgument = False

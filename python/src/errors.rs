@@ -2,6 +2,7 @@
 
 use std::io;
 
+use gearwear::mesh::MeshFileError;
 use gearwear::sweep::SweepError;
 use gearwear::{LoadError, Problem, ProblemKind, ReportError, SceneError, StudyError, UncertaintyError};
 use pyo3::IntoPyObjectExt;
@@ -82,6 +83,16 @@ pub(crate) fn of_report(error: &ReportError) -> PyErr {
             of_system(source.kind(), format!("{error}: {source}"))
         }
         ReportError::NotAFolder { .. } => of_system(io::ErrorKind::NotADirectory, error),
+    }
+}
+
+/// What keeps a mesh from being read or written.
+pub(crate) fn of_mesh_file(error: &MeshFileError) -> PyErr {
+    match error {
+        MeshFileError::Read { source, .. } | MeshFileError::Write { source, .. } => {
+            of_system(source.kind(), format!("{error}: {source}"))
+        }
+        _ => PyValueError::new_err(error.to_string()),
     }
 }
 

@@ -9,6 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::errors;
+use crate::mesh::Mesh;
 use crate::record_bytes;
 use crate::scene::json;
 use crate::table::{self, Columns};
@@ -70,23 +71,33 @@ impl FemProblem {
         json(&self.record.summary)
     }
 
+    /// The mesh with the solution at its nodes.
+    fn mesh(&self, py: Python<'_>) -> Mesh {
+        Mesh::of(py.detach(|| gearwear::solution_mesh(&self.record)))
+    }
+
     /// Writes what `gearwear fem` writes.
     fn write(&self, py: Python<'_>, folder: PathBuf) -> PyResult<()> {
         py.detach(|| gearwear::write_fem_problem(&self.record, &folder)).map_err(|error| errors::of_report(&error))
     }
 }
 
-/// Solves the problem in a text, whose mesh lies in `folder`.
+/// Solves the problem in a text on a mesh, or on the one that it names, which lies in `folder`.
 #[pyfunction]
 pub(crate) fn solve_fem_problem(
     py: Python<'_>,
     name: String,
     text: String,
     folder: PathBuf,
+    mesh: Option<Bound<'_, Mesh>>,
     progress: Option<Bound<'_, PyAny>>,
 ) -> PyResult<FemProblem> {
     let asked = text.clone();
-    let work = move |observer: &dyn gearwear::Observer| gearwear::fem_problem(&asked, &folder, observer);
+    let mesh = mesh.map(|mesh| mesh.get().mesh.clone());
+    let work = move |observer: &dyn gearwear::Observer| match &mesh {
+        Some(mesh) => gearwear::fem_problem_on(&asked, mesh, observer),
+        None => gearwear::fem_problem(&asked, &folder, observer),
+    };
     let record = watched(py, 1, progress, work)?.map_err(|error| match error {
         FemProblemError::Input(problems) => {
             errors::of_scene(py, &SceneError { given: SceneText { name, text }, problems })

@@ -7,6 +7,7 @@ mod array;
 mod calibration;
 mod errors;
 mod fem;
+mod mesh;
 mod record_bytes;
 mod run;
 mod scene;
@@ -51,6 +52,8 @@ mod _native {
     use super::calibration::Calibration;
     #[pymodule_export]
     use super::fem::{FemPair, FemProblem, solve_fem_problem};
+    #[pymodule_export]
+    use super::mesh::Mesh;
     #[pymodule_export]
     use super::run::Run;
     #[pymodule_export]

@@ -8,13 +8,14 @@ use std::sync::{Arc, OnceLock};
 use gearwear::results::run::InputFile;
 use gearwear::sweep::{self, SweepQuestion};
 use gearwear::toml::{Table, Value};
-use gearwear::{Done, EvaluateError, Evaluation, LoadError, LoadedScene, SceneText, UncertaintyQuestion};
+use gearwear::{Done, EvaluateError, Evaluation, LoadError, LoadedScene, Meshed, SceneText, UncertaintyQuestion};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::calibration::Calibration;
 use crate::errors;
 use crate::fem::FemPair;
+use crate::mesh::Mesh;
 use crate::run::Run;
 use crate::study::Study;
 use crate::sweep::Sweep;
@@ -270,6 +271,31 @@ impl Scene {
             None => errors::of_run(py, error.to_string()),
         })?;
         Ok(Calibration { calibrated, title: self.title() })
+    }
+
+    /// The finite-element mesh of its pair in the plane, or of a pitch of each gear in space, under load or not.
+    fn mesh(
+        &self,
+        py: Python<'_>,
+        position_mm: Option<f64>,
+        in_space: bool,
+        loaded: bool,
+        threads: usize,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<Mesh> {
+        let scene = self.loaded.clone();
+        let of = match (in_space, loaded) {
+            (_, true) => Meshed::Loaded,
+            (true, false) => Meshed::InSpace,
+            (false, false) => Meshed::InPlane,
+        };
+        let work = move |observer: &dyn gearwear::Observer| gearwear::pair_mesh(&scene, of, position_mm, observer);
+        let given = self.loaded.given();
+        let mesh = watched(py, threads, progress, work)?.map_err(|error| match error.in_the_scene(given) {
+            Some(error) => errors::of_scene(py, &error),
+            None => errors::of_run(py, error.to_string()),
+        })?;
+        Ok(Mesh::of(mesh))
     }
 
     /// Solves the contact of its pair with finite elements: the answer, and what went wrong where it is not whole.

@@ -329,16 +329,17 @@ fn label(problem: &Problem) -> Option<LabeledSpan> {
 }
 
 /// The failure that a mesh which cannot be made is: at its key or its option.
-pub(super) fn no_mesh(error: &PairMeshError, text: &SceneText) -> Failure {
-    let problem = match error {
+pub(super) fn no_mesh(error: PairMeshError, text: &SceneText) -> Failure {
+    let refused = error.in_the_scene(text);
+    match error {
         PairMeshError::Position { position_mm: found_mm, from_mm, to_mm } => {
-            return InputError::Position { found_mm: *found_mm, from_mm: *from_mm, to_mm: *to_mm }.into();
+            InputError::Position { found_mm, from_mm, to_mm }.into()
         }
-        PairMeshError::Tooth(tooth) => Problem::of_tooth_mesh(&text.text, None, tooth),
-        PairMeshError::Pair(pair) => Problem::of_pair(&text.text, pair),
-        PairMeshError::Quality { gear, source } => Problem::of_mesh_quality(&text.text, *gear, source),
-    };
-    text.refused(vec![problem]).into()
+        PairMeshError::Run(error) => refused.map_or(Failure::Run(error), Failure::Scene),
+        PairMeshError::Pair(_) | PairMeshError::Tooth(_) | PairMeshError::Quality { .. } => {
+            refused.expect("a fault of the pair has its key").into()
+        }
+    }
 }
 
 #[cfg(test)]
@@ -370,10 +371,10 @@ mod tests {
     fn every_refusal_of_a_model_has_its_key_and_place() {
         let quality = |gear| PairMeshError::Quality { gear, source: QualityError::NoPlaneCells };
         assert_eq!(
-            place(no_mesh(&quality(Some(Gear::Wheel)), &text())),
+            place(no_mesh(quality(Some(Gear::Wheel)), &text())),
             ("fem.clamp_radius_mm.wheel".to_owned(), "37.9")
         );
-        let (key, at) = place(no_mesh(&quality(None), &text()));
+        let (key, at) = place(no_mesh(quality(None), &text()));
         assert!(key == "fem.clamp_radius_mm" && at.contains("pinion = 19.9"), "{key} {at}");
         let condense =
             ModelError::Condense { gear: Gear::Pinion, source: SolveError::Factor(FactorError::OutOfMemory) };

@@ -8,14 +8,13 @@ use crate::gear::Gear;
 use crate::gear_mesh::settings::{Body, SectorSides};
 use crate::mesh::quality::Worst;
 use crate::mesh::{self, CellKind, Format};
-use crate::pipeline::deformed_teeth::{DeformedTeethError, deformed_teeth};
+use crate::pipeline::deformed_teeth::deformed_teeth;
 use crate::pipeline::pair_mesh::{self, PairMesh, SpaceMesh};
 use crate::scene::Scene;
 use crate::scene::loaded::{LoadedScene, SceneText};
 
 use super::failure::{Failure, InputError, no_mesh};
 use super::progress::Progress;
-use super::run::in_the_scene;
 use super::{print, warn};
 
 #[derive(Debug, clap::Args)]
@@ -46,13 +45,13 @@ pub(super) fn run(args: &Args) -> Result<(), Failure> {
     let resolved = text.resolve()?;
     warn(&resolved.warnings);
     if args.three_dimensional {
-        let built = pair_mesh::in_space(&resolved.scene, args.position).map_err(|error| no_mesh(&error, &text))?;
+        let built = pair_mesh::in_space(&resolved.scene, args.position).map_err(|error| no_mesh(error, &text))?;
         mesh::write_as(&built.mesh, &args.out, format).map_err(InputError::MeshFile)?;
         return print(&text_in_space(&resolved.scene, &built, &args.out));
     }
     warn(resolved.scene.plane_section_warning().as_slice());
     warn(resolved.scene.one_load_warning().as_slice());
-    let built = pair_mesh::build(&resolved.scene, args.position).map_err(|error| no_mesh(&error, &text))?;
+    let built = pair_mesh::build(&resolved.scene, args.position).map_err(|error| no_mesh(error, &text))?;
     mesh::write_as(&built.mesh, &args.out, format).map_err(InputError::MeshFile)?;
     print(&described(&resolved.scene, &built, &args.out))
 }
@@ -64,11 +63,7 @@ fn loaded(args: &Args, format: Format) -> Result<(), Failure> {
     let progress = Progress::new(false, Arc::default());
     let deformed = deformed_teeth(&scene, args.position, &progress);
     progress.finish();
-    let deformed = deformed.map_err(|error| match error {
-        DeformedTeethError::Mesh(error) => no_mesh(&error, &scene.given),
-        DeformedTeethError::Run(error) => in_the_scene(error, &scene),
-        DeformedTeethError::Teeth(error) => in_the_scene(error.into(), &scene),
-    })?;
+    let deformed = deformed.map_err(|error| no_mesh(error, &scene.given))?;
     mesh::write_as(&deformed.space.mesh, &args.out, format).map_err(InputError::MeshFile)?;
     let mut text = text_in_space(scene.scene(), &deformed.space, &args.out);
     let mut line = |name: &str, value: String| {

@@ -6,6 +6,7 @@ use crate::fem::gear::model::ModelError;
 use crate::pipeline::RunError;
 use crate::pipeline::calibrate::CalibrateError;
 use crate::pipeline::fem_scene::FemPairError;
+use crate::pipeline::pair_mesh::PairMeshError;
 use crate::scene::Problem;
 use crate::scene::loaded::{SceneError, SceneText};
 
@@ -36,6 +37,21 @@ impl CalibrateError {
             CalibrateError::Cycle { .. } | CalibrateError::Interrupted => None,
         };
         problem.map(|problem| given.refused(vec![problem]))
+    }
+}
+
+impl PairMeshError {
+    /// What is wrong with the scene in the text `given`, if that is why its pair cannot be meshed.
+    pub fn in_the_scene(&self, given: &SceneText) -> Option<SceneError> {
+        let text = &given.text;
+        let problem = match self {
+            PairMeshError::Position { .. } => return None,
+            PairMeshError::Run(error) => return error.in_the_scene(given),
+            PairMeshError::Tooth(tooth) => Problem::of_tooth_mesh(text, None, tooth),
+            PairMeshError::Pair(pair) => Problem::of_pair(text, pair),
+            PairMeshError::Quality { gear, source } => Problem::of_mesh_quality(text, *gear, source),
+        };
+        Some(given.refused(vec![problem]))
     }
 }
 

@@ -8,7 +8,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::pair_mesh::{PairMeshError, SpaceMesh, in_space_at, on_path_mm};
-use super::{Model, Resumption, RunError, UM_PER_MM, carry_out};
+use super::{Model, Resumption, UM_PER_MM, carry_out};
 use crate::contact::PositionCell;
 use crate::contact::settings::{Material, SurfaceKind};
 use crate::fem::gear::in_space::DeformedTooth;
@@ -17,7 +17,6 @@ use crate::fem::stress::von_mises_mpa;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::gear_mesh::pair_mesh::in_place;
 use crate::gear_mesh::settings::Body;
-use crate::mesh_cycle::pair_in_space::PairInSpaceError;
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::mesh_cycle::sliced_mesh::SlicedMesh;
 use crate::mesh_cycle::sliced_positions::{ContactPart, SliceContact};
@@ -30,20 +29,6 @@ use crate::stiffness::settings::StiffnessSettings;
 const SLICES: usize = 20;
 /// Positions from A to E.
 const POSITIONS: usize = 200;
-
-/// Why there are no deformed teeth.
-#[derive(Debug, thiserror::Error)]
-pub(crate) enum DeformedTeethError {
-    /// The mesh.
-    #[error(transparent)]
-    Mesh(#[from] PairMeshError),
-    /// The equilibrium of the slices, or what it is made with.
-    #[error(transparent)]
-    Run(#[from] RunError),
-    /// The teeth.
-    #[error(transparent)]
-    Teeth(#[from] PairInSpaceError),
-}
 
 /// The mesh with displacement and stress at its nodes, and the main figures.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,11 +52,11 @@ pub(crate) fn deformed_teeth(
     loaded: &LoadedScene,
     position_mm: Option<f64>,
     observer: &dyn Observer,
-) -> Result<DeformedTeeth, DeformedTeethError> {
+) -> Result<DeformedTeeth, PairMeshError> {
     let mut resolved = loaded.resolved.clone();
     let scene = &mut resolved.scene;
     // Refused before the work.
-    let position_mm = on_path_mm(&GearPair::new(&scene.pair).map_err(PairMeshError::from)?, position_mm)?;
+    let position_mm = on_path_mm(&GearPair::new(&scene.pair)?, position_mm)?;
     let count = scene.slices.map_or(SLICES, |slices| slices.count);
     scene.slices = Some(SliceSettings { count, coupling: Coupling::Fem });
     scene.coupling_by_default = false;
@@ -116,7 +101,7 @@ impl Observer for UnwornFlanks<'_> {
 }
 
 /// The teeth at the phase of `mesh` next to `position_mm`.
-fn deformed(model: &Model<'_>, mesh: &SlicedMesh, position_mm: f64) -> Result<DeformedTeeth, DeformedTeethError> {
+fn deformed(model: &Model<'_>, mesh: &SlicedMesh, position_mm: f64) -> Result<DeformedTeeth, PairMeshError> {
     let Model { scene, pair, sliced, .. } = *model;
     let sliced = sliced.expect("the scene has slices");
     let in_space_teeth = sliced.in_space().expect("they are coupled in space");

@@ -1,5 +1,6 @@
 //! The finite-element mesh of a scene's gear pair.
 
+use super::RunError;
 use crate::contact::hertz;
 use crate::gear::{Gear, GearPair, PairError, PerGear};
 use crate::gear_mesh::settings::{Body, SpaceResolution};
@@ -7,6 +8,7 @@ use crate::gear_mesh::tooth_section::ExtrudedTooth;
 use crate::gear_mesh::{self, ToothMeshError};
 use crate::mesh::quality::{self, MeshQuality, QualityError};
 use crate::mesh::{CellKind, Mesh};
+use crate::mesh_cycle::pair_in_space::PairInSpaceError;
 use crate::scene::Scene;
 
 /// A mesh and what it was made with.
@@ -31,8 +33,8 @@ pub(crate) struct PairMesh {
 }
 
 /// Why there is no mesh.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub(crate) enum PairMeshError {
+#[derive(Debug, thiserror::Error)]
+pub enum PairMeshError {
     /// The pair cannot exist.
     #[error(transparent)]
     Pair(#[from] PairError),
@@ -57,6 +59,15 @@ pub(crate) enum PairMeshError {
         /// Why.
         source: QualityError,
     },
+    /// The equilibrium that loads the teeth, or what it is made with.
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
+impl From<PairInSpaceError> for PairMeshError {
+    fn from(error: PairInSpaceError) -> Self {
+        PairMeshError::Run(error.into())
+    }
 }
 
 /// One pitch of each gear in space, as [`gear_mesh::space_mesh`] places it.

@@ -165,7 +165,7 @@ class Sources:
                          if "[mesh]" in read(path)]
         self.meshes = [path for path in sorted(meshes.rglob("*")) if path.suffix in {".msh", ".vtu", ".inp"}]
         self.meshes += [folder / f"pair.{ending}" for ending in ["inp", "vtu", "json", "msh"]]
-        self.cases = sorted(REPOSITORY.glob("validation/*/case.toml"))
+        self.cases = [path for path in sorted(REPOSITORY.glob("validation/*/case.toml")) if 'tier = "smoke"' in path.read_text()]
 
 
 class Case:

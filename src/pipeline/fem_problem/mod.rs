@@ -4,11 +4,12 @@ mod hertz_comparison;
 mod in_space;
 mod recording;
 
+use std::borrow::Cow;
 use std::path::Path;
 use std::time::Instant;
 
 use crate::fem::{self, SolveError};
-use crate::mesh::{self, Format, MeshFileError};
+use crate::mesh::{self, Format, Mesh, MeshFileError};
 use crate::observer::Observer;
 use crate::pipeline::stage_clock::StageClock;
 use crate::results::fem_problem::FemRecord;
@@ -35,10 +36,8 @@ pub enum FemProblemError {
 /// # Errors
 /// Everything that is wrong with problem and mesh, or why the solver failed.
 pub(crate) fn run(problem: &FemProblem, folder: &Path, observer: &dyn Observer) -> Result<FemRecord, FemProblemError> {
-    let start = Instant::now();
-    let mut stages = StageClock::new(observer);
     let unreadable = |reason: String| FemProblemError::Input(problem.mesh_unreadable(&reason));
-    let (mesh, mesh_hash) = stages.run("mesh", || -> Result<_, FemProblemError> {
+    let read = || -> Result<_, FemProblemError> {
         let path = folder.join(&problem.file.mesh.file);
         let unreadable = |error: MeshFileError| unreadable(with_causes(&error));
         let format = Format::of_path(&path).map_err(unreadable)?;
@@ -46,8 +45,37 @@ pub(crate) fn run(problem: &FemProblem, folder: &Path, observer: &dyn Observer) 
         let bytes = read.map_err(unreadable)?;
         let content = |fault| MeshFileError::Content { path: path.clone(), fault: Box::new(fault) };
         let mesh = mesh::from_bytes(format, &bytes).map_err(content).map_err(unreadable)?;
-        Ok((mesh, short_hash(&bytes)))
-    })?;
+        Ok((Cow::Owned(mesh), short_hash(&bytes)))
+    };
+    solved(problem, read, observer)
+}
+
+/// Solves `problem` on a mesh that is no file; the one that it names is not read.
+///
+/// # Errors
+/// As [`run`].
+pub(crate) fn on_mesh(
+    problem: &FemProblem,
+    mesh: &Mesh,
+    observer: &dyn Observer,
+) -> Result<FemRecord, FemProblemError> {
+    let given = || {
+        let text = mesh::to_bytes(mesh, Format::Json);
+        let text = text.map_err(|error| FemProblemError::Input(problem.mesh_unreadable(&with_causes(&error))))?;
+        Ok((Cow::Borrowed(mesh), short_hash(&text)))
+    };
+    solved(problem, given, observer)
+}
+
+/// Solves `problem` on the mesh that `given` gives with its hash.
+fn solved<'m>(
+    problem: &FemProblem,
+    given: impl FnOnce() -> Result<(Cow<'m, Mesh>, String), FemProblemError>,
+    observer: &dyn Observer,
+) -> Result<FemRecord, FemProblemError> {
+    let start = Instant::now();
+    let mut stages = StageClock::new(observer);
+    let (mesh, mesh_hash) = stages.run("mesh", given)?;
     let mut record = match problem.file.third_direction().in_plane() {
         Some(_) => {
             let posed = stages.run("problem", || problem.on(&mesh)).map_err(FemProblemError::Input)?;

@@ -29,23 +29,31 @@ const CONTACT: &str = "contact.csv";
 pub(crate) fn write_data_and_page(record: &FemRecord, dir: &Path) -> Result<(), ReportError> {
     create_folder(dir)?;
     place(dir, "problem.toml", |out| out.write_all(record.problem_toml.as_bytes()))?;
-    let (mesh, page) = match &record.solution {
+    let page = match &record.solution {
         FemSolution::Plane(plane) => {
             let summary = &record.summary;
             let provenance = Provenance::of_problem(&summary.program_version, &summary.problem_hash);
             let mut csv = CsvFiles::new(dir, provenance);
             csv.place(CONTACT, |out| contact_table(out, &plane.contacts))?;
             csv.finish()?;
-            (solution(plane), page::page(record, plane))
+            page::page(record, plane)
         }
         FemSolution::InSpace(space) => {
             // Those of a plane problem that was solved there before would pass for this one's.
             [CONTACT, COLUMNS].into_iter().try_for_each(|name| remove(dir, name))?;
-            (solution_in_space(space), page_in_space::page(record, space))
+            page_in_space::page(record, space)
         }
     };
-    place(dir, "solution.vtu", |out| vtu_file::write(out, &mesh))?;
+    place(dir, "solution.vtu", |out| vtu_file::write(out, &solution_mesh(record)))?;
     place(dir, "report.html", |out| out.write_all(page.as_bytes())).map(drop)
+}
+
+/// The mesh of `solution.vtu`.
+pub(crate) fn solution_mesh(record: &FemRecord) -> Mesh {
+    match &record.solution {
+        FemSolution::Plane(plane) => solution(plane),
+        FemSolution::InSpace(space) => solution_in_space(space),
+    }
 }
 
 /// Writes `contact.csv`: the nodes of the slave surfaces, each in the order of its surface.
