@@ -81,14 +81,16 @@ pub(crate) fn answer(record: &RunRecord) -> String {
     if record.history.is_empty() {
         return text;
     }
+    let total = &s.error.total;
+    let with_error = |value: f64, off: Option<f64>| within(figure(value), value, off);
     text.push_str(&format!(
         " The maximum pressure went from {} to {} MPa ({}), worn {}; the transmission error peak to peak from {} to {} µm.",
-        figure(s.new.peak_pressure_MPa),
-        figure(s.worn.peak_pressure_MPa),
+        with_error(s.new.peak_pressure_MPa, total.peak_pressure.new),
+        with_error(s.worn.peak_pressure_MPa, total.peak_pressure.worn),
         change(s.new.peak_pressure_MPa, s.worn.peak_pressure_MPa),
         place_of_pressure(record),
         figure(s.new.transmission_error_um.peak_to_peak),
-        figure(s.worn.transmission_error_um.peak_to_peak),
+        with_error(s.worn.transmission_error_um.peak_to_peak, total.transmission_error_peak_to_peak),
     ));
     text.push_str(yield_note(s.new.peak_pressure_MPa.max(s.worn.peak_pressure_MPa)));
     if let Some(helical) = &s.helical {
@@ -137,12 +139,22 @@ fn depth(record: &RunRecord, gear: Gear) -> String {
         Gear::Pinion => (&s.pinion, s.error.total.peak_wear.pinion),
         Gear::Wheel => (&s.wheel, s.error.total.peak_wear.wheel),
     };
-    let within = off.map_or_else(String::new, |off| format!(" ± {}", significant(off * wear.peak_wear_um, 1)));
     format!(
-        "up to {}{within} µm of its active profile {}",
-        significant(wear.peak_wear_um, 3),
+        "up to {} µm of its active profile {}",
+        within(significant(wear.peak_wear_um, 3), wear.peak_wear_um, off),
         place_on_flank(flank, wear.peak_wear_radius_mm)
     )
+}
+
+/// A figure with its error in one digit, where that is known.
+fn within(figure: String, value: f64, relative: Option<f64>) -> String {
+    match relative.map(|relative| relative * value).filter(|error| *error > 0.0) {
+        Some(error) => {
+            let place = 10f64.powf(error.log10().floor());
+            format!("{figure} ± {}", significant((error / place).round() * place, 1))
+        }
+        None => figure,
+    }
 }
 
 /// What to say above everything else where the run did not reach its end.
