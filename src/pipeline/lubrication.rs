@@ -242,7 +242,8 @@ impl<'a> Running<'a> {
         let least = points.iter().min_by(|one, two| one.lambda.total_cmp(&two.lambda));
         let (least_lambda_at, least_lambda) =
             least.map_or((String::new(), 0.0), |point| (point.name.clone(), point.lambda));
-        MethodBSummary { points, mean_friction, least_lambda_at, least_lambda }
+        let micropitting_safety = oil.settings.permissible_lambda.map(|permissible| least_lambda / permissible);
+        MethodBSummary { points, mean_friction, least_lambda_at, least_lambda, micropitting_safety }
     }
 }
 
@@ -335,7 +336,7 @@ pub(super) fn sum_up(model: &Model<'_>, outcome: &Outcome, seen: &Seen<'_>) -> O
     let rows: Vec<FilmRow> = places.iter().zip(states).map(|(place, states)| row(running, place, states)).collect();
     let summary = LubricationSummary {
         oil: oil.as_ref().map(oil_summary),
-        film: oil.as_ref().and_then(|_| film_summary(&rows, places)),
+        film: oil.as_ref().and_then(|oil| film_summary(&rows, places, oil.settings.permissible_lambda)),
         method_b: oil.as_ref().map(|oil| running.method_b(oil)),
         scuffing: oil.as_ref().map(|oil| scuffing::summary(running, oil, &model.scene.material)),
         friction: friction_summary(running, &work),
@@ -401,22 +402,26 @@ fn along_path(rows: &[FilmRow], places: &[Place], value: Value) -> Option<AlongP
     (length > 0.0).then(|| AlongPath { min: extremes.0, max: extremes.1, mean: total / length })
 }
 
-fn film_summary(rows: &[FilmRow], places: &[Place]) -> Option<FilmSummary> {
+fn film_summary(rows: &[FilmRow], places: &[Place], permissible_lambda: Option<f64>) -> Option<FilmSummary> {
     let along = |value: Value| along_path(rows, places, value);
     let place_of_least = |value: Value| {
         let least = rows.iter().filter(|row| value(row).is_some());
         let least = least.min_by(|one, two| value(one).partial_cmp(&value(two)).unwrap_or(std::cmp::Ordering::Equal));
         least.map(|row| row.position_mm)
     };
+    let (lambda_new, lambda_worn) = (along(|row| row.lambda_new)?, along(|row| row.lambda_worn)?);
+    let safety = |lambda: AlongPath| permissible_lambda.map(|permissible| lambda.min / permissible);
     Some(FilmSummary {
         central_film_new_um: along(|row| row.central_film_new_um)?,
         central_film_worn_um: along(|row| row.central_film_worn_um)?,
         minimum_film_new_um: along(|row| row.minimum_film_new_um)?,
         minimum_film_worn_um: along(|row| row.minimum_film_worn_um)?,
-        lambda_new: along(|row| row.lambda_new)?,
-        lambda_worn: along(|row| row.lambda_worn)?,
+        lambda_new,
+        lambda_worn,
         least_lambda_new_position_mm: place_of_least(|row| row.lambda_new)?,
         least_lambda_worn_position_mm: place_of_least(|row| row.lambda_worn)?,
+        micropitting_safety_new: safety(lambda_new),
+        micropitting_safety_worn: safety(lambda_worn),
         greatest_flash_new_K: along(|row| row.flash_new_K)?.max,
         greatest_flash_worn_K: along(|row| row.flash_worn_K)?.max,
     })

@@ -49,6 +49,10 @@ pub struct LubricantFile {
     pub lubricant_factor: Option<f64>,
     /// How the film in the middle of the contact is found. Default: hamrock.
     pub central_film: Option<CentralFilm>,
+    /// Permissible specific film thickness λ_GFP of ISO/TS 6336-22 by a micropitting test of the oil, > 0 to 10; the safety against micropitting is told
+    /// with it alone. Default: none.
+    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 10))]
+    pub permissible_lambda: Option<f64>,
 }
 
 /// Friction of the mesh: losses, and the heat of the films.

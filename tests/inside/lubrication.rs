@@ -149,6 +149,21 @@ fn worn_flanks_have_a_film_of_their_own_over_their_own_roughness() {
     }
     let frictions: Vec<f64> = record.film.iter().filter_map(|row| row.friction_new).collect();
     assert!(frictions.iter().all(|mu| (0.0..0.2).contains(mu)));
+    assert_eq!([film.micropitting_safety_new, film.micropitting_safety_worn], [None, None]);
+}
+
+/// S_λ = λ_GF,min/λ_GFP (ISO/TS 6336-22), by both methods.
+#[test]
+fn ver_safety_against_micropitting() {
+    let of = run(&format!("{OIL}permissible_lambda = 0.32\n")).summary.lubrication.unwrap();
+    let (film, method_b) = (of.film.unwrap(), of.method_b.unwrap());
+    for (safety, least) in [
+        (film.micropitting_safety_new, film.lambda_new.min),
+        (film.micropitting_safety_worn, film.lambda_worn.min),
+        (method_b.micropitting_safety, method_b.least_lambda),
+    ] {
+        assert_close("S_λ", safety.unwrap(), least / 0.32, 1e-15);
+    }
 }
 
 /// The scene that a run leaves behind says the same.
@@ -173,6 +188,7 @@ fn bad_input_is_told_with_key_and_what_is_allowed() {
         ("[friction]\nmodel = \"constant\"\n".to_owned(), "friction.coefficient", "nothing"),
         ("[friction]\nmodel = \"coulomb\"\n".to_owned(), "friction.model", "coulomb"),
         (format!("{OIL}[load_factors]\napplication = 0.0\n"), "load_factors.application", "0"),
+        (format!("{OIL}permissible_lambda = 0.0\n"), "lubricant.permissible_lambda", "0"),
     ] {
         let problems = scene(&more).unwrap_err();
         assert!(problems.iter().any(|p| p.key == key && p.found.contains(found)), "{more}: {problems:?}");

@@ -110,6 +110,8 @@ pub struct LubricantSettings {
     pub central_film: CentralFilm,
     /// X_L where it is given; otherwise that of the base oil by each method.
     pub lubricant_factor: Option<f64>,
+    /// λ_GFP by a test of the oil.
+    pub permissible_lambda: Option<f64>,
     /// Roughness of both flanks.
     pub roughness: PerGear<Roughness>,
     /// Thermal contact coefficient B_M = √(λ ρ c) of each gear, W·√s/(m²·K).

@@ -71,6 +71,12 @@ pub struct FilmSummary {
     pub least_lambda_new_position_mm: f64,
     /// The same, worn.
     pub least_lambda_worn_position_mm: f64,
+    /// Safety against micropitting S_λ by Method A, the least λ over that which the oil permits, new; `None` where that is not given.
+    #[serde(default)]
+    pub micropitting_safety_new: Option<f64>,
+    /// The same, worn.
+    #[serde(default)]
+    pub micropitting_safety_worn: Option<f64>,
     /// Maximum flash temperature, new.
     pub greatest_flash_new_K: f64,
     /// The same, worn.
@@ -88,6 +94,9 @@ pub struct MethodBSummary {
     pub least_lambda_at: String,
     /// λ_GF,min.
     pub least_lambda: f64,
+    /// S_λ = λ_GF,min/λ_GFP; `None` where λ_GFP is not given.
+    #[serde(default)]
+    pub micropitting_safety: Option<f64>,
 }
 
 /// A point of Method B.

@@ -11,7 +11,7 @@ pub(crate) fn tables(s: &Summary) -> Markup {
     let Some(of) = &s.lubrication else { return Markup::default() };
     html! {
         @if let Some(oil) = &of.oil { (self::oil(oil)) }
-        @if let Some(film) = &of.film { (self::film(film)) }
+        @if let Some(film) = &of.film { (self::film(film, of.method_b.as_ref())) }
         (losses(of))
         @if let Some(method_b) = &of.method_b { (self::method_b(method_b)) }
         @if let Some(scuffing) = &of.scuffing { (self::scuffing(scuffing)) }
@@ -33,19 +33,22 @@ fn oil(oil: &OilSummary) -> Markup {
     )
 }
 
-fn film(f: &FilmSummary) -> Markup {
-    table(
-        "Film along the path of contact",
-        &["new", "worn"],
-        [
-            row("λ (local film over Ra), minimum", "", [f.lambda_new.min, f.lambda_worn.min]),
-            row("λ, mean", "", [f.lambda_new.mean, f.lambda_worn.mean]),
-            row("Central film thickness, minimum", "µm", [f.central_film_new_um.min, f.central_film_worn_um.min]),
-            row("Central film thickness, mean", "µm", [f.central_film_new_um.mean, f.central_film_worn_um.mean]),
-            row("Minimum film thickness, lowest", "µm", [f.minimum_film_new_um.min, f.minimum_film_worn_um.min]),
-            row("Flash temperature, maximum", "K", [f.greatest_flash_new_K, f.greatest_flash_worn_K]),
-        ],
-    )
+fn film(f: &FilmSummary, method_b: Option<&MethodBSummary>) -> Markup {
+    let mut rows = vec![
+        row("λ (local film over Ra), minimum", "", [f.lambda_new.min, f.lambda_worn.min]),
+        row("λ, mean", "", [f.lambda_new.mean, f.lambda_worn.mean]),
+        row("Central film thickness, minimum", "µm", [f.central_film_new_um.min, f.central_film_worn_um.min]),
+        row("Central film thickness, mean", "µm", [f.central_film_new_um.mean, f.central_film_worn_um.mean]),
+        row("Minimum film thickness, lowest", "µm", [f.minimum_film_new_um.min, f.minimum_film_worn_um.min]),
+        row("Flash temperature, maximum", "K", [f.greatest_flash_new_K, f.greatest_flash_worn_K]),
+    ];
+    if let (Some(new), Some(worn)) = (f.micropitting_safety_new, f.micropitting_safety_worn) {
+        rows.push(row("Safety against micropitting S_λ, Method A", "", [fixed(new, 2), fixed(worn, 2)]));
+    }
+    if let Some(safety) = method_b.and_then(|b| b.micropitting_safety) {
+        rows.push(row("The same, Method B", "", cells![fixed(safety, 2), ""]));
+    }
+    table("Film along the path of contact", &["new", "worn"], rows)
 }
 
 fn losses(of: &LubricationSummary) -> Markup {

@@ -172,6 +172,7 @@ fn lubricant(
         supply,
         central_film,
         lubricant_factor: file.lubricant_factor,
+        permissible_lambda: file.permissible_lambda,
         roughness: PerGear { pinion: roughness.pinion?, wheel: roughness.wheel? },
         // λ/√κ is √(λ ρ c).
         thermal_contact_w_s05_per_m2_k: material
