@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
-from typing import Any
-
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING, Any
 
 from gearwear import _native
 from gearwear.version import refuse_other
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
 
 
 class Mesh:
@@ -25,6 +26,8 @@ class Mesh:
 
         What meshio keeps of a Gmsh file under names that begin with ``gmsh:`` stays behind: numbers of groups, which are sets too.
         """
+        import numpy as np
+
         points = np.asarray(mesh.points, dtype=np.float64)
         if points.ndim != 2 or points.shape[1] not in (2, 3):
             raise ValueError(f"points: found an array of shape {points.shape}; allowed: rows of two or three coordinates")
@@ -47,6 +50,7 @@ class Mesh:
     def to_meshio(self) -> Any:
         """The same as a ``meshio.Mesh`` (``pip install gearwear[mesh]``)."""
         import meshio
+        import numpy as np
 
         make: Any = meshio.Mesh
         # Points of its own, as meshio's users change them.
@@ -122,10 +126,14 @@ def _own(by_name: Mapping[str, Any]) -> list[tuple[str, Any]]:
 
 
 def _integers(values: Any) -> npt.NDArray[np.int64]:
+    import numpy as np
+
     return np.ascontiguousarray(values, dtype=np.int64)
 
 
 def _numbers(values: Any) -> npt.NDArray[Any]:
+    import numpy as np
+
     array = np.asarray(values)
     kind = np.int64 if array.dtype.kind in "iub" else np.float64
     return np.ascontiguousarray(array, dtype=kind)
@@ -133,6 +141,8 @@ def _numbers(values: Any) -> npt.NDArray[Any]:
 
 def _members(places: Iterable[int] | None) -> npt.NDArray[np.int64]:
     """Ascending, none twice; meshio has None where a block has no member."""
+    import numpy as np
+
     return np.unique(_integers([] if places is None else places))
 
 
