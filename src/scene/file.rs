@@ -525,7 +525,7 @@ impl WebsFile {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WebFile {
-    /// Thickness b_s of the web along the axis in mm, > 0, at most the face width.
+    /// Thickness b_s of the web along the axis in mm, > 0: at least a tenth of a module, and at most the face width.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub thickness_mm: f64,
     /// Thickness s_R of the rim from the root circle to where the web begins in mm, > 0. It leaves a tenth of a module of web above

@@ -84,8 +84,9 @@ fn web(
         findings.not_allowed(&key("rim_thickness_mm"), number(web.rim_thickness_mm), allowed);
         return None;
     }
-    if web.thickness_mm > width_mm {
-        let allowed = format!("at most the face width, {}", number(width_mm));
+    if !(least_mm..=width_mm).contains(&web.thickness_mm) {
+        let allowed =
+            format!("{least_mm:.4} to {} mm, from a tenth of a module to at most the face width", number(width_mm));
         findings.not_allowed(&key("thickness_mm"), number(web.thickness_mm), allowed);
         return None;
     }
