@@ -528,8 +528,8 @@ pub struct WebFile {
     /// Thickness b_s of the web along the axis in mm, > 0: at least a tenth of a module, and at most the face width.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub thickness_mm: f64,
-    /// Thickness s_R of the rim from the root circle to where the web begins in mm, > 0. It leaves a tenth of a module of web above
-    /// fem.clamp_radius_mm.
+    /// Thickness s_R of the rim from the root circle to where the web begins in mm, > 0: at least a quarter of a module. It leaves a tenth of a module of
+    /// web above fem.clamp_radius_mm.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub rim_thickness_mm: f64,
     /// Place of its middle over the face width from that of the teeth in mm, positive towards greater z. Default 0.

@@ -806,8 +806,8 @@ fn webs_without_room() {
         ("thickness_mm = 0.0, rim_thickness_mm = 5.0", ["fem.web.wheel.thickness_mm", "greater than 0"]),
         ("thickness_mm = 15.0, rim_thickness_mm = 5.0", ["fem.web.wheel.thickness_mm", "0.4500 to 14 mm"]),
         ("thickness_mm = 0.001, rim_thickness_mm = 5.0", ["fem.web.wheel.thickness_mm", "a tenth of a module"]),
-        ("thickness_mm = 5.0, rim_thickness_mm = 24.0", ["fem.web.wheel.rim_thickness_mm", "0.4500 to 23."]),
-        ("thickness_mm = 5.0, rim_thickness_mm = 0.1", ["fem.web.wheel.rim_thickness_mm", "0.4500 to 23."]),
+        ("thickness_mm = 5.0, rim_thickness_mm = 24.0", ["fem.web.wheel.rim_thickness_mm", "1.1250 to 23."]),
+        ("thickness_mm = 5.0, rim_thickness_mm = 0.1", ["fem.web.wheel.rim_thickness_mm", "1.1250 to 23."]),
         ("thickness_mm = 5.0, rim_thickness_mm = 5.0, offset_mm = 4.6", ["fem.web.wheel.offset_mm", "within the face"]),
         ("thickness = 5.0, rim_thickness_mm = 5.0", ["fem.web.wheel.thickness", "thickness_mm"]),
     ] {

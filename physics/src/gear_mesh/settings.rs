@@ -103,11 +103,19 @@ pub fn greatest_clamp_mm(root_radius_mm: f64, normal_module_mm: f64) -> f64 {
     root_radius_mm - LEAST_BODY_MODULES * normal_module_mm
 }
 
-/// Least and greatest thickness of a rim on a web between its root circle and where that is held, a tenth of a module on either side; where they
-/// cross, there is room for none.
+/// Least thickness of a rim on a web, in normal modules: the rows of elements between the fillets sag into a thinner one.
+const LEAST_RIM_MODULES: f64 = 0.25;
+
+/// Least and greatest thickness of a rim on a web that leaves as much below it as a body must have below its root circle; where they cross, there
+/// is room for none.
 pub fn rim_thickness_limits_mm(root_radius_mm: f64, clamp_radius_mm: f64, normal_module_mm: f64) -> [f64; 2] {
-    let least = LEAST_BODY_MODULES * normal_module_mm;
-    [least, root_radius_mm - clamp_radius_mm - least]
+    let left_mm = greatest_clamp_mm(root_radius_mm, normal_module_mm) - clamp_radius_mm;
+    [LEAST_RIM_MODULES * normal_module_mm, left_mm]
+}
+
+/// Least thickness of a web along the axis: a tenth of a module.
+pub fn least_web_mm(normal_module_mm: f64) -> f64 {
+    LEAST_BODY_MODULES * normal_module_mm
 }
 
 /// A clamp radius chosen where none is given.

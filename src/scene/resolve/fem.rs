@@ -2,7 +2,8 @@
 
 use crate::gear::{Gear, PerGear, spec::PairSpec};
 use crate::gear_mesh::settings::{
-    Body, BodySettings, DefaultClamp, NO_WEBS, Web, default_clamp, greatest_clamp_mm, rim_thickness_limits_mm,
+    Body, BodySettings, DefaultClamp, NO_WEBS, Web, default_clamp, greatest_clamp_mm, least_web_mm,
+    rim_thickness_limits_mm,
 };
 use crate::scene::file::{BodyKind, ClampRadiusFile, FemFile, WebFile, WebsFile};
 use crate::scene::findings::Findings;
@@ -84,6 +85,7 @@ fn web(
         findings.not_allowed(&key("rim_thickness_mm"), number(web.rim_thickness_mm), allowed);
         return None;
     }
+    let least_mm = least_web_mm(pair.normal_module_mm);
     if !(least_mm..=width_mm).contains(&web.thickness_mm) {
         let allowed =
             format!("{least_mm:.4} to {} mm, from a tenth of a module to at most the face width", number(width_mm));
