@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use gearwear::mesh::{self, CellBlock, CellKind, DataArray, Format, PhysicalTag, Values};
+use gearwear::mesh::{self, CellBlock, CellKind, DataArray, PhysicalTag, Values};
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArrayDyn};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -69,7 +69,7 @@ impl Mesh {
 
     /// Writes it into a file, whose ending tells the format.
     fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        let written = py.detach(|| mesh::write_as(&self.mesh, &path, Format::of_path(&path)?));
+        let written = py.detach(|| mesh::write(&self.mesh, &path));
         written.map_err(|error| errors::of_mesh_file(&error))
     }
 

@@ -2,6 +2,7 @@
 
 pub(crate) mod decimal_comma;
 pub(crate) mod draft;
+pub(crate) mod fem_file;
 pub(crate) mod fem_problem;
 pub(crate) mod file;
 mod findings;

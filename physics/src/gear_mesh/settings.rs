@@ -202,10 +202,8 @@ impl SpaceResolution {
         }
         let webs = [bodies.pinion.web, bodies.wheel.web].into_iter().flatten();
         for face_mm in webs.flat_map(|web| web.from_to_mm(pair.face_width_mm)) {
-            let next = ends.partition_point(|end| *end < face_mm);
-            let is_new = |end: &f64| (end - face_mm).abs() > SAME_PLACE * pair.face_width_mm;
-            if next > 0 && ends[next - 1..].iter().take(2).all(is_new) && next < ends.len() {
-                ends.insert(next, face_mm);
+            if ends.iter().all(|end| (end - face_mm).abs() > SAME_PLACE * pair.face_width_mm) {
+                ends.insert(ends.partition_point(|end| *end < face_mm), face_mm);
             }
         }
         ends

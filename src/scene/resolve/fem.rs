@@ -5,7 +5,7 @@ use crate::gear_mesh::settings::{
     Body, BodySettings, DefaultClamp, NO_WEBS, Web, default_clamp, greatest_clamp_mm, least_web_mm,
     rim_thickness_limits_mm,
 };
-use crate::scene::file::{BodyKind, ClampRadiusFile, FemFile, WebFile, WebsFile};
+use crate::scene::fem_file::{BodyKind, ClampRadiusFile, FemFile, WebFile, WebsFile};
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
 

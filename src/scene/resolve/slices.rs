@@ -4,7 +4,8 @@ use crate::contact::settings::SurfaceKind;
 use crate::gear::spec::PairSpec;
 use crate::mesh_cycle::settings::MOST_SLICES_IN_SPACE;
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
-use crate::scene::file::{BodyKind, SceneFile, StiffnessModel, WebsFile};
+use crate::scene::fem_file::{BodyKind, WebsFile};
+use crate::scene::file::{SceneFile, StiffnessModel};
 use crate::scene::findings::Findings;
 
 const SLICES: u32 = 20;
