@@ -6,33 +6,22 @@
 //! P_VZ = 1/p_bt ∫ b/n Σ μ w v_g dx        H_VL = 1/p_bt ∫ b/n Σ w v_g dx / P
 //! ```
 //!
-//! Each surface runs at ω ρ through the contact. Load and pressure of a film are those of the contact with the factors K_A K_V, as the standard
-//! has it for a contact analysis (Method A); its radius and speeds are the nominal ones, also where flanks are worn.
-
-use std::f64::consts::{PI, TAU};
+//! Film and friction of each contact are those of [`crate::lubrication::running_pair`].
 
 use super::{Model, scuffing};
 use crate::contact::settings::SurfaceKind;
-use crate::gear::conjugate::ConjugateFlanks;
 use crate::gear::{Gear, GearPair, PerGear};
-use crate::lubrication::film::FilmParameters;
-use crate::lubrication::friction::{self, MeanConditions};
-use crate::lubrication::load_sharing_factor::SharingGeometry;
-use crate::lubrication::local_film::{LocalFilm, bulk_temperature_c, local_film};
+use crate::lubrication::local_film::local_film;
 use crate::lubrication::loss;
-use crate::lubrication::oil::Oil;
-use crate::lubrication::rolling_contact::{Bodies, RollingContact};
-use crate::lubrication::scuffing::helical_load_factor;
-use crate::lubrication::settings::{FrictionModel, FrictionSettings, LubricantSettings, LubricationSettings};
-use crate::reference::hertz_line::contact_modulus_mpa;
+use crate::lubrication::running_pair::{ContactFilm, Finish, LoadedPlace, OilInMesh, RunningConditions, RunningPair};
+use crate::reference::hertz_line::{PEAK_OVER_MEAN, contact_modulus_mpa};
 use crate::results::lubrication::{
     AlongPath, FilmRow, FilmSummary, FrictionSummary, LossSummary, LubricationSummary, MethodBPoint, MethodBSummary,
     OilSummary,
 };
+use crate::scene::Scene;
+use crate::simulation::settings::Phase;
 use crate::simulation::wear_run::Outcome;
-
-/// W per N·mm/s.
-const W_PER_N_MM_PER_S: f64 = 1e-3;
 
 /// What is found, as the record has it.
 pub(super) struct Observed {
@@ -40,27 +29,21 @@ pub(super) struct Observed {
     pub rows: Vec<FilmRow>,
 }
 
-/// The pair at the speed of the reference phase.
-pub(super) struct Running<'a> {
-    pub pair: &'a GearPair,
-    pub settings: LubricationSettings,
-    /// ω of each gear, rad/s.
-    pub angular_speed_per_s: PerGear<f64>,
-    /// F_bt/b, N/mm.
-    pub line_load_n_per_mm: f64,
-    /// E_r and B_M.
-    pub bodies: Bodies,
-    pub sharing: SharingGeometry,
-}
-
-/// The oil in the mesh.
-pub(super) struct OilInMesh {
-    pub settings: LubricantSettings,
-    pub oil: Oil,
-    /// For mean values of friction.
-    pub mean: MeanConditions,
-    /// θ_M, °C.
-    pub bulk_c: f64,
+/// The pair at the speed and load of a phase, with its oil; none where nobody asks for films or losses.
+pub(super) fn in_phase<'a>(
+    scene: &'a Scene,
+    pair: &'a GearPair,
+    phase: &Phase,
+    line_load_n_per_mm: f64,
+) -> Option<RunningPair<'a>> {
+    let elastic = Gear::BOTH.map(|gear| scene.material[gear]);
+    let modulus = contact_modulus_mpa(elastic.map(|body| (body.young_modulus_mpa, body.poisson_ratio)));
+    let conditions = RunningConditions {
+        pinion_speed_rpm: phase.pinion_speed_rpm?,
+        line_load_n_per_mm,
+        reduced_modulus_mpa: 2.0 * modulus,
+    };
+    Some(RunningPair::new(pair, scene.lubrication.as_ref()?, conditions))
 }
 
 /// A contact of the run.
@@ -79,179 +62,68 @@ struct Place {
 #[derive(Clone, Copy)]
 struct State {
     friction: f64,
-    central_um: Option<f64>,
-    least_um: Option<f64>,
-    local: Option<LocalFilm>,
-    lambda: Option<f64>,
+    film: Option<ContactFilm>,
 }
 
-impl<'a> Running<'a> {
-    fn new(model: &Model<'a>, outcome: &Outcome, settings: LubricationSettings) -> Option<Self> {
-        let pair = model.pair;
-        let rpm = model.scene.operation.phases[outcome.reference_phase].pinion_speed_rpm?;
-        let pinion = TAU * rpm / 60.0;
-        let elastic = Gear::BOTH.map(|gear| model.scene.material[gear]);
-        let modulus = contact_modulus_mpa(elastic.map(|body| (body.young_modulus_mpa, body.poisson_ratio)));
-        let thermal = settings.lubricant.map(|lubricant| lubricant.thermal_contact_w_s05_per_m2_k);
-        Some(Self {
-            pair,
-            settings,
-            angular_speed_per_s: PerGear { pinion, wheel: pinion * pair.wheel_turns_per_pinion_turn() },
-            line_load_n_per_mm: model.reference().line_load_n_per_mm,
-            bodies: Bodies {
-                reduced_modulus_mpa: 2.0 * modulus,
-                thermal_contact_w_s05_per_m2_k: thermal.unwrap_or_default(),
-            },
-            sharing: SharingGeometry {
-                points_mm: pair.path.points_mm(),
-                overlap_ratio: pair.overlap_ratio(),
-                base_helix_angle_rad: pair.base_helix_angle_rad(),
-            },
-        })
-    }
-
-    /// P, W.
-    fn power_w(&self) -> f64 {
-        let base_radius = self.pair.path.involute.pinion.base_radius_mm;
-        let force = self.line_load_n_per_mm * self.pair.spec.face_width_mm;
-        W_PER_N_MM_PER_S * force * base_radius * self.angular_speed_per_s.pinion
-    }
-
-    /// Surfaces at a place, with the load and pressure there.
-    pub(super) fn contact(&self, position_mm: f64, line_load_n_per_mm: f64, peak_pressure_mpa: f64) -> RollingContact {
-        RollingContact {
-            line_load_n_per_mm,
-            relative_radius_mm: self.pair.relative_radius_mm(position_mm) / self.pair.base_helix_angle_rad().cos(),
-            peak_pressure_mpa,
-            surface_speeds_m_per_s: PerGear::from_fn(|gear| {
-                1e-3 * self.angular_speed_per_s[gear] * self.pair.path.rho_mm(gear, position_mm)
-            }),
+impl Place {
+    fn loaded(&self, which: usize) -> LoadedPlace {
+        LoadedPlace {
+            position_mm: self.position_mm,
+            line_load_n_per_mm: self.load_n_per_mm[which],
+            peak_pressure_mpa: self.pressure_mpa[which],
         }
     }
 
-    fn oil(&self) -> Option<OilInMesh> {
-        let settings = self.settings.lubricant?;
-        let oil = Oil::new(settings.oil);
-        let at_pitch = self.contact(self.pair.path.pitch_point_mm, 0.0, 0.0);
-        let factors = &self.settings.load_factors;
-        let usual = || friction::lubricant_factor(oil.base());
-        let mean = MeanConditions {
-            line_load_n_per_mm: self.line_load_n_per_mm,
-            tangential_over_base: self.pair.spec.transverse_pressure_angle_rad().cos(),
-            load_factor: factors.product(),
-            helical_factor: helical_load_factor(self.sharing.contact_ratio() + self.sharing.overlap_ratio),
-            application_factor: factors.application,
-            sum_speed_m_per_s: at_pitch.sum_speed_m_per_s(),
-            relative_radius_mm: at_pitch.relative_radius_mm,
-            viscosity_milli_pa_s: oil.viscosity_milli_pa_s(settings.temperature_c),
-            ra_um: 0.5 * settings.roughness.map(|roughness| roughness.ra_um).sum(),
-            lubricant_factor: settings.lubricant_factor.unwrap_or_else(usual),
-        };
-        let loss_kw = 1e-3 * self.power_w() * mean.iso_6336_22() * loss::of_pair(self.pair);
-        let spec = &self.pair.spec;
-        let of_standard = || {
-            let supply = settings.supply.factor();
-            bulk_temperature_c(settings.temperature_c, loss_kw, spec.centre_distance_mm, spec.face_width_mm, supply)
-        };
-        let bulk_c = settings.bulk_temperature_c.unwrap_or_else(of_standard);
-        Some(OilInMesh { settings, oil, mean, bulk_c })
+    /// What is there in the new (0) or worn (1) pair; none without load.
+    fn state(&self, running: &RunningPair<'_>, which: usize) -> Option<State> {
+        let loaded = self.loaded(which);
+        (loaded.line_load_n_per_mm > 0.0).then(|| {
+            let friction = running.friction(&loaded);
+            State { friction, film: running.film(&loaded, friction, [Finish::New, Finish::RunIn][which]) }
+        })
     }
+}
 
-    /// μ of a contact.
-    fn friction(&self, oil: Option<&OilInMesh>, contact: &RollingContact) -> f64 {
-        let FrictionSettings { model, coefficient } = self.settings.friction;
-        let coefficient = coefficient.unwrap_or_default();
-        let Some(oil) = oil else { return coefficient };
-        let roughness = oil.settings.roughness;
-        let viscosity = oil.mean.viscosity_milli_pa_s;
-        match (oil.mean.mean(model), model) {
-            (Some(mean), _) => mean,
-            (None, FrictionModel::BenedictKelley) => friction::benedict_kelley(contact, viscosity, oil.mean.ra_um),
-            (None, FrictionModel::Xu) => {
-                let rq_um = roughness.pinion.rq_um.hypot(roughness.wheel.rq_um);
-                friction::xu(contact, viscosity, rq_um)
+fn method_b(running: &RunningPair<'_>, oil: &OilInMesh) -> MethodBSummary {
+    let [a, b, c, d, e] = running.pair.path.points_mm();
+    let mean_friction = oil.mean.iso_6336_22();
+    let named = [("A", a), ("AB", 0.5 * (a + b)), ("B", b), ("C", c), ("D", d), ("DE", 0.5 * (d + e)), ("E", e)];
+    let points: Vec<MethodBPoint> = named
+        .into_iter()
+        .map(|(name, position_mm)| {
+            let load_sharing_factor = running.sharing.factor(position_mm);
+            let load = load_sharing_factor * running.line_load_n_per_mm;
+            let unpressed = running.contact(position_mm, load, 0.0);
+            let nominal_pressure_mpa = running.bodies.peak_pressure_mpa(&unpressed);
+            let pressure_mpa = nominal_pressure_mpa * running.settings.load_factors.product().sqrt();
+            let contact = running.contact(position_mm, load, pressure_mpa);
+            let local = local_film(&contact, &running.bodies, &oil.oil, oil.bulk_c, mean_friction);
+            let (flash_k, film_um) = local.map_or((0.0, 0.0), |local| (local.flash_k, local.thickness_um));
+            MethodBPoint {
+                name: name.to_owned(),
+                position_mm,
+                load_sharing_factor,
+                relative_radius_mm: unpressed.relative_radius_mm,
+                nominal_pressure_MPa: nominal_pressure_mpa,
+                pressure_MPa: pressure_mpa,
+                contact_temperature_C: oil.bulk_c + flash_k,
+                film_um,
+                lambda: film_um / oil.mean.ra_um,
             }
-            (None, _) => coefficient,
-        }
-    }
-
-    /// A contact of the run, new (0) or worn (1); none without load.
-    fn state(&self, oil: Option<&OilInMesh>, place: &Place, which: usize) -> Option<State> {
-        let load = place.load_n_per_mm[which];
-        if load <= 0.0 {
-            return None;
-        }
-        let factors = &self.settings.load_factors;
-        let dynamic = factors.application * factors.dynamic;
-        let nominal = self.contact(place.position_mm, load, place.pressure_mpa[which]);
-        let friction = self.friction(oil, &nominal);
-        let contact = self.contact(place.position_mm, dynamic * load, dynamic.sqrt() * place.pressure_mpa[which]);
-        let Some(oil) = oil else {
-            return Some(State { friction, central_um: None, least_um: None, local: None, lambda: None });
-        };
-        let inlet_c = oil.settings.temperature_c;
-        let film = FilmParameters::new(
-            &contact,
-            self.bodies.reduced_modulus_mpa,
-            oil.oil.viscosity_milli_pa_s(inlet_c),
-            oil.oil.pressure_viscosity_per_gpa(inlet_c),
-        );
-        let local = local_film(&contact, &self.bodies, &oil.oil, oil.bulk_c, friction);
-        let ra = |gear: Gear| {
-            let roughness = oil.settings.roughness[gear];
-            [roughness.ra_um, roughness.run_in_ra_um][which]
-        };
-        let ra_um = 0.5 * (ra(Gear::Pinion) + ra(Gear::Wheel));
-        Some(State {
-            friction,
-            central_um: Some(film.central_um(oil.settings.central_film)),
-            least_um: Some(film.least_um()),
-            lambda: local.map(|local| local.thickness_um / ra_um),
-            local,
         })
-    }
-
-    fn method_b(&self, oil: &OilInMesh) -> MethodBSummary {
-        let [a, b, c, d, e] = self.pair.path.points_mm();
-        let mean_friction = oil.mean.iso_6336_22();
-        let named = [("A", a), ("AB", 0.5 * (a + b)), ("B", b), ("C", c), ("D", d), ("DE", 0.5 * (d + e)), ("E", e)];
-        let points: Vec<MethodBPoint> = named
-            .into_iter()
-            .map(|(name, position_mm)| {
-                let load_sharing_factor = self.sharing.factor(position_mm);
-                let load = load_sharing_factor * self.line_load_n_per_mm;
-                let radius = self.contact(position_mm, load, 0.0).relative_radius_mm;
-                let nominal_pressure_mpa = (self.bodies.reduced_modulus_mpa * load / (2.0 * PI * radius)).sqrt();
-                let pressure_mpa = nominal_pressure_mpa * self.settings.load_factors.product().sqrt();
-                let contact = self.contact(position_mm, load, pressure_mpa);
-                let local = local_film(&contact, &self.bodies, &oil.oil, oil.bulk_c, mean_friction);
-                let (flash_k, film_um) = local.map_or((0.0, 0.0), |local| (local.flash_k, local.thickness_um));
-                MethodBPoint {
-                    name: name.to_owned(),
-                    position_mm,
-                    load_sharing_factor,
-                    relative_radius_mm: radius,
-                    nominal_pressure_MPa: nominal_pressure_mpa,
-                    pressure_MPa: pressure_mpa,
-                    contact_temperature_C: oil.bulk_c + flash_k,
-                    film_um,
-                    lambda: film_um / oil.mean.ra_um,
-                }
-            })
-            .collect();
-        let least = points.iter().min_by(|one, two| one.lambda.total_cmp(&two.lambda));
-        let (least_lambda_at, least_lambda) =
-            least.map_or((String::new(), 0.0), |point| (point.name.clone(), point.lambda));
-        let micropitting_safety = oil.settings.permissible_lambda.map(|permissible| least_lambda / permissible);
-        MethodBSummary { points, mean_friction, least_lambda_at, least_lambda, micropitting_safety }
-    }
+        .collect();
+    let least = points.iter().min_by(|one, two| one.lambda.total_cmp(&two.lambda));
+    let (least_lambda_at, least_lambda) =
+        least.map_or((String::new(), 0.0), |point| (point.name.clone(), point.lambda));
+    let micropitting_safety = oil.settings.permissible_lambda.map(|permissible| least_lambda / permissible);
+    MethodBSummary { points, mean_friction, least_lambda_at, least_lambda, micropitting_safety }
 }
 
 /// All contacts of the run's mesh, new and worn, within the line of action.
 fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
     let (new, worn) = (&outcome.new.cycle, &outcome.worn.cycle);
     // The simplified surface has the mean pressure for the greatest.
-    let greatest = if model.scene.contact.surface == SurfaceKind::HertzMean { 4.0 / PI } else { 1.0 };
+    let greatest = if model.scene.contact.surface == SurfaceKind::HertzMean { PEAK_OVER_MEAN } else { 1.0 };
     let whole = model.reference().line_load_n_per_mm;
     let middle_mm = 0.5 * model.pair.spec.face_width_mm;
     let Some([new_slices, worn_slices]) = new.slices.as_ref().zip(worn.slices.as_ref()).map(<[_; 2]>::from) else {
@@ -293,17 +165,50 @@ fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
     all.filter(|place| (path.start_mm..=path.end_mm).contains(&place.position_mm)).collect()
 }
 
-/// Sums over the path, new and worn.
+/// Sums over the path.
 #[derive(Default)]
 struct Work {
-    sliding_w: [f64; 2],
-    friction_w: [f64; 2],
+    sliding_w: f64,
+    friction_w: f64,
+    /// Sliding of each gear that counts as wearing under its films; none where its law reads none.
+    wearing_w: PerGear<Option<f64>>,
+}
+
+impl Work {
+    /// Of the new (0) or worn (1) pair.
+    fn over(model: &Model<'_>, seen: &Seen<'_>, slice_width_mm: f64, which: usize) -> Self {
+        let mut work = Self::default();
+        for (place, states) in seen.places.iter().zip(&seen.states) {
+            let sliding_m_per_s = seen.running.contact(place.position_mm, 0.0, 0.0).sliding_speed_m_per_s();
+            let power_w = place.load_n_per_mm[which] * slice_width_mm * sliding_m_per_s * place.length_mm
+                / model.pair.path.base_pitch_mm;
+            work.sliding_w += power_w;
+            let Some(state) = states[which] else { continue };
+            work.friction_w += power_w * state.friction;
+            for gear in Gear::BOTH {
+                if let Some(factor) = model.reference().wear.film_factor(gear, &place.loaded(which)) {
+                    *work.wearing_w[gear].get_or_insert(0.0) += power_w * factor;
+                }
+            }
+        }
+        work
+    }
+
+    /// Mean factor of the film on the wear of each gear; none where neither law reads films.
+    fn wear_factors(&self) -> Option<PerGear<f64>> {
+        let reads = self.sliding_w > 0.0 && Gear::BOTH.into_iter().any(|gear| self.wearing_w[gear].is_some());
+        reads.then(|| self.wearing_w.map(|wearing_w| wearing_w.map_or(1.0, |wearing| wearing / self.sliding_w)))
+    }
+
+    /// μ, the mean over the sliding.
+    fn mean_friction(&self) -> f64 {
+        if self.sliding_w > 0.0 { self.friction_w / self.sliding_w } else { 0.0 }
+    }
 }
 
 /// What is seen of the contacts of a run.
 pub(super) struct Seen<'a> {
-    running: Running<'a>,
-    oil: Option<OilInMesh>,
+    running: &'a RunningPair<'a>,
     places: Vec<Place>,
     /// New and worn at each place.
     states: Vec<[Option<State>; 2]>,
@@ -311,49 +216,44 @@ pub(super) struct Seen<'a> {
 
 /// Looks at both states of a run; none where nobody asks.
 pub(super) fn look<'a>(model: &Model<'a>, outcome: &Outcome) -> Option<Seen<'a>> {
-    let running = Running::new(model, outcome, model.scene.lubrication?)?;
-    let oil = running.oil();
+    let running = model.phases[outcome.reference_phase].wear.running?;
     let places = places(model, outcome);
-    let states = places.iter().map(|place| [0, 1].map(|which| running.state(oil.as_ref(), place, which))).collect();
-    Some(Seen { running, oil, places, states })
+    let states = places.iter().map(|place| [0, 1].map(|which| place.state(running, which))).collect();
+    Some(Seen { running, places, states })
 }
 
 /// Sums up what was seen.
 pub(super) fn sum_up(model: &Model<'_>, outcome: &Outcome, seen: &Seen<'_>) -> Observed {
-    let Seen { running, oil, places, states } = seen;
+    let Seen { running, places, states } = seen;
+    let oil = running.oil.as_ref();
     let slices = outcome.slices.count().max(1) as f64;
     let width_mm = model.pair.spec.face_width_mm / slices;
-    let mut work = Work::default();
-    for (place, states) in places.iter().zip(states) {
-        let sliding_m_per_s = running.contact(place.position_mm, 0.0, 0.0).sliding_speed_m_per_s();
-        for (which, state) in states.iter().enumerate() {
-            let power_w = place.load_n_per_mm[which] * width_mm * sliding_m_per_s * place.length_mm
-                / model.pair.path.base_pitch_mm;
-            work.sliding_w[which] += power_w;
-            work.friction_w[which] += power_w * state.map_or(0.0, |state| state.friction);
-        }
-    }
+    let work = [0, 1].map(|which| Work::over(model, seen, width_mm, which));
+    let wear_factors = work.each_ref().map(Work::wear_factors);
     let rows: Vec<FilmRow> = places.iter().zip(states).map(|(place, states)| row(running, place, states)).collect();
     let summary = LubricationSummary {
-        oil: oil.as_ref().map(oil_summary),
-        film: oil.as_ref().and_then(|oil| film_summary(&rows, places, oil.settings.permissible_lambda)),
-        method_b: oil.as_ref().map(|oil| running.method_b(oil)),
-        scuffing: oil.as_ref().map(|oil| scuffing::summary(running, oil, &model.scene.material)),
+        oil: oil.map(oil_summary),
+        film: oil.and_then(|oil| film_summary(&rows, places, oil.settings.permissible_lambda, wear_factors)),
+        method_b: oil.map(|oil| method_b(running, oil)),
+        scuffing: oil.map(|oil| scuffing::summary(running, oil, &model.scene.material)),
         friction: friction_summary(running, &work),
         losses: losses(running, &work),
     };
     Observed { summary, rows }
 }
 
-fn row(running: &Running<'_>, place: &Place, states: &[Option<State>; 2]) -> FilmRow {
+fn row(running: &RunningPair<'_>, place: &Place, states: &[Option<State>; 2]) -> FilmRow {
     let surfaces = running.contact(place.position_mm, 0.0, 0.0);
-    let of = |value: fn(&State) -> Option<f64>| states.map(|state| state.as_ref().and_then(value));
-    let [central_film_new_um, central_film_worn_um] = of(|state| state.central_um);
-    let [minimum_film_new_um, minimum_film_worn_um] = of(|state| state.least_um);
-    let [local_film_new_um, local_film_worn_um] = of(|state| state.local.map(|local| local.thickness_um));
-    let [lambda_new, lambda_worn] = of(|state| state.lambda);
-    let [flash_new_k, flash_worn_k] = of(|state| state.local.map(|local| local.flash_k));
-    let [friction_new, friction_worn] = of(|state| Some(state.friction));
+    let of = |value: fn(&ContactFilm) -> Option<f64>| {
+        states.map(|state| state.and_then(|state| state.film).as_ref().and_then(value))
+    };
+    let [central_film_new_um, central_film_worn_um] = of(|film| Some(film.central_um));
+    let [minimum_film_new_um, minimum_film_worn_um] = of(|film| Some(film.least_um));
+    let [local_film_new_um, local_film_worn_um] = of(|film| film.local.map(|local| local.thickness_um));
+    let [lambda_new, lambda_worn] = of(|film| film.lambda);
+    let [composite_lambda_new, composite_lambda_worn] = of(|film| Some(film.composite_lambda));
+    let [flash_new_k, flash_worn_k] = of(|film| film.local.map(|local| local.flash_k));
+    let [friction_new, friction_worn] = states.map(|state| state.map(|state| state.friction));
     FilmRow {
         position_mm: place.position_mm,
         slice: place.slice,
@@ -375,6 +275,8 @@ fn row(running: &Running<'_>, place: &Place, states: &[Option<State>; 2]) -> Fil
         flash_worn_K: flash_worn_k,
         friction_new,
         friction_worn,
+        composite_lambda_new,
+        composite_lambda_worn,
     }
 }
 
@@ -402,7 +304,12 @@ fn along_path(rows: &[FilmRow], places: &[Place], value: Value) -> Option<AlongP
     (length > 0.0).then(|| AlongPath { min: extremes.0, max: extremes.1, mean: total / length })
 }
 
-fn film_summary(rows: &[FilmRow], places: &[Place], permissible_lambda: Option<f64>) -> Option<FilmSummary> {
+fn film_summary(
+    rows: &[FilmRow],
+    places: &[Place],
+    permissible_lambda: Option<f64>,
+    [wear_factor_new, wear_factor_worn]: [Option<PerGear<f64>>; 2],
+) -> Option<FilmSummary> {
     let along = |value: Value| along_path(rows, places, value);
     let place_of_least = |value: Value| {
         let least = rows.iter().filter(|row| value(row).is_some());
@@ -424,25 +331,26 @@ fn film_summary(rows: &[FilmRow], places: &[Place], permissible_lambda: Option<f
         micropitting_safety_worn: safety(lambda_worn),
         greatest_flash_new_K: along(|row| row.flash_new_K)?.max,
         greatest_flash_worn_K: along(|row| row.flash_worn_K)?.max,
+        wear_factor_new,
+        wear_factor_worn,
     })
 }
 
-fn friction_summary(running: &Running<'_>, work: &Work) -> FrictionSummary {
-    let [mean_new, mean_worn] = [0, 1]
-        .map(|which| if work.sliding_w[which] > 0.0 { work.friction_w[which] / work.sliding_w[which] } else { 0.0 });
+fn friction_summary(running: &RunningPair<'_>, work: &[Work; 2]) -> FrictionSummary {
+    let [mean_new, mean_worn] = work.each_ref().map(Work::mean_friction);
     FrictionSummary { model: running.settings.friction.model.name().to_owned(), mean_new, mean_worn }
 }
 
-fn losses(running: &Running<'_>, work: &Work) -> LossSummary {
+fn losses(running: &RunningPair<'_>, [new, worn]: &[Work; 2]) -> LossSummary {
     let power = running.power_w();
     LossSummary {
         loss_factor_ohlendorf: loss::of_pair(running.pair),
-        loss_factor_local_new: work.sliding_w[0] / power,
-        loss_factor_local_worn: work.sliding_w[1] / power,
+        loss_factor_local_new: new.sliding_w / power,
+        loss_factor_local_worn: worn.sliding_w / power,
         power_W: power,
-        mesh_power_loss_new_W: work.friction_w[0],
-        mesh_power_loss_worn_W: work.friction_w[1],
-        efficiency_new: 1.0 - work.friction_w[0] / power,
-        efficiency_worn: 1.0 - work.friction_w[1] / power,
+        mesh_power_loss_new_W: new.friction_w,
+        mesh_power_loss_worn_W: worn.friction_w,
+        efficiency_new: 1.0 - new.friction_w / power,
+        efficiency_worn: 1.0 - worn.friction_w / power,
     }
 }

@@ -39,6 +39,7 @@ use crate::contact::{
 };
 use crate::fem::gear::model::ModelError;
 use crate::gear::{GearPair, PairError, PerGear, flank_zones::FlankZones};
+use crate::lubrication::running_pair::RunningPair;
 use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
 use crate::mesh_cycle::settings::{Coupling, SliceSettings};
 use crate::mesh_cycle::slice_coupling::SliceCompliance;
@@ -352,11 +353,15 @@ fn carry_out<R>(
         },
         (None, ..) => unreachable!("every surface but fem has springs"),
     };
-    let laws: Vec<(Laws, Option<ContactHeat>)> = scene
+    let laws: Vec<(Laws, Option<ContactHeat>, Option<RunningPair<'_>>)> = scene
         .operation
         .phases
         .iter()
-        .map(|phase| (wear::of_both(&scene.wear_in(phase)), temperature::in_phase(scene, &pair, phase)))
+        .map(|phase| {
+            let running = lubrication::in_phase(scene, &pair, phase, line_load(phase));
+            let heat = temperature::in_phase(scene, &pair, phase, running.as_ref());
+            (wear::of_both(&scene.wear_in(phase)), heat, running)
+        })
         .collect();
     let foundations_mpa_per_mm = case_of_phase.iter().map(|&case| cases[case].foundation_mpa_per_mm).collect();
     let phases: Vec<RunPhase<'_>> = scene
@@ -365,9 +370,9 @@ fn carry_out<R>(
         .iter()
         .zip(&case_of_phase)
         .zip(&laws)
-        .map(|((phase, &case), (laws, heat))| RunPhase {
+        .map(|((phase, &case), (laws, heat, running))| RunPhase {
             contact: contact(case),
-            wear: WearModel::new(laws, heat.as_ref()),
+            wear: WearModel::new(laws).under(heat.as_ref(), running.as_ref()),
             line_load_n_per_mm: cases[case].line_load_n_per_mm,
             end_revolutions: phase.end_revolutions,
         })

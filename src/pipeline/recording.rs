@@ -160,11 +160,11 @@ pub(super) fn summary(
 /// Why the wear laws do not tell it from the coefficients alone.
 fn unit_of_volume(model: &Model<'_>, phase: usize) -> Result<PerGear<f64>, String> {
     let own = model.scene.wear_in(&model.scene.operation.phases[phase]);
-    let coefficients = own.map(|own| own.coefficient_mm2_per_n);
+    let coefficients = own.as_ref().map(|own| own.coefficient_mm2_per_n);
     if let Some(gear) = Gear::BOTH.into_iter().find(|&gear| coefficients[gear] <= 0.0) {
         return Err(format!("the {} does not wear", gear.name()));
     }
-    if !own.map(|own| WearSettings { coefficient_mm2_per_n: 1.0, ..own }).are_alike() {
+    if !own.as_ref().map(|own| WearSettings { coefficient_mm2_per_n: 1.0, ..own.clone() }).are_alike() {
         return Err("the gears wear by different laws".to_owned());
     }
     // Equal coefficients leave the volumes as they are.

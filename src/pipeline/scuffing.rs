@@ -1,9 +1,9 @@
 //! Scuffing temperatures of the pair as the standards have them: from geometry and load factors, without the contact of the run.
 
-use super::lubrication::{OilInMesh, Running};
 use crate::contact::settings::Material;
 use crate::gear::{Gear, PerGear};
 use crate::lubrication::loss;
+use crate::lubrication::running_pair::{OilInMesh, RunningPair};
 use crate::lubrication::scuffing::{ScuffingConditions, approach_factor, contact_ratio_factor, tip_relief_factor};
 use crate::results::lubrication::ScuffingSummary;
 use crate::stiffness::iso6336::single_stiffness_n_per_mm2;
@@ -17,7 +17,7 @@ const INTEGRAL_FLASH_TO_BULK: f64 = 0.7;
 /// C₂ of the integral temperature.
 const INTEGRAL_WEIGHT: f64 = 1.5;
 
-pub(super) fn summary(running: &Running<'_>, oil: &OilInMesh, material: &PerGear<Material>) -> ScuffingSummary {
+pub(super) fn summary(running: &RunningPair<'_>, oil: &OilInMesh, material: &PerGear<Material>) -> ScuffingSummary {
     let (pair, path) = (running.pair, &running.pair.path);
     let spec = &pair.spec;
     let factors = &running.settings.load_factors;

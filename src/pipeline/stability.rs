@@ -6,7 +6,7 @@ use crate::observer::Observer;
 use crate::simulation::settings::Stepping;
 use crate::simulation::stability::StepBound;
 use crate::simulation::wear_run::RunPhase;
-use crate::wear::{self, WearModel};
+use crate::wear;
 
 /// What is said of the steps, and the mesh cycles that it took to know.
 #[derive(Default)]
@@ -39,11 +39,11 @@ pub(super) fn judge(model: &Model<'_>, observer: &dyn Observer) -> Judged {
         let own = scene.wear_in(asked);
         // The transition counts as a factor: its jump has no rate of its own.
         let mild = wear::of_both(&own.with_severe(|_| None));
-        let phase = RunPhase { wear: WearModel::new(&mild, phase.wear.heat), ..*phase };
+        let phase = RunPhase { wear: phase.wear.with_laws(&mild), ..*phase };
         let conditions = Conditions {
             line_load_n_per_mm: phase.line_load_n_per_mm,
             pinion_speed_rpm: asked.pinion_speed_rpm,
-            coefficient_mm2_per_n: own.map(|own| own.coefficient_mm2_per_n),
+            coefficient_mm2_per_n: own.as_ref().map(|own| own.coefficient_mm2_per_n),
         };
         let bound = match measured.iter().find(|(before, _)| *before == conditions) {
             Some(&(_, bound)) => bound,

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::Model;
 use crate::contact::settings::SurfaceKind;
 use crate::gear::{Gear, GearPair, PerGear};
-use crate::lubrication::loss;
+use crate::lubrication::{loss, running_pair::RunningPair};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::results::chemistry::{
     GreatestRise, RisesByMethod, TemperatureSummary, ToothTemperatureSummary, WearLawSummary,
@@ -16,7 +16,7 @@ use crate::simulation::settings::Phase;
 use crate::simulation::wear_run::{Outcome, reference_phase};
 use crate::thermal::ContactHeat;
 use crate::thermal::band::Spread;
-use crate::thermal::settings::{ABSOLUTE_ZERO_C, TemperatureMethod};
+use crate::thermal::settings::{ABSOLUTE_ZERO_C, HeatSettings, TemperatureMethod};
 use crate::thermal::tooth::{ToothTemperatures, WarmGear};
 use crate::wear::regime::{MM3_PER_NM, Regime};
 
@@ -24,10 +24,15 @@ use crate::wear::regime::{MM3_PER_NM, Regime};
 const W_PER_N_MM_PER_S: f64 = 1e-3;
 
 /// Friction heat of a phase; none where nobody asks for temperatures.
-pub(super) fn in_phase(scene: &Scene, pair: &GearPair, phase: &Phase) -> Option<ContactHeat> {
+pub(super) fn in_phase(
+    scene: &Scene,
+    pair: &GearPair,
+    phase: &Phase,
+    running: Option<&RunningPair<'_>>,
+) -> Option<ContactHeat> {
     let mut settings = scene.heat?;
     let pinion_per_s = TAU * phase.pinion_speed_rpm? / 60.0;
-    if let Some(teeth) = teeth(scene, pair, phase)
+    if let Some(teeth) = teeth(scene, pair, phase, running)
         && settings.tooth.is_some_and(|tooth| tooth.is_bulk)
     {
         settings.bulk_temperature_k = 0.5 * (teeth.pinion.flank_c + teeth.wheel.flank_c) - ABSOLUTE_ZERO_C;
@@ -35,13 +40,24 @@ pub(super) fn in_phase(scene: &Scene, pair: &GearPair, phase: &Phase) -> Option<
     Some(ContactHeat::new(settings, pair.path.involute.pinion.base_radius_mm * pinion_per_s))
 }
 
+/// μ of the heat: as given, or the mean of the mesh.
+fn mean_friction(settings: &HeatSettings, running: Option<&RunningPair<'_>>) -> f64 {
+    let of_mesh = || running.map_or(0.0, RunningPair::mean_friction);
+    settings.friction_coefficient.unwrap_or_else(of_mesh)
+}
+
 /// The teeth of each gear in a phase; none where nobody asks.
-fn teeth(scene: &Scene, pair: &GearPair, phase: &Phase) -> Option<PerGear<ToothTemperatures>> {
+fn teeth(
+    scene: &Scene,
+    pair: &GearPair,
+    phase: &Phase,
+    running: Option<&RunningPair<'_>>,
+) -> Option<PerGear<ToothTemperatures>> {
     let heat = scene.heat?;
     let tooth = heat.tooth?;
     let pinion_per_s = TAU * phase.pinion_speed_rpm? / 60.0;
     let power_w = W_PER_N_MM_PER_S * phase.pinion_torque_n_mm * pinion_per_s;
-    let loss_w = power_w * heat.friction_coefficient * loss::of_pair(pair);
+    let loss_w = power_w * mean_friction(&heat, running) * loss::of_pair(pair);
     Some(PerGear::from_fn(|gear| {
         let warm = WarmGear {
             teeth: pair.spec.gears[gear].teeth,
@@ -96,10 +112,11 @@ pub(super) fn observe_at(
     let observer = HeatObserver {
         pair: model.pair,
         heat: phase.wear.heat?,
-        laws: phase.wear.laws,
+        wear: phase.wear,
         valid_k: model
             .scene
             .wear
+            .as_ref()
             .map(|own| own.law.valid_temperature_c().map(|range| range.map(|at| at - ABSOLUTE_ZERO_C))),
         spread: match model.scene.contact.surface {
             SurfaceKind::HertzMean => Spread::Even,
@@ -114,8 +131,8 @@ pub(super) fn observe_at(
 /// What the summary says of the temperatures.
 pub(super) fn summary(model: &Model<'_>, observed: &ObservedHeat) -> Option<TemperatureSummary> {
     let phase = reference_phase(&model.phases);
-    let settings = model.phases[phase].wear.heat?.settings;
-    let teeth = teeth(model.scene, model.pair, &model.scene.operation.phases[phase]);
+    let (settings, running) = (model.phases[phase].wear.heat?.settings, model.phases[phase].wear.running);
+    let teeth = teeth(model.scene, model.pair, &model.scene.operation.phases[phase], running);
     let (new, worn) = (observed.new.greatest_rise_k(), observed.worn.greatest_rise_k());
     let by = |k: usize| GreatestRise { greatest_rise_new_K: new[k], greatest_rise_worn_K: worn[k] };
     let own = by(settings.method.index());
@@ -124,7 +141,7 @@ pub(super) fn summary(model: &Model<'_>, observed: &ObservedHeat) -> Option<Temp
         method: settings.method,
         velocity: settings.velocity,
         partition: settings.partition,
-        friction_coefficient: settings.friction_coefficient,
+        friction_coefficient: mean_friction(&settings, running),
         bulk_temperature_C: settings.bulk_temperature_k + ABSOLUTE_ZERO_C,
         tooth: teeth.map(|both| both.map(|at| ToothTemperatureSummary { flank_C: at.flank_c, root_C: at.root_c })),
         greatest_rise_new_K: own.greatest_rise_new_K,

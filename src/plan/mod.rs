@@ -243,12 +243,12 @@ fn finite_element_model(scene: &Scene) -> Result<String, String> {
 }
 
 fn contact_temperature(scene: &Scene) -> Result<String, String> {
-    let names = scene.wear.map(|own| own.law.name());
+    let names = scene.wear.as_ref().map(|own| own.law.name());
     let law = match names.pinion == names.wheel {
         true => names.pinion.to_owned(),
         false => format!("{} of the pinion or {} of the wheel", names.pinion, names.wheel),
     };
-    let reads_temperature = [scene.wear.pinion, scene.wear.wheel].iter().any(|own| own.law.reads_temperature());
+    let reads_temperature = [&scene.wear.pinion, &scene.wear.wheel].iter().any(|own| own.law.reads_temperature());
     match (scene.heat, reads_temperature) {
         (None, _) => Err(format!("the wear law {law} asks for no temperature, and neither does the scene")),
         (Some(heat), reads) => {
@@ -265,7 +265,7 @@ fn contact_temperature(scene: &Scene) -> Result<String, String> {
 }
 
 fn film(scene: &Scene) -> Result<String, String> {
-    match scene.lubrication.map(|lubrication| lubrication.lubricant) {
+    match scene.lubrication.as_ref().map(|lubrication| lubrication.lubricant) {
         None => Err("there is no [lubricant]".to_owned()),
         Some(None) => Err("there is no [lubricant], only a constant friction".to_owned()),
         Some(Some(_)) => {
@@ -277,7 +277,7 @@ fn film(scene: &Scene) -> Result<String, String> {
 }
 
 fn losses(scene: &Scene) -> Result<String, String> {
-    match scene.lubrication {
+    match &scene.lubrication {
         None => Err("there is neither [friction] nor [lubricant]".to_owned()),
         Some(lubrication) => Ok(format!(
             "friction {} along the path of contact, loss factors, mesh power loss, new and worn",

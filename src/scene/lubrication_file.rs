@@ -59,11 +59,25 @@ pub struct LubricantFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FrictionFile {
-    /// The model; all but constant need [lubricant]. Default: iso-6336-22.
+    /// The model; all but constant and table need [lubricant]. Default: table with friction.table, otherwise iso-6336-22.
     pub model: Option<FrictionModel>,
     /// Coefficient of friction μ, > 0 to 2; for model = "constant" only, which needs it.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 2))]
     pub coefficient: Option<f64>,
+    /// A measured traction curve, for model = "table".
+    pub table: Option<FrictionTableFile>,
+}
+
+/// A measured traction curve: straight between its points, and level beyond the first and the last.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FrictionTableFile {
+    /// Slide-to-roll ratio, the sliding speed over the mean speed of both surfaces (0.1 is 10 %), 0 to 1000, rising. Required.
+    #[schemars(length(min = 2), inner(range(min = 0, max = 1000)))]
+    pub slide_to_roll_ratio: Option<Vec<f64>>,
+    /// Coefficient of friction at each, 0 to 2. Required.
+    #[schemars(length(min = 2), inner(range(min = 0, max = 2)))]
+    pub coefficient: Option<Vec<f64>>,
 }
 
 /// Load factors of ISO 6336-1, read by the figures of standards, and the first two by the films of the run's own contact.

@@ -90,7 +90,7 @@ impl Scene {
         PerGear::from_fn(|gear| {
             let own = &self.wear[gear];
             let coefficient_mm2_per_n = phase.coefficient_mm2_per_n[gear].unwrap_or(own.coefficient_mm2_per_n);
-            WearSettings { coefficient_mm2_per_n, ..*own }
+            WearSettings { coefficient_mm2_per_n, ..own.clone() }
         })
     }
 

@@ -5,6 +5,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::lubrication::settings::FilmRatio;
 use crate::thermal::settings::{HeatPartition, HeatVelocity, TemperatureMethod};
 use crate::wear::oxidation::MassRatio;
 
@@ -18,7 +19,7 @@ pub struct TemperatureFile {
     pub velocity: Option<HeatVelocity>,
     /// Which part of the heat each body takes. Default: archard-rowntree.
     pub partition: Option<HeatPartition>,
-    /// Coefficient of friction μ, > 0 to 2. Default: friction.coefficient, otherwise 0.1.
+    /// Coefficient of friction μ, > 0 to 2. Default: with [friction] or [lubricant] that of the mesh at every point, otherwise 0.1.
     #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 2))]
     pub friction_coefficient: Option<f64>,
     /// Bulk temperature of the gears in °C, above absolute zero (−273.15) to 1500. Default: with [temperature.tooth] the mean of
@@ -30,7 +31,7 @@ pub struct TemperatureFile {
 }
 
 /// Temperature of the teeth of plastic gears by VDI 2736-2, from power, friction and loss factor. Needs a coefficient of friction:
-/// temperature.friction_coefficient, or the constant one of [friction].
+/// temperature.friction_coefficient, [friction] or [lubricant].
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ToothTemperatureFile {
@@ -84,6 +85,8 @@ pub struct WearFile {
     pub coefficient_mm3_per_Nm: Option<f64>,
     /// Transition from mild to severe wear. Default: none.
     pub severe: Option<SevereFile>,
+    /// How wear fades as the film of oil gets thicker; needs [lubricant]. Default: not at all.
+    pub film: Option<FilmFile>,
     /// Constants of law = "adsorption". Default: typical orders of magnitude, not those of any lubricant; the run says
     /// which constants are typical ones.
     pub adsorption: Option<AdsorptionFile>,
@@ -110,6 +113,8 @@ pub struct GearWearFile {
     pub coefficient_mm3_per_Nm: Option<f64>,
     /// Transition from mild to severe wear, as a whole in place of wear.severe; a factor of 1 is none. Default: wear.severe.
     pub severe: Option<SevereFile>,
+    /// How wear fades with the film, as a whole in place of wear.film; law = "none": not at all. Default: wear.film.
+    pub film: Option<FilmFile>,
     /// Constants of law = "adsorption", each in place of that of wear.adsorption.
     pub adsorption: Option<AdsorptionFile>,
     /// Constants of law = "oxidation", each in place of that of wear.oxidation.
@@ -161,6 +166,35 @@ pub struct OxidationFile {
     pub density_kg_per_m3: Option<f64>,
     /// How the mass of iron follows from that of oxygen. Default: stoichiometric.
     pub mass_ratio: Option<MassRatio>,
+}
+
+/// A factor on the wear coefficient that follows λ, the film of oil over the roughness of both flanks, at every point of the new and of the worn
+/// flank. Flanks are taken as run in: their roughness is roughness_run_in_Ra_um where that is given.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FilmFile {
+    /// The factor. Required, or lambda and factor, which make it a table.
+    pub law: Option<FilmLaw>,
+    /// λ of law = "table", 0 to 1000, rising.
+    #[schemars(length(min = 2), inner(range(min = 0, max = 1000)))]
+    pub lambda: Option<Vec<f64>>,
+    /// Factor on the wear coefficient at each λ, 0 to 1000: straight between them, and level beyond the first and the last.
+    #[schemars(length(min = 2), inner(range(min = 0, max = 1000)))]
+    pub factor: Option<Vec<f64>>,
+    /// Which film over which roughness λ is. Default: composite.
+    pub ratio: Option<FilmRatio>,
+}
+
+/// How wear follows λ.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FilmLaw {
+    /// Not at all.
+    None,
+    /// Priest and Taylor's: 1 below λ = 0.5, (2/7)(4 − λ) up to 4, no wear above.
+    PriestTaylor,
+    /// As lambda and factor say.
+    Table,
 }
 
 /// Transition from mild to severe wear.

@@ -532,6 +532,48 @@ fn temperatures_of_plastic_teeth() {
 }
 
 #[test]
+fn wear_that_follows_the_film() {
+    let with = |film: &str, more: &str| {
+        Case::fzg_c().with("wear", "law", &format!("law = \"archard\"\nfilm = {{ {film} }}\n{more}"))
+    };
+    let table = |lambda: &str, factor: &str| with(&format!("lambda = [{lambda}], factor = [{factor}]"), "");
+    with("law = \"priest-taylor\"", "")
+        .refused()
+        .says(&["lubricant.temperature_C is missing", "[wear.film] needs the table [lubricant]"]);
+    with("ratio = \"composite\"", "").refused().says(&["wear.film.law is missing", "\"priest-taylor\""]);
+    with("law = \"stribeck\"", "").refused().says(&["stribeck", "priest-taylor"]);
+    for (lambda, factor, says) in [
+        ("1.0", "1.0", "two"),
+        ("0.5, 4.0", "1.0", "two"),
+        ("0.5, 4.0", "0.0, 0.0", "0 at every film"),
+        ("0.5, 4.0", "1.0, 0.5, 0.0", "as many as wear.film.lambda"),
+        ("0.5, -4.0", "1.0, 0.0", "-4"),
+        ("0.5, 4.0", "1.0, -0.1", "-0.1"),
+        ("0.5, nan", "1.0, 0.0", "nan"),
+    ] {
+        table(lambda, factor).refused().says(&["wear.film", says]);
+    }
+}
+
+#[test]
+fn traction_curves() {
+    let with = |table: &str| Case::fzg_c().with("numerics", "verify", &format!("[friction]\n{table}"));
+    for (table, says) in [
+        ("model = \"table\"", "friction.table.slide_to_roll_ratio is missing"),
+        ("table = { slide_to_roll_ratio = [0.0, 0.1] }", "friction.table.coefficient is missing"),
+        ("table = { slide_to_roll_ratio = [0.1, 0.1], coefficient = [0.0, 0.05] }", "greater than 0.1"),
+        ("table = { slide_to_roll_ratio = [0.0, 0.1, 0.2], coefficient = [0.0, 0.05] }", "as many as"),
+        ("table = { slide_to_roll_ratio = [0.0, 0.1], coefficient = [0.0, 5.0] }", "at most 2"),
+        (
+            "model = \"xu\"\ntable = { slide_to_roll_ratio = [0.0, 0.1], coefficient = [0.0, 0.05] }",
+            "needs the table [lubricant]",
+        ),
+    ] {
+        with(table).refused().says(&[says]);
+    }
+}
+
+#[test]
 fn constants_of_wear_laws_out_of_range() {
     for (law, line) in [
         ("adsorption", "molecule_diameter_nm = 0.0"),

@@ -48,7 +48,7 @@ NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(?:\.\d+)?(?:[eE][-+]?\d+)?(?![\w.])")
 STRANGE = ["0", "-0.0", "-1", "1", "nan", "inf", "-inf", "1e308", "-1e308", "5e-324", "1e-30", "1e30", "1e70", "1e-265", "18446744073709551616",
            "2147483648", "0.5", "1e6", "1e-6", "true", '"text"', "[]", "{}", "[1, 2]", "", "30,5", "0x10", "1_000", "2026-01-01"]
 WORDS = ["winkler", "hertz", "hertz-mean", "half-space", "fem", "adaptive", "slicing", "none", "constant", "iso6336", "adsorption", "oxidation",
-         "sector", "ring", "half-width", "approach", "peak-pressure"]
+         "sector", "ring", "half-width", "approach", "peak-pressure", "priest-taylor", "table"]
 
 
 def scaled(rng, text):

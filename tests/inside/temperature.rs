@@ -7,7 +7,7 @@ use gearwear::reference::moving_heat_band;
 use gearwear::results::run::RunRecord;
 use gearwear::scene::{Scene, presets};
 use gearwear::thermal::{
-    ContactHeat, SpeedRatios,
+    ContactHeat, HeatedStrip, SpeedRatios,
     band::Spread,
     heat_equation::{CELLS, Passage},
     settings::{HeatPartition, HeatSettings, HeatVelocity, TemperatureMethod, ThermalMaterial},
@@ -24,7 +24,7 @@ fn settings(method: TemperatureMethod, velocity: HeatVelocity, partition: HeatPa
         method,
         velocity,
         partition,
-        friction_coefficient: 0.1,
+        friction_coefficient: None,
         bulk_temperature_k: 363.15,
         tooth: None,
         material: PerGear { pinion: STEEL, wheel: STEEL },
@@ -116,7 +116,8 @@ fn val_tian_and_kennedy_at_a() {
         let modulus = 206_000.0 / (2.0 * (1.0 - 0.09));
         let load = part * line_load;
         let half_width = (4.0 * load * pair.relative_radius_mm(a) / (std::f64::consts::PI * modulus)).sqrt();
-        let band = heat.band(&ratios, load, half_width);
+        let (line_load_n_per_mm, half_width_mm) = (load, half_width);
+        let band = heat.band(&HeatedStrip { ratios, line_load_n_per_mm, half_width_mm, friction_coefficient: 0.1 });
         Gear::BOTH.map(|gear| band.greatest_rise_k(gear, Spread::Even))
     };
     for (rpm, part, expected) in

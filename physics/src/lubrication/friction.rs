@@ -29,7 +29,8 @@
 //! gear oil up to 2.5 GPa, and goes to zero with the sliding.
 
 use super::rolling_contact::RollingContact;
-use super::settings::{BaseOil, FrictionModel};
+use super::settings::{BaseOil, FrictionModel, FrictionTable};
+use crate::reference::linear_means::value_at;
 
 /// No lubricated mesh has more; where sliding stops logarithms do.
 const GREATEST: f64 = 0.2;
@@ -100,7 +101,7 @@ impl MeanConditions {
             FrictionModel::Iso633622 => Some(self.iso_6336_22()),
             FrictionModel::Iso633621 => Some(self.iso_6336_21()),
             FrictionModel::Iso633620 => Some(self.iso_6336_20()),
-            FrictionModel::Constant | FrictionModel::BenedictKelley | FrictionModel::Xu => None,
+            FrictionModel::Constant | FrictionModel::BenedictKelley | FrictionModel::Xu | FrictionModel::Table => None,
         }
     }
 }
@@ -111,6 +112,13 @@ pub fn lubricant_factor(base: BaseOil) -> f64 {
         BaseOil::Mineral => 1.0,
         BaseOil::Polyalphaolefin => 0.8,
         BaseOil::Polyglycol => 0.7,
+    }
+}
+
+impl FrictionTable {
+    /// μ at a point.
+    pub fn at(&self, contact: &RollingContact) -> f64 {
+        value_at(&self.slide_to_roll_ratio, &self.coefficient, contact.slide_to_roll_ratio())
     }
 }
 
@@ -125,7 +133,7 @@ pub fn benedict_kelley(contact: &RollingContact, viscosity_milli_pa_s: f64, ra_u
 /// Xu's μ at a point.
 pub fn xu(contact: &RollingContact, viscosity_milli_pa_s: f64, rq_um: f64) -> f64 {
     let entrainment = 0.5 * contact.sum_speed_m_per_s();
-    let slide_to_roll = contact.sliding_speed_m_per_s() / entrainment;
+    let slide_to_roll = contact.slide_to_roll_ratio();
     if slide_to_roll == 0.0 {
         return 0.0;
     }

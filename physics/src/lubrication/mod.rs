@@ -10,9 +10,10 @@
 //! | coefficient of friction | [`friction`] |
 //! | Ohlendorf's loss factor | [`loss`] |
 //! | scuffing: flash and integral temperature | [`scuffing`] |
+//! | film and friction wherever the teeth of a pair touch | [`running_pair`] |
 //!
 //! Units are those of the standards, as every formula carries constants of its own: mm, N, MPa, m/s, mPa·s, µm, °C, kW. Names say them.
-//! All of it looks at the mesh from outside; nothing here changes a load or a wear depth.
+//! All of it looks at the mesh from outside; nothing here changes a load, and wear only where a law reads the film.
 
 pub mod film;
 pub mod friction;
@@ -21,5 +22,6 @@ pub mod local_film;
 pub mod loss;
 pub mod oil;
 pub mod rolling_contact;
+pub mod running_pair;
 pub mod scuffing;
 pub mod settings;

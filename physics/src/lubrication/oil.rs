@@ -14,6 +14,8 @@
 //! Gold et al.           α = s ν^t 10⁻⁹                                                ν in mm²/s
 //! ```
 //!
+//! Far above the temperatures at which oils are used these fits go below nothing (α from about 510 °C on); there is no film then.
+//!
 //! | base oil | k | n | s | t |
 //! |---|---|---|---|---|
 //! | mineral | 2.657e-8 | 0.1348 | 9.904 | 0.1390 |
@@ -78,7 +80,7 @@ impl Oil {
 
     /// ρ, kg/m³.
     pub fn density_kg_per_m3(&self, temperature_c: f64) -> f64 {
-        self.settings.density_15c_kg_per_m3 - 0.7 * (temperature_c - 16.0)
+        (self.settings.density_15c_kg_per_m3 - 0.7 * (temperature_c - 16.0)).max(0.0)
     }
 
     /// η, mPa·s.
@@ -96,7 +98,7 @@ impl Oil {
             }
             PressureViscosity::Fit(PressureViscosityFit::Iso633622) => {
                 let at_reference = factor * (1e-3 * self.viscosity_milli_pa_s(REFERENCE_C)).powf(exponent);
-                1e9 * at_reference * (1.0 + 516.0 * (1.0 / (temperature_c + 273.0) - 1.0 / 311.0))
+                (1e9 * at_reference * (1.0 + 516.0 * (1.0 / (temperature_c + 273.0) - 1.0 / 311.0))).max(0.0)
             }
         }
     }
@@ -115,6 +117,15 @@ mod tests {
             base: BaseOil::Mineral,
             density_15c_kg_per_m3: 890.0,
             pressure_viscosity: PressureViscosity::Fit(PressureViscosityFit::Iso633622),
+        }
+    }
+
+    /// Flashes at tip edges under load are hotter than any oil: what is left of its film is none, and a number.
+    #[test]
+    fn prop_hot_oil_has_no_film() {
+        let oil = Oil::new(of_reports());
+        for celsius in [600.0, 1400.0, 1e5] {
+            assert_eq!(oil.pressure_viscosity_per_gpa(celsius) * oil.viscosity_milli_pa_s(celsius), 0.0);
         }
     }
 

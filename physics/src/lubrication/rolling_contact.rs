@@ -7,6 +7,8 @@
 //! The relative radius of curvature and the load are those of the section perpendicular to the line of contact: ρ_n = ρ_t/cos β_b, and
 //! the load per mm of that line.
 
+use std::f64::consts::PI;
+
 use crate::gear::PerGear;
 
 /// A contact along a line under load.
@@ -28,6 +30,11 @@ impl RollingContact {
         self.surface_speeds_m_per_s.sum()
     }
 
+    /// v_g/(v_Σ/2).
+    pub fn slide_to_roll_ratio(&self) -> f64 {
+        self.sliding_speed_m_per_s() / (0.5 * self.sum_speed_m_per_s())
+    }
+
     /// v_g, m/s.
     pub fn sliding_speed_m_per_s(&self) -> f64 {
         (self.surface_speeds_m_per_s.pinion - self.surface_speeds_m_per_s.wheel).abs()
@@ -41,4 +48,12 @@ pub struct Bodies {
     pub reduced_modulus_mpa: f64,
     /// B_M of each, W·√s/(m²·K).
     pub thermal_contact_w_s05_per_m2_k: PerGear<f64>,
+}
+
+impl Bodies {
+    /// Hertz's pressure of a contact without its own, MPa.
+    pub fn peak_pressure_mpa(&self, contact: &RollingContact) -> f64 {
+        let radius_mm = contact.relative_radius_mm;
+        (self.reduced_modulus_mpa * contact.line_load_n_per_mm / (2.0 * PI * radius_mm)).sqrt()
+    }
 }

@@ -123,7 +123,7 @@ pub struct LubricantSettings {
 pub struct Roughness {
     /// Arithmetic mean Ra, µm.
     pub ra_um: f64,
-    /// The same of the worn flank, µm.
+    /// The same of the flank that is run in, µm.
     pub run_in_ra_um: f64,
     /// Root mean square Rq, µm.
     pub rq_um: f64,
@@ -151,6 +151,8 @@ pub enum FrictionModel {
     BenedictKelley,
     /// Xu's, at every point.
     Xu,
+    /// By the slide-to-roll ratio at every point, as friction.table has it.
+    Table,
 }
 
 impl FrictionModel {
@@ -164,17 +166,40 @@ impl FrictionModel {
             Self::Iso633620 => "iso-6336-20",
             Self::BenedictKelley => "benedict-kelley",
             Self::Xu => "xu",
+            Self::Table => "table",
         }
     }
 }
 
 /// Friction of the mesh.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct FrictionSettings {
     /// The model.
     pub model: FrictionModel,
     /// μ of [`FrictionModel::Constant`].
     pub coefficient: Option<f64>,
+    /// Of [`FrictionModel::Table`].
+    pub table: Option<FrictionTable>,
+}
+
+/// A measured traction curve: straight between its points, and level beyond them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrictionTable {
+    /// v_g/(v_Σ/2), rising; two at least.
+    pub slide_to_roll_ratio: Vec<f64>,
+    /// μ at each.
+    pub coefficient: Vec<f64>,
+}
+
+/// Which film over which roughness.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum FilmRatio {
+    /// λ_GF of ISO/TS 6336-22: its local film over the mean Ra of both flanks.
+    #[serde(rename = "iso-6336-22")]
+    Iso633622,
+    /// Dowson and Higginson's least film over √(Rq₁² + Rq₂²).
+    #[serde(rename = "composite")]
+    Composite,
 }
 
 /// Factors of ISO 6336-1 by which standards take more load than the nominal one; 1 leaves it.
@@ -198,7 +223,7 @@ impl LoadFactors {
 }
 
 /// Everything that films, friction and losses need beyond the mesh itself.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct LubricationSettings {
     /// None where only a constant friction is asked for.
     pub lubricant: Option<LubricantSettings>,

@@ -28,8 +28,9 @@ use crate::fem::gear::load_transfer::LoadTransfer;
 use crate::fem::gear::prepared::Prepared;
 use crate::fem::gear::tilted::Worn;
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
+use crate::lubrication::running_pair::LoadedPlace;
 use crate::reference::{linear_means::value_at, monotone_cubic::MonotoneCubic};
-use crate::thermal::{ContactHeat, SpeedRatios};
+use crate::thermal::{ContactHeat, HeatedStrip, SpeedRatios};
 use crate::wear::{
     ContactConditions, SlidingRow, WearModel,
     heated_row::{HeatedContact, HeatedRow, RowOfPoints},
@@ -88,6 +89,7 @@ struct Rows {
     pressure_mpa: Vec<f64>,
     depth_mm: Vec<f64>,
     heated: HeatedContactRows,
+    lambda: Vec<f64>,
 }
 
 /// All positions of one base pitch, ready to be evaluated on ever newly worn flanks, whose places are the nodes of the flanks.
@@ -507,12 +509,24 @@ impl LoadedPosition {
             rows.pressure_mpa.clear();
             rows.pressure_mpa.extend(force.iter().zip(&contact.weight_mm).map(|(force, weight)| force / weight));
             for gear in Gear::BOTH {
+                let place = ContactPlace { model: step.model, contact, stretch_mm: self.stretch_mm, gear };
+                let loaded = LoadedPlace {
+                    position_mm: place.position_mm(),
+                    line_load_n_per_mm: force.iter().sum(),
+                    peak_pressure_mpa: rows.pressure_mpa.iter().copied().fold(0.0, f64::max),
+                };
                 let conditions = step.wear.heat_of_law(gear).map(|heat| {
-                    let place = HeatedPlace { model: step.model, contact, stretch_mm: self.stretch_mm, gear };
-                    rows.heated.conditions(heat, place, &rows.pressure_mpa)
+                    let friction_coefficient = step.wear.friction(heat, &loaded);
+                    rows.heated.conditions(heat, place, &rows.pressure_mpa, friction_coefficient)
                 });
-                let sliding_row =
-                    SlidingRow { pressure_mpa: &rows.pressure_mpa, sliding_mm: &contact.sliding_mm, conditions };
+                let films = step.wear.films_of_law(gear);
+                let lambda = films.map(|films| films.fill(&loaded, contact.len(), &mut rows.lambda));
+                let sliding_row = SlidingRow {
+                    pressure_mpa: &rows.pressure_mpa,
+                    sliding_mm: &contact.sliding_mm,
+                    conditions,
+                    lambda,
+                };
                 rows.depth_mm.clear();
                 rows.depth_mm.resize(contact.len(), 0.0);
                 step.wear.laws[gear].add_depth(&sliding_row, &mut rows.depth_mm);
@@ -522,13 +536,22 @@ impl LoadedPosition {
     }
 }
 
-/// A contact as a source of heat.
+/// A contact as a source of heat and a place of films.
 #[derive(Clone, Copy)]
-struct HeatedPlace<'a> {
+struct ContactPlace<'a> {
     model: &'a CondensedPair<'a>,
     contact: &'a LoadTransfer,
     stretch_mm: (f64, f64),
     gear: Gear,
+}
+
+impl ContactPlace<'_> {
+    /// On the path; before A and after E, surfaces roll about as fast as there.
+    fn position_mm(&self) -> f64 {
+        let path = &self.model.pair.path;
+        let own_mm = self.stretch_mm.0.midpoint(self.stretch_mm.1) + f64::from(self.contact.pair) * path.base_pitch_mm;
+        own_mm.clamp(path.start_mm, path.end_mm)
+    }
 }
 
 /// The rows of a contact, whose multipliers stand for stretches of different lengths, as evenly spaced ones and back.
@@ -542,14 +565,16 @@ struct HeatedContactRows {
 
 impl HeatedContactRows {
     /// The conditions of each row of a contact under `pressure_mpa`. The strip is as wide as Hertz's ellipse with the same second moment.
-    fn conditions(&mut self, heat: &ContactHeat, place: HeatedPlace<'_>, pressure_mpa: &[f64]) -> &[ContactConditions] {
-        let HeatedPlace { model, contact, stretch_mm, gear } = place;
-        let path = &model.pair.path;
+    fn conditions(
+        &mut self,
+        heat: &ContactHeat,
+        place: ContactPlace<'_>,
+        pressure_mpa: &[f64],
+        friction_coefficient: f64,
+    ) -> &[ContactConditions] {
+        let ContactPlace { model, contact, stretch_mm, gear } = place;
         let length_mm = stretch_mm.1 - stretch_mm.0;
-        // Before A and after E, surfaces roll about as fast as there.
-        let own_mm = stretch_mm.0.midpoint(stretch_mm.1) + f64::from(contact.pair) * path.base_pitch_mm;
-        let at_mm = own_mm.clamp(path.start_mm, path.end_mm);
-        let rolling = PerGear::from_fn(|gear| model.pair.rolling_ratio(gear, at_mm));
+        let rolling = PerGear::from_fn(|gear| model.pair.rolling_ratio(gear, place.position_mm()));
         let loads = pressure_mpa.iter().zip(&contact.weight_mm).map(|(pressure, weight)| pressure * weight);
         let (mut sum, mut first, mut second, mut slid) = (0.0, 0.0, 0.0, 0.0);
         for (i, load) in loads.enumerate() {
@@ -560,12 +585,13 @@ impl HeatedContactRows {
             slid += load * contact.sliding_mm[i];
         }
         let variance = (second / sum - (first / sum).powi(2)).max(0.0);
-        let heated = HeatedContact {
-            heat,
+        let strip = HeatedStrip {
             ratios: SpeedRatios { sliding: slid / sum / length_mm, rolling },
             line_load_n_per_mm: sum,
             half_width_mm: 2.0 * variance.sqrt(),
+            friction_coefficient,
         };
+        let heated = HeatedContact { heat, strip };
         let greatest = contact.along_mm.iter().copied().fold(0.0, f64::max);
         let count = (2 * contact.len()).max(2);
         let spacing_mm = greatest / (count - 1) as f64;

@@ -9,7 +9,6 @@ pub mod bent_tooth;
 mod collected;
 pub mod condensed;
 pub mod coupled_teeth;
-mod heated;
 pub(crate) mod influence;
 pub mod load_sharing;
 pub mod pair_in_space;
@@ -25,6 +24,7 @@ pub mod sliced_sharing;
 pub mod sliced_teeth;
 pub mod tip_contact;
 pub mod wearing_pair;
+mod worn_points;
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -33,9 +33,9 @@ use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCel
 use crate::gear::{Gear, PerGear, slices::greatest_over_width};
 use crate::wear::WearModel;
 use collected::Collected;
-use heated::{HeatedPlace, WornPoints};
 use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use sliced_mesh::SlicedMesh;
+use worn_points::{ContactPlace, WornPoints};
 
 /// Groups of positions that collect wear on their own; fixed, so that sums always run in the same order.
 const GROUPS: usize = 8;
@@ -88,7 +88,7 @@ impl std::ops::AddAssign for Work {
 struct LoadedPosition<'a> {
     cell: PositionCell,
     on_line_of_action: bool,
-    heated_place: HeatedPlace,
+    place: ContactPlace,
     /// How far the flanks slide on each other there, mm.
     sliding_mm: f64,
     /// The reference pair first.
@@ -329,7 +329,7 @@ impl Group<'_> {
             if !self.collected.take(solved) {
                 return;
             }
-            let contact = (&loaded.pairs[0], &loaded.heated_place);
+            let contact = (&loaded.pairs[0], &loaded.place);
             self.points.wear(wear, contact, removed_mm, PerGear::default(), &mut self.collected.depth_mm);
         }
     }
@@ -348,9 +348,9 @@ impl<'a> LoadedPosition<'a> {
             })
             .collect();
         let (cell, on_line_of_action) = (position.cell, position.on_line_of_action);
-        let heated_place = HeatedPlace::new(flanks, cell);
+        let place = ContactPlace::new(flanks, cell);
         let sliding_mm = flanks.geometry.sliding_mm(cell.lower_mm, cell.upper_mm);
-        Self { cell, on_line_of_action, heated_place, sliding_mm, pairs, equilibrium: Equilibrium::default() }
+        Self { cell, on_line_of_action, place, sliding_mm, pairs, equilibrium: Equilibrium::default() }
     }
 
     /// Equilibrium on the flanks as they are now.

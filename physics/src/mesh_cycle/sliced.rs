@@ -15,13 +15,13 @@ use rayon::prelude::*;
 
 use super::collected::Collected;
 use super::coupled_teeth::CoupledTeeth;
-use super::heated::{HeatedPlace, WornPoints};
 use super::load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use super::part_of_slice::PartOfSlice;
 use super::sliced_mesh::{ObservedContact, ObservedSlicedPosition, SlicedMesh};
 use super::sliced_positions::{ContactPart, SliceContact, SlicedPosition};
 use super::sliced_sharing::balance_on_teeth;
 use super::sliced_teeth::SlicedTeeth;
+use super::worn_points::{ContactPlace, WornPoints};
 use super::{
     CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, in_series, note_contact_of_points,
 };
@@ -80,7 +80,7 @@ struct LoadedPosition<'a> {
     contacts: Vec<SliceContact>,
     pairs: Vec<MeshedPair<'a>>,
     /// Of each contact.
-    heated_places: Vec<HeatedPlace>,
+    places: Vec<ContactPlace>,
     /// Of each contact: how far its load, counted over the whole slice, slides, mm.
     sliding_mm: Vec<f64>,
     /// The teeth that the contacts belong to, where slices are coupled.
@@ -236,7 +236,7 @@ impl Group<'_> {
             if !self.collected.take(solved) {
                 return;
             }
-            let contacts = loaded.contacts.iter().zip(&loaded.heated_places);
+            let contacts = loaded.contacts.iter().zip(&loaded.places);
             for ((contact, place), pair) in contacts.zip(&loaded.pairs) {
                 let own = of_slice(removed_mm, points, contact.slice);
                 let first = points.map(|points| contact.slice * points);
@@ -272,10 +272,10 @@ impl<'a> LoadedPosition<'a> {
             position_mm: phase.position_mm,
             contacts: phase.contacts.clone(),
             pairs,
-            heated_places: phase
+            places: phase
                 .contacts
                 .iter()
-                .map(|contact| HeatedPlace::new(flanks, contact.cell).of_part(contact.part.of_width))
+                .map(|contact| ContactPlace::new(flanks, contact.cell).of_part(contact.part.of_width))
                 .collect(),
             sliding_mm: phase
                 .contacts

@@ -22,6 +22,9 @@ pub enum HertzError {
     RelativeCurvature(f64),
 }
 
+/// Greatest over mean pressure of a line contact, whose pressure is an ellipse.
+pub const PEAK_OVER_MEAN: f64 = 4.0 / std::f64::consts::PI;
+
 /// Contact modulus E* of two bodies with Young's modulus E in MPa and Poisson's ratio ν each: 1/E* = (1 − ν1²)/E1 + (1 − ν2²)/E2.
 pub fn contact_modulus_mpa(bodies: [(f64, f64); 2]) -> f64 {
     let [one, two] = bodies.map(|(young_modulus_mpa, poisson_ratio)| (1.0 - poisson_ratio.powi(2)) / young_modulus_mpa);

@@ -5,6 +5,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::gear::PerGear;
+
 /// Films, friction and losses under the load of the reference phase.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LubricationSummary {
@@ -81,6 +83,12 @@ pub struct FilmSummary {
     pub greatest_flash_new_K: f64,
     /// The same, worn.
     pub greatest_flash_worn_K: f64,
+    /// Factor of the film on the wear coefficient of each gear, the mean over the sliding work of a mesh, new; `None` where wear does not follow it.
+    #[serde(default)]
+    pub wear_factor_new: Option<PerGear<f64>>,
+    /// The same, worn.
+    #[serde(default)]
+    pub wear_factor_worn: Option<PerGear<f64>>,
 }
 
 /// ISO/TS 6336-22 Method B.
@@ -216,4 +224,8 @@ pub struct FilmRow {
     pub friction_new: Option<f64>,
     /// the same, worn
     pub friction_worn: Option<f64>,
+    /// least film over the composite roughness √(Rq₁² + Rq₂²), new; empty without load
+    pub composite_lambda_new: Option<f64>,
+    /// the same, worn, over the roughness of flanks that are run in
+    pub composite_lambda_worn: Option<f64>,
 }

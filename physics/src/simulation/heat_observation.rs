@@ -12,13 +12,15 @@
 //! and so does the part of it that is done outside the temperatures for which a law holds.
 
 use crate::gear::{Gear, GearPair, PerGear};
+use crate::lubrication::running_pair::LoadedPlace;
 use crate::mesh_cycle::{CycleObservation, sliced_mesh::SlicedMesh};
+use crate::reference::hertz_line::PEAK_OVER_MEAN;
 use crate::thermal::{
-    ContactHeat, SpeedRatios,
+    ContactHeat, HeatedStrip, SpeedRatios,
     band::{HeatedBand, Spread},
     settings::TemperatureMethod,
 };
-use crate::wear::{ContactConditions, FlankWear};
+use crate::wear::{ContactConditions, WearModel};
 
 /// Places across a contact at which its work is weighed.
 const PLACES: usize = 32;
@@ -72,8 +74,8 @@ pub struct HeatObserver<'a> {
     pub pair: &'a GearPair,
     /// The heat.
     pub heat: &'a ContactHeat,
-    /// The wear law of each gear.
-    pub laws: PerGear<&'a dyn FlankWear>,
+    /// The wear law of each gear, and the friction.
+    pub wear: WearModel<'a>,
     /// Temperatures between which it holds, K.
     pub valid_k: PerGear<Option<[f64; 2]>>,
     /// How the heat is spread over a contact.
@@ -204,8 +206,20 @@ impl HeatObserver<'_> {
     }
 
     fn band(&self, method: TemperatureMethod, contact: &Seen) -> HeatedBand<'_> {
-        let ratios = SpeedRatios::over(self.pair, contact.position_mm, contact.position_mm);
-        self.heat.band_by(method, &ratios, contact.line_load_n_per_mm, contact.half_width_mm)
+        let (line_load_n_per_mm, half_width_mm) = (contact.line_load_n_per_mm, contact.half_width_mm);
+        let mean_mpa = if half_width_mm > 0.0 { line_load_n_per_mm / (2.0 * half_width_mm) } else { 0.0 };
+        let place = LoadedPlace {
+            position_mm: contact.position_mm,
+            line_load_n_per_mm,
+            peak_pressure_mpa: PEAK_OVER_MEAN * mean_mpa,
+        };
+        let strip = HeatedStrip {
+            ratios: SpeedRatios::over(self.pair, contact.position_mm, contact.position_mm),
+            line_load_n_per_mm,
+            half_width_mm,
+            friction_coefficient: self.wear.friction(self.heat, &place),
+        };
+        self.heat.band_by(method, &strip)
     }
 
     fn at(&self, contact: &Seen) -> HeatAtPosition {
@@ -246,7 +260,7 @@ impl HeatObserver<'_> {
                     sliding_speed_mm_per_s: self.heat.sliding_speed_mm_per_s(&ratios),
                     temperature_k,
                 };
-                let k = self.laws[gear].mild_coefficient_mm2_per_n(Some(own));
+                let k = self.wear.laws[gear].mild_coefficient_mm2_per_n(Some(own));
                 let part = work * pressure / total;
                 let is_outside = self.valid_k[gear].is_some_and(|[low, high]| !(low..=high).contains(&temperature_k));
                 sums.both.add(part, k, is_outside);

@@ -3,7 +3,7 @@
 use super::heat_equation::{CELLS, Passage};
 use super::peclet::peclet;
 use super::settings::{HeatVelocity, TemperatureMethod, ThermalMaterial};
-use super::{ContactHeat, SpeedRatios, enters_at_tip_side, partition, tian_kennedy, williams};
+use super::{ContactHeat, HeatedStrip, enters_at_tip_side, partition, tian_kennedy, williams};
 use crate::gear::{Gear, PerGear};
 
 /// How the heat is spread over the strip.
@@ -37,18 +37,13 @@ pub struct HeatedBand<'a> {
 
 impl<'a> HeatedBand<'a> {
     /// Of a contact under a line load; without load, width or sliding there is no heat.
-    pub(super) fn new(
-        heat: &'a ContactHeat,
-        method: TemperatureMethod,
-        ratios: &SpeedRatios,
-        line_load_n_per_mm: f64,
-        half_width_mm: f64,
-    ) -> Self {
+    pub(super) fn new(heat: &'a ContactHeat, method: TemperatureMethod, strip: &HeatedStrip) -> Self {
+        let HeatedStrip { ratios, line_load_n_per_mm, half_width_mm, friction_coefficient } = *strip;
         let (settings, speed) = (&heat.settings, heat.speed_mm_per_s);
-        let sliding = heat.sliding_speed_mm_per_s(ratios);
+        let sliding = heat.sliding_speed_mm_per_s(&ratios);
         let warm = line_load_n_per_mm > 0.0 && half_width_mm > 0.0 && sliding > 0.0;
         let mean_pressure_mpa = if warm { line_load_n_per_mm / (2.0 * half_width_mm) } else { 0.0 };
-        let flux = settings.friction_coefficient * mean_pressure_mpa * sliding;
+        let flux = friction_coefficient * mean_pressure_mpa * sliding;
         let with_all = PerGear::from_fn(|gear| HeatedBody {
             flux,
             velocity_mm_per_s: match settings.velocity {
@@ -176,6 +171,7 @@ impl Strip {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::thermal::SpeedRatios;
     use crate::thermal::settings::{HeatPartition, HeatSettings};
 
     fn heat(method: TemperatureMethod, velocity: HeatVelocity) -> ContactHeat {
@@ -184,7 +180,7 @@ mod tests {
             method,
             velocity,
             partition: HeatPartition::ArchardRowntree,
-            friction_coefficient: 0.1,
+            friction_coefficient: None,
             bulk_temperature_k: 363.15,
             tooth: None,
             material: PerGear { pinion: steel, wheel: steel },
@@ -192,14 +188,19 @@ mod tests {
         ContactHeat::new(settings, 531.4)
     }
 
-    const RATIOS: SpeedRatios = SpeedRatios { sliding: 0.468, rolling: PerGear { pinion: 0.132, wheel: 0.600 } };
+    const STRIP: HeatedStrip = HeatedStrip {
+        ratios: SpeedRatios { sliding: 0.468, rolling: PerGear { pinion: 0.132, wheel: 0.600 } },
+        line_load_n_per_mm: 212.6,
+        half_width_mm: 0.0966,
+        friction_coefficient: 0.1,
+    };
 
     /// Hertz's ellipse and an even strip point by point: greatest values as those of the whole strip.
     #[test]
     fn ver_rows_reach_the_greatest_rise() {
         for method in [TemperatureMethod::HeatEquation, TemperatureMethod::Williams, TemperatureMethod::TianKennedy] {
             let heat = heat(method, HeatVelocity::Surface);
-            let band = heat.band(&RATIOS, 212.6, 0.0966);
+            let band = heat.band(&STRIP);
             let mut row = vec![0.0; 204];
             let mut rise = vec![-1.0; 204];
             for spread in [Spread::Even, Spread::Ellipse] {
@@ -226,10 +227,10 @@ mod tests {
     #[test]
     fn ver_both_surfaces_are_equally_hot() {
         let heat = heat(TemperatureMethod::Williams, HeatVelocity::Surface);
-        let band = heat.band(&RATIOS, 212.6, 0.0966);
+        let band = heat.band(&STRIP);
         let [pinion, wheel] = Gear::BOTH.map(|gear| band.greatest_rise_k(gear, Spread::Even));
         assert!((pinion / wheel - 1.0).abs() < 1e-12 && pinion > 1.0);
-        let still = heat.band(&SpeedRatios { sliding: 0.0, ..RATIOS }, 212.6, 0.0966);
+        let still = heat.band(&HeatedStrip { ratios: SpeedRatios { sliding: 0.0, ..STRIP.ratios }, ..STRIP });
         assert_eq!(Gear::BOTH.map(|gear| still.greatest_rise_k(gear, Spread::Ellipse)), [0.0; 2]);
         // The mean of the cells is 1 however few points there are in the strip.
         for (row, per_point) in

@@ -54,6 +54,19 @@ pub struct SpeedRatios {
     pub rolling: PerGear<f64>,
 }
 
+/// The strip of a contact as a source of heat.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HeatedStrip {
+    /// How fast the surfaces move.
+    pub ratios: SpeedRatios,
+    /// Load, N per mm of face width.
+    pub line_load_n_per_mm: f64,
+    /// Half its extent.
+    pub half_width_mm: f64,
+    /// μ.
+    pub friction_coefficient: f64,
+}
+
 impl SpeedRatios {
     /// On average while the contact moves along a stretch of the path, so that a sliding distance over the speed is the time it
     /// takes, also where the flanks stop sliding in between; at the place itself where the stretch has no length.
@@ -77,19 +90,13 @@ impl ContactHeat {
     }
 
     /// The heated strip of a contact, by the method that is asked for.
-    pub fn band(&self, ratios: &SpeedRatios, line_load_n_per_mm: f64, half_width_mm: f64) -> HeatedBand<'_> {
-        self.band_by(self.settings.method, ratios, line_load_n_per_mm, half_width_mm)
+    pub fn band(&self, strip: &HeatedStrip) -> HeatedBand<'_> {
+        self.band_by(self.settings.method, strip)
     }
 
     /// The heated strip of a contact, by any method.
-    pub(crate) fn band_by(
-        &self,
-        method: TemperatureMethod,
-        ratios: &SpeedRatios,
-        line_load_n_per_mm: f64,
-        half_width_mm: f64,
-    ) -> HeatedBand<'_> {
-        HeatedBand::new(self, method, ratios, line_load_n_per_mm, half_width_mm)
+    pub(crate) fn band_by(&self, method: TemperatureMethod, strip: &HeatedStrip) -> HeatedBand<'_> {
+        HeatedBand::new(self, method, strip)
     }
 
     /// Sliding speed in a contact, mm/s.

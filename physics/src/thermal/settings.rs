@@ -85,8 +85,8 @@ pub struct HeatSettings {
     pub velocity: HeatVelocity,
     /// How both share it.
     pub partition: HeatPartition,
-    /// μ.
-    pub friction_coefficient: f64,
+    /// μ; none where it is that of the mesh.
+    pub friction_coefficient: Option<f64>,
     /// Temperature of the bodies away from the contact, K; where `tooth` is the bulk, that of the surroundings, above which it is found for
     /// each load and speed.
     pub bulk_temperature_k: f64,

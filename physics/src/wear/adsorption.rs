@@ -63,7 +63,7 @@ impl WearLaw for Adsorption {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wear::{FlankWear, SlidingRow, WithTransition};
+    use crate::wear::{FlankWear, SlidingRow, WithFactors};
 
     /// Thesis eq 19 at 250 mm/s, 120 °C, 1000 MPa over 0.5 mm, by hand: t₀ exp(E/(R T)) = 3e-12 · exp(14.684 …).
     #[test]
@@ -73,8 +73,8 @@ mod tests {
         let stays = 3e-12 * (48e3 / (8.314_462_618 * 393.15_f64)).exp();
         let expected = 1e-7 * 1000.0 * (1.0 - (-3e-7 / (250.0 * stays)).exp()) * 0.5;
         let mut depth = [0.0];
-        let row = SlidingRow { pressure_mpa: &[1000.0], sliding_mm: &[0.5], conditions: Some(&[own]) };
-        WithTransition { law, severe: None }.add_depth(&row, &mut depth);
+        let row = SlidingRow { pressure_mpa: &[1000.0], sliding_mm: &[0.5], conditions: Some(&[own]), lambda: None };
+        WithFactors::none(law).add_depth(&row, &mut depth);
         assert!((depth[0] / expected - 1.0).abs() < 1e-12, "{} {expected}", depth[0]);
     }
 

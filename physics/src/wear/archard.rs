@@ -36,7 +36,12 @@ mod tests {
         let severe = Some(SevereTransition { above_mpa: 2000.0, factor: 100.0, band_mpa: 0.0 });
         let law = crate::wear::of(&WearSettings { severe, ..WearSettings::archard(1e-11) });
         let mut depth = [0.0; 3];
-        let row = SlidingRow { pressure_mpa: &[1000.0, 2000.0, 2001.0], sliding_mm: &[0.7; 3], conditions: None };
+        let row = SlidingRow {
+            pressure_mpa: &[1000.0, 2000.0, 2001.0],
+            sliding_mm: &[0.7; 3],
+            conditions: None,
+            lambda: None,
+        };
         law.add_depth(&row, &mut depth);
         let expected = [1e-11 * 1000.0 * 0.7, 1e-11 * 2000.0 * 0.7, 1e-9 * 2001.0 * 0.7];
         for (d, e) in depth.iter().zip(expected) {

@@ -2,24 +2,20 @@
 
 use super::ContactConditions;
 use crate::gear::Gear;
-use crate::thermal::{ContactHeat, SpeedRatios, band::Spread};
+use crate::thermal::{ContactHeat, HeatedStrip, band::Spread};
 
 /// What a heated contact is to the points in it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HeatedContact<'a> {
     /// The heat.
     pub heat: &'a ContactHeat,
-    /// How fast the surfaces move.
-    pub ratios: SpeedRatios,
-    /// Load, N per mm of face width.
-    pub line_load_n_per_mm: f64,
-    /// Half the extent of the contact strip.
-    pub half_width_mm: f64,
+    /// The strip that it heats.
+    pub strip: HeatedStrip,
 }
 
 impl HeatedContact<'_> {
     fn at(&self, rise_k: f64) -> ContactConditions {
-        self.sliding_at(self.heat.sliding_speed_mm_per_s(&self.ratios), rise_k)
+        self.sliding_at(self.heat.sliding_speed_mm_per_s(&self.strip.ratios), rise_k)
     }
 
     fn sliding_at(&self, sliding_speed_mm_per_s: f64, rise_k: f64) -> ContactConditions {
@@ -28,7 +24,7 @@ impl HeatedContact<'_> {
 
     /// The conditions where `gear`'s surface is hottest, with the heat spread in some way.
     pub(crate) fn at_hottest(&self, gear: Gear, spread: Spread) -> ContactConditions {
-        let band = self.heat.band(&self.ratios, self.line_load_n_per_mm, self.half_width_mm);
+        let band = self.heat.band(&self.strip);
         self.at(band.greatest_rise_k(gear, spread))
     }
 }
@@ -77,7 +73,7 @@ impl HeatedRow {
 
     fn heat_up(&mut self, contact: &HeatedContact<'_>, points: RowOfPoints<'_>) {
         self.rise_k.resize(points.pressure_mpa.len(), 0.0);
-        let band = contact.heat.band(&contact.ratios, contact.line_load_n_per_mm, contact.half_width_mm);
+        let band = contact.heat.band(&contact.strip);
         band.rises_k(points.gear, points.spacing_mm, points.pressure_mpa, &mut self.rise_k);
     }
 

@@ -3,10 +3,11 @@
 //! Every law here has the form of the generalised Archard law with a coefficient of its own,
 //!
 //! ```text
-//! dh = C(p) · k(v, T) · p ds
+//! dh = C(p) · f(λ) · k(v, T) · p ds
 //! ```
 //!
-//! and a new one is a file that implements [`WearLaw`]. The severe transition C(p) (`severe`) goes with any of them.
+//! and a new one is a file that implements [`WearLaw`]. The severe transition C(p) (`severe`) and the factor f of the film of oil
+//! ([`settings::FilmDependence`]) go with any of them.
 
 pub mod adsorption;
 pub(crate) mod archard;
@@ -18,8 +19,10 @@ mod severe;
 pub mod stepping;
 
 use crate::gear::{Gear, PerGear};
+use crate::lubrication::running_pair::{LoadedPlace, RunningPair};
+use crate::lubrication::settings::FilmRatio;
 use crate::thermal::ContactHeat;
-use settings::{LawSettings, SevereTransition, WearSettings};
+use settings::{FilmDependence, LawSettings, SevereTransition, WearSettings};
 
 /// What the chemistry of a flank point knows of the contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,6 +51,8 @@ pub struct SlidingRow<'a> {
     pub sliding_mm: &'a [f64],
     /// What its chemistry knows, where the law reads it.
     pub conditions: Option<&'a [ContactConditions]>,
+    /// λ at each, where the coefficient follows it.
+    pub lambda: Option<&'a [f64]>,
 }
 
 /// Wear of a flank by some law, in rows of points: the law itself stays out of the inner loop's way.
@@ -58,21 +63,32 @@ pub trait FlankWear: Sync {
     /// Whether rows must have conditions.
     fn reads_conditions(&self) -> bool;
 
-    /// Depth per pressure and sliding distance of mild wear, mm²/N.
+    /// How the coefficient follows the film, where it does and rows should have λ.
+    fn film(&self) -> Option<&FilmDependence>;
+
+    /// Depth per pressure and sliding distance of mild wear without a film, mm²/N.
     fn mild_coefficient_mm2_per_n(&self, conditions: Option<ContactConditions>) -> f64;
 }
 
-/// A law with a transition to severe wear.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct WithTransition<L> {
+/// A law with the factors that go with any.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct WithFactors<L> {
     /// The law of mild wear.
     pub law: L,
-    /// The transition, where there is one.
+    /// The transition to severe wear, where there is one.
     pub severe: Option<SevereTransition>,
+    /// How wear follows the film, where it does.
+    pub film: Option<FilmDependence>,
 }
 
-impl<L: WearLaw> FlankWear for WithTransition<L> {
-    fn add_depth(&self, row: &SlidingRow<'_>, depth_mm: &mut [f64]) {
+impl<L: WearLaw> WithFactors<L> {
+    /// The law alone.
+    #[cfg(test)]
+    pub(crate) fn none(law: L) -> Self {
+        Self { law, severe: None, film: None }
+    }
+
+    fn add_unfilmed(&self, row: &SlidingRow<'_>, depth_mm: &mut [f64]) {
         let points = row.pressure_mpa.iter().zip(row.sliding_mm);
         let add = |(depth, (&pressure, &sliding)): (&mut f64, (&f64, &f64)), k: f64| {
             let factor = self.severe.as_ref().map_or(1.0, |severe| severe.factor_at(pressure));
@@ -88,6 +104,22 @@ impl<L: WearLaw> FlankWear for WithTransition<L> {
             depth_mm.iter_mut().zip(points).for_each(|point| add(point, k));
         }
     }
+}
+
+impl<L: WearLaw> FlankWear for WithFactors<L> {
+    fn add_depth(&self, row: &SlidingRow<'_>, depth_mm: &mut [f64]) {
+        let Some((film, lambda)) = self.film.as_ref().zip(row.lambda) else {
+            return self.add_unfilmed(row, depth_mm);
+        };
+        // Sliding under a film counts as less of it.
+        let sliding_mm: Vec<f64> =
+            row.sliding_mm.iter().zip(lambda).map(|(sliding, &lambda)| film.factor_at(lambda) * sliding).collect();
+        self.add_unfilmed(&SlidingRow { sliding_mm: &sliding_mm, ..*row }, depth_mm);
+    }
+
+    fn film(&self) -> Option<&FilmDependence> {
+        self.film.as_ref()
+    }
 
     fn reads_conditions(&self) -> bool {
         L::READS_CONDITIONS
@@ -100,14 +132,17 @@ impl<L: WearLaw> FlankWear for WithTransition<L> {
 
 /// The wear that a scene asks for.
 pub fn of(settings: &WearSettings) -> Box<dyn FlankWear> {
-    let (k, severe) = (settings.coefficient_mm2_per_n, settings.severe);
+    fn boxed<L: WearLaw + 'static>(law: L, settings: &WearSettings) -> Box<dyn FlankWear> {
+        Box::new(WithFactors { law, severe: settings.severe, film: settings.film.clone() })
+    }
+    let k = settings.coefficient_mm2_per_n;
     match settings.law {
-        LawSettings::Archard => Box::new(WithTransition { law: archard::Archard { coefficient_mm2_per_n: k }, severe }),
+        LawSettings::Archard => boxed(archard::Archard { coefficient_mm2_per_n: k }, settings),
         LawSettings::Adsorption(constants) => {
-            Box::new(WithTransition { law: adsorption::Adsorption { coefficient_mm2_per_n: k, constants }, severe })
+            boxed(adsorption::Adsorption { coefficient_mm2_per_n: k, constants }, settings)
         }
         LawSettings::Oxidation(constants) => {
-            Box::new(WithTransition { law: oxidation::Oxidation { coefficient_mm2_per_n: k, constants }, severe })
+            boxed(oxidation::Oxidation { coefficient_mm2_per_n: k, constants }, settings)
         }
     }
 }
@@ -120,24 +155,39 @@ pub fn of_both(settings: &PerGear<WearSettings>) -> Laws {
     PerGear::from_fn(|gear| of(&settings[gear]))
 }
 
-/// How flanks in mesh wear: each gear by which law, and where their heat comes from where a law reads it.
+/// How flanks in mesh wear: each gear by which law, and where its heat and its films come from where a law reads them.
 #[derive(Clone, Copy)]
 pub struct WearModel<'a> {
     /// The law of each gear.
     pub laws: PerGear<&'a dyn FlankWear>,
     /// Friction heat of the contact, where the law or the scene asks for it.
     pub heat: Option<&'a ContactHeat>,
+    /// The pair with its oil, where the scene has any.
+    pub running: Option<&'a RunningPair<'a>>,
 }
 
 impl<'a> WearModel<'a> {
-    /// Both gears by these laws.
-    pub fn new(laws: &'a Laws, heat: Option<&'a ContactHeat>) -> Self {
-        Self { laws: laws.as_ref().map(|law| &**law), heat }
+    /// Both gears by these laws, which read neither heat nor film.
+    pub fn new(laws: &'a Laws) -> Self {
+        Self { laws: laws.as_ref().map(|law| &**law), heat: None, running: None }
     }
 
-    /// Both gears by one law, which reads no conditions.
+    /// Both gears by one law, which reads neither.
     pub fn cold(law: &'a dyn FlankWear) -> Self {
-        Self { laws: PerGear { pinion: law, wheel: law }, heat: None }
+        Self { laws: PerGear { pinion: law, wheel: law }, heat: None, running: None }
+    }
+
+    /// The same in the heat and the oil of the mesh.
+    pub fn under(self, heat: Option<&'a ContactHeat>, running: Option<&'a RunningPair<'a>>) -> Self {
+        Self { heat, running, ..self }
+    }
+
+    /// Other laws in the same heat and oil.
+    pub fn with_laws<'b>(&self, laws: &'b Laws) -> WearModel<'b>
+    where
+        'a: 'b,
+    {
+        WearModel::new(laws).under(self.heat, self.running)
     }
 
     /// The heat, where either law reads what it does to the contact.
@@ -148,5 +198,49 @@ impl<'a> WearModel<'a> {
     /// The heat, where the law of `gear` reads what it does to the contact.
     pub(crate) fn heat_of_law(&self, gear: Gear) -> Option<&'a ContactHeat> {
         self.heat.filter(|_| self.laws[gear].reads_conditions())
+    }
+
+    /// Whether either law reads heat or film.
+    pub(crate) fn reads_places(&self) -> bool {
+        Gear::BOTH.into_iter().any(|gear| self.heat_of_law(gear).is_some() || self.films_of_law(gear).is_some())
+    }
+
+    /// Coefficient of friction that heats a contact: the given one, otherwise that of the mesh.
+    pub(crate) fn friction(&self, heat: &ContactHeat, place: &LoadedPlace) -> f64 {
+        let of_mesh = || self.running.map_or(0.0, |running| running.friction(place));
+        heat.settings.friction_coefficient.unwrap_or_else(of_mesh)
+    }
+
+    /// Factor of the film of a contact on the wear of `gear`; none where its law reads no film.
+    pub fn film_factor(&self, gear: Gear, place: &LoadedPlace) -> Option<f64> {
+        let films = self.films_of_law(gear)?;
+        Some(self.laws[gear].film()?.factor_at(films.lambda(place)))
+    }
+
+    /// Which λ the law of `gear` reads, and of which pair; none where it reads none.
+    pub(crate) fn films_of_law(&self, gear: Gear) -> Option<Films<'a>> {
+        let film = self.laws[gear].film()?;
+        Some(Films { running: self.running?, ratio: film.ratio })
+    }
+}
+
+/// The films that a law reads.
+#[derive(Clone, Copy)]
+pub(crate) struct Films<'a> {
+    running: &'a RunningPair<'a>,
+    ratio: FilmRatio,
+}
+
+impl Films<'_> {
+    /// λ of a contact; no film where there is no load.
+    pub(crate) fn lambda(&self, place: &LoadedPlace) -> f64 {
+        self.running.film_ratio(place, self.ratio).unwrap_or(0.0)
+    }
+
+    /// The same in a row of `points` that are all in one contact.
+    pub(crate) fn fill<'r>(&self, place: &LoadedPlace, points: usize, row: &'r mut Vec<f64>) -> &'r [f64] {
+        row.clear();
+        row.resize(points, self.lambda(place));
+        row
     }
 }

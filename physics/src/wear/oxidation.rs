@@ -101,15 +101,16 @@ impl WearLaw for Oxidation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::wear::{FlankWear, SlidingRow, WithTransition};
+    use crate::wear::{FlankWear, SlidingRow, WithFactors};
 
     fn depth(mass_ratio: MassRatio, sliding_mm: f64, sliding_speed_mm_per_s: f64) -> f64 {
         let constants = OxidationConstants { mass_ratio, ..OxidationConstants::TYPICAL };
         let law = Oxidation { coefficient_mm2_per_n: 1.5e-4, constants };
         let own = ContactConditions { sliding_speed_mm_per_s, temperature_k: 573.15 };
         let mut depth = [0.0];
-        let row = SlidingRow { pressure_mpa: &[1000.0], sliding_mm: &[sliding_mm], conditions: Some(&[own]) };
-        WithTransition { law, severe: None }.add_depth(&row, &mut depth);
+        let row =
+            SlidingRow { pressure_mpa: &[1000.0], sliding_mm: &[sliding_mm], conditions: Some(&[own]), lambda: None };
+        WithFactors::none(law).add_depth(&row, &mut depth);
         depth[0]
     }
 

@@ -5,6 +5,8 @@ use super::adsorption::{Adsorption, AdsorptionConstants};
 use super::archard::Archard;
 use super::oxidation::{Oxidation, OxidationConstants, VALID_TEMPERATURE_C};
 use crate::gear::{Gear, PerGear};
+use crate::lubrication::settings::FilmRatio;
+use crate::reference::linear_means::value_at;
 
 /// The transition from mild to severe wear (thesis eq 26).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,6 +17,32 @@ pub struct SevereTransition {
     pub factor: f64,
     /// Pressure over which the factor rises from 1, half of it to either side of `above_mpa`, MPa; 0: at once, as in the thesis.
     pub band_mpa: f64,
+}
+
+/// How wear fades as the film of oil gets thicker: a factor on the wear coefficient.
+///
+/// Source of the form that [`FilmDependence::priest_taylor`] gives: M. Priest and C. M. Taylor, *Automobile engine tribology – approaching the
+/// surface* (Wear 241, 2000).
+#[derive(Debug, Clone, PartialEq)]
+pub struct FilmDependence {
+    /// Which film over which roughness λ is.
+    pub ratio: FilmRatio,
+    /// λ, rising; two at least.
+    pub lambda: Vec<f64>,
+    /// Factor at each: straight between them, and level beyond.
+    pub factor: Vec<f64>,
+}
+
+impl FilmDependence {
+    /// 1 below λ = 0.5, (2/7)(4 − λ) up to 4, none above.
+    pub fn priest_taylor(ratio: FilmRatio) -> Self {
+        Self { ratio, lambda: vec![0.5, 4.0], factor: vec![1.0, 0.0] }
+    }
+
+    /// The factor under a film.
+    pub fn factor_at(&self, lambda: f64) -> f64 {
+        value_at(&self.lambda, &self.factor, lambda)
+    }
 }
 
 /// Which law, with its own constants.
@@ -90,7 +118,7 @@ impl LawSettings {
 }
 
 /// The wear law with its constants.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct WearSettings {
     /// Which law.
     pub law: LawSettings,
@@ -98,6 +126,8 @@ pub struct WearSettings {
     pub coefficient_mm2_per_n: f64,
     /// Mild-to-severe transition, where asked for.
     pub severe: Option<SevereTransition>,
+    /// How it follows the film of oil, where asked for.
+    pub film: Option<FilmDependence>,
 }
 
 impl PerGear<WearSettings> {
@@ -120,19 +150,35 @@ impl PerGear<WearSettings> {
     }
 
     /// The same laws with another transition in place of each gear's own.
-    pub fn with_severe(self, of: impl Fn(SevereTransition) -> Option<SevereTransition>) -> Self {
-        self.map(|own| WearSettings { severe: own.severe.and_then(&of), ..own })
+    pub fn with_severe(&self, of: impl Fn(SevereTransition) -> Option<SevereTransition>) -> Self {
+        self.as_ref().map(|own| WearSettings { severe: own.severe.and_then(&of), ..own.clone() })
     }
 }
 
 impl WearSettings {
     /// The generalised Archard law without a transition.
     pub fn archard(coefficient_mm2_per_n: f64) -> Self {
-        Self { law: LawSettings::Archard, coefficient_mm2_per_n, severe: None }
+        Self { law: LawSettings::Archard, coefficient_mm2_per_n, severe: None, film: None }
     }
 
-    /// The coefficient, mm²/N, where it is the same at every pressure and temperature.
+    /// The coefficient, mm²/N, where it is the same at every pressure, temperature and film.
     pub fn constant_coefficient_mm2_per_n(&self) -> Option<f64> {
-        (self.law == LawSettings::Archard && self.severe.is_none()).then_some(self.coefficient_mm2_per_n)
+        (self.law == LawSettings::Archard && self.severe.is_none() && self.film.is_none())
+            .then_some(self.coefficient_mm2_per_n)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Priest and Taylor: k₀ for λ < 0.5, (2/7) k₀ (4 − λ) from 0.5 to 4, none above.
+    #[test]
+    fn ver_priest_and_taylor() {
+        let film = FilmDependence::priest_taylor(FilmRatio::Composite);
+        let of = |lambda: f64| if lambda < 0.5 { 1.0 } else { (2.0 / 7.0 * (4.0 - lambda)).max(0.0) };
+        for lambda in [0.0, 0.3, 0.5, 1.0, 2.25, 3.9, 4.0, 7.0] {
+            assert!((film.factor_at(lambda) - of(lambda)).abs() < 1e-14, "{lambda}");
+        }
     }
 }

@@ -18,7 +18,7 @@ use crate::observer::{Observer, PartOf};
 use crate::pipeline::Model;
 use crate::simulation::settings::{Numerics, Phase, Stepping};
 use crate::simulation::wear_run::{Outcome, RunPhase, WearRun};
-use crate::wear::{self, Laws, WearModel, settings::SevereTransition};
+use crate::wear::{self, Laws, settings::SevereTransition};
 
 /// Band that a hard switch is compared with, over its limit.
 const BAND: f64 = 0.05;
@@ -57,7 +57,7 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
     };
     let mild = wear::of_both(&scene.wear.with_severe(|_| None));
     let reference = model.reference();
-    let phase = RunPhase { wear: WearModel::new(&mild, reference.wear.heat), ..*reference };
+    let phase = RunPhase { wear: reference.wear.with_laws(&mild), ..*reference };
     let transitions = || Gear::BOTH.into_iter().filter_map(|gear| scene.wear[gear].severe);
     let factor = transitions().map(|severe| severe.factor).fold(1.0, f64::max);
     let bound = match coarse(fewest, duration).step_bound(&phase, false, &|| observer.gives_up()) {
@@ -88,7 +88,7 @@ pub(super) fn estimate(model: &Model<'_>, outcome: &Outcome, budget: f64, observ
             .phases
             .iter()
             .zip(&laws)
-            .map(|(phase, laws)| RunPhase { wear: WearModel::new(laws, phase.wear.heat), ..*phase })
+            .map(|(phase, laws)| RunPhase { wear: phase.wear.with_laws(laws), ..*phase })
             .collect();
         let run = WearRun { phases: &phases, ..coarse(positions, revolutions) };
         let outcome =

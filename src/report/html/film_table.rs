@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::number::{fixed, percent};
 use super::table::{cells, line, list, row, table};
+use crate::gear::Gear;
 use crate::results::lubrication::{FilmSummary, LubricationSummary, MethodBSummary, OilSummary, ScuffingSummary};
 use crate::results::run::Summary;
 
@@ -42,6 +43,12 @@ fn film(f: &FilmSummary, method_b: Option<&MethodBSummary>) -> Markup {
         row("Minimum film thickness, lowest", "µm", [f.minimum_film_new_um.min, f.minimum_film_worn_um.min]),
         row("Flash temperature, maximum", "K", [f.greatest_flash_new_K, f.greatest_flash_worn_K]),
     ];
+    if let (Some(new), Some(worn)) = (f.wear_factor_new, f.wear_factor_worn) {
+        for gear in Gear::BOTH {
+            let title = format!("Factor of the film on the wear coefficient of the {}, mean", gear.name());
+            rows.push(row(title, "", [fixed(new[gear], 3), fixed(worn[gear], 3)]));
+        }
+    }
     if let (Some(new), Some(worn)) = (f.micropitting_safety_new, f.micropitting_safety_worn) {
         rows.push(row("Safety against micropitting S_λ, Method A", "", [fixed(new, 2), fixed(worn, 2)]));
     }

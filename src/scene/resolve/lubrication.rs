@@ -1,9 +1,10 @@
 //! Oil, friction and load factors: only where the scene asks for films or losses.
 
+use super::curve;
 use crate::gear::{Gear, PerGear};
 use crate::lubrication::settings::{
-    BaseOil, FrictionModel, FrictionSettings, LoadFactors, LubricantSettings, LubricationSettings, OilSettings,
-    PressureViscosity, Roughness,
+    BaseOil, FrictionModel, FrictionSettings, FrictionTable, LoadFactors, LubricantSettings, LubricationSettings,
+    OilSettings, PressureViscosity, Roughness,
 };
 use crate::scene::file::{GearFile, PairFile, SceneFile};
 use crate::scene::findings::Findings;
@@ -99,7 +100,8 @@ fn rough(pair: &PairFile) -> bool {
 fn friction(file: &mut SceneFile, findings: &mut Findings) -> Option<FrictionSettings> {
     let has_oil = file.lubricant.is_some();
     let friction = file.friction.get_or_insert_default();
-    let model = *friction.model.get_or_insert_default();
+    let by_default = if friction.table.is_some() { FrictionModel::Table } else { FrictionModel::default() };
+    let model = *friction.model.get_or_insert(by_default);
     match (model, friction.coefficient) {
         (FrictionModel::Constant, None) => {
             findings.missing(&["friction.coefficient"], "a number greater than 0, at most 2");
@@ -111,15 +113,31 @@ fn friction(file: &mut SceneFile, findings: &mut Findings) -> Option<FrictionSet
             findings.unused("friction.coefficient", "only friction.model = \"constant\" reads it");
         }
     }
-    if model != FrictionModel::Constant && !has_oil {
+    let table = match (model, &friction.table) {
+        (FrictionModel::Table, given) => {
+            let given = given.clone().unwrap_or_default();
+            let [slide_to_roll_ratio, coefficient] = curve::choose(
+                ("friction.table.slide_to_roll_ratio", &given.slide_to_roll_ratio),
+                ("friction.table.coefficient", &given.coefficient),
+                findings,
+            )?;
+            Some(FrictionTable { slide_to_roll_ratio, coefficient })
+        }
+        (_, None) => None,
+        (_, Some(_)) => {
+            findings.unused("[friction.table]", "only friction.model = \"table\" reads it");
+            None
+        }
+    };
+    if !matches!(model, FrictionModel::Constant | FrictionModel::Table) && !has_oil {
         findings.missing(&["lubricant.temperature_C"], "a number from -60 to 250");
         findings.help(format!(
-            "friction.model = {:?} needs the table [lubricant]; \"constant\" with a coefficient does without",
+            "friction.model = {:?} needs the table [lubricant]; \"constant\" and \"table\" do without",
             model.name()
         ));
         return None;
     }
-    Some(FrictionSettings { model, coefficient: friction.coefficient })
+    Some(FrictionSettings { model, coefficient: friction.coefficient, table })
 }
 
 fn lubricant(

@@ -5,6 +5,7 @@
 
 mod centre_distance;
 mod contact_size;
+mod curve;
 mod fem;
 mod geometry;
 mod lubrication;
@@ -128,13 +129,13 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let stiffness = settings::stiffness(&mut file.stiffness, teeth, findings);
     let stiffness_by_default = file.stiffness.as_ref().is_none_or(|stiffness| stiffness.model.is_none());
     let stiffness_curve_file = file.stiffness.as_ref().and_then(|stiffness| stiffness.curve.clone());
-    let wear = wear::choose(&mut file.wear, findings);
+    let wear = wear::choose(&mut file.wear, file.lubricant.is_some(), findings);
     if let (Some(operation), Some(wear)) = (&operation, &wear) {
         wear::check_phases(&file.operation, operation, wear, findings);
     }
     let material = materials.map(|materials| materials.map(|(elastic, _)| elastic));
     let thermal = materials.map(|materials| materials.map(|(_, thermal)| thermal));
-    let laws = wear.map(|wear| wear.map(|own| own.law));
+    let laws = wear.as_ref().map(|wear| wear.as_ref().map(|own| own.law));
     let heat = temperature::choose(&mut file, materials, laws, findings);
     let lubrication = lubrication::choose(&mut file, thermal, findings);
     let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
@@ -150,7 +151,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     }
     let (pair, operation) = (pair?, operation?);
     let finely_resolved = matches!(surface, Some(SurfaceKind::Fem | SurfaceKind::HalfSpace));
-    let is_severe = wear.is_some_and(|wear| wear.may_be_severe());
+    let is_severe = wear.as_ref().is_some_and(|wear| wear.may_be_severe());
     // A life may end within a small part of the duration.
     let adaptive = finely_resolved || is_severe || operation.stop.are_set();
     let numerics = settings::numerics(&mut file.numerics, operation.pinion_revolutions, adaptive, findings);

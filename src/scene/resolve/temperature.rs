@@ -2,7 +2,6 @@
 
 use crate::contact::settings::Material;
 use crate::gear::{Gear, PerGear};
-use crate::lubrication::settings::FrictionModel;
 use crate::scene::file::{OperationFile, PhaseFile, SceneFile};
 use crate::scene::findings::Findings;
 use crate::scene::wear_file::{ToothLubrication, ToothTemperatureFile};
@@ -35,14 +34,12 @@ pub(super) fn choose(
         findings.help(format!("{asked_for_by} needs the speed"));
         return None;
     }
-    let constant = file.friction.as_ref().filter(|friction| friction.model == Some(FrictionModel::Constant));
-    let of_mesh = constant.and_then(|friction| friction.coefficient);
+    let has_mesh_friction = file.friction.is_some() || file.lubricant.is_some();
     let file = file.temperature.get_or_insert_default();
-    let given = file.friction_coefficient.or(of_mesh);
     let tooth = match &mut file.tooth {
         None => None,
         Some(tooth) => {
-            if given.is_none() {
+            if file.friction_coefficient.is_none() && !has_mesh_friction {
                 findings.missing(&["temperature.friction_coefficient"], "a number greater than 0, at most 2");
                 findings.help("[temperature.tooth] needs it; dry plastic on steel has about 0.2, in oil 0.04");
             }
@@ -54,11 +51,14 @@ pub(super) fn choose(
         Some(tooth) if tooth.is_bulk => tooth.ambient_c,
         _ => *file.bulk_temperature_C.get_or_insert(BULK_TEMPERATURE_C),
     };
+    if !has_mesh_friction {
+        file.friction_coefficient.get_or_insert(FRICTION_COEFFICIENT);
+    }
     Some(Some(HeatSettings {
         method: *file.method.get_or_insert_default(),
         velocity: *file.velocity.get_or_insert_default(),
         partition: *file.partition.get_or_insert_default(),
-        friction_coefficient: *file.friction_coefficient.insert(given.unwrap_or(FRICTION_COEFFICIENT)),
+        friction_coefficient: file.friction_coefficient,
         bulk_temperature_k: bulk_c - ABSOLUTE_ZERO_C,
         tooth,
         material: material.map(|(_, thermal)| thermal),

@@ -1,15 +1,17 @@
 //! The wear law of each gear and its constants: what `[wear]` says holds for both, unless a gear's own table says otherwise.
 
+use super::curve;
 use crate::gear::{Gear, PerGear};
+use crate::lubrication::settings::FilmRatio;
 use crate::scene::file::OperationFile;
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
-use crate::scene::wear_file::{AdsorptionFile, GearWearFile, OxidationFile, WearFile, WearLaw};
+use crate::scene::wear_file::{AdsorptionFile, FilmFile, FilmLaw, GearWearFile, OxidationFile, WearFile, WearLaw};
 use crate::simulation::settings::Operation;
 use crate::wear::{
     adsorption::AdsorptionConstants,
     oxidation::OxidationConstants,
-    settings::{LawSettings, SevereTransition, WearSettings},
+    settings::{FilmDependence, LawSettings, SevereTransition, WearSettings},
 };
 
 // The typical constants of `wear::adsorption` and `wear::oxidation`, in the units of the file.
@@ -26,7 +28,7 @@ const COEFFICIENTS: [&str; 2] = ["coefficient_m2_per_N", "coefficient_mm3_per_Nm
 const LAWS: &str = "\"archard\", \"adsorption\" or \"oxidation\"";
 
 /// Chooses the wear law of each gear.
-pub(super) fn choose(file: &mut WearFile, findings: &mut Findings) -> Option<PerGear<WearSettings>> {
+pub(super) fn choose(file: &mut WearFile, has_oil: bool, findings: &mut Findings) -> Option<PerGear<WearSettings>> {
     let keys = COEFFICIENTS.map(|name| format!("wear.{name}"));
     let keys = keys.each_ref().map(String::as_str);
     let of_both = coefficient_mm2_per_n(keys, file.coefficient_m2_per_N, file.coefficient_mm3_per_Nm, findings)?;
@@ -38,7 +40,16 @@ pub(super) fn choose(file: &mut WearFile, findings: &mut Findings) -> Option<Per
     if of_both.is_none() && Gear::BOTH.iter().all(|&gear| !gives_coefficient(&wholes[gear])) {
         findings.missing(&keys, "a number greater than 0");
     }
-    let [pinion, wheel] = Gear::BOTH.map(|gear| of_gear(&mut wholes[gear], gear, findings));
+    let [pinion, wheel] = Gear::BOTH.map(|gear| {
+        let own = match gear {
+            Gear::Pinion => &file.pinion,
+            Gear::Wheel => &file.wheel,
+        };
+        let has_own_film = own.as_ref().is_some_and(|own| own.film.is_some());
+        let film_key = if has_own_film { format!("wear.{}.film", gear.name()) } else { "wear.film".to_owned() };
+        let film = film(&film_key, &mut wholes[gear].film, has_oil, findings);
+        Some(WearSettings { film: film?, ..of_gear(&mut wholes[gear], gear, findings)? })
+    });
     let settings = PerGear { pinion: pinion?, wheel: wheel? };
     if Gear::BOTH.iter().all(|&gear| settings[gear].coefficient_mm2_per_n <= 0.0) {
         let in_mm3 = wholes.wheel.coefficient_mm3_per_Nm.is_some();
@@ -49,8 +60,8 @@ pub(super) fn choose(file: &mut WearFile, findings: &mut Findings) -> Option<Per
     if file.pinion.is_some() || file.wheel.is_some() {
         *file = WearFile { pinion: Some(wholes.pinion), wheel: Some(wholes.wheel), ..WearFile::default() };
     } else {
-        let GearWearFile { severe, adsorption, oxidation, .. } = wholes.pinion;
-        file.severe = severe;
+        let GearWearFile { severe, film, adsorption, oxidation, .. } = wholes.pinion;
+        (file.severe, file.film) = (severe, film);
         (file.adsorption, file.oxidation) =
             (adsorption.or(file.adsorption.take()), oxidation.or(file.oxidation.take()));
     }
@@ -91,6 +102,7 @@ fn whole(file: &WearFile, gear: Gear) -> GearWearFile {
         coefficient_m2_per_N: coefficients[0],
         coefficient_mm3_per_Nm: coefficients[1],
         severe: own.severe.or(file.severe.clone()),
+        film: own.film.or(file.film.clone()),
         adsorption: (law == Some(WearLaw::Adsorption)).then(adsorption),
         oxidation: (law == Some(WearLaw::Oxidation)).then(oxidation),
     }
@@ -124,7 +136,51 @@ fn of_gear(file: &mut GearWearFile, gear: Gear, findings: &mut Findings) -> Opti
         factor: severe.factor,
         band_mpa: *severe.band_MPa.get_or_insert(0.0),
     });
-    Some(WearSettings { law, coefficient_mm2_per_n, severe })
+    Some(WearSettings { law, coefficient_mm2_per_n, severe, film: None })
+}
+
+/// How wear follows the film by the table `key`; `Some(None)` where not at all.
+fn film(
+    key: &str,
+    file: &mut Option<FilmFile>,
+    has_oil: bool,
+    findings: &mut Findings,
+) -> Option<Option<FilmDependence>> {
+    let Some(file) = file else { return Some(None) };
+    let is_table = file.lambda.is_some() || file.factor.is_some();
+    let (lambda_key, factor_key) = (format!("{key}.lambda"), format!("{key}.factor"));
+    let law = match file.law {
+        Some(law) => law,
+        None if is_table => *file.law.insert(FilmLaw::Table),
+        None => {
+            findings.missing(&[&format!("{key}.law")], "\"priest-taylor\", \"table\" or \"none\"");
+            return None;
+        }
+    };
+    if is_table && law != FilmLaw::Table {
+        findings.unused(&format!("{key}.lambda and factor"), &format!("only {key}.law = \"table\" reads them"));
+    }
+    if law == FilmLaw::None {
+        return Some(None);
+    }
+    let ratio = *file.ratio.get_or_insert(FilmRatio::Composite);
+    let film = match law {
+        FilmLaw::PriestTaylor => FilmDependence::priest_taylor(ratio),
+        _ => {
+            let [lambda, factor] = curve::choose((&lambda_key, &file.lambda), (&factor_key, &file.factor), findings)?;
+            FilmDependence { ratio, lambda, factor }
+        }
+    };
+    if film.factor.iter().all(|&factor| factor <= 0.0) {
+        findings.not_allowed(&factor_key, "0 at every film", "a number greater than 0 at one at least");
+        return None;
+    }
+    if !has_oil {
+        findings.missing(&["lubricant.temperature_C"], "a number from -60 to 250");
+        findings.help(format!("[{key}] needs the table [lubricant]"));
+        return None;
+    }
+    Some(Some(film))
 }
 
 /// Warns of constants of laws by which no gear that they are given for wears.

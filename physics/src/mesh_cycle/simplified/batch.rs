@@ -14,13 +14,15 @@ use super::exact::SlicesInSeries;
 use super::lanes::{LANES, Lanes};
 use super::loaded_position::{Attempt, Common, LoadedPosition, Pack, Tangent, UNUSED_GAP_MM};
 use crate::gear::{Gear, PerGear};
+use crate::lubrication::running_pair::LoadedPlace;
 use crate::mesh_cycle::{
     Work,
     coupled_teeth::CoupledTeeth,
     load_sharing::EquilibriumError,
     sliced_positions::{SliceContact, SlicedPosition},
 };
-use crate::thermal::{SpeedRatios, band::Spread};
+use crate::reference::hertz_line::PEAK_OVER_MEAN;
+use crate::thermal::{HeatedStrip, SpeedRatios, band::Spread};
 use crate::wear::{ContactConditions, SlidingRow, WearModel, heated_row::HeatedContact};
 
 /// What a contact's load does to the flanks, over its square root.
@@ -59,6 +61,8 @@ pub(crate) struct Batch {
     pressure_mpa: Row,
     sliding_mm: [Row; 2],
     conditions: Vec<ContactConditions>,
+    lambda: Vec<f64>,
+    places: Vec<LoadedPlace>,
     begun: bool,
     outcome: Result<Work, EquilibriumError>,
 }
@@ -149,6 +153,8 @@ impl Batch {
             pressure_mpa: row(longest),
             sliding_mm: [row(longest), row(longest)],
             conditions: Vec::new(),
+            lambda: Vec::new(),
+            places: Vec::new(),
             begun: false,
             outcome: Ok(Work::default()),
         }
@@ -246,25 +252,46 @@ impl Batch {
             *of_wheel = (root * per_root.sliding[1]).0;
         }
         let pressure = self.pressure_mpa[..range.len()].as_flattened();
+        let packs = &self.packs[range.clone()];
+        // Lanes without a contact carry no load, wherever they are.
+        let positions = self.phases[index].contacts.iter().map(|contact| contact.cell.position_mm);
+        let positions = positions.chain(std::iter::repeat(self.loaded_positions[index].position_mm));
+        let loads = packs.iter().flat_map(|pack| pack.loads().0).zip(pressure);
+        self.places.clear();
+        if wear.reads_places() {
+            self.places.extend(positions.zip(loads).map(|(position_mm, (line_load_n_per_mm, &mean_mpa))| {
+                LoadedPlace { position_mm, line_load_n_per_mm, peak_pressure_mpa: PEAK_OVER_MEAN * mean_mpa }
+            }));
+        }
+        let places = &self.places;
         for (gear, sliding) in [(Gear::Pinion, &*sliding_1), (Gear::Wheel, &*sliding_2)] {
             let depth = self.depth_mm[gear][range.clone()].as_flattened_mut();
             depth.fill(0.0);
             let sliding_mm = sliding[..range.len()].as_flattened();
-            let (row, contacts) =
-                (&mut self.conditions, self.packs[range.clone()].iter().zip(&self.per_root[range.clone()]));
             let conditions = wear.heat_of_law(gear).map(|heat| {
-                let lanes = contacts.flat_map(|(pack, per_root)| {
-                    let (load, half_width) = (pack.loads(), pack.loads().sqrt() * per_root.half_width);
-                    load.0.into_iter().zip(half_width.0)
-                });
+                let half_widths = packs.iter().zip(&self.per_root[range.clone()]);
+                let half_widths = half_widths.flat_map(|(pack, root)| (pack.loads().sqrt() * root.half_width).0);
                 let ratios = &self.ratios[LANES * range.start..LANES * range.end];
-                row.clear();
-                row.extend(lanes.zip(ratios).map(|((line_load_n_per_mm, half_width_mm), &ratios)| {
-                    HeatedContact { heat, ratios, line_load_n_per_mm, half_width_mm }.at_hottest(gear, Spread::Even)
-                }));
-                &**row
+                self.conditions.clear();
+                self.conditions.extend(places.iter().zip(half_widths.zip(ratios)).map(
+                    |(place, (half_width_mm, &ratios))| {
+                        let strip = HeatedStrip {
+                            ratios,
+                            line_load_n_per_mm: place.line_load_n_per_mm,
+                            half_width_mm,
+                            friction_coefficient: wear.friction(heat, place),
+                        };
+                        HeatedContact { heat, strip }.at_hottest(gear, Spread::Even)
+                    },
+                ));
+                &*self.conditions
             });
-            wear.laws[gear].add_depth(&SlidingRow { pressure_mpa: pressure, sliding_mm, conditions }, depth);
+            let lambda = wear.films_of_law(gear).map(|films| {
+                self.lambda.clear();
+                self.lambda.extend(places.iter().map(|place| films.lambda(place)));
+                &*self.lambda
+            });
+            wear.laws[gear].add_depth(&SlidingRow { pressure_mpa: pressure, sliding_mm, conditions, lambda }, depth);
         }
     }
 

@@ -1,5 +1,6 @@
 //! The plots of a pair whose sections differ: everything over the flank's length and over the face width.
 
+mod film_maps;
 mod flank_maps;
 mod load_maps;
 mod mesh_orders;
@@ -31,6 +32,7 @@ pub(super) fn figures(run: SlicedRun<'_>) -> Vec<Chart> {
     figures.extend([cycle_plots::transmission_error(run.record), mesh_orders::new_and_worn(run)]);
     figures.extend(cycle_plots::mesh_stiffness(run.record));
     figures.extend(temperature_plot::all(run.record));
+    figures.extend(film_maps::new_and_worn(run));
     figures.extend(film_plot::all(run.record));
     figures.push(history_plot::wear_against_time(run.record));
     figures

@@ -1,17 +1,19 @@
-//! The wear of the flank points in a tooth pair's contact, which is a source of heat for wear laws that read what that does to them.
+//! The wear of the flank points in a tooth pair's contact, which is a source of heat and has a film, for wear laws that read them.
 
 use super::load_sharing::MeshedPair;
 use crate::contact::{Flanks, PairContact, PositionCell, Sweep, strip::point_distance_mm};
 use crate::gear::{Gear, PerGear};
-use crate::thermal::{ContactHeat, SpeedRatios};
+use crate::lubrication::running_pair::LoadedPlace;
+use crate::thermal::{ContactHeat, HeatedStrip, SpeedRatios};
 use crate::wear::{
     ContactConditions, SlidingRow, WearModel,
     heated_row::{HeatedContact, HeatedRow, RowOfPoints},
 };
 
-/// What heat needs to know of the place of a contact.
+/// What heat and film need to know of the place of a contact.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct HeatedPlace {
+pub(super) struct ContactPlace {
+    position_mm: f64,
     ratios: SpeedRatios,
     /// Distance of each flank's points there, mm.
     spacing_mm: PerGear<f64>,
@@ -27,10 +29,11 @@ struct HeatedPair<'a> {
     across: bool,
 }
 
-impl HeatedPlace {
+impl ContactPlace {
     /// The stretch of the path that a loading position stands for.
     pub(super) fn new(flanks: Flanks<'_>, cell: PositionCell) -> Self {
         Self {
+            position_mm: cell.position_mm,
             ratios: SpeedRatios::over(flanks.geometry, cell.lower_mm, cell.upper_mm),
             spacing_mm: PerGear::from_fn(|gear| point_distance_mm(flanks, gear, cell.position_mm)),
             part: 1.0,
@@ -43,18 +46,16 @@ impl HeatedPlace {
     }
 
     /// A pair that is pressed together here; none where neither law reads what heat does.
-    fn under<'a>(
-        &self,
-        wear: &WearModel<'a>,
-        pair: &dyn PairContact,
-        line_load_n_per_mm: f64,
-    ) -> Option<HeatedPair<'a>> {
+    fn under<'a>(&self, wear: &WearModel<'a>, pair: &dyn PairContact, loaded: &LoadedPlace) -> Option<HeatedPair<'a>> {
         let heated = |heat: &'a ContactHeat| HeatedPair {
             contact: HeatedContact {
                 heat,
-                ratios: self.ratios,
-                line_load_n_per_mm: line_load_n_per_mm / self.part,
-                half_width_mm: pair.footprint().half_width_mm,
+                strip: HeatedStrip {
+                    ratios: self.ratios,
+                    line_load_n_per_mm: loaded.line_load_n_per_mm,
+                    half_width_mm: pair.footprint().half_width_mm,
+                    friction_coefficient: wear.friction(heat, loaded),
+                },
             },
             spacing_mm: self.spacing_mm,
             across: pair.sweeps_across(),
@@ -80,6 +81,7 @@ impl HeatedPair<'_> {
 pub(super) struct WornPoints {
     sweep: Sweep,
     heated: HeatedRow,
+    lambda: Vec<f64>,
 }
 
 impl WornPoints {
@@ -88,19 +90,27 @@ impl WornPoints {
     pub(super) fn wear(
         &mut self,
         wear: &WearModel<'_>,
-        (pair, place): (&MeshedPair<'_>, &HeatedPlace),
+        (pair, place): (&MeshedPair<'_>, &ContactPlace),
         removed_mm: PerGear<&[f64]>,
         first: PerGear<usize>,
         depth_mm: &mut PerGear<Vec<f64>>,
     ) {
-        let Self { sweep, heated } = self;
-        let source = place.under(wear, &*pair.contact, pair.response.line_load_n_per_mm);
+        let Self { sweep, heated, lambda } = self;
+        let loaded = LoadedPlace {
+            position_mm: place.position_mm,
+            line_load_n_per_mm: pair.response.line_load_n_per_mm / place.part,
+            peak_pressure_mpa: pair.contact.footprint().peak_pressure_mpa,
+        };
+        let source = place.under(wear, &*pair.contact, &loaded);
         for gear in Gear::BOTH {
             pair.contact.sweep(gear, removed_mm, sweep);
             let points = first[gear] + sweep.first_point..first[gear] + sweep.first_point + sweep.sliding_mm.len();
             let source = source.as_ref().filter(|_| wear.laws[gear].reads_conditions());
             let conditions = source.map(|source| source.conditions(heated, gear, sweep));
-            let row = SlidingRow { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, conditions };
+            let films = wear.films_of_law(gear);
+            let lambda = films.map(|films| films.fill(&loaded, sweep.sliding_mm.len(), lambda));
+            let row =
+                SlidingRow { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, conditions, lambda };
             wear.laws[gear].add_depth(&row, &mut depth_mm[gear][points]);
         }
     }

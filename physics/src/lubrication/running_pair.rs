@@ -1,0 +1,270 @@
+//! A pair of gears at a speed and under a load, with its oil: films and friction wherever its teeth touch.
+//!
+//! Each surface runs at ω ρ through the contact. Load and pressure of a film are those of the contact with the factors K_A K_V, as
+//! ISO/TS 6336-22 has it for a contact analysis (Method A); its radius and speeds are the nominal ones, also where flanks are worn, and before A
+//! and after E those of A and E.
+
+use std::f64::consts::TAU;
+
+use super::film::FilmParameters;
+use super::friction::{self, MeanConditions};
+use super::load_sharing_factor::SharingGeometry;
+use super::local_film::{LocalFilm, bulk_temperature_c, local_film};
+use super::loss;
+use super::oil::Oil;
+use super::rolling_contact::{Bodies, RollingContact};
+use super::scuffing::helical_load_factor;
+use super::settings::{FilmRatio, FrictionModel, LubricantSettings, LubricationSettings, Roughness};
+use crate::gear::conjugate::ConjugateFlanks;
+use crate::gear::{GearPair, PerGear};
+
+/// W per N·mm/s.
+const W_PER_N_MM_PER_S: f64 = 1e-3;
+
+/// Places of the path over which friction is averaged.
+const PLACES: usize = 200;
+
+/// Under what a pair runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RunningConditions {
+    /// Of the pinion, revolutions per minute.
+    pub pinion_speed_rpm: f64,
+    /// F_bt/b, N/mm.
+    pub line_load_n_per_mm: f64,
+    /// E_r of both materials, MPa.
+    pub reduced_modulus_mpa: f64,
+}
+
+/// The pair with its oil.
+#[derive(Debug, Clone)]
+pub struct RunningPair<'a> {
+    /// The gears.
+    pub pair: &'a GearPair,
+    /// What is asked.
+    pub settings: &'a LubricationSettings,
+    /// ω of each gear, rad/s.
+    pub angular_speed_per_s: PerGear<f64>,
+    /// F_bt/b, N/mm.
+    pub line_load_n_per_mm: f64,
+    /// E_r and B_M.
+    pub bodies: Bodies,
+    /// For Method B.
+    pub sharing: SharingGeometry,
+    /// None where only friction without oil is asked for.
+    pub oil: Option<OilInMesh>,
+}
+
+/// The oil in the mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OilInMesh {
+    /// What is asked.
+    pub settings: LubricantSettings,
+    /// The oil.
+    pub oil: Oil,
+    /// For mean values of friction.
+    pub mean: MeanConditions,
+    /// θ_M, °C.
+    pub bulk_c: f64,
+}
+
+/// Flanks as they are made, or as they are after running in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Finish {
+    /// As made.
+    New,
+    /// Run in.
+    RunIn,
+}
+
+/// Where two teeth touch, and how hard.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadedPlace {
+    /// The pinion's radius of curvature, mm.
+    pub position_mm: f64,
+    /// N per mm of face width.
+    pub line_load_n_per_mm: f64,
+    /// Greatest pressure, MPa.
+    pub peak_pressure_mpa: f64,
+}
+
+/// Film of a contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContactFilm {
+    /// In the middle, µm.
+    pub central_um: f64,
+    /// The least, µm.
+    pub least_um: f64,
+    /// Of ISO/TS 6336-22; none without pressure.
+    pub local: Option<LocalFilm>,
+    /// λ_GF: the local film over the mean Ra.
+    pub lambda: Option<f64>,
+    /// The least film over √(Rq₁² + Rq₂²).
+    pub composite_lambda: f64,
+}
+
+impl<'a> RunningPair<'a> {
+    /// `pair` under these conditions.
+    pub fn new(pair: &'a GearPair, settings: &'a LubricationSettings, conditions: RunningConditions) -> Self {
+        let pinion = TAU * conditions.pinion_speed_rpm / 60.0;
+        let thermal = settings.lubricant.map(|lubricant| lubricant.thermal_contact_w_s05_per_m2_k);
+        let dry = Self {
+            pair,
+            settings,
+            angular_speed_per_s: PerGear { pinion, wheel: pinion * pair.wheel_turns_per_pinion_turn() },
+            line_load_n_per_mm: conditions.line_load_n_per_mm,
+            bodies: Bodies {
+                reduced_modulus_mpa: conditions.reduced_modulus_mpa,
+                thermal_contact_w_s05_per_m2_k: thermal.unwrap_or_default(),
+            },
+            sharing: SharingGeometry {
+                points_mm: pair.path.points_mm(),
+                overlap_ratio: pair.overlap_ratio(),
+                base_helix_angle_rad: pair.base_helix_angle_rad(),
+            },
+            oil: None,
+        };
+        Self { oil: settings.lubricant.map(|lubricant| dry.oil(lubricant)), ..dry }
+    }
+
+    fn oil(&self, settings: LubricantSettings) -> OilInMesh {
+        let oil = Oil::new(settings.oil);
+        let at_pitch = self.contact(self.pair.path.pitch_point_mm, 0.0, 0.0);
+        let factors = &self.settings.load_factors;
+        let usual = || friction::lubricant_factor(oil.base());
+        let mean = MeanConditions {
+            line_load_n_per_mm: self.line_load_n_per_mm,
+            tangential_over_base: self.pair.spec.transverse_pressure_angle_rad().cos(),
+            load_factor: factors.product(),
+            helical_factor: helical_load_factor(self.sharing.contact_ratio() + self.sharing.overlap_ratio),
+            application_factor: factors.application,
+            sum_speed_m_per_s: at_pitch.sum_speed_m_per_s(),
+            relative_radius_mm: at_pitch.relative_radius_mm,
+            viscosity_milli_pa_s: oil.viscosity_milli_pa_s(settings.temperature_c),
+            ra_um: 0.5 * settings.roughness.map(|roughness| roughness.ra_um).sum(),
+            lubricant_factor: settings.lubricant_factor.unwrap_or_else(usual),
+        };
+        let loss_kw = 1e-3 * self.power_w() * mean.iso_6336_22() * loss::of_pair(self.pair);
+        let spec = &self.pair.spec;
+        let of_standard = || {
+            let supply = settings.supply.factor();
+            bulk_temperature_c(settings.temperature_c, loss_kw, spec.centre_distance_mm, spec.face_width_mm, supply)
+        };
+        let bulk_c = settings.bulk_temperature_c.unwrap_or_else(of_standard);
+        OilInMesh { settings, oil, mean, bulk_c }
+    }
+
+    /// P, W.
+    pub fn power_w(&self) -> f64 {
+        let base_radius = self.pair.path.involute.pinion.base_radius_mm;
+        let force = self.line_load_n_per_mm * self.pair.spec.face_width_mm;
+        W_PER_N_MM_PER_S * force * base_radius * self.angular_speed_per_s.pinion
+    }
+
+    /// Surfaces at a place, with the load and pressure there.
+    pub fn contact(&self, position_mm: f64, line_load_n_per_mm: f64, peak_pressure_mpa: f64) -> RollingContact {
+        RollingContact {
+            line_load_n_per_mm,
+            relative_radius_mm: self.pair.relative_radius_mm(position_mm) / self.pair.base_helix_angle_rad().cos(),
+            peak_pressure_mpa,
+            surface_speeds_m_per_s: PerGear::from_fn(|gear| {
+                1e-3 * self.angular_speed_per_s[gear] * self.pair.path.rho_mm(gear, position_mm)
+            }),
+        }
+    }
+
+    fn at(&self, place: &LoadedPlace, load_factor: f64) -> RollingContact {
+        let path = &self.pair.path;
+        let position_mm = place.position_mm.clamp(path.start_mm, path.end_mm);
+        let pressure_mpa = load_factor.sqrt() * place.peak_pressure_mpa;
+        self.contact(position_mm, load_factor * place.line_load_n_per_mm, pressure_mpa)
+    }
+
+    /// μ of a contact.
+    pub fn friction(&self, place: &LoadedPlace) -> f64 {
+        self.uniform_friction().unwrap_or_else(|| self.local_friction(&self.at(place, 1.0)))
+    }
+
+    /// μ of a model that is the same everywhere.
+    fn uniform_friction(&self) -> Option<f64> {
+        let friction = &self.settings.friction;
+        match friction.model {
+            FrictionModel::Constant => friction.coefficient,
+            model => self.oil.as_ref()?.mean.mean(model),
+        }
+    }
+
+    fn local_friction(&self, contact: &RollingContact) -> f64 {
+        match (&self.settings.friction.table, &self.oil) {
+            (Some(table), _) => table.at(contact),
+            (None, Some(oil)) if self.settings.friction.model == FrictionModel::BenedictKelley => {
+                friction::benedict_kelley(contact, oil.mean.viscosity_milli_pa_s, oil.mean.ra_um)
+            }
+            (None, Some(oil)) => {
+                let roughness = oil.settings.roughness;
+                let rq_um = roughness.pinion.rq_um.hypot(roughness.wheel.rq_um);
+                friction::xu(contact, oil.mean.viscosity_milli_pa_s, rq_um)
+            }
+            (None, None) => 0.0,
+        }
+    }
+
+    /// The mean of μ over the sliding work of the path, with the loads and pressures of Method B where it is local.
+    pub fn mean_friction(&self) -> f64 {
+        if let Some(uniform) = self.uniform_friction() {
+            return uniform;
+        }
+        let at = |position_mm: f64| {
+            let line_load_n_per_mm = self.sharing.factor(position_mm) * self.line_load_n_per_mm;
+            let contact = self.contact(position_mm, line_load_n_per_mm, 0.0);
+            let peak_pressure_mpa = self.bodies.peak_pressure_mpa(&contact);
+            let work = line_load_n_per_mm * contact.sliding_speed_m_per_s();
+            (work, self.friction(&LoadedPlace { position_mm, line_load_n_per_mm, peak_pressure_mpa }))
+        };
+        let places = self.pair.path.evenly_mm(PLACES).into_iter().map(at);
+        let (work, friction) = places.fold((0.0, 0.0), |(sum, of), (work, mu)| (sum + work, of + work * mu));
+        friction / work
+    }
+
+    /// The film of a contact under load between flanks with this coefficient of friction; none without oil.
+    pub fn film(&self, place: &LoadedPlace, friction: f64, finish: Finish) -> Option<ContactFilm> {
+        let oil = self.oil.as_ref()?;
+        let factors = &self.settings.load_factors;
+        let contact = self.at(place, factors.application * factors.dynamic);
+        let inlet_c = oil.settings.temperature_c;
+        let film = FilmParameters::new(
+            &contact,
+            self.bodies.reduced_modulus_mpa,
+            oil.oil.viscosity_milli_pa_s(inlet_c),
+            oil.oil.pressure_viscosity_per_gpa(inlet_c),
+        );
+        let local = local_film(&contact, &self.bodies, &oil.oil, oil.bulk_c, friction);
+        let least_um = film.least_um();
+        let roughness = oil.settings.roughness.map(|roughness| roughness.of(finish));
+        Some(ContactFilm {
+            central_um: film.central_um(oil.settings.central_film),
+            least_um,
+            local,
+            lambda: local.map(|local| local.thickness_um / (0.5 * roughness.map(|[ra_um, _]| ra_um).sum())),
+            composite_lambda: least_um / roughness.pinion[1].hypot(roughness.wheel[1]),
+        })
+    }
+
+    /// The film of a loaded contact over the roughness of flanks that are run in, as a wear law reads it; none without oil.
+    pub(crate) fn film_ratio(&self, place: &LoadedPlace, ratio: FilmRatio) -> Option<f64> {
+        let film = self.film(place, self.friction(place), Finish::RunIn)?;
+        match ratio {
+            FilmRatio::Iso633622 => film.lambda,
+            FilmRatio::Composite => Some(film.composite_lambda),
+        }
+    }
+}
+
+impl Roughness {
+    /// Ra and Rq, µm; Rq falls with Ra.
+    fn of(&self, finish: Finish) -> [f64; 2] {
+        match finish {
+            Finish::New => [self.ra_um, self.rq_um],
+            Finish::RunIn => [self.run_in_ra_um, self.rq_um * self.run_in_ra_um / self.ra_um],
+        }
+    }
+}
