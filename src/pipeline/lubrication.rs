@@ -10,40 +10,21 @@
 
 use super::{Model, scuffing};
 use crate::contact::settings::SurfaceKind;
-use crate::gear::{Gear, GearPair, PerGear};
+use crate::gear::{Gear, PerGear};
 use crate::lubrication::local_film::local_film;
 use crate::lubrication::loss;
-use crate::lubrication::running_pair::{ContactFilm, Finish, LoadedPlace, OilInMesh, RunningConditions, RunningPair};
-use crate::reference::hertz_line::{PEAK_OVER_MEAN, contact_modulus_mpa};
+use crate::lubrication::running_pair::{ContactFilm, Finish, LoadedPlace, OilInMesh, RunningPair};
+use crate::reference::hertz_line::PEAK_OVER_MEAN;
 use crate::results::lubrication::{
     AlongPath, FilmRow, FilmSummary, FrictionSummary, LossSummary, LubricationSummary, MethodBPoint, MethodBSummary,
     OilSummary,
 };
-use crate::scene::Scene;
-use crate::simulation::settings::Phase;
 use crate::simulation::wear_run::Outcome;
 
 /// What is found, as the record has it.
 pub(super) struct Observed {
     pub summary: LubricationSummary,
     pub rows: Vec<FilmRow>,
-}
-
-/// The pair at the speed and load of a phase, with its oil; none where nobody asks for films or losses.
-pub(super) fn in_phase<'a>(
-    scene: &'a Scene,
-    pair: &'a GearPair,
-    phase: &Phase,
-    line_load_n_per_mm: f64,
-) -> Option<RunningPair<'a>> {
-    let elastic = Gear::BOTH.map(|gear| scene.material[gear]);
-    let modulus = contact_modulus_mpa(elastic.map(|body| (body.young_modulus_mpa, body.poisson_ratio)));
-    let conditions = RunningConditions {
-        pinion_speed_rpm: phase.pinion_speed_rpm?,
-        line_load_n_per_mm,
-        reduced_modulus_mpa: 2.0 * modulus,
-    };
-    Some(RunningPair::new(pair, scene.lubrication.as_ref()?, conditions))
 }
 
 /// A contact of the run.

@@ -358,8 +358,8 @@ fn carry_out<R>(
         .phases
         .iter()
         .map(|phase| {
-            let running = lubrication::in_phase(scene, &pair, phase, line_load(phase));
-            let heat = temperature::in_phase(scene, &pair, phase, running.as_ref());
+            let running = scene.running_in(&pair, phase);
+            let heat = temperature::in_phase(scene, &pair, phase);
             (wear::of_both(&scene.wear_in(phase)), heat, running)
         })
         .collect();

@@ -88,7 +88,7 @@ pub(super) fn summary(
     let mut warnings = resolved.warnings.clone();
     warnings.extend(temperature::all_warnings(wear.as_ref(), &wear_of_gear));
     let temperature = found.heat.and_then(|heat| temperature::summary(model, heat));
-    warnings.extend(temperature::tooth_warning(scene, temperature.as_ref()));
+    warnings.extend(temperature::tooth_warnings(model, temperature.as_ref()));
     warnings.extend(judged.warnings);
     warnings.extend(sharp_edge_warning(pair, outcome));
     warnings.extend(left_out_contact::warning(model, outcome));

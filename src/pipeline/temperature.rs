@@ -5,34 +5,28 @@ use std::f64::consts::TAU;
 use super::Model;
 use crate::contact::settings::SurfaceKind;
 use crate::gear::{Gear, GearPair, PerGear};
-use crate::lubrication::{loss, running_pair::RunningPair};
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::results::chemistry::{
     GreatestRise, RisesByMethod, TemperatureSummary, ToothTemperatureSummary, WearLawSummary,
 };
-use crate::scene::Scene;
+use crate::scene::{Scene, phase_conditions::mean_friction};
 use crate::simulation::heat_observation::{HeatObservation, HeatObserver, LawInHeat, LawOverMesh};
 use crate::simulation::settings::Phase;
 use crate::simulation::wear_run::{Outcome, reference_phase};
 use crate::thermal::ContactHeat;
 use crate::thermal::band::Spread;
-use crate::thermal::settings::{ABSOLUTE_ZERO_C, HeatSettings, TemperatureMethod};
-use crate::thermal::tooth::{ToothTemperatures, WarmGear};
+use crate::thermal::settings::{ABSOLUTE_ZERO_C, TemperatureMethod};
+use crate::thermal::tooth::{TemperatureCurve, ToothTemperatures};
 use crate::wear::regime::{MM3_PER_NM, Regime};
 
-/// W per N·mm/s.
-const W_PER_N_MM_PER_S: f64 = 1e-3;
+/// By how much Young's moduli of phases may differ without a word.
+const NEGLIGIBLE_CHANGE: f64 = 0.02;
 
 /// Friction heat of a phase; none where nobody asks for temperatures.
-pub(super) fn in_phase(
-    scene: &Scene,
-    pair: &GearPair,
-    phase: &Phase,
-    running: Option<&RunningPair<'_>>,
-) -> Option<ContactHeat> {
+pub(super) fn in_phase(scene: &Scene, pair: &GearPair, phase: &Phase) -> Option<ContactHeat> {
     let mut settings = scene.heat?;
     let pinion_per_s = TAU * phase.pinion_speed_rpm? / 60.0;
-    if let Some(teeth) = teeth(scene, pair, phase, running)
+    if let Some(teeth) = scene.teeth_in(pair, phase)
         && settings.tooth.is_some_and(|tooth| tooth.is_bulk)
     {
         settings.bulk_temperature_k = 0.5 * (teeth.pinion.flank_c + teeth.wheel.flank_c) - ABSOLUTE_ZERO_C;
@@ -40,53 +34,60 @@ pub(super) fn in_phase(
     Some(ContactHeat::new(settings, pair.path.involute.pinion.base_radius_mm * pinion_per_s))
 }
 
-/// μ of the heat: as given, or the mean of the mesh.
-fn mean_friction(settings: &HeatSettings, running: Option<&RunningPair<'_>>) -> f64 {
-    let of_mesh = || running.map_or(0.0, RunningPair::mean_friction);
-    settings.friction_coefficient.unwrap_or_else(of_mesh)
-}
-
-/// The teeth of each gear in a phase; none where nobody asks.
-fn teeth(
-    scene: &Scene,
-    pair: &GearPair,
-    phase: &Phase,
-    running: Option<&RunningPair<'_>>,
-) -> Option<PerGear<ToothTemperatures>> {
-    let heat = scene.heat?;
-    let tooth = heat.tooth?;
-    let pinion_per_s = TAU * phase.pinion_speed_rpm? / 60.0;
-    let power_w = W_PER_N_MM_PER_S * phase.pinion_torque_n_mm * pinion_per_s;
-    let loss_w = power_w * mean_friction(&heat, running) * loss::of_pair(pair);
-    Some(PerGear::from_fn(|gear| {
-        let warm = WarmGear {
-            teeth: pair.spec.gears[gear].teeth,
-            face_width_mm: pair.spec.face_width_mm,
-            pitch_velocity_m_per_s: 1e-3 * pair.working_pitch_radius_mm(Gear::Pinion) * pinion_per_s,
-            normal_module_mm: pair.spec.normal_module_mm,
+/// What the user should know of the material of warm teeth: what does not follow their temperature, and what does only in part.
+pub(super) fn tooth_warnings(model: &Model<'_>, summary: Option<&TemperatureSummary>) -> Vec<String> {
+    let Some(teeth) = summary.and_then(|summary| summary.tooth) else { return Vec::new() };
+    let scene = model.scene;
+    let phases = || scene.operation.phases.iter();
+    let mut warnings = Vec::new();
+    for gear in Gear::BOTH.into_iter().filter(|&gear| scene.material[gear].is_plastic()) {
+        let (name, at) = (gear.name(), teeth[gear]);
+        let modulus_gpa = 1e-3 * scene.material[gear].young_modulus_mpa;
+        let (modulus, wear) = (&scene.modulus[gear], &scene.wear[gear].warm);
+        let as_given = match (modulus, wear) {
+            (None, None) => Some("Young's modulus and wear coefficient are"),
+            (None, Some(_)) => Some("Young's modulus is"),
+            (Some(_), None) => Some("the wear coefficient is"),
+            (Some(_), Some(_)) => None,
         };
-        tooth.temperatures(&warm, loss_w)
-    }))
-}
-
-/// What the user should know of the material of plastic teeth: it is as stiff as the scene says, however warm.
-pub(super) fn tooth_warning(scene: &Scene, summary: Option<&TemperatureSummary>) -> Option<String> {
-    let teeth = summary?.tooth?;
-    let warm: Vec<String> = Gear::BOTH
-        .into_iter()
-        .filter(|&gear| scene.material[gear].is_plastic())
-        .map(|gear| {
-            let (name, at, modulus) = (gear.name(), teeth[gear], 1e-3 * scene.material[gear].young_modulus_mpa);
-            format!("{name} {:.0} °C at the flank and {:.0} °C at the root, with {modulus} GPa", at.flank_C, at.root_C)
-        })
-        .collect();
-    (!warm.is_empty()).then(|| {
-        format!(
-            "[temperature.tooth] {}: Young's modulus and wear coefficient are taken as given at every temperature; those of plastics change as \
-             they warm, so that they are to be given at these",
-            warm.join("; ")
-        )
-    })
+        if let Some(what) = as_given {
+            warnings.push(format!(
+                "[temperature.tooth] {name} {:.0} °C at the flank and {:.0} °C at the root, with {modulus_gpa:.4} GPa: {what} taken as given at \
+                 every temperature, and what a plastic has changes as it warms: give it at these, or as it follows the temperature \
+                 (material.{name}.young_modulus_curve, wear.{name}.warm)",
+                at.flank_C, at.root_C
+            ));
+        }
+        let found: Vec<_> = phases().filter_map(|phase| Some(scene.teeth_in(model.pair, phase)?[gear])).collect();
+        let outside = |curve: &TemperatureCurve, at: fn(&ToothTemperatures) -> f64| {
+            found.iter().map(at).find(|&celsius| !curve.covers(celsius))
+        };
+        let ends = [
+            (
+                format!("material.{name}.young_modulus_curve"),
+                modulus.as_ref().and_then(|curve| outside(curve, ToothTemperatures::mean_c)),
+            ),
+            (format!("wear.{name}.warm"), wear.as_ref().and_then(|curve| outside(curve, |teeth| teeth.flank_c))),
+        ];
+        warnings.extend(ends.into_iter().filter_map(|(key, celsius)| {
+            Some(format!(
+                "{key} does not reach {:.0} °C, the temperature of the teeth: the value at its end is taken",
+                celsius?
+            ))
+        }));
+        if let Some(curve) = modulus {
+            let moduli = || found.iter().map(|teeth| 1e-3 * curve.at(teeth.mean_c()));
+            let (least, most) =
+                moduli().fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), own| (low.min(own), high.max(own)));
+            if most > least * (1.0 + NEGLIGIBLE_CHANGE) {
+                warnings.push(format!(
+                    "material.{name}.young_modulus_curve: {modulus_gpa:.4} GPa of the phase of the greatest load is taken in all phases, whose teeth \
+                     would have {least:.4} to {most:.4} GPa"
+                ));
+            }
+        }
+    }
+    warnings
 }
 
 /// Heat of the new and of the worn pair.
@@ -132,7 +133,7 @@ pub(super) fn observe_at(
 pub(super) fn summary(model: &Model<'_>, observed: &ObservedHeat) -> Option<TemperatureSummary> {
     let phase = reference_phase(&model.phases);
     let (settings, running) = (model.phases[phase].wear.heat?.settings, model.phases[phase].wear.running);
-    let teeth = teeth(model.scene, model.pair, &model.scene.operation.phases[phase], running);
+    let teeth = model.scene.teeth_in(model.pair, &model.scene.operation.phases[phase]);
     let (new, worn) = (observed.new.greatest_rise_k(), observed.worn.greatest_rise_k());
     let by = |k: usize| GreatestRise { greatest_rise_new_K: new[k], greatest_rise_worn_K: worn[k] };
     let own = by(settings.method.index());
@@ -143,7 +144,14 @@ pub(super) fn summary(model: &Model<'_>, observed: &ObservedHeat) -> Option<Temp
         partition: settings.partition,
         friction_coefficient: mean_friction(&settings, running),
         bulk_temperature_C: settings.bulk_temperature_k + ABSOLUTE_ZERO_C,
-        tooth: teeth.map(|both| both.map(|at| ToothTemperatureSummary { flank_C: at.flank_c, root_C: at.root_c })),
+        tooth: teeth.map(|both| {
+            PerGear::from_fn(|gear| ToothTemperatureSummary {
+                flank_C: both[gear].flank_c,
+                root_C: both[gear].root_c,
+                young_modulus_GPa: Some(1e-3 * model.scene.material[gear].young_modulus_mpa),
+                wear_factor: model.scene.wear[gear].warm.as_ref().map(|warm| warm.at(both[gear].flank_c)),
+            })
+        }),
         greatest_rise_new_K: own.greatest_rise_new_K,
         greatest_rise_worn_K: own.greatest_rise_worn_K,
         peclet_min,
@@ -158,7 +166,8 @@ pub(super) fn summary(model: &Model<'_>, observed: &ObservedHeat) -> Option<Temp
 
 /// What the summary says of the wear law of both gears; none where each has its own.
 pub(super) fn law(model: &Model<'_>, observed: Option<&ObservedHeat>) -> Option<WearLawSummary> {
-    model.scene.wear.are_alike().then(|| law_over(model, Gear::Pinion, observed, |heat| &heat.both))
+    let own = model.scene.wear_in(&model.scene.operation.phases[reference_phase(&model.phases)]);
+    own.are_alike().then(|| law_over(model, Gear::Pinion, observed, |heat| &heat.both))
 }
 
 /// What it says of the wear law of each gear.
@@ -173,7 +182,8 @@ fn law_over(
     observed: Option<&ObservedHeat>,
     over: impl Fn(&LawInHeat) -> &LawOverMesh,
 ) -> WearLawSummary {
-    let wear = &model.scene.wear[gear];
+    let own = model.scene.wear_in(&model.scene.operation.phases[reference_phase(&model.phases)]);
+    let wear = &own[gear];
     let mild = |of: Option<&HeatObservation>| match of {
         Some(heat) => over(&heat.law).mean_coefficient_mm2_per_n,
         None => model.reference().wear.laws[gear].mild_coefficient_mm2_per_n(None),

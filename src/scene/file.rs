@@ -272,6 +272,8 @@ pub struct MaterialFile {
     /// Young's modulus E of both gears in GPa, > 0. Default 206.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub young_modulus_GPa: Option<f64>,
+    /// Young's modulus of both gears over the temperature of their teeth, in place of young_modulus_GPa; needs [temperature.tooth].
+    pub young_modulus_curve: Option<ModulusCurveFile>,
     /// Poisson's ratio ν of both gears, 0 to below 0.5. Default 0.3.
     #[schemars(range(min = 0), extend("exclusiveMaximum" = 0.5))]
     pub poisson_ratio: Option<f64>,
@@ -290,6 +292,19 @@ pub struct MaterialFile {
     pub wheel: Option<GearMaterialFile>,
 }
 
+/// Young's modulus over temperature, as the data sheet of a plastic has it: straight between its points, and level beyond the first and the last. It is
+/// taken at the mean of flank and root temperature of the gear in the phase of the greatest load, for the whole run.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ModulusCurveFile {
+    /// Temperatures in °C, −273 to 1000, rising. Required.
+    #[schemars(length(min = 2), inner(range(min = -273, max = 1000)))]
+    pub temperature_C: Option<Vec<f64>>,
+    /// Young's modulus in GPa at each, 0.0001 to 1500. Required.
+    #[schemars(length(min = 2), inner(range(min = 0.0001, max = 1500)))]
+    pub young_modulus_GPa: Option<Vec<f64>>,
+}
+
 /// Material of one gear.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -299,6 +314,8 @@ pub struct GearMaterialFile {
     /// Young's modulus E in GPa, > 0. Default 206.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub young_modulus_GPa: Option<f64>,
+    /// Young's modulus over the temperature of the teeth, in place of young_modulus_GPa; needs [temperature.tooth].
+    pub young_modulus_curve: Option<ModulusCurveFile>,
     /// Poisson's ratio ν, 0 to below 0.5. Default 0.3.
     #[schemars(range(min = 0), extend("exclusiveMaximum" = 0.5))]
     pub poisson_ratio: Option<f64>,

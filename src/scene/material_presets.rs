@@ -55,6 +55,7 @@ impl MaterialPreset {
         GearMaterialFile {
             preset: None,
             young_modulus_GPa: Some(modulus),
+            young_modulus_curve: None,
             poisson_ratio: Some(poisson),
             density_kg_per_m3: Some(density),
             thermal_conductivity_W_per_mK: Some(conductivity),

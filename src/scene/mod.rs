@@ -12,6 +12,7 @@ mod locate;
 pub(crate) mod lubrication_file;
 pub(crate) mod material_presets;
 pub(crate) mod nearest;
+pub(crate) mod phase_conditions;
 pub(crate) mod presets;
 pub(crate) mod problem;
 mod resolve;
@@ -27,9 +28,10 @@ use crate::gear::{PerGear, spec::PairSpec};
 use crate::gear_mesh::settings::BodySettings;
 use crate::lubrication::settings::LubricationSettings;
 use crate::mesh_cycle::settings::SliceSettings;
-use crate::simulation::settings::{Numerics, Operation, Phase};
+use crate::simulation::settings::{Numerics, Operation};
 use crate::stiffness::settings::StiffnessSettings;
 use crate::thermal::settings::HeatSettings;
+use crate::thermal::tooth::TemperatureCurve;
 use crate::wear::settings::WearSettings;
 
 pub(crate) use file::SceneFile;
@@ -42,8 +44,10 @@ pub struct Scene {
     pub title: String,
     /// The gear pair as given.
     pub pair: PairSpec,
-    /// Material of each gear.
+    /// Material of each gear, its modulus at the temperature of its teeth where it follows that.
     pub material: PerGear<Material>,
+    /// How Young's modulus of each follows that temperature, MPa; none where it is given.
+    pub modulus: PerGear<Option<TemperatureCurve>>,
     /// Load, speed, duration.
     pub operation: Operation,
     /// Contact surface.
@@ -83,15 +87,6 @@ impl Scene {
     /// Everything that is wrong with the scene, not only the first thing.
     pub fn from_toml(text: &str) -> Result<Resolved, Vec<Problem>> {
         resolve::resolve(text)
-    }
-
-    /// The wear laws under the conditions of `phase`.
-    pub(crate) fn wear_in(&self, phase: &Phase) -> PerGear<WearSettings> {
-        PerGear::from_fn(|gear| {
-            let own = &self.wear[gear];
-            let coefficient_mm2_per_n = phase.coefficient_mm2_per_n[gear].unwrap_or(own.coefficient_mm2_per_n);
-            WearSettings { coefficient_mm2_per_n, ..own.clone() }
-        })
     }
 
     /// What a command that looks at one load leaves out of a scene with phases under others; none where there are no others.

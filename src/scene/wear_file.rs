@@ -87,6 +87,8 @@ pub struct WearFile {
     pub severe: Option<SevereFile>,
     /// How wear fades as the film of oil gets thicker; needs [lubricant]. Default: not at all.
     pub film: Option<FilmFile>,
+    /// Factor on the wear coefficient over the temperature of the flanks of each gear in each phase; needs [temperature.tooth]. Default: none.
+    pub warm: Option<WarmFile>,
     /// Constants of law = "adsorption". Default: typical orders of magnitude, not those of any lubricant; the run says
     /// which constants are typical ones.
     pub adsorption: Option<AdsorptionFile>,
@@ -115,6 +117,8 @@ pub struct GearWearFile {
     pub severe: Option<SevereFile>,
     /// How wear fades with the film, as a whole in place of wear.film; law = "none": not at all. Default: wear.film.
     pub film: Option<FilmFile>,
+    /// Factor over the temperature of the flanks, as a whole in place of wear.warm. Default: wear.warm.
+    pub warm: Option<WarmFile>,
     /// Constants of law = "adsorption", each in place of that of wear.adsorption.
     pub adsorption: Option<AdsorptionFile>,
     /// Constants of law = "oxidation", each in place of that of wear.oxidation.
@@ -183,6 +187,18 @@ pub struct FilmFile {
     pub factor: Option<Vec<f64>>,
     /// Which film over which roughness λ is. Default: composite.
     pub ratio: Option<FilmRatio>,
+}
+
+/// A factor on the wear coefficient over the temperature of the flanks, by VDI 2736-2: straight between its points, and level beyond the first and the last.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct WarmFile {
+    /// Temperatures in °C, −273 to 1000, rising. Required.
+    #[schemars(length(min = 2), inner(range(min = -273, max = 1000)))]
+    pub temperature_C: Option<Vec<f64>>,
+    /// Factor at each, > 0 to 1000. Required.
+    #[schemars(length(min = 2), inner(range(min = 0.000001, max = 1000)))]
+    pub factor: Option<Vec<f64>>,
 }
 
 /// How wear follows λ.

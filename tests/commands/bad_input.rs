@@ -574,6 +574,48 @@ fn traction_curves() {
 }
 
 #[test]
+fn what_follows_the_temperature_of_teeth() {
+    let tooth = "[temperature]\nfriction_coefficient = 0.1\n[temperature.tooth]\nambient_temperature_C = 40.0\nlubrication = \"oil\"";
+    let with = |material: &str, wear: &str, more: &str| {
+        let case = Case::fzg_c().with("material", "young_modulus_GPa", material).with(
+            "wear",
+            "law",
+            &format!("law = \"archard\"\n{wear}"),
+        );
+        case.with("numerics", "verify", more)
+    };
+    let modulus = "young_modulus_GPa = 206.0";
+    let curve = |celsius: &str, gpa: &str| {
+        format!("young_modulus_curve = {{ temperature_C = [{celsius}], young_modulus_GPa = [{gpa}] }}")
+    };
+    let warm = |celsius: &str, factor: &str| format!("warm = {{ temperature_C = [{celsius}], factor = [{factor}] }}");
+    let needed = "needs the table [temperature.tooth]";
+    with(&curve("20.0, 80.0", "3.0, 1.5"), "", "")
+        .refused()
+        .says(&["temperature.tooth.ambient_temperature_C is missing", needed]);
+    with(modulus, &warm("20.0, 80.0", "1.0, 3.0"), "")
+        .refused()
+        .says(&["temperature.tooth.ambient_temperature_C is missing", needed]);
+    for (material, says) in [
+        (curve("20.0", "3.0"), "material.young_modulus_curve.temperature_C"),
+        (curve("80.0, 20.0", "3.0, 1.5"), "greater than 80"),
+        (curve("20.0, 80.0", "3.0"), "material.young_modulus_curve.young_modulus_GPa"),
+        (curve("20.0, 80.0", "3.0, 0.0"), "young_modulus_GPa[1]"),
+        (curve("20.0, 80.0", "3000.0, 1500.0"), "young_modulus_GPa[0]"),
+        (format!("{modulus}\n{}", curve("20.0, 80.0", "3.0, 1.5")), "say the same thing"),
+    ] {
+        with(&material, "", tooth).refused().says(&[says]);
+    }
+    for (wear, says) in [
+        (warm("20.0", "1.0"), "wear.warm.temperature_C"),
+        (warm("20.0, 80.0", "1.0, 0.0"), "wear.warm.factor[1]"),
+        (warm("353.15, 293.15", "1.0, 3.0"), "greater than 353.15"),
+    ] {
+        with(modulus, &wear, tooth).refused().says(&[says]);
+    }
+}
+
+#[test]
 fn constants_of_wear_laws_out_of_range() {
     for (law, line) in [
         ("adsorption", "molecule_diameter_nm = 0.0"),

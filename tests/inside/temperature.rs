@@ -4,6 +4,7 @@ use gearwear::gear::{Gear, PerGear, conjugate::ConjugateFlanks};
 use gearwear::observer::Unwatched;
 use gearwear::pipeline;
 use gearwear::reference::moving_heat_band;
+use gearwear::results::chemistry::ToothTemperatureSummary;
 use gearwear::results::run::RunRecord;
 use gearwear::scene::{Scene, presets};
 use gearwear::thermal::{
@@ -179,4 +180,54 @@ fn teeth_are_the_bulk_of_the_contact() {
     let given = run(&format!("[temperature]\nbulk_temperature_C = 70.0\n{friction}{tooth}"));
     let found = given.summary.temperature.unwrap();
     assert_eq!((found.bulk_temperature_C, found.tooth), (70.0, Some(teeth)));
+}
+
+/// Young's modulus over the mean of flank and root temperature, the wear coefficient over that of the flank in each phase: the same as when both are given, to
+/// the last bits.
+#[test]
+fn ver_modulus_and_wear_follow_the_teeth() {
+    let tooth = "[temperature]\nfriction_coefficient = 0.15\n[temperature.tooth]\nambient_temperature_C = 40.0\nflank_heat_coefficient = 200.0\nroot_heat_coefficient = 100.0\n";
+    let phases = "phases = [{ hours = 0.5, pinion_torque_Nm = 302.0 }, { hours = 0.5, pinion_torque_Nm = 100.0 }]";
+    let (modulus, wear) = ("young_modulus_GPa = 206.0", "coefficient_m2_per_N = 1e-17 ");
+    let hours = "hours = 1.0 ";
+    let curve = "young_modulus_curve = { temperature_C = [20.0, 1000.0], young_modulus_GPa = [3.0, 1.0] }";
+    let warm = format!("warm = {{ temperature_C = [20.0, 1000.0], factor = [1.0, 3.0] }}\n{wear}");
+    let followed = run(&[(modulus, curve), (wear, &warm), (hours, phases)], tooth);
+    let teeth = followed.summary.temperature.as_ref().unwrap().tooth.unwrap();
+    let mean = |at: &ToothTemperatureSummary| 0.5 * (at.flank_C + at.root_C);
+    for at in [&teeth.pinion, &teeth.wheel] {
+        assert!((at.young_modulus_GPa.unwrap() - (3.0 - 2.0 * (mean(at) - 20.0) / 980.0)).abs() < 1e-12);
+        assert!((at.wear_factor.unwrap() - (1.0 + 2.0 * (at.flank_C - 20.0) / 980.0)).abs() < 1e-12);
+    }
+    let said = |of: &RunRecord, what: &str| of.summary.warnings.iter().any(|warning| warning.contains(what));
+    assert!(said(&followed, "of the phase of the greatest load is taken in all phases"));
+    assert!(!said(&followed, "taken as given at every temperature"));
+    let again = Scene::from_toml(&followed.scene_toml).unwrap();
+    assert_eq!(again.to_toml(), followed.scene_toml);
+
+    // Temperatures rise above those of the surroundings in proportion to the torque.
+    let factor = |at: &ToothTemperatureSummary, part: f64| 1.0 + 2.0 * (20.0 + part * (at.flank_C - 40.0)) / 980.0;
+    let coefficients = |part: f64| {
+        let of = |name: &str, at| format!("{name} = {{ coefficient_m2_per_N = {:e} }}", 1e-17 * factor(at, part));
+        format!("{}, {}", of("pinion", &teeth.pinion), of("wheel", &teeth.wheel))
+    };
+    let given_phases = format!(
+        "phases = [{{ hours = 0.5, pinion_torque_Nm = 302.0, {} }}, {{ hours = 0.5, pinion_torque_Nm = 100.0, {} }}]",
+        coefficients(1.0),
+        coefficients(100.0 / 302.0)
+    );
+    let of = |name: &str, at: &ToothTemperatureSummary| {
+        format!("{name}.young_modulus_GPa = {:?}", at.young_modulus_GPa.unwrap())
+    };
+    let moduli = format!("{}\n{}", of("pinion", &teeth.pinion), of("wheel", &teeth.wheel));
+    let given = run(&[(modulus, &moduli), (hours, &given_phases)], tooth);
+    for (followed, given) in
+        [(&followed.flanks.pinion, &given.flanks.pinion), (&followed.flanks.wheel, &given.flanks.wheel)]
+    {
+        let peak = given.wear_um.iter().copied().fold(0.0, f64::max);
+        assert!(peak > 0.0);
+        for (one, other) in followed.wear_um.iter().zip(&given.wear_um) {
+            assert!((one - other).abs() < 1e-9 * peak, "{one} {other}");
+        }
+    }
 }

@@ -72,6 +72,12 @@ pub struct ToothTemperatureSummary {
     pub flank_C: f64,
     /// At the root.
     pub root_C: f64,
+    /// Young's modulus that the gear has in the run.
+    #[serde(default)]
+    pub young_modulus_GPa: Option<f64>,
+    /// Factor of that temperature on its wear coefficient; `None` where wear does not follow it.
+    #[serde(default)]
+    pub wear_factor: Option<f64>,
 }
 
 /// Maximum rise over a mesh by every method.

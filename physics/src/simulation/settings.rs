@@ -17,6 +17,8 @@ pub struct Phase {
     pub pinion_speed_rpm: Option<f64>,
     /// Each gear's own wear coefficient, mm²/N; `None`: that of its wear law.
     pub coefficient_mm2_per_n: PerGear<Option<f64>>,
+    /// Temperature of each gear's flanks, °C; none where nothing follows it.
+    pub flank_c: Option<PerGear<f64>>,
     /// When it ends, in revolutions of the pinion from the beginning of the run.
     pub end_revolutions: f64,
 }
@@ -68,6 +70,7 @@ impl Operation {
             pinion_torque_n_mm,
             pinion_speed_rpm,
             coefficient_mm2_per_n: PerGear::default(),
+            flank_c: None,
             end_revolutions: pinion_revolutions,
         };
         Self {

@@ -14,6 +14,8 @@
 //!
 //! Limits: a steady mean of both gears' loss; in dry running an error of tens of kelvins is usual.
 
+use crate::reference::linear_means::value_at;
+
 /// k_θ of flank and root of a plastic gear on a metal one, dry.
 pub const DRY_ON_METAL: ToothCoefficients = ToothCoefficients { flank: 6300.0, root: 895.0 };
 /// The same of two plastic gears.
@@ -58,6 +60,28 @@ pub struct WarmGear {
     pub normal_module_mm: f64,
 }
 
+/// Something that follows the temperature of the teeth: straight between its points, and level beyond them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TemperatureCurve {
+    /// °C, rising; two at least.
+    pub temperature_c: Vec<f64>,
+    /// What it is at each.
+    pub value: Vec<f64>,
+}
+
+impl TemperatureCurve {
+    /// What it is at a temperature.
+    pub fn at(&self, temperature_c: f64) -> f64 {
+        value_at(&self.temperature_c, &self.value, temperature_c)
+    }
+
+    /// Whether a temperature lies between its points.
+    pub fn covers(&self, temperature_c: f64) -> bool {
+        let [first, .., last] = self.temperature_c.as_slice() else { return false };
+        (first..=last).contains(&&temperature_c)
+    }
+}
+
 /// Temperatures of its teeth.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToothTemperatures {
@@ -65,6 +89,13 @@ pub struct ToothTemperatures {
     pub flank_c: f64,
     /// θ of the root, °C.
     pub root_c: f64,
+}
+
+impl ToothTemperatures {
+    /// Of flank and root, °C.
+    pub fn mean_c(&self) -> f64 {
+        0.5 * (self.flank_c + self.root_c)
+    }
 }
 
 impl ToothHeatSettings {

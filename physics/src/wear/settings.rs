@@ -7,6 +7,7 @@ use super::oxidation::{Oxidation, OxidationConstants, VALID_TEMPERATURE_C};
 use crate::gear::{Gear, PerGear};
 use crate::lubrication::settings::FilmRatio;
 use crate::reference::linear_means::value_at;
+use crate::thermal::tooth::TemperatureCurve;
 
 /// The transition from mild to severe wear (thesis eq 26).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -128,6 +129,8 @@ pub struct WearSettings {
     pub severe: Option<SevereTransition>,
     /// How it follows the film of oil, where asked for.
     pub film: Option<FilmDependence>,
+    /// Factor on the coefficient over the temperature of the flanks, where asked for.
+    pub warm: Option<TemperatureCurve>,
 }
 
 impl PerGear<WearSettings> {
@@ -158,7 +161,7 @@ impl PerGear<WearSettings> {
 impl WearSettings {
     /// The generalised Archard law without a transition.
     pub fn archard(coefficient_mm2_per_n: f64) -> Self {
-        Self { law: LawSettings::Archard, coefficient_mm2_per_n, severe: None, film: None }
+        Self { law: LawSettings::Archard, coefficient_mm2_per_n, severe: None, film: None, warm: None }
     }
 
     /// The coefficient, mm²/N, where it is the same at every pressure, temperature and film.

@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::number::{percent, significant};
+use super::number::{fixed, percent, significant};
 use super::page;
 use super::table::{cells, row, table};
 use crate::gear::PerGear;
@@ -44,11 +44,16 @@ fn law(s: &Summary) -> Markup {
 
 fn teeth(of: &PerGear<ToothTemperatureSummary>) -> Markup {
     let both = |label, value: fn(&ToothTemperatureSummary) -> f64| row(label, "°C", [&of.pinion, &of.wheel].map(value));
-    table(
-        "Temperature of the teeth, VDI 2736-2",
-        &["pinion", "wheel"],
-        [both("Flank", |at| at.flank_C), both("Root", |at| at.root_C)],
-    )
+    let mut rows = vec![both("Flank", |at| at.flank_C), both("Root", |at| at.root_C)];
+    let gears = [&of.pinion, &of.wheel];
+    if let [Some(pinion), Some(wheel)] = gears.map(|at| at.young_modulus_GPa) {
+        rows.push(row("Young’s modulus", "GPa", [pinion, wheel]));
+    }
+    if gears.iter().any(|at| at.wear_factor.is_some()) {
+        let factors = gears.map(|at| at.wear_factor.map_or("–".to_owned(), |factor| fixed(factor, 3)));
+        rows.push(row("Factor on the wear coefficient", "", factors));
+    }
+    table("Temperature of the teeth, VDI 2736-2", &["pinion", "wheel"], rows)
 }
 
 fn temperature(t: &TemperatureSummary) -> Markup {

@@ -9,6 +9,7 @@ mod curve;
 mod fem;
 mod geometry;
 mod lubrication;
+mod material;
 mod modifications;
 mod operation;
 mod pair;
@@ -117,7 +118,8 @@ fn lay_below(above: &mut Table, below: Table) {
 /// Makes every choice the file leaves open, and writes it into the file.
 fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneFile)> {
     let pair = pair::choose(&mut file.pair, findings);
-    let materials = settings::material(&mut file.material, findings);
+    let has_tooth_temperature = file.temperature.as_ref().is_some_and(|of| of.tooth.is_some());
+    let materials = material::choose(&mut file.material, has_tooth_temperature, findings);
     let operation = operation::choose(&mut file.operation, findings);
     let contact = settings::contact(&mut file.contact, findings);
     let calibration_file = file.contact.as_ref().and_then(|contact| contact.calibration.clone());
@@ -129,14 +131,14 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
     let stiffness = settings::stiffness(&mut file.stiffness, teeth, findings);
     let stiffness_by_default = file.stiffness.as_ref().is_none_or(|stiffness| stiffness.model.is_none());
     let stiffness_curve_file = file.stiffness.as_ref().and_then(|stiffness| stiffness.curve.clone());
-    let wear = wear::choose(&mut file.wear, file.lubricant.is_some(), findings);
+    let given = wear::Given { has_oil: file.lubricant.is_some(), has_tooth_temperature };
+    let wear = wear::choose(&mut file.wear, given, findings);
     if let (Some(operation), Some(wear)) = (&operation, &wear) {
         wear::check_phases(&file.operation, operation, wear, findings);
     }
-    let material = materials.map(|materials| materials.map(|(elastic, _)| elastic));
-    let thermal = materials.map(|materials| materials.map(|(_, thermal)| thermal));
+    let thermal = materials.as_ref().map(|materials| materials.thermal);
     let laws = wear.as_ref().map(|wear| wear.as_ref().map(|own| own.law));
-    let heat = temperature::choose(&mut file, materials, laws, findings);
+    let heat = temperature::choose(&mut file, materials.as_ref(), laws, findings);
     let lubrication = lubrication::choose(&mut file, thermal, findings);
     let fem = pair.as_ref().and_then(|pair| fem::choose(&mut file.fem, pair, findings));
     let in_space = slices.is_some_and(|slices| slices.coupling == Coupling::Fem);
@@ -149,7 +151,7 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
                 .to_owned(),
         );
     }
-    let (pair, operation) = (pair?, operation?);
+    let (pair, operation, materials) = (pair?, operation?, materials?);
     let finely_resolved = matches!(surface, Some(SurfaceKind::Fem | SurfaceKind::HalfSpace));
     let is_severe = wear.as_ref().is_some_and(|wear| wear.may_be_severe());
     // A life may end within a small part of the duration.
@@ -171,10 +173,11 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         format!("Gear pair {}/{}, {module} mm", pair.gears.pinion.teeth, pair.gears.wheel.teeth)
     });
     let title = title.clone();
-    let scene = Scene {
+    let mut scene = Scene {
         title,
         pair,
-        material: material?,
+        material: materials.elastic,
+        modulus: materials.modulus,
         operation,
         contact: contact?,
         calibration_file,
@@ -191,5 +194,6 @@ fn choose(mut file: SceneFile, findings: &mut Findings) -> Option<(Scene, SceneF
         numerics: numerics?,
         verify,
     };
+    scene.warm_up();
     Some((scene, file))
 }

@@ -1,17 +1,12 @@
-//! Material, contact, stiffness and numerics.
+//! Contact, stiffness and numerics.
 
-use crate::contact::settings::{ContactSettings, Foundation, Material, SurfaceKind};
-use crate::gear::PerGear;
+use crate::contact::settings::{ContactSettings, Foundation, SurfaceKind};
 use crate::mesh_cycle::settings::Coupling;
-use crate::scene::file::{
-    ContactFile, GearMaterialFile, MaterialFile, NamedStep, NumericsFile, StepFile, StiffnessFile, StiffnessModel,
-};
+use crate::scene::file::{ContactFile, NamedStep, NumericsFile, StepFile, StiffnessFile, StiffnessModel};
 use crate::scene::findings::Findings;
-use crate::scene::material_presets::MaterialPreset;
 use crate::scene::problem::number;
 use crate::simulation::settings::{AdaptiveMethod, Numerics, Stepping};
 use crate::stiffness::settings::StiffnessSettings;
-use crate::thermal::settings::ThermalMaterial;
 
 const FLANK_POINTS: u32 = 750;
 const POSITIONS: u32 = 400;
@@ -23,71 +18,6 @@ const LEAST_TOLERANCE_UM: f64 = 1e-4;
 const MOST_POINTS_TIMES_POSITIONS: usize = 100_000_000;
 /// More wear steps than this never end.
 const MOST_STEPS: f64 = 1e7;
-
-/// Chooses the material of each gear: how it deforms, and how it conducts heat.
-pub(super) fn material(
-    file: &mut Option<MaterialFile>,
-    findings: &mut Findings,
-) -> Option<PerGear<(Material, ThermalMaterial)>> {
-    let given = file.take().unwrap_or_default();
-    let both = GearMaterialFile {
-        preset: given.preset,
-        young_modulus_GPa: given.young_modulus_GPa,
-        poisson_ratio: given.poisson_ratio,
-        density_kg_per_m3: given.density_kg_per_m3,
-        thermal_conductivity_W_per_mK: given.thermal_conductivity_W_per_mK,
-        thermal_diffusivity_m2_per_s: given.thermal_diffusivity_m2_per_s,
-    };
-    let mut sound = true;
-    for (gear, of_gear) in [("pinion", &given.pinion), ("wheel", &given.wheel)] {
-        let Some(own) = of_gear else { continue };
-        let keys = ["material.preset".to_owned(), format!("material.{gear}.preset")];
-        sound &= !findings.said_twice(&[(&keys[0], both.preset.is_some()), (&keys[1], own.preset.is_some())]);
-        for (name, common, own) in [
-            ("young_modulus_GPa", both.young_modulus_GPa, own.young_modulus_GPa),
-            ("poisson_ratio", both.poisson_ratio, own.poisson_ratio),
-            ("density_kg_per_m3", both.density_kg_per_m3, own.density_kg_per_m3),
-            ("thermal_conductivity_W_per_mK", both.thermal_conductivity_W_per_mK, own.thermal_conductivity_W_per_mK),
-            ("thermal_diffusivity_m2_per_s", both.thermal_diffusivity_m2_per_s, own.thermal_diffusivity_m2_per_s),
-        ] {
-            let keys = [format!("material.{name}"), format!("material.{gear}.{name}")];
-            sound &= !findings.said_twice(&[(&keys[0], common.is_some()), (&keys[1], own.is_some())]);
-        }
-    }
-    let whole = |own: Option<GearMaterialFile>| {
-        let given = over(own.unwrap_or_default(), &both);
-        let below = given.preset.unwrap_or(MaterialPreset::Steel).properties();
-        over(given, &below)
-    };
-    let (pinion, wheel) = (whole(given.pinion), whole(given.wheel));
-    let chosen = PerGear { pinion: properties(&pinion)?, wheel: properties(&wheel)? };
-    *file = Some(MaterialFile { pinion: Some(pinion), wheel: Some(wheel), ..MaterialFile::default() });
-    sound.then_some(chosen)
-}
-
-fn over(above: GearMaterialFile, below: &GearMaterialFile) -> GearMaterialFile {
-    GearMaterialFile {
-        preset: above.preset.or(below.preset),
-        young_modulus_GPa: above.young_modulus_GPa.or(below.young_modulus_GPa),
-        poisson_ratio: above.poisson_ratio.or(below.poisson_ratio),
-        density_kg_per_m3: above.density_kg_per_m3.or(below.density_kg_per_m3),
-        thermal_conductivity_W_per_mK: above.thermal_conductivity_W_per_mK.or(below.thermal_conductivity_W_per_mK),
-        thermal_diffusivity_m2_per_s: above.thermal_diffusivity_m2_per_s.or(below.thermal_diffusivity_m2_per_s),
-    }
-}
-
-fn properties(file: &GearMaterialFile) -> Option<(Material, ThermalMaterial)> {
-    let elastic = Material {
-        young_modulus_mpa: 1e3 * file.young_modulus_GPa?,
-        poisson_ratio: file.poisson_ratio?,
-        density_kg_per_m3: file.density_kg_per_m3?,
-    };
-    let thermal = ThermalMaterial {
-        conductivity_n_per_s_k: file.thermal_conductivity_W_per_mK?,
-        diffusivity_mm2_per_s: 1e6 * file.thermal_diffusivity_m2_per_s?,
-    };
-    Some((elastic, thermal))
-}
 
 /// Chooses the contact surface: elastic half-planes, unless something is given that only a Winkler foundation reads.
 pub(super) fn contact(file: &mut Option<ContactFile>, findings: &mut Findings) -> Option<ContactSettings> {

@@ -1,11 +1,12 @@
 //! Contact temperatures: only where the wear law reads them or the scene asks for them.
 
+use super::material::Materials;
 use crate::contact::settings::Material;
 use crate::gear::{Gear, PerGear};
 use crate::scene::file::{OperationFile, PhaseFile, SceneFile};
 use crate::scene::findings::Findings;
 use crate::scene::wear_file::{ToothLubrication, ToothTemperatureFile};
-use crate::thermal::settings::{ABSOLUTE_ZERO_C, HeatSettings, ThermalMaterial};
+use crate::thermal::settings::{ABSOLUTE_ZERO_C, HeatSettings};
 use crate::thermal::tooth::{DRY_ON_METAL, DRY_ON_PLASTIC, IN_OIL, ToothCoefficients, ToothHeatSettings};
 use crate::wear::settings::LawSettings;
 
@@ -15,11 +16,11 @@ const BULK_TEMPERATURE_C: f64 = 90.0;
 /// Chooses what `[temperature]` leaves open; `Some(None)` where nobody asks for temperatures.
 pub(super) fn choose(
     file: &mut SceneFile,
-    material: Option<PerGear<(Material, ThermalMaterial)>>,
+    materials: Option<&Materials>,
     laws: Option<PerGear<LawSettings>>,
     findings: &mut Findings,
 ) -> Option<Option<HeatSettings>> {
-    let (material, laws) = (material?, laws?);
+    let (materials, laws) = (materials?, laws?);
     let reads = Gear::BOTH.into_iter().find(|&gear| laws[gear].reads_temperature());
     if file.temperature.is_none() && reads.is_none() {
         return Some(None);
@@ -43,7 +44,7 @@ pub(super) fn choose(
                 findings.missing(&["temperature.friction_coefficient"], "a number greater than 0, at most 2");
                 findings.help("[temperature.tooth] needs it; dry plastic on steel has about 0.2, in oil 0.04");
             }
-            let chosen = tooth_heat(tooth, &material.map(|(elastic, _)| elastic), findings)?;
+            let chosen = tooth_heat(tooth, &materials.elastic, findings)?;
             Some(ToothHeatSettings { is_bulk: file.bulk_temperature_C.is_none(), ..chosen })
         }
     };
@@ -61,7 +62,7 @@ pub(super) fn choose(
         friction_coefficient: file.friction_coefficient,
         bulk_temperature_k: bulk_c - ABSOLUTE_ZERO_C,
         tooth,
-        material: material.map(|(_, thermal)| thermal),
+        material: materials.thermal,
     }))
 }
 
@@ -128,6 +129,12 @@ fn tooth_coefficients(
             None
         }
     }
+}
+
+/// What follows the temperature of the teeth needs one.
+pub(super) fn tooth_needed(table: &str, findings: &mut Findings) {
+    findings.missing(&["temperature.tooth.ambient_temperature_C"], "a number from -60 to 250");
+    findings.help(format!("{table} follows the temperature of the teeth and needs the table [temperature.tooth]"));
 }
 
 /// Whether every phase has a speed.

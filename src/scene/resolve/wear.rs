@@ -1,13 +1,16 @@
 //! The wear law of each gear and its constants: what `[wear]` says holds for both, unless a gear's own table says otherwise.
 
-use super::curve;
+use super::{curve, temperature};
 use crate::gear::{Gear, PerGear};
 use crate::lubrication::settings::FilmRatio;
 use crate::scene::file::OperationFile;
 use crate::scene::findings::Findings;
 use crate::scene::problem::number;
-use crate::scene::wear_file::{AdsorptionFile, FilmFile, FilmLaw, GearWearFile, OxidationFile, WearFile, WearLaw};
+use crate::scene::wear_file::{
+    AdsorptionFile, FilmFile, FilmLaw, GearWearFile, OxidationFile, WarmFile, WearFile, WearLaw,
+};
 use crate::simulation::settings::Operation;
+use crate::thermal::tooth::TemperatureCurve;
 use crate::wear::{
     adsorption::AdsorptionConstants,
     oxidation::OxidationConstants,
@@ -27,8 +30,17 @@ const COEFFICIENTS: [&str; 2] = ["coefficient_m2_per_N", "coefficient_mm3_per_Nm
 /// The names of the laws.
 const LAWS: &str = "\"archard\", \"adsorption\" or \"oxidation\"";
 
+/// What laws may read that other tables of the scene give.
+#[derive(Clone, Copy)]
+pub(super) struct Given {
+    /// `[lubricant]`.
+    pub has_oil: bool,
+    /// `[temperature.tooth]`.
+    pub has_tooth_temperature: bool,
+}
+
 /// Chooses the wear law of each gear.
-pub(super) fn choose(file: &mut WearFile, has_oil: bool, findings: &mut Findings) -> Option<PerGear<WearSettings>> {
+pub(super) fn choose(file: &mut WearFile, given: Given, findings: &mut Findings) -> Option<PerGear<WearSettings>> {
     let keys = COEFFICIENTS.map(|name| format!("wear.{name}"));
     let keys = keys.each_ref().map(String::as_str);
     let of_both = coefficient_mm2_per_n(keys, file.coefficient_m2_per_N, file.coefficient_mm3_per_Nm, findings)?;
@@ -45,10 +57,16 @@ pub(super) fn choose(file: &mut WearFile, has_oil: bool, findings: &mut Findings
             Gear::Pinion => &file.pinion,
             Gear::Wheel => &file.wheel,
         };
-        let has_own_film = own.as_ref().is_some_and(|own| own.film.is_some());
-        let film_key = if has_own_film { format!("wear.{}.film", gear.name()) } else { "wear.film".to_owned() };
-        let film = film(&film_key, &mut wholes[gear].film, has_oil, findings);
-        Some(WearSettings { film: film?, ..of_gear(&mut wholes[gear], gear, findings)? })
+        let key = |name: &str, is_own: bool| match is_own {
+            true => format!("wear.{}.{name}", gear.name()),
+            false => format!("wear.{name}"),
+        };
+        let is_own = |given: fn(&GearWearFile) -> bool| own.as_ref().is_some_and(given);
+        let film_key = key("film", is_own(|own| own.film.is_some()));
+        let film = film(&film_key, &mut wholes[gear].film, given.has_oil, findings);
+        let warm_key = key("warm", is_own(|own| own.warm.is_some()));
+        let warm = warm(&warm_key, wholes[gear].warm.as_ref(), given.has_tooth_temperature, findings);
+        Some(WearSettings { film: film?, warm: warm?, ..of_gear(&mut wholes[gear], gear, findings)? })
     });
     let settings = PerGear { pinion: pinion?, wheel: wheel? };
     if Gear::BOTH.iter().all(|&gear| settings[gear].coefficient_mm2_per_n <= 0.0) {
@@ -60,8 +78,8 @@ pub(super) fn choose(file: &mut WearFile, has_oil: bool, findings: &mut Findings
     if file.pinion.is_some() || file.wheel.is_some() {
         *file = WearFile { pinion: Some(wholes.pinion), wheel: Some(wholes.wheel), ..WearFile::default() };
     } else {
-        let GearWearFile { severe, film, adsorption, oxidation, .. } = wholes.pinion;
-        (file.severe, file.film) = (severe, film);
+        let GearWearFile { severe, film, warm, adsorption, oxidation, .. } = wholes.pinion;
+        (file.severe, file.film, file.warm) = (severe, film, warm);
         (file.adsorption, file.oxidation) =
             (adsorption.or(file.adsorption.take()), oxidation.or(file.oxidation.take()));
     }
@@ -103,6 +121,7 @@ fn whole(file: &WearFile, gear: Gear) -> GearWearFile {
         coefficient_mm3_per_Nm: coefficients[1],
         severe: own.severe.or(file.severe.clone()),
         film: own.film.or(file.film.clone()),
+        warm: own.warm.or(file.warm.clone()),
         adsorption: (law == Some(WearLaw::Adsorption)).then(adsorption),
         oxidation: (law == Some(WearLaw::Oxidation)).then(oxidation),
     }
@@ -136,7 +155,25 @@ fn of_gear(file: &mut GearWearFile, gear: Gear, findings: &mut Findings) -> Opti
         factor: severe.factor,
         band_mpa: *severe.band_MPa.get_or_insert(0.0),
     });
-    Some(WearSettings { law, coefficient_mm2_per_n, severe, film: None })
+    Some(WearSettings { law, coefficient_mm2_per_n, severe, film: None, warm: None })
+}
+
+/// Factor over the temperature of the flanks by the table `key`; `Some(None)` where there is none.
+fn warm(
+    key: &str,
+    file: Option<&WarmFile>,
+    has_tooth_temperature: bool,
+    findings: &mut Findings,
+) -> Option<Option<TemperatureCurve>> {
+    let Some(file) = file else { return Some(None) };
+    let keys = ["temperature_C", "factor"].map(|name| format!("{key}.{name}"));
+    let given = [(keys[0].as_str(), &file.temperature_C), (keys[1].as_str(), &file.factor)];
+    let [temperature_c, value] = curve::choose(given[0], given[1], findings)?;
+    if !has_tooth_temperature {
+        temperature::tooth_needed(key, findings);
+        return None;
+    }
+    Some(Some(TemperatureCurve { temperature_c, value }))
 }
 
 /// How wear follows the film by the table `key`; `Some(None)` where not at all.

@@ -1,0 +1,101 @@
+//! What holds in a phase of the operation: its lubricated mesh, its warm teeth, its wear laws.
+//!
+//! Where the scene has [`ToothHeatSettings`](crate::thermal::tooth::ToothHeatSettings), teeth are as warm as VDI 2736-2 says. The wear coefficient of a gear may
+//! follow the temperature of its flanks in each phase, its Young's modulus the mean of flank and root in the phase of the greatest load, one
+//! value for the whole run: the stiffness of the teeth, their condensed elements and their calibration belong to it.
+
+use std::f64::consts::TAU;
+
+use super::Scene;
+use crate::gear::{Gear, GearPair, PerGear};
+use crate::lubrication::loss;
+use crate::lubrication::running_pair::{RunningConditions, RunningPair};
+use crate::reference::hertz_line::contact_modulus_mpa;
+use crate::simulation::settings::Phase;
+use crate::thermal::settings::HeatSettings;
+use crate::thermal::tooth::{ToothTemperatures, WarmGear};
+use crate::wear::settings::WearSettings;
+
+/// W per N·mm/s.
+const W_PER_N_MM_PER_S: f64 = 1e-3;
+/// How often the modulus and the temperature that friction under it makes are found from each other.
+const ROUNDS: usize = 4;
+
+impl Scene {
+    /// The wear laws under the conditions of `phase`.
+    pub(crate) fn wear_in(&self, phase: &Phase) -> PerGear<WearSettings> {
+        PerGear::from_fn(|gear| {
+            let own = &self.wear[gear];
+            let given = phase.coefficient_mm2_per_n[gear].unwrap_or(own.coefficient_mm2_per_n);
+            let factor = own.warm.as_ref().zip(phase.flank_c).map_or(1.0, |(warm, flank_c)| warm.at(flank_c[gear]));
+            WearSettings { coefficient_mm2_per_n: factor * given, ..own.clone() }
+        })
+    }
+
+    /// The phase of the greatest load, the first of equals.
+    pub(crate) fn heaviest_phase(&self) -> Phase {
+        let heavier = |best: Phase, phase: &Phase| match phase.pinion_torque_n_mm > best.pinion_torque_n_mm {
+            true => *phase,
+            false => best,
+        };
+        let phases = &self.operation.phases;
+        phases.iter().fold(phases[0], heavier)
+    }
+
+    /// The pair at the speed and load of `phase`, with its oil; none where nobody asks for films or losses.
+    pub(crate) fn running_in<'a>(&'a self, pair: &'a GearPair, phase: &Phase) -> Option<RunningPair<'a>> {
+        let elastic = Gear::BOTH.map(|gear| self.material[gear]);
+        let modulus = contact_modulus_mpa(elastic.map(|body| (body.young_modulus_mpa, body.poisson_ratio)));
+        let conditions = RunningConditions {
+            pinion_speed_rpm: phase.pinion_speed_rpm?,
+            line_load_n_per_mm: pair.line_load_n_per_mm(phase.pinion_torque_n_mm),
+            reduced_modulus_mpa: 2.0 * modulus,
+        };
+        Some(RunningPair::new(pair, self.lubrication.as_ref()?, conditions))
+    }
+
+    /// The teeth of each gear in `phase`; none where nobody asks for their temperature.
+    pub(crate) fn teeth_in(&self, pair: &GearPair, phase: &Phase) -> Option<PerGear<ToothTemperatures>> {
+        let heat = self.heat?;
+        let tooth = heat.tooth?;
+        let pinion_per_s = TAU * phase.pinion_speed_rpm? / 60.0;
+        let power_w = W_PER_N_MM_PER_S * phase.pinion_torque_n_mm * pinion_per_s;
+        let running = self.running_in(pair, phase);
+        let loss_w = power_w * mean_friction(&heat, running.as_ref()) * loss::of_pair(pair);
+        Some(PerGear::from_fn(|gear| {
+            let warm = WarmGear {
+                teeth: pair.spec.gears[gear].teeth,
+                face_width_mm: pair.spec.face_width_mm,
+                pitch_velocity_m_per_s: 1e-3 * pair.working_pitch_radius_mm(Gear::Pinion) * pinion_per_s,
+                normal_module_mm: pair.spec.normal_module_mm,
+            };
+            tooth.temperatures(&warm, loss_w)
+        }))
+    }
+
+    /// What of the material and of wear follows the temperature of the teeth is as they have it. Where the geometry has no pair, nothing is.
+    pub(super) fn warm_up(&mut self) {
+        let follows = Gear::BOTH.into_iter().any(|gear| self.modulus[gear].is_some() || self.wear[gear].warm.is_some());
+        let Some(pair) = follows.then(|| GearPair::new(&self.pair).ok()).flatten() else { return };
+        let heaviest = self.heaviest_phase();
+        for _ in 0..ROUNDS {
+            let Some(teeth) = self.teeth_in(&pair, &heaviest) else { return };
+            for gear in Gear::BOTH {
+                if let Some(modulus) = &self.modulus[gear] {
+                    self.material[gear].young_modulus_mpa = modulus.at(teeth[gear].mean_c());
+                }
+            }
+        }
+        let flanks = |phase: &Phase| Some(self.teeth_in(&pair, phase)?.map(|teeth| teeth.flank_c));
+        let flank_c: Vec<_> = self.operation.phases.iter().map(flanks).collect();
+        for (phase, flank_c) in self.operation.phases.iter_mut().zip(flank_c) {
+            phase.flank_c = flank_c;
+        }
+    }
+}
+
+/// μ of the heat: as given, or the mean of the mesh.
+pub(crate) fn mean_friction(settings: &HeatSettings, running: Option<&RunningPair<'_>>) -> f64 {
+    let of_mesh = || running.map_or(0.0, RunningPair::mean_friction);
+    settings.friction_coefficient.unwrap_or_else(of_mesh)
+}
