@@ -28,6 +28,7 @@ use crate::simulation::figures::{WearFigures, wear_profile};
 use crate::simulation::wear_run::{Outcome, SMALL_WEAR_MODULES};
 use crate::thermal::settings::TemperatureMethod;
 use crate::wear::settings::WearSettings;
+use crate::wear::vdi_2736::{SteadyWear, mean_wear_mm};
 
 /// Pitch point index of the contract: on a flank of this many points.
 const INDEX_POINTS: f64 = 750.0;
@@ -328,6 +329,7 @@ fn wear_figures(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> WearSummary
     let (scene, pair) = (model.scene, model.pair);
     let figures = WearFigures::at(pair, gear, outcome, &outcome.worn);
     let volume_mm3 = figures.area_mm2 * scene.pair.face_width_mm * f64::from(scene.pair.gears[gear].teeth);
+    let mean_mm = vdi_2736_mean_wear_mm(model, outcome, gear);
     WearSummary {
         peak_wear_um: figures.peak_mm * UM_PER_MM,
         peak_wear_radius_mm: figures.peak_radius_mm,
@@ -341,7 +343,28 @@ fn wear_figures(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> WearSummary
         // kg/m³ are 1e-3 mg/mm³.
         worn_mass_mg: volume_mm3 * scene.material[gear].density_kg_per_m3 * 1e-3,
         normal_tip_thickness_mm: pair.normal_tip_thickness_mm(gear, figures.tip_edge.depth_mm),
+        vdi_2736_mean_wear_um: mean_mm.map(|mean| mean * UM_PER_MM),
+        peak_over_vdi_2736_mean_wear: mean_mm.filter(|mean| *mean > 0.0).map(|mean| figures.peak_mm / mean),
     }
+}
+
+/// W_m of VDI 2736-2 after what has been run; none where neither gear is a plastic, or the law is more than a coefficient.
+fn vdi_2736_mean_wear_mm(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> Option<f64> {
+    let scene = model.scene;
+    Gear::BOTH.into_iter().any(|gear| scene.material[gear].is_plastic()).then_some(())?;
+    let mut begin = 0.0;
+    let stretches = scene.operation.phases.iter().map(|phase| {
+        let end = phase.end_revolutions.min(outcome.worn.revolutions);
+        let revolutions = (end - begin).max(0.0);
+        begin = phase.end_revolutions;
+        Some(SteadyWear {
+            coefficient_mm2_per_n: scene.wear_in(phase)[gear].constant_coefficient_mm2_per_n()?,
+            pinion_torque_n_mm: phase.pinion_torque_n_mm,
+            revolutions,
+        })
+    });
+    let stretches: Option<Vec<_>> = stretches.collect();
+    Some(mean_wear_mm(model.pair, gear, stretches?.into_iter()))
 }
 
 /// The life to the limits of the scene, where it has any.

@@ -422,6 +422,12 @@ pub struct WearSummary {
     pub worn_mass_mg: f64,
     /// What is left of the normal tooth thickness at the tip cylinder, reliefs and roundings not taken off: `tip_edge_wear_um` is.
     pub normal_tip_thickness_mm: f64,
+    /// Mean wear W_m of VDI 2736-2, of an unchanged flank; `None` where neither gear is a plastic, or the wear law is more than a coefficient.
+    #[serde(default)]
+    pub vdi_2736_mean_wear_um: Option<f64>,
+    /// Maximum wear depth over W_m.
+    #[serde(default)]
+    pub peak_over_vdi_2736_mean_wear: Option<f64>,
 }
 
 /// Work done by the wear simulation alone.

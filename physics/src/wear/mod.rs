@@ -17,6 +17,7 @@ pub mod regime;
 pub mod settings;
 mod severe;
 pub mod stepping;
+pub mod vdi_2736;
 
 use crate::gear::{Gear, PerGear};
 use crate::lubrication::running_pair::{LoadedPlace, RunningPair};

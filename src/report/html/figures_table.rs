@@ -61,21 +61,24 @@ fn new_and_worn(s: &Summary) -> Markup {
 
 fn wear(s: &Summary) -> Markup {
     let both = |label, unit, value: fn(&WearSummary) -> f64| row(label, unit, [&s.pinion, &s.wheel].map(value));
-    table(
-        "Wear",
-        &["pinion", "wheel"],
-        [
-            both("Maximum wear, active profile", "µm", |w| w.peak_wear_um),
-            both("Radius of the maximum wear", "mm", |w| w.peak_wear_radius_mm),
-            both("Maximum wear, tip edge", "µm", |w| w.tip_edge_wear_um),
-            both("Maximum wear, below the active profile", "µm", |w| w.below_sap_wear_um),
-            both("Maximum wear, root zone", "µm", |w| w.root_wear_um),
-            both("At the pitch circle", "µm", |w| w.pitch_wear_um),
-            both("Volume, whole gear", "mm³", |w| w.worn_volume_mm3),
-            both("Mass, whole gear", "mg", |w| w.worn_mass_mg),
-            both("Normal tooth thickness at the tip, worn", "mm", |w| w.normal_tip_thickness_mm),
-        ],
-    )
+    let mut rows = vec![
+        both("Maximum wear, active profile", "µm", |w| w.peak_wear_um),
+        both("Radius of the maximum wear", "mm", |w| w.peak_wear_radius_mm),
+        both("Maximum wear, tip edge", "µm", |w| w.tip_edge_wear_um),
+        both("Maximum wear, below the active profile", "µm", |w| w.below_sap_wear_um),
+        both("Maximum wear, root zone", "µm", |w| w.root_wear_um),
+        both("At the pitch circle", "µm", |w| w.pitch_wear_um),
+        both("Volume, whole gear", "mm³", |w| w.worn_volume_mm3),
+        both("Mass, whole gear", "mg", |w| w.worn_mass_mg),
+        both("Normal tooth thickness at the tip, worn", "mm", |w| w.normal_tip_thickness_mm),
+    ];
+    let gears = [&s.pinion, &s.wheel];
+    if let [Some(pinion), Some(wheel)] = gears.map(|w| w.vdi_2736_mean_wear_um) {
+        rows.push(row("Mean wear W_m, VDI 2736-2", "µm", [pinion, wheel]));
+        let ratios = gears.map(|w| w.peak_over_vdi_2736_mean_wear.map_or("–".to_owned(), |ratio| fixed(ratio, 2)));
+        rows.push(row("Maximum wear over W_m", "", ratios));
+    }
+    table("Wear", &["pinion", "wheel"], rows)
 }
 
 /// The pressure at C, new and worn, over Hertz's of unmodified involutes under the whole load.

@@ -58,6 +58,8 @@ pub fn interrupted() -> RunRecord {
             worn_volume_mm3: 0.0,
             worn_mass_mg: 0.0,
             normal_tip_thickness_mm: wear.normal_tip_thickness_mm,
+            vdi_2736_mean_wear_um: None,
+            peak_over_vdi_2736_mean_wear: None,
         };
     }
     record
@@ -241,6 +243,8 @@ fn summary() -> Summary {
         worn_volume_mm3: 4.87,
         worn_mass_mg: 38.1,
         normal_tip_thickness_mm: [2.1, 2.3][gear as usize],
+        vdi_2736_mean_wear_um: None,
+        peak_over_vdi_2736_mean_wear: None,
     };
     let stage = |name: &str, wall_s| StageTime { name: name.into(), wall_s };
     Summary {
