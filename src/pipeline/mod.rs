@@ -37,7 +37,7 @@ use crate::contact::{
     settings::{Foundation, MatchCriterion, Material, SurfaceKind},
     winkler::{Winkler, WinklerFoundation},
 };
-use crate::fem::gear::model::ModelError;
+use crate::fem::gear::{condensed_pair::CondensedPair, model::ModelError};
 use crate::gear::{GearPair, PairError, PerGear, flank_zones::FlankZones};
 use crate::lubrication::running_pair::RunningPair;
 use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
@@ -199,9 +199,14 @@ impl Model<'_> {
     }
 }
 
-/// How the gears touch under one load.
-struct LoadCase {
+/// How the gears touch under one load, of one material.
+struct LoadCase<'a> {
     line_load_n_per_mm: f64,
+    material: PerGear<Material>,
+    /// Stiffness along the path of contact; none where it is that of the run.
+    curve: Option<PairCompliance>,
+    /// Finite elements that wear; none where there are none, or those of the run.
+    elements: Option<CondensedPair<'a>>,
     foundation_mpa_per_mm: Option<f64>,
     /// None with finite elements.
     surface: Option<Box<dyn ContactSurface>>,
@@ -293,14 +298,30 @@ fn carry_out<R>(
         })?),
         _ => None,
     };
-    // Phases under the same load share a case.
-    let mut cases: Vec<LoadCase> = Vec::new();
+    // Phases under the same load and as warm share a case.
+    let mut cases: Vec<LoadCase<'_>> = Vec::new();
     let mut case_of_phase: Vec<usize> = Vec::with_capacity(scene.operation.phases.len());
-    for load in scene.operation.phases.iter().map(line_load) {
-        let known = cases.iter().position(|case| case.line_load_n_per_mm.total_cmp(&load).is_eq());
+    for phase in &scene.operation.phases {
+        let (load, material) = (line_load(phase), scene.material_in(phase));
+        let is_known =
+            |case: &LoadCase<'_>| case.line_load_n_per_mm.total_cmp(&load).is_eq() && case.material == material;
+        let known = cases.iter().position(is_known);
         case_of_phase.push(known.unwrap_or(cases.len()));
         if known.is_none() {
-            cases.push(load_case(scene, &pair, files, &at_pitch, load, &mut stages)?);
+            let mut case = load_case(scene, &pair, files, material, load, &mut stages)?;
+            if material != scene.material {
+                case.elements =
+                    worn_elements.as_ref().map(|elements| verification::of_material(elements, scene, &material));
+                if let (Some(Ok(elements)), Some(_)) = (&elements, &computed) {
+                    let line_load_n_per_mm = load.max(elements.line_load_n_per_mm);
+                    let curve = || {
+                        let softer = verification::of_material(&elements.condensed, scene, &material);
+                        calibration::pair_compliance(&softer, &material, line_load_n_per_mm)
+                    };
+                    case.curve = Some(stages.run(StageKind::FiniteElementCalibration.name(), curve)?);
+                }
+            }
+            cases.push(case);
         }
     }
     let curve = match (stiffness, &files.calibration) {
@@ -310,9 +331,10 @@ fn carry_out<R>(
     };
     let springs = || -> Result<Vec<_>, StiffnessError> {
         let mut springs = Vec::with_capacity(cases.len());
-        for LoadCase { surface, line_load_n_per_mm, .. } in &cases {
+        for LoadCase { surface, line_load_n_per_mm, material, curve: own, .. } in &cases {
+            let curve = own.as_ref().or(curve);
             let spring = match surface.as_deref() {
-                Some(on) => Some(TeethSpring::new(stiffness, curve, &pair, &scene.material, on, *line_load_n_per_mm)?),
+                Some(on) => Some(TeethSpring::new(stiffness, curve, &pair, material, on, *line_load_n_per_mm)?),
                 None => None,
             };
             springs.push(spring);
@@ -343,7 +365,8 @@ fn carry_out<R>(
         let slices = || SlicedTeeth::new(&pair, &scene.material, settings, compliance, coupling);
         stages.run(StageKind::HelicalSlices.name(), slices)
     });
-    let contact = |case: usize| match (&worn_elements, cases[case].surface.as_deref(), &teeth[case]) {
+    let elements_of = |case: usize| cases[case].elements.as_ref().or(worn_elements.as_ref());
+    let contact = |case: usize| match (elements_of(case), cases[case].surface.as_deref(), &teeth[case]) {
         (Some(model), ..) => MeshContact::FiniteElements(model),
         (None, Some(surface), Some(teeth)) => match (scene.contact.surface, sliced.as_ref()) {
             (SurfaceKind::HertzMean, Some(sliced)) => {
@@ -536,22 +559,22 @@ fn not_estimated_because(outcome: &Outcome) -> &'static str {
     }
 }
 
-/// Prepares the contact under one load.
-fn load_case(
+/// Prepares the contact of gears of `material` under one load, with stiffness and elements of the run.
+fn load_case<'a>(
     scene: &Scene,
     pair: &GearPair,
     files: &NamedFiles,
-    at_pitch: &Flattening,
+    material: PerGear<Material>,
     line_load_n_per_mm: f64,
     stages: &mut StageClock<'_>,
-) -> Result<LoadCase, RunError> {
+) -> Result<LoadCase<'a>, RunError> {
     let foundation = match (scene.contact.surface, scene.contact.foundation, &files.calibration) {
         (SurfaceKind::Winkler, Foundation::Given { foundation_mpa_per_mm }, _) => {
             Some(WinklerFoundation::Uniform { mpa_per_mm: foundation_mpa_per_mm })
         }
         (SurfaceKind::Winkler, Foundation::Calibrated(criterion), Some(calibration)) => {
             let approach = &calibration.foundation[&MatchCriterion::Approach];
-            let edges = || EdgeFoundations::new(pair, &scene.material, line_load_n_per_mm, criterion, approach);
+            let edges = || EdgeFoundations::new(pair, &material, line_load_n_per_mm, criterion, approach);
             Some(WinklerFoundation::Curve {
                 pressure: calibration.foundation[&criterion].clone(),
                 approach: approach.clone(),
@@ -560,24 +583,25 @@ fn load_case(
         }
         (SurfaceKind::Winkler, Foundation::Calibrated(_), None) => unreachable!("a loaded scene has its calibration"),
         (SurfaceKind::Winkler, Foundation::Matched(criterion), _) => {
-            let matched = || matched_mpa_per_mm(criterion, at_pitch, line_load_n_per_mm);
+            let at_pitch = hertz::flattening(pair, &material, pair.path.pitch_point_mm);
+            let matched = || matched_mpa_per_mm(criterion, &at_pitch, line_load_n_per_mm);
             Some(WinklerFoundation::Uniform { mpa_per_mm: stages.run(StageKind::ContactMatch.name(), matched) })
         }
         _ => None,
     };
     let springs_at_pitch = foundation.as_ref().map(|foundation| foundation.at(pair.path.pitch_point_mm));
     let foundation_mpa_per_mm = springs_at_pitch.map(|springs| springs.mpa_per_mm(line_load_n_per_mm));
-    let surface = surface(scene, foundation, line_load_n_per_mm);
-    Ok(LoadCase { line_load_n_per_mm, foundation_mpa_per_mm, surface })
+    let surface = surface(scene, material, foundation, line_load_n_per_mm);
+    Ok(LoadCase { line_load_n_per_mm, material, curve: None, elements: None, foundation_mpa_per_mm, surface })
 }
 
 /// The surface of the springs on the line of action; none with finite elements, which are no springs.
 fn surface(
     scene: &Scene,
+    material: PerGear<Material>,
     foundation: Option<WinklerFoundation>,
     expected_line_load_n_per_mm: f64,
 ) -> Option<Box<dyn ContactSurface>> {
-    let material = scene.material;
     match (scene.contact.surface, foundation) {
         (SurfaceKind::Fem, _) => None,
         (SurfaceKind::Winkler, Some(foundation)) => Some(Box::new(Winkler { foundation, expected_line_load_n_per_mm })),

@@ -1,6 +1,7 @@
 //! Whether Euler's steps are short enough, asked before the first of them.
 
 use super::Model;
+use crate::contact::settings::Material;
 use crate::gear::PerGear;
 use crate::observer::Observer;
 use crate::simulation::settings::Stepping;
@@ -23,6 +24,7 @@ struct Conditions {
     line_load_n_per_mm: f64,
     pinion_speed_rpm: Option<f64>,
     coefficient_mm2_per_n: PerGear<f64>,
+    material: PerGear<Material>,
 }
 
 /// Warns of each phase whose steps are too long for Euler's method, and names the longest that are not. Tells `observer` at once.
@@ -44,6 +46,7 @@ pub(super) fn judge(model: &Model<'_>, observer: &dyn Observer) -> Judged {
             line_load_n_per_mm: phase.line_load_n_per_mm,
             pinion_speed_rpm: asked.pinion_speed_rpm,
             coefficient_mm2_per_n: own.as_ref().map(|own| own.coefficient_mm2_per_n),
+            material: scene.material_in(asked),
         };
         let bound = match measured.iter().find(|(before, _)| *before == conditions) {
             Some(&(_, bound)) => bound,

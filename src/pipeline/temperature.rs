@@ -75,14 +75,14 @@ pub(super) fn tooth_warnings(model: &Model<'_>, summary: Option<&TemperatureSumm
                 celsius?
             ))
         }));
-        if let Some(curve) = modulus {
-            let moduli = || found.iter().map(|teeth| 1e-3 * curve.at(teeth.mean_c()));
+        if modulus.is_some() && phases().any(|phase| phase.young_modulus_mpa.is_none()) {
+            let moduli = phases().filter_map(|phase| Some(1e-3 * scene.moduli_in(model.pair, phase)?[gear]));
             let (least, most) =
-                moduli().fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), own| (low.min(own), high.max(own)));
+                moduli.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), own| (low.min(own), high.max(own)));
             if most > least * (1.0 + NEGLIGIBLE_CHANGE) {
                 warnings.push(format!(
-                    "material.{name}.young_modulus_curve: {modulus_gpa:.4} GPa of the phase of the greatest load is taken in all phases, whose teeth \
-                     would have {least:.4} to {most:.4} GPa"
+                    "material.{name}.young_modulus_curve: {modulus_gpa:.4} GPa of the phase of the greatest load is taken in all phases of a pair with \
+                     slices or a calibration; their teeth would have {least:.4} to {most:.4} GPa"
                 ));
             }
         }

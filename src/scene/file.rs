@@ -293,7 +293,7 @@ pub struct MaterialFile {
 }
 
 /// Young's modulus over temperature, as the data sheet of a plastic has it: straight between its points, and level beyond the first and the last. It is
-/// taken at the mean of flank and root temperature of the gear in the phase of the greatest load, for the whole run.
+/// taken at the mean of flank and root temperature of the gear in each phase; with slices or a calibration file in the phase of the greatest load for all.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ModulusCurveFile {

@@ -1,12 +1,13 @@
 //! What holds in a phase of the operation: its lubricated mesh, its warm teeth, its wear laws.
 //!
 //! Where the scene has [`ToothHeatSettings`](crate::thermal::tooth::ToothHeatSettings), teeth are as warm as VDI 2736-2 says. The wear coefficient of a gear may
-//! follow the temperature of its flanks in each phase, its Young's modulus the mean of flank and root in the phase of the greatest load, one
-//! value for the whole run: the stiffness of the teeth, their condensed elements and their calibration belong to it.
+//! follow the temperature of its flanks in each phase, its Young's modulus the mean of flank and root. A pair with slices, and one with a calibration file, has
+//! the modulus of the phase of the greatest load in all of them: its teeth in space and its calibration belong to one.
 
 use std::f64::consts::TAU;
 
 use super::Scene;
+use crate::contact::settings::Material;
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::lubrication::loss;
 use crate::lubrication::running_pair::{RunningConditions, RunningPair};
@@ -44,7 +45,8 @@ impl Scene {
 
     /// The pair at the speed and load of `phase`, with its oil; none where nobody asks for films or losses.
     pub(crate) fn running_in<'a>(&'a self, pair: &'a GearPair, phase: &Phase) -> Option<RunningPair<'a>> {
-        let elastic = Gear::BOTH.map(|gear| self.material[gear]);
+        let material = self.material_in(phase);
+        let elastic = Gear::BOTH.map(|gear| material[gear]);
         let modulus = contact_modulus_mpa(elastic.map(|body| (body.young_modulus_mpa, body.poisson_ratio)));
         let conditions = RunningConditions {
             pinion_speed_rpm: phase.pinion_speed_rpm?,
@@ -73,24 +75,51 @@ impl Scene {
         }))
     }
 
+    /// The materials in `phase`.
+    pub(crate) fn material_in(&self, phase: &Phase) -> PerGear<Material> {
+        PerGear::from_fn(|gear| {
+            let given = self.material[gear];
+            let young_modulus_mpa = phase.young_modulus_mpa.map_or(given.young_modulus_mpa, |moduli| moduli[gear]);
+            Material { young_modulus_mpa, ..given }
+        })
+    }
+
     /// What of the material and of wear follows the temperature of the teeth is as they have it. Where the geometry has no pair, nothing is.
     pub(super) fn warm_up(&mut self) {
-        let follows = Gear::BOTH.into_iter().any(|gear| self.modulus[gear].is_some() || self.wear[gear].warm.is_some());
+        let follows_modulus = Gear::BOTH.into_iter().any(|gear| self.modulus[gear].is_some());
+        let follows = follows_modulus || Gear::BOTH.into_iter().any(|gear| self.wear[gear].warm.is_some());
         let Some(pair) = follows.then(|| GearPair::new(&self.pair).ok()).flatten() else { return };
-        let heaviest = self.heaviest_phase();
-        for _ in 0..ROUNDS {
-            let Some(teeth) = self.teeth_in(&pair, &heaviest) else { return };
+        if let Some(moduli) = self.moduli_in(&pair, &self.heaviest_phase()) {
             for gear in Gear::BOTH {
-                if let Some(modulus) = &self.modulus[gear] {
-                    self.material[gear].young_modulus_mpa = modulus.at(teeth[gear].mean_c());
-                }
+                self.material[gear].young_modulus_mpa = moduli[gear];
             }
         }
-        let flanks = |phase: &Phase| Some(self.teeth_in(&pair, phase)?.map(|teeth| teeth.flank_c));
-        let flank_c: Vec<_> = self.operation.phases.iter().map(flanks).collect();
-        for (phase, flank_c) in self.operation.phases.iter_mut().zip(flank_c) {
-            phase.flank_c = flank_c;
+        let in_each = follows_modulus && self.slices.is_none() && self.calibration_file.is_none();
+        let phases: Vec<Phase> = self
+            .operation
+            .phases
+            .iter()
+            .map(|phase| {
+                let young_modulus_mpa = in_each.then(|| self.moduli_in(&pair, phase)).flatten();
+                let warm = Phase { young_modulus_mpa, ..*phase };
+                let flank_c = self.teeth_in(&pair, &warm).map(|teeth| teeth.map(|tooth| tooth.flank_c));
+                Phase { flank_c, ..warm }
+            })
+            .collect();
+        self.operation.phases = phases;
+    }
+
+    /// Young's moduli at the temperatures that teeth with them have in `phase`, MPa; none where nobody asks for these.
+    pub(crate) fn moduli_in(&self, pair: &GearPair, phase: &Phase) -> Option<PerGear<f64>> {
+        let mut phase = *phase;
+        for _ in 0..ROUNDS {
+            let teeth = self.teeth_in(pair, &phase)?;
+            phase.young_modulus_mpa = Some(PerGear::from_fn(|gear| match &self.modulus[gear] {
+                Some(modulus) => modulus.at(teeth[gear].mean_c()),
+                None => self.material[gear].young_modulus_mpa,
+            }));
         }
+        phase.young_modulus_mpa
     }
 }
 

@@ -113,7 +113,7 @@ impl<'a> LoadedTooth<'a> {
     pub fn inside_mm(&self, inside: &Inside, p: usize, forces: &[ToothForce]) -> f64 {
         let own: f64 = forces[p].iter().map(|&(column, f)| inside.answer.by_force[column] * f).sum();
         let cuts = self.body.cut_displacement_mm(p, forces);
-        own + cuts.iter().zip(&inside.answer.by_cut).map(|(u, by)| u * by).sum::<f64>()
+        self.body.softness() * (own + cuts.iter().zip(&inside.answer.by_cut).map(|(u, by)| u * by).sum::<f64>())
     }
 
     /// Displacement over load of the point inside where `line` crosses the centre line, under a concentrated load along it at ρ,

@@ -19,6 +19,8 @@ pub struct Phase {
     pub coefficient_mm2_per_n: PerGear<Option<f64>>,
     /// Temperature of each gear's flanks, °C; none where nothing follows it.
     pub flank_c: Option<PerGear<f64>>,
+    /// Young's modulus of each gear, MPa; none where that of the scene holds.
+    pub young_modulus_mpa: Option<PerGear<f64>>,
     /// When it ends, in revolutions of the pinion from the beginning of the run.
     pub end_revolutions: f64,
 }
@@ -71,6 +73,7 @@ impl Operation {
             pinion_speed_rpm,
             coefficient_mm2_per_n: PerGear::default(),
             flank_c: None,
+            young_modulus_mpa: None,
             end_revolutions: pinion_revolutions,
         };
         Self {

@@ -227,6 +227,15 @@ pub(super) fn condensed<'a>(
     CondensedPair::build(pair, &scene.material.map(Material::elastic), line_load_n_per_mm, &bodies, &announce)
 }
 
+/// The elements of the scene's gears, of a material that is softer or stiffer than the scene's.
+pub(super) fn of_material<'a>(
+    elements: &CondensedPair<'a>,
+    scene: &Scene,
+    own: &PerGear<Material>,
+) -> CondensedPair<'a> {
+    elements.with_moduli(&scene.material.map(Material::elastic), &own.map(Material::elastic))
+}
+
 /// Verifies the completed run `outcome`. Whatever happens to the finite elements never costs the run its result.
 pub(super) fn verify<'a>(
     model: &Model<'a>,
@@ -267,7 +276,13 @@ fn on_elements<'a>(
         None => other_mesh(),
     };
     let elements = elements.map_err(|error| error.to_string())?;
-    let contacts = model.phases.iter().map(|_| MeshContact::FiniteElements(&elements)).collect();
+    let scene = model.scene;
+    let warmed = |phase: &Phase| {
+        let own = scene.material_in(phase);
+        (own != scene.material).then(|| of_material(&elements, scene, &own))
+    };
+    let warm: Vec<Option<CondensedPair<'_>>> = scene.operation.phases.iter().map(warmed).collect();
+    let contacts = warm.iter().map(|own| MeshContact::FiniteElements(own.as_ref().unwrap_or(&elements))).collect();
     let life = life(model, outcome, contacts, POSITIONS, observer)?;
     let own = if wears_severely(model, &life) { OF_ELEMENTS.severe() } else { OF_ELEMENTS };
     Ok(Life {

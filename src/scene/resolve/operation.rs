@@ -29,6 +29,7 @@ pub(super) fn choose(file: &mut OperationFile, findings: &mut Findings) -> Optio
         pinion_speed_rpm: file.pinion_speed_rpm,
         coefficient_mm2_per_n: PerGear::default(),
         flank_c: None,
+        young_modulus_mpa: None,
         end_revolutions: 0.0,
     };
     let phases = match &file.phases {
@@ -146,6 +147,7 @@ fn phases(given: &[PhaseFile], of_whole: Phase, findings: &mut Findings) -> Opti
             pinion_speed_rpm,
             coefficient_mm2_per_n,
             flank_c: None,
+            young_modulus_mpa: None,
             end_revolutions,
         });
     }

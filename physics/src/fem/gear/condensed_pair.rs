@@ -2,6 +2,7 @@
 
 use super::flank_surface::FlankSurface;
 use super::ring::GearCompliance;
+use crate::fem::elastic::{self, Elastic};
 use crate::gear::{GearPair, PerGear};
 use crate::reference::hertz_line::HertzLine;
 
@@ -15,6 +16,19 @@ pub struct CondensedPair<'a> {
     pub flanks: PerGear<FlankSurface>,
     /// E*, MPa.
     pub contact_modulus_mpa: f64,
+}
+
+impl CondensedPair<'_> {
+    /// The same elements of gears with other Young's moduli; Poisson's ratios stay.
+    pub fn with_moduli(&self, condensed: &PerGear<Elastic>, own: &PerGear<Elastic>) -> Self {
+        let softness = PerGear::from_fn(|gear| condensed[gear].young_modulus_mpa / own[gear].young_modulus_mpa);
+        Self {
+            pair: self.pair,
+            gears: PerGear::from_fn(|gear| self.gears[gear].softened(softness[gear])),
+            flanks: self.flanks.clone(),
+            contact_modulus_mpa: elastic::contact_modulus_mpa(own),
+        }
+    }
 }
 
 /// Hertz half-width under the whole load at `position_mm`, taken at A or E where it lies outside.

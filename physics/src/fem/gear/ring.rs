@@ -16,6 +16,8 @@
 //!
 //! exactly what the whole gear's finite-element model gives, at the cost of one fine and one coarse sector.
 
+use std::sync::Arc;
+
 use faer::linalg::solvers::{DenseSolveCore, Llt, Solve};
 use faer::{Mat, Side};
 
@@ -139,13 +141,16 @@ impl JoinedSectors {
 }
 
 /// A gear as contact sees it: compliance between the candidate nodes of its fine teeth.
+#[derive(Clone)]
 pub struct GearCompliance {
-    /// The fine sector; all fine teeth are alike.
-    pub sector: CondensedSector,
+    /// The fine sector; all fine teeth are alike. Its displacements are those of the modulus that it was condensed with.
+    pub sector: Arc<CondensedSector>,
     teeth: usize,
     /// C_pq for q ≤ p, row by row.
-    blocks: Vec<Mat<f64>>,
-    joined: JoinedSectors,
+    blocks: Arc<[Mat<f64>]>,
+    joined: Arc<JoinedSectors>,
+    /// Young's modulus that it was condensed with over its own.
+    softness: f64,
 }
 
 impl GearCompliance {
@@ -160,7 +165,17 @@ impl GearCompliance {
         let coarse = coarse.map(|coarse| &coarse.matrices.cut_stiffness);
         let joined = JoinedSectors::new(&fine.matrices, coarse, teeth, surroundings)?;
         let blocks = (0..teeth).flat_map(|p| joined.blocks(&fine.matrices, p, 0..=p)).collect();
-        Ok(Self { sector: fine, teeth, blocks, joined })
+        Ok(Self { sector: Arc::new(fine), teeth, blocks, joined: Arc::new(joined), softness: 1.0 })
+    }
+
+    /// The same gear of a material `by` times as soft, with the same Poisson's ratio: every displacement under the same forces is that much greater.
+    pub fn softened(&self, by: f64) -> Self {
+        Self { softness: by * self.softness, ..self.clone() }
+    }
+
+    /// By how much its displacements are greater than those of its sector.
+    pub fn softness(&self) -> f64 {
+        self.softness
     }
 
     /// Number of fine teeth.
@@ -171,10 +186,10 @@ impl GearCompliance {
     /// Displacement of candidate column `row` of tooth `p` per force on candidate column `column` of tooth `q`.
     pub fn between(&self, p: usize, q: usize) -> Between<'_> {
         let (low, high) = (p.min(q), p.max(q));
-        Between { block: &self.blocks[high * (high + 1) / 2 + low], turned: q > p }
+        Between { block: &self.blocks[high * (high + 1) / 2 + low], turned: q > p, softness: self.softness }
     }
 
-    /// Displacements of both cuts of tooth `p` under candidate forces on the fine teeth, mm.
+    /// Displacements of both cuts of tooth `p` under candidate forces on the fine teeth, as the sector was condensed, mm.
     pub fn cut_displacement_mm(&self, p: usize, forces: &[ToothForce]) -> Vec<f64> {
         self.joined.cut_displacement_mm(&self.sector.matrices, p, forces)
     }
@@ -197,6 +212,7 @@ impl GearCompliance {
 pub struct Between<'a> {
     block: &'a Mat<f64>,
     turned: bool,
+    softness: f64,
 }
 
 impl Between<'_> {
@@ -219,6 +235,9 @@ impl Between<'_> {
                     entries[j * height + i] = stored[row];
                 }
             }
+        }
+        if self.softness != 1.0 {
+            entries.iter_mut().for_each(|entry| *entry *= self.softness);
         }
         entries
     }
