@@ -135,6 +135,17 @@ pub(super) enum InputError {
     #[error("{name}: {error}")]
     #[diagnostic(help("gearwear init --from FILE.rexs --stage N reads a pair of external cylindrical gears"))]
     Rexs { name: String, error: Box<RexsError> },
+    /// `rexs` with a file that does not take the results.
+    #[error("{name}: {error}")]
+    #[diagnostic(help(
+        "gearwear rexs RUN --into FILE.rexs --stage N takes the stage that the run's scene was made of"
+    ))]
+    IntoRexs { name: String, error: Box<RexsError> },
+    /// `rexs` with a file in another encoding, which cannot be kept byte for byte.
+    #[error(
+        "{name}: line {line}: found bytes that are not UTF-8; allowed: a REXS model in UTF-8, as the format has it"
+    )]
+    NotUtf8 { name: String, line: usize },
     #[error("--out: {}", causes(.0))]
     #[diagnostic(help("choose a folder you may write to, or a name that is still free"))]
     Out(ReportError),

@@ -14,6 +14,7 @@ mod init;
 mod mesh;
 mod plan;
 mod progress;
+mod rexs;
 mod run;
 mod schema;
 mod sweep;
@@ -64,6 +65,8 @@ enum Command {
     Calibrate(calibrate::Args),
     /// Compare a measured flank profile with a finished run, and fit the wear coefficient to it
     Compare(compare::Args),
+    /// Write the results of a finished run into the REXS file that its scene came from
+    Rexs(rexs::Args),
     /// Run the validation suite: every claim against its reference, with error, run time and work
     Validate(validate::Args),
     /// Print the JSON schema of the scene: every key with its meaning, unit, range and default
@@ -104,6 +107,7 @@ pub fn with_arguments(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Command::Uncertainty(args) => uncertainty::run(args),
         Command::Calibrate(args) => calibrate::run(args),
         Command::Compare(args) => compare::run(args),
+        Command::Rexs(args) => rexs::run(args),
         Command::Validate(args) => validate::run(args),
         Command::Schema(args) => schema::run(args),
         Command::Completions(args) => completions::run(args),

@@ -13,5 +13,6 @@ mod plan;
 #[path = "../program/mod.rs"]
 mod program;
 mod resume;
+mod rexs;
 mod run;
 mod stiffness_curve;

@@ -169,16 +169,15 @@ impl Document {
             return Err(RexsError::NoXml { line: 1, found: found.to_owned() });
         }
         let mut reader = Reader::from_str(text);
-        let mut lines = Lines { text, byte: 0, line: 1 };
+        let mut lines = Lines::of(text);
         let mut path: Vec<String> = Vec::new();
         let mut document = Document::default();
         let mut model_seen = false;
         loop {
             let line = lines.at(reader.buffer_position());
-            let event = reader.read_event().map_err(|error| RexsError::NoXml {
-                line: lines.at(reader.error_position()),
-                found: format!("XML that cannot be read ({error})"),
-            })?;
+            let event = reader
+                .read_event()
+                .map_err(|error| RexsError::unreadable(lines.at(reader.error_position()), &error))?;
             match event {
                 Event::Start(tag) => {
                     model_seen |= tag.name().as_ref() == "model";
@@ -210,19 +209,7 @@ impl Document {
 
     /// Takes in an element within the elements `path`.
     fn enter(&mut self, tag: &BytesStart, line: usize, path: &[String]) -> Result<(), RexsError> {
-        let value = |name: &str| -> Result<String, RexsError> {
-            let wrong =
-                |error: String| RexsError::NoXml { line, found: format!("an attribute that cannot be read ({error})") };
-            match tag.try_get_attribute(name).map_err(|error| wrong(error.to_string()))? {
-                None => Ok(String::new()),
-                Some(found) => {
-                    let value =
-                        found.normalized_value(XmlVersion::Implicit1_0).map_err(|error| wrong(error.to_string()))?;
-                    // Names stand in remarks, which end with their line.
-                    Ok(value.chars().map(|c| if c.is_control() { ' ' } else { c }).collect())
-                }
-            }
-        };
+        let value = |name: &str| xml_attribute(tag, name, line);
         match tag.name().as_ref() {
             "model" => {
                 self.version = value("version")?;
@@ -280,6 +267,19 @@ impl Document {
     }
 }
 
+/// An attribute of an element on `line`; empty where it is not there.
+pub(super) fn xml_attribute(tag: &BytesStart, name: &str, line: usize) -> Result<String, RexsError> {
+    let wrong = |error: String| RexsError::NoXml { line, found: format!("an attribute that cannot be read ({error})") };
+    match tag.try_get_attribute(name).map_err(|error| wrong(error.to_string()))? {
+        None => Ok(String::new()),
+        Some(found) => {
+            let value = found.normalized_value(XmlVersion::Implicit1_0).map_err(|error| wrong(error.to_string()))?;
+            // Names stand in remarks, which end with their line.
+            Ok(value.chars().map(|c| if c.is_control() { ' ' } else { c }).collect())
+        }
+    }
+}
+
 /// What a file is that is no XML, by how it begins.
 fn other_form(text: &str) -> Option<&'static str> {
     let text = text.trim_start_matches('\u{feff}').trim_start();
@@ -297,14 +297,18 @@ fn other_form(text: &str) -> Option<&'static str> {
 }
 
 /// Lines of places that only grow.
-struct Lines<'a> {
+pub(super) struct Lines<'a> {
     text: &'a str,
     byte: usize,
     line: usize,
 }
 
-impl Lines<'_> {
-    fn at(&mut self, byte: u64) -> usize {
+impl<'a> Lines<'a> {
+    pub(super) fn of(text: &'a str) -> Self {
+        Self { text, byte: 0, line: 1 }
+    }
+
+    pub(super) fn at(&mut self, byte: u64) -> usize {
         let byte = usize::try_from(byte).unwrap_or(usize::MAX).min(self.text.len());
         if byte > self.byte {
             self.line += self.text.as_bytes()[self.byte..byte].iter().filter(|&&byte| byte == b'\n').count();

@@ -8,12 +8,20 @@
 
 #![allow(non_snake_case, reason = "names end in their unit as engineers write it")]
 
+mod attributes;
 mod document;
 mod load;
+pub(crate) mod mesh_stiffness;
 mod modifications;
+mod places;
+pub(crate) mod results;
+mod same_loads;
+mod same_pair;
 mod scene_text;
 mod stage;
 
+#[cfg(test)]
+mod results_tests;
 #[cfg(test)]
 mod tests;
 
@@ -63,4 +71,15 @@ pub(crate) enum RexsError {
     Missing { line: usize, component: String, attribute: &'static str },
     #[error("line {line}: {component}: {attribute}: found {found}; allowed: {allowed}")]
     Value { line: usize, component: String, attribute: String, found: String, allowed: String },
+    /// A run of another pair than that of the stage.
+    #[error("RUN: {what}: found {found}; allowed: {allowed}, that of {stage}")]
+    OtherPair { what: String, found: String, allowed: String, stage: String },
+    #[error("line {line}: found a second load_spectrum; allowed: one, as the format has it")]
+    SecondSpectrum { line: usize },
+}
+
+impl RexsError {
+    fn unreadable(line: usize, error: &quick_xml::Error) -> Self {
+        Self::NoXml { line, found: format!("XML that cannot be read ({error})") }
+    }
 }

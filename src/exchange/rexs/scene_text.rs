@@ -211,7 +211,7 @@ impl Text {
 }
 
 /// Twelve digits, so that 0.1 mm is 100 µm again.
-fn rounded(value: f64) -> String {
+pub(super) fn rounded(value: f64) -> String {
     let short: f64 = format!("{value:.11e}").parse().unwrap_or(value);
     format!("{short:?}")
 }

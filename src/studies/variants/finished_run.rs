@@ -128,11 +128,14 @@ impl FinishedRun {
     pub(crate) fn wear_profile(&self, gear: Gear) -> (Vec<f64>, Vec<f64>) {
         let flank = &self.flanks[gear];
         let (points, radii, wear) = (flank.get("point"), flank.get("radius_mm"), flank.get("wear_um"));
-        let count = points.iter().copied().fold(-1.0, f64::max) as usize + 1;
+        let count = points.iter().copied().fold(-1.0, f64::max) + 1.0;
+        // A flank has no more points than rows, whatever a damaged table says.
+        let count = (count as usize).min(points.len());
         let mut profile = vec![0.0_f64; count];
         for (point, wear_um) in points.iter().zip(wear) {
-            let greatest = &mut profile[*point as usize];
-            *greatest = greatest.max(*wear_um);
+            if let Some(greatest) = profile.get_mut(*point as usize) {
+                *greatest = greatest.max(*wear_um);
+            }
         }
         (radii[..count.min(radii.len())].to_vec(), profile)
     }

@@ -1,0 +1,340 @@
+//! The results of a run as attributes of the stage it was of.
+//!
+//! Where they stand follows the section "Load spectra" of the specification (spec.rexs.info, version 1.6): a load case holds what varies from
+//! load to load, the accumulation what is summed up over all of them, all load cases have as many attributes, and what stands in these does
+//! not stand in the model too.
+//!
+//! | file and run | figures of a load | of the whole life |
+//! |---|---|---|
+//! | no load spectrum, the same load | model | model |
+//! | one load case, the same load | the load case | accumulation |
+//! | several load cases, a phase for each with its load | in every load case those known of it; those of the greatest load alone in the accumulation, under an id that says so | accumulation |
+//! | other loads than in the file | those of the greatest load, under an id that says so, in the accumulation, or the model without load spectrum | the same |
+//!
+//! Figures that no load changes stand in the model.
+
+use std::collections::BTreeSet;
+
+use quick_xml::escape::escape;
+use serde_json::Value;
+
+use super::RexsError;
+use super::attributes::{self, Attribute, CUSTOM, FIGURES, Figure, Naming, Of, On};
+use super::document::{Component, Document};
+use super::load;
+use super::mesh_stiffness::MeshStiffness;
+use super::places::{LoadSpectrum, NewElement, Places};
+use super::same_loads::Loads;
+use super::same_pair;
+use super::scene_text::rounded;
+use super::stage::{Gears, Stage};
+use crate::gear::spec::PairSpec;
+use crate::gear::{Gear, PerGear};
+use crate::studies::evaluate::output::Output;
+
+const GEAR_IN_STAGE: &str = "cylindrical_stage_gear_data";
+
+/// What of a finished run is written.
+#[derive(Debug, Clone)]
+pub(crate) struct RunResults {
+    /// `summary.json`.
+    pub summary: Value,
+    pub pair: PairSpec,
+    pub mesh_stiffness: MeshStiffness,
+    pub wear_profile: PerGear<WearProfile>,
+}
+
+/// Wear depth of a flank from root to tip.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct WearProfile {
+    pub radius_mm: Vec<f64>,
+    /// Maximum over the face width.
+    pub depth_um: Vec<f64>,
+}
+
+/// A file with results in it.
+#[derive(Debug)]
+pub(crate) struct WithResults {
+    /// The file.
+    pub text: String,
+    /// The stage, as messages name it.
+    pub stage: String,
+    /// Attributes that are in the format's database.
+    pub standard: usize,
+    /// Those that are not.
+    pub custom: usize,
+    pub warnings: Vec<String>,
+}
+
+/// A part of the file that says something of components.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Section {
+    Model,
+    /// By its place among the load cases.
+    LoadCase(usize),
+    Accumulation,
+}
+
+/// A component that results belong to.
+#[derive(Debug)]
+struct Target {
+    on: On,
+    /// The gear; of a stage none.
+    gear: Option<Gear>,
+    id: String,
+    kind: &'static str,
+    /// Line of its tag; None where the file does not have it yet.
+    line: Option<usize>,
+}
+
+/// An attribute and where it is to stand.
+#[derive(Debug)]
+struct Placed {
+    section: Section,
+    /// Index of its target.
+    target: usize,
+    attribute: NewElement,
+}
+
+/// The file of this text with the results of a run of its `number`-th cylindrical stage, from 1, or of its only one.
+///
+/// # Errors
+///
+/// As for [`super::scene`]; a run of another pair, and more than one load spectrum.
+pub(crate) fn with_results(text: &str, number: Option<usize>, run: &RunResults) -> Result<WithResults, RexsError> {
+    let document = Document::parse(text)?;
+    let mut places = Places::of(text)?;
+    let spectrum = places.load_spectrum()?.filter(|spectrum| !spectrum.cases.is_empty());
+    if spectrum.as_ref().map_or(0, |spectrum| spectrum.cases.len()) != document.load_cases.len() {
+        return Err(RexsError::NoXml { line: 1, found: "a load_case outside <load_spectrum>".to_owned() });
+    }
+    let stage = Stage::find(&document, number)?;
+    // What a scene cannot say of the stage was told when it was made.
+    let gears = stage.gears(&document, &mut Vec::new())?;
+    same_pair::check(&stage, &gears, &run.pair)?;
+    let load = load::of(&document, &gears.pinion, &mut Vec::new())?;
+    let loads = Loads::of(&document, &load, &run.summary);
+
+    let targets = targets(&stage, &gears, &places);
+    let writer = Writer {
+        run,
+        naming: Naming::of(&document, loads),
+        loads,
+        has_spectrum: spectrum.is_some(),
+        load_cases: document.load_cases.len() as u64,
+        targets: &targets,
+    };
+    let placed = writer.placed();
+    add_gear_data(&mut places, &stage, &gears, &targets)?;
+    put(&mut places, spectrum.as_ref(), &targets, &placed)?;
+
+    let custom = placed.iter().filter(|placed| placed.attribute.id().starts_with(CUSTOM)).count();
+    let mut warnings = Vec::new();
+    if loads == Loads::Different {
+        warnings.push(
+            "the loads of the run are not those of the file: what depends on the load is written under custom_gearwear_greatest_load_…"
+                .to_owned(),
+        );
+    }
+    Ok(WithResults {
+        text: places.changed(),
+        stage: stage.component.label(),
+        standard: placed.len() - custom,
+        custom,
+        warnings,
+    })
+}
+
+/// The stage, its gears, and what is of each gear in it.
+fn targets(stage: &Stage, gears: &Gears, places: &Places) -> Vec<Target> {
+    let target =
+        |on, gear, known: &Component, kind| Target { on, gear, id: known.id.clone(), kind, line: Some(known.line) };
+    let mut targets = vec![target(On::Stage, None, stage.component, "cylindrical_stage")];
+    let mut taken = BTreeSet::new();
+    for (gear, data) in [(Gear::Pinion, &gears.pinion), (Gear::Wheel, &gears.wheel)] {
+        targets.push(target(On::Gear, Some(gear), data.component, "cylindrical_gear"));
+        targets.push(match data.in_stage {
+            Some(known) => target(On::GearInStage, Some(gear), known, GEAR_IN_STAGE),
+            None => {
+                let id = places.free_id("component", &taken);
+                taken.insert(id.clone());
+                Target { on: On::GearInStage, gear: Some(gear), id, kind: GEAR_IN_STAGE, line: None }
+            }
+        });
+    }
+    targets
+}
+
+struct Writer<'a> {
+    run: &'a RunResults,
+    naming: Naming<'a>,
+    loads: Loads,
+    has_spectrum: bool,
+    load_cases: u64,
+    targets: &'a [Target],
+}
+
+impl Writer<'_> {
+    /// All attributes that the run has a value for.
+    fn placed(&self) -> Vec<Placed> {
+        let text = |key: &str| self.run.summary[key].as_str().map(|text| escape(text).into_owned());
+        let mut placed = Vec::new();
+        placed.extend(text("program_version").and_then(|text| self.place(&attributes::PROGRAM_VERSION, None, text)));
+        placed.extend(text("scene_hash").and_then(|text| self.place(&attributes::SCENE_HASH, None, text)));
+        for figure in FIGURES {
+            self.figure(figure, &mut placed);
+        }
+        self.mesh_stiffness(&mut placed);
+        self.wear_profiles(&mut placed);
+        placed
+    }
+
+    fn figure(&self, Figure { path, attribute }: &Figure, placed: &mut Vec<Placed>) {
+        for of_target in self.targets.iter().filter(|target| target.on == attribute.on) {
+            let number = |path: &str, phase: u64| {
+                let gear = of_target.gear.map_or("", Gear::name);
+                let path = path.replace("{gear}", gear).replace("{phase}", &phase.to_string());
+                Output::find(&path).ok()?.of(&self.run.summary)
+            };
+            let reference = self.run.summary["reference_phase"].as_u64().unwrap_or(1);
+            let of_phase = |phase: u64| match attribute.of {
+                Of::Torque => {
+                    let torque = |phase| number("phases.{phase}.pinion_torque_Nm", phase);
+                    Some(number(path, phase)? * (torque(phase)? / torque(reference)?))
+                }
+                _ => number(path, phase),
+            };
+            let place = |value| self.place(attribute, of_target.gear, rounded(value));
+            if matches!(attribute.of, Of::Phase | Of::Torque) && self.loads == Loads::PhaseForEach {
+                // All load cases have as many attributes: each has it, or none.
+                let values: Option<Vec<f64>> = (1..=self.load_cases).map(of_phase).collect();
+                for (case, value) in values.into_iter().flatten().enumerate() {
+                    let section = Section::LoadCase(case);
+                    placed.extend(place(value).map(|place| Placed { section, ..place }));
+                }
+            } else if attribute.of != Of::Phase {
+                placed.extend(number(path, reference).and_then(place));
+            }
+        }
+    }
+
+    fn mesh_stiffness(&self, placed: &mut Vec<Placed>) {
+        let pair = &self.run.pair;
+        let over_pitch = self.run.mesh_stiffness.over_pitch(pair.gears.pinion.teeth);
+        for (attribute, curve) in attributes::MEAN_MESH_STIFFNESS.iter().zip(&over_pitch) {
+            let mean = curve.as_ref().map(|curve| rounded(curve.mean_N_per_mm_um));
+            placed.extend(mean.and_then(|mean| self.place(attribute, None, mean)));
+        }
+        let [Some(new), _] = over_pitch else { return };
+        let stiffness = array(new.stiffness_N_per_mm(pair.face_width_mm));
+        placed.extend(self.place(&attributes::MESH_STIFFNESS, None, stiffness));
+        for gear in Gear::BOTH {
+            let per_pinion = f64::from(pair.gears.pinion.teeth) / f64::from(pair.gears[gear].teeth);
+            let rotation = array(new.pinion_rotation_deg.iter().map(|angle_deg| angle_deg * per_pinion));
+            placed.extend(self.place(&attributes::MESH_POSITIONS, Some(gear), rotation));
+        }
+    }
+
+    fn wear_profiles(&self, placed: &mut Vec<Placed>) {
+        for gear in Gear::BOTH {
+            let WearProfile { radius_mm, depth_um } = &self.run.wear_profile[gear];
+            let is_known = !depth_um.is_empty() && radius_mm.len() == depth_um.len();
+            if is_known && radius_mm.iter().chain(depth_um).all(|value| value.is_finite()) {
+                let diameters = array(radius_mm.iter().map(|radius_mm| 2.0 * radius_mm));
+                placed.extend(self.place(&attributes::WEAR_DEPTH_DIAMETERS, Some(gear), diameters));
+                placed.extend(self.place(&attributes::WEAR_DEPTH, Some(gear), array(depth_um.iter().copied())));
+            }
+        }
+    }
+
+    /// An attribute with what stands between its tags; None where this version of the format has none.
+    fn place(&self, attribute: &Attribute, gear: Option<Gear>, markup: String) -> Option<Placed> {
+        let target = self.targets.iter().position(|target| target.on == attribute.on && target.gear == gear)?;
+        let id = self.naming.id(attribute)?;
+        let section = self.section(attribute.of);
+        Some(Placed { section, target, attribute: NewElement::attribute(id, self.naming.unit(attribute), markup) })
+    }
+
+    /// Where figures that are the same for all load cases stand.
+    fn section(&self, of: Of) -> Section {
+        match (self.has_spectrum, of) {
+            (false, _) | (true, Of::Pair) => Section::Model,
+            (true, Of::Load | Of::Torque) if self.loads == Loads::One => Section::LoadCase(0),
+            (true, _) => Section::Accumulation,
+        }
+    }
+}
+
+fn array(values: impl IntoIterator<Item = f64>) -> String {
+    let cells: String = values.into_iter().map(|value| format!("<c>{}</c>", rounded(value))).collect();
+    format!("<array>{cells}</array>")
+}
+
+/// The components that the file lacks, each with the relation that names its gear and stage.
+fn add_gear_data(places: &mut Places, stage: &Stage, gears: &Gears, targets: &[Target]) -> Result<(), RexsError> {
+    let mut taken = BTreeSet::new();
+    let mut relations = Vec::new();
+    for target in targets.iter().filter(|target| target.line.is_none()) {
+        let gear = if target.gear == Some(Gear::Wheel) { &gears.wheel } else { &gears.pinion };
+        let id = places.free_id("relation", &taken);
+        taken.insert(id.clone());
+        let member = |id: &str, role: &str| {
+            NewElement::new("ref", vec![("id", id.to_owned()), ("role", role.to_owned())], Vec::new())
+        };
+        let members = vec![
+            member(&stage.component.id, "stage"),
+            member(&gear.component.id, "gear"),
+            member(&target.id, "stage_gear_data"),
+        ];
+        relations.push(NewElement::new("relation", vec![("id", id), ("type", "stage_gear_data".to_owned())], members));
+    }
+    if !relations.is_empty() {
+        let node = places.first("relations")?;
+        places.add(node, relations);
+    }
+    Ok(())
+}
+
+/// Puts all attributes in place. What an earlier run left under custom ids goes, and from the model what the load spectrum now says.
+fn put(
+    places: &mut Places,
+    spectrum: Option<&LoadSpectrum>,
+    targets: &[Target],
+    placed: &[Placed],
+) -> Result<(), RexsError> {
+    let mut sections = vec![(Section::Model, Some(places.first("components")?))];
+    if let Some(spectrum) = spectrum {
+        sections.extend(spectrum.cases.iter().enumerate().map(|(case, node)| (Section::LoadCase(case), Some(*node))));
+        sections.push((Section::Accumulation, spectrum.accumulation));
+    }
+    for (section, node) in sections {
+        let mut new = Vec::new();
+        for (index, target) in targets.iter().enumerate() {
+            let of_target = placed.iter().filter(|placed| placed.target == index);
+            let (here, elsewhere): (Vec<&Placed>, Vec<&Placed>) =
+                of_target.partition(|placed| placed.section == section);
+            let attributes: Vec<NewElement> = here.iter().map(|placed| placed.attribute.clone()).collect();
+            let is_written = |id: &str| here.iter().any(|placed| placed.attribute.id() == id);
+            let is_moved = |id: &str| elsewhere.iter().any(|placed| placed.attribute.id() == id);
+            if let Some(component) = node.and_then(|node| places.component(node, &target.id)) {
+                places.take_out_attributes(component, |id| {
+                    !is_written(id) && (id.starts_with(CUSTOM) || section == Section::Model && is_moved(id))
+                });
+                places.set_attributes(component, attributes);
+            } else if let (Section::Model, Some(line)) = (section, target.line) {
+                return Err(RexsError::NoXml { line, found: "a component outside <components>".to_owned() });
+            } else if !attributes.is_empty() || section == Section::Model {
+                let xml = vec![("id", target.id.clone()), ("type", target.kind.to_owned())];
+                new.push(NewElement::new("component", xml, attributes));
+            }
+        }
+        match (node, spectrum) {
+            (Some(node), _) => places.add(node, new),
+            (None, Some(spectrum)) if !new.is_empty() => {
+                places.add(spectrum.node, vec![NewElement::new("accumulation", Vec::new(), new)]);
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}

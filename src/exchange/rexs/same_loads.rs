@@ -1,0 +1,43 @@
+//! Whether a run is under the loads that a file describes.
+
+use serde_json::Value;
+
+use super::document::Document;
+use super::load::Load;
+
+/// Loads this close to each other, relatively, are the same: scenes from REXS have twelve digits.
+const SAME: f64 = 1e-6;
+
+/// How the loads of a file and of a run go together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Loads {
+    /// One, the same.
+    One,
+    /// Several, a phase of the run for each load case.
+    PhaseForEach,
+    Different,
+}
+
+impl Loads {
+    /// Compares torque and speed of the pinion, as far as the file says them, with the phases of a run's summary.
+    pub(super) fn of(document: &Document, load: &Load, summary: &Value) -> Self {
+        let given = document.load_cases.len().max(1);
+        let phases = summary["phases"].as_array().map_or(&[][..], Vec::as_slice);
+        let same = |given: Option<f64>, run: Option<f64>| match (given, run) {
+            (Some(given), Some(run)) => (given / run - 1.0).abs() <= SAME,
+            // What one of them leaves open does not contradict the other.
+            _ => true,
+        };
+        let agree = load.cases.len() == given
+            && phases.len() == given
+            && load.cases.iter().zip(phases).all(|(case, phase)| {
+                same(case.torque_Nm, phase["pinion_torque_Nm"].as_f64())
+                    && same(case.speed_rpm, phase["pinion_speed_rpm"].as_f64())
+            });
+        match (agree, given) {
+            (false, _) => Self::Different,
+            (true, 1) => Self::One,
+            (true, _) => Self::PhaseForEach,
+        }
+    }
+}

@@ -1,0 +1,38 @@
+//! Whether a run is of the pair that a file describes.
+
+use super::RexsError;
+use super::stage::{Gears, Stage};
+use crate::gear::Gear;
+use crate::gear::spec::PairSpec;
+
+/// Figures this close to each other, relatively, or as numbers without unit, are the same: scenes from REXS have twelve digits.
+const SAME: f64 = 1e-6;
+
+/// Compares teeth, module, angles, centre distance, face width and profile shifts.
+///
+/// # Errors
+/// [`RexsError::OtherPair`], with the first that is another.
+pub(super) fn check(stage: &Stage, gears: &Gears, run: &PairSpec) -> Result<(), RexsError> {
+    let of_gears = [(Gear::Pinion, &gears.pinion), (Gear::Wheel, &gears.wheel)];
+    let teeth = of_gears.map(|(gear, data)| {
+        (format!("teeth of the {}", gear.name()), f64::from(run.gears[gear].teeth), f64::from(data.teeth))
+    });
+    let shifts = of_gears.map(|(gear, data)| {
+        (format!("profile shift of the {}", gear.name()), run.gears[gear].profile_shift, data.profile_shift)
+    });
+    let common = [
+        ("normal module in mm", run.normal_module_mm, gears.normal_module_mm),
+        ("normal pressure angle in deg", run.normal_pressure_angle_rad.to_degrees(), gears.pressure_angle_deg),
+        ("helix angle in deg", run.helix_angle_rad.to_degrees().abs(), gears.helix_angle_deg.abs()),
+        ("centre distance in mm", run.centre_distance_mm, gears.centre_distance_mm),
+        ("face width in mm", run.face_width_mm, gears.face_width_mm),
+    ];
+    let common = common.map(|(what, run, file)| (what.to_owned(), run, file));
+    for (what, run, file) in teeth.into_iter().chain(common).chain(shifts) {
+        if (run - file).abs() > SAME * file.abs().max(1.0) {
+            let (found, allowed) = (run.to_string(), file.to_string());
+            return Err(RexsError::OtherPair { what, found, allowed, stage: stage.component.label() });
+        }
+    }
+    Ok(())
+}
