@@ -67,6 +67,13 @@ pub(super) struct Figure {
     pub attribute: Attribute,
 }
 
+impl Figure {
+    /// A value of the summary in the unit of the attribute.
+    pub(super) fn in_unit(&self, value: f64) -> f64 {
+        if self.path.ends_with("_um") && self.attribute.unit == "mm" { 1e-3 * value } else { value }
+    }
+}
+
 /// How the attributes of a file are named.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Naming<'a> {
@@ -303,6 +310,14 @@ pub(super) static FIGURES: &[Figure] = &[
     ),
     custom(Of::Life, On::GearInStage, "{gear}.root_wear_um", "mum", "maximum_wear_depth_root"),
     custom(Of::Life, On::GearInStage, "{gear}.pitch_wear_um", "mum", "wear_depth_at_pitch_diameter"),
+    standard(
+        Of::Life,
+        On::GearInStage,
+        "{gear}.vdi_2736_mean_wear_um",
+        "mm",
+        &[always("averaged_linear_wear_vdi_2736_2014")],
+        None,
+    ),
     custom(Of::Life, On::GearInStage, "{gear}.worn_mass_mg", "mg", "wear_mass"),
     custom(Of::Phase, On::GearInStage, "phases.{phase}.{gear}.greatest_depth_um", "mum", "maximum_wear_depth"),
     custom(Of::Phase, On::GearInStage, "phases.{phase}.{gear}.tip_edge_depth_um", "mum", "maximum_wear_depth_tip_edge"),

@@ -189,7 +189,8 @@ impl Writer<'_> {
         placed
     }
 
-    fn figure(&self, Figure { path, attribute }: &Figure, placed: &mut Vec<Placed>) {
+    fn figure(&self, figure: &Figure, placed: &mut Vec<Placed>) {
+        let Figure { path, attribute } = figure;
         for of_target in self.targets.iter().filter(|target| target.on == attribute.on) {
             let number = |path: &str, phase: u64| {
                 let gear = of_target.gear.map_or("", Gear::name);
@@ -204,7 +205,7 @@ impl Writer<'_> {
                 }
                 _ => number(path, phase),
             };
-            let place = |value| self.place(attribute, of_target.gear, rounded(value));
+            let place = |value| self.place(attribute, of_target.gear, rounded(figure.in_unit(value)));
             if matches!(attribute.of, Of::Phase | Of::Torque) && self.loads == Loads::PhaseForEach {
                 // All load cases have as many attributes: each has it, or none.
                 let values: Option<Vec<f64>> = (1..=self.load_cases).map(of_phase).collect();
