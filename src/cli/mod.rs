@@ -62,7 +62,7 @@ enum Command {
     Uncertainty(uncertainty::Args),
     /// Calibrate the fast model: tooth stiffness and K/H from finite elements, against Hertz
     Calibrate(calibrate::Args),
-    /// Compare a measured flank profile with a finished run, and fit the wear coefficient to it
+    /// Compare measured flank profiles with a finished run, and fit the wear coefficients to them
     Compare(compare::Args),
     /// Run the validation suite: every claim against its reference, with error, run time and work
     Validate(validate::Args),

@@ -57,6 +57,10 @@ PAGES = {
         "--subject-to wheel_peak_wear_um<=8 --out {o}"
     ],
     "compare-measured": ["run {s}/spur.toml --out {o}", "compare {o} {s}/trace.csv --shift-within 0 --out {o}/compared"],
+    "compare-flanks": [
+        "run {s}/spur.toml --out {o}",
+        "compare {o} {s}/trace.csv {s}/wheel-trace.csv --shift-within 0 --out {o}/compared",
+    ],
     "compare-runs": ["compare {s}/spur.toml {s}/heavy.toml --out {o}"],
     "compare-helical": ["compare {s}/helical.toml {s}/helical-heavy.toml --out {o}"],
     "accuracy": ["accuracy {s}/spur.toml --out {o}"],
@@ -201,9 +205,10 @@ def scenes(program: str, folder: pathlib.Path) -> None:
     for mesh, problem in [("roller.msh", ROLLER), ("plate-hex8.msh", PLATE)]:
         shutil.copy(REPOSITORY / "meshes" / mesh, folder)
         (folder / f"{mesh.split('-')[0].split('.')[0]}.toml").write_text(problem)
-    rows = [(34.3 + 0.02 * i, -8 * 2.718 ** (-i / 60) + 0.1 * (i * 7 % 5 - 2)) for i in range(300)]
-    lines = ["# invented", "# gear = pinion", "# uncertainty_um = 0.15", "radius_mm,height_um"]
-    (folder / "trace.csv").write_text("\n".join(lines + [f"{r:.3f},{h:.3f}" for r, h in rows]) + "\n")
+    for name, gear, first, depth in [("trace", "pinion", 34.3, 8), ("wheel-trace", "wheel", 52.2, 5)]:
+        rows = [(first + 0.02 * i, -depth * 2.718 ** (-i / 60) + 0.1 * (i * 7 % 5 - 2)) for i in range(300)]
+        lines = ["# invented", f"# gear = {gear}", "# uncertainty_um = 0.15", "radius_mm,height_um"]
+        (folder / f"{name}.csv").write_text("\n".join(lines + [f"{r:.3f},{h:.3f}" for r, h in rows]) + "\n")
 
 
 LUBRICATED = """
@@ -242,7 +247,7 @@ def compute(program: str, name: str, scene_folder: pathlib.Path, folder: pathlib
             if done.returncode != 0:
                 raise RuntimeError(f"gearwear {' '.join(arguments)}\n{done.stderr.strip()}")
     pages = sorted(folder.rglob("*.html"))
-    if name == "compare-measured":
+    if name in ("compare-measured", "compare-flanks"):
         pages = [page for page in pages if page.parent != folder]
     if name in ("compare-runs", "compare-helical"):
         pages = [page for page in pages if page.parent == folder]

@@ -90,14 +90,6 @@ pub(crate) struct Correlation {
     pub matrix: Vec<Vec<f64>>,
 }
 
-impl Correlation {
-    /// That of two parameters.
-    pub(crate) fn of(&self, one: Unknown, other: Unknown) -> Option<f64> {
-        let index = |wanted| self.parameters.iter().position(|&own| own == wanted);
-        Some(self.matrix[index(one)?][index(other)?])
-    }
-}
-
 /// What was fitted, and how.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FitRecord {
@@ -123,6 +115,13 @@ impl FitRecord {
     /// Whether there is another simulated profile beside that of the run as it is.
     pub(crate) fn is_of_wear(&self) -> bool {
         !self.coefficients.is_empty() || self.severe_factor.is_some()
+    }
+
+    /// The correlation coefficient of the wear coefficients of both gears, where each was fitted.
+    pub(crate) fn coefficient_correlation(&self) -> Option<f64> {
+        let Correlation { parameters, matrix } = self.correlation.as_ref()?;
+        let index = |gear| parameters.iter().position(|&own| own == Unknown::Coefficient(Some(gear)));
+        Some(matrix[index(Gear::Pinion)?][index(Gear::Wheel)?])
     }
 }
 

@@ -3,60 +3,70 @@
 
 use std::f64::consts::TAU;
 
+use super::page::interval;
 use crate::gear::Gear;
 use crate::reference::statistics::extent;
 use crate::report::chart::{Chart, Dash, MUTED, NEW, Trace, WORN, padded};
-use crate::report::html::number::{figure, significant};
+use crate::report::html::number::{figure, fixed, significant};
 use crate::report::html::reading::greatest;
 use crate::results::path_points::among;
-use crate::studies::compare::record::{Coefficient, CompareRecord, CompareRow, Estimate, ProfileRecord};
-use crate::studies::compare::unknown::Unknown;
+use crate::studies::compare::record::{CompareRecord, CompareRow, Estimate, ProfileRecord};
 
 const MEASURED: &str = "var(--wheel)";
 const SIMULATED: &str = "var(--pinion)";
 /// Points of an ellipse.
 const ELLIPSE_POINTS: usize = 120;
 
-/// The plots of each profile, and that of the coefficients.
-pub(super) fn all(record: &CompareRecord) -> Vec<Chart> {
+/// The plots of each profile.
+pub(super) fn of_profiles(record: &CompareRecord) -> Vec<Chart> {
     let of_profile = |of: &ProfileRecord| {
         let shown = Shown { of, is_fitted: record.fit.is_of_wear(), is_alone: record.profiles.len() == 1 };
         [shown.profiles(), shown.depths(), shown.differences()].map(|chart| shown.over_radius(chart))
     };
-    record.profiles.iter().flat_map(of_profile).chain(coefficients(record)).collect()
+    record.profiles.iter().flat_map(of_profile).collect()
 }
 
-/// The coefficients of both gears: the ellipse whose extents are their intervals.
-fn coefficients(record: &CompareRecord) -> Option<Chart> {
-    let of = Gear::BOTH.map(|gear| {
-        let of_gear = |own: &&Coefficient| own.gear == Some(gear);
-        record.fit.coefficients.iter().find(of_gear).map(|own| own.coefficient_m2_per_N)
-    });
-    let [one, other] = Gear::BOTH.map(|gear| Unknown::Coefficient(Some(gear)));
-    let correlation = record.fit.correlation.as_ref()?.of(one, other)?;
-    let [pinion, wheel] = [of[0]?, of[1]?];
-    // Logarithms with their half widths, of which the parameters were fitted.
-    let axis = |of: Estimate| Some((of.value.ln(), (of.high?.ln() - of.low?.ln()) / 2.0));
-    let ((x, half_x), (y, half_y)) = (axis(pinion)?, axis(wheel)?);
-    let turns: Vec<f64> = (0..=ELLIPSE_POINTS).map(|i| TAU * i as f64 / ELLIPSE_POINTS as f64).collect();
+/// The coefficients of both gears, where each was fitted: the ellipse whose extents are their intervals.
+pub(super) fn coefficients(record: &CompareRecord) -> Option<Chart> {
+    let fit = &record.fit;
+    let correlation = fit.coefficient_correlation()?;
+    let of_gear = |gear| fit.coefficients.iter().find(|own| own.gear == Some(gear)).map(|own| own.coefficient_m2_per_N);
+    let (pinion, wheel) = (of_gear(Gear::Pinion)?, of_gear(Gear::Wheel)?);
+    // Logarithms, which are what is fitted, and half the widths of their intervals.
+    let logarithm = |of: Estimate| Some((of.value.ln(), 0.5 * (of.high?.ln() - of.low?.ln())));
+    let ((x, half_x), (y, half_y)) = (logarithm(pinion)?, logarithm(wheel)?);
     let across = (1.0 - correlation * correlation).max(0.0).sqrt();
-    let ellipse_x = turns.iter().map(|turn| (x + half_x * turn.cos()).exp());
-    let ellipse_y: Vec<f64> =
-        turns.iter().map(|turn| (y + half_y * (correlation * turn.cos() + across * turn.sin())).exp()).collect();
-    let ratio = record.fit.coefficient_ratio.map_or_else(String::new, |ratio| {
-        let between = |low, high| format!(", 95 % interval {} to {}", significant(low, 3), significant(high, 3));
-        let interval = ratio.low.zip(ratio.high).map_or_else(String::new, |(low, high)| between(low, high));
-        format!(" The coefficient of the pinion is {} times that of the wheel{interval}.", significant(ratio.value, 3))
+    let turns = || (0..=ELLIPSE_POINTS).map(|i| TAU * i as f64 / ELLIPSE_POINTS as f64);
+    let ellipse_x: Vec<f64> = turns().map(|turn| (x + half_x * turn.cos()).exp()).collect();
+    let along_y = |turn: f64| correlation * turn.cos() + across * turn.sin();
+    let ellipse_y: Vec<f64> = turns().map(|turn| (y + half_y * along_y(turn)).exp()).collect();
+    let range = |ellipse: &[f64], of_run: f64| {
+        let [low, high] = extent(ellipse.iter().copied().chain([of_run]));
+        padded(low, high)
+    };
+    let (range_x, range_y) = (range(&ellipse_x, pinion.of_run), range(&ellipse_y, wheel.of_run));
+    let ratio = fit.coefficient_ratio.as_ref().map_or_else(String::new, |ratio| {
+        format!(
+            " The coefficient of the pinion is {} times that of the wheel{}.",
+            significant(ratio.value, 3),
+            interval(ratio)
+        )
     });
-    let chart = Chart::new("coefficients", "Wear coefficients of pinion and wheel").height(460).reading(format!(
+    let reading = format!(
         "The correlation coefficient is {}; the ellipse reaches as far along each axis as the 95 % interval of that coefficient.{ratio}",
-        significant(correlation, 2)
-    ));
+        fixed(correlation, 2)
+    );
     let hover = "pinion %{x:.4e}, wheel %{y:.4e} m²/N";
-    let fitted = Trace::points("fitted", [pinion.value], [wheel.value], (WORN, "cross", 9)).hover(hover);
-    let run = Trace::points("run", [pinion.of_run], [wheel.of_run], (NEW, "circle", 8)).hover(hover);
-    let chart = chart.x("k of the pinion, m²/N").x_format(".2e").y("k of the wheel, m²/N").y_set("tickformat", ".2e");
-    Some(chart.read_nearest().line("95 %", ellipse_x, ellipse_y, (WORN, 1.4, Dash::Solid), hover).add(fitted).add(run))
+    let point = |name, [x, y]: [f64; 2], sign| Trace::points(name, [x], [y], sign).hover(hover);
+    let chart = Chart::new("coefficients", "Wear coefficients of pinion and wheel").height(460).read_nearest();
+    let chart = chart.x("k of the pinion, m²/N").x_range(range_x).y("k of the wheel, m²/N").y_range(range_y);
+    Some(
+        chart
+            .reading(reading)
+            .line("95 %", ellipse_x, ellipse_y, (WORN, 1.4, Dash::Solid), hover)
+            .add(point("fitted", [pinion.value, wheel.value], (WORN, "cross", 9)))
+            .add(point("run", [pinion.of_run, wheel.of_run], (NEW, "circle", 8))),
+    )
 }
 
 /// A profile with what its plots need to know of the others.

@@ -5,12 +5,12 @@ use maud::{Markup, html};
 use super::figures;
 use crate::gear::Gear;
 use crate::measurement::fit::FitStop;
-use crate::report::html::number::{figure, given, hours, revolutions, significant};
+use crate::report::html::number::{figure, fixed, given, hours, revolutions, significant};
 use crate::report::html::page::{Page, Plots, section, sources_list};
 use crate::report::html::reading::capitalised;
 use crate::report::html::table::{Cell, NONE, line, list, row, table};
 use crate::results::run::ReportedBy;
-use crate::studies::compare::record::{CompareRecord, Correlation, Estimate, FitRecord, ProfileRecord};
+use crate::studies::compare::record::{CompareRecord, Correlation, Estimate, ProfileRecord};
 use crate::studies::compare::unknown::Unknown;
 
 const DATA_FILES: [(&str, &str); 2] = [
@@ -21,6 +21,7 @@ const DATA_FILES: [(&str, &str); 2] = [
 pub(super) fn page(record: &CompareRecord) -> String {
     let sources = sources_list(&DATA_FILES, "The resolved scene of the run", &record.scene_toml);
     let plots = Plots::default();
+    let correlated = figures::coefficients(record).map(|chart| plots.show(&[chart]));
     Page {
         kind: match record.profiles.len() {
             1 => "Measured profile against a run",
@@ -32,8 +33,8 @@ pub(super) fn page(record: &CompareRecord) -> String {
         interruption: None,
         warnings: &record.warnings,
         main: html! {
-            (section("fit", "What the measurement says", tables(record)))
-            (section("plots", "Profiles", plots.show(&figures::all(record))))
+            (section("fit", "What the measurement says", tables(record, correlated)))
+            (section("plots", "Profiles", plots.show(&figures::of_profiles(record))))
             (section("sources", "Data and scene", sources))
         },
         plots,
@@ -51,9 +52,10 @@ fn answer(record: &CompareRecord) -> String {
     let (whose, are_many) = match &profiles[..] {
         [one] => (format!("The {}’s profile after {}", one.gear.name(), when(one)), false),
         several => {
-            let each: Vec<String> =
-                several.iter().map(|of| format!("of the {} after {}", of.gear.name(), when(of))).collect();
-            (format!("The profiles {}", each.join(" and ")), true)
+            let mut times: Vec<String> = several.iter().map(when).collect();
+            times.dedup();
+            let gears: Vec<&str> = several.iter().map(|of| of.gear.name()).collect();
+            (format!("The profiles of {} after {}", gears.join(" and "), times.join(" and ")), true)
         }
     };
     let verb = |one: &'static str, many: &'static str| if are_many { many } else { one };
@@ -79,8 +81,8 @@ fn answer(record: &CompareRecord) -> String {
         found.push(of_estimate(&format!("a wear coefficient k{whose} (in m²/N)"), &own.coefficient_m2_per_N));
     }
     found.extend(fit.severe_factor.map(|severe| of_estimate("a severe factor", &severe)));
-    let correlated = coefficients_correlation(fit).map_or_else(String::new, |correlation| {
-        format!(" The correlation coefficient of both coefficients is {}.", significant(correlation, 2))
+    let correlated = fit.coefficient_correlation().map_or_else(String::new, |correlation| {
+        format!(" The correlation coefficient of both coefficients is {}.", fixed(correlation, 2))
     });
     let residual = verb("the residual is", "the residuals are");
     let fitted = verb("is fitted", "are fitted");
@@ -95,14 +97,8 @@ fn of_estimate(what: &str, estimate: &Estimate) -> String {
     format!("{what} of {}{}", significant(estimate.value, 3), interval(estimate))
 }
 
-/// The correlation coefficient of the wear coefficients of both gears, where each was fitted.
-fn coefficients_correlation(fit: &FitRecord) -> Option<f64> {
-    let [pinion, wheel] = Gear::BOTH.map(|gear| Unknown::Coefficient(Some(gear)));
-    fit.correlation.as_ref()?.of(pinion, wheel)
-}
-
 /// ", 95 % interval … to …".
-fn interval(estimate: &Estimate) -> String {
+pub(super) fn interval(estimate: &Estimate) -> String {
     match (estimate.low, estimate.high) {
         (Some(low), Some(high)) => {
             format!(", 95 % interval {} to {}", significant(low, 3), significant(high, 3))
@@ -111,7 +107,8 @@ fn interval(estimate: &Estimate) -> String {
     }
 }
 
-fn tables(record: &CompareRecord) -> Markup {
+/// The tables, with the plot of the coefficients beside their correlation.
+fn tables(record: &CompareRecord, correlated: Option<Markup>) -> Markup {
     let (fit, profiles) = (&record.fit, &record.profiles);
     let estimated = |name: String, unit: &str, e: &Estimate| {
         let end = |value: Option<f64>| value.map_or_else(|| NONE.to_owned(), |value| significant(value, 4));
@@ -159,6 +156,7 @@ fn tables(record: &CompareRecord) -> Markup {
         @if let Some(correlation) = &fit.correlation {
             (correlations(correlation))
         }
+        @if let Some(plot) = correlated { (plot) }
         (table(format!("Profile, form removed ({})", forms.join(", ")), &names, of_profiles))
         (table("Runs", &[""], runs))
     }
@@ -170,7 +168,7 @@ fn correlations(correlation: &Correlation) -> Markup {
     let count = names.len();
     let columns = [String::new()].into_iter().chain(names[..count - 1].iter().cloned());
     let rows = (1..count).map(|i| {
-        let known = |j: usize| if j < i { significant(correlation.matrix[i][j], 2) } else { String::new() };
+        let known = |j: usize| if j < i { fixed(correlation.matrix[i][j], 2) } else { String::new() };
         line([capitalised(&names[i])].into_iter().chain((0..count - 1).map(known)).map(Cell::from))
     });
     list("Correlation coefficients of the fitted values", columns, rows)
