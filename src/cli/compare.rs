@@ -155,6 +155,9 @@ impl From<CompareFault> for Failure {
     }
 }
 
+/// One of the figures of a profile, where it has it.
+type Figure = fn(&CompareFigures) -> Option<f64>;
+
 /// What was found, for the terminal.
 fn table(record: &CompareRecord) -> String {
     let (fit, profiles) = (&record.fit, &record.profiles);
@@ -190,7 +193,7 @@ fn table(record: &CompareRecord) -> String {
     if several {
         text.push_str(&line("", &profiles.iter().map(|of| of.gear.name().to_owned()).collect::<Vec<_>>()));
     }
-    let figures: [(&str, fn(&CompareFigures) -> Option<f64>); 5] = [
+    let figures: [(&str, Figure); 5] = [
         ("arithmetic mean deviation, measured, µm", |f| Some(f.mean_deviation_um)),
         ("  the same, simulated", |f| Some(f.simulated_mean_deviation_um)),
         ("Ra, cutoff 0.8 mm, measured, µm", |f| f.roughness_um),
