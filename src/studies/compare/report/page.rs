@@ -107,7 +107,7 @@ pub(super) fn interval(estimate: &Estimate) -> String {
     }
 }
 
-/// The tables, with the plot of the coefficients beside their correlation.
+/// The tables, and the plot of the coefficients.
 fn tables(record: &CompareRecord, correlated: Option<Markup>) -> Markup {
     let (fit, profiles) = (&record.fit, &record.profiles);
     let estimated = |name: String, unit: &str, e: &Estimate| {
@@ -156,9 +156,9 @@ fn tables(record: &CompareRecord, correlated: Option<Markup>) -> Markup {
         @if let Some(correlation) = &fit.correlation {
             (correlations(correlation))
         }
-        @if let Some(plot) = correlated { (plot) }
         (table(format!("Profile, form removed ({})", forms.join(", ")), &names, of_profiles))
         (table("Runs", &[""], runs))
+        @if let Some(plot) = correlated { (plot) }
     }
 }
 
