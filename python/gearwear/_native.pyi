@@ -174,10 +174,10 @@ class Mesh:
 
 def compare(
     run: str,
-    measured: str,
+    measured: Sequence[str],
     gear: str | None,
     form: str | None,
-    fit: str,
+    fit: str | None,
     shift_within_mm: float,
     threads: int,
     progress: _Progress | None,

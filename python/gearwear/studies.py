@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from functools import cached_property
 from pathlib import Path
@@ -42,25 +42,26 @@ class Study:
 
 def compare(
     run: Finished,
-    measured: str | os.PathLike[str],
+    measured: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
     *,
     gear: str | None = None,
     form: str | None = None,
-    fit: str = "k",
+    fit: str | None = None,
     shift_within_mm: float = 0.1,
     threads: int | None = None,
     progress: ProgressArgument = False,
 ) -> Study:
-    """The measured profile in a CSV file against a run: ``gearwear compare RUN MEASURED``, whose options these are.
+    """The measured profile in a CSV file against a run, or those of pinion and wheel in a list of two: ``gearwear compare RUN MEASURED …``, whose options these are.
 
-    ``summary["fit"]`` is what was fitted, ``summary["figures"]`` how far apart both are. A profile that does not fit the run raises :class:`ValueError`.
+    ``summary["fit"]`` is what was fitted, with the correlation coefficients of the values, ``summary["profiles"]`` how far apart each profile
+    and the simulated one are. A profile that does not fit the run raises :class:`ValueError`.
     """
     count = thread_count(threads)
     with ExitStack() as kept, Watched(progress) as told:
         folder = _folder(run, kept)
-        return Study(
-            _native.compare(folder, os.fspath(measured), gear, form, fit, float(shift_within_mm), count, told)
-        )
+        files = [measured] if isinstance(measured, (str, os.PathLike)) else measured
+        paths = [os.fspath(file) for file in files]
+        return Study(_native.compare(folder, paths, gear, form, fit, float(shift_within_mm), count, told))
 
 
 def compare_runs(runs: Mapping[str, Finished]) -> Study:

@@ -34,16 +34,16 @@ impl Study {
     }
 }
 
-/// A measured profile against the finished run in a folder.
+/// Measured profiles against the finished run in a folder.
 #[pyfunction]
 #[allow(clippy::too_many_arguments, reason = "the arguments of the Python function")]
 pub(crate) fn compare(
     py: Python<'_>,
     run: PathBuf,
-    measured: PathBuf,
+    measured: Vec<PathBuf>,
     gear: Option<String>,
     form: Option<String>,
-    fit: String,
+    fit: Option<String>,
     shift_within_mm: f64,
     threads: usize,
     progress: Option<Bound<'_, PyAny>>,

@@ -53,12 +53,34 @@ def test_a_measured_profile(run: gearwear.Run, tmp_path: Path) -> None:
     assert fitted["value"] == pytest.approx(1.3 * fitted["of_run"], rel=0.01)
     study.write(tmp_path / "out")
     assert json.loads((tmp_path / "out" / "compare.json").read_text(encoding="utf-8")) == study.summary
-    with pytest.raises(ValueError, match="fit: found 'speed'|fit: found \"speed\"; allowed: none, k, severe, both"):
+    with pytest.raises(ValueError, match="fit: found 'speed'|fit: found \"speed\"; allowed: none, k, each, severe, both"):
         gearwear.compare(run, measured, fit="speed")
     with pytest.raises(ValueError, match="gear: found .*wheel"):
         gearwear.compare(run, measured, gear="wheel")
     with pytest.raises(FileNotFoundError):
         gearwear.compare(run, tmp_path / "nothing.csv")
+
+
+def test_measured_profiles_of_both_gears(run: gearwear.Run, tmp_path: Path) -> None:
+    """1.3 times the pinion's wear and 0.9 times the wheel's, with scatter, are those of 1.3 and 0.9 times the coefficient."""
+    files = []
+    noise = np.random.default_rng(1)
+    for flank, name, factor in [(run.pinion, "pinion", 1.3), (run.wheel, "wheel", 0.9)]:
+        worn = flank.wear_um > 0.0
+        depth = factor * flank.wear_um[worn]
+        depth += noise.normal(0.0, 0.02 * depth.max(), depth.size)
+        rows = "".join(f"{r!r},{w!r}\n" for r, w in zip(flank.radius_mm[worn].tolist(), depth.tolist(), strict=True))
+        files.append(tmp_path / f"{name}.csv")
+        files[-1].write_text(f"# gear = {name}\nradius_mm,wear_um\n{rows}")
+    fit = gearwear.compare(run, files, shift_within_mm=0.0, threads=1).summary["fit"]
+    for own, name, factor in zip(fit["coefficients"], ["pinion", "wheel"], [1.3, 0.9], strict=True):
+        assert own["gear"] == name and own["factor"]["value"] == pytest.approx(factor, rel=0.03)
+    assert fit["correlation"]["parameters"] == ["k.pinion", "k.wheel"]
+    assert np.array(fit["correlation"]["matrix"]).shape == (2, 2)
+    with pytest.raises(ValueError, match="different gears"):
+        gearwear.compare(run, [files[0], files[0]])
+    with pytest.raises(ValueError, match="measured: found no file"):
+        gearwear.compare(run, [])
 
 
 def test_runs_side_by_side(run: gearwear.Run, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-//! `gearwear compare`: a measured flank profile against a finished run, or runs side by side ([`super::variants`]).
+//! `gearwear compare`: measured flank profiles against a finished run, or runs side by side ([`super::variants`]).
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use crate::report;
 use crate::scene::loaded::SceneText;
 use crate::studies::compare::asked::{CompareFault, Prepared};
 use crate::studies::compare::question::{Asked, FitKind};
-use crate::studies::compare::record::{CompareRecord, Estimate};
+use crate::studies::compare::record::{CompareFigures, CompareRecord, Correlation, Estimate};
 use crate::studies::compare::study::CompareError;
 
 use super::failure::{Failure, InputError};
@@ -42,7 +42,8 @@ where material is gone) or wear_um or wear_mm (rises there); then a row for each
 pub(super) struct Args {
     /// The folder of a finished `gearwear run`; beside other runs a scene too, which is run first
     run: PathBuf,
-    /// The measured profile, a CSV file (- reads standard input); or one to five more runs, to be shown side by side
+    /// The measured profile, a CSV file (- reads standard input), or two, of pinion and wheel; or one to five more runs, to be
+    /// shown side by side
     #[arg(value_name = "MEASURED|RUN", required = true, num_args = 1..MOST_RUNS)]
     with: Vec<PathBuf>,
     /// The gear that was measured, where the file does not say
@@ -52,13 +53,13 @@ pub(super) struct Args {
     /// wear depths
     #[arg(long, value_enum)]
     form: Option<Form>,
-    /// What is fitted: the wear coefficient k, the factor of severe wear, both, or nothing
-    #[arg(long, value_enum, default_value_t = FitKind::K)]
-    fit: FitKind,
-    /// How far the profile may be shifted along the flank to where it fits best; 0: not at all
+    /// What is fitted; default: k, and each with two profiles
+    #[arg(long, value_enum)]
+    fit: Option<FitKind>,
+    /// How far a profile may be shifted along the flank to where it fits best; 0: not at all
     #[arg(long, value_name = "MM", default_value_t = SHIFT_WITHIN_MM, value_parser = length)]
     shift_within: f64,
-    /// The folder for the results; default: compare/NAME in RUN, with the name of the measured file or of the second run
+    /// The folder for the results; default: compare/NAME in RUN, with the names of the measured files or of the second run
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Number of threads; default: all cores. Never changes the results
@@ -82,36 +83,40 @@ fn length(text: &str) -> Result<f64, String> {
 }
 
 impl Args {
-    /// The measured profile.
-    fn measured(&self) -> &Path {
-        &self.with[0]
-    }
-
-    /// The runs to be shown side by side; none where there is a measured profile.
-    fn variants(&self) -> Option<Variants<'_>> {
-        let runs: Vec<&Path> = [&self.run].into_iter().chain(&self.with).map(PathBuf::as_path).collect();
-        let wanted = self.with.len() > 1 || is_run(self.measured());
-        wanted.then_some(Variants { runs, out: self.out.as_deref(), threads: self.threads, quiet: self.quiet })
+    /// The runs to be shown side by side; none where there are measured profiles.
+    fn variants(&self) -> Result<Option<Variants<'_>>, InputError> {
+        let Some(path) = self.with.iter().find(|path| !is_run(path)) else {
+            let runs: Vec<&Path> = [&self.run].into_iter().chain(&self.with).map(PathBuf::as_path).collect();
+            return Ok(Some(Variants { runs, out: self.out.as_deref(), threads: self.threads, quiet: self.quiet }));
+        };
+        match self.with.iter().any(|path| is_run(path)) {
+            true => Err(InputError::ProfileBesideRuns { path: path.clone() }),
+            false => Ok(None),
+        }
     }
 
     /// Where the results go.
     fn out(&self) -> PathBuf {
-        let name = self.measured().file_stem().filter(|stem| *stem != "-").unwrap_or("measured".as_ref());
-        self.out.clone().unwrap_or_else(|| self.run.join("compare").join(name))
+        let name = |path: &PathBuf| {
+            let stem = path.file_stem().filter(|stem| *stem != "-").unwrap_or("measured".as_ref());
+            stem.to_string_lossy().into_owned()
+        };
+        let names: Vec<String> = self.with.iter().map(name).collect();
+        self.out.clone().unwrap_or_else(|| self.run.join("compare").join(names.join("-")))
     }
 }
 
 pub(super) fn run(args: &Args) -> Result<(), Failure> {
-    if let Some(variants) = args.variants() {
+    if let Some(variants) = args.variants()? {
         return match (args.gear, args.form) {
             (Some(_), _) => Err(InputError::OnlyForMeasured { option: "--gear" }.into()),
             (_, Some(_)) => Err(InputError::OnlyForMeasured { option: "--form" }.into()),
             _ => variants::run(&variants),
         };
     }
-    let text = SceneText::read(args.measured())?;
+    let texts = args.with.iter().map(|path| SceneText::read(path)).collect::<Result<Vec<_>, _>>()?;
     let asked = Asked { gear: args.gear, form: args.form, fit: args.fit, shift_within_mm: args.shift_within };
-    let prepared = Prepared::open(&args.run, &text, &asked)?;
+    let prepared = Prepared::open(&args.run, &texts, &asked)?;
     let out = args.out();
     report::writable(&out)?;
 
@@ -144,45 +149,81 @@ impl From<CompareFault> for Failure {
         match fault {
             CompareFault::Load(error) => error.into(),
             CompareFault::RunFolder(error) => InputError::RunFolder(error).into(),
-            CompareFault::Measured { name, error } => InputError::Measured { name, error }.into(),
+            CompareFault::Measured(refused) => InputError::Measured(refused).into(),
             CompareFault::Pair(error) => Failure::Run(RunError::from(error)),
         }
     }
 }
 
+/// One of the figures of a profile, where it has it.
+type Figure = fn(&CompareFigures) -> Option<f64>;
+
 /// What was found, for the terminal.
 fn table(record: &CompareRecord) -> String {
-    let (fit, f) = (&record.fit, &record.figures);
-    let mut text = format!("{} – {}\n\n", record.title, record.measured);
-    let line = |name: &str, cells: [&str; 4]| {
-        format!("  {name:44}{:>12}{:>12}{:>12}{:>12}\n", cells[0], cells[1], cells[2], cells[3])
+    let (fit, profiles) = (&record.fit, &record.profiles);
+    let several = profiles.len() > 1;
+    let line = |name: &str, cells: &[String]| {
+        let cells: String = cells.iter().map(|cell| format!("{cell:>12}")).collect();
+        format!("  {name:44}{cells}\n")
     };
-    let mut estimate = |name: &str, estimate: &Option<Estimate>, head: bool| {
-        let Some(e) = estimate else { return };
-        if head {
-            text.push_str(&line("", ["run", "fitted", "95 % from", "to"]));
-        }
-        let end = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), digits);
-        text.push_str(&line(name, [&digits(e.of_run), &digits(e.value), &end(e.low), &end(e.high)]));
-    };
-    estimate("wear coefficient k, m²/N", &fit.coefficient_m2_per_N, true);
-    estimate("factor of severe wear", &fit.severe_factor, fit.coefficient_m2_per_N.is_none());
-    let is_first = fit.coefficient_m2_per_N.is_none() && fit.severe_factor.is_none();
-    estimate("shift towards the tip, mm", &fit.shift_mm, is_first);
+    let known = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), digits);
+    let mut estimates: Vec<(String, &Estimate)> = Vec::new();
+    for own in &fit.coefficients {
+        let whose = own.gear.filter(|_| several).map_or_else(String::new, |gear| format!(" of the {}", gear.name()));
+        estimates.push((format!("wear coefficient k{whose}, m²/N"), &own.coefficient_m2_per_N));
+    }
+    estimates
+        .extend(fit.coefficient_ratio.iter().map(|ratio| ("k of the pinion over that of the wheel".to_owned(), ratio)));
+    estimates.extend(fit.severe_factor.iter().map(|severe| ("factor of severe wear".to_owned(), severe)));
+    for of in profiles {
+        let whose = if several { format!(" of the {}", of.gear.name()) } else { String::new() };
+        estimates.extend(of.shift_mm.iter().map(|shift| (format!("shift{whose} towards the tip, mm"), shift)));
+    }
+    let mut text = format!("{}\n\n", record.headline());
+    if !estimates.is_empty() {
+        text.push_str(&line("", &["run", "fitted", "95 % from", "to"].map(str::to_owned)));
+    }
+    for (name, e) in estimates {
+        text.push_str(&line(&name, &[digits(e.of_run), digits(e.value), known(e.low), known(e.high)]));
+    }
+    if let Some(correlation) = &fit.correlation {
+        text.push_str(&correlations(correlation));
+    }
     text.push_str(&format!("\n  {}\n\n", fit.how));
-    for (name, value) in [
-        ("arithmetic mean deviation, measured, µm", Some(f.mean_deviation_um)),
-        ("  the same, simulated", Some(f.simulated_mean_deviation_um)),
-        ("Ra, cutoff 0.8 mm, measured, µm", f.roughness_um),
-        ("difference as run, root mean square, µm", Some(f.as_run_difference_um)),
-        ("  after the fit", Some(f.difference_um)),
-    ] {
-        text.push_str(&format!("  {name:44}{:>12}\n", value.map_or_else(|| "–".to_owned(), digits)));
+    if several {
+        text.push_str(&line("", &profiles.iter().map(|of| of.gear.name().to_owned()).collect::<Vec<_>>()));
+    }
+    let figures: [(&str, Figure); 5] = [
+        ("arithmetic mean deviation, measured, µm", |f| Some(f.mean_deviation_um)),
+        ("  the same, simulated", |f| Some(f.simulated_mean_deviation_um)),
+        ("Ra, cutoff 0.8 mm, measured, µm", |f| f.roughness_um),
+        ("difference as run, root mean square, µm", |f| Some(f.as_run_difference_um)),
+        ("  after the fit", |f| Some(f.difference_um)),
+    ];
+    for (name, value) in figures {
+        text.push_str(&line(name, &profiles.iter().map(|of| known(value(&of.figures))).collect::<Vec<_>>()));
     }
     let runs = if fit.runs == 1 { "run" } else { "runs" };
+    let mut forms: Vec<&str> = profiles.iter().map(|of| of.form.as_str()).collect();
+    forms.dedup();
     text.push_str(&format!(
         "\nform {}, {} {runs} of the scene ({} mesh cycles)\n",
-        record.form, fit.runs, fit.mesh_cycles
+        forms.join(" and "),
+        fit.runs,
+        fit.mesh_cycles
     ));
+    text
+}
+
+/// The correlation coefficient of each pair of fitted values, a line for each.
+fn correlations(correlation: &Correlation) -> String {
+    let (parameters, matrix) = (&correlation.parameters, &correlation.matrix);
+    let mut text = String::new();
+    for i in 0..parameters.len() {
+        for j in i + 1..parameters.len() {
+            let pair = format!("{} and {}", parameters[i].key(), parameters[j].key());
+            text.push_str(&format!("  {:44}{:>12.3}\n", format!("correlation of {pair}"), matrix[i][j]));
+        }
+    }
     text
 }

@@ -1,6 +1,7 @@
 //! Why a command did not do what was asked, and the exit status that says so.
 
 use std::io;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::say;
@@ -17,7 +18,7 @@ use crate::resume::folder::FolderError;
 use crate::scene::loaded::{LoadError, SceneError, SceneText};
 use crate::scene::{Problem, ProblemKind, presets};
 use crate::studies::accuracy::study::AccuracyError;
-use crate::studies::compare::question::QuestionError;
+use crate::studies::compare::question::Refused;
 use crate::studies::compare::run_folder::RunFolderError;
 use crate::studies::sweep::asked::{SweepError, SweepFault};
 use crate::studies::sweep::axis::AxisError;
@@ -122,10 +123,14 @@ pub(super) enum InputError {
     #[error("--out: missing; needed where the first run is a scene, whose results need a folder")]
     #[diagnostic(help("gearwear compare A.toml B.toml --out DIR"))]
     NoOutForScenes,
+    /// `compare` of runs with what is no run.
+    #[error("{}: found a measured profile beside runs; allowed: folders of runs and scenes alone, or one run and its measured profiles", path.display())]
+    #[diagnostic(help("a scene ends in .toml; a folder must be there"))]
+    ProfileBesideRuns { path: PathBuf },
     /// A measured profile that cannot be compared with the run.
-    #[error("{name}: {error}")]
+    #[error(transparent)]
     #[diagnostic(help("gearwear compare --help says what stands in a measured file"))]
-    Measured { name: String, error: QuestionError },
+    Measured(Refused),
     /// `init` with a name that is no preset.
     #[error("unknown preset {name:?}; allowed: {}", presets::names().join(", "))]
     #[diagnostic(help("{}", presets::nearest(name).map_or_else(

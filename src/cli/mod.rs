@@ -63,7 +63,7 @@ enum Command {
     Uncertainty(uncertainty::Args),
     /// Calibrate the fast model: tooth stiffness and K/H from finite elements, against Hertz
     Calibrate(calibrate::Args),
-    /// Compare a measured flank profile with a finished run, and fit the wear coefficient to it
+    /// Compare measured flank profiles with a finished run, and fit the wear coefficients to them
     Compare(compare::Args),
     /// Write the results of a finished run into the REXS file that its scene came from
     Rexs(rexs::Args),

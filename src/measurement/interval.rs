@@ -1,23 +1,36 @@
 //! What the residuals of a fit say of its parameters.
 //!
 //! Neighbouring points of a stylus trace are not independent: the tip is wider than their distance, and what the model does
-//! not describe is smooth. With ρ_k the autocorrelation of the residuals at a distance of k points,
+//! not describe is smooth. With ρ_k the autocorrelation of the residuals of a profile at a distance of k points,
 //!
 //! ```text
 //! τ     = 1 + 2 Σ ρ_k            until the sum of two neighbouring ρ_k is no longer positive
 //! n_eff = n/τ                    points that count
-//! σ²    = |r|²/n · n_eff/(n_eff − q)
-//! cov θ = σ² τ (JᵀJ)⁻¹
-//! θ     ± t(0.975, n_eff − q) √cov θ
+//! ν     = n_eff − q
+//! σ²    = |r|²/n · n_eff/ν
+//! cov θ = N [Σ σ² τ JᵀJ] N       over the profiles, each with its own σ and τ;      N = (Σ JᵀJ)⁻¹
+//! θ_i   ± t(0.975, ν_i) √(cov θ)_ii
+//! ρ_ij  = (cov θ)_ij/√((cov θ)_ii (cov θ)_jj)
 //! ```
 //!
-//! with q the number of fitted values, those of the form included, and t Student's. For independent residuals τ is 1 and this is
-//! the textbook's interval. Fitting q values takes correlation away from the residuals; what it takes at a distance of k points is
+//! with t Student's and q the number of values fitted to a profile: those of its form, and its leverage tr (N JᵀJ), which together for all
+//! profiles is the number of parameters. Residuals and J are those of the sum of squares that was made least, weighted where profiles
+//! are. For one profile and independent residuals τ is 1, cov θ is σ² N, and this is the textbook's interval. ν_i is ν for one
+//! profile; for several it is that of Welch and Satterthwaite,
+//!
+//! ```text
+//! ν_i   = v_i²/Σ (v_ip²/ν_p),     v_ip = (N [σ² τ JᵀJ]_p N)_ii,     v_i = Σ v_ip = (cov θ)_ii
+//! ```
+//!
+//! Fitting q values takes correlation away from the residuals; what it takes at a distance of k points is
 //! about q τ σ²/n, and is put back before the sum is made. The interval stands for scatter alone: what is wrong alike at all points
 //! (load, hours, a wrong law) is not in it.
 //!
-//! Source: G. A. F. Seber and C. J. Wild, *Nonlinear Regression* (1989), chapters 5 and 6; C. J. Geyer, *Practical Markov chain Monte
-//! Carlo*, Statistical Science 7 (1992) 473–483, for where the sum ends.
+//! Sources: G. A. F. Seber and C. J. Wild, *Nonlinear Regression* (1989), chapters 5 and 6; C. J. Geyer, *Practical Markov chain Monte
+//! Carlo*, Statistical Science 7 (1992) 473–483, for where the sum ends; F. E. Satterthwaite, *An approximate distribution of estimates of
+//! variance components*, Biometrics Bulletin 2 (1946) 110–114.
+
+use std::ops::Range;
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
@@ -28,51 +41,132 @@ pub(crate) const CONFIDENCE: f64 = 0.95;
 /// Rounds in which the autocorrelation is corrected for what the fit has taken.
 const ROUNDS: usize = 20;
 
+/// The residuals of one profile among those of all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct ProfilePart {
+    /// How many there are.
+    pub points: usize,
+    /// Values taken from them beside the parameters: those of the form.
+    pub also_fitted: usize,
+}
+
+/// How the residuals of one profile scatter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Scatter {
+    /// n_eff: points that count.
+    pub effective_points: f64,
+    /// ν = n_eff − q.
+    pub degrees_of_freedom: f64,
+    /// σ √τ: standard deviation of a point times the root of how many say what one says.
+    pub deviation: f64,
+}
+
 /// What the residuals of a fit say.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Uncertainty {
-    /// n_eff: points that count.
-    pub effective_points: f64,
-    /// n_eff − q.
-    pub degrees_of_freedom: f64,
-    /// σ: standard deviation of a point.
-    pub standard_deviation: f64,
+    /// Profile by profile.
+    pub scatter: Vec<Scatter>,
     /// Half the width of each parameter's interval.
     pub half_widths: Vec<f64>,
     /// Standard deviation of each parameter.
     pub deviations: Vec<f64>,
+    /// Correlation coefficients of the parameters, row by row.
+    pub correlation: Vec<Vec<f64>>,
 }
 
-/// What `residuals` with the columns `jacobian` say, `also_fitted` values having been taken from them besides; `None` where too
-/// few points count for an interval, or parameters are not determined.
-pub(crate) fn uncertainty(jacobian: &[Vec<f64>], residuals: &[f64], also_fitted: usize) -> Option<Uncertainty> {
+impl Uncertainty {
+    /// Half the width of the interval of θ_i − θ_j, with the fewer degrees of freedom of both.
+    pub(crate) fn half_width_of_difference(&self, i: usize, j: usize) -> f64 {
+        let [a, b] = [i, j].map(|index| self.deviations[index]);
+        let quantile = [i, j].map(|index| self.half_widths[index] / self.deviations[index]);
+        let variance = a * a + b * b - 2.0 * self.correlation[i][j] * a * b;
+        quantile[0].max(quantile[1]) * variance.max(0.0).sqrt()
+    }
+}
+
+/// What `residuals` with the columns `jacobian` say, those of one profile after those of another as in `parts`; `None` where too
+/// few points of a profile count for an interval, or parameters are not determined.
+pub(crate) fn uncertainty(jacobian: &[Vec<f64>], residuals: &[f64], parts: &[ProfilePart]) -> Option<Uncertainty> {
+    let count = jacobian.len();
+    let inverse = inverse_normal_matrix(jacobian)?;
+    // J N, column by column: what each residual adds to each parameter.
+    let row = |i: usize, row: usize| (0..count).map(|j| jacobian[j][row] * inverse[(j, i)]).sum::<f64>();
+    let influence: Vec<Vec<f64>> = (0..count).map(|i| (0..residuals.len()).map(|at| row(i, at)).collect()).collect();
+
+    let rows = rows(parts);
+    let mut scatter: Vec<Scatter> = Vec::with_capacity(parts.len());
+    let mut not_yet_fitted = count as f64;
+    for (index, (part, rows)) in parts.iter().zip(&rows).enumerate() {
+        let leverage = match index + 1 == parts.len() {
+            true => not_yet_fitted,
+            false => (0..count).map(|i| dot(&jacobian[i][rows.clone()], &influence[i][rows.clone()])).sum(),
+        };
+        not_yet_fitted -= leverage;
+        scatter.push(scatter_of(&residuals[rows.clone()], part.also_fitted as f64 + leverage)?);
+    }
+    // What each profile adds to cov θ.
+    let covariance = |i: usize, j: usize| -> Vec<f64> {
+        let of_profile = |(rows, scatter): (&Range<usize>, &Scatter)| {
+            scatter.deviation.powi(2) * dot(&influence[i][rows.clone()], &influence[j][rows.clone()])
+        };
+        rows.iter().zip(&scatter).map(of_profile).collect()
+    };
+    let mut deviations = Vec::with_capacity(count);
+    let mut half_widths = Vec::with_capacity(count);
+    for i in 0..count {
+        let variances = covariance(i, i);
+        let student = StudentsT::new(0.0, 1.0, degrees_of_freedom(&variances, &scatter)).ok()?;
+        let deviation = variances.iter().sum::<f64>().sqrt();
+        deviations.push(deviation);
+        half_widths.push(student.inverse_cdf(0.5 + 0.5 * CONFIDENCE) * deviation);
+    }
+    let correlation = |i: usize, j: usize| match i == j {
+        true => 1.0,
+        false => covariance(i, j).iter().sum::<f64>() / (deviations[i] * deviations[j]),
+    };
+    let correlation = (0..count).map(|i| (0..count).map(|j| correlation(i, j)).collect()).collect();
+    Some(Uncertainty { scatter, half_widths, deviations, correlation })
+}
+
+/// Where the residuals of each profile stand.
+fn rows(parts: &[ProfilePart]) -> Vec<Range<usize>> {
+    let mut end = 0;
+    let next = |part: &ProfilePart| {
+        let start = end;
+        end += part.points;
+        start..end
+    };
+    parts.iter().map(next).collect()
+}
+
+/// How the residuals of a profile scatter, to which `fitted` values were fitted; `None` where too few points count.
+fn scatter_of(residuals: &[f64], fitted: f64) -> Option<Scatter> {
     let points = residuals.len() as f64;
-    let fitted = (jacobian.len() + also_fitted) as f64;
     let time = correlation_points(residuals, fitted);
     let effective_points = points / time;
     let degrees_of_freedom = effective_points - fitted;
     if degrees_of_freedom < 1.0 {
         return None;
     }
-    let square: f64 = residuals.iter().map(|r| r * r).sum();
-    let variance = square / points * effective_points / degrees_of_freedom;
-    let inverse = inverse_normal_matrix(jacobian)?;
-    let student = StudentsT::new(0.0, 1.0, degrees_of_freedom).ok()?;
-    let quantile = student.inverse_cdf(0.5 + 0.5 * CONFIDENCE);
-    let deviations: Vec<f64> = (0..jacobian.len()).map(|i| (variance * time * inverse[(i, i)]).sqrt()).collect();
-    Some(Uncertainty {
-        effective_points,
-        degrees_of_freedom,
-        standard_deviation: variance.sqrt(),
-        half_widths: deviations.iter().map(|deviation| quantile * deviation).collect(),
-        deviations,
-    })
+    let variance = dot(residuals, residuals) / points * effective_points / degrees_of_freedom;
+    Some(Scatter { effective_points, degrees_of_freedom, deviation: (variance * time).sqrt() })
+}
+
+/// ν_i after Welch and Satterthwaite.
+fn degrees_of_freedom(variances: &[f64], scatter: &[Scatter]) -> f64 {
+    let whole: f64 = variances.iter().sum();
+    let parts = variances.iter().zip(scatter).map(|(v, s)| (v / whole).powi(2) / s.degrees_of_freedom);
+    parts.sum::<f64>().recip()
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// τ: how many neighbouring points say what one says, at least 1. `fitted` values were taken from the residuals.
 fn correlation_points(residuals: &[f64], fitted: f64) -> f64 {
     let n = residuals.len();
-    let square: f64 = residuals.iter().map(|r| r * r).sum();
+    let square = dot(residuals, residuals);
     if n < 4 || square <= 0.0 {
         return 1.0;
     }
@@ -112,12 +206,17 @@ mod tests {
         (0..count).map(|i| if i % 2 == 0 { 1.0 } else { -1.0 }).collect()
     }
 
+    /// All residuals those of one profile.
+    fn of_one(jacobian: &[Vec<f64>], residuals: &[f64], also_fitted: usize) -> Option<Uncertainty> {
+        uncertainty(jacobian, residuals, &[ProfilePart { points: residuals.len(), also_fitted }])
+    }
+
     /// The mean of n independent values: σ²/n with n − 1 degrees of freedom. t(0.975, 9) = 2.262 in any table.
     #[test]
     fn val_the_mean_of_ten_values() {
         let column = vec![vec![1.0; 10]];
-        let found = uncertainty(&column, &alternating(10), 0).unwrap();
-        assert_eq!(found.effective_points, 10.0);
+        let found = of_one(&column, &alternating(10), 0).unwrap();
+        assert_eq!(found.scatter[0].effective_points, 10.0);
         let deviation = (10.0_f64 / 9.0 / 10.0).sqrt();
         assert!((found.deviations[0] / deviation - 1.0).abs() < 1e-12);
         assert!((found.half_widths[0] / (2.262 * deviation) - 1.0).abs() < 1e-3);
@@ -136,9 +235,10 @@ mod tests {
             .collect();
         let repeated: Vec<f64> = signs.iter().flat_map(|&s| [s; 10]).collect();
         let column = |n: usize| vec![vec![1.0; n]];
-        let once = uncertainty(&column(400), &signs, 0).unwrap();
-        let tenfold = uncertainty(&column(4000), &repeated, 0).unwrap();
-        assert!((0.5..2.0).contains(&(tenfold.effective_points / 400.0)), "{}", tenfold.effective_points);
+        let once = of_one(&column(400), &signs, 0).unwrap();
+        let tenfold = of_one(&column(4000), &repeated, 0).unwrap();
+        let count = tenfold.scatter[0].effective_points;
+        assert!((0.5..2.0).contains(&(count / 400.0)), "{count}");
         // The textbook's interval would be √10 times too narrow.
         assert!((0.7..1.5).contains(&(tenfold.half_widths[0] / once.half_widths[0])), "{tenfold:?} {once:?}");
     }
@@ -146,8 +246,43 @@ mod tests {
     #[test]
     fn too_few_points_that_count_give_no_interval() {
         let smooth: Vec<f64> = (0..100).map(|i| (f64::from(i) * 0.03).cos()).collect();
-        assert_eq!(uncertainty(&[vec![1.0; 100]], &smooth, 4), None);
-        assert_eq!(uncertainty(&[vec![1.0; 4]], &alternating(4), 4), None);
-        assert_eq!(uncertainty(&[vec![0.0; 20]], &alternating(20), 0), None);
+        assert_eq!(of_one(&[vec![1.0; 100]], &smooth, 4), None);
+        assert_eq!(of_one(&[vec![1.0; 4]], &alternating(4), 4), None);
+        assert_eq!(of_one(&[vec![0.0; 20]], &alternating(20), 0), None);
+    }
+
+    /// Two means, each of a profile of its own: Welch's problem. Their difference has the variance s₁²/n₁ + s₂²/n₂, and neither knows of
+    /// the other.
+    #[test]
+    fn ver_two_means_are_welchs_problem() {
+        let parts = [ProfilePart { points: 10, also_fitted: 0 }, ProfilePart { points: 40, also_fitted: 0 }];
+        let residuals = [alternating(10), alternating(40).iter().map(|r| 3.0 * r).collect()].concat();
+        let column = |a: f64, b: f64| [vec![a; 10], vec![b; 40]].concat();
+        let apart = uncertainty(&[column(1.0, 0.0), column(0.0, 1.0)], &residuals, &parts).unwrap();
+        let variances = [10.0 / 9.0 / 10.0, 9.0 * 40.0 / 39.0 / 40.0];
+        for (deviation, variance) in apart.deviations.iter().zip(variances) {
+            assert!((deviation * deviation / variance - 1.0).abs() < 1e-12);
+        }
+        assert_eq!(apart.correlation, [[1.0, 0.0], [0.0, 1.0]]);
+
+        // The same by their sum and difference: θ₁ = (a + b)/2, θ₂ = (a − b)/2 have equal variances, a quarter of the sum of both, and
+        // the correlation (s_a² − s_b²)/(s_a² + s_b²).
+        let turned = uncertainty(&[column(1.0, 1.0), column(1.0, -1.0)], &residuals, &parts).unwrap();
+        let sum = variances[0] + variances[1];
+        assert!(turned.deviations.iter().all(|deviation| (deviation * deviation / (0.25 * sum) - 1.0).abs() < 1e-12));
+        assert!((turned.correlation[0][1] - (variances[0] - variances[1]) / sum).abs() < 1e-12, "{turned:?}");
+        // θ₁ − θ₂ = b, with the fewer degrees of freedom of θ₁ and θ₂ in place of the 39 of b.
+        let t = turned.half_widths[0] / turned.deviations[0];
+        let half = turned.half_width_of_difference(0, 1);
+        assert!((half / (t * variances[1].sqrt()) - 1.0).abs() < 1e-12, "{turned:?}");
+    }
+
+    /// Welch, Biometrika 34 (1947) 28–35: ν = (Σ v)²/Σ (v²/ν); of equal parts with 9 degrees of freedom each 18, of one alone its own.
+    #[test]
+    fn val_degrees_of_freedom_after_welch_and_satterthwaite() {
+        let scatter =
+            [9.0, 9.0].map(|degrees_of_freedom| Scatter { effective_points: 10.0, degrees_of_freedom, deviation: 1.0 });
+        assert!((degrees_of_freedom(&[2.0, 2.0], &scatter) - 18.0).abs() < 1e-12);
+        assert!((degrees_of_freedom(&[2.0, 0.0], &scatter) - 9.0).abs() < 1e-12);
     }
 }

@@ -69,6 +69,8 @@ enum StudyFault {
     Word { key: &'static str, found: String, allowed: String },
     #[error("shift_within_mm: found {found}; allowed: a length in mm, 0 or more")]
     Shift { found: f64 },
+    #[error("measured: found no file; allowed: one, or one of the pinion and one of the wheel")]
+    NoProfile,
     #[error(transparent)]
     Compare(CompareFault),
     #[error(transparent)]
@@ -108,26 +110,27 @@ pub fn accuracy(scene: &LoadedScene, within: f64, quick: bool, observer: &dyn Ob
     Study::new(record, |record, folder| accuracy::report::write(record, folder).map(drop))
 }
 
-/// What is asked of a comparison with a measured profile, in the words of the command line.
+/// What is asked of a comparison with measured profiles, in the words of the command line.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CompareQuestion {
     /// Which gear; `None`: as the file says.
     pub gear: Option<String>,
     /// What is taken for the form: cubic, involute or none; `None`: cubic of heights, none of wear depths.
     pub form: Option<String>,
-    /// What is fitted: none, k, severe or both.
-    pub fit: String,
-    /// How far the profile may be shifted along the flank, mm; 0: not at all.
+    /// What is fitted: none, k, each, severe or both; `None`: k of one profile, each of two.
+    pub fit: Option<String>,
+    /// How far a profile may be shifted along the flank, mm; 0: not at all.
     pub shift_within_mm: f64,
 }
 
-/// The measured profile in the file `measured` against the finished run in the folder `run`, as `gearwear compare`.
+/// The measured profiles in the files `measured`, one or those of pinion and wheel, against the finished run in the folder `run`, as
+/// `gearwear compare`.
 ///
 /// # Errors
 /// A folder without a finished run, a file that does not fit it, runs that fail.
 pub fn compare(
     run: &Path,
-    measured: &Path,
+    measured: &[PathBuf],
     question: &CompareQuestion,
     observer: &dyn Observer,
 ) -> Result<Study, StudyError> {
@@ -141,11 +144,15 @@ pub fn compare(
     let asked = question::Asked {
         gear: gear.transpose()?,
         form: question.form.as_deref().map(|name| one_of("form", name)).transpose()?,
-        fit: one_of("fit", &question.fit)?,
+        fit: question.fit.as_deref().map(|name| one_of("fit", name)).transpose()?,
         shift_within_mm: question.shift_within_mm,
     };
-    let text = SceneText::read(measured).map_err(|error| StudyFault::Compare(error.into()))?;
-    let prepared = Prepared::open(run, &text, &asked).map_err(StudyFault::Compare)?;
+    if measured.is_empty() {
+        return Err(StudyFault::NoProfile.into());
+    }
+    let texts = measured.iter().map(|path| SceneText::read(path)).collect::<Result<Vec<_>, _>>();
+    let texts = texts.map_err(|error| StudyFault::Compare(error.into()))?;
+    let prepared = Prepared::open(run, &texts, &asked).map_err(StudyFault::Compare)?;
     let record = prepared.carry_out(observer).map_err(StudyFault::Comparison)?;
     Study::new(record, compare::report::write)
 }

@@ -155,9 +155,10 @@ class Sources:
         write(folder / "worn.toml", self.coarse["thesis-spur"])
         made("run", "worn.toml", "--out", "worn", "-q", "--no-report")
         self.worn = folder / "worn"
-        radii = [37.0 + 0.1 * i for i in range(40)]
-        heights = "".join(f"{r:.3f},{-0.5 * (r - 37.0) * (41.0 - r):.4f}\n" for r in radii)
-        self.profile = f"# gear = pinion\n# hours = 31.75\nradius_mm,height_um\n{heights}"
+        places = [0.1 * i for i in range(40)]
+        profile = lambda gear, first: f"# gear = {gear}\n# hours = 31.75\nradius_mm,height_um\n" + "".join(
+            f"{first + x:.3f},{-0.5 * x * (4.0 - x):.4f}\n" for x in places)
+        self.profile, self.wheel_profile = profile("pinion", 37.0), profile("wheel", 53.0)
         for ending in ["inp", "vtu", "json", "msh"]:
             made("mesh", "fzg-c.toml", "--out", f"pair.{ending}")
         meshes = REPOSITORY / "meshes"
@@ -220,7 +221,11 @@ class Case:
     def measured(self, rng, sources):
         write(self.folder / "trace.csv", spoiled(rng, sources.profile))
         fit = rng.choice([["--fit", "none"], ["--fit", "k"], ["--form", "involute"]])
-        self.command = ["compare", str(sources.worn), "trace.csv", "--out", "out", "--threads", "1", *fit]
+        traces = ["trace.csv"]
+        if rng.random() < 0.4:
+            write(self.folder / "wheel.csv", rng.choice([sources.wheel_profile, spoiled(rng, sources.wheel_profile)]))
+            traces.append("wheel.csv")
+        self.command = ["compare", str(sources.worn), *traces, "--out", "out", "--threads", "1", *fit]
 
     def problem(self, rng, sources):
         path, text = rng.choice(sources.problems)

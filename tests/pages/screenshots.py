@@ -18,7 +18,9 @@ Only some: --only run-spur --only sweep-2d.
 """
 
 import argparse
+import csv
 import pathlib
+import random
 import shutil
 import subprocess
 import sys
@@ -57,6 +59,7 @@ PAGES = {
         "--subject-to wheel_peak_wear_um<=8 --out {o}"
     ],
     "compare-measured": ["run {s}/spur.toml --out {o}", "compare {o} {s}/trace.csv --shift-within 0 --out {o}/compared"],
+    "compare-flanks": ["run {s}/spur.toml --out {o}", "compare {o} {o}/pinion-trace.csv {o}/wheel-trace.csv --out {o}/compared"],
     "compare-runs": ["compare {s}/spur.toml {s}/heavy.toml --out {o}"],
     "compare-helical": ["compare {s}/helical.toml {s}/helical-heavy.toml --out {o}"],
     "accuracy": ["accuracy {s}/spur.toml --out {o}"],
@@ -232,17 +235,29 @@ load = [{ group = "top", force_N = [0.0, 0.0, -100.0] }]
 """
 
 
+def measure(run: pathlib.Path) -> None:
+    """Writes a measured profile of each flank of a run: more wear on the pinion, less on the wheel, and scatter."""
+    for gear, factor in [("pinion", 1.3), ("wheel", 0.8)]:
+        with open(run / f"{gear}.csv", encoding="utf-8") as table:
+            worn = [(float(row["radius_mm"]), float(row["wear_um"])) for row in csv.DictReader(table) if float(row["wear_um"]) > 0]
+        scatter = random.Random(1)
+        points = "".join(f"{radius:.4f},{-factor * wear + scatter.gauss(0, 0.2):.3f}\n" for radius, wear in worn[10:-10])
+        (run / f"{gear}-trace.csv").write_text(f"# gear = {gear}\nradius_mm,height_um\n{points}")
+
+
 def compute(program: str, name: str, scene_folder: pathlib.Path, folder: pathlib.Path) -> list[pathlib.Path]:
     """The pages of one kind: those of its folder and of the folder of its comparison."""
     if not list(folder.rglob("*.html")):
         folder.mkdir(parents=True, exist_ok=True)
         for command in PAGES[name]:
+            if "{o}/pinion-trace.csv" in command:
+                measure(folder)
             arguments = [part.format(s=scene_folder, o=folder) for part in command.split()]
             done = subprocess.run([program, *arguments], capture_output=True, text=True)
             if done.returncode != 0:
                 raise RuntimeError(f"gearwear {' '.join(arguments)}\n{done.stderr.strip()}")
     pages = sorted(folder.rglob("*.html"))
-    if name == "compare-measured":
+    if name in ("compare-measured", "compare-flanks"):
         pages = [page for page in pages if page.parent != folder]
     if name in ("compare-runs", "compare-helical"):
         pages = [page for page in pages if page.parent == folder]

@@ -2,6 +2,7 @@
 //! found and what is allowed, and nothing written.
 
 use std::fs;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
@@ -44,11 +45,20 @@ fn column(path: &Path, name: &str) -> Vec<f64> {
 
 /// A measured file of the run's own wear times `factor`, every point of the active flank of the pinion.
 fn measured(run: &Path, header: &str, factor: f64) -> String {
-    let flank = run.join("pinion.csv");
-    let rows = column(&flank, "radius_mm").into_iter().zip(column(&flank, "wear_um"));
     // Radii of the start of active profile and of the tip: 34.1233 and 41.23 mm.
+    of_flank(&run.join("pinion.csv"), 34.2..41.1, header, factor)
+}
+
+/// The same of the wheel.
+fn measured_wheel(run: &Path, header: &str, factor: f64) -> String {
+    // Between the wheel's start of active profile, 51.69 mm, and its tip, 59.18 mm.
+    of_flank(&run.join("wheel.csv"), 52.0..59.0, header, factor)
+}
+
+fn of_flank(flank: &Path, radii: Range<f64>, header: &str, factor: f64) -> String {
+    let rows = column(flank, "radius_mm").into_iter().zip(column(flank, "wear_um"));
     let rows: String =
-        rows.filter(|(r, _)| (34.2..41.1).contains(r)).map(|(r, wear)| format!("{r},{}\n", -factor * wear)).collect();
+        rows.filter(|(r, _)| radii.contains(r)).map(|(r, wear)| format!("{r},{}\n", -factor * wear)).collect();
     format!("{header}radius_mm,height_um\n{rows}")
 }
 
@@ -68,9 +78,20 @@ impl Trace {
         self.folder.path().join("out")
     }
 
+    /// Beside it another one, `other.csv`.
+    fn and(self, text: impl AsRef<[u8]>) -> Self {
+        fs::write(self.other(), text).unwrap();
+        self
+    }
+
+    fn other(&self) -> PathBuf {
+        self.folder.path().join("other.csv")
+    }
+
     fn compare(&self, run: &Path, options: &[&str]) -> Command {
         let mut command = gearwear();
-        command.arg("compare").arg(run).arg(self.folder.path().join("trace.csv")).arg("--out").arg(self.out());
+        command.arg("compare").arg(run).arg(self.folder.path().join("trace.csv"));
+        command.args(self.other().exists().then(|| self.other())).arg("--out").arg(self.out());
         command.args(options);
         command
     }
@@ -231,4 +252,91 @@ fn a_profile_without_wear_gives_no_coefficient() {
     assert_eq!(output.status.code(), Some(3), "{message}");
     assert!(message.contains("the fit failed") && message.contains("the wear coefficient"), "{message}");
     assert_eq!(json(&trace.out().join("compare.json"))["fit"]["stopped"], "at-bound");
+}
+
+/// Both flanks at once, in either order: a coefficient for each gear with the correlation of both, in every file; and by one factor.
+#[test]
+fn both_flanks_give_a_coefficient_for_each_gear() {
+    let run = shared_run();
+    let pinion = measured(&run, "# gear = pinion\n# uncertainty_um = 0.05\n", 1.5);
+    let wheel = measured_wheel(&run, "# gear = wheel\n", 0.8);
+    let traces = Trace::new(&wheel).and(&pinion);
+    let output = traces.compare(&run, &[]).output().unwrap();
+    let (said, stderr) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
+    assert_eq!(output.status.code(), Some(0), "{said}{stderr}");
+    for words in
+        ["k of the pinion, m²/N", "k of the wheel, m²/N", "correlation of k.pinion and k.wheel", "other.csv, trace.csv"]
+    {
+        assert!(said.contains(words), "no {words:?} in {said}");
+    }
+    let record = json(&traces.out().join("compare.json"));
+    let fit = &record["fit"];
+    for (index, gear, within) in [(0, "pinion", 1.4e-17..1.8e-17), (1, "wheel", 0.7e-17..0.9e-17)] {
+        assert_eq!(
+            (fit["coefficients"][index]["gear"].as_str(), record["profiles"][index]["gear"].as_str()),
+            (Some(gear), Some(gear))
+        );
+        let k = fit["coefficients"][index]["coefficient_m2_per_N"]["value"].as_f64().unwrap();
+        assert!(within.contains(&k), "{gear}: {k}");
+    }
+    assert_eq!(
+        fit["correlation"]["parameters"].as_array().unwrap(),
+        &["k.pinion", "k.wheel", "shift.pinion", "shift.wheel"]
+    );
+    let matrix = fit["correlation"]["matrix"].as_array().unwrap();
+    assert!(matrix.len() == 4 && matrix[0][0] == 1.0 && matrix[0][1] == matrix[1][0], "{matrix:?}");
+    // What stands at the top is that of the pinion, as in a comparison with its profile alone.
+    assert_eq!((record["gear"].as_str(), &record["figures"]), (Some("pinion"), &record["profiles"][0]["figures"]));
+    assert_eq!(fit["coefficient_m2_per_N"], fit["coefficients"][0]["coefficient_m2_per_N"]);
+    let rows = column(&traces.out().join("compare.csv"), "difference_um").len();
+    assert_eq!(fit["points"].as_u64(), Some(rows as u64));
+    let page = fs::read_to_string(traces.out().join("report.html")).unwrap();
+    for words in [
+        "Measured and simulated profile, form removed: wheel",
+        "Correlation coefficients",
+        "Wear coefficients of pinion and wheel",
+    ] {
+        assert!(page.contains(words), "no {words:?} on the page");
+    }
+
+    // The same bits in the other order of files.
+    let other = Trace::new(&pinion).and(&wheel);
+    other.compare(&run, &["--quiet"]).assert().success();
+    let again = json(&other.out().join("compare.json"));
+    assert_eq!(again["fit"], record["fit"]);
+
+    // By one factor on both.
+    traces.compare(&run, &["--quiet", "--fit", "k"]).assert().success();
+    let one = json(&traces.out().join("compare.json"));
+    assert_eq!(one["fit"]["coefficients"].as_array().map(Vec::len), Some(1));
+    assert_eq!(one["fit"]["correlation"]["parameters"][0], "k");
+    assert!(one["fit"]["coefficient_ratio"].is_null());
+}
+
+/// What does not go together is refused; nothing but two profiles of different gears is fitted together.
+#[test]
+fn profiles_that_do_not_go_together_are_refused() {
+    let run = shared_run();
+    let pinion = || Trace::new(measured(&run, "# gear = pinion\n", 1.0));
+    let wheel = measured_wheel(&run, "# gear = wheel\n", 1.0);
+    let twice = pinion().and(measured(&run, "# gear = pinion\n", 1.2));
+    twice.refused(&run, &[], &["other.csv", "gear: found pinion, as in trace.csv", "different gears"]);
+    pinion().and(&wheel).refused(&run, &["--gear", "wheel"], &["trace.csv", "--gear", "# gear = "]);
+    pinion().and(measured_wheel(&run, "", 1.0)).refused(&run, &[], &["other.csv", "gear is missing"]);
+    pinion().and("radius_mm,height_um\n52,0\n52,1\n").refused(&run, &[], &["other.csv", "line 3", "increase"]);
+    pinion().refused(&run, &["--fit", "each"], &["found each with the profile of one gear", "of the wheel too"]);
+    pinion().and(&wheel).refused(&run, &["--fit", "both"], &["--fit", "found both", "none, k or each"]);
+    // A third one, and a run among profiles.
+    let both = pinion().and(&wheel);
+    let mut third = both.compare(&run, &[]);
+    let output = third.arg(both.other()).output().unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.code() == Some(2) && message.contains("found 3 measured profiles"), "{message}");
+    let output = both.compare(&run, &[]).arg(&run).output().unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        output.status.code() == Some(2) && message.contains("trace.csv: found a measured profile beside runs"),
+        "{message}"
+    );
+    assert!(!both.out().exists());
 }

@@ -1,20 +1,24 @@
-//! A measured profile against a run: the difference, and the wear coefficient that explains it best.
+//! Measured profiles against a run: the difference, and the wear coefficients that explain them best.
 //!
-//! The form is removed from the measured and the simulated profile alike ([`crate::measurement::form`]), the profile is shifted
-//! along the flank to where it fits best, and what is asked for, the wear coefficient, the severe factor or both, is
-//! fitted by least squares. Runs are carried out by [`crate::pipeline`].
+//! One profile, or one of the pinion and one of the wheel. The form is removed from a measured profile and from the simulated one alike
+//! ([`crate::measurement::form`]), the profile is shifted along the flank to where it fits best, and what is asked for, the wear
+//! coefficient or that of each gear, the severe factor, is fitted by least squares to all profiles at once. Runs are carried out by
+//! [`crate::pipeline`].
 //!
 //! | module | what it does |
 //! |---|---|
 //! | [`run_folder`] | what a finished run left behind |
-//! | [`asked`] | a comparison as it is asked for: run and measured file read |
-//! | [`question`] | what is asked, checked against the run and the measured file |
+//! | [`asked`] | a comparison as it is asked for: run and measured files read |
+//! | [`question`] | what is asked, checked against the run and the measured files |
 //! | `simulations` | runs of the scene with other coefficients |
 //! | `wear_by_coefficient` | wear profiles in between |
+//! | `comparison` | a measured profile beside simulated ones |
+//! | [`unknown`] | what is fitted, by name |
 //! | `search` | the parameters that fit best |
 //! | [`study`] | all of it, in order |
 
 pub(crate) mod asked;
+mod comparison;
 pub(crate) mod question;
 pub(crate) mod record;
 pub(crate) mod report;
@@ -22,4 +26,5 @@ pub(crate) mod run_folder;
 mod search;
 mod simulations;
 pub(crate) mod study;
+pub(crate) mod unknown;
 mod wear_by_coefficient;

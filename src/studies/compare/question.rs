@@ -1,38 +1,79 @@
-//! What is asked of a comparison, checked against the run and the measured file before anything is computed.
+//! What is asked of a comparison, checked against the run and the measured files before anything is computed.
+
+use std::path::Path;
 
 use super::run_folder::RunFolder;
+use super::unknown::Unknown;
 use crate::data_table::DataTableError;
 use crate::gear::{Gear, GearPair, slices::Slices};
 use crate::measurement::file::{HeightFrom, MeasuredFile, Moment, ValueKind};
 use crate::measurement::form::Form;
 use crate::measurement::profile::MeasuredProfile;
-use crate::scene::Resolved;
+use crate::scene::{Resolved, Scene};
 
 /// Times beyond the end by less than this part are the end.
 const SAME_TIME: f64 = 1e-9;
 /// Points that a fit needs beyond the values it finds.
 const SPARE_POINTS: usize = 2;
+/// Most profiles that are fitted together: one of each gear.
+pub(crate) const MOST_PROFILES: usize = 2;
 
 /// What is fitted: the values of `--fit`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum FitKind {
     /// Nothing but the place along the flank.
     None,
-    /// The wear coefficient.
+    /// The wear coefficient; with two profiles one factor on those of both gears.
     K,
+    /// The wear coefficients of pinion and wheel, each to its own value, with two profiles.
+    Each,
     /// The factor of severe wear.
     Severe,
-    /// Both.
+    /// The wear coefficient as `k`, and the factor of severe wear.
     Both,
 }
 
 impl FitKind {
+    /// What is fitted to this many profiles where nothing else is asked.
+    fn of(profiles: usize) -> Self {
+        if profiles > 1 { FitKind::Each } else { FitKind::K }
+    }
+
     pub(crate) fn coefficient(self) -> bool {
-        matches!(self, FitKind::K | FitKind::Both)
+        matches!(self, FitKind::K | FitKind::Each | FitKind::Both)
     }
 
     pub(crate) fn severe(self) -> bool {
         matches!(self, FitKind::Severe | FitKind::Both)
+    }
+
+    /// Its name on the command line.
+    fn name(self) -> &'static str {
+        match self {
+            FitKind::None => "none",
+            FitKind::K => "k",
+            FitKind::Each => "each",
+            FitKind::Severe => "severe",
+            FitKind::Both => "both",
+        }
+    }
+}
+
+/// Whose constants of wear are fitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Fitted {
+    /// Those of both gears, by one factor.
+    Together,
+    /// Those of the measured gear alone, whose law is not that of its mate.
+    Alone(Gear),
+    /// Those of both gears, each by a factor of its own.
+    Each,
+}
+
+impl Fitted {
+    /// Whether those of `gear` are.
+    pub(crate) fn has(self, gear: Gear) -> bool {
+        self != Fitted::Alone(gear.mate())
     }
 }
 
@@ -43,8 +84,9 @@ pub(crate) struct Asked {
     pub gear: Option<Gear>,
     /// What is taken for the form; `None`: a cubic of heights, nothing of wear depths.
     pub form: Option<Form>,
-    pub fit: FitKind,
-    /// How far the profile may be shifted along the flank, mm; 0: not at all.
+    /// What is fitted; `None`: the wear coefficient of each measured gear.
+    pub fit: Option<FitKind>,
+    /// How far a profile may be shifted along the flank, mm; 0: not at all.
     pub shift_within_mm: f64,
 }
 
@@ -72,17 +114,41 @@ pub(crate) enum QuestionError {
         "--form: found none with heights from a line; allowed: cubic or involute, which take the tooth's curvature away"
     )]
     LineWithoutForm,
-    #[error("--fit: found {found}, but the scene of the run has no wear.severe; allowed: none or k")]
-    NoSevereWear { found: &'static str },
+    #[error("--fit: found {found}, but the scene of the run has no wear.severe; allowed: {allowed}")]
+    NoSevereWear { found: &'static str, allowed: &'static str },
+    #[error(
+        "--fit: found {found}, but the severe wear of pinion and wheel differs in the scene of the run; allowed: none, k or each"
+    )]
+    TwoKindsOfSevereWear { found: &'static str },
+    #[error(
+        "--fit: found each with the profile of one gear; allowed: none, k, severe or both, or a profile of the {missing} too"
+    )]
+    OneProfile { missing: &'static str },
+    #[error("gear: found {gear}, as in {first}; allowed: profiles of different gears")]
+    SameGear { gear: &'static str, first: String },
+    #[error("--gear: found beside two measured profiles; allowed: a line \"# gear = …\" in each of them")]
+    GearOfTwo,
+    #[error("found {found} measured profiles; allowed: one, or one of the pinion and one of the wheel")]
+    TooManyProfiles { found: usize },
     #[error(
         "--fit: the wear coefficient of the {gear} is 0 in the scene of the run, so that it does not wear; allowed: none"
     )]
     DoesNotWear { gear: &'static str },
 }
 
-/// A comparison that can be made.
+/// A file that does not fit, by its name.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{name}: {error}")]
+pub(crate) struct Refused {
+    pub name: String,
+    pub error: QuestionError,
+}
+
+/// A measured profile that can be compared.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Question {
+pub(crate) struct ProfileQuestion {
+    /// Name of its file.
+    pub measured: String,
     /// What was measured, on its flank.
     pub profile: MeasuredProfile,
     /// When, in pinion revolutions.
@@ -92,24 +158,81 @@ pub(crate) struct Question {
     /// Standard deviation of a height, as the file says.
     pub uncertainty_um: Option<f64>,
     pub form: Form,
-    pub fit: FitKind,
-    /// How far the profile may be shifted along the flank, mm.
-    pub shift_within_mm: f64,
     /// Wear of the run itself at that time, slice after slice, where it kept that state.
     pub as_run_um: Option<Vec<f64>>,
 }
 
+/// A comparison that can be made.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Question {
+    /// One, or that of the pinion and that of the wheel.
+    pub profiles: Vec<ProfileQuestion>,
+    pub fit: FitKind,
+    pub fitted: Fitted,
+    /// How far a profile may be shifted along the flank, mm.
+    pub shift_within_mm: f64,
+}
+
 impl Question {
-    /// Checks what is asked of the run in `folder`, whose scene is `resolved`, and of its `pair`.
+    /// Checks what is asked of the run in `folder`, whose scene is `resolved`, and of its `pair`, with files by their names.
     ///
     /// # Errors
     /// The first thing that does not fit together.
     pub(crate) fn new(
         asked: &Asked,
-        file: &MeasuredFile,
+        files: &[(String, MeasuredFile)],
         folder: &RunFolder,
         resolved: &Resolved,
         pair: &GearPair,
+    ) -> Result<Self, Refused> {
+        let scene = &resolved.scene;
+        let fit = asked.fit.unwrap_or(FitKind::of(files.len()));
+        let mut profiles: Vec<ProfileQuestion> = Vec::new();
+        for (name, file) in files {
+            let refused = |error| Refused { name: name.clone(), error };
+            if files.len() > MOST_PROFILES {
+                return Err(refused(QuestionError::TooManyProfiles { found: files.len() }));
+            }
+            if files.len() > 1 && asked.gear.is_some() {
+                return Err(refused(QuestionError::GearOfTwo));
+            }
+            let of_file = ProfileQuestion::new(name, file, asked, fit, (folder, resolved, pair)).map_err(refused)?;
+            let gear = of_file.profile.gear;
+            if let Some(first) = profiles.iter().find(|first| first.profile.gear == gear) {
+                let first = first.measured.clone();
+                return Err(refused(QuestionError::SameGear { gear: gear.name(), first }));
+            }
+            check_fit(fit, gear, files.len(), scene).map_err(refused)?;
+            profiles.push(of_file);
+        }
+        profiles.sort_by_key(|of| of.profile.gear);
+        let fitted = match &profiles[..] {
+            _ if fit == FitKind::Each => Fitted::Each,
+            [one] if !is_of_both(scene) => Fitted::Alone(one.profile.gear),
+            _ => Fitted::Together,
+        };
+        Ok(Self { profiles, fit, fitted, shift_within_mm: asked.shift_within_mm })
+    }
+
+    /// The shift of the profile of `gear` among the unknowns.
+    pub(super) fn shift_of(&self, gear: Gear) -> Unknown {
+        Unknown::Shift((self.profiles.len() > 1).then_some(gear))
+    }
+
+    /// When the last profile was measured, in pinion revolutions.
+    pub(crate) fn last_revolutions(&self) -> f64 {
+        self.profiles.iter().map(|of| of.revolutions).fold(0.0, f64::max)
+    }
+}
+
+impl ProfileQuestion {
+    /// What `file` says, and what is asked of it.
+    fn new(
+        name: &str,
+        file: &MeasuredFile,
+        asked: &Asked,
+        fit: FitKind,
+        (folder, resolved, pair): (&RunFolder, &Resolved, &GearPair),
     ) -> Result<Self, QuestionError> {
         let scene = &resolved.scene;
         let gear = match (file.gear, asked.gear) {
@@ -118,13 +241,6 @@ impl Question {
             }
             (file, command) => file.or(command).ok_or(QuestionError::NoGear)?,
         };
-        if asked.fit.severe() && scene.wear[gear].severe.is_none() {
-            let found = if asked.fit == FitKind::Both { "both" } else { "severe" };
-            return Err(QuestionError::NoSevereWear { found });
-        }
-        if asked.fit.coefficient() && scene.wear[gear].coefficient_mm2_per_n <= 0.0 {
-            return Err(QuestionError::DoesNotWear { gear: gear.name() });
-        }
         let of_kind = if file.kind == ValueKind::Wear { Form::None } else { Form::Cubic };
         let form = asked.form.unwrap_or(of_kind);
         if form == Form::None && file.kind == ValueKind::Height && file.height_from == HeightFrom::Line {
@@ -140,7 +256,7 @@ impl Question {
             None => None,
         };
         let found = file.rows.len();
-        let (least, needs) = points_needed(asked, form);
+        let (least, needs) = points_needed(fit, asked.shift_within_mm, form);
         if found < least {
             return Err(QuestionError::TooFewPoints { found, least, needs });
         }
@@ -148,17 +264,33 @@ impl Question {
         let slices = scene.slices.map_or(1, |settings| Slices::new(pair, settings.count).count());
         let values = (scene.numerics.flank_points + 1) * slices;
         let as_run_um = folder.wear_um(gear, revolutions).filter(|wear| wear.len() == values).map(<[f64]>::to_vec);
-        Ok(Self {
-            profile,
-            revolutions,
-            width_mm,
-            uncertainty_um: file.uncertainty_um,
-            form,
-            fit: asked.fit,
-            shift_within_mm: asked.shift_within_mm,
-            as_run_um,
-        })
+        let file_name = Path::new(name).file_name();
+        let measured = file_name.map_or_else(|| name.to_owned(), |name| name.to_string_lossy().into_owned());
+        Ok(Self { measured, profile, revolutions, width_mm, uncertainty_um: file.uncertainty_um, form, as_run_um })
     }
+}
+
+/// Whether `fit` can be asked of a profile of `gear`, one of so many.
+fn check_fit(fit: FitKind, gear: Gear, profiles: usize, scene: &Scene) -> Result<(), QuestionError> {
+    if fit == FitKind::Each && profiles == 1 {
+        return Err(QuestionError::OneProfile { missing: gear.mate().name() });
+    }
+    if fit.severe() && scene.wear[gear].severe.is_none() {
+        let allowed = if profiles > 1 { "none, k or each" } else { "none or k" };
+        return Err(QuestionError::NoSevereWear { found: fit.name(), allowed });
+    }
+    if fit.severe() && profiles > 1 && scene.wear.pinion.severe != scene.wear.wheel.severe {
+        return Err(QuestionError::TwoKindsOfSevereWear { found: fit.name() });
+    }
+    if fit.coefficient() && scene.wear[gear].coefficient_mm2_per_n <= 0.0 {
+        return Err(QuestionError::DoesNotWear { gear: gear.name() });
+    }
+    Ok(())
+}
+
+/// Whether both gears wear by one law in all phases.
+pub(super) fn is_of_both(scene: &Scene) -> bool {
+    scene.operation.phases.iter().all(|phase| scene.wear_in(phase).are_alike())
 }
 
 /// When the profile was measured, in pinion revolutions, of a run that ended after `end` of them.
@@ -181,12 +313,12 @@ fn revolutions(file: &MeasuredFile, end: f64, resolved: &Resolved) -> Result<f64
 }
 
 /// How many points it takes, and what for.
-fn points_needed(asked: &Asked, form: Form) -> (usize, String) {
+fn points_needed(fit: FitKind, shift_within_mm: f64, form: Form) -> (usize, String) {
     let values = [
         (form.parameters(), format!("a form ({})", form.name())),
-        (usize::from(asked.fit.coefficient()), "the wear coefficient".to_owned()),
-        (usize::from(asked.fit.severe()), "the severe factor".to_owned()),
-        (usize::from(asked.shift_within_mm > 0.0), "a shift".to_owned()),
+        (usize::from(fit.coefficient()), "the wear coefficient".to_owned()),
+        (usize::from(fit.severe()), "the severe factor".to_owned()),
+        (usize::from(shift_within_mm > 0.0), "a shift".to_owned()),
     ];
     let least = values.iter().map(|(count, _)| count).sum::<usize>() + SPARE_POINTS;
     let needs: Vec<String> =

@@ -1,19 +1,38 @@
-//! What a comparison of a measured profile with a run leaves behind, as plain data: what its reports read.
+//! What a comparison of measured profiles with a run leaves behind, as plain data: what its reports read.
 
 use schemars::JsonSchema;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 
+use super::unknown::Unknown;
 use crate::gear::Gear;
 use crate::measurement::fit::FitStop;
 use crate::results::run::PathPoints;
 
 /// A finished comparison.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct CompareRecord {
     pub title: String,
     pub program_version: String,
     /// First 16 hexadecimal digits of the SHA-256 of the scene of the run.
     pub scene_hash: String,
+    pub fit: FitRecord,
+    /// One, or that of the pinion and that of the wheel.
+    pub profiles: Vec<ProfileRecord>,
+    pub warnings: Vec<String>,
+    pub scene_toml: String,
+}
+
+impl CompareRecord {
+    /// The run and the measured files.
+    pub(crate) fn headline(&self) -> String {
+        let files: Vec<&str> = self.profiles.iter().map(|of| of.measured.as_str()).collect();
+        format!("{} – {}", self.title, files.join(", "))
+    }
+}
+
+/// A measured profile beside the simulated one.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct ProfileRecord {
     pub measured: String,
     pub gear: Gear,
     /// Where over the face width; `None` where all sections are alike.
@@ -24,16 +43,19 @@ pub(crate) struct CompareRecord {
     pub revolutions: f64,
     /// What was taken for the form: `cubic`, `involute`, `none`.
     pub form: String,
-    pub fit: FitRecord,
+    /// Shift of the measured profile towards the tip; `None` where none was allowed.
+    pub shift_mm: Option<Estimate>,
+    pub points: usize,
+    /// Points that count, given the autocorrelation of the residuals; `None` where too few do for an interval.
+    pub effective_points: Option<f64>,
+    /// Those less the values fitted, form included.
+    pub degrees_of_freedom: Option<f64>,
     pub figures: CompareFigures,
     /// Radii of the points A–E on the gear.
     pub path_point_radius_mm: PathPoints,
-    pub warnings: Vec<String>,
     /// The points; in `compare.csv`.
     #[serde(skip)]
     pub rows: Vec<CompareRow>,
-    #[serde(skip)]
-    pub scene_toml: String,
 }
 
 /// A fitted value with its interval.
@@ -47,31 +69,60 @@ pub(crate) struct Estimate {
     pub of_run: f64,
 }
 
-/// What was fitted, and how.
+/// A fitted wear coefficient.
 #[allow(non_snake_case, reason = "names that end in their unit")]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub(crate) struct Coefficient {
+    /// Whose it is; `None`: one law, which both gears wear by.
+    pub gear: Option<Gear>,
+    /// Factor on the wear coefficients of the scene.
+    pub factor: Estimate,
+    /// The wear coefficient of the scene's law times that factor.
+    pub coefficient_m2_per_N: Estimate,
+}
+
+/// Correlation coefficients of the fitted values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+pub(crate) struct Correlation {
+    /// Of the logarithms of coefficients and factors, and of shifts.
+    pub parameters: Vec<Unknown>,
+    /// Row by row.
+    pub matrix: Vec<Vec<f64>>,
+}
+
+/// What was fitted, and how.
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FitRecord {
     pub stopped: FitStop,
     /// What is to blame where it did not converge.
-    pub blamed: Option<String>,
-    /// Factor on the wear coefficients of the scene; `None` where it was not fitted.
-    pub coefficient_factor: Option<Estimate>,
-    /// The wear coefficient of the scene's law times that factor.
-    pub coefficient_m2_per_N: Option<Estimate>,
+    pub blamed: Option<Unknown>,
+    /// Of each gear that has its own; empty where none was fitted.
+    pub coefficients: Vec<Coefficient>,
+    /// The coefficient of the pinion over that of the wheel, where each was fitted.
+    pub coefficient_ratio: Option<Estimate>,
     /// Factor of severe wear; `None` where it was not fitted.
     pub severe_factor: Option<Estimate>,
-    /// Shift of the measured profile towards the tip; `None` where none was allowed.
-    pub shift_mm: Option<Estimate>,
-    pub points: usize,
-    /// Points that count, given the autocorrelation of the residuals; `None` where too few do for an interval.
-    pub effective_points: Option<f64>,
-    /// Those less the values fitted, form included.
-    pub degrees_of_freedom: Option<f64>,
+    /// `None` where there is no interval, or less than two values were fitted.
+    pub correlation: Option<Correlation>,
     /// Runs of the scene it took.
     pub runs: u64,
     pub mesh_cycles: u64,
     /// How the interval was obtained, or why there is none.
     pub how: String,
+}
+
+impl FitRecord {
+    /// Whether there is another simulated profile beside that of the run as it is.
+    pub(crate) fn is_of_wear(&self) -> bool {
+        !self.coefficients.is_empty() || self.severe_factor.is_some()
+    }
+
+    /// The correlation coefficient of the wear coefficients of both gears, where each was fitted.
+    pub(crate) fn coefficient_correlation(&self) -> Option<f64> {
+        let Correlation { parameters, matrix } = self.correlation.as_ref()?;
+        let index = |gear| parameters.iter().position(|&own| own == Unknown::Coefficient(Some(gear)));
+        Some(matrix[index(Gear::Pinion)?][index(Gear::Wheel)?])
+    }
 }
 
 /// Figures of the profiles, form removed.
@@ -116,4 +167,91 @@ pub(crate) struct CompareRow {
     pub wear_um: f64,
     /// wear depth of the measured profile on the form of the simulation: wear_um less difference_um
     pub measured_wear_um: f64,
+    /// whose flank it is on
+    pub gear: Gear,
+}
+
+/// As `compare.json` has it: what there is of each profile stands at the top for the first of them, and in `profiles` for all.
+impl Serialize for CompareRecord {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Written<'a> {
+            title: &'a str,
+            program_version: &'a str,
+            scene_hash: &'a str,
+            measured: &'a str,
+            gear: Gear,
+            width_mm: Option<f64>,
+            hours: Option<f64>,
+            revolutions: f64,
+            form: &'a str,
+            fit: WrittenFit<'a>,
+            figures: &'a CompareFigures,
+            path_point_radius_mm: PathPoints,
+            warnings: &'a [String],
+            profiles: &'a [ProfileRecord],
+        }
+        let first = &self.profiles[0];
+        Written {
+            title: &self.title,
+            program_version: &self.program_version,
+            scene_hash: &self.scene_hash,
+            measured: &first.measured,
+            gear: first.gear,
+            width_mm: first.width_mm,
+            hours: first.hours,
+            revolutions: first.revolutions,
+            form: &first.form,
+            fit: WrittenFit::new(&self.fit, &self.profiles),
+            figures: &first.figures,
+            path_point_radius_mm: first.path_point_radius_mm,
+            warnings: &self.warnings,
+            profiles: &self.profiles,
+        }
+        .serialize(serializer)
+    }
+}
+
+/// The fit as `compare.json` has it; points and degrees of freedom are those of all profiles.
+#[allow(non_snake_case, reason = "names that end in their unit")]
+#[derive(Serialize)]
+struct WrittenFit<'a> {
+    stopped: FitStop,
+    blamed: Option<String>,
+    coefficient_factor: Option<Estimate>,
+    coefficient_m2_per_N: Option<Estimate>,
+    severe_factor: Option<Estimate>,
+    shift_mm: Option<Estimate>,
+    points: usize,
+    effective_points: Option<f64>,
+    degrees_of_freedom: Option<f64>,
+    runs: u64,
+    mesh_cycles: u64,
+    how: &'a str,
+    coefficients: &'a [Coefficient],
+    coefficient_ratio: Option<Estimate>,
+    correlation: Option<&'a Correlation>,
+}
+
+impl<'a> WrittenFit<'a> {
+    fn new(fit: &'a FitRecord, profiles: &[ProfileRecord]) -> Self {
+        let first = fit.coefficients.first();
+        Self {
+            stopped: fit.stopped,
+            blamed: fit.blamed.map(Unknown::name),
+            coefficient_factor: first.map(|of| of.factor),
+            coefficient_m2_per_N: first.map(|of| of.coefficient_m2_per_N),
+            severe_factor: fit.severe_factor,
+            shift_mm: profiles.first().and_then(|of| of.shift_mm),
+            points: profiles.iter().map(|of| of.points).sum(),
+            effective_points: profiles.iter().map(|of| of.effective_points).sum(),
+            degrees_of_freedom: profiles.iter().map(|of| of.degrees_of_freedom).sum(),
+            runs: fit.runs,
+            mesh_cycles: fit.mesh_cycles,
+            how: &fit.how,
+            coefficients: &fit.coefficients,
+            coefficient_ratio: fit.coefficient_ratio,
+            correlation: fit.correlation.as_ref(),
+        }
+    }
 }

@@ -1,23 +1,26 @@
-//! The parameters with which the simulated profile fits the measured one best.
+//! The parameters with which the simulated profiles fit the measured ones best.
 //!
 //! ```text
-//! r = P [z − z₀(s + d) + h(s + d; κ k, C)]
+//! χ² = Σ w_p² |r_p|²,          r_p = P [z − z₀(s + d_p) + h(s + d_p; κ k, C)]
 //! ```
 //!
-//! with the measured heights z at arc lengths s, the unworn flank z₀, the simulated wear depth h, the projection P that removes
-//! the form, and as parameters, where they are asked for, ln κ and ln C, the logarithms of the factor on the wear coefficient and of
-//! the factor of severe wear, and the shift d along the flank. |r|² is least over profiles interpolated between runs
-//! ([`Simulations::about`]); then runs with just the parameters found take the place of the interpolation, and Gauss–Newton
-//! steps on their residuals go on until they no longer matter. The result is that of the exact runs, the best of them; only the
-//! derivatives are interpolated. Where wear does not change smoothly with the coefficient (an abrupt transition to severe wear, wear steps
-//! beyond the stable one), exact runs scatter: steps of up to half a standard deviation are then left, and reported.
+//! with the residuals r_p of each profile ([`Comparison`]) and as parameters, where they are asked for, ln κ and ln C, the logarithms of
+//! the factor on the wear coefficient, or of one on that of each gear, and of the factor of severe wear, and the shift d_p of each profile
+//! along its flank. Of several profiles each has the weight w_p = 1/(σ_p √τ_p), with the standard deviation of the residuals that it has when
+//! it is fitted alone, and how many neighbouring points say what one says ([`crate::measurement::interval`]): what the model does not
+//! describe of a profile lessens its weight, what it does not share with the other one does not. χ² is least over profiles interpolated between runs ([`Simulations::about`]); then runs with just the parameters found
+//! take the place of the interpolation, and Gauss–Newton steps on their residuals go on until they no longer matter. The result is that
+//! of the exact runs, the best of them; only the derivatives are interpolated. Where wear does not change smoothly with the coefficient (an
+//! abrupt transition to severe wear, wear steps beyond the stable one), exact runs scatter: steps of up to half a standard deviation are
+//! then left, and reported.
 
-use super::question::Question;
+use super::comparison::{Beginning, Comparison};
+use super::question::{FitKind, Fitted, Question};
 use super::simulations::{Change, CompareError, Simulations};
-use crate::gear::GearPair;
+use super::unknown::Unknown;
+use crate::gear::{Gear, PerGear};
 use crate::measurement::fit::{FitStop, Parameter, gauss_newton_step, least_squares};
-use crate::measurement::form::FormRemoval;
-use crate::measurement::interval::{Uncertainty, uncertainty};
+use crate::measurement::interval::{ProfilePart, Uncertainty, uncertainty};
 
 /// The factor on the wear coefficient lies between this and its inverse.
 const LEAST_FACTOR: f64 = 1e-3;
@@ -27,8 +30,6 @@ const MOST_SEVERE: f64 = 1e4;
 const LOG_WIDTH: f64 = 0.02;
 /// Differences of the shift, mm.
 const SHIFT_WIDTH_MM: f64 = 5e-3;
-/// Shifts tried to begin with, to either side.
-const SHIFTS_TRIED: i32 = 15;
 /// A step shorter than this part of a parameter's standard deviation no longer matters.
 const NEGLIGIBLE: f64 = 0.02;
 /// One shorter than this part of it is left where exact runs go on to scatter.
@@ -37,28 +38,8 @@ const TOLERABLE: f64 = 0.5;
 const SMALL_STEP: f64 = 5e-3;
 /// Most exact runs at the end.
 const MOST_EXACT_RUNS: usize = 6;
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Unknown {
-    /// ln κ.
-    Coefficient,
-    /// ln C.
-    Severe,
-    /// d, mm.
-    Shift,
-}
-
-/// Measured heights, and what is compared with them.
-pub(super) struct Comparison<'a> {
-    question: &'a Question,
-    pair: &'a GearPair,
-    removal: FormRemoval,
-    /// Arc length of each point of the wear profiles.
-    grid_arc_mm: Vec<f64>,
-    /// P z.
-    pub measured_um: Vec<f64>,
-}
-
+/// Least scatter that weights are made of, µm.
+const LEAST_SCATTER_UM: f64 = 1e-6;
 /// What the search found.
 pub(super) struct FittedCoefficients {
     pub unknowns: Vec<Unknown>,
@@ -68,131 +49,90 @@ pub(super) struct FittedCoefficients {
     pub blamed: Option<Unknown>,
     /// What the residuals say; `None` where nothing was fitted or too few points count.
     pub uncertainty: Option<Uncertainty>,
-    /// Wear depth of the row of flank points.
-    pub wear_um: Vec<f64>,
+    /// Wear depth of the flank points of each profile.
+    pub wear_um: Vec<Vec<f64>>,
     /// The last step in standard deviations, where exact runs still ask for one.
     pub unsettled: Option<f64>,
 }
 
 impl FittedCoefficients {
+    fn index(&self, unknown: Unknown) -> Option<usize> {
+        self.unknowns.iter().position(|&own| own == unknown)
+    }
+
     /// The value of a parameter and half the width of its interval.
     pub(super) fn of(&self, unknown: Unknown) -> Option<(f64, Option<f64>)> {
-        let index = self.unknowns.iter().position(|&own| own == unknown)?;
+        let index = self.index(unknown)?;
         Some((self.parameters[index], self.uncertainty.as_ref().map(|u| u.half_widths[index])))
     }
 
-    /// The shift, mm.
-    pub(super) fn shift_mm(&self) -> f64 {
-        self.of(Unknown::Shift).map_or(0.0, |(shift, _)| shift)
+    /// One parameter less another, and half the width of the interval of that.
+    pub(super) fn difference(&self, one: Unknown, other: Unknown) -> Option<(f64, Option<f64>)> {
+        let (i, j) = (self.index(one)?, self.index(other)?);
+        let half_width = self.uncertainty.as_ref().map(|u| u.half_width_of_difference(i, j));
+        Some((self.parameters[i] - self.parameters[j], half_width))
     }
 }
 
-impl<'a> Comparison<'a> {
-    /// Of what `question` asks, with wear profiles at points of these arc lengths.
-    pub(super) fn new(question: &'a Question, pair: &'a GearPair, grid_arc_mm: Vec<f64>) -> Self {
-        let removal = FormRemoval::new(question.form, &question.profile.arc_mm);
-        let mut measured_um = question.profile.height_um.clone();
-        removal.remove(&mut measured_um);
-        Self { question, pair, removal, grid_arc_mm, measured_um }
-    }
+/// Wear of the flank points of each profile under some parameters.
+type Wear<'a, S> = dyn FnMut(&S, &[f64]) -> Result<Vec<Vec<f64>>, CompareError> + 'a;
 
-    /// Wear depth at the measured points, shifted.
-    pub(super) fn wear_at_points_um(&self, wear_um: &[f64], shift_mm: f64) -> Vec<f64> {
-        let grid = &self.grid_arc_mm;
-        let at = |&arc: &f64| {
-            let after = grid.partition_point(|&s| s <= arc + shift_mm).clamp(1, grid.len() - 1);
-            let t = ((arc + shift_mm - grid[after - 1]) / (grid[after] - grid[after - 1])).clamp(0.0, 1.0);
-            wear_um[after - 1] + t * (wear_um[after] - wear_um[after - 1])
-        };
-        self.question.profile.arc_mm.iter().map(at).collect()
-    }
+/// Measured profiles, and how their parameters are found.
+pub(super) struct Search<'a> {
+    question: &'a Question,
+    comparisons: &'a [Comparison<'a>],
+    unknowns: Vec<Unknown>,
+    /// w_p.
+    weights: Vec<f64>,
+}
 
-    /// P (z₀ − h): the simulated profile, form removed.
-    pub(super) fn simulated_um(&self, wear_um: &[f64], shift_mm: f64) -> Vec<f64> {
-        let mut heights = self.question.profile.unworn_um(self.pair, shift_mm);
-        let wear = self.wear_at_points_um(wear_um, shift_mm);
-        heights.iter_mut().zip(&wear).for_each(|(height, wear)| *height -= wear);
-        self.removal.remove(&mut heights);
-        heights
-    }
-
-    /// r.
-    pub(super) fn residuals_um(&self, wear_um: &[f64], shift_mm: f64) -> Vec<f64> {
-        let simulated = self.simulated_um(wear_um, shift_mm);
-        self.measured_um.iter().zip(simulated).map(|(measured, simulated)| measured - simulated).collect()
-    }
-
-    /// The shift with which `wear_um`, times a factor where that is open, fits best, and that factor.
-    fn begin(&self, wear_um: &[f64], factor_is_open: bool) -> (f64, f64) {
-        let within = self.question.shift_within_mm;
-        let tried = if within > 0.0 { SHIFTS_TRIED } else { 0 };
-        let nothing = vec![0.0; wear_um.len()];
-        let mut best = (f64::INFINITY, 0.0, 1.0);
-        for step in -tried..=tried {
-            let shift = within * f64::from(step) / f64::from(tried.max(1));
-            // r = a + κ b: with nothing worn, and what the wear adds.
-            let (a, whole) = (self.residuals_um(&nothing, shift), self.residuals_um(wear_um, shift));
-            let b: Vec<f64> = whole.iter().zip(&a).map(|(w, a)| w - a).collect();
-            let dot = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
-            let factor = match factor_is_open {
-                true => (-dot(&a, &b) / dot(&b, &b)).clamp(LEAST_FACTOR, 1.0 / LEAST_FACTOR),
-                false => 1.0,
-            };
-            let factor = if factor.is_finite() { factor } else { 1.0 };
-            let square = dot(&a, &a) + 2.0 * factor * dot(&a, &b) + factor * factor * dot(&b, &b);
-            // Of equals, the least shift.
-            if square < best.0 * (1.0 - 1e-12) || square <= best.0 && shift.abs() < f64::abs(best.1) {
-                best = (square, shift, factor);
-            }
+impl<'a> Search<'a> {
+    /// Of what `question` asks, with a comparison for each of its profiles.
+    pub(super) fn new(question: &'a Question, comparisons: &'a [Comparison<'a>]) -> Self {
+        let mut unknowns = Vec::new();
+        match question.fit {
+            FitKind::Each => unknowns.extend(Gear::BOTH.map(|gear| Unknown::Coefficient(Some(gear)))),
+            fit if fit.coefficient() => unknowns.push(Unknown::Coefficient(None)),
+            _ => {}
         }
-        (best.1, best.2)
+        if question.fit.severe() {
+            unknowns.push(Unknown::Severe);
+        }
+        if question.shift_within_mm > 0.0 {
+            unknowns.extend(comparisons.iter().map(|one| question.shift_of(one.of.profile.gear)));
+        }
+        Self { question, comparisons, unknowns, weights: vec![1.0; comparisons.len()] }
     }
 
     /// The parameters that fit best, beginning with the run's own wear.
-    pub(super) fn search(
-        &self,
-        as_run_um: &[f64],
+    pub(super) fn run(
+        mut self,
+        as_run_um: &[Vec<f64>],
         simulations: &mut Simulations<'_>,
     ) -> Result<FittedCoefficients, CompareError> {
-        let (fit, within) = (self.question.fit, self.question.shift_within_mm);
-        let (shift, factor) = self.begin(as_run_um, fit.coefficient());
-        let mut unknowns = Vec::new();
-        let mut parameters = Vec::new();
-        let mut add = |unknown, parameter| {
-            unknowns.push(unknown);
-            parameters.push(parameter);
-        };
-        let most = -LEAST_FACTOR.ln();
-        if fit.coefficient() {
-            let parameter = Parameter { start: factor.ln(), least: -most, greatest: most, width: LOG_WIDTH };
-            add(Unknown::Coefficient, parameter);
-        }
-        if fit.severe() {
-            let start = simulations.severe_factor().ln();
-            add(Unknown::Severe, Parameter { start, least: 0.0, greatest: MOST_SEVERE.ln(), width: LOG_WIDTH });
-        }
-        if within > 0.0 {
-            let parameter = Parameter { start: shift, least: -within, greatest: within, width: SHIFT_WIDTH_MM };
-            add(Unknown::Shift, parameter);
-        }
+        let fit = self.question.fit;
+        let factors = fit.coefficient().then_some([LEAST_FACTOR, 1.0 / LEAST_FACTOR]);
+        let begin = |(one, wear): (&Comparison<'_>, &Vec<f64>)| one.begin(wear, self.question.shift_within_mm, factors);
+        let begun: Vec<Beginning> = self.comparisons.iter().zip(as_run_um).map(begin).collect();
+        let mut parameters = self.parameters(&begun, simulations.severe_factor());
         let needs_runs = fit.coefficient() || fit.severe();
-        let mut residuals = |theta: &[f64]| {
-            let wear_um = match needs_runs {
-                true => simulations.about(change(&unknowns, theta))?,
-                false => as_run_um.to_vec(),
-            };
-            Ok(self.residuals_um(&wear_um, shift_of(&unknowns, theta)))
+        let mut wear = |search: &Self, theta: &[f64]| match needs_runs {
+            true => simulations.about(search.change(theta)),
+            false => Ok(as_run_um.to_vec()),
         };
+        if begun.len() > 1 {
+            self.weigh(&mut parameters, &mut wear)?;
+        }
+        let mut residuals = |theta: &[f64]| Ok(self.residuals(&wear(&self, theta)?, theta));
         let fitted = least_squares::<CompareError>(&parameters, &mut residuals)?;
-        let also = self.question.form.parameters();
         let mut found = FittedCoefficients {
-            blamed: fitted.blamed.map(|index| unknowns[index]),
-            uncertainty: uncertainty(&fitted.jacobian, &fitted.residuals, also),
+            blamed: fitted.blamed.map(|index| self.unknowns[index]),
+            uncertainty: uncertainty(&fitted.jacobian, &fitted.residuals, &self.parts()),
             wear_um: as_run_um.to_vec(),
             stop: fitted.stop,
             unsettled: None,
             parameters: fitted.parameters,
-            unknowns,
+            unknowns: self.unknowns.clone(),
         };
         if needs_runs {
             self.settle(&mut found, &parameters, &fitted.jacobian, simulations)?;
@@ -200,6 +140,59 @@ impl<'a> Comparison<'a> {
         // Beside the best value that was searched no interval means anything.
         found.uncertainty = found.uncertainty.filter(|_| found.stop == FitStop::Converged);
         Ok(found)
+    }
+
+    /// The unknowns as parameters that begin where each profile alone would.
+    fn parameters(&self, begun: &[Beginning], severe_factor: f64) -> Vec<Parameter> {
+        let most = -LEAST_FACTOR.ln();
+        let within = self.question.shift_within_mm;
+        let of_gear = |gear: Option<Gear>| {
+            let profiles = self.comparisons.iter().zip(begun);
+            profiles.filter(move |(one, _)| gear.is_none_or(|gear| one.of.profile.gear == gear)).map(|(_, begun)| begun)
+        };
+        let parameter = |unknown: &Unknown| match *unknown {
+            Unknown::Coefficient(gear) => {
+                let count = of_gear(gear).count() as f64;
+                let start = of_gear(gear).map(|begun| begun.factor.ln()).sum::<f64>() / count;
+                Parameter { start, least: -most, greatest: most, width: LOG_WIDTH }
+            }
+            Unknown::Severe => {
+                Parameter { start: severe_factor.ln(), least: 0.0, greatest: MOST_SEVERE.ln(), width: LOG_WIDTH }
+            }
+            Unknown::Shift(gear) => {
+                let start = of_gear(gear).map(|begun| begun.shift_mm).sum();
+                Parameter { start, least: -within, greatest: within, width: SHIFT_WIDTH_MM }
+            }
+        };
+        self.unknowns.iter().map(parameter).collect()
+    }
+
+    /// Gives each profile its weight: fitted alone, from where `parameters` begin, which then begin there.
+    fn weigh(&mut self, parameters: &mut [Parameter], wear: &mut Wear<'_, Self>) -> Result<(), CompareError> {
+        let begun: Vec<f64> = parameters.iter().map(|parameter| parameter.start).collect();
+        for (index, part) in self.parts().into_iter().enumerate() {
+            let one = &self.comparisons[index];
+            let own: Vec<usize> = (0..begun.len()).filter(|&i| self.unknowns[i].is_of(one.of.profile.gear)).collect();
+            let mut residuals = |values: &[f64]| {
+                let mut theta = begun.clone();
+                own.iter().zip(values).for_each(|(&i, &value)| theta[i] = value);
+                let wear_um = wear(self, &theta)?;
+                Ok(one.residuals_um(&wear_um[index], self.shift_mm(one, &theta)))
+            };
+            let of_own: Vec<Parameter> = own.iter().map(|&i| parameters[i]).collect();
+            let alone = least_squares::<CompareError>(&of_own, &mut residuals)?;
+            let found = uncertainty(&alone.jacobian, &alone.residuals, &[part]);
+            let root_mean_square =
+                || (alone.residuals.iter().map(|r| r * r).sum::<f64>() / alone.residuals.len() as f64).sqrt();
+            let deviation = found.map_or_else(root_mean_square, |found| found.scatter[0].deviation);
+            self.weights[index] = deviation.max(LEAST_SCATTER_UM).recip();
+            for (&i, &value) in own.iter().zip(&alone.parameters) {
+                if self.unknowns[i] == Unknown::Coefficient(Some(one.of.profile.gear)) {
+                    parameters[i].start = value;
+                }
+            }
+        }
+        Ok(())
     }
 
     /// Gauss–Newton steps on the residuals of exact runs, until they no longer matter.
@@ -212,15 +205,15 @@ impl<'a> Comparison<'a> {
     ) -> Result<(), CompareError> {
         let mut theta = found.parameters.clone();
         let converges = found.stop == FitStop::Converged;
-        let also = self.question.form.parameters();
+        let parts = self.parts();
         let mut least: Option<f64> = None;
         let mut last_step = 0.0;
         for _ in 0..MOST_EXACT_RUNS {
-            let wear_um = simulations.exactly(change(&found.unknowns, &theta))?;
-            let r = self.residuals_um(&wear_um, shift_of(&found.unknowns, &theta));
+            let wear_um = simulations.exactly(self.change(&theta))?;
+            let r = self.residuals(&wear_um, &theta);
             let square: f64 = r.iter().map(|r| r * r).sum();
             let step = converges.then(|| gauss_newton_step(jacobian, &r)).flatten();
-            let uncertainty = uncertainty(jacobian, &r, also);
+            let uncertainty = uncertainty(jacobian, &r, &parts);
             let deviations = uncertainty.as_ref().map(|u| u.deviations.clone());
             if least.is_none_or(|least| square < least) {
                 least = Some(square);
@@ -246,17 +239,44 @@ impl<'a> Comparison<'a> {
         }
         Ok(())
     }
-}
 
-/// The change of the scene that the parameters stand for.
-fn change(unknowns: &[Unknown], theta: &[f64]) -> Change {
-    let value = |unknown| unknowns.iter().position(|&own| own == unknown).map(|index| theta[index]);
-    Change {
-        coefficient_factor: value(Unknown::Coefficient).map_or(1.0, f64::exp),
-        severe_factor: value(Unknown::Severe).map(f64::exp),
+    /// The weighted residuals of all profiles, with the wear at the flank points of each.
+    fn residuals(&self, wear_um: &[Vec<f64>], theta: &[f64]) -> Vec<f64> {
+        let mut all = Vec::new();
+        for (one, (wear_um, weight)) in self.comparisons.iter().zip(wear_um.iter().zip(&self.weights)) {
+            all.extend(one.residuals_um(wear_um, self.shift_mm(one, theta)).into_iter().map(|r| weight * r));
+        }
+        all
     }
-}
 
-fn shift_of(unknowns: &[Unknown], theta: &[f64]) -> f64 {
-    unknowns.iter().position(|&own| own == Unknown::Shift).map_or(0.0, |index| theta[index])
+    /// How the residuals of all profiles are made up.
+    fn parts(&self) -> Vec<ProfilePart> {
+        let part =
+            |one: &Comparison<'_>| ProfilePart { points: one.measured_um.len(), also_fitted: one.of.form.parameters() };
+        self.comparisons.iter().map(part).collect()
+    }
+
+    /// The change of the scene that the parameters stand for.
+    fn change(&self, theta: &[f64]) -> Change {
+        let factor = |gear: Gear| {
+            let of_gear = match self.question.fitted {
+                Fitted::Each => Some(gear),
+                fitted if fitted.has(gear) => None,
+                _ => return 1.0,
+            };
+            self.value(Unknown::Coefficient(of_gear), theta).map_or(1.0, f64::exp)
+        };
+        Change {
+            coefficient_factor: PerGear::from_fn(factor),
+            severe_factor: self.value(Unknown::Severe, theta).map(f64::exp),
+        }
+    }
+
+    fn shift_mm(&self, one: &Comparison<'_>, theta: &[f64]) -> f64 {
+        self.value(self.question.shift_of(one.of.profile.gear), theta).unwrap_or(0.0)
+    }
+
+    fn value(&self, unknown: Unknown, theta: &[f64]) -> Option<f64> {
+        self.unknowns.iter().position(|&own| own == unknown).map(|index| theta[index])
+    }
 }

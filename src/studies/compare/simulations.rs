@@ -1,19 +1,25 @@
 //! Runs of the scene with other wear coefficients, and other factors of severe wear.
 //!
 //! Depth grows with k p ds in every law, and pressure knows nothing of k: under one load and speed, wear depends on the
-//! coefficient k and the revolutions n only through k n. Thus one run that goes on for c times as long holds the wear of every
-//! coefficient up to c k, at its snapshots; its wear steps are as long as the scene's up to c = 4, and longer beyond. Where loads or
-//! speeds follow one another in phases that is not so, and each coefficient is a run of its own.
+//! coefficients and the revolutions n only through k₁ n and k₂ n, those of the pinion and of the wheel. Thus one run that goes on for c times
+//! as long holds the wear of all coefficients up to c k₁ and c k₂ of one ratio, at its snapshots; its wear steps are as long as the
+//! scene's up to c = 4, and longer beyond. Where loads or speeds follow one another in phases that is not so, and each coefficient is a run
+//! of its own.
 //!
-//! Where the gears wear by different laws, what is fitted is that of the measured gear, and the mate's stays as it is: each coefficient
-//! is then a run of its own too, unless the mate does not wear at all.
+//! Where the coefficients of both gears are fitted, each to its own value, such a run is made for some ratios k₂/k₁, and the wear of a gear
+//! under its own coefficient is interpolated between them: what the mate's coefficient does to it, through the pressure on the worn
+//! flanks, is little beside what its own does. It is the same for factors of severe wear.
 //!
-//! Whatever lies between such profiles is interpolated; what is fitted in the end is checked by a run with just that coefficient.
+//! Where the gears wear by different laws and one of them was measured, its coefficient is fitted, and the mate's stays as it is: each
+//! coefficient is then a run of its own too, unless the mate does not wear at all.
+//!
+//! Whatever lies between such profiles is interpolated; what is fitted in the end is checked by a run with just those coefficients.
 
 use std::f64::consts::LN_2;
 
+use super::question::{Fitted, ProfileQuestion, Question};
 use super::wear_by_coefficient::WearByCoefficient;
-use crate::gear::Gear;
+use crate::gear::{Gear, PerGear};
 use crate::observer::{Observer, PartOf};
 use crate::pipeline::{self, RunError};
 use crate::results::run::StopReason;
@@ -37,142 +43,197 @@ const SEPARATE_RUNS: u32 = 6;
 const AS_FINE_UP_TO: f64 = 4.0;
 /// A curve reaches this much further than the factor it is made for.
 const AHEAD: f64 = 2.0;
-/// Factors of severe wear whose curves are computed are this far apart, as a logarithm; between them it is interpolated.
-const SEVERE_STEP: f64 = LN_2;
+/// Factors of severe wear, or ratios of the coefficients, whose curves are computed are this far apart, as a logarithm; between them it is
+/// interpolated.
+const STEP: f64 = LN_2;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Change {
-    /// On the wear coefficient.
-    pub coefficient_factor: f64,
+    /// On the wear coefficient of each gear.
+    pub coefficient_factor: PerGear<f64>,
     /// The factor of severe wear; `None`: the scene's.
     pub severe_factor: Option<f64>,
 }
 
 impl Change {
-    pub(super) const NOTHING: Self = Self { coefficient_factor: 1.0, severe_factor: None };
+    pub(super) const NOTHING: Self =
+        Self { coefficient_factor: PerGear { pinion: 1.0, wheel: 1.0 }, severe_factor: None };
 }
 
-/// Runs of one scene until the profile was measured.
+/// Wear for all factors on the wear coefficients, at one factor of severe wear and one ratio of the coefficients.
+struct Course {
+    /// The scene's own factor of severe wear, or ratio of the wheel's coefficient to the pinion's, times 2ⁿ.
+    n: i32,
+    /// The greatest factor it knows.
+    reach: f64,
+    /// Profile by profile.
+    wear: Vec<WearByCoefficient>,
+}
+
+/// Wear of the flank points of each profile.
+struct Snapshot {
+    revolutions: f64,
+    wear_um: Vec<Vec<f64>>,
+}
+
+/// Runs of one scene until the profiles were measured.
 pub(super) struct Simulations<'a> {
     given: &'a LoadedScene,
-    gear: Gear,
-    width_mm: Option<f64>,
-    /// The scene, ending when the profile was measured, without error estimates.
+    question: &'a Question,
+    /// The scene, ending when the last profile was measured, without error estimates.
     until_measured: Scene,
     observer: &'a dyn Observer,
-    /// Courses of the scene's factor of severe wear times 2ⁿ, by n.
-    courses: Vec<(i32, WearByCoefficient)>,
+    courses: Vec<Course>,
     pub runs: u64,
     /// Mesh cycles evaluated in them.
     pub mesh_cycles: u64,
 }
 
 impl<'a> Simulations<'a> {
-    /// Runs of `given` for `revolutions` of the pinion, of which the wear of `gear` at `width_mm` is wanted.
-    pub(super) fn new(
-        given: &'a LoadedScene,
-        gear: Gear,
-        width_mm: Option<f64>,
-        revolutions: f64,
-        observer: &'a dyn Observer,
-    ) -> Self {
+    /// Runs of `given`, of which wear is wanted where and when the profiles of `question` were measured.
+    pub(super) fn new(given: &'a LoadedScene, question: &'a Question, observer: &'a dyn Observer) -> Self {
+        let last = question.last_revolutions();
         let mut scene = given.resolved.scene.clone();
         (scene.numerics.error_estimate, scene.verify) = (false, false);
         let operation = &mut scene.operation;
-        operation.phases.truncate(operation.phase_at(revolutions) + 1);
-        if let Some(last) = operation.phases.last_mut() {
-            last.end_revolutions = revolutions;
+        operation.phases.truncate(operation.phase_at(last) + 1);
+        if let Some(phase) = operation.phases.last_mut() {
+            phase.end_revolutions = last;
         }
-        operation.pinion_revolutions = revolutions;
+        operation.pinion_revolutions = last;
         operation.stop = LifeLimits::default();
         // Those of the scene stay: steps end at them.
-        operation.snapshots_revolutions.retain(|&at| at < revolutions);
-        operation.snapshots_revolutions.push(revolutions);
-        Self { given, gear, width_mm, until_measured: scene, observer, courses: Vec::new(), runs: 0, mesh_cycles: 0 }
+        let snapshots = &mut operation.snapshots_revolutions;
+        snapshots.retain(|&at| at < last);
+        snapshots.extend(question.profiles.iter().map(|of| of.revolutions));
+        snapshots.sort_by(f64::total_cmp);
+        snapshots.dedup();
+        Self { given, question, until_measured: scene, observer, courses: Vec::new(), runs: 0, mesh_cycles: 0 }
     }
 
-    /// The factor of severe wear of the gear in the scene; 1 where there is none.
+    /// The factor of severe wear of the measured gears in the scene; 1 where there is none.
     pub(super) fn severe_factor(&self) -> f64 {
-        self.until_measured.wear[self.gear].severe.map_or(1.0, |severe| severe.factor)
+        let measured = self.question.profiles.first().and_then(|of| self.until_measured.wear[of.profile.gear].severe);
+        measured.map_or(1.0, |severe| severe.factor)
     }
 
-    /// Wear of one row of flank points, by a run with just this change, µm.
-    pub(super) fn exactly(&mut self, change: Change) -> Result<Vec<f64>, CompareError> {
-        let scene = changed(&self.until_measured, self.gear, change);
-        let wear = self.run(scene)?.pop();
-        Ok(wear.map(|(_, wear)| wear).unwrap_or_default())
+    /// Wear of the flank points of each profile, by a run with just this change, µm.
+    pub(super) fn exactly(&mut self, change: Change) -> Result<Vec<Vec<f64>>, CompareError> {
+        let snapshots = self.run(self.changed(change))?;
+        let measured = |(index, of): (usize, &ProfileQuestion)| {
+            let away = |snapshot: &&Snapshot| (snapshot.revolutions - of.revolutions).abs();
+            let nearest = snapshots.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
+            nearest.map(|snapshot| snapshot.wear_um[index].clone()).unwrap_or_default()
+        };
+        Ok(self.question.profiles.iter().enumerate().map(measured).collect())
     }
 
     /// The same, interpolated between profiles that are computed where they are first needed.
-    pub(super) fn about(&mut self, change: Change) -> Result<Vec<f64>, CompareError> {
-        let factor = change.coefficient_factor;
-        let Some(severe) = change.severe_factor else { return Ok(self.course(0, factor)?.at(factor)) };
-        let place = (severe / self.severe_factor()).ln() / SEVERE_STEP;
-        let before = place.floor();
-        // Lagrange's cubic through the curves at −1, 0, 1 and 2.
-        let t = place - before;
-        let weights = [
-            -t * (t - 1.0) * (t - 2.0) / 6.0,
-            (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
-            -(t + 1.0) * t * (t - 2.0) / 2.0,
-            (t + 1.0) * t * (t - 1.0) / 6.0,
-        ];
-        let mut sum: Vec<f64> = Vec::new();
-        for (step, weight) in (-1..).zip(weights) {
-            let wear = self.course(before as i32 + step, factor)?.at(factor);
-            sum.resize(wear.len(), 0.0);
-            sum.iter_mut().zip(&wear).for_each(|(sum, wear)| *sum += weight * wear);
+    pub(super) fn about(&mut self, change: Change) -> Result<Vec<Vec<f64>>, CompareError> {
+        let profiles = &self.question.profiles;
+        let mut sums = vec![Vec::new(); profiles.len()];
+        for (n, weight) in self.courses_around(change) {
+            // The course's own coefficients, and how far along it those of the change lie for each gear.
+            let once = self.on_course(n, 1.0).coefficient_factor;
+            let own = |gear: Gear| change.coefficient_factor[gear] / once[gear];
+            let factors: Vec<f64> = profiles.iter().map(|of| own(of.profile.gear)).collect();
+            let course = self.course(n, factors.iter().copied().fold(0.0, f64::max))?;
+            for (sum, (wear, factor)) in sums.iter_mut().zip(course.wear.iter().zip(factors)) {
+                let wear = wear.at(factor);
+                sum.resize(wear.len(), 0.0);
+                sum.iter_mut().zip(&wear).for_each(|(sum, wear)| *sum += weight * wear);
+            }
         }
-        Ok(sum)
+        Ok(sums)
     }
 
-    /// The curve with 2ⁿ times the scene's factor of severe wear, up to this factor at least.
-    fn course(&mut self, n: i32, up_to: f64) -> Result<&WearByCoefficient, CompareError> {
-        let known = self.courses.iter().position(|(of, _)| *of == n);
+    /// The courses that a change lies between, with their weights.
+    fn courses_around(&self, change: Change) -> Vec<(i32, f64)> {
+        let ratio = change.coefficient_factor.wheel / change.coefficient_factor.pinion;
+        match (self.question.fitted, change.severe_factor) {
+            (Fitted::Each, _) => {
+                let place = ratio.ln() / STEP;
+                lagrange(place, place.round() as i32 - 1, 3)
+            }
+            (_, Some(severe)) => {
+                let place = (severe / self.severe_factor()).ln() / STEP;
+                lagrange(place, place.floor() as i32 - 1, 4)
+            }
+            (_, None) => vec![(0, 1.0)],
+        }
+    }
+
+    /// The change of the course `n` at a factor.
+    fn on_course(&self, n: i32, factor: f64) -> Change {
+        let times = |by: f64| (by * f64::from(n) * STEP).exp();
+        match self.question.fitted {
+            Fitted::Each => Change {
+                coefficient_factor: PerGear { pinion: factor * times(-0.5), wheel: factor * times(0.5) },
+                severe_factor: None,
+            },
+            fitted => Change {
+                coefficient_factor: PerGear::from_fn(|gear| if fitted.has(gear) { factor } else { 1.0 }),
+                severe_factor: (n != 0).then(|| self.severe_factor() * times(1.0)),
+            },
+        }
+    }
+
+    /// The course `n`, up to this factor at least.
+    fn course(&mut self, n: i32, up_to: f64) -> Result<&Course, CompareError> {
+        let known = self.courses.iter().position(|course| course.n == n);
         let index = match known {
-            Some(index) if self.courses[index].1.reach() >= up_to => index,
-            _ => {
-                let longest = self.courses.iter().map(|(_, course)| course.reach()).fold(AHEAD * up_to, f64::max);
-                let reach = if known.is_some() { AHEAD * up_to } else { longest };
+            Some(index) if self.courses[index].reach >= up_to => index,
+            Some(index) => {
+                self.courses[index] = self.compute(n, AHEAD * up_to)?;
+                index
+            }
+            None => {
+                let reach = self.courses.iter().map(|course| course.reach).fold(AHEAD * up_to, f64::max);
                 let course = self.compute(n, reach)?;
-                match known {
-                    Some(index) => {
-                        self.courses[index].1 = course;
-                        index
-                    }
-                    None => {
-                        self.courses.push((n, course));
-                        self.courses.len() - 1
-                    }
-                }
+                self.courses.push(course);
+                self.courses.len() - 1
             }
         };
-        Ok(&self.courses[index].1)
+        Ok(&self.courses[index])
     }
 
-    fn compute(&mut self, n: i32, reach: f64) -> Result<WearByCoefficient, CompareError> {
-        let severe_factor = (n != 0).then(|| self.severe_factor() * (f64::from(n) * SEVERE_STEP).exp());
+    fn compute(&mut self, n: i32, reach: f64) -> Result<Course, CompareError> {
         let squares = |count: u32| (1..=count).map(move |i| reach * (f64::from(i) / f64::from(count)).powi(2));
-        if self.until_measured.operation.phases.len() > 1 || !scales_with_time(&self.until_measured, self.gear) {
-            let mut profiles = Vec::new();
-            for coefficient_factor in squares(SEPARATE_RUNS) {
-                profiles.push((coefficient_factor, self.exactly(Change { coefficient_factor, severe_factor })?));
+        let profiles = &self.question.profiles;
+        // The factor that each snapshot stands for, profile by profile, and the wear.
+        let mut rows: Vec<(Vec<f64>, Vec<Vec<f64>>)> = Vec::new();
+        if self.until_measured.operation.phases.len() > 1 || !self.scales_with_time() {
+            for factor in squares(SEPARATE_RUNS) {
+                rows.push((vec![factor; profiles.len()], self.exactly(self.on_course(n, factor))?));
             }
-            return Ok(WearByCoefficient::new(profiles));
+        } else {
+            let mut scene = self.changed(self.on_course(n, 1.0));
+            let duration = scene.operation.pinion_revolutions;
+            let operation = &mut scene.operation;
+            operation.pinion_revolutions = reach * duration;
+            operation.phases.iter_mut().for_each(|phase| phase.end_revolutions = reach * duration);
+            operation.snapshots_revolutions = squares(SNAPSHOTS).map(|factor| factor * duration).collect();
+            scene.numerics.stepping = scene.numerics.stepping.coarser((reach / AS_FINE_UP_TO).max(1.0));
+            for Snapshot { revolutions, wear_um } in self.run(scene)? {
+                rows.push((profiles.iter().map(|of| revolutions / of.revolutions).collect(), wear_um));
+            }
         }
-        let mut scene = changed(&self.until_measured, self.gear, Change { coefficient_factor: 1.0, severe_factor });
-        let duration = scene.operation.pinion_revolutions;
-        let operation = &mut scene.operation;
-        operation.pinion_revolutions = reach * duration;
-        operation.phases.iter_mut().for_each(|phase| phase.end_revolutions = reach * duration);
-        operation.snapshots_revolutions = squares(SNAPSHOTS).map(|factor| factor * duration).collect();
-        scene.numerics.stepping = scene.numerics.stepping.coarser((reach / AS_FINE_UP_TO).max(1.0));
-        let profiles = self.run(scene)?;
-        Ok(WearByCoefficient::new(profiles.into_iter().map(|(revolutions, wear)| (revolutions / duration, wear))))
+        let of_profile =
+            |index: usize| WearByCoefficient::new(rows.iter().map(|(at, wear)| (at[index], wear[index].clone())));
+        Ok(Course { n, reach, wear: (0..profiles.len()).map(of_profile).collect() })
     }
 
-    /// Carries a scene out: the wear of the row of points at each snapshot.
-    fn run(&mut self, scene: Scene) -> Result<Vec<(f64, Vec<f64>)>, CompareError> {
+    /// Whether a longer run holds the wear of greater coefficients: where both change in the same way, or the mate does not wear.
+    fn scales_with_time(&self) -> bool {
+        let scene = &self.until_measured;
+        let rests = |gear: Gear| {
+            scene.operation.phases.iter().all(|phase| scene.wear_in(phase)[gear].coefficient_mm2_per_n <= 0.0)
+        };
+        Gear::BOTH.into_iter().all(|gear| self.question.fitted.has(gear) || rests(gear))
+    }
+
+    /// Carries a scene out: the wear of each profile's flank points at each snapshot.
+    fn run(&mut self, scene: Scene) -> Result<Vec<Snapshot>, CompareError> {
         self.runs += 1;
         self.observer.stage(&format!("run {}", self.runs));
         let resolved = Resolved { scene, file: self.given.resolved.file.clone(), warnings: Vec::new() };
@@ -189,10 +250,37 @@ impl<'a> Simulations<'a> {
             return Err(CompareError::Interrupted);
         }
         self.mesh_cycles += done.record.summary.work.mesh_cycles;
-        let flank = &done.record.flanks[self.gear];
-        let rows = done.record.history.iter().zip(&flank.snapshot_wear_um);
-        let at_width = |wear_um: &[f64]| over_width(wear_um, &flank.width_mm, flank.radius_mm.len(), self.width_mm);
-        Ok(rows.map(|(row, wear_um)| (row.revolutions, at_width(wear_um))).collect())
+        let record = &done.record;
+        let at_snapshot = |index: usize, of: &ProfileQuestion| {
+            let flank = &record.flanks[of.profile.gear];
+            over_width(&flank.snapshot_wear_um[index], &flank.width_mm, flank.radius_mm.len(), of.width_mm)
+        };
+        let profiles = &self.question.profiles;
+        let snapshot = |index: usize| Snapshot {
+            revolutions: record.history[index].revolutions,
+            wear_um: profiles.iter().map(|of| at_snapshot(index, of)).collect(),
+        };
+        let kept = profiles.iter().map(|of| record.flanks[of.profile.gear].snapshot_wear_um.len()).min();
+        Ok((0..kept.unwrap_or(0).min(record.history.len())).map(snapshot).collect())
+    }
+
+    /// The scene with a change.
+    fn changed(&self, change: Change) -> Scene {
+        let mut scene = self.until_measured.clone();
+        for gear in Gear::BOTH {
+            let factor = change.coefficient_factor[gear];
+            let wear = &mut scene.wear[gear];
+            wear.coefficient_mm2_per_n *= factor;
+            let severe = wear.severe.as_mut().filter(|_| self.question.fitted.has(gear));
+            if let (Some(severe), Some(factor)) = (severe, change.severe_factor) {
+                severe.factor = factor;
+            }
+            for phase in &mut scene.operation.phases {
+                let own = &mut phase.coefficient_mm2_per_n[gear];
+                *own = own.map(|own| own * factor);
+            }
+        }
+        scene
     }
 }
 
@@ -209,31 +297,12 @@ pub(super) fn over_width(wear_um: &[f64], slices_mm: &[f64], points: usize, widt
     rows[after - 1].iter().zip(rows[after]).map(|(a, b)| a + t * (b - a)).collect()
 }
 
-/// Whether both gears wear by one law in all phases: its coefficient is then fitted, and otherwise that of the measured gear alone.
-pub(super) fn is_of_both(scene: &Scene) -> bool {
-    scene.operation.phases.iter().all(|phase| scene.wear_in(phase).are_alike())
-}
-
-/// Whether a longer run holds the wear of greater coefficients: where both change in the same way, or the mate does not wear.
-fn scales_with_time(scene: &Scene, gear: Gear) -> bool {
-    is_of_both(scene)
-        || scene.operation.phases.iter().all(|phase| scene.wear_in(phase)[gear.mate()].coefficient_mm2_per_n <= 0.0)
-}
-
-/// `scene` with other coefficients, of both gears where they wear by one law, otherwise of `gear` alone.
-fn changed(scene: &Scene, gear: Gear, change: Change) -> Scene {
-    let both = is_of_both(scene);
-    let mut scene = scene.clone();
-    for gear in Gear::BOTH.into_iter().filter(|&other| both || other == gear) {
-        let wear = &mut scene.wear[gear];
-        wear.coefficient_mm2_per_n *= change.coefficient_factor;
-        if let (Some(severe), Some(factor)) = (&mut wear.severe, change.severe_factor) {
-            severe.factor = factor;
-        }
-        for phase in &mut scene.operation.phases {
-            let own = &mut phase.coefficient_mm2_per_n[gear];
-            *own = own.map(|own| own * change.coefficient_factor);
-        }
-    }
-    scene
+/// Lagrange's polynomial through so many courses from `first` on: their weights at `place`.
+fn lagrange(place: f64, first: i32, count: i32) -> Vec<(i32, f64)> {
+    let nodes = first..first + count;
+    let weight = |n: i32| {
+        let others = nodes.clone().filter(|&other| other != n).map(f64::from);
+        others.map(|other| (place - other) / (f64::from(n) - other)).product()
+    };
+    nodes.clone().map(|n| (n, weight(n))).collect()
 }

@@ -1,11 +1,16 @@
 //! A comparison from beginning to end.
 
-use super::question::Question;
+use super::comparison::Comparison;
+use super::question::{Fitted, ProfileQuestion, Question, is_of_both};
+use super::record::{
+    Coefficient, CompareFigures, CompareRecord, CompareRow, Correlation, Estimate, FitRecord, ProfileRecord,
+};
 use super::run_folder::RunFolder;
-use super::search::{Comparison, FittedCoefficients, Unknown};
+use super::search::{FittedCoefficients, Search};
 pub(crate) use super::simulations::CompareError;
-use super::simulations::{Change, Simulations, is_of_both, over_width};
-use crate::gear::{GearPair, flank::FlankGrid, slices::Slices};
+use super::simulations::{Change, Simulations, over_width};
+use super::unknown::Unknown;
+use crate::gear::{Gear, GearPair, slices::Slices};
 use crate::measurement::fit::FitStop;
 use crate::measurement::interval::CONFIDENCE;
 use crate::measurement::roughness::{CUTOFF_MM, mean_deviation, roughness};
@@ -14,76 +19,73 @@ use crate::pipeline::RunError;
 use crate::results::run::PathPoints;
 use crate::scene::Resolved;
 use crate::scene::loaded::LoadedScene;
-use crate::studies::compare::record::{CompareFigures, CompareRecord, CompareRow, Estimate, FitRecord};
 
 /// mm²/N to m²/N.
 const M2_PER_MM2: f64 = 1e-6;
 /// Residuals this many times the uncertainty of the heights say that the simulation does not describe the profile.
 const NOT_DESCRIBED: f64 = 2.0;
 
-/// Compares what was measured with the run in `folder`, whose scene is `given`; `measured` is the name of the file.
+/// Compares what was measured with the run in `folder`, whose scene is `given`.
 pub(crate) fn run(
     question: &Question,
     folder: &RunFolder,
     given: &LoadedScene,
-    measured: &str,
     observer: &dyn Observer,
 ) -> Result<CompareRecord, CompareError> {
     let resolved = &given.resolved;
     let scene = &resolved.scene;
     let pair = &GearPair::new(&scene.pair).map_err(RunError::from)?;
-    let profile = &question.profile;
-    let grid = FlankGrid::new(pair, profile.gear, scene.numerics.flank_points);
-    let points = grid.len();
-    let comparison = Comparison::new(question, pair, grid.arc_mm);
-    let mut simulations = Simulations::new(given, profile.gear, question.width_mm, question.revolutions, observer);
-    let as_run_um = match &question.as_run_um {
-        Some(wear_um) => {
-            let slices = Slices::new(pair, wear_um.len() / points);
-            over_width(wear_um, &slices.width_mm, points, question.width_mm)
-        }
+    let compared = |of| Comparison::new(of, pair, scene.numerics.flank_points);
+    let comparisons: Vec<Comparison<'_>> = question.profiles.iter().map(compared).collect();
+    let mut simulations = Simulations::new(given, question, observer);
+    let kept: Option<Vec<_>> = comparisons.iter().map(|one| as_kept(one, pair)).collect();
+    let as_run_um = match kept {
+        Some(kept) => kept,
         None => simulations.exactly(Change::NOTHING)?,
     };
-    let found = comparison.search(&as_run_um, &mut simulations)?;
+    let found = Search::new(question, &comparisons).run(&as_run_um, &mut simulations)?;
 
-    let rows = rows(question, pair, &comparison, &found, &as_run_um);
-    let fit = fit(question, resolved, &found, &simulations);
-    let figures = figures(question, &rows);
-    let warnings = folder.version_warning().into_iter().chain(warnings(&fit, &figures, found.unsettled)).collect();
-    let [a, b, c, d, e] = pair.path.points_mm().map(|position| pair.radius_at_mm(profile.gear, position));
+    let profile = |index: usize| {
+        let rows = rows(question, pair, &comparisons[index], [&found.wear_um[index], &as_run_um[index]], &found);
+        profile(question, resolved, pair, (index, rows), &found)
+    };
+    let profiles: Vec<ProfileRecord> = (0..comparisons.len()).map(profile).collect();
+    let fit = fit(question, resolved, &found, &profiles, &simulations);
+    let warnings = folder.version_warning().into_iter().chain(warnings(&fit, &profiles, found.unsettled)).collect();
     Ok(CompareRecord {
         title: folder.summary.title.clone(),
         program_version: env!("CARGO_PKG_VERSION").to_owned(),
         scene_hash: resolved.scene_hash(),
-        measured: measured.to_owned(),
-        gear: profile.gear,
-        width_mm: question.width_mm,
-        hours: scene.operation.hours(question.revolutions),
-        revolutions: question.revolutions,
-        form: question.form.name().to_owned(),
         fit,
-        figures,
-        path_point_radius_mm: PathPoints { A: a, B: b, C: c, D: d, E: e },
+        profiles,
         warnings,
-        rows,
         scene_toml: resolved.to_toml(),
     })
+}
+
+/// Wear that the run kept of the time when a profile was measured.
+fn as_kept(comparison: &Comparison<'_>, pair: &GearPair) -> Option<Vec<f64>> {
+    let (of, points) = (comparison.of, comparison.flank_points());
+    let wear_um = of.as_run_um.as_ref()?;
+    let slices = Slices::new(pair, wear_um.len() / points);
+    Some(over_width(wear_um, &slices.width_mm, points, of.width_mm))
 }
 
 fn rows(
     question: &Question,
     pair: &GearPair,
     comparison: &Comparison<'_>,
+    [wear_um, as_run_um]: [&[f64]; 2],
     found: &FittedCoefficients,
-    as_run_um: &[f64],
 ) -> Vec<CompareRow> {
-    let shift = found.shift_mm();
-    let mut shifted = question.profile.clone();
+    let gear = comparison.of.profile.gear;
+    let shift = found.of(question.shift_of(gear)).map_or(0.0, |(shift, _)| shift);
+    let mut shifted = comparison.of.profile.clone();
     shifted.arc_mm.iter_mut().for_each(|arc| *arc += shift);
     let radius = shifted.radius_mm(pair);
-    let simulated = comparison.simulated_um(&found.wear_um, shift);
+    let simulated = comparison.simulated_um(wear_um, shift);
     let as_run = comparison.simulated_um(as_run_um, shift);
-    let wear = comparison.wear_at_points_um(&found.wear_um, shift);
+    let wear = comparison.wear_at_points_um(wear_um, shift);
     (0..radius.len())
         .map(|i| {
             let difference_um = comparison.measured_um[i] - simulated[i];
@@ -96,79 +98,135 @@ fn rows(
                 as_run_um: as_run[i],
                 wear_um: wear[i],
                 measured_wear_um: wear[i] - difference_um,
+                gear,
             }
         })
         .collect()
+}
+
+fn profile(
+    question: &Question,
+    resolved: &Resolved,
+    pair: &GearPair,
+    (index, rows): (usize, Vec<CompareRow>),
+    found: &FittedCoefficients,
+) -> ProfileRecord {
+    let of = &question.profiles[index];
+    let gear = of.profile.gear;
+    let scatter = found.uncertainty.as_ref().map(|u| u.scatter[index]);
+    let [a, b, c, d, e] = pair.path.points_mm().map(|position| pair.radius_at_mm(gear, position));
+    ProfileRecord {
+        measured: of.measured.clone(),
+        gear,
+        width_mm: of.width_mm,
+        hours: resolved.scene.operation.hours(of.revolutions),
+        revolutions: of.revolutions,
+        form: of.form.name().to_owned(),
+        shift_mm: found.of(question.shift_of(gear)).map(|(value, half)| Estimate {
+            value,
+            low: half.map(|h| value - h),
+            high: half.map(|h| value + h),
+            of_run: 0.0,
+        }),
+        points: rows.len(),
+        effective_points: scatter.map(|s| s.effective_points),
+        degrees_of_freedom: scatter.map(|s| s.degrees_of_freedom),
+        figures: figures(of, &rows),
+        path_point_radius_mm: PathPoints { A: a, B: b, C: c, D: d, E: e },
+        rows,
+    }
 }
 
 fn fit(
     question: &Question,
     resolved: &Resolved,
     found: &FittedCoefficients,
+    profiles: &[ProfileRecord],
     simulations: &Simulations<'_>,
 ) -> FitRecord {
-    let of_logarithm = |unknown, of_run: f64, unit: f64| {
-        let (value, half) = found.of(unknown)?;
+    // Of a logarithm and half the width of its interval.
+    let estimate = |(value, half): (f64, Option<f64>), of_run: f64, unit: f64| {
         let at = |by: f64| unit * (value + by).exp();
-        Some(Estimate { value: at(0.0), low: half.map(|h| at(-h)), high: half.map(at), of_run })
+        Estimate { value: at(0.0), low: half.map(|h| at(-h)), high: half.map(at), of_run }
     };
-    let coefficient = M2_PER_MM2 * resolved.scene.wear[question.profile.gear].coefficient_mm2_per_n;
-    let points = question.profile.arc_mm.len();
-    let how = match &found.uncertainty {
-        Some(u) => format!(
-            "{:.0} % interval from the scatter of the residuals (Student's t, {:.0} degrees of freedom): by their autocorrelation \
-             {:.0} of {points} points count",
-            100.0 * CONFIDENCE,
-            u.degrees_of_freedom,
-            u.effective_points
-        ),
-        None if found.unknowns.is_empty() => "nothing was fitted".to_owned(),
-        None => {
+    let coefficient = |gear: Gear| M2_PER_MM2 * resolved.scene.wear[gear].coefficient_mm2_per_n;
+    let ratio = coefficient(Gear::Pinion) / coefficient(Gear::Wheel);
+    let of_ratio = |[one, other]: [Unknown; 2]| Some(estimate(found.difference(one, other)?, ratio, ratio));
+    let parameters = &found.unknowns;
+    FitRecord {
+        stopped: found.stop,
+        blamed: found.blamed,
+        coefficients: whose(question, resolved)
+            .into_iter()
+            .filter_map(|(unknown, gear)| {
+                let logarithm = found.of(unknown)?;
+                let of_run = coefficient(gear.unwrap_or(profiles[0].gear));
+                let (factor, value) = (estimate(logarithm, 1.0, 1.0), estimate(logarithm, of_run, of_run));
+                Some(Coefficient { gear, factor, coefficient_m2_per_N: value })
+            })
+            .collect(),
+        coefficient_ratio: of_ratio(Gear::BOTH.map(|gear| Unknown::Coefficient(Some(gear)))),
+        severe_factor: found.of(Unknown::Severe).map(|log| estimate(log, simulations.severe_factor(), 1.0)),
+        correlation: found
+            .uncertainty
+            .as_ref()
+            .filter(|_| parameters.len() > 1)
+            .map(|u| Correlation { parameters: parameters.clone(), matrix: u.correlation.clone() }),
+        runs: simulations.runs,
+        mesh_cycles: simulations.mesh_cycles,
+        how: how(question, found, profiles),
+    }
+}
+
+/// The unknowns that stand for a wear coefficient, and whose it is: both gears' where they wear by one law.
+fn whose(question: &Question, resolved: &Resolved) -> Vec<(Unknown, Option<Gear>)> {
+    match question.fitted {
+        Fitted::Each => Gear::BOTH.map(|gear| (Unknown::Coefficient(Some(gear)), Some(gear))).into(),
+        Fitted::Alone(gear) => vec![(Unknown::Coefficient(None), Some(gear))],
+        Fitted::Together if is_of_both(&resolved.scene) => vec![(Unknown::Coefficient(None), None)],
+        Fitted::Together => Gear::BOTH.map(|gear| (Unknown::Coefficient(None), Some(gear))).into(),
+    }
+}
+
+/// How the intervals were obtained, or why there are none.
+fn how(question: &Question, found: &FittedCoefficients, profiles: &[ProfileRecord]) -> String {
+    let confidence = 100.0 * CONFIDENCE;
+    let counted = |of: &ProfileRecord| Some(format!("{:.0} of {} points", of.effective_points?, of.points));
+    let how = match profiles {
+        _ if found.unknowns.is_empty() => "nothing was fitted".to_owned(),
+        _ if found.uncertainty.is_none() => {
             "no interval: by the autocorrelation of the residuals too few points count, or a value is not determined or at its bound"
                 .to_owned()
         }
+        [one] => format!(
+            "{confidence:.0} % interval from the scatter of the residuals (Student's t, {:.0} degrees of freedom): by their \
+             autocorrelation {} count",
+            one.degrees_of_freedom.unwrap_or_default(),
+            counted(one).unwrap_or_default()
+        ),
+        several => {
+            let counts: Vec<String> =
+                several.iter().filter_map(|of| Some(format!("{} of the {}", counted(of)?, of.gear.name()))).collect();
+            format!(
+                "{confidence:.0} % intervals from the scatter of the residuals, each profile with its own (Student's t, degrees \
+                 of freedom after Welch and Satterthwaite): by their autocorrelation {} count",
+                counts.join(" and ")
+            )
+        }
     };
-    let gear = question.profile.gear;
-    let how = match question.fit.coefficient() && !is_of_both(&resolved.scene) {
-        true => format!(
+    match question.fitted {
+        Fitted::Alone(gear) if question.fit.coefficient() => format!(
             "{how}; the gears wear by different laws: what is fitted is that of the {} alone, and that of the {} is as in the run",
             gear.name(),
             gear.mate().name()
         ),
-        false => how,
-    };
-    FitRecord {
-        stopped: found.stop,
-        blamed: found.blamed.map(|unknown| name(unknown).to_owned()),
-        coefficient_factor: of_logarithm(Unknown::Coefficient, 1.0, 1.0),
-        coefficient_m2_per_N: of_logarithm(Unknown::Coefficient, coefficient, coefficient),
-        severe_factor: of_logarithm(Unknown::Severe, simulations.severe_factor(), 1.0),
-        shift_mm: found.of(Unknown::Shift).map(|(value, half)| Estimate {
-            value,
-            low: half.map(|h| value - h),
-            high: half.map(|h| value + h),
-            of_run: 0.0,
-        }),
-        points,
-        effective_points: found.uncertainty.as_ref().map(|u| u.effective_points),
-        degrees_of_freedom: found.uncertainty.as_ref().map(|u| u.degrees_of_freedom),
-        runs: simulations.runs,
-        mesh_cycles: simulations.mesh_cycles,
-        how,
+        _ => how,
     }
 }
 
-fn name(unknown: Unknown) -> &'static str {
-    match unknown {
-        Unknown::Coefficient => "the wear coefficient",
-        Unknown::Severe => "the severe factor",
-        Unknown::Shift => "the shift",
-    }
-}
-
-fn figures(question: &Question, rows: &[CompareRow]) -> CompareFigures {
-    let arc = &question.profile.arc_mm;
-    let column = |of: fn(&CompareRow) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
+fn figures(of: &ProfileQuestion, rows: &[CompareRow]) -> CompareFigures {
+    let arc = &of.profile.arc_mm;
+    let column = |value: fn(&CompareRow) -> f64| rows.iter().map(value).collect::<Vec<f64>>();
     let rms = |values: &[f64]| (values.iter().map(|v| v * v).sum::<f64>() / values.len() as f64).sqrt();
     let measured = column(|row| row.measured_um);
     let worst = rows.iter().max_by(|a, b| a.difference_um.abs().total_cmp(&b.difference_um.abs()));
@@ -181,17 +239,19 @@ fn figures(question: &Question, rows: &[CompareRow]) -> CompareFigures {
         difference_um: rms(&column(|row| row.difference_um)),
         greatest_difference_um: worst.map_or(0.0, |row| row.difference_um.abs()),
         greatest_difference_radius_mm: worst.map_or(0.0, |row| row.radius_mm),
-        uncertainty_um: question.uncertainty_um,
+        uncertainty_um: of.uncertainty_um,
     }
 }
 
-fn warnings(fit: &FitRecord, figures: &CompareFigures, unsettled: Option<f64>) -> Vec<String> {
+fn warnings(fit: &FitRecord, profiles: &[ProfileRecord], unsettled: Option<f64>) -> Vec<String> {
     let mut warnings = Vec::new();
-    let blamed = fit.blamed.as_deref().unwrap_or("a value");
+    let blamed = fit.blamed.map_or_else(|| "a value".to_owned(), Unknown::name);
     match fit.stopped {
         FitStop::Converged => {}
-        FitStop::AtBound if blamed == name(Unknown::Shift) => {
-            warnings.push("the shift is as long as it may be: allow more with --shift-within, or check where the file's arc begins".to_owned());
+        FitStop::AtBound if matches!(fit.blamed, Some(Unknown::Shift(_))) => {
+            warnings.push(format!(
+                "{blamed} is as long as it may be: allow more with --shift-within, or check where the file's arc begins"
+            ));
         }
         FitStop::AtBound => {
             warnings.push(format!("{blamed} is at the end of what is searched: the profile does not give it"))
@@ -211,13 +271,18 @@ fn warnings(fit: &FitRecord, figures: &CompareFigures, unsettled: Option<f64>) -
              numerics.step = \"adaptive\" does"
         ));
     }
-    if let Some(uncertainty) = figures.uncertainty_um.filter(|u| figures.difference_um > NOT_DESCRIBED * u) {
-        warnings.push(format!(
-            "the difference, {:.3} µm (root mean square), is {:.1} times the uncertainty of the heights: the simulation does not \
-             describe all of the profile, and the interval does not say how far off it is",
-            figures.difference_um,
-            figures.difference_um / uncertainty
-        ));
-    }
+    warnings.extend(profiles.iter().filter_map(|of| not_described(of, profiles.len() > 1)));
     warnings
+}
+
+/// What to say of a profile whose residuals its uncertainty does not explain, with its gear where there are others.
+fn not_described(of: &ProfileRecord, name_gear: bool) -> Option<String> {
+    let difference_um = of.figures.difference_um;
+    let uncertainty_um = of.figures.uncertainty_um.filter(|u| difference_um > NOT_DESCRIBED * u)?;
+    let whose = if name_gear { format!(" of the {}’s profile", of.gear.name()) } else { String::new() };
+    Some(format!(
+        "the difference{whose}, {difference_um:.3} µm (root mean square), is {:.1} times the uncertainty of the heights: the simulation does not \
+         describe all of the profile, and the interval does not say how far off it is",
+        difference_um / uncertainty_um
+    ))
 }

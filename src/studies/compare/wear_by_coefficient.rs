@@ -20,12 +20,7 @@ impl WearByCoefficient {
         Self { factors, wear_um }
     }
 
-    /// The greatest factor it knows.
-    pub(super) fn reach(&self) -> f64 {
-        self.factors.last().copied().unwrap_or_default()
-    }
-
-    /// The profile at a factor, at most its reach.
+    /// The profile at a factor, at most the greatest.
     pub(super) fn at(&self, factor: f64) -> Vec<f64> {
         let last = self.factors.len() - 1;
         let after = self.factors.partition_point(|&f| f <= factor).clamp(1, last);
@@ -74,7 +69,7 @@ mod tests {
     fn ver_it_meets_its_profiles_and_parabolas_between_them() {
         let parabola = |f: f64| vec![3.0 * f - 0.5 * f * f, f];
         let course = WearByCoefficient::new([0.3, 0.5, 1.1, 2.0].map(|f| (f, parabola(f))));
-        assert_eq!((course.at(0.0), course.at(1.1), course.reach()), (vec![0.0, 0.0], parabola(1.1), 2.0));
+        assert_eq!((course.at(0.0), course.at(1.1)), (vec![0.0, 0.0], parabola(1.1)));
         for factor in [0.31, 0.4, 0.7, 1.0] {
             let found = course.at(factor);
             assert!(found.iter().zip(parabola(factor)).all(|(a, b)| (a - b).abs() < 1e-14), "{factor}: {found:?}");

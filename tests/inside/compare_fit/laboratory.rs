@@ -2,12 +2,12 @@
 
 use std::f64::consts::{PI, TAU};
 
-use gearwear::gear::{Gear, GearPair};
+use gearwear::gear::{Gear, GearPair, PerGear};
 use gearwear::measurement::file;
 use gearwear::observer::Unwatched;
 use gearwear::pipeline;
 use gearwear::report;
-use gearwear::results::run::RunRecord;
+use gearwear::results::run::{FlankRecord, RunRecord};
 use gearwear::scene::loaded::LoadedScene;
 use gearwear::scene::{Resolved, Scene};
 use gearwear::studies::compare::question::{Asked, FitKind, Question};
@@ -17,16 +17,21 @@ use gearwear::studies::compare::study;
 
 use super::super::common::loaded;
 
-/// A run as its folder has it, the noiseless trace of another one with other coefficients, and where its points are.
+/// A run as its folder has it, and the noiseless traces of another one with other coefficients.
 pub struct Laboratory {
     folder: RunFolder,
     scene: LoadedScene,
     pair: GearPair,
-    /// Radii of the points of the trace.
-    pub radius_mm: Vec<f64>,
+    pub traces: PerGear<Trace>,
+}
+
+/// Points of a flank of a run.
+pub struct Trace {
+    gear: Gear,
+    radius_mm: Vec<f64>,
     /// Arc lengths from the base circle.
     pub arc_mm: Vec<f64>,
-    /// Wear depth of the other run there.
+    /// Wear depth there.
     pub wear_um: Vec<f64>,
 }
 
@@ -34,31 +39,17 @@ pub struct Laboratory {
 pub const POINTS: usize = 300;
 
 impl Laboratory {
-    /// A run of `scene`, and the wear of the pinion by `truth` at evenly spaced arc lengths of the active flank.
+    /// A run of `scene`, and the wear by `truth`.
     pub fn new(scene: &str, truth: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let (resolved, record) = run(scene);
         report::write_data(&record, folder.path()).unwrap();
         report::write_summary(&record.summary, folder.path()).unwrap();
         let pair = GearPair::new(&resolved.scene.pair).unwrap();
-        let involute = pair.teeth.pinion.involute;
-        let start = involute.arc_mm(pair.active_start_rho_mm(Gear::Pinion));
-        let end = involute.arc_mm(pair.teeth.pinion.tip_rho_mm());
-        // A little less than the whole flank, so that a shift leaves the trace on it.
-        let arc_mm: Vec<f64> =
-            (0..POINTS).map(|i| start + 0.06 + (end - start - 0.12) * i as f64 / (POINTS - 1) as f64).collect();
-        let radius_at = |arc: f64| involute.radius_mm((2.0 * involute.base_radius_mm * arc).sqrt());
-        let flank = run(truth).1.flanks.pinion;
-        let wear_um =
-            arc_mm.iter().map(|&arc| interpolated(&flank.radius_mm, &flank.wear_um, radius_at(arc))).collect();
-        let radius_mm = arc_mm.iter().map(|&arc| radius_at(arc)).collect();
+        let flanks = run(truth).1.flanks;
+        let traces = PerGear::from_fn(|gear| Trace::new(&pair, gear, &flanks[gear]));
         let folder = RunFolder::read(folder.path()).unwrap();
-        Self { folder, scene: loaded(&resolved), pair, radius_mm, arc_mm, wear_um }
-    }
-
-    /// Greatest wear depth of the trace.
-    pub fn depth_um(&self) -> f64 {
-        self.wear_um.iter().copied().fold(0.0, f64::max)
+        Self { folder, scene: loaded(&resolved), pair, traces }
     }
 
     /// r_b of the pinion.
@@ -66,17 +57,50 @@ impl Laboratory {
         self.pair.teeth.pinion.involute.base_radius_mm
     }
 
+    /// What the comparison of a file with the run says.
+    pub fn compare(&self, text: &str, asked: &Asked) -> CompareRecord {
+        self.compare_all(&[text], asked)
+    }
+
+    /// What the comparison of some files with the run says.
+    pub fn compare_all(&self, texts: &[&str], asked: &Asked) -> CompareRecord {
+        let files: Vec<_> = texts.iter().map(|text| ("trace.csv".to_owned(), file::parse(text).unwrap())).collect();
+        let question = Question::new(asked, &files, &self.folder, &self.scene.resolved, &self.pair).unwrap();
+        study::run(&question, &self.folder, &self.scene, &Unwatched).unwrap()
+    }
+}
+
+impl Trace {
+    /// Wear of a flank at evenly spaced arc lengths of its active part.
+    fn new(pair: &GearPair, gear: Gear, flank: &FlankRecord) -> Self {
+        let tooth = &pair.teeth[gear];
+        let involute = tooth.involute;
+        let start = involute.arc_mm(pair.active_start_rho_mm(gear));
+        let end = involute.arc_mm(tooth.tip_rho_mm());
+        // A little less than the whole flank, so that a shift leaves the trace on it.
+        let arc_mm: Vec<f64> =
+            (0..POINTS).map(|i| start + 0.06 + (end - start - 0.12) * i as f64 / (POINTS - 1) as f64).collect();
+        let radius_at = |arc: &f64| involute.radius_mm((2.0 * involute.base_radius_mm * arc).sqrt());
+        let radius_mm: Vec<f64> = arc_mm.iter().map(radius_at).collect();
+        let wear_um = radius_mm.iter().map(|&r| interpolated(&flank.radius_mm, &flank.wear_um, r)).collect();
+        Self { gear, radius_mm, arc_mm, wear_um }
+    }
+
+    /// Greatest wear depth.
+    pub fn depth_um(&self) -> f64 {
+        self.wear_um.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// Heights with noise of 5 % of the greatest depth.
+    pub fn heights(&self, noise: &[f64]) -> Vec<f64> {
+        let depth = self.depth_um();
+        self.wear_um.iter().zip(noise).map(|(wear, noise)| -wear + 0.05 * depth * noise).collect()
+    }
+
     /// A file of heights at the points.
     pub fn file(&self, height_um: &[f64]) -> String {
         let rows: String = self.radius_mm.iter().zip(height_um).map(|(r, z)| format!("{r},{z}\n")).collect();
-        format!("# gear = pinion\nradius_mm,height_um\n{rows}")
-    }
-
-    /// What the comparison of a file with the run says.
-    pub fn compare(&self, text: &str, asked: &Asked) -> CompareRecord {
-        let file = file::parse(text).unwrap();
-        let question = Question::new(asked, &file, &self.folder, &self.scene.resolved, &self.pair).unwrap();
-        study::run(&question, &self.folder, &self.scene, "trace.csv", &Unwatched).unwrap()
+        format!("# gear = {}\nradius_mm,height_um\n{rows}", self.gear.name())
     }
 }
 
@@ -96,7 +120,7 @@ fn interpolated(x: &[f64], y: &[f64], at: f64) -> f64 {
 
 /// What is asked where a test says nothing else: k of heights, no shift.
 pub fn asked(fit: FitKind) -> Asked {
-    Asked { gear: None, form: None, fit, shift_within_mm: 0.0 }
+    Asked { gear: None, form: None, fit: Some(fit), shift_within_mm: 0.0 }
 }
 
 /// Normal numbers of mean 0 and deviation 1 by Box and Muller, from xorshift64* (Vigna 2016).

@@ -1,5 +1,6 @@
 //! Fitting wear coefficients to synthetic profiles: what goes in comes out, and the interval holds as often as it says.
 
+mod both_gears;
 mod laboratory;
 
 use std::sync::LazyLock;
@@ -7,6 +8,7 @@ use std::sync::LazyLock;
 use gearwear::measurement::fit::FitStop;
 use gearwear::measurement::form::Form;
 use gearwear::studies::compare::question::{Asked, FitKind};
+use gearwear::studies::compare::record::{CompareRecord, Estimate};
 use laboratory::{Laboratory, Noise, POINTS, asked, wave};
 
 /// fzg-c at coarse resolution, with a wear coefficient and a severe factor above 1600 MPa.
@@ -34,21 +36,20 @@ static SHORT: LazyLock<Laboratory> = LazyLock::new(|| {
     Laboratory::new(&short(1e-17), &short(TRUE_K))
 });
 
-/// Heights of the trace with noise of 5 % of the greatest depth.
-fn heights(of: &Laboratory, noise: &[f64]) -> Vec<f64> {
-    let depth = of.depth_um();
-    of.wear_um.iter().zip(noise).map(|(wear, noise)| -wear + 0.05 * depth * noise).collect()
+/// The coefficient that was fitted.
+fn k_of(record: &CompareRecord) -> Estimate {
+    record.fit.coefficients[0].coefficient_m2_per_N
 }
 
 /// How many of the seeds have the true coefficient in their interval, by what `noise` makes of each and with `more` added.
 fn covered(of: &Laboratory, ask: &Asked, more: &[f64], noise: impl Fn(&mut Noise) -> Vec<f64>) -> usize {
     (0..SEEDS)
         .filter(|&seed| {
-            let mut z = heights(of, &noise(&mut Noise::new(seed)));
+            let mut z = of.traces.pinion.heights(&noise(&mut Noise::new(seed)));
             z.iter_mut().zip(more).for_each(|(z, more)| *z += more);
-            let record = of.compare(&of.file(&z), ask);
+            let record = of.compare(&of.traces.pinion.file(&z), ask);
             assert_eq!(record.fit.stopped, FitStop::Converged, "seed {seed}");
-            let k = record.fit.coefficient_m2_per_N.unwrap();
+            let k = k_of(&record);
             (k.low.unwrap()..=k.high.unwrap()).contains(&TRUE_K)
         })
         .count()
@@ -60,11 +61,15 @@ fn ver_the_coefficient_comes_back_without_noise() {
     let of = &*LABORATORY;
     for form in [Form::None, Form::Involute, Form::Cubic] {
         let ask = Asked { form: Some(form), ..asked(FitKind::K) };
-        let record = of.compare(&of.file(&heights(of, &[0.0; POINTS])), &ask);
-        let k = record.fit.coefficient_m2_per_N.unwrap();
+        let record = of.compare(&of.traces.pinion.file(&of.traces.pinion.heights(&[0.0; POINTS])), &ask);
+        let k = k_of(&record);
         println!("{form:?}: {:e} by {} runs, {} cycles", k.value, record.fit.runs, record.fit.mesh_cycles);
         assert!((k.value / TRUE_K - 1.0).abs() < 2e-4, "{form:?}: {k:?}");
-        assert!(record.fit.runs <= 5 && record.figures.difference_um < 1e-3 * of.depth_um(), "{:?}", record.fit);
+        assert!(
+            record.fit.runs <= 5 && record.profiles[0].figures.difference_um < 1e-3 * of.traces.pinion.depth_um(),
+            "{:?}",
+            record.fit
+        );
     }
 }
 
@@ -81,8 +86,8 @@ fn ver_the_own_coefficient_of_the_measured_gear_comes_back() {
                 .replace(&both, &format!("{both}wheel.coefficient_m2_per_N = {wheel}\n"))
         };
         let of = &Laboratory::new(&of_pinion(1e-17), &of_pinion(TRUE_K));
-        let record = of.compare(&of.file(&heights(of, &[0.0; POINTS])), &asked(FitKind::K));
-        let k = record.fit.coefficient_m2_per_N.unwrap();
+        let record = of.compare(&of.traces.pinion.file(&of.traces.pinion.heights(&[0.0; POINTS])), &asked(FitKind::K));
+        let k = k_of(&record);
         println!("wheel {wheel}: {:e} by {} runs", k.value, record.fit.runs);
         assert!((k.value / TRUE_K - 1.0).abs() < 2e-4, "wheel {wheel}: {k:?}");
         assert!(record.fit.how.contains("that of the pinion alone"), "{}", record.fit.how);
@@ -106,18 +111,19 @@ fn ver_the_interval_covers_as_often_as_it_says_white_noise() {
 #[test]
 fn ver_form_and_shift_are_taken_out() {
     let of = &*SHORT;
-    let form: Vec<f64> = of.arc_mm.iter().map(|s| 100.0 + 200.0 * s - 60.0 * s * s + 4.0 * s.powi(3)).collect();
+    let form: Vec<f64> =
+        of.traces.pinion.arc_mm.iter().map(|s| 100.0 + 200.0 * s - 60.0 * s * s + 4.0 * s.powi(3)).collect();
     let ask = Asked { shift_within_mm: 0.1, ..asked(FitKind::K) };
     let count = covered(of, &ask, &form, |noise| noise.white(POINTS));
     println!("{count} of {SEEDS}");
     assert!((44..=50).contains(&count), "{count}");
 
     // Noiseless, the cubic takes nothing of the coefficient; and the same trace 0.04 mm towards the root of where it was taken.
-    let z: Vec<f64> = heights(of, &[0.0; POINTS]).iter().zip(&form).map(|(z, form)| z + form).collect();
-    let rows: String = of.arc_mm.iter().zip(&z).map(|(s, z)| format!("{},{z}\n", s - 0.04)).collect();
+    let z: Vec<f64> = of.traces.pinion.heights(&[0.0; POINTS]).iter().zip(&form).map(|(z, form)| z + form).collect();
+    let rows: String = of.traces.pinion.arc_mm.iter().zip(&z).map(|(s, z)| format!("{},{z}\n", s - 0.04)).collect();
     let text = format!("# gear = pinion\n# arc_from = base-circle\narc_mm,height_um\n{rows}");
     let record = of.compare(&text, &ask);
-    let (shift, k) = (record.fit.shift_mm.unwrap(), record.fit.coefficient_m2_per_N.unwrap());
+    let (shift, k) = (record.profiles[0].shift_mm.unwrap(), k_of(&record));
     println!("shift {shift:?}, k {k:?}");
     assert!((shift.value - 0.04).abs() < 1e-3 && (k.value / TRUE_K - 1.0).abs() < 5e-3, "{shift:?} {k:?}");
 }
@@ -140,18 +146,21 @@ fn ver_the_interval_covers_as_often_as_it_says_correlated_noise() {
 fn ver_the_severe_factor_comes_back() {
     let scene = |k: f64, severe: f64| scene(k, severe).replace("19162.5", "4000.0");
     let of = Laboratory::new(&scene(1e-17, 8.0), &scene(1.3e-17, 20.0));
-    let record = of.compare(&of.file(&heights(&of, &[0.0; POINTS])), &asked(FitKind::Both));
-    let (k, severe) = (record.fit.coefficient_m2_per_N.unwrap(), record.fit.severe_factor.unwrap());
+    let record = of.compare(&of.traces.pinion.file(&of.traces.pinion.heights(&[0.0; POINTS])), &asked(FitKind::Both));
+    let (k, severe) = (k_of(&record), record.fit.severe_factor.unwrap());
     println!("{k:?} {severe:?}: {} runs, {} cycles, {:?}", record.fit.runs, record.fit.mesh_cycles, record.warnings);
     assert_eq!((record.fit.stopped, record.warnings.len()), (FitStop::Converged, 0), "{:?}", record.warnings);
     assert!((k.value / 1.3e-17 - 1.0).abs() < 1e-3 && (severe.value / 20.0 - 1.0).abs() < 1e-3, "{k:?} {severe:?}");
 
     let of = Laboratory::new(&scene(1e-17, 8.0), &scene(1e-17, 20.0));
-    let noisy = of.compare(&of.file(&heights(&of, &Noise::new(1).white(POINTS))), &asked(FitKind::Severe));
+    let noisy = of.compare(
+        &of.traces.pinion.file(&of.traces.pinion.heights(&Noise::new(1).white(POINTS))),
+        &asked(FitKind::Severe),
+    );
     let severe = noisy.fit.severe_factor.unwrap();
     println!("{severe:?}: {} runs", noisy.fit.runs);
     assert!((severe.low.unwrap()..=severe.high.unwrap()).contains(&20.0), "{severe:?}");
-    assert!(noisy.fit.coefficient_m2_per_N.is_none());
+    assert!(noisy.fit.coefficients.is_empty());
 }
 
 /// Phases of different loads: wear no longer depends on k n alone, and the coefficient still comes back.
@@ -164,8 +173,8 @@ fn ver_the_coefficient_comes_back_from_phases() {
         text.replace("[stiffness]\n", &format!("{phases}[stiffness]\n"))
     };
     let of = Laboratory::new(&phases(1e-17), &phases(TRUE_K));
-    let record = of.compare(&of.file(&heights(&of, &[0.0; POINTS])), &asked(FitKind::K));
-    let k = record.fit.coefficient_m2_per_N.unwrap();
+    let record = of.compare(&of.traces.pinion.file(&of.traces.pinion.heights(&[0.0; POINTS])), &asked(FitKind::K));
+    let k = k_of(&record);
     println!("{k:?}: {} runs", record.fit.runs);
     assert!((k.value / TRUE_K - 1.0).abs() < 5e-4, "{k:?}");
 }
@@ -175,17 +184,17 @@ fn ver_the_coefficient_comes_back_from_phases() {
 fn val_the_deviation_of_a_trace_with_a_cubic_form() {
     let of = &*LABORATORY;
     let amplitude = 0.8;
-    let z: Vec<f64> = wave(&of.arc_mm, amplitude, 0.4)
+    let z: Vec<f64> = wave(&of.traces.pinion.arc_mm, amplitude, 0.4)
         .iter()
-        .zip(&of.arc_mm)
+        .zip(&of.traces.pinion.arc_mm)
         .map(|(z, s)| z + 500.0 - 320.0 * s + 75.0 * s * s - 6.0 * s.powi(3))
         .collect();
-    let record = of.compare(&of.file(&z), &asked(FitKind::None));
-    let sa = record.figures.mean_deviation_um;
+    let record = of.compare(&of.traces.pinion.file(&z), &asked(FitKind::None));
+    let sa = record.profiles[0].figures.mean_deviation_um;
     // The thesis states the uncertainty of Sa with about 5 %; the sampling of this one costs less than 1 %.
     assert!((sa / (amplitude * 2.0 / std::f64::consts::PI) - 1.0).abs() < 1e-2, "{sa}");
     // Half a cutoff long, the wave passes the Gaussian filter by 1 − exp(−4 ln 2) = 15/16.
-    let ra = record.figures.roughness_um.unwrap();
+    let ra = record.profiles[0].figures.roughness_um.unwrap();
     assert!((ra / sa - 15.0 / 16.0).abs() < 2e-2, "{ra} {sa}");
 }
 
@@ -193,17 +202,19 @@ fn val_the_deviation_of_a_trace_with_a_cubic_form() {
 #[test]
 fn ver_heights_from_a_line_tell_the_same() {
     let of = &*LABORATORY;
-    let z = heights(of, &[0.0; POINTS]);
+    let z = of.traces.pinion.heights(&[0.0; POINTS]);
     let r_b = of.base_radius_mm();
     // The involute as a curve in the plane, ρ from the base circle: r_b (cos φ + φ sin φ), r_b (sin φ − φ cos φ).
     let point = |s: f64| {
         let phi: f64 = (2.0 * s / r_b).sqrt();
         [r_b * (phi.cos() + phi * phi.sin()), r_b * (phi.sin() - phi * phi.cos())]
     };
-    let (first, last) = (of.arc_mm[0], of.arc_mm[POINTS - 1]);
+    let (first, last) = (of.traces.pinion.arc_mm[0], of.traces.pinion.arc_mm[POINTS - 1]);
     let (origin, phi) = (point(0.5 * (first + last)), ((first + last) / r_b).sqrt());
     // The tangent at φ points along (cos φ, sin φ); material lies on the side of the tooth's axis, against (−sin φ, cos φ).
     let heights: Vec<f64> = of
+        .traces
+        .pinion
         .arc_mm
         .iter()
         .zip(&z)
@@ -213,10 +224,10 @@ fn ver_heights_from_a_line_tell_the_same() {
             1e3 * out + z
         })
         .collect();
-    let text = of.file(&heights).replace("# gear = pinion\n", "# gear = pinion\n# height_from = line\n");
+    let text = of.traces.pinion.file(&heights).replace("# gear = pinion\n", "# gear = pinion\n# height_from = line\n");
     for form in [Form::Involute, Form::Cubic] {
         let ask = Asked { form: Some(form), ..asked(FitKind::K) };
-        let k = of.compare(&text, &ask).fit.coefficient_m2_per_N.unwrap();
+        let k = k_of(&of.compare(&text, &ask));
         assert!((k.value / TRUE_K - 1.0).abs() < 1e-3, "{form:?}: {k:?}");
     }
 }

@@ -1,4 +1,4 @@
-//! The files of a comparison of a measured profile with a run, written from its [`CompareRecord`] alone.
+//! The files of a comparison of measured profiles with a run, written from its [`CompareRecord`] alone.
 //!
 //! | file | from |
 //! |---|---|
@@ -13,7 +13,7 @@ use std::path::Path;
 
 use crate::report::csv_table::{CsvFiles, Provenance, table};
 use crate::report::files::{ReportError, create_folder, place, remove, write_json};
-use crate::studies::compare::record::CompareRecord;
+use crate::studies::compare::record::{CompareRecord, CompareRow};
 
 /// The file that is written last: its presence says that the others are complete.
 const LAST: &str = "compare.json";
@@ -24,7 +24,8 @@ pub(crate) fn write(record: &CompareRecord, dir: &Path) -> Result<(), ReportErro
     remove(dir, LAST)?;
     let provenance = Provenance::of_scene(&record.program_version, &record.scene_hash);
     let mut csv = CsvFiles::new(dir, provenance);
-    csv.place("compare.csv", |out| table(out, &record.rows))?;
+    let rows: Vec<CompareRow> = record.profiles.iter().flat_map(|of| &of.rows).copied().collect();
+    csv.place("compare.csv", |out| table(out, &rows))?;
     csv.finish()?;
     place(dir, "report.html", |out| out.write_all(page::page(record).as_bytes()))?;
     place(dir, LAST, |out| write_json(out, record)).map(drop)

@@ -1,15 +1,17 @@
-//! `report.html` of a comparison with a measured profile.
+//! `report.html` of a comparison with measured profiles.
 
 use maud::{Markup, html};
 
 use super::figures;
+use crate::gear::Gear;
 use crate::measurement::fit::FitStop;
-use crate::report::html::number::{figure, given, hours, revolutions, significant};
+use crate::report::html::number::{figure, fixed, given, hours, revolutions, significant};
 use crate::report::html::page::{Page, Plots, section, sources_list};
 use crate::report::html::reading::capitalised;
-use crate::report::html::table::{NONE, row, table};
+use crate::report::html::table::{Cell, NONE, line, list, row, table};
 use crate::results::run::ReportedBy;
-use crate::studies::compare::record::{CompareRecord, Estimate};
+use crate::studies::compare::record::{CompareRecord, Correlation, Estimate, ProfileRecord};
+use crate::studies::compare::unknown::Unknown;
 
 const DATA_FILES: [(&str, &str); 2] = [
     ("compare.json", "the figures and what was fitted"),
@@ -19,16 +21,20 @@ const DATA_FILES: [(&str, &str); 2] = [
 pub(super) fn page(record: &CompareRecord) -> String {
     let sources = sources_list(&DATA_FILES, "The resolved scene of the run", &record.scene_toml);
     let plots = Plots::default();
+    let correlated = figures::coefficients(record).map(|chart| plots.show(&[chart]));
     Page {
-        kind: "Measured profile against a run",
-        title: &format!("{} – {}", record.title, record.measured),
+        kind: match record.profiles.len() {
+            1 => "Measured profile against a run",
+            _ => "Measured profiles of both gears against a run",
+        },
+        title: &record.headline(),
         byline: &ReportedBy::line_of_scene(&record.scene_toml),
         answer: &answer(record),
         interruption: None,
         warnings: &record.warnings,
         main: html! {
-            (section("fit", "What the profile says", tables(record)))
-            (section("plots", "Profiles", plots.show(&figures::all(record))))
+            (section("fit", "What the measurement says", tables(record, correlated)))
+            (section("plots", "Profiles", plots.show(&figures::of_profiles(record))))
             (section("sources", "Data and scene", sources))
         },
         plots,
@@ -38,40 +44,61 @@ pub(super) fn page(record: &CompareRecord) -> String {
 }
 
 fn answer(record: &CompareRecord) -> String {
-    let when = match record.hours {
+    let when = |of: &ProfileRecord| match of.hours {
         Some(time) => format!("{} h", hours(time)),
-        None => format!("{} pinion revolutions", revolutions(record.revolutions)),
+        None => format!("{} pinion revolutions", revolutions(of.revolutions)),
     };
-    let whose = format!("The {}’s profile after {when}", record.gear.name());
-    let difference = figure(record.figures.difference_um);
-    match record.fit.stopped {
-        FitStop::MaxIterations | FitStop::NotFinite => {
-            return format!("{whose} was compared, but the fit did not converge.");
+    let (fit, profiles) = (&record.fit, &record.profiles);
+    let (whose, are_many) = match &profiles[..] {
+        [one] => (format!("The {}’s profile after {}", one.gear.name(), when(one)), false),
+        several => {
+            let mut times: Vec<String> = several.iter().map(when).collect();
+            times.dedup();
+            let gears: Vec<&str> = several.iter().map(|of| of.gear.name()).collect();
+            (format!("The profiles of {} after {}", gears.join(" and "), times.join(" and ")), true)
         }
-        FitStop::AtBound | FitStop::Undetermined if record.fit.blamed.as_deref() != Some("the shift") => {
-            return format!("{whose} does not give what was to be fitted to it.");
+    };
+    let verb = |one: &'static str, many: &'static str| if are_many { many } else { one };
+    match fit.stopped {
+        FitStop::MaxIterations | FitStop::NotFinite => {
+            return format!("{whose} {} compared, but the fit did not converge.", verb("was", "were"));
+        }
+        FitStop::AtBound | FitStop::Undetermined if !matches!(fit.blamed, Some(Unknown::Shift(_))) => {
+            let (does, it) = (verb("does", "do"), verb("it", "them"));
+            return format!("{whose} {does} not give what was to be fitted to {it}.");
         }
         _ => {}
     }
-    let of = |estimate: &Option<Estimate>, what: &str| {
-        let e = estimate.as_ref()?;
-        Some(format!("{what} of {}{}", significant(e.value, 3), interval(e)))
-    };
-    let found: Vec<String> = [
-        of(&record.fit.coefficient_m2_per_N, "a wear coefficient k (in m²/N)"),
-        of(&record.fit.severe_factor, "a severe factor"),
-    ]
-    .into_iter()
-    .flatten()
-    .collect();
-    if found.is_empty() {
-        return format!("{whose} differs from the simulated one by {difference} µm (root mean square).");
+    let differences: Vec<String> = profiles.iter().map(|of| figure(of.figures.difference_um)).collect();
+    let difference = differences.join(" and ");
+    if !fit.is_of_wear() {
+        let (differs, one) = (verb("differs", "differ"), verb("one", "ones"));
+        return format!("{whose} {differs} from the simulated {one} by {difference} µm (root mean square).");
     }
-    format!("{whose} is fitted best by {}; the residual is {difference} µm (root mean square).", found.join(" and "))
+    let mut found: Vec<String> = Vec::new();
+    for own in &fit.coefficients {
+        let whose = own.gear.filter(|_| are_many).map_or_else(String::new, |gear| format!(" of the {}", gear.name()));
+        found.push(of_estimate(&format!("a wear coefficient k{whose} (in m²/N)"), &own.coefficient_m2_per_N));
+    }
+    found.extend(fit.severe_factor.map(|severe| of_estimate("a severe factor", &severe)));
+    let correlated = fit.coefficient_correlation().map_or_else(String::new, |correlation| {
+        format!(" The correlation coefficient of both coefficients is {}.", fixed(correlation, 2))
+    });
+    let residual = verb("the residual is", "the residuals are");
+    let fitted = verb("is fitted", "are fitted");
+    format!(
+        "{whose} {fitted} best by {}; {residual} {difference} µm (root mean square).{correlated}",
+        found.join(" and ")
+    )
+}
+
+/// "a wear coefficient of …, 95 % interval … to …".
+fn of_estimate(what: &str, estimate: &Estimate) -> String {
+    format!("{what} of {}{}", significant(estimate.value, 3), interval(estimate))
 }
 
 /// ", 95 % interval … to …".
-fn interval(estimate: &Estimate) -> String {
+pub(super) fn interval(estimate: &Estimate) -> String {
     match (estimate.low, estimate.high) {
         (Some(low), Some(high)) => {
             format!(", 95 % interval {} to {}", significant(low, 3), significant(high, 3))
@@ -80,33 +107,69 @@ fn interval(estimate: &Estimate) -> String {
     }
 }
 
-fn tables(record: &CompareRecord) -> Markup {
-    let (fit, f) = (&record.fit, &record.figures);
-    let cells = |e: &Estimate| {
+/// The tables, and the plot of the coefficients.
+fn tables(record: &CompareRecord, correlated: Option<Markup>) -> Markup {
+    let (fit, profiles) = (&record.fit, &record.profiles);
+    let estimated = |name: String, unit: &str, e: &Estimate| {
         let end = |value: Option<f64>| value.map_or_else(|| NONE.to_owned(), |value| significant(value, 4));
-        [significant(e.of_run, 4), significant(e.value, 4), end(e.low), end(e.high)]
+        row(name, unit, [significant(e.of_run, 4), significant(e.value, 4), end(e.low), end(e.high)])
     };
-    let fitted: Vec<Markup> = [
-        ("wear coefficient k", "m²/N", &fit.coefficient_m2_per_N),
-        ("factor on the scene’s coefficients", "", &fit.coefficient_factor),
-        ("factor of severe wear", "", &fit.severe_factor),
-        ("shift of the profile towards the tip", "mm", &fit.shift_mm),
-    ]
-    .into_iter()
-    .filter_map(|(name, unit, estimate)| Some(row(name, unit, cells(estimate.as_ref()?))))
-    .collect();
-    let profile = [
-        row("arithmetic mean deviation, measured", "µm", [f.mean_deviation_um]),
-        row("the same, simulated", "µm", [f.simulated_mean_deviation_um]),
-        row(format!("Ra, cutoff {} mm, measured", given(f.cutoff_mm)), "µm", [f.roughness_um]),
-        row("difference as run, root mean square", "µm", [f.as_run_difference_um]),
-        row("difference after the fit", "µm", [f.difference_um]),
-        row("runs of the scene", "", [fit.runs]),
-        row("mesh cycles in them", "", [fit.mesh_cycles]),
+    let several = profiles.len() > 1;
+    let of = |what: &str, gear: Option<Gear>| match gear.filter(|_| several) {
+        Some(gear) => format!("{what} of the {}", gear.name()),
+        None => what.to_owned(),
+    };
+    let mut fitted = Vec::new();
+    for own in &fit.coefficients {
+        fitted.push(estimated(of("wear coefficient k", own.gear), "m²/N", &own.coefficient_m2_per_N));
+    }
+    for own in &fit.coefficients {
+        fitted.push(estimated(of("factor on the scene’s coefficients", own.gear), "", &own.factor));
+    }
+    let ratio = fit.coefficient_ratio.iter();
+    fitted
+        .extend(ratio.map(|ratio| estimated("coefficient of the pinion over that of the wheel".to_owned(), "", ratio)));
+    fitted.extend(fit.severe_factor.iter().map(|severe| estimated("factor of severe wear".to_owned(), "", severe)));
+    for profile in profiles {
+        let name = match several {
+            true => format!("shift of the {}’s profile towards the tip", profile.gear.name()),
+            false => "shift of the profile towards the tip".to_owned(),
+        };
+        fitted.extend(profile.shift_mm.iter().map(|shift| estimated(name.clone(), "mm", shift)));
+    }
+    let figures = |value: fn(&ProfileRecord) -> Option<f64>| profiles.iter().map(value).collect::<Vec<_>>();
+    let cutoff = given(profiles[0].figures.cutoff_mm);
+    let of_profiles = [
+        row("arithmetic mean deviation, measured", "µm", figures(|of| Some(of.figures.mean_deviation_um))),
+        row("the same, simulated", "µm", figures(|of| Some(of.figures.simulated_mean_deviation_um))),
+        row(format!("Ra, cutoff {cutoff} mm, measured"), "µm", figures(|of| of.figures.roughness_um)),
+        row("difference as run, root mean square", "µm", figures(|of| Some(of.figures.as_run_difference_um))),
+        row("difference after the fit", "µm", figures(|of| Some(of.figures.difference_um))),
     ];
+    let names: Vec<&str> = profiles.iter().map(|of| if several { of.gear.name() } else { "" }).collect();
+    let mut forms: Vec<&str> = profiles.iter().map(|of| of.form.as_str()).collect();
+    forms.dedup();
+    let runs = [row("runs of the scene", "", [fit.runs]), row("mesh cycles in them", "", [fit.mesh_cycles])];
     html! {
         @if !fitted.is_empty() { (table("Fitted", &["run", "fitted", "from", "to"], fitted)) }
         p { (capitalised(&fit.how)) "." }
-        (table(format!("Profile, form removed ({})", record.form), &[""], profile))
+        @if let Some(correlation) = &fit.correlation {
+            (correlations(correlation))
+        }
+        (table(format!("Profile, form removed ({})", forms.join(", ")), &names, of_profiles))
+        (table("Runs", &[""], runs))
+        @if let Some(plot) = correlated { (plot) }
     }
+}
+
+/// Each pair of fitted values once.
+fn correlations(correlation: &Correlation) -> Markup {
+    let names: Vec<String> = correlation.parameters.iter().map(|unknown| unknown.name()).collect();
+    let count = names.len();
+    let columns = [String::new()].into_iter().chain(names[..count - 1].iter().cloned());
+    let rows = (1..count).map(|i| {
+        let known = |j: usize| if j < i { fixed(correlation.matrix[i][j], 2) } else { String::new() };
+        line([capitalised(&names[i])].into_iter().chain((0..count - 1).map(known)).map(Cell::from))
+    });
+    list("Correlation coefficients of the fitted values", columns, rows)
 }
