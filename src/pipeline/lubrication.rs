@@ -167,7 +167,8 @@ impl Work {
             let Some(state) = states[which] else { continue };
             work.friction_w += power_w * state.friction;
             for gear in Gear::BOTH {
-                if let Some(factor) = model.reference().wear.film_factor(gear, &place.loaded(which)) {
+                let wear = &model.reference().wear;
+                if let Some(factor) = wear.film_factor(gear, &place.loaded(which)) {
                     *work.wearing_w[gear].get_or_insert(0.0) += power_w * factor;
                 }
             }
@@ -221,6 +222,22 @@ pub(super) fn sum_up(model: &Model<'_>, outcome: &Outcome, seen: &Seen<'_>) -> O
         losses: losses(running, &work),
     };
     Observed { summary, rows }
+}
+
+/// What the user should know of the films: where contact is too hot for what is known of the oil.
+pub(super) fn warning(summary: &LubricationSummary) -> Option<String> {
+    let film = summary.film.as_ref()?;
+    let states = [("new", film.lambda_new.min), ("worn", film.lambda_worn.min)];
+    let without: Vec<&str> = states.into_iter().filter(|(_, least)| *least <= 0.0).map(|(state, _)| state).collect();
+    (!without.is_empty()).then(|| {
+        format!(
+            "the least λ by ISO/TS 6336-22 is 0 ({}): flash temperatures of up to {:.0} K are beyond what its fits of the oil hold for (the \
+             pressure–viscosity coefficient ends at 510 °C), as where tip edges carry load; λ and the safety against micropitting are of no \
+             use there",
+            without.join(", "),
+            film.greatest_flash_new_K.max(film.greatest_flash_worn_K)
+        )
+    })
 }
 
 fn row(running: &RunningPair<'_>, place: &Place, states: &[Option<State>; 2]) -> FilmRow {
@@ -312,6 +329,8 @@ fn film_summary(
         micropitting_safety_worn: safety(lambda_worn),
         greatest_flash_new_K: along(|row| row.flash_new_K)?.max,
         greatest_flash_worn_K: along(|row| row.flash_worn_K)?.max,
+        composite_lambda_new: along(|row| row.composite_lambda_new),
+        composite_lambda_worn: along(|row| row.composite_lambda_worn),
         wear_factor_new,
         wear_factor_worn,
     })

@@ -1,6 +1,6 @@
 //! From what a run found, in the program's units, to the record, in those of the output files.
 
-use super::lubrication::Observed;
+use super::lubrication::{self, Observed};
 use super::temperature::{self, ObservedHeat};
 use super::{
     Model, RunError, UM_PER_MM, drawing, error_estimates, left_out_contact, phases, root_stress, slices,
@@ -90,6 +90,7 @@ pub(super) fn summary(
     warnings.extend(temperature::all_warnings(wear.as_ref(), &wear_of_gear));
     let temperature = found.heat.and_then(|heat| temperature::summary(model, heat));
     warnings.extend(temperature::tooth_warnings(model, temperature.as_ref()));
+    warnings.extend(found.lubrication.and_then(|films| lubrication::warning(&films.summary)));
     warnings.extend(judged.warnings);
     warnings.extend(sharp_edge_warning(pair, outcome));
     warnings.extend(left_out_contact::warning(model, outcome));

@@ -22,6 +22,9 @@ use crate::wear::regime::{MM3_PER_NM, Regime};
 /// By how much Young's moduli of phases may differ without a word.
 const NEGLIGIBLE_CHANGE: f64 = 0.02;
 
+/// Above the melting point of any plastic that gears are made of, °C: that of PEEK is 343.
+const HOTTEST_PLASTIC_C: f64 = 350.0;
+
 /// Friction heat of a phase; none where nobody asks for temperatures.
 pub(super) fn in_phase(scene: &Scene, pair: &GearPair, phase: &Phase) -> Option<ContactHeat> {
     let mut settings = scene.heat?;
@@ -44,18 +47,22 @@ pub(super) fn tooth_warnings(model: &Model<'_>, summary: Option<&TemperatureSumm
         let (name, at) = (gear.name(), teeth[gear]);
         let modulus_gpa = 1e-3 * scene.material[gear].young_modulus_mpa;
         let (modulus, wear) = (&scene.modulus[gear], &scene.wear[gear].warm);
-        let as_given = match (modulus, wear) {
-            (None, None) => Some("Young's modulus and wear coefficient are"),
-            (None, Some(_)) => Some("Young's modulus is"),
-            (Some(_), None) => Some("the wear coefficient is"),
-            (Some(_), Some(_)) => None,
-        };
-        if let Some(what) = as_given {
+        let wears = scene.wear[gear].coefficient_mm2_per_n > 0.0;
+        let as_given = [
+            ("Young's modulus", format!("material.{name}.young_modulus_curve"), modulus.is_none()),
+            ("the wear coefficient", format!("wear.{name}.warm"), wear.is_none() && wears),
+        ];
+        for (what, key, _) in as_given.into_iter().filter(|(_, _, is_given)| *is_given) {
             warnings.push(format!(
-                "[temperature.tooth] {name} {:.0} °C at the flank and {:.0} °C at the root, with {modulus_gpa:.4} GPa: {what} taken as given at \
-                 every temperature, and what a plastic has changes as it warms: give it at these, or as it follows the temperature \
-                 (material.{name}.young_modulus_curve, wear.{name}.warm)",
+                "[temperature.tooth] {name} {:.0} °C at the flank and {:.0} °C at the root, with {modulus_gpa:.4} GPa: {what} is taken as given at \
+                 every temperature, and that of a plastic changes as it warms: give it at these, or {key}",
                 at.flank_C, at.root_C
+            ));
+        }
+        if at.flank_C > HOTTEST_PLASTIC_C {
+            warnings.push(format!(
+                "[temperature.tooth] {name} {:.0} °C at the flank: no plastic bears that; the pair, its lubrication or the coefficients are not meant so",
+                at.flank_C
             ));
         }
         let found: Vec<_> = phases().filter_map(|phase| Some(scene.teeth_in(model.pair, phase)?[gear])).collect();
@@ -182,8 +189,7 @@ fn law_over(
     observed: Option<&ObservedHeat>,
     over: impl Fn(&LawInHeat) -> &LawOverMesh,
 ) -> WearLawSummary {
-    let own = model.scene.wear_in(&model.scene.operation.phases[reference_phase(&model.phases)]);
-    let wear = &own[gear];
+    let wear = &model.scene.wear[gear];
     let mild = |of: Option<&HeatObservation>| match of {
         Some(heat) => over(&heat.law).mean_coefficient_mm2_per_n,
         None => model.reference().wear.laws[gear].mild_coefficient_mm2_per_n(None),

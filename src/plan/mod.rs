@@ -6,6 +6,7 @@ pub(crate) mod fem_pair;
 use serde::{Serialize, Serializer};
 
 use crate::contact::settings::{Foundation, SurfaceKind};
+use crate::gear::Gear;
 use crate::gear_mesh::settings::{Body, SpaceResolution};
 use crate::mesh_cycle::settings::{Coupling, MOST_SLICES_IN_SPACE, SliceSettings};
 use crate::scene::Scene;
@@ -258,7 +259,14 @@ fn contact_temperature(scene: &Scene) -> Result<String, String> {
                     format!("the wear law {law} takes it with the sliding speed at every point during the simulation")
                 }
             };
-            let tooth = if heat.tooth.is_some() { "; of the teeth by VDI 2736-2" } else { "" };
+            let follows = |gear: Gear| scene.modulus[gear].is_some() || scene.wear[gear].warm.is_some();
+            let tooth = match heat.tooth.is_some() {
+                true if Gear::BOTH.into_iter().any(follows) => {
+                    "; of the teeth by VDI 2736-2, which modulus or wear follow"
+                }
+                true => "; of the teeth by VDI 2736-2",
+                false => "",
+            };
             Ok(format!("{why}; by all methods, new and worn{tooth}"))
         }
     }
@@ -269,9 +277,14 @@ fn film(scene: &Scene) -> Result<String, String> {
         None => Err("there is no [lubricant]".to_owned()),
         Some(None) => Err("there is no [lubricant], only a constant friction".to_owned()),
         Some(Some(_)) => {
-            Ok("[lubricant]: thickness, λ and flash temperature along the path of contact, new and worn, and by ISO/TS 6336-22 \
-                Method B; scuffing temperatures"
-                .to_owned())
+            let read = match Gear::BOTH.into_iter().any(|gear| scene.wear[gear].film.is_some()) {
+                true => "; wear takes it at every contact during the simulation",
+                false => "",
+            };
+            Ok(format!(
+                "[lubricant]: thickness, λ and flash temperature along the path of contact, new and worn, and by ISO/TS 6336-22 \
+                 Method B; scuffing temperatures{read}"
+            ))
         }
     }
 }

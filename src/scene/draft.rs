@@ -85,6 +85,12 @@ pub(crate) fn set(table: &mut Table, key: &str, value: impl Into<Value>) {
             let Some(item) = item_mut(below, number) else { return };
             below = item;
         }
+        if path.peek().is_none()
+            && let Some(item) = below.is_array().then(|| item_mut(below, name)).flatten()
+        {
+            *item = value.into();
+            return;
+        }
         if !below.is_table() {
             // Resolving says that the key takes no table.
             *below = Value::Table(Table::new());

@@ -208,14 +208,14 @@ pub struct GearFile {
     /// Radius of the rounding of the tip edge in mm, 0 or more. Default 0.
     #[schemars(range(min = 0))]
     pub tip_rounding_mm: Option<f64>,
-    /// Roughness of the flanks as arithmetic mean Ra in µm, > 0 to 50; read by films and friction, which need it. Default: not given.
-    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 50))]
+    /// Roughness of the flanks as arithmetic mean Ra in µm, 0.0001 to 50; read by films and friction, which need it. Default: not given.
+    #[schemars(range(min = 0.0001, max = 50))]
     pub roughness_Ra_um: Option<f64>,
-    /// The same of the worn flanks, > 0 to 50. Default: that of the new ones.
-    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 50))]
+    /// The same of flanks that are run in, as worn ones are, 0.0001 to 50. Default: that of the new ones.
+    #[schemars(range(min = 0.0001, max = 50))]
     pub roughness_run_in_Ra_um: Option<f64>,
-    /// Root mean square Rq in µm, > 0 to 60; read by friction.model = "xu". Default: 1.2533 Ra, of heights spread normally.
-    #[schemars(extend("exclusiveMinimum" = 0, "maximum" = 60))]
+    /// Root mean square Rq in µm, 0.0001 to 60; read by friction.model = "xu" and by wear.film. Default: 1.2533 Ra, of heights spread normally.
+    #[schemars(range(min = 0.0001, max = 60))]
     pub roughness_Rq_um: Option<f64>,
     /// Relief towards the tip. Default: none.
     pub tip_relief: Option<ReliefFile>,

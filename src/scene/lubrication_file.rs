@@ -72,8 +72,8 @@ pub struct FrictionFile {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FrictionTableFile {
-    /// Slide-to-roll ratio, the sliding speed over the mean speed of both surfaces (0.1 is 10 %), 0 to 1000, rising. Required.
-    #[schemars(length(min = 2), inner(range(min = 0, max = 1000)))]
+    /// Slide-to-roll ratio, the sliding speed over the mean speed of both surfaces (0.1 is 10 %), 0 to 2, rising. Required.
+    #[schemars(length(min = 2), inner(range(min = 0, max = 2)))]
     pub slide_to_roll_ratio: Option<Vec<f64>>,
     /// Coefficient of friction at each, 0 to 2. Required.
     #[schemars(length(min = 2), inner(range(min = 0, max = 2)))]

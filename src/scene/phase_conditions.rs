@@ -19,8 +19,10 @@ use crate::wear::settings::WearSettings;
 
 /// W per N·mm/s.
 const W_PER_N_MM_PER_S: f64 = 1e-3;
-/// How often the modulus and the temperature that friction under it makes are found from each other.
-const ROUNDS: usize = 4;
+/// Halvings until a coefficient of friction is known to its last digits.
+const BISECTIONS: usize = 60;
+/// No friction is greater.
+const GREATEST_FRICTION: f64 = 1e3;
 
 impl Scene {
     /// The wear laws under the conditions of `phase`.
@@ -58,12 +60,16 @@ impl Scene {
 
     /// The teeth of each gear in `phase`; none where nobody asks for their temperature.
     pub(crate) fn teeth_in(&self, pair: &GearPair, phase: &Phase) -> Option<PerGear<ToothTemperatures>> {
-        let heat = self.heat?;
-        let tooth = heat.tooth?;
+        let running = self.running_in(pair, phase);
+        self.teeth_under(pair, phase, mean_friction(&self.heat?, running.as_ref()))
+    }
+
+    /// The same under this coefficient of friction.
+    fn teeth_under(&self, pair: &GearPair, phase: &Phase, friction: f64) -> Option<PerGear<ToothTemperatures>> {
+        let tooth = self.heat?.tooth?;
         let pinion_per_s = TAU * phase.pinion_speed_rpm? / 60.0;
         let power_w = W_PER_N_MM_PER_S * phase.pinion_torque_n_mm * pinion_per_s;
-        let running = self.running_in(pair, phase);
-        let loss_w = power_w * mean_friction(&heat, running.as_ref()) * loss::of_pair(pair);
+        let loss_w = power_w * friction * loss::of_pair(pair);
         Some(PerGear::from_fn(|gear| {
             let warm = WarmGear {
                 teeth: pair.spec.gears[gear].teeth,
@@ -109,17 +115,37 @@ impl Scene {
         self.operation.phases = phases;
     }
 
-    /// Young's moduli at the temperatures that teeth with them have in `phase`, MPa; none where nobody asks for these.
+    /// Young's moduli at the temperatures that teeth with them have in `phase`, MPa; none where nobody asks for these. Friction that depends on
+    /// pressure depends on them in turn: the coefficient is bisected that makes the temperatures under which it is itself.
     pub(crate) fn moduli_in(&self, pair: &GearPair, phase: &Phase) -> Option<PerGear<f64>> {
-        let mut phase = *phase;
-        for _ in 0..ROUNDS {
-            let teeth = self.teeth_in(pair, &phase)?;
-            phase.young_modulus_mpa = Some(PerGear::from_fn(|gear| match &self.modulus[gear] {
+        let heat = self.heat?;
+        let moduli_under = |friction: f64| {
+            let teeth = self.teeth_under(pair, phase, friction)?;
+            Some(PerGear::from_fn(|gear| match &self.modulus[gear] {
                 Some(modulus) => modulus.at(teeth[gear].mean_c()),
                 None => self.material[gear].young_modulus_mpa,
-            }));
+            }))
+        };
+        let friction_of = |young_modulus_mpa: PerGear<f64>| {
+            let warm = Phase { young_modulus_mpa: Some(young_modulus_mpa), ..*phase };
+            mean_friction(&heat, self.running_in(pair, &warm).as_ref())
+        };
+        let cold = friction_of(moduli_under(0.0)?);
+        let (mut low, mut high) = (0.0, 2.0 * cold);
+        let mut moduli = moduli_under(cold)?;
+        // What does not depend on them is there at once.
+        if friction_of(moduli) == cold {
+            return Some(moduli);
         }
-        phase.young_modulus_mpa
+        while friction_of(moduli_under(high)?) > high && high < GREATEST_FRICTION {
+            high *= 2.0;
+        }
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (low + high);
+            moduli = moduli_under(middle)?;
+            if friction_of(moduli) > middle { low = middle } else { high = middle }
+        }
+        Some(moduli)
     }
 }
 

@@ -97,6 +97,17 @@ impl Search<'_> {
         as_number(table.get(last)?)
     }
 
+    /// Suspects each value of the list `key` as [`judge`] does.
+    fn judge_list(&mut self, key: &str, credible: [f64; 2], usual: [f64; 2], conversions: &[Conversion]) {
+        let Some((path, last)) = key.rsplit_once('.') else { return };
+        let table = path.split('.').try_fold(self.scene, |table, name| table.get(name)?.as_table());
+        let values = table.and_then(|table| table.get(last)?.as_array()).into_iter().flatten().filter_map(as_number);
+        let slips = values
+            .enumerate()
+            .filter_map(|(index, value)| judge(&format!("{key}[{index}]"), value, credible, usual, conversions));
+        self.slips.extend(slips);
+    }
+
     /// Suspects the value of `key` as [`judge`] does.
     fn judge(&mut self, key: &str, credible: [f64; 2], usual: [f64; 2], conversions: &[Conversion]) {
         let slip = self.get(key).and_then(|value| judge(key, value, credible, usual, conversions));
@@ -222,6 +233,13 @@ impl Search<'_> {
 
     fn materials(&mut self) {
         for table in ["material", "material.pinion", "material.wheel"] {
+            let curve = format!("{table}.young_modulus_curve.young_modulus_GPa");
+            self.judge_list(
+                &curve,
+                [0.0, 300.0],
+                [0.05, 300.0],
+                &[(1e-3, "MPa given for GPa"), (1e-9, "Pa given for GPa")],
+            );
             let key = format!("{table}.young_modulus_GPa");
             let slip = self.get(&key).and_then(|modulus_gpa| young_modulus(&key, modulus_gpa));
             self.slips.extend(slip);
@@ -242,6 +260,7 @@ impl Search<'_> {
         self.judge("lubricant.viscosity_100C_mm2_per_s", [1.0, 1e4], [2.0, 500.0], &conversions);
         let conversions = [(1e9, "1/Pa given for 1/GPa"), (1e3, "1/MPa (mm²/N) given for 1/GPa")];
         self.judge("lubricant.pressure_viscosity_per_GPa", [2.0, 100.0], [3.0, 80.0], &conversions);
+        self.judge_list("friction.table.slide_to_roll_ratio", [0.0, 2.0], [0.0, 2.0], &[(0.01, "% given for a ratio")]);
         let conversions = [(1e3, "g/cm³ given for kg/m³")];
         self.judge("lubricant.density_15C_kg_per_m3", [500.0, 2000.0], [500.0, 2000.0], &conversions);
     }

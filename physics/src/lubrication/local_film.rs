@@ -67,7 +67,11 @@ pub fn local_film(
     let material = 1e-3 * alpha(bulk_temperature_c) * e_r;
     let speed = 1e-6 * eta(bulk_temperature_c) * contact.sum_speed_m_per_s() / (2.0 * e_r * rho);
     let load = 2.0 * PI * (p / e_r).powi(2);
-    let sliding = alpha(contact_c) * eta(contact_c) / (alpha(bulk_temperature_c) * eta(bulk_temperature_c));
+    let at_bulk = alpha(bulk_temperature_c) * eta(bulk_temperature_c);
+    if at_bulk <= 0.0 {
+        return Some(LocalFilm { flash_k, thickness_um: 0.0 });
+    }
+    let sliding = alpha(contact_c) * eta(contact_c) / at_bulk;
     let thickness_um = 1600.0 * rho * material.powf(0.6) * speed.powf(0.7) * load.powf(-0.13) * sliding.powf(0.22);
     Some(LocalFilm { flash_k, thickness_um })
 }

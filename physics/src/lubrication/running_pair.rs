@@ -90,15 +90,15 @@ pub struct LoadedPlace {
 /// Film of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactFilm {
-    /// In the middle, µm.
+    /// In the middle, of the oil as it comes into the mesh, µm.
     pub central_um: f64,
-    /// The least, µm.
+    /// The least of it, µm.
     pub least_um: f64,
     /// Of ISO/TS 6336-22; none without pressure.
     pub local: Option<LocalFilm>,
     /// λ_GF: the local film over the mean Ra.
     pub lambda: Option<f64>,
-    /// The least film over √(Rq₁² + Rq₂²).
+    /// The least film of oil as warm as the teeth over √(Rq₁² + Rq₂²).
     pub composite_lambda: f64,
 }
 
@@ -225,27 +225,25 @@ impl<'a> RunningPair<'a> {
         friction / work
     }
 
-    /// The film of a contact under load between flanks with this coefficient of friction; none without oil.
+    /// The film of a contact between flanks with this coefficient of friction; none without oil or load.
     pub fn film(&self, place: &LoadedPlace, friction: f64, finish: Finish) -> Option<ContactFilm> {
-        let oil = self.oil.as_ref()?;
+        let oil = self.oil.as_ref().filter(|_| place.line_load_n_per_mm > 0.0)?;
         let factors = &self.settings.load_factors;
         let contact = self.at(place, factors.application * factors.dynamic);
-        let inlet_c = oil.settings.temperature_c;
-        let film = FilmParameters::new(
-            &contact,
-            self.bodies.reduced_modulus_mpa,
-            oil.oil.viscosity_milli_pa_s(inlet_c),
-            oil.oil.pressure_viscosity_per_gpa(inlet_c),
-        );
+        let film_at = |celsius: f64| {
+            let (viscosity, per_gpa) =
+                (oil.oil.viscosity_milli_pa_s(celsius), oil.oil.pressure_viscosity_per_gpa(celsius));
+            FilmParameters::new(&contact, self.bodies.reduced_modulus_mpa, viscosity, per_gpa)
+        };
+        let film = film_at(oil.settings.temperature_c);
         let local = local_film(&contact, &self.bodies, &oil.oil, oil.bulk_c, friction);
-        let least_um = film.least_um();
         let roughness = oil.settings.roughness.map(|roughness| roughness.of(finish));
         Some(ContactFilm {
             central_um: film.central_um(oil.settings.central_film),
-            least_um,
+            least_um: film.least_um(),
             local,
             lambda: local.map(|local| local.thickness_um / (0.5 * roughness.map(|[ra_um, _]| ra_um).sum())),
-            composite_lambda: least_um / roughness.pinion[1].hypot(roughness.wheel[1]),
+            composite_lambda: film_at(oil.bulk_c).least_um() / roughness.pinion[1].hypot(roughness.wheel[1]),
         })
     }
 

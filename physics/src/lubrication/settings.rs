@@ -197,7 +197,7 @@ pub enum FilmRatio {
     /// λ_GF of ISO/TS 6336-22: its local film over the mean Ra of both flanks.
     #[serde(rename = "iso-6336-22")]
     Iso633622,
-    /// Dowson and Higginson's least film over √(Rq₁² + Rq₂²).
+    /// Dowson and Higginson's least film, of oil as warm as the teeth, over √(Rq₁² + Rq₂²).
     #[serde(rename = "composite")]
     Composite,
 }

@@ -4,6 +4,7 @@ use super::load_sharing::MeshedPair;
 use crate::contact::{Flanks, PairContact, PositionCell, Sweep, strip::point_distance_mm};
 use crate::gear::{Gear, PerGear};
 use crate::lubrication::running_pair::LoadedPlace;
+use crate::reference::hertz_line::PEAK_OVER_MEAN;
 use crate::thermal::{ContactHeat, HeatedStrip, SpeedRatios};
 use crate::wear::{
     ContactConditions, SlidingRow, WearModel,
@@ -96,10 +97,12 @@ impl WornPoints {
         depth_mm: &mut PerGear<Vec<f64>>,
     ) {
         let Self { sweep, heated, lambda } = self;
+        // A surface whose points feel all of the contact at once has its mean pressure.
+        let greatest = if pair.contact.sweeps_across() { 1.0 } else { PEAK_OVER_MEAN };
         let loaded = LoadedPlace {
             position_mm: place.position_mm,
             line_load_n_per_mm: pair.response.line_load_n_per_mm / place.part,
-            peak_pressure_mpa: pair.contact.footprint().peak_pressure_mpa,
+            peak_pressure_mpa: greatest * pair.contact.footprint().peak_pressure_mpa,
         };
         let source = place.under(wear, &*pair.contact, &loaded);
         for gear in Gear::BOTH {

@@ -83,7 +83,13 @@ pub struct FilmSummary {
     pub greatest_flash_new_K: f64,
     /// The same, worn.
     pub greatest_flash_worn_K: f64,
-    /// Factor of the film on the wear coefficient of each gear, the mean over the sliding work of a mesh, new; `None` where wear does not follow it.
+    /// The least film, of oil as warm as the teeth, over √(Rq₁² + Rq₂²), new.
+    #[serde(default)]
+    pub composite_lambda_new: Option<AlongPath>,
+    /// The same, worn, over the roughness of flanks that are run in.
+    #[serde(default)]
+    pub composite_lambda_worn: Option<AlongPath>,
+    /// Factor of the film on the wear coefficient of each gear, the mean over the sliding work from A to E, new; `None` where wear does not follow it.
     #[serde(default)]
     pub wear_factor_new: Option<PerGear<f64>>,
     /// The same, worn.
@@ -224,7 +230,7 @@ pub struct FilmRow {
     pub friction_new: Option<f64>,
     /// the same, worn
     pub friction_worn: Option<f64>,
-    /// least film over the composite roughness √(Rq₁² + Rq₂²), new; empty without load
+    /// least film, of oil as warm as the teeth, over the composite roughness √(Rq₁² + Rq₂²), new; empty without load
     pub composite_lambda_new: Option<f64>,
     /// the same, worn, over the roughness of flanks that are run in
     pub composite_lambda_worn: Option<f64>,

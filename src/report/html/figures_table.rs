@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use super::number::{change, fixed, percent, significant};
+use super::number::{change, fixed, percent, significant, to_digits};
 use super::table::{Cell, cells, line, list, row, table, whole};
 use super::{film_table, law_table, page, root_stress_table, sliced};
 use crate::results::error::ErrorSummary;
@@ -212,8 +212,12 @@ pub(crate) fn phases(s: &Summary) -> Markup {
             phase.pinion_speed_rpm,
             phase.hertz_peak_pressure_MPa,
             match phase.coefficient_m2_per_N {
-                Some(both) => format!("{both:e}"),
-                None => format!("{:e} and {:e}", phase.pinion.coefficient_m2_per_N, phase.wheel.coefficient_m2_per_N),
+                Some(both) => format!("{:e}", to_digits(both, 4)),
+                None => {
+                    let [pinion, wheel] =
+                        [&phase.pinion, &phase.wheel].map(|wear| to_digits(wear.coefficient_m2_per_N, 4));
+                    format!("{pinion:e} and {wheel:e}")
+                }
             },
             phase.greatest_rise_K,
             both_gears(phase, |wear| wear.greatest_depth_um),

@@ -43,6 +43,10 @@ fn film(f: &FilmSummary, method_b: Option<&MethodBSummary>) -> Markup {
         row("Minimum film thickness, lowest", "µm", [f.minimum_film_new_um.min, f.minimum_film_worn_um.min]),
         row("Flash temperature, maximum", "K", [f.greatest_flash_new_K, f.greatest_flash_worn_K]),
     ];
+    if let (Some(new), Some(worn)) = (f.composite_lambda_new, f.composite_lambda_worn) {
+        rows.push(row("Minimum film over √(Rq₁² + Rq₂²), lowest", "", [new.min, worn.min]));
+        rows.push(row("The same, mean", "", [new.mean, worn.mean]));
+    }
     if let (Some(new), Some(worn)) = (f.wear_factor_new, f.wear_factor_worn) {
         for gear in Gear::BOTH {
             let title = format!("Factor of the film on the wear coefficient of the {}, mean", gear.name());
