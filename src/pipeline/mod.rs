@@ -11,6 +11,7 @@ pub(crate) mod fem_problem;
 pub(crate) mod fem_scene;
 pub(crate) mod guarded;
 mod left_out_contact;
+mod load_case;
 mod lubrication;
 pub(crate) mod pair_mesh;
 mod phases;
@@ -28,16 +29,10 @@ use std::time::Instant;
 
 use crate::calibration::{self, CalibrationError};
 use crate::contact::{
-    ContactSurface,
-    edge_foundation::EdgeFoundations,
-    foundation::matched_mpa_per_mm,
-    half_space::HalfSpace,
-    hertz::{self, Hertz},
-    hertz_mean::HertzMean,
-    settings::{Foundation, MatchCriterion, Material, SurfaceKind},
-    winkler::{Winkler, WinklerFoundation},
+    hertz,
+    settings::{Material, SurfaceKind},
 };
-use crate::fem::gear::{condensed_pair::CondensedPair, model::ModelError};
+use crate::fem::gear::model::ModelError;
 use crate::gear::{GearPair, PairError, PerGear, flank_zones::FlankZones};
 use crate::lubrication::running_pair::RunningPair;
 use crate::mesh_cycle::pair_in_space::{PairInSpace, PairInSpaceError};
@@ -60,6 +55,7 @@ use crate::stiffness::curve::PairCompliance;
 use crate::stiffness::{StiffnessError, TeethSpring, settings::StiffnessSettings};
 use crate::thermal::ContactHeat;
 use crate::wear::{self, Laws, WearModel};
+use load_case::{LoadCase, load_case};
 use recording::RunFindings;
 use stage_clock::StageClock;
 use verification::{Elements, Means, Verified};
@@ -197,19 +193,6 @@ impl Model<'_> {
     fn reference(&self) -> &RunPhase<'_> {
         &self.phases[reference_phase(&self.phases)]
     }
-}
-
-/// How the gears touch under one load, of one material.
-struct LoadCase<'a> {
-    line_load_n_per_mm: f64,
-    material: PerGear<Material>,
-    /// Stiffness along the path of contact; none where it is that of the run.
-    curve: Option<PairCompliance>,
-    /// Finite elements that wear; none where there are none, or those of the run.
-    elements: Option<CondensedPair<'a>>,
-    foundation_mpa_per_mm: Option<f64>,
-    /// None with finite elements.
-    surface: Option<Box<dyn ContactSurface>>,
 }
 
 /// Where a run goes on, and who keeps its checkpoints.
@@ -556,59 +539,5 @@ fn not_estimated_because(outcome: &Outcome) -> &'static str {
         StopReason::Interrupted => "the run was interrupted",
         StopReason::NotConverged => "the run did not converge",
         StopReason::WornThrough => "a tooth is worn through",
-    }
-}
-
-/// Prepares the contact of gears of `material` under one load, with stiffness and elements of the run.
-fn load_case<'a>(
-    scene: &Scene,
-    pair: &GearPair,
-    files: &NamedFiles,
-    material: PerGear<Material>,
-    line_load_n_per_mm: f64,
-    stages: &mut StageClock<'_>,
-) -> Result<LoadCase<'a>, RunError> {
-    let foundation = match (scene.contact.surface, scene.contact.foundation, &files.calibration) {
-        (SurfaceKind::Winkler, Foundation::Given { foundation_mpa_per_mm }, _) => {
-            Some(WinklerFoundation::Uniform { mpa_per_mm: foundation_mpa_per_mm })
-        }
-        (SurfaceKind::Winkler, Foundation::Calibrated(criterion), Some(calibration)) => {
-            let approach = &calibration.foundation[&MatchCriterion::Approach];
-            let edges = || EdgeFoundations::new(pair, &material, line_load_n_per_mm, criterion, approach);
-            Some(WinklerFoundation::Curve {
-                pressure: calibration.foundation[&criterion].clone(),
-                approach: approach.clone(),
-                edges: scene.contact.tip_contact.then(edges),
-            })
-        }
-        (SurfaceKind::Winkler, Foundation::Calibrated(_), None) => unreachable!("a loaded scene has its calibration"),
-        (SurfaceKind::Winkler, Foundation::Matched(criterion), _) => {
-            let at_pitch = hertz::flattening(pair, &material, pair.path.pitch_point_mm);
-            let matched = || matched_mpa_per_mm(criterion, &at_pitch, line_load_n_per_mm);
-            Some(WinklerFoundation::Uniform { mpa_per_mm: stages.run(StageKind::ContactMatch.name(), matched) })
-        }
-        _ => None,
-    };
-    let springs_at_pitch = foundation.as_ref().map(|foundation| foundation.at(pair.path.pitch_point_mm));
-    let foundation_mpa_per_mm = springs_at_pitch.map(|springs| springs.mpa_per_mm(line_load_n_per_mm));
-    let surface = surface(scene, material, foundation, line_load_n_per_mm);
-    Ok(LoadCase { line_load_n_per_mm, material, curve: None, elements: None, foundation_mpa_per_mm, surface })
-}
-
-/// The surface of the springs on the line of action; none with finite elements, which are no springs.
-fn surface(
-    scene: &Scene,
-    material: PerGear<Material>,
-    foundation: Option<WinklerFoundation>,
-    expected_line_load_n_per_mm: f64,
-) -> Option<Box<dyn ContactSurface>> {
-    match (scene.contact.surface, foundation) {
-        (SurfaceKind::Fem, _) => None,
-        (SurfaceKind::Winkler, Some(foundation)) => Some(Box::new(Winkler { foundation, expected_line_load_n_per_mm })),
-        (SurfaceKind::HertzMean, _) => Some(Box::new(HertzMean { material })),
-        (SurfaceKind::HalfSpace, _) => Some(Box::new(HalfSpace { material, expected_line_load_n_per_mm })),
-        (SurfaceKind::Hertz, _) | (SurfaceKind::Winkler, None) => {
-            Some(Box::new(Hertz { material, expected_line_load_n_per_mm }))
-        }
     }
 }

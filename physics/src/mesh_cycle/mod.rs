@@ -8,6 +8,7 @@
 pub mod bent_tooth;
 mod collected;
 pub mod condensed;
+mod condensed_contact;
 pub mod coupled_teeth;
 pub(crate) mod influence;
 pub mod load_sharing;
