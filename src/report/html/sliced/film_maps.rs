@@ -2,18 +2,25 @@
 
 use super::raster::{MOST_ALONG, SlicedRaster};
 use super::sliced_run::{SlicedRun, slice_name};
+use crate::reference::statistics::quantile;
 use crate::report::chart::{Chart, Trace};
 use crate::report::html::number::{figure, significant};
 use crate::results::lubrication::FilmRow;
 use crate::results::path_points::among;
+
+/// Part of the places whose λ the colours tell apart.
+const WITHIN_COLOURS: f64 = 0.97;
 
 type Column = fn(&FilmRow) -> Option<f64>;
 
 /// Two maps with one scale of colours; none without oil.
 pub(super) fn new_and_worn(run: SlicedRun<'_>) -> Vec<Chart> {
     let columns: [(&str, Column); 2] = [("new", |row| row.lambda_new), ("worn", |row| row.lambda_worn)];
-    let all = || run.record.film.iter().flat_map(|row| columns.iter().filter_map(|(_, of)| of(row)));
-    let top = all().fold(0.0, f64::max);
+    let mut all: Vec<f64> =
+        run.record.film.iter().flat_map(|row| columns.iter().filter_map(|(_, of)| of(row))).collect();
+    all.sort_by(f64::total_cmp);
+    // The few places that carry next to nothing have thick films.
+    let top = quantile(&all, WITHIN_COLOURS).unwrap_or_default();
     columns.into_iter().filter_map(|(when, of)| map(run, when, of, top)).collect()
 }
 
@@ -43,11 +50,13 @@ fn map(run: SlicedRun<'_>, when: &str, of: Column, top: f64) -> Option<Chart> {
         .set("zmax", if top > 0.0 { top } else { 1.0 })
         .hover("contact at %{x:.3f} mm, width %{y:.2f} mm<br>λ %{z:.3~g}<extra></extra>");
     let reading = format!(
-        "The minimum of λ {when} is {}, {}, {} with the contact at {} mm. Empty where no load is carried.",
+        "The minimum of λ {when} is {}, {}, {} with the contact at {} mm. Colours end at {}, above which are the few places that carry next to nothing; it is empty where no load is \
+         carried.",
         figure(least),
         slice_name(&run.record.flanks.pinion, thinnest.slice),
         among(&points.named(), thinnest.position_mm),
         significant(thinnest.position_mm, 4),
+        figure(top),
     );
     let chart = Chart::new(format!("slice-lambda-{when}"), format!("λ over path of contact and face width, {when}"))
         .height(360)
