@@ -100,19 +100,22 @@ pub(crate) fn tables(tables: impl IntoIterator<Item = Markup>) -> Markup {
 #[derive(Default)]
 pub(crate) struct Plots {
     script: Cell<Option<PlotScript>>,
+    shown: Cell<usize>,
 }
 
 impl Plots {
-    /// The charts, numbered from 1.
+    /// The charts, numbered on from those before.
     pub(crate) fn show(&self, charts: &[Chart]) -> Markup {
         self.script.set(self.script.get().max(PlotScript::of(charts)));
+        let first = self.shown.get() + 1;
+        self.shown.set(self.shown.get() + charts.len());
         html! {
             noscript { p.notice { "The plots need JavaScript; all their numbers are in the data files." } }
             p.notice.not-drawn hidden role="alert" {
                 "The plots cannot be drawn: this browser cannot unpack the script that draws them. Chrome and Edge from version 80, Firefox from \
                  113 and Safari from 16.4 can. All numbers of the plots are in the data files."
             }
-            div.plots { @for (number, chart) in (1..).zip(charts) { (plot(number, chart)) } }
+            div.plots { @for (number, chart) in (first..).zip(charts) { (plot(number, chart)) } }
         }
     }
 }
