@@ -25,6 +25,11 @@ pub(super) struct Comparison<'a> {
     pub measured_um: Vec<f64>,
 }
 
+/// Deeper than this, in modules, no model vouches for the wear, and runs soon wear teeth through.
+const DEEPEST_MODULES: f64 = 0.3;
+/// What greatest factor a search has at least, and at most.
+const GREATEST_FACTOR: [f64; 2] = [4.0, 1e3];
+
 /// Where a search begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Beginning {
@@ -47,6 +52,13 @@ impl<'a> Comparison<'a> {
     /// How many flank points a wear profile has.
     pub(super) fn flank_points(&self) -> usize {
         self.grid_arc_mm.len()
+    }
+
+    /// The greatest factor on wear of `wear_um` that is searched.
+    pub(super) fn greatest_factor(&self, wear_um: &[f64]) -> f64 {
+        let deepest_mm = 1e-3 * wear_um.iter().copied().fold(0.0, f64::max);
+        let [least, most] = GREATEST_FACTOR;
+        (DEEPEST_MODULES * self.pair.spec.normal_module_mm / deepest_mm).clamp(least, most)
     }
 
     /// Wear depth at the measured points, shifted.

@@ -22,7 +22,7 @@ use crate::gear::{Gear, PerGear};
 use crate::measurement::fit::{FitStop, Parameter, gauss_newton_step, least_squares};
 use crate::measurement::interval::{ProfilePart, Uncertainty, uncertainty};
 
-/// The factor on the wear coefficient lies between this and its inverse.
+/// Least factor on the wear coefficient.
 const LEAST_FACTOR: f64 = 1e-3;
 /// Greatest factor of severe wear; the least is 1.
 const MOST_SEVERE: f64 = 1e4;
@@ -111,10 +111,13 @@ impl<'a> Search<'a> {
         simulations: &mut Simulations<'_>,
     ) -> Result<FittedCoefficients, CompareError> {
         let fit = self.question.fit;
-        let factors = fit.coefficient().then_some([LEAST_FACTOR, 1.0 / LEAST_FACTOR]);
-        let begin = |(one, wear): (&Comparison<'_>, &Vec<f64>)| one.begin(wear, self.question.shift_within_mm, factors);
-        let begun: Vec<Beginning> = self.comparisons.iter().zip(as_run_um).map(begin).collect();
-        let mut parameters = self.parameters(&begun, simulations.severe_factor());
+        let most: Vec<f64> =
+            self.comparisons.iter().zip(as_run_um).map(|(one, wear)| one.greatest_factor(wear)).collect();
+        let begin = |((one, wear), &most): ((&Comparison<'_>, &Vec<f64>), &f64)| {
+            one.begin(wear, self.question.shift_within_mm, fit.coefficient().then_some([LEAST_FACTOR, most]))
+        };
+        let begun: Vec<Beginning> = self.comparisons.iter().zip(as_run_um).zip(&most).map(begin).collect();
+        let mut parameters = self.parameters(&begun, &most, simulations.severe_factor());
         let needs_runs = fit.coefficient() || fit.severe();
         let mut wear = |search: &Self, theta: &[f64]| match needs_runs {
             true => simulations.about(search.change(theta)),
@@ -143,24 +146,25 @@ impl<'a> Search<'a> {
     }
 
     /// The unknowns as parameters that begin where each profile alone would.
-    fn parameters(&self, begun: &[Beginning], severe_factor: f64) -> Vec<Parameter> {
-        let most = -LEAST_FACTOR.ln();
+    fn parameters(&self, begun: &[Beginning], most: &[f64], severe_factor: f64) -> Vec<Parameter> {
         let within = self.question.shift_within_mm;
         let of_gear = |gear: Option<Gear>| {
-            let profiles = self.comparisons.iter().zip(begun);
-            profiles.filter(move |(one, _)| gear.is_none_or(|gear| one.of.profile.gear == gear)).map(|(_, begun)| begun)
+            let profiles = self.comparisons.iter().zip(begun.iter().zip(most));
+            let own = profiles.filter(move |(one, _)| gear.is_none_or(|gear| one.of.profile.gear == gear));
+            own.map(|(_, begun)| begun)
         };
         let parameter = |unknown: &Unknown| match *unknown {
             Unknown::Coefficient(gear) => {
                 let count = of_gear(gear).count() as f64;
-                let start = of_gear(gear).map(|begun| begun.factor.ln()).sum::<f64>() / count;
-                Parameter { start, least: -most, greatest: most, width: LOG_WIDTH }
+                let start = of_gear(gear).map(|(begun, _)| begun.factor.ln()).sum::<f64>() / count;
+                let greatest = of_gear(gear).map(|(_, most)| most.ln()).fold(f64::INFINITY, f64::min);
+                Parameter { start: start.min(greatest), least: LEAST_FACTOR.ln(), greatest, width: LOG_WIDTH }
             }
             Unknown::Severe => {
                 Parameter { start: severe_factor.ln(), least: 0.0, greatest: MOST_SEVERE.ln(), width: LOG_WIDTH }
             }
             Unknown::Shift(gear) => {
-                let start = of_gear(gear).map(|begun| begun.shift_mm).sum();
+                let start = of_gear(gear).map(|(begun, _)| begun.shift_mm).sum();
                 Parameter { start, least: -within, greatest: within, width: SHIFT_WIDTH_MM }
             }
         };
