@@ -65,6 +65,19 @@ pub struct OilInMesh {
     pub mean: MeanConditions,
     /// θ_M, °C.
     pub bulk_c: f64,
+    /// Where it comes into the mesh.
+    at_inlet: OilState,
+    /// As warm as the teeth.
+    at_teeth: OilState,
+}
+
+/// An oil at a temperature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct OilState {
+    /// η, mPa·s.
+    viscosity_milli_pa_s: f64,
+    /// α, 1/GPa.
+    pressure_viscosity_per_gpa: f64,
 }
 
 /// Flanks as they are made, or as they are after running in.
@@ -150,7 +163,8 @@ impl<'a> RunningPair<'a> {
             bulk_temperature_c(settings.temperature_c, loss_kw, spec.centre_distance_mm, spec.face_width_mm, supply)
         };
         let bulk_c = settings.bulk_temperature_c.unwrap_or_else(of_standard);
-        OilInMesh { settings, oil, mean, bulk_c }
+        let [at_inlet, at_teeth] = [settings.temperature_c, bulk_c].map(|celsius| OilState::of(&oil, celsius));
+        OilInMesh { settings, oil, mean, bulk_c, at_inlet, at_teeth }
     }
 
     /// P, W.
@@ -227,32 +241,62 @@ impl<'a> RunningPair<'a> {
 
     /// The film of a contact between flanks with this coefficient of friction; none without oil or load.
     pub fn film(&self, place: &LoadedPlace, friction: f64, finish: Finish) -> Option<ContactFilm> {
-        let oil = self.oil.as_ref().filter(|_| place.line_load_n_per_mm > 0.0)?;
-        let factors = &self.settings.load_factors;
-        let contact = self.at(place, factors.application * factors.dynamic);
-        let film_at = |celsius: f64| {
-            let (viscosity, per_gpa) =
-                (oil.oil.viscosity_milli_pa_s(celsius), oil.oil.pressure_viscosity_per_gpa(celsius));
-            FilmParameters::new(&contact, self.bodies.reduced_modulus_mpa, viscosity, per_gpa)
-        };
-        let film = film_at(oil.settings.temperature_c);
+        let (oil, contact) = self.lubricated(place)?;
+        let film = self.smooth_film(&contact, oil.at_inlet);
         let local = local_film(&contact, &self.bodies, &oil.oil, oil.bulk_c, friction);
-        let roughness = oil.settings.roughness.map(|roughness| roughness.of(finish));
         Some(ContactFilm {
             central_um: film.central_um(oil.settings.central_film),
             least_um: film.least_um(),
             local,
-            lambda: local.map(|local| local.thickness_um / (0.5 * roughness.map(|[ra_um, _]| ra_um).sum())),
-            composite_lambda: film_at(oil.bulk_c).least_um() / roughness.pinion[1].hypot(roughness.wheel[1]),
+            lambda: local.map(|local| oil.lambda(&local, finish)),
+            composite_lambda: self.composite_lambda(oil, &contact, finish),
         })
     }
 
-    /// The film of a loaded contact over the roughness of flanks that are run in, as a wear law reads it; none without oil.
+    /// The film of a loaded contact over the roughness of flanks that are run in, as a wear law reads it; none without oil or load.
     pub(crate) fn film_ratio(&self, place: &LoadedPlace, ratio: FilmRatio) -> Option<f64> {
-        let film = self.film(place, self.friction(place), Finish::RunIn)?;
+        let (oil, contact) = self.lubricated(place)?;
         match ratio {
-            FilmRatio::Iso633622 => film.lambda,
-            FilmRatio::Composite => Some(film.composite_lambda),
+            FilmRatio::Iso633622 => {
+                let local = local_film(&contact, &self.bodies, &oil.oil, oil.bulk_c, self.friction(place))?;
+                Some(oil.lambda(&local, Finish::RunIn))
+            }
+            FilmRatio::Composite => Some(self.composite_lambda(oil, &contact, Finish::RunIn)),
+        }
+    }
+
+    /// The oil and the contact with its load factors; none without oil or load.
+    fn lubricated(&self, place: &LoadedPlace) -> Option<(&OilInMesh, RollingContact)> {
+        let oil = self.oil.as_ref().filter(|_| place.line_load_n_per_mm > 0.0)?;
+        let factors = &self.settings.load_factors;
+        Some((oil, self.at(place, factors.application * factors.dynamic)))
+    }
+
+    fn smooth_film(&self, contact: &RollingContact, oil: OilState) -> FilmParameters {
+        let OilState { viscosity_milli_pa_s, pressure_viscosity_per_gpa } = oil;
+        FilmParameters::new(contact, self.bodies.reduced_modulus_mpa, viscosity_milli_pa_s, pressure_viscosity_per_gpa)
+    }
+
+    fn composite_lambda(&self, oil: &OilInMesh, contact: &RollingContact, finish: Finish) -> f64 {
+        let [_, pinion] = oil.settings.roughness.pinion.of(finish);
+        let [_, wheel] = oil.settings.roughness.wheel.of(finish);
+        self.smooth_film(contact, oil.at_teeth).least_um() / pinion.hypot(wheel)
+    }
+}
+
+impl OilInMesh {
+    /// λ_GF.
+    fn lambda(&self, local: &LocalFilm, finish: Finish) -> f64 {
+        let ra_um = self.settings.roughness.map(|roughness| roughness.of(finish)[0]);
+        local.thickness_um / (0.5 * ra_um.sum())
+    }
+}
+
+impl OilState {
+    fn of(oil: &Oil, temperature_c: f64) -> Self {
+        Self {
+            viscosity_milli_pa_s: oil.viscosity_milli_pa_s(temperature_c),
+            pressure_viscosity_per_gpa: oil.pressure_viscosity_per_gpa(temperature_c),
         }
     }
 }

@@ -86,7 +86,6 @@ struct Rows {
     pressure_mpa: Vec<f64>,
     depth_mm: Vec<f64>,
     heated: HeatedContactRows,
-    lambda: Vec<f64>,
 }
 
 /// All positions of one base pitch, ready to be evaluated on ever newly worn flanks, whose places are the nodes of the flanks.
@@ -505,24 +504,23 @@ impl LoadedPosition {
             }
             rows.pressure_mpa.clear();
             rows.pressure_mpa.extend(force.iter().zip(&contact.weight_mm).map(|(force, weight)| force / weight));
+            let place = ContactPlace { model: step.model, contact, stretch_mm: self.stretch_mm };
+            let loaded = LoadedPlace {
+                position_mm: place.position_mm(),
+                line_load_n_per_mm: force.iter().sum(),
+                peak_pressure_mpa: rows.pressure_mpa.iter().copied().fold(0.0, f64::max),
+            };
+            let lambdas = step.wear.lambdas(&loaded);
             for gear in Gear::BOTH {
-                let place = ContactPlace { model: step.model, contact, stretch_mm: self.stretch_mm, gear };
-                let loaded = LoadedPlace {
-                    position_mm: place.position_mm(),
-                    line_load_n_per_mm: force.iter().sum(),
-                    peak_pressure_mpa: rows.pressure_mpa.iter().copied().fold(0.0, f64::max),
-                };
                 let conditions = step.wear.heat_of_law(gear).map(|heat| {
                     let friction_coefficient = step.wear.friction(heat, &loaded);
-                    rows.heated.conditions(heat, place, &rows.pressure_mpa, friction_coefficient)
+                    rows.heated.conditions(heat, place, gear, &rows.pressure_mpa, friction_coefficient)
                 });
-                let films = step.wear.films_of_law(gear);
-                let lambda = films.map(|films| films.fill(&loaded, contact.len(), &mut rows.lambda));
                 let sliding_row = SlidingRow {
                     pressure_mpa: &rows.pressure_mpa,
                     sliding_mm: &contact.sliding_mm,
                     conditions,
-                    lambda,
+                    lambda: lambdas[gear],
                 };
                 rows.depth_mm.clear();
                 rows.depth_mm.resize(contact.len(), 0.0);

@@ -15,7 +15,6 @@ pub(super) struct ContactPlace<'a> {
     pub model: &'a CondensedPair<'a>,
     pub contact: &'a LoadTransfer,
     pub stretch_mm: (f64, f64),
-    pub gear: Gear,
 }
 
 impl ContactPlace<'_> {
@@ -42,10 +41,11 @@ impl HeatedContactRows {
         &mut self,
         heat: &ContactHeat,
         place: ContactPlace<'_>,
+        gear: Gear,
         pressure_mpa: &[f64],
         friction_coefficient: f64,
     ) -> &[ContactConditions] {
-        let ContactPlace { model, contact, stretch_mm, gear } = place;
+        let ContactPlace { model, contact, stretch_mm } = place;
         let length_mm = stretch_mm.1 - stretch_mm.0;
         let rolling = PerGear::from_fn(|gear| model.pair.rolling_ratio(gear, place.position_mm()));
         let loads = pressure_mpa.iter().zip(&contact.weight_mm).map(|(pressure, weight)| pressure * weight);

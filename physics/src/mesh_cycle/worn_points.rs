@@ -82,7 +82,6 @@ impl HeatedPair<'_> {
 pub(super) struct WornPoints {
     sweep: Sweep,
     heated: HeatedRow,
-    lambda: Vec<f64>,
 }
 
 impl WornPoints {
@@ -96,7 +95,7 @@ impl WornPoints {
         first: PerGear<usize>,
         depth_mm: &mut PerGear<Vec<f64>>,
     ) {
-        let Self { sweep, heated, lambda } = self;
+        let Self { sweep, heated } = self;
         // A surface whose points feel all of the contact at once has its mean pressure.
         let greatest = if pair.contact.sweeps_across() { 1.0 } else { PEAK_OVER_MEAN };
         let loaded = LoadedPlace {
@@ -105,15 +104,18 @@ impl WornPoints {
             peak_pressure_mpa: greatest * pair.contact.footprint().peak_pressure_mpa,
         };
         let source = place.under(wear, &*pair.contact, &loaded);
+        let lambdas = wear.lambdas(&loaded);
         for gear in Gear::BOTH {
             pair.contact.sweep(gear, removed_mm, sweep);
             let points = first[gear] + sweep.first_point..first[gear] + sweep.first_point + sweep.sliding_mm.len();
             let source = source.as_ref().filter(|_| wear.laws[gear].reads_conditions());
             let conditions = source.map(|source| source.conditions(heated, gear, sweep));
-            let films = wear.films_of_law(gear);
-            let lambda = films.map(|films| films.fill(&loaded, sweep.sliding_mm.len(), lambda));
-            let row =
-                SlidingRow { pressure_mpa: &sweep.pressure_mpa, sliding_mm: &sweep.sliding_mm, conditions, lambda };
+            let row = SlidingRow {
+                pressure_mpa: &sweep.pressure_mpa,
+                sliding_mm: &sweep.sliding_mm,
+                conditions,
+                lambda: lambdas[gear],
+            };
             wear.laws[gear].add_depth(&row, &mut depth_mm[gear][points]);
         }
     }

@@ -52,8 +52,17 @@ pub struct SlidingRow<'a> {
     pub sliding_mm: &'a [f64],
     /// What its chemistry knows, where the law reads it.
     pub conditions: Option<&'a [ContactConditions]>,
-    /// λ at each, where the coefficient follows it.
-    pub lambda: Option<&'a [f64]>,
+    /// λ, where the coefficient follows it.
+    pub lambda: Option<Lambda<'a>>,
+}
+
+/// λ of the points of a row.
+#[derive(Debug, Clone, Copy)]
+pub enum Lambda<'a> {
+    /// All are in one contact.
+    OfAll(f64),
+    /// Each is in a contact of its own.
+    OfEach(&'a [f64]),
 }
 
 /// Wear of a flank by some law, in rows of points: the law itself stays out of the inner loop's way.
@@ -89,33 +98,35 @@ impl<L: WearLaw> WithFactors<L> {
         Self { law, severe: None, film: None }
     }
 
-    fn add_unfilmed(&self, row: &SlidingRow<'_>, depth_mm: &mut [f64]) {
+    /// Adds to each point's depth what it loses where the film leaves `thin` of it, by the point's index.
+    fn add(&self, row: &SlidingRow<'_>, depth_mm: &mut [f64], thin: impl Fn(usize) -> f64) {
         let points = row.pressure_mpa.iter().zip(row.sliding_mm);
-        let add = |(depth, (&pressure, &sliding)): (&mut f64, (&f64, &f64)), k: f64| {
-            let factor = self.severe.as_ref().map_or(1.0, |severe| severe.factor_at(pressure));
+        let add = |index: usize, (depth, (&pressure, &sliding)): (&mut f64, (&f64, &f64)), k: f64| {
+            let factor = thin(index) * self.severe.as_ref().map_or(1.0, |severe| severe.factor_at(pressure));
             *depth += factor * k * pressure * sliding;
         };
         if L::READS_CONDITIONS {
             let conditions = row.conditions.expect("rows of a law that reads the conditions have them");
-            for (point, own) in depth_mm.iter_mut().zip(points).zip(conditions) {
-                add(point, self.law.coefficient_mm2_per_n(Some(*own)));
+            for (index, (point, own)) in depth_mm.iter_mut().zip(points).zip(conditions).enumerate() {
+                add(index, point, self.law.coefficient_mm2_per_n(Some(*own)));
             }
         } else {
             let k = self.law.coefficient_mm2_per_n(None);
-            depth_mm.iter_mut().zip(points).for_each(|point| add(point, k));
+            depth_mm.iter_mut().zip(points).enumerate().for_each(|(index, point)| add(index, point, k));
         }
     }
 }
 
 impl<L: WearLaw> FlankWear for WithFactors<L> {
     fn add_depth(&self, row: &SlidingRow<'_>, depth_mm: &mut [f64]) {
-        let Some((film, lambda)) = self.film.as_ref().zip(row.lambda) else {
-            return self.add_unfilmed(row, depth_mm);
-        };
-        // Sliding under a film counts as less of it.
-        let sliding_mm: Vec<f64> =
-            row.sliding_mm.iter().zip(lambda).map(|(sliding, &lambda)| film.factor_at(lambda) * sliding).collect();
-        self.add_unfilmed(&SlidingRow { sliding_mm: &sliding_mm, ..*row }, depth_mm);
+        match self.film.as_ref().zip(row.lambda) {
+            None => self.add(row, depth_mm, |_| 1.0),
+            Some((film, Lambda::OfAll(lambda))) => {
+                let thin = film.factor_at(lambda);
+                self.add(row, depth_mm, |_| thin);
+            }
+            Some((film, Lambda::OfEach(lambda))) => self.add(row, depth_mm, |index| film.factor_at(lambda[index])),
+        }
     }
 
     fn film(&self) -> Option<&FilmDependence> {
@@ -218,6 +229,17 @@ impl<'a> WearModel<'a> {
         Some(self.laws[gear].film()?.factor_at(films.lambda(place)))
     }
 
+    /// λ of a contact as the law of each gear reads it; none where it reads none.
+    pub(crate) fn lambdas(&self, place: &LoadedPlace) -> PerGear<Option<Lambda<'static>>> {
+        let films = PerGear::from_fn(|gear| self.films_of_law(gear));
+        let pinion = films.pinion.map(|films| films.lambda(place));
+        let wheel = match (films.pinion, films.wheel) {
+            (Some(of_pinion), Some(of_wheel)) if of_pinion.ratio == of_wheel.ratio => pinion,
+            (_, of_wheel) => of_wheel.map(|films| films.lambda(place)),
+        };
+        PerGear { pinion, wheel }.map(|lambda| lambda.map(Lambda::OfAll))
+    }
+
     /// Which λ the law of `gear` reads, and of which pair; none where it reads none.
     pub(crate) fn films_of_law(&self, gear: Gear) -> Option<Films<'a>> {
         let film = self.laws[gear].film()?;
@@ -236,12 +258,5 @@ impl Films<'_> {
     /// λ of a contact; no film where there is no load.
     pub(crate) fn lambda(&self, place: &LoadedPlace) -> f64 {
         self.running.film_ratio(place, self.ratio).unwrap_or(0.0)
-    }
-
-    /// The same in a row of `points` that are all in one contact.
-    pub(crate) fn fill<'r>(&self, place: &LoadedPlace, points: usize, row: &'r mut Vec<f64>) -> &'r [f64] {
-        row.clear();
-        row.resize(points, self.lambda(place));
-        row
     }
 }

@@ -23,7 +23,7 @@ use crate::mesh_cycle::{
 };
 use crate::reference::hertz_line::PEAK_OVER_MEAN;
 use crate::thermal::{HeatedStrip, SpeedRatios, band::Spread};
-use crate::wear::{ContactConditions, SlidingRow, WearModel, heated_row::HeatedContact};
+use crate::wear::{ContactConditions, Lambda, SlidingRow, WearModel, heated_row::HeatedContact};
 
 /// What a contact's load does to the flanks, over its square root.
 #[derive(Debug, Clone, Copy, Default)]
@@ -289,7 +289,7 @@ impl Batch {
             let lambda = wear.films_of_law(gear).map(|films| {
                 self.lambda.clear();
                 self.lambda.extend(places.iter().map(|place| films.lambda(place)));
-                &*self.lambda
+                Lambda::OfEach(&self.lambda)
             });
             wear.laws[gear].add_depth(&SlidingRow { pressure_mpa: pressure, sliding_mm, conditions, lambda }, depth);
         }
