@@ -2,6 +2,7 @@
 
 use super::temperature;
 use super::{Model, UM_PER_MM};
+use crate::contact::hertz;
 use crate::gear::Gear;
 use crate::mesh_cycle::wearing_pair::Snapshot;
 use crate::results::run::{PhaseSummary, PhaseWear};
@@ -25,6 +26,7 @@ pub(super) fn summaries(model: &Model<'_>, outcome: &Outcome) -> Vec<PhaseSummar
         // The ends of phases are among the snapshots.
         let after = outcome.snapshots.iter().rfind(|snapshot| snapshot.revolutions <= end).unwrap_or(before);
         let load = run.line_load_n_per_mm;
+        let at_pitch = hertz::flattening(model.pair, &model.scene.material_in(phase), model.pair.path.pitch_point_mm);
         let coefficient = model.scene.wear_in(phase).map(|own| own.coefficient_mm2_per_n / MM2_PER_N);
         let heat =
             model.scene.heat.and_then(|asked| Some((asked, temperature::observe_at(model, outcome, after, index)?)));
@@ -36,7 +38,7 @@ pub(super) fn summaries(model: &Model<'_>, outcome: &Outcome) -> Vec<PhaseSummar
             pinion_speed_rpm: phase.pinion_speed_rpm,
             line_load_N_per_mm: load,
             foundation_MPa_per_mm: model.foundations_mpa_per_mm[index],
-            hertz_peak_pressure_MPa: model.at_pitch.contact.loaded(load).peak_pressure_mpa,
+            hertz_peak_pressure_MPa: at_pitch.contact.loaded(load).peak_pressure_mpa,
             coefficient_m2_per_N: (coefficient.pinion == coefficient.wheel).then_some(coefficient.pinion),
             greatest_rise_K: heat.as_ref().map(|(asked, found)| found.greatest_rise_k()[asked.method.index()]),
             work_outside_validity: heat.and_then(|(_, found)| found.law.both.work_outside_validity),

@@ -258,8 +258,11 @@ fn ver_phases_have_the_modulus_of_their_temperature() {
             let modulus = followed.summary.temperature.unwrap().tooth.unwrap().wheel.young_modulus_GPa.unwrap();
             let given = scene(surface, &format!("young_modulus_GPa = {modulus:?}"), &operation, "");
             assert_eq!(followed.flanks.wheel.wear_um, given.flanks.wheel.wear_um);
-            (modulus, given.flanks.wheel.wear_um)
+            (modulus, given.flanks.wheel.wear_um, given.summary.contact.hertz_peak_pressure_MPa)
         });
+        for (phase, (_, _, hertz_mpa)) in both.summary.phases.iter().zip(&alone) {
+            assert!((phase.hertz_peak_pressure_MPa / hertz_mpa - 1.0).abs() < 1e-12);
+        }
         assert!(alone[1].0 > 1.3 * alone[0].0, "{} {}", alone[0].0, alone[1].0);
         let sums: Vec<f64> = alone[0].1.iter().zip(&alone[1].1).map(|(one, other)| one + other).collect();
         let peak = sums.iter().copied().fold(0.0, f64::max);

@@ -1,6 +1,6 @@
 //! Material of each gear: how it deforms and conducts heat.
 
-use super::{curve, temperature};
+use super::temperature;
 use crate::contact::settings::Material;
 use crate::gear::{Gear, PerGear};
 use crate::scene::file::{GearMaterialFile, MaterialFile, ModulusCurveFile};
@@ -127,14 +127,9 @@ fn modulus_curve(
     has_tooth_temperature: bool,
     findings: &mut Findings,
 ) -> Option<TemperatureCurve> {
-    let keys = ["temperature_C", "young_modulus_GPa"].map(|name| format!("{key}.{name}"));
-    let given = [(keys[0].as_str(), &file.temperature_C), (keys[1].as_str(), &file.young_modulus_GPa)];
-    let [temperature_c, modulus_gpa] = curve::choose(given[0], given[1], findings)?;
-    if !has_tooth_temperature {
-        temperature::tooth_needed(key, findings);
-        return None;
-    }
-    Some(TemperatureCurve { temperature_c, value: modulus_gpa.into_iter().map(|gpa| 1e3 * gpa).collect() })
+    let values = ("young_modulus_GPa", &file.young_modulus_GPa);
+    let in_gpa = temperature::tooth_curve(key, &file.temperature_C, values, has_tooth_temperature, findings)?;
+    Some(TemperatureCurve { value: in_gpa.value.into_iter().map(|gpa| 1e3 * gpa).collect(), ..in_gpa })
 }
 
 fn properties(file: &GearMaterialFile, curve: Option<&TemperatureCurve>) -> Option<(Material, ThermalMaterial)> {

@@ -10,7 +10,6 @@ use crate::scene::wear_file::{
     AdsorptionFile, FilmFile, FilmLaw, GearWearFile, OxidationFile, WarmFile, WearFile, WearLaw,
 };
 use crate::simulation::settings::Operation;
-use crate::thermal::tooth::TemperatureCurve;
 use crate::wear::{
     adsorption::AdsorptionConstants,
     oxidation::OxidationConstants,
@@ -65,7 +64,13 @@ pub(super) fn choose(file: &mut WearFile, given: Given, findings: &mut Findings)
         let film_key = key("film", is_own(|own| own.film.is_some()));
         let film = film(&film_key, &mut wholes[gear].film, given.has_oil, findings);
         let warm_key = key("warm", is_own(|own| own.warm.is_some()));
-        let warm = warm(&warm_key, wholes[gear].warm.as_ref(), given.has_tooth_temperature, findings);
+        let warm = match &wholes[gear].warm {
+            None => Some(None),
+            Some(WarmFile { temperature_C, factor }) => {
+                let (values, has_tooth) = (("factor", factor), given.has_tooth_temperature);
+                temperature::tooth_curve(&warm_key, temperature_C, values, has_tooth, findings).map(Some)
+            }
+        };
         Some(WearSettings { film: film?, warm: warm?, ..of_gear(&mut wholes[gear], gear, findings)? })
     });
     let settings = PerGear { pinion: pinion?, wheel: wheel? };
@@ -156,24 +161,6 @@ fn of_gear(file: &mut GearWearFile, gear: Gear, findings: &mut Findings) -> Opti
         band_mpa: *severe.band_MPa.get_or_insert(0.0),
     });
     Some(WearSettings { law, coefficient_mm2_per_n, severe, film: None, warm: None })
-}
-
-/// Factor over the temperature of the flanks by the table `key`; `Some(None)` where there is none.
-fn warm(
-    key: &str,
-    file: Option<&WarmFile>,
-    has_tooth_temperature: bool,
-    findings: &mut Findings,
-) -> Option<Option<TemperatureCurve>> {
-    let Some(file) = file else { return Some(None) };
-    let keys = ["temperature_C", "factor"].map(|name| format!("{key}.{name}"));
-    let given = [(keys[0].as_str(), &file.temperature_C), (keys[1].as_str(), &file.factor)];
-    let [temperature_c, value] = curve::choose(given[0], given[1], findings)?;
-    if !has_tooth_temperature {
-        temperature::tooth_needed(key, findings);
-        return None;
-    }
-    Some(Some(TemperatureCurve { temperature_c, value }))
 }
 
 /// How wear follows the film by the table `key`; `Some(None)` where not at all.
