@@ -1,10 +1,13 @@
 //! Films, friction and losses of the new and of the worn pair, from the loads and pressures of the run.
 //!
-//! With x the pinion's radius of curvature at the contact point of a slice, w its load per mm of face width, v_g its sliding speed and n slices,
+//! With x the pinion's radius of curvature at the contact point of a slice, w its transverse load per mm of face width, v_g its sliding speed and
+//! n slices, the normal force is w/cos β_b ([`crate::gear::normal_section`]) and
 //!
 //! ```text
-//! P_VZ = 1/p_bt ∫ b/n Σ μ w v_g dx        H_VL = 1/p_bt ∫ b/n Σ w v_g dx / P
+//! P_VZ = 1/p_bt ∫ b/n Σ μ w v_g/cos β_b dx        H_VL = 1/p_bt ∫ b/n Σ w v_g/cos β_b dx / P
 //! ```
+//!
+//! over all contacts of slices, also those of tip edges before A and after E.
 //!
 //! Film and friction of each contact are those of [`crate::lubrication::running_pair`].
 
@@ -35,6 +38,9 @@ struct Place {
     width_mm: f64,
     /// Length of the path that it stands for.
     length_mm: f64,
+    /// Part of the width of its slice that is in contact.
+    part_of_width: f64,
+    /// Transverse load over the whole width of its slice.
     load_n_per_mm: [f64; 2],
     pressure_mpa: [f64; 2],
 }
@@ -50,7 +56,7 @@ impl Place {
     fn loaded(&self, which: usize) -> LoadedPlace {
         LoadedPlace {
             position_mm: self.position_mm,
-            line_load_n_per_mm: self.load_n_per_mm[which],
+            line_load_n_per_mm: self.load_n_per_mm[which] / self.part_of_width,
             peak_pressure_mpa: self.pressure_mpa[which],
         }
     }
@@ -100,7 +106,7 @@ fn method_b(running: &RunningPair<'_>, oil: &OilInMesh) -> MethodBSummary {
     MethodBSummary { points, mean_friction, least_lambda_at, least_lambda, micropitting_safety }
 }
 
-/// All contacts of the run's mesh, new and worn, within the line of action.
+/// All contacts of the run's mesh, new and worn; of a pair without slices, those within the line of action.
 fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
     let (new, worn) = (&outcome.new.cycle, &outcome.worn.cycle);
     // The simplified surface has the mean pressure for the greatest.
@@ -120,6 +126,7 @@ fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
                 slice: 0,
                 width_mm: middle_mm,
                 length_mm: 0.5 * (at((k + 1).min(last)) - at(k.saturating_sub(1))),
+                part_of_width: 1.0,
                 load_n_per_mm: [new.load_share * whole, worn.load_share * whole],
                 pressure_mpa: [new, worn].map(|seen| greatest * seen.footprint.peak_pressure_mpa),
             })
@@ -128,22 +135,26 @@ fn places(model: &Model<'_>, outcome: &Outcome) -> Vec<Place> {
     let count = new_slices.slices;
     let spacing = new_slices.base_pitch_mm / new_slices.transmission_error_mm.len() as f64;
     let cells = new_slices.position_mm.iter().enumerate();
+    let path = &model.pair.path;
+    let touches_beyond = model.scene.contact.tip_contact;
     let all = cells.flat_map(|(row, &position_mm)| {
         (0..count).map(move |slice| {
             let cell = row * count + slice;
             let meshes = [new_slices, worn_slices];
+            let middle_mm = position_mm + outcome.slices.ahead_mm[slice];
             Place {
-                position_mm: position_mm + outcome.slices.ahead_mm[slice],
+                // The part of a slice whose middle is not in contact is.
+                position_mm: if touches_beyond { middle_mm } else { path.folded_mm(middle_mm) },
                 slice,
                 width_mm: outcome.slices.width_mm[slice],
                 length_mm: spacing,
+                part_of_width: new_slices.part_of_width[cell],
                 load_n_per_mm: meshes.map(|mesh| mesh.line_load_n_per_mm[cell]),
                 pressure_mpa: meshes.map(|mesh| greatest * mesh.peak_pressure_mpa[cell]),
             }
         })
     });
-    let path = &model.pair.path;
-    all.filter(|place| (path.start_mm..=path.end_mm).contains(&place.position_mm)).collect()
+    all.filter(|place| place.part_of_width > 0.0).collect()
 }
 
 /// Sums over the path.
@@ -159,10 +170,11 @@ impl Work {
     /// Of the new (0) or worn (1) pair.
     fn over(model: &Model<'_>, seen: &Seen<'_>, slice_width_mm: f64, which: usize) -> Self {
         let mut work = Self::default();
+        let obliquity = model.pair.obliquity();
         for (place, states) in seen.places.iter().zip(&seen.states) {
             let sliding_m_per_s = seen.running.contact(place.position_mm, 0.0, 0.0).sliding_speed_m_per_s();
-            let power_w = place.load_n_per_mm[which] * slice_width_mm * sliding_m_per_s * place.length_mm
-                / model.pair.path.base_pitch_mm;
+            let force_n = obliquity.normal_force(place.load_n_per_mm[which]) * slice_width_mm;
+            let power_w = force_n * sliding_m_per_s * place.length_mm / model.pair.path.base_pitch_mm;
             work.sliding_w += power_w;
             let Some(state) = states[which] else { continue };
             work.friction_w += power_w * state.friction;
@@ -213,9 +225,17 @@ pub(super) fn sum_up(model: &Model<'_>, outcome: &Outcome, seen: &Seen<'_>) -> O
     let work = [0, 1].map(|which| Work::over(model, seen, width_mm, which));
     let wear_factors = work.each_ref().map(Work::wear_factors);
     let rows: Vec<FilmRow> = places.iter().zip(states).map(|(place, states)| row(running, place, states)).collect();
+    let path = &running.pair.path;
+    let is_on_path = |place: &Place| (path.start_mm..=path.end_mm).contains(&place.position_mm);
+    let on_path: Vec<RowOfPath<'_>> = rows
+        .iter()
+        .zip(places)
+        .filter(|(_, place)| is_on_path(place))
+        .map(|(row, place)| (row, place.length_mm))
+        .collect();
     let summary = LubricationSummary {
         oil: oil.map(oil_summary),
-        film: oil.and_then(|oil| film_summary(&rows, places, oil.settings.permissible_lambda, wear_factors)),
+        film: oil.and_then(|oil| film_summary(&on_path, oil.settings.permissible_lambda, wear_factors)),
         method_b: oil.map(|oil| method_b(running, oil)),
         scuffing: oil.map(|oil| scuffing::summary(running, oil, &model.scene.material)),
         friction: friction_summary(running, &work),
@@ -252,6 +272,7 @@ fn row(running: &RunningPair<'_>, place: &Place, states: &[Option<State>; 2]) ->
     let [composite_lambda_new, composite_lambda_worn] = of(|film| Some(film.composite_lambda));
     let [flash_new_k, flash_worn_k] = of(|film| film.local.map(|local| local.flash_k));
     let [friction_new, friction_worn] = states.map(|state| state.map(|state| state.friction));
+    let normal_force = |transverse| running.pair.obliquity().normal_force(transverse);
     FilmRow {
         position_mm: place.position_mm,
         slice: place.slice,
@@ -259,8 +280,8 @@ fn row(running: &RunningPair<'_>, place: &Place, states: &[Option<State>; 2]) ->
         relative_radius_mm: surfaces.relative_radius_mm,
         sum_speed_m_per_s: surfaces.sum_speed_m_per_s(),
         sliding_speed_m_per_s: surfaces.sliding_speed_m_per_s(),
-        line_load_new_N_per_mm: place.load_n_per_mm[0],
-        line_load_worn_N_per_mm: place.load_n_per_mm[1],
+        line_load_new_N_per_mm: normal_force(place.load_n_per_mm[0]),
+        line_load_worn_N_per_mm: normal_force(place.load_n_per_mm[1]),
         central_film_new_um,
         central_film_worn_um,
         minimum_film_new_um,
@@ -291,11 +312,14 @@ fn oil_summary(in_mesh: &OilInMesh) -> OilSummary {
     }
 }
 
+/// A row between A and E, and the length of the path that it stands for, mm.
+type RowOfPath<'a> = (&'a FilmRow, f64);
+
 type Value = fn(&FilmRow) -> Option<f64>;
 
 /// Extremes and mean of a column, where it has values.
-fn along_path(rows: &[FilmRow], places: &[Place], value: Value) -> Option<AlongPath> {
-    let values = || rows.iter().zip(places).filter_map(|(row, place)| Some((value(row)?, place.length_mm)));
+fn along_path(rows: &[RowOfPath<'_>], value: Value) -> Option<AlongPath> {
+    let values = || rows.iter().filter_map(|(row, length_mm)| Some((value(row)?, *length_mm)));
     let (total, length) = values().fold((0.0, 0.0), |(sum, length), (value, part)| (sum + value * part, length + part));
     let extremes =
         values().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), (value, _)| (low.min(value), high.max(value)));
@@ -303,14 +327,13 @@ fn along_path(rows: &[FilmRow], places: &[Place], value: Value) -> Option<AlongP
 }
 
 fn film_summary(
-    rows: &[FilmRow],
-    places: &[Place],
+    rows: &[RowOfPath<'_>],
     permissible_lambda: Option<f64>,
     [wear_factor_new, wear_factor_worn]: [Option<PerGear<f64>>; 2],
 ) -> Option<FilmSummary> {
-    let along = |value: Value| along_path(rows, places, value);
+    let along = |value: Value| along_path(rows, value);
     let place_of_least = |value: Value| {
-        let least = rows.iter().filter(|row| value(row).is_some());
+        let least = rows.iter().map(|(row, _)| *row).filter(|row| value(row).is_some());
         let least = least.min_by(|one, two| value(one).partial_cmp(&value(two)).unwrap_or(std::cmp::Ordering::Equal));
         least.map(|row| row.position_mm)
     };

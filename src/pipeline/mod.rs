@@ -260,7 +260,7 @@ fn carry_out<R>(
     let mut stages = StageClock::new(observer);
 
     let pair = stages.run(StageKind::Geometry.name(), || GearPair::new(&scene.pair))?;
-    let at_pitch = hertz::flattening(&pair, &scene.material, pair.path.pitch_point_mm);
+    let at_pitch = hertz::flattening(&pair.normal_section(), &scene.material, pair.path.pitch_point_mm);
     let line_load = |phase: &Phase| pair.line_load_n_per_mm(phase.pinion_torque_n_mm);
     // One model of finite elements serves the stiffness of the teeth and the verification.
     let elements = match plan.has(StageKind::FiniteElementModel) && scene.contact.surface != SurfaceKind::Fem {

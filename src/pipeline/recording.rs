@@ -329,7 +329,7 @@ fn cycle(pair: &GearPair, cycle: &CycleObservation) -> CycleSummary {
 fn wear_figures(model: &Model<'_>, outcome: &Outcome, gear: Gear) -> WearSummary {
     let (scene, pair) = (model.scene, model.pair);
     let figures = WearFigures::at(pair, gear, outcome, &outcome.worn);
-    let volume_mm3 = figures.area_mm2 * scene.pair.face_width_mm * f64::from(scene.pair.gears[gear].teeth);
+    let volume_mm3 = pair.over_all_flanks(gear, figures.area_mm2);
     let mean_mm = vdi_2736_mean_wear_mm(model, outcome, gear);
     WearSummary {
         peak_wear_um: figures.peak_mm * UM_PER_MM,

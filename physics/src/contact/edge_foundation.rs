@@ -95,7 +95,7 @@ impl EdgeFoundations {
         let ends = ends.map(|(tip_of, last_mm)| {
             let edge_mm = pair.path.rho_mm(tip_of, pair.rounding_start_rho_mm(tip_of));
             let half_width_mm =
-                hertz::flattening(pair, material, edge_mm).contact.loaded(line_load_n_per_mm).half_width_mm;
+                hertz::flattening(&pair.normal_section(), material, edge_mm).contact.loaded(line_load_n_per_mm).half_width_mm;
             // By so far of the path the edge is within the contact.
             let within_mm = WIDENED * half_width_mm / pair.rolling_ratio(tip_of, edge_mm);
             let first_mm = edge_mm + within_mm.copysign(edge_mm - last_mm);
@@ -197,7 +197,7 @@ struct Pressed {
 
 impl Bodies<'_> {
     fn springs_at(&self, position_mm: f64) -> EdgeStiffness {
-        let flattening = hertz::flattening(self.pair, self.material, position_mm);
+        let flattening = hertz::flattening(&self.pair.normal_section(), self.material, position_mm);
         let load = GREATEST_LOAD * self.line_load_n_per_mm;
         let half_width_mm = WIDENED * flattening.contact.loaded(load).half_width_mm;
         let ((lower_mm, upper_mm), _) = common_extent_mm(self.pair, position_mm);
@@ -226,7 +226,7 @@ impl Bodies<'_> {
         let calibrated = self
             .approach
             .springs_at(position_mm)
-            .approach_and_compliance(self.pair.relative_radius_mm(position_mm), w)
+            .approach_and_compliance(flattening.contact.relative_radius_mm(), w)
             .0;
         let beside_mm2_per_n = (calibrated - flattening.approach_mm(w)) / w;
         points.iter_mut().for_each(|point: &mut EdgePoint| point.further_mm2_per_n += beside_mm2_per_n);
@@ -241,7 +241,7 @@ impl Bodies<'_> {
             (0..=2 * CELLS).map(|k| self.gap_mm(position_mm, from_mm + k as f64 * spacing_mm)).collect();
         let least_mm = gap_mm.iter().copied().fold(f64::INFINITY, f64::min);
         gap_mm.iter_mut().for_each(|gap| *gap -= least_mm);
-        let flattening = hertz::flattening(self.pair, self.material, position_mm);
+        let flattening = hertz::flattening(&self.pair.normal_section(), self.material, position_mm);
         let width_mm = 2.0 * spacing_mm;
         let mut cells = ElasticCells::new(width_mm, cell_compliance_mm_per_mpa(&flattening.bodies, width_mm, CELLS));
         // The mean of each cell.
@@ -262,14 +262,14 @@ impl Bodies<'_> {
         touches.then_some((pressed, (lower_mm, upper_mm)))
     }
 
-    /// The gap of the unworn flanks.
+    /// The gap of the unworn flanks, along their normal.
     fn gap_mm(&self, position_mm: f64, along_mm: f64) -> f64 {
         let of = |gear: Gear, along_mm: f64| {
             let (rho_mm, drop_mm) = self.pair.at_along(gear, along_mm, position_mm);
             let rounding_mm = self.pair.spec.gears[gear].modification.tip_rounding_mm;
             drop_mm + tip_rounding_mm(rounding_mm, &self.pair.teeth[gear], rho_mm)
         };
-        of(Gear::Pinion, along_mm) + of(Gear::Wheel, -along_mm)
+        self.pair.obliquity().normal_mm(of(Gear::Pinion, along_mm) + of(Gear::Wheel, -along_mm))
     }
 }
 

@@ -21,6 +21,7 @@ use std::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 
 use super::settings::MatchCriterion;
+use crate::gear::normal_section::Obliquity;
 use crate::reference::flattening::Flattening;
 
 /// K/H in MPa/mm that makes the foundation agree with `hertz` under `line_load_n_per_mm`.
@@ -120,6 +121,14 @@ pub struct FoundationCurve {
 }
 
 impl FoundationCurve {
+    /// The same for lines of contact that are oblique, where the curve is known of a plane section: K/H depends on the half-width alone, and
+    /// under w a contact in the normal section is as wide as one in the transverse section under w/cos β_b.
+    pub fn in_normal_section(&self, obliquity: Obliquity) -> Self {
+        let reference = self.reference_line_load_n_per_mm;
+        let of_section = reference / obliquity.as_wide_under_n_per_mm(1.0);
+        Self { reference_line_load_n_per_mm: of_section, ..self.clone() }
+    }
+
     /// K/H at a position under a line load (> 0), MPa/mm.
     pub fn at_mpa_per_mm(&self, position_mm: f64, line_load_n_per_mm: f64) -> f64 {
         self.springs_at(position_mm).mpa_per_mm(line_load_n_per_mm)

@@ -61,7 +61,7 @@ const EFFORT: Effort = Effort { of_equilibrium: 20.0, of_clean_start: 15.0 };
 
 impl ContactSurface for HalfSpace {
     fn pair<'a>(&self, flanks: Flanks<'a>, position_mm: f64, cell: Option<PositionCell>) -> Box<dyn PairContact + 'a> {
-        let flattening = hertz::flattening(flanks.geometry, &self.material, position_mm);
+        let flattening = hertz::flattening(&flanks.geometry, &self.material, position_mm);
         let half_width = flattening.contact.loaded(self.expected_line_load_n_per_mm).half_width_mm;
         let stretch =
             ObservedStretch { flanks, position_mm, cell, flattening, cell_mm: self.cell_width_mm(flanks, position_mm) };
@@ -85,7 +85,7 @@ impl ContactSurface for HalfSpace {
 impl HalfSpace {
     /// About two flank points, within what the contact needs.
     fn cell_width_mm(&self, flanks: Flanks<'_>, position_mm: f64) -> f64 {
-        let contact = hertz::flattening(flanks.geometry, &self.material, position_mm).contact;
+        let contact = hertz::flattening(&flanks.geometry, &self.material, position_mm).contact;
         let half_width = contact.loaded(self.expected_line_load_n_per_mm).half_width_mm;
         (POINTS_PER_CELL * point_distance_mm(flanks, Gear::Pinion, position_mm))
             .clamp(half_width / FINEST_CELLS_PER_HALF_WIDTH, half_width / CELLS_PER_HALF_WIDTH)

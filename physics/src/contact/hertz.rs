@@ -70,7 +70,7 @@ pub(super) struct ClosedFormPair<'a> {
 
 impl<'a> ClosedFormPair<'a> {
     pub(super) fn new(flanks: Flanks<'a>, material: &PerGear<Material>, position_mm: f64) -> Self {
-        let flattening = flattening(flanks.geometry, material, position_mm);
+        let flattening = flattening(&flanks.geometry, material, position_mm);
         Self { flanks, position_mm, flattening, removed_mm: 0.0, line_load: 0.0 }
     }
 

@@ -29,13 +29,15 @@ pub mod winkler;
 
 use serde::{Deserialize, Serialize};
 
-use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid};
+use crate::gear::{
+    Gear, GearPair, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid, normal_section::NormalSection,
+};
 
 /// Two flanks and the points on them.
 #[derive(Clone, Copy)]
 pub struct Flanks<'a> {
-    /// Their geometry.
-    pub geometry: &'a dyn ConjugateFlanks,
+    /// Their geometry, in the normal section: gaps and what is removed are normal to the flanks.
+    pub geometry: NormalSection<'a>,
     /// Their points.
     pub grid: PerGear<&'a FlankGrid>,
     /// What of the removed material is no wear but the modification of the profile, but for a constant; none where that is not told
@@ -46,8 +48,17 @@ pub struct Flanks<'a> {
 }
 
 impl<'a> Flanks<'a> {
-    /// Flanks that end where their contact does: no tip edge carries load.
+    /// Flanks that end where their contact does, and along whose lines of contact nothing changes: no tip edge carries load.
     pub fn new(geometry: &'a dyn ConjugateFlanks, grid: PerGear<&'a FlankGrid>) -> Self {
+        Self::in_section(NormalSection::of_spur(geometry), grid)
+    }
+
+    /// The same of gears.
+    pub fn of_gears(pair: &'a GearPair, grid: PerGear<&'a FlankGrid>) -> Self {
+        Self::in_section(pair.normal_section(), grid)
+    }
+
+    fn in_section(geometry: NormalSection<'a>, grid: PerGear<&'a FlankGrid>) -> Self {
         Self { geometry, grid, modification_mm: None, sharp_edges: PerGear::default() }
     }
 }
@@ -66,7 +77,7 @@ pub struct PositionCell {
 /// A tooth pair's answer to being pressed together.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Response {
-    /// Load it carries, N per mm of face width.
+    /// Load it carries, N per mm of the line of contact: as much as F_bt per mm of face width.
     pub line_load_n_per_mm: f64,
     /// Derivative of the load with respect to the indentation, N/mm².
     pub stiffness_n_per_mm2: f64,

@@ -10,6 +10,7 @@ pub mod flank_zones;
 pub(crate) mod half_profile;
 pub mod involute;
 pub mod modification;
+pub mod normal_section;
 pub mod outline;
 pub mod pair;
 pub mod path_of_contact;

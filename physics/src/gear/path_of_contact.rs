@@ -60,6 +60,12 @@ impl PathOfContact {
         (0..count).map(at).collect()
     }
 
+    /// Place between A and E whose mirror image at the nearer of them is `position_mm`; itself between both.
+    pub fn folded_mm(&self, position_mm: f64) -> f64 {
+        let nearer = position_mm.clamp(self.start_mm, self.end_mm);
+        (2.0 * nearer - position_mm).clamp(self.start_mm, self.end_mm)
+    }
+
     /// ε_α.
     pub fn contact_ratio(&self) -> f64 {
         (self.end_mm - self.start_mm) / self.base_pitch_mm

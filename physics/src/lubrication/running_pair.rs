@@ -178,7 +178,7 @@ impl<'a> RunningPair<'a> {
     pub fn contact(&self, position_mm: f64, line_load_n_per_mm: f64, peak_pressure_mpa: f64) -> RollingContact {
         RollingContact {
             line_load_n_per_mm,
-            relative_radius_mm: self.pair.relative_radius_mm(position_mm) / self.pair.base_helix_angle_rad().cos(),
+            relative_radius_mm: self.pair.normal_section().relative_radius_mm(position_mm),
             peak_pressure_mpa,
             surface_speeds_m_per_s: PerGear::from_fn(|gear| {
                 1e-3 * self.angular_speed_per_s[gear] * self.pair.path.rho_mm(gear, position_mm)

@@ -31,7 +31,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCell, Sweep};
-use crate::gear::{Gear, PerGear, slices::greatest_over_width};
+use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, slices::greatest_over_width};
 use crate::wear::WearModel;
 use collected::Collected;
 use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
@@ -177,7 +177,7 @@ pub struct CycleObservation {
     /// How far each flank point slid while in contact, mm.
     pub sliding_mm: PerGear<Vec<f64>>,
     /// ∫ F ds of a tooth pair over its mesh, also before A and after E: load times sliding distance, which is the volume that a flank loses
-    /// over its wear coefficient. N, that is N·mm per mm of face width; where there are slices, the sum over them. `None` where a model
+    /// over its wear coefficient. N, that is N·mm per mm of the line of contact; where there are slices, the sum over them. `None` where a model
     /// follows single points.
     pub sliding_work_n: Option<f64>,
     /// The mesh of one tooth slice by slice, where there are slices.
@@ -345,7 +345,7 @@ impl<'a> LoadedPosition<'a> {
             .map(|(k, pair)| {
                 let cell = (k == 0).then_some(position.cell);
                 let contact = surface.pair(flanks, pair.position_mm, cell);
-                MeshedPair::on_lever(contact, pair.teeth_n_per_mm2, pair.lever_ratio)
+                MeshedPair::on_lever(contact, pair.teeth_n_per_mm2, pair.lever_ratio, flanks.geometry.obliquity)
             })
             .collect();
         let (cell, on_line_of_action) = (position.cell, position.on_line_of_action);

@@ -26,7 +26,7 @@ use super::{
     CycleObservation, GROUPS, GreatestPressure, LostMaterial, MeshCycle, Work, in_series, note_contact_of_points,
 };
 use crate::contact::{ContactSurface, Flanks, Sweep};
-use crate::gear::{Gear, GearPair, PerGear, path_of_contact::PathOfContact};
+use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks, path_of_contact::PathOfContact};
 use crate::wear::WearModel;
 
 /// The spring of the teeth along the path of contact, evaluated once for all slices.
@@ -265,7 +265,7 @@ impl<'a> LoadedPosition<'a> {
                 let touching = PartOfSlice::of(touching, contact.part);
                 // Where slices are coupled the teeth bend beside the pairs, not in them.
                 let teeth = if teeth.is_some() { f64::INFINITY } else { contact.part.of_width / compliance(contact) };
-                MeshedPair::on_lever(touching, teeth, (springs.lever_ratio)(position_mm))
+                MeshedPair::on_lever(touching, teeth, (springs.lever_ratio)(position_mm), flanks.geometry.obliquity)
             })
             .collect();
         Self {

@@ -61,13 +61,15 @@ pub(crate) fn approach_ratio(pair: &GearPair, position_mm: f64) -> f64 {
     pair.pinion_lever_ratio(&touch) / touch.turned_rad.cos()
 }
 
-/// A contact whose load has another lever on the pinion than r_b1: approach and load are reckoned as the transmission error and
-/// the load along the line of action that go with them.
+/// A contact whose load has another lever on the pinion than r_b1, or whose normal is oblique to the transverse plane: approach and load are
+/// reckoned as the transmission error and the load along the transverse line of action that go with them.
 pub(crate) struct OnLever<'a> {
     /// The contact along its own normal.
     pub contact: Box<dyn PairContact + 'a>,
-    /// [`approach_ratio`].
-    pub ratio: f64,
+    /// [`approach_ratio`], along the normal ([`crate::gear::normal_section`]): approach over transmission error.
+    pub approach: f64,
+    /// [`approach_ratio`] alone: load that goes with the torque over load along the line of contact.
+    pub load: f64,
 }
 
 impl PairContact for OnLever<'_> {
@@ -76,24 +78,24 @@ impl PairContact for OnLever<'_> {
     }
 
     fn touch_mm(&self) -> f64 {
-        self.contact.touch_mm() / self.ratio
+        self.contact.touch_mm() / self.approach
     }
 
     fn load_at(&mut self, indentation_mm: f64) -> Response {
-        let along_normal = self.contact.load_at(self.ratio * indentation_mm);
+        let along_normal = self.contact.load_at(self.approach * indentation_mm);
         Response {
-            line_load_n_per_mm: self.ratio * along_normal.line_load_n_per_mm,
-            stiffness_n_per_mm2: self.ratio * self.ratio * along_normal.stiffness_n_per_mm2,
+            line_load_n_per_mm: self.load * along_normal.line_load_n_per_mm,
+            stiffness_n_per_mm2: self.load * self.approach * along_normal.stiffness_n_per_mm2,
         }
     }
 
     fn further_approach_mm(&self, line_load_n_per_mm: f64) -> (f64, f64) {
-        let (approach, compliance) = self.contact.further_approach_mm(line_load_n_per_mm / self.ratio);
-        (approach / self.ratio, compliance / (self.ratio * self.ratio))
+        let (approach, compliance) = self.contact.further_approach_mm(line_load_n_per_mm / self.load);
+        (approach / self.approach, compliance / (self.load * self.approach))
     }
 
     fn ample_indentation_mm(&self, line_load_n_per_mm: f64) -> f64 {
-        self.contact.ample_indentation_mm(line_load_n_per_mm / self.ratio) / self.ratio
+        self.contact.ample_indentation_mm(line_load_n_per_mm / self.load) / self.approach
     }
 
     fn window_suffices(&mut self) -> bool {

@@ -202,7 +202,7 @@ pub struct FilmRow {
     pub sum_speed_m_per_s: f64,
     /// speed of the surfaces against each other
     pub sliding_speed_m_per_s: f64,
-    /// load per mm of face width, new
+    /// normal load per mm of face width, new: 1/cos β_b of the transverse one
     pub line_load_new_N_per_mm: f64,
     /// the same, worn
     pub line_load_worn_N_per_mm: f64,

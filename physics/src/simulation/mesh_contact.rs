@@ -63,15 +63,10 @@ pub fn bodies_mm2_per_n(teeth: &TeethSpring<'_>, sliced: Option<&SlicedTeeth>) -
 }
 
 /// The spring of a slice beside its surface, N/mm²: of teeth in space, that of the whole section.
-fn slice_spring(
-    pair: &GearPair,
-    teeth: &TeethSpring<'_>,
-    sliced: &SlicedTeeth,
-    position_mm: f64,
-) -> Result<f64, StiffnessError> {
+fn slice_spring(teeth: &TeethSpring<'_>, sliced: &SlicedTeeth, position_mm: f64) -> Result<f64, StiffnessError> {
     match sliced.in_space() {
-        Some(_) => teeth.oblique_n_per_mm2(position_mm, pair.base_helix_angle_rad()),
-        None => teeth.slice_n_per_mm2(position_mm, pair.base_helix_angle_rad()),
+        Some(_) => teeth.oblique_n_per_mm2(position_mm),
+        None => teeth.own_n_per_mm2(position_mm),
     }
 }
 
@@ -152,7 +147,7 @@ impl<'a> LoadedMesh<'a> {
         let springs = SlicesInSeries {
             pair: self.pair,
             material,
-            along_path: SpringAlongPath::new(path, count, [0.0; 2], |at| slice_spring(self.pair, teeth, sliced, at))?,
+            along_path: SpringAlongPath::new(path, count, [0.0; 2], |at| slice_spring(teeth, sliced, at))?,
             sliced,
             line_load_n_per_mm: line_load * sliced.slices.count() as f64,
         };
@@ -180,14 +175,16 @@ impl<'a> LoadedMesh<'a> {
         let lever_ratio = |at| tip_contact::approach_ratio(self.pair, at);
         let beyond = if tip_contact {
             let pitch_point = path.pitch_point_mm;
-            let surfaces = surface.plain_approach_mm(self.pair, pitch_point, line_load);
+            let section = self.pair.normal_section();
+            let along_normal = surface.plain_approach_mm(&section, pitch_point, line_load);
+            let surfaces = section.obliquity.transverse_mm(along_normal);
             let approach = bodies + surfaces + line_load / spring(pitch_point)?;
             Some(tip_contact::reach_mm(self.pair, AMPLE_APPROACH * approach))
         } else {
             None
         };
         if let Some(sliced) = sliced {
-            let spring = |at| slice_spring(self.pair, teeth, sliced, at);
+            let spring = |at| slice_spring(teeth, sliced, at);
             let along = SpringAlongPath::new(path, count, beyond.unwrap_or_default(), spring)?;
             let ends = match beyond {
                 Some(beyond_mm) => SliceEnds::Beyond(beyond_mm),

@@ -289,7 +289,7 @@ impl WearRun<'_> {
             line_load_n_per_mm: phase.line_load_n_per_mm,
             numerics: self.numerics,
         };
-        Ok(mesh.wearing_pair(Flanks::new(self.pair, flanks.grid.as_ref()), &flanks.modification_mm)?)
+        Ok(mesh.wearing_pair(Flanks::of_gears(self.pair, flanks.grid.as_ref()), &flanks.modification_mm)?)
     }
 
     /// A run that has not begun.

@@ -107,7 +107,7 @@ impl<'a> SimplifiedPair<'a> {
                 let own = &modification_mm[gear][contact.slice * points..(contact.slice + 1) * points];
                 grid[gear].value_at(own, path.rho_mm(gear, contact.cell.position_mm))
             };
-            PerGear::from_fn(of_gear).sum()
+            springs.pair.obliquity().transverse_mm(PerGear::from_fn(of_gear).sum())
         };
         let contacts: usize = phases.iter().map(|phase| phase.contacts.len()).sum();
         let size = phases.len().div_ceil(contacts.div_ceil(BATCH).max(1)).max(1);
