@@ -17,7 +17,7 @@ pub(super) fn table(summary: &Summary) -> String {
         figures("wear at the pitch circle, µm", [pinion.pitch_wear_um, wheel.pitch_wear_um]),
         figures("worn mass, mg", [pinion.worn_mass_mg, wheel.worn_mass_mg]),
         row("", ["new", "worn"]),
-        figures("maximum pressure, MPa", [new.peak_pressure_MPa, worn.peak_pressure_MPa]),
+        figures("flank pressure, MPa", [new.flank_pressure_MPa, worn.flank_pressure_MPa]),
         figures("pressure at the pitch point, MPa", [new.pitch_pressure_MPa, worn.pitch_pressure_MPa]),
         figures("transmission error, peak to peak, µm", te),
     ]
@@ -74,8 +74,8 @@ fn verified(total: &TotalError) -> String {
         both("wear over the flank (rms), %", &total.profile),
         one("transmission error, peak to peak, %", total.transmission_error_peak_to_peak),
         one("pressure between the tip edges, %", total.pressure_between_tips),
-        one("maximum pressure, new, %", total.peak_pressure.new),
-        one("maximum pressure, worn, %", total.peak_pressure.worn),
+        row("", ["new", "worn"]),
+        row("flank pressure, %", [&within(total.flank_pressure.new), &within(total.flank_pressure.worn)]),
     ]
     .concat()
 }

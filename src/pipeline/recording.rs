@@ -317,6 +317,9 @@ fn cycle(pair: &GearPair, cycle: &CycleObservation) -> CycleSummary {
         peak_pressure_MPa: cycle.greatest_pressure.defined_mpa,
         sharp_edge_pressure_MPa: cycle.greatest_pressure.sharp_edge_mpa,
         load_imbalance: cycle.positions.iter().map(|p| p.load_imbalance.abs()).fold(0.0, f64::max),
+        flank_pressure_MPa: cycle.pressure_figures.flank_mpa,
+        tip_edge_line_load_N_per_mm: cycle.pressure_figures.tip_edge_line_load_n_per_mm,
+        tip_edge_mean_pressure_MPa: cycle.pressure_figures.tip_edge_mean_mpa,
         pitch_pressure_MPa: cycle.peak_pressure_at_mpa(pair.path.pitch_point_mm),
         transmission_error_um: RangeSummary {
             min: min * UM_PER_MM,
@@ -445,6 +448,8 @@ fn history_row(model: &Model<'_>, outcome: &Outcome, snapshot: &Snapshot) -> His
         wheel_tip_edge_wear_um: wheel.tip_edge.depth_mm * UM_PER_MM,
         pinion_below_sap_wear_um: pinion.below_active.depth_mm * UM_PER_MM,
         wheel_below_sap_wear_um: wheel.below_active.depth_mm * UM_PER_MM,
+        flank_pressure_MPa: snapshot.cycle.pressure_figures.flank_mpa,
+        tip_edge_line_load_N_per_mm: snapshot.cycle.pressure_figures.tip_edge_line_load_n_per_mm,
     }
 }
 

@@ -22,7 +22,7 @@
 //! Source: K. L. Johnson, *Contact Mechanics* (1985), sections 2.5 and 5.9.
 
 use super::{
-    ContactSurface, Effort, Flanks, Footprint, PairContact, PointContact, PositionCell, Response, Sweep,
+    ContactSurface, Effort, Flanks, Footprint, PairContact, PointContact, PositionCell, PressedCell, Response, Sweep,
     elastic_cells::ElasticCells,
     growing_window::{GrowingWindow, Sampled},
     hertz,
@@ -194,5 +194,11 @@ impl PairContact for HalfSpacePair<'_> {
         let field = &self.window.samples.swept.field;
         let at_ends = [field.cells_mpa().first(), field.cells_mpa().last()].map(|end| end.is_some_and(|p| *p > 0.0));
         Footprint { at_sharp_edge: self.window.samples.strip.window.is_sharp_where(at_ends), ..field.footprint() }
+    }
+
+    fn pressed_cells(&self) -> Vec<PressedCell> {
+        let SampledStretch { strip, swept, .. } = &self.window.samples;
+        let pressures_mpa = swept.field.cells_mpa().iter().copied();
+        PressedCell::evenly(strip.window.lower_mm, 2.0 * strip.spacing_mm, pressures_mpa)
     }
 }

@@ -32,6 +32,7 @@ use serde::{Deserialize, Serialize};
 use crate::gear::{
     Gear, GearPair, PerGear, conjugate::ConjugateFlanks, flank::FlankGrid, normal_section::NormalSection,
 };
+use crate::mesh_cycle::flank_pressure::FlankParts;
 
 /// Two flanks and the points on them.
 #[derive(Clone, Copy)]
@@ -45,6 +46,8 @@ pub struct Flanks<'a> {
     pub modification_mm: Option<PerGear<&'a [f64]>>,
     /// Whose tip edge may carry load and is mathematically sharp: contact that it cuts off has no pressure of its own.
     pub sharp_edges: PerGear<bool>,
+    /// The parts that figures of pressure speak of; none where nobody asks for such.
+    pub parts: Option<FlankParts>,
 }
 
 impl<'a> Flanks<'a> {
@@ -59,7 +62,7 @@ impl<'a> Flanks<'a> {
     }
 
     fn in_section(geometry: NormalSection<'a>, grid: PerGear<&'a FlankGrid>) -> Self {
-        Self { geometry, grid, modification_mm: None, sharp_edges: PerGear::default() }
+        Self { geometry, grid, modification_mm: None, sharp_edges: PerGear::default(), parts: None }
     }
 }
 
@@ -125,6 +128,43 @@ pub struct Footprint {
     pub at_sharp_edge: bool,
 }
 
+/// A part of a contact under a mean pressure. Places are along the tangent from the theoretical contact point, positive towards the
+/// pinion's tip.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PressedCell {
+    /// Where it begins, mm.
+    pub lower_mm: f64,
+    /// Where it ends, mm.
+    pub upper_mm: f64,
+    /// Mean pressure on it, MPa.
+    pub pressure_mpa: f64,
+}
+
+impl PressedCell {
+    /// The load on it, N/mm.
+    pub fn line_load_n_per_mm(&self) -> f64 {
+        self.pressure_mpa * (self.upper_mm - self.lower_mm)
+    }
+
+    /// The part of it from one place to another; none where there is no such.
+    pub(crate) fn within(&self, [from_mm, to_mm]: [f64; 2]) -> Option<Self> {
+        let (lower_mm, upper_mm) = (self.lower_mm.max(from_mm), self.upper_mm.min(to_mm));
+        (lower_mm < upper_mm).then_some(Self { lower_mm, upper_mm, ..*self })
+    }
+
+    /// Evenly spaced cells of `width_mm` from `lower_mm` on.
+    pub(crate) fn evenly(lower_mm: f64, width_mm: f64, pressures_mpa: impl Iterator<Item = f64>) -> Vec<Self> {
+        let at = |k: usize| lower_mm + k as f64 * width_mm;
+        let cell = |(k, pressure_mpa)| Self { lower_mm: at(k), upper_mm: at(k + 1), pressure_mpa };
+        pressures_mpa.enumerate().map(cell).collect()
+    }
+
+    /// `half_width_mm` to either side of the theoretical contact point under one pressure.
+    pub(crate) fn even(half_width_mm: f64, pressure_mpa: f64) -> Vec<Self> {
+        vec![Self { lower_mm: -half_width_mm, upper_mm: half_width_mm, pressure_mpa }]
+    }
+}
+
 /// One tooth pair at one loading position.
 ///
 /// Order of use: [`set_removed`](Self::set_removed) the flanks, [`load_at`](Self::load_at) until the mesh cycle is in equilibrium,
@@ -175,6 +215,9 @@ pub trait PairContact: Send {
 
     /// Extent and greatest pressure.
     fn footprint(&self) -> Footprint;
+
+    /// The pressure along the contact, cell after cell towards the pinion's tip; their loads are that of the contact.
+    fn pressed_cells(&self) -> Vec<PressedCell>;
 }
 
 /// How long equilibria take, about.

@@ -10,6 +10,7 @@ mod collected;
 pub mod condensed;
 mod condensed_contact;
 pub mod coupled_teeth;
+pub mod flank_pressure;
 pub(crate) mod influence;
 pub mod load_sharing;
 pub mod pair_in_space;
@@ -34,6 +35,7 @@ use crate::contact::{ContactSurface, Flanks, Footprint, PairContact, PositionCel
 use crate::gear::{Gear, PerGear, conjugate::ConjugateFlanks, slices::greatest_over_width};
 use crate::wear::WearModel;
 use collected::Collected;
+use flank_pressure::PressureFigures;
 use load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance, settled};
 use sliced_mesh::SlicedMesh;
 use worn_points::{ContactPlace, WornPoints};
@@ -110,6 +112,7 @@ pub struct LineOfActionCycle<'a> {
     line_load_n_per_mm: f64,
     /// How far the bodies that all pairs share yield under the whole load, mm.
     bodies_mm: f64,
+    flanks: Flanks<'a>,
 }
 
 /// What was observed at one position.
@@ -172,6 +175,8 @@ pub struct CycleObservation {
     pub positions: Vec<PositionObservation>,
     /// Greatest pressure at any position and of any flank point.
     pub greatest_pressure: GreatestPressure,
+    /// Pressure between the tip-edge zones and load of the tip edges; none where the parts of the flanks are not told.
+    pub pressure_figures: PressureFigures,
     /// Greatest pressure on each flank point, also at sharp tip edges, MPa.
     pub pressure_mpa: PerGear<Vec<f64>>,
     /// How far each flank point slid while in contact, mm.
@@ -231,7 +236,7 @@ impl<'a> LineOfActionCycle<'a> {
                 points: WornPoints::default(),
             })
             .collect();
-        Self { groups, line_load_n_per_mm, bodies_mm: 0.0 }
+        Self { groups, line_load_n_per_mm, bodies_mm: 0.0, flanks }
     }
 
     /// The same with all pairs on gear bodies that yield by `bodies_mm` under the whole load.
@@ -265,6 +270,7 @@ impl MeshCycle for LineOfActionCycle<'_> {
         let mut observation = CycleObservation {
             positions: Vec::new(),
             greatest_pressure: GreatestPressure::default(),
+            pressure_figures: PressureFigures::default(),
             pressure_mpa: zeros(),
             sliding_mm: zeros(),
             sliding_work_n: None,
@@ -282,6 +288,8 @@ impl MeshCycle for LineOfActionCycle<'_> {
                 let greatest_mpa = note_contact_of_points(contact, gear, removed_mm, &mut sweep, pressure, sliding);
                 observation.greatest_pressure.note(greatest_mpa, contact.footprint().at_sharp_edge);
             }
+            let position_mm = loaded.cell.position_mm;
+            observation.pressure_figures.note(figures_of(self.flanks, position_mm, &*loaded.pairs[0].contact));
             sliding_work_n += loaded.pairs[0].normal_load_n_per_mm() * loaded.sliding_mm;
         }
         observation.sliding_work_n = Some(sliding_work_n);
@@ -313,6 +321,13 @@ fn note_contact_of_points(
         }
     }
     most_mpa
+}
+
+/// Figures of a contact's pressure, where the parts of the flanks are told.
+fn figures_of(flanks: Flanks<'_>, position_mm: f64, contact: &dyn PairContact) -> PressureFigures {
+    let of_parts =
+        |parts: flank_pressure::FlankParts| parts.figures(flanks.geometry, position_mm, &contact.pressed_cells());
+    flanks.parts.map(of_parts).unwrap_or_default()
 }
 
 impl Group<'_> {

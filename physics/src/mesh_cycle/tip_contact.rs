@@ -27,7 +27,7 @@
 //! Source: R. G. Munro, L. Morrish and D. Palmer, "Gear transmission error outside the normal path of contact due to corner
 //! and top contact", *Proc. Inst. Mech. Eng. C* 213 (1999) 389–400, for the phenomenon.
 
-use crate::contact::{Footprint, PairContact, PointContact, Response, Sweep};
+use crate::contact::{Footprint, PairContact, PointContact, PressedCell, Response, Sweep};
 use crate::gear::{Gear, GearPair, PerGear, conjugate::ConjugateFlanks};
 
 /// Steps in which the path is walked, per base pitch.
@@ -120,5 +120,9 @@ impl PairContact for OnLever<'_> {
 
     fn footprint(&self) -> Footprint {
         self.contact.footprint()
+    }
+
+    fn pressed_cells(&self) -> Vec<PressedCell> {
+        self.contact.pressed_cells()
     }
 }

@@ -357,10 +357,17 @@ pub struct StiffnessSummary {
 #[allow(non_snake_case, reason = "the contract's key names")]
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CycleSummary {
-    /// Maximum pressure of contact whose pressure is defined: not of that which a sharp tip edge cuts off.
+    /// Maximum pressure at a single point, the tip edges' roundings and the kinks of linear reliefs included: there it depends on the
+    /// resolution. Not of that which a sharp tip edge cuts off.
     pub peak_pressure_MPa: f64,
     /// Maximum pressure found at a mathematically sharp tip edge under load, which grows with every refinement; `None` where there is none.
     pub sharp_edge_pressure_MPa: Option<f64>,
+    /// Maximum pressure between the tip-edge zones of both flanks, as a mean over 0.04 mm of profile, at most 0.4 Hertz half-widths.
+    pub flank_pressure_MPa: f64,
+    /// Greatest line load of a contact that reaches a tip edge or its rounding; 0 where none does.
+    pub tip_edge_line_load_N_per_mm: f64,
+    /// Pressure of such a contact in the tip-edge zones as a mean over 0.04 mm of profile, the greatest; 0 where there is none.
+    pub tip_edge_mean_pressure_MPa: f64,
     /// Maximum pressure with the theoretical contact point at C.
     pub pitch_pressure_MPa: f64,
     /// Loaded transmission error over the cycle.
@@ -503,7 +510,7 @@ pub struct HistoryRow {
     pub pinion_pitch_wear_um: f64,
     /// the same of the wheel
     pub wheel_peak_wear_um: f64,
-    /// maximum pressure during one mesh, sharp tip edges under load apart
+    /// maximum pressure at a single point during one mesh, sharp tip edges under load apart
     pub peak_pressure_MPa: f64,
     /// of the loaded pair, along the line of action
     pub transmission_error_peak_to_peak_um: f64,
@@ -526,6 +533,10 @@ pub struct HistoryRow {
     pub pinion_below_sap_wear_um: f64,
     /// the same of the wheel
     pub wheel_below_sap_wear_um: f64,
+    /// maximum pressure between the tip-edge zones
+    pub flank_pressure_MPa: f64,
+    /// greatest line load of a contact that reaches a tip edge
+    pub tip_edge_line_load_N_per_mm: f64,
 }
 
 /// A row of `mesh_cycle.csv`: the reference pair at one loading position.

@@ -3,12 +3,13 @@
 use super::settings::Numerics;
 use crate::contact::{ContactSurface, Effort, Flanks, settings::Material};
 use crate::fem::gear::condensed_pair::CondensedPair;
-use crate::gear::{GearPair, PerGear, slices::Slices};
+use crate::gear::{GearPair, PerGear, flank_zones::FlankZones, slices::Slices};
 use crate::mesh_cycle::simplified::{SimplifiedPair, exact::SlicesInSeries};
 use crate::mesh_cycle::wearing_pair::{OnFlankNodes, OnFlankPoints, WearingPair};
 use crate::mesh_cycle::{
     LineOfActionCycle, MeshCycle,
     condensed::CondensedCycle,
+    flank_pressure::FlankParts,
     positions::{loading_positions, positions_with_tip_contact},
     sliced::{SliceSprings, SlicedCycle, SpringAlongPath},
     sliced_positions::{SliceEnds, sliced_positions},
@@ -76,6 +77,8 @@ pub(super) struct LoadedMesh<'a> {
     pub contact: MeshContact<'a>,
     pub line_load_n_per_mm: f64,
     pub numerics: Numerics,
+    /// The parts of each flank that figures speak of.
+    pub zones: PerGear<FlankZones>,
 }
 
 impl MeshContact<'_> {
@@ -116,14 +119,15 @@ impl<'a> LoadedMesh<'a> {
             MeshContact::LineOfAction { surface, teeth, tip_contact, sliced } => {
                 // In every slice the profile is modified alike, but for a constant.
                 let of_profile = PerGear::from_fn(|gear| &modification_mm[gear][..flanks.grid[gear].len()]);
-                let flanks = Flanks { modification_mm: Some(of_profile), ..flanks };
+                let parts = Some(FlankParts::new(self.pair, &self.zones));
+                let flanks = Flanks { modification_mm: Some(of_profile), parts, ..flanks };
                 self.on_line_of_action(flanks, surface, teeth, tip_contact, sliced)?
             }
             MeshContact::Simplified { material, teeth, sliced } => {
                 return Ok(Box::new(self.simplified(flanks, modification_mm, material, teeth, sliced)?));
             }
             MeshContact::FiniteElements(model) => {
-                let cycle = CondensedCycle::new(model, count, line_load);
+                let cycle = CondensedCycle::new(model, count, line_load).observing(self.zones);
                 let radius_mm = PerGear::from_fn(|gear| {
                     let involute = self.pair.teeth[gear].involute;
                     flanks.grid[gear].coordinate_mm.iter().map(|&rho| involute.radius_mm(rho)).collect()
@@ -153,7 +157,8 @@ impl<'a> LoadedMesh<'a> {
         };
         let phases = sliced_positions(path, &sliced.slices, count, SliceEnds::AtOnce);
         let bodies_mm = bodies_mm2_per_n(teeth, Some(sliced)) * line_load;
-        Ok(SimplifiedPair::new(springs, phases, flanks.grid, modification_mm, count, bodies_mm))
+        let parts = FlankParts::new(self.pair, &self.zones);
+        Ok(SimplifiedPair::new(springs, phases, flanks.grid, modification_mm, count, bodies_mm, parts))
     }
 
     /// SlicesInSeries on the line of action, at every loading position.

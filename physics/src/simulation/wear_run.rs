@@ -288,6 +288,7 @@ impl WearRun<'_> {
             contact: phase.contact,
             line_load_n_per_mm: phase.line_load_n_per_mm,
             numerics: self.numerics,
+            zones: self.zones,
         };
         Ok(mesh.wearing_pair(Flanks::of_gears(self.pair, flanks.grid.as_ref()), &flanks.modification_mm)?)
     }

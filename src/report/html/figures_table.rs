@@ -37,7 +37,15 @@ fn new_and_worn(s: &Summary) -> Markup {
     let compare = |label, unit, new: f64, worn: f64| row(label, unit, cells![new, worn, change(new, worn)]);
     let (new, worn) = (&s.new, &s.worn);
     let (te_new, te_worn) = (&new.transmission_error_um, &worn.transmission_error_um);
-    let mut rows = vec![compare("Maximum pressure", "MPa", new.peak_pressure_MPa, worn.peak_pressure_MPa)];
+    let tip_load = [new.tip_edge_line_load_N_per_mm, worn.tip_edge_line_load_N_per_mm];
+    let tip_mean = [new.tip_edge_mean_pressure_MPa, worn.tip_edge_mean_pressure_MPa];
+    let mut rows = vec![compare("Flank pressure", "MPa", new.flank_pressure_MPa, worn.flank_pressure_MPa)];
+    if tip_load.iter().any(|load| *load > 0.0) {
+        rows.push(compare("Line load of a tip edge", "N/mm", tip_load[0], tip_load[1]));
+        rows.push(compare("Pressure of a tip edge, mean over 0.04 mm", "MPa", tip_mean[0], tip_mean[1]));
+    }
+    let at_a_point = "Maximum pressure at a point (not converged)";
+    rows.push(row(at_a_point, "MPa", cells![new.peak_pressure_MPa, worn.peak_pressure_MPa, ""]));
     let sharp = [new.sharp_edge_pressure_MPa, worn.sharp_edge_pressure_MPa];
     if sharp.iter().any(Option::is_some) {
         rows.push(row("At sharp tip edges (not defined)", "MPa", cells![sharp[0], sharp[1], ""]));
@@ -255,8 +263,8 @@ pub(crate) fn errors(error: &ErrorSummary) -> Markup {
         ("Finite elements: wheel’s wear over the flank", total.profile.wheel, above),
         ("Finite elements: transmission error", total.transmission_error_peak_to_peak, above),
         ("Finite elements: pressure between the tip edges, worn", total.pressure_between_tips, above),
-        ("Finite elements: maximum pressure, new", total.peak_pressure.new, above),
-        ("Finite elements: maximum pressure, worn", total.peak_pressure.worn, above),
+        ("Finite elements: flank pressure, new", total.flank_pressure.new, above),
+        ("Finite elements: flank pressure, worn", total.flank_pressure.worn, above),
         ("Points and positions", error.discretisation, &*how.discretisation),
         ("Wear step", error.wear_step, &*how.wear_step),
         ("Worn volumes of pinion and wheel, difference", error.volume_balance, &*how.volume_balance),

@@ -84,15 +84,14 @@ pub(crate) fn answer(record: &RunRecord) -> String {
     let total = &s.error.total;
     let with_error = |value: f64, off: Option<f64>| within(figure(value), value, off);
     text.push_str(&format!(
-        " The maximum pressure went from {} to {} MPa ({}), worn {}; the transmission error peak to peak from {} to {} µm.",
-        with_error(s.new.peak_pressure_MPa, total.peak_pressure.new),
-        with_error(s.worn.peak_pressure_MPa, total.peak_pressure.worn),
-        change(s.new.peak_pressure_MPa, s.worn.peak_pressure_MPa),
-        place_of_pressure(record),
+        " The flank pressure went from {} to {} MPa ({}); the transmission error peak to peak from {} to {} µm.",
+        with_error(s.new.flank_pressure_MPa, total.flank_pressure.new),
+        with_error(s.worn.flank_pressure_MPa, total.flank_pressure.worn),
+        change(s.new.flank_pressure_MPa, s.worn.flank_pressure_MPa),
         figure(s.new.transmission_error_um.peak_to_peak),
         with_error(s.worn.transmission_error_um.peak_to_peak, total.transmission_error_peak_to_peak),
     ));
-    text.push_str(yield_note(s.new.peak_pressure_MPa.max(s.worn.peak_pressure_MPa)));
+    text.push_str(yield_note(s.new.flank_pressure_MPa.max(s.worn.flank_pressure_MPa)));
     if let Some(helical) = &s.helical {
         let wear = &helical.wear.pinion;
         text.push_str(&format!(
@@ -105,23 +104,6 @@ pub(crate) fn answer(record: &RunRecord) -> String {
         ));
     }
     text
-}
-
-/// Where on the path of contact the pressure of the worn pair is greatest, of a pair with slices that of any slice.
-fn place_of_pressure(record: &RunRecord) -> String {
-    let (pressures, position_mm) = match &record.slices {
-        Some(slices) => {
-            let own = slices.position_mm.iter().flat_map(|at| slices.ahead_mm.iter().map(move |ahead| at + ahead));
-            let defined = slices.peak_pressure_worn_MPa.iter().zip(&slices.at_sharp_edge_worn);
-            (defined.map(|(&pressure, &sharp)| defined_pressure(pressure, sharp)).collect(), own.collect())
-        }
-        None => (
-            defined_pressures(&record.mesh_cycle, |row| (row.peak_pressure_worn_MPa, row.at_sharp_edge_worn)),
-            record.mesh_cycle.iter().map(|row| row.position_mm).collect::<Vec<f64>>(),
-        ),
-    };
-    let positions = record.summary.geometry.curvature_radius_mm.named();
-    greatest(&pressures).map_or_else(String::new, |at| among(&positions, position_mm[at.index]))
 }
 
 /// The pressure of each row, and NaN where it is that of a sharp tip edge, which is not defined.

@@ -3,7 +3,7 @@
 //! Every contact becomes a [`PairContact`] of the closed form itself, whose gap is given; teeth and their coupling are those of the
 //! general mesh cycle ([`crate::mesh_cycle::sliced`]).
 
-use crate::contact::{Footprint, PairContact, PointContact, Response, Sweep, hertz, settings::Material};
+use crate::contact::{Footprint, PairContact, PointContact, PressedCell, Response, Sweep, hertz, settings::Material};
 use crate::gear::{Gear, GearPair, PerGear};
 use crate::mesh_cycle::{
     load_sharing::{Equilibrium, EquilibriumError, MeshedPair, balance},
@@ -48,6 +48,10 @@ impl PairContact for GivenGap {
 
     fn footprint(&self) -> Footprint {
         Footprint::default()
+    }
+
+    fn pressed_cells(&self) -> Vec<PressedCell> {
+        Vec::new()
     }
 }
 
