@@ -83,6 +83,14 @@ pub(super) enum Failure {
 pub(super) enum InputError {
     #[error(transparent)]
     ValidationCase(LibraryError),
+    /// An option of random scenes beside cases.
+    #[error("{option}: found beside cases; allowed: gearwear validate invariants {option} N")]
+    #[diagnostic(help("leave {option} out, or give the word invariants alone"))]
+    OnlyForInvariants { option: &'static str },
+    /// An option of cases beside random scenes.
+    #[error("{option}: found beside invariants; allowed: beside cases")]
+    #[diagnostic(help("leave {option} out"))]
+    NotForInvariants { option: &'static str },
     /// A file that is no record of the validation suite.
     #[error("{name}: line {line}: found {reason}; allowed: a validation.json that gearwear validate wrote")]
     NoValidationRecord {
