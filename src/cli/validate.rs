@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use crate::report;
 use crate::studies::invariants;
-use crate::studies::invariants::study::{self, Asked};
+use crate::studies::invariants::study::{self, Asked, INVARIANTS};
 use crate::studies::validation::library::{self, Library};
 use crate::studies::validation::record::{Tier, ValidationRecord};
 use crate::studies::validation::{self, against};
@@ -16,9 +16,6 @@ use super::counted_progress::CountedProgress;
 use super::failure::{Failure, InputError};
 use super::run::{thread_count, watch_for_interrupt};
 use super::{print, say};
-
-/// The word among cases that stands for random scenes.
-const INVARIANTS: &str = "invariants";
 
 #[derive(Debug, clap::Args)]
 pub(super) struct Args {
@@ -117,11 +114,11 @@ fn random_scenes(args: &Args) -> Result<(), Failure> {
         return Err(InputError::NotForInvariants { option }.into());
     }
     let Some(out) = &args.out else { unreachable!("clap demands it") };
-    let of_tier = if args.tier == Some(Tier::Smoke) { 100 } else { 1000 };
+    let of_tier = Asked::of_tier(args.tier);
     let asked = Asked {
-        seed: args.seed.unwrap_or(1),
-        first: args.first.unwrap_or(0),
-        count: args.count.map_or(of_tier, NonZeroU64::get),
+        seed: args.seed.unwrap_or(of_tier.seed),
+        first: args.first.unwrap_or(of_tier.first),
+        count: args.count.map_or(of_tier.count, NonZeroU64::get),
     };
     report::writable(out)?;
     let interrupted = watch_for_interrupt();

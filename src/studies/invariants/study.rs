@@ -14,6 +14,7 @@ use super::{relations, scene_generator};
 use crate::observer::Observer;
 use crate::results::run::RunRecord;
 use crate::studies::spread::spread;
+use crate::studies::validation::record::Tier;
 use crate::studies::validation::soundness;
 
 /// Of the relations, one in so many is tried on a scene.
@@ -23,6 +24,9 @@ const RUNS: &str = "runs or is refused";
 /// Statement of what every record is.
 const SOUND: &str = "sound";
 
+/// The word among cases of the validation suite that stands for random scenes.
+pub(crate) const INVARIANTS: &str = "invariants";
+
 /// Which scenes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Asked {
@@ -30,6 +34,13 @@ pub(crate) struct Asked {
     /// Number of the first.
     pub first: u64,
     pub count: u64,
+}
+
+impl Asked {
+    /// As many as belong to a tier of the validation suite, of the first seed.
+    pub(crate) fn of_tier(tier: Option<Tier>) -> Self {
+        Self { seed: 1, first: 0, count: if tier == Some(Tier::Smoke) { 100 } else { 1000 } }
+    }
 }
 
 /// What came of one scene.

@@ -63,7 +63,7 @@ fn more_load(subject: &Subject<'_>) -> Verdict {
 
 fn relief_opens(subject: &Subject<'_>) -> Verdict {
     let table = subject.table;
-    let (Some(pitch), false) = (number(table, "pair.face_width_mm"), is_sliced(table)) else {
+    let (Some(width), false) = (number(table, "pair.face_width_mm"), is_sliced(table)) else {
         return Verdict::NotOfThisScene;
     };
     let mut other = table.clone();
@@ -72,8 +72,8 @@ fn relief_opens(subject: &Subject<'_>) -> Verdict {
         if gives(table, &of("amount_um")) {
             other = with(&other, &of("amount_um"), 1.5 * number(table, &of("amount_um")).unwrap_or_default());
         } else {
-            other = with(&other, &of("amount_um"), 0.5 * pitch);
-            other = with(&other, &of("length_mm"), 0.05 * pitch);
+            other = with(&other, &of("amount_um"), 0.5 * width);
+            other = with(&other, &of("length_mm"), 0.05 * width);
         }
     }
     subject.beside(other, |record| less_error(subject.record, record))
